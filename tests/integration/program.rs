@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use coupler_curves::geometry::trig;
 use tempfile::TempDir;
 
 const MANIFEST: &str = r#"[atlas]
@@ -341,6 +342,119 @@ fn inspect_prints_the_equation() {
     assert!(!run(here, &["inspect", "evans", "p=2", "a=2.5", "k=1"]).1.contains("sextic"), "a circle");
 }
 
+/// The text and the JSON of `inspect`.
+fn inspect(arguments: &[&str]) -> (String, serde_json::Value) {
+    let print = |more: &[&str]| {
+        let (code, out, err) = run(Path::new("."), &[&["inspect"], arguments, more].concat());
+        assert_eq!(code, 0, "{err}");
+        out
+    };
+    (print(&[]), serde_json::from_str(&print(&["--json"])).unwrap())
+}
+
+/// Natesan (4.8) and (4.9) for figure 35: p = r = s = 2, a = 1.
+#[test]
+fn inspect_prints_the_limits_of_a_roberts_linkage() {
+    let (text, json) = inspect(&["roberts", "p=2", "r=2", "a=1", "b=2"]);
+    // (4.8): cos = (4 + 9 - 4) / 12; folded: (4 + 1 - 4) / 4; (4.9): (4 + 4 - 9) / 8.
+    let expected =
+        "limits of the rocker, by the crank's angle from the frame: ±41.40962211° (extended), ±75.52248781° (folded)";
+    assert!(text.contains(expected), "{text}");
+    assert!(text.contains("arc of the source's figure: from 41.40962211° to 97.18075578° on branch 1"), "{text}");
+    let number = |value: &serde_json::Value| value.as_f64().unwrap();
+    let degrees = |cosine: f64| trig::degrees(trig::acos(cosine));
+    let limits = &json["rocker_limits"];
+    assert!((number(&limits["extended"]) - degrees(0.75)).abs() < 1e-12);
+    assert!((number(&limits["folded"]) - degrees(0.25)).abs() < 1e-12);
+    assert!((number(&json["arc"]["from"]) - degrees(0.75)).abs() < 1e-12);
+    assert!((number(&json["arc"]["to"]) - degrees(-0.125)).abs() < 1e-12);
+    assert_eq!(json["circuits"][0]["full_turn"], false);
+    // A crank of a drag link goes round its rocker's limits: there are none.
+    let (text, json) = inspect(&["four-bar", "frame=1", "crank=3", "coupler=3.5", "rocker=4"]);
+    assert!(text.contains("by the crank's angle from the frame: none"), "{text}");
+    assert_eq!(json["rocker_limits"], serde_json::json!({ "extended": null, "folded": null }));
+    assert_eq!(
+        (&json["circuits"][0]["full_turn"], &json["curves"][0]["measures"]["is_full_turn"]),
+        (&true.into(), &"yes".into())
+    );
+}
+
+#[test]
+fn inspect_prints_the_ranges_of_an_inverted_slider_crank() {
+    let (text, json) = inspect(&["inverted-slider-crank"]);
+    // g = 2, r = 1, e = 1/2: cosines of psi 1/4 and -3/4, squares of the slide 3/4 and 35/4.
+    let line = "inverted slider-crank: crank theta turns fully, slide s from 0.8660254038 to 2.958039892, output psi from 75.52248781° to 138.5903779°; and the mirror image";
+    assert!(text.contains(line), "{text}");
+    let psi = &json["inverted_slider_crank"]["psi_deg"];
+    assert!((psi[0].as_f64().unwrap() - trig::degrees(trig::acos(0.25))).abs() < 1e-12);
+    assert!((psi[1].as_f64().unwrap() - trig::degrees(trig::acos(-0.75))).abs() < 1e-12);
+    let (text, _) = inspect(&["inverted-slider-crank", "g=1", "r=2", "e=0"]);
+    assert!(text.contains("output psi turns fully"), "{text}");
+    assert_eq!(inspect(&["slider-crank"]).1["inverted_slider_crank"], serde_json::Value::Null);
+}
+
+/// Natesan (5.5) and (5.6), a known direction and a known length: the offset slider-crank has two roots, of which the
+/// start's circuit has the first.
+#[test]
+fn inspect_prints_the_second_root_of_a_slider() {
+    let arguments = ["slider-crank", "crank=1", "coupler=3", "offset=0.5", "--at", "40", "--branch"];
+    let (cosine, sine) = trig::cos_sin_deg(40.0);
+    for (branch, root) in [("1", 1.0), ("-1", -1.0)] {
+        let (text, json) = inspect(&[&arguments[..], &[branch]].concat());
+        assert!(text.contains(&format!("branch {branch}\n")) && !text.contains("no circuit"), "{text}");
+        let [pose] = &json["poses"].as_array().unwrap()[..] else { panic!("one pose: {text}") };
+        let place = |k: usize| pose["joints"][3]["place"][k].as_f64().unwrap();
+        // C is the vector to the crank pin and A^u the slider's direction: (5.5) is -C.A^u and a root, with the distance
+        // of the line from C as C.(A^u x k).
+        let distance = sine - 0.5;
+        let expected = cosine + root * (9.0 - distance * distance).sqrt();
+        assert!((place(0) - expected).abs() < 1e-12 && (place(1) - 0.5).abs() < 1e-12, "{branch}: {expected} {text}");
+    }
+}
+
+/// Natesan (7.7), (8.3) and (8.12).
+#[test]
+fn inspect_prints_the_centred_equation_and_the_crossings_of_the_axis() {
+    // Figure 11, and (8.12) with the thesis's a = 1/2, p = 2, r = 2.59.
+    let arguments = ["chebyshev", "p=2", "r=2.59", "a=1"];
+    let (text, json) = inspect(&[&arguments[..], &["--sextic"]].concat());
+    let crossing = |sign: f64| (-1.0 + sign * 4.0 - 4.0 + 4.0 * 2.59f64 * 2.59).sqrt() / 2.0;
+    let y = &json["equations"][0]["axis"]["y"];
+    assert_eq!(json["equations"][0]["axis"]["x"], 1.0);
+    assert!((y[0].as_f64().unwrap() - crossing(1.0)).abs() < 1e-12, "{y}");
+    assert!((y[1].as_f64().unwrap() - crossing(-1.0)).abs() < 1e-12, "{y}");
+    assert!(text.contains("M: crosses its axis x = 1 at y = ±2.541279205, ±2.111421322 (Natesan 8.12)"), "{text}");
+    let heading = "about the middle of the frame, X = x - 1, Y = y (Natesan 7.6); no odd powers of X, the curve is symmetrical about X = 0:";
+    assert!(text.contains(heading) && text.contains("\nX^6"), "{text}");
+    let centred = json["equations"][0]["centred_coefficients"].as_array().unwrap();
+    assert_eq!(centred[6][0], 1.0);
+    assert!([1, 3, 5].iter().all(|i: &usize| centred[*i].as_array().unwrap().iter().all(|c| c == 0.0)), "{centred:?}");
+    // (8.3), figure 1: y^2 = 4 a^2 - (p - r)^2 and 4 a^2 - (p + r)^2.
+    let (text, json) = inspect(&["evans", "p=2", "a=2.59"]);
+    let y = &json["equations"][0]["axis"]["y"];
+    assert!((y[0].as_f64().unwrap() - (4.0 * 2.59f64 * 2.59 - 1.0).sqrt()).abs() < 1e-12, "{y}");
+    assert!((y[1].as_f64().unwrap() - (4.0 * 2.59f64 * 2.59 - 9.0).sqrt()).abs() < 1e-12, "{y}");
+    assert!(text.contains("M: crosses its axis x = 2 at y = ±") && text.contains("(Natesan 8.3)"), "{text}");
+    // A curve that is not symmetrical about the middle keeps its odd powers; one of other proportions has no such axis.
+    let (text, json) =
+        inspect(&["four-bar", "frame=4", "crank=1", "coupler=3", "rocker=3.5", "along=1", "across=1", "--sextic"]);
+    assert!(text.contains("Y = y (Natesan 7.6):\n") && !text.contains("crosses its axis"), "{text}");
+    assert!(json["equations"][0]["axis"].is_null());
+}
+
+#[test]
+fn inspect_names_six_bars() {
+    for (id, kind) in [("klann", "Stephenson III"), ("watt-six-bar", "Watt II"), ("hart-inversor", "Watt I")] {
+        let (text, json) = inspect(&[id]);
+        assert!(text.contains(&format!("six-bar: {kind}\n")), "{text}");
+        assert_eq!(json["six_bar"], kind);
+        assert_eq!(json["curves"][0]["measures"]["six_bar"], kind);
+    }
+    let (text, json) = inspect(&["hoeken"]);
+    assert!(!text.contains("six-bar") && json["six_bar"].is_null());
+    assert!(json["curves"][0]["measures"]["six_bar"].is_null());
+}
+
 /// docs/inspect.md describes every key of the JSON, and no other.
 #[test]
 fn the_json_of_inspect_has_the_described_keys() {
@@ -359,10 +473,15 @@ fn the_json_of_inspect_has_the_described_keys() {
             _ => {}
         }
     }
-    let (_, out, _) =
-        run(Path::new("."), &["inspect", "watt", "p=4", "r=2", "a=2", "s=2", "--at", "10", "--cognates", "--json"]);
     let mut printed = std::collections::BTreeSet::new();
-    keys(&serde_json::from_str(&out).unwrap(), &mut printed);
+    for arguments in [
+        &["watt", "p=4", "r=2", "a=2", "s=2", "--at", "10", "--cognates"][..],
+        &["inverted-slider-crank"],
+        &["roberts", "p=2", "r=2", "a=1", "b=2"],
+    ] {
+        let (_, out, _) = run(Path::new("."), &[&["inspect", "--json"], arguments].concat());
+        keys(&serde_json::from_str(&out).unwrap(), &mut printed);
+    }
     let text = include_str!("../../docs/inspect.md");
     let columns = text.lines().filter_map(|line| line.strip_prefix("| `")?.split(" |").next());
     let described: std::collections::BTreeSet<String> = columns

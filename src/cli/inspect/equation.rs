@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use coupler_curves::linkage::{DoublePointKind, PlacedFourBar, Sextic};
+use coupler_curves::linkage::{DoublePointKind, PlacedFourBar, Sextic, SymmetricalFourBar};
 use coupler_curves::solve::SolvedCell;
 use serde_json::{Value, json};
 
@@ -15,6 +15,38 @@ pub(super) struct Equation {
     /// The name of the traced joint.
     name: String,
     sextic: Sextic,
+    /// The length of the frame.
+    frame: f64,
+    /// For the symmetrical linkages of Natesan's chapter 8, where the curve crosses its axis.
+    axis: Option<AxisCrossings>,
+}
+
+/// The axis of a symmetrical curve, perpendicular to the frame, and where the curve crosses it.
+struct AxisCrossings {
+    form: SymmetricalFourBar,
+    x: f64,
+    /// The y of the crossings above the frame, the furthest first; those below are their mirror images.
+    y: Vec<f64>,
+}
+
+impl AxisCrossings {
+    fn new(placed: &PlacedFourBar) -> Option<AxisCrossings> {
+        let (form, [frame, short, long]) = SymmetricalFourBar::from_four_bar(placed.lengths, placed.coupler_point)?;
+        let y = form.axis_crossings(frame, short, long).into_iter().flatten().map(|point| point.y).collect();
+        Some(AxisCrossings { form, x: form.axis_x(frame), y })
+    }
+
+    /// "crosses its axis x = 1 at y = ±2.5, ±1.2 (Natesan 8.12)".
+    fn describe(&self) -> String {
+        let source = match self.form {
+            SymmetricalFourBar::Evans => "8.3",
+            SymmetricalFourBar::Chebyshev => "8.12",
+        };
+        let list: Vec<String> = self.y.iter().map(|y| format!("±{}", format_significant(*y, 10))).collect();
+        let at =
+            if list.is_empty() { "nowhere but at the frame".to_owned() } else { format!("at y = {}", list.join(", ")) };
+        format!("crosses its axis x = {} {at} (Natesan {source})", format_significant(self.x, 10))
+    }
 }
 
 /// The equations of all traced joints on the coupler of a four-bar, except its pins, which move on circles.
@@ -23,7 +55,8 @@ pub(super) fn coupler_equations(solved: &SolvedCell) -> Vec<Equation> {
     let equation = |(trace, &joint)| {
         let placed = PlacedFourBar::from_linkage(linkage, joint).ok()?;
         let sextic = Sextic::from_four_bar(placed.lengths, placed.coupler_point)?;
-        Some(Equation { trace, name: linkage.joints[joint].name.clone(), sextic })
+        let name = linkage.joints[joint].name.clone();
+        Some(Equation { trace, name, sextic, frame: placed.lengths.frame, axis: AxisCrossings::new(&placed) })
     };
     (1..).zip(&linkage.traced).filter_map(equation).collect()
 }
@@ -31,7 +64,7 @@ pub(super) fn coupler_equations(solved: &SolvedCell) -> Vec<Equation> {
 /// Appends a line for each equation, followed by its coefficients if `with_coefficients`.
 pub(super) fn append_text(equations: &[Equation], with_coefficients: bool, out: &mut String) {
     let has_several = equations.len() > 1;
-    for Equation { trace, name, sextic } in equations {
+    for Equation { trace, name, sextic, frame, axis } in equations {
         let name = if has_several { format!("{name} {trace}") } else { name.clone() };
         let double_points = sextic.double_points();
         let describe = |double: &coupler_curves::linkage::DoublePoint| {
@@ -45,8 +78,17 @@ pub(super) fn append_text(equations: &[Equation], with_coefficients: bool, out: 
             "{name}: on a sextic, {} through the circular points; real double points: {list}",
             count_word(sextic.circularity())
         );
+        if let Some(axis) = axis {
+            let _ = writeln!(out, "{name}: {}", axis.describe());
+        }
         if with_coefficients {
-            write_coefficients(sextic, out);
+            write_coefficients(["x", "y"], |i, j| sextic.coefficient(i, j), out);
+            let centred = sextic.centred_coefficients();
+            let is_even = (1..=5).step_by(2).all(|i| centred[i].iter().all(|coefficient| *coefficient == 0.0));
+            let middle = format_significant(frame / 2.0, 10);
+            let note = if is_even { "; no odd powers of X, the curve is symmetrical about X = 0" } else { "" };
+            let _ = writeln!(out, "about the middle of the frame, X = x - {middle}, Y = y (Natesan 7.6){note}:");
+            write_coefficients(["X", "Y"], |i, j| centred[i][j], out);
         }
     }
 }
@@ -56,30 +98,33 @@ fn count_word(n: usize) -> String {
 }
 
 /// Writes the coefficients, one row for each power of x and one column for each power of y.
-fn write_coefficients(sextic: &Sextic, out: &mut String) {
+fn write_coefficients([x, y]: [&str; 2], coefficient: impl Fn(usize, usize) -> f64, out: &mut String) {
     let power = |letter: &str, n: usize| match n {
         0 => "1".to_owned(),
         1 => letter.to_owned(),
         n => format!("{letter}^{n}"),
     };
-    let head: String = (0..=6).map(|j| format!("{:>15}", power("y", j))).collect();
+    let head: String = (0..=6).map(|j| format!("{:>15}", power(y, j))).collect();
     let _ = writeln!(out, "     {head}");
     for i in 0..=6 {
-        let row: String =
-            (0..=6 - i).map(|j| format!("{:>17}", format_significant(sextic.coefficient(i, j), 9))).collect();
-        let _ = writeln!(out, "{:<5}{row}", power("x", i));
+        let row: String = (0..=6 - i).map(|j| format!("{:>17}", format_significant(coefficient(i, j), 9))).collect();
+        let _ = writeln!(out, "{:<5}{row}", power(x, i));
     }
 }
 
 /// The equations, for `inspect --json`.
 pub(super) fn json(equations: &[Equation]) -> Vec<Value> {
-    let equation = |Equation { trace, sextic, .. }: &Equation| {
+    let equation = |Equation { trace, sextic, axis, .. }: &Equation| {
         // Adding 0 turns -0 into 0.
         let row = |i: usize| (0..=6 - i).map(|j| sextic.coefficient(i, j) + 0.0).collect::<Vec<f64>>();
+        let centred = sextic.centred_coefficients();
+        let centred_row = |i: usize| (0..=6 - i).map(|j| centred[i][j] + 0.0).collect::<Vec<f64>>();
         let double_points = sextic.double_points().into_iter();
         json!({
             "trace": trace,
             "coefficients": (0..=6).map(row).collect::<Vec<_>>(),
+            "centred_coefficients": (0..=6).map(centred_row).collect::<Vec<_>>(),
+            "axis": axis.as_ref().map(|AxisCrossings { x, y, .. }| json!({ "x": x, "y": y })),
             "double_points": double_points
                 .map(|double| json!({ "at": [double.point.x, double.point.y], "kind": double.kind.name() }))
                 .collect::<Vec<_>>(),

@@ -47,5 +47,6 @@ pub(super) fn describe_circuit(linkage: &Linkage, circuit: &Circuit) -> String {
         )
     };
     let passes: Vec<String> = circuit.passes.iter().map(describe_pass).collect();
-    format!("from {}{unit} {}", format_significant(first.from.input.value, 10), passes.join(", "))
+    let turn = if circuit.is_full_turn() { "; the input turns fully" } else { "" };
+    format!("from {}{unit} {}{turn}", format_significant(first.from.input.value, 10), passes.join(", "))
 }

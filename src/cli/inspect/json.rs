@@ -10,6 +10,7 @@ use super::Report;
 use super::cognates::{CognateMember, CognateSet};
 use super::equation;
 use super::pose::{Pose, flat_joints, instant_geometries, link_rotations};
+use super::ranges::Ranges;
 
 /// The version of the format; docs/inspect.md describes it.
 const FORMAT: u32 = 1;
@@ -26,11 +27,16 @@ pub(super) fn json(report: &Report) -> String {
         .collect();
     let circuits: Vec<Value> =
         solved.motion.circuits.iter().map(|circuit| self::circuit(&solved.linkage, circuit)).collect();
+    let ranges = Ranges::new(&solved.linkage);
     let document = json!({
         "format": FORMAT,
         "linkage": family.id,
         "parameters": parameters,
         "class": FourBar::from_linkage(&solved.linkage).map(|four_bar| four_bar.class().name()),
+        "six_bar": ranges.six_bar_json(),
+        "rocker_limits": ranges.rocker_limits_json(),
+        "arc": ranges.arc_json(),
+        "inverted_slider_crank": ranges.slider_json(),
         "input": if solved.linkage.input() == Input::Length { "length" } else { "deg" },
         "status": solved.status().name(),
         "reason": solved.motion.assembly_error.as_ref().map(ToString::to_string),
@@ -63,7 +69,7 @@ fn circuit(linkage: &Linkage, circuit: &Circuit) -> Value {
         json!({ "from": end(pass.from), "to": end(pass.to), "branches": signs, "turns": circuit.reverses_after(k) })
     };
     let passes: Vec<Value> = circuit.passes.iter().enumerate().map(pass).collect();
-    json!({ "closed": circuit.is_closed, "passes": passes })
+    json!({ "closed": circuit.is_closed, "full_turn": circuit.is_full_turn(), "passes": passes })
 }
 
 fn cognates(cognate_set: &CognateSet) -> Value {

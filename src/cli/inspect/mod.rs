@@ -6,13 +6,16 @@ mod format;
 mod json;
 mod plate;
 mod pose;
+mod ranges;
 mod text;
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use clap::Args;
 use coupler_atlas::output;
 use coupler_curves::family::{Family, Sampling, parse_parameter};
+use coupler_curves::linkage::CircuitSelection;
 use coupler_curves::motion::Sampler;
 use coupler_curves::solve::{self, SolvedCell};
 
@@ -20,7 +23,7 @@ use super::linkage::{self, DEFAULT_SAMPLES};
 use super::{InputError, Outcome, print, print_bytes};
 use pose::Pose;
 
-/// Describe one linkage: its class, its circuits and their limits, and the positions and velocities of its joints.
+/// Describe one linkage: its class, its limits and circuits, and the positions and velocities of its joints.
 ///
 /// Rates are per radian of input, or per unit of length of an actuator. docs/inspect.md describes the output of --json.
 #[derive(Debug, Args)]
@@ -37,11 +40,12 @@ pub struct Arguments {
     /// expression.
     #[arg(long, value_name = "INPUT", allow_hyphen_values = true)]
     at: Option<String>,
-    /// With --at, only the poses with the first two-valued joint on this side: 1 left, -1 right.
+    /// With --at, only the poses with the first two-valued joint on this side: 1 left, -1 right; those of all circuits,
+    /// not only of the one through the start pose.
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = ["1", "-1"], requires = "at")]
     branch: Option<String>,
     /// Print the coefficients of the equations of the coupler curves, with the crank pivot at the origin and the x axis
-    /// towards the rocker pivot.
+    /// towards the rocker pivot, and again with the origin in the middle of the two.
     #[arg(long, conflicts_with = "toml")]
     sextic: bool,
     /// Print the Roberts-Chebyshev cognates, the two other four-bars that trace the same curve; with --svg, draw them
@@ -80,7 +84,7 @@ struct Report<'a> {
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
-    let template = linkage::find_template(&arguments.linkage, arguments.manifest.as_deref())?;
+    let mut template = linkage::find_template(&arguments.linkage, arguments.manifest.as_deref())?;
     let given = arguments.parameters.iter().map(|text| parse_parameter(text));
     let given = given.collect::<Result<Vec<_>, _>>().map_err(|error| InputError(error.to_string()))?;
     let at = arguments.at.as_deref().map(|text| linkage::parse_number(text, "--at 30")).transpose()?;
@@ -88,6 +92,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         return Err(InputError(format!("`{text}` is {at}: give a finite number, as in --at 30")).into());
     }
     let branch = arguments.branch.as_ref().map(|text| if text == "1" { 1 } else { -1 });
+    if branch.is_some() {
+        // The other branch may be on another circuit than that of the start.
+        Arc::make_mut(&mut template).circuits = CircuitSelection::All;
+    }
     let family = Family::single_cell(template, &given, Sampling::Samples(DEFAULT_SAMPLES as usize))
         .map_err(|errors| InputError(format!("{}: {}", arguments.linkage, errors.to_string().replace('\n', "; "))))?;
     let Some(solved) = solve::solve_cell(&family, &Sampler::new(family.sampling), 0) else {

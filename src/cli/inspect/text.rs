@@ -7,6 +7,7 @@ use coupler_curves::solve::SolvedCell;
 
 use super::format::{describe_circuit, format_point, format_significant, input_unit};
 use super::pose::{Pose, instant_geometries, link_rotations};
+use super::ranges::Ranges;
 use super::{Report, cognates, equation};
 
 /// The greatest width of the column of joint names, in characters; longer names exceed it.
@@ -26,6 +27,7 @@ pub(super) fn text(report: &Report) -> String {
     if let Some(four_bar) = FourBar::from_linkage(&solved.linkage) {
         let _ = writeln!(out, "class: {}", four_bar.class().name());
     }
+    Ranges::new(&solved.linkage).append_text(&mut out);
     if let Some(reason) = &solved.motion.assembly_error {
         let status = if solved.motion.is_assembled() { "assembled in part" } else { "not assembled" };
         let _ = writeln!(out, "{status}: {reason}");
