@@ -112,18 +112,21 @@ fn write_coefficients([x, y]: [&str; 2], coefficient: impl Fn(usize, usize) -> f
     }
 }
 
+/// The coefficients, a list for each power of x of those of rising powers of y.
+fn coefficient_rows(coefficient: impl Fn(usize, usize) -> f64) -> Vec<Vec<f64>> {
+    // Adding 0 turns -0 into 0.
+    (0..=6).map(|i| (0..=6 - i).map(|j| coefficient(i, j) + 0.0).collect()).collect()
+}
+
 /// The equations, for `inspect --json`.
 pub(super) fn json(equations: &[Equation]) -> Vec<Value> {
     let equation = |Equation { trace, sextic, axis, .. }: &Equation| {
-        // Adding 0 turns -0 into 0.
-        let row = |i: usize| (0..=6 - i).map(|j| sextic.coefficient(i, j) + 0.0).collect::<Vec<f64>>();
         let centred = sextic.centred_coefficients();
-        let centred_row = |i: usize| (0..=6 - i).map(|j| centred[i][j] + 0.0).collect::<Vec<f64>>();
         let double_points = sextic.double_points().into_iter();
         json!({
             "trace": trace,
-            "coefficients": (0..=6).map(row).collect::<Vec<_>>(),
-            "centred_coefficients": (0..=6).map(centred_row).collect::<Vec<_>>(),
+            "coefficients": coefficient_rows(|i, j| sextic.coefficient(i, j)),
+            "centred_coefficients": coefficient_rows(|i, j| centred[i][j]),
             "axis": axis.as_ref().map(|AxisCrossings { x, y, .. }| json!({ "x": x, "y": y })),
             "double_points": double_points
                 .map(|double| json!({ "at": [double.point.x, double.point.y], "kind": double.kind.name() }))
