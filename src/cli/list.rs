@@ -1,7 +1,7 @@
 //! `list`: the words that a manifest may use.
 
 use clap::{Args, ValueEnum};
-use coupler_curves::template::Template;
+use coupler_curves::template::{OutputLinkTemplate, Template};
 use coupler_curves::{catalogue, measure};
 use coupler_drawing::page::{Layout, Theme};
 
@@ -47,15 +47,16 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         }
     };
     section(Topic::Linkages, "linkages", catalogue::all().iter().map(|template| linkage_rows(template)).collect());
+    let width = measure::ALL.iter().map(|m| m.name.len()).max().unwrap_or(0);
     let measures = measure::ALL.iter().map(|m| {
         let unit = if m.unit.is_empty() { "-" } else { m.unit };
-        format!("{:<16} {unit:<4} {}\n", m.name, m.definition)
+        format!("{:<width$} {unit:<4} {}\n", m.name, m.definition)
     });
     // A boolean with the name of its measure is in the list already.
     let booleans = measure::BOOLEANS
         .iter()
         .filter(|boolean| boolean.name != boolean.measure)
-        .map(|measure::Boolean { name, measure, word }| format!("{name:<16} -    the {measure} is {word}\n"));
+        .map(|measure::Boolean { name, measure, word }| format!("{name:<width$} -    the {measure} is {word}\n"));
     section(Topic::Measures, "measures", measures.chain(booleans).collect());
     let columns = measure::COLUMNS.iter().map(|column| format!("{:<16} {}\n", column.name, column.definition));
     section(Topic::Columns, "columns", columns.collect());
@@ -68,9 +69,15 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
 }
 
 fn linkage_rows(template: &Template) -> String {
+    let name = |joint: usize| template.joints[joint].name.as_str();
+    let output = match template.output_link {
+        None => String::new(),
+        Some(OutputLinkTemplate::Link([from, to])) => format!("{:16} output: link {}-{}\n", "", name(from), name(to)),
+        Some(OutputLinkTemplate::Slider(joint)) => format!("{:16} output: slider {}\n", "", name(joint)),
+    };
     let parameters: Vec<&str> = template.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
     format!(
-        "{:<16} {}\n{:16} {}\n{:16} {}\n",
+        "{:<16} {}\n{:16} {}\n{:16} {}\n{output}",
         template.id,
         parameters.join(", "),
         "",

@@ -164,8 +164,7 @@ pub(super) fn number_value(curve: &TracedCurve, name: &str) -> Option<f64> {
 /// fully.
 fn min_transmission_angle(curve: &TracedCurve) -> Option<f64> {
     let turns = curve.circuit.is_closed && curve.circuit.passes.len() == 1;
-    let [least, most] = [number_value(curve, "mu_min_deg")?, number_value(curve, "mu_max_deg")?];
-    turns.then(|| least.min(180.0 - most))
+    number_value(curve, "mu_worst_deg").filter(|_| turns)
 }
 
 /// The performance of a linkage with this straight portion; `None` if a motor drives and cannot turn it fully, or if

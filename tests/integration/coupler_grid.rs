@@ -534,7 +534,7 @@ fn positions_have_enough_digits_and_joints_have_none() {
     assert!(["0.50", "1.50", "0.33", "−1.00"].iter().all(|place| lines.contains(&(*place).to_owned())), "{lines:?}");
     let point = format!("M = {{ point = [\"A\", \"B\"], {grid} }}\n");
     let lines = texts_of(&GOOD.replace("[\"M\"]", "[\"B\"]").replace(&point, ""));
-    assert!(lines.contains(&"straight".to_owned()) && !lines.contains(&"along".to_owned()), "{lines:?}");
+    assert!(lines.contains(&"point".to_owned()) && !lines.contains(&"along".to_owned()), "{lines:?}");
 }
 
 /// Proportions for the parameters of the catalogue that have no default.

@@ -317,6 +317,11 @@ fn each_mistake_in_a_linkage_has_its_message() {
         ("min = 0", "mni = 0", "a parameter has no key `mni`"),
         ("min = 0", "min = 2, max = 1", "the least value 2 is above the greatest 1"),
         ("trace =", "seen_from = [\"A\", \"C\"]\ntrace =", "`seen_from` needs a link with both `A` and `C`"),
+        ("trace =", "output_link = [\"C\", \"E\"]\ntrace =", "unknown joint `E`"),
+        ("trace =", "output_link = [\"A\", \"C\"]\ntrace =", "`output_link` needs a link with both `A` and `C`"),
+        ("trace =", "output_link = [\"O\", \"C\"]\ntrace =", "`output_link` names `O` and `C`, which are at rest"),
+        ("trace =", "output_link = \"B\"\ntrace =", "`output_link` names `B`, which is not a slider"),
+        ("trace =", "output_link = 3\ntrace =", "expected a list"),
     ];
     for (from, to, message) in cases {
         let mut text = OWN.replacen(from, to, 1);

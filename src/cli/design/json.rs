@@ -7,7 +7,7 @@ use super::trade_offs::trade_offs;
 use super::{Report, option_name};
 
 /// The version of the format.
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 
 /// The requirements, the designs, the rejected linkages and the relaxations, as indented JSON.
 pub(super) fn json(report: &Report) -> String {
@@ -72,7 +72,7 @@ fn design_json(design: &Design) -> Value {
         "straight_start_deg": design.straight.start_input,
         "straight_input_deg": design.straight.input_span,
         "swing_deg": design.swing,
-        "mu_min_deg": design.performance.mu_min,
+        "mu_worst_deg": design.performance.mu_min,
         "size": design.performance.size,
         "time_ratio": design.time_ratio(),
         // Infinite where the driven link or the point is at rest, which JSON cannot represent.

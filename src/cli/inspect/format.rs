@@ -1,7 +1,7 @@
 //! Numbers, points and circuits, as text.
 
 use coupler_curves::geometry::Point;
-use coupler_curves::linkage::{DyadId, Input, Linkage};
+use coupler_curves::linkage::{DyadId, Input, JointId, Linkage, OutputLink};
 use coupler_curves::motion::{Circuit, Pass};
 
 use super::super::format;
@@ -20,6 +20,17 @@ pub(super) fn format_point(p: Point) -> String {
 /// The unit of the input: degrees, or none for the length of an actuator.
 pub(super) fn input_unit(linkage: &Linkage) -> &'static str {
     if linkage.input() == Input::Length { "" } else { "°" }
+}
+
+/// The output link: "link C-B", or "slider B".
+pub(super) fn describe_output(linkage: &Linkage) -> Option<String> {
+    let name = |joint: JointId| linkage.joints[joint].name.as_str();
+    linkage.output().map(|output| match output {
+        OutputLink::Link([from, to]) | OutputLink::Slot { base: [from, to], .. } => {
+            format!("link {}-{}", name(from), name(to))
+        }
+        OutputLink::Slider { joint, .. } => format!("slider {}", name(joint)),
+    })
 }
 
 /// The input over a circuit, pass by pass: "a full turn on branch 1", "from 28.96° on branch 1 to 97.18° (B flat), on

@@ -1,7 +1,7 @@
 //! The JSON that `inspect --json` prints.
 
 use coupler_curves::geometry::{Point, Vector};
-use coupler_curves::linkage::{DyadId, FourBar, Input, JointId, Linkage, MovingLink, PlacedFourBar};
+use coupler_curves::linkage::{DyadId, FourBar, Input, JointId, Linkage, MovingLink, OutputLink, PlacedFourBar};
 use coupler_curves::measure;
 use coupler_curves::motion::{Circuit, Pass, PassEnd};
 use serde_json::{Map, Value, json};
@@ -37,6 +37,7 @@ pub(super) fn json(report: &Report) -> String {
         "rocker_limits": ranges.rocker_limits_json(),
         "arc": ranges.arc_json(),
         "inverted_slider_crank": ranges.slider_json(),
+        "output_link": output_link(&solved.linkage),
         "input": if solved.linkage.input() == Input::Length { "length" } else { "deg" },
         "status": solved.status().name(),
         "reason": solved.motion.assembly_error.as_ref().map(ToString::to_string),
@@ -47,6 +48,16 @@ pub(super) fn json(report: &Report) -> String {
         "poses": report.poses.iter().map(|pose| self::pose(report, pose)).collect::<Vec<_>>(),
     });
     format!("{document:#}\n")
+}
+
+/// The output link as in a manifest: two joints of a link, or the joint of a slider; null if there is none.
+fn output_link(linkage: &Linkage) -> Value {
+    let name = |joint: JointId| linkage.joints[joint].name.as_str();
+    match linkage.output() {
+        None => Value::Null,
+        Some(OutputLink::Link(joints) | OutputLink::Slot { base: joints, .. }) => json!(joints.map(name)),
+        Some(OutputLink::Slider { joint, .. }) => json!(name(joint)),
+    }
 }
 
 /// A number, or null if it is infinite or does not exist.

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use coupler_curves::linkage::{DyadId, FourBar};
 use coupler_curves::solve::SolvedCell;
 
-use super::format::{describe_circuit, format_point, format_significant, input_unit};
+use super::format::{describe_circuit, describe_output, format_point, format_significant, input_unit};
 use super::pose::{Pose, instant_geometries, link_rotations};
 use super::ranges::Ranges;
 use super::{Report, cognates, equation};
@@ -28,6 +28,9 @@ pub(super) fn text(report: &Report) -> String {
         let _ = writeln!(out, "class: {}", four_bar.class().name());
     }
     Ranges::new(&solved.linkage).append_text(&mut out);
+    if let Some(output) = describe_output(&solved.linkage) {
+        let _ = writeln!(out, "output: {output}");
+    }
     if let Some(reason) = &solved.motion.assembly_error {
         let status = if solved.motion.is_assembled() { "assembled in part" } else { "not assembled" };
         let _ = writeln!(out, "{status}: {reason}");

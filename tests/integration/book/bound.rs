@@ -246,7 +246,9 @@ fn the_index_lists_the_best_first() {
             coupler_curves::measure::Value::Number(value) => value,
             other => panic!("{name}: {other:?}"),
         };
-        number("mu_min_deg").min(180.0 - number("mu_max_deg"))
+        let worst = number("mu_worst_deg");
+        assert_eq!(worst, number("mu_min_deg").min(180.0 - number("mu_max_deg")));
+        worst
     };
     let mut expected: Vec<f64> = solved.iter().flatten().map(least).collect();
     expected.sort_by(|a, b| b.total_cmp(a));

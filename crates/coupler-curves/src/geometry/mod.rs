@@ -6,6 +6,8 @@
 
 mod bounds;
 mod capsule_tree;
+mod chebyshev;
+mod order;
 mod orientation;
 mod polyline;
 mod similarity;
@@ -13,6 +15,8 @@ pub mod trig;
 
 pub use bounds::Bounds;
 pub use capsule_tree::{Capsule, CapsuleTree};
+pub use chebyshev::{Chebyshev, TERMS, Zeros};
+pub use order::{in_rising_order, rising_order};
 pub use orientation::Orientation;
 pub use polyline::simplify_polyline;
 pub use similarity::Similarity;

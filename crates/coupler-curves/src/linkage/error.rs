@@ -68,6 +68,18 @@ pub enum Error {
         /// The ratio.
         ratio: [f64; 2],
     },
+    /// The output link is given by a joint that is neither a slider's nor a yoke's.
+    #[error("`output_link` names `{joint}`, which is not a slider")]
+    NotASlider {
+        /// The joint.
+        joint: String,
+    },
+    /// The output link is the one that is at rest.
+    #[error("`output_link` names `{}` and `{}`, which are at rest", base[0], base[1])]
+    OutputAtRest {
+        /// The joints that it is given by.
+        base: [String; 2],
+    },
     /// More dyads than [`MAX_DYADS`].
     #[error("`{joint}` is one dyad too many: a linkage may have at most {MAX_DYADS}")]
     TooManyDyads {
@@ -80,7 +92,8 @@ impl Error {
     /// The greatest number in a gear ratio; a circuit may take that many turns.
     pub const MAX_GEAR_RATIO: u64 = 100;
 
-    /// The joint that cannot be placed; `seen_from` where its joints define no frame.
+    /// The joint that cannot be placed; `seen_from` where its joints define no frame, and `output_link` where its joints
+    /// define no output.
     pub fn joint(&self) -> &str {
         match self {
             Error::RepeatedJoint { joint, .. }
@@ -92,6 +105,7 @@ impl Error {
             | Error::SlotParallelToGuide { joint }
             | Error::InvalidRatio { joint, .. }
             | Error::TooManyDyads { joint } => joint,
+            Error::NotASlider { .. } | Error::OutputAtRest { .. } => "output_link",
         }
     }
 
@@ -110,6 +124,10 @@ impl Error {
             }
             Error::SlotParallelToGuide { .. } => "give an angle between 0 and 180 deg, as in angle = \"90 deg\"",
             Error::InvalidRatio { .. } => "write it like ratio = [2, 3]",
+            Error::NotASlider { .. } => {
+                "name a joint with `slide` or `yoke`, or two joints of the link, as in output_link = [\"C\", \"B\"]"
+            }
+            Error::OutputAtRest { .. } => "name two joints of a moving link",
             Error::TooManyDyads { .. } => "remove joints, or place some as points of links",
         }
     }

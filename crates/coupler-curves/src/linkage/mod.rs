@@ -17,6 +17,7 @@ mod joint;
 mod kinematic_chain;
 mod motion_options;
 mod outline;
+mod output_link;
 mod position_analysis;
 mod sextic;
 mod symmetrical_four_bar;
@@ -32,6 +33,7 @@ pub use joint::{Joint, JointKind, LineDirection};
 pub use kinematic_chain::{KinematicChain, SixBar};
 pub use motion_options::{BranchArc, CircuitSelection, CoincidentDyads, Continuation, MotionOptions};
 pub use outline::{LinkOutline, is_plate};
+pub use output_link::OutputLink;
 pub use position_analysis::InvertedSliderCrank;
 pub use sextic::{DoublePoint, DoublePointKind, Sextic};
 pub use symmetrical_four_bar::SymmetricalFourBar;
@@ -51,6 +53,8 @@ pub struct Linkage {
     /// Two joints of the link in whose frame everything is reported: the one at its origin and one on its positive
     /// x-axis; `None` for the fixed frame.
     pub seen_from: Option<[JointId; 2]>,
+    /// The output link that is stated; where there is none, [`Linkage::output`] is the default.
+    pub output_link: Option<OutputLink>,
     /// The orientation applied to everything reported, after `seen_from`.
     pub placement: Orientation,
     /// The start of the motion, its input range and its circuits.
@@ -142,7 +146,9 @@ impl Linkage {
     /// one point of a grid does not place the others. All joints before them keep their indices.
     pub fn with_one_point(&self, joint: JointId) -> (Linkage, JointId) {
         let mut first = self.joints.len();
-        let mut base_of_all = self.seen_from.map_or(0, |[origin, end]| origin.max(end).index());
+        let output_joints = self.output_link.map(OutputLink::joints).unwrap_or_default();
+        let kept_joints = self.seen_from.into_iter().flatten().chain(output_joints);
+        let mut base_of_all = kept_joints.map(JointId::index).max().unwrap_or(0);
         while let Some(JointKind::Rigid { base: [p, q], .. }) = first.checked_sub(1).map(|last| self.joints[last].kind)
         {
             base_of_all = base_of_all.max(p.index()).max(q.index());
@@ -162,6 +168,7 @@ impl Linkage {
             links: self.links.iter().map(link).collect(),
             traced: new_id(joint).into_iter().collect(),
             seen_from: self.seen_from,
+            output_link: self.output_link,
             placement: self.placement,
             motion_options: self.motion_options.clone(),
         };

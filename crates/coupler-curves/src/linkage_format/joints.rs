@@ -8,13 +8,16 @@ use super::names::JointNames;
 use super::toml_parser::{TomlParser, TomlValue};
 use crate::expression::Scope;
 use crate::problem::{Problem, Span};
-use crate::template::{Coordinate, DependencyCycle, JointKindTemplate, JointTemplate, dependency_order};
+use crate::template::{
+    Coordinate, DependencyCycle, JointKindTemplate, JointTemplate, OutputLinkTemplate, dependency_order,
+};
 
 /// The joints of a linkage in the order they are placed.
 pub(super) struct ParsedJoints {
     pub joints: Vec<JointTemplate>,
     pub traced: Vec<usize>,
     pub seen_from: Option<[usize; 2]>,
+    pub output_link: Option<OutputLinkTemplate>,
     /// Each joint's name and its span in the text.
     pub spans: Vec<(String, Span)>,
 }
@@ -32,6 +35,7 @@ pub(super) fn parse_joints<'t>(
         entries.iter().map(|(name, _, value)| parse_joint(name, value, &names, scope, parser)).collect();
     let traced = parse_traced(linkage, &names, parser);
     let seen_from = linkage.get("seen_from").map(|value| parse_joint_pair(value, &names, parser));
+    let output_link = linkage.get("output_link").map(|value| parse_output_link(value, &names, parser));
     check_inputs(&entries, &parsed, &table, parser);
     let placings: Vec<JointKindTemplate> = parsed.into_iter().collect::<Option<_>>()?;
     check_grids(&entries, &placings, parser);
@@ -42,7 +46,12 @@ pub(super) fn parse_joints<'t>(
         None => None,
         Some(joints) => Some(joints?),
     };
-    check_unused(&entries, (&placings, &needs), &traced, seen_from, parser);
+    let output_link = match output_link {
+        None => None,
+        Some(output) => Some(output?),
+    };
+    let named: Vec<usize> = seen_from.into_iter().flatten().chain(output_joints(output_link)).collect();
+    check_unused(&entries, (&placings, &needs), &traced, &named, parser);
     if seen_from.is_none() {
         check_traced_joints_move(&entries, (&placings, &needs), &order, &traced, parser);
     }
@@ -58,6 +67,10 @@ pub(super) fn parse_joints<'t>(
         joints,
         traced: traced.into_iter().map(new_index).collect(),
         seen_from: seen_from.map(|joints| joints.map(new_index)),
+        output_link: output_link.map(|output| match output {
+            OutputLinkTemplate::Link(joints) => OutputLinkTemplate::Link(joints.map(new_index)),
+            OutputLinkTemplate::Slider(joint) => OutputLinkTemplate::Slider(new_index(joint)),
+        }),
         spans,
     })
 }
@@ -86,6 +99,27 @@ fn parse_traced<'t>(linkage: &Fields<'_, 't>, names: &JointNames, parser: &mut T
         }
     }
     Some(traced)
+}
+
+/// Parses an output link: two joints of a link, or the joint of a slider.
+fn parse_output_link<'t>(
+    value: &TomlValue<'t>,
+    names: &JointNames,
+    parser: &mut TomlParser<'t>,
+) -> Option<OutputLinkTemplate> {
+    match value.get_ref().as_str() {
+        Some(_) => parse_joint_ref(value, names, parser).map(OutputLinkTemplate::Slider),
+        None => parse_joint_pair(value, names, parser).map(OutputLinkTemplate::Link),
+    }
+}
+
+/// The joints that an output link is given by.
+fn output_joints(output: Option<OutputLinkTemplate>) -> Vec<usize> {
+    match output {
+        None => Vec::new(),
+        Some(OutputLinkTemplate::Link(joints)) => joints.to_vec(),
+        Some(OutputLinkTemplate::Slider(joint)) => vec![joint],
+    }
 }
 
 /// Checks that a linkage has one input, and that its gears are geared to it.
@@ -187,17 +221,17 @@ fn order_joints(
     }
 }
 
-/// Checks that every joint is traced, is in `seen_from`, carries another joint, or has a link: a parallelogram may be
-/// there for its links alone.
+/// Checks that every joint is traced, is in `seen_from` or `output_link` (the joints `named`), carries another joint, or
+/// has a link: a parallelogram may be there for its links alone.
 fn check_unused(
     entries: &[(&str, Span, &TomlValue)],
     (placings, needs): (&[JointKindTemplate], &[Vec<usize>]),
     traced: &[usize],
-    seen_from: Option<[usize; 2]>,
+    named: &[usize],
     parser: &mut TomlParser,
 ) {
     let mut is_used = vec![false; placings.len()];
-    let used = needs.iter().flatten().chain(traced).chain(seen_from.iter().flatten());
+    let used = needs.iter().flatten().chain(traced).chain(named);
     used.for_each(|&k| is_used[k] = true);
     for (k, (name, span, _)) in entries.iter().enumerate() {
         let has_links = matches!(

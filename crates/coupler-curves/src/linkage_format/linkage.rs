@@ -54,6 +54,11 @@ pub(super) static LINKAGE: TableSchema = TableSchema::new(
             "Two joints of a link in whose frame everything is reported: its origin, and a joint on its x-axis.",
         ),
         KeySchema::new(
+            "output_link",
+            ValueSchema::AnyOf(&[JOINT_NAME, ValueSchema::Set(&JOINT_NAME, [2, 2])]),
+            "The link that it drives, by two of its joints, or the slider, by its joint; the last driven link on the frame by default.",
+        ),
+        KeySchema::new(
             "arc",
             ValueSchema::Table(&ARC),
             "The part of the curve that is drawn in full weight; all of it by default.",
@@ -152,6 +157,7 @@ pub fn parse_template<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) ->
         joints: joints.joints,
         traced: joints.traced,
         seen_from: joints.seen_from,
+        output_link: joints.output_link,
         orientation: Orientation::default(),
         circuits,
         continuation,
@@ -163,8 +169,8 @@ pub fn parse_template<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) ->
     };
     if let Some(error) = template.structural_error() {
         let joint_span = joints.spans.iter().find(|(name, _)| name == error.joint()).map(|(_, span)| span.clone());
-        let span =
-            joint_span.or_else(|| fields.get("seen_from").map(TomlValue::span)).unwrap_or_else(|| fields.span.clone());
+        let key = if error.joint() == "output_link" { "output_link" } else { "seen_from" };
+        let span = joint_span.or_else(|| fields.get(key).map(TomlValue::span)).unwrap_or_else(|| fields.span.clone());
         parser.report(Problem::error(span, error.to_string()).with_help(error.help()));
     }
     (parser.problem_count() == before).then_some(template)

@@ -4,10 +4,7 @@ use std::borrow::Cow;
 
 use super::remez::exchange_point;
 use super::strip::min_max;
-use crate::geometry::{Point, cross, left_normal};
-
-/// The golden section, `(sqrt(5) - 1) / 2`.
-pub(super) const GOLDEN_SECTION: f64 = 0.618_033_988_749_894_9;
+use crate::geometry::{Point, cross, in_rising_order, left_normal};
 
 /// The ring between two concentric circles.
 #[derive(Clone, Copy, Debug)]
@@ -37,6 +34,7 @@ impl AlternatingPoints {
     /// wider. `None` also if there is no such circle.
     fn narrowest_annulus(&mut self, points: &[Point], most: f64) -> Option<Annulus> {
         if let Some(four) = &mut self.free
+            && four[3] < points.len()
             && let Some(ring) = narrowest_by_exchange(points, four, most, Annulus::through_alternating)
         {
             return Some(ring);
@@ -73,7 +71,8 @@ impl AlternatingPoints {
             let centre = middle + along * offset + normal * (largest * largest - offset * offset).max(0.0).sqrt();
             Some(Annulus::with_centre(centre, [a, b]))
         };
-        narrowest_by_exchange(points, self.bounded.get_or_insert([0, last / 2, last]), most, through)
+        let guess = self.bounded.filter(|three| three[2] <= last).unwrap_or([0, last / 2, last]);
+        narrowest_by_exchange(points, self.bounded.insert(guess), most, through)
     }
 }
 
@@ -88,9 +87,7 @@ fn sorted_along(points: &[Point]) -> Cow<'_, [Point]> {
     let square = |p: &Point| (p - points[0]).norm_squared();
     let furthest = points.iter().copied().reduce(|far, p| if square(&p) > square(&far) { p } else { far });
     let along = furthest.unwrap_or(points[0]) - points[0];
-    let mut row = points.to_vec();
-    row.sort_by(|a, b| along.dot(&a.coords).total_cmp(&along.dot(&b.coords)));
-    row.into()
+    in_rising_order(points.to_vec(), |p| along.dot(&p.coords)).into()
 }
 
 /// An initial guess of the four alternating points of a row, and the annulus through them.
@@ -133,12 +130,6 @@ impl Annulus {
         );
         let ring = Annulus::with_centre(centre, [a, b]);
         ring.radius.is_finite().then_some(ring)
-    }
-
-    /// The narrowest annulus with a given centre that contains some points.
-    pub fn enclosing(centre: Point, points: &[Point]) -> Annulus {
-        let [low, high] = min_max(points, |p| (p - centre).norm_squared()).map(f64::sqrt);
-        Annulus { centre, radius: (low + high) / 2.0, width: high - low }
     }
 
     /// The annulus with a given centre whose circles pass through two points.

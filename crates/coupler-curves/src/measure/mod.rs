@@ -1,30 +1,33 @@
 //! Measures of a curve; each is a column of `cells.csv` and a name in `where`.
 
 mod annulus;
+mod circuit_function;
 mod class;
 mod column;
-mod crossings;
-mod curve_segment;
+mod curve;
+mod curve_ring;
+mod curve_strip;
 mod dwell;
-mod extreme;
+mod every_nth;
 mod four_bar_type;
 mod input_range;
-mod interpolation;
-mod local_polynomial;
+mod longest_near;
 mod longest_straight;
+mod maximum;
+mod output;
 mod path;
+mod portions;
 mod remez;
-mod sampled_curve;
+mod row;
 mod shape;
 mod six_bar;
 mod speed_ratio;
 mod straight;
 mod straightest;
 mod strip;
-mod swing;
 mod symmetry;
 mod symmetry_axis;
-mod time_ratio;
+mod touching;
 mod transmission;
 
 pub use column::{COLUMNS, Column, compute_columns, find_column};
@@ -40,8 +43,9 @@ use std::rc::Rc;
 
 use crate::linkage::{JointId, Linkage};
 use crate::motion::{Circuit, Motion};
-use curve_segment::CurveSegment;
-use sampled_curve::SampledCurve;
+use curve::{ArcLength, Crossings, SmoothCurve, Stop};
+use output::OutputMotion;
+use row::Row;
 
 /// The curve of a traced joint on a circuit. Intermediate results are computed once for all measures.
 #[derive(Clone, Debug)]
@@ -50,20 +54,28 @@ pub struct TracedCurve<'a> {
     pub linkage: &'a Linkage,
     /// The linkage's motion.
     pub motion: &'a Motion,
-    /// The circuit, refined so that measures do not depend on the requested samples.
+    /// The circuit. Measures do not depend on its samples.
     pub circuit: &'a Circuit,
     /// The traced joint.
     pub joint: JointId,
     /// The criterion for the straight portion.
     pub straight_criterion: StraightCriterion,
     single_point_linkage: OnceCell<(Linkage, JointId)>,
-    sampled_curve: OnceCell<Rc<SampledCurve>>,
-    curve_segment: OnceCell<CurveSegment>,
-    straight: OnceCell<Option<StraightPortion>>,
+    extent: OnceCell<f64>,
+    straight: OnceCell<Vec<StraightPortion>>,
     dwell: OnceCell<Option<Dwell>>,
     symmetry: OnceCell<Option<Symmetry>>,
     transmission_angles: OnceCell<Option<[f64; 2]>>,
+    circuit_results: CircuitResults,
     cusp_count: OnceCell<usize>,
+    smooth: OnceCell<Rc<SmoothCurve>>,
+    row: OnceCell<Option<Row>>,
+    wider_straight: [OnceCell<Vec<StraightPortion>>; 2],
+    straight_half_turn: OnceCell<Option<StraightPortion>>,
+    arc_length: OnceCell<ArcLength>,
+    stops: OnceCell<Vec<Stop>>,
+    inflections: OnceCell<(usize, usize)>,
+    crossings: OnceCell<Crossings>,
 }
 
 impl<'a> TracedCurve<'a> {
@@ -72,17 +84,25 @@ impl<'a> TracedCurve<'a> {
         TracedCurve {
             linkage,
             motion,
-            circuit: circuit.refined(linkage),
+            circuit,
             joint,
             straight_criterion: StraightCriterion::default(),
             single_point_linkage: OnceCell::new(),
-            sampled_curve: OnceCell::new(),
-            curve_segment: OnceCell::new(),
+            extent: OnceCell::new(),
             straight: OnceCell::new(),
             dwell: OnceCell::new(),
             symmetry: OnceCell::new(),
             transmission_angles: OnceCell::new(),
+            circuit_results: CircuitResults::default(),
             cusp_count: OnceCell::new(),
+            smooth: OnceCell::new(),
+            row: OnceCell::new(),
+            wider_straight: Default::default(),
+            straight_half_turn: OnceCell::new(),
+            arc_length: OnceCell::new(),
+            stops: OnceCell::new(),
+            inflections: OnceCell::new(),
+            crossings: OnceCell::new(),
         }
     }
 
@@ -93,12 +113,86 @@ impl<'a> TracedCurve<'a> {
 
     /// The straight portion that meets the criterion.
     pub fn straight(&self) -> Option<&StraightPortion> {
-        self.straight.get_or_init(|| straight::find_portion(self.curve_segment()?, self.straight_criterion)).as_ref()
+        self.straight_portions().first()
+    }
+
+    /// The straight portions that meet the criterion equally well, such as both of a symmetrical curve.
+    pub fn straight_portions(&self) -> &[StraightPortion] {
+        let find = || straight::find_portions(self, self.straight_criterion);
+        self.straight.get_or_init(find)
+    }
+
+    /// The greatest distance of two points of the curve.
+    pub fn extent(&self) -> f64 {
+        *self.extent.get_or_init(|| self.smooth().extent())
     }
 
     /// The least and the greatest transmission angle, in degrees.
     fn transmission_angles(&self) -> Option<[f64; 2]> {
         *self.transmission_angles.get_or_init(|| transmission::transmission_angles(self))
+    }
+
+    /// The curve as polynomials.
+    fn smooth(&self) -> &Rc<SmoothCurve> {
+        let pieces =
+            || Rc::new(SmoothCurve::new(self.circuit.pieces(self.linkage), self.joint, self.circuit.is_closed));
+        self.smooth.get_or_init(pieces)
+    }
+
+    /// Its points, for the search for portions; `None` for a point, or what is one but for rounding.
+    fn row(&self) -> Option<&Row> {
+        /// The extent at which a thousandth of a twentieth of it, the width of the narrowest strip that matters, is ten
+        /// times the rounding.
+        const SHAPELESS: f64 = 2e5;
+        let has_shape = || self.extent() > SHAPELESS * self.smooth().rounding;
+        let row = || has_shape().then(|| Row::new(self.smooth(), straight::SPACING * self.extent())).flatten();
+        self.row.get_or_init(row).as_ref()
+    }
+
+    /// The longest straight portion to one of the [`straight::WIDER_TOLERANCES`].
+    fn wider_straight(&self, index: usize) -> Option<&StraightPortion> {
+        let criterion = StraightCriterion::Tolerance(straight::WIDER_TOLERANCES[index]);
+        self.wider_straight[index].get_or_init(|| straight::find_portions(self, criterion)).first()
+    }
+
+    /// The straightest portion over half a turn of the input.
+    fn straight_half_turn(&self) -> Option<&StraightPortion> {
+        self.straight_half_turn.get_or_init(|| straight::find_half_turn(self)).as_ref()
+    }
+
+    /// Its length as a function of the place.
+    fn arc_length(&self) -> &ArcLength {
+        self.arc_length.get_or_init(|| ArcLength::measure(self.smooth()))
+    }
+
+    /// The places where it stops.
+    fn stops(&self) -> &[Stop] {
+        self.stops.get_or_init(|| self.smooth().stops())
+    }
+
+    /// The number of its inflections, and of places where it is not known whether there are two or none.
+    fn inflections(&self) -> (usize, usize) {
+        *self.inflections.get_or_init(|| self.smooth().inflections(self.stops()))
+    }
+
+    /// The points where it crosses itself.
+    fn crossings(&self) -> &Crossings {
+        self.crossings.get_or_init(|| self.smooth().crossings(self.stops()))
+    }
+
+    /// The same curve with results that the curves of other joints on the circuit share.
+    pub fn with_circuit_results(self, circuit_results: CircuitResults) -> TracedCurve<'a> {
+        TracedCurve { circuit_results, ..self }
+    }
+
+    /// The motion of the output link; `None` if there is none.
+    fn output(&self) -> Option<&OutputMotion> {
+        self.circuit_results.0.output.get_or_init(|| OutputMotion::new(self)).as_ref()
+    }
+
+    /// The worst transmission angle, in degrees.
+    fn worst_transmission_angle(&self) -> Option<f64> {
+        *self.circuit_results.0.worst_transmission_angle.get_or_init(|| transmission::worst_angle(self))
     }
 
     /// The linkage without other traced points, and the joint in it: poses of it are faster to compute.
@@ -114,7 +208,7 @@ impl<'a> TracedCurve<'a> {
 
     /// The straight portion and the symmetry, if they have been computed, to be marked on pages.
     pub fn computed_marks(&self) -> (Option<StraightPortion>, Option<Symmetry>) {
-        (self.straight.get().cloned().flatten(), self.symmetry.get().copied().flatten())
+        (self.straight.get().and_then(|all| all.first().cloned()), self.symmetry.get().copied().flatten())
     }
 
     /// The symmetry of the curve; `None` for a point.
@@ -124,24 +218,19 @@ impl<'a> TracedCurve<'a> {
 
     /// The best circular portion.
     pub fn dwell(&self) -> Option<&Dwell> {
-        self.dwell.get_or_init(|| dwell::find_dwell(self.curve_segment()?)).as_ref()
+        let find = || dwell::find_dwell(self.row()?, self.extent(), self.arc_length().total());
+        self.dwell.get_or_init(find).as_ref()
     }
+}
 
-    /// The samples of the curve.
-    fn sampled_curve(&self) -> &SampledCurve {
-        self.sampled_curve.get_or_init(|| self.new_sampled_curve())
-    }
+/// Results that do not depend on the traced joint, computed on first use. The curves of one circuit may share them.
+#[derive(Clone, Debug, Default)]
+pub struct CircuitResults(Rc<SharedResults>);
 
-    fn new_sampled_curve(&self) -> Rc<SampledCurve> {
-        Rc::new(SampledCurve::from_circuit(self.circuit, self.joint, self.linkage.input()))
-    }
-
-    /// The whole curve, for the search for portions; `None` if fewer than five of its samples have a defined position.
-    fn curve_segment(&self) -> Option<&CurveSegment> {
-        const MIN_SAMPLES: usize = 5;
-        let whole = || CurveSegment::whole(self.sampled_curve.get_or_init(|| self.new_sampled_curve()).clone());
-        (self.sampled_curve().points.len() >= MIN_SAMPLES).then(|| self.curve_segment.get_or_init(whole))
-    }
+#[derive(Debug, Default)]
+struct SharedResults {
+    output: OnceCell<Option<OutputMotion>>,
+    worst_transmission_angle: OnceCell<Option<f64>>,
 }
 
 /// A measured value.
@@ -184,7 +273,7 @@ impl Measure {
 }
 
 /// All measures, in the order of the columns.
-pub static ALL: [Measure; 35] = [
+pub static ALL: [Measure; 62] = [
     class::CLASS,
     four_bar_type::TYPE,
     four_bar_type::SHORTEST,
@@ -192,10 +281,21 @@ pub static ALL: [Measure; 35] = [
     input_range::IS_FULL_TURN,
     input_range::INPUT_MIN,
     input_range::INPUT_MAX,
-    swing::OUTPUT_SWING,
+    output::MIN,
+    output::MAX,
+    output::SWING,
+    output::STROKE,
     transmission::MU_MIN,
     transmission::MU_MAX,
-    time_ratio::TIME_RATIO,
+    transmission::MU_WORST,
+    output::TIME_RATIO,
+    output::DWELL,
+    output::DWELL_START,
+    output::TOGGLES,
+    output::VELOCITY_RATIO_MIN,
+    output::VELOCITY_RATIO_MAX,
+    output::MECHANICAL_ADVANTAGE_MIN,
+    output::MECHANICAL_ADVANTAGE_MAX,
     path::LENGTH,
     path::AREA,
     path::BOUNDING_BOX[0],
@@ -205,6 +305,7 @@ pub static ALL: [Measure; 35] = [
     shape::CUSPS,
     shape::CRUNODES,
     shape::INFLECTIONS,
+    shape::TOO_CLOSE,
     symmetry::SYMMETRY,
     symmetry::AXIS,
     symmetry::RESIDUAL,
@@ -214,6 +315,21 @@ pub static ALL: [Measure; 35] = [
     straight::MEASURES[1],
     straight::MEASURES[2],
     straight::MEASURES[3],
+    straight::MEASURES[4],
+    straight::MEASURES[5],
+    straight::WIDER[0],
+    straight::WIDER[1],
+    straight::WIDER[2],
+    straight::WIDER[3],
+    straight::WIDER[4],
+    straight::WIDER[5],
+    straight::WIDER[6],
+    straight::WIDER[7],
+    straight::WIDER[8],
+    straight::WIDER[9],
+    straight::HALF_TURN[0],
+    straight::HALF_TURN[1],
+    straight::HALF_TURN[2],
     dwell::MEASURES[0],
     dwell::MEASURES[1],
     dwell::MEASURES[2],

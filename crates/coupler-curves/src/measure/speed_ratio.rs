@@ -1,6 +1,6 @@
+use super::curve::Place;
 use super::{Measure, TracedCurve, Value};
 use crate::linkage::Input;
-use crate::motion;
 
 /// The measure `speed_ratio`.
 pub const SPEED_RATIO: Measure = Measure {
@@ -14,29 +14,35 @@ pub const SPEED_RATIO: Measure = Measure {
 fn ratio(curve: &TracedCurve) -> Option<f64> {
     const PERIOD: f64 = 5.0;
     const DASH_SPAN: f64 = 3.0;
-    /// Points of a dash.
-    const POINTS: usize = 5;
     if curve.linkage.input() == Input::Length {
         return None;
     }
-    let (linkage, joint) = curve.single_point_linkage();
-    let mut lengths: Vec<f64> = Vec::new();
-    for pass in &curve.circuit.passes {
+    let (smooth, lengths) = (curve.smooth(), curve.arc_length());
+    let [mut least, mut greatest] = [f64::INFINITY, 0.0f64];
+    let mut from = 0;
+    for (k, pass) in curve.circuit.passes.iter().enumerate() {
         let [low, high] = pass.input_range();
         let (first, last) = ((low / PERIOD).ceil() as i64, ((high - DASH_SPAN) / PERIOD).floor() as i64);
-        let input_at = |k: i64, i: usize| k as f64 * PERIOD + DASH_SPAN * i as f64 / (POINTS - 1) as f64;
-        let inputs: Vec<f64> = (first..=last).flat_map(|k| (0..POINTS).map(move |i| input_at(k, i))).collect();
-        let columns = motion::poses(linkage, pass, &inputs);
-        for k in 0..inputs.len() / POINTS {
-            let at = |i: usize| columns.point(joint, k * POINTS + i);
-            let chords =
-                |step: usize| (0..POINTS - 1).step_by(step).map(|i| (at(i + step) - at(i)).norm()).sum::<f64>();
-            // Richardson extrapolation: the error of the chords is a quarter for chords half as long, apart from the
-            // fourth power of their length, which is less than a millionth for three degrees.
-            lengths.push((4.0 * chords(1) - chords(2)) / 3.0);
+        let mut dash = |dash: i64| {
+            let begin = dash as f64 * PERIOD;
+            let mut ends = [begin, begin + DASH_SPAN];
+            if pass.input_direction() < 0.0 {
+                ends.reverse();
+            }
+            let [a, b]: [Option<Place>; 2] = ends.map(|input| {
+                let place = smooth.find(k, input, from)?;
+                from = place.piece;
+                Some(place)
+            });
+            let (a, b) = (lengths.at(a?), lengths.at(b?));
+            // The end of a full turn is its beginning.
+            Some(if b >= a { b - a } else { b + lengths.total() - a })
+        };
+        let dashes: Vec<i64> =
+            if pass.input_direction() > 0.0 { (first..=last).collect() } else { (first..=last).rev().collect() };
+        for length in dashes.into_iter().filter_map(&mut dash) {
+            (least, greatest) = (least.min(length), greatest.max(length));
         }
     }
-    let [least, greatest] =
-        lengths.iter().fold([f64::INFINITY, 0.0f64], |[least, greatest], l| [least.min(*l), greatest.max(*l)]);
     (greatest > 0.0).then(|| greatest / least)
 }

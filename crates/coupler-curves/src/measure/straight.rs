@@ -5,15 +5,19 @@
 //! *deviation* is half the strip's width: no point of it is further from the line.
 //!
 //! For a tolerance, the result is the longest portion whose strip is no wider than that part of its length. For an
-//! input span or a length, it is the portion with the narrowest strip: first among those that begin at samples, and
-//! then between them. A portion may extend across sample 0 of a closed curve, and across limits.
+//! input span or a length, it is the portion with the narrowest strip. A portion may extend across the start of a closed
+//! curve, and across limits.
 
-use super::curve_segment::CurveSegment;
-use super::longest_straight::longest;
-use super::straightest::straightest;
+use super::curve_strip::{CurveStrips, PortionStrip};
+use super::longest_straight::StraightTo;
+use super::maximum::{Bracket, greatest_in};
+use super::portions::longest;
+use super::row::Row;
+use super::straightest::{Narrowest, straightest};
 use super::strip::Strip;
 use super::{Measure, TracedCurve, Value};
 use crate::geometry::Point;
+use crate::linkage::Input;
 
 /// The criterion by which the straight portion is selected.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,18 +47,28 @@ pub struct StraightPortion {
     pub start_input: f64,
     /// The input it spans, which is counted forward and backward at limits.
     pub input_span: f64,
-    /// Its points: the samples and its ends.
+    /// Points of it, evenly spaced, with its ends.
     pub points: Vec<Point>,
 }
 
 /// The measures of the straight portion.
-pub const MEASURES: [Measure; 4] = [
+pub const MEASURES: [Measure; 6] = [
     Measure::number(
         "straight_length",
         "",
-        "length of the straightest portion, projected on its line, in the manifest's unit: the longest in a strip no wider than 0.001 of it, or as set by the family's `straight`",
+        "length of the straightest portion, projected on its line, in the manifest's unit: the longest in a strip no wider than 0.001 of it, or as set by the family's `straight`; empty if it is shorter than a twentieth of the curve's greatest extent",
         |curve| portion_value(curve, |portion| portion.length),
     ),
+    Measure {
+        name: "straight_share",
+        unit: "",
+        is_word: false,
+        definition: "that length relative to the curve's greatest extent",
+        compute: |curve| match curve.straight() {
+            Some(portion) => Value::Number(portion.length / curve.extent()),
+            None => Value::Missing,
+        },
+    },
     Measure::number(
         "straight_deviation",
         "",
@@ -73,21 +87,180 @@ pub const MEASURES: [Measure; 4] = [
         "input that the straightest portion spans; a length for an actuator",
         |curve| portion_value(curve, |portion| portion.input_span),
     ),
+    Measure::number(
+        "straight_twin_deg",
+        "deg",
+        "input at which a second portion begins that is equally long, as on a symmetrical curve; a length for an actuator",
+        |curve| portion_number(curve.straight_portions().get(1), |portion| portion.start_input),
+    ),
 ];
 
-fn portion_value(curve: &TracedCurve, value: fn(&StraightPortion) -> f64) -> Value {
-    curve.straight().map_or(Value::Missing, |portion| Value::Number(value(portion)))
+/// The tolerances of further straight portions, wider than the default.
+pub(super) const WIDER_TOLERANCES: [f64; 2] = [0.005, 0.01];
+
+/// A measure of the longest straight portion to one of the wider tolerances.
+macro_rules! wider {
+    ($index:literal, $name:literal, $unit:literal, $definition:literal, $value:expr) => {
+        Measure::number($name, $unit, $definition, |curve| {
+            let value: fn(&TracedCurve, &StraightPortion) -> f64 = $value;
+            portion_number(curve.wider_straight($index), |portion| value(curve, portion))
+        })
+    };
 }
 
-/// The portion of a curve that meets a criterion; `None` if the curve is too short.
-pub(super) fn find_portion(curve: &CurveSegment, criterion: StraightCriterion) -> Option<StraightPortion> {
-    let ends = match criterion {
-        StraightCriterion::Tolerance(tolerance) => longest(curve, tolerance)?,
-        StraightCriterion::Input(span) => straightest(curve, |from| curve.end_after_input(from, span))?,
-        StraightCriterion::Length(length) => straightest(curve, |from| curve.end_after_length(from, length))?,
+/// The measures of the straight portions to the wider tolerances.
+pub const WIDER: [Measure; 10] = [
+    wider!(
+        0,
+        "straight_5_length",
+        "",
+        "length of the longest portion in a strip no wider than 0.005 of it; empty below a twentieth of the extent",
+        |_, p| p.length
+    ),
+    wider!(0, "straight_5_share", "", "that length relative to the curve's greatest extent", |c, p| p.length
+        / c.extent()),
+    wider!(0, "straight_5_deviation", "", "greatest distance of that portion from its line", |_, p| p.deviation),
+    wider!(0, "straight_5_start_deg", "deg", "input at which it begins; a length for an actuator", |_, p| p
+        .start_input),
+    wider!(0, "straight_5_input_deg", "deg", "input that it spans; a length for an actuator", |_, p| p.input_span),
+    wider!(
+        1,
+        "straight_10_length",
+        "",
+        "length of the longest portion in a strip no wider than 0.01 of it; empty below a twentieth of the extent",
+        |_, p| p.length
+    ),
+    wider!(1, "straight_10_share", "", "that length relative to the curve's greatest extent", |c, p| p.length
+        / c.extent()),
+    wider!(1, "straight_10_deviation", "", "greatest distance of that portion from its line", |_, p| p.deviation),
+    wider!(1, "straight_10_start_deg", "deg", "input at which it begins; a length for an actuator", |_, p| p
+        .start_input),
+    wider!(1, "straight_10_input_deg", "deg", "input that it spans; a length for an actuator", |_, p| p.input_span),
+];
+
+/// The measures of the straightest half turn.
+pub const HALF_TURN: [Measure; 3] = [
+    Measure::number(
+        "straight_half_turn_length",
+        "",
+        "length of the portion that is straightest for its length of those that half a turn of the input traverses; empty if its strip is wider than 0.02 of it",
+        |curve| portion_number(curve.straight_half_turn(), |portion| portion.length),
+    ),
+    Measure::number("straight_half_turn_deviation", "", "greatest distance of that portion from its line", |curve| {
+        portion_number(curve.straight_half_turn(), |portion| portion.deviation)
+    }),
+    Measure::number("straight_half_turn_start_deg", "deg", "input at which it begins", |curve| {
+        portion_number(curve.straight_half_turn(), |portion| portion.start_input)
+    }),
+];
+
+fn portion_number(portion: Option<&StraightPortion>, value: impl Fn(&StraightPortion) -> f64) -> Value {
+    portion.map_or(Value::Missing, |portion| Value::Number(value(portion)))
+}
+
+fn portion_value(curve: &TracedCurve, value: fn(&StraightPortion) -> f64) -> Value {
+    portion_number(curve.straight(), value)
+}
+
+/// The part of the curve's greatest extent that a portion to a tolerance is at least as long as: any curve is straight
+/// over a short enough length.
+const LEAST_SHARE: f64 = 0.05;
+
+/// The distance of the points in which portions are searched for, relative to the extent: the shortest portion has ten.
+pub(super) const SPACING: f64 = LEAST_SHARE / 10.0;
+
+/// The deviation of a portion that is straight to rounding, relative to its length; it is reported as 0.
+const EXACT: f64 = 1e-9;
+
+/// The portions of a curve that meet a criterion: the best, and of several equally long ones all; none if the curve is
+/// too short, or nothing on it is straight over a twentieth of its extent.
+pub(super) fn find_portions(curve: &TracedCurve, criterion: StraightCriterion) -> Vec<StraightPortion> {
+    let extent = curve.extent();
+    let finer = match criterion {
+        StraightCriterion::Length(length) if length < 16.0 * SPACING * extent => {
+            Row::new(curve.smooth(), length / 16.0)
+        }
+        _ => None,
     };
-    let points = curve.portion_points(ends);
-    let Strip { width, length, .. } = Strip::enclosing(points.clone());
-    let (start, input) = (curve.input_at(ends[0]), curve.input_span(ends));
-    Some(StraightPortion { length, deviation: width / 2.0, start_input: start, input_span: input, points })
+    let Some(row) = finer.as_ref().or(curve.row()) else { return Vec::new() };
+    let ends = match criterion {
+        StraightCriterion::Tolerance(tolerance) => longest(row, &StraightTo { row, tolerance }, LEAST_SHARE * extent),
+        StraightCriterion::Input(span) => Vec::from_iter(straightest(
+            row,
+            |from| row.end_after_input(from, span),
+            Narrowest::Absolutely,
+            f64::INFINITY,
+        )),
+        StraightCriterion::Length(length) => Vec::from_iter(straightest(
+            row,
+            |from| row.end_after_length(from, length),
+            Narrowest::Absolutely,
+            f64::INFINITY,
+        )),
+    };
+    let portions = ends.into_iter().map(|ends| match criterion {
+        StraightCriterion::Tolerance(_) => portion_between_extremes(row, ends),
+        _ => portion(row, ends),
+    });
+    portions.collect()
+}
+
+/// The portion that is straightest for its length of those that half a turn of the input traverses, if it is nearly
+/// straight.
+pub(super) fn find_half_turn(curve: &TracedCurve) -> Option<StraightPortion> {
+    /// The greatest width of its strip relative to its length: what is wider is no straight line to an eye.
+    const WIDEST: f64 = 0.02;
+    if curve.linkage.input() == Input::Length {
+        return None;
+    }
+    let row = curve.row()?;
+    let ends =
+        straightest(row, |from| row.end_after_input(from, 180.0), Narrowest::Relatively, WIDEST * curve.extent())?;
+    Some(portion(row, ends)).filter(|portion| 2.0 * portion.deviation <= WIDEST * portion.length)
+}
+
+/// Intervals between the points of a portion: enough to draw it, and for its direction.
+const INTERVALS: usize = 96;
+
+/// A portion without what goes back along its line beyond its furthest points, as next to a limit.
+fn portion_between_extremes(row: &Row, [from, to]: [f64; 2]) -> StraightPortion {
+    // Most often it goes on at its ends.
+    let strip = strip(row, [from, to]);
+    if strip.length_rates.iter().all(|rate| *rate != 0.0) {
+        return portion_in_strip(row, [from, to], strip);
+    }
+    let points = row.points_between([from, to], INTERVALS);
+    let direction = Strip::enclosing(&points).direction;
+    let step = (to - from) / INTERVALS as f64;
+    let mut extremes = [1.0, -1.0].map(|sign| {
+        let reach = |p: Point| sign * direction.dot(&p.coords);
+        let furthest = (0..=INTERVALS).max_by(|&a, &b| reach(points[a]).total_cmp(&reach(points[b]))).unwrap_or(0);
+        if furthest == 0 || furthest == INTERVALS {
+            return from + (to - from) * (furthest as f64 / INTERVALS as f64);
+        }
+        let at = from + step * furthest as f64;
+        let bracket = Bracket { from: at - step, to: at + step, first_parts: 2, accuracy: 1e-8 * (to - from) };
+        greatest_in(bracket, |at, _| Some((at, reach(row.point_at(at))))).map_or(at, |(at, _)| at)
+    });
+    if extremes[0] > extremes[1] {
+        extremes.reverse();
+    }
+    portion(row, extremes)
+}
+
+/// The strip of the portion between two positions.
+fn strip(row: &Row, ends: [f64; 2]) -> PortionStrip {
+    CurveStrips::new(row, ends, INTERVALS).strip(ends)
+}
+
+/// The portion between two positions.
+fn portion(row: &Row, ends: [f64; 2]) -> StraightPortion {
+    portion_in_strip(row, ends, strip(row, ends))
+}
+
+fn portion_in_strip(row: &Row, ends: [f64; 2], PortionStrip { width, length, .. }: PortionStrip) -> StraightPortion {
+    let input_span = row.input_travel_at(ends[1]) - row.input_travel_at(ends[0]);
+    let deviation = if width / 2.0 < EXACT * length { 0.0 } else { width / 2.0 };
+    let points = row.points_between(ends, INTERVALS);
+    StraightPortion { length, deviation, start_input: row.input_at(ends[0]), input_span, points }
 }

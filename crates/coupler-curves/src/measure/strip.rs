@@ -1,7 +1,7 @@
-//! Strips, convex hulls and diameters of points.
+//! Strips and convex hulls of points.
 
 use super::remez::exchange_point;
-use crate::geometry::{Point, Vector, cross};
+use crate::geometry::{Point, Vector, cross, rising_order};
 
 /// The narrowest band between two parallel lines that contains some points.
 #[derive(Clone, Copy, Debug)]
@@ -12,23 +12,32 @@ pub(super) struct Strip {
     pub length: f64,
     /// The direction of the lines, of length 1.
     pub direction: Vector,
+    /// The indices of the points that the lines pass through: the first and the last on one, the second on the other.
+    pub contacts: [usize; 3],
 }
 
 impl Strip {
     /// The strip of at least one point.
-    pub fn enclosing(points: Vec<Point>) -> Strip {
-        Strip::from_hull(&convex_hull(points))
+    pub fn enclosing(points: &[Point]) -> Strip {
+        Strip::from_hull(points, &convex_hull(points))
+    }
+
+    /// The strip of a row of points, most of which are along a nearly straight path: by exchange from `three` of them,
+    /// which are afterwards those of the strip.
+    pub fn of_row(points: &[Point], three: &mut [usize; 3]) -> Strip {
+        Strip::by_exchange(points, three, f64::INFINITY).unwrap_or_else(|| Strip::enclosing(points))
     }
 
     /// The strip of a row of points along a nearly straight path; `None` if it is wider than `most`, and a wider strip
-    /// than the narrowest if that is enough.
+    /// than the narrowest if that is no wider.
     ///
     /// One line passes through two of three points, and the other through the one between them; points are exchanged
     /// until none is outside. `three` are the indices to begin with, and afterwards those of the strip.
     pub fn by_exchange(points: &[Point], three: &mut [usize; 3], most: f64) -> Option<Strip> {
         const ROUNDS: usize = 12;
-        /// The greatest ratio of width to length for which the exchange is certain to find the narrowest strip.
-        const THIN: f64 = 1.0 / 300.0;
+        /// The greatest ratio of width to length for which the strip of the exchange, which is the narrowest across its
+        /// own direction, is as narrow as any to the square of this.
+        const THIN: f64 = 1.0 / 60.0;
         for _ in 0..ROUNDS {
             let corners = three.map(|k| points[k]);
             let least = triangle_height(corners);
@@ -46,7 +55,7 @@ impl Strip {
                 if width > THIN * (far - near) {
                     break;
                 }
-                return Some(Strip { width, length: far - near, direction: along });
+                return Some(Strip { width, length: far - near, direction: along, contacts: *three });
             }
             // The point that is furthest outside.
             let own = area(&b);
@@ -54,25 +63,27 @@ impl Strip {
             let Some(new) = points.iter().position(|p| area(p) == outside) else { break };
             *three = exchange_point(*three, new, |k| (k == 1) == ((outside > 0.0) == (own > 0.0)));
         }
-        Some(Strip::enclosing(points.to_vec())).filter(|strip| strip.width <= most)
+        Some(Strip::enclosing(points)).filter(|strip| strip.width <= most)
     }
 
-    /// The strip of a convex polygon: one of its sides is on an edge of the strip.
-    pub fn from_hull(corners: &[Point]) -> Strip {
-        let n = corners.len();
-        let first = corners.first().copied().unwrap_or_default();
-        let direct = corners.last().copied().unwrap_or_default() - first;
+    /// The strip of points whose convex hull has these corners: one of its sides is on an edge of the strip.
+    fn from_hull(points: &[Point], hull: &[usize]) -> Strip {
+        let n = hull.len();
+        let corner = |i: usize| points[hull[i]];
+        let next = |i: usize| if i + 1 < n { i + 1 } else { 0 };
         if n <= 2 {
             // A line, or a point.
-            let along = direct.try_normalize(0.0).unwrap_or_else(Vector::x);
-            return Strip { width: 0.0, length: direct.norm(), direction: along };
+            let [first, last] = [hull.first(), hull.last()].map(|k| k.copied().unwrap_or_default());
+            let direct = points.get(last).zip(points.get(first)).map_or(Vector::zeros(), |(last, first)| last - first);
+            let direction = direct.try_normalize(0.0).unwrap_or_else(Vector::x);
+            return Strip { width: 0.0, length: direct.norm(), direction, contacts: [first, first, last] };
         }
-        let next = |i: usize| if i + 1 < n { i + 1 } else { 0 };
-        let mut best = Strip { width: f64::INFINITY, length: 0.0, direction: Vector::x() };
+        let none = Strip { width: f64::INFINITY, length: 0.0, direction: Vector::x(), contacts: [0; 3] };
+        let mut best = none;
         let mut far = 1;
         for k in 0..n {
-            let (a, side) = (corners[k], corners[next(k)] - corners[k]);
-            let height = |i: usize| cross(side, corners[i] - a);
+            let (a, side) = (corner(k), corner(next(k)) - corner(k));
+            let height = |i: usize| cross(side, corner(i) - a);
             if far == k {
                 far = next(k);
             }
@@ -83,12 +94,60 @@ impl Strip {
             let width = height(far).max(0.0) / length;
             // Sides of a hull are longer than 0.
             if width < best.width {
-                best = Strip { width, direction: side / length, ..best };
+                let edge = [hull[k], hull[next(k)]];
+                best = Strip { width, direction: side / length, contacts: [edge[0], hull[far], edge[1]], ..best };
             }
         }
-        let reach = corners.iter().map(|p| best.direction.dot(&(p - first)));
-        let [low, high] = reach.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], s| [low.min(s), high.max(s)]);
+        let [low, high] = min_max(points, |p| best.direction.dot(&p.coords));
         Strip { length: high - low, ..best }
+    }
+}
+
+/// A band between two parallel lines, not necessarily the narrowest, that grows with the points in it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Band {
+    direction: Vector,
+    low: f64,
+    high: f64,
+}
+
+impl Band {
+    /// The width of the band in a direction, of length 1, that contains some points.
+    fn around(points: &[Point], direction: Vector) -> Band {
+        let [low, high] = min_max(points, |p| cross(direction, p.coords));
+        Band { direction, low, high }
+    }
+
+    /// Widens the band so that it contains a point, too; its width.
+    pub fn extend(&mut self, point: Point) -> f64 {
+        let height = cross(self.direction, point.coords);
+        (self.low, self.high) = (self.low.min(height), self.high.max(height));
+        self.high - self.low
+    }
+}
+
+/// A band of a width of at most `most` that contains a row of points.
+///
+/// # Errors
+/// A lower bound of the width of any, if there is none.
+pub(super) fn check_width(points: &[Point], most: f64) -> Result<Band, f64> {
+    if points.len() < 3 {
+        let along = points.last().zip(points.first()).and_then(|(last, first)| (last - first).try_normalize(0.0));
+        return Ok(Band::around(points, along.unwrap_or_else(Vector::x)));
+    }
+    let last = points.len() - 1;
+    // Triangles first: the least height of a triangle in a strip is no greater than the width of the strip.
+    let quarters = [0, last / 4, last / 2, last - last / 4, last].map(|k| points[k]);
+    for corners in [[0, 2, 4], [0, 1, 3], [1, 3, 4]] {
+        let height = triangle_height(corners.map(|k| quarters[k]));
+        if height > most {
+            return Err(height);
+        }
+    }
+    let mut three = [0, last / 2, last];
+    match Strip::by_exchange(points, &mut three, most) {
+        Some(strip) => Ok(Band::around(points, strip.direction)),
+        None => Err(triangle_height(three.map(|k| points[k])).max(most)),
     }
 }
 
@@ -116,52 +175,29 @@ pub(super) fn min_max(points: &[Point], value_at: impl Fn(&Point) -> f64) -> [f6
     [low.into_iter().fold(f64::INFINITY, f64::min), high.into_iter().fold(f64::NEG_INFINITY, f64::max)]
 }
 
-/// The corners of the convex hull of some points, counter-clockwise.
-pub(super) fn convex_hull(mut points: Vec<Point>) -> Vec<Point> {
-    // The points of a nearly straight portion are already in order along x or y, so that sorting is fast.
+/// The indices of the points at the corners of the convex hull of some points, counter-clockwise.
+pub(super) fn convex_hull(points: &[Point]) -> Vec<usize> {
+    // In a direction that few points share: those of a row along an axis would be in no order.
     let ends = points.last().zip(points.first()).map_or(Vector::zeros(), |(last, first)| last - first);
-    if ends.x.abs() >= ends.y.abs() {
-        points.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-    } else {
-        points.sort_unstable_by(|a, b| a.y.total_cmp(&b.y).then(b.x.total_cmp(&a.x)));
-    }
-    let mut corners: Vec<Point> = Vec::with_capacity(points.len() + 1);
-    let mut half = |points: &mut dyn Iterator<Item = &Point>| {
+    let along = if ends.x.abs() >= ends.y.abs() { Vector::new(1.0, 1e-3) } else { Vector::new(-1e-3, 1.0) };
+    let order = rising_order(&points.iter().map(|p| along.dot(&p.coords)).collect::<Vec<f64>>());
+    let mut corners: Vec<usize> = Vec::with_capacity(points.len() + 1);
+    let mut half = |order: &mut dyn Iterator<Item = &usize>| {
         let start = corners.len();
-        for p in points {
+        for &k in order {
             while corners.len() >= start + 2
                 && let [.., a, b] = corners[..]
-                && cross(b - a, p - b) <= 0.0
+                && cross(points[b] - points[a], points[k] - points[b]) <= 0.0
             {
                 corners.pop();
             }
-            corners.push(*p);
+            corners.push(k);
         }
         corners.pop();
     };
-    half(&mut points.iter());
-    half(&mut points.iter().rev());
-    if corners.is_empty() { points.into_iter().take(1).collect() } else { corners }
-}
-
-/// The greatest distance between two corners of a convex polygon.
-pub(super) fn diameter(corners: &[Point]) -> f64 {
-    let n = corners.len();
-    let next = |i: usize| if i + 1 < n { i + 1 } else { 0 };
-    let mut far = next(0);
-    let mut most = 0.0f64;
-    for k in 0..n {
-        let (a, side) = (corners[k], corners[next(k)] - corners[k]);
-        // Only the corners that are furthest from a side can be furthest from its ends.
-        for _ in 0..n {
-            most = most.max((corners[far] - a).norm_squared()).max((corners[far] - a - side).norm_squared());
-            if cross(side, corners[next(far)] - corners[far]) <= 0.0 {
-                break;
-            }
-            far = next(far);
-        }
-    }
-    most.sqrt()
+    half(&mut order.iter());
+    half(&mut order.iter().rev());
+    if corners.is_empty() { order.into_iter().take(1).collect() } else { corners }
 }
 
 #[cfg(test)]
@@ -171,29 +207,15 @@ mod tests {
     #[test]
     fn a_triangle_is_as_wide_as_its_least_height() {
         let points = [(0.0, 0.0), (4.0, 0.0), (0.0, 3.0), (1.0, 1.0)].map(|(x, y)| Point::new(x, y));
-        let strip = Strip::enclosing(points.to_vec());
+        let strip = Strip::enclosing(&points);
         assert!((strip.width - 2.4).abs() < 1e-15 && (strip.length - 5.0).abs() < 1e-15, "{strip:?}");
-    }
-
-    #[test]
-    fn the_diameter_is_that_of_the_furthest_pair() {
-        let mut state = 1_u32;
-        let mut random = || {
-            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            f64::from(state >> 8) / f64::from(1 << 24)
-        };
-        for n in 1..40 {
-            let points: Vec<Point> = (0..n).map(|_| Point::new(random(), random() * random())).collect();
-            let furthest = points.iter().flat_map(|a| points.iter().map(move |b| (a - b).norm())).fold(0.0, f64::max);
-            assert!((diameter(&convex_hull(points)) - furthest).abs() < 1e-15, "{n}");
-        }
     }
 
     #[test]
     fn few_points_and_equal_points_have_no_width() {
         let p = Point::new(1.0, 2.0);
         for points in [vec![p], vec![p; 5], vec![p, Point::new(2.0, 2.0), p, Point::new(1.5, 2.0)]] {
-            let strip = Strip::enclosing(points.clone());
+            let strip = Strip::enclosing(&points);
             assert!(strip.width == 0.0 && (0.0..=1.0).contains(&strip.length), "{points:?} {strip:?}");
         }
     }

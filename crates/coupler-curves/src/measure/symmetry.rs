@@ -7,11 +7,11 @@
 //! half the angle at the rocker's pin (7.8). The same is true with crank and rocker exchanged. For any other curve the
 //! axis is searched for.
 
-use super::strip::{convex_hull, diameter};
-use super::symmetry_axis::{SymmetryAxis, axis_by_moments, refine_axis, rough_residual};
+use super::row::Row;
+use super::symmetry_axis::{AxisCandidates, MirrorImages, SymmetryAxis};
 use super::{Measure, TracedCurve, Value};
-use crate::geometry::{Point, Vector, complex_product, cross};
-use crate::linkage::{FourBar, FourBarClass, PlacedFourBar, Sextic};
+use crate::geometry::{Point, Vector, complex_product, cross, in_rising_order};
+use crate::linkage::{FourBar, FourBarClass, JointId, JointKind, PlacedFourBar, Sextic};
 
 /// The symmetry of a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,28 +72,49 @@ pub const RESIDUAL: Measure = Measure {
 pub(super) fn find_symmetry(curve: &TracedCurve) -> Option<Symmetry> {
     /// If the residual for a theorem's axis is greater than this, the mirror image is the curve of another circuit.
     const MAX_ROUGH_RESIDUAL: f64 = 0.1;
-    let samples = curve.sampled_curve();
-    let extent = diameter(&convex_hull(samples.points.clone()));
-    if samples.points.len() < 3 || extent <= 0.0 {
-        return None;
-    }
+    /// As many points show whether an axis is worth refining.
+    const FEW_POINTS: usize = 32;
+    /// The residual of a few points about an axis of symmetry, relative to the extent.
+    const EXACT: f64 = 1e-8;
+    let extent = curve.extent();
+    let row = curve.row()?;
+    let images = MirrorImages::new(row);
     // If a linkage has two circuits, their curves may be mirror images of each other, and not of themselves.
     if let Some((axis, theorem)) = axis_by_theorem(curve)
-        && (has_one_circuit(curve) || rough_residual(samples, axis) <= MAX_ROUGH_RESIDUAL * extent)
+        && (has_one_circuit(curve) || images.residual(axis, FEW_POINTS) <= MAX_ROUGH_RESIDUAL * extent)
     {
-        let residual = residual_by_sextic(curve, axis).unwrap_or_else(|| refine_axis(samples, axis, true).1) / extent;
+        let residual = residual_by_sextic(curve, row, axis).unwrap_or_else(|| images.exact_residual(axis)) / extent;
         return Some(Symmetry { axis: Some(axis), residual, theorem: Some(theorem) });
     }
-    let Some(axis) = axis_by_moments(samples) else {
-        return Some(Symmetry { axis: None, residual: 0.0, theorem: None });
+    let candidates = match images.candidates() {
+        AxisCandidates::AnyDiameter => return Some(Symmetry { axis: None, residual: 0.0, theorem: None }),
+        AxisCandidates::Lines(lines) => lines,
     };
-    let rough = rough_residual(samples, axis);
-    // If it is smaller than that, the curve is interpolated between its samples.
-    if rough > 4.0 * samples.max_sagitta() {
-        return Some(Symmetry { axis: Some(axis), residual: rough / extent, theorem: None });
+    // If the moving joints are in line too, the mirror image of a pose is a pose of the other branch.
+    if let Some(axis) = line_of_pivots(curve)
+        && images.residual(axis, FEW_POINTS) <= EXACT * extent
+    {
+        return Some(Symmetry { axis: Some(axis), residual: images.exact_residual(axis) / extent, theorem: None });
     }
-    let (axis, most) = refine_axis(samples, axis, false);
+    let rough: Vec<(f64, SymmetryAxis)> =
+        candidates.into_iter().map(|axis| (images.residual(axis, FEW_POINTS), axis)).collect();
+    let rough = in_rising_order(rough, |candidate| candidate.0);
+    let least = rough.first()?.0;
+    // Refining an axis rarely improves it by more than a third.
+    let refined =
+        rough.into_iter().filter(|(residual, _)| *residual <= 1.5 * least).map(|(_, axis)| images.refine(axis));
+    let (axis, most) = refined.min_by(|a, b| a.1.total_cmp(&b.1))?;
     Some(Symmetry { axis: Some(axis), residual: most / extent, theorem: None })
+}
+
+/// The line through the first two fixed joints apart.
+fn line_of_pivots(curve: &TracedCurve) -> Option<SymmetryAxis> {
+    let linkage = curve.linkage;
+    let position = |joint| curve.circuit.positions.point(joint, 0);
+    let is_fixed = |joint: &JointId| matches!(linkage.joints[*joint].kind, JointKind::Fixed(_));
+    let mut pivots = linkage.joint_ids().filter(is_fixed).map(position);
+    let first = pivots.next()?;
+    pivots.find_map(|other| SymmetryAxis::new(first, other - first))
 }
 
 /// Whether a four-bar has only one circuit, as a triple-rocker has.
@@ -102,7 +123,7 @@ fn has_one_circuit(curve: &TracedCurve) -> bool {
 }
 
 /// The greatest distance of the mirrored samples from the curve of a coupler point, from its sextic.
-fn residual_by_sextic(curve: &TracedCurve, axis: SymmetryAxis) -> Option<f64> {
+fn residual_by_sextic(curve: &TracedCurve, row: &Row, axis: SymmetryAxis) -> Option<f64> {
     let PlacedFourBar { pivots: [origin, end], lengths, coupler_point: point } =
         PlacedFourBar::from_linkage(curve.linkage, curve.joint).ok()?;
     let sextic = Sextic::from_four_bar(lengths, point)?;
@@ -115,7 +136,7 @@ fn residual_by_sextic(curve: &TracedCurve, axis: SymmetryAxis) -> Option<f64> {
         let distance = value.abs() / sextic.gradient(in_frame).norm();
         if value.abs() > 1e-13 * terms && distance.is_finite() { distance } else { 0.0 }
     };
-    Some(curve.sampled_curve().points.iter().map(distance).fold(0.0, f64::max))
+    Some(row.points[..row.start_count].iter().map(distance).fold(0.0, f64::max))
 }
 
 /// The axis of the curves of a coupler point by a theorem, and the name of the theorem.
@@ -129,9 +150,10 @@ fn axis_by_theorem(curve: &TracedCurve) -> Option<(SymmetryAxis, &'static str)> 
     let to_point = |pin| Some((link.position(curve.joint)? - link.position(pin)?).norm());
     let (from_crank, from_rocker) = (to_point(a)?, to_point(b)?);
     let is_equal = |x: f64, y: f64| (x - y).abs() <= EQUAL * (frame + crank + coupler + rocker);
-    let circuit = curve.circuit;
-    let position = |joint, k| circuit.positions.point(joint, k);
-    let [origin, end] = [position(o, 0), position(c, 0)];
+    let positions = curve.circuit.pieces(linkage).positions();
+    let position = |joint, k| positions.point(joint, k);
+    // The pivots are at rest.
+    let [origin, end] = [o, c].map(|pivot| curve.circuit.positions.point(pivot, 0));
     let first = is_equal(crank, rocker) && is_equal(from_crank, from_rocker);
     // The pivots and the pins, first those of the arm that the axis belongs to; the length of the arm and the distance
     // of its pin from the point.
@@ -148,7 +170,7 @@ fn axis_by_theorem(curve: &TracedCurve) -> Option<(SymmetryAxis, &'static str)> 
     // from it.
     let arms = |k: usize| [position(pin, k) - pivot, position(curve.joint, k) - pivot];
     let reach = |k: usize| arms(k).map(|by| by.norm()).into_iter().fold(f64::INFINITY, f64::min);
-    let best = (0..circuit.len()).max_by(|&j, &k| reach(j).total_cmp(&reach(k)))?;
+    let best = (0..positions.len()).max_by(|&j, &k| reach(j).total_cmp(&reach(k)))?;
     let [from, to] = arms(best);
     let (cos, sin) = (from.dot(&to), cross(from, to));
     let frame = other - pivot;

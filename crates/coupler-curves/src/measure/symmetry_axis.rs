@@ -1,7 +1,8 @@
 //! The axis about which a curve is most nearly symmetrical, and the distance of the curve from its mirror image.
 
-use super::sampled_curve::SampledCurve;
-use crate::geometry::{Point, Vector, complex_product, cross, trig};
+use super::maximum::{Bracket, greatest_in};
+use super::row::Row;
+use crate::geometry::{Point, Vector, complex_product, cross, in_rising_order, trig};
 
 /// A line about which a curve may be symmetrical.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,97 +26,294 @@ impl SymmetryAxis {
         self.point + self.direction * (2.0 * self.direction.dot(&offset)) - offset
     }
 
+    /// The axis shifted to its left, and rotated by an angle in radians, to the first order.
+    fn moved(&self, shift: f64, turn: f64) -> Option<SymmetryAxis> {
+        let across = Vector::new(-self.direction.y, self.direction.x);
+        SymmetryAxis::new(self.point + across * shift, self.direction + across * turn)
+    }
+
     /// Its direction from the x-axis, in degrees, from 0 up to 180.
     pub fn direction_deg(&self) -> f64 {
         let deg = trig::degrees(trig::atan2(self.direction.y, self.direction.x)).rem_euclid(180.0);
-        if deg == 180.0 { 0.0 } else { deg }
+        // A direction that is less than 0 by rounding is 0.
+        if deg >= 180.0 - 1e-9 { 0.0 } else { deg }
     }
 }
 
-/// The only line about which a curve can be symmetrical, from the moments of its length; `None` if its moments of up to
-/// the third order do not determine one, like those of a circle.
-///
-/// An axis of symmetry is a principal axis of the second moments, and moments of an odd order across it vanish. If the
-/// second moments are isotropic, those of the third order determine the axis.
-pub(super) fn axis_by_moments(curve: &SampledCurve) -> Option<SymmetryAxis> {
-    /// A moment less than this part of the greatest possible one is negligible.
-    const NEGLIGIBLE: f64 = 1e-3;
-    let weights = curve.sample_weights();
-    let total: f64 = weights.iter().sum();
-    let centre = curve.points.iter().zip(&weights).map(|(p, w)| p.coords * *w).sum::<Vector>() / total;
-    let (mut all, mut cubes) = (0.0, 0.0);
-    let (mut second, mut third, mut threefold) = (Vector::zeros(), Vector::zeros(), Vector::zeros());
-    for (p, w) in curve.points.iter().zip(&weights) {
-        let z = p.coords - centre;
-        let (square, norm2) = (complex_product(z, z), z.norm_squared());
-        all += w * norm2;
-        cubes += w * norm2 * norm2.sqrt();
-        second += square * *w;
-        third += z * (w * norm2);
-        threefold += complex_product(square, z) * *w;
-    }
-    let axis = |deg: f64| {
-        let (cos, sin) = trig::cos_sin_deg(deg);
-        SymmetryAxis::new(Point::from(centre), Vector::new(cos, sin))
-    };
-    let direction = |moment: Vector, fold: f64| trig::degrees(trig::atan2(moment.y, moment.x)) / fold;
-    // The magnitude of the odd moments across a line.
-    let oddness = |deg: f64| {
-        let across = |moment: Vector, deg: f64| {
-            let (cos, sin) = trig::cos_sin_deg(deg);
-            (moment.y * cos - moment.x * sin).abs()
-        };
-        across(third, deg) + across(threefold, 3.0 * deg)
-    };
-    if second.norm() > NEGLIGIBLE * all {
-        let long = direction(second, 2.0);
-        return axis(if oddness(long) <= oddness(long + 90.0) + 1e-9 * cubes { long } else { long + 90.0 });
-    }
-    match () {
-        () if third.norm() > NEGLIGIBLE * cubes => axis(direction(third, 1.0)),
-        () if threefold.norm() > NEGLIGIBLE * cubes => axis(direction(threefold, 3.0)),
-        () => None,
-    }
-}
-
-/// The greatest distance of mirrored samples, at least ninety of them if there are as many, from the chords of the
-/// curve.
-pub(super) fn rough_residual(curve: &SampledCurve, axis: SymmetryAxis) -> f64 {
-    const MIN_SAMPLES: usize = 90;
-    let stride = (curve.points.len() / MIN_SAMPLES).max(1);
-    let samples = SampleIndex::new(&curve.points);
-    let mut near = 0;
-    let mut most = 0.0f64;
-    for p in curve.points.iter().step_by(stride) {
-        let image = axis.mirror(*p);
-        near = samples.nearest(image, near);
-        // The chords are no further away than the sample itself.
-        if (curve.points[near] - image).norm_squared() > most * most {
-            most = most.max(curve.distance_to_chords(image, near));
-        }
-    }
-    most
-}
-
-/// Samples with bounding boxes of consecutive ones, for the search for the nearest.
-struct SampleIndex<'a> {
+/// The mirror images of a curve, given by a row of points.
+pub(super) struct MirrorImages<'a> {
+    row: &'a Row,
+    /// The points of one round.
     points: &'a [Point],
+    /// The greatest distance of neighbouring points.
+    spacing: f64,
+    /// Bounding boxes of consecutive points.
     boxes: Vec<[Point; 2]>,
 }
 
-impl SampleIndex<'_> {
+/// The axes that a curve may have.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum AxisCandidates {
+    /// Every line through the centre of a circle.
+    AnyDiameter,
+    /// These, the most likely first.
+    Lines(Vec<SymmetryAxis>),
+}
+
+impl<'a> MirrorImages<'a> {
     const BOX_SIZE: usize = 16;
 
-    fn new(points: &[Point]) -> SampleIndex<'_> {
+    /// Of the curve with these points.
+    pub fn new(row: &'a Row) -> MirrorImages<'a> {
+        let points = &row.points[..if row.is_closed { row.start_count } else { row.points.len() }];
         let corners = |points: &[Point]| points.iter().fold([points[0]; 2], |[low, high], p| [low.inf(p), high.sup(p)]);
-        SampleIndex { points, boxes: points.chunks(Self::BOX_SIZE).map(corners).collect() }
+        let spacing = points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).fold(0.0, f64::max);
+        MirrorImages { row, points, spacing, boxes: points.chunks(Self::BOX_SIZE).map(corners).collect() }
     }
 
-    /// The sample nearest to a point, searched for from a `guess`.
-    fn nearest(&self, point: Point, guess: usize) -> usize {
+    /// The axes about which the mirror image comes closest to the curve in the mean, when both are passed at one speed
+    /// from any start and in either direction.
+    ///
+    /// With z the curve as a function of its length, as complex numbers from its centroid, the image about the line
+    /// through the centroid in direction a, started at s, is `e^(2ia) conj z`: it comes closest where the magnitude of
+    /// the correlation of z with itself is greatest, and 2a is the angle of the correlation.
+    pub fn candidates(&self) -> AxisCandidates {
+        /// Points of equal distance along the curve.
+        const COUNT: usize = 64;
+        /// The number of greatest correlations that are returned.
+        const MOST: usize = 4;
+        /// Axes whose directions differ by less than this angle, in radians, are refined to the same.
+        const SAME_DIRECTION: f64 = 0.02;
+        let (is_closed, row) = (self.row.is_closed, self.row);
+        let round = if is_closed { row.start_count } else { row.points.len() - 1 };
+        let total = row.cumulative_length[round];
+        let intervals = if is_closed { COUNT } else { COUNT - 1 };
+        let mut at = 0;
+        let mut z: Vec<Vector> = Vec::with_capacity(COUNT);
+        for k in 0..COUNT {
+            let length = total * k as f64 / intervals as f64;
+            while at + 1 < round && row.cumulative_length[at + 1] <= length {
+                at += 1;
+            }
+            let [from, to] = [row.cumulative_length[at], row.cumulative_length[at + 1]];
+            let part = if to > from { ((length - from) / (to - from)).min(1.0) } else { 0.0 };
+            z.push((row.points[at] + (row.points[at + 1] - row.points[at]) * part).coords);
+        }
+        let centre = z.iter().sum::<Vector>() / COUNT as f64;
+        z.iter_mut().for_each(|z| *z -= centre);
+        let energy: f64 = z.iter().map(Vector::norm_squared).sum();
+        let sum = |other: &dyn Fn(usize) -> usize| {
+            (0..COUNT).map(|j| complex_product(z[j], z[other(j)])).fold(Vector::zeros(), |sum, term| sum + term)
+        };
+        // An open curve is passed from either end.
+        let backward: Vec<Vector> = match is_closed {
+            true => (0..COUNT).map(|m| sum(&|j| (m + COUNT - j) % COUNT)).collect(),
+            false => vec![sum(&|j| COUNT - 1 - j)],
+        };
+        let forward: Vec<Vector> = match is_closed {
+            true => (0..COUNT).map(|m| sum(&|j| (j + m) % COUNT)).collect(),
+            false => vec![sum(&|j| j)],
+        };
+        let [least, greatest] = backward
+            .iter()
+            .map(|f| f.norm())
+            .fold([f64::INFINITY, 0.0f64], |[least, greatest], f| [least.min(f), greatest.max(f)]);
+        if is_closed && greatest - least <= 1e-9 * energy && greatest >= (1.0 - 1e-3) * energy {
+            return AxisCandidates::AnyDiameter;
+        }
+        let mut peaks: Vec<(f64, SymmetryAxis)> = Vec::new();
+        for correlation in [&backward, &forward] {
+            let count = correlation.len();
+            for m in 0..count {
+                let [before, here, after] = [m + count - 1, m, m + 1].map(|k| correlation[k % count]);
+                if here.norm() < before.norm() || here.norm() < after.norm() || here.norm() <= 1e-12 * energy {
+                    continue;
+                }
+                let rise = before.norm() - 2.0 * here.norm() + after.norm();
+                let shift = if rise < 0.0 { (before.norm() - after.norm()) / (2.0 * rise) } else { 0.0 };
+                let toward = if shift > 0.0 { after } else { before };
+                let value = here + (toward - here) * shift.abs();
+                let (cos, sin) = trig::cos_sin_deg(trig::degrees(trig::atan2(value.y, value.x)) / 2.0);
+                if let Some(axis) = SymmetryAxis::new(Point::from(centre), Vector::new(cos, sin)) {
+                    peaks.push((here.norm(), axis));
+                }
+            }
+        }
+        let mut lines: Vec<SymmetryAxis> = Vec::new();
+        for (_, axis) in in_rising_order(peaks, |peak| -peak.0) {
+            // A curve that returns on itself has each axis in both directions.
+            let is_new = lines.iter().all(|other| cross(other.direction, axis.direction).abs() > SAME_DIRECTION);
+            if is_new && lines.len() < MOST {
+                lines.push(axis);
+            }
+        }
+        AxisCandidates::Lines(lines)
+    }
+
+    /// The greatest distance of the mirror images of about `count` points of the row from the curve.
+    pub fn residual(&self, axis: SymmetryAxis, count: usize) -> f64 {
+        self.greatest_distance(axis, count).0
+    }
+
+    /// That distance, and the index of the point whose image is so far away.
+    fn greatest_distance(&self, axis: SymmetryAxis, count: usize) -> (f64, usize) {
+        let mut near = 0;
+        let mut most = (0.0, 0);
+        for k in (0..self.points.len()).step_by((self.points.len() / count).max(1)) {
+            let image = axis.mirror(self.points[k]);
+            near = self.nearest(image, near);
+            // The curve is no further away than its nearest point of the row.
+            if (self.points[near] - image).norm_squared() > most.0 * most.0
+                && let Some((distance, _)) = self.signed_distance(image, near)
+                && distance.abs() > most.0
+            {
+                most = (distance.abs(), k);
+            }
+        }
+        most
+    }
+
+    /// The greatest distance of the mirror image from the curve.
+    pub fn exact_residual(&self, axis: SymmetryAxis) -> f64 {
+        /// As many points locate the greatest distance, which is then searched for between them.
+        const COUNT: usize = 128;
+        let (most, k) = self.greatest_distance(axis, COUNT);
+        let reach = (self.points.len() / COUNT).max(1) as f64;
+        let distance = |position: f64| {
+            let image = axis.mirror(self.row.point_at(position));
+            let near = self.nearest(image, k.min(self.points.len() - 1));
+            self.signed_distance(image, near).map(|(distance, _)| (0.0, distance.abs()))
+        };
+        let [from, to] = self.row.bounds([k as f64 - reach, k as f64 + reach]);
+        let bracket = Bracket { from, to, first_parts: 2, accuracy: 0.05 * reach };
+        greatest_in(bracket, |position, _| distance(position)).map_or(most, |(_, (_, distance))| distance.max(most))
+    }
+
+    /// Moves an axis to where the greatest distance of the mirror image from the curve is least, to a hundredth; the
+    /// axis and that distance.
+    pub fn refine(&self, mut axis: SymmetryAxis) -> (SymmetryAxis, f64) {
+        const LEAST_SQUARES_ROUNDS: usize = 2;
+        const ROUNDS: usize = 8;
+        const SMALL: f64 = 1e-4;
+        /// As many points are enough to move the axis.
+        const COUNT: usize = 128;
+        let stride = (self.points.len() / COUNT).max(1);
+        // Each point, and the one nearest to its image: as the axis moves, it moves along the curve.
+        let mut near = 0;
+        let nearest = |k: usize| {
+            near = self.nearest(axis.mirror(self.points[k]), near);
+            (k, near)
+        };
+        let mut pairs: Vec<(usize, usize)> = (0..self.points.len()).step_by(stride).map(nearest).collect();
+        let start = axis;
+        // Least squares first: a few points that are compared with the wrong one of two neighbouring parts of the curve
+        // do not hold them up.
+        for _ in 0..LEAST_SQUARES_ROUNDS {
+            let distances = self.distances(axis, &mut pairs, false);
+            let Some((shift, turn)) = least_squares_motion(axis, &distances) else { break };
+            axis = axis.moved(shift, turn).unwrap_or(axis);
+        }
+        for (k, near) in &mut pairs {
+            *near = self.nearest(axis.mirror(self.points[*k]), *near);
+        }
+        let mut best = (axis, f64::INFINITY);
+        let mut step = Vector::zeros();
+        let mut is_small = false;
+        for _ in 0..=ROUNDS {
+            let distances = self.distances(axis, &mut pairs, is_small);
+            let most = distances.iter().map(|(_, distance, _)| distance.abs()).fold(0.0, f64::max);
+            if most < best.1 {
+                let gain = best.1 - most;
+                best = (axis, most);
+                // Of a nearly symmetrical curve the parabolas' own error counts.
+                is_small |= most <= SMALL * self.row.cumulative_length[self.points.len() - 1];
+                if gain <= 1e-3 * most {
+                    break;
+                }
+                let Some((shift, turn)) = minimax_motion(axis, &distances) else { break };
+                step = Vector::new(shift, turn);
+            } else {
+                // The distances are not linear in so great a motion.
+                step /= 3.0;
+            }
+            let Some(moved) = best.0.moved(step.x, step.y) else { break };
+            axis = moved;
+        }
+        let (residual, before) = (self.exact_residual(best.0), self.exact_residual(start));
+        if residual <= before { (best.0, residual) } else { (start, before) }
+    }
+
+    /// The mirror images of points, their distances from the parabolas through neighbouring points of the row, positive
+    /// to the left of the curve, and the normals there; if they are to be exact, from the curve. `pairs` are the points
+    /// and those nearest to their images.
+    fn distances(&self, axis: SymmetryAxis, pairs: &mut [(usize, usize)], is_exact: bool) -> Vec<(Point, f64, Vector)> {
+        let distance = |(k, near): &mut (usize, usize)| {
+            let image = axis.mirror(self.points[*k]);
+            *near = self.descend(image, *near).0;
+            let (distance, normal) = match is_exact {
+                true => self.signed_distance(image, *near)?,
+                false => self.distance_to_parabola(image, *near)?,
+            };
+            Some((image, distance, normal))
+        };
+        pairs.iter_mut().filter_map(distance).collect()
+    }
+
+    /// The signed distance of a point from the curve and its normal there, of all parts of the curve that may be nearest;
+    /// `near` is the nearest point of the row.
+    fn signed_distance(&self, point: Point, near: usize) -> Option<(f64, Vector)> {
+        let mut found = self.row.signed_distance(point, near as f64)?;
+        // Between two points of the row the curve may be nearer than at both by half their distance.
+        let count = self.points.len();
+        for (k, [low, high]) in self.boxes.iter().enumerate() {
+            let reach = found.0.abs() + self.spacing;
+            let outside = |low: f64, at: f64, high: f64| (low - at).max(at - high).max(0.0);
+            let (x, y) = (outside(low.x, point.x, high.x), outside(low.y, point.y, high.y));
+            if x * x + y * y >= reach * reach {
+                continue;
+            }
+            for j in k * Self::BOX_SIZE..((k + 1) * Self::BOX_SIZE).min(count) {
+                let square = |j: usize| (self.points[j % count] - point).norm_squared();
+                let is_near = square(j) < reach * reach && j.abs_diff(near) > 1;
+                if is_near && square(j) <= square(j + 1) && square(j) <= square(j + count - 1) {
+                    let other = self.row.signed_distance(point, j as f64)?;
+                    found = if other.0.abs() < found.0.abs() { other } else { found };
+                }
+            }
+        }
+        Some(found)
+    }
+
+    /// The signed distance of a point from the parabola through three points of the row, and its normal there.
+    fn distance_to_parabola(&self, point: Point, near: usize) -> Option<(f64, Vector)> {
+        let count = self.points.len();
+        let neighbours = match near {
+            _ if self.row.is_closed => [(near + count - 1) % count, near, (near + 1) % count],
+            0 => [0, 1.min(count - 1), 2.min(count - 1)],
+            _ if near + 1 == count => [count.saturating_sub(3), count.saturating_sub(2), near],
+            _ => [near - 1, near, near + 1],
+        };
+        let [a, b, c] = neighbours.map(|k| self.points[k]);
+        let (slope, bend) = ((c - a) / 2.0, (c - b) - (b - a));
+        let mut t = 0.0f64;
+        for _ in 0..2 {
+            let (offset, velocity) = (point - b - slope * t - bend * (t * t / 2.0), slope + bend * t);
+            t += offset.dot(&velocity) / (velocity.norm_squared() - offset.dot(&bend));
+            // At a sharp bend the foot is on no parabola.
+            if t.is_nan() || t.abs() > 1.0 {
+                return None;
+            }
+        }
+        let (offset, velocity) = (point - b - slope * t - bend * (t * t / 2.0), slope + bend * t);
+        let normal = Vector::new(-velocity.y, velocity.x).try_normalize(0.0)?;
+        Some((normal.dot(&offset), normal))
+    }
+
+    /// The point that is locally nearest to another, reached from a `guess` along the curve, and the square of the
+    /// distance.
+    fn descend(&self, point: Point, guess: usize) -> (usize, f64) {
         let square = |k: usize| (self.points[k] - point).norm_squared();
         let (mut near, mut best) = (guess, square(guess));
-        // Descend along the curve to a local minimum first: most boxes are further away than that.
         for step in [1, self.points.len() - 1] {
             while let next = (near + step) % self.points.len()
                 && square(next) < best
@@ -123,6 +321,13 @@ impl SampleIndex<'_> {
                 (best, near) = (square(next), next);
             }
         }
+        (near, best)
+    }
+
+    /// The point of the row nearest to a point, searched for from a `guess`.
+    fn nearest(&self, point: Point, guess: usize) -> usize {
+        // Most boxes are further away than the local minimum.
+        let (mut near, mut best) = self.descend(point, guess);
         for (k, [low, high]) in self.boxes.iter().enumerate() {
             let outside = |low: f64, at: f64, high: f64| (low - at).max(at - high).max(0.0);
             let (x, y) = (outside(low.x, point.x, high.x), outside(low.y, point.y, high.y));
@@ -140,43 +345,80 @@ impl SampleIndex<'_> {
     }
 }
 
-/// Refines the axis of a nearly symmetrical curve by least squares, unless it `is_given`. Returns the axis and the
-/// greatest distance of the mirror image from the curve.
-pub(super) fn refine_axis(curve: &SampledCurve, mut axis: SymmetryAxis, is_given: bool) -> (SymmetryAxis, f64) {
-    const ROUNDS: usize = 3;
-    /// Every fourth sample is enough to refine the axis.
-    const STRIDE: usize = 4;
-    let samples = SampleIndex::new(&curve.points);
-    let mut near = 0;
-    for round in 0.. {
-        let mut most = 0.0f64;
-        let across = Vector::new(-axis.direction.y, axis.direction.x);
-        // The normal equations for a shift and a rotation of the axis.
-        let (mut a, mut b, mut c, mut u, mut v) = (0.0, 0.0, 0.0, 0.0, 0.0);
-        let is_last = is_given || round == ROUNDS;
-        for p in curve.points.iter().step_by(if is_last { 1 } else { STRIDE }) {
-            let image = axis.mirror(*p);
-            near = samples.nearest(image, near);
-            let Some((distance, normal)) = curve.signed_distance(image, near) else { continue };
-            most = most.max(distance.abs());
-            let offset = image - axis.point;
-            let (shift, turn) = (2.0 * normal.dot(&across), 2.0 * cross(offset, normal));
-            a += shift * shift;
-            b += shift * turn;
-            c += turn * turn;
-            u += shift * distance;
-            v += turn * distance;
-        }
-        let det = a * c - b * b;
-        if is_last {
-            return (axis, most);
-        }
-        if det <= 1e-12 * a * c {
-            continue;
-        }
-        let (shift, turn) = ((b * v - c * u) / det, (b * u - a * v) / det);
-        let along = axis.direction + across * turn;
-        axis = SymmetryAxis::new(axis.point + across * shift, along).unwrap_or(axis);
+/// The rates at which the distance of a mirror image from a curve falls as the axis shifts and turns.
+fn rates(axis: SymmetryAxis, image: Point, normal: Vector) -> Vector {
+    let across = Vector::new(-axis.direction.y, axis.direction.x);
+    -Vector::new(2.0 * normal.dot(&across), 2.0 * cross(image - axis.point, normal))
+}
+
+/// The shift and the rotation of an axis by which the sum of the squares of some distances of mirror images from a curve
+/// becomes least, to the first order.
+fn least_squares_motion(axis: SymmetryAxis, distances: &[(Point, f64, Vector)]) -> Option<(f64, f64)> {
+    let (mut a, mut b, mut c, mut u, mut v) = (0.0, 0.0, 0.0, 0.0, 0.0);
+    for (image, distance, normal) in distances {
+        let rate = rates(axis, *image, *normal);
+        a += rate.x * rate.x;
+        b += rate.x * rate.y;
+        c += rate.y * rate.y;
+        u += rate.x * distance;
+        v += rate.y * distance;
     }
-    (axis, f64::INFINITY)
+    let det = a * c - b * b;
+    (det > 1e-12 * a * c).then(|| ((c * u - b * v) / det, (a * v - b * u) / det))
+}
+
+/// The shift and the rotation of an axis by which the greatest of some distances of mirror images from a curve becomes
+/// least, to the first order.
+///
+/// # Source
+/// Stiefel's exchange (1959): the least greatest residual of linear equations in two unknowns is that of three of them,
+/// whose residual is the greatest of all threes.
+fn minimax_motion(axis: SymmetryAxis, distances: &[(Point, f64, Vector)]) -> Option<(f64, f64)> {
+    const ROUNDS: usize = 40;
+    let row = |(image, distance, normal): &(Point, f64, Vector)| (rates(axis, *image, *normal), *distance);
+    let rows: Vec<(Vector, f64)> = distances.iter().map(row).collect();
+    if rows.len() < 3 {
+        return None;
+    }
+    // The least residual of three equations, and the unknowns.
+    let level = |three: [usize; 3]| {
+        let [(g0, d0), (g1, d1), (g2, d2)] = three.map(|k| rows[k]);
+        // The rates of the three are linearly dependent with these factors.
+        let factors = [cross(g1, g2), cross(g2, g0), cross(g0, g1)];
+        let sum: f64 = factors.iter().map(|factor| factor.abs()).sum();
+        let residual = (factors[0] * d0 + factors[1] * d1 + factors[2] * d2) / sum;
+        let [e0, e1, e2] = factors.map(|factor| residual.copysign(residual * factor));
+        // The two equations whose rates are least parallel.
+        let [(g, d, e), (h, f, k)] = match () {
+            () if factors[2].abs() >= factors[0].abs().max(factors[1].abs()) => [(g0, d0, e0), (g1, d1, e1)],
+            () if factors[0].abs() >= factors[1].abs() => [(g1, d1, e1), (g2, d2, e2)],
+            () => [(g2, d2, e2), (g0, d0, e0)],
+        };
+        let area = cross(g, h);
+        let (d, f) = (d - e, f - k);
+        let motion = Vector::new(d * h.y - f * g.y, f * g.x - d * h.x) / area;
+        (residual.abs(), motion)
+    };
+    let mut three = [0, rows.len() / 3, 2 * rows.len() / 3];
+    let mut best = level(three);
+    for _ in 0..ROUNDS {
+        let (residual, motion) = best;
+        let rest = |k: usize| (rows[k].1 - rows[k].0.dot(&motion)).abs();
+        let worst = (0..rows.len()).max_by(|&a, &b| rest(a).total_cmp(&rest(b)))?;
+        if rest(worst) <= residual * (1.0 + 1e-9) {
+            break;
+        }
+        let exchanged = (0..3).map(|k| {
+            let mut other = three;
+            other[k] = worst;
+            (level(other), other)
+        });
+        let (next, other) = exchanged.max_by(|a, b| a.0.0.total_cmp(&b.0.0))?;
+        if next.0.is_nan() || next.0 <= residual {
+            break;
+        }
+        (best, three) = (next, other);
+    }
+    let motion = best.1;
+    (motion.x.is_finite() && motion.y.is_finite()).then_some((motion.x, motion.y))
 }

@@ -2,7 +2,7 @@
 
 use super::AssemblyError;
 use super::circuit::UnsampledCircuit;
-use super::refinement::refined_sample_count;
+use super::pieces::estimate_node_count;
 use super::sampling::Sampler;
 use crate::linkage::{Input, Linkage};
 
@@ -13,7 +13,7 @@ pub const MAX_CIRCUIT_BYTES: usize = 240_000_000;
 const POSITION_BYTES: usize = 16;
 /// The bytes of a sample in addition to the positions of joints.
 const SAMPLE_BYTES: usize = 24;
-/// The bytes of the row of a sample of a curve, and of the points that its measures are computed from.
+/// The bytes of the row of a sample of a curve.
 const ROW_BYTES: usize = 100;
 /// The bytes of a curve: its measures, and its path on a page.
 const CURVE_BYTES: usize = 20_000;
@@ -31,10 +31,9 @@ pub fn estimate_bytes(linkage: &Linkage, sample_counts: impl IntoIterator<Item =
     // A path of one turn is among what a curve takes.
     let further_turns = turns.saturating_sub(1);
     let path_bytes = further_turns.saturating_mul((joints + traced) * PIECES_PER_TURN * POSITION_BYTES);
-    let refined = refined_sample_count(linkage);
+    let nodes = estimate_node_count(linkage);
     let circuit_bytes = |samples: usize| {
-        let refined = if samples < refined { refined } else { 0 };
-        let positions = samples.saturating_add(refined).saturating_mul(joints).saturating_mul(POSITION_BYTES);
+        let positions = samples.saturating_add(nodes).saturating_mul(joints).saturating_mul(POSITION_BYTES);
         let rows = samples.saturating_mul(SAMPLE_BYTES + traced * ROW_BYTES);
         positions.saturating_add(rows).saturating_add(traced * CURVE_BYTES).saturating_add(path_bytes)
     };

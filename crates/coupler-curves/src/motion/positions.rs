@@ -10,8 +10,8 @@ use crate::linkage::{AssemblyMode, DyadId, DyadSet, JointId, JointKind, LineDire
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct JointPositions {
     len: usize,
-    x: Vec<f64>,
-    y: Vec<f64>,
+    pub(super) x: Vec<f64>,
+    pub(super) y: Vec<f64>,
 }
 
 impl JointPositions {

@@ -8,6 +8,7 @@ use super::circuit::UnsampledCircuit;
 use super::derivatives::JointDerivatives;
 use super::pass::{InputPosition, Pass};
 use super::pass_ends::place_at_end;
+use super::pieces::CircuitPieces;
 use super::positions::{DyadSigns, InputColumns, JointPositions, convert_to_view_frame, place_leading_joints};
 use super::spacing::{self, CumulativeLength};
 use crate::geometry::Point;
@@ -50,8 +51,8 @@ pub struct Circuit {
     pub positions: JointPositions,
     /// The index of the pass of each sample; at the end of a pass, the pass that ends there.
     sample_passes: Vec<usize>,
-    /// The same circuit with more samples; computed on first use.
-    pub(super) refined: OnceLock<Box<Circuit>>,
+    /// The circuit in pieces; computed on first use.
+    pub(super) pieces: OnceLock<Box<CircuitPieces>>,
 }
 
 impl Circuit {
@@ -68,6 +69,11 @@ impl Circuit {
     /// The assembly mode at a sample; at the end of a pass, that of the pass that ends there.
     pub fn mode_at(&self, sample: usize) -> AssemblyMode {
         self.passes[self.sample_passes[sample]].mode
+    }
+
+    /// The index of the pass of a sample; at the end of a pass, the pass that ends there.
+    pub fn pass_at(&self, sample: usize) -> usize {
+        self.sample_passes[sample]
     }
 
     /// The input to which it continues after its last sample: on a full turn the whole turn, otherwise the input of the
@@ -181,7 +187,7 @@ impl Sampler {
             inputs: input,
             positions,
             sample_passes: plan.sample_passes,
-            refined: OnceLock::new(),
+            pieces: OnceLock::new(),
         }
     }
 

@@ -8,7 +8,7 @@ pub use moved_point::{MovablePoint, MovedPointError, PointCoordinate};
 
 use crate::family::{Cell, Family};
 use crate::linkage::{JointId, Linkage};
-use crate::measure::{self, StraightPortion, Symmetry, TracedCurve, Value};
+use crate::measure::{self, CircuitResults, StraightPortion, Symmetry, TracedCurve, Value};
 use crate::motion::{Circuit, Motion, Sampler};
 
 /// A solved and measured cell.
@@ -144,10 +144,12 @@ pub fn solve_measuring(family: &Family, sampler: &Sampler, k: usize, requested: 
     let motion = Motion::solve(&linkage, sampler);
     let mut solved = SolvedCell { cell, linkage, motion, curves: Vec::new(), left_out_count: 0 };
     let mut curves = Vec::new();
+    let circuits: Vec<CircuitResults> = solved.motion.circuits.iter().map(|_| CircuitResults::default()).collect();
     for (trace, &joint) in (1..).zip(&solved.linkage.traced) {
-        for (number, circuit) in (1..).zip(&solved.motion.circuits) {
+        for ((number, circuit), results) in (1..).zip(&solved.motion.circuits).zip(&circuits) {
             let curve = TracedCurve::new(&solved.linkage, &solved.motion, circuit, joint)
-                .with_straight_criterion(family.straight);
+                .with_straight_criterion(family.straight)
+                .with_circuit_results(results.clone());
             let measures = measure::compute_selected(&curve, |measure| requested[measure]);
             if family.keeps(&solved.cell, &measures) {
                 let (straight, symmetry) = curve.computed_marks();

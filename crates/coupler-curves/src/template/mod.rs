@@ -32,6 +32,8 @@ pub struct Template {
     pub traced: Vec<usize>,
     /// The link in whose frame everything is reported: the joint at its origin and a joint on its positive x-axis.
     pub seen_from: Option<[usize; 2]>,
+    /// The output link; `None` for the default of [`Linkage::output`].
+    pub output_link: Option<OutputLinkTemplate>,
     /// The orientation applied to everything reported, after `seen_from`.
     pub orientation: Orientation,
     /// The circuits to solve.
@@ -46,6 +48,15 @@ pub struct Template {
     pub input: Option<[InputValue; 2]>,
     /// The part of the curve that the source's figure shows: the input at its ends, and the branch.
     pub arc: Option<([InputValue; 2], i8)>,
+}
+
+/// The output link by its joints, given by their indices in [`Template::joints`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OutputLinkTemplate {
+    /// The link with two joints; its angle is that of the line from the first to the second.
+    Link([usize; 2]),
+    /// The slider or the yoke of a joint.
+    Slider(usize),
 }
 
 /// A parameter of a template.
@@ -289,6 +300,11 @@ impl Template {
         }
         let traced = self.traced.iter().flat_map(|&k| built[k].clone()).collect();
         let seen_from = self.seen_from.map(|joints| joints.map(|k| built[k][0]));
+        match self.output_link {
+            None => {}
+            Some(OutputLinkTemplate::Link(joints)) => builder.set_output_link(joints.map(|k| built[k][0]))?,
+            Some(OutputLinkTemplate::Slider(joint)) => builder.set_output_slider(built[joint][0])?,
+        }
         let linkage = builder.build(traced, seen_from, self.motion_options(values)?)?;
         let linkage = Linkage { placement: self.orientation, ..linkage };
         match linkage.motion_options.range {

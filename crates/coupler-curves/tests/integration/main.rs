@@ -11,6 +11,7 @@ mod instant;
 mod linkages;
 mod mccarthy;
 mod measures;
+mod output;
 mod rates;
 mod sextic;
 mod six_bars;

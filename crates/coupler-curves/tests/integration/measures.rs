@@ -30,6 +30,12 @@ fn measures(linkage: &Linkage, trace: usize, circuit: usize, samples: usize) -> 
     move |name| values[measure::ALL.iter().position(|m| m.name == name).unwrap_or_else(|| panic!("{name}"))]
 }
 
+/// Whether one of two straight portions is hardly longer than a twentieth of the extent.
+fn is_barely_long(before: &impl Fn(&str) -> Value, after: &impl Fn(&str) -> Value) -> bool {
+    let share = |value: Value| if let Value::Number(share) = value { share } else { f64::INFINITY };
+    share(before("straight_share")).min(share(after("straight_share"))) < 0.05001
+}
+
 fn number(value: Value) -> f64 {
     if let Value::Number(value) = value { value } else { panic!("{value:?}") }
 }
@@ -78,16 +84,8 @@ fn measures_do_not_depend_on_the_number_of_samples() {
         let [few, more, many] = [12, 100, 8000].map(|samples| measures(linkage, *trace, 0, samples));
         for m in &measure::ALL {
             assert_eq!(few(m.name), more(m.name), "{}", m.name);
+            assert_eq!(few(m.name), many(m.name), "{}", m.name);
         }
-        for name in ["length", "area", "bbox_x_min", "bbox_x_max", "bbox_y_min", "bbox_y_max", "curvature_max"] {
-            let [a, b] = [&more, &many].map(|value| number(value(name)));
-            assert!(a == b || (a - b).abs() <= 1e-4 * b.abs().max(1.0), "{name}: {a} {b}");
-        }
-        for name in ["straight_length", "dwell_input_deg"] {
-            let [a, b] = [&more, &many].map(|value| number(value(name)));
-            assert!((a - b).abs() <= 2e-2 * b, "{name}: {a} {b}");
-        }
-        assert_eq!(["cusps", "crunodes", "inflections"].map(&more), ["cusps", "crunodes", "inflections"].map(&many));
     }
 }
 
@@ -196,6 +194,63 @@ fn a_point_of_the_moving_centrode_has_a_cusp() {
 proptest! {
     #![proptest_config(crate::random())]
 
+    /// Over a full turn the trapezoidal rule converges faster than any power of the step: with the exact velocities of a
+    /// few thousand poses it is a second way to the length and the area, as exact as rounding. No sample is further out,
+    /// and none bends more.
+    #[test]
+    fn lengths_and_areas_are_those_of_the_trapezoidal_rule(
+        (crank, longer, frame) in (0.2f64..1.0, 1.05f64..3.0, 1.05f64..3.0),
+        (along, across) in (-2.0f64..3.0, -2.0f64..2.0),
+    ) {
+        // Grashof: shortest + longest < the other two.
+        let [coupler, rocker] = [longer + crank, frame + 0.9 * crank];
+        let linkage = four_bar([frame + crank, crank, coupler, rocker], (along, across));
+        let solve = |samples: usize| Motion::solve(&linkage, &Sampler::new(Sampling::Samples(samples)));
+        let (few, many) = (solve(4096), solve(8192));
+        for (k, circuit) in many.circuits.iter().enumerate() {
+            if !circuit.is_full_turn() || circuit.passes.len() > 1 {
+                continue;
+            }
+            let value = measures(&linkage, 2, k, 30);
+            let point = linkage.traced[2];
+            let integrals = |circuit: &coupler_curves::motion::Circuit| {
+                let mut sums = [0.0; 2];
+                for i in 0..circuit.len() {
+                    let derivatives = circuit.derivatives(&linkage, i);
+                    let (p, v) = (derivatives.position(point), derivatives.velocity(point));
+                    sums[0] += v.norm();
+                    sums[1] += (p.x * v.y - p.y * v.x) / 2.0;
+                }
+                sums.map(|sum| sum * std::f64::consts::TAU / circuit.len() as f64)
+            };
+            let (coarse, fine) = (integrals(&few.circuits[k]), integrals(circuit));
+            for (n, name) in ["length", "area"].into_iter().enumerate() {
+                let bound = 4.0 * (coarse[n] - fine[n]).abs() + 1e-12 * fine[0].max(fine[0] * fine[0]);
+                let found = number(value(name));
+                prop_assert!((found - fine[n]).abs() <= bound, "{name}: {found} {} of {:?}", fine[n], coarse);
+            }
+            let size = fine[0];
+            let extreme = |of: fn(&Point) -> f64| circuit.points(point).map(|p| of(&p)).fold(f64::NEG_INFINITY, f64::max);
+            for (name, of, sign) in [
+                ("bbox_x_min", (|p| -p.x) as fn(&Point) -> f64, -1.0),
+                ("bbox_x_max", |p| p.x, 1.0),
+                ("bbox_y_min", |p| -p.y, -1.0),
+                ("bbox_y_max", |p| p.y, 1.0),
+            ] {
+                let (found, sampled) = (sign * number(value(name)), extreme(of));
+                prop_assert!((-1e-14 * size..1e-5 * size).contains(&(found - sampled)), "{name}: {found} {sampled}");
+            }
+            if let Value::Number(most) = value("curvature_max") {
+                for i in 0..circuit.len() {
+                    let derivatives = circuit.derivatives(&linkage, i);
+                    let (v, a) = (derivatives.velocity(point), derivatives.acceleration(point));
+                    let curvature = ((v.x * a.y - v.y * a.x) / (v.norm() * v.norm_squared())).abs();
+                    prop_assert!(curvature <= most * (1.0 + 1e-9), "{curvature} {most}");
+                }
+            }
+        }
+    }
+
     /// Measures depend on neither size nor placement, except that lengths and areas scale.
     #[test]
     fn measures_are_invariant_under_similarities(
@@ -208,14 +263,15 @@ proptest! {
             ..four_bar(lengths.map(|l| l * scale), (along * scale, across * scale))
         };
         let motion = Motion::solve(&plain, &Sampler::new(Sampling::Samples(60)));
-        let rocks: Vec<bool> = motion.circuits.iter().map(|circuit| circuit.passes.len() > 1).collect();
-        for (circuit, rocks) in rocks.iter().enumerate() {
-            let (before, after) = (measures(&plain, 2, circuit, 60), measures(&moved, 2, circuit, 60));
+        for circuit in 0..motion.circuits.len() {
+            let (before, after) = (measures(&plain, 2, circuit, 60), measures(&moved, 2, circuit, 90));
             for m in measure::ALL {
                 let power = match m.name {
-                    "length" | "straight_length" | "straight_deviation" | "dwell_radius" | "dwell_deviation" => scale,
+                    "length" | "dwell_radius" | "dwell_deviation" => scale,
+                    name if name.starts_with("straight") && (name.ends_with("length") || name.ends_with("deviation")) => scale,
                     // A symmetrical curve has two equally long portions; and a centre is a position.
-                    "straight_start_deg" | "dwell_start_deg" | "dwell_x" | "dwell_y" | "symmetry_deg" => continue,
+                    "dwell_x" | "dwell_y" | "symmetry_deg" => continue,
+                    name if name.ends_with("start_deg") || name == "straight_twin_deg" => continue,
                     "area" => scale * scale * if mirrored { -1.0 } else { 1.0 },
                     "curvature_max" => 1.0 / scale,
                     name if name.starts_with("bbox") => continue,
@@ -224,31 +280,23 @@ proptest! {
                 match (before(m.name), after(m.name)) {
                     (Value::Number(a), Value::Number(b)) => {
                         prop_assert!(!a.is_nan(), "{}", m.name);
-                        // Where the curve turns more sharply than the samples resolve, rounding decides which sample is
-                        // nearest to the peak of the curvature. Near a limit that is always so.
-                        if m.name == "curvature_max" && (a * number(before("length")) > 60.0 || *rocks) {
-                            continue;
-                        }
-                        // The ends of a portion are searched to a hundredth of the spacing of samples, of which it has
-                        // dozens.
-                        let is_searched = m.name.starts_with("straight") || m.name.starts_with("dwell");
-                        // Its length hardly changes with its location, but the input it spans there does, and so does
-                        // the circle of a short arc.
+                        // The input that a portion spans changes more than its length as its ends move, and so does
+                        // the circle of a short arc. The residual of a curve that is not symmetrical is a local minimum.
                         let near = match m.name {
-                            "straight_input_deg" | "dwell_radius" => 5e-2,
-                            // A portion shorter than the spacing of samples is searched in windows of few points, and
-                            // rounding decides in which of them it is found.
-                            "straight_length" | "straight_deviation"
-                                if number(before("straight_length")) * 60.0 < number(before("length")) =>
-                            {
-                                2e-2
-                            }
-                            _ if is_searched => 2e-3,
-                            _ => 1e-5,
+                            name if name.starts_with("straight") && name.ends_with("input_deg") => 2e-2,
+                            name if name.starts_with("straight") => 1e-4,
+                            "dwell_input_deg" | "dwell_deviation" => 2e-3,
+                            "dwell_radius" => 5e-2,
+                            "symmetry_residual" => 0.3,
+                            _ => 1e-9,
                         };
                         let is_same = a * power == b || (a * power - b).abs() <= near * b.abs().max(scale.min(1.0) * 1e-3);
                         prop_assert!(is_same, "{} {:?}: {} {}", m.name, lengths, a * power, b);
                     }
+                    // Within the accuracy of its length it is not known whether a portion is a twentieth of the extent.
+                    _ if m.name.starts_with("straight") && is_barely_long(&before, &after) => {}
+                    // Within the accuracy of the residual it is not known whether it is less than the tolerance.
+                    _ if m.name == "symmetry" && (0.5e-4..2e-4).contains(&number(before("symmetry_residual"))) => {}
                     (a, b) => prop_assert_eq!(a, b, "{}", m.name),
                 }
             }
@@ -256,18 +304,23 @@ proptest! {
     }
 }
 
-/// An arc of angle phi lies in a strip r (1 - cos phi/2) wide over 2 r sin phi/2: their quotient is tan(phi/4) / 2.
+/// An arc of angle phi lies in a strip r (1 - cos phi/2) wide over 2 r sin phi/2: their quotient is tan(phi/4) / 2. One
+/// that is shorter than a twentieth of the diameter is no portion.
 #[test]
 fn the_straight_portion_of_a_circle_is_the_arc_in_the_strip() {
     let linkage = four_bar([4.0, 1.25, 3.0, 3.5], (1.0, 1.0));
-    for samples in [36, 360] {
-        let value = measures(&linkage, 0, 0, samples);
-        let angle = 4.0 * trig::atan2(0.002, 1.0);
+    assert_eq!(measures(&linkage, 0, 0, 36)("straight_length"), Value::Missing);
+    let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(36)));
+    let pin = linkage.traced[0];
+    for tolerance in [0.015, 0.03] {
+        let curve = TracedCurve::new(&linkage, &motion, &motion.circuits[0], pin)
+            .with_straight_criterion(StraightCriterion::Tolerance(tolerance));
+        let angle = 4.0 * trig::atan2(2.0 * tolerance, 1.0);
         let length = 2.5 * trig::sin(angle / 2.0);
-        let found = ["straight_length", "straight_deviation", "straight_input_deg"].map(|name| number(value(name)));
-        assert!((found[0] - length).abs() < 2e-3 * length, "{samples}: {found:?} {length}");
-        assert!((found[1] - 0.0005 * length).abs() < 1e-2 * 0.0005 * length, "{samples}: {found:?}");
-        assert!((found[2] - trig::degrees(angle)).abs() < 2e-3 * trig::degrees(angle), "{samples}: {found:?}");
+        let found = curve.straight().expect("a portion");
+        assert!((0.9999..=1.0).contains(&(found.length / length)), "{found:?} {length}");
+        assert!(2.0 * found.deviation <= tolerance * found.length, "{found:?}");
+        assert!((found.input_span - trig::degrees(angle)).abs() < 1e-3 * trig::degrees(angle), "{found:?}");
     }
 }
 
@@ -383,9 +436,10 @@ fn no_circular_portion_spans_more_than_the_one_found() {
         let points: Vec<Point> = motion.circuits[0].points(linkage.traced[0]).collect();
         let extent = points.iter().flat_map(|a| points.iter().map(move |b| (a - b).norm())).fold(0.0, f64::max);
         let length = number(measures(&linkage, 0, 0, samples)("length"));
-        // The portion has the deviation it reports, and is no wider than is allowed except for the curve between its
-        // points.
-        assert!((ring(&dwell.points, dwell.centre) - 2.0 * dwell.deviation).abs() < 1e-9 * extent, "{id}");
+        // The portion has the deviation it reports, but for the curve between its points, and is no wider than is
+        // allowed.
+        let (width, reported) = (ring(&dwell.points, dwell.centre), 2.0 * dwell.deviation);
+        assert!((0.995 * reported..=reported * (1.0 + 1e-9)).contains(&width), "{id}: {width} {reported}");
         assert!(dwell.deviation <= 0.000_505 * extent, "{id}: {} {extent}", dwell.deviation);
         // No portion one sample longer fits: a pattern search for its narrowest ring ends above the limit.
         let span = (dwell.input_span / 360.0 * samples as f64).floor() as usize + 1;
@@ -431,7 +485,9 @@ proptest! {
                 for (measure, value) in measure::ALL.iter().zip(measure::compute_all(&TracedCurve::new(&linkage, &motion, circuit, joint))) {
                     if let Value::Number(value) = value {
                         prop_assert!(!value.is_nan(), "{}", measure.name);
-                        let may_be_unbounded = matches!(measure.name, "curvature_max" | "speed_ratio");
+                        let may_be_unbounded = matches!(measure.name, "curvature_max" | "speed_ratio")
+                            || measure.name.starts_with("velocity_ratio")
+                            || measure.name.starts_with("mechanical_advantage");
                         prop_assert!(value.is_finite() || may_be_unbounded, "{} is {value}", measure.name);
                     }
                 }

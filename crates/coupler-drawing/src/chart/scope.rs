@@ -28,7 +28,8 @@ pub fn is_per_sample(value: &CompiledExpression, names: &[String]) -> bool {
 /// The unit of an expression: `deg` if it is only the name of an angle, otherwise empty.
 pub fn unit(text: &str, is_driven_by_length: bool) -> &'static str {
     // The input of an actuator is a length even in a measure whose name ends in `_deg`.
-    let is_input = text.starts_with("input_") || (text.starts_with("straight_") && text.ends_with("_deg"));
+    let of_inputs = ["input_", "straight_", "dwell_", "output_dwell_"];
+    let is_input = of_inputs.iter().any(|prefix| text.starts_with(prefix)) && text.ends_with("_deg");
     let is_name = text.chars().all(|c| c.is_alphanumeric() || c == '_');
     if is_name && text.ends_with("_deg") && !(is_driven_by_length && is_input) { "deg" } else { "" }
 }

@@ -5,14 +5,6 @@ import { renamedWords } from "../data/reader.js";
 
 /** Columns computed from measures, for frequent queries that no single measure answers. */
 export const DERIVED_COLUMNS = {
-  mu_worst_deg: {
-    unit: "deg",
-    definition:
-      "least distance of the transmission angle from 0 and 180 over the circuit: the lesser of its " +
-      "minimum and 180 minus its maximum",
-    inputs: ["mu_min_deg", "mu_max_deg"],
-    compute: (at) => Math.min(at("mu_min_deg"), 180 - at("mu_max_deg")),
-  },
   straight_tolerance: {
     unit: "",
     definition: "deviation of the straightest portion from its line, divided by its length",

@@ -12,6 +12,18 @@ const MEASURE_LABELS = {
   input_max_deg: "greatest input",
   mu_min_deg: "least transmission angle",
   mu_max_deg: "greatest transmission angle",
+  mu_worst_deg: "worst transmission angle",
+  output_min: "least output",
+  output_max: "greatest output",
+  output_swing_deg: "swing of the output",
+  output_stroke: "stroke of the output",
+  output_dwell_deg: "range of input of the output's dwell",
+  output_dwell_start_deg: "its start input",
+  toggles: "toggle positions",
+  velocity_ratio_min: "least velocity ratio",
+  velocity_ratio_max: "greatest velocity ratio",
+  mechanical_advantage_min: "least mechanical advantage",
+  mechanical_advantage_max: "greatest mechanical advantage",
   length: "path length",
   bbox_x_min: "least x",
   bbox_x_max: "greatest x",
@@ -32,6 +44,7 @@ const MEASURE_LABELS = {
 };
 
 const STANDALONE_LABELS = {
+  output_dwell_start_deg: "start input of the output's dwell",
   straight_deviation: "deviation of the straight portion",
   straight_start_deg: "start input of the straight portion",
   straight_input_deg: "range of input of the straight portion",
@@ -55,6 +68,7 @@ export function measureLabel(name) {
 /** A number with significant digits, without trailing zeros and with a true minus sign. */
 export function formatNumber(number, digits = 4) {
   if (number === Infinity) return "unbounded";
+  if (number === -Infinity) return "unbounded below";
   if (!Number.isFinite(number)) return "–";
   if (number !== 0 && (Math.abs(number) < 1e-4 || Math.abs(number) >= 1e7)) {
     const [part, power] = number.toExponential(Math.min(digits, 3) - 1).split("e");
@@ -76,7 +90,7 @@ export function measureText(/** @type {Family} */ family, curve, { name, unit })
  * @param {Family} _ @param {Pick<Measure, "name" | "unit">} _1
  */
 export function isInDegrees({ is_length: isLength }, { name, unit }) {
-  return unit === "deg" && !(isLength && /^(straight|dwell|input)_/.test(name));
+  return unit === "deg" && !(isLength && /^(straight|dwell|output_dwell|input)_/.test(name));
 }
 
 /** A caption as on the page: names before an equals sign in italics, with no line break in "a = 2.59". */
@@ -92,7 +106,6 @@ export function formatChanges(/** @type {Map<string, number>} */ changes) {
 }
 
 const COLUMN_LABELS = {
-  mu_worst_deg: "worst transmission angle",
   straight_tolerance: "deviation of the straight portion, by its length",
   straight_share: "length of the straight portion, by the extent",
   symmetric: "symmetry",

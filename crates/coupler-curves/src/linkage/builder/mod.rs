@@ -5,7 +5,8 @@ mod sliding_body;
 use sliding_body::SlidingBody;
 
 use super::{
-    AssemblyMode, DyadId, Error, Joint, JointId, JointKind, Link, LinkId, Linkage, MAX_DYADS, MotionOptions, Side,
+    AssemblyMode, DyadId, Error, Joint, JointId, JointKind, Link, LinkId, Linkage, MAX_DYADS, MotionOptions,
+    OutputLink, Side,
 };
 use crate::geometry::{Orientation, Point, Vector, left_normal};
 
@@ -30,6 +31,7 @@ pub struct LinkageBuilder {
     sliding_bodies: Vec<SlidingBody>,
     mode: AssemblyMode,
     dyad_count: usize,
+    output_link: Option<OutputLink>,
 }
 
 impl LinkageBuilder {
@@ -176,11 +178,40 @@ impl LinkageBuilder {
         self.point(name, base, along, if side == Side::Left { across } else { -across })
     }
 
+    /// States the output link by two of its joints, from which its angle is measured; the link of a slot, a slider's
+    /// block and a yoke are identified as by [`LinkageBuilder::point`].
+    ///
+    /// # Errors
+    /// One joint given twice, joints on no common link, joints that coincide.
+    pub fn set_output_link(&mut self, joints: [JointId; 2]) -> Result<(), Error> {
+        let output = match self.output_of_sliding_body(joints) {
+            Some(output) => output,
+            None => {
+                self.require_common_link("output_link", joints)?;
+                OutputLink::Link(joints)
+            }
+        };
+        self.output_link = Some(output);
+        Ok(())
+    }
+
+    /// States that the output link is the slider or the yoke of a joint.
+    ///
+    /// # Errors
+    /// The joint was added neither by [`LinkageBuilder::slide`] nor by [`LinkageBuilder::yoke`].
+    pub fn set_output_slider(&mut self, joint: JointId) -> Result<(), Error> {
+        let (JointKind::Slide { line, .. } | JointKind::Yoke { line, .. }) = self.joints[joint].kind else {
+            return Err(Error::NotASlider { joint: self.joints[joint].name.clone() });
+        };
+        self.output_link = Some(OutputLink::Slider { joint, line });
+        Ok(())
+    }
+
     /// The linkage of these joints. The assembly mode at the start is that of the sides given to the joints, whatever
     /// `options` contains.
     ///
     /// # Errors
-    /// `seen_from` names joints on no common link, or joints that coincide.
+    /// `seen_from` names joints on no common link, or joints that coincide; the output link is the ground.
     pub fn build(
         self,
         traced: Vec<JointId>,
@@ -192,7 +223,14 @@ impl LinkageBuilder {
         }
         let motion_options = MotionOptions { mode: self.mode, ..options };
         let placement = Orientation::default();
-        Ok(Linkage { joints: self.joints, links: self.links, traced, seen_from, placement, motion_options })
+        let (joints, links, output_link) = (self.joints, self.links, self.output_link);
+        let linkage = Linkage { joints, links, traced, seen_from, output_link, placement, motion_options };
+        match output_link {
+            Some(OutputLink::Link(pair)) if pair.iter().all(|&joint| linkage.ground().position(joint).is_some()) => {
+                Err(Error::OutputAtRest { base: pair.map(|joint| linkage.joints[joint].name.clone()) })
+            }
+            _ => Ok(linkage),
+        }
     }
 
     /// The index of a new dyad.

@@ -2,7 +2,7 @@
 
 use super::{LinkageBuilder, check_length};
 use crate::geometry::{Vector, trig};
-use crate::linkage::{Error, JointId, JointKind, LineDirection, Link, LinkId, Side};
+use crate::linkage::{Error, JointId, JointKind, LineDirection, Link, LinkId, OutputLink, Side};
 
 /// A link identified by a joint and a line: a slider, a yoke, an actuator, or a link that a joint slides along.
 #[derive(Clone, Copy, Debug)]
@@ -166,6 +166,19 @@ impl LinkageBuilder {
         let id = self.add_joint(name, kind);
         self.links[link].joints.push((id, position));
         id
+    }
+
+    /// The output link that is the sliding body of two joints; `None` if there is none, or it is an actuator.
+    pub(super) fn output_of_sliding_body(&self, base: [JointId; 2]) -> Option<OutputLink> {
+        let body = self.sliding_bodies.iter().find(|body| body.base == base)?;
+        match body.reference {
+            BodyReference::Foot { foot, .. } => Some(OutputLink::Link([base[0], foot])),
+            BodyReference::Line { direction: LineDirection::BySide(dyad), .. } => Some(OutputLink::Slot { base, dyad }),
+            BodyReference::Line { line, direction: LineDirection::Towards, .. } => {
+                Some(OutputLink::Slider { joint: base[0], line })
+            }
+            BodyReference::Line { direction: LineDirection::Actuator, .. } => None,
+        }
     }
 
     /// Checks that two joints can define a line: they are different, and on one link they do not coincide.

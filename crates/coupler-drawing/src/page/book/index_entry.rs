@@ -11,7 +11,7 @@ pub struct IndexEntry {
     pub(super) caption: String,
     /// The greatest fraction of the length of a curve that is its straight portion.
     pub(super) straightness: Option<IndexValue>,
-    /// The least transmission angle, in degrees from 0 to 90.
+    /// The worst transmission angle, in degrees from 0 to 90.
     pub(super) transmission_angle: Option<IndexValue>,
     /// The least deviation of a curve from its mirror image, relative to its greatest extent.
     pub(super) asymmetry: Option<IndexValue>,
@@ -52,7 +52,7 @@ impl IndexEntry {
             caption: caption.to_owned(),
             straightness: best(straightness, |a, b| a > b),
             // The transmission angle is the same for all points of a linkage.
-            transmission_angle: best(min_transmission_angle, |a, b| a > b)
+            transmission_angle: best(|curve| number_measure(curve, "mu_worst_deg"), |a, b| a > b)
                 .map(|value| IndexValue { curve: None, ..value }),
             asymmetry: best(asymmetry, |a, b| a < b),
         }
@@ -63,11 +63,6 @@ impl IndexEntry {
 fn straightness(curve: &MeasuredCurve) -> Option<f64> {
     let (length, whole) = (number_measure(curve, "straight_length")?, number_measure(curve, "length")?);
     (length > 0.0 && whole > 0.0).then(|| length / whole)
-}
-
-/// The least angle between coupler and output link, from 0 to 90 degrees.
-fn min_transmission_angle(curve: &MeasuredCurve) -> Option<f64> {
-    Some(number_measure(curve, "mu_min_deg")?.min(180.0 - number_measure(curve, "mu_max_deg")?))
 }
 
 /// The deviation of a curve from its mirror image relative to its greatest extent, rounded to multiples of

@@ -77,7 +77,8 @@ function measureRow(/** @type {Measure} */ measure, recorded, isLength) {
     h("span.measure-name", measureLabel(measure.name)),
     h("span.definition", measure.definition),
   );
-  const ofLength = isLength && /^(input_m|straight_(start|input)|dwell_(start|input))/.test(measure.name);
+  const ofLength =
+    isLength && /^(input_m|straight_(start|input)|dwell_(start|input)|output_dwell)/.test(measure.name);
   const element = h("tr", title, h("td", formatMeasure(measure, recorded, ofLength)), now, change);
   return { element, measure, recorded, now, change, isLength: ofLength };
 }
@@ -87,6 +88,7 @@ function formatMeasure(/** @type {Measure} */ { word, unit }, value, isLength = 
   if (value === undefined || value === null || Number.isNaN(value)) return "";
   if (word || typeof value === "string") return value;
   if (value === Infinity) return "∞";
+  if (value === -Infinity) return "−∞";
   if (Number.isInteger(value) && Math.abs(value) < 1e6 && unit !== "deg")
     return String(value).replace("-", "−");
   return unit === "deg" && !isLength ? `${value.toFixed(2).replace("-", "−")}°` : formatLength(value);

@@ -1,0 +1,241 @@
+//! Annuli of portions of a curve, between any two positions of it.
+
+use super::annulus::AlternatingPoints;
+use super::longest_near::{Constraint, Constraints, Contacts};
+use super::row::Row;
+use super::touching::{Contact, Levels, PortionPoints};
+use crate::geometry::{Point, Vector, cross};
+
+/// The narrowest annulus of a portion of a curve, and how its width changes with the ends.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PortionRing {
+    /// The centre of its circles.
+    pub centre: Point,
+    /// The radius halfway between them.
+    pub radius: f64,
+    /// The difference of their radii.
+    pub width: f64,
+    /// The derivatives of the width with respect to the positions of the start and of the end.
+    pub width_rates: [f64; 2],
+    /// Which points touch the circles.
+    pub contacts: Contacts,
+    /// The widths for other points that nearly touch, and their rates.
+    pub others: Constraints,
+}
+
+/// The annuli of portions of a row's curve near each other, with a mean radius no greater than a given one.
+///
+/// The points that the circles touch are found among evenly spaced points, and then moved to where the curve touches.
+/// For a small motion of the centre distances from it are linear, and the width is a linear minimax problem: of all
+/// groups of four points, or of three if the radius is given, the one that needs the greatest width decides.
+#[derive(Clone, Debug)]
+pub(super) struct CurveRings<'a> {
+    portion: PortionPoints<'a>,
+    max_radius: f64,
+    contacts: Vec<Contact>,
+    alternating: AlternatingPoints,
+}
+
+/// Circles about a centre.
+struct Circles(Point);
+
+impl Levels for Circles {
+    fn height(&self, point: Point) -> f64 {
+        (point - self.0).norm()
+    }
+
+    fn height_rates(&self, point: Point, velocity: Vector, acceleration: Vector) -> [f64; 2] {
+        let offset = point - self.0;
+        let distance = offset.norm();
+        let rate = offset.dot(&velocity) / distance;
+        [rate, (offset.dot(&acceleration) + velocity.norm_squared() - rate * rate) / distance]
+    }
+}
+
+/// A point that may touch, seen from the centre: its direction and its distance.
+#[derive(Clone, Copy, Debug)]
+struct Spoke {
+    normal: Vector,
+    distance: f64,
+    /// The index of the point in the portion.
+    index: usize,
+}
+
+/// Spokes, as many as determine the annulus, and their multipliers, the sum of whose magnitudes is 1: that of the
+/// spokes, each with its multiplier, is zero.
+#[derive(Clone, Copy, Debug)]
+struct Group {
+    spokes: [usize; 4],
+    multipliers: [f64; 4],
+    /// Half the width that they need, with a sign.
+    half: f64,
+}
+
+impl<'a> CurveRings<'a> {
+    /// For portions about as long as the one between two positions, with about this many points.
+    pub fn new(row: &'a Row, ends: [f64; 2], count: usize, max_radius: f64) -> CurveRings<'a> {
+        CurveRings {
+            portion: PortionPoints::new(row, ends, count),
+            max_radius,
+            contacts: Vec::new(),
+            alternating: AlternatingPoints::default(),
+        }
+    }
+
+    /// The annulus of the portion between two positions; `None` if it is straight.
+    pub fn ring(&mut self, ends: [f64; 2]) -> Option<PortionRing> {
+        const ROUNDS: usize = 3;
+        /// A motion of the centre, relative to the radius, whose square is less than rounding.
+        const SMALL: f64 = 1e-8;
+        /// The annulus of the points that touch contains all others to this part of its width.
+        const MOVED: f64 = 1e-4;
+        /// No more points than this touch, or nearly do.
+        const MOST: usize = 9;
+        self.portion.turn_to(ends);
+        let points = &self.portion.points;
+        if points.len() < 4 {
+            return None;
+        }
+        let sampled = self.alternating.narrowest_annulus_within(points, f64::INFINITY, self.max_radius)?;
+        let is_bounded = sampled.radius >= self.max_radius - sampled.width;
+        let (mut centre, mut radius) = (sampled.centre, sampled.radius);
+        if is_bounded {
+            radius = self.max_radius;
+        }
+        self.portion.collect_contacts(&Circles(centre), &[], &mut self.contacts);
+        let mut best: Option<(Group, Vec<Spoke>)> = None;
+        let mut groups: Vec<Group> = Vec::new();
+        for _ in 0..ROUNDS {
+            let spokes = spokes(&self.contacts, centre);
+            if spokes.len() > MOST {
+                break;
+            }
+            groups = if is_bounded { groups_of_three(&spokes, radius) } else { groups_of_four(&spokes) };
+            let Some(group) = groups.iter().copied().max_by(|a, b| a.half.abs().total_cmp(&b.half.abs())) else {
+                break;
+            };
+            let (motion, change) = correction(&group, &spokes, radius, is_bounded);
+            best = Some((group, spokes));
+            let is_small = motion.norm() <= 0.5 * radius;
+            if !is_small {
+                break;
+            }
+            centre += motion;
+            radius += change;
+            if motion.norm() <= SMALL * radius {
+                break;
+            }
+        }
+        let velocities = self.portion.end_velocities();
+        let last = self.portion.last();
+        let width = best.as_ref().map_or(0.0, |(group, _)| 2.0 * group.half.abs());
+        let distances = self.portion.points.iter().map(|p| (p - centre).norm());
+        let [low, high] = distances.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], d| [l.min(d), h.max(d)]);
+        let Some((group, spokes)) = best.filter(|_| high - low <= width * (1.0 + MOVED)) else {
+            return Some(PortionRing {
+                centre: sampled.centre,
+                radius: sampled.radius,
+                width: sampled.width,
+                width_rates: [0.0; 2],
+                contacts: [0; 4],
+                others: Constraints::default(),
+            });
+        };
+        let rates = |group: &Group| {
+            [(0, velocities[0]), (last, velocities[1])].map(|(end, velocity)| {
+                let at_end = (0..4).filter(|&i| group.multipliers[i] != 0.0 && spokes[group.spokes[i]].index == end);
+                let rate: f64 =
+                    at_end.map(|i| group.multipliers[i] * spokes[group.spokes[i]].normal.dot(&velocity)).sum();
+                2.0 * rate * group.half.signum()
+            })
+        };
+        let mut others = Constraints::default();
+        let near = groups.iter().filter(|other| 2.0 * other.half.abs() >= 0.8 * width);
+        for (other, group) in others.iter_mut().zip(near) {
+            *other = Some(Constraint { value: 2.0 * group.half.abs(), rates: rates(group) });
+        }
+        Some(PortionRing {
+            centre,
+            radius,
+            width,
+            width_rates: rates(&group),
+            contacts: group.spokes.map(|k| self.portion.label(spokes[k].index)),
+            others,
+        })
+    }
+}
+
+fn spokes(contacts: &[Contact], centre: Point) -> Vec<Spoke> {
+    let circles = Circles(centre);
+    let spoke = |contact: &Contact| {
+        let normal = (contact.touching(&circles) - centre).normalize();
+        Spoke { normal, distance: contact.height(&circles), index: contact.index }
+    };
+    contacts.iter().map(spoke).collect()
+}
+
+/// A group with its multipliers, which need not be normalised; `None` if they vanish.
+fn group(spokes: &[Spoke], members: [usize; 4], multipliers: [f64; 4], radius: f64) -> Option<Group> {
+    let sum: f64 = multipliers.iter().map(|multiplier| multiplier.abs()).sum();
+    let multipliers = multipliers.map(|multiplier| multiplier / sum);
+    let half = (0..4).map(|i| multipliers[i] * (spokes[members[i]].distance - radius)).sum::<f64>();
+    half.is_finite().then_some(Group { spokes: members, multipliers, half })
+}
+
+/// All groups of four spokes: their multipliers are those of the affine dependency of the directions.
+fn groups_of_four(spokes: &[Spoke]) -> Vec<Group> {
+    let count = spokes.len();
+    let mut out = Vec::new();
+    for i in 0..count {
+        for j in i + 1..count {
+            for k in j + 1..count {
+                for l in k + 1..count {
+                    let area = |a: usize, b: usize, c: usize| {
+                        cross(spokes[b].normal - spokes[a].normal, spokes[c].normal - spokes[a].normal)
+                    };
+                    let multipliers = [area(j, k, l), -area(i, k, l), area(i, j, l), -area(i, j, k)];
+                    out.extend(group(spokes, [i, j, k, l], multipliers, spokes[i].distance));
+                }
+            }
+        }
+    }
+    out
+}
+
+/// All groups of three spokes: their multipliers are those of the linear dependency of the directions.
+fn groups_of_three(spokes: &[Spoke], radius: f64) -> Vec<Group> {
+    let count = spokes.len();
+    let mut out = Vec::new();
+    for i in 0..count {
+        for j in i + 1..count {
+            for k in j + 1..count {
+                let [a, b, c] = [i, j, k].map(|n| spokes[n].normal);
+                out.extend(group(spokes, [i, j, k, k], [cross(b, c), cross(c, a), cross(a, b), 0.0], radius));
+            }
+        }
+    }
+    out
+}
+
+/// The motion of the centre and the change of the radius with which the spokes of a group are equally far from the
+/// circle halfway, on the sides of their multipliers.
+fn correction(group: &Group, spokes: &[Spoke], radius: f64, is_bounded: bool) -> (Vector, f64) {
+    let row = |i: usize| {
+        let spoke = spokes[group.spokes[i]];
+        (spoke.normal, spoke.distance - radius - group.half * group.multipliers[i].signum())
+    };
+    // The motion m and the change r satisfy n.m + r = h for each spoke.
+    let solve =
+        |(a, d): (Vector, f64), (b, e): (Vector, f64)| Vector::new(d * b.y - e * a.y, e * a.x - d * b.x) / cross(a, b);
+    if is_bounded {
+        let pairs = [(0, 1), (1, 2), (0, 2)];
+        let widest = pairs
+            .into_iter()
+            .max_by(|&(a, b), &(c, d)| cross(row(a).0, row(b).0).abs().total_cmp(&cross(row(c).0, row(d).0).abs()));
+        let (i, j) = widest.unwrap_or((0, 1));
+        return (solve(row(i), row(j)), 0.0);
+    }
+    let difference = |i: usize, j: usize| (row(j).0 - row(i).0, row(j).1 - row(i).1);
+    let motion = solve(difference(0, 2), difference(1, 3));
+    (motion, row(0).1 - row(0).0.dot(&motion))
+}

@@ -1,0 +1,204 @@
+//! The longest dwell of the output.
+//!
+//! A dwell is a stretch of a circuit on which the output stays within a band of [`TOLERANCE`] of its travel. For each
+//! start the longest one ends where the output first leaves the band that its values span. The start of the longest of
+//! all is searched for among samples of the circuit and where a band touches an extreme of the output, and is then
+//! refined between samples.
+
+use super::{OutputMotion, output_value};
+use crate::measure::Measure;
+use crate::measure::circuit_function::{MonotonicPart, Place};
+
+/// The width of the band of a dwell, relative to the swing or the stroke of the output, or to a full turn.
+pub(in crate::measure) const TOLERANCE: f64 = 0.01;
+
+/// The measure `output_dwell_deg`.
+pub const DWELL: Measure = Measure::number(
+    "output_dwell_deg",
+    "deg",
+    "greatest input span over which the output stays within a band of 0.01 of its swing or stroke, or of a turn; a length for an actuator",
+    |curve| output_value(curve, |output| Some(output.dwell().input_span)),
+);
+
+/// The measure `output_dwell_start_deg`.
+pub const DWELL_START: Measure = Measure::number(
+    "output_dwell_start_deg",
+    "deg",
+    "input at which that dwell of the output begins; a length for an actuator",
+    |curve| output_value(curve, |output| Some(output.dwell().start_input)),
+);
+
+/// A stretch of a circuit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Stretch {
+    /// The input at which it begins.
+    pub start_input: f64,
+    /// The input it spans, which is counted forward and backward at limits.
+    pub input_span: f64,
+}
+
+impl OutputMotion {
+    /// The longest dwell of the output; of equally long ones the first.
+    fn dwell(&self) -> Stretch {
+        *self.dwell.get_or_init(|| self.find_dwell())
+    }
+
+    fn find_dwell(&self) -> Stretch {
+        let coordinate = &self.coordinate;
+        let search =
+            DwellSearch { output: self, parts: coordinate.monotonic_parts(), width: TOLERANCE * self.travel() };
+        let begin = search.place(0.0);
+        if self.is_at_rest() {
+            return Stretch { start_input: coordinate.input(begin), input_span: coordinate.total_input() };
+        }
+        let mut starts = search.sampled_starts();
+        starts.extend((0..search.parts.len()).filter_map(|part| search.start_at_extreme(part)));
+        let spans: Vec<(f64, f64)> = starts.into_iter().map(|start| (start, search.span_from(start))).collect();
+        let longest = spans.iter().fold(0.0, |longest: f64, (_, span)| longest.max(*span));
+        // Of equal ones the first on the circuit.
+        let first = spans
+            .iter()
+            .filter(|(_, span)| *span >= longest * (1.0 - 1e-9))
+            .min_by(|a, b| search.covered(a.0).total_cmp(&search.covered(b.0)));
+        let (start, span) = first.copied().unwrap_or((0.0, 0.0));
+        Stretch { start_input: coordinate.input(search.place(start)), input_span: span }
+    }
+}
+
+/// The search for the longest dwell. Positions on the circuit are numbers whose integer part is the index of a
+/// monotonic part, and whose fraction is that of the part.
+struct DwellSearch<'a> {
+    output: &'a OutputMotion,
+    parts: Vec<MonotonicPart>,
+    width: f64,
+}
+
+impl DwellSearch<'_> {
+    /// The place at a position.
+    fn place(&self, position: f64) -> Place {
+        let part = (position as usize).min(self.parts.len() - 1);
+        self.output.coordinate.place_in_part(&self.parts[part], position - part as f64)
+    }
+
+    /// The input covered from the start of the circuit to a position.
+    fn covered(&self, position: f64) -> f64 {
+        self.output.coordinate.covered_input(self.place(position))
+    }
+
+    /// The part after or before another, and the change of the output in the laps between them; `None` beyond an end
+    /// of the circuit.
+    fn neighbour(&self, part: usize, is_next: bool) -> Option<(usize, f64, f64)> {
+        let (count, coordinate) = (self.parts.len(), &self.output.coordinate);
+        let lap = if coordinate.is_closed() { Some((coordinate.change(), coordinate.total_input())) } else { None };
+        match (is_next, part) {
+            (true, part) if part + 1 < count => Some((part + 1, 0.0, 0.0)),
+            (true, _) => lap.map(|(change, input)| (0, change, input)),
+            (false, 0) => lap.map(|(change, input)| (count - 1, -change, -input)),
+            (false, part) => Some((part - 1, 0.0, 0.0)),
+        }
+    }
+
+    /// The input spanned by the longest dwell that begins at a position.
+    fn span_from(&self, position: f64) -> f64 {
+        let coordinate = &self.output.coordinate;
+        let start = self.place(position);
+        let (start_value, start_covered) = (coordinate.interpolated(start), coordinate.covered_input(start));
+        let [mut least, mut greatest] = [start_value; 2];
+        // A band that touches an extreme includes it in spite of rounding.
+        let width = self.width * (1.0 + 1e-10);
+        let mut part = (position as usize).min(self.parts.len() - 1);
+        let (mut change, mut input) = (0.0, 0.0);
+        for _ in 0..=self.parts.len() {
+            let end = self.parts[part].values[1] + change;
+            let limit = if end > least + width {
+                Some(least + width)
+            } else if end < greatest - width {
+                Some(greatest - width)
+            } else {
+                None
+            };
+            if let Some(limit) = limit {
+                let place = coordinate.solve_in_part(&self.parts[part], limit - change);
+                return coordinate.covered_input(place) + input - start_covered;
+            }
+            (least, greatest) = (least.min(end), greatest.max(end));
+            let Some((next, more_change, more_input)) = self.neighbour(part, true) else {
+                return coordinate.covered_input(coordinate.place_in_part(&self.parts[part], 1.0)) + input
+                    - start_covered;
+            };
+            (part, change, input) = (next, change + more_change, input + more_input);
+        }
+        coordinate.total_input()
+    }
+
+    /// The start of the dwell whose band touches the extreme at the end of a part: going back from there, where the
+    /// output leaves the band. `None` if the end is no extreme.
+    fn start_at_extreme(&self, part: usize) -> Option<f64> {
+        let coordinate = &self.output.coordinate;
+        let [before, extreme] = self.parts[part].values;
+        let is_greatest = extreme > before;
+        if let Some((next, change, _)) = self.neighbour(part, true)
+            && (self.parts[next].values[1] + change > extreme) == is_greatest
+        {
+            return None;
+        }
+        let band = if is_greatest { [extreme - self.width, extreme] } else { [extreme, extreme + self.width] };
+        let (mut part, mut change) = (part, 0.0);
+        for _ in 0..=self.parts.len() {
+            let begin = self.parts[part].values[0] + change;
+            let limit = [(begin < band[0]).then_some(band[0]), (begin > band[1]).then_some(band[1])];
+            if let Some(limit) = limit.into_iter().flatten().next() {
+                let place = coordinate.solve_in_part(&self.parts[part], limit - change);
+                return Some(part as f64 + coordinate.fraction_of_part(&self.parts[part], place));
+            }
+            let Some((previous, more_change, _)) = self.neighbour(part, false) else { return Some(part as f64) };
+            (part, change) = (previous, change + more_change);
+        }
+        None
+    }
+
+    /// Positions at which the dwell that begins there is longer than those that begin next to it: the best of samples
+    /// of each part, refined between them.
+    fn sampled_starts(&self) -> Vec<f64> {
+        const SAMPLES: usize = 8;
+        let count = self.parts.len() * SAMPLES;
+        let position = |k: usize| k as f64 / SAMPLES as f64;
+        let spans: Vec<f64> = (0..count).map(|k| self.span_from(position(k))).collect();
+        let longest = spans.iter().fold(0.0, |longest: f64, span| longest.max(*span));
+        let is_peak = |&k: &usize| {
+            let [before, after] = [k.saturating_sub(1), (k + 1).min(count - 1)];
+            spans[k] >= spans[before].max(spans[after]) && spans[k] > 0.7 * longest
+        };
+        let refine = |k: usize| {
+            let mut best = (spans[k], position(k));
+            // A span may jump where an extreme comes into the band, and be smooth on either side.
+            for bracket in [[k.saturating_sub(1), k], [k, (k + 1).min(count)]] {
+                let found = self.longest_between(bracket.map(position));
+                if found.0 > best.0 {
+                    best = found;
+                }
+            }
+            best.1
+        };
+        (0..count).filter(is_peak).map(refine).collect()
+    }
+
+    /// The longest span from a start between two positions, and the start, by golden sections.
+    fn longest_between(&self, [mut a, mut b]: [f64; 2]) -> (f64, f64) {
+        const ROUNDS: usize = 34;
+        const GOLDEN: f64 = 0.618_033_988_749_894_9;
+        let limit = self.parts.len() as f64 - 1e-12;
+        let at = |position: f64| (self.span_from(position.min(limit)), position.min(limit));
+        let (mut c, mut d) = (at(b - (b - a) * GOLDEN), at(a + (b - a) * GOLDEN));
+        for _ in 0..ROUNDS {
+            if c.0 >= d.0 {
+                (b, d) = (d.1, c);
+                c = at(b - (b - a) * GOLDEN);
+            } else {
+                (a, c) = (c.1, d);
+                d = at(a + (b - a) * GOLDEN);
+            }
+        }
+        if c.0 >= d.0 { c } else { d }
+    }
+}

@@ -1,0 +1,55 @@
+//! The limits of the output, and the angle or the distance between them.
+
+use super::{OutputMotion, output_value};
+use crate::geometry::trig;
+use crate::measure::Measure;
+
+/// The measure `output_min`.
+pub const MIN: Measure = Measure::number(
+    "output_min",
+    "",
+    "least angle of the output link from the frame, deg, or least displacement of the output slider along its line; empty if it turns fully",
+    |curve| output_value(curve, |output| Some(limits(output)?[0])),
+);
+
+/// The measure `output_max`.
+pub const MAX: Measure = Measure::number(
+    "output_max",
+    "",
+    "greatest angle of the output link from the frame, deg, or greatest displacement of the output slider; empty if it turns fully",
+    |curve| output_value(curve, |output| Some(limits(output)?[1])),
+);
+
+/// The measure `output_swing_deg`.
+pub const SWING: Measure = Measure::number(
+    "output_swing_deg",
+    "deg",
+    "angle that the output link swings through over the circuit; 360 if it turns fully; empty for a slider",
+    |curve| output_value(curve, |output| (!output.coordinate.quantity().is_slider()).then(|| swing(output))),
+);
+
+/// The measure `output_stroke`.
+pub const STROKE: Measure = Measure::number(
+    "output_stroke",
+    "",
+    "stroke of the output slider over the circuit, in the manifest's unit; empty for a link that turns",
+    |curve| output_value(curve, |output| output.coordinate.quantity().is_slider().then(|| output.travel())),
+);
+
+/// The limits of the output: of an angle in degrees, with its middle in (-180, 180].
+fn limits(output: &OutputMotion) -> Option<[f64; 2]> {
+    let [least, greatest] = &output.extremes;
+    let limits = [least.value, greatest.value];
+    if output.coordinate.quantity().is_slider() {
+        return Some(limits);
+    }
+    let limits = limits.map(trig::degrees);
+    // A middle opposite the x-axis is 180 degrees in spite of rounding.
+    const ROUNDING: f64 = 1e-10;
+    let whole_turns = (0.5 - (limits[0] + limits[1]) / 720.0 + ROUNDING).floor();
+    (!output.turns_fully).then(|| limits.map(|deg| deg + 360.0 * whole_turns))
+}
+
+fn swing(output: &OutputMotion) -> f64 {
+    if output.turns_fully { 360.0 } else { trig::degrees(output.travel()) }
+}

@@ -1,0 +1,24 @@
+//! Toggle positions.
+
+use super::{OutputMotion, output_value};
+use crate::measure::Measure;
+use crate::motion::JointDerivatives;
+
+/// The measure `toggles`.
+pub const TOGGLES: Measure = Measure::number(
+    "toggles",
+    "",
+    "number of toggle positions of the circuit: poses in which the output is at rest while the input moves, and the mechanical advantage is infinite (Norton, Design of Machinery, 6.6)",
+    |curve| output_value(curve, |output| Some(output.toggle_count() as f64)),
+);
+
+impl OutputMotion {
+    /// The number of toggle positions; none of an output that does not move at all.
+    pub(super) fn toggle_count(&self) -> usize {
+        *self.toggle_count.get_or_init(|| {
+            let coordinate = &self.coordinate;
+            let rate = |derivatives: &JointDerivatives, mode| coordinate.quantity().rate(derivatives, mode);
+            if self.is_at_rest() { 0 } else { coordinate.confirmed_stationary_places(rate).len() }
+        })
+    }
+}
