@@ -133,18 +133,6 @@ impl Chebyshev {
         out
     }
 
-    /// The value and the derivative at a place of [-1, 1], by Clenshaw's recurrence and its derivative.
-    #[inline]
-    pub fn at_with_slope(&self, u: f64) -> [f64; 2] {
-        let twice = 2.0 * u;
-        let ([mut b1, mut b2], [mut d1, mut d2]) = ([0.0; 2], [0.0; 2]);
-        for &coefficient in self.0[1..].iter().rev() {
-            (d1, d2) = (2.0 * b1 - d2 + twice * d1, d1);
-            (b1, b2) = (coefficient - b2 + twice * b1, b1);
-        }
-        [self.0[0] + u * b1 - b2, b1 + u * d1 - d2]
-    }
-
     /// The value at a place of [-1, 1], by Clenshaw's recurrence.
     #[inline]
     pub fn at(&self, u: f64) -> f64 {

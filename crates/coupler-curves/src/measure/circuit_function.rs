@@ -287,10 +287,10 @@ impl<Q: Quantity> CircuitFunction<Q> {
     /// The stationary places at which the exact derivative with respect to the input, `rate`, changes its sign, or is no
     /// more than rounding and does not: near a place where the function is flat, rounding may give its polynomials
     /// further roots.
-    pub fn confirmed_stationary_places(&self, rate: impl Fn(&JointDerivatives, AssemblyMode) -> f64) -> Vec<Place> {
+    pub fn confirmed_stationary_places(&self, rate: impl Fn(&JointDerivatives) -> f64) -> Vec<Place> {
         const ROUNDING: f64 = 1e-9;
         let places = self.stationary_places();
-        let at = |place: Place| rate(&self.derivatives(place), self.pass(place).mode);
+        let at = |place: Place| rate(&self.derivatives(place));
         let is_confirmed = |index: usize| {
             let place = places[index];
             // Within rounding of a limit the polynomial may seem to rest.
@@ -376,12 +376,12 @@ impl<Q: Quantity> CircuitFunction<Q> {
 
     /// The input near a stationary place at which the exact derivative with respect to the input, `rate`, changes its
     /// sign; the input of the place itself if it does not.
-    pub fn refined_input(&self, place: Place, rate: impl Fn(&JointDerivatives, AssemblyMode) -> f64) -> f64 {
+    pub fn refined_input(&self, place: Place, rate: impl Fn(&JointDerivatives) -> f64) -> f64 {
         const NEAR: f64 = 1e-5;
         let pass = self.pass(place);
         let near = |u: f64| self.input(Place { u: u.clamp(-1.0, 1.0), ..place });
         let bracket = [near(place.u - NEAR), near(place.u + NEAR)];
-        let at = |input: f64| rate(&JointDerivatives::on_pass(&self.linkage, pass, input), pass.mode);
+        let at = |input: f64| rate(&JointDerivatives::on_pass(&self.linkage, pass, input));
         let ends = bracket.map(at);
         if ends.iter().all(|rate| rate.is_finite()) && (ends[0] < 0.0) != (ends[1] < 0.0) {
             return solve_between(at, bracket);
@@ -466,11 +466,6 @@ impl<Q: Quantity> CircuitFunction<Q> {
         };
         let is_linear = matches!(self.spans[place.span].piece.map, InputMap::Linear { .. });
         is_linear && (is_near(pass.from) || is_near(pass.to))
-    }
-
-    /// The value of the polynomial at a place.
-    pub(super) fn interpolated(&self, place: Place) -> f64 {
-        self.value(place)
     }
 
     /// Whether the circuit is closed.

@@ -98,45 +98,53 @@ pub const MEASURES: [Measure; 6] = [
 /// The tolerances of further straight portions, wider than the default.
 pub(super) const WIDER_TOLERANCES: [f64; 2] = [0.005, 0.01];
 
-/// A measure of the longest straight portion to one of the wider tolerances.
+/// The five measures of the longest straight portion to one of the wider tolerances.
 macro_rules! wider {
-    ($index:literal, $name:literal, $unit:literal, $definition:literal, $value:expr) => {
-        Measure::number($name, $unit, $definition, |curve| {
-            let value: fn(&TracedCurve, &StraightPortion) -> f64 = $value;
-            portion_number(curve.wider_straight($index), |portion| value(curve, portion))
-        })
-    };
+    ($index:literal, $prefix:literal, $tolerance:literal) => {{
+        fn value(curve: &TracedCurve, value: fn(&StraightPortion) -> f64) -> Value {
+            portion_number(curve.wider_straight($index), value)
+        }
+        [
+            Measure::number(
+                concat!($prefix, "_length"),
+                "",
+                concat!(
+                    "length of the longest portion in a strip no wider than ",
+                    $tolerance,
+                    " of it; empty below a twentieth of the extent"
+                ),
+                |curve| value(curve, |portion| portion.length),
+            ),
+            Measure::number(
+                concat!($prefix, "_share"),
+                "",
+                "that length relative to the curve's greatest extent",
+                |curve| portion_number(curve.wider_straight($index), |portion| portion.length / curve.extent()),
+            ),
+            Measure::number(
+                concat!($prefix, "_deviation"),
+                "",
+                "greatest distance of that portion from its line",
+                |curve| value(curve, |portion| portion.deviation),
+            ),
+            Measure::number(
+                concat!($prefix, "_start_deg"),
+                "deg",
+                "input at which it begins; a length for an actuator",
+                |curve| value(curve, |portion| portion.start_input),
+            ),
+            Measure::number(
+                concat!($prefix, "_input_deg"),
+                "deg",
+                "input that it spans; a length for an actuator",
+                |curve| value(curve, |portion| portion.input_span),
+            ),
+        ]
+    }};
 }
 
 /// The measures of the straight portions to the wider tolerances.
-pub const WIDER: [Measure; 10] = [
-    wider!(
-        0,
-        "straight_5_length",
-        "",
-        "length of the longest portion in a strip no wider than 0.005 of it; empty below a twentieth of the extent",
-        |_, p| p.length
-    ),
-    wider!(0, "straight_5_share", "", "that length relative to the curve's greatest extent", |c, p| p.length
-        / c.extent()),
-    wider!(0, "straight_5_deviation", "", "greatest distance of that portion from its line", |_, p| p.deviation),
-    wider!(0, "straight_5_start_deg", "deg", "input at which it begins; a length for an actuator", |_, p| p
-        .start_input),
-    wider!(0, "straight_5_input_deg", "deg", "input that it spans; a length for an actuator", |_, p| p.input_span),
-    wider!(
-        1,
-        "straight_10_length",
-        "",
-        "length of the longest portion in a strip no wider than 0.01 of it; empty below a twentieth of the extent",
-        |_, p| p.length
-    ),
-    wider!(1, "straight_10_share", "", "that length relative to the curve's greatest extent", |c, p| p.length
-        / c.extent()),
-    wider!(1, "straight_10_deviation", "", "greatest distance of that portion from its line", |_, p| p.deviation),
-    wider!(1, "straight_10_start_deg", "deg", "input at which it begins; a length for an actuator", |_, p| p
-        .start_input),
-    wider!(1, "straight_10_input_deg", "deg", "input that it spans; a length for an actuator", |_, p| p.input_span),
-];
+pub const WIDER: [[Measure; 5]; 2] = [wider!(0, "straight_5", 0.005), wider!(1, "straight_10", 0.01)];
 
 /// The measures of the straightest half turn.
 pub const HALF_TURN: [Measure; 3] = [
@@ -183,20 +191,12 @@ pub(super) fn find_portions(curve: &TracedCurve, criterion: StraightCriterion) -
         _ => None,
     };
     let Some(row) = finer.as_ref().or(curve.row()) else { return Vec::new() };
+    let narrowest =
+        |end: &dyn Fn(f64) -> Option<f64>| Vec::from_iter(straightest(row, end, Narrowest::Absolutely, f64::INFINITY));
     let ends = match criterion {
         StraightCriterion::Tolerance(tolerance) => longest(row, &StraightTo { row, tolerance }, LEAST_SHARE * extent),
-        StraightCriterion::Input(span) => Vec::from_iter(straightest(
-            row,
-            |from| row.end_after_input(from, span),
-            Narrowest::Absolutely,
-            f64::INFINITY,
-        )),
-        StraightCriterion::Length(length) => Vec::from_iter(straightest(
-            row,
-            |from| row.end_after_length(from, length),
-            Narrowest::Absolutely,
-            f64::INFINITY,
-        )),
+        StraightCriterion::Input(span) => narrowest(&|from| row.end_after_input(from, span)),
+        StraightCriterion::Length(length) => narrowest(&|from| row.end_after_length(from, length)),
     };
     let portions = ends.into_iter().map(|ends| match criterion {
         StraightCriterion::Tolerance(_) => portion_between_extremes(row, ends),

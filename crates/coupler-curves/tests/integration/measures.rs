@@ -554,3 +554,13 @@ fn other_symmetrical_curves_are_found_by_their_shape() {
         *TracedCurve::new(&linkage, &motion, &motion.circuits[0], linkage.traced[0]).symmetry().expect("a curve");
     assert_eq!((circle.axis, circle.residual), (None, 0.0));
 }
+
+/// Next to a folding rhombus the curve turns so sharply that signs at the ends of its pieces are rounding.
+#[test]
+fn a_smooth_closed_curve_has_an_even_number_of_inflections() {
+    for crank in [2.000376550621526, 2.00004, 2.01] {
+        let value = measures(&four_bar([2.0, crank, 2.0, 2.0], (4.0, 0.0)), 2, 0, 36);
+        assert_eq!(number(value("cusps")), 0.0, "{crank}");
+        assert_eq!(number(value("inflections")), 2.0, "{crank}");
+    }
+}

@@ -102,20 +102,22 @@ impl SmoothCurve {
             let zeros = turning.zeros(rounding, NARROW);
             let is_stop =
                 |u: f64| stops.iter().any(|stop| stop.place.piece == piece && (stop.place.u - u).abs() < 1e-4);
-            let at_ends = [turning.at_start(), turning.at_end()];
-            let sign = |value: f64| (value.abs() > rounding).then_some(value > 0.0);
-            if let (Some(before), Some(after)) = (last_sign, sign(at_ends[0]))
-                && before != after
-            {
-                count += 1;
-            }
-            let real = zeros.places.iter().filter(|u| !is_stop(**u)).count();
-            count += real;
             doubtful += zeros.doubtful.iter().filter(|u| !is_stop(**u)).count();
-            if first_sign.is_none() {
-                first_sign = sign(at_ends[0]);
+            // The signs between the zeros; next to the ends of the piece a value may be rounding.
+            let cuts: Vec<f64> = [-1.0].into_iter().chain(zeros.places).chain([1.0]).collect();
+            for (k, ends) in cuts.windows(2).enumerate() {
+                let value = turning.at((ends[0] + ends[1]) / 2.0);
+                let is_inner = k > 0 && k + 2 < cuts.len();
+                if k > 0 && is_stop(ends[0]) {
+                    last_sign = None;
+                }
+                if is_inner || value.abs() > rounding {
+                    let sign = value > 0.0;
+                    count += usize::from(last_sign.is_some_and(|last| last != sign));
+                    first_sign = first_sign.or(Some(sign));
+                    last_sign = Some(sign);
+                }
             }
-            last_sign = sign(at_ends[1]).or(if zeros.places.is_empty() { last_sign } else { None });
         }
         if let (true, false, Some(last), Some(first)) =
             (self.is_closed, self.corners.first().copied().unwrap_or(false), last_sign, first_sign)
@@ -171,12 +173,12 @@ impl SmoothCurve {
             let (middle, half) = ((from + to) / 2.0, (to - from) / 2.0);
             let is_resolved = rate.0[TERMS - 2].abs().max(rate.0[TERMS - 1].abs()) <= 1e-7 * rate.bound();
             if is_resolved || half < STOP_WIDTH {
+                let whole = &self.arcs[piece];
+                let acceleration = whole.velocity.each_ref().map(Chebyshev::derivative);
                 let mut places = rate.zeros(0.0, NARROW / half).places;
                 places.extend([-1.0, 1.0]);
                 for u in places {
                     let place = Place { piece, u: middle + half * u };
-                    let whole = &self.arcs[piece];
-                    let acceleration = whole.velocity.each_ref().map(Chebyshev::derivative);
                     let a = Vector::new(acceleration[0].at(place.u), acceleration[1].at(place.u));
                     offer_curvature(whole.velocity(place.u), a, place, &mut best);
                 }

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::geometry::{Orientation, Vector, cross, trig};
-use crate::linkage::{AssemblyMode, JointId, OutputLink};
+use crate::linkage::{JointId, OutputLink};
 use crate::measure::circuit_function::{Pose, Quantity};
 use crate::motion::JointDerivatives;
 
@@ -23,7 +23,7 @@ impl OutputCoordinate {
 
     /// Its derivative with respect to the input: per radian, or per unit of an actuator's length. Infinite where the
     /// output moves while the input reverses.
-    pub fn rate(&self, derivatives: &JointDerivatives, _mode: AssemblyMode) -> f64 {
+    pub fn rate(&self, derivatives: &JointDerivatives) -> f64 {
         let arm = |from: JointId, to: JointId| derivatives.position(to) - derivatives.position(from);
         let arm_rate = |from: JointId, to: JointId| derivatives.velocity(to) - derivatives.velocity(from);
         let turning = |from: JointId, to: JointId| {

@@ -102,7 +102,7 @@ impl DwellSearch<'_> {
     fn span_from(&self, position: f64) -> f64 {
         let coordinate = &self.output.coordinate;
         let start = self.place(position);
-        let (start_value, start_covered) = (coordinate.interpolated(start), coordinate.covered_input(start));
+        let (start_value, start_covered) = (coordinate.value(start), coordinate.covered_input(start));
         let [mut least, mut greatest] = [start_value; 2];
         // A band that touches an extreme includes it in spite of rounding.
         let width = self.width * (1.0 + 1e-10);

@@ -76,7 +76,7 @@ impl OutputMotion {
     /// not exact, from the polynomial; infinite at a limit that the output passes.
     fn velocity_ratios_at(&self, place: Place) -> [f64; 2] {
         let coordinate = &self.coordinate;
-        let ratio = coordinate.quantity().rate(&coordinate.derivatives(place), coordinate.pass(place).mode);
+        let ratio = coordinate.quantity().rate(&coordinate.derivatives(place));
         if ratio.is_finite() && !coordinate.is_next_to_change_point(place) {
             [ratio; 2]
         } else {

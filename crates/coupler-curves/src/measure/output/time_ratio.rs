@@ -10,8 +10,7 @@ pub const TIME_RATIO: Measure = Measure::number(
     "",
     "time ratio of an output that rocks or slides while the input turns fully: input angle of its slower stroke divided by that of its faster one; 1 or more",
     |curve| {
-        let is_full_turn =
-            curve.circuit.is_closed && curve.circuit.passes.iter().all(|pass| pass.input_direction() > 0.0);
+        let is_full_turn = curve.circuit.is_full_turn();
         output_value(curve, |output| ratio(output).filter(|_| is_full_turn))
     },
 );
@@ -24,8 +23,7 @@ fn ratio(output: &OutputMotion) -> Option<f64> {
     let total = coordinate.total_input();
     // The input counted from the start of the circuit, with its last digits from the exact derivative.
     let covered = |place: Place| {
-        let refined =
-            coordinate.refined_input(place, |derivatives, mode| coordinate.quantity().rate(derivatives, mode));
+        let refined = coordinate.refined_input(place, |derivatives| coordinate.quantity().rate(derivatives));
         coordinate.covered_input(place) + (refined - coordinate.input(place))
     };
     let [least, greatest] = &output.extremes;

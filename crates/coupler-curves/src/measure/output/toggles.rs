@@ -17,7 +17,7 @@ impl OutputMotion {
     pub(super) fn toggle_count(&self) -> usize {
         *self.toggle_count.get_or_init(|| {
             let coordinate = &self.coordinate;
-            let rate = |derivatives: &JointDerivatives, mode| coordinate.quantity().rate(derivatives, mode);
+            let rate = |derivatives: &JointDerivatives| coordinate.quantity().rate(derivatives);
             if self.is_at_rest() { 0 } else { coordinate.confirmed_stationary_places(rate).len() }
         })
     }
