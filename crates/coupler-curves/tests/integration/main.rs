@@ -12,10 +12,13 @@ mod linkages;
 mod mccarthy;
 mod measures;
 mod output;
+mod output_by_samples;
+mod portions;
 mod rates;
 mod sextic;
 mod six_bars;
 mod straight_line;
+mod symmetry;
 mod thesis;
 
 /// The configuration of the property tests: the same random cases in every run. `PROPTEST_CASES=20000` runs more of

@@ -1,17 +1,17 @@
-//! Measures against closed forms and brute force, and their invariances.
+//! Measures of whole curves against closed forms and brute force, and the invariances of all.
 
 use coupler_curves::geometry::{Point, trig};
 use coupler_curves::linkage::{
     CircuitSelection, Continuation, FourBar, JointId, Linkage, LinkageBuilder, MotionOptions, Orientation, Side,
 };
-use coupler_curves::measure::{self, StraightCriterion, TracedCurve, Value};
+use coupler_curves::measure::{self, TracedCurve, Value};
 use coupler_curves::motion::{Motion, Sampler, Sampling};
 use proptest::prelude::*;
 
 use crate::catalogue::default_linkage;
 
 /// A four-bar with its pins A and B and a coupler point M traced.
-fn four_bar([frame, crank, coupler, rocker]: [f64; 4], (along, across): (f64, f64)) -> Linkage {
+pub fn four_bar([frame, crank, coupler, rocker]: [f64; 4], (along, across): (f64, f64)) -> Linkage {
     let mut builder = LinkageBuilder::default();
     let o = builder.fixed("O", Point::new(0.0, 0.0));
     let c = builder.fixed("C", Point::new(frame, 0.0));
@@ -23,7 +23,7 @@ fn four_bar([frame, crank, coupler, rocker]: [f64; 4], (along, across): (f64, f6
 }
 
 /// The measures of a traced joint on a circuit, by name.
-fn measures(linkage: &Linkage, trace: usize, circuit: usize, samples: usize) -> impl Fn(&str) -> Value + use<> {
+pub fn measures(linkage: &Linkage, trace: usize, circuit: usize, samples: usize) -> impl Fn(&str) -> Value + use<> {
     let motion = Motion::solve(linkage, &Sampler::new(Sampling::Samples(samples)));
     let curve = TracedCurve::new(linkage, &motion, &motion.circuits[circuit], linkage.traced[trace]);
     let values = measure::compute_all(&curve);
@@ -36,7 +36,7 @@ fn is_barely_long(before: &impl Fn(&str) -> Value, after: &impl Fn(&str) -> Valu
     share(before("straight_share")).min(share(after("straight_share"))) < 0.05001
 }
 
-fn number(value: Value) -> f64 {
+pub fn number(value: Value) -> f64 {
     if let Value::Number(value) = value { value } else { panic!("{value:?}") }
 }
 
@@ -304,171 +304,6 @@ proptest! {
     }
 }
 
-/// An arc of angle phi lies in a strip r (1 - cos phi/2) wide over 2 r sin phi/2: their quotient is tan(phi/4) / 2. One
-/// that is shorter than a twentieth of the diameter is no portion.
-#[test]
-fn the_straight_portion_of_a_circle_is_the_arc_in_the_strip() {
-    let linkage = four_bar([4.0, 1.25, 3.0, 3.5], (1.0, 1.0));
-    assert_eq!(measures(&linkage, 0, 0, 36)("straight_length"), Value::Missing);
-    let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(36)));
-    let pin = linkage.traced[0];
-    for tolerance in [0.015, 0.03] {
-        let curve = TracedCurve::new(&linkage, &motion, &motion.circuits[0], pin)
-            .with_straight_criterion(StraightCriterion::Tolerance(tolerance));
-        let angle = 4.0 * trig::atan2(2.0 * tolerance, 1.0);
-        let length = 2.5 * trig::sin(angle / 2.0);
-        let found = curve.straight().expect("a portion");
-        assert!((0.9999..=1.0).contains(&(found.length / length)), "{found:?} {length}");
-        assert!(2.0 * found.deviation <= tolerance * found.length, "{found:?}");
-        assert!((found.input_span - trig::degrees(angle)).abs() < 1e-3 * trig::degrees(angle), "{found:?}");
-    }
-}
-
-/// The straightest portion of a given span may begin between the last sample and the first, or just beyond the first.
-#[test]
-fn a_portion_of_a_given_span_may_begin_near_the_first_sample() {
-    let linkage = four_bar([3.211, 2.818, 3.872, 0.787], (1.753, 0.0));
-    let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(120)));
-    for circuit in &motion.circuits {
-        let portion = |criterion: StraightCriterion| {
-            let curve =
-                TracedCurve::new(&linkage, &motion, circuit, linkage.traced[2]).with_straight_criterion(criterion);
-            curve.straight().cloned().expect("a portion")
-        };
-        for span in [20.0, 60.0] {
-            let by_input = portion(StraightCriterion::Input(span));
-            assert!((by_input.input_span - span).abs() < 1e-9, "{by_input:?}");
-            let by_length = portion(StraightCriterion::Length(by_input.length));
-            // A portion that is as long and straighter may span another input.
-            assert!(by_length.deviation <= by_input.deviation * (1.0 + 1e-6), "{by_length:?} {by_input:?}");
-        }
-    }
-}
-
-/// Peaucellier's line is straight from end to end, and spans the input from limit to limit.
-#[test]
-fn a_straight_line_is_straight_from_end_to_end() {
-    let linkage = default_linkage("peaucellier-lipkin");
-    let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(120)));
-    let limit = motion.circuits[0].passes[0].to.input.value;
-    let ends = motion.circuits[0].points(linkage.traced[0]).map(|p| p.y.abs()).fold(0.0, f64::max);
-    let value = measures(&linkage, 0, 0, 120);
-    assert!((number(value("straight_length")) - 2.0 * ends).abs() < 1e-9);
-    assert!(number(value("straight_deviation")) < 1e-12);
-    assert!((number(value("straight_input_deg")) - 2.0 * limit).abs() < 1e-6, "{:?}", value("straight_input_deg"));
-}
-
-/// The longest straight portion against every portion from sample to sample.
-#[test]
-fn no_straight_portion_is_longer_than_the_one_found() {
-    for (id, samples) in [("hoeken", 180), ("jansen", 180), ("klann", 360)] {
-        let linkage = default_linkage(id);
-        let value = measures(&linkage, 0, 0, samples);
-        let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(samples)));
-        let points: Vec<Point> = motion.circuits[0].points(linkage.traced[0]).collect();
-        // Every portion from sample to sample, with its strip in directions about that of its chord.
-        let mut longest: f64 = 0.0;
-        for from in 0..samples {
-            for span in 3..samples / 2 {
-                let part: Vec<Point> = (from..=from + span).map(|k| points[k % samples]).collect();
-                let chord = part[span] - part[0];
-                let strip = |turn: f64| {
-                    let (cos, sin) = (trig::cos(turn), trig::sin(turn));
-                    let along =
-                        [cos * chord.x - sin * chord.y, sin * chord.x + cos * chord.y].map(|c| c / chord.norm());
-                    let extent = |coordinate: &dyn Fn(&Point) -> f64| {
-                        part.iter()
-                            .map(coordinate)
-                            .fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], x| [l.min(x), h.max(x)])
-                    };
-                    let width = extent(&|p| along[0] * p.y - along[1] * p.x);
-                    let length = extent(&|p| along[0] * p.x + along[1] * p.y);
-                    (width[1] - width[0], length[1] - length[0])
-                };
-                // The best strip is within a few widths' slope of the chord.
-                let best = (-20..=20).map(|k| strip(f64::from(k) * 1e-4)).min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
-                if best.0 <= 0.001 * best.1 {
-                    longest = longest.max(best.1);
-                }
-                if strip(0.0).0 > 0.02 * chord.norm() {
-                    break;
-                }
-            }
-        }
-        let found = number(value("straight_length"));
-        // With its ends between samples the portion is longer by less than two spacings.
-        assert!(found >= longest * 0.999 && found < 1.2 * longest, "{id}: {found} {longest}");
-        assert!(number(value("straight_deviation")) <= 0.000_51 * found, "{id}");
-    }
-}
-
-/// The pins move on circles: the crank pin all the way round, the rocker pin back and forth on its arc.
-#[test]
-fn pins_dwell_during_the_whole_turn() {
-    let linkage = four_bar([4.0, 1.25, 3.0, 3.5], (1.0, 1.0));
-    for (trace, radius, centre) in [(0, 1.25, [0.0, 0.0]), (1, 3.5, [4.0, 0.0])] {
-        let value = measures(&linkage, trace, 0, 120);
-        let found = ["dwell_input_deg", "dwell_radius", "dwell_x", "dwell_y"].map(|name| number(value(name)));
-        for (found, expected) in found.into_iter().zip([360.0, radius, centre[0], centre[1]]) {
-            // Where the rocker turns back, the samples of its pin are not those of a smooth curve.
-            let near = if trace == 0 { 1e-9 } else { 1e-5 };
-            assert!((found - expected).abs() < near, "{trace}: {found} {expected}");
-        }
-        assert!(number(value("dwell_deviation")) < 1e-5, "{:?}", value("dwell_deviation"));
-    }
-}
-
-/// The longest circular portion against every portion from sample to sample, by circles whose centres are searched for
-/// the narrowest ring.
-#[test]
-fn no_circular_portion_spans_more_than_the_one_found() {
-    let ring = |points: &[Point], centre: Point| {
-        let radii = points.iter().map(|p| (p - centre).norm());
-        let [low, high] = radii.fold([f64::INFINITY, 0.0f64], |[low, high], r| [low.min(r), high.max(r)]);
-        high - low
-    };
-    for id in ["hoeken", "jansen", "hrones-nelson"] {
-        let linkage = default_linkage(id);
-        let samples = 90;
-        let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(samples)));
-        let curve = TracedCurve::new(&linkage, &motion, &motion.circuits[0], linkage.traced[0]);
-        let dwell = curve.dwell().expect("a dwell");
-        let points: Vec<Point> = motion.circuits[0].points(linkage.traced[0]).collect();
-        let extent = points.iter().flat_map(|a| points.iter().map(move |b| (a - b).norm())).fold(0.0, f64::max);
-        let length = number(measures(&linkage, 0, 0, samples)("length"));
-        // The portion has the deviation it reports, but for the curve between its points, and is no wider than is
-        // allowed.
-        let (width, reported) = (ring(&dwell.points, dwell.centre), 2.0 * dwell.deviation);
-        assert!((0.995 * reported..=reported * (1.0 + 1e-9)).contains(&width), "{id}: {width} {reported}");
-        assert!(dwell.deviation <= 0.000_505 * extent, "{id}: {} {extent}", dwell.deviation);
-        // No portion one sample longer fits: a pattern search for its narrowest ring ends above the limit.
-        let span = (dwell.input_span / 360.0 * samples as f64).floor() as usize + 1;
-        for from in 0..samples {
-            let part: Vec<Point> = (from..=from + span).map(|k| points[k % samples]).collect();
-            let circle = {
-                // The search starts from the circle through the ends and the middle.
-                let [a, b, c] = [part[0], part[span / 2], part[span]];
-                let (u, v) = (b - a, c - a);
-                let d = 2.0 * (u.x * v.y - u.y * v.x);
-                let (uu, vv) = (u.norm_squared(), v.norm_squared());
-                a + nalgebra::Vector2::new(v.y * uu - u.y * vv, u.x * vv - v.x * uu) / d
-            };
-            let (mut centre, mut step) = (circle, extent * 0.1);
-            while step > 1e-7 * extent {
-                let around = (0..16).map(|k| {
-                    let (cos, sin) = trig::cos_sin_deg(22.5 * f64::from(k));
-                    centre + nalgebra::Vector2::new(cos, sin) * step
-                });
-                let best = around.min_by(|a, b| ring(&part, *a).total_cmp(&ring(&part, *b))).unwrap();
-                if ring(&part, best) < ring(&part, centre) { centre = best } else { step /= 2.0 }
-            }
-            let radius = (part[0] - centre).norm();
-            let is_straight = radius > length;
-            assert!(is_straight || ring(&part, centre) > 0.001 * extent * 0.999, "{id} from {from}: {span} samples");
-        }
-    }
-}
-
 proptest! {
     #![proptest_config(crate::random())]
 
@@ -494,65 +329,6 @@ proptest! {
             }
         }
     }
-}
-
-/// By theorem 1 the axis is the perpendicular bisector of the frame; by theorem 2 it goes through the rocker's pivot,
-/// at half the angle at its pin.
-#[test]
-fn the_theorems_of_chapter_7_are_recognised() {
-    let axis = |linkage: &Linkage, circuit: usize| {
-        let motion = Motion::solve(linkage, &Sampler::new(Sampling::Samples(180)));
-        let curve = TracedCurve::new(linkage, &motion, &motion.circuits[circuit], linkage.traced[2]);
-        let symmetry = *curve.symmetry().expect("a curve");
-        (symmetry.theorem, symmetry.axis.expect("an axis"), symmetry.residual)
-    };
-    for height in [0.0, 0.7, -1.3] {
-        let (theorem, axis, residual) = axis(&four_bar([2.0, 2.5, 1.0, 2.5], (0.5, height)), 0);
-        assert_eq!(theorem, Some("theorem 1"), "{height} {axis:?} {residual}");
-        assert!((axis.direction_deg() - 90.0).abs() < 1e-12 && (axis.point.x - 1.0).abs() < 1e-15, "{axis:?}");
-        assert!(residual < 1e-6, "{residual}");
-    }
-    for beta in [40.0, 100.0, 180.0, -75.0] {
-        // M at beta from A about B, B at distance 2.5 along the coupler.
-        let (cos, sin) = trig::cos_sin_deg(180.0 - beta);
-        let (theorem, axis, residual) = axis(&four_bar([2.0, 1.0, 2.5, 2.5], (2.5 + 2.5 * cos, -2.5 * sin)), 0);
-        assert_eq!(theorem, Some("theorem 2"), "{beta}");
-        assert!((axis.point - Point::new(2.0, 0.0)).norm() < 1e-12);
-        // (7.8) and (7.12): the axis is turned from the frame by half of beta.
-        let off = [-0.5, 0.5].map(|part| (axis.direction_deg() + part * beta + 1.0).rem_euclid(180.0) - 1.0);
-        assert!(off.iter().any(|off| off.abs() < 1e-9), "{beta}: {}", axis.direction_deg());
-        assert!(residual < 1e-6, "{beta}: {residual}");
-    }
-}
-
-/// Where no theorem applies the axis is found by shape: for a point of a slider-crank on the coupler line, and for no
-/// other.
-#[test]
-fn other_symmetrical_curves_are_found_by_their_shape() {
-    let symmetry = |across: f64, turn: f64| {
-        let mut builder = LinkageBuilder::default();
-        let o = builder.fixed("O", Point::new(0.0, 0.0));
-        let p = builder.fixed("P", Point::new(1.0, 0.0));
-        let a = builder.crank("A", o, 1.0).unwrap();
-        let b = builder.slide("B", (a, 2.5), ([o, p], 0.0), Side::Left).unwrap();
-        let m = builder.point("M", [a, b], 1.0, across).unwrap();
-        let linkage = builder.build(vec![m], None, MotionOptions::default()).unwrap();
-        let linkage = Linkage { placement: Orientation::new(false, turn), ..linkage };
-        let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(180)));
-        *TracedCurve::new(&linkage, &motion, &motion.circuits[0], m).symmetry().expect("a curve")
-    };
-    for turn in [0.0, 33.0] {
-        let found = symmetry(0.0, turn);
-        assert!(found.residual < 1e-7 && found.theorem.is_none(), "{found:?}");
-        assert!((found.axis.expect("an axis").direction_deg() - turn).abs() < 1e-5, "{found:?}");
-        assert!(symmetry(0.5, turn).residual > 0.002);
-    }
-    // No axis of a circle is distinguished from the others.
-    let linkage = four_bar([4.0, 1.25, 3.0, 3.5], (1.0, 1.0));
-    let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(180)));
-    let circle =
-        *TracedCurve::new(&linkage, &motion, &motion.circuits[0], linkage.traced[0]).symmetry().expect("a curve");
-    assert_eq!((circle.axis, circle.residual), (None, 0.0));
 }
 
 /// Next to a folding rhombus the curve turns so sharply that signs at the ends of its pieces are rounding.
