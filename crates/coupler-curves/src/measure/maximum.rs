@@ -16,21 +16,21 @@ pub(super) struct Bracket {
     pub accuracy: f64,
 }
 
-/// The place at which a function is greatest, and its value there: an end and a size, of which the size counts; `None`
-/// if it has none anywhere. The function gets the place, and how accurate its value must be relative to its size.
+/// The place at which a function is greatest, and its value there: a size, and what belongs to it; `None` if it has none
+/// anywhere. The function gets the place, and how accurate its value must be relative to its size.
 ///
 /// The function is evaluated at the ends of equal parts of the bracket, and then, between the neighbours of the best, by
 /// golden section.
-pub(super) fn greatest_in(
+pub(super) fn greatest_in<T: Copy>(
     bracket: Bracket,
-    mut function: impl FnMut(f64, f64) -> Option<(f64, f64)>,
-) -> Option<(f64, (f64, f64))> {
+    mut function: impl FnMut(f64, f64) -> Option<(T, f64)>,
+) -> Option<(f64, (T, f64))> {
     const COARSE: f64 = 1e-4;
     const FINE: f64 = 1e-6;
     let Bracket { from, to, first_parts, accuracy } = bracket;
     let step = (to - from) / first_parts as f64;
-    let size = |value: &Option<(f64, f64)>| value.map_or(f64::NEG_INFINITY, |(_, size)| size);
-    let mut best: (f64, Option<(f64, f64)>) = (from, None);
+    let size = |value: &Option<(T, f64)>| value.map_or(f64::NEG_INFINITY, |(_, size)| size);
+    let mut best: (f64, Option<(T, f64)>) = (from, None);
     for k in 0..=first_parts {
         let at = from + step * k as f64;
         let value = function(at, COARSE);

@@ -38,14 +38,18 @@ pub const TOO_CLOSE: Measure = Measure {
     name: "too_close",
     unit: "",
     is_word: true,
-    definition: "counts of the curve of which it is not known whether they are two more, because two crunodes or inflections would be within 1e-9 of a turn; empty if there are none",
+    definition: "counts of the curve of which it is not known whether they are two more, because two crunodes or inflections would be within 1e-9 of a turn; positions if the linkage is so near a change point that the curve is not known to 1e-9 of its extent; empty if nothing is in doubt",
     compute: |curve: &TracedCurve| match (curve.crossings().doubtful > 0, curve.inflections().1 > 0) {
+        _ if curve.smooth().rounding > RESOLVED * curve.extent() => Value::Word("positions"),
         (true, true) => Value::Word("crunodes and inflections"),
         (true, false) => Value::Word("crunodes"),
         (false, true) => Value::Word("inflections"),
         (false, false) => Value::Missing,
     },
 };
+
+/// The accuracy of positions, relative to the extent of the curve, that is promised of all measures.
+const RESOLVED: f64 = 1e-9;
 
 /// The measure `curvature_max`.
 pub const CURVATURE_MAX: Measure = Measure {

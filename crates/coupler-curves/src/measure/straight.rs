@@ -178,7 +178,7 @@ const LEAST_SHARE: f64 = 0.05;
 pub(super) const SPACING: f64 = LEAST_SHARE / 10.0;
 
 /// The deviation of a portion that is straight to rounding, relative to its length; it is reported as 0.
-const EXACT: f64 = 1e-9;
+pub(super) const EXACT: f64 = 1e-9;
 
 /// The portions of a curve that meet a criterion: the best, and of several equally long ones all; none if the curve is
 /// too short, or nothing on it is straight over a twentieth of its extent.

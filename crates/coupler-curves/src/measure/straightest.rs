@@ -1,8 +1,9 @@
 //! The straightest portion of a given input or length.
 
-use super::curve_strip::CurveStrips;
+use super::curve_strip::{CurveStrips, PortionStrip};
 use super::maximum::{Bracket, greatest_in};
 use super::row::Row;
+use super::straight::EXACT;
 use super::strip::{Strip, check_width};
 use crate::geometry::{Point, in_rising_order};
 
@@ -15,8 +16,20 @@ pub(super) enum Narrowest {
     Relatively,
 }
 
-/// The ends of the portion with the narrowest strip that is no wider than `most`. `end` returns the end of the portion
-/// that begins at a position.
+impl Narrowest {
+    /// By what portions are compared; 0 for one that is straight to rounding.
+    fn size(self, width: f64, length: f64) -> f64 {
+        match self {
+            _ if width < 2.0 * EXACT * length => 0.0,
+            Narrowest::Absolutely => width,
+            Narrowest::Relatively => width / length,
+        }
+    }
+}
+
+/// The ends of the portion with the narrowest strip that is no wider than `most`; of those that are equally narrow the
+/// longest, and of those equally long the one that begins at the least input, from 0 up to 360 degrees. `end` returns the end of the portion that begins at a
+/// position.
 ///
 /// A portion contains the one from the next point to the end of the one from the previous point, and is at least as
 /// wide as that: only between points where that is narrower than the narrowest found can there be a narrower one.
@@ -32,6 +45,9 @@ pub(super) fn straightest(
     const POINTS: usize = 48;
     /// How accurately the start is found, relative to the distance of two points.
     const ACCURACY: f64 = 1e-6;
+    /// Widths and lengths that differ by less, relatively, are equal: as a symmetrical curve's are, to the accuracy with
+    /// which starts are found.
+    const EQUAL: f64 = 1e-7;
     let stride = (row.start_count / PARTS).max(1);
     let last = row.points.len() - 1;
     let length_between = |from: usize, to: usize| row.cumulative_length[to.min(last)] - row.cumulative_length[from];
@@ -49,35 +65,43 @@ pub(super) fn straightest(
             count => Strip::of_row(&thinned, &mut [0, count / 2, count - 1]).width,
         };
         let longest = end((from + stride) as f64).map_or(f64::INFINITY, |to| length_between(from, to.ceil() as usize));
-        let bound = match narrowest {
-            Narrowest::Absolutely => width,
-            Narrowest::Relatively => width / longest,
-        };
-        cells.push((bound, from as f64));
+        cells.push((narrowest.size(width, longest), from as f64));
     }
-    let mut best: Option<(f64, [f64; 2])> = None;
+    let mut found: Vec<Candidate> = Vec::new();
+    let mut least = f64::INFINITY;
     for (bound, from) in in_rising_order(cells, |cell| cell.0) {
-        if best.is_some_and(|(least, _)| bound >= least) {
+        if bound > least * (1.0 + EQUAL) {
             break;
         }
         let Some(to) = end(from) else { continue };
         let mut strips = CurveStrips::new(row, [from, to], POINTS);
         let to = from + stride as f64;
         let bracket = Bracket { from, to, first_parts: 2, accuracy: ACCURACY * stride as f64 };
-        let found = greatest_in(bracket, |at, _| {
+        let narrowest_in_cell = greatest_in(bracket, |at, _| {
             let to = end(at)?;
-            let strip = strips.strip([at, to]);
-            let size = match narrowest {
-                Narrowest::Absolutely => strip.width,
-                Narrowest::Relatively => strip.width / strip.length,
-            };
-            (strip.width <= most).then_some((to, -size))
+            let PortionStrip { width, length, .. } = strips.strip([at, to]);
+            let size = narrowest.size(width, length);
+            // Straight lines are all equally narrow.
+            let rank = if size == 0.0 { length } else { -size };
+            (width <= most).then_some((Candidate { size, length, ends: [at, to] }, rank))
         });
-        if let Some((start, (to, negative))) = found
-            && best.is_none_or(|(size, _)| -negative < size)
-        {
-            best = Some((-negative, [start, to]));
+        if let Some((_, (candidate, _))) = narrowest_in_cell {
+            least = least.min(candidate.size);
+            found.push(candidate);
         }
     }
-    best.map(|(_, ends)| ends)
+    found.retain(|candidate| candidate.size <= least * (1.0 + EQUAL));
+    let longest = found.iter().map(|candidate| candidate.length).fold(0.0, f64::max);
+    found.retain(|candidate| candidate.length >= longest * (1.0 - EQUAL));
+    let start_input = |ends: &[f64; 2]| row.input_at(ends[0]).rem_euclid(360.0);
+    found.into_iter().map(|candidate| candidate.ends).min_by(|a, b| start_input(a).total_cmp(&start_input(b)))
+}
+
+/// The narrowest portion that begins in one part of the curve.
+#[derive(Clone, Copy)]
+struct Candidate {
+    /// The width of its strip, or the ratio of that to the length.
+    size: f64,
+    length: f64,
+    ends: [f64; 2],
 }

@@ -102,7 +102,7 @@ pub(super) fn find_symmetry(curve: &TracedCurve) -> Option<Symmetry> {
     let least = rough.first()?.0;
     // Refining an axis rarely improves it by more than a third.
     let refined =
-        rough.into_iter().filter(|(residual, _)| *residual <= 1.5 * least).map(|(_, axis)| images.refine(axis));
+        rough.into_iter().filter(|(rough, _)| *rough <= 1.5 * least).map(|(rough, axis)| images.refine(axis, rough));
     let (axis, most) = refined.min_by(|a, b| a.1.total_cmp(&b.1))?;
     Some(Symmetry { axis: Some(axis), residual: most / extent, theorem: None })
 }

@@ -190,8 +190,8 @@ impl<'a> MirrorImages<'a> {
     }
 
     /// Moves an axis to where the greatest distance of the mirror image from the curve is least, to a hundredth; the
-    /// axis and that distance.
-    pub fn refine(&self, mut axis: SymmetryAxis) -> (SymmetryAxis, f64) {
+    /// axis and that distance. `rough` is the residual of the axis for a part of the points.
+    pub fn refine(&self, mut axis: SymmetryAxis, rough: f64) -> (SymmetryAxis, f64) {
         const LEAST_SQUARES_ROUNDS: usize = 2;
         const ROUNDS: usize = 8;
         const SMALL: f64 = 1e-4;
@@ -239,7 +239,12 @@ impl<'a> MirrorImages<'a> {
             let Some(moved) = best.0.moved(step.x, step.y) else { break };
             axis = moved;
         }
-        let (residual, before) = (self.exact_residual(best.0), self.exact_residual(start));
+        let residual = self.exact_residual(best.0);
+        // Of all points the residual is no less than of a part of them.
+        if residual <= rough {
+            return (best.0, residual);
+        }
+        let before = self.exact_residual(start);
         if residual <= before { (best.0, residual) } else { (start, before) }
     }
 

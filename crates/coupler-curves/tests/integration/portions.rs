@@ -48,6 +48,30 @@ fn a_portion_of_a_given_span_may_begin_near_the_first_sample() {
     }
 }
 
+/// The curves of an Evans linkage are symmetrical, and those of its two circuits mirror images: half turns that begin at
+/// t and at 180 - t are equally straight, and the one that begins first is reported.
+#[test]
+fn of_equally_straight_half_turns_the_first_is_reported() {
+    // (8.10): s = (1 + p)^1.5 / 2.
+    let arm = 2.75 * 2.75f64.sqrt() / 2.0;
+    let linkage = four_bar([1.75, 1.0, arm, arm], (2.0 * arm, 0.0));
+    let starts = [0, 1].map(|circuit| number(measures(&linkage, 2, circuit, 36)("straight_half_turn_start_deg")));
+    assert!((0.0..90.0).contains(&starts[0]) && (starts[0] - starts[1]).abs() < 1e-3, "{starts:?}");
+}
+
+/// Next to a change point of Hart's inversor rounding is magnified so much that the measures are not exact.
+#[test]
+fn a_curve_that_is_not_known_exactly_is_reported() {
+    let hart = coupler_curves::catalogue::find("hart-inversor").expect("in the catalogue");
+    let too_close = |long: f64| {
+        let linkage =
+            hart.linkage(&[long, 10.852373624034469, 0.5752880445312264, 2.268663715672395]).expect("a linkage");
+        measures(&linkage, 0, 0, 36)("too_close")
+    };
+    assert_eq!(too_close(10.85237362444646), Value::Word("positions"));
+    assert_eq!(too_close(12.0), Value::Missing);
+}
+
 /// Peaucellier's line is straight from end to end, and spans the input from limit to limit.
 #[test]
 fn a_straight_line_is_straight_from_end_to_end() {
@@ -58,6 +82,7 @@ fn a_straight_line_is_straight_from_end_to_end() {
     let value = measures(&linkage, 0, 0, 120);
     assert!((number(value("straight_length")) - 2.0 * ends).abs() < 1e-9);
     assert!(number(value("straight_deviation")) < 1e-12);
+    assert_eq!(number(value("inflections")), 0.0);
     assert!((number(value("straight_input_deg")) - 2.0 * limit).abs() < 1e-6, "{:?}", value("straight_input_deg"));
 }
 
