@@ -17,8 +17,8 @@ pub(super) struct CellColumns {
     current: [Option<usize>; 5],
     /// The parameters that both tables have.
     pub parameters: Vec<(String, [usize; 2])>,
-    /// The measures that both tables have.
-    measures: Vec<(&'static Measure, [usize; 2])>,
+    /// The measures that both tables have, with their names there.
+    measures: Vec<(&'static Measure, &'static str, [usize; 2])>,
 }
 
 const KEY_COLUMNS: [&str; 5] = ["cell", "trace", "circuit", "status", "reason"];
@@ -28,7 +28,8 @@ impl CellColumns {
     pub fn from_headers(recorded: &[String], current: &[String], parameters: &[String]) -> CellColumns {
         let index = |header: &[String], name: &str| header.iter().position(|other| other == name);
         let both = |name: &str| Some([index(recorded, name)?, index(current, name)?]);
-        let measure = |measure: &'static Measure| Some((measure, both(measure.name)?));
+        let names = |measure: &'static Measure| [Some(measure.name), measure.length_name].into_iter().flatten();
+        let measure = |measure: &'static Measure| names(measure).find_map(|name| Some((measure, name, both(name)?)));
         CellColumns {
             recorded: KEY_COLUMNS.map(|name| index(recorded, name)),
             current: KEY_COLUMNS.map(|name| index(current, name)),
@@ -117,12 +118,12 @@ impl CellColumns {
         is_class_reported: &mut bool,
         findings: &mut Vec<Finding>,
     ) -> Result<(), TableError> {
-        for &(Measure { name, unit, is_word, .. }, [a, b]) in &self.measures {
+        for &(Measure { unit, is_word, .. }, name, [a, b]) in &self.measures {
             let [recorded_text, current_text] = [recorded.field(a), current.field(b)].map(str::to_owned);
             if recorded_text == current_text {
                 continue;
             }
-            if *name == "class" {
+            if name == "class" {
                 // All curves of a linkage have the same class.
                 if !std::mem::replace(is_class_reported, true) {
                     let cell = Location { trace: None, circuit: None, ..location.clone() };

@@ -177,11 +177,14 @@ impl ProgressReporter {
 /// "evans: 3 cells (1 not assembled), 2 curves, 1 page"; `drawn` is `None` if the family is unchanged.
 fn summary(record: &FamilyRecord, drawn: Option<usize>) -> String {
     let mut line = format!("{}: {}", record.id, pluralize(record.cells, "cell"));
-    if record.kept < record.cells {
-        line.push_str(&format!(" ({} left out by `where`)", record.cells - record.kept));
-    }
-    if record.not_assembled > 0 {
-        line.push_str(&format!(" ({} not assembled)", record.not_assembled));
+    let counts = [
+        (record.not_assembled + record.unassembled_left_out, "not assembled"),
+        (record.cells - record.kept - record.unassembled_left_out, "left out by `where`"),
+    ];
+    let counts = counts.into_iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}"));
+    let counts: Vec<String> = counts.collect();
+    if !counts.is_empty() {
+        line.push_str(&format!(" ({})", counts.join(", ")));
     }
     line.push_str(&format!(", {}", pluralize(record.curves, "curve")));
     if record.curves_left_out > 0 {

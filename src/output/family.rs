@@ -139,6 +139,7 @@ pub(super) fn initial_record(pipeline: &FamilyPipeline) -> FamilyRecord {
         inputs_sha256: None,
         cells: family.cell_count(),
         kept: pipeline.arrangement.kept.len(),
+        unassembled_left_out: pipeline.arrangement.unassembled_left_out,
         not_assembled: 0,
         curves_left_out: 0,
         curves: 0,

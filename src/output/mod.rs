@@ -159,17 +159,23 @@ fn check_interrupt(interrupt: &AtomicBool) -> Result<(), Error> {
     if interrupt.load(Ordering::Relaxed) { Err(Error::Interrupted) } else { Ok(()) }
 }
 
-/// Warns of each family whose `where` keeps no cell: from the record of a run, or by a sweep if there is none.
+/// Warns of each family of which no curve is shown, because `where` keeps no cell or none can be assembled: from the
+/// record of a run, or by a sweep if there is none. States how near its cells come.
 pub fn empty_family_warnings(plan: &Plan, record: Option<&RunRecord>) -> Vec<Problem> {
-    let kept = |planned: &PlannedFamily| match record {
-        None => Some(sweep::kept_cells(&planned.family).len()),
-        Some(run) => run.families.iter().find(|record| record.id == planned.family.id).map(|record| record.kept),
+    let is_empty = |planned: &PlannedFamily| match record {
+        None => planned.family.filter.is_some() && sweep::kept_cells(&planned.family).is_empty(),
+        Some(run) => run.families.iter().any(|record| record.id == planned.family.id && record.curves == 0),
     };
     let warning = |planned: &PlannedFamily| {
-        let span = planned.filter_span.clone()?;
-        let message = format!("`where` keeps none of the {} cells", planned.family.cell_count());
-        let problem = Problem::warning(span, message).with_help("relax the condition, or leave it out");
-        (kept(planned) == Some(0)).then_some(problem)
+        let span = planned.filter_span.clone().unwrap_or_else(|| planned.span.clone());
+        let cells = planned.family.cell_count();
+        let diagnosis = is_empty(planned).then(|| sweep::diagnose(&planned.family))?;
+        let message = match diagnosis.unassembled == cells {
+            true => format!("none of the {cells} cells can be assembled"),
+            false => format!("`where` keeps none of the {cells} cells"),
+        };
+        let remedy = if diagnosis.unassembled == cells { "change the lengths" } else { "relax the condition" };
+        Some(Problem::warning(span, message).with_help(format!("{remedy}: {}", diagnosis.describe(cells))))
     };
     plan.families.iter().filter_map(warning).collect()
 }

@@ -20,9 +20,10 @@ impl<'a> CellTable<'a> {
     /// The header line.
     pub fn header(self) -> String {
         let parameters = self.family.template.parameters.iter().map(|parameter| parameter.name.as_str());
-        let measures = self.family.computed_measures().map(|(_, measure)| measure.name);
-        let all =
-            ["cell", "trace", "circuit"].into_iter().chain(parameters).chain(["status", "reason"]).chain(measures);
+        let is_driven_by_length = self.family.template.is_driven_by_length();
+        let measures = self.family.computed_measures().map(|(_, measure)| measure.name_for(is_driven_by_length));
+        let first = ["cell", "trace", "circuit"].into_iter().chain(parameters).chain(["status", "reason"]);
+        let all = first.chain(measures).chain(["family", "joint"]);
         let mut rows = CsvWriter::append_to(Vec::new());
         all.for_each(|name| rows.field(name.as_bytes()));
         rows.end_row();
@@ -58,6 +59,8 @@ impl<'a> CellTable<'a> {
                 Some(Value::Missing) | None => rows.field(b""),
             }
         }
+        rows.field(self.family.id.as_bytes());
+        rows.field(curve.map_or("", |curve| &solved.linkage.joints[curve.joint].name).as_bytes());
         rows.end_row();
     }
 }

@@ -285,6 +285,7 @@ mod tests {
             inputs_sha256: inputs.map(|text| Digest::of(text.as_bytes())),
             cells: 1,
             kept: 1,
+            unassembled_left_out: 0,
             not_assembled: 0,
             curves_left_out: 0,
             curves: 1,

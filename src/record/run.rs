@@ -65,6 +65,9 @@ pub struct FamilyRecord {
     pub cells: usize,
     /// The number of cells kept by `where`.
     pub kept: usize,
+    /// The number of cells that `where` does not keep and that cannot be assembled at any input.
+    #[serde(default)]
+    pub unassembled_left_out: usize,
     /// The number of kept cells that could not be assembled, or not over the whole requested range.
     pub not_assembled: usize,
     /// The number of curves of kept cells that `where` left out.
@@ -238,6 +241,7 @@ impl FamilyRecord {
             inputs_sha256: self.inputs_sha256,
             cells: self.cells,
             kept: self.kept,
+            unassembled_left_out: self.unassembled_left_out,
             not_assembled: self.not_assembled,
             curves_left_out: self.curves_left_out,
             curves: self.curves,

@@ -1,11 +1,13 @@
 //! Solves the cells of a family in parallel, delivers the results in order, and uses bounded memory.
 
 mod cell_indices;
+mod diagnosis;
 
 pub use cell_indices::CellIndices;
+pub use diagnosis::{Diagnosis, diagnose};
 
 use std::collections::VecDeque;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{self, Receiver, TryRecvError};
 
 use coupler_curves::family::Family;
@@ -30,6 +32,8 @@ pub struct CellSelection {
     /// The same cells sorted by the least sort key of their curves, cells without a key last; `None` if they are not
     /// sorted.
     pub sorted: Option<CellIndices>,
+    /// The number of cells that `where` does not keep and that cannot be assembled.
+    pub unassembled_left_out: usize,
     /// The number of traced points of each cell that have a kept curve on any circuit, in the order of pages; 0 for a
     /// cell without curves. Empty if the counts were not requested.
     pub point_counts: Vec<u32>,
@@ -63,10 +67,15 @@ pub fn select_cells(family: &Family, counts_points: bool, stop: &AtomicBool) -> 
     let sampler = Sampler::new(family.sampling);
     // Only the measures that `where` and `sort` use are computed.
     let measures: Vec<bool> = (0..measure::ALL.len()).map(|measure| family.filter_or_sort_uses(measure)).collect();
+    let unassembled = AtomicUsize::new(0);
     let rank_cell = |cell: usize| {
         let solved =
             if stop.load(Ordering::Relaxed) { None } else { solve_measuring(family, &sampler, cell, &measures) };
-        let solved = solved.filter(|solved| !solved.is_left_out())?;
+        let solved = solved?;
+        if solved.is_left_out() {
+            unassembled.fetch_add(usize::from(!solved.motion.is_assembled()), Ordering::Relaxed);
+            return None;
+        }
         let key = |curve: &MeasuredCurve| family.sort_key(&solved.cell, &curve.values);
         let rank = rank_bits(solved.curves.iter().map(key).fold(f64::NAN, f64::min));
         let points = u32::try_from(solved.traced_point_count()).unwrap_or(u32::MAX);
@@ -85,8 +94,10 @@ pub fn select_cells(family: &Family, counts_points: bool, stop: &AtomicBool) -> 
             points.extend(counts_points.then_some(point_count));
         }
     }
+    let unassembled_left_out = unassembled.into_inner();
     if family.sort.is_none() {
-        return Some(CellSelection { kept: CellIndices::Listed(kept), sorted: None, point_counts: points });
+        let kept = CellIndices::Listed(kept);
+        return Some(CellSelection { kept, sorted: None, unassembled_left_out, point_counts: points });
     }
     // The indices of kept cells in the order of pages; cells of equal rank remain in their order.
     let mut order: Vec<u32> = (0..).take(kept.len()).collect();
@@ -94,7 +105,7 @@ pub fn select_cells(family: &Family, counts_points: bool, stop: &AtomicBool) -> 
     let point_counts = if counts_points { order.iter().map(|&k| points[k as usize]).collect() } else { points };
     order.iter_mut().for_each(|k| *k = kept[*k as usize]);
     let sorted = Some(CellIndices::Listed(order));
-    Some(CellSelection { kept: CellIndices::Listed(kept), sorted, point_counts })
+    Some(CellSelection { kept: CellIndices::Listed(kept), sorted, unassembled_left_out, point_counts })
 }
 
 /// A number whose order is that of sort keys: as [`f64::total_cmp`], and a key that is NaN last.

@@ -22,7 +22,7 @@ fn a_family_computes_the_measures_it_names_and_those_its_expressions_use() {
     let (some, page) = run("measures = [\"area\", \"class\"]\n");
     let head: Vec<&str> = some[0].iter().map(String::as_str).skip_while(|name| *name != "reason").skip(1).collect();
     // In the order of all measures; `is_crank_rocker` follows from `class`.
-    let expected = ["class", "mu_min_deg", "length", "area", "speed_ratio"];
+    let expected = ["class", "mu_min_deg", "length", "area", "speed_ratio", "family", "joint"];
     assert_eq!(head, expected);
     // The values are the same as when all measures are computed.
     for (row, full_row) in some.iter().zip(&all) {

@@ -1,5 +1,6 @@
 //! Integration tests of the library and the program, one file per topic.
 
+mod answers;
 mod architecture;
 mod atlas;
 mod binding;

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use crate::names::FamilyNames;
 use coupler_curves::expression::{CompiledExpression, Expression, Scope};
-use coupler_curves::family::{Family, MAX_CELLS, ParameterSpace};
+use coupler_curves::family::{Family, MAX_CELLS, MEASURES, ParameterSpace};
 use coupler_curves::linkage_format::{Fields, KeySchema, TableSchema, TomlParser, TomlValue, ValueSchema};
 use coupler_curves::problem::{Problem, suggestion_among};
 use coupler_curves::template::Template;
@@ -39,9 +39,10 @@ pub(crate) static CHART: TableSchema = TableSchema::new(
 );
 
 const QUANTITY_FORM: ValueSchema = ValueSchema::WithExamples(&ValueSchema::Text, numeric_measures);
-/// The names of the measures that are numbers.
+/// The names of the measures that are numbers, of any linkage.
 pub(crate) fn numeric_measures() -> Vec<&'static str> {
-    Family::numeric_measure_names().collect()
+    let of_actuators = MEASURES.iter().filter_map(|measure| measure.length_name);
+    Family::numeric_measure_names(false).chain(of_actuators).collect()
 }
 
 const EXAMPLE: &str = "chart = { x = \"p\", y = \"straight_length\" }";
@@ -71,8 +72,7 @@ pub(crate) fn read<'t>(
     let fields = Fields::from_value(value, &CHART, parser)?;
     let x = fields.required("x", EXAMPLE, parser);
     let y = fields.required("y", EXAMPLE, parser);
-    let is_driven_by_length = template.is_driven_by_length();
-    let scope = (chart::scope(&names.all, is_driven_by_length), is_driven_by_length);
+    let scope = chart::scope(&names.all, template.is_driven_by_length());
     let x = x.and_then(|value| quantity(value, &scope, names, parser));
     let y = y.and_then(|value| quantities(value, &scope, names, parser));
     let by = match fields.get("by") {
@@ -102,7 +102,7 @@ fn one_or_more<'v, 't>(value: &'v TomlValue<'t>) -> &'v [TomlValue<'t>] {
 /// Reads `y`: one or more different quantities.
 fn quantities<'t>(
     value: &TomlValue<'t>,
-    scope: &(Scope, bool),
+    scope: &Scope,
     names: &FamilyNames,
     parser: &mut TomlParser<'t>,
 ) -> Option<Vec<Quantity>> {
@@ -130,16 +130,16 @@ fn quantities<'t>(
     all_read.then_some(found)
 }
 
-/// Reads an expression over names and measures; the scope comes with whether the input is a length.
+/// Reads an expression over names and measures.
 fn quantity<'t>(
     value: &TomlValue<'t>,
-    (scope, is_driven_by_length): &(Scope, bool),
+    scope: &Scope,
     names: &FamilyNames,
     parser: &mut TomlParser<'t>,
 ) -> Option<Quantity> {
     let text = parser.text(value)?.trim().to_owned();
     let value = parser.numeric_expression(value, scope)?;
-    let unit = chart::unit(&text, *is_driven_by_length);
+    let unit = chart::unit(&text);
     let definition = chart::definition(&text, &names.all);
     Some(Quantity { text, unit, definition, expression: value, is_log: false, range: None })
 }

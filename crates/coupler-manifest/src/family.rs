@@ -8,9 +8,10 @@ use crate::names::{check_expression_syntax, read_names, read_space};
 use crate::plan::PlannedFamily;
 use crate::schema::{
     DEFAULT_LAYOUT, DEFAULT_PANELS, DEFAULT_PLACE, FAMILY, MIN_TOLERANCE, PLACE, SAMPLING, SPACINGS, STRAIGHT, Spacing,
+    default_sampling,
 };
 use crate::templates::Templates;
-use crate::{chart, settings, tolerance};
+use crate::{applicability, chart, settings, tolerance};
 use coupler_curves::expression::{Dimension, Scope};
 use coupler_curves::family::{COLUMNS, Column, Family, MAX_SAMPLES, MEASURES, Sampling, StraightCriterion};
 use coupler_curves::linkage_format::{self, Fields, TomlParser, TomlValue};
@@ -50,15 +51,23 @@ pub(crate) fn read<'t>(
         None => Some(formats.to_vec()),
         Some(value) => settings::formats(value, writable, parser),
     };
-    let sampling = fields
-        .required("sampling", "sampling = { step = \"2 deg\" }", parser)
-        .and_then(|value| sampling(value, template.as_deref(), parser));
+    let sampling = match (fields.get("sampling"), &template) {
+        (Some(value), _) => sampling(value, template.as_deref(), parser),
+        (None, template) => template.as_ref().map(|template| default_sampling(template.is_driven_by_length())),
+    };
     let columns = fields.get("columns").map_or(Some(Vec::new()), |value| columns(value, parser));
     let straight = match fields.get("straight") {
         None => Some(StraightCriterion::default()),
         Some(value) => straight(value, template.as_deref(), parser),
     };
-    let measures = fields.get("measures").map_or(Some(vec![true; MEASURES.len()]), |value| measures(value, parser));
+    let is_driven_by_length = template.as_ref().map(|template| template.is_driven_by_length());
+    let measures = match fields.get("measures") {
+        None => Some(vec![true; MEASURES.len()]),
+        Some(value) => measures(value, is_driven_by_length, parser),
+    };
+    if let Some(template) = &template {
+        applicability::check(template, &fields, parser);
+    }
     let tolerances = tolerance::read(fields.get("check"), &tolerance::FAMILY_CHECK, parser);
     let parameters = template.as_ref().map_or(0, |template| template.parameters.len());
     if !totals.add_names(parameters, &fields, parser) {
@@ -67,7 +76,7 @@ pub(crate) fn read<'t>(
     let names = match &template {
         Some(template) => read_names(template, &fields, parser),
         None => {
-            read_space(&fields, parser);
+            read_space(&fields, None, parser);
             check_expression_syntax(&fields, parser);
             None
         }
@@ -107,7 +116,9 @@ pub(crate) fn read<'t>(
     if !totals.add_cells(&family, &fields, parser) {
         return None;
     }
-    cells::check(&family, &fields, &names.spans, parser);
+    if !parser.has_syntax_error() {
+        cells::check(&family, &fields, &names.spans, parser);
+    }
     let source = source.unwrap_or_else(|| family.template.source_line());
     let filter_span = fields.get("where").map(TomlValue::span);
     let (layout, chart, formats) = (layout?, chart?, formats?);
@@ -261,9 +272,19 @@ fn columns<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<Vec
     Some(places.into_iter().map(|place| COLUMNS[place]).collect())
 }
 
-/// Reads which measures are named, in the order of [`MEASURES`].
-fn measures<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<Vec<bool>> {
-    let places = name_indices(value, "measure", &MEASURES.map(|measure| measure.name), parser)?;
+/// Reads which measures are named, in the order of [`MEASURES`], of a linkage driven by a length or an angle; `None` if
+/// it is not known which.
+fn measures<'t>(
+    value: &TomlValue<'t>,
+    is_driven_by_length: Option<bool>,
+    parser: &mut TomlParser<'t>,
+) -> Option<Vec<bool>> {
+    let names = |is_driven_by_length: bool| MEASURES.iter().map(move |measure| measure.name_for(is_driven_by_length));
+    let mut known: Vec<&str> = names(is_driven_by_length.unwrap_or(false)).collect();
+    if is_driven_by_length.is_none() {
+        known.extend(names(true));
+    }
+    let places = name_indices(value, "measure", &known, parser)?;
     Some((0..MEASURES.len()).map(|k| places.contains(&k)).collect())
 }
 

@@ -3,6 +3,7 @@
 use coupler_curves::family::AxisValues;
 use coupler_curves::linkage_format::{Fields, KeySchema, TableSchema, TomlParser, TomlValue, ValueSchema};
 use coupler_curves::problem::Problem;
+use coupler_curves::template::ParameterKind;
 
 /// What a grid may give for a name.
 pub(crate) const VALUES_FORM: ValueSchema = ValueSchema::AnyOf(&[
@@ -45,34 +46,42 @@ struct Decimal {
     exponent: i32,
 }
 
-/// Reads the values that a grid gives for a name.
-pub(crate) fn read_values<'t>(name: &str, value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<GridValues> {
+/// Reads the values that a grid gives for a name of a kind.
+pub(crate) fn read_values<'t>(
+    (name, kind): (&str, ParameterKind),
+    value: &TomlValue<'t>,
+    parser: &mut TomlParser<'t>,
+) -> Option<GridValues> {
     if let Some(list) = value.get_ref().as_array() {
         if list.is_empty() {
             let problem = Problem::error(value.span(), format!("`{name}` has no values"));
             parser.report(problem.with_help("give at least one value, as in [2, 3, 4]"));
             return None;
         }
-        let read: Vec<Option<f64>> = list.iter().map(|item| parser.constant(item)).collect();
+        let read: Vec<Option<f64>> = list.iter().map(|item| parser.parameter_value(item, (name, kind))).collect();
         return read.into_iter().collect::<Option<Vec<f64>>>().map(GridValues::from);
     }
     if value.get_ref().is_table() {
-        return read_range(value, parser);
+        return read_range((name, kind), value, parser);
     }
-    parser.constant(value).map(|value| GridValues::from(vec![value]))
+    parser.parameter_value(value, (name, kind)).map(|value| GridValues::from(vec![value]))
 }
 
 /// Reads a range by step or by count.
-fn read_range<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<GridValues> {
+fn read_range<'t>(
+    parameter: (&str, ParameterKind),
+    value: &TomlValue<'t>,
+    parser: &mut TomlParser<'t>,
+) -> Option<GridValues> {
     let fields = Fields::from_value(value, &RANGE, parser)?;
     let mut end = |key: &str| {
         let value = fields.required(key, &format!("{key} = 2"), parser)?;
-        Some((parser.constant(value)?, value))
+        Some((parser.parameter_value(value, parameter)?, value))
     };
     let (from, to) = (end("from"), end("to"));
     match (fields.get("step"), fields.get("count")) {
         (Some(step_value), None) => {
-            let step = parser.constant(step_value)?;
+            let step = parser.parameter_value(step_value, parameter)?;
             let ((from, from_value), (to, to_value)) = (from?, to?);
             if step == 0.0 {
                 parser.report(
@@ -192,7 +201,7 @@ mod tests {
         let mut parser = TomlParser::new(&text);
         let document = parser.parse_document();
         let root = Fields::with_any_keys(&document, "the file", &mut parser).unwrap();
-        match root.get("p").and_then(|value| read_values("p", value, &mut parser)) {
+        match root.get("p").and_then(|value| read_values(("p", ParameterKind::Length), value, &mut parser)) {
             Some(read) => Ok(read.values.iter().collect()),
             None => Err(parser.into_problems().remove(0).message),
         }

@@ -3,12 +3,14 @@
 use std::collections::HashMap;
 
 use crate::grid::{self, GridValues};
+use crate::unused_names;
 use coupler_curves::expression::{Caption, CompiledExpression, Expression, Kind, Scope};
 use coupler_curves::family::{Axis, AxisValues, Case, Family, MAX_CELLS, ParameterSpace, sort_by_dependency};
 use coupler_curves::linkage_format::{self, Fields, TomlParser, TomlValue};
 use coupler_curves::measure::BOOLEANS;
-use coupler_curves::problem::{Problem, Span, list_words, nearest_word};
-use coupler_curves::template::Template;
+use coupler_curves::problem::{Problem, Span};
+use coupler_curves::template::{ParameterKind, Template};
+use coupler_drawing::chart;
 
 /// The names of a family and where their values come from.
 pub(crate) struct FamilyNames {
@@ -32,7 +34,7 @@ pub(crate) fn read_names<'t>(
         None => Vec::new(),
         Some(value) => Fields::with_any_keys(value, "`let`", parser)?.entries().collect(),
     };
-    let named_space = read_space(fields, parser);
+    let named_space = read_space(fields, Some(template), parser);
     let mut table = NameTable::default();
     for parameter in &template.parameters {
         table.add(&parameter.name, None);
@@ -54,6 +56,7 @@ pub(crate) fn read_names<'t>(
         }
     }
     let scope = Scope::from_numbers(all.iter().map(String::as_str));
+    let is_driven_by_length = template.is_driven_by_length();
     let assignments = space.assignment_counts(all.len());
     let mut sources: Vec<(usize, Expression, Span)> = Vec::new();
     let mut read_all = true;
@@ -67,7 +70,8 @@ pub(crate) fn read_names<'t>(
             parser.report(problem.with_help("keep one of the two"));
             read_all = false;
         }
-        let expression = parser.expression(value).filter(|expression| {
+        let kind = kind_of(Some(template), name);
+        let expression = parser.parameter_expression(value, (name, kind)).filter(|expression| {
             let compiled = expression.compile(&scope, Kind::Number);
             parser.ok_or_report(value, compiled).is_some()
         });
@@ -83,39 +87,29 @@ pub(crate) fn read_names<'t>(
             sources.push((slot, default.clone(), span));
         }
     }
-    let filter = fields.get("where").and_then(|value| read_filter(value, &all, parser));
+    let filter =
+        fields.get("where").and_then(|value| read_filter(value, &Family::scope(&all, is_driven_by_length), parser));
     read_all &= filter.is_some() == fields.get("where").is_some();
     let sort = fields.get("sort").filter(|value| !uses_text_measure(value, parser));
-    let sort = sort.and_then(|value| parser.numeric_expression(value, &Family::scope(&all)));
+    let sort = sort.and_then(|value| parser.numeric_expression(value, &Family::scope(&all, is_driven_by_length)));
     read_all &= sort.is_some() == fields.get("sort").is_some();
     let caption = |key: &str, default: &Option<Caption>, parser: &mut TomlParser<'t>| match fields.get(key) {
         None => default.clone(),
-        Some(value) => parser.caption(value, &Family::scope(&all), &Family::word_measure_names().collect::<Vec<_>>()),
+        Some(value) => parser.caption(
+            value,
+            &Family::scope(&all, is_driven_by_length),
+            &Family::word_measure_names().collect::<Vec<_>>(),
+        ),
     };
     let captions = [caption("caption", &template.caption, parser), caption("note", &template.note, parser)];
-    let in_chart = names_in_chart(fields);
-    let derived = in_dependency_order(sources, &all, &scope, parser)?;
-    // An expression that could not be parsed may have been the one that uses a name.
-    if let (true, Some(in_chart)) = (read_all, in_chart) {
-        let expressions = filter.iter().chain(&sort).chain(derived.iter().map(|(_, expression)| expression));
-        let mut is_used = vec![false; all.len()];
-        expressions
-            .flat_map(CompiledExpression::slots)
-            .filter(|slot| **slot < all.len())
-            .for_each(|&k| is_used[k] = true);
-        let in_captions = captions.iter().flatten().flat_map(Caption::expressions);
-        let names = in_captions.flat_map(|(expression, _)| expression.names()).chain(&in_chart);
-        names.filter_map(|name| scope.index_of(name)).for_each(|slot| is_used[slot] = true);
-        let parameters: Vec<&str> = template.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
-        for slot in (parameters.len()..all.len()).filter(|slot| !is_used[*slot]) {
-            report_unused_name(
-                &all[slot],
-                spans[slot].clone().unwrap_or_default(),
-                (&template.id, &parameters),
-                parser,
-            );
-        }
+    if !parser.has_syntax_error() {
+        // If all expressions could be compiled no word is misspelt.
+        let known = chart::scope(&all, is_driven_by_length);
+        let is_known = |word: &str| read_all || known.index_of(word).is_some();
+        let names = all.iter().zip(&spans).map(|(name, span)| (name.as_str(), span.clone().unwrap_or_default()));
+        unused_names::report(template, names, is_known, fields, parser);
     }
+    let derived = in_dependency_order(sources, &all, &scope, parser)?;
     read_all.then_some(())?;
     Some(FamilyNames { all, space, derived, filter, sort, captions, spans })
 }
@@ -157,29 +151,6 @@ pub(crate) fn check_expression_syntax<'t>(fields: &Fields<'_, 't>, parser: &mut 
     }
 }
 
-/// The names that the expressions of `chart` use, whatever else is wrong with it; `None` if one cannot be parsed.
-fn names_in_chart(fields: &Fields) -> Option<Vec<String>> {
-    let Some(chart) = fields.get("chart").and_then(|value| value.get_ref().as_table()) else { return Some(Vec::new()) };
-    let mut found = Vec::new();
-    for value in ["x", "y", "by"].into_iter().filter_map(|key| chart.get(key)) {
-        let items = value.get_ref().as_array().map_or(std::slice::from_ref(value), |list| &list[..]);
-        for text in items.iter().filter_map(|item| item.get_ref().as_str()) {
-            found.extend(Expression::parse(text).ok()?.names().iter().cloned());
-        }
-    }
-    Some(found)
-}
-
-/// Reports a name that is not a parameter of the linkage and that no expression uses.
-fn report_unused_name(name: &str, span: Span, (linkage, parameters): (&str, &[&str]), parser: &mut TomlParser) {
-    let message = format!("`{name}` is not a parameter of `{linkage}`, and no expression uses it");
-    let help = match nearest_word(name, parameters.iter().copied()) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => format!("its parameters are {}", list_words(parameters)),
-    };
-    parser.report(Problem::error(span, message).with_help(help));
-}
-
 /// Whether a condition or a sort key uses a measure whose value is a word; reports it.
 fn uses_text_measure<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> bool {
     let Some(expression) = value.get_ref().as_str().and_then(|text| Expression::parse(text).ok()) else { return false };
@@ -196,7 +167,7 @@ fn uses_text_measure<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> 
 }
 
 /// Reads `where`.
-fn read_filter<'t>(value: &TomlValue<'t>, names: &[String], parser: &mut TomlParser<'t>) -> Option<CompiledExpression> {
+fn read_filter<'t>(value: &TomlValue<'t>, scope: &Scope, parser: &mut TomlParser<'t>) -> Option<CompiledExpression> {
     if !value.get_ref().is_str() {
         let problem = Problem::error(value.span(), "`where` must be a condition in quotes");
         parser.report(problem.with_help("write where = \"a < 5 and is_crank_rocker\""));
@@ -206,7 +177,7 @@ fn read_filter<'t>(value: &TomlValue<'t>, names: &[String], parser: &mut TomlPar
         return None;
     }
     let expression = parser.expression(value)?;
-    let compiled = expression.compile(&Family::scope(names), Kind::Boolean);
+    let compiled = expression.compile(scope, Kind::Boolean);
     parser.ok_or_report(value, compiled)
 }
 
@@ -237,15 +208,25 @@ impl NamedSpace {
     }
 }
 
-/// Reads `grid` or `cases`.
-pub(crate) fn read_space<'t>(fields: &Fields<'_, 't>, parser: &mut TomlParser<'t>) -> Option<NamedSpace> {
+/// What a name is a number of: a parameter of the linkage, or another name.
+fn kind_of(template: Option<&Template>, name: &str) -> ParameterKind {
+    let parameter = template.and_then(|template| template.parameters.iter().find(|parameter| parameter.name == name));
+    parameter.map(|parameter| parameter.kind).unwrap_or_default()
+}
+
+/// Reads `grid` or `cases` of a family of a linkage; `None` if it is not known which.
+pub(crate) fn read_space<'t>(
+    fields: &Fields<'_, 't>,
+    template: Option<&Template>,
+    parser: &mut TomlParser<'t>,
+) -> Option<NamedSpace> {
     let limit = match fields.get("limit") {
         None => MAX_CELLS,
         Some(value) => parser.integer(value, 1, MAX_LIMIT)?,
     };
     match (fields.get("grid"), fields.get("cases")) {
-        (Some(value), None) => read_grid(value, limit, parser),
-        (None, Some(value)) => read_cases(value, limit, parser),
+        (Some(value), None) => read_grid(value, limit, template, parser),
+        (None, Some(value)) => read_cases(value, limit, template, parser),
         (grid, _) => {
             let message = if grid.is_some() {
                 "a family has a grid or cases, not both"
@@ -253,26 +234,40 @@ pub(crate) fn read_space<'t>(fields: &Fields<'_, 't>, parser: &mut TomlParser<'t
                 "a [[family]] has no `grid` and no `cases`"
             };
             let problem = Problem::error(fields.span.clone(), message);
-            parser.report(problem.with_help("write grid = { p = [2, 3, 4] } or cases = [{ p = 2 }, { p = 3 }]"));
+            let help = match template.map(|template| (&template.id, &template.parameters[..])) {
+                Some((id, [])) => format!("write cases = [{{}}]: `{id}` has no parameters, and one cell"),
+                Some((_, [first, ..])) => {
+                    format!("write grid = {{ {0} = [2, 3] }} or cases = [{{ {0} = 2 }}]", first.name)
+                }
+                None => "write grid = { p = [2, 3, 4] } or cases = [{ p = 2 }, { p = 3 }]".to_owned(),
+            };
+            parser.report(problem.with_help(help));
             None
         }
     }
 }
 
 /// Reads `grid`, with at most `limit` cells.
-fn read_grid<'t>(value: &TomlValue<'t>, limit: usize, parser: &mut TomlParser<'t>) -> Option<NamedSpace> {
+fn read_grid<'t>(
+    value: &TomlValue<'t>,
+    limit: usize,
+    template: Option<&Template>,
+    parser: &mut TomlParser<'t>,
+) -> Option<NamedSpace> {
     let table = Fields::with_any_keys(value, "`grid`", parser)?;
     if table.keys().is_empty() {
-        parser.report(
-            Problem::error(value.span(), "the grid is empty").with_help("name a parameter, as in { p = [2, 3, 4] }"),
-        );
+        let help = match template {
+            Some(template) if template.parameters.is_empty() => "write cases = [{}] for its one cell",
+            _ => "name a parameter, as in { p = [2, 3, 4] }",
+        };
+        parser.report(Problem::error(value.span(), "the grid is empty").with_help(help));
         return None;
     }
     let mut axes = Vec::new();
     let mut all_read = true;
     for (name, span, value) in table.entries() {
         linkage_format::check_identifier(name, span.clone(), parser);
-        match grid::read_values(name, value, parser) {
+        match grid::read_values((name, kind_of(template, name)), value, parser) {
             Some(values) => axes.push((name.to_owned(), span, values)),
             None => all_read = false,
         }
@@ -288,7 +283,12 @@ fn read_grid<'t>(value: &TomlValue<'t>, limit: usize, parser: &mut TomlParser<'t
 }
 
 /// Reads `cases`, at most `limit` of them.
-fn read_cases<'t>(value: &TomlValue<'t>, limit: usize, parser: &mut TomlParser<'t>) -> Option<NamedSpace> {
+fn read_cases<'t>(
+    value: &TomlValue<'t>,
+    limit: usize,
+    template: Option<&Template>,
+    parser: &mut TomlParser<'t>,
+) -> Option<NamedSpace> {
     let list = parser.list(value)?;
     if list.is_empty() {
         parser.report(
@@ -312,7 +312,7 @@ fn read_cases<'t>(value: &TomlValue<'t>, limit: usize, parser: &mut TomlParser<'
         let mut case = Vec::new();
         for (name, span, value) in table.entries() {
             linkage_format::check_identifier(name, span.clone(), parser);
-            let value = parser.constant(value);
+            let value = parser.parameter_value(value, (name, kind_of(template, name)));
             all_read &= value.is_some();
             case.extend(value.map(|value| (name.to_owned(), span, value)));
         }

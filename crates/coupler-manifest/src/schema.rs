@@ -8,7 +8,7 @@ use crate::settings::{ATLAS, FORMATS, PAGE};
 use crate::tolerance::{CHECK, FAMILY_CHECK};
 use coupler_curves::catalogue;
 use coupler_curves::expression::Dimension;
-use coupler_curves::family::{COLUMNS, MAX_CELLS, MAX_SAMPLES, MEASURES, StraightCriterion};
+use coupler_curves::family::{COLUMNS, MAX_CELLS, MAX_SAMPLES, MEASURES, Sampling, StraightCriterion};
 use coupler_curves::linkage_format::{
     CIRCUITS_KEY, COINCIDENT_KEY, CONTINUATION_KEY, KeySchema, LINKAGES_KEY, TableSchema, ValueSchema, words,
 };
@@ -32,6 +32,12 @@ pub static MANIFEST: TableSchema = TableSchema::new(
     ],
 );
 
+/// The names of all measures, of any linkage.
+fn measure_names() -> Vec<&'static str> {
+    let of_actuators = MEASURES.iter().filter_map(|measure| measure.length_name);
+    MEASURES.iter().map(|measure| measure.name).chain(of_actuators).collect()
+}
+
 /// The `[[family]]` table.
 pub(crate) static FAMILY: TableSchema = TableSchema::new(
     "a [[family]]",
@@ -52,7 +58,12 @@ pub(crate) static FAMILY: TableSchema = TableSchema::new(
             ValueSchema::List(&ValueSchema::Integer([1, usize::MAX]), [2, 2]),
             "The columns and rows of a page; by default 5 and 3, or as many as it has room for.",
         ),
-        KeySchema::required("sampling", ValueSchema::Table(&SAMPLING), "How circuits are sampled."),
+        KeySchema::new(
+            "sampling",
+            ValueSchema::Table(&SAMPLING),
+            "How circuits are sampled; by default in steps of 2 deg, or at 180 samples if an actuator drives the linkage.",
+        )
+        .with_default(default_sampling_text),
         KeySchema::new(
             "grid",
             ValueSchema::IdentifierMap(&VALUES_FORM),
@@ -103,7 +114,7 @@ pub(crate) static FAMILY: TableSchema = TableSchema::new(
         .with_default(default_straight),
         KeySchema::new(
             "measures",
-            ValueSchema::Set(&ValueSchema::Word(|| MEASURES.map(|measure| measure.name).to_vec()), [0, usize::MAX]),
+            ValueSchema::Set(&ValueSchema::Word(measure_names), [0, usize::MAX]),
             "The measures computed for its curves; all by default.",
         ),
         KeySchema::new("check", ValueSchema::Table(&FAMILY_CHECK), "How much it may differ from a recorded atlas.")
@@ -117,6 +128,18 @@ fn linkage_ids() -> Vec<&'static str> {
 }
 
 /// The default straight criterion, as JSON.
+/// How circuits are sampled by default.
+pub(crate) fn default_sampling(is_driven_by_length: bool) -> Sampling {
+    if is_driven_by_length { Sampling::Samples(180) } else { Sampling::Step(DEFAULT_STEP) }
+}
+
+/// The default input between samples, in degrees.
+const DEFAULT_STEP: f64 = 2.0;
+
+fn default_sampling_text() -> String {
+    format!("{{ \"step\": {} }}", default_value::degrees(DEFAULT_STEP))
+}
+
 fn default_straight() -> String {
     let (key, value) = match StraightCriterion::default() {
         StraightCriterion::Tolerance(value) => ("tolerance", value),

@@ -59,7 +59,8 @@ impl Templates {
             return found.clone();
         }
         let found = catalogue::find(&id);
-        if found.is_none() {
+        // A linkage may be in an entry that could not be read.
+        if found.is_none() && !parser.has_syntax_error() {
             let built_in = catalogue::all().iter().map(|template| template.id.as_str());
             let known = self.ids.iter().map(String::as_str).chain(built_in);
             let count = self.ids.len() + catalogue::all().len();

@@ -10,7 +10,7 @@ use coupler_atlas::export::{self, Format, Options};
 use coupler_atlas::manifest::Plan;
 use coupler_atlas::output;
 use coupler_curves::exchange::{CurveName, ParameterSet, SelectedCurve, manifest_fragment};
-use coupler_curves::family::{Family, MAX_SAMPLES, Sampling, parse_parameter};
+use coupler_curves::family::{Family, MAX_SAMPLES, ParameterText, Sampling};
 use coupler_curves::problem::suggestion;
 use coupler_drawing::curve_file::FileOptions;
 use coupler_drawing::page;
@@ -153,9 +153,12 @@ fn select_from_linkage(id: &str, arguments: &Arguments) -> anyhow::Result<CurveS
     let mut problems = Vec::new();
     let (mut given, mut curves) = (Vec::new(), Vec::new());
     for word in &arguments.words {
-        match (CurveName::parse_curve_numbers(word), parse_parameter(word)) {
+        match (CurveName::parse_curve_numbers(word), ParameterText::parse(word)) {
             (Some(curve), _) => curves.push(curve),
-            (None, Ok(parameter)) => given.push(parameter),
+            (None, Ok(parameter)) => match parameter.resolve(&template) {
+                Ok(parameter) => given.push(parameter),
+                Err(error) => problems.push(format!("{id}: {error}")),
+            },
             (None, Err(error)) => problems.push(error.to_string()),
         }
     }

@@ -71,12 +71,15 @@ impl CurveSelection {
     /// Every error in the name, one message each.
     pub fn with_overrides(family: &Family, source: &str, name: &CurveName) -> Result<CurveSelection, Vec<String>> {
         let trace = name.curve.map(|[trace, _]| trace);
-        let changed = ChangedCell::new(family, name.cell.unwrap_or(1), trace, &name.overrides)
+        let overrides = name
+            .resolve_overrides(&family.template)
+            .map_err(|errors| errors.iter().map(|error| format!("{}: {error}", family.id)).collect::<Vec<_>>())?;
+        let changed = ChangedCell::new(family, name.cell.unwrap_or(1), trace, &overrides)
             .map_err(|errors| errors.iter().map(ToString::to_string).collect::<Vec<_>>())?;
         let ChangedCell { family, numbers, circuit } = changed;
         let curve = name.curve.map(|[trace, named]| [trace, circuit.unwrap_or(named)]);
         let cells = [(0, curve.map_or(CellSelection::AtLeastOne, |curve| CellSelection::Only([curve].into())))];
-        let (source, overrides) = (source.to_owned(), name.overrides.clone());
+        let source = source.to_owned();
         Ok(CurveSelection { family, source, overrides, original_numbers: Some(numbers), cells: cells.into() })
     }
 

@@ -14,7 +14,7 @@ use std::sync::Arc;
 
 use clap::Args;
 use coupler_atlas::output;
-use coupler_curves::family::{Family, Sampling, parse_parameter};
+use coupler_curves::family::{Family, ParameterText, Sampling};
 use coupler_curves::linkage::CircuitSelection;
 use coupler_curves::motion::Sampler;
 use coupler_curves::solve::{self, SolvedCell};
@@ -85,8 +85,11 @@ struct Report<'a> {
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let mut template = linkage::find_template(&arguments.linkage, arguments.manifest.as_deref())?;
-    let given = arguments.parameters.iter().map(|text| parse_parameter(text));
-    let given = given.collect::<Result<Vec<_>, _>>().map_err(|error| InputError(error.to_string()))?;
+    let given = |text: &String| {
+        let parameter = ParameterText::parse(text).map_err(|error| InputError(error.to_string()))?;
+        parameter.resolve(&template).map_err(|error| InputError(format!("{}: {error}", arguments.linkage)))
+    };
+    let given = arguments.parameters.iter().map(given).collect::<Result<Vec<_>, _>>()?;
     let at = arguments.at.as_deref().map(|text| linkage::parse_number(text, "--at 30")).transpose()?;
     if let (Some(at), Some(text)) = (at.filter(|at| !at.is_finite()), &arguments.at) {
         return Err(InputError(format!("`{text}` is {at}: give a finite number, as in --at 30")).into());

@@ -60,7 +60,7 @@ const SLIPS: [(&str, &str); 62] = [
     ("chart = { x = \"p\"", "chart = { over = \"p\""),
     ("straight_length = [0, 3]", "straight_length = [0]"),
     ("cases = [{ g = 4, r = 1 }", "cases = [{ g = [4], r = 1 }"),
-    ("g = { min = 0, max = 10 }", "g = { least = 0, max = 10 }"),
+    ("g = { min = 0, max = 10, example = 4 }", "g = { least = 0, max = 10 }"),
     ("branch = 1", "branch = \"left\", side = 3"),
     ("input = { from = \"0 deg\", to", "input = { form = \"0 deg\", to"),
     ("start = \"10 deg\"", "start = [10]"),

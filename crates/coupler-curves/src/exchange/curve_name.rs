@@ -3,7 +3,9 @@
 use std::fmt;
 
 use super::format_number;
-use crate::family::{ParameterSyntaxError, parse_parameter};
+use crate::expression::Unit;
+use crate::family::{ParameterSyntaxError, ParameterText, ParameterUnitError};
+use crate::template::Template;
 
 /// The curves that a word names: those of a family, those of a cell, or one curve; with overrides, those that the cell
 /// has with other parameters.
@@ -16,7 +18,7 @@ pub struct CurveName {
     /// The numbers of the trace and the circuit, from 1; `None` if there is no cell.
     pub curve: Option<[usize; 2]>,
     /// Parameters that replace those of the cell, and coordinates such as `M.along`; empty if there is no cell.
-    pub overrides: Vec<(String, f64)>,
+    pub overrides: Vec<ParameterText>,
 }
 
 /// Why a word is not the name of curves.
@@ -64,12 +66,23 @@ impl CurveName {
             return Err(error());
         }
         let pairs = query.into_iter().flat_map(|query| query.split('&')).filter(|pair| !pair.is_empty());
-        let overrides: Vec<(String, f64)> = pairs.map(parse_parameter).collect::<Result<_, _>>()?;
+        let overrides: Vec<ParameterText> = pairs.map(ParameterText::parse).collect::<Result<_, _>>()?;
         if !overrides.is_empty() && cell.is_none() {
             let example = format!("{family}:1?{}", query.unwrap_or(""));
             return Err(CurveNameError::NoCell { text: text.to_owned(), example });
         }
         Ok(CurveName { family: family.to_owned(), cell, curve, overrides })
+    }
+
+    /// The overrides in the units of a linkage's parameters.
+    ///
+    /// # Errors
+    /// Every value that its parameter cannot have.
+    pub fn resolve_overrides(&self, template: &Template) -> Result<Vec<(String, f64)>, Vec<ParameterUnitError>> {
+        let (resolved, errors): (Vec<_>, Vec<_>) =
+            self.overrides.iter().map(|parameter| parameter.resolve(template)).partition(Result::is_ok);
+        let errors: Vec<ParameterUnitError> = errors.into_iter().filter_map(Result::err).collect();
+        if errors.is_empty() { Ok(resolved.into_iter().flatten().collect()) } else { Err(errors) }
     }
 
     /// Parses the trace and circuit of a curve of a single linkage, `1.2`.
@@ -89,8 +102,9 @@ impl fmt::Display for CurveName {
         if let Some([trace, circuit]) = self.curve {
             write!(f, ".{trace}.{circuit}")?;
         }
-        for (k, (name, value)) in self.overrides.iter().enumerate() {
-            write!(f, "{}{name}={}", if k == 0 { '?' } else { '&' }, format_number(*value))?;
+        for (k, ParameterText { name, number, unit, .. }) in self.overrides.iter().enumerate() {
+            let unit = unit.map_or("", |unit| if unit == Unit::Rad { " rad" } else { " deg" });
+            write!(f, "{}{name}={}{unit}", if k == 0 { '?' } else { '&' }, format_number(*number))?;
         }
         Ok(())
     }
@@ -111,7 +125,10 @@ mod tests {
             family: "evans".to_owned(),
             cell,
             curve,
-            overrides: overrides.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect(),
+            overrides: overrides
+                .iter()
+                .map(|(name, value)| ParameterText::from_number((*name).to_owned(), *value))
+                .collect(),
         };
         assert_eq!(CurveName::parse("evans"), Ok(name(None, None, &[])));
         assert_eq!(CurveName::parse("evans:3"), Ok(name(Some(3), None, &[])));

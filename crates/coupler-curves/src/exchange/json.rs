@@ -96,6 +96,7 @@ pub(super) fn document(selected: &SelectedCurve) -> String {
         Value::Word(word) => Some(MeasureValue::Word(word)),
         Value::Missing => None,
     };
+    let is_driven_by_length = family.template.is_driven_by_length();
     let document = Document {
         format: FORMAT_VERSION,
         curve: selected.name(),
@@ -114,7 +115,9 @@ pub(super) fn document(selected: &SelectedCurve) -> String {
         // The first three columns, the numbers of the curve, are members of the document.
         columns: PointTable::new(family).header().trim_end().split(',').skip(3).map(str::to_owned).collect(),
         points: rows(selected),
-        measures: Members(measure::ALL.iter().zip(&curve.values).map(|(m, v)| (m.name, value(v))).collect()),
+        measures: Members(
+            measure::ALL.iter().zip(&curve.values).map(|(m, v)| (m.name_for(is_driven_by_length), value(v))).collect(),
+        ),
     };
     to_pretty_string(&document).expect("every member can be represented in JSON")
 }

@@ -18,7 +18,7 @@ pub use fragment::manifest_fragment;
 pub use number::{append_integer, append_number};
 pub use table::PointTable;
 
-use crate::family::{Family, Sampling};
+use crate::family::{Family, ParameterText, Sampling};
 use crate::geometry::Point;
 use crate::motion::Circuit;
 use crate::solve::{MeasuredCurve, SolvedCell};
@@ -81,7 +81,9 @@ impl<'a> SelectedCurve<'a> {
     /// Its name: `evans:12.1.1`, or with overridden parameters `evans:12.1.1?p=2.5&k=2`.
     pub fn name(&self) -> String {
         let [cell, trace, circuit] = self.cell_trace_circuit();
-        let (family, overrides) = (self.family.id.clone(), self.overrides.to_vec());
+        let family = self.family.id.clone();
+        let overrides =
+            self.overrides.iter().map(|(name, value)| ParameterText::from_number(name.clone(), *value)).collect();
         CurveName { family, cell: Some(cell), curve: Some([trace, circuit]), overrides }.to_string()
     }
 

@@ -52,7 +52,7 @@ pub struct Error {
 }
 
 impl Error {
-    fn new(span: Span, message: impl Into<String>, help: impl Into<String>) -> Error {
+    pub(crate) fn new(span: Span, message: impl Into<String>, help: impl Into<String>) -> Error {
         Error { message: message.into(), span, help: help.into() }
     }
 

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::lexer::{Token, tokenize};
 use super::program::{Expression, Instruction, Operator};
-use super::{CONSTANTS, Error, Function, MAX_DEPTH};
+use super::{CONSTANTS, Dimension, Error, Function, MAX_DEPTH, Unit};
 use crate::problem::{Span, nearest_word};
 
 impl Expression {
@@ -18,6 +18,22 @@ impl Expression {
         match parser.peek() {
             (Token::End, _) => Ok(parser.expression),
             (_, span) => Err(parser.unexpected(span)),
+        }
+    }
+
+    /// Parses an expression and the unit of an angle after it, if any: `360/7 deg`.
+    ///
+    /// # Errors
+    /// As of [`Expression::parse`]; another word after the expression.
+    pub(crate) fn parse_with_angle_unit(text: &str) -> Result<(Expression, Option<Unit>), Error> {
+        let (expression, word) = parse_expression_and_word(text)?;
+        let Some((word, span)) = word else { return Ok((expression, None)) };
+        match Dimension::Angle.units().iter().find(|(name, _)| *name == word) {
+            Some((_, unit)) => Ok((expression, Some(*unit))),
+            None => {
+                let help = "an angle may have the unit `deg` or `rad`; lengths and ratios are numbers without a unit";
+                Err(Error::new(span, format!("`{word}` is not a unit here"), help))
+            }
         }
     }
 }

@@ -13,6 +13,16 @@ pub enum Kind {
     Boolean,
 }
 
+/// How the message of an unknown name begins.
+const UNKNOWN_NAME: &str = "unknown name";
+
+impl Error {
+    /// Whether it is that of a name without a meaning.
+    pub(crate) fn is_unknown_name(&self) -> bool {
+        self.message.starts_with(UNKNOWN_NAME)
+    }
+}
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Instruction {
     Push(f64),
@@ -58,22 +68,44 @@ impl Expression {
     /// # Errors
     /// The text is not an expression, or uses a name.
     pub fn evaluate_constant(text: &str) -> Result<f64, Error> {
-        let expression = Expression::parse(text)?;
-        let load = expression.program.iter().find_map(|(instruction, span)| match instruction {
-            Instruction::Load(name) => Some((&expression.names[*name], span)),
+        Expression::parse(text)?.constant_value()
+    }
+
+    /// The value if it uses no names; it need not be finite.
+    ///
+    /// # Errors
+    /// It uses a name.
+    pub(crate) fn constant_value(&self) -> Result<f64, Error> {
+        let load = self.program.iter().find_map(|(instruction, span)| match instruction {
+            Instruction::Load(name) => Some((&self.names[*name], span)),
             _ => None,
         });
         match load {
             Some((name, span)) => {
                 Err(Error::new(span.clone(), format!("`{name}` has no value here"), "write a number"))
             }
-            None => Ok(expression.evaluate(|_| f64::NAN)),
+            None => Ok(self.evaluate(|_| f64::NAN)),
         }
     }
 
     /// The names it uses, each once, in order of first use; constants such as `pi` are not among them.
     pub fn names(&self) -> &[String] {
         &self.names
+    }
+
+    /// The function that returns its value; `None` for an operator, a name or a number.
+    pub(crate) fn outermost_function(&self) -> Option<Function> {
+        match self.program.last() {
+            Some((Instruction::Call(function, _), _)) => Some(*function),
+            _ => None,
+        }
+    }
+
+    /// A function of the expression.
+    pub(crate) fn with_function(mut self, function: Function) -> Expression {
+        let span = self.program.last().map_or(0..0, |(_, span)| span.clone());
+        self.program.push((Instruction::Call(function, 1), span));
+        self
     }
 
     /// The name, if the expression is a single name.
@@ -106,7 +138,7 @@ impl Expression {
                             true => "write a number; names cannot be used here".to_owned(),
                             false => suggestion_among(name, scope.names(), scope.len()),
                         };
-                        Error::new(span.clone(), format!("unknown name `{name}`"), help)
+                        Error::new(span.clone(), format!("{UNKNOWN_NAME} `{name}`"), help)
                     };
                     (Kind::Number, scope.kind_of(name).ok_or_else(unknown)?)
                 }

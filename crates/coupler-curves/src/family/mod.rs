@@ -8,7 +8,7 @@ mod single_cell;
 
 pub use axis_values::AxisValues;
 pub use parameter_space::{Axis, Case, MAX_CELLS, ParameterSpace};
-pub use parameter_text::{ParameterSyntaxError, parse_parameter};
+pub use parameter_text::{ParameterSyntaxError, ParameterText, ParameterUnitError};
 pub use single_cell::{ParameterError, ParameterErrors};
 
 use std::cell::LazyCell;
@@ -188,11 +188,13 @@ impl Family {
     /// The caption lines of a cell, with its values and the measures of its first curve filled in; empty where the
     /// family has none.
     pub fn format_captions(&self, cell: &Cell, measures: &[measure::Value]) -> [String; 2] {
-        static MEASURES_AND_BOOLEANS: LazyLock<Scope> = LazyLock::new(|| Family::scope(&[]));
+        static MEASURES_AND_BOOLEANS: [LazyLock<Scope>; 2] =
+            [LazyLock::new(|| Family::scope(&[], false)), LazyLock::new(|| Family::scope(&[], true))];
+        let measures_and_booleans = &MEASURES_AND_BOOLEANS[usize::from(self.template.is_driven_by_length())];
         let own_names = LazyCell::new(|| Scope::from_numbers(self.names.iter().map(String::as_str)));
         // The family's own names come before the measures.
         let slot = |name: &str| {
-            let measure = || Some(self.names.len() + MEASURES_AND_BOOLEANS.index_of(name)?);
+            let measure = || Some(self.names.len() + measures_and_booleans.index_of(name)?);
             own_names.index_of(name).or_else(measure)
         };
         let load = |name: &str| slot(name).map_or(f64::NAN, |slot| Family::scope_value(cell, measures, slot));
@@ -212,11 +214,13 @@ impl Family {
         self.names.iter().position(|n| n == name).map_or(f64::NAN, |slot| cell.values[slot])
     }
 
-    /// The names that `where` may use, with their kinds: those of cells, the numeric measures and the booleans.
-    pub fn scope(names: &[String]) -> Scope<'_> {
+    /// The names that `where` may use, with their kinds: those of cells, the numeric measures and the booleans. Inputs
+    /// have the names of lengths if an actuator drives the linkage.
+    pub fn scope(names: &[String], is_driven_by_length: bool) -> Scope<'_> {
         let own = names.iter().map(|name| (name.as_str(), Kind::Number));
         let is_number = |measure: &&measure::Measure| !measure.is_word;
-        let measures = measure::ALL.iter().filter(is_number).map(|measure| (measure.name, Kind::Number));
+        let measures =
+            measure::ALL.iter().filter(is_number).map(|measure| (measure.name_for(is_driven_by_length), Kind::Number));
         let booleans = measure::BOOLEANS.iter().map(|boolean| (boolean.name, Kind::Boolean));
         own.chain(measures).chain(booleans).collect()
     }
@@ -242,7 +246,8 @@ impl Family {
 
     /// Whether the caption lines show a measure.
     pub fn captions_use(&self, measure: usize) -> bool {
-        self.captions.iter().flatten().any(|caption| caption.uses(measure::ALL[measure].name))
+        let name = measure::ALL[measure].name_for(self.template.is_driven_by_length());
+        self.captions.iter().flatten().any(|caption| caption.uses(name))
     }
 
     /// The measures that are computed, with their indices in [`measure::ALL`].
@@ -256,15 +261,28 @@ impl Family {
         measure::ALL.iter().filter(|measure| measure.is_word).map(|measure| measure.name)
     }
 
-    /// The names of the measures that are numbers.
-    pub fn numeric_measure_names() -> impl Iterator<Item = &'static str> {
-        measure::ALL.iter().filter(|measure| !measure.is_word).map(|measure| measure.name)
+    /// The names of the measures that are numbers, of linkages driven by an angle or by a length.
+    pub fn numeric_measure_names(is_driven_by_length: bool) -> impl Iterator<Item = &'static str> {
+        let numbers = measure::ALL.iter().filter(|measure| !measure.is_word);
+        numbers.map(move |measure| measure.name_for(is_driven_by_length))
     }
 
     /// Whether a name is that of a column of `points.csv` or `cells.csv`, of a measure or of a boolean.
     pub fn is_column_name(name: &str) -> bool {
-        const COLUMNS: [&str; 8] = ["cell", "trace", "circuit", "branch", "sample", "input_deg", "status", "reason"];
-        let is_measure = measure::ALL.iter().any(|measure| measure.name == name);
+        const COLUMNS: [&str; 11] = [
+            "cell",
+            "trace",
+            "circuit",
+            "branch",
+            "sample",
+            "input_deg",
+            "input_length",
+            "status",
+            "reason",
+            "family",
+            "joint",
+        ];
+        let is_measure = measure::ALL.iter().any(|measure| measure.name == name || measure.length_name == Some(name));
         COLUMNS.contains(&name) || is_measure || measure::BOOLEANS.iter().any(|boolean| boolean.name == name)
     }
 

@@ -5,9 +5,11 @@ use super::joint_kinds::JOINT_KINDS;
 use super::joints;
 use super::schema::{KeySchema, TableSchema, ValueSchema, default_word, words};
 use super::toml_parser::{TomlParser, TomlValue};
-use crate::expression::{Kind, Scope};
+use crate::expression::{Dimension, Kind, Scope, Unit};
 use crate::problem::{Problem, Span};
-use crate::template::{CircuitSelection, CoincidentDyads, Continuation, InputValue, Orientation, Parameter, Template};
+use crate::template::{
+    CircuitSelection, CoincidentDyads, Continuation, InputValue, Orientation, Parameter, ParameterKind, Template,
+};
 
 /// The name of a joint.
 const JOINT_NAME: ValueSchema = ValueSchema::Text;
@@ -93,10 +95,29 @@ static PARAMETER: TableSchema = TableSchema::new(
             ValueSchema::Number,
             "The value where a family gives none; it may use other parameters.",
         ),
+        KeySchema::new(
+            "example",
+            ValueSchema::Number,
+            "A value for a family to start from, where there is no default.",
+        ),
         KeySchema::new("min", ValueSchema::Number, "The least value; a bound of 0 is itself excluded."),
         KeySchema::new("max", ValueSchema::Number, "The greatest value; a bound of 0 is itself excluded."),
+        KeySchema::new(
+            "kind",
+            ValueSchema::Word(|| words(&PARAMETER_KINDS)),
+            "What it is a number of; by default as its use shows.",
+        ),
+        KeySchema::new(
+            "unit",
+            ValueSchema::Word(|| words(Dimension::Angle.units())),
+            "The unit of an angle; by default the one it is used with, or else radians.",
+        ),
     ],
 );
+
+/// The words for the kinds of parameters.
+const PARAMETER_KINDS: [(&str, ParameterKind); 3] =
+    [("length", ParameterKind::Length), ("angle", ParameterKind::Angle(Unit::Rad)), ("ratio", ParameterKind::Ratio)];
 
 const FROM: KeySchema = KeySchema::required("from", ValueSchema::Input, "The input at which it begins.");
 const TO: KeySchema = KeySchema::required("to", ValueSchema::Input, "The input at which it ends.");
@@ -129,6 +150,7 @@ pub fn parse_template<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) ->
     let fields = Fields::from_value(value, &LINKAGE, parser)?;
     let id = fields.required("id", "id = \"my-linkage\"", parser).and_then(|value| parse_slug(value, parser));
     let parameters = fields.get("parameters").map(|value| parse_parameters(value, parser)).unwrap_or_default();
+    let (parameters, states_unit): (Vec<Parameter>, Vec<bool>) = parameters.into_iter().unzip();
     let scope = Scope::from_numbers(parameters.iter().map(|parameter| parameter.name.as_str()));
     let text = |key: &str, parser: &mut TomlParser<'t>| fields.get(key).and_then(|value| parser.text(value));
     let source = text("source", parser).unwrap_or_default();
@@ -148,7 +170,7 @@ pub fn parse_template<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) ->
         .required("joints", "a table [linkage.joints]", parser)
         .and_then(|value| joints::parse_joints(value, &fields, &scope, parser));
     let (id, joints) = (id?, joints?);
-    let template = Template {
+    let mut template = Template {
         id,
         source,
         legend,
@@ -167,6 +189,15 @@ pub fn parse_template<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) ->
         arc,
         parameters,
     };
+    for ((kind, states_unit), parameter) in
+        template.infer_kinds().into_iter().zip(states_unit).zip(&mut template.parameters)
+    {
+        match (parameter.kind, kind) {
+            (ParameterKind::Number, _) => parameter.kind = kind,
+            (ParameterKind::Angle(_), ParameterKind::Angle(_)) if !states_unit => parameter.kind = kind,
+            _ => {}
+        }
+    }
     if let Some(error) = template.structural_error() {
         let joint_span = joints.spans.iter().find(|(name, _)| name == error.joint()).map(|(_, span)| span.clone());
         let key = if error.joint() == "output_link" { "output_link" } else { "seen_from" };
@@ -209,7 +240,8 @@ fn is_windows_device(name: &str) -> bool {
     is_port || ["con", "prn", "aux", "nul"].contains(&name)
 }
 
-fn parse_parameters<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Vec<Parameter> {
+/// Parses the parameters, and whether each states its unit.
+fn parse_parameters<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Vec<(Parameter, bool)> {
     let Some(table) = Fields::with_any_keys(value, "`parameters`", parser) else { return Vec::new() };
     let scope = Scope::from_numbers(table.keys());
     let mut out = Vec::new();
@@ -230,7 +262,21 @@ fn parse_parameters<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> V
                 Problem::error(fields.span.clone(), format!("the least value {min} is above the greatest {max}"));
             parser.report(problem.with_help("exchange `min` and `max`"));
         }
-        out.push(Parameter { name: name.to_owned(), default, min, max });
+        let kind = fields.get("kind").and_then(|value| parser.word(value, &PARAMETER_KINDS));
+        let unit = fields.get("unit").and_then(|value| Some((value, parser.word(value, Dimension::Angle.units())?)));
+        let kind = match (kind, unit) {
+            (None | Some(ParameterKind::Angle(_)), Some((_, unit))) => ParameterKind::Angle(unit),
+            (Some(kind), Some((value, _))) => {
+                let problem = Problem::error(value.span(), format!("`{name}` is {}", kind.description()));
+                parser.report(problem.with_help("only angles have a unit: leave it out, or write kind = \"angle\""));
+                kind
+            }
+            (kind, None) => kind.unwrap_or_default(),
+        };
+        let default_text = fields.get("default").map(|value| parser.value_text(value)).unwrap_or_default();
+        let example = limit("example", parser);
+        let parameter = Parameter { name: name.to_owned(), kind, default, default_text, example, min, max };
+        out.push((parameter, unit.is_some()));
     }
     out
 }

@@ -5,7 +5,7 @@ use toml::de::{DeTable, DeValue};
 
 use crate::expression::{self, Caption, CompiledExpression, Dimension, Expression, Kind, Quantity, Scope};
 use crate::problem::{Problem, Span};
-use crate::template::InputValue;
+use crate::template::{InputValue, ParameterKind};
 
 /// A TOML value and its span in the text.
 pub type TomlValue<'t> = Spanned<DeValue<'t>>;
@@ -19,29 +19,51 @@ pub struct TomlParser<'t> {
     problems: Vec<Problem>,
     /// The number of problems, including those that are not collected.
     problem_count: usize,
+    /// The entries with a syntax error.
+    broken_entries: Vec<Span>,
 }
 
 impl<'t> TomlParser<'t> {
     /// A parser of a text.
     pub fn new(text: &'t str) -> TomlParser<'t> {
-        TomlParser { text, problems: Vec::new(), problem_count: 0 }
+        TomlParser { text, problems: Vec::new(), problem_count: 0, broken_entries: Vec::new() }
     }
 
-    /// The document; after a syntax error, as much of it as can be recovered.
+    /// The document; after a syntax error, as much of it as can be recovered. Of the syntax errors in one entry, a key
+    /// and its value, only the first is reported: others, and what else seems wrong with the entry, follow from it.
     pub fn parse_document(&mut self) -> TomlValue<'t> {
         // A byte order mark is not part of the document, but spans count from it.
-        let (table, errors) = DeTable::parse_recoverable(self.text);
+        let (table, mut errors) = DeTable::parse_recoverable(self.text);
+        errors.sort_by_key(|error| error.span().map_or(0, |span| span.start));
         for error in errors {
             let span = error.span().unwrap_or(0..0);
-            let problem = Problem::error(span, format!("invalid TOML: {}", error.message()));
+            let entry = entry_around(self.text, span.start);
+            // The parser takes values without a comma between them for a string without quotes.
+            let has_blank = self.text.get(span.clone()).is_some_and(|text| text.trim().contains([' ', '\t']));
+            let message = match error.message() {
+                message if has_blank && message.starts_with("string values must be quoted") => {
+                    "there is no comma between values, or a string is not in quotes"
+                }
+                message => message,
+            };
+            let problem = Problem::error(span, format!("invalid TOML: {message}"));
             self.report(problem.with_help("see https://toml.io for how tables, keys and values are written"));
+            self.broken_entries.push(entry);
         }
         let span = table.span();
         Spanned::new(span, DeValue::Table(table.into_inner()))
     }
 
-    /// Adds a problem; parsing continues.
+    /// Whether the text has a syntax error: what seems to be missing may be in an entry that could not be read.
+    pub fn has_syntax_error(&self) -> bool {
+        !self.broken_entries.is_empty()
+    }
+
+    /// Adds a problem, unless it is in an entry with a syntax error; parsing continues.
     pub fn report(&mut self, problem: Problem) {
+        if self.broken_entries.iter().any(|entry| entry.contains(&problem.span.start)) {
+            return;
+        }
         self.problem_count += 1;
         if self.problems.len() < MAX_PROBLEMS {
             self.problems.push(problem);
@@ -186,6 +208,30 @@ impl<'t> TomlParser<'t> {
         self.require_finite(value, compiled.evaluate(|_| f64::NAN))
     }
 
+    /// A value of a parameter: a number, or an expression in quotes, which for an angle may have a unit. Of a name that
+    /// is not a parameter the kind is [`ParameterKind::Number`].
+    pub fn parameter_expression(
+        &mut self,
+        value: &TomlValue<'t>,
+        (name, kind): (&str, ParameterKind),
+    ) -> Option<Expression> {
+        match value.get_ref() {
+            DeValue::String(text) => {
+                let parsed = kind.parse_value(name, text);
+                self.ok_or_report(value, parsed)
+            }
+            _ => self.expression(value),
+        }
+    }
+
+    /// A value of a parameter, as [`TomlParser::parameter_expression`], without names.
+    pub fn parameter_value(&mut self, value: &TomlValue<'t>, parameter: (&str, ParameterKind)) -> Option<f64> {
+        let expression = self.parameter_expression(value, parameter)?;
+        let compiled = expression.compile(&Scope::default(), Kind::Number);
+        let compiled = self.ok_or_report(value, compiled)?;
+        self.require_finite(value, compiled.evaluate(|_| f64::NAN))
+    }
+
     /// A value of the input over the names of `scope`: an angle with its unit, or a length without a unit.
     pub fn input(&mut self, value: &TomlValue<'t>, is_length: bool, scope: &Scope) -> Option<InputValue> {
         if is_length {
@@ -300,6 +346,11 @@ impl<'t> TomlParser<'t> {
         }
     }
 
+    /// A string, or a number as it is written.
+    pub fn value_text(&self, value: &TomlValue<'t>) -> String {
+        value.get_ref().as_str().unwrap_or_else(|| self.source_text(value)).to_owned()
+    }
+
     /// The source text of a value.
     fn source_text(&self, value: &TomlValue<'t>) -> &'t str {
         self.text.get(value.span()).unwrap_or_default()
@@ -309,6 +360,8 @@ impl<'t> TomlParser<'t> {
     pub fn ok_or_report<T>(&mut self, value: &TomlValue<'t>, result: Result<T, expression::Error>) -> Option<T> {
         match result {
             Ok(result) => Some(result),
+            // The name may be given its value in an entry that could not be read.
+            Err(error) if self.has_syntax_error() && error.is_unknown_name() => None,
             Err(error) => {
                 let problem = error.into_problem(|inner| self.span_in_string(value, inner));
                 self.report(problem);
@@ -342,4 +395,24 @@ fn unfold_span(value: &TomlValue, span: Span) -> Span {
         at + ends.count()
     };
     unfold(span.start)..unfold(span.end)
+}
+
+/// The lines around a place in a text: from the one that begins an entry or a header up to the next that does.
+fn entry_around(text: &str, at: usize) -> Span {
+    let begins_entry = |line: &str| {
+        let is_of_key = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-' | '.' | '"' | '\'' | ' ');
+        let key = line.split_once('=').map(|(key, _)| key);
+        line.starts_with('[') || key.is_some_and(|key| !key.trim().is_empty() && key.chars().all(is_of_key))
+    };
+    let (mut start, mut line_start) = (0, 0);
+    for line in text.split_inclusive('\n') {
+        if begins_entry(line) {
+            if line_start > at {
+                return start..line_start;
+            }
+            start = line_start;
+        }
+        line_start += line.len();
+    }
+    start..text.len() + 1
 }

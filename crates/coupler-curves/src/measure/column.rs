@@ -1,5 +1,6 @@
 //! Quantities of a single sample: the optional columns of `points.csv`.
 
+use super::Subject;
 use crate::geometry::{Vector, cross, trig};
 use crate::linkage::{AssemblyMode, FourBar, JointId, JointKind, Linkage};
 use crate::motion::{Circuit, InstantaneousMotion, JointDerivatives};
@@ -11,7 +12,21 @@ pub struct Column {
     pub name: &'static str,
     /// Its definition, with its unit and its source.
     pub definition: &'static str,
+    /// The linkages that have it.
+    pub subject: Subject,
     compute: fn(&Sample) -> f64,
+}
+
+impl Column {
+    /// A column of every linkage.
+    const fn new(name: &'static str, definition: &'static str, compute: fn(&Sample) -> f64) -> Column {
+        Column { name, definition, subject: Subject::Any, compute }
+    }
+
+    /// The same column, of these linkages only.
+    const fn of(self, subject: Subject) -> Column {
+        Column { subject, ..self }
+    }
 }
 
 /// A sample of a joint's curve.
@@ -25,70 +40,48 @@ struct Sample<'a> {
 
 /// All columns. Derivatives are per radian of input, or per unit of length; unbounded ones are infinite.
 pub static COLUMNS: [Column; 24] = [
-    Column { name: "vx", definition: "velocity along x", compute: |s| s.velocity().x },
-    Column { name: "vy", definition: "velocity along y", compute: |s| s.velocity().y },
-    Column { name: "ax", definition: "acceleration along x", compute: |s| s.acceleration().x },
-    Column { name: "ay", definition: "acceleration along y", compute: |s| s.acceleration().y },
-    Column { name: "jx", definition: "jerk along x", compute: |s| s.derivatives.jerk(s.joint).x },
-    Column { name: "jy", definition: "jerk along y", compute: |s| s.derivatives.jerk(s.joint).y },
-    Column { name: "speed", definition: "magnitude of the velocity", compute: |s| s.velocity().norm() },
-    Column { name: "curvature", definition: "curvature of the path, positive to the left", compute: |s| s.curvature() },
-    Column {
-        name: "curvature_rate",
-        definition: "derivative of the curvature with respect to arc length",
-        compute: |s| s.curvature_rate(),
-    },
-    Column {
-        name: "pole_x",
-        definition: "instant centre of the point's link, on the fixed centrode",
-        compute: |s| s.instant_value(|i| i.pole.x),
-    },
-    Column {
-        name: "pole_y",
-        definition: "instant centre of the point's link, on the fixed centrode",
-        compute: |s| s.instant_value(|i| i.pole.y),
-    },
-    Column {
-        name: "moving_pole_x",
-        definition: "instant centre in the link's frame, on the moving centrode: along it",
-        compute: |s| s.instant_value(|i| i.moving_pole.x),
-    },
-    Column {
-        name: "moving_pole_y",
-        definition: "instant centre in the link's frame, on the moving centrode: to its left",
-        compute: |s| s.instant_value(|i| i.moving_pole.y),
-    },
-    Column {
-        name: "inflection_x",
-        definition: "inflection pole: on the inflection circle opposite the instant centre",
-        compute: |s| s.instant_value(|i| i.inflection_pole().x),
-    },
-    Column {
-        name: "inflection_y",
-        definition: "inflection pole: on the inflection circle opposite the instant centre",
-        compute: |s| s.instant_value(|i| i.inflection_pole().y),
-    },
-    Column {
-        name: "psi_deg",
-        definition: "output angle, deg: McCarthy (2.52), of a slot (2.45)",
-        compute: |s| s.psi(),
-    },
-    Column { name: "phi_deg", definition: "coupler angle from the crank, deg: McCarthy (2.57)", compute: |s| s.phi() },
-    Column { name: "mu_deg", definition: "transmission angle, deg: McCarthy 2.3.3", compute: |s| s.mu() },
-    Column {
-        name: "psi_ratio",
-        definition: "angular velocity of the output to that of the input",
-        compute: |s| s.psi_ratio(),
-    },
-    Column {
-        name: "phi_ratio",
-        definition: "angular velocity of the coupler to that of the input",
-        compute: |s| s.phi_ratio(),
-    },
-    Column { name: "solvability", definition: "A^2 + B^2 - C^2: McCarthy (2.53)", compute: |s| s.solvability() },
-    Column { name: "s", definition: "slide of an inverted slider-crank: McCarthy (2.42)", compute: |s| s.slide() },
-    Column { name: "b", definition: "distance |CA| of an inverted slider-crank: McCarthy (2.40)", compute: |s| s.b() },
-    Column { name: "beta_deg", definition: "angle from CB to CA, deg: McCarthy (2.40)", compute: |s| s.beta() },
+    Column::new("vx", "velocity along x", |s| s.velocity().x),
+    Column::new("vy", "velocity along y", |s| s.velocity().y),
+    Column::new("ax", "acceleration along x", |s| s.acceleration().x),
+    Column::new("ay", "acceleration along y", |s| s.acceleration().y),
+    Column::new("jx", "jerk along x", |s| s.derivatives.jerk(s.joint).x),
+    Column::new("jy", "jerk along y", |s| s.derivatives.jerk(s.joint).y),
+    Column::new("speed", "magnitude of the velocity", |s| s.velocity().norm()),
+    Column::new("curvature", "curvature of the path, positive to the left", |s| s.curvature()),
+    Column::new("curvature_rate", "derivative of the curvature with respect to arc length", |s| s.curvature_rate()),
+    Column::new("pole_x", "instant centre of the point's link, on the fixed centrode", |s| {
+        s.instant_value(|i| i.pole.x)
+    }),
+    Column::new("pole_y", "instant centre of the point's link, on the fixed centrode", |s| {
+        s.instant_value(|i| i.pole.y)
+    }),
+    Column::new("moving_pole_x", "instant centre in the link's frame, on the moving centrode: along it", |s| {
+        s.instant_value(|i| i.moving_pole.x)
+    }),
+    Column::new("moving_pole_y", "instant centre in the link's frame, on the moving centrode: to its left", |s| {
+        s.instant_value(|i| i.moving_pole.y)
+    }),
+    Column::new("inflection_x", "inflection pole: on the inflection circle opposite the instant centre", |s| {
+        s.instant_value(|i| i.inflection_pole().x)
+    }),
+    Column::new("inflection_y", "inflection pole: on the inflection circle opposite the instant centre", |s| {
+        s.instant_value(|i| i.inflection_pole().y)
+    }),
+    Column::new("psi_deg", "output angle, deg: McCarthy (2.52), of a slot (2.45)", |s| s.psi())
+        .of(Subject::FourBarOrInvertedSliderCrank),
+    Column::new("phi_deg", "coupler angle from the crank, deg: McCarthy (2.57)", |s| s.phi())
+        .of(Subject::FourBarOnFrame),
+    Column::new("mu_deg", "transmission angle, deg: McCarthy 2.3.3", |s| s.mu()).of(Subject::FourBarOnFrame),
+    Column::new("psi_ratio", "angular velocity of the output to that of the input", |s| s.psi_ratio())
+        .of(Subject::FourBarOrInvertedSliderCrank),
+    Column::new("phi_ratio", "angular velocity of the coupler to that of the input", |s| s.phi_ratio())
+        .of(Subject::FourBarOnFrame),
+    Column::new("solvability", "A^2 + B^2 - C^2: McCarthy (2.53)", |s| s.solvability()).of(Subject::FourBarOnFrame),
+    Column::new("s", "slide of an inverted slider-crank: McCarthy (2.42)", |s| s.slide())
+        .of(Subject::InvertedSliderCrank),
+    Column::new("b", "distance |CA| of an inverted slider-crank: McCarthy (2.40)", |s| s.b())
+        .of(Subject::InvertedSliderCrank),
+    Column::new("beta_deg", "angle from CB to CA, deg: McCarthy (2.40)", |s| s.beta()).of(Subject::InvertedSliderCrank),
 ];
 
 /// The column of a name.

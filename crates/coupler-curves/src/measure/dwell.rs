@@ -11,7 +11,8 @@ use super::every_nth::EveryNth;
 use super::longest_near::{ACCURACY, Constraint, Constraints, Contacts, Fit, LongestNear, Reached};
 use super::portions::{Requirement, longest};
 use super::row::Row;
-use super::{Measure, TracedCurve, Value};
+use super::straight::EXACT;
+use super::{Measure, TracedCurve, Value, without_rounding};
 use crate::geometry::Point;
 
 /// The greatest width of the annulus, relative to the curve's greatest extent.
@@ -39,9 +40,10 @@ pub const MEASURES: [Measure; 6] = [
     Measure::number(
         "dwell_input_deg",
         "deg",
-        "greatest input span of a portion within 0.0005 of the curve's greatest extent of a circle; a length for an actuator",
+        "greatest input span of a portion within 0.0005 of the curve's greatest extent of a circle",
         |curve| dwell_value(curve, |dwell| dwell.input_span),
-    ),
+    )
+    .or_length("dwell_input_length"),
     Measure::number(
         "dwell_radius",
         "",
@@ -51,12 +53,10 @@ pub const MEASURES: [Measure; 6] = [
     Measure::number("dwell_deviation", "", "greatest distance of the circular portion from its circle", |curve| {
         dwell_value(curve, |dwell| dwell.deviation)
     }),
-    Measure::number(
-        "dwell_start_deg",
-        "deg",
-        "input at which the circular portion begins; a length for an actuator",
-        |curve| dwell_value(curve, |dwell| dwell.start_input),
-    ),
+    Measure::number("dwell_start_deg", "deg", "input at which the circular portion begins", |curve| {
+        dwell_value(curve, |dwell| dwell.start_input)
+    })
+    .or_length("dwell_start_length"),
     Measure::number("dwell_x", "", "x of the circle's centre", |curve| dwell_value(curve, |dwell| dwell.centre.x)),
     Measure::number("dwell_y", "", "y of the circle's centre", |curve| dwell_value(curve, |dwell| dwell.centre.y)),
 ];
@@ -75,8 +75,14 @@ pub(super) fn find_dwell(row: &Row, extent: f64, length: f64) -> Option<Dwell> {
     let PortionRing { centre, radius, width, .. } = CurveRings::new(row, ends, INTERVALS, length).ring(ends)?;
     let input_span = row.input_travel_at(ends[1]) - row.input_travel_at(ends[0]);
     let points = row.points_between(ends, INTERVALS);
-    Some(Dwell { centre, radius, deviation: width / 2.0, start_input: row.input_at(ends[0]), input_span, points })
+    // The rounding of the circle is that of the positions; a deviation is as accurate as that of a straight portion.
+    let centre = centre.map(|coordinate| without_rounding(coordinate, ROUNDING * radius));
+    let deviation = without_rounding(width / 2.0, EXACT * radius);
+    Some(Dwell { centre, radius, deviation, start_input: row.input_at(ends[0]), input_span, points })
 }
+
+/// The rounding of a centre, relative to the radius.
+const ROUNDING: f64 = 1e-12;
 
 /// Intervals of a portion that is reported.
 const INTERVALS: usize = 96;

@@ -1,34 +1,32 @@
 use super::{Measure, TracedCurve, Value};
 
 /// The measure `is_full_turn`, which is also a boolean.
-pub const IS_FULL_TURN: Measure = Measure {
-    name: "is_full_turn",
-    unit: "",
-    is_word: true,
-    definition: "whether the input turns fully on this circuit, yes or no, also through change points; no for an actuator; a condition in `where`",
-    compute: |curve: &TracedCurve| Value::Word(if curve.circuit.is_full_turn() { YES } else { "no" }),
-};
+pub const IS_FULL_TURN: Measure = Measure::word(
+    "is_full_turn",
+    "whether the input turns fully on this circuit, yes or no, also through change points; no for an actuator; a condition in `where`",
+    |curve: &TracedCurve| Value::Word(if curve.circuit.is_full_turn() { YES } else { "no" }),
+);
 
 /// The value of `is_full_turn` on a full turn.
 pub const YES: &str = "yes";
 
 /// The measure `input_min_deg`.
-pub const INPUT_MIN: Measure = Measure {
-    name: "input_min_deg",
-    unit: "deg",
-    is_word: false,
-    definition: "least input of the circuit; empty on a full turn",
-    compute: |curve: &TracedCurve| extreme_input(curve, f64::INFINITY, f64::min),
-};
+pub const INPUT_MIN: Measure = Measure::number(
+    "input_min_deg",
+    "deg",
+    "least input of the circuit; empty on a full turn",
+    |curve: &TracedCurve| extreme_input(curve, f64::INFINITY, f64::min),
+)
+.or_length("input_min_length");
 
 /// The measure `input_max_deg`.
-pub const INPUT_MAX: Measure = Measure {
-    name: "input_max_deg",
-    unit: "deg",
-    is_word: false,
-    definition: "greatest input of the circuit; empty on a full turn",
-    compute: |curve: &TracedCurve| extreme_input(curve, f64::NEG_INFINITY, f64::max),
-};
+pub const INPUT_MAX: Measure = Measure::number(
+    "input_max_deg",
+    "deg",
+    "greatest input of the circuit; empty on a full turn",
+    |curve: &TracedCurve| extreme_input(curve, f64::NEG_INFINITY, f64::max),
+)
+.or_length("input_max_length");
 
 fn extreme_input(curve: &TracedCurve, start: f64, pick: fn(f64, f64) -> f64) -> Value {
     if curve.circuit.is_full_turn() {

@@ -1,59 +1,47 @@
 //! Length, area and bounding box of the path.
 
 use super::curve::{ArcLength, Place, SmoothCurve};
-use super::{Measure, TracedCurve, Value};
+use super::{Measure, TracedCurve, Value, without_rounding};
 use crate::geometry::Vector;
 use crate::linkage::{JointId, Linkage};
 use crate::motion::Circuit;
 
 /// The measure `length`.
-pub const LENGTH: Measure = Measure {
-    name: "length",
-    unit: "",
-    is_word: false,
-    definition: "length of the path over the circuit, in the manifest's unit",
-    compute: |curve: &TracedCurve| Value::Number(curve.arc_length().total()),
-};
+pub const LENGTH: Measure = Measure::number(
+    "length",
+    "",
+    "length of the path over the circuit, in the manifest's unit",
+    |curve: &TracedCurve| Value::Number(curve.arc_length().total()),
+);
 
 /// The measure `area`.
-pub const AREA: Measure = Measure {
-    name: "area",
-    unit: "",
-    is_word: false,
-    definition: "area enclosed by the path, in the manifest's unit squared: positive counter-clockwise; empty if it is not closed",
-    compute: |curve: &TracedCurve| curve.smooth().area().map_or(Value::Missing, Value::Number),
-};
+pub const AREA: Measure = Measure::number(
+    "area",
+    "",
+    "area enclosed by the path, in the manifest's unit squared: positive counter-clockwise; empty if it is not closed",
+    |curve: &TracedCurve| {
+        let rounding = ROUNDING * curve.extent() * curve.extent();
+        curve.smooth().area().map_or(Value::Missing, |area| Value::Number(without_rounding(area, rounding)))
+    },
+);
+
+/// The accuracy of areas, relative to the square of the extent.
+const ROUNDING: f64 = 1e-12;
 
 /// The measures `bbox_x_min`, `bbox_x_max`, `bbox_y_min` and `bbox_y_max`.
 pub const BOUNDING_BOX: [Measure; 4] = [
-    Measure {
-        name: "bbox_x_min",
-        unit: "",
-        is_word: false,
-        definition: "least x of the curve",
-        compute: |curve: &TracedCurve| extent_measure(curve, Vector::new(-1.0, 0.0)),
-    },
-    Measure {
-        name: "bbox_x_max",
-        unit: "",
-        is_word: false,
-        definition: "greatest x of the curve",
-        compute: |curve: &TracedCurve| extent_measure(curve, Vector::new(1.0, 0.0)),
-    },
-    Measure {
-        name: "bbox_y_min",
-        unit: "",
-        is_word: false,
-        definition: "least y of the curve",
-        compute: |curve: &TracedCurve| extent_measure(curve, Vector::new(0.0, -1.0)),
-    },
-    Measure {
-        name: "bbox_y_max",
-        unit: "",
-        is_word: false,
-        definition: "greatest y of the curve",
-        compute: |curve: &TracedCurve| extent_measure(curve, Vector::new(0.0, 1.0)),
-    },
+    Measure::number("bbox_x_min", "", "least x of the curve", |curve: &TracedCurve| {
+        extent_measure(curve, Vector::new(-1.0, 0.0))
+    }),
+    Measure::number("bbox_x_max", "", "greatest x of the curve", |curve: &TracedCurve| {
+        extent_measure(curve, Vector::new(1.0, 0.0))
+    }),
+    Measure::number("bbox_y_min", "", "least y of the curve", |curve: &TracedCurve| {
+        extent_measure(curve, Vector::new(0.0, -1.0))
+    }),
+    Measure::number("bbox_y_max", "", "greatest y of the curve", |curve: &TracedCurve| {
+        extent_measure(curve, Vector::new(0.0, 1.0))
+    }),
 ];
 
 fn extent_measure(curve: &TracedCurve, direction: Vector) -> Value {

@@ -7,58 +7,48 @@ use crate::linkage::DyadSet;
 use crate::motion::{InputMap, InputPosition, JointDerivatives};
 
 /// The measure `crunodes`.
-pub const CRUNODES: Measure = Measure {
-    name: "crunodes",
-    unit: "",
-    is_word: false,
-    definition: "points at which the path crosses itself",
-    compute: |curve: &TracedCurve| Value::Number(curve.crossings().points.len() as f64),
-};
+pub const CRUNODES: Measure =
+    Measure::number("crunodes", "", "points at which the path crosses itself", |curve: &TracedCurve| {
+        Value::Number(curve.crossings().points.len() as f64)
+    });
 
 /// The measure `inflections`.
-pub const INFLECTIONS: Measure = Measure {
-    name: "inflections",
-    unit: "",
-    is_word: false,
-    definition: "points at which the curvature of the path changes its sign",
-    compute: |curve: &TracedCurve| Value::Number(curve.inflections().0 as f64),
-};
+pub const INFLECTIONS: Measure = Measure::number(
+    "inflections",
+    "",
+    "points at which the curvature of the path changes its sign",
+    |curve: &TracedCurve| Value::Number(curve.inflections().0 as f64),
+);
 
 /// The measure `cusps`.
-pub const CUSPS: Measure = Measure {
-    name: "cusps",
-    unit: "",
-    is_word: false,
-    definition: "points at which the path stops and goes on from a cusp",
-    compute: |curve: &TracedCurve| Value::Number(curve.cusp_count() as f64),
-};
+pub const CUSPS: Measure =
+    Measure::number("cusps", "", "points at which the path stops and goes on from a cusp", |curve: &TracedCurve| {
+        Value::Number(curve.cusp_count() as f64)
+    });
 
 /// The measure `too_close`.
-pub const TOO_CLOSE: Measure = Measure {
-    name: "too_close",
-    unit: "",
-    is_word: true,
-    definition: "counts of the curve of which it is not known whether they are two more, because two crunodes or inflections would be within 1e-9 of a turn; positions if the linkage is so near a change point that the curve is not known to 1e-9 of its extent; empty if nothing is in doubt",
-    compute: |curve: &TracedCurve| match (curve.crossings().doubtful > 0, curve.inflections().1 > 0) {
+pub const TOO_CLOSE: Measure = Measure::word(
+    "too_close",
+    "counts of the curve of which it is not known whether they are two more, because two crunodes or inflections would be within 1e-9 of a turn; positions if the linkage is so near a change point that the curve is not known to 1e-9 of its extent; empty if nothing is in doubt",
+    |curve: &TracedCurve| match (curve.crossings().doubtful > 0, curve.inflections().1 > 0) {
         _ if curve.smooth().rounding > RESOLVED * curve.extent() => Value::Word("positions"),
         (true, true) => Value::Word("crunodes and inflections"),
         (true, false) => Value::Word("crunodes"),
         (false, true) => Value::Word("inflections"),
         (false, false) => Value::Missing,
     },
-};
+);
 
 /// The accuracy of positions, relative to the extent of the curve, that is promised of all measures.
 const RESOLVED: f64 = 1e-9;
 
 /// The measure `curvature_max`.
-pub const CURVATURE_MAX: Measure = Measure {
-    name: "curvature_max",
-    unit: "",
-    is_word: false,
-    definition: "greatest curvature of the path except at corners at change points, in 1 over the manifest's unit; inf if there is a cusp, or if the path reverses at a limit",
-    compute: |curve: &TracedCurve| max_curvature(curve).map_or(Value::Missing, Value::Number),
-};
+pub const CURVATURE_MAX: Measure = Measure::number(
+    "curvature_max",
+    "",
+    "greatest curvature of the path except at corners at change points, in 1 over the manifest's unit; inf if there is a cusp, or if the path reverses at a limit",
+    |curve: &TracedCurve| max_curvature(curve).map_or(Value::Missing, Value::Number),
+);
 
 /// The number of cusps of a path.
 pub(super) fn count_cusps(curve: &TracedCurve) -> usize {

@@ -3,13 +3,12 @@ use super::{Measure, TracedCurve, Value};
 use crate::linkage::Input;
 
 /// The measure `speed_ratio`.
-pub const SPEED_RATIO: Measure = Measure {
-    name: "speed_ratio",
-    unit: "",
-    is_word: false,
-    definition: "ratio of the longest dash to the shortest: the first 3 of every 5 deg of input, from input 0, except those cut by the end of a pass",
-    compute: |curve: &TracedCurve| ratio(curve).map_or(Value::Missing, Value::Number),
-};
+pub const SPEED_RATIO: Measure = Measure::number(
+    "speed_ratio",
+    "",
+    "ratio of the longest dash to the shortest: the first 3 of every 5 deg of input, from input 0, except those cut by the end of a pass",
+    |curve: &TracedCurve| ratio(curve).map_or(Value::Missing, Value::Number),
+);
 
 fn ratio(curve: &TracedCurve) -> Option<f64> {
     const PERIOD: f64 = 5.0;

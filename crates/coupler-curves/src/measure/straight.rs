@@ -15,7 +15,7 @@ use super::portions::longest;
 use super::row::Row;
 use super::straightest::{Narrowest, straightest};
 use super::strip::Strip;
-use super::{Measure, TracedCurve, Value};
+use super::{Measure, Subject, TracedCurve, Value};
 use crate::geometry::Point;
 use crate::linkage::Input;
 
@@ -59,40 +59,33 @@ pub const MEASURES: [Measure; 6] = [
         "length of the straightest portion, projected on its line, in the manifest's unit: the longest in a strip no wider than 0.001 of it, or as set by the family's `straight`; empty if it is shorter than a twentieth of the curve's greatest extent",
         |curve| portion_value(curve, |portion| portion.length),
     ),
-    Measure {
-        name: "straight_share",
-        unit: "",
-        is_word: false,
-        definition: "that length relative to the curve's greatest extent",
-        compute: |curve| match curve.straight() {
+    Measure::number("straight_share", "", "that length relative to the curve's greatest extent", |curve| {
+        match curve.straight() {
             Some(portion) => Value::Number(portion.length / curve.extent()),
             None => Value::Missing,
-        },
-    },
+        }
+    }),
     Measure::number(
         "straight_deviation",
         "",
         "greatest distance of the straightest portion from its line, half the width of its strip, in the manifest's unit",
         |curve| portion_value(curve, |portion| portion.deviation),
     ),
-    Measure::number(
-        "straight_start_deg",
-        "deg",
-        "input at which the straightest portion begins; a length for an actuator",
-        |curve| portion_value(curve, |portion| portion.start_input),
-    ),
-    Measure::number(
-        "straight_input_deg",
-        "deg",
-        "input that the straightest portion spans; a length for an actuator",
-        |curve| portion_value(curve, |portion| portion.input_span),
-    ),
+    Measure::number("straight_start_deg", "deg", "input at which the straightest portion begins", |curve| {
+        portion_value(curve, |portion| portion.start_input)
+    })
+    .or_length("straight_start_length"),
+    Measure::number("straight_input_deg", "deg", "input that the straightest portion spans", |curve| {
+        portion_value(curve, |portion| portion.input_span)
+    })
+    .or_length("straight_input_length"),
     Measure::number(
         "straight_twin_deg",
         "deg",
-        "input at which a second portion begins that is equally long, as on a symmetrical curve; a length for an actuator",
+        "input at which a second portion begins that is equally long, as on a symmetrical curve",
         |curve| portion_number(curve.straight_portions().get(1), |portion| portion.start_input),
-    ),
+    )
+    .or_length("straight_twin_length"),
 ];
 
 /// The tolerances of further straight portions, wider than the default.
@@ -127,18 +120,14 @@ macro_rules! wider {
                 "greatest distance of that portion from its line",
                 |curve| value(curve, |portion| portion.deviation),
             ),
-            Measure::number(
-                concat!($prefix, "_start_deg"),
-                "deg",
-                "input at which it begins; a length for an actuator",
-                |curve| value(curve, |portion| portion.start_input),
-            ),
-            Measure::number(
-                concat!($prefix, "_input_deg"),
-                "deg",
-                "input that it spans; a length for an actuator",
-                |curve| value(curve, |portion| portion.input_span),
-            ),
+            Measure::number(concat!($prefix, "_start_deg"), "deg", "input at which it begins", |curve| {
+                value(curve, |portion| portion.start_input)
+            })
+            .or_length(concat!($prefix, "_start_length")),
+            Measure::number(concat!($prefix, "_input_deg"), "deg", "input that it spans", |curve| {
+                value(curve, |portion| portion.input_span)
+            })
+            .or_length(concat!($prefix, "_input_length")),
         ]
     }};
 }
@@ -153,13 +142,13 @@ pub const HALF_TURN: [Measure; 3] = [
         "",
         "length of the portion that is straightest for its length of those that half a turn of the input traverses; empty if its strip is wider than 0.02 of it",
         |curve| portion_number(curve.straight_half_turn(), |portion| portion.length),
-    ),
+    ).of(Subject::DrivenByAngle),
     Measure::number("straight_half_turn_deviation", "", "greatest distance of that portion from its line", |curve| {
         portion_number(curve.straight_half_turn(), |portion| portion.deviation)
-    }),
+    }).of(Subject::DrivenByAngle),
     Measure::number("straight_half_turn_start_deg", "deg", "input at which it begins", |curve| {
         portion_number(curve.straight_half_turn(), |portion| portion.start_input)
-    }),
+    }).of(Subject::DrivenByAngle),
 ];
 
 fn portion_number(portion: Option<&StraightPortion>, value: impl Fn(&StraightPortion) -> f64) -> Value {
@@ -177,7 +166,8 @@ const LEAST_SHARE: f64 = 0.05;
 /// The distance of the points in which portions are searched for, relative to the extent: the shortest portion has ten.
 pub(super) const SPACING: f64 = LEAST_SHARE / 10.0;
 
-/// The deviation of a portion that is straight to rounding, relative to its length; it is reported as 0.
+/// The deviation of a portion that is straight to rounding, relative to its length, or that is circular, relative to its
+/// radius; it is reported as 0.
 pub(super) const EXACT: f64 = 1e-9;
 
 /// The portions of a curve that meet a criterion: the best, and of several equally long ones all; none if the curve is

@@ -9,7 +9,7 @@
 
 use super::row::Row;
 use super::symmetry_axis::{AxisCandidates, MirrorImages, SymmetryAxis};
-use super::{Measure, TracedCurve, Value};
+use super::{Measure, TracedCurve, Value, without_rounding};
 use crate::geometry::{Point, Vector, complex_product, cross, in_rising_order};
 use crate::linkage::{FourBar, FourBarClass, JointId, JointKind, PlacedFourBar, Sextic};
 
@@ -36,37 +36,38 @@ impl Symmetry {
 }
 
 /// The measure `symmetry`.
-pub const SYMMETRY: Measure = Measure {
-    name: "symmetry",
-    unit: "",
-    is_word: true,
-    definition: "theorem 1 (crank = rocker, point on the coupler's bisector) or theorem 2 (coupler = rocker = pin to point, or coupler = crank) of Natesan's chapter 7; other: another curve whose mirror image is within 1e-4 of its extent; empty for a curve without symmetry",
-    compute: |curve: &TracedCurve| match curve.symmetry() {
+pub const SYMMETRY: Measure = Measure::word(
+    "symmetry",
+    "theorem 1 (crank = rocker, point on the coupler's bisector) or theorem 2 (coupler = rocker = pin to point, or coupler = crank) of Natesan's chapter 7; other: another curve whose mirror image is within 1e-4 of its extent; empty for a curve without symmetry",
+    |curve: &TracedCurve| match curve.symmetry() {
         Some(Symmetry { theorem: Some(theorem), .. }) => Value::Word(theorem),
         Some(symmetry) if symmetry.residual <= Symmetry::TOLERANCE => Value::Word("other"),
         _ => Value::Missing,
     },
-};
+);
 
 /// The measure `symmetry_deg`.
-pub const AXIS: Measure = Measure {
-    name: "symmetry_deg",
-    unit: "deg",
-    is_word: false,
-    definition: "direction of the line about which the curve is symmetrical, or most nearly so, from the x-axis: 0 up to 180; empty for a circle",
-    compute: |curve: &TracedCurve| {
+pub const AXIS: Measure = Measure::number(
+    "symmetry_deg",
+    "deg",
+    "direction of the line about which the curve is symmetrical, or most nearly so, from the x-axis: 0 up to 180; empty for a circle",
+    |curve: &TracedCurve| {
         curve.symmetry().and_then(|s| s.axis).map_or(Value::Missing, |axis| Value::Number(axis.direction_deg()))
     },
-};
+);
 
 /// The measure `symmetry_residual`.
-pub const RESIDUAL: Measure = Measure {
-    name: "symmetry_residual",
-    unit: "",
-    is_word: false,
-    definition: "greatest distance of the curve's mirror image about that line from the curve, relative to its greatest extent",
-    compute: |curve: &TracedCurve| curve.symmetry().map_or(Value::Missing, |s| Value::Number(s.residual)),
-};
+pub const RESIDUAL: Measure = Measure::number(
+    "symmetry_residual",
+    "",
+    "greatest distance of the curve's mirror image about that line from the curve, relative to its greatest extent",
+    |curve: &TracedCurve| {
+        curve.symmetry().map_or(Value::Missing, |s| Value::Number(without_rounding(s.residual, RESOLVED)))
+    },
+);
+
+/// The accuracy of the residual of a symmetrical curve.
+const RESOLVED: f64 = 1e-9;
 
 /// The symmetry of a curve; `None` for a point.
 pub(super) fn find_symmetry(curve: &TracedCurve) -> Option<Symmetry> {

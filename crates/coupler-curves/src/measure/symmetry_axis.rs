@@ -35,8 +35,8 @@ impl SymmetryAxis {
     /// Its direction from the x-axis, in degrees, from 0 up to 180.
     pub fn direction_deg(&self) -> f64 {
         let deg = trig::degrees(trig::atan2(self.direction.y, self.direction.x)).rem_euclid(180.0);
-        // A direction that is less than 0 by rounding is 0.
-        if deg >= 180.0 - 1e-9 { 0.0 } else { deg }
+        // A direction that differs from 0 by rounding is 0.
+        if (1e-9..180.0 - 1e-9).contains(&deg) { deg } else { 0.0 }
     }
 }
 

@@ -1,29 +1,26 @@
 //! Transmission angles.
 
 use super::circuit_function::{CircuitFunction, Pose, Quantity};
-use super::{Measure, TracedCurve, Value};
+use super::{Measure, Subject, TracedCurve, Value};
 use crate::geometry::{Point, Vector, cross, trig};
 use crate::linkage::{DyadId, FourBar, JointId, JointKind, Linkage, length_tolerance};
 
 /// The measure `mu_min_deg`.
-pub const MU_MIN: Measure = Measure {
-    name: "mu_min_deg",
-    unit: "deg",
-    is_word: false,
-    definition: "least transmission angle of a four-bar over the circuit, 0 to 180; if the coupler is driven, at both pins (McCarthy 2.3.3)",
-    compute: |curve: &TracedCurve| {
-        curve.transmission_angles().map_or(Value::Missing, |[least, _]| Value::Number(least))
-    },
-};
+pub const MU_MIN: Measure = Measure::number(
+    "mu_min_deg",
+    "deg",
+    "least transmission angle of a four-bar over the circuit, 0 to 180; if the coupler is driven, at both pins (McCarthy 2.3.3)",
+    |curve: &TracedCurve| curve.transmission_angles().map_or(Value::Missing, |[least, _]| Value::Number(least)),
+).of(Subject::FourBar);
 
 /// The measure `mu_max_deg`.
-pub const MU_MAX: Measure = Measure {
-    name: "mu_max_deg",
-    unit: "deg",
-    is_word: false,
-    definition: "greatest transmission angle of a four-bar over the circuit, 0 to 180; if the coupler is driven, at both pins",
-    compute: |curve: &TracedCurve| curve.transmission_angles().map_or(Value::Missing, |[_, most]| Value::Number(most)),
-};
+pub const MU_MAX: Measure = Measure::number(
+    "mu_max_deg",
+    "deg",
+    "greatest transmission angle of a four-bar over the circuit, 0 to 180; if the coupler is driven, at both pins",
+    |curve: &TracedCurve| curve.transmission_angles().map_or(Value::Missing, |[_, most]| Value::Number(most)),
+)
+.of(Subject::FourBar);
 
 /// The measure `mu_worst_deg`.
 pub const MU_WORST: Measure = Measure::number(
@@ -31,7 +28,7 @@ pub const MU_WORST: Measure = Measure::number(
     "deg",
     "worst transmission angle over the circuit, the least distance from 0 and 180, 0 to 90: of a four-bar as mu_min_deg and mu_max_deg, otherwise of all dyads, at a slider 90 minus the pressure angle",
     |curve| curve.worst_transmission_angle().map_or(Value::Missing, Value::Number),
-);
+).of(Subject::WithDyad);
 
 /// The angle opposite a side of a triangle, in degrees; exactly 0 or 180 if the triangle is degenerate.
 fn opposite_angle(side: f64, [x, y]: [f64; 2]) -> f64 {

@@ -167,6 +167,22 @@ pub enum AssemblyError {
     },
 }
 
+impl AssemblyError {
+    /// By how much lengths miss, relative to them: 0.1 if a link is a tenth too short. `None` where that is not the reason.
+    pub fn relative_shortfall(&self) -> Option<f64> {
+        let [missing, size] = match self {
+            AssemblyError::BaseTooLong { lengths, least, .. } => [least - (lengths[0] + lengths[1]), *least],
+            AssemblyError::BaseTooShort { lengths, greatest, .. } => {
+                [(lengths[0] - lengths[1]).abs() - greatest, lengths[0].max(lengths[1])]
+            }
+            AssemblyError::LineTooFar { length, distance, .. } => [distance - length, *distance],
+            AssemblyError::OffsetTooLong { greatest, offset, .. } => [offset - greatest, *offset],
+            _ => return None,
+        };
+        Some(missing / size)
+    }
+}
+
 /// Prints up to six significant digits.
 struct Short(f64);
 

@@ -17,6 +17,13 @@ pub fn nearest_word<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str
     if length > MAX_LENGTH {
         return None;
     }
+    let candidates = candidates.into_iter().take(MAX_CANDIDATES);
+    let candidates: Vec<&str> = candidates.collect();
+    // A name without its unit or its last part: `mu_min` for `mu_min_deg`.
+    let is_longer = |candidate: &&str| candidate.strip_prefix(word).is_some_and(|rest| rest.starts_with('_'));
+    if let Some(longer) = candidates.iter().copied().find(is_longer).filter(|_| length > 1) {
+        return Some(longer);
+    }
     let allowed = (length / 3).max(1);
     let letters = lowercase_letters(word);
     // A letter has at most four bytes.
@@ -24,7 +31,6 @@ pub fn nearest_word<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str
     let is_near_in_length = |candidate: &&str| candidate.chars().count().abs_diff(length) <= allowed;
     candidates
         .into_iter()
-        .take(MAX_CANDIDATES)
         .filter(may_be_near)
         .filter(is_near_in_length)
         .take(MAX_COMPARED)

@@ -171,6 +171,15 @@ impl Coordinate {
         }
     }
 
+    /// Its value, or the first and the last.
+    pub(super) fn ends(&self) -> impl Iterator<Item = &CompiledExpression> {
+        let (first, last) = match self {
+            Coordinate::Single(value) => (value, None),
+            Coordinate::Range { from, to, .. } => (from, Some(to)),
+        };
+        std::iter::once(first).chain(last)
+    }
+
     /// Its values, with expressions evaluated by `number`.
     pub fn values(&self, number: impl Fn(&CompiledExpression) -> f64) -> Vec<f64> {
         match self {

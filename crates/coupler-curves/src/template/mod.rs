@@ -2,11 +2,13 @@
 
 mod joint_kind;
 mod order;
+mod parameter;
 
 pub use joint_kind::{Coordinate, JointKindTemplate};
 pub use order::{DependencyCycle, dependency_order};
+pub use parameter::{Parameter, ParameterKind};
 
-use crate::expression::{Caption, CompiledExpression, Expression, Unit};
+use crate::expression::{Caption, CompiledExpression, Unit};
 use crate::linkage::{self, BranchArc, JointId, LinkageBuilder, MotionOptions};
 
 pub use crate::linkage::{CircuitSelection, CoincidentDyads, Continuation, Linkage, Orientation, Side};
@@ -57,36 +59,6 @@ pub enum OutputLinkTemplate {
     Link([usize; 2]),
     /// The slider or the yoke of a joint.
     Slider(usize),
-}
-
-/// A parameter of a template.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Parameter {
-    /// Its name.
-    pub name: String,
-    /// Its value where a family gives none; may use the other parameters.
-    pub default: Option<Expression>,
-    /// Its least value; a bound of 0 is itself excluded.
-    pub min: Option<f64>,
-    /// Its greatest value; a bound of 0 is itself excluded.
-    pub max: Option<f64>,
-}
-
-impl Parameter {
-    /// The error in a value: not finite, or out of the bounds.
-    pub fn value_error(&self, value: f64) -> Option<String> {
-        let name = &self.name;
-        if !value.is_finite() {
-            return Some(format!("`{name}` is {value}, which is not a finite number"));
-        }
-        match (self.min, self.max) {
-            (Some(0.0), _) if value <= 0.0 => Some(format!("`{name}` is {value}, and must be more than 0")),
-            (Some(min), _) if value < min => Some(format!("`{name}` is {value}, below its least value of {min}")),
-            (_, Some(0.0)) if value >= 0.0 => Some(format!("`{name}` is {value}, and must be less than 0")),
-            (_, Some(max)) if value > max => Some(format!("`{name}` is {value}, above its greatest value of {max}")),
-            _ => None,
-        }
-    }
 }
 
 /// A value of the input as an expression: an angle, evaluated in degrees, or a length.
@@ -211,15 +183,7 @@ impl Template {
     /// The error in the joints that does not depend on numbers: one joint given twice, a point on no link, too many
     /// dyads.
     pub fn structural_error(&self) -> Option<linkage::Error> {
-        // Any numbers will do, but fixed joints and points must not coincide, so that lines through them have
-        // directions.
-        let position = |joint: usize| (joint * joint) as f64;
-        let numbers = |joint: usize, _: &CompiledExpression| match self.joints[joint].kind {
-            JointKindTemplate::Fixed(_) => position(joint),
-            JointKindTemplate::Point { .. } => 1.0 + position(joint),
-            _ => 1.0,
-        };
-        match self.build_with(&vec![1.0; self.parameters.len()], numbers) {
+        match self.structure() {
             // These depend on the numbers after all; they are checked in each cell.
             Err(Error::Linkage(
                 linkage::Error::InvalidLength { .. }
@@ -229,6 +193,21 @@ impl Template {
             Err(Error::Linkage(error)) => Some(error),
             _ => None,
         }
+    }
+
+    /// A linkage with the joints of the template and any dimensions.
+    ///
+    /// # Errors
+    /// As of [`Template::linkage`], with dimensions that need not be those of any parameter set.
+    pub fn structure(&self) -> Result<Linkage, Error> {
+        // Fixed joints and points must not coincide, so that lines through them have directions.
+        let position = |joint: usize| (joint * joint) as f64;
+        let numbers = |joint: usize, _: &CompiledExpression| match self.joints[joint].kind {
+            JointKindTemplate::Fixed(_) => position(joint),
+            JointKindTemplate::Point { .. } => 1.0 + position(joint),
+            _ => 1.0,
+        };
+        self.build_with(&vec![1.0; self.parameters.len()], numbers)
     }
 
     fn build_with(&self, values: &[f64], number: impl Fn(usize, &CompiledExpression) -> f64) -> Result<Linkage, Error> {

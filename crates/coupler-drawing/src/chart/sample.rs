@@ -52,7 +52,7 @@ impl Chart {
     /// The numbers of every sample of a curve; on a closed curve the first sample is repeated at the end.
     fn evaluate_samples(&self, solved: &SolvedCell, curve: &MeasuredCurve) -> Vec<f64> {
         let circuit = solved.circuit(curve);
-        let curve_slots = solved.cell.values.len() + Family::scope(&[]).len();
+        let curve_slots = solved.cell.values.len() + Family::scope(&[], false).len();
         let used = self.used_columns(curve_slots);
         let columns: Vec<Column> = used.iter().map(|&k| COLUMNS[k]).collect();
         let arc_lengths = if self.uses_slot(curve_slots + 3) {
@@ -111,7 +111,7 @@ mod tests {
         let names = vec!["p".to_owned()];
         let cell = Cell { number: 1, values: vec![7.0] };
         assert_eq!(Family::scope_value(&cell, &[], 0), 7.0);
-        let length = Family::scope(&names).index_of("length").unwrap();
+        let length = Family::scope(&names, false).index_of("length").unwrap();
         let measures: Vec<Value> = (0..ALL.len()).map(|k| Value::Number(k as f64)).collect();
         let index = ALL.iter().position(|measure| measure.name == "length").unwrap();
         assert_eq!(Family::scope_value(&cell, &measures, length), index as f64);

@@ -14,24 +14,21 @@ pub fn scope(names: &[String], is_driven_by_length: bool) -> Scope<'_> {
     let sample_names = SAMPLE_NAMES.map(|name| if name == "input_deg" { input } else { name });
     let columns = measure::COLUMNS.iter().map(|column| column.name);
     let of_samples = sample_names.into_iter().chain(columns).map(|name| (name, Kind::Number));
-    let mut scope = Family::scope(names);
+    let mut scope = Family::scope(names, is_driven_by_length);
     scope.extend(of_samples);
     scope
 }
 
 /// Whether an expression over [`scope`] has a value for each sample rather than for each curve.
 pub fn is_per_sample(value: &CompiledExpression, names: &[String]) -> bool {
-    let curve_slots = Family::scope(names).len();
+    let curve_slots = Family::scope(names, false).len();
     value.slots().iter().any(|&slot| slot >= curve_slots)
 }
 
 /// The unit of an expression: `deg` if it is only the name of an angle, otherwise empty.
-pub fn unit(text: &str, is_driven_by_length: bool) -> &'static str {
-    // The input of an actuator is a length even in a measure whose name ends in `_deg`.
-    let of_inputs = ["input_", "straight_", "dwell_", "output_dwell_"];
-    let is_input = of_inputs.iter().any(|prefix| text.starts_with(prefix)) && text.ends_with("_deg");
+pub fn unit(text: &str) -> &'static str {
     let is_name = text.chars().all(|c| c.is_alphanumeric() || c == '_');
-    if is_name && text.ends_with("_deg") && !(is_driven_by_length && is_input) { "deg" } else { "" }
+    if is_name && text.ends_with("_deg") { "deg" } else { "" }
 }
 
 /// The definition of a measure or column with this name; empty if there is none, or if the family has the name itself.
@@ -39,7 +36,8 @@ pub fn definition(text: &str, names: &[String]) -> &'static str {
     if names.iter().any(|name| name == text) {
         return "";
     }
-    let measures = measure::ALL.iter().map(|measure| (measure.name, measure.definition));
+    let names = |measure: &measure::Measure| [Some(measure.name), measure.length_name].into_iter().flatten();
+    let measures = measure::ALL.iter().flat_map(|measure| names(measure).map(|name| (name, measure.definition)));
     let columns = measure::COLUMNS.iter().map(|column| (column.name, column.definition));
     let sample_names =
         [("arc", "length along the curve from its first sample"), ("input_deg", "input"), ("input_length", "input")];

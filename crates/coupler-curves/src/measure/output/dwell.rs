@@ -6,8 +6,8 @@
 //! refined between samples.
 
 use super::{OutputMotion, output_value};
-use crate::measure::Measure;
 use crate::measure::circuit_function::{MonotonicPart, Place};
+use crate::measure::{Measure, Subject};
 
 /// The width of the band of a dwell, relative to the swing or the stroke of the output, or to a full turn.
 pub(in crate::measure) const TOLERANCE: f64 = 0.01;
@@ -16,17 +16,19 @@ pub(in crate::measure) const TOLERANCE: f64 = 0.01;
 pub const DWELL: Measure = Measure::number(
     "output_dwell_deg",
     "deg",
-    "greatest input span over which the output stays within a band of 0.01 of its swing or stroke, or of a turn; a length for an actuator",
+    "greatest input span over which the output stays within a band of 0.01 of its swing or stroke, or of a turn",
     |curve| output_value(curve, |output| Some(output.dwell().input_span)),
-);
+)
+.of(Subject::WithOutput)
+.or_length("output_dwell_length");
 
 /// The measure `output_dwell_start_deg`.
-pub const DWELL_START: Measure = Measure::number(
-    "output_dwell_start_deg",
-    "deg",
-    "input at which that dwell of the output begins; a length for an actuator",
-    |curve| output_value(curve, |output| Some(output.dwell().start_input)),
-);
+pub const DWELL_START: Measure =
+    Measure::number("output_dwell_start_deg", "deg", "input at which that dwell of the output begins", |curve| {
+        output_value(curve, |output| Some(output.dwell().start_input))
+    })
+    .of(Subject::WithOutput)
+    .or_length("output_dwell_start_length");
 
 /// A stretch of a circuit.
 #[derive(Clone, Copy, Debug, PartialEq)]

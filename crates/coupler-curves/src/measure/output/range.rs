@@ -2,7 +2,7 @@
 
 use super::{OutputMotion, output_value};
 use crate::geometry::trig;
-use crate::measure::Measure;
+use crate::measure::{Measure, Subject, without_rounding};
 
 /// The measure `output_min`.
 pub const MIN: Measure = Measure::number(
@@ -10,7 +10,7 @@ pub const MIN: Measure = Measure::number(
     "",
     "least angle of the output link from the frame, deg, or least displacement of the output slider along its line; empty if it turns fully",
     |curve| output_value(curve, |output| Some(limits(output)?[0])),
-);
+).of(Subject::WithOutput);
 
 /// The measure `output_max`.
 pub const MAX: Measure = Measure::number(
@@ -18,7 +18,7 @@ pub const MAX: Measure = Measure::number(
     "",
     "greatest angle of the output link from the frame, deg, or greatest displacement of the output slider; empty if it turns fully",
     |curve| output_value(curve, |output| Some(limits(output)?[1])),
-);
+).of(Subject::WithOutput);
 
 /// The measure `output_swing_deg`.
 pub const SWING: Measure = Measure::number(
@@ -26,7 +26,8 @@ pub const SWING: Measure = Measure::number(
     "deg",
     "angle that the output link swings through over the circuit; 360 if it turns fully; empty for a slider",
     |curve| output_value(curve, |output| (!output.coordinate.quantity().is_slider()).then(|| swing(output))),
-);
+)
+.of(Subject::WithTurningOutput);
 
 /// The measure `output_stroke`.
 pub const STROKE: Measure = Measure::number(
@@ -34,20 +35,25 @@ pub const STROKE: Measure = Measure::number(
     "",
     "stroke of the output slider over the circuit, in the manifest's unit; empty for a link that turns",
     |curve| output_value(curve, |output| output.coordinate.quantity().is_slider().then(|| output.travel())),
-);
+)
+.of(Subject::WithSlidingOutput);
+
+/// The accuracy of a limit, relative to a turn or to the stroke.
+const RESOLVED: f64 = 1e-12;
 
 /// The limits of the output: of an angle in degrees, with its middle in (-180, 180].
 fn limits(output: &OutputMotion) -> Option<[f64; 2]> {
     let [least, greatest] = &output.extremes;
     let limits = [least.value, greatest.value];
     if output.coordinate.quantity().is_slider() {
-        return Some(limits);
+        return Some(limits.map(|limit| without_rounding(limit, RESOLVED * output.travel())));
     }
     let limits = limits.map(trig::degrees);
     // A middle opposite the x-axis is 180 degrees in spite of rounding.
     const ROUNDING: f64 = 1e-10;
     let whole_turns = (0.5 - (limits[0] + limits[1]) / 720.0 + ROUNDING).floor();
-    (!output.turns_fully).then(|| limits.map(|deg| deg + 360.0 * whole_turns))
+    let limits = limits.map(|deg| without_rounding(deg + 360.0 * whole_turns, 360.0 * RESOLVED));
+    (!output.turns_fully).then_some(limits)
 }
 
 fn swing(output: &OutputMotion) -> f64 {

@@ -1,8 +1,8 @@
 //! Velocity ratio and mechanical advantage.
 
 use super::{OutputMotion, output_value};
-use crate::measure::Measure;
 use crate::measure::circuit_function::Place;
+use crate::measure::{Measure, Subject};
 
 /// The measure `velocity_ratio_min`.
 pub const VELOCITY_RATIO_MIN: Measure = Measure::number(
@@ -10,13 +10,14 @@ pub const VELOCITY_RATIO_MIN: Measure = Measure::number(
     "",
     "least velocity ratio: derivative of the output's angle in radians, or of its displacement, with respect to the input in radians or as a length; -inf at a limit",
     |curve| output_value(curve, |output| Some(output.velocity_ratios().range[0])),
-);
+).of(Subject::WithOutput);
 
 /// The measure `velocity_ratio_max`.
 pub const VELOCITY_RATIO_MAX: Measure =
     Measure::number("velocity_ratio_max", "", "greatest velocity ratio; inf at a limit of the input", |curve| {
         output_value(curve, |output| Some(output.velocity_ratios().range[1]))
-    });
+    })
+    .of(Subject::WithOutput);
 
 /// The measure `mechanical_advantage_min`.
 pub const MECHANICAL_ADVANTAGE_MIN: Measure = Measure::number(
@@ -24,7 +25,7 @@ pub const MECHANICAL_ADVANTAGE_MIN: Measure = Measure::number(
     "",
     "least mechanical advantage without friction: output torque or force divided by that of the input, 1 / |velocity ratio|; 0 at a limit of the input",
     |curve| output_value(curve, |output| Some(output.velocity_ratios().magnitudes[1].recip())),
-);
+).of(Subject::WithOutput);
 
 /// The measure `mechanical_advantage_max`.
 pub const MECHANICAL_ADVANTAGE_MAX: Measure = Measure::number(
@@ -32,7 +33,8 @@ pub const MECHANICAL_ADVANTAGE_MAX: Measure = Measure::number(
     "",
     "greatest mechanical advantage; inf at a toggle position",
     |curve| output_value(curve, |output| Some(output.velocity_ratios().magnitudes[0].recip())),
-);
+)
+.of(Subject::WithOutput);
 
 /// The extremes of the velocity ratio over a circuit.
 #[derive(Clone, Copy, Debug)]

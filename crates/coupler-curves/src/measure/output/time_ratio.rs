@@ -1,8 +1,8 @@
 //! The time ratio of a linkage whose output goes back and forth while its input turns.
 
 use super::{OutputMotion, output_value};
-use crate::measure::Measure;
 use crate::measure::circuit_function::Place;
+use crate::measure::{Measure, Subject};
 
 /// The measure `time_ratio`.
 pub const TIME_RATIO: Measure = Measure::number(
@@ -13,7 +13,7 @@ pub const TIME_RATIO: Measure = Measure::number(
         let is_full_turn = curve.circuit.is_full_turn();
         output_value(curve, |output| ratio(output).filter(|_| is_full_turn))
     },
-);
+).of(Subject::WithOutput);
 
 fn ratio(output: &OutputMotion) -> Option<f64> {
     if output.turns_fully || output.is_at_rest() {

@@ -1,7 +1,7 @@
 //! Toggle positions.
 
 use super::{OutputMotion, output_value};
-use crate::measure::Measure;
+use crate::measure::{Measure, Subject};
 use crate::motion::JointDerivatives;
 
 /// The measure `toggles`.
@@ -10,7 +10,7 @@ pub const TOGGLES: Measure = Measure::number(
     "",
     "number of toggle positions of the circuit: poses in which the output is at rest while the input moves, and the mechanical advantage is infinite (Norton, Design of Machinery, 6.6)",
     |curve| output_value(curve, |output| Some(output.toggle_count() as f64)),
-);
+).of(Subject::WithOutput);
 
 impl OutputMotion {
     /// The number of toggle positions; none of an output that does not move at all.

@@ -1,11 +1,15 @@
 //! `list`: the words that a manifest may use.
 
+mod linkage;
+
+use std::path::PathBuf;
+
 use clap::{Args, ValueEnum};
-use coupler_curves::template::{OutputLinkTemplate, Template};
-use coupler_curves::{catalogue, measure};
+use coupler_curves::measure::{self, Subject};
 use coupler_drawing::page::{Layout, Theme};
 
-use super::{Outcome, print, print_bytes, schema};
+use super::linkage::find_template;
+use super::{InputError, Outcome, print, print_bytes, schema};
 
 /// List the built-in linkages, measures, further columns, layouts and themes, or print the JSON Schema of a manifest.
 #[derive(Debug, Args)]
@@ -13,6 +17,13 @@ pub struct Arguments {
     /// What to list [default: everything but the schema].
     #[arg(value_name = "TOPIC")]
     what: Option<Topic>,
+    /// With `linkages`, describe this linkage: its joints, its parameters with their kinds, defaults and ranges, and a
+    /// family to start from.
+    #[arg(value_name = "LINKAGE")]
+    linkage: Option<String>,
+    /// A manifest whose linkages LINKAGE can name; - for standard input.
+    #[arg(long, value_name = "FILE", requires = "linkage")]
+    manifest: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -36,6 +47,15 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         print_bytes(schema::schema_json().as_bytes())?;
         return Ok(Outcome::Done);
     }
+    if let Some(name) = &arguments.linkage {
+        if arguments.what != Some(Topic::Linkages) {
+            let error = format!("only a linkage can be named: `coupler-atlas list linkages {name}`");
+            return Err(InputError(error).into());
+        }
+        let template = find_template(name, arguments.manifest.as_deref())?;
+        print(&linkage::describe(&template))?;
+        return Ok(Outcome::Done);
+    }
     let is_listed = |topic| arguments.what.is_none_or(|given| given == topic);
     let mut out = String::new();
     let mut section = |topic, title: &str, rows: String| {
@@ -46,11 +66,12 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
             out.push_str(&rows);
         }
     };
-    section(Topic::Linkages, "linkages", catalogue::all().iter().map(|template| linkage_rows(template)).collect());
+    section(Topic::Linkages, "linkages", linkage::catalogue_rows());
     let width = measure::ALL.iter().map(|m| m.name.len()).max().unwrap_or(0);
     let measures = measure::ALL.iter().map(|m| {
         let unit = if m.unit.is_empty() { "-" } else { m.unit };
-        format!("{:<width$} {unit:<4} {}\n", m.name, m.definition)
+        let of_actuators = m.length_name.map(|name| format!("; of an actuator a length, `{name}`")).unwrap_or_default();
+        format!("{:<width$} {unit:<4} {}{}{of_actuators}\n", m.name, m.definition, subject(m.subject))
     });
     // A boolean with the name of its measure is in the list already.
     let booleans = measure::BOOLEANS
@@ -58,7 +79,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         .filter(|boolean| boolean.name != boolean.measure)
         .map(|measure::Boolean { name, measure, word }| format!("{name:<width$} -    the {measure} is {word}\n"));
     section(Topic::Measures, "measures", measures.chain(booleans).collect());
-    let columns = measure::COLUMNS.iter().map(|column| format!("{:<16} {}\n", column.name, column.definition));
+    let columns = measure::COLUMNS
+        .iter()
+        .map(|column| format!("{:<16} {}{}\n", column.name, column.definition, subject(column.subject)));
     section(Topic::Columns, "columns", columns.collect());
     let layouts = Layout::ALL.iter().map(|(name, description)| format!("{name:<16} {description}\n"));
     section(Topic::Layouts, "layouts", layouts.collect());
@@ -68,21 +91,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     Ok(Outcome::Done)
 }
 
-fn linkage_rows(template: &Template) -> String {
-    let name = |joint: usize| template.joints[joint].name.as_str();
-    let output = match template.output_link {
-        None => String::new(),
-        Some(OutputLinkTemplate::Link([from, to])) => format!("{:16} output: link {}-{}\n", "", name(from), name(to)),
-        Some(OutputLinkTemplate::Slider(joint)) => format!("{:16} output: slider {}\n", "", name(joint)),
-    };
-    let parameters: Vec<&str> = template.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
-    format!(
-        "{:<16} {}\n{:16} {}\n{:16} {}\n{output}",
-        template.id,
-        parameters.join(", "),
-        "",
-        template.source,
-        "",
-        template.legend
-    )
+/// "; four-bars only", where not every linkage has it.
+fn subject(subject: Subject) -> String {
+    match subject {
+        Subject::Any => String::new(),
+        subject => format!("; {} only", subject.description()),
+    }
 }

@@ -1,0 +1,177 @@
+//! The parameters of a template.
+
+use super::{Coordinate, InputValue, JointKindTemplate, Template};
+use crate::expression::{CompiledExpression, Error, Expression, Function, Unit};
+
+/// A parameter of a template.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameter {
+    /// Its name.
+    pub name: String,
+    /// What it is a number of.
+    pub kind: ParameterKind,
+    /// Its value where a family gives none; may use the other parameters.
+    pub default: Option<Expression>,
+    /// That value as it is written; empty if there is none.
+    pub default_text: String,
+    /// A value for a family to start from, where there is no default.
+    pub example: Option<f64>,
+    /// Its least value; a bound of 0 is itself excluded.
+    pub min: Option<f64>,
+    /// Its greatest value; a bound of 0 is itself excluded.
+    pub max: Option<f64>,
+}
+
+impl Parameter {
+    /// The error in a value: not finite, or out of the bounds.
+    pub fn value_error(&self, value: f64) -> Option<String> {
+        let name = &self.name;
+        if !value.is_finite() {
+            return Some(format!("`{name}` is {value}, which is not a finite number"));
+        }
+        match (self.min, self.max) {
+            (Some(0.0), _) if value <= 0.0 => Some(format!("`{name}` is {value}, and must be more than 0")),
+            (Some(min), _) if value < min => Some(format!("`{name}` is {value}, below its least value of {min}")),
+            (_, Some(0.0)) if value >= 0.0 => Some(format!("`{name}` is {value}, and must be less than 0")),
+            (_, Some(max)) if value > max => Some(format!("`{name}` is {value}, above its greatest value of {max}")),
+            _ => None,
+        }
+    }
+}
+
+/// What a parameter is a number of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ParameterKind {
+    /// Units of length, the manifest's own.
+    Length,
+    /// Degrees or radians.
+    Angle(Unit),
+    /// A ratio.
+    Ratio,
+    /// A number of which it is not known what it counts.
+    #[default]
+    Number,
+}
+
+impl ParameterKind {
+    /// "a length", "an angle in degrees".
+    pub fn description(self) -> &'static str {
+        match self {
+            ParameterKind::Length => "a length",
+            ParameterKind::Angle(Unit::Rad) => "an angle in radians",
+            ParameterKind::Angle(_) => "an angle in degrees",
+            ParameterKind::Ratio => "a ratio",
+            ParameterKind::Number => "a number",
+        }
+    }
+
+    /// Parses a value of the parameter: an expression, which for an angle may have a unit, `deg` or `rad`. The expression
+    /// returned is in the unit of the parameter.
+    ///
+    /// # Errors
+    /// What is not an expression; a unit where there is none; a number of degrees for radians, or the reverse, which the
+    /// outermost function shows.
+    pub(crate) fn parse_value(self, name: &str, text: &str) -> Result<Expression, Error> {
+        let (expression, unit) = Expression::parse_with_angle_unit(text)?;
+        match self.conversion(name, unit, expression.outermost_function()) {
+            Ok(None) => Ok(expression),
+            Ok(Some(function)) => Ok(expression.with_function(function)),
+            Err([message, help]) => Err(Error::new(0..text.len(), message, help)),
+        }
+    }
+
+    /// The function that turns a number with a unit, if any, into one of the parameter; `function` is the one that
+    /// returns the number, if any.
+    ///
+    /// # Errors
+    /// A message and a help: of a unit where there is none, or a function that returns the other unit.
+    pub(crate) fn conversion(
+        self,
+        name: &str,
+        unit: Option<Unit>,
+        function: Option<Function>,
+    ) -> Result<Option<Function>, [String; 2]> {
+        let words = |unit| if unit == Unit::Rad { "radians" } else { "degrees" };
+        let own = match (self, unit) {
+            (ParameterKind::Angle(own), _) => own,
+            (_, None) => return Ok(None),
+            (kind, Some(unit)) => {
+                let message = format!("`{name}` is {}, and takes no {}", kind.description(), words(unit));
+                return Err([message, "give a number without a unit".to_owned()]);
+            }
+        };
+        let stated = unit.unwrap_or(own);
+        let returned = match function {
+            Some(Function::Deg) => Unit::Deg,
+            Some(Function::Rad | Function::Asin | Function::Acos | Function::Atan2) => Unit::Rad,
+            _ => stated,
+        };
+        if returned != stated {
+            let function = function.map_or("", Function::name);
+            let message = format!("`{function}` returns {}, and `{name}` is {}", words(returned), self.description());
+            let help = match function {
+                "deg" | "rad" => format!("leave `{function}` out, or state the unit, as in \"30 deg\""),
+                _ => format!("state the unit: write \"{function}(…) rad\""),
+            };
+            return Err([message, help]);
+        }
+        Ok(match (stated, own) {
+            (Unit::Deg, Unit::Rad) => Some(Function::Rad),
+            (Unit::Rad, Unit::Deg) => Some(Function::Deg),
+            _ => None,
+        })
+    }
+}
+
+impl Template {
+    /// What each parameter is by its use: an angle where it is used by itself with a unit, a length where it is the
+    /// length of a link or a coordinate, a ratio of a gear.
+    pub(crate) fn infer_kinds(&self) -> Vec<ParameterKind> {
+        let mut kinds = vec![ParameterKind::Number; self.parameters.len()];
+        let mut set = |value: &CompiledExpression, kind: ParameterKind| {
+            let name = value.name_or_number();
+            let index = self.parameters.iter().position(|parameter| Some(&parameter.name) == name.as_ref());
+            // A parameter that is both is what it is first.
+            if let Some(known) = index.map(|index| &mut kinds[index]).filter(|known| **known == ParameterKind::Number) {
+                *known = kind;
+            }
+        };
+        let input_kind = |input: &InputValue| input.unit.map_or(ParameterKind::Length, ParameterKind::Angle);
+        let ends = self.input.iter().flatten().chain(self.arc.iter().flat_map(|(ends, _)| ends));
+        for input in self.start.iter().chain(ends) {
+            set(&input.value, input_kind(input));
+        }
+        for joint in &self.joints {
+            match &joint.kind {
+                JointKindTemplate::Gear { ratio, phase, .. } => {
+                    set(&phase.value, input_kind(phase));
+                    ratio.iter().for_each(|ratio| set(ratio, ParameterKind::Ratio));
+                }
+                JointKindTemplate::Yoke { angle, .. } => set(&angle.value, input_kind(angle)),
+                _ => {}
+            }
+            joint.kind.lengths().into_iter().for_each(|length| set(length, ParameterKind::Length));
+        }
+        kinds
+    }
+}
+
+impl JointKindTemplate {
+    /// The expressions of its lengths and coordinates.
+    fn lengths(&self) -> Vec<&CompiledExpression> {
+        match self {
+            JointKindTemplate::Fixed(position) => position.iter().collect(),
+            JointKindTemplate::Crank { length, .. } | JointKindTemplate::Gear { length, .. } => vec![length],
+            JointKindTemplate::Piston { length, offset, .. } | JointKindTemplate::Slide { length, offset, .. } => {
+                vec![length, offset]
+            }
+            JointKindTemplate::Dyad { lengths, .. } => lengths.iter().collect(),
+            JointKindTemplate::Yoke { offset, .. } | JointKindTemplate::Slot { offset, .. } => vec![offset],
+            JointKindTemplate::Distances { distances, .. } => distances.iter().collect(),
+            JointKindTemplate::Point { along, across, .. } => {
+                [along, across].into_iter().flat_map(Coordinate::ends).collect()
+            }
+            JointKindTemplate::Parallelogram { .. } => Vec::new(),
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! What there is to know of a linkage before one writes a family of it.
+
+use std::fmt::Write;
+
+use coupler_curves::catalogue;
+use coupler_curves::expression::Unit;
+use coupler_curves::template::{JointKindTemplate, OutputLinkTemplate, Parameter, ParameterKind, Template};
+
+/// A paragraph for each linkage of the catalogue.
+pub(super) fn catalogue_rows() -> String {
+    catalogue::all().iter().map(|template| summary(template)).collect()
+}
+
+/// Its parameters, its source, the meaning of the parameters, and its output link.
+fn summary(template: &Template) -> String {
+    let parameters: Vec<&str> = template.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
+    let mut out = String::new();
+    let output = output_link(template).map(|output| format!("output: {output}"));
+    let lines = [parameters.join(", "), template.source.clone(), template.legend.clone()];
+    for (k, line) in lines.iter().chain(&output).filter(|line| !line.is_empty()).enumerate() {
+        let name = if k == 0 { template.id.as_str() } else { "" };
+        // Writing to a string cannot fail.
+        let _ = writeln!(out, "{name:<16} {line}");
+    }
+    out
+}
+
+fn output_link(template: &Template) -> Option<String> {
+    let name = |joint: usize| template.joints[joint].name.as_str();
+    template.output_link.map(|output| match output {
+        OutputLinkTemplate::Link([from, to]) => format!("link {}-{}", name(from), name(to)),
+        OutputLinkTemplate::Slider(joint) => format!("slider {}", name(joint)),
+    })
+}
+
+/// Everything on a linkage: its source, joints, input, output and parameters, and a family to paste.
+pub(super) fn describe(template: &Template) -> String {
+    let mut out = format!("{}\n", template.id);
+    for line in [&template.source, &template.legend].into_iter().filter(|line| !line.is_empty()) {
+        let _ = writeln!(out, "  {line}");
+    }
+    let input = if template.is_driven_by_length() { "the length of an actuator" } else { "the angle of the crank" };
+    let _ = writeln!(out, "  input: {input}");
+    if let Some(output) = output_link(template) {
+        let _ = writeln!(out, "  output: {output}");
+    }
+    out.push_str("\njoints\n");
+    let width = template.joints.iter().map(|joint| joint.name.chars().count()).max().unwrap_or(0);
+    for (k, joint) in template.joints.iter().enumerate() {
+        let traced = if template.traced.contains(&k) { "; traced" } else { "" };
+        let _ = writeln!(out, "  {:<width$}  {}{traced}", joint.name, describe_joint(template, &joint.kind));
+    }
+    if !template.parameters.is_empty() {
+        out.push_str("\nparameters\n");
+        let rows: Vec<[String; 4]> = template.parameters.iter().map(parameter_row).collect();
+        let widths: [usize; 4] =
+            std::array::from_fn(|k| rows.iter().map(|row| row[k].chars().count()).max().unwrap_or(0));
+        for [name, kind, default, range] in &rows {
+            let row = format!("  {name:<0$}  {kind:<1$}  {default:<2$}  {range}", widths[0], widths[1], widths[2]);
+            let _ = writeln!(out, "{}", row.trim_end());
+        }
+        if template.parameters.iter().any(|parameter| matches!(parameter.kind, ParameterKind::Angle(_))) {
+            out.push_str(
+                "  an angle may state its unit: \"30 deg\", \"0.5 rad\"; a number without one is in the unit above\n",
+            );
+        }
+    }
+    let _ = write!(out, "\na family to start from\n{}", family(template));
+    out
+}
+
+fn describe_joint(template: &Template, kind: &JointKindTemplate) -> String {
+    let name = |joint: &usize| template.joints[*joint].name.as_str();
+    let pair = |[a, b]: &[usize; 2], with: &str| format!("{}{with}{}", name(a), name(b));
+    match kind {
+        JointKindTemplate::Fixed(_) => "fixed pivot".to_owned(),
+        JointKindTemplate::Crank { pivot, .. } => format!("pin of the crank about {}", name(pivot)),
+        JointKindTemplate::Gear { crank, pivot, .. } => {
+            format!("pin of a crank about {}, geared to that of {}", name(pivot), name(crank))
+        }
+        JointKindTemplate::Piston { base: [from, pivot], .. } => {
+            format!("pin of the crank about {}, driven by an actuator from {}", name(pivot), name(from))
+        }
+        JointKindTemplate::Dyad { base, .. } => format!("common pin of links from {}", pair(base, " and ")),
+        JointKindTemplate::Slide { from, line, .. } => {
+            format!("slider on a line parallel to {}, at the end of a link from {}", pair(line, "-"), name(from))
+        }
+        JointKindTemplate::Yoke { from, line, .. } => {
+            format!("yoke on a guide parallel to {}, moved by {} in its slot", pair(line, "-"), name(from))
+        }
+        JointKindTemplate::Slot { base: [pivot, pin], .. } => {
+            format!("foot of the perpendicular from {} to the line that slides through {}", name(pivot), name(pin))
+        }
+        JointKindTemplate::Parallelogram { corners } => {
+            let names: Vec<&str> = corners.iter().map(name).collect();
+            format!("fourth corner of the parallelogram {}", names.join(", "))
+        }
+        JointKindTemplate::Point { base, along, across } => {
+            let points = along.count() * across.count();
+            let what = if points == 1 { "point".to_owned() } else { format!("{points} points") };
+            format!("{what} on the link of {}", pair(base, " and "))
+        }
+        JointKindTemplate::Distances { base, .. } => {
+            format!("point at distances from {}", pair(base, " and "))
+        }
+    }
+}
+
+/// Its name, kind, default and range.
+fn parameter_row(parameter: &Parameter) -> [String; 4] {
+    let kind = match parameter.kind {
+        ParameterKind::Length => "length",
+        ParameterKind::Angle(Unit::Rad) => "angle in radians",
+        ParameterKind::Angle(_) => "angle in degrees",
+        ParameterKind::Ratio => "ratio",
+        ParameterKind::Number => "number",
+    };
+    let default = match &parameter.default_text[..] {
+        "" => "no default".to_owned(),
+        text => format!("default {text}"),
+    };
+    let bound = |bound: f64, word: &str, from: &str| match bound {
+        0.0 => format!("{word} 0"),
+        bound => format!("{from} {bound}"),
+    };
+    let least = parameter.min.map(|min| bound(min, "more than", "from"));
+    let most = parameter.max.map(|max| bound(max, "less than", "up to"));
+    let range = least.into_iter().chain(most).collect::<Vec<_>>().join(", ");
+    [parameter.name.clone(), kind.to_owned(), default, range]
+}
+
+/// A family with the numbers that are defaults, or examples where there are none.
+fn family(template: &Template) -> String {
+    let value = |parameter: &Parameter| {
+        let number: f64 = match &parameter.default_text[..] {
+            "" => parameter.example.unwrap_or(1.0),
+            // One that follows from other parameters is left to do so.
+            text => text.parse().ok()?,
+        };
+        Some(match parameter.kind {
+            ParameterKind::Angle(Unit::Rad) => format!("{} = \"{number} rad\"", parameter.name),
+            ParameterKind::Angle(_) => format!("{} = \"{number} deg\"", parameter.name),
+            _ => format!("{} = {number}", parameter.name),
+        })
+    };
+    let values: Vec<String> = template.parameters.iter().filter_map(|parameter: &Parameter| value(parameter)).collect();
+    let space = match values.is_empty() {
+        true => "cases = [{}]".to_owned(),
+        false => format!("grid = {{ {} }}", values.join(", ")),
+    };
+    format!("[[family]]\nid = \"{0}\"\nlinkage = \"{0}\"\n{space}\n", template.id)
+}
