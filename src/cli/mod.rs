@@ -1,6 +1,7 @@
 //! The command line: arguments, one file for each subcommand, progress and exit codes. No other module prints.
 
 mod check;
+mod color;
 mod design;
 mod export;
 mod format;
@@ -15,22 +16,50 @@ mod schema;
 mod source;
 mod validate;
 
+use std::ffi::OsString;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use color::Color;
 use coupler_atlas::output;
 use format::pluralize;
 use printable::{printable, printable_lines};
 
-const EXIT_CODES: &str = "Exit codes: 0 success; 1 check found a difference, or render --strict a cell that is not \
-                          assembled over the whole range; 2 invalid input; 3 system error, or another run is writing \
-                          to the folder; 130 interrupted.";
+/// The exit codes, and what they mean.
+const EXIT_CODES: [(u8, &str); 5] = [
+    (0, "success"),
+    (EXIT_DIFFERENCE, "check found a difference, or render --strict a cell that is not assembled over the whole range"),
+    (EXIT_INPUT_ERROR, "the input was wrong"),
+    (EXIT_SYSTEM_ERROR, "the system failed, or another run is writing to the folder"),
+    (EXIT_INTERRUPTED, "interrupted"),
+];
+
+/// The exit codes, at the end of the help.
+fn exit_codes_help() -> String {
+    format!("Exit codes: {}.", EXIT_CODES.map(|(code, meaning)| format!("{code} {meaning}")).join("; "))
+}
 
 /// Solve families of planar linkages, and draw their coupler curves as the pages of an atlas.
 #[derive(Debug, Parser)]
-#[command(name = "coupler-atlas", version, disable_help_subcommand = true, after_help = EXIT_CODES)]
+#[command(
+    name = "coupler-atlas",
+    version,
+    disable_help_subcommand = true,
+    max_term_width = MAX_HELP_WIDTH,
+    after_help = exit_codes_help()
+)]
 struct Arguments {
+    /// Whether messages have colours; auto: on a terminal, unless NO_COLOR is set, and wherever CLICOLOR_FORCE is set.
+    #[arg(
+        long,
+        global = true,
+        value_name = "WHEN",
+        value_enum,
+        default_value_t = Color::default(),
+        display_order = COLOR_DISPLAY_ORDER
+    )]
+    color: Color,
     #[command(subcommand)]
     command: Command,
 }
@@ -76,6 +105,13 @@ impl InputErrors {
     }
 }
 
+/// The greatest width of the help, in columns; narrower terminals and `COLUMNS` make it narrower.
+const MAX_HELP_WIDTH: usize = 100;
+
+/// The place of `--color` in the help: after the options of a command, which are numbered from 0, and before `--help`.
+const COLOR_DISPLAY_ORDER: usize = 900;
+
+const EXIT_DIFFERENCE: u8 = 1;
 const EXIT_INPUT_ERROR: u8 = 2;
 const EXIT_SYSTEM_ERROR: u8 = 3;
 const EXIT_INTERRUPTED: u8 = 130;
@@ -86,6 +122,7 @@ pub fn main() -> ExitCode {
         Ok(arguments) => arguments,
         Err(error) => error.exit(),
     };
+    arguments.color.set();
     let result = match arguments.command {
         Command::Render(arguments) => render::run(&arguments),
         Command::Validate(arguments) => validate::run(&arguments),
@@ -100,16 +137,23 @@ pub fn main() -> ExitCode {
     };
     match result {
         Ok(Outcome::Done) => ExitCode::SUCCESS,
-        Ok(Outcome::Difference) => ExitCode::from(1),
+        Ok(Outcome::Difference) => ExitCode::from(EXIT_DIFFERENCE),
         Err(error) => report_failure(&error),
     }
 }
 
 /// Parses the command line; an error quotes arguments as they can be printed.
 fn parse_arguments() -> Result<Arguments, clap::Error> {
-    Arguments::try_parse().map_err(|error| {
-        let shown = std::env::args_os().map(|argument| printable(argument.to_string_lossy()));
-        Arguments::try_parse_from(shown).err().unwrap_or_else(|| {
+    let given: Vec<OsString> = std::env::args_os().collect();
+    let color = Color::from_arguments(&given).for_clap();
+    let parse = |arguments: &[OsString]| {
+        let mut command = Arguments::command().color(color);
+        let matches = command.try_get_matches_from_mut(arguments)?;
+        Arguments::from_arg_matches(&matches).map_err(|error| error.format(&mut command))
+    };
+    parse(&given).map_err(|error| {
+        let shown: Vec<OsString> = given.iter().map(|argument| printable(argument.to_string_lossy()).into()).collect();
+        parse(&shown).err().unwrap_or_else(|| {
             // Only the unprintable characters were wrong.
             clap::Error::raw(error.kind(), "an argument has control characters\n")
         })

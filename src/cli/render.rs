@@ -39,7 +39,7 @@ pub struct Arguments {
     #[arg(long)]
     overwrite: bool,
     /// The number of threads [default: one for each processor].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: Option<u16>,
     /// Exit with 1 if a cell cannot be assembled over the whole requested range.
     #[arg(long)]

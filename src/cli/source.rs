@@ -1,6 +1,5 @@
 //! Reads a manifest, and prints the problems in it.
 
-use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
 use coupler_atlas::manifest::{self, Plan};
@@ -8,7 +7,7 @@ use coupler_atlas::output;
 use coupler_atlas::record::RunRecord;
 use coupler_curves::problem::{self, Problem, suggestion};
 
-use super::{InputError, pluralize, print_stderr, print_styled, printable};
+use super::{InputError, color, pluralize, print_stderr, print_styled, printable};
 
 /// The manifest that a command reads when none is given.
 pub const DEFAULT_MANIFEST: &str = "atlas.toml";
@@ -101,9 +100,9 @@ impl ManifestSource {
     }
 }
 
-/// Prints problems in a text to standard error, in color on a terminal unless `NO_COLOR` is set.
+/// Prints problems in a text to standard error.
 pub fn report_problems(path: &Path, text: &str, problems: &[Problem]) {
-    let styled = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
+    let styled = color::is_stderr_styled();
     let report = problem::report(problems, &printable(path.display()), text, styled);
     // A styled report has the escape sequences of its colours, and no other control characters.
     if styled { print_styled(&report) } else { print_stderr(&report) }

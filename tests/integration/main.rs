@@ -7,6 +7,7 @@ mod binding;
 mod book;
 mod charts;
 mod check;
+mod command_line;
 mod corpus;
 mod coupler_grid;
 mod dependencies;

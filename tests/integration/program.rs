@@ -579,7 +579,7 @@ fn the_manual_and_completions_name_every_command() {
         assert!(manual.contains(&format!(".SH {}\n", command.to_uppercase())), "{command}");
         assert!(completions.contains(command), "{command}");
     }
-    assert!(manual.contains("\\-\\-animate") && manual.contains("Exit codes"));
+    assert!(manual.contains("\\-\\-animate") && manual.contains("EXIT STATUS"));
     assert_eq!(run(here, &["completions", "dos"]).0, 2);
 }
 

@@ -74,7 +74,7 @@ pub struct Arguments {
     #[arg(long)]
     bless: bool,
     /// The number of threads [default: one for each processor].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: Option<u16>,
     /// Print only changes.
     #[arg(short, long)]
