@@ -1,25 +1,34 @@
 //! `init`: writes a commented manifest.
 
 use std::io::ErrorKind;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use clap::Args;
+use clap::{Args, ValueHint};
 use coupler_atlas::output;
 
 use super::source::DEFAULT_MANIFEST;
-use super::{InputError, Outcome, print, printable};
+use super::{InputError, Outcome, files, print, print_bytes, printable};
 
 /// Write a commented manifest to start from.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// The file to write; it must not exist.
-    #[arg(default_value = DEFAULT_MANIFEST)]
+    /// The file to write, which must not exist; its folder is created if it does not. - for standard output.
+    #[arg(default_value = DEFAULT_MANIFEST, value_hint = ValueHint::FilePath)]
     file: PathBuf,
 }
 
+const STARTER: &[u8] = include_bytes!("starter.toml");
+
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
+    if files::is_standard(&arguments.file) {
+        print_bytes(STARTER)?;
+        return Ok(Outcome::Done);
+    }
     let file = printable(arguments.file.display());
-    match output::write_new(&arguments.file, include_bytes!("starter.toml")) {
+    if let Some(folder) = arguments.file.parent().filter(|folder| *folder != Path::new("")) {
+        output::create_folder(folder)?;
+    }
+    match output::write_new(&arguments.file, STARTER) {
         Err(output::Error::Write { source, .. }) if source.kind() == ErrorKind::AlreadyExists => {
             Err(InputError(format!("{file} exists already; give another name, or remove the file first")).into())
         }

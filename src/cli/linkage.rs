@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use coupler_atlas::{manifest, output};
+use coupler_atlas::manifest;
 use coupler_curves::catalogue;
 use coupler_curves::expression::{Error, Expression};
 use coupler_curves::problem::suggestion;
@@ -21,7 +21,7 @@ pub(super) const DEFAULT_SAMPLES: u32 = 360;
 pub(super) fn find_template(name: &str, manifest: Option<&Path>) -> anyhow::Result<Arc<Template>> {
     let mut known: Vec<Arc<Template>> = Vec::new();
     if let Some(path) = manifest {
-        let text = output::read_manifest(path)?;
+        let text = source::read_text(path)?;
         let (templates, problems) = manifest::parse_linkages(&text);
         source::report_problems(path, &text, &problems);
         known.extend(templates);

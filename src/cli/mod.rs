@@ -1,9 +1,11 @@
 //! The command line: arguments, one file for each subcommand, progress and exit codes. No other module prints.
 
 mod check;
+mod choice;
 mod color;
 mod design;
 mod export;
+mod files;
 mod format;
 mod init;
 mod inspect;
@@ -12,6 +14,7 @@ mod list;
 mod manual;
 mod printable;
 mod render;
+mod report;
 mod schema;
 mod source;
 mod validate;

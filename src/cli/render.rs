@@ -5,25 +5,24 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use clap::Args;
+use clap::{Args, ValueHint};
 use coupler_atlas::output::{self, Event};
 use coupler_atlas::record::FamilyRecord;
-use coupler_curves::problem::suggestion;
 use coupler_drawing::render::Format;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::source::{self, DEFAULT_MANIFEST};
-use super::{EXIT_INTERRUPTED, Outcome, pluralize, print, print_stderr, printable};
+use super::{EXIT_INTERRUPTED, Outcome, choice, files, pluralize, print, print_stderr, printable};
 
 /// Solve every family of a manifest, and write its pages and point sets.
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// The manifest; - for standard input, which needs --output.
-    #[arg(default_value = DEFAULT_MANIFEST)]
+    #[arg(default_value = DEFAULT_MANIFEST, value_hint = ValueHint::FilePath)]
     manifest: PathBuf,
     /// The folder to write to [default: `output` of the manifest, relative to it, or else its path without the
     /// extension].
-    #[arg(short, long, value_name = "DIR")]
+    #[arg(short, long, value_name = "DIR", value_hint = ValueHint::DirPath, value_parser = files::folder_parser())]
     output: Option<PathBuf>,
     /// The formats of pages, instead of the manifest's: svg, png, pdf (one book); pages that an earlier run wrote in
     /// other formats are kept.
@@ -50,13 +49,13 @@ pub struct Arguments {
 }
 
 fn parse_format(name: &str) -> Result<Format, String> {
-    let known = Format::ALL.map(Format::name);
-    match Format::ALL.into_iter().find(|format| format.name() == name) {
-        Some(format) if !format.is_built_in() => {
+    let format = choice::parse("format", name, &Format::ALL.map(|format| (format.name(), format)))?;
+    match format.is_built_in() {
+        true => Ok(format),
+        false => {
+            let name = format.name();
             Err(format!("this build cannot write `{name}`: build the program with the feature `pdf`"))
         }
-        Some(format) => Ok(format),
-        None => Err(format!("unknown format `{name}`: {}", suggestion(name, &known))),
     }
 }
 
@@ -78,8 +77,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         manifest: Some(source.file_name()),
         interrupt: interrupt_flag()?,
     };
-    let mut reporter =
-        ProgressReporter { is_quiet: arguments.quiet, bar: ProgressBar::hidden(), warnings: 0, not_assembled: 0 };
+    let mut reporter = ProgressReporter::new(arguments.quiet);
     let mut lines = String::new();
     let run =
         output::write_atlas(&source.plan, &output, &options, &mut |event| reporter.handle_event(event, &mut lines))?;
@@ -124,6 +122,10 @@ struct ProgressReporter {
 }
 
 impl ProgressReporter {
+    fn new(is_quiet: bool) -> ProgressReporter {
+        ProgressReporter { is_quiet, bar: ProgressBar::hidden(), warnings: 0, not_assembled: 0 }
+    }
+
     fn handle_event(&mut self, event: Event, lines: &mut String) {
         match event {
             Event::Begin { family, pages } if !self.is_quiet => {

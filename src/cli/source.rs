@@ -7,7 +7,7 @@ use coupler_atlas::output;
 use coupler_atlas::record::RunRecord;
 use coupler_curves::problem::{self, Problem, suggestion};
 
-use super::{InputError, color, pluralize, print_stderr, print_styled, printable};
+use super::{InputError, color, files, pluralize, print_stderr, print_styled};
 
 /// The manifest that a command reads when none is given.
 pub const DEFAULT_MANIFEST: &str = "atlas.toml";
@@ -19,29 +19,44 @@ pub struct ManifestSource {
     pub plan: Plan,
 }
 
+/// Reads the text of a manifest.
+///
+/// # Errors
+/// The file cannot be read.
+pub fn read_text(path: &Path) -> anyhow::Result<String> {
+    output::read_manifest(path).map_err(|error| match error {
+        output::Error::Read { source, .. } if files::is_standard(path) => {
+            InputError(format!("cannot read standard input: {source}")).into()
+        }
+        output::Error::Read { source, .. } if source.kind() == std::io::ErrorKind::NotFound => {
+            let path = path.display();
+            InputError(format!("cannot find {path}: `coupler-atlas init {path}` writes a manifest to start from"))
+                .into()
+        }
+        error => error.into(),
+    })
+}
+
 /// Reads a manifest, and prints every problem in it to standard error.
 ///
 /// # Errors
 /// The file cannot be read, or the manifest has errors.
 pub fn read(path: &Path) -> anyhow::Result<ManifestSource> {
-    let text = output::read_manifest(path).map_err(|error| match error {
-        output::Error::Read { source, .. } if source.kind() == std::io::ErrorKind::NotFound => {
-            let path = path.display();
-            anyhow::Error::from(InputError(format!(
-                "cannot find {path}: `coupler-atlas init {path}` writes a manifest to start from"
-            )))
-        }
-        error => error.into(),
-    })?;
+    let text = read_text(path)?;
     let loaded = manifest::parse(&text);
     report_problems(path, &text, &loaded.problems);
     match loaded.plan {
         Some(plan) => Ok(ManifestSource { path: path.to_owned(), text, plan }),
         None => {
             let errors = loaded.problems.iter().filter(|p| p.is_error()).count();
-            Err(InputError(format!("{}: {}", path.display(), pluralize(errors, "problem"))).into())
+            Err(problems_error(path, errors).into())
         }
     }
+}
+
+/// The error of a manifest with problems.
+pub fn problems_error(path: &Path, errors: usize) -> InputError {
+    InputError(format!("{}: {}", files::input_name(path), pluralize(errors, "problem")))
 }
 
 impl ManifestSource {
@@ -71,7 +86,7 @@ impl ManifestSource {
         if let Some(folder) = given {
             return Ok(folder.to_owned());
         }
-        if self.path.as_os_str() == RunRecord::STANDARD_INPUT {
+        if files::is_standard(&self.path) {
             return Err(InputError(
                 "a manifest from standard input has no folder: name one to write to with -o".to_owned(),
             ));
@@ -103,7 +118,7 @@ impl ManifestSource {
 /// Prints problems in a text to standard error.
 pub fn report_problems(path: &Path, text: &str, problems: &[Problem]) {
     let styled = color::is_stderr_styled();
-    let report = problem::report(problems, &printable(path.display()), text, styled);
+    let report = problem::report(problems, &files::input_name(path), text, styled);
     // A styled report has the escape sequences of its colours, and no other control characters.
     if styled { print_styled(&report) } else { print_stderr(&report) }
 }

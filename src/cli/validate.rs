@@ -1,29 +1,132 @@
 //! `validate`: reports every problem of a manifest.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use clap::Args;
+use clap::{Args, ValueHint};
+use coupler_atlas::manifest::{self, Plan};
 use coupler_atlas::output;
+use coupler_curves::problem::{self, Problem};
+use serde::Serialize;
 
+use super::report::{self, ReportRequest};
 use super::source::{self, DEFAULT_MANIFEST};
-use super::{Outcome, pluralize, print, printable};
+use super::{Outcome, files, pluralize, print, print_bytes};
 
-/// Report every problem of a manifest, and write nothing.
+/// Report every problem of a manifest, and write nothing but the requested reports.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// The manifest.
-    #[arg(default_value = DEFAULT_MANIFEST)]
+    /// The manifest; - for standard input.
+    #[arg(default_value = DEFAULT_MANIFEST, value_hint = ValueHint::FilePath)]
     manifest: PathBuf,
+    /// Write a report as text or json to a file, or print it: text, the default, to standard error, json to standard
+    /// output instead of it; may be given more than once.
+    #[arg(long, value_name = "FORMAT[=FILE]", value_parser = parse_report)]
+    report: Vec<ReportRequest<ReportFormat>>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum ReportFormat {
+    Text,
+    Json,
+}
+
+fn parse_report(text: &str) -> Result<ReportRequest<ReportFormat>, String> {
+    report::parse_request(text, &[("text", ReportFormat::Text), ("json", ReportFormat::Json)])
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
-    let source = source::read(&arguments.manifest)?;
-    source.report_problems(&output::empty_family_warnings(&source.plan, None));
-    let cells: usize = source.plan.families.iter().map(|planned| planned.family.cell_count()).sum();
-    let families = match source.plan.families.len() {
-        1 => "1 family".to_owned(),
-        n => format!("{n} families"),
+    let path = &arguments.manifest;
+    let text = source::read_text(path)?;
+    let loaded = manifest::parse(&text);
+    let mut problems = loaded.problems;
+    problems.extend(loaded.plan.iter().flat_map(|plan| output::empty_family_warnings(plan, None)));
+    let is_printed = |format| arguments.report.iter().any(|given| given.format == format && given.file.is_none());
+    if is_printed(ReportFormat::Text) || !is_printed(ReportFormat::Json) {
+        source::report_problems(path, &text, &problems);
+    }
+    for ReportRequest { format, file } in &arguments.report {
+        let report = match format {
+            ReportFormat::Text => problem::report(&problems, &files::input_name(path), &text, false),
+            ReportFormat::Json => json(path, &text, &problems, loaded.plan.as_ref())?,
+        };
+        match (file, format) {
+            (Some(file), _) => output::write_file(file, report.as_bytes())?,
+            (None, ReportFormat::Json) => print_bytes(report.as_bytes())?,
+            (None, ReportFormat::Text) => {}
+        }
+    }
+    let Some(plan) = loaded.plan else {
+        let errors = problems.iter().filter(|problem| problem.is_error()).count();
+        return Err(source::problems_error(path, errors).into());
     };
-    print(&format!("{}: {families}, {}\n", printable(arguments.manifest.display()), pluralize(cells, "cell")))?;
+    if !is_printed(ReportFormat::Json) {
+        let families = match plan.families.len() {
+            1 => "1 family".to_owned(),
+            n => format!("{n} families"),
+        };
+        print(&format!("{}: {families}, {}\n", files::input_name(path), pluralize(cell_count(&plan), "cell")))?;
+    }
     Ok(Outcome::Done)
+}
+
+fn cell_count(plan: &Plan) -> usize {
+    plan.families.iter().map(|planned| planned.family.cell_count()).sum()
+}
+
+/// The version of the format of the JSON, which docs/commands.md describes.
+const FORMAT: u32 = 1;
+
+#[derive(Serialize)]
+struct Document<'a> {
+    format: u32,
+    program: &'static str,
+    version: &'static str,
+    has_errors: bool,
+    families: Option<usize>,
+    cells: Option<usize>,
+    problems: Vec<JsonProblem<'a>>,
+}
+
+#[derive(Serialize)]
+struct JsonProblem<'a> {
+    file: &'a str,
+    line: usize,
+    column: usize,
+    severity: &'static str,
+    message: &'a str,
+    label: Option<&'a str>,
+    help: Option<&'a str>,
+}
+
+impl<'a> JsonProblem<'a> {
+    fn new(problem: &'a Problem, file: &'a str, text: &str) -> JsonProblem<'a> {
+        let before = &text[..text.floor_char_boundary(problem.span.start)];
+        let line_start = before.rfind('\n').map_or(0, |at| at + 1);
+        let non_empty = |text: &'a String| Some(text.as_str()).filter(|text| !text.is_empty());
+        JsonProblem {
+            file,
+            line: before.matches('\n').count() + 1,
+            column: before[line_start..].chars().count() + 1,
+            severity: if problem.is_error() { "error" } else { "warning" },
+            message: &problem.message,
+            label: non_empty(&problem.label),
+            help: non_empty(&problem.help),
+        }
+    }
+}
+
+/// The problems of a manifest as JSON, in the order of the text: errors first, each in the order of the manifest.
+fn json(path: &Path, text: &str, problems: &[Problem], plan: Option<&Plan>) -> anyhow::Result<String> {
+    let file = path.to_string_lossy();
+    let mut ordered: Vec<&Problem> = problems.iter().collect();
+    ordered.sort_by_key(|problem| (!problem.is_error(), problem.span.start));
+    report::json(&Document {
+        format: FORMAT,
+        program: env!("CARGO_PKG_NAME"),
+        version: env!("CARGO_PKG_VERSION"),
+        has_errors: plan.is_none(),
+        families: plan.map(|plan| plan.families.len()),
+        cells: plan.map(cell_count),
+        problems: ordered.into_iter().map(|problem| JsonProblem::new(problem, &file, text)).collect(),
+    })
 }

@@ -1,6 +1,7 @@
 //! What all commands have in common: help, colours, standard input and output; and the manual page.
 
 use std::fs;
+use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
@@ -36,6 +37,16 @@ fn result(output: Output) -> (i32, String, String) {
 
 fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
     result(program(folder).args(arguments).output().unwrap())
+}
+
+/// Runs the program with a text on standard input.
+fn run_with_input(folder: &Path, arguments: &[&str], input: &str) -> (i32, String, String) {
+    let mut command = program(folder);
+    command.args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().unwrap();
+    // A program that does not read its input may end first.
+    let _ = child.stdin.take().unwrap().write_all(input.as_bytes());
+    result(child.wait_with_output().unwrap())
 }
 
 /// The standard output of a command that succeeds.
@@ -168,4 +179,148 @@ fn the_examples_of_the_manual_can_be_run() {
     for file in ["output/index.html", "curve.dxf", "best/index.html"] {
         assert!(folder.path().join(file).is_file(), "{file}");
     }
+}
+
+#[test]
+fn a_hyphen_is_standard_input_wherever_a_manifest_is_named() {
+    let folder = folder_with(MANIFEST);
+    text(folder.path(), &["render", "-q"]);
+    let reads = |arguments: &[&str]| {
+        let (code, out, err) = run_with_input(folder.path(), arguments, MANIFEST);
+        assert_eq!(code, 0, "{arguments:?}: {err}");
+        out
+    };
+    assert_eq!(reads(&["validate", "-"]), "standard input: 1 family, 2 cells\n");
+    reads(&["render", "-", "-q", "-o", "from-input"]);
+    assert!(reads(&["check", "-", "--against", "pages"]).contains("nothing has changed"));
+    let curve = ["evans:1.1.1", "--format", "csv"];
+    let exported = text(folder.path(), &[&["export"], &curve[..]].concat());
+    assert_eq!(reads(&[&["export", "-"], &curve[..]].concat()), exported);
+    assert_eq!(reads(&[&["export", "-"], &curve[..], &["-o", "-"]].concat()), exported);
+    // The linkages of a manifest can be those of the starter.
+    let starter = text(folder.path(), &["init", "-"]);
+    for arguments in [
+        &["inspect", "my-four-bar", "frame=3", "--manifest", "-"][..],
+        &["export", "--linkage", "my-four-bar", "--manifest", "-", "frame=3", "--format", "csv"],
+    ] {
+        let (code, _, err) = run_with_input(folder.path(), arguments, &starter);
+        assert_eq!(code, 0, "{arguments:?}: {err}");
+    }
+    let (code, _, err) = run_with_input(folder.path(), &["validate", "-"], "[atlas]\n");
+    assert!(code == 2 && err.contains("--> standard input:1:1") && err.contains("standard input: 2 problems"), "{err}");
+    let mut command = program(folder.path());
+    let file = folder.path().join("binary");
+    fs::write(&file, [0xff]).unwrap();
+    let (code, _, err) = result(command.args(["render", "-"]).stdin(fs::File::open(file).unwrap()).output().unwrap());
+    assert!(code == 2 && err.contains("cannot read standard input: "), "{err}");
+}
+
+#[test]
+fn a_hyphen_is_standard_output_wherever_a_file_is_written() {
+    let folder = folder_with(MANIFEST);
+    let starter = text(folder.path(), &["init", "-"]);
+    assert_eq!(starter, include_str!("../../src/cli/starter.toml"));
+    let design = ["design", "straight-line", "--input", "motor", "--p", "2", "--best", "1", "--types", "hoeken"];
+    for command in [&["inspect", "hoeken"][..], &design] {
+        let plate = text(folder.path(), &[command, &["--svg", "-"]].concat());
+        assert!(plate.starts_with("<svg") && plate.ends_with("</svg>\n"), "{plate}");
+        let (code, out, err) = run(folder.path(), &[command, &["--svg", "-", "--json"]].concat());
+        assert!(code == 2 && out.is_empty() && err.contains("--svg - and --json both write to"), "{err}");
+    }
+    text(folder.path(), &["render", "-q"]);
+    let report = text(folder.path(), &["check", "--against", "pages", "--report", "json=-"]);
+    assert_eq!(report, text(folder.path(), &["check", "--against", "pages", "--report", "json"]));
+    let report = text(folder.path(), &["validate", "--report", "json=-"]);
+    assert_eq!(report, text(folder.path(), &["validate", "--report", "json"]));
+    // Several files do not go to standard output, and folders neither.
+    let (code, out, err) = run(folder.path(), &["export", "-o", "-"]);
+    assert!(code == 2 && out.is_empty() && err.contains("name a folder for them with -o FOLDER"), "{err}");
+    for arguments in
+        [&["render", "-o", "-"][..], &["check", "--against", "-"], &["check", "--against", "pages", "--diff", "-"]]
+    {
+        let (code, out, err) = run(folder.path(), arguments);
+        assert!(code == 2 && out.is_empty() && err.contains("a folder is needed"), "{arguments:?}: {err}");
+    }
+    let mut names: Vec<_> = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    names.sort();
+    assert_eq!(names, ["atlas.toml", "pages"]);
+}
+
+#[test]
+fn init_creates_the_missing_folder() {
+    let folder = TempDir::new().unwrap();
+    let out = text(folder.path(), &["init", "a/b/x.toml"]);
+    assert_eq!(out, "written to a/b/x.toml; `coupler-atlas render a/b/x.toml` draws it\n");
+    text(folder.path(), &["validate", "a/b/x.toml"]);
+    text(folder.path(), &["init", "a/b/y.toml"]);
+    fs::write(folder.path().join("a/b/x.toml"), "mine").unwrap();
+    assert_eq!(run(folder.path(), &["init", "a/b/x.toml"]).0, 2);
+    assert_eq!(fs::read_to_string(folder.path().join("a/b/x.toml")).unwrap(), "mine");
+    // A file cannot be a folder.
+    let (code, _, err) = run(folder.path(), &["init", "a/b/x.toml/z.toml"]);
+    assert!(code == 3 && err.contains("cannot write a/b/x.toml"), "{err}");
+    let (code, _, err) = run(folder.path(), &["validate", "c/d.toml"]);
+    assert!(code == 2 && err.contains("`coupler-atlas init c/d.toml` writes"), "{err}");
+}
+
+#[test]
+fn names_of_formats_may_be_surrounded_by_blanks() {
+    let folder = folder_with(MANIFEST);
+    text(folder.path(), &["render", "-q", "--format", "svg, png"]);
+    assert!(folder.path().join("pages/evans/evans-001.png").is_file());
+    text(folder.path(), &["export", "evans:1", "--format", " svg , csv", "-o", "curves"]);
+    assert!(folder.path().join("curves/evans-1-1-1.csv").is_file());
+    for command in [&["render"][..], &["export", "evans:1"]] {
+        for formats in ["", " ", "svg,", "svg,,png"] {
+            let (code, out, err) = run(folder.path(), &[command, &["--format", formats]].concat());
+            assert!(code == 2 && out.is_empty(), "{formats}: {err}");
+            assert!(err.contains("the name of a format is missing: it can be"), "{formats}: {err}");
+        }
+        let (_, _, err) = run(folder.path(), &[command, &["--format", "svg, pgn"]].concat());
+        assert!(err.contains("unknown format `pgn`: did you mean `png`?"), "{err}");
+    }
+    let (code, _, err) = run(folder.path(), &["design", "straight-line", "--types", "evans,,watt"]);
+    assert!(code == 2 && err.contains("--types: the name of a linkage is missing"), "{err}");
+}
+
+#[test]
+fn problems_are_reported_as_json() {
+    let wrong =
+        MANIFEST.replace("title = \"T\"", "title = \"é€𝄞\"").replace("formats = [\"svg\"]", "formats = [ \"gif\" ]");
+    let folder = folder_with(&wrong.replace("\"evans\"\nsampling", "\"evens\"\nsampling"));
+    let (code, out, err) = run(folder.path(), &["validate", "--report", "json"]);
+    assert_eq!((code, err.as_str()), (2, "error: atlas.toml: 2 problems\n"));
+    let report: serde_json::Value = serde_json::from_str(&out).unwrap();
+    assert_eq!((&report["format"], &report["has_errors"]), (&1.into(), &true.into()));
+    assert!(report["families"].is_null() && report["cells"].is_null());
+    let problems = report["problems"].as_array().unwrap();
+    assert_eq!(problems.len(), 2);
+    // The places are those of the text.
+    let (code, out, text_report) = run(folder.path(), &["validate", "--report", "text"]);
+    assert_eq!((code, out.as_str()), (2, ""));
+    for (problem, [line, column]) in problems.iter().zip([[4, 13], [7, 11]]) {
+        assert_eq!((&problem["line"], &problem["column"]), (&line.into(), &column.into()));
+        assert_eq!((&problem["file"], &problem["severity"]), (&"atlas.toml".into(), &"error".into()));
+        assert!(text_report.contains(&format!("atlas.toml:{line}:{column}")), "{text_report}");
+        for key in ["message", "help"] {
+            assert!(text_report.contains(problem[key].as_str().unwrap()), "{key}: {text_report}");
+        }
+    }
+    assert_eq!(problems[1]["help"], "did you mean `evans`?");
+    // Both reports as files, and the text on standard error all the same.
+    let (code, out, err) = run(folder.path(), &["validate", "--report", "json=p.json", "--report", "text=p.txt"]);
+    assert_eq!((code, out.as_str(), err.as_str()), (2, "", text_report.as_str()));
+    let file = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
+    assert_eq!(serde_json::from_str::<serde_json::Value>(&file("p.json")).unwrap(), report);
+    assert!(text_report.starts_with(&file("p.txt")));
+    // A valid manifest with a warning.
+    fs::write(folder.path().join("atlas.toml"), MANIFEST.replace("cases", "where = \"p > 9\"\ncases")).unwrap();
+    let (code, out, err) = run(folder.path(), &["validate", "--report", "json"]);
+    assert_eq!((code, err.as_str()), (0, ""));
+    let report: serde_json::Value = serde_json::from_str(&out).unwrap();
+    assert_eq!((&report["has_errors"], &report["families"], &report["cells"]), (&false.into(), &1.into(), &2.into()));
+    assert_eq!(report["problems"][0]["severity"], "warning");
+    let (code, _, err) = run(folder.path(), &["validate", "--report", "jsn"]);
+    assert!(code == 2 && err.contains("unknown report `jsn`: did you mean `json`?"), "{err}");
+    assert_eq!(run(folder.path(), &["validate", "--report", "json="]).0, 2);
 }

@@ -506,7 +506,7 @@ fn all_wrong_arguments_are_reported_and_nothing_is_written() {
     fs::write(folder.path().join("atlas.toml"), MANIFEST).unwrap();
     fs::write(folder.path().join("a-file"), "mine").unwrap();
     let before = files(folder.path());
-    let cases: [(&[&str], &[&str]); 19] = [
+    let cases: [(&[&str], &[&str]); 21] = [
         (&["evan:1.1.1"], &["there is no family `evan`: did you mean `evans`?"]),
         (
             &["evans:9", "evans:1.x", "wat"],
@@ -533,6 +533,11 @@ fn all_wrong_arguments_are_reported_and_nothing_is_written() {
         (&["evans:1.1.1?M.up=2"], &["there is no `M.up`: it can be `M.along` or `M.across`"]),
         (&["evans"], &["there are 2 files to write: name a folder for them with -o"]),
         (&["evans", "-o", "a-file"], &["a-file is a file, and there are 2 to write"]),
+        (
+            &["evans", "--format", "csv", "-o", "z.csv"],
+            &["z.csv is the name of one file, and there are 2 to write: name a folder with -o"],
+        ),
+        (&["evans:1", "--format", "svg,csv", "-o", "new/Z.SVG"], &["Z.SVG is the name of one file"]),
         (&["evans:1", "--format", "dwg"], &["unknown format `dwg`"]),
         (&["evans:1", "--chord", "0"], &["expected a number from 1e-9 to 0.1"]),
         (&["--only", "evan"], &["there is no family `evan`"]),
@@ -563,6 +568,11 @@ fn a_single_result_is_written_to_standard_output_a_file_or_a_folder() {
     let summary = text(folder.path(), &["export", "evans:1.1.1", "--format", "csv", "-o", "new/"]);
     assert_eq!(summary, "1 file written to new/\n");
     assert_eq!(files(&folder.path().join("new")), ["evans-1-1-1.csv"]);
+    // A folder may be named like a file, if it exists or its name ends in a slash.
+    for path in ["z.csv/", "z.csv"] {
+        text(folder.path(), &["export", "evans", "--format", "csv", "-o", path]);
+        assert_eq!(files(&folder.path().join("z.csv")), ["evans-1-1-1.csv", "evans-2-1-1.csv"]);
+    }
     let (code, _, err) = run(folder.path(), &["export", "--only", "watt", "--format", "csv", "-o", "watts/"]);
     assert_eq!((code, files(&folder.path().join("watts"))), (0, vec!["watt-1-1-1.csv".to_owned()]));
     assert!(err.contains("warning: watt:2: not assembled"), "{err}");

@@ -8,26 +8,26 @@ mod table;
 
 use std::path::{Path, PathBuf};
 
-use clap::Args;
+use clap::{Args, ValueHint};
 use coupler_atlas::check::{self, Event, Report};
 use coupler_atlas::manifest::{PartialTolerances, Tolerances};
 use coupler_atlas::output;
-use coupler_curves::problem::suggestion;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use super::report::{self, ReportRequest};
 use super::source::{self, DEFAULT_MANIFEST, ManifestSource};
-use super::{InputError, Outcome, print, print_bytes, print_stderr, printable};
+use super::{InputError, Outcome, files, print, print_bytes, print_stderr, printable};
 
 /// Run a manifest again, and report what has changed since an atlas was recorded: which curve, where and by how much.
 ///
 /// Nothing is written except the requested reports. Exits with 0 if nothing has changed, and with 1 if anything has.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// The manifest.
-    #[arg(default_value = DEFAULT_MANIFEST)]
+    /// The manifest; - for standard input.
+    #[arg(default_value = DEFAULT_MANIFEST, value_hint = ValueHint::FilePath)]
     manifest: PathBuf,
     /// The folder of the recorded atlas, with its run.json.
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath, value_parser = files::folder_parser())]
     against: PathBuf,
     /// Check only this family; may be given more than once.
     #[arg(long, value_name = "FAMILY")]
@@ -66,9 +66,9 @@ pub struct Arguments {
     /// Write a report as json, junit or github (annotations) to a file, or print it instead of the table; may be given
     /// more than once.
     #[arg(long, value_name = "FORMAT[=FILE]", value_parser = parse_report)]
-    report: Vec<ReportRequest>,
+    report: Vec<ReportRequest<ReportFormat>>,
     /// Draw each curve that has moved, as recorded and as it is now, into this folder, with an index.html.
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath, value_parser = files::folder_parser())]
     diff: Option<PathBuf>,
     /// Report the changes, then replace the recorded atlas by the new run.
     #[arg(long)]
@@ -90,14 +90,6 @@ fn tolerance_help(text: &str, value: fn(&Tolerances) -> f64) -> String {
     format!("{text} [default: the manifest's, or {default}]")
 }
 
-/// A requested report.
-#[derive(Clone, Debug)]
-struct ReportRequest {
-    format: ReportFormat,
-    /// The file to write; if `None`, the report is printed instead of the table.
-    file: Option<PathBuf>,
-}
-
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum ReportFormat {
     Json,
@@ -105,17 +97,9 @@ enum ReportFormat {
     Github,
 }
 
-fn parse_report(text: &str) -> Result<ReportRequest, String> {
-    const KNOWN: [(&str, ReportFormat); 3] =
-        [("json", ReportFormat::Json), ("junit", ReportFormat::Junit), ("github", ReportFormat::Github)];
-    let (name, file) = text.split_once('=').map_or((text, None), |(name, file)| (name, Some(file)));
-    let names = KNOWN.map(|(name, _)| name);
-    let format = KNOWN.into_iter().find(|(known, _)| *known == name).map(|(_, format)| format);
-    let format = format.ok_or_else(|| format!("unknown report `{name}`: {}", suggestion(name, &names)))?;
-    match file {
-        Some("") => Err(format!("expected a file after `=`, as in {name}=report.{name}")),
-        file => Ok(ReportRequest { format, file: file.map(PathBuf::from) }),
-    }
+fn parse_report(text: &str) -> Result<ReportRequest<ReportFormat>, String> {
+    let known = [("json", ReportFormat::Json), ("junit", ReportFormat::Junit), ("github", ReportFormat::Github)];
+    report::parse_request(text, &known)
 }
 
 fn parse_tolerance(text: &str) -> Result<f64, String> {

@@ -9,13 +9,11 @@ mod trade_offs;
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::{Args, ValueEnum, ValueHint};
 use coupler_atlas::design::{self, Driver, LinkageKind, Requirement, Requirements, SynthesisResult};
-use coupler_atlas::output;
 use coupler_curves::expression::Expression;
-use coupler_curves::problem::suggestion;
 
-use super::{InputErrors, Outcome, print, print_bytes};
+use super::{InputErrors, Outcome, choice, files, print, print_bytes};
 
 /// Find the linkages that meet a designer's requirements, ranked, with their trade-offs (Natesan, chapter 10).
 ///
@@ -67,8 +65,8 @@ pub struct Arguments {
         help = best_help()
     )]
     best: String,
-    /// Draw the designs on one plate, and write it to this file.
-    #[arg(long, value_name = "FILE")]
+    /// Draw the designs on one plate, and write it to this file; - for standard output, in place of the text.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     svg: Option<PathBuf>,
     /// Print a manifest that renders the designs: coupler-atlas design … --toml > best.toml
     #[arg(long, conflicts_with = "json")]
@@ -155,6 +153,8 @@ struct Report {
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let Task::StraightLine = arguments.what;
+    let printed = [("--json", arguments.json), ("--toml", arguments.toml)];
+    let is_drawing_printed = files::is_drawing_printed(arguments.svg.as_deref(), &printed)?;
     let requirements = parse_requirements(arguments).map_err(|errors| InputErrors::from_messages(&errors))?;
     let results = design::straight_line(&requirements);
     let report = Report { requirements, is_deviation_given: arguments.deviation.is_some(), results };
@@ -166,7 +166,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         return Err(InputErrors(text::no_design_message(&report).lines().map(str::to_owned).collect()).into());
     }
     if let Some(path) = &arguments.svg {
-        output::write_file(path, &plate::plate(&report))?;
+        files::write(path, &plate::plate(&report))?;
+        if is_drawing_printed {
+            return Ok(Outcome::Done);
+        }
     }
     match (arguments.json, arguments.toml) {
         (true, _) => print_bytes(json::json(&report).as_bytes())?,
@@ -240,7 +243,7 @@ fn parse_kinds(names: &[String], errors: &mut Vec<String>) -> Vec<LinkageKind> {
     for name in names {
         match LinkageKind::ALL.into_iter().find(|kind| kind.id() == name.trim()) {
             Some(kind) => kinds.push(kind),
-            None => errors.push(format!("--types: unknown linkage `{name}`: {}", suggestion(name, &known))),
+            None => errors.push(format!("--types: {}", choice::unknown("linkage", name, &known))),
         }
     }
     kinds

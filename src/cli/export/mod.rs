@@ -1,14 +1,14 @@
 //! `export`: writes curves to a file, to a folder, or to standard output.
 
+mod destination;
 mod selection;
 
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
-use clap::Args;
+use clap::{Args, ValueHint};
 use coupler_atlas::export::{self, Format, Options};
 use coupler_atlas::manifest::Plan;
-use coupler_atlas::output;
 use coupler_curves::exchange::{CurveName, ParameterSet, SelectedCurve, manifest_fragment};
 use coupler_curves::family::{Family, MAX_SAMPLES, ParameterText, Sampling};
 use coupler_curves::problem::suggestion;
@@ -19,7 +19,8 @@ use coupler_drawing::render::TextMode;
 
 use super::linkage::{self, DEFAULT_SAMPLES};
 use super::source::{self, DEFAULT_MANIFEST};
-use super::{InputError, InputErrors, Outcome, pluralize, print, print_bytes, print_stderr, printable};
+use super::{InputError, InputErrors, Outcome, choice, files, pluralize, print, print_stderr, printable};
+use destination::Destination;
 use selection::CurveSelection;
 
 /// Export curves as drawings, still or moving, CAD drawings, tables, JSON, or a fragment of a manifest.
@@ -36,8 +37,8 @@ pub struct Arguments {
     /// all curves).
     #[arg(long, value_name = "FORMATS", value_delimiter = ',', default_value = "svg", value_parser = parse_format)]
     format: Vec<Format>,
-    /// The file to write, or the folder if there are several files.
-    #[arg(short, long, value_name = "PATH")]
+    /// The file to write, or the folder if there are several files; - for standard output.
+    #[arg(short, long, value_name = "PATH", value_hint = ValueHint::AnyPath)]
     output: Option<PathBuf>,
     /// Export only curves of this family; may be given more than once.
     #[arg(long, value_name = "FAMILY", conflicts_with = "linkage")]
@@ -45,8 +46,8 @@ pub struct Arguments {
     /// Export the curves of a single linkage from the catalogue, or from the manifest given with --manifest.
     #[arg(long, value_name = "LINKAGE")]
     linkage: Option<String>,
-    /// A manifest whose linkages --linkage can name.
-    #[arg(long, value_name = "FILE", requires = "linkage")]
+    /// A manifest whose linkages --linkage can name; - for standard input.
+    #[arg(long, value_name = "FILE", requires = "linkage", value_hint = ValueHint::FilePath)]
     manifest: Option<PathBuf>,
     /// With --linkage, the input between samples, in degrees or as a length.
     #[arg(long, value_name = "STEP", requires = "linkage", conflicts_with = "samples", value_parser = parse_step)]
@@ -82,17 +83,14 @@ const MIN_STEP: f64 = 360.0 / MAX_SAMPLES as f64;
 
 fn words_help() -> String {
     format!(
-        "The manifest, if the first word ends in .toml [default: {DEFAULT_MANIFEST}], followed by the names of curves; \
+        "The manifest, if the first word ends in .toml, or is - for standard input [default: {DEFAULT_MANIFEST}], followed \
+         by the names of curves; \
          with --linkage, parameters as NAME=VALUE and curves as TRACE.CIRCUIT [default: all curves]"
     )
 }
 
 fn parse_format(name: &str) -> Result<Format, String> {
-    let known = Format::ALL.map(Format::name);
-    Format::ALL
-        .into_iter()
-        .find(|format| format.name() == name)
-        .ok_or_else(|| format!("unknown format `{name}`: {}", suggestion(name, &known)))
+    choice::parse("format", name, &Format::ALL.map(|format| (format.name(), format)))
 }
 
 fn parse_chord(text: &str) -> Result<f64, String> {
@@ -189,8 +187,9 @@ fn select_from_linkage(id: &str, arguments: &Arguments) -> anyhow::Result<CurveS
 /// # Errors
 /// The manifest cannot be read, or every error in the names.
 fn select_from_manifest(arguments: &Arguments) -> anyhow::Result<(Vec<CurveSelection>, Plan)> {
+    let is_manifest = |word: &str| files::is_standard(Path::new(word)) || word.to_lowercase().ends_with(".toml");
     let (path, words) = match arguments.words.split_first() {
-        Some((first, rest)) if first.to_lowercase().ends_with(".toml") => (Path::new(first), rest),
+        Some((first, rest)) if is_manifest(first) => (Path::new(first), rest),
         _ => (Path::new(DEFAULT_MANIFEST), &arguments.words[..]),
     };
     let source = source::read(path)?;
@@ -311,50 +310,4 @@ fn export_selection<'a>(
         }
         Ok(())
     })
-}
-
-/// Where the files are written.
-enum Destination {
-    Stdout,
-    File(PathBuf),
-    Folder(PathBuf),
-}
-
-impl Destination {
-    /// The destination of `files` files at a path; creates the folder if there are several.
-    fn from_path(path: Option<&Path>, files: usize) -> anyhow::Result<Destination> {
-        let Some(path) = path else {
-            let error =
-                || InputError(format!("there are {files} files to write: name a folder for them with -o FOLDER"));
-            return if files == 1 { Ok(Destination::Stdout) } else { Err(error().into()) };
-        };
-        // A file is written under a temporary name and renamed, which would replace a device or a pipe.
-        if path.exists() && !path.is_file() && !path.is_dir() {
-            let path = path.display();
-            return Err(InputError(format!(
-                "{path} is neither a file nor a folder: name one with -o, or leave -o out"
-            ))
-            .into());
-        }
-        let is_folder = path.is_dir() || path.as_os_str().to_string_lossy().ends_with(['/', std::path::MAIN_SEPARATOR]);
-        if files == 1 && !is_folder {
-            return Ok(Destination::File(path.to_owned()));
-        }
-        if path.is_file() {
-            let path = path.display();
-            return Err(
-                InputError(format!("{path} is a file, and there are {files} to write: name a folder with -o")).into()
-            );
-        }
-        output::create_folder(path)?;
-        Ok(Destination::Folder(path.to_owned()))
-    }
-
-    fn write_file(&mut self, name: &str, bytes: &[u8]) -> anyhow::Result<()> {
-        match self {
-            Destination::Stdout => print_bytes(bytes),
-            Destination::File(path) => Ok(output::write_file(path, bytes)?),
-            Destination::Folder(folder) => Ok(output::write_file(&folder.join(name), bytes)?),
-        }
-    }
 }

@@ -12,15 +12,14 @@ mod text;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use clap::Args;
-use coupler_atlas::output;
+use clap::{Args, ValueHint};
 use coupler_curves::family::{Family, ParameterText, Sampling};
 use coupler_curves::linkage::CircuitSelection;
 use coupler_curves::motion::Sampler;
 use coupler_curves::solve::{self, SolvedCell};
 
 use super::linkage::{self, DEFAULT_SAMPLES};
-use super::{InputError, Outcome, print, print_bytes};
+use super::{InputError, Outcome, files, print, print_bytes};
 use pose::Pose;
 
 /// Describe one linkage: its class, its limits and circuits, and the positions and velocities of its joints.
@@ -33,8 +32,8 @@ pub struct Arguments {
     /// The parameters of the linkage, as numbers or expressions: p=2 "a=(1+2)^1.5/2".
     #[arg(value_name = "NAME=VALUE")]
     parameters: Vec<String>,
-    /// A manifest whose linkages can be named.
-    #[arg(long, value_name = "FILE")]
+    /// A manifest whose linkages can be named; - for standard input.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     manifest: Option<PathBuf>,
     /// Print the positions and derivatives of the joints at this input, in degrees or as a length; a number or an
     /// expression.
@@ -61,8 +60,9 @@ pub struct Arguments {
     /// Print the description as JSON.
     #[arg(long)]
     json: bool,
-    /// Draw the linkage on one plate, at the input of --at or in its clearest pose, and write it to this file.
-    #[arg(long, value_name = "FILE")]
+    /// Draw the linkage on one plate, at the input of --at or in its clearest pose, and write it to this file; - for
+    /// standard output, in place of the text.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     svg: Option<PathBuf>,
     /// With --svg, animate the linkage through its first circuit.
     #[arg(long, requires = "svg", conflicts_with = "at")]
@@ -84,6 +84,8 @@ struct Report<'a> {
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
+    let printed = [("--json", arguments.json), ("--toml", arguments.toml), ("--sextic", arguments.sextic)];
+    let is_drawing_printed = files::is_drawing_printed(arguments.svg.as_deref(), &printed)?;
     let mut template = linkage::find_template(&arguments.linkage, arguments.manifest.as_deref())?;
     let given = |text: &String| {
         let parameter = ParameterText::parse(text).map_err(|error| InputError(error.to_string()))?;
@@ -110,7 +112,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let equations = (equation::coupler_equations(&solved), arguments.sextic);
     let report = Report { family: &family, solved: &solved, input: at, poses, equations, cognates };
     if let Some(path) = &arguments.svg {
-        output::write_file(path, &plate::plate(&report, arguments.animate))?;
+        files::write(path, &plate::plate(&report, arguments.animate))?;
+        if is_drawing_printed {
+            return Ok(Outcome::Done);
+        }
     }
     match &report.cognates {
         Some(cognate_set) if arguments.toml => print_bytes(cognates::manifest(&report, cognate_set).as_bytes())?,
