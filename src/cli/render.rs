@@ -1,13 +1,14 @@
 //! `render`: solves and draws the families of a manifest.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use clap::{Args, ValueHint};
+use coupler_atlas::gallery::PAGE_FILE;
 use coupler_atlas::output::{self, Event};
-use coupler_atlas::record::FamilyRecord;
+use coupler_atlas::record::{Digest, FamilyRecord, IMAGES_FILE_NAME, RUN_FILE_NAME, RunRecord, file_digest};
 use coupler_drawing::render::Format;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
@@ -79,14 +80,34 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     };
     let mut reporter = ProgressReporter::new(arguments.quiet);
     let mut lines = String::new();
+    let before = file_digests(&output);
     let run =
         output::write_atlas(&source.plan, &output, &options, &mut |event| reporter.handle_event(event, &mut lines))?;
     source.report_problems(&output::empty_family_warnings(&source.plan, Some(&run)));
     if !arguments.quiet {
-        lines.push_str(&format!("written to {}\n", printable(output.display())));
+        let is_changed = reporter.has_drawn || file_digests(&output) != before;
+        lines.push_str(&closing_line(&output, &run, is_changed));
         print(&lines)?;
     }
     Ok(if arguments.strict && reporter.not_assembled > 0 { Outcome::Difference } else { Outcome::Done })
+}
+
+/// The digests of the files that describe an atlas as a whole, each `None` if it cannot be read. They change with any
+/// file that a run writes, unless it restores one, of which it reports that something was drawn.
+fn file_digests(output: &Path) -> [Option<Digest>; 3] {
+    [RUN_FILE_NAME, IMAGES_FILE_NAME, PAGE_FILE].map(|name| file_digest(&output.join(name)).ok())
+}
+
+/// "written to output; open output/index.html or output/book.pdf".
+fn closing_line(output: &Path, run: &RunRecord, is_changed: bool) -> String {
+    let what = if is_changed { "written to" } else { "nothing has changed in" };
+    let book = run.book.iter().filter_map(|book| book.files.first());
+    let paths = run.gallery.iter().chain(book).map(|file| output.join(&file.name)).filter(|path| path.is_file());
+    let open = match paths.map(|path| printable(path.display())).collect::<Vec<_>>().join(" or ") {
+        none if none.is_empty() => String::new(),
+        names => format!("; open {names}"),
+    };
+    format!("{what} {}{open}\n", printable(output.display()))
 }
 
 /// How long a run may take to end after Ctrl-C before the process ends.
@@ -119,11 +140,13 @@ struct ProgressReporter {
     warnings: usize,
     /// The cells of all families that are not assembled.
     not_assembled: usize,
+    /// Whether anything of a family or of the book was drawn.
+    has_drawn: bool,
 }
 
 impl ProgressReporter {
     fn new(is_quiet: bool) -> ProgressReporter {
-        ProgressReporter { is_quiet, bar: ProgressBar::hidden(), warnings: 0, not_assembled: 0 }
+        ProgressReporter { is_quiet, bar: ProgressBar::hidden(), warnings: 0, not_assembled: 0, has_drawn: false }
     }
 
     fn handle_event(&mut self, event: Event, lines: &mut String) {
@@ -154,10 +177,12 @@ impl ProgressReporter {
                     ));
                 }
                 self.warnings = 0;
+                self.has_drawn |= drawn.is_some();
                 lines.push_str(&summary(record, drawn));
             }
             Event::Book { record, is_drawn } => {
                 self.bar.finish_and_clear();
+                self.has_drawn |= is_drawn;
                 let names: Vec<&str> = record.files.iter().map(|file| file.name.as_str()).collect();
                 let files = match &names[..] {
                     [first, .., last] => format!("{first} to {last}"),

@@ -284,6 +284,31 @@ fn names_of_formats_may_be_surrounded_by_blanks() {
 }
 
 #[test]
+fn render_names_what_to_open_and_says_if_nothing_has_changed() {
+    let folder = folder_with(MANIFEST);
+    let last = |arguments: &[&str]| text(folder.path(), arguments).lines().last().unwrap().to_owned();
+    let unchanged = "nothing has changed in pages; open pages/index.html";
+    assert_eq!(last(&["render"]), "written to pages; open pages/index.html");
+    assert_eq!(last(&["render"]), unchanged);
+    assert_eq!(last(&["render", "--only", "evans"]), unchanged);
+    assert_eq!(last(&["render", "--force"]), "written to pages; open pages/index.html");
+    // Whatever is restored or changed, even if it is in no family.
+    for file in ["index.html", "evans/evans-001.svg", "evans/points.csv", "evans/gallery.js"] {
+        fs::write(folder.path().join("pages").join(file), "damaged").unwrap();
+        assert_eq!(last(&["render"]), "written to pages; open pages/index.html", "{file}");
+        assert_eq!(last(&["render"]), unchanged, "{file}");
+    }
+    fs::write(folder.path().join("atlas.toml"), MANIFEST.replace("title = \"T\"", "title = \"U\"")).unwrap();
+    assert_eq!(last(&["render"]), "written to pages; open pages/index.html");
+    assert_eq!(last(&["render"]), unchanged);
+    if cfg!(feature = "pdf") {
+        let book = last(&["render", "--format", "svg,pdf"]);
+        let (_, book) = book.strip_prefix("written to pages; open ").unwrap().split_once(" or ").unwrap();
+        assert!(book.ends_with(".pdf") && folder.path().join(book).is_file(), "{book}");
+    }
+}
+
+#[test]
 fn problems_are_reported_as_json() {
     let wrong =
         MANIFEST.replace("title = \"T\"", "title = \"é€𝄞\"").replace("formats = [\"svg\"]", "formats = [ \"gif\" ]");
