@@ -20,6 +20,7 @@ mod folder;
 mod formats;
 mod gallery;
 mod hostile_text;
+mod inspect_output;
 mod kernel_module;
 mod lettering;
 mod limits;

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use coupler_curves::linkage::{DoublePointKind, PlacedFourBar, Sextic, SymmetricalFourBar};
 use coupler_curves::solve::SolvedCell;
-use serde_json::{Value, json};
+use serde::Serialize;
 
 use super::format::{format_point, format_significant};
 
@@ -118,21 +118,44 @@ fn coefficient_rows(coefficient: impl Fn(usize, usize) -> f64) -> Vec<Vec<f64>> 
     (0..=6).map(|i| (0..=6 - i).map(|j| coefficient(i, j) + 0.0).collect()).collect()
 }
 
+/// An equation, for `inspect --json`.
+#[derive(Serialize)]
+pub(super) struct EquationJson {
+    trace: usize,
+    coefficients: Vec<Vec<f64>>,
+    centred_coefficients: Vec<Vec<f64>>,
+    axis: Option<AxisJson>,
+    double_points: Vec<DoublePointJson>,
+    circular_points: usize,
+}
+
+#[derive(Serialize)]
+struct AxisJson {
+    x: f64,
+    y: Vec<f64>,
+}
+
+#[derive(Serialize)]
+struct DoublePointJson {
+    at: [f64; 2],
+    kind: &'static str,
+}
+
 /// The equations, for `inspect --json`.
-pub(super) fn json(equations: &[Equation]) -> Vec<Value> {
+pub(super) fn json(equations: &[Equation]) -> Vec<EquationJson> {
     let equation = |Equation { trace, sextic, axis, .. }: &Equation| {
         let centred = sextic.centred_coefficients();
         let double_points = sextic.double_points().into_iter();
-        json!({
-            "trace": trace,
-            "coefficients": coefficient_rows(|i, j| sextic.coefficient(i, j)),
-            "centred_coefficients": coefficient_rows(|i, j| centred[i][j]),
-            "axis": axis.as_ref().map(|AxisCrossings { x, y, .. }| json!({ "x": x, "y": y })),
-            "double_points": double_points
-                .map(|double| json!({ "at": [double.point.x, double.point.y], "kind": double.kind.name() }))
-                .collect::<Vec<_>>(),
-            "circular_points": sextic.circularity(),
-        })
+        EquationJson {
+            trace: *trace,
+            coefficients: coefficient_rows(|i, j| sextic.coefficient(i, j)),
+            centred_coefficients: coefficient_rows(|i, j| centred[i][j]),
+            axis: axis.as_ref().map(|AxisCrossings { x, y, .. }| AxisJson { x: *x, y: y.clone() }),
+            double_points: double_points
+                .map(|double| DoublePointJson { at: [double.point.x, double.point.y], kind: double.kind.name() })
+                .collect(),
+            circular_points: sextic.circularity(),
+        }
     };
     equations.iter().map(equation).collect()
 }

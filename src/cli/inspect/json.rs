@@ -1,53 +1,170 @@
-//! The JSON that `inspect --json` prints.
+//! The JSON that `inspect --json` prints. Its keys are in the order of the fields here, which is that of docs/inspect.md.
 
 use coupler_curves::geometry::{Point, Vector};
 use coupler_curves::linkage::{DyadId, FourBar, Input, JointId, Linkage, MovingLink, OutputLink, PlacedFourBar};
 use coupler_curves::measure;
-use coupler_curves::motion::{Circuit, Pass, PassEnd};
-use serde_json::{Map, Value, json};
+use coupler_curves::motion::{Circuit, InstantaneousMotion, PassEnd};
+use coupler_curves::solve::MeasuredCurve;
+use serde::{Serialize, Serializer};
+use serde_json::{Value, json};
 
 use super::Report;
 use super::cognates::{CognateMember, CognateSet};
-use super::equation;
-use super::pose::{Pose, flat_joints, instant_geometries, link_rotations};
-use super::ranges::Ranges;
+use super::equation::{self, EquationJson};
+use super::pose::{LinkRotation, Pose, flat_joints, instant_geometries, link_rotations};
+use super::ranges::{ArcJson, Ranges, RockerLimitsJson, SliderJson};
 
 /// The version of the format; docs/inspect.md describes it.
 const FORMAT: u32 = 1;
 
+/// The description of a linkage. Numbers that are infinite or do not exist become null.
+#[derive(Serialize)]
+struct Document<'a> {
+    format: u32,
+    linkage: &'a str,
+    parameters: Entries<'a, f64>,
+    class: Option<&'static str>,
+    six_bar: Option<&'static str>,
+    rocker_limits: Option<RockerLimitsJson>,
+    arc: Option<ArcJson>,
+    inverted_slider_crank: Option<SliderJson>,
+    output_link: Value,
+    input: &'static str,
+    status: &'static str,
+    reason: Option<String>,
+    circuits: Vec<CircuitJson<'a>>,
+    curves: Vec<CurveJson>,
+    poses: Vec<PoseJson<'a>>,
+    equations: Vec<EquationJson>,
+    cognates: Option<CognatesJson<'a>>,
+}
+
+/// An object with these keys, in this order.
+struct Entries<'a, T>(Vec<(&'a str, T)>);
+
+impl<T: Serialize> Serialize for Entries<'_, T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(key, value)| (key, value)))
+    }
+}
+
+#[derive(Serialize)]
+struct CircuitJson<'a> {
+    closed: bool,
+    full_turn: bool,
+    passes: Vec<PassJson<'a>>,
+}
+
+#[derive(Serialize)]
+struct PassJson<'a> {
+    from: PassEndJson<'a>,
+    to: PassEndJson<'a>,
+    branches: Vec<i8>,
+    turns: bool,
+}
+
+#[derive(Serialize)]
+struct PassEndJson<'a> {
+    input: f64,
+    flat: Vec<&'a str>,
+}
+
+#[derive(Serialize)]
+struct CurveJson {
+    trace: usize,
+    circuit: usize,
+    measures: Entries<'static, Value>,
+}
+
+#[derive(Serialize)]
+struct PoseJson<'a> {
+    input: f64,
+    circuit: usize,
+    branch: i8,
+    joints: Vec<JointJson<'a>>,
+    links: Vec<LinkJson<'a>>,
+    instants: Vec<InstantJson<'a>>,
+}
+
+#[derive(Serialize)]
+struct JointJson<'a> {
+    name: &'a str,
+    place: [f64; 2],
+    velocity: [f64; 2],
+    acceleration: [f64; 2],
+    jerk: [f64; 2],
+}
+
+#[derive(Serialize)]
+struct LinkJson<'a> {
+    joints: Vec<&'a str>,
+    angular_velocity: f64,
+    angular_acceleration: f64,
+}
+
+#[derive(Serialize)]
+struct InstantJson<'a> {
+    joint: &'a str,
+    pole: [f64; 2],
+    moving_pole: [f64; 2],
+    inflection_pole: [f64; 2],
+    ball_point: Option<[f64; 2]>,
+    cubic: Option<[f64; 2]>,
+    curvature: f64,
+    curvature_rate: f64,
+}
+
+#[derive(Serialize)]
+struct CognatesJson<'a> {
+    trace: usize,
+    third_pivot: [f64; 2],
+    linkages: Vec<CognateJson<'a>>,
+}
+
+#[derive(Serialize)]
+struct CognateJson<'a> {
+    pivots: [[f64; 2]; 2],
+    frame: f64,
+    crank: f64,
+    coupler: f64,
+    rocker: f64,
+    along: f64,
+    across: f64,
+    turns_as: [&'static str; 3],
+    start: Option<f64>,
+    side: i8,
+    class: &'static str,
+    circuits: Vec<CircuitJson<'a>>,
+}
+
 /// The report as indented JSON.
-pub(super) fn json(report: &Report) -> String {
+///
+/// # Errors
+/// None that can occur: the keys are strings.
+pub(super) fn json(report: &Report) -> anyhow::Result<String> {
     let Report { family, solved, .. } = report;
-    let values = solved.cell.values.iter().map(|value| number(*value));
-    let parameters: Map<String, Value> = family.names.iter().cloned().zip(values).collect();
-    let curves: Vec<Value> = solved
-        .curves
-        .iter()
-        .map(|curve| json!({ "trace": curve.trace, "circuit": curve.circuit, "measures": measures(&curve.values) }))
-        .collect();
-    let circuits: Vec<Value> =
-        solved.motion.circuits.iter().map(|circuit| self::circuit(&solved.linkage, circuit)).collect();
-    let ranges = Ranges::new(&solved.linkage);
-    let document = json!({
-        "format": FORMAT,
-        "linkage": family.id,
-        "parameters": parameters,
-        "class": FourBar::from_linkage(&solved.linkage).map(|four_bar| four_bar.class().name()),
-        "six_bar": ranges.six_bar_json(),
-        "rocker_limits": ranges.rocker_limits_json(),
-        "arc": ranges.arc_json(),
-        "inverted_slider_crank": ranges.slider_json(),
-        "output_link": output_link(&solved.linkage),
-        "input": if solved.linkage.input() == Input::Length { "length" } else { "deg" },
-        "status": solved.status().name(),
-        "reason": solved.motion.assembly_error.as_ref().map(ToString::to_string),
-        "circuits": circuits,
-        "curves": curves,
-        "equations": equation::json(&report.equations.0),
-        "cognates": report.cognates.as_ref().map(cognates),
-        "poses": report.poses.iter().map(|pose| self::pose(report, pose)).collect::<Vec<_>>(),
-    });
-    format!("{document:#}\n")
+    let linkage = &solved.linkage;
+    let ranges = Ranges::new(linkage);
+    let document = Document {
+        format: FORMAT,
+        linkage: &family.id,
+        parameters: Entries(family.names.iter().map(String::as_str).zip(solved.cell.values.iter().copied()).collect()),
+        class: FourBar::from_linkage(linkage).map(|four_bar| four_bar.class().name()),
+        six_bar: ranges.six_bar_name(),
+        rocker_limits: ranges.rocker_limits_json(),
+        arc: ranges.arc_json(),
+        inverted_slider_crank: ranges.slider_json(),
+        output_link: output_link(linkage),
+        input: if linkage.input() == Input::Length { "length" } else { "deg" },
+        status: solved.status().name(),
+        reason: solved.motion.assembly_error.as_ref().map(ToString::to_string),
+        circuits: solved.motion.circuits.iter().map(|circuit| CircuitJson::new(linkage, circuit)).collect(),
+        curves: solved.curves.iter().map(CurveJson::new).collect(),
+        poses: report.poses.iter().map(|pose| PoseJson::new(report, pose)).collect(),
+        equations: equation::json(&report.equations.0),
+        cognates: report.cognates.as_ref().map(CognatesJson::new),
+    };
+    Ok(serde_json::to_string_pretty(&document)? + "\n")
 }
 
 /// The output link as in a manifest: two joints of a link, or the joint of a slider; null if there is none.
@@ -60,109 +177,102 @@ fn output_link(linkage: &Linkage) -> Value {
     }
 }
 
-/// A number, or null if it is infinite or does not exist.
-fn number(value: f64) -> Value {
-    if value.is_finite() { json!(value) } else { Value::Null }
+fn pair(v: Vector) -> [f64; 2] {
+    [v.x, v.y]
 }
 
-fn pair(v: Vector) -> Value {
-    json!([number(v.x), number(v.y)])
-}
-
-fn point(p: Point) -> Value {
+fn point(p: Point) -> [f64; 2] {
     pair(p.coords)
 }
 
-fn circuit(linkage: &Linkage, circuit: &Circuit) -> Value {
-    let end = |end: PassEnd| json!({ "input": end.input.value, "flat": flat_joints(linkage, end.flat_dyads) });
-    let pass = |(k, pass): (usize, &Pass)| {
-        let signs: Vec<i8> = linkage.dyad_ids().map(|dyad| pass.mode.sign(dyad)).collect();
-        json!({ "from": end(pass.from), "to": end(pass.to), "branches": signs, "turns": circuit.reverses_after(k) })
-    };
-    let passes: Vec<Value> = circuit.passes.iter().enumerate().map(pass).collect();
-    json!({ "closed": circuit.is_closed, "full_turn": circuit.is_full_turn(), "passes": passes })
+impl<'a> CircuitJson<'a> {
+    fn new(linkage: &'a Linkage, circuit: &Circuit) -> CircuitJson<'a> {
+        let end = |end: PassEnd| PassEndJson { input: end.input.value, flat: flat_joints(linkage, end.flat_dyads) };
+        let passes = circuit.passes.iter().enumerate().map(|(k, pass)| PassJson {
+            from: end(pass.from),
+            to: end(pass.to),
+            branches: linkage.dyad_ids().map(|dyad| pass.mode.sign(dyad)).collect(),
+            turns: circuit.reverses_after(k),
+        });
+        CircuitJson { closed: circuit.is_closed, full_turn: circuit.is_full_turn(), passes: passes.collect() }
+    }
 }
 
-fn cognates(cognate_set: &CognateSet) -> Value {
-    let member = |CognateMember { cognate, class, linkage, motion, .. }: &CognateMember| {
-        let PlacedFourBar { pivots, lengths, coupler_point } = cognate.four_bar;
-        let circuits: Vec<Value> = motion.circuits.iter().map(|circuit| self::circuit(linkage, circuit)).collect();
-        json!({
-            "class": class.name(),
-            "pivots": pivots.map(point),
-            "frame": number(lengths.frame),
-            "crank": number(lengths.crank),
-            "coupler": number(lengths.coupler),
-            "rocker": number(lengths.rocker),
-            "along": number(coupler_point.x),
-            "across": number(coupler_point.y),
-            "turns_as": cognate.counterparts.map(MovingLink::name),
-            "start": linkage.motion_options.start,
-            "side": linkage.motion_options.mode.sign(DyadId::FIRST),
-            "circuits": circuits,
-        })
-    };
-    json!({
-        "trace": cognate_set.trace,
-        "third_pivot": point(cognate_set.cognates.third_pivot),
-        "linkages": cognate_set.linkages.iter().map(member).collect::<Vec<_>>(),
-    })
+impl CurveJson {
+    fn new(curve: &MeasuredCurve) -> CurveJson {
+        let value = |value: &measure::Value| match value {
+            measure::Value::Number(value) => json!(value),
+            measure::Value::Word(word) => json!(word),
+            measure::Value::Missing => Value::Null,
+        };
+        let measures = measure::ALL.iter().zip(&curve.values).map(|(measure, found)| (measure.name, value(found)));
+        CurveJson { trace: curve.trace, circuit: curve.circuit, measures: Entries(measures.collect()) }
+    }
 }
 
-fn measures(values: &[measure::Value]) -> Value {
-    let value = |value: &measure::Value| match value {
-        measure::Value::Number(value) => number(*value),
-        measure::Value::Word(word) => json!(word),
-        measure::Value::Missing => Value::Null,
-    };
-    let named = measure::ALL.iter().zip(values).map(|(m, v)| (m.name.to_owned(), value(v)));
-    named.collect::<Map<_, _>>().into()
-}
-
-fn pose(report: &Report, pose: &Pose) -> Value {
-    let (solved, jets) = (report.solved, &pose.jets);
-    let joint = |joint: JointId| {
-        json!({
-            "name": solved.linkage.joints[joint].name,
-            "place": point(jets.position(joint)),
-            "velocity": pair(jets.velocity(joint)),
-            "acceleration": pair(jets.acceleration(joint)),
-            "jerk": pair(jets.jerk(joint)),
-        })
-    };
-    let joints: Vec<Value> = solved.linkage.joint_ids().map(joint).collect();
-    let links: Vec<Value> = link_rotations(solved, pose)
-        .into_iter()
-        .map(|link| {
-            json!({
-                "joints": link.joints,
-                "angular_velocity": number(link.angular_velocity),
-                "angular_acceleration": number(link.angular_acceleration),
+impl<'a> PoseJson<'a> {
+    fn new(report: &Report<'a>, pose: &'a Pose) -> PoseJson<'a> {
+        let (solved, jets) = (report.solved, &pose.jets);
+        let name = |joint: JointId| solved.linkage.joints[joint].name.as_str();
+        let joint = |joint: JointId| JointJson {
+            name: name(joint),
+            place: point(jets.position(joint)),
+            velocity: pair(jets.velocity(joint)),
+            acceleration: pair(jets.acceleration(joint)),
+            jerk: pair(jets.jerk(joint)),
+        };
+        let link = |LinkRotation { joints, angular_velocity, angular_acceleration }| LinkJson {
+            joints,
+            angular_velocity,
+            angular_acceleration,
+        };
+        let instant = |(joint, instant): (JointId, Option<InstantaneousMotion>)| {
+            let (instant, position) = (instant?, jets.position(joint));
+            Some(InstantJson {
+                joint: name(joint),
+                pole: point(instant.pole),
+                moving_pole: pair(instant.moving_pole),
+                inflection_pole: point(instant.inflection_pole()),
+                ball_point: instant.ball_point().map(point),
+                cubic: instant.cubic_parameters(),
+                curvature: instant.curvature(position),
+                curvature_rate: instant.curvature_rate(position),
             })
-        })
-        .collect();
-    let instants: Vec<Value> = instant_geometries(solved, pose)
-        .filter_map(|(joint, instant)| {
-            let instant = instant?;
-            let position = jets.position(joint);
-            Some(json!({
-                "joint": solved.linkage.joints[joint].name,
-                "pole": point(instant.pole),
-                "moving_pole": pair(instant.moving_pole),
-                "inflection_pole": point(instant.inflection_pole()),
-                "ball_point": instant.ball_point().map(point),
-                "cubic": instant.cubic_parameters().map(|cubic| cubic.map(number)),
-                "curvature": number(instant.curvature(position)),
-                "curvature_rate": number(instant.curvature_rate(position)),
-            }))
-        })
-        .collect();
-    json!({
-        "input": pose.input,
-        "circuit": pose.circuit,
-        "branch": pose.pass.mode.sign(DyadId::FIRST),
-        "joints": joints,
-        "links": links,
-        "instants": instants,
-    })
+        };
+        PoseJson {
+            input: pose.input,
+            circuit: pose.circuit,
+            branch: pose.pass.mode.sign(DyadId::FIRST),
+            joints: solved.linkage.joint_ids().map(joint).collect(),
+            links: link_rotations(solved, pose).into_iter().map(link).collect(),
+            instants: instant_geometries(solved, pose).filter_map(instant).collect(),
+        }
+    }
+}
+
+impl<'a> CognatesJson<'a> {
+    fn new(cognate_set: &'a CognateSet) -> CognatesJson<'a> {
+        let member = |CognateMember { cognate, class, linkage, motion, .. }: &'a CognateMember| {
+            let PlacedFourBar { pivots, lengths, coupler_point } = cognate.four_bar;
+            CognateJson {
+                pivots: pivots.map(point),
+                frame: lengths.frame,
+                crank: lengths.crank,
+                coupler: lengths.coupler,
+                rocker: lengths.rocker,
+                along: coupler_point.x,
+                across: coupler_point.y,
+                turns_as: cognate.counterparts.map(MovingLink::name),
+                start: linkage.motion_options.start,
+                side: linkage.motion_options.mode.sign(DyadId::FIRST),
+                class: class.name(),
+                circuits: motion.circuits.iter().map(|circuit| CircuitJson::new(linkage, circuit)).collect(),
+            }
+        };
+        CognatesJson {
+            trace: cognate_set.trace,
+            third_pivot: point(cognate_set.cognates.third_pivot),
+            linkages: cognate_set.linkages.iter().map(member).collect(),
+        }
+    }
 }

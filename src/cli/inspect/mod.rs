@@ -7,6 +7,7 @@ mod json;
 mod plate;
 mod pose;
 mod ranges;
+mod summary;
 mod text;
 
 use std::path::PathBuf;
@@ -22,7 +23,8 @@ use super::linkage::{self, DEFAULT_SAMPLES};
 use super::{InputError, Outcome, files, print, print_bytes};
 use pose::Pose;
 
-/// Describe one linkage: its class, its limits and circuits, and the positions and velocities of its joints.
+/// Describe one linkage: its class, limits, transmission angle and straight portion; then its circuits, and the
+/// positions and velocities of its joints.
 ///
 /// Rates are per radian of input, or per unit of length of an actuator. docs/inspect.md describes the output of --json.
 #[derive(Debug, Args)]
@@ -119,7 +121,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     }
     match &report.cognates {
         Some(cognate_set) if arguments.toml => print_bytes(cognates::manifest(&report, cognate_set).as_bytes())?,
-        _ if arguments.json => print_bytes(json::json(&report).as_bytes())?,
+        _ if arguments.json => print_bytes(json::json(&report)?.as_bytes())?,
         _ => print(&text::text(&report))?,
     }
     Ok(Outcome::Done)

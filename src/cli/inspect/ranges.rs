@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use coupler_curves::geometry::trig;
 use coupler_curves::linkage::{BranchArc, FourBar, InvertedSliderCrank, KinematicChain, Linkage, SixBar};
-use serde_json::{Value, json};
+use serde::Serialize;
 
 use super::format::format_significant;
 
@@ -44,13 +44,10 @@ impl Ranges {
         }
     }
 
-    /// Appends a line for each of them.
+    /// Appends a line for each of them but the kind of a six-bar.
     pub(super) fn append_text(&self, out: &mut String) {
         let deg = |value: f64| format!("{}°", format_significant(value, 10));
         // Writing to a string cannot fail.
-        if let Some(six_bar) = self.six_bar {
-            let _ = writeln!(out, "six-bar: {six_bar}");
-        }
         if let Some([extended, folded]) = self.rocker_limits_deg {
             let limits = [("extended", extended), ("folded", folded)];
             let reached: Vec<String> =
@@ -77,22 +74,44 @@ impl Ranges {
         }
     }
 
-    pub(super) fn six_bar_json(&self) -> Value {
-        self.six_bar.map_or(Value::Null, |six_bar| json!(six_bar.name()))
+    pub(super) fn six_bar_name(&self) -> Option<&'static str> {
+        self.six_bar.map(|six_bar| six_bar.name())
     }
 
-    pub(super) fn arc_json(&self) -> Value {
-        let arc = |BranchArc { input_deg: [from, to], branch }| json!({ "from": from, "to": to, "branch": branch });
-        self.arc.map_or(Value::Null, arc)
+    pub(super) fn arc_json(&self) -> Option<ArcJson> {
+        self.arc.map(|BranchArc { input_deg: [from, to], branch }| ArcJson { from, to, branch })
     }
 
-    pub(super) fn rocker_limits_json(&self) -> Value {
-        let limits = |[extended, folded]: [Option<f64>; 2]| json!({ "extended": extended, "folded": folded });
-        self.rocker_limits_deg.map_or(Value::Null, limits)
+    pub(super) fn rocker_limits_json(&self) -> Option<RockerLimitsJson> {
+        self.rocker_limits_deg.map(|[extended, folded]| RockerLimitsJson { extended, folded })
     }
 
-    pub(super) fn slider_json(&self) -> Value {
-        let ranges = |SliderRanges { crank_deg, slide, psi_deg }: &SliderRanges| json!({ "crank_deg": crank_deg, "slide": slide, "psi_deg": psi_deg });
-        self.slider.as_ref().map_or(Value::Null, ranges)
+    pub(super) fn slider_json(&self) -> Option<SliderJson> {
+        let ranges =
+            |&SliderRanges { crank_deg, slide, psi_deg }: &SliderRanges| SliderJson { crank_deg, slide, psi_deg };
+        self.slider.as_ref().map(ranges)
     }
+}
+
+/// The part of the motion that the source's figure shows, for `inspect --json`.
+#[derive(Serialize)]
+pub(super) struct ArcJson {
+    from: f64,
+    to: f64,
+    branch: i8,
+}
+
+/// The limits of a rocker, for `inspect --json`.
+#[derive(Serialize)]
+pub(super) struct RockerLimitsJson {
+    extended: Option<f64>,
+    folded: Option<f64>,
+}
+
+/// The ranges of an inverted slider-crank, for `inspect --json`.
+#[derive(Serialize)]
+pub(super) struct SliderJson {
+    crank_deg: [f64; 2],
+    slide: [f64; 2],
+    psi_deg: [f64; 2],
 }

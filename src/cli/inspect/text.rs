@@ -8,12 +8,13 @@ use coupler_curves::solve::SolvedCell;
 use super::format::{describe_circuit, describe_output, format_point, format_significant, input_unit};
 use super::pose::{Pose, instant_geometries, link_rotations};
 use super::ranges::Ranges;
-use super::{Report, cognates, equation};
+use super::{Report, cognates, equation, summary};
 
 /// The greatest width of the column of joint names, in characters; longer names exceed it.
 const MAX_NAME_WIDTH: usize = 40;
 
-/// The report as text: class, circuits, equations, then a table for each pose and the cognates.
+/// The report as text: class, limits, transmission angle and straight portion; then the details, a table for each pose
+/// and the cognates.
 pub(super) fn text(report: &Report) -> String {
     let Report { family, solved, input, poses, equations: (equations, with_coefficients), cognates } = report;
     let mut out = String::new();
@@ -27,13 +28,18 @@ pub(super) fn text(report: &Report) -> String {
     if let Some(four_bar) = FourBar::from_linkage(&solved.linkage) {
         let _ = writeln!(out, "class: {}", four_bar.class().name());
     }
-    Ranges::new(&solved.linkage).append_text(&mut out);
-    if let Some(output) = describe_output(&solved.linkage) {
-        let _ = writeln!(out, "output: {output}");
+    let ranges = Ranges::new(&solved.linkage);
+    if let Some(six_bar) = ranges.six_bar_name() {
+        let _ = writeln!(out, "six-bar: {six_bar}");
     }
     if let Some(reason) = &solved.motion.assembly_error {
         let status = if solved.motion.is_assembled() { "assembled in part" } else { "not assembled" };
         let _ = writeln!(out, "{status}: {reason}");
+    }
+    summary::append_text(solved, &mut out);
+    ranges.append_text(&mut out);
+    if let Some(output) = describe_output(&solved.linkage) {
+        let _ = writeln!(out, "output: {output}");
     }
     for (number, circuit) in (1..).zip(&solved.motion.circuits) {
         let _ = writeln!(out, "circuit {number}: {}", describe_circuit(&solved.linkage, circuit));

@@ -1,0 +1,102 @@
+//! What one wants to know of a linkage first: its limits, its transmission angle and its straight portion.
+
+use std::fmt::Write;
+
+use coupler_curves::measure::Value;
+use coupler_curves::motion::Circuit;
+use coupler_curves::solve::{MeasuredCurve, SolvedCell};
+
+use super::format::{format_significant, input_unit};
+
+/// The number of circuits that are described one by one.
+const MAX_CIRCUITS: usize = 4;
+
+/// Appends a line for each; there are none for a linkage that cannot be assembled.
+pub(super) fn append_text(solved: &SolvedCell, out: &mut String) {
+    let circuits = &solved.motion.circuits;
+    let unit = input_unit(&solved.linkage);
+    let limits = per_circuit(circuits.len(), |k| Some(describe_limits(&circuits[k], unit)));
+    let angles = per_circuit(circuits.len(), |k| {
+        describe_transmission(solved.curves.iter().find(|curve| curve.circuit == k + 1)?)
+    });
+    let straight = (!solved.curves.is_empty()).then(|| describe_straight(solved, unit));
+    let lines = [("limits of the input", limits), ("transmission angle", angles), ("straight portion", straight)];
+    for (title, line) in lines {
+        if let Some(line) = line {
+            // Writing to a string cannot fail.
+            let _ = writeln!(out, "{title}: {line}");
+        }
+    }
+}
+
+/// A description for each circuit, or only one if they are all the same; `None` if there is none.
+fn per_circuit(count: usize, describe: impl Fn(usize) -> Option<String>) -> Option<String> {
+    let all: Vec<Option<String>> = (0..count).map(describe).collect();
+    let first = all.iter().flatten().next()?.clone();
+    if all.iter().all(|other| other.as_ref() == Some(&first)) {
+        return Some(first);
+    }
+    let named = (1..).zip(&all).filter_map(|(number, text)| Some(format!("circuit {number}: {}", text.as_ref()?)));
+    let mut named: Vec<String> = named.collect();
+    let omitted = named.len().saturating_sub(MAX_CIRCUITS);
+    named.truncate(MAX_CIRCUITS);
+    if omitted > 0 {
+        named.push(format!("and {omitted} more"));
+    }
+    Some(named.join("; "))
+}
+
+/// "none, it turns fully", or "28.95502437° to 97.18075578°".
+fn describe_limits(circuit: &Circuit, unit: &str) -> String {
+    if circuit.is_full_turn() {
+        return "none, it turns fully".to_owned();
+    }
+    let inputs = || circuit.passes.iter().flat_map(|pass| [pass.from.input.value, pass.to.input.value]);
+    let [least, most] = [inputs().fold(f64::INFINITY, f64::min), inputs().fold(f64::NEG_INFINITY, f64::max)]
+        .map(|input| format_significant(input, 10));
+    format!("{least}{unit} to {most}{unit}")
+}
+
+/// "worst 26.57°, from 26.57° to 90°"; without the range if the linkage is not a four-bar, and `None` if no dyad
+/// transmits anything.
+fn describe_transmission(curve: &MeasuredCurve) -> Option<String> {
+    let worst = format_significant(number(curve, "mu_worst_deg")?, 4);
+    let range = number(curve, "mu_min_deg")
+        .zip(number(curve, "mu_max_deg"))
+        .map(|(least, most)| format!(", from {}° to {}°", format_significant(least, 4), format_significant(most, 4)));
+    Some(format!("worst {worst}°{}", range.unwrap_or_default()))
+}
+
+/// The straight portion of the curve on which it is longest for the size of the curve.
+fn describe_straight(solved: &SolvedCell, unit: &str) -> String {
+    let share = |curve: &&MeasuredCurve| number(curve, "straight_share").unwrap_or(f64::NEG_INFINITY);
+    // Of equally long ones the first.
+    let longest = solved.curves.iter().rev().max_by(|a, b| share(a).total_cmp(&share(b)));
+    let text = longest.and_then(|curve| {
+        let value = |name| number(curve, name);
+        let [length, deviation] =
+            [value("straight_length")?, value("straight_deviation")?].map(|value| format_significant(value, 4));
+        let [start, span] =
+            [value("straight_start_deg")?, value("straight_input_deg")?].map(|value| format_significant(value, 4));
+        let share = format_significant(100.0 * value("straight_share")?, 3);
+        let twin = value("straight_twin_deg")
+            .map(|twin| format!(", and again from {}{unit}", format_significant(twin, 4)))
+            .unwrap_or_default();
+        let whose = match solved.curves.len() {
+            1 => String::new(),
+            count => format!(" (trace {}, circuit {}, the longest of {count} curves)", curve.trace, curve.circuit),
+        };
+        Some(format!(
+            "{length} long, {share} % of the curve's greatest extent, within {deviation} of its line, from \
+             {start}{unit} over {span}{unit}{twin}{whose}"
+        ))
+    });
+    text.unwrap_or_else(|| "none".to_owned())
+}
+
+fn number(curve: &MeasuredCurve, name: &str) -> Option<f64> {
+    match curve.value(name) {
+        Value::Number(number) => Some(number),
+        _ => None,
+    }
+}
