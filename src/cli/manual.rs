@@ -1,9 +1,8 @@
-//! `man` and `completions`: the manual page and shell completions, generated from the arguments.
+//! `man`: the manual page, generated from the arguments.
 
 use std::io;
 
 use clap::{Args, CommandFactory};
-use clap_complete::Shell;
 use clap_mangen::Man;
 use clap_mangen::roff::{Roff, bold, roman};
 use coupler_atlas::gallery::PAGE_FILE;
@@ -15,14 +14,6 @@ use super::{EXIT_CODES, Outcome, color, print_bytes};
 /// Print the manual page in roff: coupler-atlas man | man -l -
 #[derive(Debug, Args)]
 pub struct Manual {}
-
-/// Print completions for a shell: coupler-atlas completions bash >
-/// ~/.local/share/bash-completion/completions/coupler-atlas
-#[derive(Debug, Args)]
-pub struct Completions {
-    /// The shell.
-    shell: Shell,
-}
 
 /// Commands, in the order in which one may run them in an empty folder, and what they do.
 const EXAMPLES: [(&str, &str); 7] = [
@@ -110,13 +101,4 @@ fn write_command_section(command: &clap::Command, page: &mut Vec<u8>) -> io::Res
     let body = String::from_utf8_lossy(&body).replace(".SH ", ".SS ");
     writeln!(page, ".SH {}", command.get_name().to_uppercase())?;
     page.write_all(body.as_bytes())
-}
-
-pub fn print_completions(arguments: &Completions) -> anyhow::Result<Outcome> {
-    let mut command = super::Arguments::command();
-    let name = command.get_name().to_owned();
-    let mut out = Vec::new();
-    clap_complete::generate(arguments.shell, &mut command, name, &mut out);
-    print_bytes(&out)?;
-    Ok(Outcome::Done)
 }

@@ -3,6 +3,7 @@
 mod check;
 mod choice;
 mod color;
+mod completions;
 mod design;
 mod export;
 mod files;
@@ -77,7 +78,7 @@ enum Command {
     Export(export::Arguments),
     List(list::Arguments),
     Init(init::Arguments),
-    Completions(manual::Completions),
+    Completions(completions::Arguments),
     Man(manual::Manual),
 }
 
@@ -135,7 +136,7 @@ pub fn main() -> ExitCode {
         Command::Export(arguments) => export::run(&arguments),
         Command::List(arguments) => list::run(&arguments),
         Command::Init(arguments) => init::run(&arguments),
-        Command::Completions(arguments) => manual::print_completions(&arguments),
+        Command::Completions(arguments) => completions::run(&arguments),
         Command::Man(arguments) => manual::print_manual(&arguments),
     };
     match result {

@@ -24,14 +24,18 @@ pub struct Arguments {
     report: Vec<ReportRequest<ReportFormat>>,
 }
 
+/// The format of a report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum ReportFormat {
+pub enum ReportFormat {
     Text,
     Json,
 }
 
+/// The formats of reports by their names.
+pub const REPORTS: [(&str, ReportFormat); 2] = [("text", ReportFormat::Text), ("json", ReportFormat::Json)];
+
 fn parse_report(text: &str) -> Result<ReportRequest<ReportFormat>, String> {
-    report::parse_request(text, &[("text", ReportFormat::Text), ("json", ReportFormat::Json)])
+    report::parse_request(text, &REPORTS)
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {

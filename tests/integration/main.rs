@@ -8,6 +8,7 @@ mod book;
 mod charts;
 mod check;
 mod command_line;
+mod completions;
 mod corpus;
 mod coupler_grid;
 mod dependencies;

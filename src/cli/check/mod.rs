@@ -90,16 +90,20 @@ fn tolerance_help(text: &str, value: fn(&Tolerances) -> f64) -> String {
     format!("{text} [default: the manifest's, or {default}]")
 }
 
+/// The format of a report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum ReportFormat {
+pub enum ReportFormat {
     Json,
     Junit,
     Github,
 }
 
+/// The formats of reports by their names.
+pub const REPORTS: [(&str, ReportFormat); 3] =
+    [("json", ReportFormat::Json), ("junit", ReportFormat::Junit), ("github", ReportFormat::Github)];
+
 fn parse_report(text: &str) -> Result<ReportRequest<ReportFormat>, String> {
-    let known = [("json", ReportFormat::Json), ("junit", ReportFormat::Junit), ("github", ReportFormat::Github)];
-    report::parse_request(text, &known)
+    report::parse_request(text, &REPORTS)
 }
 
 fn parse_tolerance(text: &str) -> Result<f64, String> {

@@ -1,28 +1,35 @@
-//! `list`: the words that a manifest may use.
+//! `list`: the words that a manifest may use, and the families of one.
 
 mod linkage;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum};
+use clap::{Args, ValueEnum, ValueHint};
 use coupler_curves::measure::{self, Subject};
 use coupler_drawing::page::{Layout, Theme};
 
 use super::linkage::find_template;
+use super::source::{self, DEFAULT_MANIFEST};
 use super::{InputError, Outcome, print, print_bytes, schema};
 
-/// List the built-in linkages, measures, further columns, layouts and themes, or print the JSON Schema of a manifest.
+/// List the built-in linkages, measures, further columns, layouts and themes, or the families of a manifest, or print the
+/// JSON Schema of manifests.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// What to list [default: everything but the schema].
+    /// What to list [default: everything built in].
     #[arg(value_name = "TOPIC")]
     what: Option<Topic>,
-    /// With `linkages`, describe this linkage: its joints, its parameters with their kinds, defaults and ranges, and a
-    /// family to start from.
-    #[arg(value_name = "LINKAGE")]
-    linkage: Option<String>,
+    #[arg(
+        value_name = "LINKAGE|MANIFEST",
+        value_hint = ValueHint::FilePath,
+        help = format!(
+            "With linkages, the one to describe: its joints, its parameters with their kinds, defaults and ranges, and a \
+             family to start from; with families, the manifest, - for standard input [default: {DEFAULT_MANIFEST}]"
+        )
+    )]
+    name: Option<PathBuf>,
     /// A manifest whose linkages LINKAGE can name; - for standard input.
-    #[arg(long, value_name = "FILE", requires = "linkage")]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, requires = "name")]
     manifest: Option<PathBuf>,
 }
 
@@ -38,23 +45,38 @@ enum Topic {
     Layouts,
     /// The themes of a page.
     Themes,
+    /// The ids of the families of a manifest, one in a line.
+    Families,
     /// The JSON Schema (2020-12) of a manifest, for editors.
     Schema,
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
-    if arguments.what == Some(Topic::Schema) {
-        print_bytes(schema::schema_json().as_bytes())?;
-        return Ok(Outcome::Done);
-    }
-    if let Some(name) = &arguments.linkage {
-        if arguments.what != Some(Topic::Linkages) {
-            let error = format!("only a linkage can be named: `coupler-atlas list linkages {name}`");
-            return Err(InputError(error).into());
+    match (arguments.what, &arguments.name) {
+        (Some(Topic::Schema), None) => {
+            print_bytes(schema::schema_json().as_bytes())?;
+            return Ok(Outcome::Done);
         }
-        let template = find_template(name, arguments.manifest.as_deref())?;
-        print(&linkage::describe(&template))?;
-        return Ok(Outcome::Done);
+        (Some(Topic::Families), manifest) if arguments.manifest.is_none() => {
+            let source = source::read(manifest.as_deref().unwrap_or(Path::new(DEFAULT_MANIFEST)))?;
+            let ids = source.plan.families.iter().map(|planned| format!("{}\n", planned.family.id));
+            print(&ids.collect::<String>())?;
+            return Ok(Outcome::Done);
+        }
+        (Some(Topic::Linkages), Some(name)) => {
+            let template = find_template(&name.to_string_lossy(), arguments.manifest.as_deref())?;
+            print(&linkage::describe(&template))?;
+            return Ok(Outcome::Done);
+        }
+        (_, Some(name)) => {
+            let name = name.display();
+            let message = format!(
+                "nothing can be named here: write `list linkages {name}` for a linkage, or `list families {name}` for the \
+                 families of a manifest"
+            );
+            return Err(InputError(message).into());
+        }
+        (_, None) => {}
     }
     let is_listed = |topic| arguments.what.is_none_or(|given| given == topic);
     let mut out = String::new();

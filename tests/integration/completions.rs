@@ -1,0 +1,107 @@
+//! Completions: what shells offer, and the list of families that they use.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use tempfile::TempDir;
+
+const PROGRAM: &str = env!("CARGO_BIN_EXE_coupler-atlas");
+
+fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
+    let output = Command::new(PROGRAM).current_dir(folder).args(arguments).stdin(Stdio::null()).output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (output.status.code().unwrap_or(-1), text(output.stdout), text(output.stderr))
+}
+
+fn folder_with_manifest() -> TempDir {
+    let folder = TempDir::new().unwrap();
+    let family = |id: &str| {
+        format!(
+            "[[family]]\nid = \"{id}\"\nlinkage = \"evans\"\nsampling = {{ samples = 9 }}\ncases = [{{ p = 2, a = 2.5 }}]\n"
+        )
+    };
+    let manifest = format!("[atlas]\ntitle = \"T\"\n{}{}", family("mine"), family("other"));
+    fs::write(folder.path().join("atlas.toml"), manifest).unwrap();
+    folder
+}
+
+#[test]
+fn the_families_of_a_manifest_are_listed() {
+    let folder = folder_with_manifest();
+    assert_eq!(run(folder.path(), &["list", "families"]), (0, "mine\nother\n".to_owned(), String::new()));
+    assert_eq!(run(folder.path(), &["list", "families", "atlas.toml"]).1, "mine\nother\n");
+    let (code, _, err) = run(folder.path(), &["list", "families", "no.toml"]);
+    assert!(code == 2 && err.contains("cannot find no.toml"), "{err}");
+    let (code, _, err) = run(folder.path(), &["list", "themes", "atlas.toml"]);
+    assert!(code == 2 && err.contains("write `list families atlas.toml`"), "{err}");
+    // They are not built in.
+    assert!(!run(folder.path(), &["list"]).1.contains("families\n"));
+}
+
+#[test]
+fn every_shell_has_completions_without_placeholders() {
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let (code, script, err) = run(Path::new("."), &["completions", shell]);
+        assert_eq!(code, 0, "{shell}: {err}");
+        assert!(!script.contains("FAMILIES"), "{shell}");
+        if ["bash", "zsh", "fish"].contains(&shell) {
+            assert!(script.contains("hrones-nelson"), "{shell}: linkages");
+            assert_eq!(script.matches("list families 2>/dev/null").count(), 3, "{shell}: --only of three commands");
+        }
+    }
+}
+
+/// The linkage of a manifest, which is not offered, is accepted all the same.
+#[test]
+fn offered_values_are_not_the_only_ones() {
+    let folder = TempDir::new().unwrap();
+    assert_eq!(run(folder.path(), &["init"]).0, 0);
+    let arguments = ["inspect", "my-four-bar", "frame=3", "--manifest", "atlas.toml"];
+    assert_eq!(run(folder.path(), &arguments).0, 0);
+    assert!(run(folder.path(), &["inspect", "hokken"]).2.contains("did you mean `hoeken`?"));
+}
+
+/// What bash offers for the last word of a command line; `None` if there is no bash.
+#[cfg(unix)]
+fn offered_by_bash(folder: &Path, line: &[&str]) -> Option<Vec<String>> {
+    fs::write(folder.join("completions.bash"), run(folder, &["completions", "bash"]).1).unwrap();
+    // What bash does when the key is pressed.
+    let script = "source ./completions.bash\nCOMP_WORDS=(\"$@\")\nCOMP_CWORD=$(($# - 1))\n\
+                  compopt() { :; }\n_coupler__atlas \"$1\" \"${COMP_WORDS[COMP_CWORD]}\" \"${COMP_WORDS[COMP_CWORD - 1]}\"\n\
+                  printf '%s\\n' \"${COMPREPLY[@]}\"\n";
+    let output = Command::new("bash").current_dir(folder).args(["-c", script, "bash", PROGRAM]).args(line).output();
+    let output = output.ok()?;
+    assert!(output.status.success() && output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
+    let mut words: Vec<String> = String::from_utf8(output.stdout).unwrap().lines().map(str::to_owned).collect();
+    words.retain(|word| !word.is_empty());
+    words.sort();
+    Some(words)
+}
+
+#[cfg(unix)]
+#[test]
+fn bash_offers_linkages_families_and_formats() {
+    let folder = folder_with_manifest();
+    let Some(commands) = offered_by_bash(folder.path(), &["in"]) else { return };
+    assert_eq!(commands, ["init", "inspect"]);
+    for (line, expected) in [
+        (&["inspect", "ho"][..], &["hoeken"][..]),
+        (&["export", "--linkage", "watt-"], &["watt-six-bar"]),
+        (&["design", "--types", "e"], &["evans"]),
+        (&["render", "--only", ""], &["mine", "other"]),
+        (&["check", "--only", "o"], &["other"]),
+        (&["render", "--format", "p"], if cfg!(feature = "pdf") { &["pdf", "png"] } else { &["png"] }),
+        (&["export", "--format", "m"], &["moving-svg"]),
+        (&["validate", "--report", "j"], &["json"]),
+        (&["check", "--report", "j"], &["json", "junit"]),
+        (&["list", "fam"], &["families"]),
+        (&["render", "--color", "a"], &["always", "auto"]),
+        (&["validate", "--rep"], &["--report"]),
+    ] {
+        assert_eq!(offered_by_bash(folder.path(), line).unwrap(), expected, "{line:?}");
+    }
+    // Without a manifest there are no families, and no message.
+    fs::remove_file(folder.path().join("atlas.toml")).unwrap();
+    assert!(offered_by_bash(folder.path(), &["render", "--only", ""]).unwrap().is_empty());
+}
