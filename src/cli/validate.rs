@@ -104,7 +104,9 @@ struct JsonProblem<'a> {
 
 impl<'a> JsonProblem<'a> {
     fn new(problem: &'a Problem, file: &'a str, text: &str) -> JsonProblem<'a> {
-        let before = &text[..text.floor_char_boundary(problem.span.start)];
+        // A problem at the end is on the last line, as in the text, and not on an empty one after it.
+        let end = text.strip_suffix('\n').map_or(text.len(), str::len);
+        let before = &text[..text.floor_char_boundary(problem.span.start.min(end))];
         let line_start = before.rfind('\n').map_or(0, |at| at + 1);
         let non_empty = |text: &'a String| Some(text.as_str()).filter(|text| !text.is_empty());
         JsonProblem {

@@ -349,3 +349,31 @@ fn problems_are_reported_as_json() {
     assert!(code == 2 && err.contains("unknown report `jsn`: did you mean `json`?"), "{err}");
     assert_eq!(run(folder.path(), &["validate", "--report", "json="]).0, 2);
 }
+
+/// The report as JSON has the places of the text, also at the end, behind wide characters and of several problems.
+#[test]
+fn the_places_of_json_are_those_of_the_text() {
+    let many = format!("[atlas]\ntitle = \"T\"\n{}", "[[family]]\nid = \"a\"\nlinkage = \"evens\"\n".repeat(30));
+    for manifest in [
+        "",
+        "\n",
+        "x = [\n",
+        "x = [\r\n",
+        "x = \"é𝄞",
+        "[atlas]\r\ntitle = 1\r\n",
+        "[atlas]\ntitle = [\"漢字\", 1, \"\u{301}\", oops]\n",
+        "\u{feff}[atlas]\ntitel = 1",
+        &many,
+    ] {
+        let folder = folder_with(manifest);
+        let (code, out, _) = run(folder.path(), &["validate", "--report", "json"]);
+        assert_eq!(code, 2, "{manifest:?}");
+        let report: serde_json::Value = serde_json::from_str(&out).unwrap();
+        let problems = report["problems"].as_array().unwrap().iter();
+        let places: Vec<String> =
+            problems.map(|problem| format!("atlas.toml:{}:{}", problem["line"], problem["column"])).collect();
+        let (_, _, text) = run(folder.path(), &["validate"]);
+        let expected: Vec<&str> = text.lines().filter_map(|line| line.trim_start().strip_prefix("--> ")).collect();
+        assert_eq!(places, expected, "{manifest:?}: {text}");
+    }
+}
