@@ -15,7 +15,7 @@ use crate::manifest::Tolerances;
 use crate::pipeline::{FamilyPipeline, PageJob, Sink};
 use crate::record::{FamilyRecord, TableError, parse_rows};
 use coupler_curves::motion::Sampler;
-use coupler_curves::solve::{self, MeasuredCurve, SolvedCell};
+use coupler_curves::solve::{self, MeasuredCurve, SolvedCell, Status};
 
 /// Receives the output of a family's pipeline, and compares it with the record of the family.
 pub(super) struct FamilyCheck<'a> {
@@ -35,6 +35,44 @@ pub(super) struct CellFindings {
     pub changed_cells: Vec<usize>,
     /// The number of curves compared with recorded ones.
     pub curve_count: usize,
+    /// What the record of the family counts.
+    pub counts: CellCounts,
+}
+
+/// What the record of a family counts in its cells.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct CellCounts {
+    /// The cells that are not assembled over the whole range.
+    pub not_assembled: usize,
+    /// The curves.
+    pub curves: usize,
+    /// The curves that `where` leaves out.
+    pub curves_left_out: usize,
+}
+
+impl CellCounts {
+    /// Those of some cells.
+    fn of_cells(solved: &[SolvedCell]) -> CellCounts {
+        CellCounts {
+            not_assembled: solved.iter().filter(|solved| solved.status() != Status::Ok).count(),
+            curves: solved.iter().map(|solved| solved.curves.len()).sum(),
+            curves_left_out: solved.iter().map(|solved| solved.left_out_count).sum(),
+        }
+    }
+
+    /// Those that a record states.
+    pub fn of_record(record: &FamilyRecord) -> CellCounts {
+        let FamilyRecord { not_assembled, curves, curves_left_out, .. } = *record;
+        CellCounts { not_assembled, curves, curves_left_out }
+    }
+}
+
+impl std::ops::AddAssign for CellCounts {
+    fn add_assign(&mut self, other: CellCounts) {
+        self.not_assembled += other.not_assembled;
+        self.curves += other.curves;
+        self.curves_left_out += other.curves_left_out;
+    }
 }
 
 impl<'a> FamilyCheck<'a> {
@@ -193,7 +231,7 @@ impl Sink for FamilyCheck<'_> {
     type Error = Infallible;
 
     fn receive_cells(&self, solved: &[SolvedCell]) -> Result<CellFindings, Infallible> {
-        let mut result = CellFindings::default();
+        let mut result = CellFindings { counts: CellCounts::of_cells(solved), ..CellFindings::default() };
         for solved in solved.iter().filter(|solved| !solved.is_left_out()) {
             let before = result.findings.len();
             if let Err(error) = self.check_cell(solved, &mut result) {

@@ -36,7 +36,7 @@ use crate::manifest::{PartialTolerances, Plan, PlannedFamily};
 use crate::pipeline::{FamilyPipeline, GroupsDone, Output, page_file_name};
 use crate::record::{FamilyRecord, FolderRecord, LOCK_FILE_NAME, RUN_FILE_NAME, ReadError, open_regular_file};
 use coupler_drawing::render::PageFormat;
-use family::FamilyCheck;
+use family::{CellCounts, FamilyCheck};
 
 /// The families to check, and the tolerances.
 #[derive(Clone, Debug, Default)]
@@ -208,12 +208,14 @@ fn check_family(
     let mut findings = Vec::new();
     let family_check = FamilyCheck::open(&pipeline, record, recorded, tolerances, &mut findings);
     let (mut changed_cells, mut pages) = (Vec::new(), Vec::new());
+    let mut counts = CellCounts::default();
     let result = pipeline.run(&family_check, GroupsDone::default(), |output| {
         match output {
             Output::Cells(cells) => {
                 findings.extend(cells.findings);
                 changed_cells.extend(cells.changed_cells);
                 report.curves += cells.curve_count;
+                counts += cells.counts;
             }
             Output::Page(page) => {
                 pages.push(page);
@@ -233,20 +235,24 @@ fn check_family(
     if is_outdated {
         findings.retain(outdated::is_comparable);
     } else if findings.is_empty() {
-        findings.extend(check_counts(&pipeline, record));
+        findings.extend(check_counts(&pipeline, record, counts));
     }
     report.add_findings(findings);
     on_event(Event::End);
 }
 
 /// The finding on the record of a family whose files are as recorded, if it does not say what is in them.
-fn check_counts(pipeline: &FamilyPipeline, record: &FamilyRecord) -> Option<Finding> {
-    let family = &pipeline.composer.planned.family;
+fn check_counts(pipeline: &FamilyPipeline, record: &FamilyRecord, counts: CellCounts) -> Option<Finding> {
+    let (family, arrangement) = (&pipeline.composer.planned.family, &pipeline.arrangement);
     let location = Location::in_family(&family.id).with_file(RUN_FILE_NAME);
     let message = if record.inputs_sha256.is_none() {
         "does not say that the family is complete"
-    } else if (record.cells, record.kept) != (family.cell_count(), pipeline.arrangement.kept.len()) {
+    } else if [record.cells, record.kept, record.unassembled_left_out]
+        != [family.cell_count(), arrangement.kept.len(), arrangement.unassembled_left_out]
+    {
         "has another number of cells"
+    } else if CellCounts::of_record(record) != counts {
+        "has another number of curves, or of cells that are not assembled"
     } else if record.title != family.title {
         "has another title of the family"
     } else if !lists_all_pages(pipeline, record) {

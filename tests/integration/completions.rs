@@ -34,7 +34,7 @@ fn the_families_of_a_manifest_are_listed() {
     let (code, _, err) = run(folder.path(), &["list", "families", "no.toml"]);
     assert!(code == 2 && err.contains("cannot find no.toml"), "{err}");
     let (code, _, err) = run(folder.path(), &["list", "themes", "atlas.toml"]);
-    assert!(code == 2 && err.contains("write `list families atlas.toml`"), "{err}");
+    assert!(code == 2 && err.contains("or `list families atlas.toml` for"), "{err}");
     // They are not built in.
     assert!(!run(folder.path(), &["list"]).1.contains("families\n"));
 }

@@ -159,7 +159,7 @@ pub(super) fn json(report: &Report) -> anyhow::Result<String> {
         status: solved.status().name(),
         reason: solved.motion.assembly_error.as_ref().map(ToString::to_string),
         circuits: solved.motion.circuits.iter().map(|circuit| CircuitJson::new(linkage, circuit)).collect(),
-        curves: solved.curves.iter().map(CurveJson::new).collect(),
+        curves: solved.curves.iter().map(|curve| CurveJson::new(&solved.linkage, curve)).collect(),
         poses: report.poses.iter().map(|pose| PoseJson::new(report, pose)).collect(),
         equations: equation::json(&report.equations.0),
         cognates: report.cognates.as_ref().map(CognatesJson::new),
@@ -199,13 +199,17 @@ impl<'a> CircuitJson<'a> {
 }
 
 impl CurveJson {
-    fn new(curve: &MeasuredCurve) -> CurveJson {
+    fn new(linkage: &Linkage, curve: &MeasuredCurve) -> CurveJson {
+        let is_driven_by_length = linkage.input() == Input::Length;
         let value = |value: &measure::Value| match value {
             measure::Value::Number(value) => json!(value),
             measure::Value::Word(word) => json!(word),
             measure::Value::Missing => Value::Null,
         };
-        let measures = measure::ALL.iter().zip(&curve.values).map(|(measure, found)| (measure.name, value(found)));
+        let measures = measure::ALL
+            .iter()
+            .zip(&curve.values)
+            .map(|(measure, found)| (measure.name_for(is_driven_by_length), value(found)));
         CurveJson { trace: curve.trace, circuit: curve.circuit, measures: Entries(measures.collect()) }
     }
 }
