@@ -109,8 +109,10 @@ fn gzip(bytes: &[u8]) -> io::Result<Vec<u8>> {
 }
 
 fn atlas_json(run: &RunRecord, families: &[GalleryFamily]) -> Value {
-    let measure =
-        |m: &measure::Measure| json!({ "name": m.name, "unit": m.unit, "definition": m.definition, "word": m.is_word });
+    let measure = |m: &measure::Measure| {
+        let is_input = m.length_name.is_some();
+        json!({ "name": m.name, "unit": m.unit, "definition": m.definition, "word": m.is_word, "is_input": is_input })
+    };
     json!({
         "format": 2,
         "title": run.title,

@@ -57,7 +57,7 @@ type Route = Partial<Record<"label" | "parent", string>> & {
   matches(target: Target, app: App): boolean;
   open(app: App, target: Target): View | Promise<View>;
 };
-type Measure = { name: string; unit: string; definition: string; word: boolean };
+type Measure = { name: string; unit: string; definition: string; word: boolean; is_input: boolean };
 /** A family as the summary of the atlas lists it; without a script it has no data. */
 type ListedFamily = Record<"id" | "title" | "linkage", string> &
   Record<"cells" | "kept" | "not_assembled" | "curves" | "pages" | "bytes" | "table_bytes", number> &

@@ -77,8 +77,7 @@ function measureRow(/** @type {Measure} */ measure, recorded, isLength) {
     h("span.measure-name", measureLabel(measure.name)),
     h("span.definition", measure.definition),
   );
-  const ofLength =
-    isLength && /^(input_m|straight_(start|input)|dwell_(start|input)|output_dwell)/.test(measure.name);
+  const ofLength = isLength && measure.is_input;
   const element = h("tr", title, h("td", formatMeasure(measure, recorded, ofLength)), now, change);
   return { element, measure, recorded, now, change, isLength: ofLength };
 }
