@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use coupler_atlas::manifest;
 use coupler_curves::catalogue;
-use coupler_curves::expression::{Error, Expression};
+use coupler_curves::expression::{Dimension, Error, Expression, Quantity, Scope};
 use coupler_curves::problem::suggestion;
 use coupler_curves::template::Template;
 
@@ -34,8 +34,19 @@ pub(super) fn find_template(name: &str, manifest: Option<&Path>) -> anyhow::Resu
     })
 }
 
-/// Reads a number or an expression without names; `example` is shown in the error.
-pub(super) fn parse_number(text: &str, example: &str) -> Result<f64, InputError> {
+/// Reads an input: a number or an expression without names, and for an angle a unit, degrees if there is none. `example`
+/// is shown in the error.
+pub(super) fn parse_input(text: &str, is_length: bool, example: &str) -> Result<f64, InputError> {
     let error = |error: Error| InputError(format!("`{text}`: {error}; write it like {example}"));
-    Expression::evaluate_constant(text).map_err(error)
+    match Quantity::parse(text, Dimension::Angle) {
+        Ok(_) if is_length => {
+            Err(InputError(format!("`{text}` is an angle, and the input is a length: write it like {example}")))
+        }
+        Ok(quantity) => {
+            quantity.expression.check(&Scope::default()).map_err(error)?;
+            Ok(quantity.evaluate(|_| f64::NAN))
+        }
+        // Without a unit.
+        Err(_) => Expression::evaluate_constant(text).map_err(error),
+    }
 }

@@ -229,6 +229,17 @@ fn the_command_line_takes_angles_with_units() {
     };
     assert_eq!(inspect("angle=60"), inspect("angle=60 deg"));
     assert_eq!(inspect("angle=90"), inspect("angle=pi/2 rad"));
+    let run = |arguments: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_coupler-atlas")).args(arguments).output().unwrap();
+        (output.status.code(), String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap())
+    };
+    let at = |linkage: &str, at: &str| run(&["inspect", linkage, "--at", at]);
+    assert_eq!(at("hoeken", "45"), at("hoeken", "45 deg"));
+    assert_eq!(at("hoeken", "180"), at("hoeken", "pi rad"));
+    assert!(at("linear-actuator", "2 deg").2.contains("`2 deg` is an angle, and the input is a length"));
+    let step = |step: &str| run(&["export", "--linkage", "hoeken", "--format", "csv", "--step", step]);
+    assert_eq!(step("90"), step("pi / 2 rad"));
+    assert!(step("90").1.lines().count() == 5 && step("0").2.contains("give a number of at least"));
     let (code, _, err) = inspect("r=60 deg");
     assert_eq!(code, Some(2));
     assert!(err.contains("`r` is a length, and takes no degrees: give a number without a unit"), "{err}");

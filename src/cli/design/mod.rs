@@ -13,6 +13,7 @@ use clap::{Args, ValueEnum, ValueHint};
 use coupler_atlas::design::{self, Driver, LinkageKind, Requirement, Requirements, SynthesisResult};
 use coupler_curves::expression::Expression;
 
+use super::linkage::parse_input;
 use super::{InputErrors, Outcome, choice, files, print, print_bytes};
 
 /// Find the linkages that meet a designer's requirements, ranked, with their trade-offs (Natesan, chapter 10).
@@ -187,7 +188,10 @@ fn parse_requirements(arguments: &Arguments) -> Result<Requirements, Vec<String>
     let mut errors = Vec::new();
     let mut read = |text: &Option<String>, name: &str, example: &str| {
         let text = text.as_deref()?;
-        let number = parse_number(text, &format!("--{name} {example}"));
+        let number = match name {
+            "mu-min" => parse_angle(text, &format!("--{name} {example}")),
+            _ => parse_number(text, &format!("--{name} {example}")),
+        };
         number.map_err(|error| errors.push(format!("--{name}: {error}"))).ok()
     };
     let default = Requirements::default();
@@ -256,6 +260,16 @@ fn parse_number(text: &str, example: &str) -> Result<f64, String> {
     match value {
         value if value.is_finite() => Ok(value),
         value => Err(format!("`{text}` is {value}: give a finite number, as in {example}")),
+    }
+}
+
+/// Reads an angle in degrees, or in the unit that it states.
+fn parse_angle(text: &str, example: &str) -> Result<f64, String> {
+    let value = parse_input(text, false, example).map_err(|error| error.to_string())?;
+    if value.is_finite() {
+        Ok(value)
+    } else {
+        Err(format!("`{text}` is {value}: give a finite number, as in {example}"))
     }
 }
 

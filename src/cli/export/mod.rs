@@ -12,6 +12,7 @@ use coupler_atlas::manifest::Plan;
 use coupler_curves::exchange::{CurveName, ParameterSet, SelectedCurve, manifest_fragment};
 use coupler_curves::family::{Family, MAX_SAMPLES, ParameterText, Sampling};
 use coupler_curves::problem::suggestion;
+use coupler_curves::template::Template;
 use coupler_drawing::curve_file::FileOptions;
 use coupler_drawing::page;
 use coupler_drawing::plate::PAPER;
@@ -49,9 +50,9 @@ pub struct Arguments {
     /// A manifest whose linkages --linkage can name; - for standard input.
     #[arg(long, value_name = "FILE", requires = "linkage", value_hint = ValueHint::FilePath)]
     manifest: Option<PathBuf>,
-    /// With --linkage, the input between samples, in degrees or as a length.
-    #[arg(long, value_name = "STEP", requires = "linkage", conflicts_with = "samples", value_parser = parse_step)]
-    step: Option<f64>,
+    /// With --linkage, the input between samples, in degrees unless a unit is stated, or as a length.
+    #[arg(long, value_name = "STEP", requires = "linkage", conflicts_with = "samples")]
+    step: Option<String>,
     #[arg(
         long,
         value_name = "N",
@@ -102,10 +103,11 @@ fn parse_chord(text: &str) -> Result<f64, String> {
     CHORD_RANGE.contains(&value).then_some(value).ok_or_else(error)
 }
 
-fn parse_step(text: &str) -> Result<f64, String> {
-    let value: f64 = text.parse().map_err(|_| "expected a number, as in --step 2".to_owned())?;
-    let is_valid = value.is_finite() && value >= MIN_STEP;
-    is_valid.then_some(value).ok_or_else(|| format!("expected a number of at least {MIN_STEP}, as in --step 2"))
+fn parse_step(text: &str, template: &Template) -> Result<f64, String> {
+    let step =
+        linkage::parse_input(text, template.is_driven_by_length(), "--step 2").map_err(|error| error.to_string())?;
+    let is_valid = step.is_finite() && step >= MIN_STEP;
+    is_valid.then_some(step).ok_or_else(|| format!("`{text}`: give a number of at least {MIN_STEP}, as in --step 2"))
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
@@ -160,9 +162,14 @@ fn select_from_linkage(id: &str, arguments: &Arguments) -> anyhow::Result<CurveS
             (None, Err(error)) => problems.push(error.to_string()),
         }
     }
-    let sampling = match (arguments.step, arguments.samples) {
-        (Some(step), _) => Sampling::Step(step),
-        (None, samples) => Sampling::Samples(samples.unwrap_or(DEFAULT_SAMPLES) as usize),
+    let step = arguments.step.as_deref().map(|text| parse_step(text, &template));
+    let sampling = match step.transpose() {
+        Ok(Some(step)) => Sampling::Step(step),
+        Ok(None) => Sampling::Samples(arguments.samples.unwrap_or(DEFAULT_SAMPLES) as usize),
+        Err(error) => {
+            problems.push(error);
+            Sampling::Samples(DEFAULT_SAMPLES as usize)
+        }
     };
     let source = template.source_line();
     match Family::single_cell(template, &given, sampling) {

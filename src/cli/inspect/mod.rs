@@ -37,8 +37,8 @@ pub struct Arguments {
     /// A manifest whose linkages can be named; - for standard input.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     manifest: Option<PathBuf>,
-    /// Print the positions and derivatives of the joints at this input, in degrees or as a length; a number or an
-    /// expression.
+    /// Print the positions and derivatives of the joints at this input, in degrees unless a unit is stated, as in
+    /// "0.5 rad", or as a length; a number or an expression.
     #[arg(long, value_name = "INPUT", allow_hyphen_values = true)]
     at: Option<String>,
     /// With --at, only the poses with the first two-valued joint on this side: 1 left, -1 right; those of all circuits,
@@ -94,7 +94,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         parameter.resolve(&template).map_err(|error| InputError(format!("{}: {error}", arguments.linkage)))
     };
     let given = arguments.parameters.iter().map(given).collect::<Result<Vec<_>, _>>()?;
-    let at = arguments.at.as_deref().map(|text| linkage::parse_number(text, "--at 30")).transpose()?;
+    let is_length = template.is_driven_by_length();
+    let at = arguments.at.as_deref().map(|text| linkage::parse_input(text, is_length, "--at 30")).transpose()?;
     if let (Some(at), Some(text)) = (at.filter(|at| !at.is_finite()), &arguments.at) {
         return Err(InputError(format!("`{text}` is {at}: give a finite number, as in --at 30")).into());
     }
