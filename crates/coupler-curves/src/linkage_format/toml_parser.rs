@@ -3,6 +3,7 @@
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::entries::entry_around;
 use crate::expression::{self, Caption, CompiledExpression, Dimension, Expression, Kind, Quantity, Scope};
 use crate::problem::{Problem, Span};
 use crate::template::{InputValue, ParameterKind};
@@ -395,24 +396,4 @@ fn unfold_span(value: &TomlValue, span: Span) -> Span {
         at + ends.count()
     };
     unfold(span.start)..unfold(span.end)
-}
-
-/// The lines around a place in a text: from the one that begins an entry or a header up to the next that does.
-fn entry_around(text: &str, at: usize) -> Span {
-    let begins_entry = |line: &str| {
-        let is_of_key = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-' | '.' | '"' | '\'' | ' ');
-        let key = line.split_once('=').map(|(key, _)| key);
-        line.starts_with('[') || key.is_some_and(|key| !key.trim().is_empty() && key.chars().all(is_of_key))
-    };
-    let (mut start, mut line_start) = (0, 0);
-    for line in text.split_inclusive('\n') {
-        if begins_entry(line) {
-            if line_start > at {
-                return start..line_start;
-            }
-            start = line_start;
-        }
-        line_start += line.len();
-    }
-    start..text.len() + 1
 }
