@@ -13,6 +13,7 @@ mod corpus;
 mod coupler_grid;
 mod dependencies;
 mod design;
+mod documents;
 mod drawn;
 mod export;
 mod family_measures;
