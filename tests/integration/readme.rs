@@ -80,16 +80,6 @@ fn the_library_example_of_the_readme_is_a_tested_one() {
 }
 
 #[test]
-fn the_readme_names_every_command() {
-    let readme = include_str!("../../README.md");
-    for command in
-        ["`render ", "`validate ", "`inspect ", "`design ", "`export ", "`list ", "`init ", "`completions ", "`man`"]
-    {
-        assert!(readme.contains(command), "{command}");
-    }
-}
-
-#[test]
 fn the_examples_have_the_sizes_that_the_readme_states() {
     let readme = include_str!("../../README.md");
     let cases = [

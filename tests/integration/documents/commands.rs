@@ -184,7 +184,7 @@ fn every_command_is_run() {
     assert!(stale.is_empty(), "listed, but in no document: {stale:?}");
 }
 
-/// The long options in a text, or the short ones that have no long form in the documents.
+/// The options in a text, long and short.
 fn options(text: &str) -> BTreeSet<String> {
     let words = text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '-'));
     words.filter(|word| word.starts_with('-') && word.len() > 1).map(str::to_owned).collect()

@@ -66,8 +66,8 @@ fn copy(from: &Path, to: &Path) {
     }
 }
 
-/// Puts into a folder what the documents presuppose: the manifests of this repository. Those of the examples keep one
-/// linkage in 26, with the numbers of the cells that they have among all.
+/// Puts into a folder what the documents presuppose: the manifests of this repository. Those of the examples keep a
+/// few linkages, which are the cells that they are among all.
 fn put_manifests(folder: &Path) {
     fs::copy(root().join("atlas.toml"), folder.join("atlas.toml")).unwrap();
     copy(&root().join("examples"), &folder.join("examples"));

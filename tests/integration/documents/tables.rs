@@ -93,7 +93,7 @@ fn lists_are_those_of_the_program() {
     for format in formats {
         assert!(help.contains(&format), "{format}");
     }
-    // The topics of `list` that have a list.
+    // The conditions on classes.
     let conditions: BTreeSet<String> = document("docs/manifest.md")
         .prose
         .iter()
@@ -197,7 +197,7 @@ fn the_tolerances_of_check_are_the_defaults() {
     }
 }
 
-/// Every column of a table that the documents call the last one, or describe as one of its parts.
+/// The measures of `cells.csv`, and the attributes of a curve on a page.
 #[test]
 fn tables_have_the_described_columns() {
     let folder = small_atlas();
