@@ -41,7 +41,7 @@ pub struct Arguments {
     /// The number of threads [default: one for each processor].
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: Option<u16>,
-    /// Exit with 1 if a cell cannot be assembled over the whole requested range.
+    /// Exit with 1 if a cell that `where` does not leave out cannot be assembled over the whole requested range.
     #[arg(long)]
     strict: bool,
     /// Print only warnings and errors.

@@ -170,12 +170,18 @@ pub fn empty_family_warnings(plan: &Plan, record: Option<&RunRecord>) -> Vec<Pro
         let span = planned.filter_span.clone().unwrap_or_else(|| planned.span.clone());
         let cells = planned.family.cell_count();
         let diagnosis = is_empty(planned).then(|| sweep::diagnose(&planned.family))?;
-        let message = match diagnosis.unassembled == cells {
-            true => format!("none of the {cells} cells can be assembled"),
-            false => format!("`where` keeps none of the {cells} cells"),
+        let family = &planned.family;
+        let is_unassembled =
+            diagnosis.unassembled == cells && (family.filter.is_none() || family.filter_uses_measures());
+        let (message, remedy) = match (is_unassembled, cells) {
+            (true, 1) => ("the only cell cannot be assembled".to_owned(), "change the lengths"),
+            (true, _) => (format!("none of the {cells} cells can be assembled"), "change the lengths"),
+            (false, 1) => ("`where` does not keep the only cell".to_owned(), "relax the condition"),
+            (false, _) => (format!("`where` keeps none of the {cells} cells"), "relax the condition"),
         };
-        let remedy = if diagnosis.unassembled == cells { "change the lengths" } else { "relax the condition" };
-        Some(Problem::warning(span, message).with_help(format!("{remedy}: {}", diagnosis.describe(cells))))
+        let found = diagnosis.describe(cells);
+        let help = if found.is_empty() { remedy.to_owned() } else { format!("{remedy}: {found}") };
+        Some(Problem::warning(span, message).with_help(help))
     };
     plan.families.iter().filter_map(warning).collect()
 }

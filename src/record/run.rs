@@ -65,7 +65,7 @@ pub struct FamilyRecord {
     pub cells: usize,
     /// The number of cells kept by `where`.
     pub kept: usize,
-    /// The number of cells that `where` does not keep and that cannot be assembled at any input.
+    /// The number of cells that `where` does not keep because they cannot be assembled at any input: it uses measures.
     #[serde(default)]
     pub unassembled_left_out: usize,
     /// The number of kept cells that could not be assembled, or not over the whole requested range.

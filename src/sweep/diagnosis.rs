@@ -16,8 +16,10 @@ pub struct Diagnosis {
     pub nearest: Option<NearestCell>,
     /// The number of curves of the other cells.
     pub curves: usize,
+    /// The names of the family that `where` uses, and their values in all cells.
+    pub names: Vec<NamedValues>,
     /// The measures that `where` uses, and their values on these curves.
-    pub values: Vec<MeasureValues>,
+    pub measures: Vec<NamedValues>,
 }
 
 /// A cell that cannot be assembled.
@@ -33,11 +35,11 @@ pub struct NearestCell {
     shortfall: f64,
 }
 
-/// The values of a measure over some curves.
+/// The values of a name of a family over its cells, or of a measure over their curves.
 #[derive(Clone, Debug, PartialEq)]
-pub struct MeasureValues {
-    /// The name of the measure.
-    pub name: &'static str,
+pub struct NamedValues {
+    /// The name.
+    pub name: String,
     /// The least and the greatest number; `None` if it is a word, or no curve has a value.
     pub range: Option<[f64; 2]>,
     /// The words, in the order in which they are met.
@@ -46,6 +48,8 @@ pub struct MeasureValues {
 
 /// Solves the cells of a family without its `where`.
 pub fn diagnose(family: &Family) -> Diagnosis {
+    let slots = family.filter.iter().flat_map(|filter| filter.slots()).copied();
+    let names: Vec<usize> = slots.filter(|slot| *slot < family.names.len()).collect();
     let is_used = |(k, _): &(usize, &'static Measure)| {
         family.filter.as_ref().is_some_and(|filter| family.expression_uses(filter, *k))
     };
@@ -55,19 +59,16 @@ pub fn diagnose(family: &Family) -> Diagnosis {
     let sampler = Sampler::new(family.sampling);
     let is_driven_by_length = family.template.is_driven_by_length();
     let nothing = || Diagnosis {
-        values: used
-            .iter()
-            .map(|(_, measure)| MeasureValues {
-                name: measure.name_for(is_driven_by_length),
-                range: None,
-                words: Vec::new(),
-            })
-            .collect(),
+        names: names.iter().map(|&slot| NamedValues::none_of(&family.names[slot])).collect(),
+        measures: used.iter().map(|(_, m)| NamedValues::none_of(m.name_for(is_driven_by_length))).collect(),
         ..Diagnosis::default()
     };
     let diagnose_cell = |cell: usize| {
         let mut found = nothing();
         let Some(solved) = solve_measuring(&unfiltered, &sampler, cell, &requested) else { return found };
+        for (values, &slot) in found.names.iter_mut().zip(&names) {
+            values.add(Value::Number(solved.cell.values[slot]));
+        }
         if let (false, Some(error)) = (solved.motion.is_assembled(), &solved.motion.assembly_error) {
             let parameters = family.template.parameters.iter().zip(family.parameter_values(&solved.cell));
             let parameters: Vec<String> = parameters.map(|(p, value)| format!("{} = {value}", p.name)).collect();
@@ -81,7 +82,7 @@ pub fn diagnose(family: &Family) -> Diagnosis {
         }
         for curve in &solved.curves {
             found.curves += 1;
-            for (values, (k, _)) in found.values.iter_mut().zip(&used) {
+            for (values, (k, _)) in found.measures.iter_mut().zip(&used) {
                 values.add(curve.values[*k]);
             }
         }
@@ -95,7 +96,9 @@ impl Diagnosis {
     fn with(mut self, other: Diagnosis) -> Diagnosis {
         self.unassembled += other.unassembled;
         self.curves += other.curves;
-        for (values, others) in self.values.iter_mut().zip(other.values) {
+        let (own, others) =
+            (self.names.iter_mut().chain(&mut self.measures), other.names.into_iter().chain(other.measures));
+        for (values, others) in own.zip(others) {
             others.range.iter().flatten().for_each(|&number| values.add(Value::Number(number)));
             others.words.iter().for_each(|word| values.add(Value::Word(word)));
         }
@@ -106,26 +109,40 @@ impl Diagnosis {
         self
     }
 
-    /// What it says, as a sentence; `cells` is the number of all cells.
+    /// What it says of a family with this number of cells, in clauses.
     pub fn describe(&self, cells: usize) -> String {
+        let list = |values: &[NamedValues]| values.iter().map(NamedValues::describe).collect::<Vec<_>>().join(", ");
         let mut parts = Vec::new();
-        if let Some(NearestCell { number, parameters, reason, .. }) = &self.nearest {
-            let count = if self.unassembled == cells {
-                String::new()
-            } else {
-                format!("{} cells cannot be assembled; ", self.unassembled)
+        // If `where` does not use a measure it does not matter whether cells can be assembled.
+        if let Some(NearestCell { number, parameters, reason, .. }) = &self.nearest
+            && (!self.measures.is_empty() || self.names.is_empty())
+        {
+            let count = match self.unassembled {
+                unassembled if unassembled == cells => String::new(),
+                unassembled => format!("{} cannot be assembled; ", count_cells(unassembled)),
             };
             parts.push(format!("{count}the nearest is cell {number} ({parameters}): {reason}"));
         }
-        if self.curves > 0 && !self.values.is_empty() {
-            let values: Vec<String> = self.values.iter().map(MeasureValues::describe).collect();
-            parts.push(format!("on the {} curves {}", self.curves, values.join(", ")));
+        if !self.names.is_empty() {
+            parts.push(format!("in {} {}", count_cells(cells), list(&self.names)));
+        }
+        if self.curves > 0 && !self.measures.is_empty() {
+            let curves = if self.curves == 1 { "the curve".to_owned() } else { format!("the {} curves", self.curves) };
+            parts.push(format!("on {curves} {}", list(&self.measures)));
         }
         parts.join("; ")
     }
 }
 
-impl MeasureValues {
+fn count_cells(count: usize) -> String {
+    if count == 1 { "1 cell".to_owned() } else { format!("{count} cells") }
+}
+
+impl NamedValues {
+    fn none_of(name: &str) -> NamedValues {
+        NamedValues { name: name.to_owned(), range: None, words: Vec::new() }
+    }
+
     fn add(&mut self, value: Value) {
         match value {
             Value::Number(number) if !number.is_nan() => {
@@ -139,7 +156,7 @@ impl MeasureValues {
 
     /// "mu_min_deg is 12.5 to 38.61", "class is crank-rocker or drag-link", "time_ratio has no value".
     fn describe(&self) -> String {
-        let name = self.name;
+        let name = &self.name;
         match self.range.map(|ends| ends.map(rounded)) {
             Some([least, greatest]) if least == greatest => format!("`{name}` is {least}"),
             Some([least, greatest]) => format!("`{name}` is {least} to {greatest}"),

@@ -32,7 +32,7 @@ pub struct CellSelection {
     /// The same cells sorted by the least sort key of their curves, cells without a key last; `None` if they are not
     /// sorted.
     pub sorted: Option<CellIndices>,
-    /// The number of cells that `where` does not keep and that cannot be assembled.
+    /// The number of cells that `where` does not keep because they cannot be assembled: it uses measures.
     pub unassembled_left_out: usize,
     /// The number of traced points of each cell that have a kept curve on any circuit, in the order of pages; 0 for a
     /// cell without curves. Empty if the counts were not requested.
@@ -67,13 +67,16 @@ pub fn select_cells(family: &Family, counts_points: bool, stop: &AtomicBool) -> 
     let sampler = Sampler::new(family.sampling);
     // Only the measures that `where` and `sort` use are computed.
     let measures: Vec<bool> = (0..measure::ALL.len()).map(|measure| family.filter_or_sort_uses(measure)).collect();
+    // A condition on parameters alone leaves out a cell whether it can be assembled or not.
+    let needs_curves = family.filter_uses_measures();
     let unassembled = AtomicUsize::new(0);
     let rank_cell = |cell: usize| {
         let solved =
             if stop.load(Ordering::Relaxed) { None } else { solve_measuring(family, &sampler, cell, &measures) };
         let solved = solved?;
         if solved.is_left_out() {
-            unassembled.fetch_add(usize::from(!solved.motion.is_assembled()), Ordering::Relaxed);
+            let is_unassembled = needs_curves && !solved.motion.is_assembled();
+            unassembled.fetch_add(usize::from(is_unassembled), Ordering::Relaxed);
             return None;
         }
         let key = |curve: &MeasuredCurve| family.sort_key(&solved.cell, &curve.values);

@@ -114,6 +114,11 @@ fn cells_that_cannot_be_assembled_are_not_left_out_by_where() {
         "{err}"
     );
     assert!(err.contains("on the 2 curves `mu_min_deg` is 19.1881 to 28.955"), "{err}");
+    // A condition on parameters alone leaves out a cell whether it can be assembled or not.
+    atlas.edit(&family("evans", &lines.replace("mu_min_deg > 40", "p < 1")));
+    let (_, out, err) = atlas.run(&[]);
+    assert!(out.starts_with("f: 6 cells (6 left out by `where`), 0 curves, 0 pages\n"), "{out}");
+    assert!(err.contains("= help: relax the condition: in 6 cells `p` is 2 to 20\n"), "{err}");
     let none = lines.replace("[2, 20, 13]", "[20, 13]");
     atlas.edit(&family("evans", &none));
     let (_, out, err) = atlas.run(&[]);

@@ -230,6 +230,11 @@ impl Family {
         self.filter.iter().chain(&self.sort).any(|expression| self.expression_uses(expression, measure))
     }
 
+    /// Whether `where` uses any measure, and so leaves out cells without curves.
+    pub fn filter_uses_measures(&self) -> bool {
+        self.filter.as_ref().is_some_and(|filter| filter.slots().iter().any(|slot| *slot >= self.names.len()))
+    }
+
     /// Whether an expression over [`Family::scope`] needs a measure, given by its index in [`measure::ALL`].
     pub fn expression_uses(&self, expression: &CompiledExpression, measure: usize) -> bool {
         let is_number = |k: &usize| !measure::ALL[*k].is_word;
