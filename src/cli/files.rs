@@ -1,6 +1,7 @@
 //! Files and folders named on the command line; `-` is standard input or output.
 
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 
 use clap::builder::{PathBufValueParser, TypedValueParser};
 use coupler_atlas::output;
@@ -18,9 +19,33 @@ pub(super) fn input_name(path: &Path) -> String {
     if is_standard(path) { "standard input".to_owned() } else { printable(path.display()) }
 }
 
+/// The manifests that this run has read, which it must not overwrite.
+static MANIFESTS: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// Keeps a manifest from being overwritten by this run.
+pub(super) fn protect(manifest: &Path) {
+    if let (Ok(path), Ok(mut manifests)) = (manifest.canonicalize(), MANIFESTS.lock()) {
+        manifests.push(path);
+    }
+}
+
 /// Writes a file, or to standard output.
+///
+/// # Errors
+/// The file is a manifest that was read, or a folder, or cannot be written.
 pub(super) fn write(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
-    if is_standard(path) { print_bytes(bytes) } else { Ok(output::write_file(path, bytes)?) }
+    if is_standard(path) {
+        return print_bytes(bytes);
+    }
+    let is_manifest = |path: &PathBuf| MANIFESTS.lock().is_ok_and(|manifests| manifests.contains(path));
+    if path.canonicalize().is_ok_and(|path| is_manifest(&path)) {
+        let message = format!("{} is the manifest, which would be lost: name another file", path.display());
+        return Err(InputError(message).into());
+    }
+    if path.is_dir() {
+        return Err(InputError(format!("{} is a folder: name a file", path.display())).into());
+    }
+    Ok(output::write_file(path, bytes)?)
 }
 
 /// Whether a drawing is written to standard output, where it takes the place of the text.

@@ -54,7 +54,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
             ReportFormat::Json => json(path, &text, &problems, loaded.plan.as_ref())?,
         };
         match (file, format) {
-            (Some(file), _) => output::write_file(file, report.as_bytes())?,
+            (Some(file), _) => files::write(file, report.as_bytes())?,
             (None, ReportFormat::Json) => print_bytes(report.as_bytes())?,
             (None, ReportFormat::Text) => {}
         }

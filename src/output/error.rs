@@ -124,7 +124,7 @@ fn remedy(kind: ErrorKind) -> &'static str {
         ErrorKind::NotADirectory | ErrorKind::IsADirectory | ErrorKind::AlreadyExists => {
             "something else has this path: move it away, or name another path"
         }
-        ErrorKind::NotFound => "its folder no longer exists: run it again",
+        ErrorKind::NotFound => "its folder does not exist: create it, or name another",
         _ => "correct that and run it again: finished files are kept",
     }
 }

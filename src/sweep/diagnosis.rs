@@ -109,6 +109,11 @@ impl Diagnosis {
         self
     }
 
+    /// Whether it is known by how much the lengths of a cell miss.
+    fn has_nearest(&self) -> bool {
+        self.nearest.as_ref().is_some_and(|nearest| nearest.shortfall.is_finite())
+    }
+
     /// What it says of a family with this number of cells, in clauses.
     pub fn describe(&self, cells: usize) -> String {
         let list = |values: &[NamedValues]| values.iter().map(NamedValues::describe).collect::<Vec<_>>().join(", ");
@@ -121,7 +126,8 @@ impl Diagnosis {
                 unassembled if unassembled == cells => String::new(),
                 unassembled => format!("{} cannot be assembled; ", count_cells(unassembled)),
             };
-            parts.push(format!("{count}the nearest is cell {number} ({parameters}): {reason}"));
+            let which = if self.has_nearest() { "the nearest is" } else { "for example" };
+            parts.push(format!("{count}{which} cell {number} ({parameters}): {reason}"));
         }
         if !self.names.is_empty() {
             parts.push(format!("in {} {}", count_cells(cells), list(&self.names)));

@@ -173,6 +173,60 @@ fn a_missing_comma_is_one_problem() {
     }
 }
 
+/// A bracket that is not closed makes nothing of what follows it wrong.
+#[test]
+fn an_open_bracket_is_one_problem() {
+    let good = include_str!("../../atlas.toml");
+    for (open, close) in
+        [("formats = [\"svg\"", "]"), ("p = 2.00, r = 2.59, s = 2.59, a = 1.00 ", "}"), ("[[family]", "]")]
+    {
+        let at = good.find(open).unwrap() + open.len();
+        let at = at + good[at..].find(close).unwrap();
+        let text = format!("{}{}", &good[..at], &good[at + 1..]);
+        let found = errors(&text);
+        assert_eq!(found.len(), 1, "{open}: {found:?}");
+        assert!(found[0].message.ends_with("is not closed before the next entry"), "{found:?}");
+        let line = |at: usize| text[..at].lines().count();
+        assert!(line(at) - line(found[0].span.start) <= 1, "{open}: {found:?}");
+    }
+}
+
+/// What a command writes never takes the place of the manifest it reads, nor of an atlas or a page of someone else's.
+#[test]
+fn reports_and_drawings_do_not_replace_what_is_there() {
+    let text = family("hoeken", "cases = [{}]\n");
+    let atlas = Atlas::new(&text);
+    assert_eq!(atlas.run(&[]).0, 0);
+    let page = fs::read(atlas.out().join("index.html")).unwrap();
+    let own = atlas.0.path().join("own");
+    fs::create_dir(&own).unwrap();
+    fs::write(own.join("index.html"), "precious").unwrap();
+    for (arguments, message) in [
+        (&["validate", "atlas.toml", "--report", "json=atlas.toml"][..], "is the manifest"),
+        (&["export", "atlas.toml", "f:1.1.1", "-o", "./atlas.toml"], "is the manifest"),
+        (&["check", "atlas.toml", "--against", "out", "--report", "json=atlas.toml"], "is the manifest"),
+        (&["inspect", "hoeken", "--manifest", "atlas.toml", "--svg", "atlas.toml"], "is the manifest"),
+        (&["inspect", "hoeken", "--svg", "out"], "is a folder"),
+        (&["check", "atlas.toml", "--against", "out", "--diff", "out"], "out has an atlas"),
+        (&["check", "atlas.toml", "--against", "out", "--diff", "own"], "that no check wrote"),
+    ] {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
+        let output = command.current_dir(atlas.0.path()).args(arguments).output().unwrap();
+        let err = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {err}");
+        assert!(err.contains(message), "{arguments:?}: {err}");
+        assert_eq!(fs::read_to_string(atlas.0.path().join("atlas.toml")).unwrap(), text, "{arguments:?}");
+    }
+    assert_eq!(fs::read(atlas.out().join("index.html")).unwrap(), page);
+    assert_eq!(fs::read_to_string(own.join("index.html")).unwrap(), "precious");
+    // Drawings of an earlier check are replaced.
+    for _ in 0..2 {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
+        let arguments = ["check", "atlas.toml", "--against", "out", "--diff", "moved"];
+        assert!(command.current_dir(atlas.0.path()).args(arguments).output().unwrap().status.success());
+    }
+}
+
 /// An angle may be given with its unit wherever a parameter gets a value; a number without one is in the parameter's.
 #[test]
 fn angles_may_state_their_unit() {

@@ -106,7 +106,7 @@ fn read_plan(text: &str, writable: &[Format], parser: &mut TomlParser) -> Option
     let tables = root.tables("family", parser);
     if tables.is_empty() && root.get("family").is_none_or(|value| value.get_ref().is_array()) {
         let problem = Problem::error(0..first_line_len(text), "the manifest has no family");
-        parser.report(problem.with_help("add a table [[family]] with id, linkage, sampling, and grid or cases"));
+        parser.report(problem.with_help("add a table [[family]] with id, linkage, and grid or cases"));
     }
     let mut families: Vec<PlannedFamily> = Vec::new();
     let mut ids: HashSet<String> = HashSet::new();

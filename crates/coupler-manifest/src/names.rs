@@ -227,6 +227,8 @@ pub(crate) fn read_space<'t>(
     match (fields.get("grid"), fields.get("cases")) {
         (Some(value), None) => read_grid(value, limit, template, parser),
         (None, Some(value)) => read_cases(value, limit, template, parser),
+        // One may be in an entry that could not be read.
+        (None, None) if parser.has_syntax_error() => None,
         (grid, _) => {
             let message = if grid.is_some() {
                 "a family has a grid or cases, not both"
@@ -256,6 +258,9 @@ fn read_grid<'t>(
 ) -> Option<NamedSpace> {
     let table = Fields::with_any_keys(value, "`grid`", parser)?;
     if table.keys().is_empty() {
+        if parser.has_syntax_error() {
+            return None;
+        }
         let help = match template {
             Some(template) if template.parameters.is_empty() => "write cases = [{}] for its one cell",
             _ => "name a parameter, as in { p = [2, 3, 4] }",

@@ -157,7 +157,7 @@ fn write_reports(arguments: &Arguments, source: &ManifestSource, report: &Report
             ReportFormat::Github => github::text(report, source),
         };
         match &request.file {
-            Some(file) => output::write_file(file, text.as_bytes())?,
+            Some(file) => files::write(file, text.as_bytes())?,
             None => {
                 has_table = false;
                 print_bytes(text.as_bytes())?;

@@ -5,9 +5,10 @@ use std::path::Path;
 use coupler_atlas::check::{self, Options, Report};
 use coupler_atlas::manifest::Plan;
 use coupler_atlas::output;
+use coupler_atlas::record::RUN_FILE_NAME;
 use quick_xml::escape::escape;
 
-use super::super::{pluralize, print_stderr, printable};
+use super::super::{InputError, pluralize, print_stderr, printable};
 
 /// At most this many curves are drawn, the worst ones: nobody looks at more.
 const MAX_CURVES: usize = 500;
@@ -15,8 +16,31 @@ const MAX_CURVES: usize = 500;
 const STYLE: &str = "body{font:16px/1.5 'DejaVu Serif Condensed',Georgia,serif;color:#111;background:#fffdf8;\
                      margin:2rem auto;max-width:70rem;padding:0 1rem}figure{margin:2rem 0}img{width:100%}";
 
+/// How the page ends its title.
+const TITLE: &str = "what has moved";
+
+/// Checks that a folder has no page of another kind, which would be overwritten.
+///
+/// # Errors
+/// It has an atlas, or a page that no earlier check wrote.
+fn require_own_folder(folder: &Path) -> Result<(), InputError> {
+    let page = folder.join("index.html");
+    let is_own =
+        || std::fs::read(&page).is_ok_and(|page| String::from_utf8_lossy(&page).contains(&format!("{TITLE}</title>")));
+    let what = match () {
+        () if folder.join(RUN_FILE_NAME).exists() => "an atlas",
+        () if page.exists() && !is_own() => "a page index.html that no check wrote",
+        () => return Ok(()),
+    };
+    Err(InputError(format!(
+        "{} has {what}, which would be overwritten: name another folder with --diff",
+        folder.display()
+    )))
+}
+
 /// Writes a page for each curve that has moved, and an index of the pages.
 pub fn write(folder: &Path, plan: &Plan, recorded: &Path, report: (&Options, &Report)) -> anyhow::Result<()> {
+    require_own_folder(folder)?;
     output::create_folder(folder)?;
     let (mut figures, mut written, mut failed) = (String::new(), 0, None);
     check::draw_overlays(plan, recorded, report, MAX_CURVES, |overlay| {
@@ -40,9 +64,9 @@ pub fn write(folder: &Path, plan: &Plan, recorded: &Path, report: (&Options, &Re
         n => format!("{}, the worst first.", pluralize(n, "curve")),
     };
     let page = format!(
-        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{title}: what has moved</title>\n\
+        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{title}: {TITLE}</title>\n\
          <meta name=\"viewport\" content=\"width=device-width\"><style>{STYLE}</style></head>\n\
-         <body><h1>{title}: what has moved</h1>\n<p>{summary}</p>\n{figures}</body></html>\n"
+         <body><h1>{title}: {TITLE}</h1>\n<p>{summary}</p>\n{figures}</body></html>\n"
     );
     output::write_file(&folder.join("index.html"), page.as_bytes())?;
     print_stderr(&format!("{} drawn in {}\n", pluralize(written, "curve"), printable(folder.display())));

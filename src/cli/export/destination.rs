@@ -56,8 +56,8 @@ impl Destination {
     pub fn write_file(&mut self, name: &str, bytes: &[u8]) -> anyhow::Result<()> {
         match self {
             Destination::Stdout => print_bytes(bytes),
-            Destination::File(path) => Ok(output::write_file(path, bytes)?),
-            Destination::Folder(folder) => Ok(output::write_file(&folder.join(name), bytes)?),
+            Destination::File(path) => files::write(path, bytes),
+            Destination::Folder(folder) => files::write(&folder.join(name), bytes),
         }
     }
 }

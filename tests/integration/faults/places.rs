@@ -94,8 +94,8 @@ fn files_that_vanish_during_a_run_are_written_by_the_next() {
         }
         let output = child.wait_with_output().unwrap();
         let err = String::from_utf8(output.stderr).unwrap();
-        let is_reported =
-            err.starts_with("error: cannot write out") && err.ends_with("its folder no longer exists: run it again\n");
+        let is_reported = err.starts_with("error: cannot write out")
+            && err.ends_with("its folder does not exist: create it, or name another\n");
         // A run that begins without the record takes the files for those of others.
         let is_refused = output.status.code() == Some(2) && err.contains("no earlier run wrote out/");
         let is_expected = output.status.success() || output.status.code() == Some(3) && is_reported || is_refused;

@@ -83,7 +83,9 @@ pub(super) fn tokenize(text: &str) -> Result<Vec<(Token<'_>, Span)>, Error> {
                     '|' => "write `or`",
                     '−' | '–' => "write the minus sign as `-`",
                     '×' | '·' => "write multiplication as `*`",
-                    '°' => "in an expression write `rad(30)`; in a quantity write `30 deg`",
+                    '°' => {
+                        "leave it out: what ends in `_deg` is in degrees; the value of an angle is written `30 deg`"
+                    }
                     _ => "an expression has numbers, names, + - * / ^, comparisons, and, or, not, and functions",
                 };
                 return Err(Error::new(start..at, format!("unexpected `{c}`"), help));

@@ -2,7 +2,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::schema::TableSchema;
 use super::toml_parser::{TomlParser, TomlValue};
-use crate::problem::{Problem, Span, suggestion};
+use crate::problem::{Problem, Span, nearest_word, suggestion};
 
 /// The keys of a table and their values.
 pub struct Fields<'v, 't> {
@@ -65,11 +65,19 @@ impl<'v, 't> Fields<'v, 't> {
     /// The value of a required key; `example` shows how it is written.
     pub fn required(&self, key: &str, example: &str, parser: &mut TomlParser<'t>) -> Option<&'v TomlValue<'t>> {
         let value = self.get(key);
-        if value.is_none() {
+        // A key that is misspelt is reported by itself, and one may be in an entry that could not be read.
+        if value.is_none() && !parser.has_syntax_error() && !self.may_be_misspelt(key) {
             let problem = Problem::error(self.span.clone(), format!("{} has no `{key}`", self.display_name));
             parser.report(problem.with_help(format!("add {example}")));
         }
         value
+    }
+
+    /// Whether another key may be this one, misspelt.
+    fn may_be_misspelt(&self, key: &str) -> bool {
+        let known = self.schema.map(TableSchema::key_names).unwrap_or_default();
+        let mut unknown = self.table.keys().map(|key| key.get_ref().as_ref()).filter(|other| !known.contains(other));
+        unknown.any(|other| nearest_word(other, known.iter().copied()) == Some(key))
     }
 
     /// The string at a required key.

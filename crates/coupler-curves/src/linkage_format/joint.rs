@@ -208,7 +208,8 @@ pub(super) fn parse_joint_ref<'t>(
 ) -> Option<usize> {
     let name = parser.text(value)?;
     let index = names.index_of(&name);
-    if index.is_none() {
+    // A joint may be in an entry that could not be read.
+    if index.is_none() && !parser.has_syntax_error() {
         let problem = Problem::error(value.span(), format!("unknown joint `{name}`"));
         parser.report(problem.with_help(suggestion(&name, names.all())));
     }

@@ -3,7 +3,7 @@
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::entries::entry_around;
+use super::entries::{entry_around, unclosed_bracket};
 use crate::expression::{self, Caption, CompiledExpression, Dimension, Expression, Kind, Quantity, Scope};
 use crate::problem::{Problem, Span};
 use crate::template::{InputValue, ParameterKind};
@@ -36,6 +36,17 @@ impl<'t> TomlParser<'t> {
         // A byte order mark is not part of the document, but spans count from it.
         let (table, mut errors) = DeTable::parse_recoverable(self.text);
         errors.sort_by_key(|error| error.span().map_or(0, |span| span.start));
+        if let Some(open) = errors.first().and_then(|_| unclosed_bracket(self.text)) {
+            let bracket = &self.text[open..open + 1];
+            let message = format!("invalid TOML: this `{bracket}` is not closed before the next entry");
+            let close = if bracket == "[" { "]" } else { "}" };
+            self.report(Problem::error(open..open + 1, message).with_help(format!("add the `{close}`")));
+            // Nothing after it can be read, and some of it may have been taken for a part of the table.
+            let before = &self.text[..open];
+            let table = before.rfind("\n[").map_or(0, |at| at + 1);
+            self.broken_entries.push(table..self.text.len() + 1);
+            errors.clear();
+        }
         for error in errors {
             let span = error.span().unwrap_or(0..0);
             let entry = entry_around(self.text, span.start);
@@ -50,6 +61,10 @@ impl<'t> TomlParser<'t> {
             let problem = Problem::error(span, format!("invalid TOML: {message}"));
             self.report(problem.with_help("see https://toml.io for how tables, keys and values are written"));
             self.broken_entries.push(entry);
+        }
+        if self.has_syntax_error() {
+            // What seems to be missing in the whole document may be in such an entry.
+            self.broken_entries.push(0..1);
         }
         let span = table.span();
         Spanned::new(span, DeValue::Table(table.into_inner()))

@@ -12,7 +12,7 @@ use super::longest_near::{ACCURACY, Constraint, Constraints, Contacts, Fit, Long
 use super::portions::{Requirement, longest};
 use super::row::Row;
 use super::straight::EXACT;
-use super::{Measure, TracedCurve, Value, without_rounding};
+use super::{Measure, TracedCurve, Value, start_input, without_rounding};
 use crate::geometry::Point;
 
 /// The greatest width of the annulus, relative to the curve's greatest extent.
@@ -54,7 +54,7 @@ pub const MEASURES: [Measure; 6] = [
         dwell_value(curve, |dwell| dwell.deviation)
     }),
     Measure::number("dwell_start_deg", "deg", "input at which the circular portion begins", |curve| {
-        dwell_value(curve, |dwell| dwell.start_input)
+        curve.dwell().map_or(Value::Missing, |dwell| Value::Number(start_input(curve, dwell.start_input)))
     })
     .or_length("dwell_start_length"),
     Measure::number("dwell_x", "", "x of the circle's centre", |curve| dwell_value(curve, |dwell| dwell.centre.x)),

@@ -46,7 +46,7 @@ pub use transmission::transmission_angle;
 use std::cell::OnceCell;
 use std::rc::Rc;
 
-use crate::linkage::{JointId, Linkage};
+use crate::linkage::{Input, JointId, Linkage};
 use crate::motion::{Circuit, Motion};
 use curve::{ArcLength, Crossings, SmoothCurve, Stop};
 use output::OutputMotion;
@@ -236,6 +236,22 @@ pub struct CircuitResults(Rc<SharedResults>);
 struct SharedResults {
     output: OnceCell<Option<OutputMotion>>,
     worst_transmission_angle: OnceCell<Option<f64>>,
+}
+
+/// The input at which a portion of a curve begins: from 0 up to a period where the input turns fully.
+fn start_input(curve: &TracedCurve, input: f64) -> f64 {
+    match curve.linkage.input() {
+        Input::Angle { turns } if curve.circuit.is_full_turn() => within_period(input, 360.0 * f64::from(turns)),
+        _ => input,
+    }
+}
+
+/// An input from 0 up to a period.
+fn within_period(input: f64, period: f64) -> f64 {
+    /// The accuracy with which starts of portions are found, in degrees.
+    const SAME: f64 = 1e-6;
+    let within = input.rem_euclid(period);
+    if within > period - SAME { 0.0 } else { within }
 }
 
 /// A value, or 0 if it is no more than rounding.

@@ -25,7 +25,7 @@ pub const AREA: Measure = Measure::number(
     },
 );
 
-/// The accuracy of areas, relative to the square of the extent.
+/// The accuracy of coordinates relative to the extent, and of areas relative to its square.
 const ROUNDING: f64 = 1e-12;
 
 /// The measures `bbox_x_min`, `bbox_x_max`, `bbox_y_min` and `bbox_y_max`.
@@ -46,6 +46,7 @@ pub const BOUNDING_BOX: [Measure; 4] = [
 
 fn extent_measure(curve: &TracedCurve, direction: Vector) -> Value {
     let Some((reach, _)) = curve.smooth().furthest(direction) else { return Value::Missing };
+    let reach = without_rounding(reach, ROUNDING * curve.extent());
     // The least coordinate is the negative of the greatest in the opposite direction.
     Value::Number(if direction.x + direction.y < 0.0 { -reach } else { reach })
 }

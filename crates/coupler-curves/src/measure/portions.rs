@@ -9,6 +9,7 @@
 use super::every_nth::EveryNth;
 use super::longest_near::Reached;
 use super::row::Row;
+use super::within_period;
 use crate::geometry::in_rising_order;
 
 /// Two portions whose sizes differ by less than this part are equally long: more than the error of either.
@@ -140,7 +141,7 @@ fn distinct(row: &Row, portions: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     const OVERLAP: f64 = 0.01;
     let round = if row.is_closed { row.start_count as f64 } else { 0.0 };
     let mut out: Vec<[f64; 2]> = Vec::new();
-    for [from, to] in in_rising_order(portions, |ends| row.input_at(ends[0]).rem_euclid(360.0)) {
+    for [from, to] in in_rising_order(portions, |ends| within_period(row.input_at(ends[0]), 360.0)) {
         let overlaps = |other: &[f64; 2]| {
             let common = |shift: f64| (to + shift).min(other[1]) - (from + shift).max(other[0]);
             [-round, 0.0, round].iter().any(|&shift| common(shift) > OVERLAP * (to - from))

@@ -15,7 +15,7 @@ use super::portions::longest;
 use super::row::Row;
 use super::straightest::{Narrowest, straightest};
 use super::strip::Strip;
-use super::{Measure, Subject, TracedCurve, Value};
+use super::{Measure, Subject, TracedCurve, Value, start_input};
 use crate::geometry::Point;
 use crate::linkage::Input;
 
@@ -61,7 +61,7 @@ pub const MEASURES: [Measure; 6] = [
     ),
     Measure::number("straight_share", "", "that length relative to the curve's greatest extent", |curve| {
         match curve.straight() {
-            Some(portion) => Value::Number(portion.length / curve.extent()),
+            Some(portion) => Value::Number((portion.length / curve.extent()).min(1.0)),
             None => Value::Missing,
         }
     }),
@@ -72,7 +72,7 @@ pub const MEASURES: [Measure; 6] = [
         |curve| portion_value(curve, |portion| portion.deviation),
     ),
     Measure::number("straight_start_deg", "deg", "input at which the straightest portion begins", |curve| {
-        portion_value(curve, |portion| portion.start_input)
+        start_value(curve, curve.straight())
     })
     .or_length("straight_start_length"),
     Measure::number("straight_input_deg", "deg", "input that the straightest portion spans", |curve| {
@@ -83,7 +83,7 @@ pub const MEASURES: [Measure; 6] = [
         "straight_twin_deg",
         "deg",
         "input at which a second portion begins that is equally long, as on a symmetrical curve",
-        |curve| portion_number(curve.straight_portions().get(1), |portion| portion.start_input),
+        |curve| start_value(curve, curve.straight_portions().get(1)),
     )
     .or_length("straight_twin_length"),
 ];
@@ -112,7 +112,9 @@ macro_rules! wider {
                 concat!($prefix, "_share"),
                 "",
                 "that length relative to the curve's greatest extent",
-                |curve| portion_number(curve.wider_straight($index), |portion| portion.length / curve.extent()),
+                |curve| {
+                    portion_number(curve.wider_straight($index), |portion| (portion.length / curve.extent()).min(1.0))
+                },
             ),
             Measure::number(
                 concat!($prefix, "_deviation"),
@@ -121,7 +123,7 @@ macro_rules! wider {
                 |curve| value(curve, |portion| portion.deviation),
             ),
             Measure::number(concat!($prefix, "_start_deg"), "deg", "input at which it begins", |curve| {
-                value(curve, |portion| portion.start_input)
+                start_value(curve, curve.wider_straight($index))
             })
             .or_length(concat!($prefix, "_start_length")),
             Measure::number(concat!($prefix, "_input_deg"), "deg", "input that it spans", |curve| {
@@ -147,12 +149,16 @@ pub const HALF_TURN: [Measure; 3] = [
         portion_number(curve.straight_half_turn(), |portion| portion.deviation)
     }).of(Subject::DrivenByAngle),
     Measure::number("straight_half_turn_start_deg", "deg", "input at which it begins", |curve| {
-        portion_number(curve.straight_half_turn(), |portion| portion.start_input)
+        start_value(curve, curve.straight_half_turn())
     }).of(Subject::DrivenByAngle),
 ];
 
 fn portion_number(portion: Option<&StraightPortion>, value: impl Fn(&StraightPortion) -> f64) -> Value {
     portion.map_or(Value::Missing, |portion| Value::Number(value(portion)))
+}
+
+fn start_value(curve: &TracedCurve, portion: Option<&StraightPortion>) -> Value {
+    portion_number(portion, |portion| start_input(curve, portion.start_input))
 }
 
 fn portion_value(curve: &TracedCurve, value: fn(&StraightPortion) -> f64) -> Value {

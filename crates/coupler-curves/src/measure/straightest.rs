@@ -5,6 +5,7 @@ use super::maximum::{Bracket, greatest_in};
 use super::row::Row;
 use super::straight::EXACT;
 use super::strip::{Strip, check_width};
+use super::within_period;
 use crate::geometry::{Point, in_rising_order};
 
 /// Of which portion the strip is the narrowest.
@@ -93,7 +94,7 @@ pub(super) fn straightest(
     found.retain(|candidate| candidate.size <= least * (1.0 + EQUAL));
     let longest = found.iter().map(|candidate| candidate.length).fold(0.0, f64::max);
     found.retain(|candidate| candidate.length >= longest * (1.0 - EQUAL));
-    let start_input = |ends: &[f64; 2]| row.input_at(ends[0]).rem_euclid(360.0);
+    let start_input = |ends: &[f64; 2]| within_period(row.input_at(ends[0]), 360.0);
     found.into_iter().map(|candidate| candidate.ends).min_by(|a, b| start_input(a).total_cmp(&start_input(b)))
 }
 

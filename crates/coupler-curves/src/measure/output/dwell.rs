@@ -7,7 +7,7 @@
 
 use super::{OutputMotion, output_value};
 use crate::measure::circuit_function::{MonotonicPart, Place};
-use crate::measure::{Measure, Subject};
+use crate::measure::{Measure, Subject, start_input};
 
 /// The width of the band of a dwell, relative to the swing or the stroke of the output, or to a full turn.
 pub(in crate::measure) const TOLERANCE: f64 = 0.01;
@@ -25,7 +25,7 @@ pub const DWELL: Measure = Measure::number(
 /// The measure `output_dwell_start_deg`.
 pub const DWELL_START: Measure =
     Measure::number("output_dwell_start_deg", "deg", "input at which that dwell of the output begins", |curve| {
-        output_value(curve, |output| Some(output.dwell().start_input))
+        output_value(curve, |output| Some(start_input(curve, output.dwell().start_input)))
     })
     .of(Subject::WithOutput)
     .or_length("output_dwell_start_length");

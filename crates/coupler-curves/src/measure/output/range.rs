@@ -57,5 +57,7 @@ fn limits(output: &OutputMotion) -> Option<[f64; 2]> {
 }
 
 fn swing(output: &OutputMotion) -> f64 {
-    if output.turns_fully { 360.0 } else { trig::degrees(output.travel()) }
+    let swing = without_rounding(trig::degrees(output.travel()), 360.0 * RESOLVED);
+    // An output that an actuator drives may turn once without a closed circuit.
+    if output.turns_fully || (swing - 360.0).abs() <= 360.0 * RESOLVED { 360.0 } else { swing }
 }

@@ -10,7 +10,10 @@ pub const TIME_RATIO: Measure = Measure::number(
     "",
     "time ratio of an output that rocks or slides while the input turns fully: input angle of its slower stroke divided by that of its faster one; 1 or more",
     |curve| {
+        /// Strokes that differ by less are equally long.
+        const EQUAL: f64 = 1e-11;
         let is_full_turn = curve.circuit.is_full_turn();
+        let ratio = |output: &OutputMotion| ratio(output).map(|ratio| if ratio < 1.0 + EQUAL { 1.0 } else { ratio });
         output_value(curve, |output| ratio(output).filter(|_| is_full_turn))
     },
 ).of(Subject::WithOutput);
