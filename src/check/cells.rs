@@ -28,8 +28,7 @@ impl CellColumns {
     pub fn from_headers(recorded: &[String], current: &[String], parameters: &[String]) -> CellColumns {
         let index = |header: &[String], name: &str| header.iter().position(|other| other == name);
         let both = |name: &str| Some([index(recorded, name)?, index(current, name)?]);
-        let names = |measure: &'static Measure| [Some(measure.name), measure.length_name].into_iter().flatten();
-        let measure = |measure: &'static Measure| names(measure).find_map(|name| Some((measure, name, both(name)?)));
+        let measure = |measure: &'static Measure| measure.names().find_map(|name| Some((measure, name, both(name)?)));
         CellColumns {
             recorded: KEY_COLUMNS.map(|name| index(recorded, name)),
             current: KEY_COLUMNS.map(|name| index(current, name)),

@@ -44,6 +44,8 @@ pub(super) struct CellFindings {
 pub(super) struct CellCounts {
     /// The cells that are not assembled over the whole range.
     pub not_assembled: usize,
+    /// Those of them that are assembled over a part of it.
+    pub partly_assembled: usize,
     /// The curves.
     pub curves: usize,
     /// The curves that `where` leaves out.
@@ -55,6 +57,7 @@ impl CellCounts {
     fn of_cells(solved: &[SolvedCell]) -> CellCounts {
         CellCounts {
             not_assembled: solved.iter().filter(|solved| solved.status() != Status::Ok).count(),
+            partly_assembled: solved.iter().filter(|solved| solved.status() == Status::Partial).count(),
             curves: solved.iter().map(|solved| solved.curves.len()).sum(),
             curves_left_out: solved.iter().map(|solved| solved.left_out_count).sum(),
         }
@@ -62,14 +65,15 @@ impl CellCounts {
 
     /// Those that a record states.
     pub fn of_record(record: &FamilyRecord) -> CellCounts {
-        let FamilyRecord { not_assembled, curves, curves_left_out, .. } = *record;
-        CellCounts { not_assembled, curves, curves_left_out }
+        let FamilyRecord { not_assembled, partly_assembled, curves, curves_left_out, .. } = *record;
+        CellCounts { not_assembled, partly_assembled, curves, curves_left_out }
     }
 }
 
 impl std::ops::AddAssign for CellCounts {
     fn add_assign(&mut self, other: CellCounts) {
         self.not_assembled += other.not_assembled;
+        self.partly_assembled += other.partly_assembled;
         self.curves += other.curves;
         self.curves_left_out += other.curves_left_out;
     }

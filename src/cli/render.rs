@@ -205,7 +205,8 @@ impl ProgressReporter {
 fn summary(record: &FamilyRecord, drawn: Option<usize>) -> String {
     let mut line = format!("{}: {}", record.id, pluralize(record.cells, "cell"));
     let counts = [
-        (record.not_assembled + record.unassembled_left_out, "not assembled"),
+        (record.not_assembled - record.partly_assembled + record.unassembled_left_out, "not assembled"),
+        (record.partly_assembled, "assembled over a part of the range"),
         (record.cells - record.kept - record.unassembled_left_out, "left out by `where`"),
     ];
     let counts = counts.into_iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}"));

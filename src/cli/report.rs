@@ -25,9 +25,20 @@ pub(super) fn parse_request<F: Copy>(text: &str, known: &[(&str, F)]) -> Result<
     }
 }
 
-/// A report as indented JSON; infinite numbers are null.
-pub(super) fn json(document: &impl Serialize) -> anyhow::Result<String> {
-    let text = serde_json::to_string_pretty(document)? + "\n";
+/// A report and what made it.
+#[derive(Serialize)]
+struct Document<'a, R> {
+    format: u32,
+    program: &'static str,
+    version: &'static str,
+    #[serde(flatten)]
+    report: &'a R,
+}
+
+/// A report in a version of its format as indented JSON; infinite numbers are null.
+pub(super) fn json(format: u32, report: &impl Serialize) -> anyhow::Result<String> {
+    let (program, version) = (env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION"));
+    let text = serde_json::to_string_pretty(&Document { format, program, version, report })? + "\n";
     // What a terminal or the log of a CI run would obey is only in strings, where it can be escaped; the encoder escapes
     // most control characters itself.
     let text = text.replace("##[", "\\u0023#[");

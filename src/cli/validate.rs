@@ -82,9 +82,6 @@ const FORMAT: u32 = 1;
 
 #[derive(Serialize)]
 struct Document<'a> {
-    format: u32,
-    program: &'static str,
-    version: &'static str,
     has_errors: bool,
     families: Option<usize>,
     cells: Option<usize>,
@@ -126,13 +123,11 @@ fn json(path: &Path, text: &str, problems: &[Problem], plan: Option<&Plan>) -> a
     let file = path.to_string_lossy();
     let mut ordered: Vec<&Problem> = problems.iter().collect();
     ordered.sort_by_key(|problem| (!problem.is_error(), problem.span.start));
-    report::json(&Document {
-        format: FORMAT,
-        program: env!("CARGO_PKG_NAME"),
-        version: env!("CARGO_PKG_VERSION"),
+    let document = Document {
         has_errors: plan.is_none(),
         families: plan.map(|plan| plan.families.len()),
         cells: plan.map(cell_count),
         problems: ordered.into_iter().map(|problem| JsonProblem::new(problem, &file, text)).collect(),
-    })
+    };
+    report::json(FORMAT, &document)
 }

@@ -141,6 +141,7 @@ pub(super) fn initial_record(pipeline: &FamilyPipeline) -> FamilyRecord {
         kept: pipeline.arrangement.kept.len(),
         unassembled_left_out: pipeline.arrangement.unassembled_left_out,
         not_assembled: 0,
+        partly_assembled: 0,
         curves_left_out: 0,
         curves: 0,
         pages: pipeline.pagination.page_count,

@@ -98,6 +98,7 @@ impl<'a> FamilyWriter<'a> {
         record.curves = progress.curves;
         record.curves_left_out = progress.curves_left_out;
         record.not_assembled = progress.not_assembled;
+        record.partly_assembled = progress.partly_assembled;
         if record.not_assembled > 0 {
             for (cell, reason) in read_unassembled_cells(tables.cells.reader()?) {
                 report(Event::Shortfall { family: &record.id, cell, reason: &reason });
@@ -149,6 +150,7 @@ impl<'a> FamilyWriter<'a> {
         self.record.curves += rows.curve_count;
         self.record.curves_left_out += rows.curves_left_out;
         self.record.not_assembled += rows.shortfalls.len();
+        self.record.partly_assembled += rows.partly_assembled;
         for (cell, reason) in &rows.shortfalls {
             report(Event::Shortfall { family: &self.record.id, cell: *cell, reason });
         }
@@ -196,6 +198,7 @@ impl<'a> FamilyWriter<'a> {
             curves: self.record.curves,
             curves_left_out: self.record.curves_left_out,
             not_assembled: self.record.not_assembled,
+            partly_assembled: self.record.partly_assembled,
             tables,
             pieces: pieces.finished.len(),
             open_pieces: serde_json::to_value(contents).unwrap_or_default(),

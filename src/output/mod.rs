@@ -163,7 +163,8 @@ fn check_interrupt(interrupt: &AtomicBool) -> Result<(), Error> {
 /// record of a run, or by a sweep if there is none. States how near its cells come.
 pub fn empty_family_warnings(plan: &Plan, record: Option<&RunRecord>) -> Vec<Problem> {
     let is_empty = |planned: &PlannedFamily| match record {
-        None => planned.family.filter.is_some() && sweep::kept_cells(&planned.family).is_empty(),
+        None if planned.family.filter.is_some() => sweep::kept_cells(&planned.family).is_empty(),
+        None => !sweep::has_curve(&planned.family),
         Some(run) => run.families.iter().any(|record| record.id == planned.family.id && record.curves == 0),
     };
     let warning = |planned: &PlannedFamily| {

@@ -31,6 +31,8 @@ pub(super) struct TableRows {
     pub curve_count: usize,
     pub curves_left_out: usize,
     pub shortfalls: Vec<(usize, String)>,
+    /// The number of those that are assembled over a part of the range.
+    pub partly_assembled: usize,
 }
 
 /// Renders and writes the output of a family; used by all worker threads.
@@ -69,6 +71,7 @@ impl Sink for OutputSink<'_> {
             curve_count: solved.iter().map(|s| s.curves.len()).sum(),
             curves_left_out: solved.iter().map(|s| s.left_out_count).sum(),
             shortfalls: solved.iter().filter_map(shortfall).collect(),
+            partly_assembled: solved.iter().filter(|s| s.status() == Status::Partial).count(),
         })
     }
 

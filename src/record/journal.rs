@@ -75,6 +75,9 @@ pub struct FamilyProgress {
     pub curves_left_out: usize,
     /// The number of cells that could not be assembled, or not over the whole requested range.
     pub not_assembled: usize,
+    /// The number of those that are assembled over a part of the range.
+    #[serde(default)]
+    pub partly_assembled: usize,
     /// The unfinished tables.
     pub tables: Vec<PartialFile>,
     /// The number of finished pieces of the gallery's data.
@@ -287,6 +290,7 @@ mod tests {
             kept: 1,
             unassembled_left_out: 0,
             not_assembled: 0,
+            partly_assembled: 0,
             curves_left_out: 0,
             curves: 1,
             pages: 2,

@@ -70,6 +70,9 @@ pub struct FamilyRecord {
     pub unassembled_left_out: usize,
     /// The number of kept cells that could not be assembled, or not over the whole requested range.
     pub not_assembled: usize,
+    /// The number of those that are assembled over a part of the range.
+    #[serde(default)]
+    pub partly_assembled: usize,
     /// The number of curves of kept cells that `where` left out.
     pub curves_left_out: usize,
     /// The number of traced curves.
@@ -243,6 +246,7 @@ impl FamilyRecord {
             kept: self.kept,
             unassembled_left_out: self.unassembled_left_out,
             not_assembled: self.not_assembled,
+            partly_assembled: self.partly_assembled,
             curves_left_out: self.curves_left_out,
             curves: self.curves,
             pages: self.pages,

@@ -1,5 +1,6 @@
 //! Why no curve of a family is shown: how near its cells come to being assembled, and its curves to what `where` asks for.
 
+use coupler_curves::expression::round_to_six_digits;
 use coupler_curves::family::Family;
 use coupler_curves::measure::{self, Measure, Value};
 use coupler_curves::motion::Sampler;
@@ -163,16 +164,11 @@ impl NamedValues {
     /// "mu_min_deg is 12.5 to 38.61", "class is crank-rocker or drag-link", "time_ratio has no value".
     fn describe(&self) -> String {
         let name = &self.name;
-        match self.range.map(|ends| ends.map(rounded)) {
+        match self.range.map(|ends| ends.map(round_to_six_digits)) {
             Some([least, greatest]) if least == greatest => format!("`{name}` is {least}"),
             Some([least, greatest]) => format!("`{name}` is {least} to {greatest}"),
             None if self.words.is_empty() => format!("`{name}` has no value"),
             None => format!("`{name}` is {}", self.words.join(" or ")),
         }
     }
-}
-
-/// A number with six significant digits.
-fn rounded(number: f64) -> f64 {
-    format!("{number:.5e}").parse().unwrap_or(number)
 }

@@ -23,6 +23,16 @@ pub fn kept_cells(family: &Family) -> CellIndices {
     found.map(|found| found.kept).unwrap_or_default()
 }
 
+/// Whether any cell of a family has a curve; most often the first has one.
+pub fn has_curve(family: &Family) -> bool {
+    let sampler = Sampler::new(family.sampling);
+    let no_measures = vec![false; measure::ALL.len()];
+    let is_assembled = |cell: usize| {
+        solve_measuring(family, &sampler, cell, &no_measures).is_some_and(|solved| solved.motion.is_assembled())
+    };
+    is_assembled(0) || (1..family.cell_count()).into_par_iter().any(is_assembled)
+}
+
 /// The cells of a family that are shown, and their order on pages.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CellSelection {

@@ -2,7 +2,7 @@
 //! not left out by `where`, each problem is reported once and in the first run, angles may state their unit.
 
 use std::fs;
-use std::process::Command;
+use std::path::Path;
 
 use coupler_atlas::manifest;
 use coupler_curves::catalogue;
@@ -11,6 +11,7 @@ use coupler_curves::measure::{ALL, COLUMNS, Subject};
 use coupler_curves::problem::Problem;
 use coupler_curves::template::ParameterKind;
 
+use crate::command::{printed, run};
 use crate::folder::Atlas;
 
 /// A manifest with one family of a linkage.
@@ -43,7 +44,7 @@ fn a_measure_or_column_that_a_linkage_cannot_have_is_an_error() {
         let found = errors(&family("slider-crank", &format!("{grid}{line}")));
         assert_eq!(found.len(), 1, "{line}: {found:?}");
         assert!(found[0].message.starts_with("`slider-crank` has no `"), "{line}: {found:?}");
-        let has = if line.starts_with("columns") { "vx, vy" } else { "mu_worst_deg" };
+        let has = if line.contains("psi_deg") { "vx, vy" } else { "mu_worst_deg" };
         assert!(found[0].help.contains(has), "{line}: {found:?}");
     }
     // A name of the family itself is not the measure.
@@ -53,7 +54,7 @@ fn a_measure_or_column_that_a_linkage_cannot_have_is_an_error() {
 
 /// The joints of a linkage are known without its dimensions, and every restriction divides the catalogue.
 #[test]
-fn the_linkages_that_have_a_measure_are_told_by_their_joints() {
+fn whether_a_linkage_has_a_measure_follows_from_its_joints() {
     let structures: Vec<_> = catalogue::all().iter().map(|template| template.structure().unwrap()).collect();
     let subjects = ALL.iter().map(|measure| measure.subject).chain(COLUMNS.iter().map(|column| column.subject));
     for subject in subjects {
@@ -79,8 +80,12 @@ fn inputs_of_an_actuator_are_lengths() {
     for row in table.lines().skip(1) {
         assert!(row.ends_with(",f,M"), "{row}");
     }
-    let found = errors(&family("linear-actuator", "grid = { g = [2, 3] }\nwhere = \"input_min_deg > 0\""));
-    assert_eq!(found[0].help, "did you mean `input_min_length`?");
+    for name in ["input_min", "output_dwell", "straight_5_start"] {
+        let lines = format!("grid = {{ g = [2, 3] }}\nwhere = \"{name}_deg > 0\"\nmeasures = [\"{name}_deg\"]");
+        let found = errors(&family("linear-actuator", &lines));
+        assert_eq!(found.len(), 2, "{found:?}");
+        assert!(found.iter().all(|problem| problem.help == format!("did you mean `{name}_length`?")), "{found:?}");
+    }
 }
 
 /// Where a number is zero but for rounding it is printed as zero.
@@ -97,8 +102,8 @@ fn rounding_is_not_printed() {
     }
 }
 
-/// Cells that cannot be assembled are counted apart from those that `where` leaves out; a family without curves is told
-/// how near its cells come.
+/// Cells that cannot be assembled are counted apart from those that `where` leaves out; for a family without curves
+/// the message states how near its cells come.
 #[test]
 fn cells_that_cannot_be_assembled_are_not_left_out_by_where() {
     let lines = "grid = { p = [2, 20, 13], r = [1], a = [2, 3] }\nlet = { s = \"a\" }\nwhere = \"mu_min_deg > 40\"";
@@ -124,6 +129,44 @@ fn cells_that_cannot_be_assembled_are_not_left_out_by_where() {
     let (_, out, err) = atlas.run(&[]);
     assert!(out.starts_with("f: 4 cells (4 not assembled), 0 curves, 0 pages\n"), "{out}");
     assert!(err.contains("none of the 4 cells can be assembled"), "{err}");
+}
+
+/// Cells that are assembled over a part of the range have curves, and are counted by themselves; `validate` warns of a
+/// family without curves as `render` does.
+#[test]
+fn cells_assembled_in_part_and_not_at_all_are_told_apart() {
+    let own = "[[linkage]]\nid = \"own\"\nparameters = { g = {} }\ntrace = [\"B\"]\n\
+               input = { from = \"0 deg\", to = \"180 deg\" }\n[linkage.joints]\nO = { fixed = [0, 0] }\n\
+               C = { fixed = [\"g\", 0] }\nA = { crank = \"O\", length = 2 }\n\
+               B = { dyad = [\"A\", \"C\"], lengths = [3, 2], side = \"left\" }\n";
+    let with = |grid: &str| format!("{}{own}", family("own", grid));
+    let atlas = Atlas::new(&with("grid = { g = [3.5, 4, 40] }"));
+    let (_, out, _) = atlas.run(&[]);
+    assert!(
+        out.starts_with("f: 3 cells (1 not assembled, 2 assembled over a part of the range), 2 curves, 1 page\n"),
+        "{out}"
+    );
+    atlas.edit(&with("grid = { g = [30, 40] }"));
+    let mut command = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
+    let output = command.current_dir(atlas.0.path()).args(["validate", "atlas.toml"]).output().unwrap();
+    let err = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success() && err.contains("none of the 2 cells can be assembled"), "{err}");
+    // A linkage may have no family to start from that can be assembled without a change.
+    atlas.edit(&with("grid = { g = [28] }").replace("lengths = [3, 2]", "lengths = [30, 2]"));
+    let mut command = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
+    let arguments = ["list", "linkages", "own", "--manifest", "atlas.toml"];
+    let output = command.current_dir(atlas.0.path()).args(arguments).output().unwrap();
+    let out = String::from_utf8(output.stdout).unwrap();
+    assert!(out.contains("# Change the numbers, with which it cannot be assembled: "), "{out}");
+}
+
+#[test]
+fn a_linkage_without_an_equation_has_no_sextic() {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
+    let output = command.args(["inspect", "slider-crank", "--sextic"]).output().unwrap();
+    let err = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(err.contains("slider-crank has no coupler curve of a four-bar"), "{err}");
 }
 
 #[test]
@@ -210,10 +253,8 @@ fn reports_and_drawings_do_not_replace_what_is_there() {
         (&["check", "atlas.toml", "--against", "out", "--diff", "out"], "out has an atlas"),
         (&["check", "atlas.toml", "--against", "out", "--diff", "own"], "that no check wrote"),
     ] {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
-        let output = command.current_dir(atlas.0.path()).args(arguments).output().unwrap();
-        let err = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {err}");
+        let (code, _, err) = run(atlas.0.path(), arguments);
+        assert_eq!(code, 2, "{arguments:?}: {err}");
         assert!(err.contains(message), "{arguments:?}: {err}");
         assert_eq!(fs::read_to_string(atlas.0.path().join("atlas.toml")).unwrap(), text, "{arguments:?}");
     }
@@ -221,9 +262,7 @@ fn reports_and_drawings_do_not_replace_what_is_there() {
     assert_eq!(fs::read_to_string(own.join("index.html")).unwrap(), "precious");
     // Drawings of an earlier check are replaced.
     for _ in 0..2 {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
-        let arguments = ["check", "atlas.toml", "--against", "out", "--diff", "moved"];
-        assert!(command.current_dir(atlas.0.path()).args(arguments).output().unwrap().status.success());
+        printed(atlas.0.path(), &["check", "atlas.toml", "--against", "out", "--diff", "moved"]);
     }
 }
 
@@ -280,18 +319,10 @@ fn angles_may_state_their_unit() {
 
 #[test]
 fn the_command_line_takes_angles_with_units() {
-    let inspect = |parameter: &str| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
-        let output = command.args(["inspect", "scotch-yoke", parameter]).output().unwrap();
-        let [out, err] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
-        (output.status.code(), out, err)
-    };
+    let run = |arguments: &[&str]| run(Path::new("."), arguments);
+    let inspect = |parameter: &str| run(&["inspect", "scotch-yoke", parameter]);
     assert_eq!(inspect("angle=60"), inspect("angle=60 deg"));
     assert_eq!(inspect("angle=90"), inspect("angle=pi/2 rad"));
-    let run = |arguments: &[&str]| {
-        let output = Command::new(env!("CARGO_BIN_EXE_coupler-atlas")).args(arguments).output().unwrap();
-        (output.status.code(), String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap())
-    };
     let at = |linkage: &str, at: &str| run(&["inspect", linkage, "--at", at]);
     assert_eq!(at("hoeken", "45"), at("hoeken", "45 deg"));
     assert_eq!(at("hoeken", "180"), at("hoeken", "pi rad"));
@@ -300,22 +331,16 @@ fn the_command_line_takes_angles_with_units() {
     assert_eq!(step("90"), step("pi / 2 rad"));
     assert!(step("90").1.lines().count() == 5 && step("0").2.contains("give a number of at least"));
     let (code, _, err) = inspect("r=60 deg");
-    assert_eq!(code, Some(2));
+    assert_eq!(code, 2);
     assert!(err.contains("`r` is a length, and takes no degrees: give a number without a unit"), "{err}");
 }
 
 /// The family that `list linkages NAME` prints can be pasted into a manifest, and its linkage can be assembled.
 #[test]
 fn the_family_to_start_from_can_be_rendered() {
-    let list = |arguments: &[&str]| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
-        let output = command.args(["list", "linkages"]).args(arguments).output().unwrap();
-        assert!(output.status.success());
-        String::from_utf8(output.stdout).unwrap()
-    };
     let mut text = "[atlas]\ntitle = \"T\"\noutput = \"out\"\nformats = [\"svg\"]\n".to_owned();
     for template in catalogue::all() {
-        let page = list(&[&template.id]);
+        let page = printed(Path::new("."), &["list", "linkages", &template.id]);
         let (_, pasted) = page.split_once("a family to start from\n").unwrap();
         text.push_str(pasted);
         for joint in &template.joints {

@@ -3,9 +3,11 @@
 use std::fs;
 use std::io::Write;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Stdio};
 
 use tempfile::TempDir;
+
+use crate::command::{folder_with, printed, program, result, run};
 
 const COMMANDS: [&str; 10] =
     ["render", "validate", "check", "inspect", "design", "export", "list", "init", "completions", "man"];
@@ -21,24 +23,6 @@ sampling = { samples = 20 }
 cases = [{ p = 2, a = 2.5 }, { p = 3, a = 3 }]
 "#;
 
-fn program(folder: &Path) -> Command {
-    let mut program = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
-    program.current_dir(folder).stdin(Stdio::null());
-    for name in ["NO_COLOR", "CLICOLOR_FORCE", "COLUMNS"] {
-        program.env_remove(name);
-    }
-    program
-}
-
-fn result(output: Output) -> (i32, String, String) {
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (output.status.code().unwrap_or(-1), text(output.stdout), text(output.stderr))
-}
-
-fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    result(program(folder).args(arguments).output().unwrap())
-}
-
 /// Runs the program with a text on standard input.
 fn run_with_input(folder: &Path, arguments: &[&str], input: &str) -> (i32, String, String) {
     let mut command = program(folder);
@@ -47,19 +31,6 @@ fn run_with_input(folder: &Path, arguments: &[&str], input: &str) -> (i32, Strin
     // A program that does not read its input may end first.
     let _ = child.stdin.take().unwrap().write_all(input.as_bytes());
     result(child.wait_with_output().unwrap())
-}
-
-/// The standard output of a command that succeeds.
-fn text(folder: &Path, arguments: &[&str]) -> String {
-    let (code, out, err) = run(folder, arguments);
-    assert_eq!(code, 0, "{arguments:?}: {err}");
-    out
-}
-
-fn folder_with(manifest: &str) -> TempDir {
-    let folder = TempDir::new().unwrap();
-    fs::write(folder.path().join("atlas.toml"), manifest).unwrap();
-    folder
 }
 
 #[test]
@@ -118,8 +89,8 @@ fn colours_follow_the_option_and_the_environment() {
 #[test]
 fn the_number_of_threads_has_a_short_option() {
     let folder = folder_with(MANIFEST);
-    text(folder.path(), &["render", "-q", "-j", "1"]);
-    text(folder.path(), &["check", "-q", "-j1", "--against", "pages"]);
+    printed(folder.path(), &["render", "-q", "-j", "1"]);
+    printed(folder.path(), &["check", "-q", "-j1", "--against", "pages"]);
     assert_eq!(run(folder.path(), &["render", "-j", "0"]).0, 2);
 }
 
@@ -140,8 +111,8 @@ fn section(manual: &str, title: &str) -> Vec<(String, String)> {
 
 #[test]
 fn the_manual_states_files_exit_codes_and_variables_as_help_and_documentation_do() {
-    let manual = text(Path::new("."), &["man"]);
-    let help = text(Path::new("."), &["--help"]).split_whitespace().collect::<Vec<_>>().join(" ");
+    let manual = printed(Path::new("."), &["man"]);
+    let help = printed(Path::new("."), &["--help"]).split_whitespace().collect::<Vec<_>>().join(" ");
     let document = include_str!("../../docs/commands.md").replace('`', "");
     let codes = section(&manual, "EXIT STATUS");
     assert_eq!(codes.iter().map(|(code, _)| code.as_str()).collect::<Vec<_>>(), ["0", "1", "2", "3", "130"]);
@@ -155,7 +126,7 @@ fn the_manual_states_files_exit_codes_and_variables_as_help_and_documentation_do
     }
     // The named files are those of an atlas.
     let folder = folder_with(MANIFEST);
-    text(folder.path(), &["render", "-q", "--format", "svg"]);
+    printed(folder.path(), &["render", "-q", "--format", "svg"]);
     for (name, _) in section(&manual, "FILES") {
         let path = name.replace("DIR", "pages").replace("FAMILY", "evans");
         assert!(folder.path().join(path).is_file() || name.ends_with(".journal"), "{name}");
@@ -167,7 +138,7 @@ fn the_manual_states_files_exit_codes_and_variables_as_help_and_documentation_do
 #[test]
 fn the_examples_of_the_manual_can_be_run() {
     let folder = TempDir::new().unwrap();
-    let examples = section(&text(folder.path(), &["man"]), "EXAMPLES");
+    let examples = section(&printed(folder.path(), &["man"]), "EXAMPLES");
     assert!(examples.len() > 5);
     for (example, description) in examples {
         assert!(description.len() > 10, "{example}");
@@ -184,7 +155,7 @@ fn the_examples_of_the_manual_can_be_run() {
 #[test]
 fn a_hyphen_is_standard_input_wherever_a_manifest_is_named() {
     let folder = folder_with(MANIFEST);
-    text(folder.path(), &["render", "-q"]);
+    printed(folder.path(), &["render", "-q"]);
     let reads = |arguments: &[&str]| {
         let (code, out, err) = run_with_input(folder.path(), arguments, MANIFEST);
         assert_eq!(code, 0, "{arguments:?}: {err}");
@@ -194,11 +165,11 @@ fn a_hyphen_is_standard_input_wherever_a_manifest_is_named() {
     reads(&["render", "-", "-q", "-o", "from-input"]);
     assert!(reads(&["check", "-", "--against", "pages"]).contains("nothing has changed"));
     let curve = ["evans:1.1.1", "--format", "csv"];
-    let exported = text(folder.path(), &[&["export"], &curve[..]].concat());
+    let exported = printed(folder.path(), &[&["export"], &curve[..]].concat());
     assert_eq!(reads(&[&["export", "-"], &curve[..]].concat()), exported);
     assert_eq!(reads(&[&["export", "-"], &curve[..], &["-o", "-"]].concat()), exported);
     // The linkages of a manifest can be those of the starter.
-    let starter = text(folder.path(), &["init", "-"]);
+    let starter = printed(folder.path(), &["init", "-"]);
     for arguments in [
         &["inspect", "my-four-bar", "frame=3", "--manifest", "-"][..],
         &["export", "--linkage", "my-four-bar", "--manifest", "-", "frame=3", "--format", "csv"],
@@ -218,20 +189,20 @@ fn a_hyphen_is_standard_input_wherever_a_manifest_is_named() {
 #[test]
 fn a_hyphen_is_standard_output_wherever_a_file_is_written() {
     let folder = folder_with(MANIFEST);
-    let starter = text(folder.path(), &["init", "-"]);
+    let starter = printed(folder.path(), &["init", "-"]);
     assert_eq!(starter, include_str!("../../src/cli/starter.toml"));
     let design = ["design", "straight-line", "--input", "motor", "--p", "2", "--best", "1", "--types", "hoeken"];
     for command in [&["inspect", "hoeken"][..], &design] {
-        let plate = text(folder.path(), &[command, &["--svg", "-"]].concat());
+        let plate = printed(folder.path(), &[command, &["--svg", "-"]].concat());
         assert!(plate.starts_with("<svg") && plate.ends_with("</svg>\n"), "{plate}");
         let (code, out, err) = run(folder.path(), &[command, &["--svg", "-", "--json"]].concat());
         assert!(code == 2 && out.is_empty() && err.contains("--svg - and --json both write to"), "{err}");
     }
-    text(folder.path(), &["render", "-q"]);
-    let report = text(folder.path(), &["check", "--against", "pages", "--report", "json=-"]);
-    assert_eq!(report, text(folder.path(), &["check", "--against", "pages", "--report", "json"]));
-    let report = text(folder.path(), &["validate", "--report", "json=-"]);
-    assert_eq!(report, text(folder.path(), &["validate", "--report", "json"]));
+    printed(folder.path(), &["render", "-q"]);
+    let report = printed(folder.path(), &["check", "--against", "pages", "--report", "json=-"]);
+    assert_eq!(report, printed(folder.path(), &["check", "--against", "pages", "--report", "json"]));
+    let report = printed(folder.path(), &["validate", "--report", "json=-"]);
+    assert_eq!(report, printed(folder.path(), &["validate", "--report", "json"]));
     // Several files do not go to standard output, and folders neither.
     let (code, out, err) = run(folder.path(), &["export", "-o", "-"]);
     assert!(code == 2 && out.is_empty() && err.contains("name a folder for them with -o FOLDER"), "{err}");
@@ -249,10 +220,10 @@ fn a_hyphen_is_standard_output_wherever_a_file_is_written() {
 #[test]
 fn init_creates_the_missing_folder() {
     let folder = TempDir::new().unwrap();
-    let out = text(folder.path(), &["init", "a/b/x.toml"]);
+    let out = printed(folder.path(), &["init", "a/b/x.toml"]);
     assert_eq!(out, "written to a/b/x.toml; `coupler-atlas render a/b/x.toml` draws it\n");
-    text(folder.path(), &["validate", "a/b/x.toml"]);
-    text(folder.path(), &["init", "a/b/y.toml"]);
+    printed(folder.path(), &["validate", "a/b/x.toml"]);
+    printed(folder.path(), &["init", "a/b/y.toml"]);
     fs::write(folder.path().join("a/b/x.toml"), "mine").unwrap();
     assert_eq!(run(folder.path(), &["init", "a/b/x.toml"]).0, 2);
     assert_eq!(fs::read_to_string(folder.path().join("a/b/x.toml")).unwrap(), "mine");
@@ -266,9 +237,9 @@ fn init_creates_the_missing_folder() {
 #[test]
 fn names_of_formats_may_be_surrounded_by_blanks() {
     let folder = folder_with(MANIFEST);
-    text(folder.path(), &["render", "-q", "--format", "svg, png"]);
+    printed(folder.path(), &["render", "-q", "--format", "svg, png"]);
     assert!(folder.path().join("pages/evans/evans-001.png").is_file());
-    text(folder.path(), &["export", "evans:1", "--format", " svg , csv", "-o", "curves"]);
+    printed(folder.path(), &["export", "evans:1", "--format", " svg , csv", "-o", "curves"]);
     assert!(folder.path().join("curves/evans-1-1-1.csv").is_file());
     for command in [&["render"][..], &["export", "evans:1"]] {
         for formats in ["", " ", "svg,", "svg,,png"] {
@@ -286,7 +257,7 @@ fn names_of_formats_may_be_surrounded_by_blanks() {
 #[test]
 fn render_names_what_to_open_and_says_if_nothing_has_changed() {
     let folder = folder_with(MANIFEST);
-    let last = |arguments: &[&str]| text(folder.path(), arguments).lines().last().unwrap().to_owned();
+    let last = |arguments: &[&str]| printed(folder.path(), arguments).lines().last().unwrap().to_owned();
     let unchanged = "nothing has changed in pages; open pages/index.html";
     assert_eq!(last(&["render"]), "written to pages; open pages/index.html");
     assert_eq!(last(&["render"]), unchanged);

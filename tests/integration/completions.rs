@@ -2,28 +2,19 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::Command;
 
 use tempfile::TempDir;
 
-const PROGRAM: &str = env!("CARGO_BIN_EXE_coupler-atlas");
-
-fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    let output = Command::new(PROGRAM).current_dir(folder).args(arguments).stdin(Stdio::null()).output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (output.status.code().unwrap_or(-1), text(output.stdout), text(output.stderr))
-}
+use crate::command::{PROGRAM, folder_with, run};
 
 fn folder_with_manifest() -> TempDir {
-    let folder = TempDir::new().unwrap();
     let family = |id: &str| {
         format!(
             "[[family]]\nid = \"{id}\"\nlinkage = \"evans\"\nsampling = {{ samples = 9 }}\ncases = [{{ p = 2, a = 2.5 }}]\n"
         )
     };
-    let manifest = format!("[atlas]\ntitle = \"T\"\n{}{}", family("mine"), family("other"));
-    fs::write(folder.path().join("atlas.toml"), manifest).unwrap();
-    folder
+    folder_with(&format!("[atlas]\ntitle = \"T\"\n{}{}", family("mine"), family("other")))
 }
 
 #[test]

@@ -282,10 +282,7 @@ proptest! {
 }
 
 fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    let mut program = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
-    let output = program.current_dir(folder).arg("design").arg("straight-line").args(arguments).output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (output.status.code().unwrap_or(-1), text(output.stdout), text(output.stderr))
+    crate::command::run(folder, &[&["design", "straight-line"], arguments].concat())
 }
 
 #[test]

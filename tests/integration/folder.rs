@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Command;
 use std::time::SystemTime;
 
 use sha2::{Digest, Sha256};
@@ -35,8 +35,7 @@ impl Atlas {
 
     /// The exit code, standard output and standard error of a run.
     pub fn run(&self, arguments: &[&str]) -> (i32, String, String) {
-        let Output { status, stdout, stderr } = self.command(arguments).output().unwrap();
-        (status.code().unwrap_or(-1), String::from_utf8(stdout).unwrap(), String::from_utf8(stderr).unwrap())
+        crate::command::result(self.command(arguments).output().unwrap())
     }
 }
 

@@ -1,14 +1,14 @@
 //! The order of what `inspect` prints: the most important lines of the text first, and the keys of the JSON as documented.
 
 use std::fmt;
-use std::process::Command;
+use std::path::Path;
 
 use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 
+use crate::command::printed;
+
 fn inspect(arguments: &[&str]) -> String {
-    let output = Command::new(env!("CARGO_BIN_EXE_coupler-atlas")).arg("inspect").args(arguments).output().unwrap();
-    assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).unwrap()
+    printed(Path::new("."), &[&["inspect"], arguments].concat())
 }
 
 /// The titles of the lines of a text, up to their colons.
@@ -150,8 +150,7 @@ fn the_keys_of_the_json_are_in_the_documented_order() {
     let words = |part: &'static str| part.split('`').skip(1).step_by(2);
     let first_column = parts[0].lines().filter_map(|line| line.strip_prefix("| `")?.split(" |").next());
     let top_level: Vec<&str> = first_column.flat_map(|cell| cell.split(['`', ',', ' '])).collect();
-    let measures = Command::new(env!("CARGO_BIN_EXE_coupler-atlas")).args(["list", "measures"]).output().unwrap();
-    let measures = String::from_utf8(measures.stdout).unwrap();
+    let measures = printed(Path::new("."), &["list", "measures"]);
     let mut seen = 0;
     for arguments in [
         &["watt", "p=4", "r=2", "a=2", "s=2", "--at", "10", "--cognates"][..],

@@ -7,6 +7,7 @@ mod binding;
 mod book;
 mod charts;
 mod check;
+mod command;
 mod command_line;
 mod completions;
 mod corpus;

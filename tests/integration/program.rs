@@ -2,10 +2,12 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Command;
 
 use coupler_curves::geometry::trig;
 use tempfile::TempDir;
+
+use crate::command::{folder_with, run};
 
 const MANIFEST: &str = r#"[atlas]
 title = "T"
@@ -25,22 +27,6 @@ linkage = "watt"
 sampling = { samples = 20 }
 cases = [{ p = 4, r = 2, a = 1 }, { p = 90, r = 2, a = 1 }]
 "#;
-
-fn program() -> Command {
-    Command::new(env!("CARGO_BIN_EXE_coupler-atlas"))
-}
-
-fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    let Output { status, stdout, stderr } = program().current_dir(folder).args(arguments).output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (status.code().unwrap_or(-1), text(stdout), text(stderr))
-}
-
-fn folder_with(manifest: &str) -> TempDir {
-    let folder = TempDir::new().unwrap();
-    fs::write(folder.path().join("atlas.toml"), manifest).unwrap();
-    folder
-}
 
 /// Every file below a folder with its bytes.
 fn tree(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {

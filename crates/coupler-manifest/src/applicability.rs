@@ -1,8 +1,9 @@
 //! Reports measures and columns that the linkage of a family cannot have.
 
+use crate::chart::one_or_more;
 use coupler_curves::expression::{Caption, Expression};
 use coupler_curves::linkage_format::{Fields, TomlParser, TomlValue};
-use coupler_curves::measure::{self, BOOLEANS, Subject};
+use coupler_curves::measure::{self, BOOLEANS, Measure, Subject};
 use coupler_curves::problem::{Problem, Span};
 use coupler_curves::template::{Linkage, Template};
 
@@ -15,30 +16,29 @@ pub(crate) fn check(template: &Template, fields: &Fields, parser: &mut TomlParse
     let Ok(structure) = template.structure() else { return };
     let linkage = CheckedLinkage { template, structure: &structure };
     for (key, quantities) in [("measures", Quantities::Measures), ("columns", Quantities::Columns)] {
-        for item in fields.get(key).map_or(&[][..], items) {
+        for item in fields.get(key).map_or(&[][..], one_or_more) {
             linkage.check_name(item.get_ref().as_str().unwrap_or_default(), quantities, item.span(), parser);
         }
     }
-    let mut check_expression = |text: &str, quantities: Quantities, span: Span| {
-        let expression = Expression::parse(text).ok();
-        for name in expression.iter().flat_map(Expression::names).filter(|name| !is_own_name(name, fields)) {
-            linkage.check_name(name, quantities, span.clone(), parser);
+    let check_expression = |value: &TomlValue, quantities: Quantities, parser: &mut TomlParser| {
+        let Some(expression) = value.get_ref().as_str().and_then(|text| Expression::parse(text).ok()) else { return };
+        for name in expression.names().iter().filter(|name| !is_own_name(name, fields)) {
+            linkage.check_name(name, quantities, parser.expression_span(value, expression.name_span(name)), parser);
         }
     };
     for value in ["where", "sort"].into_iter().filter_map(|key| fields.get(key)) {
-        check_expression(value.get_ref().as_str().unwrap_or_default(), Quantities::Measures, value.span());
+        check_expression(value, Quantities::Measures, parser);
     }
     let chart = fields.get("chart").and_then(|value| value.get_ref().as_table());
     for value in ["x", "y"].into_iter().filter_map(|key| chart?.get(key)) {
-        for item in items(value) {
-            check_expression(item.get_ref().as_str().unwrap_or_default(), Quantities::MeasuresAndColumns, item.span());
-        }
+        one_or_more(value).iter().for_each(|item| check_expression(item, Quantities::InCharts, parser));
     }
     for value in ["caption", "note"].into_iter().filter_map(|key| fields.get(key)) {
         let Ok(caption) = Caption::parse(value.get_ref().as_str().unwrap_or_default()) else { continue };
-        for name in caption.expressions().flat_map(|(expression, _)| expression.names()) {
-            if !is_own_name(name, fields) {
-                linkage.check_name(name, Quantities::Measures, value.span(), parser);
+        for (expression, start) in caption.expressions() {
+            for name in expression.names().iter().filter(|name| !is_own_name(name, fields)) {
+                let span = expression.name_span(name).map(|span| start + span.start..start + span.end);
+                linkage.check_name(name, Quantities::InCaptions, parser.expression_span(value, span), parser);
             }
         }
     }
@@ -49,7 +49,10 @@ pub(crate) fn check(template: &Template, fields: &Fields, parser: &mut TomlParse
 enum Quantities {
     Measures,
     Columns,
-    MeasuresAndColumns,
+    /// Numbers, of which some are columns; words are unknown there.
+    InCharts,
+    /// Measures; booleans that are no words are unknown there.
+    InCaptions,
 }
 
 /// A linkage, and one with the same joints.
@@ -60,11 +63,23 @@ struct CheckedLinkage<'a> {
 
 impl CheckedLinkage<'_> {
     fn check_name(&self, name: &str, quantities: Quantities, span: Span, parser: &mut TomlParser) {
-        let (measures, columns) = (quantities != Quantities::Columns, quantities != Quantities::Measures);
-        let subject = measure_subject(name).filter(|_| measures).or_else(|| column_subject(name).filter(|_| columns));
+        let measure = find_measure(name);
+        let column = measure::find_column(name).map(|column| column.subject);
+        let is_boolean = BOOLEANS.iter().any(|boolean| boolean.name == name);
+        let measures = quantities != Quantities::Columns;
+        let subject = match quantities {
+            Quantities::Columns => column,
+            Quantities::Measures => measure.map(|measure| measure.subject),
+            Quantities::InCaptions => measure.filter(|_| !is_boolean).map(|measure| measure.subject),
+            Quantities::InCharts => {
+                measure.filter(|measure| !measure.is_word).map(|measure| measure.subject).or(column)
+            }
+        };
         let Some(subject) = subject.filter(|subject| !subject.includes(self.structure)) else { return };
         let id = &self.template.id;
         let message = format!("`{id}` has no `{name}`, which is defined for {} only", subject.description());
+        // Only a column has this name.
+        let measures = measures && measure.is_some();
         let of_linkage = if measures { self.own_measures() } else { self.own_columns() };
         let help = match (of_linkage.is_empty(), measures) {
             (true, true) => format!("`{id}` has the measures of a curve, such as `length`"),
@@ -91,25 +106,15 @@ impl CheckedLinkage<'_> {
     }
 }
 
-/// The linkages that have the measure or the boolean of a name.
-fn measure_subject(name: &str) -> Option<Subject> {
+/// The measure of a name, which may be that of a boolean.
+fn find_measure(name: &str) -> Option<&'static Measure> {
     let measure = BOOLEANS.iter().find(|boolean| boolean.name == name).map_or(name, |boolean| boolean.measure);
-    measure::ALL.iter().find(|m| m.name == measure || m.length_name == Some(measure)).map(|measure| measure.subject)
-}
-
-/// The linkages that have the column of a name.
-fn column_subject(name: &str) -> Option<Subject> {
-    measure::find_column(name).map(|column| column.subject)
+    Measure::find(measure)
 }
 
 /// Whether the family gives the name itself a value.
 fn is_own_name(name: &str, fields: &Fields) -> bool {
     let has_key = |value: &TomlValue| value.get_ref().as_table().is_some_and(|table| table.contains_key(name));
     ["grid", "let"].into_iter().filter_map(|key| fields.get(key)).any(has_key)
-        || fields.get("cases").is_some_and(|cases| items(cases).iter().any(has_key))
-}
-
-/// The items of a list, or the value itself if it is not a list.
-fn items<'v, 't>(value: &'v TomlValue<'t>) -> &'v [TomlValue<'t>] {
-    value.get_ref().as_array().map_or(std::slice::from_ref(value), |list| &list[..])
+        || fields.get("cases").is_some_and(|cases| one_or_more(cases).iter().any(has_key))
 }

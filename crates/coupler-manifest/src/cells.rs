@@ -124,13 +124,24 @@ enum ProblemKind {
 }
 
 /// Checks every cell's values and linkage; of each kind of problem the first cell is reported, and the others are
-/// counted. `spans` are the places where the names get their values.
-pub(crate) fn check(family: &Family, fields: &Fields, spans: &[Option<Span>], parser: &mut TomlParser) {
+/// counted. `spans` are the places where the names get their values. If the family `has_problems` already, a name without
+/// a value that is not a parameter is one of them.
+pub(crate) fn check(
+    family: &Family,
+    fields: &Fields,
+    spans: &[Option<Span>],
+    has_problems: bool,
+    parser: &mut TomlParser,
+) {
+    let is_parameter = |name: &String| family.template.parameters.iter().any(|parameter| parameter.name == *name);
     let mut problems: Vec<CellProblem> = Vec::new();
     let mut problem_indices: HashMap<ProblemKind, usize> = HashMap::new();
     for k in 0..family.cell_count() {
         let cell = family.cell(k);
         for error in family.cell_errors(&cell) {
+            if matches!(&error, CellError::Missing(name) if has_problems && !is_parameter(name)) {
+                continue;
+            }
             let (kind, slot, help) = match &error {
                 CellError::Missing(name) => {
                     (ProblemKind::Missing(name.clone()), None, "give it in the grid, the cases or `let`")
@@ -156,6 +167,7 @@ pub(crate) fn check(family: &Family, fields: &Fields, spans: &[Option<Span>], pa
     for problem in problems {
         let help = match problem.cell_count {
             1 => problem.help.to_owned(),
+            2 => format!("{}; one more cell has the same error", problem.help),
             n => format!("{}; {} more cells have the same error", problem.help, n - 1),
         };
         parser.report(Problem::error(problem.span, problem.message).with_help(help));

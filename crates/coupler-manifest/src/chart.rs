@@ -4,8 +4,9 @@ use std::collections::HashSet;
 
 use crate::names::FamilyNames;
 use coupler_curves::expression::{CompiledExpression, Expression, Scope};
-use coupler_curves::family::{Family, MAX_CELLS, MEASURES, ParameterSpace};
+use coupler_curves::family::{MAX_CELLS, MEASURES, ParameterSpace};
 use coupler_curves::linkage_format::{Fields, KeySchema, TableSchema, TomlParser, TomlValue, ValueSchema};
+use coupler_curves::measure::Measure;
 use coupler_curves::problem::{Problem, suggestion_among};
 use coupler_curves::template::Template;
 use coupler_drawing::chart::{self, Chart, PointSource, Quantity};
@@ -39,10 +40,16 @@ pub(crate) static CHART: TableSchema = TableSchema::new(
 );
 
 const QUANTITY_FORM: ValueSchema = ValueSchema::WithExamples(&ValueSchema::Text, numeric_measures);
+
+/// The names of the measures for which `is_included` holds, of any linkage: those of lengths follow all others.
+pub(crate) fn measure_names(is_included: fn(&Measure) -> bool) -> Vec<&'static str> {
+    let included = || MEASURES.iter().filter(|measure| is_included(measure));
+    included().map(|measure| measure.name).chain(included().filter_map(|measure| measure.length_name)).collect()
+}
+
 /// The names of the measures that are numbers, of any linkage.
 pub(crate) fn numeric_measures() -> Vec<&'static str> {
-    let of_actuators = MEASURES.iter().filter_map(|measure| measure.length_name);
-    Family::numeric_measure_names(false).chain(of_actuators).collect()
+    measure_names(|measure| !measure.is_word)
 }
 
 const EXAMPLE: &str = "chart = { x = \"p\", y = \"straight_length\" }";
@@ -95,7 +102,7 @@ pub(crate) fn read<'t>(
 }
 
 /// The items of a list, or the value itself if it is not a list.
-fn one_or_more<'v, 't>(value: &'v TomlValue<'t>) -> &'v [TomlValue<'t>] {
+pub(crate) fn one_or_more<'v, 't>(value: &'v TomlValue<'t>) -> &'v [TomlValue<'t>] {
     value.get_ref().as_array().map_or(std::slice::from_ref(value), |list| &list[..])
 }
 

@@ -39,6 +39,7 @@ pub(crate) fn read<'t>(
     totals: &mut AtlasTotals,
     parser: &mut TomlParser<'t>,
 ) -> Option<PlannedFamily> {
+    let before = parser.problem_count();
     let fields = Fields::from_value(value, &FAMILY, parser)?;
     let id =
         fields.required("id", "id = \"evans\"", parser).and_then(|value| linkage_format::parse_slug(value, parser));
@@ -117,7 +118,7 @@ pub(crate) fn read<'t>(
         return None;
     }
     if !parser.has_syntax_error() {
-        cells::check(&family, &fields, &names.spans, parser);
+        cells::check(&family, &fields, &names.spans, parser.problem_count() > before, parser);
     }
     let source = source.unwrap_or_else(|| family.template.source_line());
     let filter_span = fields.get("where").map(TomlValue::span);

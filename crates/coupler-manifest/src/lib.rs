@@ -19,13 +19,11 @@
 //! assert_eq!(plan.families[0].family.cell_count(), 2);
 //! ```
 
-mod applicability;
 mod bounded_number;
 mod default_value;
 mod format_version;
 mod inputs;
 mod tolerance;
-mod unused_names;
 
 mod theme;
 
@@ -36,6 +34,9 @@ mod grid;
 mod names;
 
 mod chart;
+
+mod applicability;
+mod unused_names;
 
 mod schema;
 

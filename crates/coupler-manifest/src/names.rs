@@ -56,7 +56,6 @@ pub(crate) fn read_names<'t>(
         }
     }
     let scope = Scope::from_numbers(all.iter().map(String::as_str));
-    let is_driven_by_length = template.is_driven_by_length();
     let assignments = space.assignment_counts(all.len());
     let mut sources: Vec<(usize, Expression, Span)> = Vec::new();
     let mut read_all = true;
@@ -87,24 +86,20 @@ pub(crate) fn read_names<'t>(
             sources.push((slot, default.clone(), span));
         }
     }
-    let filter =
-        fields.get("where").and_then(|value| read_filter(value, &Family::scope(&all, is_driven_by_length), parser));
+    let curve_scope = Family::scope(&all, template.is_driven_by_length());
+    let filter = fields.get("where").and_then(|value| read_filter(value, &curve_scope, parser));
     read_all &= filter.is_some() == fields.get("where").is_some();
     let sort = fields.get("sort").filter(|value| !uses_text_measure(value, parser));
-    let sort = sort.and_then(|value| parser.numeric_expression(value, &Family::scope(&all, is_driven_by_length)));
+    let sort = sort.and_then(|value| parser.numeric_expression(value, &curve_scope));
     read_all &= sort.is_some() == fields.get("sort").is_some();
     let caption = |key: &str, default: &Option<Caption>, parser: &mut TomlParser<'t>| match fields.get(key) {
         None => default.clone(),
-        Some(value) => parser.caption(
-            value,
-            &Family::scope(&all, is_driven_by_length),
-            &Family::word_measure_names().collect::<Vec<_>>(),
-        ),
+        Some(value) => parser.caption(value, &curve_scope, &Family::word_measure_names().collect::<Vec<_>>()),
     };
     let captions = [caption("caption", &template.caption, parser), caption("note", &template.note, parser)];
     if !parser.has_syntax_error() {
         // If all expressions could be compiled no word is misspelt.
-        let known = chart::scope(&all, is_driven_by_length);
+        let known = chart::scope(&all, template.is_driven_by_length());
         let is_known = |word: &str| read_all || known.index_of(word).is_some();
         let names = all.iter().zip(&spans).map(|(name, span)| (name.as_str(), span.clone().unwrap_or_default()));
         unused_names::report(template, names, is_known, fields, parser);

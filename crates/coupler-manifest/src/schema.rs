@@ -1,6 +1,6 @@
 //! The keys of a manifest and of its `[[family]]` tables.
 
-use crate::chart::{CHART, numeric_measures};
+use crate::chart::{CHART, measure_names, numeric_measures};
 use crate::default_value;
 use crate::grid::VALUES_FORM;
 use crate::names::MAX_LIMIT;
@@ -8,7 +8,7 @@ use crate::settings::{ATLAS, FORMATS, PAGE};
 use crate::tolerance::{CHECK, FAMILY_CHECK};
 use coupler_curves::catalogue;
 use coupler_curves::expression::Dimension;
-use coupler_curves::family::{COLUMNS, MAX_CELLS, MAX_SAMPLES, MEASURES, Sampling, StraightCriterion};
+use coupler_curves::family::{COLUMNS, MAX_CELLS, MAX_SAMPLES, Sampling, StraightCriterion};
 use coupler_curves::linkage_format::{
     CIRCUITS_KEY, COINCIDENT_KEY, CONTINUATION_KEY, KeySchema, LINKAGES_KEY, TableSchema, ValueSchema, words,
 };
@@ -31,12 +31,6 @@ pub static MANIFEST: TableSchema = TableSchema::new(
         LINKAGES_KEY,
     ],
 );
-
-/// The names of all measures, of any linkage.
-fn measure_names() -> Vec<&'static str> {
-    let of_actuators = MEASURES.iter().filter_map(|measure| measure.length_name);
-    MEASURES.iter().map(|measure| measure.name).chain(of_actuators).collect()
-}
 
 /// The `[[family]]` table.
 pub(crate) static FAMILY: TableSchema = TableSchema::new(
@@ -114,7 +108,7 @@ pub(crate) static FAMILY: TableSchema = TableSchema::new(
         .with_default(default_straight),
         KeySchema::new(
             "measures",
-            ValueSchema::Set(&ValueSchema::Word(measure_names), [0, usize::MAX]),
+            ValueSchema::Set(&ValueSchema::Word(|| measure_names(|_| true)), [0, usize::MAX]),
             "The measures computed for its curves; all by default.",
         ),
         KeySchema::new("check", ValueSchema::Table(&FAMILY_CHECK), "How much it may differ from a recorded atlas.")
@@ -127,7 +121,6 @@ fn linkage_ids() -> Vec<&'static str> {
     catalogue::all().iter().map(|template| template.id.as_str()).collect()
 }
 
-/// The default straight criterion, as JSON.
 /// How circuits are sampled by default.
 pub(crate) fn default_sampling(is_driven_by_length: bool) -> Sampling {
     if is_driven_by_length { Sampling::Samples(180) } else { Sampling::Step(DEFAULT_STEP) }
@@ -136,10 +129,12 @@ pub(crate) fn default_sampling(is_driven_by_length: bool) -> Sampling {
 /// The default input between samples, in degrees.
 const DEFAULT_STEP: f64 = 2.0;
 
+/// That for an angle, as JSON.
 fn default_sampling_text() -> String {
     format!("{{ \"step\": {} }}", default_value::degrees(DEFAULT_STEP))
 }
 
+/// The default straight criterion, as JSON.
 fn default_straight() -> String {
     let (key, value) = match StraightCriterion::default() {
         StraightCriterion::Tolerance(value) => ("tolerance", value),

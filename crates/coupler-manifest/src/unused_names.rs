@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use crate::chart::one_or_more;
 use coupler_curves::expression::Caption;
 use coupler_curves::linkage_format::{Fields, TomlParser, TomlValue};
 use coupler_curves::problem::{Problem, Span, list_words, nearest_word};
@@ -47,8 +48,7 @@ fn used_words(fields: &Fields) -> BTreeSet<String> {
     ["where", "sort"].into_iter().filter_map(|key| fields.get(key)).for_each(|value| add(&text(value)));
     let chart = fields.get("chart").and_then(|value| value.get_ref().as_table());
     for value in ["x", "y", "by"].into_iter().filter_map(|key| chart?.get(key)) {
-        let items = value.get_ref().as_array().map_or(std::slice::from_ref(value), |list| &list[..]);
-        items.iter().for_each(|item| add(&text(item)));
+        one_or_more(value).iter().for_each(|item| add(&text(item)));
     }
     for value in ["caption", "note"].into_iter().filter_map(|key| fields.get(key)) {
         match Caption::parse(&text(value)) {

@@ -5,7 +5,6 @@ use coupler_curves::linkage::{DyadId, Input, JointId, Linkage, OutputLink};
 use coupler_curves::motion::{Circuit, Pass};
 
 use super::super::format;
-use super::pose::flat_joints;
 
 /// A number rounded to `digits` significant digits, in scientific notation below 1e-4 and from 1e7 on.
 pub(super) fn format_significant(value: f64, digits: usize) -> String {
@@ -45,7 +44,7 @@ pub(super) fn describe_circuit(linkage: &Linkage, circuit: &Circuit) -> String {
         let length = if turns == 1.0 { "a full turn".to_owned() } else { format!("{turns} turns") };
         return format!("{length} on branch {}", pass.mode.sign(DyadId::FIRST));
     }
-    let flat = |pass: &Pass| match &flat_joints(linkage, pass.to.flat_dyads)[..] {
+    let flat = |pass: &Pass| match &linkage.dyad_names(pass.to.flat_dyads)[..] {
         [] => String::new(),
         joints => format!(" ({} flat)", joints.join(", ")),
     };

@@ -1,17 +1,18 @@
 //! The JSON that `inspect --json` prints. Its keys are in the order of the fields here, which is that of docs/inspect.md.
 
+use coupler_curves::exchange::{Members, PassDocument};
 use coupler_curves::geometry::{Point, Vector};
 use coupler_curves::linkage::{DyadId, FourBar, Input, JointId, Linkage, MovingLink, OutputLink, PlacedFourBar};
 use coupler_curves::measure;
-use coupler_curves::motion::{Circuit, InstantaneousMotion, PassEnd};
+use coupler_curves::motion::{Circuit, InstantaneousMotion};
 use coupler_curves::solve::MeasuredCurve;
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::Report;
 use super::cognates::{CognateMember, CognateSet};
 use super::equation::{self, EquationJson};
-use super::pose::{LinkRotation, Pose, flat_joints, instant_geometries, link_rotations};
+use super::pose::{LinkRotation, Pose, instant_geometries, link_rotations};
 use super::ranges::{ArcJson, Ranges, RockerLimitsJson, SliderJson};
 
 /// The version of the format; docs/inspect.md describes it.
@@ -22,7 +23,7 @@ const FORMAT: u32 = 1;
 struct Document<'a> {
     format: u32,
     linkage: &'a str,
-    parameters: Entries<'a, f64>,
+    parameters: Members<'a, f64>,
     class: Option<&'static str>,
     six_bar: Option<&'static str>,
     rocker_limits: Option<RockerLimitsJson>,
@@ -39,41 +40,18 @@ struct Document<'a> {
     cognates: Option<CognatesJson<'a>>,
 }
 
-/// An object with these keys, in this order.
-struct Entries<'a, T>(Vec<(&'a str, T)>);
-
-impl<T: Serialize> Serialize for Entries<'_, T> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(self.0.iter().map(|(key, value)| (key, value)))
-    }
-}
-
 #[derive(Serialize)]
 struct CircuitJson<'a> {
     closed: bool,
     full_turn: bool,
-    passes: Vec<PassJson<'a>>,
-}
-
-#[derive(Serialize)]
-struct PassJson<'a> {
-    from: PassEndJson<'a>,
-    to: PassEndJson<'a>,
-    branches: Vec<i8>,
-    turns: bool,
-}
-
-#[derive(Serialize)]
-struct PassEndJson<'a> {
-    input: f64,
-    flat: Vec<&'a str>,
+    passes: Vec<PassDocument<'a>>,
 }
 
 #[derive(Serialize)]
 struct CurveJson {
     trace: usize,
     circuit: usize,
-    measures: Entries<'static, Value>,
+    measures: Members<'static, Value>,
 }
 
 #[derive(Serialize)]
@@ -148,7 +126,7 @@ pub(super) fn json(report: &Report) -> anyhow::Result<String> {
     let document = Document {
         format: FORMAT,
         linkage: &family.id,
-        parameters: Entries(family.names.iter().map(String::as_str).zip(solved.cell.values.iter().copied()).collect()),
+        parameters: Members(family.names.iter().map(String::as_str).zip(solved.cell.values.iter().copied()).collect()),
         class: FourBar::from_linkage(linkage).map(|four_bar| four_bar.class().name()),
         six_bar: ranges.six_bar_name(),
         rocker_limits: ranges.rocker_limits_json(),
@@ -187,14 +165,8 @@ fn point(p: Point) -> [f64; 2] {
 
 impl<'a> CircuitJson<'a> {
     fn new(linkage: &'a Linkage, circuit: &Circuit) -> CircuitJson<'a> {
-        let end = |end: PassEnd| PassEndJson { input: end.input.value, flat: flat_joints(linkage, end.flat_dyads) };
-        let passes = circuit.passes.iter().enumerate().map(|(k, pass)| PassJson {
-            from: end(pass.from),
-            to: end(pass.to),
-            branches: linkage.dyad_ids().map(|dyad| pass.mode.sign(dyad)).collect(),
-            turns: circuit.reverses_after(k),
-        });
-        CircuitJson { closed: circuit.is_closed, full_turn: circuit.is_full_turn(), passes: passes.collect() }
+        let passes = PassDocument::of_circuit(linkage, circuit);
+        CircuitJson { closed: circuit.is_closed, full_turn: circuit.is_full_turn(), passes }
     }
 }
 
@@ -210,7 +182,7 @@ impl CurveJson {
             .iter()
             .zip(&curve.values)
             .map(|(measure, found)| (measure.name_for(is_driven_by_length), value(found)));
-        CurveJson { trace: curve.trace, circuit: curve.circuit, measures: Entries(measures.collect()) }
+        CurveJson { trace: curve.trace, circuit: curve.circuit, measures: Members(measures.collect()) }
     }
 }
 

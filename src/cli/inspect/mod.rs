@@ -113,6 +113,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let cognates =
         arguments.cognates.then(|| cognates::find_cognates(&family.id, &solved, arguments.trace)).transpose()?;
     let equations = (equation::coupler_equations(&solved), arguments.sextic);
+    if arguments.sextic && equations.0.is_empty() {
+        let message = format!("{} has no coupler curve of a four-bar, and so no sextic: leave --sextic out", family.id);
+        return Err(InputError(message).into());
+    }
     let report = Report { family: &family, solved: &solved, input: at, poses, equations, cognates };
     if let Some(path) = &arguments.svg {
         files::write(path, &plate::plate(&report, arguments.animate))?;

@@ -1,7 +1,7 @@
 //! The poses of a linkage at one input, and the motion of its links there.
 
 use coupler_curves::geometry::{Vector, cross};
-use coupler_curves::linkage::{DyadId, DyadSet, JointId, Linkage};
+use coupler_curves::linkage::{DyadId, JointId};
 use coupler_curves::motion::{InstantaneousMotion, JointDerivatives, Pass};
 use coupler_curves::solve::SolvedCell;
 
@@ -74,10 +74,4 @@ pub(super) fn instant_geometries<'a>(
 ) -> impl Iterator<Item = (JointId, Option<InstantaneousMotion>)> + use<'a> {
     let linkage = &solved.linkage;
     linkage.traced.iter().map(move |&joint| (joint, InstantaneousMotion::from_joint(linkage, &pose.jets, joint)))
-}
-
-/// The names of the joints whose dyads are stretched or folded.
-pub(super) fn flat_joints(linkage: &Linkage, flat: DyadSet) -> Vec<&str> {
-    let is_flat = |joint: &&coupler_curves::linkage::Joint| joint.kind.dyad().is_some_and(|dyad| flat.contains(dyad));
-    linkage.joints.iter().filter(is_flat).map(|joint| joint.name.as_str()).collect()
 }

@@ -3,7 +3,6 @@
 use std::fmt::Write;
 
 use coupler_curves::measure::Value;
-use coupler_curves::motion::Circuit;
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 
 use super::format::{format_significant, input_unit};
@@ -15,10 +14,9 @@ const MAX_CIRCUITS: usize = 4;
 pub(super) fn append_text(solved: &SolvedCell, out: &mut String) {
     let circuits = &solved.motion.circuits;
     let unit = input_unit(&solved.linkage);
-    let limits = per_circuit(circuits.len(), |k| Some(describe_limits(&circuits[k], unit)));
-    let angles = per_circuit(circuits.len(), |k| {
-        describe_transmission(solved.curves.iter().find(|curve| curve.circuit == k + 1)?)
-    });
+    let curve = |k: usize| solved.curves.iter().find(|curve| curve.circuit == k + 1);
+    let limits = per_circuit(circuits.len(), |k| Some(describe_limits(curve(k)?, unit)));
+    let angles = per_circuit(circuits.len(), |k| describe_transmission(curve(k)?));
     let straight = (!solved.curves.is_empty()).then(|| describe_straight(solved, unit));
     let lines = [("limits of the input", limits), ("transmission angle", angles), ("straight portion", straight)];
     for (title, line) in lines {
@@ -47,14 +45,13 @@ fn per_circuit(count: usize, describe: impl Fn(usize) -> Option<String>) -> Opti
 }
 
 /// "none, it turns fully", or "28.95502437° to 97.18075578°".
-fn describe_limits(circuit: &Circuit, unit: &str) -> String {
-    if circuit.is_full_turn() {
-        return "none, it turns fully".to_owned();
+fn describe_limits(curve: &MeasuredCurve, unit: &str) -> String {
+    match number(curve, "input_min_deg").zip(number(curve, "input_max_deg")) {
+        Some((least, most)) => {
+            format!("{}{unit} to {}{unit}", format_significant(least, 10), format_significant(most, 10))
+        }
+        None => "none, it turns fully".to_owned(),
     }
-    let inputs = || circuit.passes.iter().flat_map(|pass| [pass.from.input.value, pass.to.input.value]);
-    let [least, most] = [inputs().fold(f64::INFINITY, f64::min), inputs().fold(f64::NEG_INFINITY, f64::max)]
-        .map(|input| format_significant(input, 10));
-    format!("{least}{unit} to {most}{unit}")
 }
 
 /// "worst 26.57°, from 26.57° to 90°"; without the range if the linkage is not a four-bar, and `None` if no dyad

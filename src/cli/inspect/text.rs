@@ -58,6 +58,12 @@ pub(super) fn text(report: &Report) -> String {
     out
 }
 
+/// A number with seven significant digits; 0 if it is rounding in comparison with others.
+fn format_cleared(value: f64, greatest: f64) -> String {
+    const ROUNDING: f64 = 1e-13;
+    format_significant(if value.abs() <= ROUNDING * greatest { 0.0 } else { value }, 7)
+}
+
 /// Appends a table of the joints, a line for each link, and the instant centres of the links with traced joints.
 fn describe_pose(solved: &SolvedCell, pose: &Pose, out: &mut String) {
     let (input, branch) = (format_significant(pose.input, 10), pose.pass.mode.sign(DyadId::FIRST));
@@ -74,18 +80,28 @@ fn describe_pose(solved: &SolvedCell, pose: &Pose, out: &mut String) {
         let cells: String = cells.iter().map(|cell| format!("{cell:>13}")).collect();
         let _ = writeln!(out, "{name:<width$}{cells}");
     };
+    let jets = &pose.jets;
+    let vectors =
+        |joint| [jets.position(joint).coords, jets.velocity(joint), jets.acceleration(joint), jets.jerk(joint)];
+    // The greatest coordinates, velocities and so on: what is much less than all of them is rounding.
+    let mut greatest = [0.0f64; 4];
+    for joint in solved.linkage.joint_ids() {
+        for (greatest, vector) in greatest.iter_mut().zip(vectors(joint)) {
+            *greatest =
+                [vector.x, vector.y].into_iter().filter(|c| c.is_finite()).fold(*greatest, |g, c| g.max(c.abs()));
+        }
+    }
+    let size = greatest[0];
     row(out, "joint", &["x", "y", "vx", "vy", "ax", "ay", "jx", "jy"].map(str::to_owned));
     for (joint, named) in solved.linkage.joint_ids().zip(&solved.linkage.joints) {
-        let jets = &pose.jets;
-        let vectors = [jets.position(joint).coords, jets.velocity(joint), jets.acceleration(joint), jets.jerk(joint)];
-        let cells: Vec<String> =
-            vectors.iter().flat_map(|v| [format_significant(v.x, 7), format_significant(v.y, 7)]).collect();
-        row(out, &named.name, &cells);
+        let cells =
+            vectors(joint).into_iter().zip(greatest).flat_map(|(v, g)| [v.x, v.y].map(|c| format_cleared(c, g)));
+        row(out, &named.name, &cells.collect::<Vec<String>>());
     }
     for link in link_rotations(solved, pose) {
         let name = link.joints.join("-");
-        let velocity = format_significant(link.angular_velocity, 7);
-        let acceleration = format_significant(link.angular_acceleration, 7);
+        let velocity = format_cleared(link.angular_velocity, 1.0);
+        let acceleration = format_cleared(link.angular_acceleration, 1.0);
         let _ = writeln!(out, "link {name}: angular velocity {velocity}, angular acceleration {acceleration}");
     }
     for (joint, instant) in instant_geometries(solved, pose) {
@@ -103,8 +119,8 @@ fn describe_pose(solved: &SolvedCell, pose: &Pose, out: &mut String) {
             "{name}: instant centre {}, inflection pole {}, curvature of its path {}, rate of curvature {}",
             format_point(instant.pole),
             format_point(instant.inflection_pole()),
-            format_significant(instant.curvature(position), 7),
-            format_significant(instant.curvature_rate(position), 7)
+            format_cleared(instant.curvature(position), size.recip()),
+            format_cleared(instant.curvature_rate(position), size.recip() * size.recip())
         );
         let ball = instant.ball_point().map_or("none".to_owned(), format_point);
         let cubic = cubic.unwrap_or("none".to_owned());

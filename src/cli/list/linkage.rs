@@ -1,9 +1,12 @@
 //! What there is to know of a linkage before one writes a family of it.
 
 use std::fmt::Write;
+use std::sync::Arc;
 
 use coupler_curves::catalogue;
-use coupler_curves::expression::Unit;
+use coupler_curves::family::{Family, MEASURES, Sampling};
+use coupler_curves::motion::Sampler;
+use coupler_curves::solve;
 use coupler_curves::template::{JointKindTemplate, OutputLinkTemplate, Parameter, ParameterKind, Template};
 
 /// A paragraph for each linkage of the catalogue.
@@ -34,7 +37,7 @@ fn output_link(template: &Template) -> Option<String> {
 }
 
 /// Everything on a linkage: its source, joints, input, output and parameters, and a family to paste.
-pub(super) fn describe(template: &Template) -> String {
+pub(super) fn describe(template: &Arc<Template>) -> String {
     let mut out = format!("{}\n", template.id);
     for line in [&template.source, &template.legend].into_iter().filter(|line| !line.is_empty()) {
         let _ = writeln!(out, "  {line}");
@@ -108,13 +111,6 @@ fn describe_joint(template: &Template, kind: &JointKindTemplate) -> String {
 
 /// Its name, kind, default and range.
 fn parameter_row(parameter: &Parameter) -> [String; 4] {
-    let kind = match parameter.kind {
-        ParameterKind::Length => "length",
-        ParameterKind::Angle(Unit::Rad) => "angle in radians",
-        ParameterKind::Angle(_) => "angle in degrees",
-        ParameterKind::Ratio => "ratio",
-        ParameterKind::Number => "number",
-    };
     let default = match &parameter.default_text[..] {
         "" => "no default".to_owned(),
         text => format!("default {text}"),
@@ -126,11 +122,11 @@ fn parameter_row(parameter: &Parameter) -> [String; 4] {
     let least = parameter.min.map(|min| bound(min, "more than", "from"));
     let most = parameter.max.map(|max| bound(max, "less than", "up to"));
     let range = least.into_iter().chain(most).collect::<Vec<_>>().join(", ");
-    [parameter.name.clone(), kind.to_owned(), default, range]
+    [parameter.name.clone(), parameter.kind.name().to_owned(), default, range]
 }
 
 /// A family with the numbers that are defaults, or examples where there are none.
-fn family(template: &Template) -> String {
+fn family(template: &Arc<Template>) -> String {
     let value = |parameter: &Parameter| {
         let number: f64 = match &parameter.default_text[..] {
             "" => parameter.example.unwrap_or(1.0),
@@ -138,8 +134,7 @@ fn family(template: &Template) -> String {
             text => text.parse().ok()?,
         };
         Some(match parameter.kind {
-            ParameterKind::Angle(Unit::Rad) => format!("{} = \"{number} rad\"", parameter.name),
-            ParameterKind::Angle(_) => format!("{} = \"{number} deg\"", parameter.name),
+            ParameterKind::Angle(unit) => format!("{} = \"{number} {}\"", parameter.name, unit.name()),
             _ => format!("{} = {number}", parameter.name),
         })
     };
@@ -148,5 +143,22 @@ fn family(template: &Template) -> String {
         true => "cases = [{}]".to_owned(),
         false => format!("grid = {{ {} }}", values.join(", ")),
     };
-    format!("[[family]]\nid = \"{0}\"\nlinkage = \"{0}\"\n{space}\n", template.id)
+    let comment = match assembly_error(template) {
+        Some(error) => format!("# Change the numbers, with which it cannot be assembled: {error}\n"),
+        None => String::new(),
+    };
+    format!("{comment}[[family]]\nid = \"{0}\"\nlinkage = \"{0}\"\n{space}\n", template.id)
+}
+
+/// Why the linkage cannot be assembled with its defaults and examples, and 1 for other parameters.
+fn assembly_error(template: &Arc<Template>) -> Option<String> {
+    let without_default = template.parameters.iter().filter(|parameter| parameter.default.is_none());
+    let values: Vec<(String, f64)> =
+        without_default.map(|parameter| (parameter.name.clone(), parameter.example.unwrap_or(1.0))).collect();
+    let family = match Family::single_cell(Arc::clone(template), &values, Sampling::Samples(2)) {
+        Ok(family) => family,
+        Err(errors) => return Some(errors.to_string().replace('\n', "; ")),
+    };
+    let solved = solve::solve_measuring(&family, &Sampler::new(family.sampling), 0, &vec![false; MEASURES.len()])?;
+    solved.motion.assembly_error.as_ref().map(ToString::to_string)
 }

@@ -119,7 +119,7 @@ fn check_with_replaced_file(name: &str, text: &str) {
 
 /// Asserts that an error has a span of whole characters of the text, and help.
 fn assert_error_is_placed<T>(result: Result<T, Error>, text: &str) {
-    if let Err(Error { message, span, help }) = result {
+    if let Err(Error { message, span, help, .. }) = result {
         assert!(text.get(span.clone()).is_some(), "{message} at {span:?} of {text:?}");
         assert!(!message.is_empty() && !help.is_empty(), "{message}");
     }

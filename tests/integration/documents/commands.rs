@@ -7,7 +7,8 @@ use std::path::Path;
 use tempfile::TempDir;
 
 use super::text::{Document, codes};
-use super::{copy, documents, printed, put_manifests, run};
+use super::{copy, documents, printed, put_manifests};
+use crate::command::run;
 
 const COMMANDS: [&str; 10] =
     ["render", "validate", "check", "inspect", "design", "export", "list", "init", "completions", "man"];

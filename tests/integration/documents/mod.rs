@@ -11,7 +11,6 @@ mod transcripts;
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
 
 use text::Document;
 
@@ -35,23 +34,9 @@ fn document(name: &str) -> Document {
     documents().into_iter().find(|document| document.name == name).unwrap()
 }
 
-/// The exit code, the standard output and the standard error of the program.
-fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    let mut program = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
-    program.current_dir(folder).args(arguments).stdin(Stdio::null());
-    for name in ["NO_COLOR", "CLICOLOR_FORCE", "COLUMNS"] {
-        program.env_remove(name);
-    }
-    let output = program.output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (output.status.code().unwrap_or(-1), text(output.stdout), text(output.stderr))
-}
-
 /// What a command that succeeds prints.
 fn printed(arguments: &[&str]) -> String {
-    let (code, out, err) = run(root(), arguments);
-    assert_eq!(code, 0, "{arguments:?}: {err}");
-    out
+    crate::command::printed(root(), arguments)
 }
 
 /// Copies what is below a folder.

@@ -5,7 +5,8 @@ use std::fs;
 use tempfile::TempDir;
 
 use super::commands::run_line;
-use super::{document, root, run};
+use super::{document, root};
+use crate::command::run;
 
 fn text(name: &str) -> String {
     let text = fs::read_to_string(root().join(name)).unwrap();

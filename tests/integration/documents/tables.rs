@@ -7,7 +7,8 @@ use serde_json::Value;
 use tempfile::TempDir;
 
 use super::text::codes;
-use super::{document, documents, printed, run};
+use super::{document, documents, printed};
+use crate::command::run;
 
 fn keys(value: &Value) -> BTreeSet<String> {
     value.as_object().unwrap().keys().cloned().collect()

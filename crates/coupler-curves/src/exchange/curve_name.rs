@@ -3,7 +3,6 @@
 use std::fmt;
 
 use super::format_number;
-use crate::expression::Unit;
 use crate::family::{ParameterSyntaxError, ParameterText, ParameterUnitError};
 use crate::template::Template;
 
@@ -103,7 +102,7 @@ impl fmt::Display for CurveName {
             write!(f, ".{trace}.{circuit}")?;
         }
         for (k, ParameterText { name, number, unit, .. }) in self.overrides.iter().enumerate() {
-            let unit = unit.map_or("", |unit| if unit == Unit::Rad { " rad" } else { " deg" });
+            let unit = unit.map(|unit| format!(" {}", unit.name())).unwrap_or_default();
             write!(f, "{}{name}={}{unit}", if k == 0 { '?' } else { '&' }, format_number(*number))?;
         }
         Ok(())

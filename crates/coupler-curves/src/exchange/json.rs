@@ -34,8 +34,8 @@ struct Document<'a> {
     measures: Members<'a, Option<MeasureValue>>,
 }
 
-/// An object whose members are known at run time only.
-struct Members<'a, V>(Vec<(&'a str, V)>);
+/// An object whose members are known at run time only, in order.
+pub struct Members<'a, V>(pub Vec<(&'a str, V)>);
 
 impl<V: Serialize> Serialize for Members<'_, V> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -65,12 +65,13 @@ struct CircuitDocument<'a> {
     passes: Vec<PassDocument<'a>>,
 }
 
+/// A pass of a circuit.
 #[derive(Serialize)]
-struct PassDocument<'a> {
+pub struct PassDocument<'a> {
     from: EndDocument<'a>,
     to: EndDocument<'a>,
     /// The sides of all dyads: 1 is left, -1 right.
-    branches: Vec<f64>,
+    branches: Vec<i8>,
     /// Whether the input reverses at its end.
     turns: bool,
 }
@@ -128,19 +129,22 @@ fn sampling(selected: &SelectedCurve) -> Members<'static, SamplingField> {
     Members([(key, SamplingField::Number(number))].into_iter().chain(spacing).collect())
 }
 
+impl<'a> PassDocument<'a> {
+    /// The passes of a circuit, in order.
+    pub fn of_circuit(linkage: &'a Linkage, circuit: &Circuit) -> Vec<PassDocument<'a>> {
+        let end = |end: PassEnd| EndDocument { input: end.input.value, flat: linkage.dyad_names(end.flat_dyads) };
+        let pass = |(k, pass): (usize, &Pass)| PassDocument {
+            from: end(pass.from),
+            to: end(pass.to),
+            branches: linkage.dyad_ids().map(|dyad| pass.mode.sign(dyad)).collect(),
+            turns: circuit.reverses_after(k),
+        };
+        circuit.passes.iter().enumerate().map(pass).collect()
+    }
+}
+
 fn circuit_document<'a>(linkage: &'a Linkage, circuit: &Circuit) -> CircuitDocument<'a> {
-    let end = |end: PassEnd| {
-        let is_flat = |dyad| end.flat_dyads.contains(dyad);
-        let flat = linkage.joints.iter().filter(|joint| joint.kind.dyad().is_some_and(is_flat));
-        EndDocument { input: end.input.value, flat: flat.map(|joint| joint.name.as_str()).collect() }
-    };
-    let pass = |(k, pass): (usize, &Pass)| PassDocument {
-        from: end(pass.from),
-        to: end(pass.to),
-        branches: linkage.dyad_ids().map(|dyad| f64::from(pass.mode.sign(dyad))).collect(),
-        turns: circuit.reverses_after(k),
-    };
-    CircuitDocument { closed: circuit.is_closed, passes: circuit.passes.iter().enumerate().map(pass).collect() }
+    CircuitDocument { closed: circuit.is_closed, passes: PassDocument::of_circuit(linkage, circuit) }
 }
 
 /// The rows of `points.csv`, one for each sample, without the three columns that identify the curve.

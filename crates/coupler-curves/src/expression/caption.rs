@@ -98,7 +98,7 @@ impl Caption {
 }
 
 /// The value rounded to six significant digits.
-fn round_to_six_digits(value: f64) -> f64 {
+pub fn round_to_six_digits(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }
 

@@ -1,5 +1,6 @@
 //! The functions of expressions.
 
+use super::Unit;
 use crate::geometry::trig;
 
 /// A function an expression can call.
@@ -59,6 +60,15 @@ impl Function {
     /// The name it is called with.
     pub fn name(self) -> &'static str {
         Function::ALL.iter().find(|(_, function)| *function == self).map_or("", |(name, _)| name)
+    }
+
+    /// The unit of its value, if that is an angle.
+    pub fn angle_unit(self) -> Option<Unit> {
+        match self {
+            Function::Deg => Some(Unit::Deg),
+            Function::Rad | Function::Asin | Function::Acos | Function::Atan2 => Some(Unit::Rad),
+            _ => None,
+        }
     }
 
     /// The least and the greatest number of arguments.

@@ -25,7 +25,7 @@ mod program;
 mod quantity;
 mod scope;
 
-pub use caption::Caption;
+pub use caption::{Caption, round_to_six_digits};
 pub use function::Function;
 pub use program::{CompiledExpression, Expression, Kind, PostfixToken};
 pub use quantity::{Dimension, Quantity, Unit};
@@ -49,11 +49,13 @@ pub struct Error {
     pub span: Span,
     /// How to fix it; may be empty.
     pub help: String,
+    /// Whether it is a name that has no meaning in a scope.
+    pub is_unknown_name: bool,
 }
 
 impl Error {
     pub(crate) fn new(span: Span, message: impl Into<String>, help: impl Into<String>) -> Error {
-        Error { message: message.into(), span, help: help.into() }
+        Error { message: message.into(), span, help: help.into(), is_unknown_name: false }
     }
 
     /// The error as a problem of a larger text; `to_outer_span` maps spans of the expression to spans of that text.

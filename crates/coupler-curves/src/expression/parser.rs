@@ -28,8 +28,8 @@ impl Expression {
     pub(crate) fn parse_with_angle_unit(text: &str) -> Result<(Expression, Option<Unit>), Error> {
         let (expression, word) = parse_expression_and_word(text)?;
         let Some((word, span)) = word else { return Ok((expression, None)) };
-        match Dimension::Angle.units().iter().find(|(name, _)| *name == word) {
-            Some((_, unit)) => Ok((expression, Some(*unit))),
+        match Dimension::Angle.unit(&word) {
+            Some(unit) => Ok((expression, Some(unit))),
             None => {
                 let help = "an angle may have the unit `deg` or `rad`; lengths and ratios are numbers without a unit";
                 Err(Error::new(span, format!("`{word}` is not a unit here"), help))
@@ -352,6 +352,6 @@ mod tests {
         assert_eq!(kind("is_open and a > 1").unwrap(), super::super::Kind::Boolean);
         assert_eq!(kind("1 < a < 2").unwrap_err().message, "expected a number, found a condition");
         assert_eq!(kind("a and 1").unwrap_err().message, "expected a condition, found a numeric expression");
-        assert_eq!(kind("b + 1").unwrap_err().help, "did you mean `a`?");
+        assert_eq!(kind("b + 1").unwrap_err().help, "it can be `a` or `is_open`");
     }
 }

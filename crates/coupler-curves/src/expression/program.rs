@@ -13,16 +13,6 @@ pub enum Kind {
     Boolean,
 }
 
-/// How the message of an unknown name begins.
-const UNKNOWN_NAME: &str = "unknown name";
-
-impl Error {
-    /// Whether it is that of a name without a meaning.
-    pub(crate) fn is_unknown_name(&self) -> bool {
-        self.message.starts_with(UNKNOWN_NAME)
-    }
-}
-
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Instruction {
     Push(f64),
@@ -108,6 +98,13 @@ impl Expression {
         self
     }
 
+    /// The place of a name where it is first used, in the text of the expression.
+    pub fn name_span(&self, name: &str) -> Option<Span> {
+        let index = self.names.iter().position(|known| known == name)?;
+        let is_load = |(instruction, _): &&(Instruction, Span)| *instruction == Instruction::Load(index);
+        self.program.iter().find(is_load).map(|(_, span)| span.clone())
+    }
+
     /// The name, if the expression is a single name.
     pub fn as_name(&self) -> Option<&str> {
         match (&self.program[..], &self.names[..]) {
@@ -138,7 +135,8 @@ impl Expression {
                             true => "write a number; names cannot be used here".to_owned(),
                             false => suggestion_among(name, scope.names(), scope.len()),
                         };
-                        Error::new(span.clone(), format!("{UNKNOWN_NAME} `{name}`"), help)
+                        let error = Error::new(span.clone(), format!("unknown name `{name}`"), help);
+                        Error { is_unknown_name: true, ..error }
                     };
                     (Kind::Number, scope.kind_of(name).ok_or_else(unknown)?)
                 }

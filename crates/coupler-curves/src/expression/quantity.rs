@@ -36,6 +36,11 @@ impl Dimension {
         }
     }
 
+    /// The unit of a name; `None` if it is none of this dimension.
+    pub fn unit(self, name: &str) -> Option<Unit> {
+        self.units().iter().find(|(known, _)| *known == name).map(|(_, unit)| *unit)
+    }
+
     fn example(self) -> &'static str {
         match self {
             Dimension::Angle => "write an angle like \"2 deg\" or \"pi / 90 rad\"",
@@ -63,8 +68,8 @@ impl Quantity {
         let Some((word, span)) = word else {
             return Err(Error::new(0..text.len(), "the unit is missing", dimension.example()));
         };
-        match dimension.units().iter().find(|(name, _)| *name == word) {
-            Some(&(_, unit)) => Ok(Quantity { expression, unit }),
+        match dimension.unit(&word) {
+            Some(unit) => Ok(Quantity { expression, unit }),
             None => Err(Error::new(span, format!("`{word}` is not a unit here"), dimension.example())),
         }
     }
@@ -76,6 +81,12 @@ impl Quantity {
 }
 
 impl Unit {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        let all = [Dimension::Angle, Dimension::PaperLength].into_iter().flat_map(Dimension::units);
+        all.into_iter().find(|(_, unit)| *unit == self).map_or("", |(name, _)| name)
+    }
+
     /// Converts a number of this unit to degrees or millimetres.
     pub fn to_base_unit(self, value: f64) -> f64 {
         match self {

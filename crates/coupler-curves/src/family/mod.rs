@@ -266,12 +266,6 @@ impl Family {
         measure::ALL.iter().filter(|measure| measure.is_word).map(|measure| measure.name)
     }
 
-    /// The names of the measures that are numbers, of linkages driven by an angle or by a length.
-    pub fn numeric_measure_names(is_driven_by_length: bool) -> impl Iterator<Item = &'static str> {
-        let numbers = measure::ALL.iter().filter(|measure| !measure.is_word);
-        numbers.map(move |measure| measure.name_for(is_driven_by_length))
-    }
-
     /// Whether a name is that of a column of `points.csv` or `cells.csv`, of a measure or of a boolean.
     pub fn is_column_name(name: &str) -> bool {
         const COLUMNS: [&str; 11] = [
@@ -287,8 +281,9 @@ impl Family {
             "family",
             "joint",
         ];
-        let is_measure = measure::ALL.iter().any(|measure| measure.name == name || measure.length_name == Some(name));
-        COLUMNS.contains(&name) || is_measure || measure::BOOLEANS.iter().any(|boolean| boolean.name == name)
+        COLUMNS.contains(&name)
+            || measure::Measure::find(name).is_some()
+            || measure::BOOLEANS.iter().any(|boolean| boolean.name == name)
     }
 
     /// Whether `where` keeps a curve with these measures.

@@ -53,10 +53,8 @@ impl ParameterText {
         let parsed = Expression::parse_with_angle_unit(value)
             .and_then(|(expression, unit)| Ok((expression.constant_value()?, unit, expression.outermost_function())));
         let (number, unit, function) = parsed.map_err(|wrong| error(value, wrong.message))?;
-        let is_angle = |function: &Function| {
-            matches!(function, Function::Deg | Function::Rad | Function::Asin | Function::Acos | Function::Atan2)
-        };
-        Ok(ParameterText { name: name.trim().to_owned(), number, unit, function: function.filter(is_angle) })
+        let function = function.filter(|function| function.angle_unit().is_some());
+        Ok(ParameterText { name: name.trim().to_owned(), number, unit, function })
     }
 
     /// The name and the value in the unit that the parameter of this name has in a linkage; of a name that is not a

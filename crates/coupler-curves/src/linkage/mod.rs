@@ -135,6 +135,12 @@ impl Linkage {
         (0..self.dyad_count()).map(DyadId::new)
     }
 
+    /// The names of the joints of some dyads.
+    pub fn dyad_names(&self, dyads: DyadSet) -> Vec<&str> {
+        let is_among = |joint: &&Joint| joint.kind.dyad().is_some_and(|dyad| dyads.contains(dyad));
+        self.joints.iter().filter(is_among).map(|joint| joint.name.as_str()).collect()
+    }
+
     /// The first joint with a name.
     pub fn find_joint(&self, name: &str) -> Option<JointId> {
         self.joints.iter().position(|joint| joint.name == name).map(JointId::new)

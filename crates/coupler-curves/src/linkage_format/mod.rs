@@ -8,6 +8,7 @@ mod joint_kinds;
 mod joints;
 mod linkage;
 mod names;
+mod quantities;
 mod schema;
 mod toml_parser;
 

@@ -4,9 +4,8 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::entries::{entry_around, unclosed_bracket};
-use crate::expression::{self, Caption, CompiledExpression, Dimension, Expression, Kind, Quantity, Scope};
+use crate::expression::{self, Caption, CompiledExpression, Expression, Kind, Scope};
 use crate::problem::{Problem, Span};
-use crate::template::{InputValue, ParameterKind};
 
 /// A TOML value and its span in the text.
 pub type TomlValue<'t> = Spanned<DeValue<'t>>;
@@ -224,56 +223,6 @@ impl<'t> TomlParser<'t> {
         self.require_finite(value, compiled.evaluate(|_| f64::NAN))
     }
 
-    /// A value of a parameter: a number, or an expression in quotes, which for an angle may have a unit. Of a name that
-    /// is not a parameter the kind is [`ParameterKind::Number`].
-    pub fn parameter_expression(
-        &mut self,
-        value: &TomlValue<'t>,
-        (name, kind): (&str, ParameterKind),
-    ) -> Option<Expression> {
-        match value.get_ref() {
-            DeValue::String(text) => {
-                let parsed = kind.parse_value(name, text);
-                self.ok_or_report(value, parsed)
-            }
-            _ => self.expression(value),
-        }
-    }
-
-    /// A value of a parameter, as [`TomlParser::parameter_expression`], without names.
-    pub fn parameter_value(&mut self, value: &TomlValue<'t>, parameter: (&str, ParameterKind)) -> Option<f64> {
-        let expression = self.parameter_expression(value, parameter)?;
-        let compiled = expression.compile(&Scope::default(), Kind::Number);
-        let compiled = self.ok_or_report(value, compiled)?;
-        self.require_finite(value, compiled.evaluate(|_| f64::NAN))
-    }
-
-    /// A value of the input over the names of `scope`: an angle with its unit, or a length without a unit.
-    pub fn input(&mut self, value: &TomlValue<'t>, is_length: bool, scope: &Scope) -> Option<InputValue> {
-        if is_length {
-            return Some(InputValue { value: self.input_length(value, scope)?, unit: None });
-        }
-        self.angle(value, scope)
-    }
-
-    /// An input that is a length, in the manifest's unit: a number, or an expression without a unit.
-    pub fn input_length(&mut self, value: &TomlValue<'t>, scope: &Scope) -> Option<CompiledExpression> {
-        let is_angle = |text: &str| Quantity::parse(text, Dimension::Angle).is_ok();
-        if value.get_ref().as_str().is_some_and(is_angle) {
-            let problem = Problem::error(value.span(), "expected a length, found an angle");
-            self.report(problem.with_help("the input is an actuator's length: give a number without a unit"));
-            return None;
-        }
-        self.numeric_expression(value, scope)
-    }
-
-    /// An angle over the names of `scope`.
-    pub fn angle(&mut self, value: &TomlValue<'t>, scope: &Scope) -> Option<InputValue> {
-        let quantity = self.quantity(value, Dimension::Angle)?;
-        let compiled = quantity.expression.compile(scope, Kind::Number);
-        Some(InputValue { value: self.ok_or_report(value, compiled)?, unit: Some(quantity.unit) })
-    }
-
     /// A boolean.
     pub fn boolean(&mut self, value: &TomlValue<'t>) -> Option<bool> {
         let boolean = value.get_ref().as_bool();
@@ -281,34 +230,6 @@ impl<'t> TomlParser<'t> {
             self.report_mismatch(value, "a boolean", "write `true` or `false` without quotes");
         }
         boolean
-    }
-
-    /// An angle in degrees, or a length on paper in millimetres, without names.
-    pub fn constant_quantity(&mut self, value: &TomlValue<'t>, dimension: Dimension) -> Option<f64> {
-        let quantity = self.quantity(value, dimension)?;
-        let compiled = quantity.expression.compile(&Scope::default(), Kind::Number);
-        self.ok_or_report(value, compiled)?;
-        self.require_finite(value, quantity.evaluate(|_| f64::NAN))
-    }
-
-    fn quantity(&mut self, value: &TomlValue<'t>, dimension: Dimension) -> Option<Quantity> {
-        match value.get_ref() {
-            DeValue::String(text) => {
-                let parsed = Quantity::parse(text, dimension);
-                self.ok_or_report(value, parsed)
-            }
-            DeValue::Integer(_) | DeValue::Float(_) => {
-                let number = self.source_text(value);
-                let unit = if dimension == Dimension::Angle { "deg" } else { "mm" };
-                let help = format!("write \"{number} {unit}\" with the quotes");
-                self.report(Problem::error(value.span(), "the unit is missing").with_help(help));
-                None
-            }
-            _ => {
-                self.report_mismatch(value, "a quantity", "write a number and a unit in quotes: \"5 deg\"");
-                None
-            }
-        }
     }
 
     /// A caption with expressions over `scope`; each of `words` may be used as an expression by itself.
@@ -368,7 +289,7 @@ impl<'t> TomlParser<'t> {
     }
 
     /// The source text of a value.
-    fn source_text(&self, value: &TomlValue<'t>) -> &'t str {
+    pub(super) fn source_text(&self, value: &TomlValue<'t>) -> &'t str {
         self.text.get(value.span()).unwrap_or_default()
     }
 
@@ -377,13 +298,18 @@ impl<'t> TomlParser<'t> {
         match result {
             Ok(result) => Some(result),
             // The name may be given its value in an entry that could not be read.
-            Err(error) if self.has_syntax_error() && error.is_unknown_name() => None,
+            Err(error) if self.has_syntax_error() && error.is_unknown_name => None,
             Err(error) => {
                 let problem = error.into_problem(|inner| self.span_in_string(value, inner));
                 self.report(problem);
                 None
             }
         }
+    }
+
+    /// The span in the text of a part of an expression in a string.
+    pub fn expression_span(&self, value: &TomlValue<'t>, inner: Option<Span>) -> Span {
+        inner.map_or_else(|| value.span(), |inner| self.span_in_string(value, inner))
     }
 
     /// The span in the text of a part of a string; that of the whole string if it is written with escapes.

@@ -67,14 +67,19 @@ impl Measure {
         Measure { length_name: Some(length_name), ..self }
     }
 
+    /// Its names for all linkages: that of a length follows that of an angle.
+    pub fn names(&self) -> impl Iterator<Item = &'static str> + use<> {
+        std::iter::once(self.name).chain(self.length_name)
+    }
+
+    /// The measure that has this name for some linkage.
+    pub fn find(name: &str) -> Option<&'static Measure> {
+        ALL.iter().find(|measure| measure.names().any(|own| own == name))
+    }
+
     /// Its name for a linkage: an input is in degrees, or the length of an actuator.
     pub fn name_for(&self, is_driven_by_length: bool) -> &'static str {
         self.length_name.filter(|_| is_driven_by_length).unwrap_or(self.name)
-    }
-
-    /// Its unit for a linkage; empty for a word, a pure number, and what is in the manifest's unit.
-    pub fn unit_for(&self, is_driven_by_length: bool) -> &'static str {
-        if is_driven_by_length && self.length_name.is_some() { "" } else { self.unit }
     }
 }
 

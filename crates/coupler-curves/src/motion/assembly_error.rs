@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::expression::round_to_six_digits;
+
 use super::{MAX_ASSEMBLY_MODES, MAX_CIRCUIT_BYTES, MAX_SAMPLES};
 
 /// Why a linkage cannot be assembled at all, or not over the whole input range requested.
@@ -188,8 +190,7 @@ struct Short(f64);
 
 impl fmt::Display for Short {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let rounded: f64 = format!("{:.5e}", self.0).parse().unwrap_or(self.0);
-        write!(f, "{rounded}")
+        write!(f, "{}", round_to_six_digits(self.0))
     }
 }
 

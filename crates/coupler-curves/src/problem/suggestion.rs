@@ -24,6 +24,18 @@ pub fn nearest_word<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str
     if let Some(longer) = candidates.iter().copied().find(is_longer).filter(|_| length > 1) {
         return Some(longer);
     }
+    // A single letter is as near to any other.
+    if length < 2 {
+        return None;
+    }
+    // A name with another unit or last part: `output_dwell_deg` for `output_dwell_length`.
+    let stem = |word: &'a str| word.rsplit_once('_').map(|(stem, _)| stem);
+    if let Some((own, _)) = word.rsplit_once('_') {
+        let mut related = candidates.iter().copied().filter(|candidate| stem(candidate) == Some(own));
+        if let (Some(only), None) = (related.next(), related.next()) {
+            return Some(only);
+        }
+    }
     let allowed = (length / 3).max(1);
     let letters = lowercase_letters(word);
     // A letter has at most four bytes.

@@ -54,15 +54,21 @@ pub enum ParameterKind {
 }
 
 impl ParameterKind {
-    /// "a length", "an angle in degrees".
-    pub fn description(self) -> &'static str {
+    /// "length", "angle in degrees".
+    pub fn name(self) -> &'static str {
         match self {
-            ParameterKind::Length => "a length",
-            ParameterKind::Angle(Unit::Rad) => "an angle in radians",
-            ParameterKind::Angle(_) => "an angle in degrees",
-            ParameterKind::Ratio => "a ratio",
-            ParameterKind::Number => "a number",
+            ParameterKind::Length => "length",
+            ParameterKind::Angle(Unit::Rad) => "angle in radians",
+            ParameterKind::Angle(_) => "angle in degrees",
+            ParameterKind::Ratio => "ratio",
+            ParameterKind::Number => "number",
         }
+    }
+
+    /// "a length", "an angle in degrees".
+    pub fn description(self) -> String {
+        let article = if matches!(self, ParameterKind::Angle(_)) { "an" } else { "a" };
+        format!("{article} {}", self.name())
     }
 
     /// Parses a value of the parameter: an expression, which for an angle may have a unit, `deg` or `rad`. The expression
@@ -101,11 +107,7 @@ impl ParameterKind {
             }
         };
         let stated = unit.unwrap_or(own);
-        let returned = match function {
-            Some(Function::Deg) => Unit::Deg,
-            Some(Function::Rad | Function::Asin | Function::Acos | Function::Atan2) => Unit::Rad,
-            _ => stated,
-        };
+        let returned = function.and_then(Function::angle_unit).unwrap_or(stated);
         if returned != stated {
             let function = function.map_or("", Function::name);
             let message = format!("`{function}` returns {}, and `{name}` is {}", words(returned), self.description());

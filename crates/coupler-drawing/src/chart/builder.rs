@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{Chart, ChartSample, PointSource};
+use coupler_curves::expression::round_to_six_digits;
 use coupler_curves::family::Family;
 
 /// The most numbers kept of a family, which are 16 MB. Curves beyond that are only counted.
@@ -180,9 +181,4 @@ impl<'a> ChartBuilder<'a> {
 /// The bits of values, by which groups are compared; zero and negative zero are equal.
 fn value_bits(values: &[f64]) -> Vec<u64> {
     values.iter().map(|value| (value + 0.0).to_bits()).collect()
-}
-
-/// A value rounded to six significant digits.
-fn round_to_six_digits(value: f64) -> f64 {
-    format!("{value:.5e}").parse().unwrap_or(value)
 }

@@ -36,8 +36,7 @@ pub fn definition(text: &str, names: &[String]) -> &'static str {
     if names.iter().any(|name| name == text) {
         return "";
     }
-    let names = |measure: &measure::Measure| [Some(measure.name), measure.length_name].into_iter().flatten();
-    let measures = measure::ALL.iter().flat_map(|measure| names(measure).map(|name| (name, measure.definition)));
+    let measures = measure::ALL.iter().flat_map(|measure| measure.names().map(|name| (name, measure.definition)));
     let columns = measure::COLUMNS.iter().map(|column| (column.name, column.definition));
     let sample_names =
         [("arc", "length along the curve from its first sample"), ("input_deg", "input"), ("input_length", "input")];

@@ -1,0 +1,48 @@
+//! Runs the program as a user would, in a folder, whatever the environment of the tests is.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+use tempfile::TempDir;
+
+/// The program, as a path.
+pub const PROGRAM: &str = env!("CARGO_BIN_EXE_coupler-atlas");
+
+/// The exit code, the standard output and the standard error of a command.
+pub type Ran = (i32, String, String);
+
+/// The program in a folder, without standard input and without the variables that its output depends on.
+pub fn program(folder: &Path) -> Command {
+    let mut program = Command::new(PROGRAM);
+    program.current_dir(folder).stdin(Stdio::null());
+    for name in ["NO_COLOR", "CLICOLOR_FORCE", "COLUMNS"] {
+        program.env_remove(name);
+    }
+    program
+}
+
+/// What a command has returned.
+pub fn result(output: Output) -> Ran {
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (output.status.code().unwrap_or(-1), text(output.stdout), text(output.stderr))
+}
+
+/// Runs a command in a folder.
+pub fn run(folder: &Path, arguments: &[&str]) -> Ran {
+    result(program(folder).args(arguments).output().unwrap())
+}
+
+/// The standard output of a command that succeeds.
+pub fn printed(folder: &Path, arguments: &[&str]) -> String {
+    let (code, out, err) = run(folder, arguments);
+    assert_eq!(code, 0, "{arguments:?}: {err}");
+    out
+}
+
+/// A folder with a manifest, `atlas.toml`.
+pub fn folder_with(manifest: &str) -> TempDir {
+    let folder = TempDir::new().unwrap();
+    fs::write(folder.path().join("atlas.toml"), manifest).unwrap();
+    folder
+}
