@@ -147,25 +147,18 @@ fn cells_assembled_in_part_and_not_at_all_are_told_apart() {
         "{out}"
     );
     atlas.edit(&with("grid = { g = [30, 40] }"));
-    let mut command = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
-    let output = command.current_dir(atlas.0.path()).args(["validate", "atlas.toml"]).output().unwrap();
-    let err = String::from_utf8(output.stderr).unwrap();
-    assert!(output.status.success() && err.contains("none of the 2 cells can be assembled"), "{err}");
+    let (code, _, err) = run(atlas.0.path(), &["validate", "atlas.toml"]);
+    assert!(code == 0 && err.contains("none of the 2 cells can be assembled"), "{err}");
     // A linkage may have no family to start from that can be assembled without a change.
     atlas.edit(&with("grid = { g = [28] }").replace("lengths = [3, 2]", "lengths = [30, 2]"));
-    let mut command = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
-    let arguments = ["list", "linkages", "own", "--manifest", "atlas.toml"];
-    let output = command.current_dir(atlas.0.path()).args(arguments).output().unwrap();
-    let out = String::from_utf8(output.stdout).unwrap();
+    let out = printed(atlas.0.path(), &["list", "linkages", "own", "--manifest", "atlas.toml"]);
     assert!(out.contains("# Change the numbers, with which it cannot be assembled: "), "{out}");
 }
 
 #[test]
 fn a_linkage_without_an_equation_has_no_sextic() {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
-    let output = command.args(["inspect", "slider-crank", "--sextic"]).output().unwrap();
-    let err = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(2));
+    let (code, _, err) = run(Path::new("."), &["inspect", "slider-crank", "--sextic"]);
+    assert_eq!(code, 2);
     assert!(err.contains("slider-crank has no coupler curve of a four-bar"), "{err}");
 }
 
