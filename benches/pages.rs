@@ -19,7 +19,7 @@ fn compose(plan: &Plan, solved: &SolvedCell) -> Vec<Scene> {
     let pose = page::clearest_pose(solved).map_or(PoseChoice::Clearest, PoseChoice::Fixed);
     let sheet = |(page, shown)| {
         let [caption, note] = family.format_captions(&solved.cell, solved.first_curve_values());
-        let facts = page::cell_facts(solved);
+        let facts = page::cell_facts(family, solved);
         let (title, symbols) = (family.title.as_str(), family.names.as_slice());
         let source = plan.families[0].source.clone();
         let heading = Heading::new(title)

@@ -68,7 +68,7 @@ pub(super) fn write(
     let progress = progress.map(|(progress, pieces)| (progress.clone(), pieces.to_vec()));
     let journal_file = journal.file()?;
     let registry = FileRegistry::new(&family.id, &folder, &known, &journal_file);
-    let (composer, interrupt) = (pipeline.composer, &*options.interrupt);
+    let (composer, interrupt) = (&pipeline.composer, &*options.interrupt);
     let tables = (PointTable::new(family), CellTable::new(family));
     let script = FamilyScript::new(plan, planned);
     let sink = OutputSink { composer, formats: &formats, inputs, tables, script, registry: &registry, interrupt };

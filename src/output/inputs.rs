@@ -30,12 +30,19 @@ impl<'a> Inputs<'a> {
         digest.finish()
     }
 
-    /// The digest of what a page is made from: its number, the number of pages, and its cells. `shown` has the indices
+    /// The digest of what a page is made from: its number, the number of pages, what it says of all cells of the family,
+    /// and its own cells. `shown` has the indices
     /// of the curves on the page if it does not show all of them. All curves of a cell are in the digest in any case,
     /// since all pages of the cell share what is derived from them.
-    pub fn page_digest(self, (page, page_count): (usize, usize), cells: &[SolvedCell], shown: &[usize]) -> Digest {
+    pub fn page_digest(
+        self,
+        (page, page_count): (usize, usize),
+        common_text: &str,
+        cells: &[SolvedCell],
+        shown: &[usize],
+    ) -> Digest {
         let mut digest = self.begin_digest("page", &self.planned.manifest_inputs.page_text());
-        let mut text = format!("page {page} of {page_count}\n{:?}\n", self.planned.family.names);
+        let mut text = format!("page {page} of {page_count}\n{:?}\n{common_text}\n", self.planned.family.names);
         for solved in cells {
             text.push_str(&format!("cell {}:", solved.cell.number));
             // Every bit of a value matters.
@@ -81,6 +88,6 @@ mod tests {
         let next = Inputs { version: "99.0.0", ..current };
         assert_ne!(current.family_digest(), next.family_digest());
         assert_ne!(current.chart_page_digest(1), next.chart_page_digest(1));
-        assert_ne!(current.page_digest((1, 1), &[], &[]), next.page_digest((1, 1), &[], &[]));
+        assert_ne!(current.page_digest((1, 1), "", &[], &[]), next.page_digest((1, 1), "", &[], &[]));
     }
 }

@@ -38,7 +38,7 @@ pub(super) struct TableRows {
 /// Renders and writes the output of a family; used by all worker threads.
 #[derive(Clone, Copy)]
 pub(super) struct OutputSink<'a> {
-    pub composer: Composer<'a>,
+    pub composer: &'a Composer<'a>,
     pub formats: &'a [PageFormat],
     pub inputs: Inputs<'a>,
     pub tables: (PointTable<'a>, CellTable<'a>),
@@ -78,9 +78,12 @@ impl Sink for OutputSink<'_> {
     /// Draws a page in each format, except those that are up to date.
     fn receive_page(&self, job: PageJob) -> Result<PageFiles, Error> {
         check_interrupt(self.interrupt)?;
-        let Composer { plan, planned, page_count } = self.composer;
+        let &Composer { plan, planned, page_count, .. } = self.composer;
         let inputs: Digest = match job.content {
-            PageContent::Cells { cells, curves } => self.inputs.page_digest((job.number, page_count), cells, curves),
+            PageContent::Cells { cells, curves } => {
+                let common = self.composer.common_text();
+                self.inputs.page_digest((job.number, page_count), &common, cells, curves)
+            }
             PageContent::Charts => self.inputs.chart_page_digest(job.number),
         };
         let with_name =

@@ -4,19 +4,13 @@ use std::cell::LazyCell;
 use std::rc::Rc;
 
 use crate::manifest::{Plan, PlannedFamily};
-use coupler_curves::family::Family;
+use coupler_curves::family::{CaptionParameter, Family};
 use coupler_curves::solve::SolvedCell;
 use coupler_drawing::chart::{Chart, ChartData};
 use coupler_drawing::page::{
-    self, ChartPage, CouplerGridPage, Heading, Layout, LinkLabel, Panel, PanelPage, PoseChoice,
+    self, ChartPage, CouplerGridPage, Heading, Key, Layout, LinkLabel, Panel, PanelPage, PanelScale, PoseChoice,
 };
 use coupler_drawing::scene::Scene;
-
-/// The panel of a cell, with its caption and note.
-fn panel<'s>(family: &Family, solved: &'s SolvedCell) -> Panel<'s> {
-    let [caption, note] = family.format_captions(&solved.cell, solved.first_curve_values());
-    Panel::new(solved).with_caption(caption).with_note(note).with_facts(page::cell_facts(solved))
-}
 
 /// The labels of the links of a cell: the names of their lengths.
 fn link_labels(family: &Family, solved: &SolvedCell) -> Vec<LinkLabel> {
@@ -29,7 +23,7 @@ fn link_labels(family: &Family, solved: &SolvedCell) -> Vec<LinkLabel> {
 }
 
 /// Composes the pages of a family as scenes.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Composer<'a> {
     /// The plan of the atlas.
     pub plan: &'a Plan,
@@ -37,16 +31,49 @@ pub struct Composer<'a> {
     pub planned: &'a PlannedFamily,
     /// The number of pages of the family.
     pub page_count: usize,
+    /// How the linkages of the family are built.
+    key: Key,
+    /// The parameters that captions should show.
+    caption_parameters: Vec<CaptionParameter>,
 }
 
-impl Composer<'_> {
+impl<'a> Composer<'a> {
+    /// A composer of a family's pages.
+    pub fn new(plan: &'a Plan, planned: &'a PlannedFamily, page_count: usize) -> Composer<'a> {
+        let family = &planned.family;
+        let (key, caption_parameters) = (Key::new(family), family.caption_parameters());
+        Composer { plan, planned, page_count, key, caption_parameters }
+    }
+
+    /// What the pages of the family say of all its cells, which depends on all of them.
+    pub fn common_text(&self) -> String {
+        format!("{:?} {:?}", self.key.dimensions, self.planned.family.captions)
+    }
+
+    /// The panel of a cell. A caption that the manifest or the linkage gives is completed by the parameters that it does not
+    /// show in full.
+    fn panel<'s>(&self, solved: &'s SolvedCell) -> Panel<'s> {
+        let PlannedFamily { family, automatic_caption, .. } = self.planned;
+        let cell = &solved.cell;
+        let [stated, note] = family.format_captions(cell, solved.first_curve_values());
+        let is_automatic = automatic_caption.is_some();
+        let is_missing = |parameter: &&CaptionParameter| is_automatic || !family.captions_show(cell, **parameter);
+        let missing = self.caption_parameters.iter().filter(is_missing);
+        let missing = missing.map(|parameter| family.caption_dimension(cell, *parameter).to_string());
+        let stated = (!is_automatic && !stated.is_empty()).then_some(stated);
+        let caption = stated.into_iter().chain(missing).collect::<Vec<_>>().join(", ");
+        Panel::new(solved).with_caption(caption).with_note(note).with_facts(page::cell_facts(family, solved))
+    }
+
     /// Composes a page of panels; pages are counted from 1.
     pub fn panel_page(&self, page: usize, solved: &[SolvedCell]) -> Scene {
-        let Composer { plan, planned, .. } = *self;
+        let &Composer { plan, planned, .. } = self;
         let sheet = PanelPage {
-            heading: self.heading(page, source_line(planned, plan.page.dash_deg)),
+            heading: self.heading(page, planned.source.clone()).with_dimensions(&self.key.dimensions),
             layout: planned.layout,
-            panels: solved.iter().map(|solved| panel(&planned.family, solved)).collect(),
+            panels: solved.iter().map(|solved| self.panel(solved)).collect(),
+            scale: planned.scale,
+            key: Some(&self.key),
         };
         page::compose_panels(&sheet, &plan.page)
     }
@@ -58,7 +85,7 @@ impl Composer<'_> {
         page: usize,
         solved: &'s SolvedCell,
     ) -> impl Iterator<Item = (usize, Vec<usize>, impl FnOnce() -> Scene)> {
-        let Composer { plan, planned, .. } = *self;
+        let &Composer { plan, planned, .. } = self;
         let labels = Rc::new(link_labels(&planned.family, solved));
         // All pages of a cell have the same pose; it is computed when the first of them is drawn.
         let pose =
@@ -67,7 +94,7 @@ impl Composer<'_> {
             let (labels, pose, indices) = (Rc::clone(&labels), Rc::clone(&pose), curve_indices.clone());
             let compose = move || {
                 let heading = self.heading(page, planned.source.clone());
-                let panel = panel(&planned.family, solved).with_pose(PoseChoice::clone(&pose));
+                let panel = self.panel(solved).with_pose(PoseChoice::clone(&pose));
                 page::compose_coupler_grid(
                     &CouplerGridPage { heading, panel, curve_indices, labels: &labels },
                     &plan.page,
@@ -79,7 +106,7 @@ impl Composer<'_> {
 
     /// Composes a page of charts.
     pub fn chart_page(&self, page: usize, chart: &Chart, data: &ChartData) -> Scene {
-        let Composer { plan, planned, .. } = *self;
+        let &Composer { plan, planned, .. } = self;
         let first = (page - 1) * planned.layout.cells_per_page();
         let mut source = vec![planned.source.clone()];
         if data.left_out_count > 0 {
@@ -104,12 +131,14 @@ impl Composer<'_> {
         PanelPage {
             heading,
             layout: Layout::Panels { columns: 1, rows: 1 },
-            panels: vec![panel(&self.planned.family, solved)],
+            panels: vec![self.panel(solved)],
+            scale: PanelScale::Panel,
+            key: None,
         }
     }
 
     fn heading(&self, page: usize, source: String) -> Heading<'_> {
-        let Composer { plan, planned, page_count } = *self;
+        let &Composer { plan, planned, page_count, .. } = self;
         let Family { id, title, names, .. } = &planned.family;
         Heading::new(title)
             .with_family_id(id)
@@ -124,14 +153,4 @@ impl Composer<'_> {
 pub fn curves_by_page(solved: &SolvedCell) -> Vec<Vec<usize>> {
     let pages = solved.curves_by_traces(Layout::POINTS_PER_PAGE);
     if pages.is_empty() { vec![Vec::new()] } else { pages }
-}
-
-/// The source line of a page: where the linkage comes from, and how to read the dashes and scale bars.
-fn source_line(planned: &PlannedFamily, dash_deg: f64) -> String {
-    let dashes = match planned.family.template.is_driven_by_length() {
-        true => "a dash and its gap span equal lengths of the actuator".to_owned(),
-        false => format!("one dash and its gap = {dash_deg}° of input"),
-    };
-    let key = format!("{dashes} · scale bars in units of length");
-    if planned.source.is_empty() { key } else { format!("{} · {key}", planned.source) }
 }

@@ -132,7 +132,7 @@ impl<'a> FamilyPipeline<'a> {
         let counts_points = planned.layout == Layout::CouplerGrid;
         let arrangement = sweep::select_cells(&planned.family, counts_points, stop)?;
         let pagination = Pagination::new(planned, &arrangement);
-        let composer = Composer { plan, planned, page_count: pagination.page_count };
+        let composer = Composer::new(plan, planned, pagination.page_count);
         Some(FamilyPipeline { composer, arrangement, pagination })
     }
 

@@ -94,7 +94,7 @@ fn pages(family: &Family, source: &str, solved: &SolvedCell, options: &Options) 
             .with_source(source)
             .with_symbols(symbols)
             .with_page(page, page_count);
-        let facts = page::cell_facts(solved);
+        let facts = page::cell_facts(family, solved);
         let panel = Panel::new(solved).with_caption(caption).with_note(note).with_facts(facts).with_pose(view.clone());
         let grid_page = CouplerGridPage { heading, panel, curve_indices: shown.clone(), labels: &labels };
         (page::compose_coupler_grid(&grid_page, options), shown)

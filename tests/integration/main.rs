@@ -29,6 +29,7 @@ mod lettering;
 mod limits;
 mod manifests;
 mod ownership;
+mod plates;
 mod program;
 mod random_linkages;
 mod rates;

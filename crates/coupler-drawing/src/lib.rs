@@ -21,7 +21,7 @@
 //! let svg = coupler_drawing::plate_svg(&curve);
 //! # assert_eq!(class.name(), "crank-rocker");
 //! # assert!(straight.is_some_and(|straight| straight.length > 1.1));
-//! # assert!(std::str::from_utf8(&svg).is_ok_and(|svg| svg.contains("<svg") && svg.contains("frame 2")));
+//! # assert!(std::str::from_utf8(&svg).is_ok_and(|svg| svg.contains("<svg") && svg.contains("frame = 2")));
 //! # Ok::<(), coupler_curves::CurveError>(())
 //! ```
 

@@ -20,8 +20,8 @@ pub struct Mechanism {
     pub slots: Vec<Slot>,
     /// The actuators, from the pivot of the cylinder to the joint of the rod.
     pub actuators: Vec<[JointId; 2]>,
-    /// The guides of sliders on the frame: the ends of the part that the slider uses.
-    pub guides: Vec<[Point; 2]>,
+    /// The guides of sliders and yokes on the frame.
+    pub guides: Vec<Guide>,
     /// The pitch circles of gears: the joint at the centre and the radius.
     pub pitch_circles: Vec<(JointId, f64)>,
 }
@@ -33,6 +33,15 @@ pub struct Block {
     pub joint: JointId,
     /// Two joints on the line that it slides along.
     pub line: [JointId; 2],
+}
+
+/// A guide on the frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Guide {
+    /// The joint of the slider or yoke.
+    pub joint: JointId,
+    /// The ends of the part that the joint uses.
+    pub ends: [Point; 2],
 }
 
 /// A slot in a moving link: the part of the line that the joint in it uses.
@@ -90,7 +99,7 @@ impl Mechanism {
         let joints = self.links.iter().flat_map(|outline| &outline.joints).chain(&self.pivots);
         let joints = joints.map(|&joint| pose[joint]);
         let slots = self.slots.iter().flat_map(|slot| slot.ends_in(pose));
-        Bounds::from_points(joints.chain(self.guides.iter().flatten().copied()).chain(gears).chain(slots))
+        Bounds::from_points(joints.chain(self.guides.iter().flat_map(|guide| guide.ends)).chain(gears).chain(slots))
     }
 }
 
@@ -106,10 +115,7 @@ impl Slot {
 /// The pitch circles of gears, centred on the pivots of both cranks. Gears that turn in the same direction mesh over an
 /// idler, which is not drawn, so there is a gap between them.
 fn pitch_circles(linkage: &Linkage, circuit: &Circuit) -> Vec<(JointId, f64)> {
-    let crank = linkage.joints.iter().find_map(|joint| match joint.kind {
-        JointKind::Crank { pivot, .. } => Some(pivot),
-        _ => None,
-    });
+    let crank = linkage.crank().map(|[pivot, _]| pivot);
     let mut circles = Vec::new();
     for joint in &linkage.joints {
         if let (JointKind::Gear { pivot, ratio: [turns, crank_turns], .. }, Some(first)) = (joint.kind, crank) {
@@ -124,14 +130,14 @@ fn pitch_circles(linkage: &Linkage, circuit: &Circuit) -> Vec<(JointId, f64)> {
     circles
 }
 
-/// The ends of the part of a line on the frame that a slider uses.
-fn find_guide(linkage: &Linkage, circuit: &Circuit, joint: JointId) -> Option<[Point; 2]> {
+/// The guide on the frame of a slider or a yoke.
+fn find_guide(linkage: &Linkage, circuit: &Circuit, joint: JointId) -> Option<Guide> {
     let (JointKind::Slide { line, .. } | JointKind::Yoke { line, .. }) = linkage.joints[joint].kind else {
         return None;
     };
     let along = fixed_line_direction(linkage, circuit, line)?;
     let by = |a: &Point, b: &Point| along.dot(&a.coords).total_cmp(&along.dot(&b.coords));
-    Some([circuit.points(joint).min_by(by)?, circuit.points(joint).max_by(by)?])
+    Some(Guide { joint, ends: [circuit.points(joint).min_by(by)?, circuit.points(joint).max_by(by)?] })
 }
 
 /// The direction of a line through two joints; `None` if it is not on the frame.

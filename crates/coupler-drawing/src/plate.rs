@@ -6,7 +6,7 @@ use coupler_curves::geometry::Point;
 use coupler_curves::linkage::{Input, Linkage};
 use coupler_curves::motion::{Circuit, Motion, Sampler, Sampling};
 
-use crate::page::{self, Heading, Layout, Options, Panel, PanelPage, Paper, PoseChoice};
+use crate::page::{self, Heading, Key, Layout, Options, Panel, PanelPage, PanelScale, Paper, PoseChoice};
 use crate::render::{self, TextMode};
 use crate::scene::Scene;
 
@@ -21,21 +21,31 @@ pub fn svg(curve: &CouplerCurve) -> Vec<u8> {
 
 /// Draws a curve with its linkage and its caption.
 pub fn compose(curve: &SelectedCurve, pose: PoseChoice, options: &Options) -> Scene {
-    page::compose_panels(&panel_page(curve, &curve.name(), pose), options)
+    page::compose_panels(
+        &panel_page(curve, &curve.name(), pose, &Key::for_cell(curve.family, &curve.solved.cell)),
+        options,
+    )
 }
 
-/// The plate as a page of one panel; `name` is that of the curve.
-pub(crate) fn panel_page<'a>(curve: &'a SelectedCurve, name: &'a str, pose: PoseChoice) -> PanelPage<'a> {
+/// The plate as a page of one panel, with its key; `name` is that of the curve.
+pub(crate) fn panel_page<'a>(curve: &'a SelectedCurve, name: &'a str, pose: PoseChoice, key: &'a Key) -> PanelPage<'a> {
     let SelectedCurve { family, source, solved, .. } = curve;
     let [caption, note] = family.format_captions(&solved.cell, solved.first_curve_values());
     let heading = Heading::new(&family.title)
         .with_family_id(&family.id)
         .with_atlas_title(name)
         .with_source(*source)
+        .with_dimensions(&key.dimensions)
         .with_symbols(&family.names);
-    let facts = page::cell_facts(solved);
+    let facts = page::cell_facts(family, solved);
     let panel = Panel::new(solved).with_caption(caption).with_note(note).with_facts(facts).with_pose(pose);
-    PanelPage { heading, layout: Layout::Panels { columns: 1, rows: 1 }, panels: vec![panel] }
+    PanelPage {
+        heading,
+        layout: Layout::Panels { columns: 1, rows: 1 },
+        panels: vec![panel],
+        scale: PanelScale::Panel,
+        key: Some(key),
+    }
 }
 
 /// The poses of a circuit as an animation, denser towards the limits of the input; an open circuit is traversed

@@ -3,10 +3,10 @@
 use serde_json::{Value, json};
 
 use coupler_curves::geometry::{Bounds, Point};
-use coupler_curves::linkage::{DyadId, FourBar, Input, JointId, JointKind, LinkId, Linkage, is_plate};
+use coupler_curves::linkage::{DyadId, FourBar, Input, JointId, LinkId, Linkage, is_plate};
 use coupler_curves::motion::{Pass, UnsampledCircuit};
 use coupler_curves::solve::MovablePoint;
-use coupler_drawing::mechanism::{Block, Mechanism, Slot};
+use coupler_drawing::mechanism::{Block, Guide, Mechanism, Slot};
 
 use crate::family::OpenFamily;
 use crate::overlays::cognates;
@@ -100,11 +100,7 @@ fn bounds_json(Bounds { min, max }: Bounds) -> Value {
 /// The crank on a fixed pivot that the page may turn, with the arc of its pin where it has limits.
 fn crank_json(study: &Study, numbers: &mut Numbers) -> Option<Value> {
     let Study { linkage, circuit, mechanism, .. } = study;
-    let crank = linkage.joint_ids().find_map(|pin| match linkage.joints[pin].kind {
-        JointKind::Crank { pivot, .. } if mechanism.pivots.contains(&pivot) => Some([pivot, pin]),
-        _ => None,
-    });
-    let [pivot, pin] = crank?;
+    let [pivot, pin] = linkage.crank().filter(|[pivot, _]| mechanism.pivots.contains(pivot))?;
     let (mut arc, mut limits) = (Vec::new(), Vec::new());
     if !circuit.is_full_turn() {
         let by = |a: &usize, b: &usize| circuit.inputs[*a].total_cmp(&circuit.inputs[*b]);
@@ -159,7 +155,7 @@ fn mechanism_json(study: &Study, numbers: &mut Numbers) -> Value {
         "blocks": blocks.iter().copied().chain(on_slots).map(block).collect::<Vec<_>>(),
         "slots": slots.iter().map(slot).collect::<Vec<_>>(),
         "actuators": actuators.iter().map(|ends| indices(ends)).collect::<Vec<_>>(),
-        "guides": guides.iter().map(|[a, b]| [a.x, a.y, b.x, b.y]).collect::<Vec<_>>(),
+        "guides": guides.iter().map(|Guide { ends: [a, b], .. }| [a.x, a.y, b.x, b.y]).collect::<Vec<_>>(),
         "wheels": pitch_circles.iter().map(wheel).collect::<Vec<_>>(),
     })
 }

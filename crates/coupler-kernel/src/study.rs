@@ -151,7 +151,7 @@ impl Study {
             let centre = self.circuit.positions.point(joint, 0);
             [centre - Vector::repeat(radius), centre + Vector::repeat(radius)]
         });
-        Bounds::from_points(paths.chain(guides.iter().flatten().copied()).chain(gears).filter(is_finite))
+        Bounds::from_points(paths.chain(guides.iter().flat_map(|guide| guide.ends)).chain(gears).filter(is_finite))
     }
 
     /// The bounds of the curve.

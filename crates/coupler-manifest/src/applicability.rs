@@ -1,8 +1,7 @@
 //! Reports measures and columns that the linkage of a family cannot have.
 
-use crate::chart::one_or_more;
 use coupler_curves::expression::{Caption, Expression};
-use coupler_curves::linkage_format::{Fields, TomlParser, TomlValue};
+use coupler_curves::linkage_format::{Fields, TomlParser, TomlValue, one_or_more};
 use coupler_curves::measure::{self, BOOLEANS, Measure, Subject};
 use coupler_curves::problem::{Problem, Span};
 use coupler_curves::template::{Linkage, Template};

@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use crate::names::FamilyNames;
 use coupler_curves::expression::{CompiledExpression, Expression, Scope};
 use coupler_curves::family::{MAX_CELLS, MEASURES, ParameterSpace};
-use coupler_curves::linkage_format::{Fields, KeySchema, TableSchema, TomlParser, TomlValue, ValueSchema};
+use coupler_curves::linkage_format::{Fields, KeySchema, TableSchema, TomlParser, TomlValue, ValueSchema, one_or_more};
 use coupler_curves::measure::Measure;
 use coupler_curves::problem::{Problem, suggestion_among};
 use coupler_curves::template::Template;
@@ -99,11 +99,6 @@ pub(crate) fn read<'t>(
     let is_ordered_by_x = point_source == PointSource::Curves && x.expression.slots().iter().all(is_name);
     let by = by.unwrap_or_else(|| default_series_slots(&x.expression, point_source, names));
     Some(Chart { point_source, x, y, group_by: by, is_ordered_by_x })
-}
-
-/// The items of a list, or the value itself if it is not a list.
-pub(crate) fn one_or_more<'v, 't>(value: &'v TomlValue<'t>) -> &'v [TomlValue<'t>] {
-    value.get_ref().as_array().map_or(std::slice::from_ref(value), |list| &list[..])
 }
 
 /// Reads `y`: one or more different quantities.

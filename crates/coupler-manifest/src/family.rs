@@ -2,22 +2,23 @@
 
 use std::sync::Arc;
 
+use crate::bounded_number::read_within;
 use crate::cells::{self, AtlasTotals};
 use crate::inputs::ManifestInputs;
 use crate::names::{check_expression_syntax, read_names, read_space};
 use crate::plan::PlannedFamily;
 use crate::schema::{
-    DEFAULT_LAYOUT, DEFAULT_PANELS, DEFAULT_PLACE, FAMILY, MIN_TOLERANCE, PLACE, SAMPLING, SPACINGS, STRAIGHT, Spacing,
-    default_sampling,
+    DEFAULT_LAYOUT, DEFAULT_PANELS, DEFAULT_PLACE, FAMILY, MIN_TOLERANCE, PANEL_SCALES, PLACE, SAMPLING, SPACINGS,
+    STRAIGHT, Spacing, default_sampling,
 };
 use crate::templates::Templates;
 use crate::{applicability, chart, settings, tolerance};
-use coupler_curves::expression::{Dimension, Scope};
+use coupler_curves::expression::{Caption, Dimension, Scope};
 use coupler_curves::family::{COLUMNS, Column, Family, MAX_SAMPLES, MEASURES, Sampling, StraightCriterion};
 use coupler_curves::linkage_format::{self, Fields, TomlParser, TomlValue};
 use coupler_curves::problem::{Problem, suggestion};
 use coupler_curves::template::{Orientation, Template};
-use coupler_drawing::page::{Layout, Options};
+use coupler_drawing::page::{Layout, Options, PanelScale};
 use coupler_drawing::render::Format;
 
 /// What families share.
@@ -92,6 +93,7 @@ pub(crate) fn read<'t>(
     };
     let charts = chart.as_ref().and_then(Option::as_ref).map_or(1, |chart| chart.y.len());
     let layout = layout(&fields, page, charts, parser);
+    let scale = panel_scale(&fields, layout, parser);
     let (id, template, names, sampling, columns, straight) = (id?, template?, names?, sampling?, columns?, straight?);
     let mut family = Family {
         title: title.unwrap_or_else(|| id.clone()),
@@ -108,6 +110,8 @@ pub(crate) fn read<'t>(
         sort: names.sort,
         captions: names.captions,
     };
+    let automatic_caption = family.automatic_caption().filter(|_| family.captions[0].is_none());
+    family.captions[0] = family.captions[0].take().or_else(|| Caption::parse(automatic_caption.as_ref()?).ok());
     // A measure that an expression uses is computed, even if `measures` does not name it.
     for k in 0..MEASURES.len() {
         let quantities = chart.iter().flatten().flat_map(|chart| std::iter::once(&chart.x).chain(&chart.y));
@@ -128,9 +132,11 @@ pub(crate) fn read<'t>(
     let planned = PlannedFamily {
         family,
         layout,
+        scale: scale?,
         chart,
         formats,
         source,
+        automatic_caption,
         manifest_inputs: inputs,
         tolerances,
         span: value.span(),
@@ -318,6 +324,30 @@ fn name_indices<'t>(
         all_read = false;
     }
     all_read.then_some(indices)
+}
+
+/// Reads the scale of the linkages on pages of panels.
+fn panel_scale<'t>(fields: &Fields<'_, 't>, layout: Option<Layout>, parser: &mut TomlParser<'t>) -> Option<PanelScale> {
+    /// The least and the greatest length of a unit on paper, in millimetres: a curve of a thousandth of a unit is seen at
+    /// the greatest, a linkage of a million units fits the largest paper at the least.
+    const RANGE: [f64; 2] = [0.001, 100_000.0];
+    let Some(value) = fields.get("scale") else { return Some(PanelScale::default()) };
+    if let Some(layout) = layout.filter(|layout| !matches!(layout, Layout::Panels { .. })) {
+        let name = if layout == Layout::CouplerGrid { "a coupler grid" } else { "charts" };
+        let problem = Problem::error(value.span(), format!("a page of {name} has no `scale`"));
+        parser.report(problem.with_help("leave `scale` out, or write layout = \"panels\""));
+        return None;
+    }
+    let text = value.get_ref().as_str();
+    if let Some((_, scale)) = PANEL_SCALES.iter().find(|(name, _)| Some(*name) == text) {
+        return Some(*scale);
+    }
+    if text.is_some_and(|text| text.chars().all(char::is_alphabetic)) {
+        return parser.word(value, &PANEL_SCALES);
+    }
+    let read =
+        |value: &TomlValue<'t>, parser: &mut TomlParser<'t>| parser.constant_quantity(value, Dimension::PaperLength);
+    read_within(value, parser, read, RANGE, "mm").map(PanelScale::Fixed)
 }
 
 /// Reads the layout. Where `panels` is absent, the grid of charts is chosen for that number of charts.

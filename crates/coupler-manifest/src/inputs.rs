@@ -28,11 +28,11 @@ impl ManifestInputs {
         [&*self.tables, &*self.linkage, &self.family].concat()
     }
 
-    /// A manifest of this family alone, with `cases` in place of its own parameter sets: an inline array of tables.
-    pub(super) fn excerpt(&self, cases: &str) -> String {
+    /// A manifest of this family alone, with other keys in place of its own parameter sets.
+    pub(super) fn excerpt(&self, keys: &str) -> String {
         let linkage = if self.linkage.is_empty() { String::new() } else { format!("linkage=[{}]\n", self.linkage) };
         let settings = self.settings.strip_suffix('}').unwrap_or_default();
-        format!("{}{linkage}family=[{settings},cases={cases}}}]\n", self.tables)
+        format!("{}{linkage}family=[{settings},{keys}}}]\n", self.tables)
     }
 
     /// What determines a page of cells, in addition to the cells' values and curves.

@@ -19,11 +19,13 @@
 //! assert_eq!(plan.families[0].family.cell_count(), 2);
 //! ```
 
+mod applicability;
 mod bounded_number;
 mod default_value;
 mod format_version;
 mod inputs;
 mod tolerance;
+mod unused_names;
 
 mod theme;
 
@@ -34,9 +36,6 @@ mod grid;
 mod names;
 
 mod chart;
-
-mod applicability;
-mod unused_names;
 
 mod schema;
 

@@ -1,7 +1,7 @@
 //! What a manifest asks for.
 
 use coupler_curves::family::Family;
-use coupler_curves::linkage_format::toml_number;
+use coupler_curves::linkage_format::{quoted, toml_number};
 use coupler_curves::problem::Span;
 use coupler_drawing::chart::Chart;
 use coupler_drawing::page;
@@ -36,12 +36,16 @@ pub struct PlannedFamily {
     pub family: Family,
     /// How pages are laid out.
     pub layout: page::Layout,
+    /// The scale of the linkages on its pages of panels.
+    pub scale: page::PanelScale,
     /// What its charts show; `None` unless its layout is charts.
     pub chart: Option<Chart>,
     /// The formats of its pages.
     pub formats: Vec<Format>,
     /// The line under the title of its pages.
     pub source: String,
+    /// The caption of its cells, if neither the manifest nor the linkage gives one: the parameters that vary.
+    pub automatic_caption: Option<String>,
     /// What the manifest contributes to its files.
     pub manifest_inputs: ManifestInputs,
     /// How much it may differ from a recorded atlas.
@@ -65,7 +69,9 @@ impl PlannedFamily {
             format!("{{{}}}", values.join(","))
         };
         let cases: Vec<String> = family.space.distinct_names().into_iter().map(|(first, _)| case(first)).collect();
-        self.manifest_inputs.excerpt(&format!("[{}]", cases.join(",")))
+        // In the excerpt other parameters vary.
+        let caption = self.automatic_caption.iter().map(|caption| format!("caption={},", quoted(caption)));
+        self.manifest_inputs.excerpt(&format!("{}cases=[{}]", caption.collect::<String>(), cases.join(",")))
     }
 
     /// The most pages that the family can have, if `where` keeps all its cells.

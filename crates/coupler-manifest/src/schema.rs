@@ -12,7 +12,7 @@ use coupler_curves::family::{COLUMNS, MAX_CELLS, MAX_SAMPLES, Sampling, Straight
 use coupler_curves::linkage_format::{
     CIRCUITS_KEY, COINCIDENT_KEY, CONTINUATION_KEY, KeySchema, LINKAGES_KEY, TableSchema, ValueSchema, words,
 };
-use coupler_drawing::page::Layout;
+use coupler_drawing::page::{Layout, PanelScale};
 
 /// The root of a manifest.
 pub static MANIFEST: TableSchema = TableSchema::new(
@@ -52,6 +52,12 @@ pub(crate) static FAMILY: TableSchema = TableSchema::new(
             ValueSchema::List(&ValueSchema::Integer([1, usize::MAX]), [2, 2]),
             "The columns and rows of a page; by default 5 and 3, or as many as it has room for.",
         ),
+        KeySchema::new(
+            "scale",
+            ValueSchema::AnyOf(&[ValueSchema::Word(|| words(&PANEL_SCALES)), ValueSchema::Quantity(Dimension::PaperLength)]),
+            "The scale of the linkages on pages of panels: each as large as its panel, all of a page alike, or the length of a unit on paper.",
+        )
+        .with_default(|| default_value::string("panel")),
         KeySchema::new(
             "sampling",
             ValueSchema::Table(&SAMPLING),
@@ -146,6 +152,9 @@ fn default_straight() -> String {
 
 /// The default columns and rows of a page of panels, if the page has room for them.
 pub(crate) const DEFAULT_PANELS: [usize; 2] = [5, 3];
+
+/// The words for the scale of linkages on pages of panels.
+pub(crate) const PANEL_SCALES: [(&str, PanelScale); 2] = [("panel", PanelScale::Panel), ("page", PanelScale::Page)];
 
 /// The default layout.
 pub(crate) const DEFAULT_LAYOUT: &str = "panels";

@@ -2,9 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use crate::chart::one_or_more;
 use coupler_curves::expression::Caption;
-use coupler_curves::linkage_format::{Fields, TomlParser, TomlValue};
+use coupler_curves::linkage_format::{Fields, TomlParser, TomlValue, one_or_more};
 use coupler_curves::problem::{Problem, Span, list_words, nearest_word};
 use coupler_curves::template::Template;
 

@@ -2,7 +2,7 @@
 
 use coupler_atlas::design::Design;
 use coupler_curves::solve::SolvedCell;
-use coupler_drawing::page::{self, Heading, Layout, Options, Panel, PanelPage, Paper, PoseChoice};
+use coupler_drawing::page::{self, Heading, Layout, Options, Panel, PanelPage, PanelScale, Paper, PoseChoice};
 use coupler_drawing::render::{self, TextMode};
 
 use super::Report;
@@ -37,6 +37,8 @@ pub(super) fn plate(report: &Report) -> Vec<u8> {
         heading,
         layout: Layout::Panels { columns, rows },
         panels: designs.iter().zip(&solved).map(panel).collect(),
+        scale: PanelScale::Panel,
+        key: None,
     };
     let paper = Paper { width: 110.0 * columns as f64 + 20.0, height: 100.0 * rows as f64 + 35.0 };
     render::svg(&page::compose_panels(&sheet, &Options::for_paper(paper)), TextMode::Text)

@@ -96,7 +96,7 @@ pub(super) fn panel<'a>(report: &'a Report, cognate_set: &'a CognateSet) -> Pane
     Panel::new(assembled)
         .with_caption(caption)
         .with_note(note.join(" · "))
-        .with_facts(page::cell_facts(report.solved))
+        .with_facts(page::cell_facts(report.family, report.solved))
         // Inks 0 and 1 are those of the circuits.
         .with_link_inks([ink((first, 2)), ink((second, 3))].concat())
 }

@@ -2,7 +2,7 @@
 
 use coupler_curves::motion;
 use coupler_curves::solve::SolvedCell;
-use coupler_drawing::page::{self, Heading, Layout, Options, Panel, PanelPage, PoseChoice};
+use coupler_drawing::page::{self, Heading, Key, Layout, Options, Panel, PanelPage, PanelScale, PoseChoice};
 use coupler_drawing::plate::{PAPER, moving_view};
 use coupler_drawing::render::{self, TextMode};
 
@@ -13,7 +13,7 @@ pub(super) fn plate(report: &Report, animate: bool) -> Vec<u8> {
     let Report { family, solved, poses, cognates, .. } = report;
     let template = &family.template;
     let [caption, note] = family.format_captions(&solved.cell, solved.first_curve_values());
-    let facts = page::cell_facts(solved);
+    let facts = page::cell_facts(family, solved);
     let plain_panel = || Panel::new(solved).with_caption(caption).with_note(note).with_facts(facts);
     let panel = cognates.as_ref().map_or_else(plain_panel, |cognate_set| cognates::panel(report, cognate_set));
     let pose = match poses.first() {
@@ -23,12 +23,20 @@ pub(super) fn plate(report: &Report, animate: bool) -> Vec<u8> {
     };
     let panel = panel.with_pose(pose);
     let title = if cognates.is_some() { format!("{} and its cognates", family.title) } else { family.title.clone() };
+    let key = Key::for_cell(family, &solved.cell);
     let heading = Heading::new(&title)
         .with_family_id(&family.id)
         .with_atlas_title("coupler-atlas")
         .with_source(template.source.clone())
+        .with_dimensions(&key.dimensions)
         .with_symbols(&family.names);
-    let sheet = PanelPage { heading, layout: Layout::Panels { columns: 1, rows: 1 }, panels: vec![panel] };
+    let sheet = PanelPage {
+        heading,
+        layout: Layout::Panels { columns: 1, rows: 1 },
+        panels: vec![panel],
+        scale: PanelScale::Panel,
+        key: Some(&key),
+    };
     let options = Options::for_paper(PAPER);
     render::svg(&page::compose_panels(&sheet, &options), TextMode::Text)
 }

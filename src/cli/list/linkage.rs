@@ -7,7 +7,7 @@ use coupler_curves::catalogue;
 use coupler_curves::family::{Family, MEASURES, Sampling};
 use coupler_curves::motion::Sampler;
 use coupler_curves::solve;
-use coupler_curves::template::{JointKindTemplate, OutputLinkTemplate, Parameter, ParameterKind, Template};
+use coupler_curves::template::{OutputLinkTemplate, Parameter, ParameterKind, Template};
 
 /// A paragraph for each linkage of the catalogue.
 pub(super) fn catalogue_rows() -> String {
@@ -51,7 +51,7 @@ pub(super) fn describe(template: &Arc<Template>) -> String {
     let width = template.joints.iter().map(|joint| joint.name.chars().count()).max().unwrap_or(0);
     for (k, joint) in template.joints.iter().enumerate() {
         let traced = if template.traced.contains(&k) { "; traced" } else { "" };
-        let _ = writeln!(out, "  {:<width$}  {}{traced}", joint.name, describe_joint(template, &joint.kind));
+        let _ = writeln!(out, "  {:<width$}  {}{traced}", joint.name, template.construction(k));
     }
     if !template.parameters.is_empty() {
         out.push_str("\nparameters\n");
@@ -70,43 +70,6 @@ pub(super) fn describe(template: &Arc<Template>) -> String {
     }
     let _ = write!(out, "\na family to start from\n{}", family(template));
     out
-}
-
-fn describe_joint(template: &Template, kind: &JointKindTemplate) -> String {
-    let name = |joint: &usize| template.joints[*joint].name.as_str();
-    let pair = |[a, b]: &[usize; 2], with: &str| format!("{}{with}{}", name(a), name(b));
-    match kind {
-        JointKindTemplate::Fixed(_) => "fixed pivot".to_owned(),
-        JointKindTemplate::Crank { pivot, .. } => format!("pin of the crank about {}", name(pivot)),
-        JointKindTemplate::Gear { crank, pivot, .. } => {
-            format!("pin of a crank about {}, geared to that of {}", name(pivot), name(crank))
-        }
-        JointKindTemplate::Piston { base: [from, pivot], .. } => {
-            format!("pin of the crank about {}, driven by an actuator from {}", name(pivot), name(from))
-        }
-        JointKindTemplate::Dyad { base, .. } => format!("common pin of links from {}", pair(base, " and ")),
-        JointKindTemplate::Slide { from, line, .. } => {
-            format!("slider on a line parallel to {}, at the end of a link from {}", pair(line, "-"), name(from))
-        }
-        JointKindTemplate::Yoke { from, line, .. } => {
-            format!("yoke on a guide parallel to {}, moved by {} in its slot", pair(line, "-"), name(from))
-        }
-        JointKindTemplate::Slot { base: [pivot, pin], .. } => {
-            format!("foot of the perpendicular from {} to the line that slides through {}", name(pivot), name(pin))
-        }
-        JointKindTemplate::Parallelogram { corners } => {
-            let names: Vec<&str> = corners.iter().map(name).collect();
-            format!("fourth corner of the parallelogram {}", names.join(", "))
-        }
-        JointKindTemplate::Point { base, along, across } => {
-            let points = along.count() * across.count();
-            let what = if points == 1 { "point".to_owned() } else { format!("{points} points") };
-            format!("{what} on the link of {}", pair(base, " and "))
-        }
-        JointKindTemplate::Distances { base, .. } => {
-            format!("point at distances from {}", pair(base, " and "))
-        }
-    }
 }
 
 /// Its name, kind, default and range.

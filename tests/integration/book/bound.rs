@@ -6,7 +6,7 @@ use coupler_atlas::manifest::{self, Plan};
 use coupler_atlas::sweep;
 use coupler_curves::solve::SolvedCell;
 use coupler_drawing::page::book::{self, Atlas, CellEntry, Chapter, IndexEntry, Volume};
-use coupler_drawing::page::{self, Heading, Options, Panel, PanelPage, Paper};
+use coupler_drawing::page::{self, Heading, Options, Panel, PanelPage, PanelScale, Paper};
 use coupler_drawing::render::pdf::Book;
 use coupler_drawing::scene::{Item, PageNumber, Scene};
 
@@ -98,12 +98,20 @@ fn pages(plan: &Plan, solved: &[Vec<SolvedCell>]) -> (Vec<Scene>, Vec<IndexEntry
 fn panel_page<'p>(plan: &'p Plan, family: usize, page: usize, group: &'p [SolvedCell]) -> PanelPage<'p> {
     let planned = &plan.families[family];
     let panel = |solved: &'p SolvedCell| {
-        Panel::new(solved).with_caption(caption(plan, family, solved)).with_facts(page::cell_facts(solved))
+        Panel::new(solved)
+            .with_caption(caption(plan, family, solved))
+            .with_facts(page::cell_facts(&planned.family, solved))
     };
     let (id, title, symbols) = (&planned.family.id, &planned.family.title, &planned.family.names);
     let heading =
         Heading::new(title).with_family_id(id).with_atlas_title(&plan.title).with_symbols(symbols).with_page(page, 9);
-    PanelPage { heading, layout: planned.layout, panels: group.iter().map(panel).collect() }
+    PanelPage {
+        heading,
+        layout: planned.layout,
+        panels: group.iter().map(panel).collect(),
+        scale: PanelScale::Panel,
+        key: None,
+    }
 }
 
 /// The volumes of an atlas, with the number of pages before and after those of their families, and their bytes.

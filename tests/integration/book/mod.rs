@@ -39,7 +39,7 @@ fn path(lines: Vec<Polyline>) -> Item {
 }
 
 fn text(words: &[(&str, Face)], anchor: Anchor, quarter_turns: u8) -> Text {
-    let runs = words.iter().map(|&(text, face)| TextRun { text: text.to_owned(), face }).collect();
+    let runs = words.iter().map(|&(text, face)| TextRun::new(text, face)).collect();
     Text { position: Point::new(123.456, 78.9), anchor, size: 3.7, color: INK, runs, quarter_turns }
 }
 

@@ -68,6 +68,18 @@ impl Caption {
         self.expressions().any(|(expression, _)| expression.names().iter().any(|used| used == name))
     }
 
+    /// Whether it shows the value of a name in full: the number it prints is the value.
+    pub fn shows_exactly(&self, name: &str, value: f64) -> bool {
+        let shows = |piece: &Piece| match piece {
+            Piece::Value { expression, decimals, .. } if expression.as_name() == Some(name) => match decimals {
+                Some(n) => format!("{value:.n$}").parse() == Ok(value),
+                None => round_to_six_digits(value) == value,
+            },
+            _ => false,
+        };
+        self.pieces.iter().any(shows)
+    }
+
     /// The text with values filled in: `load(name)` is the value of a name, and `word(name)` the text of a name that
     /// is a word. A NaN is shown as a dash.
     pub fn format(&self, load: impl Fn(&str) -> f64, word: impl Fn(&str) -> Option<&'static str>) -> String {

@@ -20,6 +20,7 @@
 mod caption;
 mod function;
 mod lexer;
+mod math_text;
 mod parser;
 mod program;
 mod quantity;
@@ -27,6 +28,7 @@ mod scope;
 
 pub use caption::{Caption, round_to_six_digits};
 pub use function::Function;
+pub use math_text::{MathPiece, MathText, format_exactly};
 pub use program::{CompiledExpression, Expression, Kind, PostfixToken};
 pub use quantity::{Dimension, Quantity, Unit};
 pub use scope::Scope;

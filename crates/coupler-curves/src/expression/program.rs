@@ -219,7 +219,7 @@ pub enum PostfixToken {
 /// An expression whose names are resolved to indices in a scope.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CompiledExpression {
-    expression: Expression,
+    pub(super) expression: Expression,
     slots: Vec<usize>,
 }
 

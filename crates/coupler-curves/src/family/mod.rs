@@ -1,12 +1,14 @@
 //! A family: a linkage template and its parameter sets, the cells.
 
 mod axis_values;
+mod dimensions;
 mod memory;
 mod parameter_space;
 mod parameter_text;
 mod single_cell;
 
 pub use axis_values::AxisValues;
+pub use dimensions::CaptionParameter;
 pub use parameter_space::{Axis, Case, MAX_CELLS, ParameterSpace};
 pub use parameter_text::{ParameterSyntaxError, ParameterText, ParameterUnitError};
 pub use single_cell::{ParameterError, ParameterErrors};

@@ -77,8 +77,11 @@ impl KinematicChain {
                     slides.push([link_with(line)?, yoke]);
                 }
                 JointKind::Slot { base: [pivot, through], .. } => add_block(through, link_with([pivot, id])?),
-                // The cylinder is added directly after the crank.
-                JointKind::Piston { base: [_, pivot], .. } => add_block(id, link_with([pivot, id])? + 1),
+                JointKind::Piston { base: [_, pivot], .. } => {
+                    // The cylinder is added directly after the crank, and the rod after the cylinder.
+                    let cylinder = link_with([pivot, id])? + 1;
+                    slides.push([cylinder, cylinder + 1]);
+                }
                 JointKind::Fixed(_)
                 | JointKind::Crank { .. }
                 | JointKind::Dyad { .. }

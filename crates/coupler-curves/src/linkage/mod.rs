@@ -186,6 +186,14 @@ impl Linkage {
         self.joints.iter().filter(|joint| joint.kind.dyad().is_some()).count()
     }
 
+    /// The pivot and the pin of the crank whose angle is the input; `None` if an actuator drives the linkage.
+    pub fn crank(&self) -> Option<[JointId; 2]> {
+        self.joint_ids().find_map(|pin| match self.joints[pin].kind {
+            JointKind::Crank { pivot, .. } => Some([pivot, pin]),
+            _ => None,
+        })
+    }
+
     /// The link that is at rest in the reported frame: that of `seen_from`, or the frame.
     pub fn ground(&self) -> &Link {
         let seen =

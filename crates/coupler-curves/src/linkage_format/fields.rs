@@ -108,3 +108,8 @@ impl<'v, 't> Fields<'v, 't> {
         self.table.keys().map(|key| key.get_ref().as_ref()).collect()
     }
 }
+
+/// The items of a list, or the value itself if it is not a list.
+pub fn one_or_more<'v, 't>(value: &'v TomlValue<'t>) -> &'v [TomlValue<'t>] {
+    value.get_ref().as_array().map_or(std::slice::from_ref(value), |list| &list[..])
+}

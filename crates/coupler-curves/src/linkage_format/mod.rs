@@ -13,7 +13,7 @@ mod schema;
 mod toml_parser;
 
 pub use canonical::{canonical_toml, quoted, toml_number};
-pub use fields::Fields;
+pub use fields::{Fields, one_or_more};
 pub use linkage::{
     CIRCUIT_SELECTIONS, CIRCUITS_KEY, COINCIDENT_DYADS, COINCIDENT_KEY, CONTINUATION_KEY, CONTINUATIONS,
     check_identifier, parse_slug, parse_template,

@@ -157,19 +157,11 @@ impl Sample<'_> {
         if ratio.is_finite() { ratio } else { f64::INFINITY }
     }
 
-    /// The pivot and the pin of the crank.
-    fn crank_joints(&self) -> Option<(JointId, JointId)> {
-        self.linkage.joint_ids().zip(&self.linkage.joints).find_map(|(id, joint)| match joint.kind {
-            JointKind::Crank { pivot, .. } => Some((pivot, id)),
-            _ => None,
-        })
-    }
-
     /// The joints of a four-bar; `None` if it is seen from another link, because the angles of McCarthy's formulas are
     /// measured from the frame.
     fn four_bar_joints(&self) -> Option<FourBarJoints> {
         FourBar::from_linkage(self.linkage).filter(|_| self.linkage.seen_from.is_none())?;
-        let (o, a) = self.crank_joints()?;
+        let [o, a] = self.linkage.crank()?;
         self.linkage.joint_ids().zip(&self.linkage.joints).find_map(|(b, joint)| match joint.kind {
             JointKind::Dyad { base: [p, q], .. } => Some(FourBarJoints { o, a, b, c: if p == a { q } else { p } }),
             _ => None,
@@ -183,7 +175,7 @@ impl Sample<'_> {
         }
         self.linkage.joint_ids().zip(&self.linkage.joints).find_map(|(id, joint)| match joint.kind {
             JointKind::Slot { base: [c, a], offset, dyad } => {
-                let (o, crank) = self.crank_joints()?;
+                let [o, crank] = self.linkage.crank()?;
                 // McCarthy draws the foot to the right of C -> A: there the slide is positive.
                 let arm = self.vector(c, a);
                 let side = -f64::from(self.assembly_mode.sign(dyad)) * if offset < 0.0 { -1.0 } else { 1.0 };

@@ -4,7 +4,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use coupler_curves::geometry::{Point, Vector, trig};
+use coupler_curves::geometry::{Point, Vector, left_normal, trig};
 use coupler_curves::linkage::{
     AssemblyMode, CircuitSelection, DyadSet, JointId, JointKind, LineDirection, Linkage, LinkageBuilder, MotionOptions,
     Orientation, Side,
@@ -197,7 +197,8 @@ fn actuator(offset: f64) -> Linkage {
     let o = builder.fixed("O", [0.0, 0.0].into());
     let a = builder.piston("A", [c, o], (1.0, offset), Side::Left).unwrap();
     let p = builder.point("P", [c, a], 0.7, 0.2).unwrap();
-    builder.build(vec![p], None, MotionOptions::default()).unwrap()
+    let r = builder.point("R", [a, c], 0.3, -0.1).unwrap();
+    builder.build(vec![p, r], None, MotionOptions::default()).unwrap()
 }
 
 /// Compares the derivatives at an input with dual numbers, relative to the greatest derivative of each joint.
@@ -301,7 +302,30 @@ fn points_of_an_actuator_move_with_its_line() {
             let along = (arm.dot(&pin), arm.x * pin.y - arm.y * pin.x);
             assert!((along.0 - (0.7 * s - 0.2 * offset)).abs() < 1e-12, "{offset}: {along:?}");
             assert!((along.1 - (-0.7 * offset - 0.2 * s)).abs() < 1e-12, "{offset}: {along:?}");
+            // A point of the rod is measured from the pin, against the direction of the line.
+            let [forward, rod] = [(at("P") - at("C")) * 0.7 - left_normal(at("P") - at("C")) * 0.2, at("R") - at("A")];
+            let forward = forward / (0.7 * 0.7 + 0.2 * 0.2);
+            let expected = forward * -0.3 + left_normal(forward) * 0.1;
+            assert!((rod - expected).norm() < 1e-12, "{offset}: {rod:?} {expected:?}");
         }
+    }
+}
+
+/// Points of a slider's block keep their positions relative to it, towards either joint of its line.
+#[test]
+fn points_of_a_block_move_with_it() {
+    let mut builder = LinkageBuilder::default();
+    let o = builder.fixed("O", [0.0, 0.0].into());
+    let x = builder.fixed("X", [2.0, 0.0].into());
+    let a = builder.crank("A", o, 1.0).unwrap();
+    let b = builder.slide("B", (a, 3.0), ([o, x], 0.5), Side::Left).unwrap();
+    let [ahead, behind] = [("P", x), ("Q", o)].map(|(name, end)| builder.point(name, [b, end], 0.3, 0.2).unwrap());
+    let linkage = builder.build(vec![ahead, behind], None, MotionOptions::default()).unwrap();
+    let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(12)));
+    for i in 0..motion.circuits[0].len() {
+        let at = |joint| motion.circuits[0].positions.point(joint, i);
+        assert!((at(ahead) - at(b) - Vector::new(0.3, 0.2)).norm() < 1e-14);
+        assert!((at(behind) - at(b) - Vector::new(-0.3, -0.2)).norm() < 1e-14);
     }
 }
 

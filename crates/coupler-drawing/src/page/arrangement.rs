@@ -80,15 +80,34 @@ impl Arrangement {
         curve / best.fit_scale(extents.curve) * (key / best.fit_scale(extents.linkage)).sqrt()
     }
 
-    /// The arrangement for all panels of a page: the one with the greatest least merit.
+    /// The enlargement of the curve relative to its key.
+    fn enlargement(self, whole: Rect, gap: f64, extents: &Extents) -> f64 {
+        let [curve, key] = self.rects(whole).map(|frame| frame.inset(gap));
+        curve.fit_scale(extents.curve) / key.fit_scale(extents.linkage)
+    }
+
+    /// The arrangement of a panel: this one if it enlarges the curve to at least twice the size it has in its key,
+    /// otherwise a single figure.
+    pub fn if_enlarging(self, whole: Rect, gap: f64, extents: &Extents) -> Arrangement {
+        const MIN_ENLARGEMENT: f64 = 2.0;
+        if self.enlargement(whole, gap, extents) >= MIN_ENLARGEMENT { self } else { Arrangement::Combined }
+    }
+
+    /// The arrangement for the panels of a page: the one with the greatest least merit, of those that enlarge the curves
+    /// of at least half of the panels.
     pub fn best(whole: Rect, gap: f64, panels: &[Extents]) -> Arrangement {
         const PARTS: [f64; 7] = [0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55];
-        let candidates = std::iter::once(Arrangement::Combined)
-            .chain(PARTS.map(Arrangement::Stacked))
-            .chain(PARTS.map(Arrangement::SideBySide));
-        let worst = |arrangement: Arrangement| {
-            panels.iter().map(|extents| arrangement.merit(whole, gap, extents)).fold(f64::INFINITY, f64::min)
+        let divided = PARTS.map(Arrangement::Stacked).into_iter().chain(PARTS.map(Arrangement::SideBySide));
+        let of_panel = |arrangement: Arrangement, extents: &Extents| arrangement.if_enlarging(whole, gap, extents);
+        let is_worthwhile = |candidate: &Arrangement| {
+            let enlarged = panels.iter().filter(|extents| of_panel(*candidate, extents) == *candidate);
+            2 * enlarged.count() >= panels.len()
         };
+        let worst = |arrangement: Arrangement| {
+            let merit = |extents| of_panel(arrangement, extents).merit(whole, gap, extents);
+            panels.iter().map(merit).fold(f64::INFINITY, f64::min)
+        };
+        let candidates = std::iter::once(Arrangement::Combined).chain(divided.filter(is_worthwhile));
         let mut best = (Arrangement::Combined, f64::NEG_INFINITY);
         for candidate in candidates {
             let merit = worst(candidate);

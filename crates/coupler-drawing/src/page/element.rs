@@ -2,9 +2,12 @@
 
 use std::collections::HashSet;
 
+use super::theme::Theme;
+use super::typography::is_article;
 use crate::scene::{
     Anchor, Animation, Circle, Color, Face, Group, Item, Path, Polyline, Stroke, Text, TextRun, Typeface,
 };
+use coupler_curves::expression::{MathPiece, MathText};
 use coupler_curves::geometry::{Point, Similarity, Vector};
 use coupler_curves::motion::{self, DashPattern};
 
@@ -119,11 +122,29 @@ pub(super) struct TextLine {
 impl TextLine {
     /// A line of text at a position of the area.
     pub fn new(text: &str, typeface: Typeface, at: Point, anchor: Anchor, (size, color): (f64, Color)) -> TextLine {
-        let runs = vec![TextRun { text: text.to_owned(), face: typeface.regular() }];
+        let runs = vec![TextRun::new(text, typeface.regular())];
         TextLine { text: Text { position: at, anchor, size, color, runs, quarter_turns: 0 } }
     }
 
-    /// The line with the words that are single-letter `symbols` in italics.
+    /// A line of mathematical text at a position of the area: symbols in italics, exponents raised.
+    pub fn from_math(
+        text: &MathText,
+        typeface: Typeface,
+        at: Point,
+        anchor: Anchor,
+        (size, color): (f64, Color),
+    ) -> TextLine {
+        let run = |piece: &MathPiece| TextRun {
+            text: piece.text.clone(),
+            face: Face { typeface, is_italic: piece.is_symbol },
+            is_raised: piece.is_raised,
+        };
+        let runs = text.pieces().iter().map(run).collect();
+        TextLine { text: Text { position: at, anchor, size, color, runs, quarter_turns: 0 } }
+    }
+
+    /// The line with the words that are single-letter `symbols` in italics, and with raised exponents: what follows `^` up
+    /// to the end of its number, name or parentheses.
     pub fn with_italics(mut self, symbols: &[String]) -> TextLine {
         // A single letter is a symbol; a longer name is read as a word.
         let letters: HashSet<&str> =
@@ -131,21 +152,74 @@ impl TextLine {
         let text: String = self.text.runs.iter().map(|run| run.text.as_str()).collect();
         let mut runs: Vec<TextRun> = Vec::new();
         let typeface = self.text.runs.first().map_or(Typeface::default(), |run| run.face.typeface);
-        let mut push = |text: &str, is_italic| match runs.last_mut() {
-            Some(last) if last.face.is_italic == is_italic => last.text.push_str(text),
-            _ => runs.push(TextRun { text: text.to_owned(), face: Face { typeface, is_italic } }),
+        let mut push = |text: &str, is_italic, is_raised| match runs.last_mut() {
+            Some(last) if last.face.is_italic == is_italic && last.is_raised == is_raised => last.text.push_str(text),
+            _ => runs.push(TextRun { is_raised, ..TextRun::new(text, Face { typeface, is_italic }) }),
         };
-        let is_word = |c: char| c.is_alphanumeric() || c == '_' || c == '\'';
+        let is_word = |c: char| c.is_alphanumeric() || c == '_' || c == '\'' || c == '’';
         let mut rest = text.as_str();
-        while !rest.is_empty() {
-            let end = rest.find(|c| !is_word(c)).unwrap_or(rest.len());
-            let end = if end == 0 { rest.find(is_word).unwrap_or(rest.len()) } else { end };
-            let (piece, after) = rest.split_at(end);
-            push(piece, letters.contains(piece));
+        while let Some(c) = rest.chars().next() {
+            if let Some(exponent) = exponent(rest) {
+                push(exponent, letters.contains(exponent), true);
+                rest = &rest[1 + exponent.len()..];
+                continue;
+            }
+            // A word, or a single character between words.
+            let word_end = rest.find(|c| !is_word(c)).unwrap_or(rest.len());
+            let (piece, after) = rest.split_at(word_end.max(c.len_utf8()));
+            push(piece, letters.contains(piece) && !is_article(piece, after), false);
             rest = after;
         }
         self.text.runs = runs;
         self
+    }
+
+    /// The line at another position.
+    pub fn moved_to(self, position: Point) -> TextLine {
+        TextLine { text: Text { position, ..self.text } }
+    }
+
+    /// The line as it is if it fits `width` at no less than 85 % of its size; otherwise lines that do, broken between
+    /// words, at 85 % of its size. Nothing is left out but what remains of a word that is wider.
+    pub fn fit_or_wrap(mut self, width: f64) -> Vec<TextLine> {
+        const MIN_PART: f64 = 0.85;
+        let natural = self.text.width();
+        if MIN_PART * natural <= width {
+            return vec![self.fit_width(width)];
+        }
+        self.text.size = (MIN_PART * self.text.size).max(Theme::MIN_TEXT_SIZE.min(self.text.size));
+        let text = &self.text;
+        let face = text.runs.first().map(|run| run.face);
+        let line = |words: &String| TextLine {
+            text: Text {
+                runs: face.map(|face| TextRun::new(words.as_str(), face)).into_iter().collect(),
+                ..text.clone()
+            },
+        };
+        self.wrap(width).iter().map(|words| line(words).fit_width(width)).collect()
+    }
+
+    /// The text in lines no wider than `width`, broken at the separators of its parts where that is possible, and
+    /// otherwise between words.
+    pub fn wrap_at_separators(&self, width: f64) -> Vec<String> {
+        let text: String = self.text.runs.iter().map(|run| run.text.as_str()).collect();
+        let face = self.text.runs.first().map(|run| run.face);
+        let is_wider = |line: &str| face.is_some_and(|face| face.width(line, self.text.size) > width);
+        let mut lines: Vec<String> = Vec::new();
+        for part in text.split(" · ").filter(|part| !part.is_empty()) {
+            match lines.last_mut() {
+                Some(line) if !is_wider(&format!("{line} · {part}")) => {
+                    line.push_str(" · ");
+                    line.push_str(part);
+                }
+                _ if is_wider(part) => {
+                    let part = face.map(|face| TextRun::new(part, face)).into_iter().collect();
+                    lines.extend(TextLine { text: Text { runs: part, ..self.text.clone() } }.wrap(width));
+                }
+                _ => lines.push(part.to_owned()),
+            }
+        }
+        lines
     }
 
     /// The line fitted to `width`: set smaller, down to two thirds, and then truncated.
@@ -156,23 +230,20 @@ impl TextLine {
     /// The line with a suffix, fitted to `width`: set smaller, down to two thirds, and then truncated before the
     /// suffix, which stays whole as long as it fits.
     pub fn fit_width_with_suffix(mut self, suffix: &str, width: f64) -> TextLine {
-        // Rounding is tolerated: `width` may have been computed from this very text.
-        let width = width * (1.0 + 1e-9);
         let face = self.text.runs.last().map(|run| run.face);
         let suffix_width = |size: f64| face.map_or(0.0, |face| face.width(suffix, size));
         let natural = self.text.width() + suffix_width(self.text.size);
         if natural > width {
             self.text.size *= (width / natural).max(2.0 / 3.0);
         }
+        // Rounding is tolerated: `width` may have been computed from this very text, or the size from `width`.
+        let width = width * (1.0 + 1e-9);
         if !suffix.is_empty() {
             self.truncate(width - suffix_width(self.text.size));
             match self.text.runs.last_mut() {
                 Some(run) => run.text.push_str(suffix),
                 // Without text before it, the suffix needs no separator.
-                None => self
-                    .text
-                    .runs
-                    .extend(face.map(|face| TextRun { text: suffix.trim_start_matches(" · ").to_owned(), face })),
+                None => self.text.runs.extend(face.map(|face| TextRun::new(suffix.trim_start_matches(" · "), face))),
             }
         }
         self.truncate(width);
@@ -188,13 +259,13 @@ impl TextLine {
         let mut widths_before = Vec::with_capacity(self.text.runs.len());
         for run in &self.text.runs {
             widths_before.push(width_before);
-            width_before += run.face.width(&run.text, size);
+            width_before += run.width(size);
         }
         let mut line_width = width_before;
         while line_width > width {
             let Some(mut run) = self.text.runs.pop() else { break };
             line_width = widths_before[self.text.runs.len()];
-            if let Some(end) = truncated_length(&run, size, width - line_width) {
+            if let Some(end) = truncated_length(&run, run.size(size), width - line_width) {
                 run.text.truncate(end);
                 run.text.push('…');
                 self.text.runs.push(run);
@@ -228,6 +299,19 @@ impl Element for TextLine {
     fn to_item(&self, origin: Vector) -> Item {
         translated(&Item::Text(self.text.clone()), origin)
     }
+}
+
+/// The exponent at the start of a text, after its `^`: a number, a name, or what parentheses enclose, with them.
+fn exponent(text: &str) -> Option<&str> {
+    let rest = text.strip_prefix('^')?;
+    let is_part = |c: char| c.is_alphanumeric() || c == '.' || c == '_';
+    let length = match rest.strip_prefix('(') {
+        Some(inner) => inner.find(')')? + 2,
+        None => rest.find(|c| !is_part(c)).unwrap_or(rest.len()),
+    };
+    // A full stop ends a sentence.
+    let exponent = rest[..length].trim_end_matches('.');
+    (!exponent.is_empty()).then_some(exponent)
 }
 
 /// The length in bytes of the longest beginning of a run that fits `width` with an ellipsis after it; `None` if none
@@ -270,6 +354,16 @@ mod tests {
         let runs = sans("p = 2, prop frame's p's").with_italics(&symbols).text.runs;
         let texts: Vec<(&str, Face)> = runs.iter().map(|run| (run.text.as_str(), run.face)).collect();
         assert_eq!(texts, [("p", Typeface::Sans.italic()), (" = 2, prop frame's p's", Typeface::Sans.regular())]);
+    }
+
+    #[test]
+    fn exponents_are_raised() {
+        let symbols = ["p".to_owned()];
+        let runs = sans("µ, (1 + p)^1.5 / 2 and 2^p. x^").with_italics(&symbols).text.runs;
+        let raised: Vec<(&str, bool)> =
+            runs.iter().filter(|run| run.is_raised).map(|run| (run.text.as_str(), run.face.is_italic)).collect();
+        assert_eq!(raised, [("1.5", false), ("p", true)]);
+        assert_eq!(runs.iter().map(|run| run.text.as_str()).collect::<String>(), "µ, (1 + p)1.5 / 2 and 2p. x^");
     }
 
     #[test]

@@ -3,10 +3,13 @@
 use super::area::Area;
 use super::arrangement::{Arrangement, Extents, Rect};
 use super::element::{CouplerCurve, Drawing};
+use super::labels::Obstacles;
 use super::marks;
 use super::mechanism::PosedMechanism;
+use super::motion_marks::{self, MotionMarks};
 use super::plot::{Plot, round_number_below};
 use super::pose;
+use super::symbols::{Mark, Symbol};
 use super::theme::Theme;
 use super::{Options, Panel, PanelPage, PoseChoice};
 use crate::mechanism::Mechanism;
@@ -19,6 +22,12 @@ use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 /// The greatest distance of a chord from its curve, in millimetres on paper. With the rounding to 1/1000 mm, a page can
 /// be compared with its samples to 0.01 mm.
 pub(super) const MAX_CHORD_ERROR: f64 = 0.009;
+
+/// The rounding of a scale that is computed from a frame: panels of a page differ in size by a hundredth of a millimetre.
+const SCALE_ROUNDING: f64 = 1e-3;
+
+/// The least side of a frame in which inputs are numbered, in ems of the numbers: in a smaller one they hide the curve.
+const MIN_NUMBERED_FRAME: f64 = 14.0;
 
 /// The range of the input that a dash and its gap span: `dash_deg` for an angle; for a length, the greatest round
 /// number up to a twentieth of the longest pass.
@@ -76,7 +85,7 @@ pub(super) struct Figure<'a> {
     pub panel: &'a Panel<'a>,
     solved_cell: &'a SolvedCell,
     /// The linkage in one pose, or in all poses of an animation.
-    mechanisms: Vec<PosedMechanism<'a>>,
+    pub mechanisms: Vec<PosedMechanism<'a>>,
     /// The duration of the animation.
     seconds: f64,
     pub extents: Extents,
@@ -111,35 +120,60 @@ impl<'a> Figure<'a> {
         }
     }
 
-    /// Draws the figure in a frame of an area.
+    /// The scale at which the drawing of the linkage fits its frame, in millimetres to a unit.
+    pub fn fitting_scale(&self, whole: Rect, arrangement: Arrangement, theme: &Theme) -> f64 {
+        let [_, key] = arrangement.rects(whole).map(|frame| Plot::new(frame, theme));
+        key.fitted_to(self.extents.linkage).page_from_plane.scale
+    }
+
+    /// The length of the crank; `None` if there is no crank.
+    pub fn crank_length(&self) -> Option<f64> {
+        let [pivot, pin] = self.solved_cell.linkage.crank()?;
+        let pose = &self.mechanisms.first()?.pose;
+        Some((pose[pin] - pose[pivot]).norm())
+    }
+
+    /// Draws the figure in a frame of an area, with the linkage at a scale in millimetres to a unit, or as large as it fits.
     pub fn draw(
         &self,
         area: &impl Area,
         whole: Rect,
-        arrangement: Arrangement,
+        (arrangement, scale): (Arrangement, Option<f64>),
         page: &PanelPage,
         (options, theme): (&Options, &Theme),
     ) {
         let [curve, key] = arrangement.rects(whole).map(|frame| Plot::new(frame, theme));
         let period = dash_period(&self.solved_cell.linkage, &self.solved_cell.motion.circuits, options);
-        let in_dashes = |plot: &Plot| {
+        let in_dashes = |plot: &Plot, obstacles: Obstacles| {
             let paths = self.paths(plot, period, theme);
             self.draw_solid_curves(area, &paths, theme.hair_width, theme);
             self.draw_marks(area, plot, theme);
+            self.draw_motion_marks(area, plot, &paths, obstacles, theme);
             self.draw_curves(area, plot, page, (paths, period), theme);
         };
         let key = key.fitted_to(self.extents.linkage);
-        key.draw_scale_bar(area, theme);
+        let (key, remark) = match scale {
+            Some(scale) if scale <= key.page_from_plane.scale * (1.0 + SCALE_ROUNDING) => {
+                (key.with_scale(self.extents.linkage, scale), "")
+            }
+            Some(_) => (key, ", reduced"),
+            None => (key, ""),
+        };
+        key.draw_scale_bar(area, remark, theme);
         self.draw_underlay(area, &key, theme);
         if arrangement == Arrangement::Combined {
-            in_dashes(&key);
+            let mut obstacles = Obstacles::default();
+            obstacles.add(&self.linkage_items(&key, theme), false);
+            in_dashes(&key, obstacles);
             self.draw_linkage(area, &key, theme);
         } else {
             self.draw_solid_curves(area, &self.paths(&key, period, theme), theme.fine_width, theme);
             self.draw_linkage(area, &key, theme);
             let curve = curve.fitted_to(self.extents.curve);
-            curve.draw_scale_bar(area, theme);
-            in_dashes(&curve);
+            let enlargement = curve.page_from_plane.scale / key.page_from_plane.scale;
+            let remark = format!(", enlarged × {}", marks::format_significant(enlargement, 2));
+            curve.draw_scale_bar(area, &remark, theme);
+            in_dashes(&curve, Obstacles::default());
         }
     }
 
@@ -202,6 +236,34 @@ impl<'a> Figure<'a> {
         area.record(&Drawing { class: "straight", title: String::new(), items });
     }
 
+    /// Draws the start, the direction and the ticks of each curve, with numbers where they are clear of the `obstacles`
+    /// and the curves.
+    fn draw_motion_marks(
+        &self,
+        area: &impl Area,
+        plot: &Plot,
+        paths: &[motion::JointPath],
+        mut obstacles: Obstacles,
+        theme: &Theme,
+    ) {
+        let solved = self.solved_cell;
+        let marks = |curve: &MeasuredCurve| {
+            let ink = self.curve_ink(curve, theme);
+            MotionMarks::new(&solved.linkage, solved.circuit(curve), curve.joint, plot, ink, theme)
+        };
+        let marks: Vec<MotionMarks> = solved.curves.iter().map(marks).collect();
+        paths.iter().for_each(|path| obstacles.add_points(&path.points, theme.curve_width, false));
+        obstacles.add(&marks::symmetry_axis_items(solved, plot, theme), false);
+        for marks in &marks {
+            obstacles.add(&marks.items, false);
+            area.record(&Drawing { class: "motion", title: String::new(), items: marks.items.clone() });
+        }
+        let frame = plot.rect_above_scale_bar(theme);
+        if frame.size.x.min(frame.size.y) >= MIN_NUMBERED_FRAME * theme.small_size() {
+            area.record(&MotionMarks::place_numbers(marks, &obstacles, frame, theme));
+        }
+    }
+
     /// The path of every curve, in the order of the curves.
     fn paths(&self, plot: &Plot, period: f64, theme: &Theme) -> Vec<motion::JointPath> {
         let all: Vec<usize> = (0..self.solved_cell.curves.len()).collect();
@@ -257,9 +319,63 @@ impl<'a> Figure<'a> {
     }
 
     fn draw_linkage(&self, area: &impl Area, plot: &Plot, theme: &Theme) {
-        let traced = |joint| self.solved_cell.curves.iter().find(|curve| curve.joint == joint);
-        let ink = |joint| traced(joint).map_or(theme.ink, |curve| self.curve_ink(curve, theme));
-        let items = self.posed_items(|mechanism| mechanism.linkage_items(plot, theme, ink));
+        let items = self.linkage_items(plot, theme);
         area.record(&Drawing { class: "linkage", title: String::new(), items });
+    }
+
+    fn linkage_items(&self, plot: &Plot, theme: &Theme) -> Vec<Item> {
+        self.posed_items(|mechanism| mechanism.linkage_items(plot, theme, |joint| self.joint_ink(joint, theme)))
+    }
+
+    /// The ink of a joint: that of its curve if it is traced.
+    pub fn joint_ink(&self, joint: JointId, theme: &Theme) -> Color {
+        let traced = self.solved_cell.curves.iter().find(|curve| curve.joint == joint);
+        traced.map_or(theme.ink, |curve| self.curve_ink(curve, theme))
+    }
+
+    /// The ink of the first curve that has its straight portion marked.
+    pub fn band_ink(&self, theme: &Theme) -> Option<Color> {
+        let is_marked = |curve: &&MeasuredCurve| marks::visible_straight_portion(self.solved_cell, curve).is_some();
+        self.solved_cell.curves.iter().find(is_marked).map(|curve| self.curve_ink(curve, theme))
+    }
+
+    /// The symbols that explain the figure.
+    pub fn symbols(&self, options: &Options, theme: &Theme) -> Vec<Symbol> {
+        let solved = self.solved_cell;
+        let Some(first) = solved.curves.first() else { return Vec::new() };
+        let ink = self.curve_ink(first, theme);
+        let is_turned = solved.linkage.input() != Input::Length;
+        let dashes = match is_turned {
+            true => format!("dash and gap: {}° of input", options.dash_deg),
+            false => "dash and gap: equal steps of the actuator's length".to_owned(),
+        };
+        let pivots = solved.linkage.pivots();
+        let crank_pivot = solved.linkage.crank().map(|[pivot, _]| pivot).filter(|pivot| pivots.contains(pivot));
+        let mut symbols: Vec<(Mark, String)> = Vec::new();
+        symbols.extend(crank_pivot.map(|_| (Mark::CrankPivot, "crank's pivot".to_owned())));
+        if pivots.iter().any(|pivot| Some(*pivot) != crank_pivot) {
+            symbols.push((Mark::Pivot, "fixed pivot".to_owned()));
+        }
+        symbols.push((Mark::TracedPoint(ink), "traced point".to_owned()));
+        symbols.push((Mark::Dashes(ink), dashes));
+        if is_turned {
+            symbols.push((Mark::Start(ink), "start and direction".to_owned()));
+            symbols.push((Mark::Tick(ink), format!("every {}° of input", motion_marks::TICK_DEG)));
+        }
+        let later = solved.curves.iter().find(|curve| self.style_index(curve) == 1);
+        if let Some(curve) = later {
+            let what = if curve.trace > 1 { "second traced point" } else { "second circuit" };
+            symbols.push((Mark::Dashes(self.curve_ink(curve, theme)), what.to_owned()));
+        }
+        if solved.motion.circuits.iter().any(|circuit| !circuit.is_full_turn()) {
+            symbols.push((Mark::Limit(ink), "limit of the input".to_owned()));
+        }
+        if solved.linkage.motion_options.figure_arc.is_some() {
+            symbols.push((Mark::Light(ink), "outside the figure of the source".to_owned()));
+        }
+        if marks::has_symmetry_axis(solved) {
+            symbols.push((Mark::Axis, "axis of symmetry".to_owned()));
+        }
+        symbols.into_iter().map(|(mark, meaning)| Symbol { mark, meaning }).collect()
     }
 }

@@ -1,9 +1,11 @@
 //! The frame of every page: border, title, source line and folio.
 
 use super::area::Area;
+use super::element::TextLine;
 use super::theme::Theme;
 use crate::scene::Anchor;
-use coupler_curves::geometry::Point;
+use coupler_curves::expression::MathText;
+use coupler_curves::geometry::{Point, Vector};
 
 /// The texts around the contents of a page: title, source line and folio.
 ///
@@ -19,6 +21,8 @@ pub struct Heading<'a> {
     pub atlas_title: &'a str,
     /// The line under the title: where the linkage comes from and what its letters mean; may be empty.
     pub source: String,
+    /// The dimensions that all linkages of the page share, printed once under the source line.
+    pub dimensions: &'a [MathText],
     /// The names of parameters, set in italics.
     pub symbols: &'a [String],
     /// The page's number in the family, from 1.
@@ -35,6 +39,7 @@ impl<'a> Heading<'a> {
             family_id: "page",
             atlas_title: "",
             source: String::new(),
+            dimensions: &[],
             symbols: &[],
             page: 1,
             page_count: 1,
@@ -56,6 +61,11 @@ impl<'a> Heading<'a> {
         Heading { source: source.into(), ..self }
     }
 
+    /// The heading with dimensions under its source line.
+    pub fn with_dimensions(self, dimensions: &'a [MathText]) -> Heading<'a> {
+        Heading { dimensions, ..self }
+    }
+
     /// The heading with the names of parameters, which are set in italics.
     pub fn with_symbols(self, symbols: &'a [String]) -> Heading<'a> {
         Heading { symbols, ..self }
@@ -68,7 +78,11 @@ impl<'a> Heading<'a> {
 
     /// The title of the document the page is written to.
     pub(super) fn page_title(&self) -> String {
-        let page = format!("{}, page {} of {}", self.family_title, self.page, self.page_count);
+        let number = match self.page_count {
+            1 => String::new(),
+            count => format!(", page {} of {count}", self.page),
+        };
+        let page = format!("{}{number}", self.family_title);
         if self.atlas_title.is_empty() { page } else { format!("{page}: {}", self.atlas_title) }
     }
 
@@ -78,8 +92,8 @@ impl<'a> Heading<'a> {
         titles.into_iter().filter(|title| !title.is_empty()).collect::<Vec<_>>().join(" · ")
     }
 
-    /// Draws border, title, source line and folio.
-    pub(super) fn draw(&self, root: &impl Area, theme: &Theme) {
+    /// Draws border, title, source lines, dimensions and folio; the result is the least y of the contents.
+    pub(super) fn draw(&self, root: &impl Area, theme: &Theme) -> f64 {
         draw_border(root, theme);
         let page = root.size();
         let mut at = draw_title(root, self.family_title, theme);
@@ -87,28 +101,52 @@ impl<'a> Heading<'a> {
         let source_line = |text: &str, at| {
             theme.text_line(text, at, Anchor::Start, theme.source_size, theme.grey).with_italics(self.symbols)
         };
-        // A source too long for one line is broken at a separator; there is no space for a third line.
-        let fits = |text: &str| source_line(text, at).text.width() <= right - left;
-        let (first, second) = split_at_separator(&self.source, fits);
-        for line in [first, second].into_iter().filter(|line| !line.is_empty()) {
-            root.record(&source_line(line, at).fit_width(right - left));
-            at.y += 1.35 * theme.source_size;
+        // A source too long for one line is broken at separators.
+        let source = source_line(&self.source, Point::origin());
+        for line in source.wrap_at_separators(right - left) {
+            root.record(&source_line(&line, at).fit_width(right - left));
+            at.y += SOURCE_LEADING * theme.source_size;
         }
-        let at = Point::new(right, page.y - theme.border - 0.6 * theme.margin);
-        let atlas = theme.text_line(self.atlas_title, at, Anchor::End, theme.source_size, theme.grey);
-        let folio = self.folio();
-        let folio = if self.atlas_title.is_empty() { folio.trim_start_matches(SEPARATOR) } else { &folio };
-        root.record(&atlas.fit_width_with_suffix(folio, right - left));
+        let dimension_line =
+            |text: &MathText, at| theme.math_line(text, at, Anchor::Start, theme.source_size, theme.ink);
+        let fits = |text: &MathText| dimension_line(text, Point::origin()).text.width() <= right - left;
+        for line in MathText::join(self.dimensions.iter().cloned(), ", ").wrap(fits) {
+            root.record(&dimension_line(&line, at).fit_width(right - left));
+            at.y += SOURCE_LEADING * theme.source_size;
+        }
+        let folio = self.folio_line(theme);
+        root.record(&folio.fit_width(right - left).moved_to(Point::new(right, foot_baseline(page, theme))));
+        // Two thirds of the last line's leading are above the contents.
+        (at.y - 0.6 * theme.source_size).max(margins(theme)[0])
     }
 
-    /// The page number, which ends the last line of the page, with a separator before it.
+    /// The last line of the page: the title of the atlas and the page number.
+    pub(super) fn folio_line(&self, theme: &Theme) -> TextLine {
+        let folio = self.folio();
+        let text = if self.atlas_title.is_empty() { folio.trim_start_matches(SEPARATOR) } else { &folio };
+        let text = format!("{}{text}", self.atlas_title);
+        theme.text_line(&text, Point::origin(), Anchor::End, theme.source_size, theme.grey)
+    }
+
+    /// The page number, which ends the last line of the page, with a separator before it; empty if there is one page.
     pub(super) fn folio(&self) -> String {
-        format!("{SEPARATOR}page {} of {}", self.page, self.page_count)
+        match self.page_count {
+            1 => String::new(),
+            count => format!("{SEPARATOR}page {} of {count}", self.page),
+        }
     }
 }
 
 /// Separates the parts of a line.
 const SEPARATOR: &str = " · ";
+
+/// The distance of the lines under the title, in ems.
+const SOURCE_LEADING: f64 = 1.35;
+
+/// The baseline of the last line of a page.
+pub(super) fn foot_baseline(page: Vector, theme: &Theme) -> f64 {
+    page.y - theme.border - 0.6 * theme.margin
+}
 
 /// Draws the border of a page.
 pub(super) fn draw_border(root: &impl Area, theme: &Theme) {
@@ -117,13 +155,17 @@ pub(super) fn draw_border(root: &impl Area, theme: &Theme) {
     root.record_rectangle(corners, theme.stroke(theme.ink, theme.fine_width));
 }
 
-/// Draws the title of a page; the position at which the line under it starts.
+/// Draws the title of a page, in as many lines as it needs; the position at which the line under it starts.
 pub(super) fn draw_title(root: &impl Area, title: &str, theme: &Theme) -> Point {
     let left = theme.border + theme.margin;
-    let at = Point::new(left, theme.border + 1.9 * theme.title_size);
-    let line = theme.text_line(title, at, Anchor::Start, theme.title_size, theme.ink);
-    root.record(&line.fit_width(root.size().x - 2.0 * left));
-    Point::new(left, at.y + 1.85 * theme.source_size)
+    let width = root.size().x - 2.0 * left;
+    let mut at = Point::new(left, theme.border + 1.9 * theme.title_size);
+    for line in theme.text_line(title, at, Anchor::Start, theme.title_size, theme.ink).fit_or_wrap(width) {
+        let size = line.text.size;
+        root.record(&line.moved_to(at));
+        at.y += 1.2 * size;
+    }
+    Point::new(left, at.y - 1.2 * theme.title_size + 1.85 * theme.source_size)
 }
 
 /// The margins above, below and on both sides of the contents, in millimetres.
@@ -131,15 +173,4 @@ pub(super) fn margins(theme: &Theme) -> [f64; 3] {
     let top = theme.border + 2.3 * theme.title_size + 3.2 * theme.source_size;
     let bottom = theme.border + theme.margin + theme.source_size;
     [top, bottom, theme.border + 0.5 * theme.margin]
-}
-
-/// A text that does not fit as a whole, split at the last separator before which it fits.
-fn split_at_separator(text: &str, fits: impl Fn(&str) -> bool) -> (&str, &str) {
-    if fits(text) {
-        return (text, "");
-    }
-    let separators: Vec<usize> = text.match_indices(SEPARATOR).map(|(at, _)| at).collect();
-    let fitting = separators.partition_point(|&at| fits(&text[..at]));
-    let at = fitting.checked_sub(1).map(|last| separators[last]);
-    at.map_or((text, ""), |at| (&text[..at], &text[at + SEPARATOR.len()..]))
 }

@@ -3,8 +3,10 @@
 use super::plot::Plot;
 use super::theme::Theme;
 use crate::scene::{Color, Item, Path, Polyline};
-use coupler_curves::geometry::Bounds;
-use coupler_curves::linkage::Input;
+use coupler_curves::expression::{format_exactly, round_to_six_digits};
+use coupler_curves::family::{Family, StraightCriterion};
+use coupler_curves::geometry::{Bounds, Point};
+use coupler_curves::linkage::{Input, JointId};
 use coupler_curves::measure::{StraightPortion, Symmetry, SymmetryAxis, Value};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 
@@ -12,37 +14,95 @@ use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 pub const PAGE_MEASURES: [&str; 7] =
     ["class", "mu_min_deg", "mu_max_deg", "mu_worst_deg", "length", "straight_length", "symmetry"];
 
-/// The facts of a cell: first its class and the range of its transmission angle, second its longest straight portion.
-/// Either may be empty.
-pub fn cell_facts(solved: &SolvedCell) -> [String; 2] {
+/// The facts of a cell of a family: first its class and the range of its transmission angle, second its longest straight
+/// portion. Either may be empty.
+pub fn cell_facts(family: &Family, solved: &SolvedCell) -> [String; 2] {
     let Some(first) = solved.curves.first() else { return Default::default() };
     let mut parts = Vec::new();
     if let Value::Word(class) = first.value("class") {
         parts.push(class.to_owned());
     }
     if let (Value::Number(least), Value::Number(most)) = (first.value("mu_min_deg"), first.value("mu_max_deg")) {
-        parts.push(format!("μ {least:.1}°–{most:.1}°"));
+        parts.push(transmission_text(least, most));
     }
     let portions = solved.curves.iter().filter_map(|curve| Some((curve, curve.straight.as_ref()?)));
     let longest = portions.max_by(|(_, a), (_, b)| a.length.total_cmp(&b.length));
     let straight = longest.map_or(String::new(), |(curve, portion)| {
         let unit = if solved.linkage.input() == Input::Length { "" } else { "°" };
-        let (length, deviation) = (format_significant(portion.length, 4), format_significant(portion.deviation, 2));
+        let times = if mirrored_portion(solved, curve, portion).is_some() { "twice " } else { "" };
+        let length = format_significant(portion.length, 4);
+        let [exactly, deviation] = deviation_texts(family.straight, portion);
         let curve_number =
             if solved.linkage.traced.len() > 1 { format!(" (curve {})", curve.trace) } else { String::new() };
-        format!("straight {length} ± {deviation} over {:.1}{unit}{curve_number}", portion.input_span)
+        format!("{exactly}straight {times}{length}{deviation} over {:.1}{unit}{curve_number}", portion.input_span)
     });
     [parts.join(" · "), straight]
 }
 
-/// The straight portion of a curve, if it is long enough to be seen: at least a fiftieth of the extent of the curve.
-fn visible_straight_portion<'a>(solved: &'a SolvedCell, curve: &'a MeasuredCurve) -> Option<&'a StraightPortion> {
-    let bounds = Bounds::from_points(solved.circuit(curve).points(curve.joint));
-    let extent = bounds.size().x.max(bounds.size().y);
-    curve.straight.as_ref().filter(|portion| portion.length >= 0.02 * extent)
+/// The range of the transmission angle, in degrees. At 0° and at 180° coupler and output link are on one line, and no force
+/// is transmitted, whatever the other end of the range is.
+fn transmission_text(least: f64, most: f64) -> String {
+    /// What is printed as 0 or 180 with one decimal.
+    const ROUNDING: f64 = 0.05;
+    match (least < ROUNDING, most > 180.0 - ROUNDING) {
+        (false, false) => format!("μ {least:.1}°–{most:.1}°"),
+        (true, false) => format!("μ reaches 0°, up to {most:.1}°"),
+        (false, true) => format!("μ from {least:.1}°, reaches 180°"),
+        (true, true) => "μ reaches 0° and 180°".to_owned(),
+    }
 }
 
-/// A number with `count` significant digits, in scientific notation if it is very large or small.
+/// What is said of the deviation of a straight portion before the word and after the length: nothing if the criterion sets
+/// it as a part of the length.
+fn deviation_texts(criterion: StraightCriterion, portion: &StraightPortion) -> [String; 2] {
+    /// A smaller part of the length is rounding.
+    const ROUNDING: f64 = 1e-12;
+    match criterion {
+        _ if portion.deviation <= ROUNDING * portion.length => ["exactly ".to_owned(), String::new()],
+        StraightCriterion::Tolerance(_) => Default::default(),
+        _ => [String::new(), format!(" ± {}", format_significant(portion.deviation, 2))],
+    }
+}
+
+/// What is said of straight portions in the line of symbols.
+pub(super) fn straight_criterion_text(criterion: StraightCriterion, unit: &str) -> String {
+    match criterion {
+        StraightCriterion::Tolerance(tolerance) => {
+            let half = format_exactly(round_to_six_digits(0.5 * tolerance));
+            format!("longest straight portion, within ± {half} of its length")
+        }
+        StraightCriterion::Input(input) => format!("straightest portion over {input}{unit} of input"),
+        StraightCriterion::Length(length) => format!("straightest portion of length {length}"),
+    }
+}
+
+/// The mirror image of a straight portion in the axis of its curve, if the curve is symmetrical and the portion is not
+/// its own image.
+fn mirrored_portion(solved: &SolvedCell, curve: &MeasuredCurve, portion: &StraightPortion) -> Option<Vec<Point>> {
+    /// The ends of a portion are known to about this part of its length.
+    const END_ACCURACY: f64 = 1e-3;
+    let axis = curve.symmetry.as_ref().and_then(Symmetry::axis_if_symmetric)?;
+    crosses_axis(solved, curve, &axis).then_some(())?;
+    let image: Vec<Point> = portion.points.iter().map(|p| axis.mirror(*p)).collect();
+    let (first, last) = (*portion.points.first()?, *portion.points.last()?);
+    let image_end = *image.first()?;
+    let nearest = (image_end - first).norm().min((image_end - last).norm());
+    (nearest > END_ACCURACY * portion.length).then_some(image)
+}
+
+/// The straight portion of a curve, if it is long enough to be seen, at least a fiftieth of the extent of the curve, and is
+/// not the whole curve.
+pub(super) fn visible_straight_portion<'a>(
+    solved: &'a SolvedCell,
+    curve: &'a MeasuredCurve,
+) -> Option<&'a StraightPortion> {
+    let bounds = Bounds::from_points(solved.circuit(curve).points(curve.joint));
+    let extent = bounds.size().x.max(bounds.size().y);
+    let diagonal = bounds.size().norm();
+    curve.straight.as_ref().filter(|portion| portion.length >= 0.02 * extent && portion.length < 0.999 * diagonal)
+}
+
+/// A number with `count` significant digits; times a power of ten if it is very large or small.
 pub(super) fn format_significant(value: f64, count: i32) -> String {
     if value == 0.0 || !value.is_finite() {
         return value.to_string();
@@ -53,10 +113,19 @@ pub(super) fn format_significant(value: f64, count: i32) -> String {
         return format!("{value:.decimals$}");
     }
     let decimals = usize::try_from(count - 1).unwrap_or(0);
-    format!("{value:.decimals$e}")
+    let scientific = format!("{value:.decimals$e}");
+    let (digits, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
+    format!("{digits} × 10{}", superscript(exponent))
 }
 
-/// The straight portion of a curve as a broad light band under the dashes.
+/// A whole number as superscript digits.
+fn superscript(number: &str) -> String {
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let raise = |c: char| if c == '-' { Some('⁻') } else { DIGITS.get(c.to_digit(10)? as usize).copied() };
+    number.chars().filter_map(raise).collect()
+}
+
+/// The straight portion of a curve as a broad light band under the dashes, and its mirror image on a symmetrical curve.
 pub(super) fn straight_portion_item(
     solved: &SolvedCell,
     curve: &MeasuredCurve,
@@ -65,13 +134,28 @@ pub(super) fn straight_portion_item(
     theme: &Theme,
 ) -> Option<Item> {
     let portion = visible_straight_portion(solved, curve)?;
-    let points = portion.points.iter().map(|p| plot.page_from_plane.apply(*p)).collect();
+    let line = |points: &[Point]| {
+        let points = points.iter().map(|p| plot.page_from_plane.apply(*p)).collect();
+        Polyline { points, is_closed: false }
+    };
+    let image = mirrored_portion(solved, curve, portion);
+    let polylines = std::iter::once(line(&portion.points)).chain(image.iter().map(|image| line(image))).collect();
     let stroke = Some(theme.stroke(theme.faded(ink), 3.0 * theme.curve_width));
-    Some(Item::Path(Path { polylines: vec![Polyline { points, is_closed: false }], stroke, fill: None }))
+    Some(Item::Path(Path { polylines, stroke, fill: None }))
+}
+
+/// Whether an axis of symmetry is marked.
+pub(super) fn has_symmetry_axis(solved: &SolvedCell) -> bool {
+    !marked_axes(solved).is_empty()
 }
 
 /// The axes of symmetry of the curves as dash-dotted lines, a little longer than the curves.
 pub(super) fn symmetry_axis_items(solved: &SolvedCell, plot: &Plot, theme: &Theme) -> Vec<Item> {
+    marked_axes(solved).iter().filter_map(|axis| symmetry_axis_item(solved, axis, plot, theme)).collect()
+}
+
+/// The axes of symmetry that inform: not of straight lines and of arcs about a fixed pivot.
+fn marked_axes(solved: &SolvedCell) -> Vec<SymmetryAxis> {
     let mut drawn: Vec<SymmetryAxis> = Vec::new();
     for curve in &solved.curves {
         let axis = curve.symmetry.as_ref().and_then(Symmetry::axis_if_symmetric);
@@ -81,9 +165,23 @@ pub(super) fn symmetry_axis_items(solved: &SolvedCell, plot: &Plot, theme: &Them
         };
         // A straight line is symmetrical about itself, but drawing that axis would hide it.
         let new = axis.filter(|axis| drawn.iter().all(|other| !is_like(other, axis)));
-        drawn.extend(new.filter(|axis| crosses_axis(solved, curve, axis)));
+        drawn.extend(new.filter(|axis| crosses_axis(solved, curve, axis) && !is_arc(solved, curve)));
     }
-    drawn.iter().filter_map(|axis| symmetry_axis_item(solved, axis, plot, theme)).collect()
+    drawn
+}
+
+/// Whether a curve is on a circle about a fixed pivot.
+fn is_arc(solved: &SolvedCell, curve: &MeasuredCurve) -> bool {
+    /// The positions of joints are known to less than this part of the radius.
+    const ROUNDING: f64 = 1e-9;
+    let circuit = solved.circuit(curve);
+    let is_at_constant_distance = |pivot: JointId| {
+        let centre = circuit.positions.point(pivot, 0);
+        let distances = circuit.points(curve.joint).map(|p| (p - centre).norm());
+        let [least, most] = distances.fold([f64::INFINITY, 0.0], |[low, high], d| [low.min(d), high.max(d)]);
+        most - least <= ROUNDING * most
+    };
+    solved.linkage.pivots().into_iter().any(is_at_constant_distance)
 }
 
 /// Whether a curve leaves an axis of symmetry, and does not only run along it.

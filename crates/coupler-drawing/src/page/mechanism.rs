@@ -9,7 +9,7 @@ use coupler_curves::linkage::{JointId, JointKind, LinkId, LinkOutline, Linkage, 
 
 /// A linkage in a pose.
 pub(super) struct PosedMechanism<'a> {
-    linkage: &'a Linkage,
+    pub linkage: &'a Linkage,
     mechanism: Mechanism,
     /// The positions of all joints.
     pub pose: Vec<Point>,
@@ -31,6 +31,16 @@ impl<'a> PosedMechanism<'a> {
     /// The ink of a link, if it is not the ink of the theme.
     fn link_ink(&self, link: LinkId, theme: &Theme) -> Option<Color> {
         self.link_inks.iter().find(|(inked, _)| *inked == link).map(|&(_, ink)| theme.curve_ink(ink))
+    }
+
+    /// Whether a joint is that of a yoke, which is no pin.
+    fn is_yoke(&self, joint: JointId) -> bool {
+        matches!(self.linkage.joints[joint].kind, JointKind::Yoke { .. })
+    }
+
+    /// The joints that are drawn, each once.
+    pub fn drawn_joints(&self) -> Vec<JointId> {
+        self.mechanism.drawn_joints(self.linkage)
     }
 
     /// The bounds of everything that is drawn of the linkage.
@@ -71,9 +81,17 @@ impl<'a> PosedMechanism<'a> {
             items.push(Item::Circle(Circle { centre, radius, stroke, fill: None }));
         }
         for guide in &self.mechanism.guides {
-            let [a, b] = guide.map(|p| plot.page_from_plane.apply(p));
-            let over = (b - a).try_normalize(0.0).unwrap_or(Vector::new(1.0, 0.0)) * (2.4 * theme.joint_radius);
-            items.push(Item::Path(Path::stroked(vec![a - over, b + over], theme.stroke(theme.ink, theme.fine_width))));
+            let [a, b] = guide.ends.map(|p| plot.page_from_plane.apply(p));
+            let along = (b - a).try_normalize(0.0).unwrap_or(Vector::new(1.0, 0.0));
+            let over = along * (2.4 * theme.joint_radius);
+            let line = |off: Vector| Polyline { points: vec![a - over + off, b + over + off], is_closed: false };
+            // A yoke moves between two rails, a block on one.
+            let polylines = match self.is_yoke(guide.joint) {
+                true => [1.0, -1.0].map(|side| line(left_normal(along) * (side * 1.2 * theme.joint_radius))).to_vec(),
+                false => vec![line(Vector::zeros())],
+            };
+            let stroke = Some(theme.stroke(theme.ink, theme.fine_width));
+            items.push(Item::Path(Path { polylines, stroke, fill: None }));
         }
         items
     }
@@ -97,8 +115,15 @@ impl<'a> PosedMechanism<'a> {
                 fill: None,
             }));
         }
-        let on_blocks = self.mechanism.blocks.iter().map(|Block { joint, line: [p, q] }| (at(*joint), at(*q) - at(*p)));
-        let mut blocks: Vec<(Point, Vector)> = on_blocks.collect();
+        let (yokes, sliders): (Vec<&Block>, Vec<&Block>) =
+            self.mechanism.blocks.iter().partition(|block| self.is_yoke(block.joint));
+        let placed = |Block { joint, line: [p, q] }: &Block| (at(*joint), at(*q) - at(*p));
+        let mut blocks: Vec<(Point, Vector)> = sliders.into_iter().map(placed).collect();
+        for (centre, line) in yokes.into_iter().map(placed) {
+            // The stem of a yoke is one piece with its slot.
+            let along = line.try_normalize(0.0).unwrap_or(Vector::new(1.0, 0.0)) * (3.0 * theme.joint_radius);
+            items.push(Item::Path(Path::stroked(vec![centre - along, centre + along], heavy)));
+        }
         for slot in &self.mechanism.slots {
             let ends = slot.ends_in(&self.pose).map(on_page);
             items.push(Item::Path(Path::stroked(vec![at(slot.foot), ends[0], ends[1]], heavy)));
@@ -110,16 +135,23 @@ impl<'a> PosedMechanism<'a> {
             let stroke = Some(theme.stroke(color, theme.fine_width));
             Item::Circle(Circle { centre, radius, stroke, fill: Some(theme.paper) })
         };
-        for joint in self.mechanism.drawn_joints(self.linkage) {
+        let crank_pivot = self.linkage.crank().map(|[pivot, _]| pivot);
+        for joint in self.drawn_joints().into_iter().filter(|joint| !self.is_yoke(*joint)) {
             if self.mechanism.pivots.contains(&joint) {
-                items.push(circle(at(joint), 1.5 * theme.joint_radius, ink(joint)));
-                items.push(circle(at(joint), 0.7 * theme.joint_radius, ink(joint)));
+                items.extend(pivot_items(at(joint), crank_pivot == Some(joint), ink(joint), theme));
             } else {
                 items.push(circle(at(joint), theme.joint_radius, ink(joint)));
             }
         }
         items
     }
+}
+
+/// A fixed pivot: a double circle, filled in its middle if it is the crank's.
+pub(super) fn pivot_items(centre: Point, is_of_crank: bool, color: Color, theme: &Theme) -> Vec<Item> {
+    let stroke = Some(theme.stroke(color, theme.fine_width));
+    let circle = |radius: f64, fill| Item::Circle(Circle { centre, radius: radius * theme.joint_radius, stroke, fill });
+    vec![circle(1.5, Some(theme.paper)), circle(0.7, Some(if is_of_crank { color } else { theme.paper }))]
 }
 
 /// The two joints on the line of a slot, yoke or actuator, if `joint` is placed by one.

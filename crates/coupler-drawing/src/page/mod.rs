@@ -14,19 +14,25 @@ mod coupler_grid;
 mod element;
 mod figure;
 mod heading;
+mod key;
+mod labels;
 mod marks;
 mod mechanism;
+mod motion_marks;
 mod overlay;
 mod panel;
 mod panels;
 mod plot;
 mod pose;
+mod symbols;
 mod theme;
+mod typography;
 
 #[cfg(feature = "plotters")]
 pub use chart::compose_charts;
 pub use figure::dash_period;
 pub use heading::Heading;
+pub use key::Key;
 pub use marks::{PAGE_MEASURES, cell_facts};
 pub use panel::{Panel, PoseChoice};
 pub use theme::{CurveStyle, NamedTheme, Theme};
@@ -156,6 +162,18 @@ impl Options {
     }
 }
 
+/// The scale of the linkages on pages of panels.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum PanelScale {
+    /// Each is as large as its panel.
+    #[default]
+    Panel,
+    /// All of a page have the scale at which the largest one fits its panel.
+    Page,
+    /// All have this scale, in millimetres to a unit of length. One that does not fit is reduced.
+    Fixed(f64),
+}
+
 /// A page of panels.
 #[derive(Clone, Debug)]
 pub struct PanelPage<'a> {
@@ -165,6 +183,10 @@ pub struct PanelPage<'a> {
     pub layout: Layout,
     /// The panels, row by row.
     pub panels: Vec<Panel<'a>>,
+    /// The scale of the linkages.
+    pub scale: PanelScale,
+    /// How the linkages are built; nothing is said if there is none.
+    pub key: Option<&'a Key>,
 }
 
 /// A page of a coupler grid.

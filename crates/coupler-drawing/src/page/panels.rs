@@ -2,31 +2,131 @@
 
 use super::area::Area;
 use super::arrangement::{Arrangement, Extents, Rect};
-use super::element::Drawing;
+use super::element::{Drawing, TextLine};
 use super::figure::Figure;
-use super::heading::margins;
+use super::heading::{foot_baseline, margins};
+use super::key;
+use super::symbols::{self, Mark, Symbol};
 use super::theme::Theme;
-use super::{Options, Panel, PanelPage, Paper};
+use super::{Options, Panel, PanelPage, PanelScale, Paper};
 use crate::scene::{Anchor, Color, Item};
 use coupler_curves::geometry::{Point, Vector};
 use coupler_curves::solve::SolvedCell;
 
 pub(super) fn compose(root: &impl Area, page: &PanelPage, options: &Options, theme: &Theme) {
-    page.heading.draw(root, theme);
-    draw_panels(root, page, options, theme);
+    let top = page.heading.draw(root, theme);
+    let figures: Vec<Option<Figure>> = page.panels.iter().map(Figure::from_panel).collect();
+    // The scale is known after the panels are arranged; no statement of it is wider than this one.
+    let above_foot = layout_symbols(root, page, &figures, "one unit of length = 0000.0 mm", options, theme).1;
+    let [_, _, side] = margins(theme);
+    let contents = Rect {
+        corner: Point::new(side, top),
+        size: Vector::new(root.size().x - 2.0 * side, (above_foot - top).max(0.1 * root.size().y)),
+    };
+    let (panels, key) = match page.key {
+        Some(_) => key::divide(contents, theme),
+        None => (contents, None),
+    };
+    if let (Some(key), Some(rect)) = (page.key, key) {
+        let first = figures.iter().flatten().next();
+        key::draw(root, rect.inset(0.5 * theme.margin), key, first, theme);
+    }
+    let far = panels.corner + panels.size;
+    let area = root.without_margins([panels.corner.y, root.size().y - far.y, panels.corner.x, root.size().x - far.x]);
+    let scale = draw_panels(&area, page, &figures, options, theme);
+    let scale = scale.map_or("units of length".to_owned(), |scale| scale_text(scale, &figures));
+    for (at, line) in layout_symbols(root, page, &figures, &scale, options, theme).0 {
+        symbols::draw(root, &line, at, theme);
+    }
 }
 
-fn draw_panels<A: Area>(root: &A, page: &PanelPage, options: &Options, theme: &Theme) {
-    let [top, bottom, side] = margins(theme);
+/// A scale that is common to all panels of a page, in millimetres to a unit, as the length of a crank that all have, or of
+/// a unit.
+fn scale_text(scale: f64, figures: &[Option<Figure>]) -> String {
+    let cranks: Vec<f64> = figures.iter().flatten().filter_map(Figure::crank_length).collect();
+    // Lengths of links are known to 1e-9 of themselves from the positions of their joints.
+    let is_common = |first: f64| cranks.iter().all(|crank| (crank - first).abs() <= 1e-9 * first);
+    match cranks.first().filter(|first| is_common(**first)) {
+        Some(crank) => format!("crank = {:.1} mm", crank * scale),
+        None => format!("one unit of length = {scale:.1} mm"),
+    }
+}
+
+/// The lines that explain the symbols of a page at its foot, beside the folio, with their positions; and the greatest y of
+/// the contents.
+fn layout_symbols(
+    root: &impl Area,
+    page: &PanelPage,
+    figures: &[Option<Figure>],
+    scale: &str,
+    options: &Options,
+    theme: &Theme,
+) -> (Vec<(Point, Vec<Symbol>)>, f64) {
+    const LEADING: f64 = 1.45;
+    let [_, bottom, _] = margins(theme);
+    let [left, right] = [theme.border + theme.margin, root.size().x - theme.border - theme.margin];
+    let folio = page.heading.folio_line(theme).text.width();
+    let symbols = page_symbols(page, figures, scale, options, theme);
+    let lines = symbols::lines(&symbols, right - left - folio - 2.0 * theme.note_size, theme);
+    let step = LEADING * theme.note_size;
+    let above = root.size().y - bottom - step * lines.len().saturating_sub(1) as f64;
+    let first = foot_baseline(root.size(), theme) - step * lines.len().saturating_sub(1) as f64;
+    let placed = lines.into_iter().enumerate().map(|(k, line)| (Point::new(left, first + step * k as f64), line));
+    (placed.collect(), above)
+}
+
+/// The symbols of all figures of a page, each once, and those of the texts under them.
+fn page_symbols(
+    page: &PanelPage,
+    figures: &[Option<Figure>],
+    scale: &str,
+    options: &Options,
+    theme: &Theme,
+) -> Vec<Symbol> {
+    let mut symbols: Vec<Symbol> = Vec::new();
+    for symbol in figures.iter().flatten().flat_map(|figure| figure.symbols(options, theme)) {
+        if symbols.iter().all(|known| known.meaning != symbol.meaning) {
+            symbols.push(symbol);
+        }
+    }
+    if symbols.is_empty() {
+        return symbols;
+    }
+    let mut add = |mark: Mark, meaning: &str| symbols.push(Symbol { mark, meaning: meaning.to_owned() });
+    let has = |text: &str| page.panels.iter().flat_map(|panel| &panel.facts).any(|fact| fact.contains(text));
+    let band = figures.iter().flatten().find_map(|figure| figure.band_ink(theme));
+    if let (Some(key), Some(ink)) = (page.key, band) {
+        add(Mark::Band(ink), &key.straight);
+    }
+    if has("μ") {
+        add(Mark::Letter("μ"), "transmission angle");
+    }
+    add(Mark::ScaleBar, scale);
+    symbols
+}
+
+/// Draws the panels; the result is the scale of their linkages, if it is common to all.
+fn draw_panels<A: Area>(
+    root: &A,
+    page: &PanelPage,
+    figures: &[Option<Figure>],
+    options: &Options,
+    theme: &Theme,
+) -> Option<f64> {
     let [columns, rows] = page.layout.grid();
-    let areas = root.without_margins([top, bottom, side, side]).grid_cells(rows, columns);
-    let theme = &theme.for_panel_size(areas[0].size());
-    let figures: Vec<Option<Figure>> = page.panels.iter().map(Figure::from_panel).collect();
-    let facts = FactsLayout::for_page(page, areas[0].size().x - 1.2 * theme.caption_size, theme);
-    let has_notes =
-        page.panels.iter().any(|panel| !panel.note.is_empty() || panel.solved_cell.motion.assembly_error.is_some());
-    let lines = f64::from(u8::from(has_notes) + facts.line_count());
-    let foot = theme.caption_size * 1.5 + lines * theme.note_size * 1.5 + 2.2 * theme.caption_size;
+    let areas = root.grid_cells(rows, columns);
+    let size = areas[0].size();
+    let theme = &theme.for_panel_size(size);
+    let width = size.x - 1.2 * theme.caption_size;
+    let facts = FactsLayout::for_page(page, width, theme);
+    let theme = &with_equal_captions(page, width, theme);
+    let texts: Vec<Vec<TextLine>> =
+        page.panels.iter().map(|panel| panel_lines(panel, facts, width, page.heading.symbols, theme)).collect();
+    /// The part of a panel that is left to its figure, however long its text is.
+    const MIN_FIGURE: f64 = 0.4;
+    let height = |lines: &Vec<TextLine>| lines.iter().map(leading).sum::<f64>();
+    let longest = texts.iter().map(height).fold(0.0, f64::max);
+    let foot = (longest + 2.2 * theme.caption_size).min((1.0 - MIN_FIGURE) * size.y);
     // One arrangement fits all panels: a page is split to within a hundredth of a millimetre.
     let figure_rect = |area: &A| {
         let gap = 1.2 * theme.caption_size;
@@ -34,17 +134,72 @@ fn draw_panels<A: Area>(root: &A, page: &PanelPage, options: &Options, theme: &T
         Rect { corner: Point::new(gap, 0.0), size: size.sup(&Vector::new(1.0, 1.0)) }
     };
     let extents: Vec<Extents> = figures.iter().flatten().map(|figure| figure.extents).collect();
-    let arrangement = Arrangement::best(figure_rect(&areas[0]), 2.0 * theme.joint_radius, &extents);
-    for ((panel, figure), area) in page.panels.iter().zip(&figures).zip(&areas) {
+    let gap = 2.0 * theme.joint_radius;
+    let arrangement = Arrangement::best(figure_rect(&areas[0]), gap, &extents);
+    let fitting_scale = |(figure, area): (&Figure, &A)| {
+        let frame = figure_rect(area);
+        figure.fitting_scale(frame, arrangement.if_enlarging(frame, gap, &figure.extents), theme)
+    };
+    let drawn = || figures.iter().zip(&areas).filter_map(|(figure, area)| Some((figure.as_ref()?, area)));
+    let scale = match page.scale {
+        PanelScale::Panel => None,
+        PanelScale::Page => Some(drawn().map(fitting_scale).fold(f64::INFINITY, f64::min)),
+        PanelScale::Fixed(scale) => Some(scale),
+    };
+    let crank_on_paper = |(figure, area): (&Figure, &A)| {
+        let fitting = fitting_scale((figure, area));
+        Some(figure.crank_length()? * scale.map_or(fitting, |scale| scale.min(fitting)))
+    };
+    let shortest_crank = drawn().filter_map(crank_on_paper).fold(f64::INFINITY, f64::min);
+    let figure_theme = &theme.for_crank_length(shortest_crank);
+    for (((panel, figure), area), lines) in page.panels.iter().zip(figures).zip(&areas).zip(texts) {
         let frame = figure_rect(area);
         match figure {
-            Some(figure) => figure.draw(area, frame, arrangement, page, (options, theme)),
-            None => {
-                draw_not_assembled(area, frame, panel.solved_cell, theme);
+            Some(figure) => {
+                let arrangement = arrangement.if_enlarging(frame, gap, &figure.extents);
+                figure.draw(area, frame, (arrangement, scale), page, (options, figure_theme));
             }
+            None => draw_not_assembled(area, frame, panel.solved_cell, theme),
         }
-        draw_caption(area, (foot, facts), panel, page.heading.symbols, theme);
+        draw_number(area, panel, theme);
+        draw_lines(area, lines, area.size().y - foot, theme);
     }
+    scale
+}
+
+/// The theme with the size of captions at which all of a page fit on a line, if that is not much smaller.
+fn with_equal_captions(page: &PanelPage, width: f64, theme: &Theme) -> Theme {
+    const MIN_PART: f64 = 0.85;
+    let natural = |panel: &Panel| {
+        theme.text_line(&panel.caption, Point::origin(), Anchor::Middle, theme.caption_size, theme.ink).text.width()
+    };
+    let widest = page.panels.iter().map(natural).fold(0.0, f64::max);
+    let part = if widest > 0.0 { (width / widest).min(1.0) } else { 1.0 };
+    let size = if part >= MIN_PART { part * theme.caption_size } else { theme.caption_size };
+    Theme { caption_size: size.max(Theme::MIN_TEXT_SIZE), ..theme.clone() }
+}
+
+/// The distance from a line of text to the next.
+fn leading(line: &TextLine) -> f64 {
+    1.45 * line.text.size
+}
+
+/// The lines under a figure: caption, note, facts, and why the linkage cannot move through the whole range.
+fn panel_lines(panel: &Panel, facts: FactsLayout, width: f64, symbols: &[String], theme: &Theme) -> Vec<TextLine> {
+    let mut lines: Vec<TextLine> = Vec::new();
+    let mut add = |text: &str, size: f64, color: Color, symbols: &[String]| {
+        let line = theme.text_line(text, Point::origin(), Anchor::Middle, size, color);
+        let wrapped = line.fit_or_wrap(width).into_iter().filter(|line| line.text.width() > 0.0);
+        lines.extend(wrapped.map(|line| line.with_italics(symbols)));
+    };
+    add(&panel.caption, theme.caption_size, theme.ink, symbols);
+    add(&panel.note, theme.note_size, theme.grey, symbols);
+    facts.panel_lines(panel).iter().for_each(|fact| add(fact, theme.note_size, theme.grey, &[]));
+    let motion = &panel.solved_cell.motion;
+    if let Some(error) = motion.assembly_error.as_ref().filter(|_| motion.is_assembled()) {
+        add(&error.to_string(), theme.note_size, theme.curve_ink(0), &[]);
+    }
+    lines
 }
 
 /// The number of lines for the facts of a cell, the same for all cells of a page.
@@ -67,14 +222,6 @@ impl FactsLayout {
             0.0 => FactsLayout::None,
             widest if MIN_SCALE * widest <= width => FactsLayout::OneLine,
             _ => FactsLayout::TwoLines,
-        }
-    }
-
-    fn line_count(self) -> u8 {
-        match self {
-            FactsLayout::None => 0,
-            FactsLayout::OneLine => 1,
-            FactsLayout::TwoLines => 2,
         }
     }
 
@@ -101,29 +248,23 @@ pub(super) fn max_grid(paper: Paper, theme: &Theme) -> [usize; 2] {
     ]
 }
 
-/// Draws the cell's number at the upper left, and its lines of text at the foot.
-fn draw_caption(area: &impl Area, (foot, facts): (f64, FactsLayout), panel: &Panel, symbols: &[String], theme: &Theme) {
-    let panel_size = area.size();
+/// Draws the cell's number at the upper left.
+fn draw_number(area: &impl Area, panel: &Panel, theme: &Theme) {
     let number = panel.solved_cell.cell.number.to_string();
     let at = Point::new(0.8 * theme.caption_size, theme.note_size);
     area.record(&theme.text_line(&number, at, Anchor::Start, theme.note_size, theme.grey));
-    let width = panel_size.x - 1.2 * theme.caption_size;
-    let mut y = panel_size.y - foot + 1.5 * theme.caption_size;
-    let mut line = |text: &str, size: f64, color, symbols: &[String]| {
-        let line = theme.text_line(text, Point::new(panel_size.x / 2.0, y), Anchor::Middle, size, color);
-        area.record(&line.with_italics(symbols).fit_width(width));
-        y += 1.45 * theme.note_size;
-    };
-    line(&panel.caption, theme.caption_size, theme.ink, symbols);
-    if !panel.note.is_empty() {
-        line(&panel.note, theme.note_size, theme.grey, symbols);
-    }
-    for text in facts.panel_lines(panel) {
-        line(&text, theme.note_size, theme.grey, &[]);
-    }
-    let motion = &panel.solved_cell.motion;
-    if let Some(error) = motion.assembly_error.as_ref().filter(|_| motion.is_assembled()) {
-        line(&error.to_string(), theme.note_size, theme.curve_ink(0), &[]);
+}
+
+/// Draws the lines under a figure from `top`, as far as there is space.
+fn draw_lines(area: &impl Area, lines: Vec<TextLine>, top: f64, theme: &Theme) {
+    let mut y = top + 1.5 * theme.caption_size;
+    for line in lines {
+        let next = y + leading(&line);
+        if y > area.size().y {
+            break;
+        }
+        area.record(&line.moved_to(Point::new(area.size().x / 2.0, y)));
+        y = next;
     }
 }
 

@@ -26,6 +26,11 @@ impl Plot {
         }
     }
 
+    /// A plot that fills a frame, without space for a scale bar; its scale is not set yet.
+    pub fn whole(frame: Rect) -> Plot {
+        Plot { rect: frame, page_from_plane: Similarity::page_from_plane(Bounds::EMPTY, frame.centre(), 1.0) }
+    }
+
     /// The plot with the scale at which `bounds` fills the frame, centred.
     pub fn fitted_to(self, bounds: Bounds) -> Plot {
         let scale = self.rect.fit_scale(bounds);
@@ -38,16 +43,22 @@ impl Plot {
         Rect { corner: self.rect.corner - margin, size: self.rect.size + margin * 2.0 }
     }
 
-    /// Draws a scale bar under the frame: the largest round number of units up to a fifth of the frame's width.
-    pub fn draw_scale_bar(&self, area: &impl Area, theme: &Theme) {
+    /// The plot with a scale in millimetres to a unit, with `bounds` at its centre.
+    pub fn with_scale(self, bounds: Bounds, scale: f64) -> Plot {
+        Plot { page_from_plane: Similarity::page_from_plane(bounds, self.rect.centre(), scale), ..self }
+    }
+
+    /// Draws a scale bar under the frame: the largest round number of units up to a fifth of the frame's width. A remark on
+    /// the scale, which may be empty, follows its label.
+    pub fn draw_scale_bar(&self, area: &impl Area, remark: &str, theme: &Theme) {
         let scale = self.page_from_plane.scale;
         let units = round_number_below(0.2 * self.rect.size.x / scale);
         let length = units * scale;
         let label = units.to_string();
-        let size = 0.75 * theme.note_size;
+        let size = theme.small_size();
         let at =
             Point::new(self.rect.centre().x, self.rect.corner.y + self.rect.size.y + 2.2 * theme.joint_radius + size);
-        let text = theme.text_line(&label, Point::origin(), Anchor::Start, size, theme.grey);
+        let text = theme.text_line(&format!("{label}{remark}"), Point::origin(), Anchor::Start, size, theme.grey);
         let gap = 0.4 * size;
         let left = at.x - (length + gap + text.text.width()) / 2.0;
         let tick = 0.3 * size;

@@ -2,18 +2,18 @@
 
 use super::mechanism::sliding_line;
 use coupler_curves::geometry::{Point, cross, distance_to_segment};
-use coupler_curves::linkage::{JointId, JointKind, Linkage};
+use coupler_curves::linkage::{BranchArc, DyadId, JointId, JointKind, Linkage};
 use coupler_curves::motion::Circuit;
 
 /// The positions of all joints in the clearest pose of a circuit.
 ///
 /// A pose is clear if no two joints, and no joint and link, are close to each other, and if no two links that meet are
 /// nearly collinear: its clarity is the least of those distances times the least sine of the angles between links that
-/// meet. Poses within one percent of the greatest clarity count as equal; the result is the first of them.
+/// meet. Poses within one percent of the greatest clarity count as equal; the result is the first of them. If the source
+/// of the linkage shows an arc, the pose is on it.
 pub(super) fn clearest_pose(linkage: &Linkage, circuit: &Circuit) -> Vec<Point> {
     /// More candidates than this make no visible difference.
     const CANDIDATES: usize = 360;
-    let stride = circuit.len().div_ceil(CANDIDATES).max(1);
     // The frame counts as a link: a crank that lies on it cannot be seen.
     let mut links: Vec<_> = linkage.link_outlines().into_iter().map(|outline| outline.joints).collect();
     links.push(linkage.pivots());
@@ -36,10 +36,26 @@ pub(super) fn clearest_pose(linkage: &Linkage, circuit: &Circuit) -> Vec<Point> 
         let clarity = clearance(&links, at) * min_link_angle_sine(&links, at);
         if clarity.is_finite() { clarity } else { 0.0 }
     };
+    let arc_samples = samples_on_arc(linkage, circuit);
+    let samples = if arc_samples.is_empty() { (0..circuit.len()).collect() } else { arc_samples };
+    let stride = samples.len().div_ceil(CANDIDATES).max(1);
     let all: Vec<(usize, f64)> =
-        (0..circuit.len()).step_by(stride).map(|sample| (sample, clarity(&pose(sample)))).collect();
+        samples.into_iter().step_by(stride).map(|sample| (sample, clarity(&pose(sample)))).collect();
     let best = all.iter().map(|(_, clarity)| *clarity).fold(0.0, f64::max);
     pose(all.iter().find(|(_, clarity)| *clarity >= 0.99 * best).map_or(0, |(sample, _)| *sample))
+}
+
+/// The samples on the arc that the source of the linkage shows.
+fn samples_on_arc(linkage: &Linkage, circuit: &Circuit) -> Vec<usize> {
+    let Some(BranchArc { input_deg: [from, to], branch }) = linkage.motion_options.figure_arc else {
+        return Vec::new();
+    };
+    let is_on_arc = |sample: &usize| {
+        // The arc is given within one turn; the circuit may take several.
+        let past = (circuit.inputs[*sample] - from).rem_euclid(360.0);
+        past <= to - from && circuit.mode_at(*sample).sign(DyadId::FIRST) == branch
+    };
+    (0..circuit.len()).filter(is_on_arc).collect()
 }
 
 /// Replaces joints that coincide over the whole circuit by the first of them: their distance is zero in every pose.

@@ -145,8 +145,9 @@ impl Strip {
         let mut builder = PathBuilder::new();
         let mut at = text.start();
         for run in &text.runs {
+            let (size, baseline) = (run.size(text.size), at.y - run.rise(text.size));
             for c in run.text.chars() {
-                let place = |[x, y]: [f64; 2]| ((at.x + x * text.size) as f32, (at.y - y * text.size) as f32);
+                let place = |[x, y]: [f64; 2]| ((at.x + x * size) as f32, (baseline - y * size) as f32);
                 for segment in run.face.outline(c).iter().copied() {
                     match segment {
                         OutlineSegment::Move(p) => builder.move_to(place(p).0, place(p).1),
@@ -159,7 +160,7 @@ impl Strip {
                         OutlineSegment::Close => builder.close(),
                     }
                 }
-                at.x += run.face.advance(c) * text.size;
+                at.x += run.face.advance(c) * size;
             }
         }
         let angle = f32::from(text.quarter_turns) * 90.0;

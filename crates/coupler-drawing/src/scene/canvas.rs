@@ -127,7 +127,7 @@ impl DrawingBackend for Canvas<'_> {
             FontTransform::Rotate270 => (3, Point::new(at.x + drop, at.y)),
         };
         let color = self.blend(style.color());
-        let runs = vec![TextRun { text: text.to_owned(), face }];
+        let runs = vec![TextRun::new(text, face)];
         self.record(Item::Text(Text { position: at, anchor, size, color, runs, quarter_turns }));
         Ok(())
     }

@@ -160,6 +160,32 @@ pub struct TextRun {
     pub text: String,
     /// The face.
     pub face: Face,
+    /// Whether it is an exponent: smaller than the text, and raised.
+    pub is_raised: bool,
+}
+
+impl TextRun {
+    /// A run on the baseline.
+    pub fn new(text: impl Into<String>, face: Face) -> TextRun {
+        TextRun { text: text.into(), face, is_raised: false }
+    }
+
+    /// The font size of the run in a text of a size.
+    pub fn size(&self, text_size: f64) -> f64 {
+        /// As large as a lower-case letter of the text.
+        const RAISED: f64 = 0.7;
+        if self.is_raised { RAISED * text_size } else { text_size }
+    }
+
+    /// The height of the run's baseline above that of a text of a size.
+    pub fn rise(&self, text_size: f64) -> f64 {
+        if self.is_raised { 0.38 * text_size } else { 0.0 }
+    }
+
+    /// The width of the run in a text of a size.
+    pub fn width(&self, text_size: f64) -> f64 {
+        self.face.width(&self.text, self.size(text_size))
+    }
 }
 
 /// The part of a text that is at its position.
@@ -199,7 +225,7 @@ fn collect_shapes<'s>(items: &'s [Item], shapes: &mut Vec<Shape<'s>>) {
 impl Text {
     /// The width in millimetres.
     pub fn width(&self) -> f64 {
-        self.runs.iter().map(|run| run.face.width(&run.text, self.size)).sum()
+        self.runs.iter().map(|run| run.width(self.size)).sum()
     }
 
     /// The start of the text on its baseline, before the rotation.

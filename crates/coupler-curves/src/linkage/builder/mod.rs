@@ -131,7 +131,8 @@ impl LinkageBuilder {
     ///
     /// On a sliding link it is measured from the first joint along the line, in the line's direction at the start,
     /// and to its left. A [`LinkageBuilder::slot`]'s link and an actuator are identified by their pivot and the joint
-    /// they slide through or drive; a slider's block and a yoke by their joint and the second joint of their line.
+    /// they slide through or drive, its rod by the same joints in the other order; a slider's block and a yoke by their
+    /// joint and a joint of their line, towards the first of which points are measured against the line's direction.
     ///
     /// # Errors
     /// One joint given twice, joints on no common link, joints that coincide.

@@ -13,6 +13,8 @@ pub(super) struct SlidingBody {
     pub reference: BodyReference,
     /// Its index among the links.
     pub link: LinkId,
+    /// Whether its points are measured against the direction of its line.
+    pub is_backward: bool,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -45,7 +47,11 @@ impl LinkageBuilder {
         let id = self.add_joint(name, JointKind::Piston { base, length, offset, dyad });
         self.add_bar(base[1], id, length);
         // McCarthy's foot is to the right of the line from pivot to pin, so the pivot is to the left of his line.
-        self.add_sliding_body([base[0], id], [base[0], id], (-offset, LineDirection::Actuator));
+        let direction = (-offset, LineDirection::Actuator);
+        self.add_sliding_body([base[0], id], [base[0], id], direction);
+        // The rod has the direction of the cylinder, from the other end.
+        self.add_sliding_body([id, base[0]], [base[0], id], direction);
+        self.sliding_bodies.last_mut().into_iter().for_each(|rod| rod.is_backward = true);
         Ok(id)
     }
 
@@ -67,7 +73,7 @@ impl LinkageBuilder {
         let dyad = self.add_dyad(name, ahead)?;
         let id = self.add_joint(name, JointKind::Slide { from, length, line, offset, dyad });
         self.add_bar(from, id, length);
-        self.add_sliding_body([id, line[1]], line, (0.0, LineDirection::Towards));
+        self.add_slider(id, line);
         Ok(id)
     }
 
@@ -90,8 +96,15 @@ impl LinkageBuilder {
             return Err(Error::SlotParallelToGuide { joint: name.to_owned() });
         }
         let id = self.add_joint(name, JointKind::Yoke { from, line, offset, slot_direction: Vector::new(cos, sin) });
-        self.add_sliding_body([id, line[1]], line, (0.0, LineDirection::Towards));
+        self.add_slider(id, line);
         Ok(id)
+    }
+
+    /// Adds the block of a slider or a yoke, which its joint and either joint of its line identify.
+    fn add_slider(&mut self, joint: JointId, line: [JointId; 2]) {
+        self.add_sliding_body([joint, line[1]], line, (0.0, LineDirection::Towards));
+        let block = self.sliding_bodies[self.sliding_bodies.len() - 1];
+        self.sliding_bodies.push(SlidingBody { base: [joint, line[0]], is_backward: true, ..block });
     }
 
     /// Adds the foot, at a distance `offset` from the pivot `base[0]`, of the line that slides through `base[1]`; on
@@ -118,6 +131,7 @@ impl LinkageBuilder {
             base,
             reference: BodyReference::Foot { foot: id, offset: signed },
             link: LinkId::new(self.links.len()),
+            is_backward: false,
         });
         self.add_bar(base[0], id, offset.abs());
         Ok(id)
@@ -134,18 +148,22 @@ impl LinkageBuilder {
             base,
             reference: BodyReference::Line { line, offset, direction },
             link: LinkId::new(self.links.len()),
+            is_backward: false,
         });
         self.links.push(Link { joints: vec![(base[0], Vector::zeros())] });
     }
 
-    /// Adds a point of a sliding body: along its line, in the line's direction at the start, and to the left of it.
+    /// Adds a point of a sliding body: along its line, in the line's direction at the start, and to the left of it; or in
+    /// the opposite direction.
     pub(super) fn add_point_on_sliding_body(
         &mut self,
         name: &str,
         body: SlidingBody,
         [along, across]: [f64; 2],
     ) -> JointId {
-        let SlidingBody { base, reference, link } = body;
+        let SlidingBody { base, reference, link, is_backward } = body;
+        let turn = if is_backward { -1.0 } else { 1.0 };
+        let [along, across] = [along * turn, across * turn];
         let (kind, position) = match reference {
             BodyReference::Line { line, offset, direction } => {
                 // At the start the line points towards the joint, on either side.

@@ -76,10 +76,7 @@ impl Dyad {
         if linkage.input() != (Input::Angle { turns: 1 }) {
             return None;
         }
-        let (pivot, crank) = linkage.joint_ids().zip(&linkage.joints).find_map(|(id, joint)| match joint.kind {
-            JointKind::Crank { pivot, .. } => Some((pivot, id)),
-            _ => None,
-        })?;
+        let [pivot, crank] = linkage.crank()?;
         let frame = &linkage.links[0];
         let pivot_position = frame.position(pivot)?;
         let is_crank_link = |link: &&Link| link.position(pivot).is_some() && link.position(crank).is_some();

@@ -41,7 +41,7 @@ pub(super) trait Area: Sized {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::page::{Heading, Layout, NamedTheme, Options, Panel, PanelPage, Paper, Theme};
+    use crate::page::{Heading, Key, Layout, NamedTheme, Options, Panel, PanelPage, Paper, Theme};
     use crate::page::{compose_panels, empty_scene, panels};
     use crate::plate;
     use crate::scene::{Color, Scene};
@@ -74,7 +74,7 @@ mod tests {
     }
 
     /// Cells of several linkages, one of which cannot be assembled.
-    fn solved_cells() -> Vec<SolvedCell> {
+    fn solved_cells() -> Vec<(Family, SolvedCell)> {
         let four_bar = ["frame", "crank", "coupler", "rocker", "along", "across"];
         let lengths = [[2.0, 1.0, 2.5, 2.5, 5.0, 0.0], [4.0, 3.0, 2.0, 2.5, 1.0, 1.5], [9.0, 1.0, 2.0, 3.0, 1.0, 0.0]];
         let four_bars = lengths.map(|lengths| ("four-bar", four_bar.into_iter().zip(lengths).collect::<Vec<_>>()));
@@ -82,7 +82,8 @@ mod tests {
         let solve = |(id, values): (&str, Vec<(&str, f64)>)| {
             let values: Vec<(String, f64)> = values.iter().map(|(name, value)| (name.to_string(), *value)).collect();
             let family = Family::single_cell(catalogue::find(id).unwrap(), &values, Sampling::Samples(72)).unwrap();
-            solve_cell(&family, &Sampler::new(family.sampling), 0).unwrap()
+            let solved = solve_cell(&family, &Sampler::new(family.sampling), 0).unwrap();
+            (family, solved)
         };
         four_bars.into_iter().chain(others).map(solve).collect()
     }
@@ -90,18 +91,20 @@ mod tests {
     #[test]
     fn pages_of_panels_are_the_same() {
         let solved = solved_cells();
-        assert!(solved.iter().any(|cell| !cell.motion.is_assembled()));
+        let key = Key::new(&solved[0].0);
+        assert!(solved.iter().any(|(_, cell)| !cell.motion.is_assembled()));
         for options in options() {
             let [most_columns, most_rows] = Layout::max_panels(&options);
             for [columns, rows] in [[1, 1], [2, 1], [5, 2], [3, 3], [1, 7]] {
                 let layout = Layout::Panels { columns: columns.min(most_columns), rows: rows.min(most_rows) };
-                let panel = |solved| {
-                    let facts = crate::page::cell_facts(solved);
+                let panel = |(family, solved)| {
+                    let facts = crate::page::cell_facts(family, solved);
                     Panel::new(solved).with_caption("p = 2").with_note("a note").with_facts(facts)
                 };
-                let panels = solved.iter().cycle().take(layout.cells_per_page()).map(panel).collect();
+                let cells = solved.iter().map(|(family, solved)| (family, solved)).cycle();
+                let panels = cells.take(layout.cells_per_page()).map(panel).collect();
                 let heading = Heading::new("Panels").with_source("the source of the linkage").with_page(2, 3);
-                let page = PanelPage { heading, layout, panels };
+                let page = PanelPage { heading, layout, panels, scale: Default::default(), key: Some(&key) };
                 let scene = compose_panels(&page, &options);
                 assert!(scene.items.len() > 10);
                 assert!(scene == compose_without_plotters(&page, &options), "{layout:?} on {:?}", options.paper);
@@ -114,9 +117,10 @@ mod tests {
         let curve = FourBar { frame: 2.0, crank: 1.0, coupler: 2.5, rocker: 2.5 }.coupler_curve(5.0, 0.0).unwrap();
         let selected = curve.selected();
         let name = selected.name();
+        let key = Key::for_cell(selected.family, &selected.solved.cell);
         for options in options() {
             for pose in [Default::default(), plate::moving_view(curve.linkage(), curve.circuit(), 1)] {
-                let plate = plate::panel_page(&selected, &name, pose);
+                let plate = plate::panel_page(&selected, &name, pose, &key);
                 assert!(compose_panels(&plate, &options) == compose_without_plotters(&plate, &options));
             }
         }

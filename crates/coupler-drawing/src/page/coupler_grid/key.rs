@@ -3,10 +3,10 @@
 use super::super::area::Area;
 use super::super::arrangement::Rect;
 use super::super::element::{Drawing, TextLine};
+use super::super::labels::{self, LabelBox, Obstacles};
 use super::super::mechanism::PosedMechanism;
 use super::super::theme::Theme;
 use super::super::{CouplerGridPage, LinkLabel};
-use super::labels::{self, LabelBox, Obstacles};
 use crate::scene::{Anchor, Item, Path, Polyline};
 use coupler_curves::geometry::{Bounds, Point, Similarity, Vector, cross, left_normal};
 use coupler_curves::linkage::{JointId, is_plate};

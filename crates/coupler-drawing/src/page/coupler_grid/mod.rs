@@ -6,7 +6,6 @@
 mod footer;
 mod grid;
 mod key;
-mod labels;
 mod table;
 
 use super::area::{self, Area};
@@ -14,6 +13,7 @@ use super::arrangement::Rect;
 use super::element::{CouplerCurve, Drawing};
 use super::figure;
 use super::heading;
+use super::labels::{self, Obstacles};
 use super::marks;
 use super::mechanism::PosedMechanism;
 use super::plot::Plot;
@@ -25,7 +25,6 @@ use coupler_curves::geometry::{Bounds, Point, Similarity, Vector};
 use coupler_curves::linkage::Input;
 use coupler_curves::motion::{self, DashPattern};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
-use labels::Obstacles;
 
 /// A curve on the page, which shares its ink with its coupler point and its row in the table.
 struct ShownCurve<'a> {
@@ -131,7 +130,7 @@ fn draw_figure(
     let curves = shown.iter().flat_map(|s| solved.circuit(s.curve).points(s.curve.joint));
     let extents = Bounds::from_points(curves.chain(grid.line_ends(&mechanism.pose))).union(mechanism.bounds());
     let plot = Plot::new(frame, theme).fitted_to(extents);
-    plot.draw_scale_bar(area, theme);
+    plot.draw_scale_bar(area, "", theme);
     let period = figure::dash_period(&solved.linkage, &solved.motion.circuits, options);
     let dashes = |k: usize| DashPattern { period, dash_span: theme.curve_dash_fraction(shown[k].point_index) * period };
     let paths = figure::curve_paths(solved, &page.curve_indices, plot.page_from_plane, dashes);

@@ -6,7 +6,9 @@ pub use named::NamedTheme;
 
 use super::Paper;
 use super::element::TextLine;
+use super::typography::typeset;
 use crate::scene::{Anchor, Color, Stroke, Typeface};
+use coupler_curves::expression::MathText;
 use coupler_curves::geometry::{Point, Vector};
 
 /// The inks, weights and sizes of a page, in millimetres on tabloid paper.
@@ -85,18 +87,22 @@ impl Default for Theme {
 }
 
 impl Theme {
+    /// The least font size (em) on paper, in millimetres: 6 points.
+    pub const MIN_TEXT_SIZE: f64 = 6.0 * 25.4 / 72.0;
+
     /// The theme scaled from tabloid to another paper, by 0.3 to 2; weights change by the square root, so that lines do
-    /// not become too fine to print.
+    /// not become too fine to print, and no text is smaller than [`Theme::MIN_TEXT_SIZE`].
     pub fn for_paper(&self, paper: Paper) -> Theme {
         let scale = (paper.width / 431.8).min(paper.height / 279.4).clamp(0.3, 2.0);
         let weight = scale.sqrt();
+        let text = |size: f64| (size * scale).max(Theme::MIN_TEXT_SIZE);
         Theme {
             border: self.border * scale,
             margin: self.margin * scale,
-            title_size: self.title_size * scale,
-            source_size: self.source_size * scale,
-            caption_size: self.caption_size * scale,
-            note_size: self.note_size * scale,
+            title_size: text(self.title_size),
+            source_size: text(self.source_size),
+            caption_size: text(self.caption_size),
+            note_size: text(self.note_size),
             link_width: self.link_width * weight,
             curve_width: self.curve_width * weight,
             fine_width: self.fine_width * weight,
@@ -107,14 +113,15 @@ impl Theme {
     }
 
     /// The theme for panels of a size in millimetres: text, joints and lines are smaller in small panels, down to a
-    /// third.
+    /// third, but no text is smaller than [`Theme::MIN_TEXT_SIZE`].
     pub fn for_panel_size(&self, panel: Vector) -> Theme {
         let scale =
             (panel.x / (12.0 * self.caption_size)).min(panel.y / (14.0 * self.caption_size)).clamp(1.0 / 3.0, 1.0);
         let weight = scale.sqrt();
+        let text = |size: f64| (size * scale).max(Theme::MIN_TEXT_SIZE);
         Theme {
-            caption_size: self.caption_size * scale,
-            note_size: self.note_size * scale,
+            caption_size: text(self.caption_size),
+            note_size: text(self.note_size),
             joint_radius: self.joint_radius * weight,
             link_width: self.link_width * weight,
             curve_width: self.curve_width * weight,
@@ -123,14 +130,34 @@ impl Theme {
         }
     }
 
+    /// The theme for linkages whose shortest crank has a length in millimetres: joints and links are so small that it can
+    /// be seen between its joints, down to a third.
+    pub(super) fn for_crank_length(&self, length: f64) -> Theme {
+        /// The length of a crank in radii of its joints: a pivot has one and a half, so that half of the crank is seen.
+        const CRANK_RADII: f64 = 5.0;
+        let scale = (length / (CRANK_RADII * self.joint_radius)).clamp(1.0 / 3.0, 1.0);
+        let link_width = self.link_width * scale.sqrt();
+        Theme { joint_radius: self.joint_radius * scale, link_width, ..self.clone() }
+    }
+
     /// A stroke with butt ends.
     pub fn stroke(&self, color: Color, width: f64) -> Stroke {
         Stroke { color, width, has_round_ends: false }
     }
 
-    /// A line of text at a position of an area, in the theme's typeface.
+    /// The size of the smallest text, such as the numbers in figures.
+    pub(super) fn small_size(&self) -> f64 {
+        (0.75 * self.note_size).max(Theme::MIN_TEXT_SIZE)
+    }
+
+    /// A line of mathematical text at a position of an area, in the theme's typeface.
+    pub(super) fn math_line(&self, text: &MathText, at: Point, anchor: Anchor, size: f64, color: Color) -> TextLine {
+        TextLine::from_math(text, self.typeface, at, anchor, (size, color))
+    }
+
+    /// A line of text at a position of an area, in the theme's typeface and with the characters of typesetting.
     pub(super) fn text_line(&self, text: &str, at: Point, anchor: Anchor, size: f64, color: Color) -> TextLine {
-        TextLine::new(text, self.typeface, at, anchor, (size, color))
+        TextLine::new(&typeset(text), self.typeface, at, anchor, (size, color))
     }
 
     /// The ink of the k-th curve, from 0.

@@ -7,7 +7,7 @@ use krilla::surface::Surface;
 
 use super::fonts::{FontCache, layout_glyphs};
 use crate::scene::{Circle, Color, Path, Polyline, Scene, Shape, Stroke, Text, TextRun};
-use coupler_curves::geometry::Point;
+use coupler_curves::geometry::{Point, Vector};
 
 /// A length in PDF points.
 pub(super) fn mm_to_points(mm: f64) -> f32 {
@@ -136,13 +136,14 @@ impl<'d> PagePainter<'d> {
         self.surface.set_fill(Some(to_fill(text.color)));
         self.surface.set_stroke(None);
         self.surface.push_transform(&frame.points_from_units());
-        for TextRun { text: run, face } in &text.runs {
-            let [x, y] = point_in_units(&at, frame.origin);
+        for run in &text.runs {
+            let TextRun { text: characters, face, .. } = run;
+            let [x, y] = point_in_units(&(at - Vector::new(0.0, run.rise(text.size))), frame.origin);
             if let Some(font) = self.fonts.get(*face) {
-                let (start, size) = (geom::Point::from_xy(x, y), mm_to_units(text.size));
-                self.surface.draw_glyphs(start, &layout_glyphs(run, *face), font, run, size, false);
+                let (start, size) = (geom::Point::from_xy(x, y), mm_to_units(run.size(text.size)));
+                self.surface.draw_glyphs(start, &layout_glyphs(characters, *face), font, characters, size, false);
             }
-            at.x += face.width(run, text.size);
+            at.x += run.width(text.size);
         }
         self.surface.pop();
     }

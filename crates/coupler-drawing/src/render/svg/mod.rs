@@ -170,12 +170,26 @@ impl SvgWriter {
             self.output.push_str(" xml:space=\"preserve\"");
         }
         self.output.push('>');
+        let mut rise = 0.0;
         for run in &text.runs {
-            if run.face.is_italic {
-                self.write(format_args!("<tspan font-style=\"italic\">{}</tspan>", Escaped(&run.text)));
-            } else {
+            let is_shifted = run.rise(text.size) != rise;
+            if !is_shifted && !run.is_raised && !run.face.is_italic {
                 self.write(format_args!("{}", Escaped(&run.text)));
+                continue;
             }
+            self.output.push_str("<tspan");
+            if is_shifted {
+                let shift = Number(to_micrometres(rise - run.rise(text.size)));
+                self.write(format_args!(" dy=\"{shift}\""));
+                rise = run.rise(text.size);
+            }
+            if run.is_raised {
+                self.write(format_args!(" font-size=\"{}\"", Number(to_micrometres(run.size(text.size)))));
+            }
+            if run.face.is_italic {
+                self.output.push_str(" font-style=\"italic\"");
+            }
+            self.write(format_args!(">{}</tspan>", Escaped(&run.text)));
         }
         self.output.push_str("</text>\n");
     }

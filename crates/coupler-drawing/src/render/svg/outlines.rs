@@ -19,8 +19,9 @@ impl SvgWriter {
         let mut path = PathWriter::default();
         let mut at = text.start();
         for run in &text.runs {
+            let (size, baseline) = (run.size(text.size), at.y - run.rise(text.size));
             for c in run.text.chars() {
-                let on_page = |[x, y]: [f64; 2]| Point::new(at.x + x * text.size, at.y - y * text.size);
+                let on_page = |[x, y]: [f64; 2]| Point::new(at.x + x * size, baseline - y * size);
                 for segment in run.face.outline(c).iter().copied() {
                     match segment {
                         OutlineSegment::Move(p) => path.write_command(&mut self.output, 'm', &[on_page(p)]),
@@ -34,7 +35,7 @@ impl SvgWriter {
                         OutlineSegment::Close => path.close(&mut self.output),
                     }
                 }
-                at.x += run.face.advance(c) * text.size;
+                at.x += run.face.advance(c) * size;
             }
         }
         self.output.push('"');

@@ -1,7 +1,7 @@
 //! The placement of labels: each next to its point, where it is clearest of everything that is drawn.
 
-use super::super::arrangement::Rect;
-use super::super::theme::Theme;
+use super::arrangement::Rect;
+use super::theme::Theme;
 use crate::scene::{Item, Polyline, Text};
 use coupler_curves::geometry::{Point, Vector, cross, distance_to_segment, trig};
 

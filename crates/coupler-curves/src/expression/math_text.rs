@@ -1,0 +1,319 @@
+//! Mathematical text: words, symbols and exponents, as they are set on paper.
+
+use std::fmt;
+
+use super::program::{Instruction, Operator};
+use super::{CompiledExpression, Expression, Function};
+
+/// A text in which parameters are symbols and exponents are raised.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct MathText {
+    pieces: Vec<MathPiece>,
+}
+
+/// A piece of a [`MathText`] in one style.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MathPiece {
+    /// The text.
+    pub text: String,
+    /// Whether it is a symbol, which is set in italics: a parameter of a single letter. Longer names are read as words.
+    pub is_symbol: bool,
+    /// Whether it is an exponent, which is raised.
+    pub is_raised: bool,
+}
+
+impl MathText {
+    /// Words and numbers.
+    pub fn from_words(words: impl Into<String>) -> MathText {
+        MathText::default().with_words(words)
+    }
+
+    /// The name of a parameter.
+    pub fn from_name(name: &str) -> MathText {
+        let mut text = MathText::default();
+        text.push(name, is_single_letter(name), false);
+        text
+    }
+
+    /// The text followed by words.
+    #[must_use]
+    pub fn with_words(mut self, words: impl Into<String>) -> MathText {
+        self.push(&words.into(), false, false);
+        self
+    }
+
+    /// The text followed by another one.
+    #[must_use]
+    pub fn with(mut self, other: MathText) -> MathText {
+        other.pieces.iter().for_each(|piece| self.push(&piece.text, piece.is_symbol, piece.is_raised));
+        self
+    }
+
+    /// Texts one after the other, with a separator between them.
+    pub fn join(texts: impl IntoIterator<Item = MathText>, separator: &str) -> MathText {
+        let mut texts = texts.into_iter();
+        let first = texts.next().unwrap_or_default();
+        texts.fold(first, |joined, text| joined.with_words(separator).with(text))
+    }
+
+    /// The pieces, in their order.
+    pub fn pieces(&self) -> &[MathPiece] {
+        &self.pieces
+    }
+
+    /// Whether it has no characters.
+    pub fn is_empty(&self) -> bool {
+        self.pieces.is_empty()
+    }
+
+    /// The text in lines that fit: broken after commas where that is possible, and otherwise between words. A word that
+    /// does not fit is a line of its own.
+    pub fn wrap(&self, fits: impl Fn(&MathText) -> bool) -> Vec<MathText> {
+        let mut lines: Vec<MathText> = Vec::new();
+        let mut add = |part: MathText| match lines.last_mut() {
+            Some(line) if fits(&line.clone().with(part.trimmed())) => *line = std::mem::take(line).with(part),
+            _ => lines.push(part),
+        };
+        for clause in self.split_after(", ") {
+            if fits(&clause.trimmed()) {
+                add(clause);
+            } else {
+                clause.split_after(" ").into_iter().for_each(&mut add);
+            }
+        }
+        lines.iter().map(MathText::trimmed).collect()
+    }
+
+    /// The parts of the text, each but the last with a separator at its end; separators are in words only.
+    fn split_after(&self, separator: &str) -> Vec<MathText> {
+        let mut parts = vec![MathText::default()];
+        for piece in &self.pieces {
+            let is_words = !piece.is_symbol && !piece.is_raised;
+            let texts: Vec<&str> =
+                if is_words { piece.text.split_inclusive(separator).collect() } else { vec![&piece.text] };
+            for text in texts {
+                let is_complete = parts
+                    .last()
+                    .and_then(|part| part.pieces.last())
+                    .is_some_and(|last| !last.is_symbol && !last.is_raised && last.text.ends_with(separator));
+                if is_complete {
+                    parts.push(MathText::default());
+                }
+                if let Some(part) = parts.last_mut() {
+                    part.push(text, piece.is_symbol, piece.is_raised);
+                }
+            }
+        }
+        parts
+    }
+
+    /// The text without spaces at its end.
+    fn trimmed(&self) -> MathText {
+        let mut text = self.clone();
+        if let Some(last) = text.pieces.last_mut() {
+            last.text.truncate(last.text.trim_end().len());
+        }
+        text.pieces.retain(|piece| !piece.text.is_empty());
+        text
+    }
+
+    fn push(&mut self, text: &str, is_symbol: bool, is_raised: bool) {
+        if text.is_empty() {
+            return;
+        }
+        match self.pieces.last_mut() {
+            Some(last) if last.is_symbol == is_symbol && last.is_raised == is_raised => last.text.push_str(text),
+            _ => self.pieces.push(MathPiece { text: text.to_owned(), is_symbol, is_raised }),
+        }
+    }
+
+    fn raised(mut self) -> MathText {
+        self.pieces.iter_mut().for_each(|piece| piece.is_raised = true);
+        self
+    }
+}
+
+/// As plain text: an exponent follows `^`.
+impl fmt::Display for MathText {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut is_raised = false;
+        for piece in &self.pieces {
+            let caret = if piece.is_raised && !is_raised { "^" } else { "" };
+            write!(f, "{caret}{}", piece.text)?;
+            is_raised = piece.is_raised;
+        }
+        Ok(())
+    }
+}
+
+/// A number in the fewest digits that read back to the same value, with a true minus sign.
+pub fn format_exactly(value: f64) -> String {
+    // Adding 0 makes a negative zero positive.
+    (value + 0.0).to_string().replace('-', "−")
+}
+
+fn is_single_letter(name: &str) -> bool {
+    name.chars().nth(1).is_none()
+}
+
+/// How tightly a part of an expression holds together, by the table in [`super`].
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Binding {
+    Or,
+    And,
+    Comparison,
+    Sum,
+    Product,
+    Sign,
+    Power,
+    Atom,
+}
+
+impl Expression {
+    /// The expression as it is set on paper: `2 * a` as 2 a, `sqrt(x)` as √x, a power with a raised exponent.
+    pub fn to_math_text(&self) -> MathText {
+        let mut stack: Vec<(MathText, Binding)> = Vec::new();
+        for (instruction, _) in &self.program {
+            let set = match *instruction {
+                Instruction::Push(value) => set_number(value),
+                Instruction::Load(name) => (MathText::from_name(&self.names[name]), Binding::Atom),
+                Instruction::Negate => {
+                    let operand = stack.pop().unwrap_or_else(nothing);
+                    (MathText::from_words("−").with(in_parentheses(operand, Binding::Sign)), Binding::Sign)
+                }
+                Instruction::Not => {
+                    let operand = stack.pop().unwrap_or_else(nothing);
+                    (
+                        MathText::from_words("not ").with(in_parentheses(operand, Binding::Comparison)),
+                        Binding::Comparison,
+                    )
+                }
+                Instruction::Binary(operator) => {
+                    let right = stack.pop().unwrap_or_else(nothing);
+                    let left = stack.pop().unwrap_or_else(nothing);
+                    set_operation(operator, left, right)
+                }
+                Instruction::Call(function, arguments) => {
+                    let first = stack.len().saturating_sub(arguments);
+                    set_call(function, stack.split_off(first))
+                }
+            };
+            stack.push(set);
+        }
+        stack.pop().unwrap_or_else(nothing).0
+    }
+}
+
+impl CompiledExpression {
+    /// The expression as it is set on paper.
+    pub fn to_math_text(&self) -> MathText {
+        self.expression.to_math_text()
+    }
+}
+
+fn nothing() -> (MathText, Binding) {
+    (MathText::default(), Binding::Atom)
+}
+
+fn set_number(value: f64) -> (MathText, Binding) {
+    let text = if value == std::f64::consts::PI { "π".to_owned() } else { format_exactly(value) };
+    (MathText::from_words(text), if value < 0.0 { Binding::Sign } else { Binding::Atom })
+}
+
+/// A part of an expression, in parentheses unless it holds together at least as tightly as its place needs.
+fn in_parentheses((text, binding): (MathText, Binding), needed: Binding) -> MathText {
+    if binding >= needed { text } else { MathText::from_words("(").with(text).with_words(")") }
+}
+
+fn set_operation(operator: Operator, left: (MathText, Binding), right: (MathText, Binding)) -> (MathText, Binding) {
+    // An operand on the right of an operator of its own rank needs parentheses: a - (b - c).
+    let (symbol, binding, right_needs) = match operator {
+        Operator::Or => (" or ", Binding::Or, Binding::And),
+        Operator::And => (" and ", Binding::And, Binding::Comparison),
+        Operator::Equal => (" = ", Binding::Comparison, Binding::Sum),
+        Operator::NotEqual => (" ≠ ", Binding::Comparison, Binding::Sum),
+        Operator::Less => (" < ", Binding::Comparison, Binding::Sum),
+        Operator::LessOrEqual => (" ≤ ", Binding::Comparison, Binding::Sum),
+        Operator::Greater => (" > ", Binding::Comparison, Binding::Sum),
+        Operator::GreaterOrEqual => (" ≥ ", Binding::Comparison, Binding::Sum),
+        Operator::Add => (" + ", Binding::Sum, Binding::Sum),
+        Operator::Subtract => (" − ", Binding::Sum, Binding::Product),
+        Operator::Multiply => (multiplication_sign(&right.0), Binding::Product, Binding::Power),
+        Operator::Divide => (" / ", Binding::Product, Binding::Power),
+        Operator::Power => {
+            let exponent = right.0.raised();
+            return (in_parentheses(left, Binding::Atom).with(exponent), Binding::Power);
+        }
+    };
+    // The first operand of a comparison is no comparison, nor is that of a power a power.
+    let left_needs = if binding == Binding::Comparison { Binding::Sum } else { binding };
+    let set = in_parentheses(left, left_needs).with_words(symbol).with(in_parentheses(right, right_needs));
+    (set, binding)
+}
+
+/// A product is set without a sign unless a number follows: 2 a, but a × 2.
+fn multiplication_sign(right: &MathText) -> &'static str {
+    let first = right.pieces.first().and_then(|piece| piece.text.chars().next());
+    if first.is_some_and(|c| c.is_ascii_digit()) { " × " } else { " " }
+}
+
+fn set_call(function: Function, mut arguments: Vec<(MathText, Binding)>) -> (MathText, Binding) {
+    if let (Function::Sqrt, [_]) = (function, &arguments[..]) {
+        let argument = arguments.pop().unwrap_or_else(nothing);
+        return (MathText::from_words("√").with(in_parentheses(argument, Binding::Atom)), Binding::Power);
+    }
+    let list = MathText::join(arguments.into_iter().map(|(text, _)| text), ", ");
+    (MathText::from_words(format!("{}(", function.name())).with(list).with_words(")"), Binding::Atom)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn set(text: &str) -> String {
+        Expression::parse(text).unwrap().to_math_text().to_string()
+    }
+
+    #[test]
+    fn expressions_are_set_with_as_few_parentheses_as_they_need() {
+        for (text, expected) in [
+            ("(1 + p)^1.5 / 2", "(1 + p)^1.5 / 2"),
+            ("2 * a", "2 a"),
+            ("a * 2", "a × 2"),
+            ("u * p / a", "u p / a"),
+            ("u / (p * a)", "u / (p a)"),
+            ("a - (b - c)", "a − (b − c)"),
+            ("(a - b) - c", "a − b − c"),
+            ("-(a + b)", "−(a + b)"),
+            ("-a^2", "−a^2"),
+            ("(-a)^2", "(−a)^2"),
+            ("sqrt(2) * x", "√2 x"),
+            ("sqrt(x + 1)", "√(x + 1)"),
+            ("150 * cos(pi / 6)", "150 cos(π / 6)"),
+            ("hypot(0.268, 0.176)", "hypot(0.268, 0.176)"),
+            ("a >= 2 and not b < 3", "a ≥ 2 and not b < 3"),
+        ] {
+            assert_eq!(set(text), expected, "{text}");
+        }
+    }
+
+    #[test]
+    fn symbols_are_single_letters() {
+        let text = Expression::parse("k * coupler^n").unwrap().to_math_text();
+        let style = |piece: &MathPiece| (piece.text.clone(), piece.is_symbol, piece.is_raised);
+        let expected =
+            [("k".to_owned(), true, false), (" coupler".to_owned(), false, false), ("n".to_owned(), true, true)];
+        assert_eq!(text.pieces().iter().map(style).collect::<Vec<_>>(), expected);
+    }
+
+    #[test]
+    fn texts_are_broken_after_commas_or_between_words() {
+        let text = MathText::from_words("a = 1, b = 22, c = 3");
+        let lines = |width: usize| {
+            let lines = text.wrap(|line| line.to_string().len() <= width);
+            lines.iter().map(ToString::to_string).collect::<Vec<_>>()
+        };
+        assert_eq!(lines(14), ["a = 1, b = 22,", "c = 3"]);
+        assert_eq!(lines(4), ["a =", "1, b", "=", "22,", "c =", "3"]);
+    }
+}

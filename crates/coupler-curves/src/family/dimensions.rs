@@ -1,0 +1,162 @@
+//! The dimensions of a family's linkages as text: those that all cells share, and those of a cell.
+
+use super::{Cell, Family, ParameterSpace};
+use crate::expression::{Caption, CompiledExpression, MathText, Unit, format_exactly, round_to_six_digits};
+use crate::template::ParameterKind;
+
+/// A name that the caption of a cell should show.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CaptionParameter {
+    /// Its index in [`Family::names`].
+    pub slot: usize,
+    /// Whether the grid or the cases give its value; otherwise it is derived.
+    pub is_given: bool,
+}
+
+/// How a family gives a value to a name.
+enum Source<'f> {
+    /// The grid or the cases give the same value to every cell.
+    Constant(f64),
+    /// Cells differ in the value they are given.
+    Varying,
+    /// An expression that depends on no name that varies.
+    ConstantFormula(&'f CompiledExpression, f64),
+    /// An expression whose value varies.
+    Formula(&'f CompiledExpression),
+}
+
+impl Family {
+    /// The indices of the names that the grid or the cases give different values to, in order.
+    pub fn varying_slots(&self) -> Vec<usize> {
+        match &self.space {
+            ParameterSpace::Grid(axes) => {
+                let varies =
+                    |axis: &&super::Axis| (1..axis.values.len()).any(|k| axis.values.get(k) != axis.values.get(0));
+                let mut slots: Vec<usize> = axes.iter().filter(varies).map(|axis| axis.slot).collect();
+                slots.sort_unstable();
+                slots
+            }
+            ParameterSpace::Cases(cases) => {
+                let value = |case: &super::Case, slot: usize| {
+                    case.iter().find(|(given, _)| *given == slot).map(|(_, value)| *value)
+                };
+                let varies =
+                    |slot: &usize| cases.windows(2).any(|pair| value(&pair[0], *slot) != value(&pair[1], *slot));
+                let mut slots = self.space.assigned_slots();
+                slots.retain(varies);
+                slots
+            }
+        }
+    }
+
+    /// What all cells have in common: "r = 1", "s = a", "u = 150 cos(π / 6) = 129.904". Numbers are exact; the value of
+    /// a formula has up to six significant digits, and is left out if it varies.
+    ///
+    /// A helper is among them if a formula uses it. Empty if the family has no cells.
+    pub fn common_dimensions(&self) -> Vec<MathText> {
+        if self.cell_count() == 0 { Vec::new() } else { self.dimension_texts(&self.sources()) }
+    }
+
+    /// Every dimension of a cell, in the same form; its values need not be those of the family.
+    pub fn cell_dimensions(&self, cell: &Cell) -> Vec<MathText> {
+        let mut sources: Vec<Source> = cell.values.iter().map(|value| Source::Constant(*value)).collect();
+        for (slot, formula) in &self.derived {
+            let value = cell.values[*slot];
+            if formula.evaluate(|slot| cell.values[slot]) == value {
+                sources[*slot] = Source::ConstantFormula(formula, value);
+            }
+        }
+        self.dimension_texts(&sources)
+    }
+
+    /// The text of each source that does not vary from cell to cell, of the names that are dimensions.
+    fn dimension_texts(&self, sources: &[Source]) -> Vec<MathText> {
+        let dimension = |(slot, source): (usize, &Source)| {
+            let left = MathText::from_name(&self.names[slot]).with_words(" = ");
+            let unit = self.unit(slot);
+            match source {
+                Source::Varying => None,
+                Source::Constant(value) => Some(left.with_words(format_exactly(*value)).with_words(unit)),
+                Source::Formula(formula) => Some(left.with(formula.to_math_text())),
+                Source::ConstantFormula(formula, value) => {
+                    let text = formula.to_math_text();
+                    let is_number = text.to_string() == format_exactly(*value);
+                    let number = format_exactly(round_to_six_digits(*value));
+                    let value = if is_number { text } else { text.with_words(" = ").with_words(number) };
+                    Some(left.with(value).with_words(unit))
+                }
+            }
+        };
+        let of_linkages = sources.iter().enumerate().filter(|(slot, _)| self.is_dimension(*slot));
+        of_linkages.filter_map(dimension).collect()
+    }
+
+    /// The caption of cells where the manifest gives none, in the form of a manifest: each of the
+    /// [`Family::caption_parameters`]. `None` if there is none.
+    pub fn automatic_caption(&self) -> Option<String> {
+        let equation = |parameter: &CaptionParameter| {
+            let name = &self.names[parameter.slot];
+            format!("{name} = {{{name}}}{}", self.unit(parameter.slot))
+        };
+        let equations: Vec<String> = self.caption_parameters().iter().map(equation).collect();
+        (!equations.is_empty()).then(|| equations.join(", "))
+    }
+
+    /// The value of a parameter in a cell: "u = 3.75" exactly if it is given, and with up to six significant digits if it
+    /// is derived, for the formula of those is stated.
+    pub fn caption_dimension(&self, cell: &Cell, CaptionParameter { slot, is_given }: CaptionParameter) -> MathText {
+        let value = if is_given { cell.values[slot] } else { round_to_six_digits(cell.values[slot]) };
+        MathText::from_name(&self.names[slot]).with_words(format!(" = {}{}", format_exactly(value), self.unit(slot)))
+    }
+
+    /// Whether the captions of a cell show a parameter: in full if it is given.
+    pub fn captions_show(&self, cell: &Cell, CaptionParameter { slot, is_given }: CaptionParameter) -> bool {
+        let (name, value) = (&self.names[slot], cell.values[slot]);
+        let shows = |caption: &Caption| if is_given { caption.shows_exactly(name, value) } else { caption.uses(name) };
+        self.captions.iter().flatten().any(shows)
+    }
+
+    /// The names that the caption of a cell should show: those that vary, without parameters that are equal to another.
+    pub fn caption_parameters(&self) -> Vec<CaptionParameter> {
+        let parameter = |(slot, source): (usize, Source)| match source {
+            Source::Varying if self.is_dimension(slot) => Some(CaptionParameter { slot, is_given: true }),
+            Source::Formula(formula) => {
+                let is_own = slot < self.template.parameters.len() && formula.name_or_number().is_none();
+                is_own.then_some(CaptionParameter { slot, is_given: false })
+            }
+            _ => None,
+        };
+        self.sources().into_iter().enumerate().filter_map(parameter).collect()
+    }
+
+    /// Whether a name is a parameter of the linkage, or a helper that a formula uses.
+    fn is_dimension(&self, slot: usize) -> bool {
+        slot < self.template.parameters.len() || self.derived.iter().any(|(_, formula)| formula.slots().contains(&slot))
+    }
+
+    /// The source of each name's value, in the order of the names.
+    fn sources(&self) -> Vec<Source<'_>> {
+        let first = self.cell(0);
+        let given = self.space.assigned_slots();
+        let mut sources: Vec<Source> = first.values.iter().map(|value| Source::Constant(*value)).collect();
+        self.varying_slots().into_iter().for_each(|slot| sources[slot] = Source::Varying);
+        // In the order of computation: what a formula uses comes before it.
+        for (slot, formula) in self.derived.iter().filter(|(slot, _)| !given.contains(slot)) {
+            let varies = |used: &usize| matches!(sources[*used], Source::Varying | Source::Formula(_));
+            sources[*slot] = match formula.slots().iter().any(varies) {
+                true => Source::Formula(formula),
+                false => Source::ConstantFormula(formula, first.values[*slot]),
+            };
+        }
+        sources
+    }
+
+    /// The unit of a parameter, as written after a number.
+    fn unit(&self, slot: usize) -> &'static str {
+        match self.template.parameters.get(slot).map(|parameter| parameter.kind) {
+            Some(ParameterKind::Angle(Unit::Rad)) => " rad",
+            Some(ParameterKind::Angle(_)) => "°",
+            _ => "",
+        }
+    }
+}

@@ -1,0 +1,201 @@
+//! The construction of a linkage in words: for each joint, the lengths and angles that place it.
+
+use super::{Coordinate, InputValue, JointKindTemplate, Template};
+use crate::expression::{CompiledExpression, MathText, Unit};
+
+impl Template {
+    /// How a joint, by its index in [`Template::joints`], is placed: "AB = a, CB = s". The dimensions are as in the
+    /// template, by the names of its parameters.
+    pub fn construction(&self, joint: usize) -> MathText {
+        let Some(placed) = self.joints.get(joint) else { return MathText::default() };
+        let name = |k: usize| self.joints[k].name.as_str();
+        let own = placed.name.as_str();
+        let length = |from: usize, value: &CompiledExpression| equation(&line(name(from), own), value.to_math_text());
+        let between = |[a, b]: [usize; 2]| line(name(a), name(b));
+        match &placed.kind {
+            JointKindTemplate::Fixed([x, y]) => {
+                let what = match (self.seen_from, self.is_pivot(joint)) {
+                    (Some(_), _) => format!("on link {}, at (", self.defined_link()),
+                    (None, true) => "fixed pivot at (".to_owned(),
+                    (None, false) => "fixed point at (".to_owned(),
+                };
+                let x = MathText::from_words(what).with(x.to_math_text());
+                x.with_words(", ").with(y.to_math_text()).with_words(")")
+            }
+            JointKindTemplate::Crank { pivot, length: crank } => {
+                let what = if self.seen_from.is_some() { "pin of the driving link, " } else { "pin of the crank, " };
+                MathText::from_words(what).with(length(*pivot, crank))
+            }
+            JointKindTemplate::Gear { crank, pivot, length: own_length, ratio: [turns, crank_turns], phase } => {
+                let geared =
+                    MathText::from_words("pin of a crank geared to ").with_words(name(*crank)).with_words(", ");
+                let ratio = turns.to_math_text().with_words(" : ").with(crank_turns.to_math_text());
+                let geared = geared.with(length(*pivot, own_length)).with_words(", ratio ").with(ratio);
+                match is_zero(&phase.value) {
+                    true => geared,
+                    false => geared.with_words(", ahead by ").with(angle(phase)),
+                }
+            }
+            JointKindTemplate::Piston { base: [from, pivot], length: crank, offset, .. } => {
+                let driven = MathText::from_words("pin of the crank, ").with(length(*pivot, crank));
+                let driven = driven.with_words(format!(", driven by the actuator from {}", name(*from)));
+                with_unless_zero(driven, ", its line offset by ", offset, "")
+            }
+            JointKindTemplate::Dyad { base: [a, b], lengths: [first, second], .. } => {
+                length(*a, first).with_words(", ").with(length(*b, second))
+            }
+            JointKindTemplate::Slide { from, length: link, line: along, offset, .. } => {
+                let slider = MathText::from_words("slider, ").with(length(*from, link));
+                let slider = slider.with_words(format!(", on a line along {}", between(*along)));
+                with_unless_zero(slider, ", ", offset, " to its left")
+            }
+            JointKindTemplate::Yoke { from, line: along, offset, angle: slot } => {
+                let guided = MathText::from_words(format!("yoke on a guide along {}", between(*along)));
+                let guided = with_unless_zero(guided, ", ", offset, " to its left");
+                let slot = MathText::from_words(format!("; {} moves in its slot at ", name(*from))).with(angle(slot));
+                guided.with(slot).with_words(" to the guide")
+            }
+            JointKindTemplate::Slot { base: [pivot, through], offset, .. } => MathText::from_words(format!(
+                "foot of the perpendicular from {} to the bar that slides through {}, ",
+                name(*pivot),
+                name(*through)
+            ))
+            .with(length(*pivot, offset)),
+            JointKindTemplate::Parallelogram { corners } => {
+                let corners: Vec<&str> = corners.iter().map(|&corner| name(corner)).chain([own]).collect();
+                MathText::from_words(format!("parallelogram {}", join_names(&corners)))
+            }
+            JointKindTemplate::Point { base, along, across } => {
+                point_on_link(&between(*base), name(base[0]), along, across)
+            }
+            JointKindTemplate::Distances { base: [a, b], distances: [first, second], .. } => {
+                length(*a, first).with_words(", ").with(length(*b, second))
+            }
+        }
+    }
+
+    /// The link that the joints are defined in, by its joints; in the reported frame it moves.
+    fn defined_link(&self) -> String {
+        let is_fixed = |joint: &&super::JointTemplate| matches!(joint.kind, JointKindTemplate::Fixed(_));
+        let names: Vec<&str> = self.joints.iter().filter(is_fixed).map(|joint| joint.name.as_str()).collect();
+        join_names(&names)
+    }
+
+    /// Whether a moving link is connected to a fixed joint; otherwise it is only a point of reference.
+    fn is_pivot(&self, joint: usize) -> bool {
+        self.joints.iter().any(|other| match &other.kind {
+            JointKindTemplate::Crank { pivot, .. } | JointKindTemplate::Gear { pivot, .. } => *pivot == joint,
+            JointKindTemplate::Piston { base, .. } | JointKindTemplate::Dyad { base, .. } => base.contains(&joint),
+            JointKindTemplate::Slot { base: [pivot, _], .. } => *pivot == joint,
+            JointKindTemplate::Parallelogram { corners } => corners.contains(&joint),
+            JointKindTemplate::Slide { .. }
+            | JointKindTemplate::Yoke { .. }
+            | JointKindTemplate::Point { .. }
+            | JointKindTemplate::Distances { .. }
+            | JointKindTemplate::Fixed(_) => false,
+        })
+    }
+}
+
+/// "AB = a".
+fn equation(left: &str, right: MathText) -> MathText {
+    MathText::from_words(format!("{left} = ")).with(right)
+}
+
+/// The line from one joint to another: AB, or Knee–Hip if their names are longer than a letter.
+fn line(a: &str, b: &str) -> String {
+    join_names(&[a, b])
+}
+
+fn join_names(names: &[&str]) -> String {
+    let are_letters = names.iter().all(|name| name.chars().nth(1).is_none());
+    names.join(if are_letters { "" } else { "–" })
+}
+
+/// An angle; a number with its unit.
+fn angle(value: &InputValue) -> MathText {
+    let is_number = value.value.slots().is_empty();
+    // The value of a parameter is stated with its unit.
+    let unit = match value.unit {
+        Some(Unit::Deg) if is_number => "°",
+        Some(Unit::Rad) if is_number => " rad",
+        _ => "",
+    };
+    value.value.to_math_text().with_words(unit)
+}
+
+/// The text with a dimension between words, unless the dimension is always 0.
+fn with_unless_zero(text: MathText, before: &str, value: &CompiledExpression, after: &str) -> MathText {
+    if is_zero(value) { text } else { text.with_words(before).with(value.to_math_text()).with_words(after) }
+}
+
+fn is_zero(value: &CompiledExpression) -> bool {
+    value.slots().is_empty() && value.evaluate(|_| f64::NAN) == 0.0
+}
+
+/// "on AB, k a from A", or "u from A along AB, v to its left".
+fn point_on_link(base: &str, first: &str, along: &Coordinate, across: &Coordinate) -> MathText {
+    let (along_count, across_count) = (along.count(), across.count());
+    let start = match (along_count, across_count) {
+        (1, 1) => MathText::default(),
+        (rows, columns) => MathText::from_words(format!("{rows} × {columns} points, ")),
+    };
+    match across {
+        Coordinate::Single(across) if is_zero(across) => {
+            start.with_words(format!("on {base}, ")).with(coordinate(along)).with_words(format!(" from {first}"))
+        }
+        _ => {
+            let along = start.with(coordinate(along)).with_words(format!(" from {first} along {base}, "));
+            along.with(coordinate(across)).with_words(" to its left")
+        }
+    }
+}
+
+fn coordinate(coordinate: &Coordinate) -> MathText {
+    match coordinate {
+        Coordinate::Single(value) => value.to_math_text(),
+        Coordinate::Range { from, to, .. } => from.to_math_text().with_words(" to ").with(to.to_math_text()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::catalogue;
+
+    #[test]
+    fn every_joint_has_a_construction_in_words() {
+        let construction = |id: &str, joint: &str| {
+            let template = catalogue::find(id).unwrap();
+            let index = template.joints.iter().position(|placed| placed.name == joint).unwrap();
+            template.construction(index).to_string()
+        };
+        for (id, joint, expected) in [
+            ("evans", "C", "fixed pivot at (p, 0)"),
+            ("evans", "A", "pin of the crank, OA = r"),
+            ("evans", "B", "AB = a, CB = s"),
+            ("evans", "M", "on AB, k a from A"),
+            ("chebyshev", "O", "on link AO, at (r, 0)"),
+            ("chebyshev", "B", "pin of the driving link, AB = a"),
+            ("cognates", "M", "u from A along AB, v to its left"),
+            ("cognates", "D", "parallelogram OAMD"),
+            ("hrones-nelson", "M", "5 × 2 points, 0 to 1.6 A from P along PR, 0.5 to 1 to its left"),
+            ("klann", "Hip", "Knee–Hip = b, Upper–Hip = c"),
+            ("slider-crank", "X", "fixed point at (1, 0)"),
+            ("slider-crank", "B", "slider, AB = coupler, on a line along OX, offset to its left"),
+            ("linear-actuator", "A", "pin of the crank, OA = r, driven by the actuator from C, its line offset by e"),
+            ("inverted-slider-crank", "B", "foot of the perpendicular from C to the bar that slides through A, CB = e"),
+            ("geared-five-bar", "D", "pin of a crank geared to A, PD = d, ratio n : m, ahead by phase"),
+            (
+                "scotch-yoke",
+                "Y",
+                "yoke on a guide along OX, offset to its left; A moves in its slot at angle to the guide",
+            ),
+            ("roberts", "M", "AM = b, BM = b"),
+        ] {
+            assert_eq!(construction(id, joint), expected, "{id} {joint}");
+        }
+        for template in catalogue::all() {
+            assert!((0..template.joints.len()).all(|joint| !template.construction(joint).is_empty()));
+        }
+    }
+}

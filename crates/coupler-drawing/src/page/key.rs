@@ -1,0 +1,270 @@
+//! The key of a page: the linkage with the names of its joints, and how each joint is placed.
+
+use super::area::Area;
+use super::arrangement::Rect;
+use super::element::{Drawing, TextLine};
+use super::figure::Figure;
+use super::labels::{Obstacles, place_labels};
+use super::marks::straight_criterion_text;
+use super::mechanism::PosedMechanism;
+use super::plot::Plot;
+use super::theme::Theme;
+use crate::scene::{Anchor, Item, Path, Polyline, Text};
+use coupler_curves::expression::MathText;
+use coupler_curves::family::{Cell, Family};
+use coupler_curves::geometry::{Point, Vector, left_normal, trig};
+use coupler_curves::linkage::{JointKind, OutputLink};
+use coupler_curves::template::{OutputLinkTemplate, Template};
+
+/// What a page says about the linkages on it, so that they can be built: how the joints are placed by parameters, and
+/// the dimensions that are the same for all.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Key {
+    /// The dimensions that all linkages share, as of [`Family::common_dimensions`].
+    pub dimensions: Vec<MathText>,
+    /// The name of each joint, and how it is placed.
+    pub joints: Vec<(String, MathText)>,
+    /// What drives the linkage, what it drives, and from where it is seen.
+    pub remarks: Vec<String>,
+    /// Which straight portions are marked.
+    pub straight: String,
+}
+
+impl Key {
+    /// The key of a family's linkages: the parameters that vary are for their captions.
+    pub fn new(family: &Family) -> Key {
+        Key::with_dimensions(family, family.common_dimensions())
+    }
+
+    /// The key of one cell, with all its dimensions.
+    pub fn for_cell(family: &Family, cell: &Cell) -> Key {
+        Key::with_dimensions(family, family.cell_dimensions(cell))
+    }
+
+    fn with_dimensions(family: &Family, dimensions: Vec<MathText>) -> Key {
+        let template = &*family.template;
+        let joint = |(k, joint): (usize, &coupler_curves::template::JointTemplate)| {
+            (joint.name.clone(), template.construction(k))
+        };
+        Key {
+            dimensions,
+            joints: template.joints.iter().enumerate().map(joint).collect(),
+            remarks: remarks(template),
+            straight: straight_criterion_text(family.straight, if template.is_driven_by_length() { "" } else { "°" }),
+        }
+    }
+}
+
+/// The input, the output and the frame of a linkage in words.
+fn remarks(template: &Template) -> Vec<String> {
+    let name = |joint: usize| template.joints[joint].name.as_str();
+    let driven_by = match (template.is_driven_by_length(), template.seen_from) {
+        (true, _) => "input: the actuator's length",
+        (false, None) => "input: the crank's angle from 0, in the direction of its arrow",
+        (false, Some(_)) => "input: the driving link's angle from 0, in the direction of its arrow",
+    };
+    let output = template.output_link.map(|output| match output {
+        OutputLinkTemplate::Link([from, to]) => format!("output: the link from {} to {}", name(from), name(to)),
+        OutputLinkTemplate::Slider(joint) => format!("output: the slider {}", name(joint)),
+    });
+    let frame = template.seen_from.map(|[origin, x]| format!("drawn with {} and {} fixed", name(origin), name(x)));
+    [driven_by.to_owned()].into_iter().chain(output).chain(frame).collect()
+}
+
+/// The width of a line of text of the key, in ems of a note.
+const COLUMN_WIDTH: f64 = 24.0;
+
+/// Divides the contents of a page into the part for panels and that for the key: a column on the right of a wide page,
+/// a strip at the foot of a high one. `None` for the key if it would leave too little to the panels.
+pub(super) fn divide(contents: Rect, theme: &Theme) -> (Rect, Option<Rect>) {
+    /// The most of the page that the key takes.
+    const MAX_PART: f64 = 0.36;
+    let em = theme.note_size;
+    let is_wide = contents.size.x > 1.1 * contents.size.y;
+    let (whole, wanted) =
+        if is_wide { (contents.size.x, COLUMN_WIDTH * em) } else { (contents.size.y, 1.1 * COLUMN_WIDTH * em) };
+    if wanted > MAX_PART * whole {
+        return (contents, None);
+    }
+    let along = |length: f64| if is_wide { Vector::new(length, 0.0) } else { Vector::new(0.0, length) };
+    let panels = Rect { size: contents.size - along(wanted + em), ..contents };
+    let key = Rect { corner: contents.corner + along(whole - wanted), size: contents.size - along(whole - wanted) };
+    (panels, Some(key))
+}
+
+/// Draws a key in a rectangle, with the linkage of a figure.
+pub(super) fn draw(area: &impl Area, rect: Rect, key: &Key, figure: Option<&Figure>, theme: &Theme) {
+    let em = theme.note_size;
+    let is_column = rect.size.x < 1.4 * rect.size.y;
+    let drawing = match is_column {
+        true => Vector::new(rect.size.x, (0.9 * rect.size.x).min(0.42 * rect.size.y)),
+        false => Vector::new((1.2 * rect.size.y).min(0.4 * rect.size.x), rect.size.y),
+    };
+    let text_corner = match is_column {
+        true => rect.corner + Vector::new(0.0, drawing.y + em),
+        false => rect.corner + Vector::new(drawing.x + em, 0.0),
+    };
+    if let Some(figure) = figure {
+        draw_linkage(area, Rect { corner: rect.corner, size: drawing }, figure, theme);
+    }
+    let text = Rect { corner: text_corner, size: rect.corner + rect.size - text_corner };
+    draw_lines(area, text, key, theme);
+}
+
+/// Writes the joints and the remarks in columns, from the upper left.
+fn draw_lines(area: &impl Area, rect: Rect, key: &Key, theme: &Theme) {
+    let em = theme.note_size;
+    let step = 1.42 * em;
+    let columns = (rect.size.x / (COLUMN_WIDTH * em)).floor().max(1.0);
+    let width = rect.size.x / columns - em;
+    let line = |text: &MathText, color| theme.math_line(text, Point::origin(), Anchor::Start, em, color);
+    let names: Vec<TextLine> =
+        key.joints.iter().map(|(name, _)| line(&MathText::from_words(name.as_str()), theme.ink)).collect();
+    let indent = names.iter().map(|name| name.text.width()).fold(0.0, f64::max).min(0.4 * width) + 0.7 * em;
+    let fits = |text: &MathText| line(text, theme.grey).text.width() <= width - indent;
+    let mut rows: Vec<(Option<TextLine>, TextLine, f64)> = Vec::new();
+    for (name, (_, construction)) in names.into_iter().zip(&key.joints) {
+        let mut name = Some(name);
+        for part in construction.wrap(fits) {
+            rows.push((name.take(), line(&part, theme.grey), indent));
+        }
+    }
+    let first_remark = rows.len();
+    for remark in &key.remarks {
+        let text = theme.text_line(remark, Point::origin(), Anchor::Start, em, theme.grey);
+        let wrapped = text.wrap(width);
+        rows.extend(wrapped.iter().map(|part| (None, line(&MathText::from_words(part.as_str()), theme.grey), 0.0)));
+    }
+    let per_column = ((rect.size.y / step).floor() as usize).max(1);
+    for (k, (name, text, indent)) in rows.into_iter().enumerate() {
+        let column = k / per_column;
+        if column as f64 >= columns {
+            break;
+        }
+        // The remarks are apart from the joints.
+        let gap = if k >= first_remark && k / per_column == first_remark / per_column { 0.5 * step } else { 0.0 };
+        let at = rect.corner + Vector::new(column as f64 * (width + em), em + gap + step * (k % per_column) as f64);
+        for (line, x) in name.into_iter().map(|name| (name, 0.0)).chain([(text, indent)]) {
+            let position = at + Vector::new(x, 0.0);
+            area.record(&TextLine { text: Text { position, ..line.text } }.fit_width(width - x));
+        }
+    }
+}
+
+/// Draws the linkage of a figure in its first pose with the names of its joints, the direction of the crank and the
+/// output.
+fn draw_linkage(area: &impl Area, rect: Rect, figure: &Figure, theme: &Theme) {
+    let Some(mechanism) = figure.mechanisms.first() else { return };
+    let letter = theme.caption_size;
+    let frame = rect.inset(1.6 * letter);
+    let plot = Plot::whole(frame).fitted_to(mechanism.bounds());
+    let underlay = mechanism.underlay_items(&plot, theme);
+    let links = mechanism.linkage_items(&plot, theme, |joint| figure.joint_ink(joint, theme));
+    let (marks, zero_label) = crank_arrow(mechanism, &plot, theme).unzip();
+    let mut marks = marks.unwrap_or_default();
+    marks.extend(output_arrow(mechanism, &plot, theme));
+    let mut obstacles = Obstacles::default();
+    obstacles.add(&underlay, true);
+    obstacles.add(&links, false);
+    obstacles.add(&marks, false);
+    let names = joint_names(mechanism, &plot, theme).into_iter().chain(zero_label).collect();
+    let names = place_labels(names, &obstacles, rect, theme);
+    for (class, items) in [("underlay", underlay), ("linkage", links), ("direction", marks), ("name", names)] {
+        area.record(&Drawing { class, title: String::new(), items });
+    }
+}
+
+/// The names of the joints that are drawn, and of those that are traced, with their positions.
+fn joint_names(mechanism: &PosedMechanism, plot: &Plot, theme: &Theme) -> Vec<(Point, Text)> {
+    let linkage = mechanism.linkage;
+    let mut joints = mechanism.drawn_joints();
+    joints.extend(linkage.traced.iter().filter(|traced| !joints.contains(traced)).collect::<Vec<_>>());
+    // A grid of points has one name for all of them.
+    let mut named: Vec<&str> = Vec::new();
+    let mut labels = Vec::new();
+    for joint in joints {
+        let name = linkage.joints[joint].name.as_str();
+        if !named.contains(&name) {
+            named.push(name);
+            let text = theme.text_line(name, Point::origin(), Anchor::Middle, theme.caption_size, theme.ink).text;
+            labels.push((plot.page_from_plane.apply(mechanism.pose[joint]), text));
+        }
+    }
+    labels
+}
+
+/// An arc about the crank's pivot from input 0, which is a short line, in the direction of increasing input; with the
+/// label of the line and the point it belongs to. `None` if there is no crank.
+fn crank_arrow(mechanism: &PosedMechanism, plot: &Plot, theme: &Theme) -> Option<(Vec<Item>, (Point, Text))> {
+    const SWEEP_DEG: f64 = 60.0;
+    let [pivot, pin] = mechanism.linkage.crank()?;
+    let (zero, turn) = input_axes(mechanism)?;
+    let centre = plot.page_from_plane.apply(mechanism.pose[pivot]);
+    let length = (plot.page_from_plane.apply(mechanism.pose[pin]) - centre).norm();
+    let radius = (0.55 * length).max(4.0 * theme.joint_radius);
+    let stroke = theme.stroke(theme.ink, theme.fine_width);
+    let at = |deg: f64, radius: f64| {
+        let (cos, sin) = trig::cos_sin_deg(deg);
+        // The page's y points down.
+        let direction = zero * cos + turn * sin;
+        centre + Vector::new(direction.x, -direction.y) * radius
+    };
+    let zero_line = Path::stroked(
+        vec![at(0.0, 2.0 * theme.joint_radius), at(0.0, radius + 2.0 * theme.joint_radius)],
+        theme.stroke(theme.ink, theme.hair_width),
+    );
+    let arc: Vec<Point> = (0..=20).map(|k| at(SWEEP_DEG * f64::from(k) / 20.0, radius)).collect();
+    let [before, tip] = [arc[19], arc[20]];
+    let text = theme.text_line("0", Point::origin(), Anchor::Middle, theme.note_size, theme.ink).text;
+    let items =
+        vec![Item::Path(zero_line), Item::Path(Path::stroked(arc, stroke)), arrowhead(tip, tip - before, theme)];
+    Some((items, (at(0.0, radius + 2.0 * theme.joint_radius), text)))
+}
+
+/// A double-headed arc about the fixed joint of the output link, on the link.
+fn output_arrow(mechanism: &PosedMechanism, plot: &Plot, theme: &Theme) -> Vec<Item> {
+    const HALF_SWEEP_DEG: f64 = 16.0;
+    let Some(OutputLink::Link([from, to])) = mechanism.linkage.output() else { return Vec::new() };
+    let [centre, end] = [from, to].map(|joint| plot.page_from_plane.apply(mechanism.pose[joint]));
+    let arm = (end - centre) * 0.62;
+    if arm.norm() < 6.0 * theme.joint_radius {
+        return Vec::new();
+    }
+    let at = |deg: f64| {
+        let (cos, sin) = trig::cos_sin_deg(deg);
+        centre + arm * cos + left_normal(arm) * sin
+    };
+    let arc: Vec<Point> = (-8..=8).map(|k| at(HALF_SWEEP_DEG * f64::from(k) / 8.0)).collect();
+    let heads = [arrowhead(arc[16], arc[16] - arc[15], theme), arrowhead(arc[0], arc[0] - arc[1], theme)];
+    let stroke = theme.stroke(theme.grey, theme.fine_width);
+    [Item::Path(Path::stroked(arc, stroke))].into_iter().chain(heads).collect()
+}
+
+/// A filled arrowhead with its tip at a point, in a direction.
+pub(super) fn arrowhead(tip: Point, direction: Vector, theme: &Theme) -> Item {
+    let along = direction.try_normalize(0.0).unwrap_or(Vector::new(1.0, 0.0)) * (2.0 * theme.joint_radius);
+    let across = left_normal(along) * 0.38;
+    let points = vec![tip + along * 0.5, tip - along * 0.5 + across, tip - along * 0.5 - across];
+    Item::Path(Path { polylines: vec![Polyline { points, is_closed: true }], stroke: None, fill: Some(theme.ink) })
+}
+
+/// The directions of input 0 and of input 90 degrees in the plane, in a pose: the axes of the frame that the linkage was
+/// defined in. `None` if it has no two fixed joints apart.
+fn input_axes(mechanism: &PosedMechanism) -> Option<(Vector, Vector)> {
+    let linkage = mechanism.linkage;
+    let fixed = |joint: coupler_curves::linkage::JointId| match linkage.joints[joint].kind {
+        JointKind::Fixed(position) => Some((position, mechanism.pose[joint])),
+        _ => None,
+    };
+    let mut fixed = linkage.joint_ids().filter_map(fixed);
+    let (first, first_posed) = fixed.next()?;
+    let (other, other_posed) = fixed.find(|(other, _)| (other - first).norm() > 0.0)?;
+    let [defined, posed] = [other - first, other_posed - first_posed];
+    let handedness = linkage.placement.handedness();
+    // Of the x-axis relative to the line between the joints, which a mirror image reverses.
+    let unit = defined.normalize();
+    let (cos, sin) = (unit.x, -unit.y * handedness);
+    let posed = posed.try_normalize(0.0)?;
+    let zero = posed * cos + left_normal(posed) * sin;
+    Some((zero, left_normal(zero) * handedness))
+}

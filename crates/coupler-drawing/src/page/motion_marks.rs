@@ -1,0 +1,135 @@
+//! Marks of the motion along a curve: its start with an arrowhead, and ticks at equal steps of the input.
+
+use super::arrangement::Rect;
+use super::element::Drawing;
+use super::labels::{Obstacles, place_labels};
+use super::plot::Plot;
+use super::theme::Theme;
+use crate::scene::{Anchor, Color, Item, Path, Polyline};
+use coupler_curves::geometry::{Point, Vector, left_normal};
+use coupler_curves::linkage::{Input, JointId, Linkage};
+use coupler_curves::motion::{self, Circuit};
+
+/// The input from a tick to the next, in degrees: a twelfth of a turn.
+pub(super) const TICK_DEG: f64 = 30.0;
+
+/// The input from a number at a tick to the next, in degrees.
+const NUMBER_DEG: f64 = 90.0;
+
+/// A point of a curve at an input, with the direction of the motion as the input increases or decreases along the
+/// circuit.
+struct Station {
+    input: f64,
+    at: Point,
+    direction: Vector,
+}
+
+/// The marks of a curve on the page.
+pub(super) struct MotionMarks {
+    /// The lines of the ticks, and the arrowhead.
+    pub items: Vec<Item>,
+    /// The numbers of some ticks, with their points on the page.
+    numbers: Vec<(Point, String)>,
+}
+
+impl MotionMarks {
+    /// The marks of the curve of a joint on a circuit; none if an actuator drives the linkage, whose input has no turn.
+    ///
+    /// Ticks closer together than they are long are left out.
+    pub fn new(
+        linkage: &Linkage,
+        circuit: &Circuit,
+        joint: JointId,
+        plot: &Plot,
+        ink: Color,
+        theme: &Theme,
+    ) -> MotionMarks {
+        let mut marks = MotionMarks { items: Vec::new(), numbers: Vec::new() };
+        if linkage.input() == Input::Length {
+            return marks;
+        }
+        let stations = stations(linkage, circuit, joint, plot);
+        if let Some(start) = stations.first() {
+            marks.items.push(start_item(start.at, start.direction, ink, theme));
+        }
+        let mut last = stations.first().map(|start| start.at);
+        for station in stations.iter().skip(1) {
+            let is_far = |other: Point| (station.at - other).norm() >= 2.0 * tick_length(theme);
+            if !last.is_none_or(is_far) || !stations.first().is_none_or(|start| is_far(start.at)) {
+                continue;
+            }
+            last = Some(station.at);
+            marks.items.push(tick_item(station.at, station.direction, ink, theme));
+            if station.input.rem_euclid(NUMBER_DEG) == 0.0 {
+                let number = format!("{}", station.input.rem_euclid(360.0));
+                // A path that is traversed twice at the same inputs has each number once.
+                let is_like = |(at, known): &(Point, String)| *known == number && (at - station.at).norm() < 0.01;
+                if !marks.numbers.iter().any(is_like) {
+                    marks.numbers.push((station.at, number));
+                }
+            }
+        }
+        marks
+    }
+
+    /// The numbers, placed in a frame where they are clear of obstacles.
+    pub fn place_numbers(all: Vec<MotionMarks>, obstacles: &Obstacles, frame: Rect, theme: &Theme) -> Drawing {
+        let line =
+            |number: &str| theme.text_line(number, Point::origin(), Anchor::Middle, theme.small_size(), theme.grey);
+        let numbers = all.iter().flat_map(|marks| &marks.numbers);
+        let numbers = numbers.map(|(at, number)| (*at, line(number).text)).collect();
+        Drawing { class: "input", title: String::new(), items: place_labels(numbers, obstacles, frame, theme) }
+    }
+}
+
+/// The points of a curve at the multiples of [`TICK_DEG`], in the order of the circuit; the first is that at its start.
+fn stations(linkage: &Linkage, circuit: &Circuit, joint: JointId, plot: &Plot) -> Vec<Station> {
+    /// The input over which the direction of the motion is taken, in degrees: a chord of less than 0.01 mm on paper.
+    const STEP_DEG: f64 = 0.01;
+    let mut stations = Vec::new();
+    for pass in &circuit.passes {
+        let (from, to) = (pass.from.input.value, pass.to.input.value);
+        let sign = if to >= from { 1.0 } else { -1.0 };
+        let at = |input: f64| plot.page_from_plane.apply(motion::pose(linkage, pass, input)[joint]);
+        let [low, high] = pass.input_range();
+        let first = (low / TICK_DEG).ceil();
+        let count = ((high / TICK_DEG).floor() - first + 1.0).clamp(0.0, 1000.0) as usize;
+        let mut inputs: Vec<f64> = (0..count).map(|k| (first + k as f64) * TICK_DEG).collect();
+        if sign < 0.0 {
+            inputs.reverse();
+        }
+        if stations.is_empty() && inputs.first() != Some(&from) {
+            inputs.insert(0, from);
+        }
+        for input in inputs {
+            // The end of a full turn is its start.
+            let is_end_of_turn = circuit.is_closed && !stations.is_empty() && input == to;
+            let [before, after] = [-0.5, 0.5].map(|part| (input + part * sign * STEP_DEG).clamp(low, high));
+            let (here, direction) = (at(input), at(after) - at(before));
+            if !is_end_of_turn && here.x.is_finite() && here.y.is_finite() {
+                stations.push(Station { input, at: here, direction });
+            }
+        }
+    }
+    stations
+}
+
+/// The length of a tick in millimetres.
+fn tick_length(theme: &Theme) -> f64 {
+    1.3 * theme.joint_radius
+}
+
+/// A tick across a curve that runs in a direction.
+pub(super) fn tick_item(at: Point, direction: Vector, ink: Color, theme: &Theme) -> Item {
+    let half = left_normal(direction).try_normalize(0.0).unwrap_or(Vector::new(0.0, 1.0)) * (0.5 * tick_length(theme));
+    Item::Path(Path::stroked(vec![at - half, at + half], theme.stroke(ink, theme.fine_width)))
+}
+
+/// The mark of the start of a curve: a filled triangle that points in the direction of the motion.
+pub(super) fn start_item(at: Point, direction: Vector, ink: Color, theme: &Theme) -> Item {
+    let along = direction.try_normalize(0.0).unwrap_or(Vector::new(1.0, 0.0)) * (1.1 * theme.joint_radius);
+    let across = left_normal(along) * 0.75;
+    let points = vec![at + along * 1.2, at - along * 0.8 + across, at - along * 0.8 - across];
+    let stroke = Some(theme.stroke(theme.paper, theme.hair_width));
+    Item::Path(Path { polylines: vec![Polyline { points, is_closed: true }], stroke, fill: Some(ink) })
+}

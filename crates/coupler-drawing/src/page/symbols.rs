@@ -1,0 +1,156 @@
+//! The line at the foot of a page that explains the symbols on it.
+
+use super::area::Area;
+use super::element::{Drawing, TextLine};
+use super::mechanism;
+use super::motion_marks;
+use super::theme::Theme;
+use crate::scene::{Anchor, Circle, Color, Item, Path, Polyline, Text};
+use coupler_curves::geometry::{Point, Vector};
+
+/// A symbol and its meaning.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Symbol {
+    pub mark: Mark,
+    pub meaning: String,
+}
+
+/// A mark as it is drawn on the page.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Mark {
+    /// The fixed pivot of the crank.
+    CrankPivot,
+    /// Another fixed pivot.
+    Pivot,
+    /// A traced point in the pose.
+    TracedPoint(Color),
+    /// A curve in dashes.
+    Dashes(Color),
+    /// The start of a curve, with its direction.
+    Start(Color),
+    /// A tick across a curve.
+    Tick(Color),
+    /// A limit of the input.
+    Limit(Color),
+    /// The part of a curve that the figure of its source does not show.
+    Light(Color),
+    /// A straight portion.
+    Band(Color),
+    /// An axis of symmetry.
+    Axis,
+    /// A scale bar.
+    ScaleBar,
+    /// A letter or a sign in the text of the page.
+    Letter(&'static str),
+}
+
+/// The symbols in lines that are not wider than `width`.
+pub(super) fn lines(symbols: &[Symbol], width: f64, theme: &Theme) -> Vec<Vec<Symbol>> {
+    let mut lines: Vec<(f64, Vec<Symbol>)> = Vec::new();
+    for symbol in symbols {
+        let own = symbol.width(theme);
+        match lines.last_mut() {
+            Some((used, line)) if *used + gap(theme) + own <= width => {
+                *used += gap(theme) + own;
+                line.push(symbol.clone());
+            }
+            _ => lines.push((own, vec![symbol.clone()])),
+        }
+    }
+    lines.into_iter().map(|(_, line)| line).collect()
+}
+
+/// Draws a line of symbols from a point on its baseline.
+pub(super) fn draw(area: &impl Area, line: &[Symbol], at: Point, theme: &Theme) {
+    let mut at = at;
+    for symbol in line {
+        let middle = at + Vector::new(mark_width(symbol.mark, theme) / 2.0, -0.32 * theme.note_size);
+        let items = symbol.mark.items(middle, theme);
+        area.record(&Drawing { class: "symbol", title: String::new(), items });
+        let text_at = at + Vector::new(mark_width(symbol.mark, theme) + 0.45 * theme.note_size, 0.0);
+        area.record(&symbol.text(text_at, theme));
+        at.x += symbol.width(theme) + gap(theme);
+    }
+}
+
+impl Symbol {
+    fn text(&self, at: Point, theme: &Theme) -> TextLine {
+        theme.text_line(&self.meaning, at, Anchor::Start, theme.note_size, theme.grey)
+    }
+
+    fn width(&self, theme: &Theme) -> f64 {
+        mark_width(self.mark, theme) + 0.45 * theme.note_size + self.text(Point::origin(), theme).text.width()
+    }
+}
+
+/// The space between a meaning and the next symbol.
+fn gap(theme: &Theme) -> f64 {
+    1.3 * theme.note_size
+}
+
+fn mark_width(mark: Mark, theme: &Theme) -> f64 {
+    let em = theme.note_size;
+    match mark {
+        Mark::CrankPivot | Mark::Pivot => 3.0 * theme.joint_radius,
+        Mark::TracedPoint(_) => 2.0 * theme.joint_radius,
+        Mark::Limit(_) => theme.joint_radius,
+        Mark::Start(_) => 2.0 * theme.joint_radius,
+        Mark::Tick(_) => 0.9 * em,
+        Mark::Dashes(_) | Mark::Light(_) | Mark::Band(_) | Mark::Axis | Mark::ScaleBar => 2.0 * em,
+        Mark::Letter(letter) => theme.typeface.regular().width(letter, em),
+    }
+}
+
+impl Mark {
+    /// The items of the mark about its middle.
+    fn items(self, middle: Point, theme: &Theme) -> Vec<Item> {
+        let half = mark_width(self, theme) / 2.0;
+        let along = |x: f64| middle + Vector::new(x * half, 0.0);
+        let line = |from: f64, to: f64| Polyline { points: vec![along(from), along(to)], is_closed: false };
+        let stroked = |polylines, stroke| Item::Path(Path { polylines, stroke: Some(stroke), fill: None });
+        match self {
+            Mark::CrankPivot => mechanism::pivot_items(middle, true, theme.ink, theme),
+            Mark::Pivot => mechanism::pivot_items(middle, false, theme.ink, theme),
+            Mark::TracedPoint(ink) => {
+                let stroke = Some(theme.stroke(ink, theme.fine_width));
+                vec![Item::Circle(Circle {
+                    centre: middle,
+                    radius: theme.joint_radius,
+                    stroke,
+                    fill: Some(theme.paper),
+                })]
+            }
+            Mark::Dashes(ink) => vec![
+                stroked(vec![line(-1.0, 1.0)], theme.stroke(theme.faded(ink), theme.hair_width)),
+                stroked(vec![line(-1.0, -0.4), line(0.0, 0.6)], theme.stroke(ink, theme.curve_width)),
+            ],
+            Mark::Start(ink) => vec![motion_marks::start_item(middle, Vector::new(1.0, 0.0), ink, theme)],
+            Mark::Tick(ink) => vec![
+                stroked(vec![line(-1.0, 1.0)], theme.stroke(ink, theme.curve_width)),
+                motion_marks::tick_item(middle, Vector::new(1.0, 0.0), ink, theme),
+            ],
+            Mark::Limit(ink) => {
+                let radius = 0.5 * theme.joint_radius;
+                vec![Item::Circle(Circle { centre: middle, radius, stroke: None, fill: Some(ink) })]
+            }
+            Mark::Light(ink) => vec![stroked(vec![line(-1.0, 1.0)], theme.stroke(theme.faded(ink), theme.fine_width))],
+            Mark::Band(ink) => {
+                vec![stroked(vec![line(-1.0, 1.0)], theme.stroke(theme.faded(ink), 3.0 * theme.curve_width))]
+            }
+            Mark::Axis => {
+                let lines = vec![line(-1.0, -0.4), line(-0.15, -0.05), line(0.2, 1.0)];
+                vec![stroked(lines, theme.stroke(theme.grey, theme.hair_width))]
+            }
+            Mark::ScaleBar => {
+                let tick = Vector::new(0.0, 0.25 * theme.note_size);
+                let end = |x: f64| Polyline { points: vec![along(x) - tick, along(x) + tick], is_closed: false };
+                vec![stroked(vec![line(-1.0, 1.0), end(-1.0), end(1.0)], theme.stroke(theme.grey, theme.hair_width))]
+            }
+            Mark::Letter(letter) => {
+                let at = middle + Vector::new(0.0, 0.32 * theme.note_size);
+                let text = theme.text_line(letter, at, Anchor::Middle, theme.note_size, theme.grey);
+                vec![Item::Text(Text { position: at, ..text.text })]
+            }
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! Typographic characters from plain input: apostrophes, quotation marks, dashes and minus signs.
+
+/// The text with the characters of typesetting in place of those of a typewriter: `'` and `"` become quotation marks or an
+/// apostrophe, a hyphen between spaces and two hyphens an en dash, a hyphen before a number a minus sign, three dots an
+/// ellipsis. A hyphen in a word, and between digits, stays.
+pub(super) fn typeset(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(c) = rest.chars().next() {
+        let before = out.chars().next_back();
+        let (set, length) = set_next(before, rest).unwrap_or((c, c.len_utf8()));
+        out.push(set);
+        rest = &rest[length..];
+    }
+    out
+}
+
+/// The character that replaces the beginning of a text, and the length of that beginning in bytes; `None` if the first
+/// character stays.
+fn set_next(before: Option<char>, rest: &str) -> Option<(char, usize)> {
+    let opens = before.is_none_or(|c| c.is_whitespace() || matches!(c, '(' | '[' | '“' | '‘' | '–'));
+    let after = rest.chars().nth(1);
+    match rest.as_bytes() {
+        [b'\'', ..] => Some((if opens { '‘' } else { '’' }, 1)),
+        [b'"', ..] => Some((if opens { '“' } else { '”' }, 1)),
+        [b'.', b'.', b'.', ..] => Some(('…', 3)),
+        [b'-', b'-', ..] => Some(('–', 2)),
+        [b'-', b' ', ..] if before == Some(' ') => Some(('–', 1)),
+        [b'-', ..] => {
+            let is_sign = after.is_some_and(|c| c.is_ascii_digit() || c == '.')
+                && before.is_none_or(|c| !c.is_alphanumeric() && c != ')');
+            is_sign.then_some(('−', 1))
+        }
+        _ => None,
+    }
+}
+
+/// Whether the letter at the end of `before` is an article or a pronoun and not a symbol: it is followed by a word that may
+/// follow an article.
+pub(super) fn is_article(letter: &str, after: &str) -> bool {
+    /// Words that follow a symbol but not an article.
+    const AFTER_SYMBOLS: [&str; 21] = [
+        "about", "above", "across", "along", "and", "are", "as", "at", "below", "by", "for", "from", "has", "in", "is",
+        "of", "on", "or", "times", "to", "with",
+    ];
+    let Some(after) = after.strip_prefix(' ') else { return false };
+    let word = after.split(|c: char| !c.is_alphabetic()).next().unwrap_or_default();
+    matches!(letter, "a" | "A") && word.chars().nth(1).is_some() && !AFTER_SYMBOLS.contains(&word)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn plain_characters_become_those_of_typesetting() {
+        for (plain, set) in [
+            ("Jansen's leg", "Jansen’s leg"),
+            ("the 'holy' numbers", "the ‘holy’ numbers"),
+            ("\"How (\"a\")\"", "“How (“a”)”"),
+            ("u = -1.5, (-2) and x-1", "u = −1.5, (−2) and x-1"),
+            (
+                "Roberts - Chebyshev, Roberts-Chebyshev, 1--2, 10-12",
+                "Roberts – Chebyshev, Roberts-Chebyshev, 1–2, 10-12",
+            ),
+            ("and so on...", "and so on…"),
+            ("", ""),
+        ] {
+            assert_eq!(typeset(plain), set);
+        }
+    }
+
+    #[test]
+    fn articles_are_not_symbols() {
+        for (after, expected) in [
+            (" point of the rocker", true),
+            (" from the crank pin", false),
+            (", rocker s", false),
+            (" = s", false),
+            ("", false),
+            (" b", false),
+        ] {
+            assert_eq!(is_article("a", after), expected, "{after}");
+        }
+        assert!(!is_article("p", " point"));
+    }
+}

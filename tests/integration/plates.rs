@@ -1,0 +1,198 @@
+//! Pages say all that is needed to build their linkages: every dimension in full, the joints and how they are placed, and
+//! what the symbols mean.
+
+use std::collections::HashSet;
+use std::fs;
+
+use coupler_atlas::manifest::{self, Plan, PlannedFamily};
+use coupler_curves::family::Cell;
+use coupler_drawing::page::{Layout, PanelScale};
+
+use crate::command::{folder_with, printed};
+
+/// A manifest of one family without errors.
+fn family(text: &str) -> String {
+    format!("[atlas]\ntitle = \"T\"\n[[family]]\n{text}")
+}
+
+fn plan(text: &str) -> Plan {
+    let outcome = manifest::parse(text);
+    outcome.plan.unwrap_or_else(|| panic!("{:?}", outcome.problems))
+}
+
+/// A page of panels as SVG, with its family and its cells.
+struct Page<'p> {
+    svg: String,
+    planned: &'p PlannedFamily,
+    cells: Vec<Cell>,
+}
+
+/// The pages of the families of panels of a manifest.
+fn pages<'p>(text: &str, plan: &'p Plan) -> Vec<Page<'p>> {
+    let folder = folder_with(text);
+    printed(folder.path(), &["render", "-q", "--format", "svg", "-o", "out"]);
+    let of_family = |planned: &'p PlannedFamily| {
+        let family = &planned.family;
+        let cells: Vec<Cell> = (0..family.cell_count()).map(|k| family.cell(k)).collect();
+        let page = |(k, cells): (usize, &[Cell])| {
+            let path = folder.path().join(format!("out/{0}/{0}-{k:03}.svg", family.id));
+            Page { svg: fs::read_to_string(path).unwrap(), planned, cells: cells.to_vec() }
+        };
+        (1..).zip(cells.chunks(planned.layout.cells_per_page())).map(page).collect::<Vec<_>>()
+    };
+    let of_panels = plan.families.iter().filter(|planned| matches!(planned.layout, Layout::Panels { .. }));
+    of_panels.flat_map(of_family).collect()
+}
+
+/// The lines of text of a page, without markup.
+fn texts(svg: &str) -> Vec<String> {
+    let mut lines = Vec::new();
+    for element in svg.split("<text ").skip(1) {
+        let element = element.split("</text>").next().unwrap();
+        let content = element.split_once('>').unwrap().1;
+        let mut text = String::new();
+        let mut is_markup = false;
+        for c in content.chars() {
+            match c {
+                '<' => is_markup = true,
+                '>' => is_markup = false,
+                c if !is_markup => text.push(c),
+                _ => {}
+            }
+        }
+        lines.push(text);
+    }
+    lines
+}
+
+/// The values that the lines state: "p = 2.50" and, of a formula, "u = 2 a = 5".
+fn stated_values(lines: &[String]) -> Vec<(String, f64)> {
+    let mut values = Vec::new();
+    // An equation may go on in the next line.
+    let text = lines.join(", ");
+    for equation in text.split(", ") {
+        let mut sides = equation.split(" = ");
+        let Some(name) = sides.next().and_then(|name| name.split(' ').next_back()) else { continue };
+        for side in sides {
+            let number = side.trim_end_matches(['°', ',']).replace('−', "-");
+            values.extend(number.parse().ok().map(|value: f64| (name.to_owned(), value)));
+        }
+    }
+    values
+}
+
+/// Manifests with dimensions of many kinds: rounded by captions, missing in them, derived, angles, long fractions.
+fn manifests() -> Vec<String> {
+    let atlas = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/atlas.toml")).unwrap();
+    vec![
+        atlas,
+        family(
+            "id = \"f\"\nlinkage = \"evans\"\npanels = [3, 2]\ngrid = { p = [2.125, 2.001], k = [1.5, 2] }\nlet = { a = \"p + 1\" }",
+        ),
+        family(
+            "id = \"f\"\nlinkage = \"four-bar\"\ngrid = { along = { from = 0.1, to = 4, count = 8 } }\n\
+                let = { frame = 4, crank = 1, coupler = 3, rocker = 3.5 }",
+        ),
+        family("id = \"f\"\nlinkage = \"geared-five-bar\"\ngrid = { phase = [0, \"30 deg\"], a = [5, 5.25] }"),
+        family("id = \"f\"\nlinkage = \"jansen\"\ncases = [{}, { m = 12.123456789, j = 51 }]"),
+        family("id = \"f\"\nlinkage = \"pantograph\"\ncaption = \"{u:.1}\"\ngrid = { u = [3.75, 4.5], n = [2, 3] }"),
+    ]
+}
+
+#[test]
+fn every_given_value_can_be_read_in_full_on_its_page() {
+    let mut checked = 0;
+    for text in manifests() {
+        let plan = plan(&text);
+        for Page { svg, planned, cells } in pages(&text, &plan) {
+            let family = &planned.family;
+            let parameters = &family.template.parameters;
+            let stated = stated_values(&texts(&svg));
+            for cell in &cells {
+                for slot in family.space.slots_of(cell.number - 1).filter(|slot| *slot < parameters.len()) {
+                    let value = (family.names[slot].clone(), cell.values[slot]);
+                    assert!(stated.contains(&value), "{}: {value:?} of {stated:?}", family.id);
+                    checked += 1;
+                }
+            }
+            // A default is given as well.
+            for (slot, parameter) in parameters.iter().enumerate() {
+                if let Ok(number) = parameter.default_text.parse::<f64>() {
+                    let is_used = cells.iter().any(|cell| cell.values[slot] == number);
+                    assert!(!is_used || stated.contains(&(parameter.name.clone(), number)), "{}", parameter.name);
+                }
+            }
+        }
+    }
+    assert!(checked > 300, "{checked}");
+}
+
+#[test]
+fn no_two_panels_of_a_page_share_a_caption() {
+    for text in manifests() {
+        let plan = plan(&text);
+        for Page { svg, planned, cells } in pages(&text, &plan) {
+            // The title of a curve ends with the caption of its panel.
+            let titles = svg.split("<title>").skip(2).filter_map(|title| title.split("</title>").next());
+            let numbered = titles.filter_map(|title| title.split_once(", no. ")?.1.split_once(": "));
+            let panels: HashSet<(&str, &str)> = numbered.collect();
+            let captions: HashSet<&str> = panels.iter().map(|(_, caption)| *caption).collect();
+            assert_eq!((panels.len(), captions.len()), (cells.len(), cells.len()), "{}", planned.family.id);
+        }
+    }
+}
+
+#[test]
+fn every_page_has_a_key_of_its_joints_and_explains_its_symbols() {
+    for text in manifests() {
+        let plan = plan(&text);
+        for Page { svg, planned, .. } in pages(&text, &plan) {
+            let lines = texts(&svg);
+            for joint in &planned.family.template.joints {
+                assert!(lines.contains(&joint.name), "{}: {}", planned.family.id, joint.name);
+            }
+            assert!(lines.iter().any(|line| line == "traced point"));
+            assert!(lines.iter().any(|line| line.starts_with("input: ")));
+            for (class, meaning) in [("axis", "axis of symmetry"), ("straight", "straight portion")] {
+                let is_drawn = svg.contains(&format!("<g class=\"{class}\">\n<path"));
+                let is_explained = lines.iter().any(|line| line.contains(meaning));
+                assert_eq!(is_explained, is_drawn, "{}: {meaning}", planned.family.id);
+            }
+        }
+    }
+}
+
+#[test]
+fn common_dimensions_are_exact_and_formulas_are_set_as_formulas() {
+    let dimensions = |text: &str| -> Vec<String> {
+        let plan = plan(&family(text));
+        plan.families[0].family.common_dimensions().iter().map(ToString::to_string).collect()
+    };
+    let evans = "id = \"f\"\nlinkage = \"evans\"\ngrid = { p = [2, 3] }\nlet = { a = \"(1 + p)^1.5 / 2\" }";
+    assert_eq!(dimensions(evans), ["r = 1", "a = (1 + p)^1.5 / 2", "s = a", "k = 2"]);
+    let klann = dimensions("id = \"f\"\nlinkage = \"klann\"\ngrid = { r = [0.2, 0.25] }");
+    assert!(klann.contains(&"foot_along = −1.098 / √2 = −0.776403".to_owned()), "{klann:?}");
+    assert!(!klann.iter().any(|text| text.starts_with("r =")), "{klann:?}");
+    let helper = "id = \"f\"\nlinkage = \"evans\"\ngrid = { p = [2, 3], h = [0.1] }\nlet = { a = \"p + h\", unused = \"2 * h\" }\nsort = \"unused\"";
+    assert_eq!(dimensions(helper), ["r = 1", "a = p + h", "s = a", "k = 2", "h = 0.1"]);
+}
+
+#[test]
+fn linkages_have_one_scale_where_the_manifest_asks_for_it() {
+    let scales = |keys: &str| -> Vec<f64> {
+        // All are drawn as one figure.
+        let text = family(&format!(
+            "id = \"f\"\nlinkage = \"four-bar\"\npanels = [2, 2]\n{keys}\ngrid = {{ frame = [4, 6] }}\n\
+             let = {{ crank = 1, coupler = 5, rocker = 4.5, across = 2 }}\ncircuits = \"start\""
+        ));
+        let plan = plan(&text);
+        let Page { svg, planned, .. } = pages(&text, &plan).remove(0);
+        let scale = |text: &str| text.split('"').next().unwrap().parse().unwrap();
+        assert!(planned.scale == PanelScale::Panel || texts(&svg).iter().any(|line| line.starts_with("crank = ")));
+        svg.split("data-scale=\"").skip(1).map(scale).collect()
+    };
+    let [free, common, fixed] = ["", "scale = \"page\"", "scale = \"5 mm\""].map(scales);
+    assert_ne!(free[0], free[1]);
+    assert_eq!(common, [free[0].min(free[1]); 2]);
+    assert_eq!(fixed, [5.0; 2]);
+}
