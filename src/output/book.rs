@@ -210,7 +210,7 @@ impl FamilyPart<'_> {
         let FamilyPipeline { composer, arrangement, pagination } = &self.pipeline;
         let family = &composer.planned.family;
         let (interrupt, chart) = (&*options.interrupt, &composer.planned.chart);
-        let measures = measures_used_on_pages(family);
+        let measures = measures_used_on_pages(composer.planned);
         let measures = Some(measures.as_slice());
         let groups = CellGroups {
             cells: arrangement.page_order(),

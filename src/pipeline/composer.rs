@@ -68,10 +68,9 @@ impl Composer<'_> {
             let compose = move || {
                 let heading = self.heading(page, planned.source.clone());
                 let panel = panel(&planned.family, solved).with_pose(PoseChoice::clone(&pose));
-                page::compose_coupler_grid(
-                    &CouplerGridPage { heading, panel, curve_indices, labels: &labels },
-                    &plan.page,
-                )
+                let straight_criterion = planned.family.straight;
+                let sheet = CouplerGridPage { heading, panel, curve_indices, labels: &labels, straight_criterion };
+                page::compose_coupler_grid(&sheet, &plan.page)
             };
             (page, indices, compose)
         })

@@ -27,7 +27,8 @@ mod theme;
 pub use chart::compose_charts;
 pub use figure::dash_period;
 pub use heading::Heading;
-pub use marks::{PAGE_MEASURES, cell_facts};
+use marks::PAGE_MEASURES;
+pub use marks::cell_facts;
 pub use panel::{Panel, PoseChoice};
 pub use theme::{CurveStyle, NamedTheme, Theme};
 
@@ -35,6 +36,7 @@ use crate::chart::{Chart, Series};
 use crate::scene::Scene;
 use coupler_curves::geometry::Point;
 use coupler_curves::linkage::JointId;
+use coupler_curves::measure::StraightCriterion;
 use coupler_curves::solve::SolvedCell;
 
 /// The size of the paper, in millimetres.
@@ -115,6 +117,12 @@ impl Layout {
         }
     }
 
+    /// The measures that pages of the layout and the index of a book use, in addition to those in captions.
+    pub fn measures(self) -> impl Iterator<Item = &'static str> {
+        let further: &[&str] = if self == Layout::CouplerGrid { &coupler_grid::MEASURES } else { &[] };
+        PAGE_MEASURES.iter().chain(further).copied()
+    }
+
     /// The number of panels or charts on a page.
     pub fn cells_per_page(self) -> usize {
         let [columns, rows] = self.grid();
@@ -178,6 +186,8 @@ pub struct CouplerGridPage<'a> {
     pub curve_indices: Vec<usize>,
     /// The names of the links.
     pub labels: &'a [LinkLabel],
+    /// The criterion by which the straight portions were selected.
+    pub straight_criterion: StraightCriterion,
 }
 
 /// The name of a link: a letter for its length, or the length itself.
