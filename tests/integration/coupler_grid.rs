@@ -695,3 +695,28 @@ fn graphs_are_the_speeds_of_their_points_on_one_scale() {
     }
     assert!(greatest <= top + 1e-3 && greatest > 0.7 * top, "{greatest} {top}");
 }
+
+#[test]
+fn change_points_are_a_chapter_after_the_others_in_a_book() {
+    let folder = TempDir::new().unwrap();
+    let text = GOOD.replace("\"svg\"", "\"pdf\"").replace("[2, 3, 9]", "[3, 2, 2.5]");
+    fs::write(folder.path().join("atlas.toml"), text).unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_coupler-atlas")).current_dir(&folder).arg("render").output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let pdf = crate::book::reader::Pdf::read(&fs::read(folder.path().join("out/atlas.pdf")).unwrap());
+    let outline = pdf.outline();
+    let chapters: Vec<(&str, usize)> =
+        outline.iter().filter(|(depth, ..)| *depth == 0).map(|(_, title, page)| (title.as_str(), *page)).collect();
+    let front = chapters[2].1;
+    assert_eq!(chapters[1..4], [("Contents", 1), ("grid", front), ("grid: change points", front + 4)]);
+    let cells: Vec<(&str, usize)> =
+        outline.iter().filter(|(depth, ..)| *depth == 1).map(|(_, title, page)| (title.as_str(), *page)).collect();
+    assert_eq!(cells, [("g = 2.0", front), ("g = 2.5", front + 2), ("g = 3.0", front + 4)]);
+    // Pages keep the numbers of their files.
+    for (k, number) in [3, 4, 5, 6, 1, 2].into_iter().enumerate() {
+        let texts = pdf.contents(front + k).texts;
+        assert!(texts.iter().any(|(text, ..)| text.contains(&format!("page {number} of 6"))), "{k}: {texts:?}");
+    }
+    let contents = pdf.contents(1).texts;
+    assert!(contents.iter().any(|(text, ..)| text == "grid: change points"), "{contents:?}");
+}
