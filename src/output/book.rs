@@ -9,9 +9,10 @@ use super::inputs::Inputs;
 use super::journal::{Journal, JournalFile};
 use super::{Error, Event, Options, files, previous_run};
 use crate::manifest::{Plan, PlannedFamily};
-use crate::pipeline::{Composer, FamilyPipeline, Pagination, curves_by_page, measures_used_on_pages};
+use crate::pipeline::{Composer, FamilyPipeline, curves_by_page, measures_used_on_pages};
 use crate::record::{BookRecord, Digest, FileRecord};
-use crate::sweep::{self, CellGroups, CellSelection};
+use crate::sweep::{self, CellGroups, CellIndices};
+use coupler_curves::linkage::{FourBar, FourBarClass};
 use coupler_curves::solve::SolvedCell;
 use coupler_curves::template::CircuitSelection;
 use coupler_drawing::chart::ChartBuilder;
@@ -76,32 +77,106 @@ fn remove_stale_volumes(earlier: Option<&BookRecord>, current: &[FileRecord], ou
     files::remove_files(output, known.filter(|name| current.iter().all(|file| file.name != **name)))
 }
 
-/// A family of the book, and where its pages begin.
+/// A chapter of the book: a family, or those of its cells that have a chapter of their own.
 struct FamilyPart<'a> {
-    pipeline: FamilyPipeline<'a>,
-    /// The number of pages of the families before it.
+    pipeline: &'a FamilyPipeline<'a>,
+    title: String,
+    /// The cells, in the order of their pages.
+    cells: CellIndices,
+    /// The positions of the cells in the order of the pages of the whole family.
+    positions: CellIndices,
+    /// The page of the chapter on which each cell begins, and the page after the last, from 1; empty if the chapter is
+    /// the whole family.
+    first_pages: Vec<usize>,
+    /// The number of pages of the chapters before it.
     pages_before: usize,
 }
 
-/// The chapter of a family.
-fn chapter<'a>(planned: &'a PlannedFamily, selection: &CellSelection, pagination: &Pagination) -> Chapter<'a> {
-    let family = &planned.family;
-    let cell = |(k, cell): (usize, usize)| {
-        // The values of measures are not known yet.
-        let [caption, _] = family.format_captions(&family.cell(cell), &[]);
-        CellEntry { caption, page: pagination.first_page(k) }
+/// The chapters of a family, after a number of pages. The change points of a coupler grid follow the other cells, in a
+/// chapter of their own: their motion is not determined by their lengths.
+fn family_parts<'a>(pipeline: &'a FamilyPipeline<'a>, pages_before: usize) -> Vec<FamilyPart<'a>> {
+    let family = &pipeline.composer.planned.family;
+    let order = pipeline.arrangement.page_order();
+    let is_divisible = pipeline.composer.planned.layout == Layout::CouplerGrid;
+    let is_change_point = |position: &u32| {
+        let cell = order.get(*position as usize).map(|cell| family.cell(cell));
+        let linkage = cell.and_then(|cell| family.linkage(&cell).ok());
+        let four_bar = linkage.and_then(|linkage| FourBar::from_linkage(&linkage));
+        four_bar.is_some_and(|four_bar| four_bar.class() == FourBarClass::ChangePoint)
     };
-    let cells =
-        if planned.chart.is_none() { selection.page_order().iter().enumerate().map(cell).collect() } else { vec![] };
-    // Points are counted for coupler grids; if only the starting circuit is traced, each point has one curve.
-    let is_counted = planned.layout == Layout::CouplerGrid && family.template.circuits == CircuitSelection::Start;
-    let curves = is_counted.then(|| selection.point_counts.iter().map(|&count| count as usize).sum());
-    Chapter {
-        title: &family.title,
-        symbols: &family.names,
-        curve_count: curves,
-        page_count: pagination.page_count,
-        cells,
+    let positions = (0..).take(if is_divisible { order.len() } else { 0 });
+    let (change_points, others): (Vec<u32>, Vec<u32>) = positions.partition(is_change_point);
+    if change_points.is_empty() || others.is_empty() {
+        return vec![FamilyPart {
+            pipeline,
+            title: family.title.clone(),
+            cells: order.clone(),
+            positions: CellIndices::First(order.len()),
+            first_pages: Vec::new(),
+            pages_before,
+        }];
+    }
+    let others = FamilyPart::with_positions(pipeline, family.title.clone(), others, pages_before);
+    let title = format!("{}: change points", family.title);
+    let change_points = FamilyPart::with_positions(pipeline, title, change_points, pages_before + others.page_count());
+    vec![others, change_points]
+}
+
+impl<'a> FamilyPart<'a> {
+    /// The chapter of the cells at some positions of a family in which each cell has pages of its own.
+    fn with_positions(
+        pipeline: &'a FamilyPipeline<'a>,
+        title: String,
+        positions: Vec<u32>,
+        pages_before: usize,
+    ) -> FamilyPart<'a> {
+        let FamilyPipeline { arrangement, pagination, .. } = pipeline;
+        let order = arrangement.page_order();
+        let cell = |&position: &u32| order.get(position as usize).and_then(|cell| u32::try_from(cell).ok());
+        let mut first_pages = vec![1];
+        let mut next = 1;
+        for &position in &positions {
+            next += pagination.first_page(position as usize + 1) - pagination.first_page(position as usize);
+            first_pages.push(next);
+        }
+        let cells = CellIndices::Listed(positions.iter().filter_map(cell).collect());
+        FamilyPart { pipeline, title, cells, positions: CellIndices::Listed(positions), first_pages, pages_before }
+    }
+
+    fn page_count(&self) -> usize {
+        self.first_pages.last().map_or(self.pipeline.pagination.page_count, |end| end - 1)
+    }
+
+    /// The page of the chapter on which its `k`-th cell begins, from 1.
+    fn first_page(&self, k: usize) -> usize {
+        self.first_pages.get(k).copied().unwrap_or_else(|| self.pipeline.pagination.first_page(k))
+    }
+
+    /// The number of the page of its family on which the `k`-th cell of the chapter begins, which its file has too.
+    fn first_page_of_family(&self, k: usize) -> usize {
+        self.pipeline.pagination.first_page(self.positions.get(k).unwrap_or(k))
+    }
+
+    /// The chapter as the contents list it.
+    fn chapter(&self) -> Chapter<'_> {
+        let FamilyPipeline { composer: Composer { planned, .. }, arrangement, .. } = self.pipeline;
+        let family = &planned.family;
+        let cell = |(k, cell): (usize, usize)| {
+            // The values of measures are not known yet.
+            let [caption, _] = family.format_captions(&family.cell(cell), &[]);
+            CellEntry { caption, page: self.first_page(k) }
+        };
+        let cells = if planned.chart.is_none() { self.cells.iter().enumerate().map(cell).collect() } else { vec![] };
+        // Points are counted for coupler grids; if only the starting circuit is traced, each point has one curve.
+        let is_counted = planned.layout == Layout::CouplerGrid && family.template.circuits == CircuitSelection::Start;
+        let count = |position: usize| arrangement.point_counts.get(position).map_or(0, |&count| count as usize);
+        Chapter {
+            title: &self.title,
+            symbols: &family.names,
+            curve_count: is_counted.then(|| self.positions.iter().map(count).sum()),
+            page_count: self.page_count(),
+            cells,
+        }
     }
 }
 
@@ -132,18 +207,17 @@ fn write_volumes(
     options: &Options,
     report: &mut dyn FnMut(Event),
 ) -> Result<Vec<(FileRecord, usize)>, Error> {
+    let pipelines = selected.iter().map(|planned| FamilyPipeline::new(plan, planned, &options.interrupt));
+    let pipelines: Vec<FamilyPipeline> = pipelines.collect::<Option<_>>().ok_or(Error::Interrupted)?;
     let mut parts: Vec<FamilyPart> = Vec::new();
-    let mut chapters = Vec::new();
     let mut page_count = 0;
-    for &planned in selected {
-        let pipeline = FamilyPipeline::new(plan, planned, &options.interrupt).ok_or(Error::Interrupted)?;
-        chapters.push(chapter(planned, &pipeline.arrangement, &pipeline.pagination));
-        let pages = pipeline.pagination.page_count;
-        parts.push(FamilyPart { pipeline, pages_before: page_count });
-        page_count += pages;
+    for pipeline in &pipelines {
+        parts.extend(family_parts(pipeline, page_count));
+        page_count += pipeline.pagination.page_count;
     }
-    let atlas = Atlas { title: &plan.title, program: PROGRAM, chapters };
-    let first = parts.iter().find(|part| part.pipeline.composer.planned.chart.is_none()).and_then(first_cell);
+    let atlas =
+        Atlas { title: &plan.title, program: PROGRAM, chapters: parts.iter().map(FamilyPart::chapter).collect() };
+    let first = pipelines.iter().find(|pipeline| pipeline.composer.planned.chart.is_none()).and_then(first_cell);
     let frontispiece = first.as_ref().map(|(composer, solved)| composer.frontispiece(solved));
     let volumes = atlas.volumes(plan.volume_pages.min(max_volume_pages(selected)));
     report(Event::Begin { family: "book", pages: page_count });
@@ -176,18 +250,18 @@ fn write_volumes(
 
 /// The first cell of a family that has a curve, among its first hundred; of a coupler grid, with the curves of the
 /// middle page only.
-fn first_cell<'a>(part: &'a FamilyPart) -> Option<(&'a Composer<'a>, SolvedCell)> {
-    let family = &part.pipeline.composer.planned.family;
+fn first_cell<'a>(pipeline: &'a FamilyPipeline) -> Option<(&'a Composer<'a>, SolvedCell)> {
+    let family = &pipeline.composer.planned.family;
     let sampler = coupler_curves::motion::Sampler::new(family.sampling);
-    let order = part.pipeline.arrangement.page_order();
+    let order = pipeline.arrangement.page_order();
     let solved = order.iter().filter_map(|cell| solve::solve_cell(family, &sampler, cell));
     let mut solved = solved.take(100).find(|solved| !solved.curves.is_empty())?;
-    if part.pipeline.composer.planned.layout == Layout::CouplerGrid {
+    if pipeline.composer.planned.layout == Layout::CouplerGrid {
         let pages = curves_by_page(&solved);
         let shown = &pages[pages.len() / 2];
         solved.curves = shown.iter().map(|&k| solved.curves[k].clone()).collect();
     }
-    Some((&part.pipeline.composer, solved))
+    Some((&pipeline.composer, solved))
 }
 
 /// Consecutive pages, and the index entries of their cells.
@@ -200,20 +274,20 @@ struct PageGroup {
 const BYTES_PER_PAGE: usize = 1 << 20;
 
 impl FamilyPart<'_> {
-    /// Composes the pages of a family on all threads, and passes them to `add_pages` in order.
+    /// Composes the pages of a chapter on all threads, and passes them to `add_pages` in order.
     fn compose_pages(
         &self,
         number: usize,
         options: &Options,
         add_pages: &mut dyn FnMut(PageGroup) -> Result<(), Error>,
     ) -> Result<(), Error> {
-        let FamilyPipeline { composer, arrangement, pagination } = &self.pipeline;
+        let FamilyPipeline { composer, arrangement, pagination } = self.pipeline;
         let family = &composer.planned.family;
         let (interrupt, chart) = (&*options.interrupt, &composer.planned.chart);
-        let measures = measures_used_on_pages(family);
+        let measures = measures_used_on_pages(composer.planned);
         let measures = Some(measures.as_slice());
         let groups = CellGroups {
-            cells: arrangement.page_order(),
+            cells: &self.cells,
             first_group: 0,
             size: pagination.group_size,
             work_bytes: BYTES_PER_PAGE,
@@ -246,25 +320,26 @@ impl FamilyPart<'_> {
 
     /// Composes the pages of a group of cells.
     fn compose_group(&self, number: usize, group: usize, solved: &[SolvedCell]) -> PageGroup {
-        let FamilyPart { pipeline: FamilyPipeline { composer, pagination, .. }, pages_before: before } = self;
+        let FamilyPipeline { composer, pagination, .. } = self.pipeline;
         let family = &composer.planned.family;
         let index_entry = |solved: &SolvedCell, page: &dyn Fn(usize) -> usize| {
             let [caption, _] = family.format_captions(&solved.cell, solved.first_curve_values());
             IndexEntry::from_solved_cell(solved, number, &caption, page)
         };
-        let page = pagination.first_page(group * pagination.group_size);
+        let first = group * pagination.group_size;
+        let (page, book_page) = (self.first_page_of_family(first), self.pages_before + self.first_page(first));
         match (composer.planned.layout, solved) {
             (Layout::CouplerGrid, [solved]) => {
                 let pages = curves_by_page(solved);
                 let page_offset = |k: usize| pages.iter().position(|shown| shown.contains(&k)).unwrap_or(0);
-                let geometries = vec![index_entry(solved, &|k| before + page + page_offset(k))];
+                let geometries = vec![index_entry(solved, &|k| book_page + page_offset(k))];
                 PageGroup {
                     scenes: composer.coupler_grid_pages(page, solved).map(|(_, _, compose)| compose()).collect(),
                     geometries,
                 }
             }
             _ => {
-                let geometries = solved.iter().map(|solved| index_entry(solved, &|_| before + page)).collect();
+                let geometries = solved.iter().map(|solved| index_entry(solved, &|_| book_page)).collect();
                 PageGroup { scenes: vec![composer.panel_page(page, solved)], geometries }
             }
         }

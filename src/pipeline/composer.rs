@@ -95,10 +95,9 @@ impl<'a> Composer<'a> {
             let compose = move || {
                 let heading = self.heading(page, planned.source.clone());
                 let panel = self.panel(solved).with_pose(PoseChoice::clone(&pose));
-                page::compose_coupler_grid(
-                    &CouplerGridPage { heading, panel, curve_indices, labels: &labels },
-                    &plan.page,
-                )
+                let straight_criterion = planned.family.straight;
+                let sheet = CouplerGridPage { heading, panel, curve_indices, labels: &labels, straight_criterion };
+                page::compose_coupler_grid(&sheet, &plan.page)
             };
             (page, indices, compose)
         })

@@ -173,7 +173,7 @@ impl<'a> FamilyPipeline<'a> {
         sweep::process_groups(&planned.family, groups, make, &mut deliver)?;
         if chart.is_none() && is_sorted {
             // Tables are in the order of the cells, but pages are sorted.
-            let measures = measures_used_on_pages(&planned.family);
+            let measures = measures_used_on_pages(planned);
             let sorted = (self.arrangement.page_order(), first_sorted);
             let groups = self.cell_groups(sorted, sink, Some(&measures));
             let make =

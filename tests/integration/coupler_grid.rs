@@ -96,7 +96,13 @@ fn pages(family: &Family, source: &str, solved: &SolvedCell, options: &Options) 
             .with_page(page, page_count);
         let facts = page::cell_facts(family, solved);
         let panel = Panel::new(solved).with_caption(caption).with_note(note).with_facts(facts).with_pose(view.clone());
-        let grid_page = CouplerGridPage { heading, panel, curve_indices: shown.clone(), labels: &labels };
+        let grid_page = CouplerGridPage {
+            heading,
+            panel,
+            curve_indices: shown.clone(),
+            labels: &labels,
+            straight_criterion: family.straight,
+        };
         (page::compose_coupler_grid(&grid_page, options), shown)
     };
     (1..).zip(shown).map(compose).collect()
@@ -325,7 +331,8 @@ fn numbers_touch_nothing_that_is_drawn() {
         let scenes = all_pages(&plan, 1, &options(paper));
         assert_eq!(scenes.len(), 780);
         let all: Vec<Option<&str>> = scenes.iter().flat_map(touched).collect();
-        assert_eq!(all.len(), 7800);
+        // Where curves are close, there is no space for a second number that is clearly next to its curve.
+        assert!((15_200..=15_600).contains(&all.len()), "{paper:?}: {}", all.len());
         // Where lines are close there may be no free position; of 7,800 numbers this concerns one on A4.
         let touching = all.iter().filter(|touched| touched.is_some()).count();
         assert!(touching <= 8, "{paper:?}: {touching}");
@@ -340,7 +347,7 @@ fn no_type_is_too_small_to_read() {
         let sizes = scenes.iter().flat_map(texts).map(|(_, text)| text.size * 72.0 / 25.4);
         let least = sizes.fold(f64::INFINITY, f64::min);
         // In points, up to rounding.
-        assert!(least > 5.5 - 1e-9, "{name}: {least}");
+        assert!(least > 6.0 - 1e-9, "{name}: {least}");
     }
 }
 
@@ -372,7 +379,9 @@ fn each_point_is_drawn_once_and_each_curve_under_its_own_name() {
         assert_eq!(ids, expected);
         let numbers: Vec<String> =
             texts(scene).iter().filter(|(class, _)| *class == "number").map(|(_, text)| content(text)).collect();
-        assert_eq!(numbers, shown.iter().map(|k| (k + 1).to_string()).collect::<Vec<_>>());
+        // Each number is at its point, and again at the far end of its curve.
+        let expected: Vec<String> = shown.iter().chain(shown).map(|k| (k + 1).to_string()).collect();
+        assert_eq!(numbers, expected);
         assert_eq!(circles(scene, &["coupler-point"]).len(), shown.len());
     }
 }
@@ -608,4 +617,106 @@ fn pages_are_numbered_throughout_the_family() {
     let kept = rendered(&format!("{GOOD}where = \"is_crank_rocker or is_change_point\"\n"));
     assert_eq!(kept.len(), 4);
     assert!(kept[3].contains("page 4 of 4<") && kept[3].contains("change-point"));
+}
+
+/// The lines of text outside of groups, as one text: the heads, rows and notes.
+fn running_text(scene: &Scene) -> String {
+    let lines = texts(scene).into_iter().filter(|(class, _)| class.is_empty()).map(|(_, text)| content(text));
+    lines.collect::<Vec<_>>().join(" ")
+}
+
+#[test]
+fn a_page_has_every_length_in_full_and_the_names_of_the_joints() {
+    for (g, length) in [("2", "2"), ("2.123456789012", "2.123456789012"), ("sqrt(6)", "2.449489742783178")] {
+        let case = format!("cases = [{{ g = \"{g}\" }}]");
+        let (_, pages) = first(&GOOD.replace("grid = { g = [2, 3, 9] }", &case));
+        for (scene, _) in &pages {
+            let text = running_text(scene);
+            for line in [&format!("frame OC: g = {length}"), "crank OA: 1", "coupler AB: 2", "rocker CB: 2, the output"]
+            {
+                assert!(text.contains(line), "{line}: {text}");
+            }
+            let names: Vec<String> =
+                texts(scene).iter().filter(|(class, _)| *class == "key").map(|(_, text)| content(text)).collect();
+            assert!(["O", "A", "B", "C", "0°"].iter().all(|name| names.contains(&(*name).to_owned())), "{names:?}");
+        }
+    }
+}
+
+#[test]
+fn a_change_point_says_what_it_is_and_where() {
+    let (solved, pages) = first(&GOOD.replace("[2, 3, 9]", "[3]"));
+    assert_eq!(solved.first_curve_values()[0], coupler_curves::measure::Value::Word("change-point"));
+    let text = running_text(&pages[0].0);
+    assert!(text.contains("change point all links on one line at 180°: there the motion is not determined"), "{text}");
+    let (_, pages) = first(GOOD);
+    assert!(!running_text(&pages[0].0).contains("not determined"));
+}
+
+#[test]
+fn the_transmission_angle_has_the_extremes_that_are_measured() {
+    let plan = example();
+    for solved in solve_cells(&plan, 7) {
+        let [least, greatest] = ["mu_min_deg", "mu_max_deg"].map(|name| match solved.curves[0].value(name) {
+            coupler_curves::measure::Value::Number(value) => value,
+            value => panic!("{value:?}"),
+        });
+        let (scene, _) = &pages(&plan.families[0].family, "", &solved, &options(PAPERS[2]))[0];
+        let text = running_text(scene);
+        // A crank is on the frame line where the angle is extreme.
+        let note = format!("least {least:.1}° at 0° of input, greatest {greatest:.1}° at 180°");
+        assert!(text.contains(&note), "{note}: {text}");
+    }
+}
+
+#[test]
+fn graphs_are_the_speeds_of_their_points_on_one_scale() {
+    let (solved, pages) = first(GOOD);
+    let (scene, shown) = &pages[0];
+    let top: f64 = texts(scene).iter().find_map(|(_, text)| content(text).strip_prefix("0 to ")?.parse().ok()).unwrap();
+    let pass = &solved.circuit(&solved.curves[0]).passes[0];
+    let graphs = groups(scene, "speed");
+    assert_eq!(graphs.len(), shown.len());
+    // The height on paper of a unit of speed, and the greatest speed.
+    let (mut unit, mut greatest) = (None, 0.0_f64);
+    for (graph, &k) in graphs.iter().zip(shown) {
+        let [Item::Path(axis), Item::Path(speed)] = &graph.items[..] else { panic!("{graph:?}") };
+        let [from, to] = [axis.polylines[0].points[0], axis.polylines[0].points[1]];
+        for p in &speed.polylines[0].points {
+            let input = 360.0 * (p.x - from.x) / (to.x - from.x);
+            // The difference quotient over a degree, per radian; the crank is 1 long.
+            let place = |input: f64| motion::pose(&solved.linkage, pass, input)[solved.curves[k].joint];
+            let expected = (place(input + 0.5) - place(input - 0.5)).norm() / 1_f64.to_radians();
+            let height = from.y - p.y;
+            let unit = *unit.get_or_insert(height / expected);
+            assert!((height / unit - expected).abs() < 2e-3, "{k} at {input}: {} {expected}", height / unit);
+            greatest = greatest.max(expected);
+        }
+    }
+    assert!(greatest <= top + 1e-3 && greatest > 0.7 * top, "{greatest} {top}");
+}
+
+#[test]
+fn change_points_are_a_chapter_after_the_others_in_a_book() {
+    let folder = TempDir::new().unwrap();
+    let text = GOOD.replace("\"svg\"", "\"pdf\"").replace("[2, 3, 9]", "[3, 2, 2.5]");
+    fs::write(folder.path().join("atlas.toml"), text).unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_coupler-atlas")).current_dir(&folder).arg("render").output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let pdf = crate::book::reader::Pdf::read(&fs::read(folder.path().join("out/atlas.pdf")).unwrap());
+    let outline = pdf.outline();
+    let chapters: Vec<(&str, usize)> =
+        outline.iter().filter(|(depth, ..)| *depth == 0).map(|(_, title, page)| (title.as_str(), *page)).collect();
+    let front = chapters[2].1;
+    assert_eq!(chapters[1..4], [("Contents", 1), ("grid", front), ("grid: change points", front + 4)]);
+    let cells: Vec<(&str, usize)> =
+        outline.iter().filter(|(depth, ..)| *depth == 1).map(|(_, title, page)| (title.as_str(), *page)).collect();
+    assert_eq!(cells, [("g = 2.0", front), ("g = 2.5", front + 2), ("g = 3.0", front + 4)]);
+    // Pages keep the numbers of their files.
+    for (k, number) in [3, 4, 5, 6, 1, 2].into_iter().enumerate() {
+        let texts = pdf.contents(front + k).texts;
+        assert!(texts.iter().any(|(text, ..)| text.contains(&format!("page {number} of 6"))), "{k}: {texts:?}");
+    }
+    let contents = pdf.contents(1).texts;
+    assert!(contents.iter().any(|(text, ..)| text == "grid: change points"), "{contents:?}");
 }

@@ -4,7 +4,7 @@ use super::area::Area;
 use super::arrangement::Rect;
 use super::element::{Drawing, TextLine};
 use super::figure::Figure;
-use super::labels::{Obstacles, place_labels};
+use super::labels::{LabelPlacer, Obstacles};
 use super::marks::straight_criterion_text;
 use super::mechanism::PosedMechanism;
 use super::plot::Plot;
@@ -167,8 +167,9 @@ fn draw_linkage(area: &impl Area, rect: Rect, figure: &Figure, theme: &Theme) {
     obstacles.add(&underlay, true);
     obstacles.add(&links, false);
     obstacles.add(&marks, false);
-    let names = joint_names(mechanism, &plot, theme).into_iter().chain(zero_label).collect();
-    let names = place_labels(names, &obstacles, rect, theme);
+    let mut placer = LabelPlacer::new(&obstacles, rect, theme);
+    let names = joint_names(mechanism, &plot, theme).into_iter().chain(zero_label);
+    let names = names.filter_map(|(at, name)| placer.place_at_point(at, name)).collect();
     for (class, items) in [("underlay", underlay), ("linkage", links), ("direction", marks), ("name", names)] {
         area.record(&Drawing { class, title: String::new(), items });
     }

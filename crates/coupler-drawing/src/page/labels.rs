@@ -13,13 +13,15 @@ pub(super) struct Obstacles {
 }
 
 /// A segment of a line.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 struct Segment {
     ends: [Point; 2],
     /// Half the weight of the line.
     half_width: f64,
     /// Whether a label may overlap it if there is no better position.
     is_light: bool,
+    /// The index of the curve it belongs to, if it does.
+    curve: Option<usize>,
 }
 
 impl Obstacles {
@@ -49,8 +51,16 @@ impl Obstacles {
 
     /// Adds a polyline with a weight in millimetres.
     pub fn add_points(&mut self, points: &[Point], weight: f64, is_light: bool) {
-        let segment = |p: &[Point]| Segment { ends: [p[0], p[1]], half_width: weight / 2.0, is_light };
-        self.segments.extend(points.windows(2).map(segment));
+        self.add_segments(points, Segment { half_width: weight / 2.0, is_light, ..Segment::default() });
+    }
+
+    /// Adds a curve by its index, with a weight in millimetres.
+    pub fn add_curve(&mut self, curve: usize, points: &[Point], weight: f64) {
+        self.add_segments(points, Segment { half_width: weight / 2.0, curve: Some(curve), ..Segment::default() });
+    }
+
+    fn add_segments(&mut self, points: &[Point], like: Segment) {
+        self.segments.extend(points.windows(2).map(|p| Segment { ends: [p[0], p[1]], ..like }));
     }
 
     /// The obstacles within a distance of a point, and some that are a little further away.
@@ -75,6 +85,12 @@ impl Obstacles {
             }
         }
         heavy + 0.25 * light
+    }
+
+    /// The distance of a box from all curves other than its own, at most `enough`.
+    fn distance_to_other_curves(&self, spot: LabelBox, own: usize, enough: f64) -> f64 {
+        let others = self.segments.iter().filter(|segment| segment.curve.is_some_and(|curve| curve != own));
+        others.map(|segment| spot.distance_to_segment(segment.ends)).fold(enough, f64::min)
     }
 }
 
@@ -120,7 +136,8 @@ impl LabelBox {
         corners.iter().map(|corner| distance_to_segment(*corner, a, b)).fold(ends, f64::min)
     }
 
-    fn is_inside(&self, frame: Rect) -> bool {
+    /// Whether it is in a frame.
+    pub fn is_inside(&self, frame: Rect) -> bool {
         let (low, high, far) = (self.corner(-1.0, -1.0), self.corner(1.0, 1.0), frame.corner + frame.size);
         low.x >= frame.corner.x && low.y >= frame.corner.y && high.x <= far.x && high.y <= far.y
     }
@@ -131,32 +148,91 @@ impl LabelBox {
     }
 }
 
-/// Labels of points on the page, placed within a frame. A label is left out if it would overlap another one everywhere.
-pub(super) fn place_labels(labels: Vec<(Point, Text)>, obstacles: &Obstacles, frame: Rect, theme: &Theme) -> Vec<Item> {
-    let mut placed: Vec<LabelBox> = Vec::new();
-    let mut items = Vec::new();
-    for (centre, text) in labels {
-        let half = Vector::new(text.width() / 2.0, 0.37 * text.size);
-        // A greater clearance than this is no improvement.
-        let enough = 0.6 * theme.joint_radius;
-        let is_free =
-            |spot: &LabelBox| spot.is_inside(frame) && placed.iter().all(|other| spot.distance_to_box(other) > 0.0);
-        let within = |radii: f64| (radii + 1.0) * theme.joint_radius + 2.0 * half.x;
-        let around = obstacles.nearby(centre, within(RING_RADII[RING_RADII.len() - 1]));
+/// Places labels within a frame, so that none overlaps another one. A label that would everywhere is left out.
+pub(super) struct LabelPlacer<'a> {
+    obstacles: &'a Obstacles,
+    frame: Rect,
+    joint_radius: f64,
+    /// The least distance of two labels.
+    gap: f64,
+    placed: Vec<LabelBox>,
+}
+
+impl<'a> LabelPlacer<'a> {
+    /// A placer without labels.
+    pub fn new(obstacles: &'a Obstacles, frame: Rect, theme: &Theme) -> LabelPlacer<'a> {
+        LabelPlacer { obstacles, frame, joint_radius: theme.joint_radius, gap: 0.0, placed: Vec::new() }
+    }
+
+    /// The placer with labels that are placed already, and a least distance of labels.
+    pub fn with_placed(self, placed: Vec<LabelBox>, gap: f64) -> LabelPlacer<'a> {
+        LabelPlacer { placed, gap, ..self }
+    }
+
+    /// A greater clearance than this is no improvement.
+    fn enough(&self) -> f64 {
+        0.6 * self.joint_radius
+    }
+
+    fn is_free(&self, spot: &LabelBox) -> bool {
+        spot.is_inside(self.frame) && self.placed.iter().all(|other| spot.distance_to_box(other) > self.gap)
+    }
+
+    fn add(&mut self, spot: LabelBox, text: Text) -> Item {
+        self.placed.push(spot);
+        Item::Text(Text { position: spot.centre + Vector::new(0.0, spot.half_size.y), ..text })
+    }
+
+    /// Places a label at a point.
+    pub fn place_at_point(&mut self, centre: Point, text: Text) -> Option<Item> {
+        let (half, enough) = (half_size(&text), self.enough());
+        let within = |radii: f64| (radii + 1.0) * self.joint_radius + 2.0 * half.x;
+        let around = self.obstacles.nearby(centre, within(RING_RADII[RING_RADII.len() - 1]));
         let ring = |radii: f64| {
             // Most labels are placed on the first rings, so only the obstacles near the ring are considered.
             let near = around.nearby(centre, within(radii));
             let clearance = |spot: LabelBox| {
-                let others = placed.iter().map(|other| spot.distance_to_box(other)).fold(enough, f64::min);
+                let others = self.placed.iter().map(|other| spot.distance_to_box(other)).fold(enough, f64::min);
                 near.clearance(spot, enough).min(1.25 * others)
             };
-            clearest_box(boxes_around(centre, half, radii * theme.joint_radius).filter(is_free), clearance)
+            let boxes = boxes_around(centre, half, radii * self.joint_radius);
+            clearest_box(boxes.filter(|spot| self.is_free(spot)), clearance)
         };
-        let Some(spot) = best_box(ring, 1.25 * enough) else { continue };
-        placed.push(spot);
-        items.push(Item::Text(Text { position: spot.centre + Vector::new(0.0, half.y), ..text }));
+        let spot = best_box(ring, 1.25 * enough)?;
+        Some(self.add(spot, text))
     }
-    items
+
+    /// Places a label on a curve by its index as far as possible from a point, where it is clear of everything and
+    /// nearer to its curve than to any other.
+    pub fn place_far_from(&mut self, from: Point, (curve, points): (usize, &[Point]), text: Text) -> Option<Item> {
+        /// The positions tried on a curve, the furthest first.
+        const MOST_POSITIONS: usize = 48;
+        /// The part of the greatest distance that is far.
+        const FAR: f64 = 0.6;
+        let (half, distance) = (half_size(&text), RING_RADII[0] * self.joint_radius);
+        let stride = points.len().div_ceil(2 * MOST_POSITIONS).max(1);
+        let mut positions: Vec<(f64, Point)> = points.iter().step_by(stride).map(|p| ((p - from).norm(), *p)).collect();
+        positions.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+        let least = FAR * positions.first()?.0;
+        positions.retain(|(distance, _)| *distance >= least);
+        let spot = positions.iter().take(MOST_POSITIONS).find_map(|(_, at)| {
+            let near = self.obstacles.nearby(*at, 3.0 * distance + 2.0 * half.x);
+            let is_clear = |spot: &LabelBox| {
+                let others = self.placed.iter().map(|other| spot.distance_to_box(other)).fold(f64::INFINITY, f64::min);
+                others >= distance
+                    && self.is_free(spot)
+                    && near.clearance(*spot, self.enough()) >= 1.25 * self.enough() * (1.0 - 1e-9)
+                    && near.distance_to_other_curves(*spot, curve, 2.0 * distance) >= 2.0 * distance
+            };
+            boxes_around(*at, half, distance).find(is_clear)
+        })?;
+        Some(self.add(spot, text))
+    }
+}
+
+/// Half the width and height of a number or a capital.
+fn half_size(text: &Text) -> Vector {
+    Vector::new(text.width() / 2.0, 0.37 * text.size)
 }
 
 /// The distances of labels from their points, in radii of a joint.

@@ -10,8 +10,8 @@ use coupler_curves::linkage::{Input, JointId};
 use coupler_curves::measure::{StraightPortion, Symmetry, SymmetryAxis, Value};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 
-/// The measures that pages and the index of a book use, in addition to those in captions.
-pub const PAGE_MEASURES: [&str; 7] =
+/// The measures that pages of every layout and the index of a book use, in addition to those in captions.
+pub(super) const PAGE_MEASURES: [&str; 7] =
     ["class", "mu_min_deg", "mu_max_deg", "mu_worst_deg", "length", "straight_length", "symmetry"];
 
 /// The facts of a cell of a family: first its class and the range of its transmission angle, second its longest straight

@@ -33,7 +33,8 @@ pub use chart::compose_charts;
 pub use figure::dash_period;
 pub use heading::Heading;
 pub use key::Key;
-pub use marks::{PAGE_MEASURES, cell_facts};
+use marks::PAGE_MEASURES;
+pub use marks::cell_facts;
 pub use panel::{Panel, PoseChoice};
 pub use theme::{CurveStyle, NamedTheme, Theme};
 
@@ -41,6 +42,7 @@ use crate::chart::{Chart, Series};
 use crate::scene::Scene;
 use coupler_curves::geometry::Point;
 use coupler_curves::linkage::JointId;
+use coupler_curves::measure::StraightCriterion;
 use coupler_curves::solve::SolvedCell;
 
 /// The size of the paper, in millimetres.
@@ -119,6 +121,12 @@ impl Layout {
             Layout::Panels { columns, rows } | Layout::Chart { columns, rows } => [columns, rows],
             Layout::CouplerGrid => [1, 1],
         }
+    }
+
+    /// The measures that pages of the layout and the index of a book use, in addition to those in captions.
+    pub fn measures(self) -> impl Iterator<Item = &'static str> {
+        let further: &[&str] = if self == Layout::CouplerGrid { &coupler_grid::MEASURES } else { &[] };
+        PAGE_MEASURES.iter().chain(further).copied()
     }
 
     /// The number of panels or charts on a page.
@@ -200,6 +208,8 @@ pub struct CouplerGridPage<'a> {
     pub curve_indices: Vec<usize>,
     /// The names of the links.
     pub labels: &'a [LinkLabel],
+    /// The criterion by which the straight portions were selected.
+    pub straight_criterion: StraightCriterion,
 }
 
 /// The name of a link: a letter for its length, or the length itself.

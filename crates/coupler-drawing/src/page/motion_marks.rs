@@ -2,7 +2,7 @@
 
 use super::arrangement::Rect;
 use super::element::Drawing;
-use super::labels::{Obstacles, place_labels};
+use super::labels::{LabelPlacer, Obstacles};
 use super::plot::Plot;
 use super::theme::Theme;
 use crate::scene::{Anchor, Color, Item, Path, Polyline};
@@ -76,9 +76,10 @@ impl MotionMarks {
     pub fn place_numbers(all: Vec<MotionMarks>, obstacles: &Obstacles, frame: Rect, theme: &Theme) -> Drawing {
         let line =
             |number: &str| theme.text_line(number, Point::origin(), Anchor::Middle, theme.small_size(), theme.grey);
+        let mut placer = LabelPlacer::new(obstacles, frame, theme);
         let numbers = all.iter().flat_map(|marks| &marks.numbers);
-        let numbers = numbers.map(|(at, number)| (*at, line(number).text)).collect();
-        Drawing { class: "input", title: String::new(), items: place_labels(numbers, obstacles, frame, theme) }
+        let items = numbers.filter_map(|(at, number)| placer.place_at_point(*at, line(number).text)).collect();
+        Drawing { class: "input", title: String::new(), items }
     }
 }
 

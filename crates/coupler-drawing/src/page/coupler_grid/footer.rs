@@ -5,7 +5,7 @@ use super::super::arrangement::Rect;
 use super::super::theme::Theme;
 use super::super::{CouplerGridPage, Options, figure};
 use crate::scene::Anchor;
-use coupler_curves::geometry::Point;
+use coupler_curves::geometry::{Point, Vector};
 
 /// Draws the foot; the result is its height from the edge of the paper.
 pub(super) fn draw(area: &impl Area, page: &CouplerGridPage, options: &Options, theme: &Theme) -> f64 {
@@ -39,21 +39,24 @@ fn facts(page: &CouplerGridPage, options: &Options) -> String {
     parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" · ")
 }
 
-/// Draws the source, if there is one, at the foot of the column, in as many lines as needed.
-pub(super) fn draw_source(area: &impl Area, side: Rect, page: &CouplerGridPage, theme: &Theme) {
+/// Draws the source, if there is one, at the foot of a panel, in as many lines as needed; the result is the rest of the
+/// panel.
+pub(super) fn draw_source(area: &impl Area, panel: Rect, page: &CouplerGridPage, theme: &Theme) -> Rect {
     let symbols = page.heading.symbols;
     if page.heading.source.is_empty() {
-        return;
+        return panel;
     }
     let lines = theme
         .text_line(&page.heading.source, Point::origin(), Anchor::End, theme.note_size, theme.grey)
-        .wrap(side.size.x);
-    let right = side.corner.x + side.size.x;
+        .wrap(panel.size.x);
+    let right = panel.corner.x + panel.size.x;
     let step = 1.45 * theme.note_size;
-    let first = side.corner.y + side.size.y - step * lines.len() as f64;
+    let height = step * lines.len() as f64;
+    let first = panel.corner.y + panel.size.y - height;
     for (k, line) in lines.iter().enumerate() {
         let at = Point::new(right, first + step * k as f64);
         let line = theme.text_line(line, at, Anchor::End, theme.note_size, theme.grey);
-        area.record(&line.with_italics(symbols).fit_width(side.size.x));
+        area.record(&line.with_italics(symbols).fit_width(panel.size.x));
     }
+    Rect { size: panel.size - Vector::new(0.0, height + 1.6 * step), ..panel }
 }

@@ -1,73 +1,317 @@
-//! The key: a small drawing of the linkage in its pose, with the names of its links.
+//! The key: a small drawing of the linkage in its pose, with the names of its joints and links, the sense of the input
+//! and one of the page's points with its coordinates.
 
 use super::super::area::Area;
 use super::super::arrangement::Rect;
 use super::super::element::{Drawing, TextLine};
-use super::super::labels::{self, LabelBox, Obstacles};
+use super::super::labels::{self, LabelBox, LabelPlacer, Obstacles};
 use super::super::mechanism::PosedMechanism;
 use super::super::theme::Theme;
 use super::super::{CouplerGridPage, LinkLabel};
-use crate::scene::{Anchor, Item, Path, Polyline};
-use coupler_curves::geometry::{Bounds, Point, Similarity, Vector, cross, left_normal};
-use coupler_curves::linkage::{JointId, is_plate};
+use super::ShownCurve;
+use crate::scene::{Anchor, Circle, Color, Item, Path, Polyline, Text};
+use coupler_curves::geometry::{Bounds, Point, Similarity, Vector, cross, left_normal, trig};
+use coupler_curves::linkage::{JointId, JointKind, Linkage, OutputLink, is_plate};
+use coupler_curves::measure::Value;
 
-/// Draws the key at the head of a column; the result is the rest of the column.
+/// Draws the key in a frame.
 pub(super) fn draw(
     area: &impl Area,
-    side: Rect,
+    frame: Rect,
     page: &CouplerGridPage,
-    mechanism: &PosedMechanism,
+    (mechanism, shown): (&PosedMechanism, &[ShownCurve]),
     theme: &Theme,
-) -> Rect {
-    let linkage = &page.panel.solved_cell.linkage;
-    let pose = |joint: &JointId| mechanism.pose[*joint];
-    let (links, pivots) = (linkage.link_outlines(), linkage.pivots());
-    let bounds = Bounds::from_points(links.iter().flat_map(|outline| &outline.joints).chain(&pivots).map(pose));
-    let letter = 1.1 * theme.note_size;
-    let height = 0.19 * side.size.y;
-    // Labels need space outside the links on all sides.
-    let widest = page.labels.iter().map(|label| label_text(label, theme, letter).text.width()).fold(letter, f64::max);
-    let frame = Rect { corner: side.corner, size: Vector::new(side.size.x, height) };
-    let frame = Rect {
-        corner: frame.corner + Vector::new(widest + 0.6 * letter, 1.4 * letter),
-        size: (frame.size - Vector::new(2.0 * widest + 1.2 * letter, 2.8 * letter)).sup(&Vector::repeat(letter)),
-    };
-    let page_from_plane = Similarity::page_from_plane(bounds, frame.centre(), frame.fit_scale(bounds));
-    let at = |joint: &JointId| page_from_plane.apply(pose(joint));
-    let stroke = Some(theme.stroke(theme.grey, theme.fine_width));
-    let path = |lines| Item::Path(Path { polylines: lines, stroke, fill: None });
-    let pairs = |joints: &[JointId]| joints.windows(2).map(|pair| [at(&pair[0]), at(&pair[1])]).collect::<Vec<_>>();
-    let ground = pairs(&pivots).into_iter().flat_map(|[a, b]| dashed_line(a, b, 0.5 * letter)).collect();
-    let mut items = vec![path(ground)];
-    items.extend(links.iter().map(|link| {
-        let points: Vec<Point> = link.joints.iter().map(at).collect();
-        let closed = is_plate(&points);
-        path(vec![Polyline { points, is_closed: closed }])
-    }));
+) {
+    let key = Key::new(frame, page, mechanism, shown, theme);
+    let mut items = key.link_items();
+    items.extend(key.coordinate_items());
+    items.extend(key.input_items());
+    items.extend(key.output_items());
+    items.extend(key.joint_items());
     let mut obstacles = Obstacles::default();
     obstacles.add(&items, false);
     area.record(&Drawing { class: "key", title: String::new(), items });
 
-    let centre = page_from_plane.apply(bounds.centre());
-    let is_fixed = |joint: &JointId| linkage.ground().position(*joint).is_some();
-    // On the frame, only a label between two pivots names a link.
-    let is_link =
-        |label: &&LinkLabel| !label.joints.iter().all(is_fixed) || label.joints.iter().all(|end| pivots.contains(end));
-    let mut placed: Vec<LabelBox> = Vec::new();
-    for label in page.labels.iter().filter(is_link) {
-        let ends = [at(&label.joints[0]), at(&label.joints[1])];
-        let mut text = label_text(label, theme, letter).with_italics(page.heading.symbols);
-        let half = Vector::new(text.text.width() / 2.0, 0.36 * letter);
-        let is_free = |spot: &LabelBox| placed.iter().all(|other| spot.distance_to_box(other) > 0.25 * letter);
-        let spots = label_boxes(ends, centre, half, 0.45 * letter).filter(is_free);
-        // A label is left out if it would overlap another one everywhere.
-        if let Some((_, spot)) = labels::clearest_box(spots, |spot| obstacles.clearance(spot, 0.3 * letter)) {
-            placed.push(spot);
-            text.text.position = spot.centre + Vector::new(0.0, half.y);
-            area.record(&text);
-        }
+    let mut placed = Vec::new();
+    for (name, spot) in key.link_labels(&obstacles) {
+        area.record(&name);
+        placed.push(spot);
     }
-    Rect { corner: side.corner + Vector::new(0.0, height), size: side.size - Vector::new(0.0, height) }
+    let mut placer = LabelPlacer::new(&obstacles, frame, theme).with_placed(placed, key.label_gap());
+    let items = key.point_labels().into_iter().filter_map(|(at, text)| placer.place_at_point(at, text)).collect();
+    area.record(&Drawing { class: "key", title: String::new(), items });
+}
+
+struct Key<'a> {
+    frame: Rect,
+    page: &'a CouplerGridPage<'a>,
+    linkage: &'a Linkage,
+    mechanism: &'a PosedMechanism<'a>,
+    /// One of the points of the page, which shows what its coordinates are.
+    point: Option<&'a ShownCurve<'a>>,
+    page_from_plane: Similarity,
+    /// The middle of the linkage on the page.
+    centre: Point,
+    /// The font size of names.
+    letter: f64,
+    theme: &'a Theme,
+}
+
+impl<'a> Key<'a> {
+    fn new(
+        frame: Rect,
+        page: &'a CouplerGridPage,
+        mechanism: &'a PosedMechanism,
+        shown: &'a [ShownCurve],
+        theme: &'a Theme,
+    ) -> Key<'a> {
+        let linkage = &page.panel.solved_cell.linkage;
+        let letter = 1.1 * theme.note_size;
+        let point = nearest_point(linkage, shown);
+        let on_links = linkage.link_outlines().into_iter().flat_map(|outline| outline.joints);
+        let joints = on_links.chain(linkage.pivots()).chain(point.map(|s| s.curve.joint));
+        let joints = joints.map(|joint| mechanism.pose[joint]);
+        let marks =
+            input_marks(linkage, mechanism).into_iter().chain(output_marks(page, mechanism)).flatten().flatten();
+        let bounds = Bounds::from_points(joints.chain(marks));
+        // Names need space outside the links on all sides.
+        let width =
+            |label: &LinkLabel| theme.text_line(&label.text, Point::origin(), Anchor::Start, letter, theme.grey);
+        let widest = page.labels.iter().map(|label| width(label).text.width()).fold(letter, f64::max);
+        let space = Vector::new(widest + 0.8 * letter, 1.6 * letter);
+        let inner =
+            Rect { corner: frame.corner + space, size: (frame.size - space * 2.0).sup(&Vector::repeat(letter)) };
+        let page_from_plane = Similarity::page_from_plane(bounds, inner.centre(), inner.fit_scale(bounds));
+        let centre = page_from_plane.apply(bounds.centre());
+        Key { frame, page, linkage, mechanism, point, page_from_plane, centre, letter, theme }
+    }
+
+    /// The position of a joint on the page.
+    fn at(&self, joint: JointId) -> Point {
+        self.page_from_plane.apply(self.mechanism.pose[joint])
+    }
+
+    fn path(&self, polylines: Vec<Polyline>, color: Color, width: f64) -> Item {
+        Item::Path(Path { polylines, stroke: Some(self.theme.stroke(color, width)), fill: None })
+    }
+
+    /// The moving links, and the frame as a dashed line.
+    fn link_items(&self) -> Vec<Item> {
+        let theme = self.theme;
+        let pivots: Vec<Point> = self.linkage.pivots().into_iter().map(|joint| self.at(joint)).collect();
+        let ground = pivots.windows(2).flat_map(|pair| dashed_line(pair[0], pair[1], 0.5 * self.letter)).collect();
+        let link = |joints: &[JointId]| {
+            let points: Vec<Point> = joints.iter().map(|&joint| self.at(joint)).collect();
+            let is_closed = is_plate(&points);
+            self.path(vec![Polyline { points, is_closed }], theme.grey, theme.fine_width)
+        };
+        let links = self.linkage.link_outlines();
+        let ground = self.path(ground, theme.grey, theme.fine_width);
+        std::iter::once(ground).chain(links.iter().map(|outline| link(&outline.joints))).collect()
+    }
+
+    /// The joints: that of the input is filled, other pivots are double circles, the others small circles.
+    fn joint_items(&self) -> Vec<Item> {
+        let theme = self.theme;
+        let circle = |joint: JointId, radius: f64, fill: Color| {
+            let stroke = Some(theme.stroke(theme.grey, theme.fine_width));
+            Item::Circle(Circle {
+                centre: self.at(joint),
+                radius: radius * theme.joint_radius,
+                stroke,
+                fill: Some(fill),
+            })
+        };
+        let pivots = self.linkage.pivots();
+        let driven = driven_crank(self.linkage).map(|(pivot, _)| pivot);
+        let mut items = Vec::new();
+        for joint in self.named_joints() {
+            if pivots.contains(&joint) {
+                items.push(circle(joint, 1.3, theme.paper));
+                items.push(circle(joint, 0.6, if Some(joint) == driven { theme.grey } else { theme.paper }));
+            } else {
+                items.push(circle(joint, 0.7, theme.paper));
+            }
+        }
+        items.extend(self.point.map(|s| {
+            let stroke = Some(theme.stroke(s.ink(theme), theme.fine_width));
+            let fill = Some(if s.has_underline(theme) { s.ink(theme) } else { theme.paper });
+            Item::Circle(Circle { centre: self.at(s.curve.joint), radius: 0.7 * theme.joint_radius, stroke, fill })
+        }));
+        items
+    }
+
+    /// The joints of links and of the frame, without repetition.
+    fn named_joints(&self) -> Vec<JointId> {
+        let mut joints = self.linkage.pivots();
+        for joint in self.linkage.link_outlines().into_iter().flat_map(|outline| outline.joints) {
+            if !joints.contains(&joint) && Some(joint) != self.point.map(|s| s.curve.joint) {
+                joints.push(joint);
+            }
+        }
+        joints
+    }
+
+    /// The direction of input 0 as a hairline from the crank's pivot, and an arrow from it in the direction of rising
+    /// input.
+    fn input_items(&self) -> Vec<Item> {
+        let Some([zero, arc]) = self.input_marks() else { return Vec::new() };
+        let zero = vec![Polyline { points: zero, is_closed: false }];
+        let mut items = vec![self.path(zero, self.theme.grey, self.theme.hair_width)];
+        items.extend(self.arrow(arc));
+        items
+    }
+
+    /// The marks of the input on the page.
+    fn input_marks(&self) -> Option<[Vec<Point>; 2]> {
+        let marks = input_marks(self.linkage, self.mechanism)?;
+        Some(marks.map(|points| points.into_iter().map(|p| self.page_from_plane.apply(p)).collect()))
+    }
+
+    /// A line with an arrowhead at its end.
+    fn arrow(&self, points: Vec<Point>) -> Vec<Item> {
+        let [.., before, tip] = points[..] else { return Vec::new() };
+        let along = (tip - before).try_normalize(0.0).unwrap_or(Vector::new(1.0, 0.0)) * (0.55 * self.letter);
+        let across = left_normal(along) * 0.3;
+        let corners = vec![tip, tip - along + across, tip - along - across];
+        let head = vec![Polyline { points: corners, is_closed: true }];
+        let line = self.path(vec![Polyline { points, is_closed: false }], self.theme.grey, self.theme.hair_width);
+        vec![line, Item::Path(Path { polylines: head, stroke: None, fill: Some(self.theme.grey) })]
+    }
+
+    /// An arc with two arrowheads about the pivot of an output link that swings.
+    fn output_items(&self) -> Vec<Item> {
+        let arcs = output_marks(self.page, self.mechanism).into_iter().flatten();
+        let on_page = |arc: Vec<Point>| arc.into_iter().map(|p| self.page_from_plane.apply(p)).collect();
+        arcs.flat_map(|arc| self.arrow(on_page(arc))).collect()
+    }
+
+    /// The foot of the perpendicular from the point on the line of its base, and its ends: the base's first joint and
+    /// the point.
+    fn coordinate_corners(&self) -> Option<[Point; 3]> {
+        let joint = self.point?.curve.joint;
+        let JointKind::Rigid { base: [from, to], along, .. } = self.linkage.joints[joint].kind else { return None };
+        let (from, to) = (self.at(from), self.at(to));
+        Some([from, from + (to - from) * along, self.at(joint)])
+    }
+
+    /// Hairlines along the base and across it to the point.
+    fn coordinate_items(&self) -> Vec<Item> {
+        let lines = self.coordinate_corners().map(|corners| Polyline { points: corners.to_vec(), is_closed: false });
+        lines.map(|line| self.path(vec![line], self.theme.grey, self.theme.hair_width)).into_iter().collect()
+    }
+
+    /// The least distance of two names.
+    fn label_gap(&self) -> f64 {
+        0.25 * self.letter
+    }
+
+    /// Half the width and height of a text.
+    fn half_size(&self, text: &Text) -> Vector {
+        Vector::new(text.width() / 2.0, 0.36 * text.size)
+    }
+
+    /// The names of the links and of the coordinates, next to their lines. A name is left out if it would overlap another
+    /// one everywhere.
+    fn link_labels(&self, obstacles: &Obstacles) -> Vec<(TextLine, LabelBox)> {
+        let pivots = self.linkage.pivots();
+        let is_fixed = |joint: &JointId| self.linkage.ground().position(*joint).is_some();
+        // On the frame, only a label between two pivots names a link.
+        let is_link = |label: &&LinkLabel| {
+            !label.joints.iter().all(is_fixed) || label.joints.iter().all(|end| pivots.contains(end))
+        };
+        let links = self.page.labels.iter().filter(is_link);
+        let mut names: Vec<(&str, [Point; 2])> =
+            links.map(|label| (label.text.as_str(), label.joints.map(|joint| self.at(joint)))).collect();
+        if let Some([from, foot, point]) = self.coordinate_corners() {
+            let coordinates = [("across", [foot, point]), ("along", [foot, from])];
+            names.extend(coordinates.into_iter().filter(|(_, [a, b])| (b - a).norm() > 2.0 * self.letter));
+        }
+        let mut placed: Vec<(TextLine, LabelBox)> = Vec::new();
+        for (name, ends) in names {
+            let line = self.theme.text_line(name, Point::origin(), Anchor::Middle, self.letter, self.theme.grey);
+            let mut line = line.with_italics(self.page.heading.symbols);
+            let half = self.half_size(&line.text);
+            let is_free = |spot: &LabelBox| {
+                spot.is_inside(self.frame)
+                    && placed.iter().all(|(_, other)| spot.distance_to_box(other) > self.label_gap())
+            };
+            let spots = label_boxes(ends, self.centre, half, 0.45 * self.letter).filter(is_free);
+            if let Some((_, spot)) = labels::clearest_box(spots, |spot| obstacles.clearance(spot, 0.3 * self.letter)) {
+                line.text.position = spot.centre + Vector::new(0.0, half.y);
+                placed.push((line, spot));
+            }
+        }
+        placed
+    }
+
+    /// The names of the joints, the number of the point and the input 0, each with its position.
+    fn point_labels(&self) -> Vec<(Point, Text)> {
+        let theme = self.theme;
+        let text =
+            |name: &str, color: Color| theme.text_line(name, Point::origin(), Anchor::Middle, self.letter, color).text;
+        let joints = self.named_joints().into_iter();
+        let mut labels: Vec<(Point, Text)> =
+            joints.map(|joint| (self.at(joint), text(&self.linkage.joints[joint].name, theme.ink))).collect();
+        labels.extend(self.point.map(|s| (self.at(s.curve.joint), text(&s.curve.trace.to_string(), s.ink(theme)))));
+        let zero = self.input_marks().and_then(|[zero, _]| zero.last().copied());
+        labels.extend(zero.map(|zero| (zero, text("0°", theme.grey))));
+        labels
+    }
+}
+
+/// The pivot of the crank that is the input, and its length; `None` where the input is not an angle in the frame.
+fn driven_crank(linkage: &Linkage) -> Option<(JointId, f64)> {
+    let crank = |kind: &JointKind| match *kind {
+        JointKind::Crank { pivot, length } => Some((pivot, length)),
+        _ => None,
+    };
+    let find = || linkage.joints.iter().find_map(|joint| crank(&joint.kind));
+    linkage.seen_from.is_none().then(find).flatten()
+}
+
+/// In the plane, a line from the crank's pivot in the direction of input 0, and an arc from that line in the direction
+/// of rising input.
+fn input_marks(linkage: &Linkage, mechanism: &PosedMechanism) -> Option<[Vec<Point>; 2]> {
+    /// The radius of the arc relative to the crank, and the length of the line relative to the radius.
+    const RADIUS: f64 = 0.5;
+    const LINE: f64 = 1.3;
+    const ARC_DEG: i32 = 75;
+    const STEP_DEG: usize = 3;
+    let (pivot, length) = driven_crank(linkage)?;
+    let at = |deg: i32, radius: f64| {
+        let (cos, sin) = trig::cos_sin_deg(f64::from(deg));
+        mechanism.pose[pivot] + linkage.placement.transform_vector(Vector::new(cos, sin)) * (radius * length)
+    };
+    let zero = vec![mechanism.pose[pivot], at(0, LINE * RADIUS)];
+    Some([zero, (0..=ARC_DEG).step_by(STEP_DEG).map(|deg| at(deg, RADIUS)).collect()])
+}
+
+/// In the plane, two arcs from an output link that swings, to both sides; `None` if there is none.
+fn output_marks(page: &CouplerGridPage, mechanism: &PosedMechanism) -> Option<[Vec<Point>; 2]> {
+    /// The radius of the arcs relative to the link.
+    const RADIUS: f64 = 0.55;
+    const ARC_DEG: i32 = 14;
+    let solved = page.panel.solved_cell;
+    let swing = solved.curves.first().map(|curve| curve.value("output_swing_deg"));
+    let swings = matches!(swing, Some(Value::Number(swing)) if swing < 360.0);
+    let OutputLink::Link([pivot, end]) = solved.linkage.output().filter(|_| swings)? else { return None };
+    let (from, arm) = (mechanism.pose[pivot], mechanism.pose[end] - mechanism.pose[pivot]);
+    let at = |deg: i32| {
+        let (cos, sin) = trig::cos_sin_deg(f64::from(deg));
+        from + (arm * cos + left_normal(arm) * sin) * RADIUS
+    };
+    Some([1, -1].map(|side| (0..=ARC_DEG).map(|deg| at(side * deg)).collect()))
+}
+
+/// Of the points beside their base, the one that is nearest to its middle: with it the key is largest.
+fn nearest_point<'a>(linkage: &Linkage, shown: &'a [ShownCurve<'a>]) -> Option<&'a ShownCurve<'a>> {
+    let distance = |s: &&ShownCurve| match linkage.joints[s.curve.joint].kind {
+        JointKind::Rigid { along, across, .. } if across != 0.0 => Some(Vector::new(along - 0.5, across).norm()),
+        _ => None,
+    };
+    let points = shown.iter().filter_map(|s| Some((distance(&s)?, s)));
+    points.min_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, s)| s)
 }
 
 /// The candidate positions of a label next to a link, the best first: at the middle of the link, on the side away from
@@ -78,10 +322,6 @@ fn label_boxes([a, b]: [Point; 2], centre: Point, half: Vector, gap: f64) -> imp
     let away = outward * (half.x * outward.x.abs() + half.y * outward.y.abs() + gap);
     let spot = move |(part, away): (f64, Vector)| LabelBox { centre: a + (b - a) * part + away, half_size: half };
     [0.5, 0.35, 0.65, 0.2, 0.8].into_iter().flat_map(move |part| [(part, away), (part, -away)]).map(spot)
-}
-
-fn label_text(label: &LinkLabel, theme: &Theme, size: f64) -> TextLine {
-    theme.text_line(&label.text, Point::origin(), Anchor::Middle, size, theme.grey)
 }
 
 fn line(a: Point, b: Point) -> Polyline {

@@ -1,30 +1,44 @@
 //! The `coupler-grid` layout: a linkage with a grid of points on its coupler, and the curves of ten of these points.
 //!
 //! All pages of a cell show the same pose, each at the largest scale at which linkage and curves fit the frame. To the
-//! right of the figure is a column with the key, which names the links, and a table of the points.
+//! right of the figure, or below it on upright paper, is a panel: the key with the lengths of all links, a table of the
+//! points with a graph of the speed of each, the transmission angle on the same axis, and notes.
 
+mod columns;
+mod description;
 mod footer;
+mod graphs;
 mod grid;
 mod key;
+mod layout;
+mod notes;
+mod numbers;
 mod table;
+mod turn;
 
 use super::area::{self, Area};
 use super::arrangement::Rect;
 use super::element::{CouplerCurve, Drawing};
 use super::figure;
 use super::heading;
-use super::labels::{self, Obstacles};
+use super::labels::{LabelPlacer, Obstacles};
 use super::marks;
 use super::mechanism::PosedMechanism;
 use super::plot::Plot;
 use super::theme::Theme;
 use super::{CouplerGridPage, Layout, Options, Panel, PoseChoice, pose};
 use crate::mechanism::Mechanism;
-use crate::scene::{Anchor, Circle, Color, Item, Path, Scene, Text};
+use crate::scene::{Anchor, Circle, Color, Item, Path, Scene};
 use coupler_curves::geometry::{Bounds, Point, Similarity, Vector};
 use coupler_curves::linkage::Input;
 use coupler_curves::motion::{self, DashPattern};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
+use graphs::Graphs;
+use layout::{PageLayout, PanelLayout};
+use notes::Notes;
+use table::Table;
+
+pub(super) use columns::MEASURES;
 
 /// A curve on the page, which shares its ink with its coupler point and its row in the table.
 struct ShownCurve<'a> {
@@ -47,48 +61,55 @@ impl ShownCurve<'_> {
 
 pub(super) fn compose(scene: &mut Scene, page: &CouplerGridPage, options: &Options, theme: &Theme) {
     let size = Vector::new(scene.width, scene.height);
-    let theme = &with_legible_notes(theme, size);
+    let most = most_lettering(size);
+    let theme = &with_legible_notes(theme, MIN_LETTERING, most);
+    let small = Theme { note_size: PANEL_LETTERING * theme.note_size, ..theme.clone() };
+    let panel_theme = &with_legible_notes(&small, MIN_LETTERING, most);
     let root = area::whole_page(scene);
     heading::draw_border(&root, theme);
     let foot = footer::draw(&root, page, options, theme);
     let edge = theme.border + theme.margin;
-    let column = (0.19 * size.x).max(MIN_COLUMN_WIDTH * theme.note_size);
-    let height = size.y - edge - foot;
-    let whole = Rect { corner: Point::new(edge, edge), size: Vector::new(size.x - 2.0 * edge, height) };
-    let figure = Rect { size: whole.size - Vector::new(column + GUTTER * theme.note_size, 0.0), ..whole };
-    let side = Rect { corner: Point::new(size.x - edge - column, edge), size: Vector::new(column, height) };
+    let whole = Rect { corner: Point::new(edge, edge), size: Vector::new(size.x - 2.0 * edge, size.y - edge - foot) };
+    let PageLayout { figure, panel } = PageLayout::new(whole, panel_theme);
+    let panel = footer::draw_source(&root, panel, page, panel_theme);
     let solved = page.panel.solved_cell;
     let shown = shown_curves(solved, &page.curve_indices);
     match posed_mechanism(&page.panel) {
         Some(mechanism) => {
-            draw_figure(&root, figure, page, &mechanism, &shown, options, theme);
-            let rest = key::draw(&root, side, page, &mechanism, theme);
-            table::draw(&root, rest, page, &shown, theme);
+            let figure_theme = with_legible_notes(theme, MIN_LETTERING / SCALE_BAR_PART, size.min() / MIN_LINES);
+            draw_figure(&root, figure, page, &mechanism, &shown, options, &figure_theme);
+            draw_panel(&root, panel, page, (&mechanism, &shown), panel_theme);
         }
         None => {
             super::panels::draw_not_assembled(&root, whole, solved, theme);
         }
     }
-    footer::draw_source(&root, side, page, theme);
 }
 
-/// The theme with notes large enough for the smallest text, which is set in proportion to them, to be legible, as far
-/// as the paper is large enough.
-fn with_legible_notes(theme: &Theme, paper: Vector) -> Theme {
-    /// The least font size on these pages, in millimetres: 5.5 points.
-    const MIN_LETTERING: f64 = 5.5 * 25.4 / 72.0;
-    /// The font size at a scale bar, which is the smallest, relative to that of notes.
-    const SCALE_BAR_PART: f64 = 0.75;
-    let most = (0.3 * paper.x / MIN_COLUMN_WIDTH).min(0.0125 * paper.y);
-    let note = theme.note_size.max((MIN_LETTERING / SCALE_BAR_PART).min(most));
+/// The least font size on these pages, in millimetres: 6 points.
+const MIN_LETTERING: f64 = 6.0 * 25.4 / 72.0;
+
+/// The font size in the panel relative to that of notes: the table is wide.
+const PANEL_LETTERING: f64 = 0.84;
+
+/// The font size at a scale bar, which is the smallest in the figure, relative to that of notes.
+const SCALE_BAR_PART: f64 = 0.75;
+
+/// The least height of a page in ems of a note, and the least width of the panel: on smaller paper the letters are
+/// smaller.
+const MIN_LINES: f64 = 70.0;
+const MIN_PANEL_WIDTH: f64 = 22.0;
+
+/// The greatest font size of notes with which the panel has space for its contents.
+fn most_lettering(paper: Vector) -> f64 {
+    (PageLayout::max_panel_width(paper) / MIN_PANEL_WIDTH).min(paper.y / MIN_LINES)
+}
+
+/// The theme with notes of at least a size, or of `most` if that is less.
+fn with_legible_notes(theme: &Theme, least: f64, most: f64) -> Theme {
+    let note = theme.note_size.max(least.min(most));
     Theme { note_size: note, source_size: theme.source_size.max(note), ..theme.clone() }
 }
-
-/// The least width of the column, in ems of a note.
-const MIN_COLUMN_WIDTH: f64 = 22.0;
-
-/// The gap between figure and column, in ems of a note: it separates the dashes of curves from those in the table.
-const GUTTER: f64 = 2.0;
 
 /// The curves of a page by their indices, with the indices of their points.
 fn shown_curves<'a>(solved: &'a SolvedCell, curve_indices: &[usize]) -> Vec<ShownCurve<'a>> {
@@ -114,6 +135,42 @@ fn posed_mechanism<'a>(panel: &'a Panel) -> Option<PosedMechanism<'a>> {
     };
     let mechanism = Mechanism::new(&solved.linkage, circuit);
     Some(PosedMechanism::new(&solved.linkage, mechanism, pose, &panel.link_inks))
+}
+
+/// Draws the panel: key and description, table and graphs, transmission angle and notes.
+fn draw_panel(
+    area: &impl Area,
+    panel: Rect,
+    page: &CouplerGridPage,
+    (mechanism, shown): (&PosedMechanism, &[ShownCurve]),
+    theme: &Theme,
+) {
+    let em = theme.note_size;
+    let table = Table::new(page, shown, panel.size.x, theme);
+    let graphs = table.graph_left().map(|left| (left, Graphs::new(page.panel.solved_cell, shown)));
+    let strip_left = graphs.as_ref().filter(|(_, graphs)| graphs.transmission.is_some()).map(|(left, _)| *left);
+    let notes_width = strip_left.map_or(panel.size.x, |left| left - (graphs::NUMBERS_WIDTH + 1.0) * em);
+    let notes = Notes::new(page, shown, (&table, graphs.as_ref().map(|(_, graphs)| graphs)), notes_width, theme);
+    let strip_height = strip_left.map_or(0.0, |_| layout::STRIP_HEIGHT * em);
+    let parts = PanelLayout::new(panel, shown.len(), notes.height(theme).max(strip_height), theme);
+
+    let key_width = (0.5 * panel.size.x).min(1.8 * parts.key.size.y);
+    let key = Rect { size: Vector::new(key_width, parts.key.size.y), ..parts.key };
+    key::draw(area, key, page, (mechanism, shown), theme);
+    let beside = Vector::new(key_width + em, 0.0);
+    let description = Rect { corner: parts.key.corner + beside, size: parts.key.size - beside };
+    description::draw(area, description, page, theme);
+
+    let rows = table.draw(area, parts.table, parts.row_height, shown, theme);
+    if let Some((left, graphs)) = &graphs {
+        let strip = Rect {
+            corner: parts.foot.corner + Vector::new(*left, 0.5 * em),
+            size: Vector::new(panel.size.x - left, (parts.foot.size.y - em).max(0.0)),
+        };
+        graphs.draw(area, &rows, (parts.foot.size.y >= strip_height).then_some(strip), shown, theme);
+    }
+    let notes_frame = Rect { size: Vector::new(notes_width, parts.foot.size.y), ..parts.foot };
+    notes.draw(area, notes_frame, page, theme);
 }
 
 fn draw_figure(
@@ -144,15 +201,22 @@ fn draw_figure(
     let mut obstacles = Obstacles::default();
     [&underlay, &grid, &straight].into_iter().for_each(|items| obstacles.add(items, true));
     [&linkage, &points].into_iter().for_each(|items| obstacles.add(items, false));
-    for (shown, path) in shown.iter().zip(&paths) {
-        obstacles.add_points(&path.points, theme.curve_stroke(shown.point_index).width, false);
+    for (k, (shown, path)) in shown.iter().zip(&paths).enumerate() {
+        obstacles.add_curve(k, &path.points, theme.curve_stroke(shown.point_index).width);
     }
-    let numbers = labels::place_labels(
-        point_numbers(mechanism, shown, &plot, theme),
-        &obstacles,
-        plot.rect_above_scale_bar(theme),
-        theme,
-    );
+    let mut placer = LabelPlacer::new(&obstacles, plot.rect_above_scale_bar(theme), theme);
+    let number = |s: &ShownCurve| {
+        let number = s.curve.trace.to_string();
+        theme.text_line(&number, Point::origin(), Anchor::Middle, 0.8 * theme.note_size, s.ink(theme)).text
+    };
+    let at_points: Vec<(Point, &ShownCurve)> = distinct_points(mechanism, shown, &plot).collect();
+    let mut numbers: Vec<Item> =
+        at_points.into_iter().filter_map(|(at, s)| placer.place_at_point(at, number(s))).collect();
+    // Curves that are nearly equal at their points differ at their far ends, where they have their numbers again.
+    numbers.extend(shown.iter().zip(&paths).enumerate().filter_map(|(k, (s, path))| {
+        let point = plot.page_from_plane.apply(mechanism.pose[s.curve.joint]);
+        placer.place_far_from(point, (k, &path.points), number(s))
+    }));
 
     let group = |class, items| area.record(&Drawing { class, title: String::new(), items });
     group("underlay", underlay);
@@ -180,15 +244,6 @@ fn distinct_points<'a>(
     let is_first = |k: usize| shown[..k].iter().all(|other| other.point_index != shown[k].point_index);
     let first = (0..shown.len()).filter(move |&k| is_first(k)).map(|k| &shown[k]);
     first.map(|s| (plot.page_from_plane.apply(mechanism.pose[s.curve.joint]), s))
-}
-
-/// The numbers of the points of a page, with the positions of the points.
-fn point_numbers(mechanism: &PosedMechanism, shown: &[ShownCurve], plot: &Plot, theme: &Theme) -> Vec<(Point, Text)> {
-    let number = |s: &ShownCurve| {
-        let number = s.curve.trace.to_string();
-        theme.text_line(&number, Point::origin(), Anchor::Middle, 0.85 * theme.note_size, s.ink(theme)).text
-    };
-    distinct_points(mechanism, shown, plot).map(|(centre, s)| (centre, number(s))).collect()
 }
 
 fn coupler_curve(

@@ -1,0 +1,199 @@
+//! The columns of the table: what they contain, and how many of them fit.
+
+use super::super::theme::Theme;
+use super::numbers::{coordinate_decimals, format_fixed, significant_decimals};
+use super::{ShownCurve, input_unit};
+use crate::scene::Anchor;
+use coupler_curves::geometry::Point;
+use coupler_curves::linkage::{JointKind, Linkage};
+use coupler_curves::measure::{StraightCriterion, Value};
+use coupler_curves::solve::{MeasuredCurve, SolvedCell};
+
+/// The measures of columns and description, in addition to those of all pages.
+pub const MEASURES: [&str; 9] = [
+    "straight_input_deg",
+    "straight_10_length",
+    "straight_10_input_deg",
+    "dwell_radius",
+    "dwell_input_deg",
+    "cusps",
+    "output_swing_deg",
+    "output_stroke",
+    "time_ratio",
+];
+
+/// Columns with a common head.
+pub(super) struct ColumnGroup {
+    /// The head over the heads of the columns; may be empty.
+    pub title: String,
+    pub columns: Vec<Column>,
+}
+
+/// A column of texts, which are aligned on the right.
+pub(super) struct Column {
+    pub head: &'static str,
+    /// The text of each row.
+    pub texts: Vec<String>,
+    /// The distance of its right edge from that of the group's left.
+    pub right: f64,
+}
+
+/// The gap between columns, and between groups, in ems.
+const COLUMN_GAP: f64 = 0.9;
+const GROUP_GAP: f64 = 1.5;
+
+impl ColumnGroup {
+    /// A group with the columns that have a text in some row; `None` if there is none.
+    fn new(
+        title: impl Into<String>,
+        columns: impl IntoIterator<Item = (&'static str, Vec<String>)>,
+        theme: &Theme,
+    ) -> Option<ColumnGroup> {
+        let mut right = 0.0;
+        let mut columns: Vec<Column> = columns
+            .into_iter()
+            .filter(|(_, texts)| texts.iter().any(|text| !text.is_empty() && text != MISSING))
+            .map(|(head, texts)| {
+                let widest = texts.iter().map(|text| width(text, theme)).fold(width(head, theme), f64::max);
+                right += if right > 0.0 { COLUMN_GAP * theme.note_size } else { 0.0 } + widest;
+                Column { head, texts, right }
+            })
+            .collect();
+        let title = title.into();
+        // A title that is wider than its columns spreads them.
+        let spare = (width(&title, theme) - right).max(0.0) / columns.len().max(1) as f64;
+        (1..).zip(&mut columns).for_each(|(k, column)| column.right += f64::from(k) * spare);
+        (!columns.is_empty()).then_some(ColumnGroup { title, columns })
+    }
+
+    pub fn width(&self) -> f64 {
+        self.columns.last().map_or(0.0, |column| column.right)
+    }
+
+    /// Its width with the gap before it.
+    fn width_with_gap(&self, theme: &Theme) -> f64 {
+        self.width() + GROUP_GAP * theme.note_size
+    }
+}
+
+/// In place of a value that does not exist.
+const MISSING: &str = "–";
+
+fn width(text: &str, theme: &Theme) -> f64 {
+    theme.text_line(text, Point::origin(), Anchor::Start, theme.note_size, theme.grey).text.width()
+}
+
+/// The groups of columns that fit a width, with the left edge of each; those of less importance are left out first.
+///
+/// `first` is the width of the swatches. The graphs, which follow the columns, have at least `graph_width`, and are left
+/// out only together with all but the first two groups; the last result is their left edge.
+pub(super) fn fitting_columns(
+    groups: [Option<ColumnGroup>; GROUP_COUNT],
+    (first, whole, graph_width): (f64, f64, f64),
+    theme: &Theme,
+) -> (Vec<(f64, ColumnGroup)>, Option<f64>) {
+    let gap = GROUP_GAP * theme.note_size;
+    // The numbers are next to their swatches.
+    let mut left = first - 0.7 * gap;
+    let mut placed = Vec::new();
+    let mut has_graphs = false;
+    for (k, group) in groups.into_iter().enumerate() {
+        if k == GROUPS_BEFORE_GRAPHS {
+            has_graphs = left + gap + graph_width <= whole;
+        }
+        let Some(group) = group else { continue };
+        let reserved = if has_graphs { gap + graph_width } else { 0.0 };
+        let width = group.width_with_gap(theme);
+        if left + width + reserved > whole {
+            break;
+        }
+        placed.push((left + gap, group));
+        left += width;
+    }
+    (placed, has_graphs.then_some(left + gap))
+}
+
+/// The number of groups, in the order of their importance: the number, the coordinates, the straight portions to two
+/// tolerances, the circular portion, the cusps.
+pub(super) const GROUP_COUNT: usize = 6;
+
+/// The groups that are more important than the graphs.
+const GROUPS_BEFORE_GRAPHS: usize = 3;
+
+/// The groups of columns for the curves of a page; `None` where no curve has a value.
+pub(super) fn column_groups(
+    solved: &SolvedCell,
+    shown: &[ShownCurve],
+    criterion: StraightCriterion,
+    theme: &Theme,
+) -> [Option<ColumnGroup>; GROUP_COUNT] {
+    let has_circuits = solved.motion.circuits.len() > 1;
+    let number = |s: &ShownCurve| match has_circuits {
+        true => format!("{}/{}", s.curve.trace, s.curve.circuit),
+        false => s.curve.trace.to_string(),
+    };
+    let coordinates: Vec<Option<[f64; 2]>> = shown.iter().map(|s| link_coordinates(&solved.linkage, s.curve)).collect();
+    let coordinate = |k: usize| {
+        let values: Vec<f64> = coordinates.iter().flatten().map(|pair| pair[k]).collect();
+        let decimals = coordinate_decimals(&values);
+        coordinates.iter().map(|pair| pair.map_or(String::new(), |pair| format_fixed(pair[k], decimals))).collect()
+    };
+    let lengths = |measure: &str| {
+        let values: Vec<Option<f64>> = shown.iter().map(|s| number_of(s.curve, measure)).collect();
+        let decimals = significant_decimals(values.iter().flatten().copied(), 4);
+        values.iter().map(|value| value.map_or(MISSING.to_owned(), |value| format_fixed(value, decimals))).collect()
+    };
+    let inputs = |measure: &str| {
+        let text = |value: f64| format!("{value:.1}{}", input_unit(solved));
+        shown.iter().map(|s| number_of(s.curve, measure).map_or(MISSING.to_owned(), text)).collect()
+    };
+    let counts = |measure: &str| {
+        let text = |value: f64| format_fixed(value, 0);
+        shown.iter().map(|s| number_of(s.curve, measure).map_or(MISSING.to_owned(), text)).collect()
+    };
+    let straight = match criterion {
+        StraightCriterion::Tolerance(tolerance) => format!("straight to {} %", percent(tolerance)),
+        StraightCriterion::Input(_) | StraightCriterion::Length(_) => "straightest".to_owned(),
+    };
+    [
+        ColumnGroup::new("", [("point", shown.iter().map(number).collect())], theme),
+        ColumnGroup::new("", [("along", coordinate(0)), ("across", coordinate(1))], theme),
+        ColumnGroup::new(
+            straight,
+            [("length", lengths("straight_length")), ("over", inputs("straight_input_deg"))],
+            theme,
+        ),
+        ColumnGroup::new(
+            "straight to 1 %",
+            [("length", lengths("straight_10_length")), ("over", inputs("straight_10_input_deg"))],
+            theme,
+        ),
+        ColumnGroup::new(
+            "dwell on an arc",
+            [("radius", lengths("dwell_radius")), ("over", inputs("dwell_input_deg"))],
+            theme,
+        ),
+        ColumnGroup::new("", [("cusps", counts("cusps"))], theme),
+    ]
+}
+
+/// A tolerance in percent.
+pub(super) fn percent(tolerance: f64) -> String {
+    super::numbers::format_in_full(100.0 * tolerance)
+}
+
+fn number_of(curve: &MeasuredCurve, measure: &str) -> Option<f64> {
+    match curve.value(measure) {
+        Value::Number(value) if value.is_finite() => Some(value),
+        _ => None,
+    }
+}
+
+/// The coordinates of a point on its link: along the base from its first joint, and to the left of it. `None` if the
+/// joint is not a point of a rigid link.
+pub(super) fn link_coordinates(linkage: &Linkage, curve: &MeasuredCurve) -> Option<[f64; 2]> {
+    let JointKind::Rigid { base: [from, to], along, across } = linkage.joints[curve.joint].kind else { return None };
+    let link = linkage.links.iter().find(|link| link.position(from).is_some() && link.position(to).is_some())?;
+    let base = (link.position(to)? - link.position(from)?).norm();
+    Some([along * base, across * base])
+}

@@ -1,0 +1,110 @@
+//! The description of the linkage, next to its key: its class, every length in full, its output.
+
+use super::super::area::Area;
+use super::super::arrangement::Rect;
+use super::super::theme::Theme;
+use super::super::{CouplerGridPage, LinkLabel};
+use super::notes::format_inputs;
+use super::turn::change_point_inputs;
+use crate::scene::Anchor;
+use coupler_curves::geometry::Point;
+use coupler_curves::linkage::{Continuation, FourBar, FourBarClass, JointId, Linkage, OutputLink};
+use coupler_curves::measure::Value;
+use coupler_curves::solve::SolvedCell;
+
+/// Draws the description in a frame, as many lines as fit.
+pub(super) fn draw(area: &impl Area, frame: Rect, page: &CouplerGridPage, theme: &Theme) {
+    let em = theme.note_size;
+    let solved = page.panel.solved_cell;
+    let mut y = frame.corner.y;
+    let bottom = frame.corner.y + frame.size.y;
+    let mut line = |text: &str, (size, color): (f64, _)| {
+        y += 1.45 * size;
+        if y <= bottom {
+            let at = Point::new(frame.corner.x, y);
+            let line = theme.text_line(text, at, Anchor::Start, size, color).with_italics(page.heading.symbols);
+            area.record(&line.fit_width(frame.size.x));
+        }
+    };
+    let class = FourBar::from_linkage(&solved.linkage).map(FourBar::class);
+    if let Some(class) = class {
+        let is_change_point = class == FourBarClass::ChangePoint;
+        let (name, size) = if is_change_point { ("change point", 1.6) } else { (class.name(), 1.25) };
+        line(name, (size * em, theme.ink));
+    }
+    let wrapped = |text: &str| theme.text_line(text, Point::origin(), Anchor::Start, em, theme.grey).wrap(frame.size.x);
+    if class == Some(FourBarClass::ChangePoint) {
+        wrapped(&change_point_note(solved)).iter().for_each(|text| line(text, (em, theme.grey)));
+    }
+    for text in dimensions(&solved.linkage, page.labels).iter().chain(&output_facts(solved)) {
+        wrapped(text).iter().for_each(|text| line(text, (em, theme.grey)));
+    }
+}
+
+/// What a change point is, and how the motion goes on through it on this page.
+fn change_point_note(solved: &SolvedCell) -> String {
+    let inputs = change_point_inputs(solved);
+    let place = if inputs.is_empty() { String::new() } else { format!(" at {}", format_inputs(solved, &inputs)) };
+    let choice = match solved.linkage.motion_options.continuation {
+        Continuation::Branch => "it stays in its branch",
+        Continuation::Smooth => "it goes on smoothly into the other branch",
+    };
+    format!("all links on one line{place}: there the motion is not determined; as drawn, {choice}")
+}
+
+/// A line for each link with a name: what it is, its joints, its length in full.
+fn dimensions(linkage: &Linkage, labels: &[LinkLabel]) -> Vec<String> {
+    let output = output_joints(linkage);
+    let line = |label: &LinkLabel| {
+        let [from, to] = label.joints;
+        let names = label.joints.map(|joint| linkage.joints[joint].name.as_str()).concat();
+        // All digits that are needed to read back the same number.
+        let length = length(linkage, [from, to])?.to_string();
+        let length = if label.text == length { length } else { format!("{} = {length}", label.text) };
+        let role = role(linkage, [from, to]).map_or(String::new(), |role| format!("{role} "));
+        let is_output = output.is_some_and(|output| is_same([from, to], output));
+        Some(format!("{role}{names}: {length}{}", if is_output { ", the output" } else { "" }))
+    };
+    labels.iter().filter_map(line).collect()
+}
+
+fn is_same([a, b]: [JointId; 2], other: [JointId; 2]) -> bool {
+    other == [a, b] || other == [b, a]
+}
+
+/// The two joints of the output link, if it turns.
+fn output_joints(linkage: &Linkage) -> Option<[JointId; 2]> {
+    match linkage.output()? {
+        OutputLink::Link(joints) => Some(joints),
+        OutputLink::Slot { .. } | OutputLink::Slider { .. } => None,
+    }
+}
+
+/// The distance of two joints of a link.
+fn length(linkage: &Linkage, [from, to]: [JointId; 2]) -> Option<f64> {
+    linkage.links.iter().find_map(|link| Some((link.position(to)? - link.position(from)?).norm()))
+}
+
+/// What a link of a four-bar is called.
+fn role(linkage: &Linkage, joints: [JointId; 2]) -> Option<&'static str> {
+    let [o, a, b, c] = FourBar::pins(linkage)?;
+    let roles = [([o, a], "crank"), ([a, b], "coupler"), ([c, b], "rocker"), ([o, c], "frame")];
+    roles.into_iter().find(|(pins, _)| is_same(joints, *pins)).map(|(_, role)| role)
+}
+
+/// The swing or stroke of the output, and its time ratio, as far as they are measured.
+fn output_facts(solved: &SolvedCell) -> Option<String> {
+    let first = solved.curves.first()?;
+    let number = |measure: &str| match first.value(measure) {
+        Value::Number(value) if value.is_finite() => Some(value),
+        _ => None,
+    };
+    let swing = number("output_swing_deg").map(|swing| match swing {
+        360.0 => "output turns fully".to_owned(),
+        swing => format!("output swings {swing:.1}°"),
+    });
+    let stroke = number("output_stroke").map(|stroke| format!("stroke of the output {stroke:.4}"));
+    let ratio = number("time_ratio").map(|ratio| format!("time ratio {ratio:.3}"));
+    let parts: Vec<String> = swing.into_iter().chain(stroke).chain(ratio).collect();
+    (!parts.is_empty()).then(|| parts.join(", "))
+}
