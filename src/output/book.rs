@@ -9,7 +9,7 @@ use super::inputs::Inputs;
 use super::journal::{Journal, JournalFile};
 use super::{Error, Event, Options, files, previous_run};
 use crate::manifest::{Plan, PlannedFamily};
-use crate::pipeline::{Composer, FamilyPipeline, Pagination, curves_by_page, measures_used_on_pages};
+use crate::pipeline::{Composer, FamilyPipeline, Pagination, build_chart, curves_by_page, measures_used_on_pages};
 use crate::record::{BookRecord, Digest, FileRecord};
 use crate::sweep::{self, CellGroups, CellSelection};
 use coupler_curves::solve::SolvedCell;
@@ -229,7 +229,7 @@ impl FamilyPart<'_> {
                 samples.into_iter().for_each(|sample| builder.add(sample));
                 Ok(())
             })?;
-            let chart_data = builder.build();
+            let chart_data = build_chart(builder);
             return (1..=pagination.page_count).try_for_each(|page| {
                 add_pages(PageGroup {
                     scenes: vec![composer.chart_page(page, chart, &chart_data)],

@@ -1,9 +1,12 @@
 //! Produces the tables and pages of a family in order: [`crate::output`] writes them, and [`crate::check`] compares
 //! them with recorded ones.
 
+mod charts;
 mod composer;
 mod pagination;
 
+#[cfg(feature = "pdf")]
+pub use charts::build_chart;
 pub use composer::Composer;
 #[cfg(feature = "pdf")]
 pub use composer::curves_by_page;
@@ -240,7 +243,7 @@ impl<'a> FamilyPipeline<'a> {
         sink: &S,
         receive: &mut impl FnMut(Output<S::CellsOutput, S::PageOutput>) -> Result<(), S::Error>,
     ) -> Result<(), S::Error> {
-        let chart_data = builder.build();
+        let chart_data = charts::build_chart(builder);
         for page in 1..=self.pagination.page_count {
             let compose = Box::new(|| self.composer.chart_page(page, chart, &chart_data));
             receive(Output::Page(sink.receive_page(PageJob {

@@ -9,7 +9,7 @@ use coupler_atlas::manifest::{self, Plan};
 use coupler_atlas::sweep;
 use coupler_curves::geometry::trig;
 use coupler_curves::problem::report;
-use coupler_drawing::chart::{ChartBuilder, MAX_NUMBERS, PointSource, Series};
+use coupler_drawing::chart::{ChartBuilder, ChartData, ForEachInterval, MAX_NUMBERS, PointSource, Series};
 use tempfile::TempDir;
 
 const GOOD: &str = r#"[atlas]
@@ -31,8 +31,18 @@ fn plan(text: &str) -> Plan {
     loaded.plan.unwrap_or_else(|| panic!("{}", report(&loaded.problems, "m", text, false)))
 }
 
-/// The lines of the first family's chart.
+/// The lines of the first family's chart, which join the points of its cells.
 fn series(text: &str) -> Vec<Series> {
+    chart_data(text, |builder| builder.build()).series
+}
+
+/// The lines of the first family's chart as they are drawn.
+fn refined(text: &str) -> Vec<Series> {
+    let for_each: ForEachInterval = &|intervals, refine| intervals.iter_mut().for_each(refine);
+    chart_data(text, |builder| builder.build_refined(for_each)).series
+}
+
+fn chart_data(text: &str, build: impl FnOnce(ChartBuilder) -> ChartData) -> ChartData {
     let plan = plan(text);
     let planned = &plan.families[0];
     let chart = planned.chart.as_ref().unwrap();
@@ -47,7 +57,7 @@ fn series(text: &str) -> Vec<Series> {
         Ok(())
     })
     .unwrap();
-    builder.build().series
+    build(builder)
 }
 
 /// A folder with a manifest, after `render`.
@@ -427,4 +437,118 @@ fn the_range_of_x_to_that_of_y_rises_with_p() {
         assert!((evans.y[0][k] / chebyshev.y[0][k] - 1.0).abs() < 1e-6, "{k}: {} {}", evans.y[0][k], chebyshev.y[0][k]);
         assert!((evans.y[1][k] / chebyshev.y[1][k] / 2.0 - 1.0).abs() < 1e-6, "{k}");
     }
+}
+
+/// The chart of the atlas in which a peak between two cells was cut off, and a jump of the length was joined.
+const EVANS: &str = r#"[atlas]
+title = "T"
+[[family]]
+id = "evans"
+linkage = "evans"
+layout = "chart"
+chart = { x = "p", y = ["straight_length / straight_deviation", "straight_length"] }
+measures = []
+straight = { input = "120 deg" }
+grid = { p = { from = 1.75, to = 6, step = 0.125 } }
+let = { a = "(1 + p)^1.5 / 2" }
+"#;
+
+/// The straightest of these linkages has p = 1 + sqrt(3): a grid of 17,000 values of p has its greatest ratio next to it.
+#[test]
+fn a_peak_between_two_cells_is_drawn_at_its_height() {
+    let near_peak = EVANS.replace("{ from = 1.75, to = 6, step = 0.125 }", "{ from = 2.725, to = 2.74, count = 61 }");
+    let highest = |points: &mut dyn Iterator<Item = [f64; 2]>| {
+        points.filter(|[_, y]| !y.is_nan()).max_by(|a, b| a[1].total_cmp(&b[1])).unwrap()
+    };
+    let expected = highest(&mut series(&near_peak)[0].points(0));
+    assert!((expected[0] - 2.732).abs() < 3e-4 && expected[1] > 9700.0, "{expected:?}");
+    let [line] = &refined(EVANS)[..] else { panic!("one line") };
+    let cells = highest(&mut line.points(0));
+    assert!((cells[0], cells[1].round()) == (2.75, 7772.0), "{cells:?}");
+    let drawn = highest(&mut line.path(0).into_iter());
+    assert!((drawn[0] - expected[0]).abs() < 1e-3 && (drawn[1] / expected[1] - 1.0).abs() < 2e-3, "{drawn:?}");
+    assert_eq!(line.paths[0].range.unwrap()[1], drawn[1], "the axis reaches the peak");
+    // The page shows it within its frame.
+    let svg =
+        page(&rendered(&EVANS.replace("title = \"T\"", "title = \"T\"\nformats = [\"svg\"]\noutput = \"out\"")), 1);
+    assert_eq!(attribute(&svg, "y-range"), [0.0, 10000.0]);
+}
+
+/// The line of a quantity follows it everywhere: between the cells it passes through cells of a finer grid.
+#[test]
+fn lines_between_cells_pass_through_those_of_a_finer_grid() {
+    let finer = EVANS.replace("step = 0.125", "step = 0.03125");
+    let (coarse, fine) = (&refined(EVANS)[0], &series(&finer)[0]);
+    for quantity in 0..2 {
+        let path = coarse.path(quantity);
+        let [low, high] = coarse.paths[quantity].range.unwrap();
+        for [x, y] in fine.points(quantity) {
+            let pair = path.windows(2).find(|pair| pair[0][0] <= x && x <= pair[1][0]).unwrap();
+            let part = (x - pair[0][0]) / (pair[1][0] - pair[0][0]);
+            let drawn = pair[0][1] + part * (pair[1][1] - pair[0][1]);
+            assert!((drawn - y).abs() < 1e-3 * (high - low), "{quantity}: {drawn} {y} at {x}");
+        }
+    }
+}
+
+/// Another portion becomes the straightest, and is longer.
+#[test]
+fn a_jump_is_a_gap() {
+    let path = refined(EVANS)[0].path(1);
+    let gaps: Vec<_> = path.windows(3).filter(|triple| triple[1][1].is_nan()).collect();
+    let [&[before, _, after]] = gaps[..] else { panic!("{gaps:?}") };
+    assert!((before[0] - 2.19).abs() < 0.01 && after[0] - before[0] < 1e-6, "{gaps:?}");
+    assert!(before[1] > after[1] + 0.2, "{gaps:?}");
+    // The page has two lines, and no mark between the cells.
+    let text = EVANS.replace("title = \"T\"", "title = \"T\"\nformats = [\"svg\"]\noutput = \"out\"");
+    let svg = page(&rendered(&text), 1);
+    let line = svg.split("class=\"series\"").nth(2).unwrap().split("</g>").next().unwrap();
+    assert_eq!(line.matches("<circle").count(), 35);
+    assert_eq!(line.split(" d=\"").nth(1).unwrap().split('"').next().unwrap().matches(['m', 'M']).count(), 2);
+}
+
+/// Cells that `where` leaves out are gaps, and a line ends where the linkage cannot be assembled.
+#[test]
+fn a_line_ends_where_its_curves_do() {
+    let five = GOOD.replace("[2, 3, 4], k = [1.5, 2]", "[2, 3, 4, 5, 6]");
+    let [line] = &refined(&(five.clone() + "where = \"p != 4\"\n"))[..] else { panic!("one line") };
+    let drawn: Vec<f64> = line.path(0).iter().filter(|[_, y]| !y.is_nan()).map(|[x, _]| *x).collect();
+    assert!(drawn.iter().all(|x| *x <= 3.0 || *x >= 5.0) && drawn.contains(&3.0) && drawn.contains(&5.0));
+    // Frame 2, coupler and rocker 1: a crank of up to 4 reaches, and one of 5 does not.
+    let four_bar = GOOD
+        .replace("linkage = \"evans\"", "linkage = \"four-bar\"")
+        .replace("x = \"p\"", "x = \"crank\"")
+        .replace("grid = { p = [2, 3, 4], k = [1.5, 2] }", "grid = { crank = [1, 2, 3, 5] }")
+        .replace("a = \"(1 + p)^1.5 / 2\"", "frame = 2, coupler = 1, rocker = 1.5, along = 0.5")
+        .replace("sampling", "circuits = \"start\"\nsampling");
+    let lines = refined(&four_bar);
+    let [line] = &lines[..] else { panic!("{lines:?}") };
+    let last = line.path(0).into_iter().rfind(|[_, y]| !y.is_nan()).unwrap();
+    assert!((4.49..=4.5).contains(&last[0]), "{last:?}");
+}
+
+/// Over a measure, over several axes or with parameters that change together, a line joins its points.
+#[test]
+fn lines_that_do_not_follow_one_parameter_join_their_points() {
+    let by = GOOD.replace("\"mu_min_deg\"] }", "\"mu_min_deg\"], by = [] }");
+    let cases = GOOD.replace("grid = { p = [2, 3, 4], k = [1.5, 2] }", "cases = [{ p = 2, k = 1 }, { p = 3, k = 2 }]");
+    for text in [GOOD.replace("x = \"p\"", "x = \"area\""), by, cases] {
+        assert!(refined(&text).iter().all(|series| series.paths.is_empty()));
+    }
+    let cases = GOOD.replace("grid = { p = [2, 3, 4], k = [1.5, 2] }", "cases = [{ p = 2, k = 2 }, { p = 3, k = 2 }]");
+    for text in [GOOD.to_owned(), GOOD.replace("x = \"p\"", "x = \"a\""), cases] {
+        assert!(refined(&text).iter().all(|series| series.paths.iter().all(|path| path.points.len() > 4)));
+    }
+}
+
+/// The sides of a pole do not set the range of the axis, and no line joins them.
+#[test]
+fn the_sides_of_a_pole_do_not_set_the_range() {
+    let pole = EVANS.replace("\"straight_length / straight_deviation\", \"straight_length\"", "\"1 / (p - 2.7)\"");
+    let [line] = &refined(&pole)[..] else { panic!("one line") };
+    let path = line.path(0);
+    let gaps: Vec<_> = path.windows(3).filter(|triple| triple[1][1].is_nan()).collect();
+    assert!(gaps.len() == 1 && gaps[0][0][1] < -1e3 && gaps[0][2][1] > 1e3, "{gaps:?}");
+    let cells = line.y[0].iter().fold(0.0, |most: f64, y| most.max(y.abs()));
+    assert!(line.paths[0].range.unwrap().iter().all(|y| y.abs() < 2.0 * cells));
 }

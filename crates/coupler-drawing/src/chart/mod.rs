@@ -2,13 +2,19 @@
 //!
 //! A [`Chart`] has expressions over the names of [`scope`]. [`Chart::sample_cell`] evaluates them for one solved cell,
 //! and [`ChartBuilder`] joins the resulting points to [`Series`], the lines of the chart. Only these numbers of a cell
-//! are kept in memory.
+//! are kept in memory. A line along a parameter is then sampled between its cells, too, until it deviates from its
+//! quantity by less than can be seen.
 
+mod adaptive;
+mod axis;
 mod builder;
+mod refinement;
 mod sample;
 mod scope;
 
-pub use builder::{ChartBuilder, ChartData, MAX_CURVES, MAX_NUMBERS, Series};
+pub use axis::{AxisRange, is_drawable, widen_range};
+pub use builder::{ChartBuilder, ChartData, LinePath, MAX_CURVES, MAX_NUMBERS, Series};
+pub use refinement::{ForEachInterval, Interval};
 pub use sample::ChartSample;
 pub use scope::{definition, is_per_sample, scope, unit};
 

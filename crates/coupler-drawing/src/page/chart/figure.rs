@@ -9,8 +9,8 @@ use super::super::element::Drawing;
 use super::super::theme::Theme;
 use super::line::{ClippedLine, LineStyle};
 use super::line_labels::{self, LineLabel};
-use super::scale::{RangeEnds, Scale, ScaleOptions, is_drawable};
-use crate::chart::{PointSource, Quantity, Series};
+use super::scale::{RangeEnds, Scale, ScaleOptions};
+use crate::chart::{PointSource, Quantity, Series, is_drawable};
 use crate::scene::{Anchor, Color, Group, Item, pixel};
 use coupler_curves::geometry::{Point, Vector};
 
@@ -54,11 +54,14 @@ impl<'a> ChartFigure<'a> {
         // page.
         let drawn = |index: usize| {
             let is_log = [chart.x.is_log, chart.y[index].is_log];
-            let is_drawn = move |&(x, y): &(f64, f64)| is_drawable(x, is_log[0]) && is_drawable(y, is_log[1]);
-            page.series.iter().flat_map(move |series| series_points(series, index)).filter(is_drawn)
+            let is_drawn = move |&[x, y]: &[f64; 2]| is_drawable(x, is_log[0]) && is_drawable(y, is_log[1]);
+            page.series.iter().flat_map(move |series| series.points(index)).filter(is_drawn)
         };
-        let x = Scale::from_values(page.quantity_range.clone().flat_map(drawn).map(|(x, _)| x), &options[0]);
-        let y = Scale::from_values(drawn(quantity_index).map(|(_, y)| y), &options[1]);
+        let between_cells = |series: &Series| series.paths.get(quantity_index)?.range;
+        let heights = drawn(quantity_index).map(|[_, y]| y);
+        let heights = heights.chain(page.series.iter().filter_map(between_cells).flatten());
+        let x = Scale::from_values(page.quantity_range.clone().flat_map(drawn).map(|[x, _]| x), &options[0]);
+        let y = Scale::from_values(heights, &options[1]);
         let scales = x.zip(y).map(|(x, y)| [x, y]);
         let labels = scales.iter().flat_map(|[_, y]| y.ticks.iter().map(|tick| y.tick_label(*tick)));
         let left = labels.map(|label| theme.typeface.regular().width(&label, theme.note_size)).fold(0.0, f64::max);
@@ -145,7 +148,7 @@ impl<'a> ChartFigure<'a> {
         let title = title.with_italics(self.page.heading.symbols).fit_width(0.9 * inner.x);
         let note_width = (inner.x - title.text.width()) / 2.0 - theme.caption_size;
         area.record(&title);
-        let left_out: usize = self.clipped_lines(frame).iter().map(|line| line.nonpositive_count).sum();
+        let left_out: usize = self.clipped_lines(frame).iter().map(|[_, points]| points.nonpositive_count).sum();
         if left_out > 0 {
             let note = match left_out {
                 1 => "1 value of 0 or less is left out".to_owned(),
@@ -165,14 +168,15 @@ impl<'a> ChartFigure<'a> {
         area.record(&Drawing { class: "nothing", title: String::new(), items: vec![Item::Text(line.text)] });
     }
 
-    fn clipped_lines(&self, frame: &PlottersArea) -> Vec<ClippedLine> {
+    /// The lines of the chart, and their points, which may be fewer than those of the lines.
+    fn clipped_lines(&self, frame: &PlottersArea) -> Vec<[ClippedLine; 2]> {
         let Some([x, y]) = &self.scales else { return Vec::new() };
-        let size = frame_size(frame);
-        self.page
-            .series
-            .iter()
-            .map(|series| ClippedLine::from_points(series_points(series, self.quantity_index), (x, y), size))
-            .collect()
+        let (size, index) = (frame_size(frame), self.quantity_index);
+        let clipped = |series: &Series| {
+            let points = ClippedLine::from_points(series.points(index), (x, y), size);
+            [ClippedLine::from_points(series.path(index), (x, y), size), points]
+        };
+        self.page.series.iter().map(clipped).collect()
     }
 
     /// Draws the lines, each as a group, and their labels next to the frame.
@@ -184,10 +188,10 @@ impl<'a> ChartFigure<'a> {
         let with_marks =
             self.page.chart.point_source == PointSource::Curves && most as f64 * 4.0 * theme.joint_radius < span.x;
         let mut labels = Vec::new();
-        for (k, (line, series)) in lines.iter().zip(self.page.series).enumerate() {
+        for (k, ([line, points], series)) in lines.iter().zip(self.page.series).enumerate() {
             let style = LineStyle::for_index(k, theme);
             let mut items = style.line_items(&line.runs, theme);
-            let marked = if with_marks { &line.points } else { &line.isolated_points };
+            let marked = if with_marks { &points.points } else { &line.isolated_points };
             items.extend(marked.iter().map(|at| style.mark_item(*at, theme)));
             frame.record(&Item::Group(self.series_group(k, series, items)));
             if let Some(end) = line.end_point().filter(|_| !series.label.is_empty()) {
@@ -220,11 +224,6 @@ impl<'a> ChartFigure<'a> {
             items,
         }
     }
-}
-
-/// The points of a line, x and y, for the quantity at an index.
-fn series_points(series: &Series, quantity_index: usize) -> impl Iterator<Item = (f64, f64)> {
-    series.x.iter().copied().zip(series.y[quantity_index].iter().copied())
 }
 
 /// A quantity with its unit.
