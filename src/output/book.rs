@@ -222,8 +222,9 @@ impl FamilyPart<'_> {
         if let Some(chart) = chart {
             let mut builder = ChartBuilder::new(chart, family);
             let groups = CellGroups { cells: &arrangement.kept, requested_measures: None, ..groups };
-            let sample =
-                |_, solved: Vec<SolvedCell>| solved.iter().flat_map(|s| chart.sample_cell(s)).collect::<Vec<_>>();
+            let sample = |_, solved: Vec<SolvedCell>| {
+                solved.iter().flat_map(|s| chart.sample_cell(family, s)).collect::<Vec<_>>()
+            };
             sweep::process_groups(family, groups, sample, |samples| {
                 super::check_interrupt(interrupt)?;
                 samples.into_iter().for_each(|sample| builder.add(sample));

@@ -88,7 +88,7 @@ impl Composer<'_> {
         }
         source.retain(|part| !part.is_empty());
         let sheet = ChartPage {
-            heading: self.heading(page, source.join(" · ")),
+            heading: self.heading(page, source.join(" · ")).with_foot(data.fixed_parameters.clone()),
             layout: planned.layout,
             chart,
             quantity_range: first..(first + planned.layout.cells_per_page()).min(chart.y.len()),

@@ -159,7 +159,9 @@ impl<'a> FamilyPipeline<'a> {
             let cells = sink.receive_cells(&solved)?;
             let has_pages = chart.is_none() && !is_sorted;
             let pages = if has_pages { self.send_pages(group, &solved, sink)? } else { Vec::new() };
-            let samples = chart.iter().flat_map(|chart| solved.iter().flat_map(|solved| chart.sample_cell(solved)));
+            let samples = chart
+                .iter()
+                .flat_map(|chart| solved.iter().flat_map(|solved| chart.sample_cell(&planned.family, solved)));
             Ok((Some(cells), pages, samples.collect()))
         };
         let mut deliver = |output: Result<GroupOutput<S>, S::Error>| {

@@ -49,7 +49,7 @@ fn chart_data(text: &str, build: impl FnOnce(ChartBuilder) -> ChartData) -> Char
     let mut builder = ChartBuilder::new(chart, &planned.family);
     let kept = sweep::kept_cells(&planned.family);
     let sample = |_, solved: Vec<solve::SolvedCell>| {
-        solved.iter().flat_map(|solved| chart.sample_cell(solved)).collect::<Vec<_>>()
+        solved.iter().flat_map(|solved| chart.sample_cell(&planned.family, solved)).collect::<Vec<_>>()
     };
     let groups = sweep::CellGroups { cells: &kept, first_group: 0, size: 4, work_bytes: 0, requested_measures: None };
     sweep::process_groups(&planned.family, groups, sample, |samples| -> Result<(), ()> {
@@ -118,7 +118,14 @@ fn each_mistake_has_its_message_and_place() {
             "a logarithmic axis cannot begin at 0",
             "9:59",
         ),
-        (chart, with("x = \"p\", y = \"length\", title = \"T\""), "`chart` has no key `title`", "9:34"),
+        (chart, with("x = \"p\", y = \"length\", titles = \"T\""), "`chart` has no key `titles`", "9:34"),
+        (chart, with("x = \"p\", y = \"length\", title = \"T\""), "expected a table, found a string", "9:42"),
+        (
+            chart,
+            with("x = \"p\", y = \"length\", title = { area = \"A\" }"),
+            "the chart has no quantity `area`",
+            "9:44",
+        ),
         ("sampling", "panels = [40, 1]\nsampling".into(), "invalid value `40`", "10:11"),
         (
             "k = [1.5, 2]",
@@ -312,9 +319,9 @@ fn charts_have_ids_titles_and_escaped_names() {
     let svg = page(&rendered(&text), 1);
     for part in [
         "<g id=\"evans-chart-1\" class=\"chart\" data-frame=",
-        "<title>max(length, 1) over p</title>",
-        "<g id=\"evans-chart-2-1\" class=\"series\" data-trace=\"1\" data-circuit=\"1\"><title>evans: mu_min_deg over p, k = 1.5</title>",
-        ">mu_min_deg, °</text>",
+        "<title>max(length of the curve, 1) over p</title>",
+        "<g id=\"evans-chart-2-1\" class=\"series\" data-trace=\"1\" data-circuit=\"1\"><title>evans: least transmission angle over p, k = 1.5</title>",
+        ">least transmission angle (°)</text>",
         "page 1 of 1",
         "A &amp; &lt;B&gt;",
     ] {
@@ -410,7 +417,7 @@ fn too_many_numbers_are_counted_and_not_kept() {
     let numbers = vec![1.0; MAX_NUMBERS / 3];
     for cell in 1..=6 {
         let numbers = numbers.clone();
-        builder.add(coupler_drawing::chart::ChartSample { cell, trace: 1, circuit: 1, numbers });
+        builder.add(coupler_drawing::chart::ChartSample { cell, trace: 1, circuit: 1, numbers, paths: Vec::new() });
     }
     let chart = builder.build();
     assert_eq!((chart.series.len(), chart.curve_count, chart.left_out_count), (3, 6, 3));

@@ -37,7 +37,7 @@ pub(super) struct ChartPoint {
 }
 
 impl ChartPoint {
-    fn is_drawable(&self) -> bool {
+    pub fn is_drawable(&self) -> bool {
         !self.place[1].is_nan()
     }
 

@@ -1,10 +1,11 @@
 //! The lines of a chart, built from its points.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
+use super::parameters::{fixed_parameters, ordered_places, printed_assignment};
+use super::path::{LinePath, union};
 use super::refinement::{ForEachInterval, Path, Refinement};
 use super::{Chart, ChartSample, PointSource};
-use coupler_curves::expression::round_to_six_digits;
 use coupler_curves::family::Family;
 
 /// The most numbers kept of a family, which are 16 MB. Curves beyond that are only counted.
@@ -19,6 +20,9 @@ pub const MAX_CURVES: usize = 200_000;
 pub struct Series {
     /// The label that distinguishes it from other lines; empty if it is the only one.
     pub label: String,
+    /// Its place among the lines, from 0 to 1, if they differ by one parameter, or by several that change together; `None`
+    /// if they have no such order.
+    pub place: Option<f64>,
     /// The number of its cell, if all points are of one cell.
     pub cell: Option<usize>,
     /// The number of the traced joint, from 1.
@@ -32,17 +36,6 @@ pub struct Series {
     /// The line as it is drawn for each quantity of the chart, if it does not join the points by straight lines; otherwise
     /// empty.
     pub paths: Vec<LinePath>,
-}
-
-/// A line of a chart for one quantity, in as many points as it needs. A point with a value that is not finite is a gap
-/// in it.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct LinePath {
-    /// x and y of its points, among them those of the series.
-    pub points: Vec<[f64; 2]>,
-    /// The least and the greatest y on it, apart from the sides of poles; `None` without points between those of the
-    /// series.
-    pub range: Option<[f64; 2]>,
 }
 
 impl Series {
@@ -65,6 +58,8 @@ impl Series {
 pub struct ChartData {
     /// The lines.
     pub series: Vec<Series>,
+    /// The parameters that are the same on all lines, and the formulas of those that are derived, as they are printed.
+    pub fixed_parameters: String,
     /// The number of curves of the family.
     pub curve_count: usize,
     /// The number of curves that are left out because of [`MAX_NUMBERS`] and [`MAX_CURVES`].
@@ -108,7 +103,8 @@ impl<'a> ChartBuilder<'a> {
     /// Adds the points of a curve.
     pub fn add(&mut self, sample: ChartSample) {
         self.curve_count += 1;
-        self.number_count += sample.numbers.len();
+        let path_numbers = sample.paths.iter().map(|path| 2 * path.points.len()).sum::<usize>();
+        self.number_count += sample.numbers.len() + path_numbers;
         if self.number_count > MAX_NUMBERS || self.curve_count > MAX_CURVES {
             self.left_out_count += 1;
             return;
@@ -162,6 +158,7 @@ impl<'a> ChartBuilder<'a> {
     /// The lines, with the paths of a refinement.
     fn build_series(&self, cells: &[Vec<usize>], refinement: Option<&Refinement>) -> ChartData {
         let labels = self.labels();
+        let places = self.places();
         let mut series = Vec::new();
         for ((key, samples), label) in self.lines.iter().zip(labels) {
             let &(group, cell, trace, circuit) = key;
@@ -177,10 +174,16 @@ impl<'a> ChartBuilder<'a> {
                 let between = refinement?.paths(group, (trace, circuit), quantity);
                 Some(self.line_path(&cells[group], samples, quantity, between))
             };
-            let paths = (0..self.chart.y.len()).filter_map(path).collect();
-            series.push(Series { label, cell, trace, circuit, x, y, paths });
+            let paths = match (self.chart.point_source, &samples[..]) {
+                (PointSource::Samples, [sample]) => sample.paths.clone(),
+                _ => (0..self.chart.y.len()).filter_map(path).collect(),
+            };
+            let place = places.as_ref().map(|places| places[group]);
+            series.push(Series { label, place, cell, trace, circuit, x, y, paths });
         }
-        ChartData { series, curve_count: self.curve_count, left_out_count: self.left_out_count }
+        let cells: BTreeSet<usize> = self.lines.values().flatten().map(|sample| sample.cell).collect();
+        let fixed_parameters = fixed_parameters(self.chart, self.family, cells.into_iter());
+        ChartData { series, fixed_parameters, curve_count: self.curve_count, left_out_count: self.left_out_count }
     }
 
     /// The path of a line for a quantity: the points of its cells, with what is between them.
@@ -201,7 +204,7 @@ impl<'a> ChartBuilder<'a> {
             });
             let Some(Path { points, range }) = path else { continue };
             line.points.extend(points);
-            line.range = line.range.into_iter().chain(range).reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
+            line.range = line.range.into_iter().chain(range).reduce(union);
         }
         line
     }
@@ -243,6 +246,12 @@ impl<'a> ChartBuilder<'a> {
         out
     }
 
+    /// The place of each group of cells in the order of the lines, if each has one line.
+    fn places(&self) -> Option<Vec<f64>> {
+        let has_one_line = self.lines.len() == self.groups.len();
+        has_one_line.then(|| ordered_places(&self.groups)).flatten()
+    }
+
     /// The label of each line, with only those values that are not the same for all lines.
     fn labels(&self) -> Vec<String> {
         let keys: Vec<LineKey> = self.lines.keys().copied().collect();
@@ -255,10 +264,7 @@ impl<'a> ChartBuilder<'a> {
         let has_several_cells: Vec<bool> =
             groups.flat_map(|keys| keys.iter().map(|_| keys[0].1 != keys[keys.len() - 1].1)).collect();
         let label = |(&(group, cell, trace, circuit), &needs_cell): (&LineKey, &bool)| {
-            let value = |&k: &usize| {
-                let name = &self.family.names[self.chart.group_by[k]];
-                format!("{name} = {}", round_to_six_digits(self.groups[group][k]))
-            };
+            let value = |&k: &usize| printed_assignment(self.family, self.chart.group_by[k], self.groups[group][k]);
             let mut parts: Vec<String> = names.iter().map(value).collect();
             parts.extend(needs_cell.then(|| format!("no. {cell}")));
             parts.extend(traces.then(|| format!("trace {trace}")));

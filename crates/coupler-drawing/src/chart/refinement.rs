@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use super::adaptive::{AdaptiveInterval, ChartPoint, Sample};
 use super::axis::AxisRange;
+use super::path::settled_range;
 use super::{Chart, ChartSample};
 use coupler_curves::family::{Case, Family, MEASURES, ParameterSpace, Sampling};
 use coupler_curves::motion::Sampler;
@@ -166,7 +167,7 @@ impl Solver<'_> {
         } else {
             None
         };
-        let samples = solved.map(|solved| self.chart.sample_cell(&solved)).unwrap_or_default();
+        let samples = solved.map(|solved| self.chart.sample_cell(&family, &solved)).unwrap_or_default();
         self.sample(parameter, x, lines, &samples.iter().collect::<Vec<_>>())
     }
 
@@ -213,26 +214,4 @@ fn uses_measure(chart: &Chart, family: &Family, measure: usize) -> bool {
 fn axes<'s>(chart: &Chart, points: impl Iterator<Item = &'s [f64]> + Clone) -> Vec<AxisRange> {
     let quantities = std::iter::once(&chart.x).chain(&chart.y).enumerate();
     quantities.map(|(k, quantity)| AxisRange::new(quantity, points.clone().map(|numbers| numbers[k]))).collect()
-}
-
-/// The least and the greatest y at which a line turns or ends.
-///
-/// The sides of a pole are left out: they end, or turn, far from the samples next to them, however many there are, and
-/// would determine the range of the axis by chance.
-fn settled_range(points: &[ChartPoint]) -> Option<[f64; 2]> {
-    /// The distance of neighbours, as a fraction of the axis of the cells.
-    const CLOSE: f64 = 0.05;
-    let height = |k: Option<usize>| points.get(k?).map(|point| point.place[1]).filter(|height| !height.is_nan());
-    let is_settled = |k: &usize| {
-        let changes = [k.checked_sub(1), Some(k + 1)].map(|near| Some(height(near)? - height(Some(*k))?));
-        match changes {
-            [Some(before), Some(after)] => before * after >= 0.0 && before.abs().max(after.abs()) <= CLOSE,
-            [change, None] | [None, change] => change.is_some_and(|change| change.abs() <= CLOSE),
-        }
-    };
-    let settled = (0..points.len()).filter(is_settled).map(|k| points[k].value[1]);
-    settled.fold(None, |range, y| match range {
-        None => Some([y, y]),
-        Some([low, high]) => Some([low.min(y), high.max(y)]),
-    })
 }

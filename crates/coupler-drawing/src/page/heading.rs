@@ -19,6 +19,8 @@ pub struct Heading<'a> {
     pub atlas_title: &'a str,
     /// The line under the title: where the linkage comes from and what its letters mean; may be empty.
     pub source: String,
+    /// The line at the foot, before the atlas's title and the folio; may be empty.
+    pub foot: String,
     /// The names of parameters, set in italics.
     pub symbols: &'a [String],
     /// The page's number in the family, from 1.
@@ -35,6 +37,7 @@ impl<'a> Heading<'a> {
             family_id: "page",
             atlas_title: "",
             source: String::new(),
+            foot: String::new(),
             symbols: &[],
             page: 1,
             page_count: 1,
@@ -54,6 +57,11 @@ impl<'a> Heading<'a> {
     /// The heading with a line under its title.
     pub fn with_source(self, source: impl Into<String>) -> Heading<'a> {
         Heading { source: source.into(), ..self }
+    }
+
+    /// The heading with a line at the foot.
+    pub fn with_foot(self, foot: impl Into<String>) -> Heading<'a> {
+        Heading { foot: foot.into(), ..self }
     }
 
     /// The heading with the names of parameters, which are set in italics.
@@ -94,7 +102,14 @@ impl<'a> Heading<'a> {
             root.record(&source_line(line, at).fit_width(right - left));
             at.y += 1.35 * theme.source_size;
         }
-        let at = Point::new(right, page.y - theme.border - 0.6 * theme.margin);
+        let foot_height = page.y - theme.border - 0.6 * theme.margin;
+        let foot = source_line(&self.foot, Point::new(left, foot_height)).fit_width(MAX_FOOT * (right - left));
+        let foot_width = foot.text.width();
+        let left = if foot_width > 0.0 { left + foot_width + 2.0 * theme.source_size } else { left };
+        if foot_width > 0.0 {
+            root.record(&foot);
+        }
+        let at = Point::new(right, foot_height);
         let atlas = theme.text_line(self.atlas_title, at, Anchor::End, theme.source_size, theme.grey);
         let folio = self.folio();
         let folio = if self.atlas_title.is_empty() { folio.trim_start_matches(SEPARATOR) } else { &folio };
@@ -106,6 +121,9 @@ impl<'a> Heading<'a> {
         format!("{SEPARATOR}page {} of {}", self.page, self.page_count)
     }
 }
+
+/// The part of the width that the line at the foot may take at most.
+const MAX_FOOT: f64 = 0.65;
 
 /// Separates the parts of a line.
 const SEPARATOR: &str = " · ";

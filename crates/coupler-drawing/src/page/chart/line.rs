@@ -111,19 +111,39 @@ enum Mark {
     Triangle,
 }
 
+/// The patterns of lines: the lengths of dashes and gaps alternately, in millimetres.
+const DASHES: [&[f64]; 5] = [&[], &[3.0, 1.2], &[1.0, 1.0], &[5.0, 1.0, 1.0, 1.0], &[7.0, 1.6]];
+
+const MARKS: [Mark; 5] = [Mark::Disc, Mark::Ring, Mark::Square, Mark::Diamond, Mark::Triangle];
+
+/// The weight of lines of charts, as a multiple of that of curves.
+const WEIGHT: f64 = 1.2;
+
 impl LineStyle {
     /// The style of the k-th line, from 0: five lines in the same ink differ in dashes and in marks.
     pub fn for_index(k: usize, theme: &Theme) -> LineStyle {
-        const DASHES: [&[f64]; 5] = [&[], &[3.0, 1.2], &[1.0, 1.0], &[5.0, 1.0, 1.0, 1.0], &[7.0, 1.6]];
-        const MARKS: [Mark; 5] = [Mark::Disc, Mark::Ring, Mark::Square, Mark::Diamond, Mark::Triangle];
         let inks = theme.curve_inks.len();
         let (ink, round) = (k % inks, k / inks);
-        let weight = 1.2 * theme.curve_stroke(k).width;
         LineStyle {
             ink: theme.curve_ink(k),
-            width: weight,
-            dashes: DASHES[(ink + round) % 5],
-            mark: MARKS[(ink + 2 * round) % 5],
+            width: WEIGHT * theme.curve_stroke(k).width,
+            dashes: DASHES[(ink + round) % DASHES.len()],
+            mark: MARKS[(ink + 2 * round) % MARKS.len()],
+        }
+    }
+
+    /// The style of the k-th line, from 0, of `count` lines in an order: its ink is at its place in the order, and lines
+    /// in similar inks, or in greys, differ in dashes.
+    pub fn for_place(k: usize, count: usize, theme: &Theme) -> LineStyle {
+        /// More inks than these are too similar to be distinguished without dashes.
+        const MAX_INKS: usize = 7;
+        let ink = theme.ordered_ink(k as f64 / count.saturating_sub(1).max(1) as f64);
+        let needs_dashes = count > MAX_INKS || theme.curve_styles.len() > 1;
+        LineStyle {
+            ink,
+            width: WEIGHT * theme.curve_width,
+            dashes: if needs_dashes { DASHES[k % DASHES.len()] } else { DASHES[0] },
+            mark: MARKS[k % MARKS.len()],
         }
     }
 
@@ -260,5 +280,21 @@ mod tests {
                 assert!(a != b && (a.ink != b.ink || (a.dashes != b.dashes && a.mark != b.mark)), "{a:?} {b:?}");
             }
         }
+    }
+
+    #[test]
+    fn twenty_lines_in_an_order_have_different_styles() {
+        for named in Theme::NAMED {
+            let theme = (named.theme)();
+            let styles: Vec<LineStyle> = (0..20).map(|k| LineStyle::for_place(k, 20, &theme)).collect();
+            for (k, a) in styles.iter().enumerate() {
+                // Lines in the same dashes are five places apart.
+                let is_distinguishable = |b: &LineStyle| a.dashes != b.dashes || a.ink.difference(b.ink) > 7.0;
+                assert!(styles[..k].iter().all(is_distinguishable), "{}: {k}", named.name);
+            }
+        }
+        let theme = Theme::default();
+        assert!((0..6).all(|k| LineStyle::for_place(k, 6, &theme).dashes.is_empty()));
+        assert_eq!(LineStyle::for_place(0, 1, &theme).ink, theme.ordered_ink(0.0));
     }
 }

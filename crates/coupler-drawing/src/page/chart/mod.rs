@@ -2,6 +2,7 @@
 //!
 //! plotters draws axes, ticks and grids; the lines are elements of this crate, which keep full precision.
 
+mod coinciding;
 mod figure;
 mod line;
 mod line_labels;
@@ -41,7 +42,7 @@ fn draw_charts(scene: &mut Scene, page: &ChartPage, theme: &Theme) {
         };
         let items = scene.items.split_off(first_item);
         let quantity = &page.chart.y[quantity_index];
-        let title = format!("{} over {}", quantity.text, page.chart.x.text);
+        let title = format!("{} over {}", quantity.title, page.chart.x.title);
         let id = format!("{}-chart-{}", page.heading.family_id, quantity_index + 1);
         scene.items.push(Item::Group(Group { id, class: "chart", title, data, items }));
     }
