@@ -16,9 +16,12 @@ const MAX_DEPTH: u32 = 20;
 /// such as between two portions of a curve that are equal but for rounding, are not followed below [`EARLY_DEPTH`].
 const SMALLEST_JUMP: f64 = 1.0 / 200.0;
 
-/// The depth at which a change is compared with that at [`MAX_DEPTH`]. From here to there a square root shrinks to a
-/// thirtieth, and a cube root to a tenth.
+/// The depth at which a change is compared with those further down.
 const EARLY_DEPTH: u32 = 10;
+
+/// The depth from which a part is recognised as a jump, if samples do not suffice for [`MAX_DEPTH`]: from
+/// [`EARLY_DEPTH`] to here a square root shrinks to a quarter, and a cube root to two fifths.
+const LEAST_JUMP_DEPTH: u32 = 14;
 
 /// Every interval is halved this often, so that a line that happens to pass through the sample in the middle is found
 /// out.
@@ -97,6 +100,11 @@ impl AdaptiveInterval {
     /// Whether further samples would not change its lines.
     pub fn is_finished(&self) -> bool {
         !self.parts.is_empty() && self.parts.iter().all(Part::is_finished)
+    }
+
+    /// The number of samples between its ends.
+    pub fn additional_count(&self) -> usize {
+        self.samples.len() - 2
     }
 
     /// Adds at most `limit` samples, each where the lines deviate most.
@@ -180,7 +188,7 @@ impl AdaptiveInterval {
         let [from, _, to] = part.samples.map(|k| &self.samples[k].points[quantity]);
         let change = from.height_change(to);
         let early = part.early_changes.get(quantity);
-        part.depth >= MAX_DEPTH && change >= SMALLEST_JUMP && early.is_some_and(|early| change > 0.5 * early)
+        part.depth >= LEAST_JUMP_DEPTH && change >= SMALLEST_JUMP && early.is_some_and(|early| change > 0.5 * early)
     }
 }
 
@@ -276,6 +284,19 @@ mod tests {
         assert!(pole.len() == 1 && (pole[0][0] - 0.42).abs() < 1e-5);
         assert!(gaps(&line([0.0, 1.0], |x| if x < 0.3 { 0.5 } else { 0.504 })).is_empty(), "too small to be seen");
         assert!(gaps(&line([0.0, 1.0], |x| trig::pow((x - 0.37).abs(), 1.0 / 3.0).copysign(x - 0.37))).is_empty());
+    }
+
+    /// Near a tie of two portions, rounding may select either.
+    #[test]
+    fn a_jump_that_flickers_is_not_joined() {
+        let flicker = |x: f64| {
+            let is_high = x > 0.40001 || (x > 0.4 && ((x * 1e9) as u64).is_multiple_of(3));
+            if is_high { 0.8 } else { 0.3 }
+        };
+        let interval = refined([0.0, 1.0], 150, &[flicker]);
+        let path = interval.path(0);
+        let joined = path.windows(2).filter(|pair| (pair[0].value[1] - pair[1].value[1]).abs() > 0.1);
+        assert_eq!(joined.count(), 0);
     }
 
     #[test]

@@ -11,9 +11,9 @@ use coupler_curves::family::{Case, Family, MEASURES, ParameterSpace, Sampling};
 use coupler_curves::motion::Sampler;
 use coupler_curves::solve::solve_measuring;
 
-/// The most curves that are solved for a chart in addition to those of its cells: a few seconds of work at most. A
+/// The most curves that are solved for a chart in addition to those of its cells: some seconds of work at most. A
 /// chart with many cells gets fewer between two of them, and needs fewer.
-const MAX_ADDITIONAL_CURVES: usize = 1 << 12;
+const MAX_ADDITIONAL_CURVES: usize = 1 << 13;
 
 /// The most additional samples between two cells: enough for some jumps, each of which takes about forty.
 const MAX_SAMPLES: usize = 256;
@@ -68,7 +68,7 @@ pub(super) struct Path {
 pub type ForEachInterval<'f> = &'f dyn Fn(&mut [Interval], &(dyn Fn(&mut Interval) + Sync));
 
 impl<'a> Refinement<'a> {
-    /// The intervals of a chart; `None` if its lines do not follow one parameter.
+    /// The intervals of a chart; `None` if its lines do not follow one parameter, or have too many cells.
     ///
     /// `cells` are the numbers of the cells of each group in the order of its lines, and `samples` what was computed of
     /// each cell.
@@ -78,6 +78,11 @@ impl<'a> Refinement<'a> {
         cells: &[Vec<usize>],
         samples: &BTreeMap<usize, Vec<&ChartSample>>,
     ) -> Option<Refinement<'a>> {
+        let interval_count: usize = cells.iter().map(|cells| cells.len().saturating_sub(1)).sum();
+        let curves_per_cell = samples.values().map(Vec::len).max().unwrap_or(0);
+        if FIRST_SAMPLES * interval_count * curves_per_cell > MAX_ADDITIONAL_CURVES {
+            return None;
+        }
         let slot = common_slot(family, cells).filter(|_| chart.is_ordered_by_x)?;
         let solver = Solver {
             chart,
@@ -107,17 +112,18 @@ impl<'a> Refinement<'a> {
         Some(Refinement { solver, intervals, groups })
     }
 
-    /// Adds samples to all intervals.
+    /// Adds samples to all intervals, in rounds: in each, those that need further ones share what is left.
     pub fn refine(&mut self, for_each: ForEachInterval) {
         let curves_per_sample = self.intervals.iter().map(|interval| interval.lines.len()).max().unwrap_or(0).max(1);
         let all = MAX_ADDITIONAL_CURVES / curves_per_sample;
-        let Some(rest) = all.checked_sub(FIRST_SAMPLES * self.intervals.len()) else { return };
-        let solver = &self.solver;
-        let add =
-            |intervals: &mut [Interval], limit: usize| for_each(intervals, &|interval| interval.refine(limit, solver));
-        add(&mut self.intervals, FIRST_SAMPLES);
-        let unfinished = self.intervals.iter().filter(|interval| !interval.adaptive.is_finished()).count();
-        add(&mut self.intervals, (rest / unfinished.max(1)).min(MAX_SAMPLES));
+        let mut limit = FIRST_SAMPLES;
+        while limit > 1 {
+            let solver = &self.solver;
+            for_each(&mut self.intervals, &|interval| interval.refine(limit, solver));
+            let used: usize = self.intervals.iter().map(|interval| interval.adaptive.additional_count()).sum();
+            let unfinished = self.intervals.iter().filter(|interval| interval.needs_samples()).count();
+            limit = all.saturating_sub(used).checked_div(unfinished).unwrap_or(0);
+        }
     }
 
     /// The paths of a line of a group for the quantity `chart.y` at an index, one between every two cells of the group.
@@ -129,8 +135,14 @@ impl<'a> Refinement<'a> {
 }
 
 impl Interval {
+    /// Whether it may have further samples, at least two at a time.
+    fn needs_samples(&self) -> bool {
+        !self.adaptive.is_finished() && self.adaptive.additional_count() + 2 <= MAX_SAMPLES
+    }
+
     fn refine(&mut self, limit: usize, solver: &Solver) {
         let Interval { case, lines, adaptive } = self;
+        let limit = limit.min(MAX_SAMPLES - adaptive.additional_count().min(MAX_SAMPLES));
         adaptive.refine(limit, |parameter| solver.sample_between(case, lines, parameter));
     }
 

@@ -58,7 +58,7 @@ mod tests {
         let [a, b, c] = [line("a", &[0.0, f64::NAN]), line("b", &[0.0, 1.0]), line("c", &[-0.0, -f64::NAN])];
         assert_eq!(labels(&[a.clone(), b.clone(), c.clone()]), ["a; c", "b", "-"]);
         assert_eq!(labels(&[a.clone(), c.clone()]), ["", "-"]);
-        assert_eq!(labels(&[b.clone()]), ["b"]);
+        assert_eq!(labels(std::slice::from_ref(&b)), ["b"]);
         assert_eq!(labels(&[b, a.clone(), a.clone(), c.clone(), c])[1], "a … c (4 lines)");
         assert!(labels(&[]).is_empty());
     }

@@ -138,7 +138,9 @@ impl<'a> ChartFigure<'a> {
         let title = title.with_italics(self.page.heading.symbols).fit_width(0.9 * inner.x);
         let note_width = (inner.x - title.text.width()) / 2.0 - theme.caption_size;
         area.record(&title);
-        let left_out: usize = self.clipped_lines(frame).iter().map(|[_, points]| points.nonpositive_count).sum();
+        let lines = self.clipped_lines(frame);
+        let drawn = lines.iter().zip(&self.labels).filter(|(_, label)| label.is_some());
+        let left_out: usize = drawn.map(|([_, points], _)| points.nonpositive_count).sum();
         if left_out > 0 {
             let note = match left_out {
                 1 => "1 value of 0 or less is left out".to_owned(),
