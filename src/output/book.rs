@@ -9,7 +9,7 @@ use super::inputs::Inputs;
 use super::journal::{Journal, JournalFile};
 use super::{Error, Event, Options, files, previous_run};
 use crate::manifest::{Plan, PlannedFamily};
-use crate::pipeline::{Composer, FamilyPipeline, curves_by_page, measures_used_on_pages};
+use crate::pipeline::{Composer, FamilyPipeline, build_chart, curves_by_page, measures_used_on_pages};
 use crate::record::{BookRecord, Digest, FileRecord};
 use crate::sweep::{self, CellGroups, CellIndices};
 use coupler_curves::linkage::{FourBar, FourBarClass};
@@ -296,14 +296,15 @@ impl FamilyPart<'_> {
         if let Some(chart) = chart {
             let mut builder = ChartBuilder::new(chart, family);
             let groups = CellGroups { cells: &arrangement.kept, requested_measures: None, ..groups };
-            let sample =
-                |_, solved: Vec<SolvedCell>| solved.iter().flat_map(|s| chart.sample_cell(s)).collect::<Vec<_>>();
+            let sample = |_, solved: Vec<SolvedCell>| {
+                solved.iter().flat_map(|s| chart.sample_cell(family, s)).collect::<Vec<_>>()
+            };
             sweep::process_groups(family, groups, sample, |samples| {
                 super::check_interrupt(interrupt)?;
                 samples.into_iter().for_each(|sample| builder.add(sample));
                 Ok(())
             })?;
-            let chart_data = builder.build();
+            let chart_data = build_chart(builder);
             return (1..=pagination.page_count).try_for_each(|page| {
                 add_pages(PageGroup {
                     scenes: vec![composer.chart_page(page, chart, &chart_data)],

@@ -114,7 +114,7 @@ impl<'a> Composer<'a> {
         }
         source.retain(|part| !part.is_empty());
         let sheet = ChartPage {
-            heading: self.heading(page, source.join(" · ")),
+            heading: self.heading(page, source.join(" · ")).with_dimensions(&self.key.dimensions),
             layout: planned.layout,
             chart,
             quantity_range: first..(first + planned.layout.cells_per_page()).min(chart.y.len()),

@@ -1,9 +1,12 @@
 //! Produces the tables and pages of a family in order: [`crate::output`] writes them, and [`crate::check`] compares
 //! them with recorded ones.
 
+mod charts;
 mod composer;
 mod pagination;
 
+#[cfg(feature = "pdf")]
+pub use charts::build_chart;
 pub use composer::Composer;
 #[cfg(feature = "pdf")]
 pub use composer::curves_by_page;
@@ -156,7 +159,9 @@ impl<'a> FamilyPipeline<'a> {
             let cells = sink.receive_cells(&solved)?;
             let has_pages = chart.is_none() && !is_sorted;
             let pages = if has_pages { self.send_pages(group, &solved, sink)? } else { Vec::new() };
-            let samples = chart.iter().flat_map(|chart| solved.iter().flat_map(|solved| chart.sample_cell(solved)));
+            let samples = chart
+                .iter()
+                .flat_map(|chart| solved.iter().flat_map(|solved| chart.sample_cell(&planned.family, solved)));
             Ok((Some(cells), pages, samples.collect()))
         };
         let mut deliver = |output: Result<GroupOutput<S>, S::Error>| {
@@ -240,7 +245,7 @@ impl<'a> FamilyPipeline<'a> {
         sink: &S,
         receive: &mut impl FnMut(Output<S::CellsOutput, S::PageOutput>) -> Result<(), S::Error>,
     ) -> Result<(), S::Error> {
-        let chart_data = builder.build();
+        let chart_data = charts::build_chart(builder);
         for page in 1..=self.pagination.page_count {
             let compose = Box::new(|| self.composer.chart_page(page, chart, &chart_data));
             receive(Output::Page(sink.receive_page(PageJob {

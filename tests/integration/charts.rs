@@ -9,7 +9,7 @@ use coupler_atlas::manifest::{self, Plan};
 use coupler_atlas::sweep;
 use coupler_curves::geometry::trig;
 use coupler_curves::problem::report;
-use coupler_drawing::chart::{ChartBuilder, MAX_NUMBERS, PointSource, Series};
+use coupler_drawing::chart::{ChartBuilder, ChartData, ForEachInterval, MAX_NUMBERS, PointSource, Series};
 use tempfile::TempDir;
 
 const GOOD: &str = r#"[atlas]
@@ -31,15 +31,25 @@ fn plan(text: &str) -> Plan {
     loaded.plan.unwrap_or_else(|| panic!("{}", report(&loaded.problems, "m", text, false)))
 }
 
-/// The lines of the first family's chart.
+/// The lines of the first family's chart, which join the points of its cells.
 fn series(text: &str) -> Vec<Series> {
+    chart_data(text, |builder| builder.build()).series
+}
+
+/// The lines of the first family's chart as they are drawn.
+fn refined(text: &str) -> Vec<Series> {
+    let for_each: ForEachInterval = &|intervals, refine| intervals.iter_mut().for_each(refine);
+    chart_data(text, |builder| builder.build_refined(for_each)).series
+}
+
+fn chart_data(text: &str, build: impl FnOnce(ChartBuilder) -> ChartData) -> ChartData {
     let plan = plan(text);
     let planned = &plan.families[0];
     let chart = planned.chart.as_ref().unwrap();
     let mut builder = ChartBuilder::new(chart, &planned.family);
     let kept = sweep::kept_cells(&planned.family);
     let sample = |_, solved: Vec<solve::SolvedCell>| {
-        solved.iter().flat_map(|solved| chart.sample_cell(solved)).collect::<Vec<_>>()
+        solved.iter().flat_map(|solved| chart.sample_cell(&planned.family, solved)).collect::<Vec<_>>()
     };
     let groups = sweep::CellGroups { cells: &kept, first_group: 0, size: 4, work_bytes: 0, requested_measures: None };
     sweep::process_groups(&planned.family, groups, sample, |samples| -> Result<(), ()> {
@@ -47,7 +57,7 @@ fn series(text: &str) -> Vec<Series> {
         Ok(())
     })
     .unwrap();
-    builder.build().series
+    build(builder)
 }
 
 /// A folder with a manifest, after `render`.
@@ -108,7 +118,14 @@ fn each_mistake_has_its_message_and_place() {
             "a logarithmic axis cannot begin at 0",
             "9:59",
         ),
-        (chart, with("x = \"p\", y = \"length\", title = \"T\""), "`chart` has no key `title`", "9:34"),
+        (chart, with("x = \"p\", y = \"length\", titles = \"T\""), "`chart` has no key `titles`", "9:34"),
+        (chart, with("x = \"p\", y = \"length\", title = \"T\""), "expected a table, found a string", "9:42"),
+        (
+            chart,
+            with("x = \"p\", y = \"length\", title = { area = \"A\" }"),
+            "the chart has no quantity `area`",
+            "9:44",
+        ),
         ("sampling", "panels = [40, 1]\nsampling".into(), "invalid value `40`", "10:11"),
         (
             "k = [1.5, 2]",
@@ -302,9 +319,9 @@ fn charts_have_ids_titles_and_escaped_names() {
     let svg = page(&rendered(&text), 1);
     for part in [
         "<g id=\"evans-chart-1\" class=\"chart\" data-frame=",
-        "<title>max(length, 1) over p</title>",
-        "<g id=\"evans-chart-2-1\" class=\"series\" data-trace=\"1\" data-circuit=\"1\"><title>evans: mu_min_deg over p, k = 1.5</title>",
-        ">mu_min_deg, °</text>",
+        "<title>max(length of the curve, 1) over p</title>",
+        "<g id=\"evans-chart-2-1\" class=\"series\" data-trace=\"1\" data-circuit=\"1\"><title>evans: least transmission angle over p</title>",
+        ">least transmission angle (°)</text>",
         "page 1 of 1",
         "A &amp; &lt;B&gt;",
     ] {
@@ -314,7 +331,8 @@ fn charts_have_ids_titles_and_escaped_names() {
     let mut unique = ids.clone();
     unique.sort_unstable();
     unique.dedup();
-    assert_eq!((ids.len(), unique.len()), (6, 6));
+    // The transmission angle does not depend on the coupler point: its lines coincide, and one is drawn.
+    assert_eq!((ids.len(), unique.len()), (5, 5));
 }
 
 #[test]
@@ -332,11 +350,11 @@ fn more_charts_than_fit_on_a_page_continue_on_the_next() {
 #[test]
 fn an_empty_chart_says_so() {
     let empty = page(&rendered(&GOOD.replace("\"length\"", "\"input_min_deg\"")), 1);
-    assert!(empty.contains(">no finite value</text>") && empty.contains("id=\"evans-chart-2-2\""));
+    assert!(empty.contains(">no finite value</text>") && empty.contains("id=\"evans-chart-2-1\""));
     let low = GOOD.replace("\"mu_min_deg\"]", "\"-length\"], log = [\"-length\"]");
     assert!(page(&rendered(&low), 1).contains("no positive value for a logarithmic axis"));
     let some = GOOD.replace("\"mu_min_deg\"]", "\"p - 3\"], log = [\"p - 3\"]");
-    assert!(page(&rendered(&some), 1).contains(">4 values of 0 or less are left out</text>"));
+    assert!(page(&rendered(&some), 1).contains(">2 values of 0 or less are left out</text>"));
     // No cell can be assembled, or none is kept.
     let far = GOOD.replace("let = { a = \"(1 + p)^1.5 / 2\" }", "let = { a = 0.1 }");
     assert!(page(&rendered(&far), 1).contains("no finite value"));
@@ -386,7 +404,8 @@ fn ten_thousand_cells_make_a_chart() {
     // No curve has such a long straight portion, which is quick to find out and keeps the test short.
     let text = text + "straight = { length = 1000 }\n";
     let svg = page(&rendered(&text), 1);
-    assert_eq!(svg.matches("class=\"series\"").count(), 200);
+    // The transmission angle is the same for each k.
+    assert_eq!(svg.matches("class=\"series\"").count(), 101);
     assert!(svg.contains(">and ") && svg.contains(" more</text>"));
 }
 
@@ -400,7 +419,7 @@ fn too_many_numbers_are_counted_and_not_kept() {
     let numbers = vec![1.0; MAX_NUMBERS / 3];
     for cell in 1..=6 {
         let numbers = numbers.clone();
-        builder.add(coupler_drawing::chart::ChartSample { cell, trace: 1, circuit: 1, numbers });
+        builder.add(coupler_drawing::chart::ChartSample { cell, trace: 1, circuit: 1, numbers, paths: Vec::new() });
     }
     let chart = builder.build();
     assert_eq!((chart.series.len(), chart.curve_count, chart.left_out_count), (3, 6, 3));
@@ -427,4 +446,172 @@ fn the_range_of_x_to_that_of_y_rises_with_p() {
         assert!((evans.y[0][k] / chebyshev.y[0][k] - 1.0).abs() < 1e-6, "{k}: {} {}", evans.y[0][k], chebyshev.y[0][k]);
         assert!((evans.y[1][k] / chebyshev.y[1][k] / 2.0 - 1.0).abs() < 1e-6, "{k}");
     }
+}
+
+/// The chart of the atlas in which a peak between two cells was cut off, and a jump of the length was joined.
+const EVANS: &str = r#"[atlas]
+title = "T"
+[[family]]
+id = "evans"
+linkage = "evans"
+layout = "chart"
+chart = { x = "p", y = ["straight_length / straight_deviation", "straight_length"] }
+measures = []
+straight = { input = "120 deg" }
+grid = { p = { from = 1.75, to = 6, step = 0.125 } }
+let = { a = "(1 + p)^1.5 / 2" }
+"#;
+
+/// The straightest of these linkages has p = 1 + sqrt(3): a grid of 17,000 values of p has its greatest ratio next to it.
+#[test]
+fn a_peak_between_two_cells_is_drawn_at_its_height() {
+    let near_peak = EVANS.replace("{ from = 1.75, to = 6, step = 0.125 }", "{ from = 2.725, to = 2.74, count = 61 }");
+    let highest = |points: &mut dyn Iterator<Item = [f64; 2]>| {
+        points.filter(|[_, y]| !y.is_nan()).max_by(|a, b| a[1].total_cmp(&b[1])).unwrap()
+    };
+    let expected = highest(&mut series(&near_peak)[0].points(0));
+    assert!((expected[0] - 2.732).abs() < 3e-4 && expected[1] > 9700.0, "{expected:?}");
+    let [line] = &refined(EVANS)[..] else { panic!("one line") };
+    let cells = highest(&mut line.points(0));
+    assert!((cells[0], cells[1].round()) == (2.75, 7772.0), "{cells:?}");
+    let drawn = highest(&mut line.path(0).into_iter());
+    assert!((drawn[0] - expected[0]).abs() < 1e-3 && (drawn[1] / expected[1] - 1.0).abs() < 2e-3, "{drawn:?}");
+    assert_eq!(line.paths[0].range.unwrap()[1], drawn[1], "the axis reaches the peak");
+    // The page shows it within its frame.
+    let svg =
+        page(&rendered(&EVANS.replace("title = \"T\"", "title = \"T\"\nformats = [\"svg\"]\noutput = \"out\"")), 1);
+    assert_eq!(attribute(&svg, "y-range"), [0.0, 10000.0]);
+}
+
+/// The line of a quantity follows it everywhere: between the cells it passes through cells of a finer grid.
+#[test]
+fn lines_between_cells_pass_through_those_of_a_finer_grid() {
+    let finer = EVANS.replace("step = 0.125", "step = 0.03125");
+    let (coarse, fine) = (&refined(EVANS)[0], &series(&finer)[0]);
+    for quantity in 0..2 {
+        let path = coarse.path(quantity);
+        let [low, high] = coarse.paths[quantity].range.unwrap();
+        for [x, y] in fine.points(quantity) {
+            let pair = path.windows(2).find(|pair| pair[0][0] <= x && x <= pair[1][0]).unwrap();
+            let part = (x - pair[0][0]) / (pair[1][0] - pair[0][0]);
+            let drawn = pair[0][1] + part * (pair[1][1] - pair[0][1]);
+            assert!((drawn - y).abs() < 1e-3 * (high - low), "{quantity}: {drawn} {y} at {x}");
+        }
+    }
+}
+
+/// Another portion becomes the straightest, and is longer.
+#[test]
+fn a_jump_is_a_gap() {
+    let path = refined(EVANS)[0].path(1);
+    let gaps: Vec<_> = path.windows(3).filter(|triple| triple[1][1].is_nan()).collect();
+    let [&[before, _, after]] = gaps[..] else { panic!("{gaps:?}") };
+    assert!((before[0] - 2.19).abs() < 0.01 && after[0] - before[0] < 1e-6, "{gaps:?}");
+    assert!(before[1] > after[1] + 0.2, "{gaps:?}");
+    // The page has two lines, and no mark between the cells.
+    let text = EVANS.replace("title = \"T\"", "title = \"T\"\nformats = [\"svg\"]\noutput = \"out\"");
+    let svg = page(&rendered(&text), 1);
+    let line = svg.split("class=\"series\"").nth(2).unwrap().split("</g>").next().unwrap();
+    assert_eq!(line.matches("<circle").count(), 35);
+    assert_eq!(line.split(" d=\"").nth(1).unwrap().split('"').next().unwrap().matches(['m', 'M']).count(), 2);
+}
+
+/// Cells that `where` leaves out are gaps, and a line ends where the linkage cannot be assembled.
+#[test]
+fn a_line_ends_where_its_curves_do() {
+    let five = GOOD.replace("[2, 3, 4], k = [1.5, 2]", "[2, 3, 4, 5, 6]");
+    let [line] = &refined(&(five.clone() + "where = \"p != 4\"\n"))[..] else { panic!("one line") };
+    let drawn: Vec<f64> = line.path(0).iter().filter(|[_, y]| !y.is_nan()).map(|[x, _]| *x).collect();
+    assert!(drawn.iter().all(|x| *x <= 3.0 || *x >= 5.0) && drawn.contains(&3.0) && drawn.contains(&5.0));
+    // Frame 2, coupler and rocker 1: a crank of up to 4 reaches, and one of 5 does not.
+    let four_bar = GOOD
+        .replace("linkage = \"evans\"", "linkage = \"four-bar\"")
+        .replace("x = \"p\"", "x = \"crank\"")
+        .replace("grid = { p = [2, 3, 4], k = [1.5, 2] }", "grid = { crank = [1, 2, 3, 5] }")
+        .replace("a = \"(1 + p)^1.5 / 2\"", "frame = 2, coupler = 1, rocker = 1.5, along = 0.5")
+        .replace("sampling", "circuits = \"start\"\nsampling");
+    let lines = refined(&four_bar);
+    let [line] = &lines[..] else { panic!("{lines:?}") };
+    let last = line.path(0).into_iter().rfind(|[_, y]| !y.is_nan()).unwrap();
+    assert!((4.49..=4.5).contains(&last[0]), "{last:?}");
+}
+
+/// Over a measure, over several axes or with parameters that change together, a line joins its points.
+#[test]
+fn lines_that_do_not_follow_one_parameter_join_their_points() {
+    let by = GOOD.replace("\"mu_min_deg\"] }", "\"mu_min_deg\"], by = [] }");
+    let cases = GOOD.replace("grid = { p = [2, 3, 4], k = [1.5, 2] }", "cases = [{ p = 2, k = 1 }, { p = 3, k = 2 }]");
+    for text in [GOOD.replace("x = \"p\"", "x = \"area\""), by, cases] {
+        assert!(refined(&text).iter().all(|series| series.paths.is_empty()));
+    }
+    let cases = GOOD.replace("grid = { p = [2, 3, 4], k = [1.5, 2] }", "cases = [{ p = 2, k = 2 }, { p = 3, k = 2 }]");
+    for text in [GOOD.to_owned(), GOOD.replace("x = \"p\"", "x = \"a\""), cases] {
+        assert!(refined(&text).iter().all(|series| series.paths.iter().all(|path| path.points.len() > 4)));
+    }
+}
+
+/// The sides of a pole do not set the range of the axis, and no line joins them.
+#[test]
+fn the_sides_of_a_pole_do_not_set_the_range() {
+    let pole = EVANS.replace("\"straight_length / straight_deviation\", \"straight_length\"", "\"1 / (p - 2.7)\"");
+    let [line] = &refined(&pole)[..] else { panic!("one line") };
+    let path = line.path(0);
+    let gaps: Vec<_> = path.windows(3).filter(|triple| triple[1][1].is_nan()).collect();
+    assert!(gaps.len() == 1 && gaps[0][0][1] < -1e3 && gaps[0][2][1] > 1e3, "{gaps:?}");
+    let cells = line.y[0].iter().fold(0.0, |most: f64, y| most.max(y.abs()));
+    assert!(line.paths[0].range.unwrap().iter().all(|y| y.abs() < 2.0 * cells));
+}
+
+/// A line over samples turns where its curve does, and breaks where an angle goes on from 180 to -180 degrees.
+#[test]
+fn lines_over_samples_are_denser_than_the_samples() {
+    let text = GOOD
+        .replace("x = \"p\", y = [\"length\", \"mu_min_deg\"]", "x = \"input_deg\", y = [\"psi_deg\", \"speed\"]")
+        .replace("linkage = \"evans\"", "linkage = \"watt\"")
+        .replace("grid = { p = [2, 3, 4], k = [1.5, 2] }", "cases = [{ p = 4, r = 2, s = 2, a = 1 }]")
+        .replace("let = { a = \"(1 + p)^1.5 / 2\" }\n", "");
+    let finer = series(&text.replace("10 deg", "0.5 deg"));
+    let [line] = &refined(&text)[..] else { panic!("one line") };
+    let psi = line.path(0);
+    assert_eq!(psi.iter().filter(|[_, y]| y.is_nan()).count(), 2);
+    let steps = psi.windows(2).map(|pair| (pair[1][1] - pair[0][1]).abs());
+    assert!(steps.filter(|step| !step.is_nan()).all(|step| step < 30.0));
+    // Away from the limits, where the speed is unbounded, the line passes through the samples of a finer family.
+    let path = line.path(1);
+    let near = |[x, y]: [f64; 2]| {
+        let gap = |pair: &[[f64; 2]]| {
+            let part = (x - pair[0][0]) / (pair[1][0] - pair[0][0]);
+            if (0.0..=1.0).contains(&part) { (pair[0][1] + part * (pair[1][1] - pair[0][1]) - y).abs() } else { 1.0 }
+        };
+        path.windows(2).map(gap).fold(1.0, f64::min)
+    };
+    let inner = finer[0].points(1).filter(|[x, y]| x.abs() < 40.0 && y.is_finite());
+    let worst = inner.map(near).fold(0.0, f64::max);
+    assert!(worst < 2e-3, "{worst}");
+}
+
+/// What is the same on all lines is at the foot, with what follows from it; the names in titles have spaces.
+#[test]
+fn the_foot_has_the_fixed_parameters() {
+    let text = GOOD.replace("a = \"(1 + p)^1.5 / 2\"", "a = \"base_length^1.5 / 2\", base_length = \"1 + p\"");
+    let svg = page(&rendered(&text), 1);
+    let foot: String = svg.split("<text").filter(|text| text.contains("base length")).collect();
+    let plain: String = foot.split('>').map(|part| part.split('<').next().unwrap()).collect();
+    assert!(plain.contains("r = 1, a = (base length)^1.5 / 2, s = a, base length = 1 + p"), "{plain}");
+    assert!(!svg.contains("base_length"));
+    let given = GOOD.replace("\"mu_min_deg\"] }", "\"mu_min_deg\"], title = { mu_min_deg = \"transmission\" } }");
+    assert!(page(&rendered(&given), 1).contains(">transmission (°)</text>"));
+    // Minus signs are true ones in labels and at the foot.
+    let minus = GOOD.replace("k = [1.5, 2]", "k = [-1.5, 2]");
+    assert!(page(&rendered(&minus), 1).contains("= −1.5</text>"));
+}
+
+/// Lines that differ by one parameter have inks in its order.
+#[test]
+fn lines_in_an_order_have_places() {
+    let places = |text: &str| series(text).iter().map(|series| series.place).collect::<Vec<_>>();
+    assert_eq!(places(&GOOD.replace("k = [1.5, 2]", "k = [2, 1, 1.5]")), [Some(1.0), Some(0.0), Some(0.5)]);
+    assert_eq!(places(&GOOD.replace(", k = [1.5, 2]", "")), [None]);
+    let two = GOOD.replace("k = [1.5, 2]", "k = [1.5, 2], r = [1, 1.1]");
+    assert_eq!(places(&two), [None; 4]);
 }

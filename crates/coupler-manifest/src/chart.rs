@@ -36,6 +36,11 @@ pub(crate) static CHART: TableSchema = TableSchema::new(
             ValueSchema::Map(&ValueSchema::List(&ValueSchema::Number, [2, 2])),
             "The least and the greatest value of an axis, by the expression of x or y.",
         ),
+        KeySchema::new(
+            "title",
+            ValueSchema::Map(&ValueSchema::Text),
+            "The words for a quantity, by the expression of x or y; by default those of its measures.",
+        ),
     ],
 );
 
@@ -80,8 +85,8 @@ pub(crate) fn read<'t>(
     let x = fields.required("x", EXAMPLE, parser);
     let y = fields.required("y", EXAMPLE, parser);
     let scope = chart::scope(&names.all, template.is_driven_by_length());
-    let x = x.and_then(|value| quantity(value, &scope, names, parser));
-    let y = y.and_then(|value| quantities(value, &scope, names, parser));
+    let x = x.and_then(|value| quantity(value, &scope, (names, template), parser));
+    let y = y.and_then(|value| quantities(value, &scope, (names, template), parser));
     let by = match fields.get("by") {
         None => None,
         Some(value) => Some(series_slots(value, names, parser)?),
@@ -90,6 +95,7 @@ pub(crate) fn read<'t>(
     let point_source = sample_or_curve_points(&x, &y, &fields, names, parser)?;
     read_log(&fields, &mut x, &mut y, parser)?;
     read_ranges(&fields, &mut x, &mut y, parser)?;
+    read_titles(&fields, &mut x, &mut y, parser)?;
     if names.space.count() > MAX_CELLS {
         let problem = Problem::error(value.span(), format!("a chart can have at most {MAX_CELLS} cells"));
         parser.report(problem.with_help("use fewer values, or put the chart in a separate family"));
@@ -105,7 +111,7 @@ pub(crate) fn read<'t>(
 fn quantities<'t>(
     value: &TomlValue<'t>,
     scope: &Scope,
-    names: &FamilyNames,
+    family: (&FamilyNames, &Template),
     parser: &mut TomlParser<'t>,
 ) -> Option<Vec<Quantity>> {
     let items = one_or_more(value);
@@ -118,7 +124,7 @@ fn quantities<'t>(
     let mut texts = HashSet::new();
     let mut all_read = true;
     for item in items {
-        let Some(quantity) = quantity(item, scope, names, parser) else {
+        let Some(quantity) = quantity(item, scope, family, parser) else {
             all_read = false;
             continue;
         };
@@ -136,14 +142,14 @@ fn quantities<'t>(
 fn quantity<'t>(
     value: &TomlValue<'t>,
     scope: &Scope,
-    names: &FamilyNames,
+    (names, template): (&FamilyNames, &Template),
     parser: &mut TomlParser<'t>,
 ) -> Option<Quantity> {
     let text = parser.text(value)?.trim().to_owned();
-    let value = parser.numeric_expression(value, scope)?;
-    let unit = chart::unit(&text);
-    let definition = chart::definition(&text, &names.all);
-    Some(Quantity { text, unit, definition, expression: value, is_log: false, range: None })
+    let expression = parser.numeric_expression(value, scope)?;
+    let title = chart::title(&expression, &names.all, template);
+    let unit = chart::unit(&expression, &names.all, template);
+    Some(Quantity { text, title, unit, expression, is_log: false, range: None })
 }
 
 /// Whether the chart has a point for each sample or for each curve; reports a `y` that does not match `x`.
@@ -286,6 +292,23 @@ fn read_ranges<'t>(
         match error {
             Some((message, help)) => parser.report(Problem::error(value.span(), message).with_help(help)),
             None => quantity.range = Some([low, high]),
+        }
+    }
+    (parser.problem_count() == before).then_some(())
+}
+
+/// Reads `title`: the words for quantities, after which the unit is printed if there is one.
+fn read_titles<'t>(
+    fields: &Fields<'_, 't>,
+    x: &mut Quantity,
+    y: &mut [Quantity],
+    parser: &mut TomlParser<'t>,
+) -> Option<()> {
+    let Some(value) = fields.get("title") else { return Some(()) };
+    let before = parser.problem_count();
+    for (text, span, value) in Fields::with_any_keys(value, "`title`", parser)?.entries() {
+        if let (Some(quantity), Some(title)) = (find_quantity(text, span, (x, y), parser), parser.text(value)) {
+            quantity.title = title;
         }
     }
     (parser.problem_count() == before).then_some(())

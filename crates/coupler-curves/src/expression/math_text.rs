@@ -28,10 +28,10 @@ impl MathText {
         MathText::default().with_words(words)
     }
 
-    /// The name of a parameter.
+    /// The name of a parameter, with spaces in place of underscores.
     pub fn from_name(name: &str) -> MathText {
         let mut text = MathText::default();
-        text.push(name, is_single_letter(name), false);
+        text.push(&name.replace('_', " "), is_single_letter(name), false);
         text
     }
 
@@ -172,11 +172,16 @@ enum Binding {
 impl Expression {
     /// The expression as it is set on paper: `2 * a` as 2 a, `sqrt(x)` as √x, a power with a raised exponent.
     pub fn to_math_text(&self) -> MathText {
+        self.to_math_text_with(|name| MathText::from_name(&self.names[name]))
+    }
+
+    /// The same, with the text `word(k)` for the k-th of its names.
+    fn to_math_text_with(&self, word: impl Fn(usize) -> MathText) -> MathText {
         let mut stack: Vec<(MathText, Binding)> = Vec::new();
         for (instruction, _) in &self.program {
             let set = match *instruction {
                 Instruction::Push(value) => set_number(value),
-                Instruction::Load(name) => (MathText::from_name(&self.names[name]), Binding::Atom),
+                Instruction::Load(name) => set_name(word(name)),
                 Instruction::Negate => {
                     let operand = stack.pop().unwrap_or_else(nothing);
                     (MathText::from_words("−").with(in_parentheses(operand, Binding::Sign)), Binding::Sign)
@@ -209,6 +214,11 @@ impl CompiledExpression {
     pub fn to_math_text(&self) -> MathText {
         self.expression.to_math_text()
     }
+
+    /// The same, with the text `word(slot)` for the name at an index of the scope.
+    pub fn to_math_text_with(&self, word: impl Fn(usize) -> MathText) -> MathText {
+        self.expression.to_math_text_with(|name| word(self.slots()[name]))
+    }
 }
 
 fn nothing() -> (MathText, Binding) {
@@ -218,6 +228,12 @@ fn nothing() -> (MathText, Binding) {
 fn set_number(value: f64) -> (MathText, Binding) {
     let text = if value == std::f64::consts::PI { "π".to_owned() } else { format_exactly(value) };
     (MathText::from_words(text), if value < 0.0 { Binding::Sign } else { Binding::Atom })
+}
+
+/// A name; one of several words is enclosed where its power is taken, so that it is not read as that of the last word.
+fn set_name(text: MathText) -> (MathText, Binding) {
+    let has_spaces = text.pieces.iter().any(|piece| piece.text.contains(' '));
+    (text, if has_spaces { Binding::Power } else { Binding::Atom })
 }
 
 /// A part of an expression, in parentheses unless it holds together at least as tightly as its place needs.
@@ -238,23 +254,28 @@ fn set_operation(operator: Operator, left: (MathText, Binding), right: (MathText
         Operator::GreaterOrEqual => (" ≥ ", Binding::Comparison, Binding::Sum),
         Operator::Add => (" + ", Binding::Sum, Binding::Sum),
         Operator::Subtract => (" − ", Binding::Sum, Binding::Product),
-        Operator::Multiply => (multiplication_sign(&right.0), Binding::Product, Binding::Power),
+        Operator::Multiply => (multiplication_sign(&left.0, &right.0), Binding::Product, Binding::Product),
         Operator::Divide => (" / ", Binding::Product, Binding::Power),
         Operator::Power => {
             let exponent = right.0.raised();
             return (in_parentheses(left, Binding::Atom).with(exponent), Binding::Power);
         }
     };
-    // The first operand of a comparison is no comparison, nor is that of a power a power.
+    // Two signs in a row are hard to read.
+    let right_needs = if right.1 == Binding::Sign { Binding::Power } else { right_needs };
+    // The first operand of a comparison is no comparison.
     let left_needs = if binding == Binding::Comparison { Binding::Sum } else { binding };
     let set = in_parentheses(left, left_needs).with_words(symbol).with(in_parentheses(right, right_needs));
     (set, binding)
 }
 
-/// A product is set without a sign unless a number follows: 2 a, but a × 2.
-fn multiplication_sign(right: &MathText) -> &'static str {
-    let first = right.pieces.first().and_then(|piece| piece.text.chars().next());
-    if first.is_some_and(|c| c.is_ascii_digit()) { " × " } else { " " }
+/// A product is set without a sign if a symbol, parentheses or a root follow a number or a symbol: 2 a, but part · long.
+fn multiplication_sign(left: &MathText, right: &MathText) -> &'static str {
+    let ends_with_word = left.pieces.last().is_some_and(|piece| {
+        !piece.is_symbol && piece.text.chars().next_back().is_some_and(char::is_alphabetic) && piece.text != "π"
+    });
+    let is_clear = right.pieces.first().is_some_and(|piece| piece.is_symbol || piece.text.starts_with(['(', '√', 'π']));
+    if is_clear && !ends_with_word { " " } else { " · " }
 }
 
 fn set_call(function: Function, mut arguments: Vec<(MathText, Binding)>) -> (MathText, Binding) {
@@ -279,7 +300,7 @@ mod tests {
         for (text, expected) in [
             ("(1 + p)^1.5 / 2", "(1 + p)^1.5 / 2"),
             ("2 * a", "2 a"),
-            ("a * 2", "a × 2"),
+            ("a * 2", "a · 2"),
             ("u * p / a", "u p / a"),
             ("u / (p * a)", "u / (p a)"),
             ("a - (b - c)", "a − (b − c)"),
@@ -289,7 +310,11 @@ mod tests {
             ("(-a)^2", "(−a)^2"),
             ("sqrt(2) * x", "√2 x"),
             ("sqrt(x + 1)", "√(x + 1)"),
-            ("150 * cos(pi / 6)", "150 cos(π / 6)"),
+            ("150 * cos(pi / 6)", "150 · cos(π / 6)"),
+            ("part * long", "part · long"),
+            ("a - -b", "a − (−b)"),
+            ("p * (a / 2)", "p a / 2"),
+            ("foot_along^2", "(foot along)^2"),
             ("hypot(0.268, 0.176)", "hypot(0.268, 0.176)"),
             ("a >= 2 and not b < 3", "a ≥ 2 and not b < 3"),
         ] {
@@ -302,7 +327,7 @@ mod tests {
         let text = Expression::parse("k * coupler^n").unwrap().to_math_text();
         let style = |piece: &MathPiece| (piece.text.clone(), piece.is_symbol, piece.is_raised);
         let expected =
-            [("k".to_owned(), true, false), (" coupler".to_owned(), false, false), ("n".to_owned(), true, true)];
+            [("k".to_owned(), true, false), (" · coupler".to_owned(), false, false), ("n".to_owned(), true, true)];
         assert_eq!(text.pieces().iter().map(style).collect::<Vec<_>>(), expected);
     }
 

@@ -76,7 +76,7 @@ impl Family {
             let unit = self.unit(slot);
             match source {
                 Source::Varying => None,
-                Source::Constant(value) => Some(left.with_words(format_exactly(*value)).with_words(unit)),
+                Source::Constant(value) => Some(self.equation(slot, *value)),
                 Source::Formula(formula) => Some(left.with(formula.to_math_text())),
                 Source::ConstantFormula(formula, value) => {
                     let text = formula.to_math_text();
@@ -96,7 +96,7 @@ impl Family {
     pub fn automatic_caption(&self) -> Option<String> {
         let equation = |parameter: &CaptionParameter| {
             let name = &self.names[parameter.slot];
-            format!("{name} = {{{name}}}{}", self.unit(parameter.slot))
+            format!("{} = {{{name}}}{}", name.replace('_', " "), self.unit(parameter.slot))
         };
         let equations: Vec<String> = self.caption_parameters().iter().map(equation).collect();
         (!equations.is_empty()).then(|| equations.join(", "))
@@ -105,7 +105,11 @@ impl Family {
     /// The value of a parameter in a cell: "u = 3.75" exactly if it is given, and with up to six significant digits if it
     /// is derived, for the formula of those is stated.
     pub fn caption_dimension(&self, cell: &Cell, CaptionParameter { slot, is_given }: CaptionParameter) -> MathText {
-        let value = if is_given { cell.values[slot] } else { round_to_six_digits(cell.values[slot]) };
+        self.equation(slot, if is_given { cell.values[slot] } else { round_to_six_digits(cell.values[slot]) })
+    }
+
+    /// A name, by its index in [`Family::names`], and a value in full: "p = 2.5", "phase = 30°".
+    pub fn equation(&self, slot: usize, value: f64) -> MathText {
         MathText::from_name(&self.names[slot]).with_words(format!(" = {}{}", format_exactly(value), self.unit(slot)))
     }
 

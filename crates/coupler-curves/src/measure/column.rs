@@ -10,6 +10,11 @@ use crate::motion::{Circuit, InstantaneousMotion, JointDerivatives};
 pub struct Column {
     /// Its name.
     pub name: &'static str,
+    /// What it is in a few words, as on charts.
+    pub title: &'static str,
+    /// Its unit: `deg`, or `per radian` and the like for a derivative with respect to an input angle; empty for a length or
+    /// a pure number.
+    pub unit: &'static str,
     /// Its definition, with its unit and its source.
     pub definition: &'static str,
     /// The linkages that have it.
@@ -19,8 +24,18 @@ pub struct Column {
 
 impl Column {
     /// A column of every linkage.
-    const fn new(name: &'static str, definition: &'static str, compute: fn(&Sample) -> f64) -> Column {
-        Column { name, definition, subject: Subject::Any, compute }
+    const fn new(
+        name: &'static str,
+        title: &'static str,
+        definition: &'static str,
+        compute: fn(&Sample) -> f64,
+    ) -> Column {
+        Column { name, title, unit: "", definition, subject: Subject::Any, compute }
+    }
+
+    /// The same column, in a unit.
+    const fn in_unit(self, unit: &'static str) -> Column {
+        Column { unit, ..self }
     }
 
     /// The same column, of these linkages only.
@@ -40,48 +55,88 @@ struct Sample<'a> {
 
 /// All columns. Derivatives are per radian of input, or per unit of length; unbounded ones are infinite.
 pub static COLUMNS: [Column; 24] = [
-    Column::new("vx", "velocity along x", |s| s.velocity().x),
-    Column::new("vy", "velocity along y", |s| s.velocity().y),
-    Column::new("ax", "acceleration along x", |s| s.acceleration().x),
-    Column::new("ay", "acceleration along y", |s| s.acceleration().y),
-    Column::new("jx", "jerk along x", |s| s.derivatives.jerk(s.joint).x),
-    Column::new("jy", "jerk along y", |s| s.derivatives.jerk(s.joint).y),
-    Column::new("speed", "magnitude of the velocity", |s| s.velocity().norm()),
-    Column::new("curvature", "curvature of the path, positive to the left", |s| s.curvature()),
-    Column::new("curvature_rate", "derivative of the curvature with respect to arc length", |s| s.curvature_rate()),
-    Column::new("pole_x", "instant centre of the point's link, on the fixed centrode", |s| {
-        s.instant_value(|i| i.pole.x)
-    }),
-    Column::new("pole_y", "instant centre of the point's link, on the fixed centrode", |s| {
-        s.instant_value(|i| i.pole.y)
-    }),
-    Column::new("moving_pole_x", "instant centre in the link's frame, on the moving centrode: along it", |s| {
-        s.instant_value(|i| i.moving_pole.x)
-    }),
-    Column::new("moving_pole_y", "instant centre in the link's frame, on the moving centrode: to its left", |s| {
-        s.instant_value(|i| i.moving_pole.y)
-    }),
-    Column::new("inflection_x", "inflection pole: on the inflection circle opposite the instant centre", |s| {
-        s.instant_value(|i| i.inflection_pole().x)
-    }),
-    Column::new("inflection_y", "inflection pole: on the inflection circle opposite the instant centre", |s| {
-        s.instant_value(|i| i.inflection_pole().y)
-    }),
-    Column::new("psi_deg", "output angle, deg: McCarthy (2.52), of a slot (2.45)", |s| s.psi())
+    Column::new("vx", "velocity along x", "velocity along x", |s| s.velocity().x).in_unit("per radian"),
+    Column::new("vy", "velocity along y", "velocity along y", |s| s.velocity().y).in_unit("per radian"),
+    Column::new("ax", "acceleration along x", "acceleration along x", |s| s.acceleration().x).in_unit("per radian²"),
+    Column::new("ay", "acceleration along y", "acceleration along y", |s| s.acceleration().y).in_unit("per radian²"),
+    Column::new("jx", "jerk along x", "jerk along x", |s| s.derivatives.jerk(s.joint).x).in_unit("per radian³"),
+    Column::new("jy", "jerk along y", "jerk along y", |s| s.derivatives.jerk(s.joint).y).in_unit("per radian³"),
+    Column::new("speed", "speed", "magnitude of the velocity", |s| s.velocity().norm()).in_unit("per radian"),
+    Column::new("curvature", "curvature", "curvature of the path, positive to the left", |s| s.curvature()),
+    Column::new(
+        "curvature_rate",
+        "rate of the curvature along the curve",
+        "derivative of the curvature with respect to arc length",
+        |s| s.curvature_rate(),
+    ),
+    Column::new(
+        "pole_x",
+        "x of the instant centre",
+        "instant centre of the point's link, on the fixed centrode",
+        |s| s.instant_value(|i| i.pole.x),
+    ),
+    Column::new(
+        "pole_y",
+        "y of the instant centre",
+        "instant centre of the point's link, on the fixed centrode",
+        |s| s.instant_value(|i| i.pole.y),
+    ),
+    Column::new(
+        "moving_pole_x",
+        "instant centre along the link",
+        "instant centre in the link's frame, on the moving centrode: along it",
+        |s| s.instant_value(|i| i.moving_pole.x),
+    ),
+    Column::new(
+        "moving_pole_y",
+        "instant centre across the link",
+        "instant centre in the link's frame, on the moving centrode: to its left",
+        |s| s.instant_value(|i| i.moving_pole.y),
+    ),
+    Column::new(
+        "inflection_x",
+        "x of the inflection pole",
+        "inflection pole: on the inflection circle opposite the instant centre",
+        |s| s.instant_value(|i| i.inflection_pole().x),
+    ),
+    Column::new(
+        "inflection_y",
+        "y of the inflection pole",
+        "inflection pole: on the inflection circle opposite the instant centre",
+        |s| s.instant_value(|i| i.inflection_pole().y),
+    ),
+    Column::new("psi_deg", "output angle", "output angle, deg: McCarthy (2.52), of a slot (2.45)", |s| s.psi())
+        .in_unit("deg")
         .of(Subject::FourBarOrInvertedSliderCrank),
-    Column::new("phi_deg", "coupler angle from the crank, deg: McCarthy (2.57)", |s| s.phi())
+    Column::new("phi_deg", "coupler angle", "coupler angle from the crank, deg: McCarthy (2.57)", |s| s.phi())
+        .in_unit("deg")
         .of(Subject::FourBarOnFrame),
-    Column::new("mu_deg", "transmission angle, deg: McCarthy 2.3.3", |s| s.mu()).of(Subject::FourBarOnFrame),
-    Column::new("psi_ratio", "angular velocity of the output to that of the input", |s| s.psi_ratio())
-        .of(Subject::FourBarOrInvertedSliderCrank),
-    Column::new("phi_ratio", "angular velocity of the coupler to that of the input", |s| s.phi_ratio())
+    Column::new("mu_deg", "transmission angle", "transmission angle, deg: McCarthy 2.3.3", |s| s.mu())
+        .in_unit("deg")
         .of(Subject::FourBarOnFrame),
-    Column::new("solvability", "A^2 + B^2 - C^2: McCarthy (2.53)", |s| s.solvability()).of(Subject::FourBarOnFrame),
-    Column::new("s", "slide of an inverted slider-crank: McCarthy (2.42)", |s| s.slide())
+    Column::new(
+        "psi_ratio",
+        "angular velocity of the output over that of the input",
+        "angular velocity of the output to that of the input",
+        |s| s.psi_ratio(),
+    )
+    .of(Subject::FourBarOrInvertedSliderCrank),
+    Column::new(
+        "phi_ratio",
+        "angular velocity of the coupler over that of the input",
+        "angular velocity of the coupler to that of the input",
+        |s| s.phi_ratio(),
+    )
+    .of(Subject::FourBarOnFrame),
+    Column::new("solvability", "A² + B² − C²", "A^2 + B^2 - C^2: McCarthy (2.53)", |s| s.solvability())
+        .of(Subject::FourBarOnFrame),
+    Column::new("s", "slide", "slide of an inverted slider-crank: McCarthy (2.42)", |s| s.slide())
         .of(Subject::InvertedSliderCrank),
-    Column::new("b", "distance |CA| of an inverted slider-crank: McCarthy (2.40)", |s| s.b())
+    Column::new("b", "distance from C to A", "distance |CA| of an inverted slider-crank: McCarthy (2.40)", |s| s.b())
         .of(Subject::InvertedSliderCrank),
-    Column::new("beta_deg", "angle from CB to CA, deg: McCarthy (2.40)", |s| s.beta()).of(Subject::InvertedSliderCrank),
+    Column::new("beta_deg", "angle from CB to CA", "angle from CB to CA, deg: McCarthy (2.40)", |s| s.beta())
+        .in_unit("deg")
+        .of(Subject::InvertedSliderCrank),
 ];
 
 /// The column of a name.

@@ -39,6 +39,7 @@ pub struct Dwell {
 pub const MEASURES: [Measure; 6] = [
     Measure::number(
         "dwell_input_deg",
+        "input span of the circular portion",
         "deg",
         "greatest input span of a portion within 0.0005 of the curve's greatest extent of a circle",
         |curve| dwell_value(curve, |dwell| dwell.input_span),
@@ -46,19 +47,32 @@ pub const MEASURES: [Measure; 6] = [
     .or_length("dwell_input_length"),
     Measure::number(
         "dwell_radius",
+        "radius of the circular portion",
         "",
         "radius of that circle, no more than the curve's length, in the manifest's unit",
         |curve| dwell_value(curve, |dwell| dwell.radius),
     ),
-    Measure::number("dwell_deviation", "", "greatest distance of the circular portion from its circle", |curve| {
-        dwell_value(curve, |dwell| dwell.deviation)
-    }),
-    Measure::number("dwell_start_deg", "deg", "input at which the circular portion begins", |curve| {
-        curve.dwell().map_or(Value::Missing, |dwell| Value::Number(start_input(curve, dwell.start_input)))
-    })
+    Measure::number(
+        "dwell_deviation",
+        "deviation of the circular portion",
+        "",
+        "greatest distance of the circular portion from its circle",
+        |curve| dwell_value(curve, |dwell| dwell.deviation),
+    ),
+    Measure::number(
+        "dwell_start_deg",
+        "input at the start of the circular portion",
+        "deg",
+        "input at which the circular portion begins",
+        |curve| curve.dwell().map_or(Value::Missing, |dwell| Value::Number(start_input(curve, dwell.start_input))),
+    )
     .or_length("dwell_start_length"),
-    Measure::number("dwell_x", "", "x of the circle's centre", |curve| dwell_value(curve, |dwell| dwell.centre.x)),
-    Measure::number("dwell_y", "", "y of the circle's centre", |curve| dwell_value(curve, |dwell| dwell.centre.y)),
+    Measure::number("dwell_x", "x of the circular portion's centre", "", "x of the circle's centre", |curve| {
+        dwell_value(curve, |dwell| dwell.centre.x)
+    }),
+    Measure::number("dwell_y", "y of the circular portion's centre", "", "y of the circle's centre", |curve| {
+        dwell_value(curve, |dwell| dwell.centre.y)
+    }),
 ];
 
 fn dwell_value(curve: &TracedCurve, value: fn(&Dwell) -> f64) -> Value {

@@ -4,6 +4,7 @@ use crate::linkage::FourBar;
 /// The measure `type`.
 pub const TYPE: Measure = Measure::word(
     "type",
+    "type of the four-bar",
     "McCarthy's type of a four-bar (Geometric Design of Linkages, table 2.2): 0 and π are the directions that a rocker swings through",
     |curve: &TracedCurve| {
         FourBar::from_linkage(curve.linkage).map_or(Value::Missing, |bar| Value::Word(bar.mccarthy_type()))
@@ -13,6 +14,7 @@ pub const TYPE: Measure = Measure::word(
 /// The measure `shortest`.
 pub const SHORTEST: Measure = Measure::word(
     "shortest",
+    "shortest link",
     "shortest link of a four-bar with respect to its frame; if several are equal, the first of frame, crank, coupler, rocker",
     |curve: &TracedCurve| {
         let Some(FourBar { frame, crank, coupler, rocker }) = FourBar::from_linkage(curve.linkage) else {

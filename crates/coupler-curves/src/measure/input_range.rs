@@ -3,6 +3,7 @@ use super::{Measure, TracedCurve, Value};
 /// The measure `is_full_turn`, which is also a boolean.
 pub const IS_FULL_TURN: Measure = Measure::word(
     "is_full_turn",
+    "full turn of the input",
     "whether the input turns fully on this circuit, yes or no, also through change points; no for an actuator; a condition in `where`",
     |curve: &TracedCurve| Value::Word(if curve.circuit.is_full_turn() { YES } else { "no" }),
 );
@@ -13,6 +14,7 @@ pub const YES: &str = "yes";
 /// The measure `input_min_deg`.
 pub const INPUT_MIN: Measure = Measure::number(
     "input_min_deg",
+    "least input of the circuit",
     "deg",
     "least input of the circuit; empty on a full turn",
     |curve: &TracedCurve| extreme_input(curve, f64::INFINITY, f64::min),
@@ -22,6 +24,7 @@ pub const INPUT_MIN: Measure = Measure::number(
 /// The measure `input_max_deg`.
 pub const INPUT_MAX: Measure = Measure::number(
     "input_max_deg",
+    "greatest input of the circuit",
     "deg",
     "greatest input of the circuit; empty on a full turn",
     |curve: &TracedCurve| extreme_input(curve, f64::NEG_INFINITY, f64::max),

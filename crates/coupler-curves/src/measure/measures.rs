@@ -23,6 +23,8 @@ pub enum Value {
 pub struct Measure {
     /// Its name: a column of `cells.csv` and a variable in `where`.
     pub name: &'static str,
+    /// What it is in a few words, as on charts: "length of the straight portion".
+    pub title: &'static str,
     /// Its name for a linkage driven by an actuator, if it is an input: there it is a length.
     pub length_name: Option<&'static str>,
     /// Its unit; empty for a word or a pure number.
@@ -41,20 +43,22 @@ impl Measure {
     /// A measure that is a number.
     pub(super) const fn number(
         name: &'static str,
+        title: &'static str,
         unit: &'static str,
         definition: &'static str,
         compute: fn(&TracedCurve) -> Value,
     ) -> Measure {
-        Measure { name, length_name: None, unit, is_word: false, subject: Subject::Any, definition, compute }
+        Measure { name, title, length_name: None, unit, is_word: false, subject: Subject::Any, definition, compute }
     }
 
     /// A measure that is a word.
     pub(super) const fn word(
         name: &'static str,
+        title: &'static str,
         definition: &'static str,
         compute: fn(&TracedCurve) -> Value,
     ) -> Measure {
-        Measure { is_word: true, ..Measure::number(name, "", definition, compute) }
+        Measure { is_word: true, ..Measure::number(name, title, "", definition, compute) }
     }
 
     /// The same measure, of these linkages only.

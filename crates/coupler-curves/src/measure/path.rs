@@ -9,6 +9,7 @@ use crate::motion::Circuit;
 /// The measure `length`.
 pub const LENGTH: Measure = Measure::number(
     "length",
+    "length of the curve",
     "",
     "length of the path over the circuit, in the manifest's unit",
     |curve: &TracedCurve| Value::Number(curve.arc_length().total()),
@@ -17,6 +18,7 @@ pub const LENGTH: Measure = Measure::number(
 /// The measure `area`.
 pub const AREA: Measure = Measure::number(
     "area",
+    "area enclosed by the curve",
     "",
     "area enclosed by the path, in the manifest's unit squared: positive counter-clockwise; empty if it is not closed",
     |curve: &TracedCurve| {
@@ -30,16 +32,16 @@ const ROUNDING: f64 = 1e-12;
 
 /// The measures `bbox_x_min`, `bbox_x_max`, `bbox_y_min` and `bbox_y_max`.
 pub const BOUNDING_BOX: [Measure; 4] = [
-    Measure::number("bbox_x_min", "", "least x of the curve", |curve: &TracedCurve| {
+    Measure::number("bbox_x_min", "least x of the curve", "", "least x of the curve", |curve: &TracedCurve| {
         extent_measure(curve, Vector::new(-1.0, 0.0))
     }),
-    Measure::number("bbox_x_max", "", "greatest x of the curve", |curve: &TracedCurve| {
+    Measure::number("bbox_x_max", "greatest x of the curve", "", "greatest x of the curve", |curve: &TracedCurve| {
         extent_measure(curve, Vector::new(1.0, 0.0))
     }),
-    Measure::number("bbox_y_min", "", "least y of the curve", |curve: &TracedCurve| {
+    Measure::number("bbox_y_min", "least y of the curve", "", "least y of the curve", |curve: &TracedCurve| {
         extent_measure(curve, Vector::new(0.0, -1.0))
     }),
-    Measure::number("bbox_y_max", "", "greatest y of the curve", |curve: &TracedCurve| {
+    Measure::number("bbox_y_max", "greatest y of the curve", "", "greatest y of the curve", |curve: &TracedCurve| {
         extent_measure(curve, Vector::new(0.0, 1.0))
     }),
 ];

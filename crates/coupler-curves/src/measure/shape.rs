@@ -7,28 +7,36 @@ use crate::linkage::DyadSet;
 use crate::motion::{InputMap, InputPosition, JointDerivatives};
 
 /// The measure `crunodes`.
-pub const CRUNODES: Measure =
-    Measure::number("crunodes", "", "points at which the path crosses itself", |curve: &TracedCurve| {
-        Value::Number(curve.crossings().points.len() as f64)
-    });
+pub const CRUNODES: Measure = Measure::number(
+    "crunodes",
+    "number of crunodes",
+    "",
+    "points at which the path crosses itself",
+    |curve: &TracedCurve| Value::Number(curve.crossings().points.len() as f64),
+);
 
 /// The measure `inflections`.
 pub const INFLECTIONS: Measure = Measure::number(
     "inflections",
+    "number of inflections",
     "",
     "points at which the curvature of the path changes its sign",
     |curve: &TracedCurve| Value::Number(curve.inflections().0 as f64),
 );
 
 /// The measure `cusps`.
-pub const CUSPS: Measure =
-    Measure::number("cusps", "", "points at which the path stops and goes on from a cusp", |curve: &TracedCurve| {
-        Value::Number(curve.cusp_count() as f64)
-    });
+pub const CUSPS: Measure = Measure::number(
+    "cusps",
+    "number of cusps",
+    "",
+    "points at which the path stops and goes on from a cusp",
+    |curve: &TracedCurve| Value::Number(curve.cusp_count() as f64),
+);
 
 /// The measure `too_close`.
 pub const TOO_CLOSE: Measure = Measure::word(
     "too_close",
+    "counts in doubt",
     "counts of the curve of which it is not known whether they are two more, because two crunodes or inflections would be within 1e-9 of a turn; positions if the linkage is so near a change point that the curve is not known to 1e-9 of its extent; empty if nothing is in doubt",
     |curve: &TracedCurve| match (curve.crossings().doubtful > 0, curve.inflections().1 > 0) {
         _ if curve.smooth().rounding > RESOLVED * curve.extent() => Value::Word("positions"),
@@ -45,6 +53,7 @@ const RESOLVED: f64 = 1e-9;
 /// The measure `curvature_max`.
 pub const CURVATURE_MAX: Measure = Measure::number(
     "curvature_max",
+    "greatest curvature",
     "",
     "greatest curvature of the path except at corners at change points, in 1 over the manifest's unit; inf if there is a cusp, or if the path reverses at a limit",
     |curve: &TracedCurve| max_curvature(curve).map_or(Value::Missing, Value::Number),

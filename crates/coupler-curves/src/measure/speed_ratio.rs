@@ -5,6 +5,7 @@ use crate::linkage::Input;
 /// The measure `speed_ratio`.
 pub const SPEED_RATIO: Measure = Measure::number(
     "speed_ratio",
+    "ratio of the longest dash to the shortest",
     "",
     "ratio of the longest dash to the shortest: the first 3 of every 5 deg of input, from input 0, except those cut by the end of a pass",
     |curve: &TracedCurve| ratio(curve).map_or(Value::Missing, Value::Number),

@@ -55,32 +55,47 @@ pub struct StraightPortion {
 pub const MEASURES: [Measure; 6] = [
     Measure::number(
         "straight_length",
+        "length of the straight portion",
         "",
         "length of the straightest portion, projected on its line, in the manifest's unit: the longest in a strip no wider than 0.001 of it, or as set by the family's `straight`; empty if it is shorter than a twentieth of the curve's greatest extent",
         |curve| portion_value(curve, |portion| portion.length),
     ),
-    Measure::number("straight_share", "", "that length relative to the curve's greatest extent", |curve| {
-        match curve.straight() {
+    Measure::number(
+        "straight_share",
+        "length of the straight portion over the curve's extent",
+        "",
+        "that length relative to the curve's greatest extent",
+        |curve| match curve.straight() {
             Some(portion) => Value::Number((portion.length / curve.extent()).min(1.0)),
             None => Value::Missing,
-        }
-    }),
+        },
+    ),
     Measure::number(
         "straight_deviation",
+        "deviation of the straight portion",
         "",
         "greatest distance of the straightest portion from its line, half the width of its strip, in the manifest's unit",
         |curve| portion_value(curve, |portion| portion.deviation),
     ),
-    Measure::number("straight_start_deg", "deg", "input at which the straightest portion begins", |curve| {
-        start_value(curve, curve.straight())
-    })
+    Measure::number(
+        "straight_start_deg",
+        "input at the start of the straight portion",
+        "deg",
+        "input at which the straightest portion begins",
+        |curve| start_value(curve, curve.straight()),
+    )
     .or_length("straight_start_length"),
-    Measure::number("straight_input_deg", "deg", "input that the straightest portion spans", |curve| {
-        portion_value(curve, |portion| portion.input_span)
-    })
+    Measure::number(
+        "straight_input_deg",
+        "input span of the straight portion",
+        "deg",
+        "input that the straightest portion spans",
+        |curve| portion_value(curve, |portion| portion.input_span),
+    )
     .or_length("straight_input_length"),
     Measure::number(
         "straight_twin_deg",
+        "input at the start of the second straight portion",
         "deg",
         "input at which a second portion begins that is equally long, as on a symmetrical curve",
         |curve| start_value(curve, curve.straight_portions().get(1)),
@@ -100,6 +115,7 @@ macro_rules! wider {
         [
             Measure::number(
                 concat!($prefix, "_length"),
+                concat!("length of the portion straight to ", $tolerance),
                 "",
                 concat!(
                     "length of the longest portion in a strip no wider than ",
@@ -110,6 +126,7 @@ macro_rules! wider {
             ),
             Measure::number(
                 concat!($prefix, "_share"),
+                concat!("length over the curve's extent of the portion straight to ", $tolerance),
                 "",
                 "that length relative to the curve's greatest extent",
                 |curve| {
@@ -118,17 +135,26 @@ macro_rules! wider {
             ),
             Measure::number(
                 concat!($prefix, "_deviation"),
+                concat!("deviation of the portion straight to ", $tolerance),
                 "",
                 "greatest distance of that portion from its line",
                 |curve| value(curve, |portion| portion.deviation),
             ),
-            Measure::number(concat!($prefix, "_start_deg"), "deg", "input at which it begins", |curve| {
-                start_value(curve, curve.wider_straight($index))
-            })
+            Measure::number(
+                concat!($prefix, "_start_deg"),
+                concat!("input at the start of the portion straight to ", $tolerance),
+                "deg",
+                "input at which it begins",
+                |curve| start_value(curve, curve.wider_straight($index)),
+            )
             .or_length(concat!($prefix, "_start_length")),
-            Measure::number(concat!($prefix, "_input_deg"), "deg", "input that it spans", |curve| {
-                value(curve, |portion| portion.input_span)
-            })
+            Measure::number(
+                concat!($prefix, "_input_deg"),
+                concat!("input span of the portion straight to ", $tolerance),
+                "deg",
+                "input that it spans",
+                |curve| value(curve, |portion| portion.input_span),
+            )
             .or_length(concat!($prefix, "_input_length")),
         ]
     }};
@@ -141,14 +167,15 @@ pub const WIDER: [[Measure; 5]; 2] = [wider!(0, "straight_5", 0.005), wider!(1, 
 pub const HALF_TURN: [Measure; 3] = [
     Measure::number(
         "straight_half_turn_length",
+        "length of the straightest portion in half a turn",
         "",
         "length of the portion that is straightest for its length of those that half a turn of the input traverses; empty if its strip is wider than 0.02 of it",
         |curve| portion_number(curve.straight_half_turn(), |portion| portion.length),
     ).of(Subject::DrivenByAngle),
-    Measure::number("straight_half_turn_deviation", "", "greatest distance of that portion from its line", |curve| {
+    Measure::number("straight_half_turn_deviation", "deviation of the straightest portion in half a turn", "", "greatest distance of that portion from its line", |curve| {
         portion_number(curve.straight_half_turn(), |portion| portion.deviation)
     }).of(Subject::DrivenByAngle),
-    Measure::number("straight_half_turn_start_deg", "deg", "input at which it begins", |curve| {
+    Measure::number("straight_half_turn_start_deg", "input at the start of the straightest portion in half a turn", "deg", "input at which it begins", |curve| {
         start_value(curve, curve.straight_half_turn())
     }).of(Subject::DrivenByAngle),
 ];

@@ -38,6 +38,7 @@ impl Symmetry {
 /// The measure `symmetry`.
 pub const SYMMETRY: Measure = Measure::word(
     "symmetry",
+    "kind of symmetry",
     "theorem 1 (crank = rocker, point on the coupler's bisector) or theorem 2 (coupler = rocker = pin to point, or coupler = crank) of Natesan's chapter 7; other: another curve whose mirror image is within 1e-4 of its extent; empty for a curve without symmetry",
     |curve: &TracedCurve| match curve.symmetry() {
         Some(Symmetry { theorem: Some(theorem), .. }) => Value::Word(theorem),
@@ -49,6 +50,7 @@ pub const SYMMETRY: Measure = Measure::word(
 /// The measure `symmetry_deg`.
 pub const AXIS: Measure = Measure::number(
     "symmetry_deg",
+    "direction of the axis of symmetry",
     "deg",
     "direction of the line about which the curve is symmetrical, or most nearly so, from the x-axis: 0 up to 180; empty for a circle",
     |curve: &TracedCurve| {
@@ -59,6 +61,7 @@ pub const AXIS: Measure = Measure::number(
 /// The measure `symmetry_residual`.
 pub const RESIDUAL: Measure = Measure::number(
     "symmetry_residual",
+    "deviation from symmetry",
     "",
     "greatest distance of the curve's mirror image about that line from the curve, relative to its greatest extent",
     |curve: &TracedCurve| {

@@ -8,6 +8,7 @@ use crate::linkage::{DyadId, FourBar, JointId, JointKind, Linkage, length_tolera
 /// The measure `mu_min_deg`.
 pub const MU_MIN: Measure = Measure::number(
     "mu_min_deg",
+    "least transmission angle",
     "deg",
     "least transmission angle of a four-bar over the circuit, 0 to 180; if the coupler is driven, at both pins (McCarthy 2.3.3)",
     |curve: &TracedCurve| curve.transmission_angles().map_or(Value::Missing, |[least, _]| Value::Number(least)),
@@ -16,6 +17,7 @@ pub const MU_MIN: Measure = Measure::number(
 /// The measure `mu_max_deg`.
 pub const MU_MAX: Measure = Measure::number(
     "mu_max_deg",
+    "greatest transmission angle",
     "deg",
     "greatest transmission angle of a four-bar over the circuit, 0 to 180; if the coupler is driven, at both pins",
     |curve: &TracedCurve| curve.transmission_angles().map_or(Value::Missing, |[_, most]| Value::Number(most)),
@@ -25,6 +27,7 @@ pub const MU_MAX: Measure = Measure::number(
 /// The measure `mu_worst_deg`.
 pub const MU_WORST: Measure = Measure::number(
     "mu_worst_deg",
+    "worst transmission angle",
     "deg",
     "worst transmission angle over the circuit, the least distance from 0 and 180, 0 to 90: of a four-bar as mu_min_deg and mu_max_deg, otherwise of all dyads, at a slider 90 minus the pressure angle",
     |curve| curve.worst_transmission_angle().map_or(Value::Missing, Value::Number),

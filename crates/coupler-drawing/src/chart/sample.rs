@@ -1,10 +1,13 @@
 //! The points of a chart from a solved cell.
 
+use super::adaptive::ChartPoint;
+use super::axis::AxisRange;
+use super::path::LinePath;
 use super::scope::SAMPLE_NAMES;
 use super::{Chart, PointSource};
-use coupler_curves::family::{Cell, Family};
+use coupler_curves::family::{Cell, Family, Sampling};
 use coupler_curves::measure::{COLUMNS, Column, compute_columns, cumulative_lengths};
-use coupler_curves::motion::Circuit;
+use coupler_curves::motion::{Circuit, Sampler, UnsampledCircuit};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 
 /// The points of a chart from one curve: a single point, or one for each sample.
@@ -18,7 +21,15 @@ pub struct ChartSample {
     pub circuit: usize,
     /// The numbers of all points, [`Chart::numbers_per_point`] for each: x, then each y.
     pub numbers: Vec<f64>,
+    /// The line through the points for each y, if they are samples; otherwise empty.
+    pub paths: Vec<LinePath>,
 }
+
+/// The samples of a turn for the line of a curve: no quantity changes visibly between two of them on paper.
+const LINE_SAMPLES: usize = 1440;
+
+/// The most samples for the lines of a family; of one with more curves, lines join its own samples.
+const MAX_LINE_SAMPLES: usize = 1 << 20;
 
 impl Chart {
     /// The number of numbers of a point: x and each y.
@@ -26,18 +37,47 @@ impl Chart {
         1 + self.y.len()
     }
 
-    /// The points of a cell, by curve.
-    pub fn sample_cell(&self, solved: &SolvedCell) -> Vec<ChartSample> {
+    /// The points of a cell of a family, by curve.
+    pub fn sample_cell(&self, family: &Family, solved: &SolvedCell) -> Vec<ChartSample> {
+        let curve_count = family.cell_count().saturating_mul(solved.curves.len());
+        let is_dense = curve_count.saturating_mul(LINE_SAMPLES) <= MAX_LINE_SAMPLES;
+        let sampler = (self.point_source == PointSource::Samples && is_dense)
+            .then(|| Sampler::new(Sampling::DenseAtLimits(LINE_SAMPLES)));
         let sample = |curve: &MeasuredCurve| {
-            let numbers = match self.point_source {
+            let (mut numbers, mut paths) = (Vec::new(), Vec::new());
+            match self.point_source {
                 PointSource::Curves => {
-                    self.evaluate_point(|slot| Family::scope_value(&solved.cell, &curve.values, slot)).collect()
+                    numbers.extend(self.evaluate_point(|slot| Family::scope_value(&solved.cell, &curve.values, slot)));
                 }
-                PointSource::Samples => self.evaluate_samples(solved, curve),
-            };
-            ChartSample { cell: solved.cell.number, trace: curve.trace, circuit: curve.circuit, numbers }
+                PointSource::Samples => {
+                    numbers = self.evaluate_samples(solved, curve, solved.circuit(curve));
+                    paths.extend(sampler.iter().flat_map(|sampler| self.paths(solved, curve, sampler, &numbers)));
+                }
+            }
+            ChartSample { cell: solved.cell.number, trace: curve.trace, circuit: curve.circuit, numbers, paths }
         };
         solved.curves.iter().map(sample).collect()
+    }
+
+    /// The line of a curve for each y, from further samples. `numbers` are those of its own samples, which determine the
+    /// axes.
+    fn paths(&self, solved: &SolvedCell, curve: &MeasuredCurve, sampler: &Sampler, numbers: &[f64]) -> Vec<LinePath> {
+        let Circuit { passes, is_closed, .. } = solved.circuit(curve);
+        let circuit = UnsampledCircuit { passes: passes.clone(), is_closed: *is_closed };
+        let dense = self.evaluate_samples(solved, curve, &sampler.sample_circuit(&solved.linkage, circuit));
+        let width = self.numbers_per_point();
+        let quantities = std::iter::once(&self.x).chain(&self.y).enumerate();
+        let axes: Vec<AxisRange> = quantities
+            .map(|(k, quantity)| AxisRange::new(quantity, numbers.chunks_exact(width).map(|point| point[k])))
+            .collect();
+        let path = |quantity: usize| {
+            let point = |numbers: &[f64]| {
+                let place = |k: usize| axes[k].fraction(numbers[k]).unwrap_or(f64::NAN);
+                ChartPoint { value: [numbers[0], numbers[quantity]], place: [place(0), place(quantity)] }
+            };
+            LinePath::from_dense_points(&dense.chunks_exact(width).map(point).collect::<Vec<_>>())
+        };
+        (1..width).map(path).collect()
     }
 
     /// The x of a cell, evaluated without measures.
@@ -49,9 +89,8 @@ impl Chart {
         std::iter::once(&self.x).chain(&self.y).map(move |quantity| quantity.expression.evaluate(&load))
     }
 
-    /// The numbers of every sample of a curve; on a closed curve the first sample is repeated at the end.
-    fn evaluate_samples(&self, solved: &SolvedCell, curve: &MeasuredCurve) -> Vec<f64> {
-        let circuit = solved.circuit(curve);
+    /// The numbers of every sample of a curve on its circuit; on a closed curve the first sample is repeated at the end.
+    fn evaluate_samples(&self, solved: &SolvedCell, curve: &MeasuredCurve, circuit: &Circuit) -> Vec<f64> {
         let curve_slots = solved.cell.values.len() + Family::scope(&[], false).len();
         let used = self.used_columns(curve_slots);
         let columns: Vec<Column> = used.iter().map(|&k| COLUMNS[k]).collect();

@@ -24,21 +24,3 @@ pub fn is_per_sample(value: &CompiledExpression, names: &[String]) -> bool {
     let curve_slots = Family::scope(names, false).len();
     value.slots().iter().any(|&slot| slot >= curve_slots)
 }
-
-/// The unit of an expression: `deg` if it is only the name of an angle, otherwise empty.
-pub fn unit(text: &str) -> &'static str {
-    let is_name = text.chars().all(|c| c.is_alphanumeric() || c == '_');
-    if is_name && text.ends_with("_deg") { "deg" } else { "" }
-}
-
-/// The definition of a measure or column with this name; empty if there is none, or if the family has the name itself.
-pub fn definition(text: &str, names: &[String]) -> &'static str {
-    if names.iter().any(|name| name == text) {
-        return "";
-    }
-    let measures = measure::ALL.iter().flat_map(|measure| measure.names().map(|name| (name, measure.definition)));
-    let columns = measure::COLUMNS.iter().map(|column| (column.name, column.definition));
-    let sample_names =
-        [("arc", "length along the curve from its first sample"), ("input_deg", "input"), ("input_length", "input")];
-    measures.chain(columns).chain(sample_names).find(|(name, _)| *name == text).map_or("", |(_, definition)| definition)
-}

@@ -304,7 +304,7 @@ impl Element for TextLine {
 /// The exponent at the start of a text, after its `^`: a number, a name, or what parentheses enclose, with them.
 fn exponent(text: &str) -> Option<&str> {
     let rest = text.strip_prefix('^')?;
-    let is_part = |c: char| c.is_alphanumeric() || c == '.' || c == '_';
+    let is_part = |c: char| c.is_alphanumeric() || matches!(c, '.' | '_' | '−');
     let length = match rest.strip_prefix('(') {
         Some(inner) => inner.find(')')? + 2,
         None => rest.find(|c| !is_part(c)).unwrap_or(rest.len()),

@@ -1,7 +1,6 @@
 //! The frame of every page: border, title, source line and folio.
 
 use super::area::Area;
-use super::element::TextLine;
 use super::theme::Theme;
 use crate::scene::Anchor;
 use coupler_curves::expression::MathText;
@@ -114,18 +113,19 @@ impl<'a> Heading<'a> {
             root.record(&dimension_line(&line, at).fit_width(right - left));
             at.y += SOURCE_LEADING * theme.source_size;
         }
-        let folio = self.folio_line(theme);
-        root.record(&folio.fit_width(right - left).moved_to(Point::new(right, foot_baseline(page, theme))));
+        let at = Point::new(right, foot_baseline(page, theme));
+        let atlas = theme.text_line(self.atlas_title, at, Anchor::End, theme.source_size, theme.grey);
+        let folio = self.folio();
+        let folio = if self.atlas_title.is_empty() { folio.trim_start_matches(SEPARATOR) } else { &folio };
+        root.record(&atlas.fit_width_with_suffix(folio, right - left));
         // Two thirds of the last line's leading are above the contents.
         (at.y - 0.6 * theme.source_size).max(margins(theme)[0])
     }
 
-    /// The last line of the page: the title of the atlas and the page number.
-    pub(super) fn folio_line(&self, theme: &Theme) -> TextLine {
-        let folio = self.folio();
-        let text = if self.atlas_title.is_empty() { folio.trim_start_matches(SEPARATOR) } else { &folio };
-        let text = format!("{}{text}", self.atlas_title);
-        theme.text_line(&text, Point::origin(), Anchor::End, theme.source_size, theme.grey)
+    /// The width of the last line of the page, the title of the atlas and the page number.
+    pub(super) fn folio_width(&self, theme: &Theme) -> f64 {
+        let text = format!("{}{}", self.atlas_title, self.folio());
+        theme.text_line(&text, Point::origin(), Anchor::End, theme.source_size, theme.grey).text.width()
     }
 
     /// The page number, which ends the last line of the page, with a separator before it; empty if there is one page.

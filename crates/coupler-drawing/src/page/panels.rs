@@ -65,7 +65,7 @@ fn layout_symbols(
     const LEADING: f64 = 1.45;
     let [_, bottom, _] = margins(theme);
     let [left, right] = [theme.border + theme.margin, root.size().x - theme.border - theme.margin];
-    let folio = page.heading.folio_line(theme).text.width();
+    let folio = page.heading.folio_width(theme).min(0.5 * (right - left));
     let symbols = page_symbols(page, figures, scale, options, theme);
     let lines = symbols::lines(&symbols, right - left - folio - 2.0 * theme.note_size, theme);
     let step = LEADING * theme.note_size;

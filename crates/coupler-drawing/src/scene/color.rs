@@ -54,6 +54,27 @@ impl Color {
         [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
     }
 
+    /// The colour of a lightness, a hue in degrees and a chroma in CIELAB with the white point D65; the chroma is reduced
+    /// to what sRGB has at that lightness and hue.
+    pub fn from_lightness_and_hue(lightness: f64, hue_deg: f64, chroma: f64) -> Color {
+        let (cos, sin) = trig::cos_sin_deg(hue_deg);
+        let mut range = [0.0, chroma];
+        // Sixteen halvings are finer than 8 bits in each channel.
+        for _ in 0..16 {
+            let middle = (range[0] + range[1]) / 2.0;
+            let is_in_gamut = is_in_gamut(linear_from_lab([lightness, middle * cos, middle * sin]));
+            range[usize::from(!is_in_gamut)] = middle;
+        }
+        let chroma =
+            if is_in_gamut(linear_from_lab([lightness, chroma * cos, chroma * sin])) { chroma } else { range[0] };
+        let [r, g, b] = linear_from_lab([lightness, chroma * cos, chroma * sin]).map(|part| {
+            let part = part.clamp(0.0, 1.0);
+            let encoded = if part <= 0.0031308 { 12.92 * part } else { 1.055 * trig::pow(part, 1.0 / 2.4) - 0.055 };
+            (255.0 * encoded).round() as u8
+        });
+        Color(r, g, b)
+    }
+
     /// The lightness L* of CIELAB, from 0 for black to 100 for white.
     pub fn lightness(self) -> f64 {
         self.to_lab()[0]
@@ -77,6 +98,21 @@ impl Color {
     pub fn to_grey(self) -> Color {
         Color::from_lightness(self.lightness())
     }
+}
+
+/// Linear red, green and blue of L*, a* and b*; those outside sRGB are less than 0 or more than 1.
+fn linear_from_lab([l, a, b]: [f64; 3]) -> [f64; 3] {
+    let y = (l + 16.0) / 116.0;
+    let [x, y, z] = [y + a / 500.0, y, y - b / 200.0].map(|part| match part * part * part {
+        cube if cube > 216.0 / 24389.0 => cube,
+        _ => (116.0 * part - 16.0) * 27.0 / 24389.0,
+    });
+    let (x, z) = (0.9505 * x, 1.089 * z);
+    [3.2406 * x - 1.5372 * y - 0.4986 * z, -0.9689 * x + 1.8758 * y + 0.0415 * z, 0.0557 * x - 0.204 * y + 1.057 * z]
+}
+
+fn is_in_gamut(linear: [f64; 3]) -> bool {
+    linear.into_iter().all(|part| (-1e-4..=1.0 + 1e-4).contains(&part))
 }
 
 impl fmt::Display for Color {
@@ -112,5 +148,21 @@ mod tests {
         // L*, a* and b* of pure red are 53.2, 80.1 and 67.2: its difference from black is 117.3.
         assert!((Color(255, 0, 0).difference(black) - 117.3).abs() < 0.1);
         assert_eq!(Color(12, 12, 12).to_grey(), Color(12, 12, 12));
+    }
+
+    #[test]
+    fn colours_of_a_hue_keep_their_lightness() {
+        for hue in (0..360).step_by(15).map(f64::from) {
+            for lightness in [10.0, 30.0, 55.0, 80.0, 95.0] {
+                let color = Color::from_lightness_and_hue(lightness, hue, 60.0);
+                assert!((color.lightness() - lightness).abs() < 0.6, "{color} {lightness} {hue}");
+                let [_, a, b] = color.to_lab();
+                assert!(trig::hypot(a, b) < 61.0, "{color}");
+            }
+        }
+        assert_eq!(Color::from_lightness_and_hue(50.0, 120.0, 0.0), Color(0x77, 0x77, 0x77));
+        let [l, a, b] = Color(200, 40, 90).to_lab();
+        let hue = trig::degrees(trig::atan2(b, a));
+        assert!(Color::from_lightness_and_hue(l, hue, trig::hypot(a, b)).difference(Color(200, 40, 90)) < 1.0);
     }
 }

@@ -15,6 +15,7 @@ pub(in crate::measure) const TOLERANCE: f64 = 0.01;
 /// The measure `output_dwell_deg`.
 pub const DWELL: Measure = Measure::number(
     "output_dwell_deg",
+    "input span of the output's dwell",
     "deg",
     "greatest input span over which the output stays within a band of 0.01 of its swing or stroke, or of a turn",
     |curve| output_value(curve, |output| Some(output.dwell().input_span)),
@@ -23,12 +24,15 @@ pub const DWELL: Measure = Measure::number(
 .or_length("output_dwell_length");
 
 /// The measure `output_dwell_start_deg`.
-pub const DWELL_START: Measure =
-    Measure::number("output_dwell_start_deg", "deg", "input at which that dwell of the output begins", |curve| {
-        output_value(curve, |output| Some(start_input(curve, output.dwell().start_input)))
-    })
-    .of(Subject::WithOutput)
-    .or_length("output_dwell_start_length");
+pub const DWELL_START: Measure = Measure::number(
+    "output_dwell_start_deg",
+    "input at the start of the output's dwell",
+    "deg",
+    "input at which that dwell of the output begins",
+    |curve| output_value(curve, |output| Some(start_input(curve, output.dwell().start_input))),
+)
+.of(Subject::WithOutput)
+.or_length("output_dwell_start_length");
 
 /// A stretch of a circuit.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -7,6 +7,7 @@ use crate::measure::{Measure, Subject, without_rounding};
 /// The measure `output_min`.
 pub const MIN: Measure = Measure::number(
     "output_min",
+    "least position of the output",
     "",
     "least angle of the output link from the frame, deg, or least displacement of the output slider along its line; empty if it turns fully",
     |curve| output_value(curve, |output| Some(limits(output)?[0])),
@@ -15,6 +16,7 @@ pub const MIN: Measure = Measure::number(
 /// The measure `output_max`.
 pub const MAX: Measure = Measure::number(
     "output_max",
+    "greatest position of the output",
     "",
     "greatest angle of the output link from the frame, deg, or greatest displacement of the output slider; empty if it turns fully",
     |curve| output_value(curve, |output| Some(limits(output)?[1])),
@@ -23,6 +25,7 @@ pub const MAX: Measure = Measure::number(
 /// The measure `output_swing_deg`.
 pub const SWING: Measure = Measure::number(
     "output_swing_deg",
+    "swing of the output link",
     "deg",
     "angle that the output link swings through over the circuit; 360 if it turns fully; empty for a slider",
     |curve| output_value(curve, |output| (!output.coordinate.quantity().is_slider()).then(|| swing(output))),
@@ -32,6 +35,7 @@ pub const SWING: Measure = Measure::number(
 /// The measure `output_stroke`.
 pub const STROKE: Measure = Measure::number(
     "output_stroke",
+    "stroke of the output slider",
     "",
     "stroke of the output slider over the circuit, in the manifest's unit; empty for a link that turns",
     |curve| output_value(curve, |output| output.coordinate.quantity().is_slider().then(|| output.travel())),

@@ -7,21 +7,26 @@ use crate::measure::{Measure, Subject};
 /// The measure `velocity_ratio_min`.
 pub const VELOCITY_RATIO_MIN: Measure = Measure::number(
     "velocity_ratio_min",
+    "least velocity ratio",
     "",
     "least velocity ratio: derivative of the output's angle in radians, or of its displacement, with respect to the input in radians or as a length; -inf at a limit",
     |curve| output_value(curve, |output| Some(output.velocity_ratios().range[0])),
 ).of(Subject::WithOutput);
 
 /// The measure `velocity_ratio_max`.
-pub const VELOCITY_RATIO_MAX: Measure =
-    Measure::number("velocity_ratio_max", "", "greatest velocity ratio; inf at a limit of the input", |curve| {
-        output_value(curve, |output| Some(output.velocity_ratios().range[1]))
-    })
-    .of(Subject::WithOutput);
+pub const VELOCITY_RATIO_MAX: Measure = Measure::number(
+    "velocity_ratio_max",
+    "greatest velocity ratio",
+    "",
+    "greatest velocity ratio; inf at a limit of the input",
+    |curve| output_value(curve, |output| Some(output.velocity_ratios().range[1])),
+)
+.of(Subject::WithOutput);
 
 /// The measure `mechanical_advantage_min`.
 pub const MECHANICAL_ADVANTAGE_MIN: Measure = Measure::number(
     "mechanical_advantage_min",
+    "least mechanical advantage",
     "",
     "least mechanical advantage without friction: output torque or force divided by that of the input, 1 / |velocity ratio|; 0 at a limit of the input",
     |curve| output_value(curve, |output| Some(output.velocity_ratios().magnitudes[1].recip())),
@@ -30,6 +35,7 @@ pub const MECHANICAL_ADVANTAGE_MIN: Measure = Measure::number(
 /// The measure `mechanical_advantage_max`.
 pub const MECHANICAL_ADVANTAGE_MAX: Measure = Measure::number(
     "mechanical_advantage_max",
+    "greatest mechanical advantage",
     "",
     "greatest mechanical advantage; inf at a toggle position",
     |curve| output_value(curve, |output| Some(output.velocity_ratios().magnitudes[0].recip())),

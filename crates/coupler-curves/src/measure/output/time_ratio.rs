@@ -7,6 +7,7 @@ use crate::measure::{Measure, Subject};
 /// The measure `time_ratio`.
 pub const TIME_RATIO: Measure = Measure::number(
     "time_ratio",
+    "time ratio",
     "",
     "time ratio of an output that rocks or slides while the input turns fully: input angle of its slower stroke divided by that of its faster one; 1 or more",
     |curve| {

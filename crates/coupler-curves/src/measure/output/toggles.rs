@@ -7,6 +7,7 @@ use crate::motion::JointDerivatives;
 /// The measure `toggles`.
 pub const TOGGLES: Measure = Measure::number(
     "toggles",
+    "number of toggle positions",
     "",
     "number of toggle positions of the circuit: poses in which the output is at rest while the input moves, and the mechanical advantage is infinite (Norton, Design of Machinery, 6.6)",
     |curve| output_value(curve, |output| Some(output.toggle_count() as f64)),

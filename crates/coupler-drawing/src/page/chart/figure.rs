@@ -7,10 +7,11 @@ use super::super::ChartPage;
 use super::super::area::{Area, PlottersArea};
 use super::super::element::Drawing;
 use super::super::theme::Theme;
+use super::coinciding::shared_labels;
 use super::line::{ClippedLine, LineStyle};
 use super::line_labels::{self, LineLabel};
-use super::scale::{RangeEnds, Scale, ScaleOptions, is_drawable};
-use crate::chart::{PointSource, Quantity, Series};
+use super::scale::{RangeEnds, Scale, ScaleOptions};
+use crate::chart::{PointSource, Quantity, Series, is_drawable};
 use crate::scene::{Anchor, Color, Group, Item, pixel};
 use coupler_curves::geometry::{Point, Vector};
 
@@ -19,6 +20,8 @@ pub(super) struct ChartFigure<'a> {
     page: &'a ChartPage<'a>,
     /// The index of the quantity it shows.
     quantity_index: usize,
+    /// The label of each line; `None` for a line that coincides with an earlier one.
+    labels: Vec<Option<String>>,
     /// The scales of x and y; `None` if no value can be drawn.
     scales: Option<[Scale; 2]>,
     /// The widths of the tick labels on the left and of the labels of lines on the right, in millimetres.
@@ -30,8 +33,9 @@ impl<'a> ChartFigure<'a> {
     /// The chart of the quantity at an index, for an area of a size in millimetres.
     pub fn new(page: &'a ChartPage<'a>, quantity_index: usize, area: Vector, theme: &Theme) -> ChartFigure<'a> {
         let chart = page.chart;
-        let labels = || page.series.iter().map(|series| series.label.as_str());
-        let right = line_labels::label_width(labels(), page.heading.symbols, theme).min(0.3 * area.x);
+        let labels = shared_labels(page.series, quantity_index);
+        let texts = labels.iter().flatten().map(String::as_str);
+        let right = line_labels::label_width(texts, page.heading.symbols, theme).min(0.3 * area.x);
         let tick_count = |length: f64, spacing: f64, most: usize| ((length / spacing) as usize).clamp(2, most);
         let scale_options = |quantity: &Quantity, ends, ticks| ScaleOptions {
             is_log: quantity.is_log,
@@ -54,16 +58,19 @@ impl<'a> ChartFigure<'a> {
         // page.
         let drawn = |index: usize| {
             let is_log = [chart.x.is_log, chart.y[index].is_log];
-            let is_drawn = move |&(x, y): &(f64, f64)| is_drawable(x, is_log[0]) && is_drawable(y, is_log[1]);
-            page.series.iter().flat_map(move |series| series_points(series, index)).filter(is_drawn)
+            let is_drawn = move |&[x, y]: &[f64; 2]| is_drawable(x, is_log[0]) && is_drawable(y, is_log[1]);
+            page.series.iter().flat_map(move |series| series.points(index)).filter(is_drawn)
         };
-        let x = Scale::from_values(page.quantity_range.clone().flat_map(drawn).map(|(x, _)| x), &options[0]);
-        let y = Scale::from_values(drawn(quantity_index).map(|(_, y)| y), &options[1]);
+        let between_cells = |series: &Series| series.paths.get(quantity_index)?.range;
+        let heights = drawn(quantity_index).map(|[_, y]| y);
+        let heights = heights.chain(page.series.iter().filter_map(between_cells).flatten());
+        let x = Scale::from_values(page.quantity_range.clone().flat_map(drawn).map(|[x, _]| x), &options[0]);
+        let y = Scale::from_values(heights, &options[1]);
         let scales = x.zip(y).map(|(x, y)| [x, y]);
-        let labels = scales.iter().flat_map(|[_, y]| y.ticks.iter().map(|tick| y.tick_label(*tick)));
-        let left = labels.map(|label| theme.typeface.regular().width(&label, theme.note_size)).fold(0.0, f64::max);
+        let ticks = scales.iter().flat_map(|[_, y]| y.ticks.iter().map(|tick| y.tick_label(*tick)));
+        let left = ticks.map(|label| theme.typeface.regular().width(&label, theme.note_size)).fold(0.0, f64::max);
         let left = left + 2.0 * tick_length(theme) + 0.2 * theme.note_size;
-        ChartFigure { page, quantity_index, scales, left_margin: left, right_margin: right }
+        ChartFigure { page, quantity_index, labels, scales, left_margin: left, right_margin: right }
     }
 
     /// The width of the tick labels on the left, in millimetres.
@@ -113,25 +120,11 @@ impl<'a> ChartFigure<'a> {
         axis_data(&frame, [x, y])
     }
 
-    /// Draws the quantity of the y axis above the frame, with its unit and, if it fits, its definition.
+    /// Draws the quantity of the y axis above the frame, with its unit.
     fn draw_title(&self, area: &PlottersArea, theme: &Theme) {
-        let width = area.size().x;
-        let y = 1.2 * theme.caption_size;
-        let name = quantity_title(self.quantity());
-        let title = theme.text_line(&name, Point::new(0.0, y), Anchor::Start, theme.caption_size, theme.ink);
-        let title = title.with_italics(self.page.heading.symbols).fit_width(width);
-        let after = title.text.width() + 1.2 * theme.caption_size;
-        area.record(&title);
-        let definition =
-            |text: &str| theme.text_line(text, Point::new(after, y), Anchor::Start, theme.note_size, theme.grey);
-        let whole = self.quantity().definition;
-        // The end of a definition, which may say how the quantity is computed, is left out first.
-        let shorter =
-            [": ", ", "].into_iter().filter_map(|separator| whole.split_once(separator)).map(|(start, _)| start);
-        let fitting = std::iter::once(whole).chain(shorter).find(|text| definition(text).text.width() <= width - after);
-        if let Some(text) = fitting.filter(|text| !text.is_empty()) {
-            area.record(&definition(text));
-        }
+        let at = Point::new(0.0, 1.2 * theme.caption_size);
+        let title = theme.text_line(&self.quantity().label(), at, Anchor::Start, theme.caption_size, theme.ink);
+        area.record(&title.with_italics(self.page.heading.symbols).fit_width(area.size().x));
     }
 
     /// Draws the quantity of the x axis under the frame, and the number of values that a logarithmic axis leaves out.
@@ -139,13 +132,15 @@ impl<'a> ChartFigure<'a> {
         let (all, inner) = (area.size(), frame.size());
         let left = f64::from(frame.get_base_pixel().0 - area.get_base_pixel().0) / pixel::PER_MM;
         let y = all.y - foot + 2.0 * tick_length(theme) + 1.5 * theme.note_size + 1.1 * theme.caption_size;
-        let name = quantity_title(&self.page.chart.x);
+        let name = self.page.chart.x.label();
         let title =
             theme.text_line(&name, Point::new(left + inner.x / 2.0, y), Anchor::Middle, theme.caption_size, theme.ink);
         let title = title.with_italics(self.page.heading.symbols).fit_width(0.9 * inner.x);
         let note_width = (inner.x - title.text.width()) / 2.0 - theme.caption_size;
         area.record(&title);
-        let left_out: usize = self.clipped_lines(frame).iter().map(|line| line.nonpositive_count).sum();
+        let lines = self.clipped_lines(frame);
+        let drawn = lines.iter().zip(&self.labels).filter(|(_, label)| label.is_some());
+        let left_out: usize = drawn.map(|([_, points], _)| points.nonpositive_count).sum();
         if left_out > 0 {
             let note = match left_out {
                 1 => "1 value of 0 or less is left out".to_owned(),
@@ -165,14 +160,15 @@ impl<'a> ChartFigure<'a> {
         area.record(&Drawing { class: "nothing", title: String::new(), items: vec![Item::Text(line.text)] });
     }
 
-    fn clipped_lines(&self, frame: &PlottersArea) -> Vec<ClippedLine> {
+    /// The lines of the chart, and their points, which may be fewer than those of the lines.
+    fn clipped_lines(&self, frame: &PlottersArea) -> Vec<[ClippedLine; 2]> {
         let Some([x, y]) = &self.scales else { return Vec::new() };
-        let size = frame_size(frame);
-        self.page
-            .series
-            .iter()
-            .map(|series| ClippedLine::from_points(series_points(series, self.quantity_index), (x, y), size))
-            .collect()
+        let (size, index) = (frame_size(frame), self.quantity_index);
+        let clipped = |series: &Series| {
+            let points = ClippedLine::from_points(series.points(index), (x, y), size);
+            [ClippedLine::from_points(series.path(index), (x, y), size), points]
+        };
+        self.page.series.iter().map(clipped).collect()
     }
 
     /// Draws the lines, each as a group, and their labels next to the frame.
@@ -184,14 +180,15 @@ impl<'a> ChartFigure<'a> {
         let with_marks =
             self.page.chart.point_source == PointSource::Curves && most as f64 * 4.0 * theme.joint_radius < span.x;
         let mut labels = Vec::new();
-        for (k, (line, series)) in lines.iter().zip(self.page.series).enumerate() {
-            let style = LineStyle::for_index(k, theme);
+        for (k, ([line, points], series)) in lines.iter().zip(self.page.series).enumerate() {
+            let Some(label) = &self.labels[k] else { continue };
+            let style = self.line_style(series, k, theme);
             let mut items = style.line_items(&line.runs, theme);
-            let marked = if with_marks { &line.points } else { &line.isolated_points };
+            let marked = if with_marks { &points.points } else { &line.isolated_points };
             items.extend(marked.iter().map(|at| style.mark_item(*at, theme)));
-            frame.record(&Item::Group(self.series_group(k, series, items)));
-            if let Some(end) = line.end_point().filter(|_| !series.label.is_empty()) {
-                labels.push(LineLabel { text: &series.label, style, end_height: end.y });
+            frame.record(&Item::Group(self.series_group(k, label, items)));
+            if let Some(end) = line.end_point().filter(|_| !label.is_empty()) {
+                labels.push(LineLabel { text: label, style, end_height: end.y });
             }
         }
         let items = line_labels::label_items(
@@ -206,9 +203,19 @@ impl<'a> ChartFigure<'a> {
         }
     }
 
-    fn series_group(&self, k: usize, series: &Series, items: Vec<Item>) -> Group {
-        let (x, y) = (&self.page.chart.x.text, &self.quantity().text);
-        let suffix = if series.label.is_empty() { String::new() } else { format!(", {}", series.label) };
+    /// The style of the k-th line: by its place, if the lines are in an order.
+    fn line_style(&self, series: &Series, k: usize, theme: &Theme) -> LineStyle {
+        let count = self.page.series.len();
+        match series.place {
+            Some(place) => LineStyle::for_place((place * (count - 1) as f64).round() as usize, count, theme),
+            None => LineStyle::for_index(k, theme),
+        }
+    }
+
+    fn series_group(&self, k: usize, label: &str, items: Vec<Item>) -> Group {
+        let series = &self.page.series[k];
+        let (x, y) = (&self.page.chart.x.title, &self.quantity().title);
+        let suffix = if label.is_empty() { String::new() } else { format!(", {label}") };
         let mut data: Vec<(&'static str, String)> =
             series.cell.map(|cell| ("cell", cell.to_string())).into_iter().collect();
         data.extend([("trace", series.trace.to_string()), ("circuit", series.circuit.to_string())]);
@@ -220,16 +227,6 @@ impl<'a> ChartFigure<'a> {
             items,
         }
     }
-}
-
-/// The points of a line, x and y, for the quantity at an index.
-fn series_points(series: &Series, quantity_index: usize) -> impl Iterator<Item = (f64, f64)> {
-    series.x.iter().copied().zip(series.y[quantity_index].iter().copied())
-}
-
-/// A quantity with its unit.
-fn quantity_title(quantity: &Quantity) -> String {
-    if quantity.unit == "deg" { format!("{}, °", quantity.text) } else { quantity.text.clone() }
 }
 
 /// The length of a tick, in millimetres.

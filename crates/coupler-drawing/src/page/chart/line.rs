@@ -4,7 +4,8 @@ use crate::scene::{Circle, Color, Item, Path, Polyline, Stroke};
 use coupler_curves::geometry::{Point, Vector};
 
 use super::super::theme::Theme;
-use super::scale::{Scale, is_drawable};
+use super::scale::Scale;
+use crate::chart::is_drawable;
 
 /// A line on paper, split at its gaps and clipped to the frame; in millimetres of the frame.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -22,7 +23,7 @@ pub(super) struct ClippedLine {
 impl ClippedLine {
     /// The line through points, x and y, in a frame of a size in millimetres.
     pub fn from_points(
-        points: impl Iterator<Item = (f64, f64)>,
+        points: impl IntoIterator<Item = [f64; 2]>,
         (x, y): (&Scale, &Scale),
         size: Vector,
     ) -> ClippedLine {
@@ -30,7 +31,7 @@ impl ClippedLine {
         let inside = |p: &Point| (-1e-6..=size.x + 1e-6).contains(&p.x) && (-1e-6..=size.y + 1e-6).contains(&p.y);
         let mut last: Option<Point> = None;
         let mut joined = true;
-        for (a, b) in points {
+        for [a, b] in points {
             let is_nonpositive = (x.is_log && a <= 0.0) || (y.is_log && b <= 0.0);
             line.nonpositive_count += usize::from(is_nonpositive && a.is_finite() && b.is_finite());
             if !is_drawable(a, x.is_log) || !is_drawable(b, y.is_log) {
@@ -110,19 +111,39 @@ enum Mark {
     Triangle,
 }
 
+/// The patterns of lines: the lengths of dashes and gaps alternately, in millimetres.
+const DASHES: [&[f64]; 5] = [&[], &[3.0, 1.2], &[1.0, 1.0], &[5.0, 1.0, 1.0, 1.0], &[7.0, 1.6]];
+
+const MARKS: [Mark; 5] = [Mark::Disc, Mark::Ring, Mark::Square, Mark::Diamond, Mark::Triangle];
+
+/// The weight of lines of charts, as a multiple of that of curves.
+const WEIGHT: f64 = 1.2;
+
 impl LineStyle {
     /// The style of the k-th line, from 0: five lines in the same ink differ in dashes and in marks.
     pub fn for_index(k: usize, theme: &Theme) -> LineStyle {
-        const DASHES: [&[f64]; 5] = [&[], &[3.0, 1.2], &[1.0, 1.0], &[5.0, 1.0, 1.0, 1.0], &[7.0, 1.6]];
-        const MARKS: [Mark; 5] = [Mark::Disc, Mark::Ring, Mark::Square, Mark::Diamond, Mark::Triangle];
         let inks = theme.curve_inks.len();
         let (ink, round) = (k % inks, k / inks);
-        let weight = 1.2 * theme.curve_stroke(k).width;
         LineStyle {
             ink: theme.curve_ink(k),
-            width: weight,
-            dashes: DASHES[(ink + round) % 5],
-            mark: MARKS[(ink + 2 * round) % 5],
+            width: WEIGHT * theme.curve_stroke(k).width,
+            dashes: DASHES[(ink + round) % DASHES.len()],
+            mark: MARKS[(ink + 2 * round) % MARKS.len()],
+        }
+    }
+
+    /// The style of the k-th line, from 0, of `count` lines in an order: its ink is at its place in the order, and lines
+    /// in similar inks, or in greys, differ in dashes.
+    pub fn for_place(k: usize, count: usize, theme: &Theme) -> LineStyle {
+        /// More inks than these are too similar to be distinguished without dashes.
+        const MAX_INKS: usize = 7;
+        let ink = theme.ordered_ink(k as f64 / count.saturating_sub(1).max(1) as f64);
+        let needs_dashes = count > MAX_INKS || theme.curve_styles.len() > 1;
+        LineStyle {
+            ink,
+            width: WEIGHT * theme.curve_width,
+            dashes: if needs_dashes { DASHES[k % DASHES.len()] } else { DASHES[0] },
+            mark: MARKS[k % MARKS.len()],
         }
     }
 
@@ -219,8 +240,8 @@ mod tests {
         let (x, y) = (scale(0.0, 10.0, false), scale(0.0, 1.0, false));
         let size = Vector::new(100.0, 50.0);
         let points =
-            [(0.0, 0.0), (2.0, 1.0), (3.0, f64::NAN), (4.0, 0.5), (5.0, f64::INFINITY), (6.0, 0.5), (7.0, 2.0)];
-        let line = ClippedLine::from_points(points.into_iter(), (&x, &y), size);
+            [[0.0, 0.0], [2.0, 1.0], [3.0, f64::NAN], [4.0, 0.5], [5.0, f64::INFINITY], [6.0, 0.5], [7.0, 2.0]];
+        let line = ClippedLine::from_points(points, (&x, &y), size);
         assert_eq!(line.runs.len(), 2);
         assert_eq!(line.runs[0], [Point::new(0.0, 50.0), Point::new(20.0, 0.0)]);
         // The line from 0.5 to 2 leaves the frame after a third of its length.
@@ -233,11 +254,7 @@ mod tests {
     fn values_that_are_not_positive_are_left_out_on_a_logarithmic_axis() {
         let (x, y) = (scale(0.0, 2.0, false), scale(0.01, 1.0, true));
         let size = Vector::new(20.0, 20.0);
-        let line = ClippedLine::from_points(
-            [(0.0, 0.1), (1.0, 0.0), (2.0, -1.0), (2.0, f64::NAN)].into_iter(),
-            (&x, &y),
-            size,
-        );
+        let line = ClippedLine::from_points([[0.0, 0.1], [1.0, 0.0], [2.0, -1.0], [2.0, f64::NAN]], (&x, &y), size);
         assert_eq!((line.nonpositive_count, line.isolated_points.len(), line.runs.len()), (2, 1, 0));
         assert!((line.isolated_points[0].y - 10.0).abs() < 1e-9);
     }
@@ -263,5 +280,21 @@ mod tests {
                 assert!(a != b && (a.ink != b.ink || (a.dashes != b.dashes && a.mark != b.mark)), "{a:?} {b:?}");
             }
         }
+    }
+
+    #[test]
+    fn twenty_lines_in_an_order_have_different_styles() {
+        for named in Theme::NAMED {
+            let theme = (named.theme)();
+            let styles: Vec<LineStyle> = (0..20).map(|k| LineStyle::for_place(k, 20, &theme)).collect();
+            for (k, a) in styles.iter().enumerate() {
+                // Lines in the same dashes are five places apart.
+                let is_distinguishable = |b: &LineStyle| a.dashes != b.dashes || a.ink.difference(b.ink) > 7.0;
+                assert!(styles[..k].iter().all(is_distinguishable), "{}: {k}", named.name);
+            }
+        }
+        let theme = Theme::default();
+        assert!((0..6).all(|k| LineStyle::for_place(k, 6, &theme).dashes.is_empty()));
+        assert_eq!(LineStyle::for_place(0, 1, &theme).ink, theme.ordered_ink(0.0));
     }
 }

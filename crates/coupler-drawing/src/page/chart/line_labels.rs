@@ -15,6 +15,9 @@ pub(super) struct LineLabel<'a> {
     pub end_height: f64,
 }
 
+/// The distance of the baselines of labels, in ems.
+const SPACING: f64 = 1.35;
+
 /// The length of the sample of the line before its label.
 fn sample_length(theme: &Theme) -> f64 {
     2.6 * theme.note_size
@@ -33,8 +36,8 @@ pub(super) fn label_width<'a>(labels: impl Iterator<Item = &'a str>, symbols: &[
 
 /// The items of the labels: each as close as possible to the height of the end of its line, without overlaps.
 ///
-/// If not all labels fit, every n-th is drawn, and then the number of the others. `left` is the right edge of the
-/// frame, `height` the height of the frame, and `width` the space for the labels, all in millimetres.
+/// If not all labels fit, they are set smaller; if they do not fit then, every n-th is drawn, and then the number of the
+/// others. `left` is the right edge of the frame, `height` the height of the frame, and `width` the space for the labels, all in millimetres.
 pub(super) fn label_items(
     labels: Vec<LineLabel>,
     (left, height, width): (f64, f64, f64),
@@ -42,7 +45,14 @@ pub(super) fn label_items(
     symbols: &[String],
     theme: &Theme,
 ) -> Vec<Item> {
-    let spacing = 1.35 * theme.note_size;
+    /// The smallest size of a label, as a part of that of notes.
+    const MIN_SIZE: f64 = 0.6;
+    let natural = SPACING * theme.note_size;
+    let theme = &Theme {
+        note_size: theme.note_size * (height / (labels.len() as f64 * natural)).clamp(MIN_SIZE, 1.0),
+        ..theme.clone()
+    };
+    let spacing = SPACING * theme.note_size;
     let most = ((height / spacing).floor() as usize).max(1);
     let count = labels.len();
     let mut drawn: Vec<LineLabel> = if count > most {

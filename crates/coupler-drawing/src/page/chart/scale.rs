@@ -5,13 +5,7 @@ use std::ops::Range;
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 
 use super::number::{decimal, decimal_exponent, format_fixed, format_scientific};
-use coupler_curves::geometry::trig;
-
-/// Values of a greater magnitude count as infinite, and smaller values than its inverse as zero on a logarithmic axis.
-const MAX_MAGNITUDE: f64 = 1e300;
-
-/// Values with a smaller relative difference are equal up to rounding.
-const ROUNDING: f64 = 1e-11;
+use crate::chart::{AxisRange, is_drawable, widen_range};
 
 /// The options of a scale.
 #[derive(Clone, Copy, Debug)]
@@ -49,11 +43,6 @@ pub(super) struct Scale {
     minor_ticks: Vec<f64>,
     /// The power of ten of the last decimal place.
     last_decimal_exponent: i32,
-}
-
-/// Whether a value can be drawn.
-pub(super) fn is_drawable(value: f64, is_log: bool) -> bool {
-    value.abs() <= MAX_MAGNITUDE && (value >= 1.0 / MAX_MAGNITUDE || !is_log)
 }
 
 impl Scale {
@@ -125,14 +114,10 @@ impl Scale {
     }
 
     /// The position of a value along the axis: 0 at its start, 1 at its end; clamped to a million lengths of the axis.
+    /// A value that cannot be drawn is at its start.
     pub fn fraction(&self, value: f64) -> f64 {
-        let fraction = if self.is_log {
-            let [low, high, value] = [self.low, self.high, value].map(trig::log10);
-            (value - low) / (high - low)
-        } else {
-            (value - self.low) / (self.high - self.low)
-        };
-        fraction.clamp(-1e6, 1e6)
+        let axis = AxisRange { low: self.low, high: self.high, is_log: self.is_log };
+        axis.fraction(value).unwrap_or(0.0).clamp(-1e6, 1e6)
     }
 
     /// The label of a tick: `0.25`, `−3`, or `2×10⁻⁷` if the ticks are far from 1.
@@ -157,16 +142,6 @@ impl Scale {
             format_scientific(tick, power, power - self.last_decimal_exponent)
         }
     }
-}
-
-/// A range with a length: a single value is extended by a tenth of itself on both sides, and zero by 1.
-fn widen_range(low: f64, high: f64) -> [f64; 2] {
-    let size = low.abs().max(high.abs());
-    if high - low > ROUNDING * size && high - low > 1e-290 {
-        return [low, high];
-    }
-    let margin = if size > 1e-290 { 0.1 * size } else { 1.0 };
-    [low - margin, high + margin]
 }
 
 /// A round step between ticks: `units` times a power of ten.

@@ -165,6 +165,32 @@ impl Theme {
         self.curve_inks[k % self.curve_inks.len()]
     }
 
+    /// The ink of a line by its place in an order, from 0 for the first line to 1 for the last.
+    ///
+    /// The inks go from the darkest to the lightest, from blue by way of red to gold, or in grey if those of curves are
+    /// grey; on dark paper they begin with the lightest. The contrast of each with the paper is at least 3:1.
+    pub fn ordered_ink(&self, place: f64) -> Color {
+        /// The lightness of the first ink on light and on dark paper.
+        const STARTS: [f64; 2] = [20.0, 92.0];
+        /// Blue and gold, in degrees, by way of red; and the chroma, as far as sRGB has it.
+        const HUES: [f64; 2] = [280.0, 440.0];
+        const CHROMA: f64 = 70.0;
+        /// A little more than the contrast of 3:1 that a line needs on its background.
+        const MIN_CONTRAST: f64 = 3.1;
+        let is_dark = self.paper.lightness() < 50.0;
+        let start = STARTS[usize::from(is_dark)];
+        // The luminance at that contrast is that of a grey.
+        let greys = (0..=u8::MAX).map(|level| Color(level, level, level));
+        let visible = greys.filter(|grey| {
+            grey.contrast(self.paper) >= MIN_CONTRAST && (grey.luminance() > self.paper.luminance()) == is_dark
+        });
+        let faintest = visible.min_by(|a, b| a.contrast(self.paper).total_cmp(&b.contrast(self.paper)));
+        let end = faintest.map_or(start, Color::lightness);
+        let at = |[from, to]: [f64; 2]| from + place * (to - from);
+        let is_grey = self.curve_inks.iter().all(|ink| *ink == ink.to_grey());
+        Color::from_lightness_and_hue(at([start, end]), at(HUES), if is_grey { 0.0 } else { CHROMA })
+    }
+
     /// The style of the k-th curve, from 0; curves in one ink differ in style if the theme has several styles.
     fn curve_style(&self, k: usize) -> CurveStyle {
         self.curve_styles[(k + k / self.curve_inks.len()) % self.curve_styles.len()]
@@ -185,5 +211,28 @@ impl Theme {
         let Color(pr, pg, pb) = self.paper;
         let half = |a: u8, b: u8| ((u16::from(a) + u16::from(b)) / 2) as u8;
         Color(half(r, pr), half(g, pg), half(b, pb))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ordered_inks_are_visible_and_monotonic_in_lightness() {
+        for named in Theme::NAMED {
+            let theme = (named.theme)();
+            for count in [2, 5, 20] {
+                let inks: Vec<Color> =
+                    (0..count).map(|k| theme.ordered_ink(f64::from(k) / f64::from(count - 1))).collect();
+                assert!(inks.iter().all(|ink| ink.contrast(theme.paper) >= 3.0), "{}: {inks:?}", named.name);
+                let is_light = theme.paper.lightness() > 50.0;
+                let step = |pair: &[Color]| (pair[0].lightness() < pair[1].lightness()) == is_light;
+                assert!(inks.windows(2).all(step), "{}: {inks:?}", named.name);
+                let least = if theme.curve_styles.len() > 1 { 1.4 } else { 4.0 };
+                let difference = |pair: &[Color]| pair[0].difference(pair[1]) > least;
+                assert!(inks.windows(2).all(difference), "{}: {inks:?}", named.name);
+            }
+        }
     }
 }
