@@ -1,9 +1,10 @@
 //! Measured properties that are marked on curves and written under them: straight portions and axes of symmetry.
 
+use super::figure::MAX_CURVE_ERROR;
 use super::plot::Plot;
 use super::theme::Theme;
 use crate::scene::{Color, Item, Path, Polyline};
-use coupler_curves::geometry::Bounds;
+use coupler_curves::geometry::{Bounds, Point, simplify_polyline};
 use coupler_curves::linkage::Input;
 use coupler_curves::measure::{StraightPortion, Symmetry, SymmetryAxis, Value};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
@@ -65,7 +66,8 @@ pub(super) fn straight_portion_item(
     theme: &Theme,
 ) -> Option<Item> {
     let portion = visible_straight_portion(solved, curve)?;
-    let points = portion.points.iter().map(|p| plot.page_from_plane.apply(*p)).collect();
+    let points: Vec<Point> = portion.points.iter().map(|p| plot.page_from_plane.apply(*p)).collect();
+    let points = simplify_polyline(&points, MAX_CURVE_ERROR);
     let stroke = Some(theme.stroke(theme.faded(ink), 3.0 * theme.curve_width));
     Some(Item::Path(Path { polylines: vec![Polyline { points, is_closed: false }], stroke, fill: None }))
 }

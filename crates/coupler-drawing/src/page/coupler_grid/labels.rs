@@ -35,7 +35,7 @@ impl Obstacles {
                     let half = circle.stroke.map_or(0.0, |stroke| stroke.width / 2.0);
                     self.circles.push((circle.centre, circle.radius + half));
                 }
-                Item::Group(_) | Item::Text(_) | Item::Animation(_) => {}
+                Item::Group(_) | Item::Curve(_) | Item::Text(_) | Item::Animation(_) => {}
             }
         }
     }

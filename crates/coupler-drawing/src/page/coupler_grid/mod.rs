@@ -20,10 +20,10 @@ use super::plot::Plot;
 use super::theme::Theme;
 use super::{CouplerGridPage, Layout, Options, Panel, PoseChoice, pose};
 use crate::mechanism::Mechanism;
-use crate::scene::{Anchor, Circle, Color, Item, Path, Scene, Text};
+use crate::scene::{Anchor, Circle, Color, Item, Scene, Stroke, Text};
 use coupler_curves::geometry::{Bounds, Point, Similarity, Vector};
 use coupler_curves::linkage::Input;
-use coupler_curves::motion::{self, DashPattern};
+use coupler_curves::path::{DashPattern, JointPath};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 use labels::Obstacles;
 
@@ -35,14 +35,23 @@ struct ShownCurve<'a> {
 }
 
 impl ShownCurve<'_> {
-    /// Whether the dashes have a thin line under them: a page has more points than inks, so each ink is used a second
-    /// time with an underline.
+    /// Whether the line under the dashes is in full ink and the point is filled: a page has more points than inks, so
+    /// each ink is used a second time.
     fn has_underline(&self, theme: &Theme) -> bool {
         self.point_index / theme.curve_inks.len() % 2 == 1
     }
 
     fn ink(&self, theme: &Theme) -> Color {
         theme.curve_ink(self.point_index)
+    }
+
+    /// The stroke of the line under the dashes.
+    fn hairline(&self, theme: &Theme) -> Stroke {
+        if self.has_underline(theme) {
+            theme.stroke(self.ink(theme), 0.6 * theme.fine_width)
+        } else {
+            theme.stroke(theme.faded(self.ink(theme)), theme.hair_width)
+        }
     }
 }
 
@@ -117,6 +126,9 @@ fn posed_mechanism<'a>(panel: &'a Panel) -> Option<PosedMechanism<'a>> {
     Some(PosedMechanism::new(&solved.linkage, mechanism, pose, &panel.link_inks))
 }
 
+/// The accuracy, in millimetres, of the lines that labels avoid.
+const FLATNESS: f64 = 0.05;
+
 fn draw_figure(
     area: &impl Area,
     frame: Rect,
@@ -134,7 +146,8 @@ fn draw_figure(
     plot.draw_scale_bar(area, theme);
     let period = figure::dash_period(&solved.linkage, &solved.motion.circuits, options);
     let dashes = |k: usize| DashPattern { period, dash_span: theme.curve_dash_fraction(shown[k].point_index) * period };
-    let paths = figure::curve_paths(solved, &page.curve_indices, plot.page_from_plane, dashes);
+    let path = |(k, s): (usize, &ShownCurve)| figure::curve_path(solved, s.curve, plot.page_from_plane, dashes(k));
+    let paths: Vec<JointPath> = shown.iter().enumerate().map(path).collect();
     let underlay = mechanism.underlay_items(&plot, theme);
     let grid = grid.items(&mechanism.pose, &plot, theme);
     let portion = |s: &ShownCurve| marks::straight_portion_item(solved, s.curve, s.ink(theme), &plot, theme);
@@ -146,7 +159,8 @@ fn draw_figure(
     [&underlay, &grid, &straight].into_iter().for_each(|items| obstacles.add(items, true));
     [&linkage, &points].into_iter().for_each(|items| obstacles.add(items, false));
     for (shown, path) in shown.iter().zip(&paths) {
-        obstacles.add_points(&path.points, theme.curve_stroke(shown.point_index).width, false);
+        let weight = theme.curve_stroke(shown.point_index).width;
+        path.whole.iter().for_each(|spline| obstacles.add_points(&spline.flatten(FLATNESS), weight, false));
     }
     let numbers = labels::place_labels(
         point_numbers(mechanism, shown, &plot, theme),
@@ -159,11 +173,6 @@ fn draw_figure(
     group("underlay", underlay);
     group("grid", grid);
     group("straight", straight);
-    let underline = |(shown, path): (&ShownCurve, &motion::JointPath)| {
-        let line = || Path::stroked(path.points.clone(), theme.stroke(shown.ink(theme), 0.6 * theme.fine_width));
-        shown.has_underline(theme).then(|| Item::Path(line()))
-    };
-    group("trail", shown.iter().zip(&paths).filter_map(underline).collect());
     for (k, (shown, path)) in shown.iter().zip(paths).enumerate() {
         area.record(&coupler_curve(page, shown, path, (plot.page_from_plane, dashes(k)), theme));
     }
@@ -195,7 +204,7 @@ fn point_numbers(mechanism: &PosedMechanism, shown: &[ShownCurve], plot: &Plot, 
 fn coupler_curve(
     page: &CouplerGridPage,
     shown: &ShownCurve,
-    path: motion::JointPath,
+    path: JointPath,
     (page_from_plane, dashes): (Similarity, DashPattern),
     theme: &Theme,
 ) -> CouplerCurve {
@@ -209,7 +218,8 @@ fn coupler_curve(
         data: vec![("cell", cell.to_string()), ("trace", trace.to_string()), ("circuit", circuit.to_string())],
         page_from_plane,
         dashes,
-        dash_lines: path.dashes,
+        path,
+        hairline: shown.hairline(theme),
         stroke_styles: [stroke, theme.stroke(theme.faded(stroke.color), theme.fine_width)],
         marks: Vec::new(),
     }
