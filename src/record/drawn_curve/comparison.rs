@@ -36,8 +36,8 @@ impl DrawnCurve {
                 continue;
             }
             let on_page = self.page_from_plane.apply(place);
-            let drawn = [(&hairline, true), (&dashes, is_in_dash && self.has_dashes(travel))];
-            for (tree, _) in drawn.into_iter().filter(|(_, is_drawn)| *is_drawn) {
+            let dashes = (is_in_dash && self.has_dashes(travel)).then_some(&dashes);
+            for tree in [&hairline].into_iter().chain(dashes) {
                 let furthest_distance = furthest.map_or(f64::NEG_INFINITY, |(_, furthest_distance)| furthest_distance);
                 let distance = tree.signed_distance(on_page, furthest_distance);
                 if distance > furthest_distance {
@@ -132,7 +132,9 @@ fn points_along(spline: &Spline) -> impl Iterator<Item = Point> {
     const STEPS: [f64; 2] = [2.0, 8.0];
     let along = |(start, segment): (Point, &SplineSegment)| {
         let (cubic, least) = match *segment {
-            SplineSegment::Line(end) => (CubicBezier([start, start + (end - start) / 3.0, end + (start - end) / 3.0, end]), STEPS[0]),
+            SplineSegment::Line(end) => {
+                (CubicBezier([start, start + (end - start) / 3.0, end + (start - end) / 3.0, end]), STEPS[0])
+            }
             SplineSegment::Cubic([b, c, d]) => (CubicBezier([start, b, c, d]), STEPS[1]),
         };
         let CubicBezier([a, b, c, d]) = cubic;
@@ -275,11 +277,21 @@ mod tests {
         // Half of the circle ends where a dash would begin.
         assert_eq!(found(36, 37, 5.0, None, false), None);
         assert_eq!(found(36, 37, 5.0, Some(35), false), Some((35, 50.0)));
-        assert_eq!(found(36, 37, 5.0, Some(36), false), None);
-        // Of samples at every degree, those in gaps are skipped, and those at the ends of dashes are not.
-        for (k, is_found) in [(2, true), (3, true), (4, false), (5, true)] {
-            assert_eq!(found(72, 360, 1.0, Some(k), true).is_some(), is_found, "{k}");
+        // There it is compared with the hairline only.
+        assert_eq!(found(36, 37, 5.0, Some(36), false), Some((36, 50.0)));
+        // Samples in gaps are compared with the hairline, and not with the dashes.
+        for k in 2..6 {
+            assert!(found(72, 360, 1.0, Some(k), true).is_some(), "{k}");
         }
+        let [mut undashed, mut bare] = [circle(72), circle(72)];
+        undashed.dashes.remove(1);
+        bare.hairline.clear();
+        let distance = |curve: &DrawnCurve, k: u32| {
+            let sample = samples(360, 1.0, None).skip(k as usize).take(2);
+            curve.furthest_sample(sample, Some(360.0)).unwrap().1 > 0.01
+        };
+        assert_eq!([3, 4, 5, 6, 8].map(|k| distance(&undashed, k)), [false, true, true, true, false]);
+        assert!(distance(&bare, 3));
         let empty = circle(0).furthest_sample(samples(72, 5.0, None), Some(360.0));
         assert_eq!(empty, Some((0, f64::INFINITY)));
     }
@@ -296,7 +308,7 @@ mod tests {
     #[test]
     fn a_detour_between_two_samples_is_found() {
         // Of 72 samples, the cubics are exact enough; of 4, there are none.
-        for (count, step, queries) in [(72, 5.0, 3), (4, 90.0, 1_000)] {
+        for (count, step, queries) in [(72, 5.0, 3), (4, 90.0, 3_000)] {
             let places: Vec<Point> = samples(count, step, None).map(|(_, place)| place).collect();
             let mut curve = circle(72);
             let asked = Cell::new(0);
@@ -307,8 +319,8 @@ mod tests {
             assert_eq!(curve.max_stray(&places, true, distance_from_curve), None);
             assert_eq!(asked.get() > 0, count == 4);
             let page_from_plane = curve.page_from_plane;
-            let out = (curve.polylines[9][3] - page_from_plane.origin) / 20.0;
-            curve.polylines[9][3] += out * 0.05;
+            let SplineSegment::Line(end) = &mut curve.dashes[9].segments[2] else { panic!("a line") };
+            *end += (*end - page_from_plane.origin) / 20.0 * 0.05;
             let stray = curve.max_stray(&places, true, distance_from_curve).unwrap();
             assert!((stray - 0.05).abs() < 1e-9, "{stray}");
             assert!(asked.get() <= 2 * queries, "{}", asked.get());
@@ -325,6 +337,8 @@ mod tests {
             if from_centre.y <= 0.0 { (from_centre.norm() - 20.0).abs() } else { from_ends[0].min(from_ends[1]) }
         };
         assert!(circle(72).max_stray(&places, false, distance_from_half).unwrap() > 10.0);
-        assert_eq!(circle(36).max_stray(&places, false, distance_from_half), None);
+        let mut half = circle(36);
+        half.hairline[0].segments.truncate(360);
+        assert_eq!(half.max_stray(&places, false, distance_from_half), None);
     }
 }

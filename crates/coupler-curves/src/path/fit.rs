@@ -97,7 +97,7 @@ fn greatest_distance(cubic: &CubicBezier, points: &[Point], feet: &mut [f64]) ->
             *t = if step.is_finite() { (*t - step).clamp(0.0, 1.0) } else { *t };
         }
         let distance = (cubic.point(*t) - point).norm();
-        if !(distance <= greatest) {
+        if distance.is_nan() || distance > greatest {
             greatest = distance;
         }
     }

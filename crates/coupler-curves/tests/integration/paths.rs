@@ -134,7 +134,10 @@ fn a_slider_s_path_is_a_line_there_and_back_with_dashes_on_the_way_there() {
     let [Spline { start, segments }] = &path.whole[..] else { panic!("one spline") };
     let ends: Vec<f64> = [*start].into_iter().chain(segments.iter().map(SplineSegment::end)).map(|p| p.x).collect();
     assert!(segments.iter().all(|segment| matches!(segment, SplineSegment::Line(_))));
-    assert!(ends.len() <= 8 && (ends[0] - 2.0).abs() < 1e-14 && ends.iter().any(|x| (x + 2.0).abs() < 1e-9), "{ends:?}");
+    assert!(
+        ends.len() <= 8 && (ends[0] - 2.0).abs() < 1e-14 && ends.iter().any(|x| (x + 2.0).abs() < 1e-9),
+        "{ends:?}"
+    );
     let [[from, to]] = path.dashed_travel.as_deref().unwrap() else { panic!("one stretch") };
     assert!(*from == 0.0 && (to - 180.0).abs() < 1e-6, "{from} {to}");
     assert_eq!(path.dashes.len(), 36);

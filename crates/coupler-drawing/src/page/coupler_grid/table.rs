@@ -72,11 +72,10 @@ fn swatch(at: Point, shown: &ShownCurve, theme: &Theme) -> Drawing {
     };
     let drawn = 0.5 * theme.curve_dash_fraction(shown.point_index);
     let lines = vec![line(0.0, drawn), line(0.5, 0.5 + drawn)];
-    let path = |polylines: Vec<Polyline>, stroke: Stroke| Item::Path(Path { polylines, stroke: Some(stroke), fill: None });
-    let mut items = vec![
-        path(vec![line(0.0, 1.0)], shown.hairline(theme)),
-        path(lines, theme.curve_stroke(shown.point_index)),
-    ];
+    let path =
+        |polylines: Vec<Polyline>, stroke: Stroke| Item::Path(Path { polylines, stroke: Some(stroke), fill: None });
+    let mut items =
+        vec![path(vec![line(0.0, 1.0)], shown.hairline(theme)), path(lines, theme.curve_stroke(shown.point_index))];
     let fill = Some(if shown.has_underline(theme) { ink } else { theme.paper });
     let centre = at + Vector::new(length, 0.0);
     let stroke = Some(theme.stroke(ink, theme.fine_width));
