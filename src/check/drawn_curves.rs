@@ -46,6 +46,7 @@ pub(super) fn check_drawn_curves(
     let mut findings = Vec::new();
     let mut current: Option<PageCell> = None;
     for curve in curves.into_iter().filter(|curve| drawn_now.get(curve.id.as_str()) != Some(&curve)) {
+        let now = drawn_now.get(curve.id.as_str()).copied();
         // The curves of a cell are consecutive, so that its rows are read once.
         let cell = match current.take() {
             Some(cell) if cell.number == curve.cell => cell,
@@ -55,7 +56,7 @@ pub(super) fn check_drawn_curves(
                 solved: find_or_solve(family, cells, curve.cell),
             },
         };
-        if let Some(distance_mm) = cell.drawing_error(&curve) {
+        if let Some(distance_mm) = cell.drawing_error(&curve, now) {
             let location = page.with_cell(curve.cell).with_curve(curve.trace, curve.circuit);
             findings.push(location.finding(Change::DrawnOff { distance_mm }));
         }
@@ -75,9 +76,9 @@ fn find_or_solve<'a>(family: &Family, cells: &'a [SolvedCell], number: usize) ->
 }
 
 impl PageCell<'_> {
-    /// How far a drawn curve is from its recorded samples or from the curve, in millimetres; `None` if that is within
-    /// the tolerance, or if the curve is not recorded.
-    fn drawing_error(&self, drawn: &DrawnCurve) -> Option<f64> {
+    /// How far a drawn curve is from its recorded samples or from the curve, or the ends of its dashes from where they
+    /// are drawn `now`, in millimetres; `None` if that is within the tolerance, or if the curve is not recorded.
+    fn drawing_error(&self, drawn: &DrawnCurve, now: Option<&DrawnCurve>) -> Option<f64> {
         let is_same = |samples: &&CurveSamples| (samples.trace, samples.circuit) == (drawn.trace, drawn.circuit);
         let recorded = self.recorded.iter().find(is_same)?;
         let solved = self.solved.as_deref().and_then(|solved| {
@@ -100,7 +101,9 @@ impl PageCell<'_> {
         let stray = drawn
             .max_stray(&recorded.points, closed, |point, enough| curve.distance(point, enough))
             .map(|distance| distance - moved);
-        [Some(sample_distance), stray].into_iter().flatten().filter(is_off).reduce(f64::max)
+        let same_dashes = now.filter(|now| now.dash == drawn.dash);
+        let dash_ends = same_dashes.map(|now| drawn.furthest_dash_end(now) - moved);
+        [Some(sample_distance), stray, dash_ends].into_iter().flatten().filter(is_off).reduce(f64::max)
     }
 }
 

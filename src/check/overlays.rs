@@ -10,7 +10,7 @@ use crate::manifest::Plan;
 use crate::pipeline::FamilyPipeline;
 use crate::record::FolderRecord;
 use coupler_curves::geometry::Point;
-use coupler_curves::motion::{self, DashPattern};
+use coupler_curves::path::joint_polyline;
 use coupler_drawing::page::{self, OverlayPage};
 use coupler_drawing::render;
 
@@ -73,8 +73,7 @@ fn draw_overlay<'r>(plan: &Plan, family_check: &FamilyCheck, finding: &'r Findin
     };
     // As fine as paper can show a curve that fills the page.
     let size = recorded.size().max(f64::MIN_POSITIVE);
-    let dashes = DashPattern { period: 360.0, dash_span: 360.0 };
-    let path = motion::joint_paths(&solved.linkage, sampled, &[curve.joint], dashes, 5e-5 * size).pop()?.points;
+    let path = joint_polyline(&solved.linkage, sampled, curve.joint, 5e-5 * size);
     let title = location.to_string();
     let sheet = OverlayPage {
         title: &title,

@@ -15,7 +15,7 @@ use coupler_curves::solve::SolvedCell;
 use coupler_drawing::page::{
     self, CouplerGridPage, Heading, Layout, LinkLabel, Options, Panel, Paper, PoseChoice, Theme,
 };
-use coupler_drawing::scene::{Circle, Color, Group, Item, Path, Scene, Text};
+use coupler_drawing::scene::{Circle, Color, Curve, Group, Item, Path, Scene, Stroke, Text};
 use tempfile::TempDir;
 
 /// A crank-rocker, a change point and a case that cannot be assembled, with twelve points.
@@ -171,6 +171,17 @@ fn paths<'s>(scene: &'s Scene, classes: &[&str]) -> Vec<&'s Path> {
     items(scene).into_iter().filter_map(path).collect()
 }
 
+/// The path and the dashes of each curve.
+fn curves(scene: &Scene) -> Vec<[&Curve; 2]> {
+    fn parts(group: &Group) -> [&Curve; 2] {
+        match &group.items[..] {
+            [Item::Curve(whole), Item::Curve(dashes)] => [whole, dashes],
+            _ => panic!("a curve is its path and its dashes: {group:?}"),
+        }
+    }
+    groups(scene, "curve").into_iter().map(parts).collect()
+}
+
 #[derive(Clone, Copy, Debug)]
 struct Rect {
     low: Point,
@@ -249,6 +260,10 @@ fn outside(scene: &Scene) -> Vec<String> {
                 assert!(p.x.is_finite() && p.y.is_finite(), "{class}");
                 around(*p, half(path.stroke)).is_in(&inner)
             }),
+            Item::Curve(curve) => curve.splines.iter().flat_map(|spline| spline.flatten(1e-3)).all(|p| {
+                assert!(p.x.is_finite() && p.y.is_finite(), "{class}");
+                around(p, curve.stroke.width / 2.0).is_in(&inner)
+            }),
             Item::Group(_) | Item::Animation(_) => unreachable!("`items` descends into groups"),
         };
         if !is_in {
@@ -298,10 +313,18 @@ fn touched(scene: &Scene) -> Vec<Option<&'static str>> {
         .filter(|(class, _)| *class == "number")
         .map(|(_, text)| Rect::from_text(text, [0.73, 0.0]))
         .collect();
-    let lines: Vec<(&'static str, &Path)> = ["curve", "trail", "linkage", "underlay", "grid", "straight"]
+    let drawn = ["linkage", "underlay", "grid", "straight"]
         .into_iter()
-        .flat_map(|class| paths(scene, &[class]).into_iter().map(move |path| (class, path)))
-        .collect();
+        .flat_map(|class| paths(scene, &[class]).into_iter().map(move |path| (class, path)));
+    let drawn = drawn.flat_map(|(class, path)| {
+        let half = path.stroke.map_or(0.0, |stroke| stroke.width / 2.0);
+        path.polylines.iter().map(move |line| (class, line.points.clone(), half))
+    });
+    let curves = curves(scene).into_iter().flatten().flat_map(|curve| {
+        let half = curve.stroke.width / 2.0;
+        curve.splines.iter().map(move |spline| ("curve", spline.flatten(1e-3), half))
+    });
+    let lines: Vec<(&'static str, Vec<Point>, f64)> = curves.chain(drawn).collect();
     let points = circles(scene, &["coupler-point", "linkage"]);
     let touch = |(k, number): (usize, &Rect)| {
         if numbers.iter().enumerate().any(|(other, rect)| other != k && rect.meets(number)) {
@@ -313,13 +336,9 @@ fn touched(scene: &Scene) -> Vec<Option<&'static str>> {
         if points.iter().any(is_on) {
             return Some("point");
         }
-        let crosses = |path: &Path| {
-            let half = path.stroke.map_or(0.0, |stroke| stroke.width / 2.0);
-            path.polylines
-                .iter()
-                .any(|line| line.points.windows(2).any(|p| number.distance_to_segment(p[0], p[1]) < half))
-        };
-        lines.iter().find(|(_, path)| crosses(path)).map(|(class, _)| *class)
+        let is_crossed =
+            |line: &[Point], half: f64| line.windows(2).any(|p| number.distance_to_segment(p[0], p[1]) < half);
+        lines.iter().find(|(_, line, half)| is_crossed(line, *half)).map(|(class, ..)| *class)
     };
     numbers.iter().enumerate().map(touch).collect()
 }
@@ -364,10 +383,6 @@ fn first(text: &str) -> (SolvedCell, Vec<(Scene, Vec<usize>)>) {
     (solved, pages)
 }
 
-fn color(path: &Path) -> Color {
-    path.stroke.unwrap().color
-}
-
 #[test]
 fn each_point_is_drawn_once_and_each_curve_under_its_own_name() {
     let (solved, pages) = first(GOOD);
@@ -386,15 +401,6 @@ fn each_point_is_drawn_once_and_each_curve_under_its_own_name() {
     }
 }
 
-/// The stroke width of the dashes next to a point in the table.
-fn swatch_width(group: &Group) -> f64 {
-    let dashes = group.items.iter().find_map(|item| match item {
-        Item::Path(path) if path.polylines.len() == 2 => path.stroke,
-        _ => None,
-    });
-    dashes.unwrap().width
-}
-
 #[test]
 fn curves_of_one_ink_differ_in_every_theme() {
     for named in Theme::NAMED {
@@ -402,21 +408,18 @@ fn curves_of_one_ink_differ_in_every_theme() {
         plan.page.theme = (named.theme)();
         let scene = all_pages(&plan, 1, &plan.page).remove(0);
         let theme = &plan.page.theme;
-        let inks: Vec<Color> = paths(&scene, &["curve"]).into_iter().map(color).collect();
+        let inks: Vec<Color> = curves(&scene).iter().map(|[_, dashes]| dashes.stroke.color).collect();
         assert_eq!(inks, [theme.curve_inks.clone(), theme.curve_inks.clone()].concat(), "{}", named.name);
-        // The table shows each curve in its width, the second five with a line under the dashes as well.
-        let widths = |class: &str| -> Vec<f64> {
-            paths(&scene, &[class]).iter().map(|path| path.stroke.unwrap().width).collect()
-        };
-        let dashes: Vec<f64> = groups(&scene, "swatch").iter().map(|group| swatch_width(group)).collect();
-        assert_eq!(dashes, widths("curve"), "{}", named.name);
-        assert_eq!(widths("swatch").len(), 15);
-        // The second five have a thin continuous line under their dashes, and filled points.
-        let trails = paths(&scene, &["trail"]);
-        assert_eq!(trails.iter().map(|path| color(path)).collect::<Vec<_>>(), theme.curve_inks, "{}", named.name);
-        for (trail, curve) in trails.iter().zip(&paths(&scene, &["curve"])[5..]) {
-            assert_eq!((trail.polylines.len(), curve.polylines.len()), (1, 72));
-            assert!(trail.stroke.unwrap().width < 0.6 * curve.stroke.unwrap().width);
+        // The table shows each curve in its strokes.
+        let swatches: Vec<Stroke> = paths(&scene, &["swatch"]).iter().map(|path| path.stroke.unwrap()).collect();
+        let strokes: Vec<Stroke> = curves(&scene).into_iter().flatten().map(|curve| curve.stroke).collect();
+        assert_eq!(swatches, strokes, "{}", named.name);
+        // Each has a thin continuous line under its dashes; that of the second five is in full ink, and their points
+        // are filled.
+        for (k, [whole, dashes]) in curves(&scene).into_iter().enumerate() {
+            assert_eq!((whole.splines.len(), dashes.splines.len()), (1, 72));
+            assert!(whole.stroke.width < 0.6 * dashes.stroke.width, "{}", named.name);
+            assert_eq!(whole.stroke.color == dashes.stroke.color, k >= 5, "{}", named.name);
         }
         let fills: Vec<Color> = circles(&scene, &["coupler-point"]).iter().map(|circle| circle.fill.unwrap()).collect();
         assert_eq!(fills, [vec![theme.paper; 5], theme.curve_inks.clone()].concat(), "{}", named.name);
@@ -436,13 +439,13 @@ fn a_dash_begins_at_each_fifth_degree() {
         let off = (p - place(0)) * scale;
         at[0] + Vector::new(off.x, -off.y)
     };
-    for (curve, &k) in paths(scene, &["curve"]).iter().zip(shown) {
-        assert_eq!(curve.polylines.len(), 72);
+    for ([_, dashes], &k) in curves(scene).iter().zip(shown) {
+        assert_eq!(dashes.splines.len(), 72);
         let pass = &solved.circuit(&solved.curves[k]).passes[0];
-        for (dash, line) in curve.polylines.iter().enumerate() {
+        for (dash, spline) in dashes.splines.iter().enumerate() {
             let point = |input: f64| on_page(motion::pose(&solved.linkage, pass, input)[solved.curves[k].joint]);
             let begins = 5.0 * dash as f64;
-            let ends = [(begins, line.points[0]), (begins + 3.0, *line.points.last().unwrap())];
+            let ends = [(begins, spline.start), (begins + 3.0, spline.end())];
             for (input, end) in ends {
                 // In millimetres: rounding, also of the positions of the circles on the page.
                 assert!((end - point(input)).norm() < 1e-6, "curve {k}, {input} degrees");
@@ -474,7 +477,7 @@ fn both_circuits_of_a_point_are_on_its_page() {
     let (scene, shown) = &pages[0];
     assert_eq!((shown.len(), circles(scene, &["coupler-point"]).len()), (20, 10));
     // Curves of the same point have the same ink.
-    let inks: Vec<Color> = paths(scene, &["curve"]).into_iter().map(color).collect();
+    let inks: Vec<Color> = curves(scene).iter().map(|[_, dashes]| dashes.stroke.color).collect();
     assert!(inks.chunks(2).all(|pair| pair[0] == pair[1]) && inks[0] != inks[2]);
     let all: Vec<String> = texts(scene).iter().map(|(_, text)| content(text)).collect();
     assert!(["1/1", "1/2", "10/2"].iter().all(|row| all.iter().any(|text| text == row)), "{all:?}");

@@ -256,7 +256,8 @@ fn monochrome_pages_have_no_colour() {
     // Each curve of a panel has a stroke style of its own.
     let (_, svg, _) = pages("\"monochrome\"").remove(0);
     let curve = |k: usize| svg.split(&format!("id=\"panels-1-{k}-1\"")).nth(1).unwrap().split("</g>").next().unwrap();
-    let style = |k: usize| curve(k).split(" stroke=").nth(1).unwrap().split("/>").next().unwrap().to_owned();
+    // The dashes are the second path.
+    let style = |k: usize| curve(k).split(" stroke=").nth(2).unwrap().split("/>").next().unwrap().to_owned();
     let styles: Vec<String> = (1..=5).map(style).collect();
     for (k, style) in styles.iter().enumerate() {
         assert!(!styles[..k].contains(style), "{styles:?}");
@@ -285,7 +286,7 @@ fn the_theme_sets_the_drawn_part_of_a_dash() {
     let dashes = |theme: &str| {
         let (_, svg, _) = pages(theme).remove(0);
         let curve = svg.split("id=\"panels-1-1-1\"").nth(1).unwrap().split("</g>").next().unwrap();
-        curve.split("d=\"").nth(1).unwrap().split('"').next().unwrap().to_owned()
+        curve.split(" d=\"").nth(2).unwrap().split('"').next().unwrap().to_owned()
     };
     let [plain, same, longer] = ["\"paper\"", "{ drawn = 0.6 }", "{ drawn = 0.9 }"].map(dashes);
     assert_eq!(plain, same);

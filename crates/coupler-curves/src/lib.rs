@@ -54,6 +54,7 @@ pub mod linkage;
 pub mod motion;
 
 pub mod measure;
+pub mod path;
 pub mod template;
 
 pub mod linkage_format;

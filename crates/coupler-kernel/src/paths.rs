@@ -2,10 +2,11 @@
 
 use serde_json::{Map, Value, json};
 
-use coupler_curves::geometry::{Point, Vector};
+use coupler_curves::geometry::{Point, Spline, Vector};
 use coupler_curves::linkage::Input;
 use coupler_curves::measure::{self, StraightPortion, TracedCurve};
-use coupler_curves::motion::{DashPattern, Motion, joint_paths};
+use coupler_curves::motion::Motion;
+use coupler_curves::path::{DashPattern, joint_path};
 use coupler_drawing::page::{self, dash_period};
 
 use crate::response::Numbers;
@@ -18,19 +19,17 @@ pub(crate) fn path_json(study: &Study, options: &page::Options, tolerance: f64, 
     let (linkage, joint) = &*single;
     let period = dash_period(linkage, std::slice::from_ref(&study.circuit), options);
     let pattern = DashPattern { period, dash_span: period * options.theme.dash_fraction };
-    let path = joint_paths(linkage, &study.circuit, &[*joint], pattern, tolerance).pop().unwrap_or_default();
-    let mut next = 0;
-    let starts: Vec<f64> = path
-        .dashes
-        .iter()
-        .map(|dash| {
-            next += dash.points.len();
-            (next - dash.points.len()) as f64
-        })
-        .collect();
+    // Half of the tolerance for the splines, and half for their chords.
+    let path = joint_path(linkage, &study.circuit, *joint, pattern, tolerance / 2.0);
+    let chords = |spline: &Spline| spline.flatten(tolerance / 2.0);
+    let (mut dashes, mut starts): (Vec<Point>, Vec<f64>) = (Vec::new(), Vec::new());
+    for dash in &path.dashes {
+        starts.push(dashes.len() as f64);
+        dashes.extend(chords(&dash.spline));
+    }
     json!({
-        "lead": numbers.points(path.points),
-        "dashes": numbers.points(path.dashes.into_iter().flat_map(|dash| dash.points)),
+        "lead": numbers.points(path.whole.iter().flat_map(chords)),
+        "dashes": numbers.points(dashes),
         "starts": numbers.array(starts),
     })
 }

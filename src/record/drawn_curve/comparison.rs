@@ -1,45 +1,76 @@
 //! Compares a drawn curve with the samples of its curve.
 
-use super::DrawnCurve;
-use coupler_curves::geometry::{Capsule, CapsuleTree, Point, Vector};
+use super::{DrawnCurve, FLATNESS_MM};
+use coupler_curves::geometry::{Capsule, CapsuleTree, CubicBezier, Point, Similarity, Spline, SplineSegment, Vector};
 
-/// How far a drawn line may be from its curve, in millimetres: the error of its chords and the rounding of its points.
+/// How far a drawn curve may be from its curve, in millimetres: the error of its splines and the rounding of their points.
 const TOLERANCE_MM: f64 = 0.01;
 
 impl DrawnCurve {
-    /// The sample in a dash that is furthest from the drawn lines: its index, and its distance in millimetres of the
-    /// page, infinite if nothing is drawn. `None` if no sample is in a dash.
+    /// The sample that is furthest from the drawing of its place: its index, and its distance in millimetres of the page,
+    /// infinite if nothing is drawn. `None` if no sample is finite.
+    ///
+    /// Every sample is compared with the hairline, and each in a dash with the dashes, too.
     ///
     /// The samples are all samples of the curve in order, each with its input and its point in the plane; after the
     /// last one, a closed curve continues to the input `after_last`. Samples without finite coordinates are skipped. A
-    /// sample at the end of a dash, to 1e-9 of the period and to rounding, counts if the curve continues from it into
-    /// the dash.
+    /// sample at the end of a dash, to 1e-9 of the period and to rounding, counts as in it if the curve continues from it
+    /// into the dash.
     ///
-    /// Each sample takes a search in a tree of the segments, which ends early if the sample is nearer than the furthest
-    /// so far.
+    /// Each sample takes a search in a tree of chords, which ends early if the sample is nearer than the furthest so far.
     pub fn furthest_sample(
         &self,
         samples: impl Iterator<Item = (f64, Point)>,
         after_last: Option<f64>,
     ) -> Option<(usize, f64)> {
-        let segments = self.polylines.iter().flat_map(|line| line.windows(2));
-        let drawn = CapsuleTree::new(segments.map(|pair| Capsule { ends: [pair[0], pair[1]], radius: 0.0 }).collect());
+        let (hairline, dashes) = (chord_tree(&self.hairline), chord_tree(&self.dashes));
         let mut samples = samples.enumerate().peekable();
-        let mut previous = None;
+        let (mut previous, mut travel) = (None, 0.0);
         let mut furthest: Option<(usize, f64)> = None;
         while let Some((k, (input, place))) = samples.next() {
             let next = samples.peek().map(|(_, (input, _))| *input).or(after_last);
-            let is_drawn = self.is_in_dash(input, [previous, next]);
+            let is_in_dash = self.is_in_dash(input, [previous, next]);
+            travel += previous.map_or(0.0, |previous: f64| (input - previous).abs());
             previous = Some(input);
-            if is_drawn && place.x.is_finite() && place.y.is_finite() {
+            if !place.x.is_finite() || !place.y.is_finite() {
+                continue;
+            }
+            let on_page = self.page_from_plane.apply(place);
+            let dashes = (is_in_dash && self.has_dashes(travel)).then_some(&dashes);
+            for tree in [&hairline].into_iter().chain(dashes) {
                 let furthest_distance = furthest.map_or(f64::NEG_INFINITY, |(_, furthest_distance)| furthest_distance);
-                let distance = drawn.signed_distance(self.page_from_plane.apply(place), furthest_distance);
+                let distance = tree.signed_distance(on_page, furthest_distance);
                 if distance > furthest_distance {
                     furthest = Some((k, distance));
                 }
             }
         }
         furthest
+    }
+
+    /// Whether a place is in a stretch that is drawn in dashes, and not at its end, where no dash need begin.
+    fn has_dashes(&self, travel: f64) -> bool {
+        let end = 1e-9 * self.dash[0] + 8.0 * f64::EPSILON * travel;
+        let is_inside = |[from, to]: &[f64; 2]| from + end < travel && travel < to - end;
+        self.dashed_travel.as_ref().is_none_or(|stretches| stretches.iter().any(is_inside))
+    }
+
+    /// The greatest distance, in millimetres of this page, of the end of a dash from the nearest end of a dash of another
+    /// drawing of the curve, or of one of that from those of this; infinite if only one has dashes.
+    pub fn furthest_dash_end(&self, other: &DrawnCurve) -> f64 {
+        let ends = |curve: &DrawnCurve| -> Vec<Point> {
+            let on_page = |p: Point| {
+                let Similarity { scale, origin, .. } = curve.page_from_plane;
+                self.page_from_plane.origin + (p - origin) * (self.page_from_plane.scale / scale)
+            };
+            curve.dashes.iter().flat_map(|dash| [dash.start, dash.end()]).map(on_page).collect()
+        };
+        let (own, others) = (ends(self), ends(other));
+        let furthest = |points: &[Point], from: &[Point]| {
+            let tree = CapsuleTree::new(from.iter().map(|p| Capsule { ends: [*p, *p], radius: 0.0 }).collect());
+            points.iter().fold(0.0f64, |most, point| most.max(tree.signed_distance(*point, most)))
+        };
+        furthest(&own, &others).max(furthest(&others, &own))
     }
 
     /// Whether there is a dash at an input, given the inputs of the neighbouring samples.
@@ -77,7 +108,7 @@ impl DrawnCurve {
         let places: Vec<Point> = samples.iter().filter(is_place).map(|p| self.page_from_plane.apply(*p)).collect();
         let interpolant = SampleInterpolant::new(&places, closed);
         let tubes = CapsuleTree::new(interpolant.map_or_else(Vec::new, |interpolant| interpolant.tubes()));
-        let points = self.polylines.iter().flat_map(|line| points_along(line));
+        let points = self.hairline.iter().chain(&self.dashes).flat_map(points_along);
         let suspects = points.filter(|point| tubes.signed_distance(*point, 0.0) > 0.0);
         // The search ends early if the distance cannot exceed the greatest so far.
         let most = suspects.fold(TOLERANCE_MM, |most, point| most.max(distance_from_curve(point, most)));
@@ -85,15 +116,33 @@ impl DrawnCurve {
     }
 }
 
-/// Points along a polyline, including its vertices, and the middles of its segments, at most a millimetre apart; a
-/// segment longer than 64 mm has 64 steps.
-fn points_along(line: &[Point]) -> impl Iterator<Item = Point> {
-    let after = |pair: &[Point]| {
-        let (a, b) = (pair[0], pair[1]);
-        let steps = (b - a).norm().ceil().clamp(2.0, 64.0);
-        (1..=steps as u32).map(move |k| a + (b - a) * (f64::from(k) / steps))
+/// The chords of splines.
+fn chord_tree(splines: &[Spline]) -> CapsuleTree {
+    let chords = |spline: &Spline| -> Vec<Capsule> {
+        let points = spline.flatten(FLATNESS_MM);
+        points.windows(2).map(|pair| Capsule { ends: [pair[0], pair[1]], radius: 0.0 }).collect()
     };
-    line.first().copied().into_iter().chain(line.windows(2).flat_map(after))
+    CapsuleTree::new(splines.iter().flat_map(chords).collect())
+}
+
+/// Points along a spline: the ends of its segments, and some between these, about a millimetre apart at most; a segment
+/// longer than 64 mm has 64 steps.
+fn points_along(spline: &Spline) -> impl Iterator<Item = Point> {
+    /// A cubic may deviate anywhere between its ends.
+    const STEPS: [f64; 2] = [2.0, 8.0];
+    let along = |(start, segment): (Point, &SplineSegment)| {
+        let (cubic, least) = match *segment {
+            SplineSegment::Line(end) => {
+                (CubicBezier([start, start + (end - start) / 3.0, end + (start - end) / 3.0, end]), STEPS[0])
+            }
+            SplineSegment::Cubic([b, c, d]) => (CubicBezier([start, b, c, d]), STEPS[1]),
+        };
+        let CubicBezier([a, b, c, d]) = cubic;
+        // No curve is longer than its control polygon.
+        let steps = ((b - a).norm() + (c - b).norm() + (d - c).norm()).ceil().clamp(least, 64.0);
+        (1..=steps as u32).map(move |k| cubic.point(f64::from(k) / steps))
+    };
+    std::iter::once(spline.start).chain(spline.segments_with_starts().flat_map(along))
 }
 
 /// The curve through samples, by cubic interpolation.
@@ -190,10 +239,22 @@ mod tests {
     /// The first dashes of the circle, 3 of every 5 degrees, in chords of half a degree, which deviate by 0.0002 mm.
     fn circle(dashes: u32) -> DrawnCurve {
         let page_from_plane = Similarity { scale: 1.0, flips_y: true, origin: Point::new(50.0, 40.0) };
-        let place = |k: u32, j: u32| page_from_plane.apply(at(f64::from(5 * k) + f64::from(j) / 2.0));
-        let lines = (0..dashes).map(|k| (0..=6).map(|j| place(k, j)).collect()).collect();
-        let id = "circle".to_owned();
-        DrawnCurve { id, cell: 1, trace: 1, circuit: 1, page_from_plane, dash: [5.0, 3.0], polylines: lines }
+        let line = |from: u32, halves: u32| {
+            let place = |j: u32| page_from_plane.apply(at(f64::from(from) + f64::from(j) / 2.0));
+            Spline { start: place(0), segments: (1..=halves).map(|j| SplineSegment::Line(place(j))).collect() }
+        };
+        let dashes = (0..dashes).map(|k| line(5 * k, 6)).collect();
+        DrawnCurve {
+            id: "circle".to_owned(),
+            cell: 1,
+            trace: 1,
+            circuit: 1,
+            page_from_plane,
+            dash: [5.0, 3.0],
+            dashed_travel: None,
+            hairline: vec![line(0, 720)],
+            dashes,
+        }
     }
 
     /// Samples every `step` degrees, one of them moved outward by half a millimetre.
@@ -216,11 +277,21 @@ mod tests {
         // Half of the circle ends where a dash would begin.
         assert_eq!(found(36, 37, 5.0, None, false), None);
         assert_eq!(found(36, 37, 5.0, Some(35), false), Some((35, 50.0)));
-        assert_eq!(found(36, 37, 5.0, Some(36), false), None);
-        // Of samples at every degree, those in gaps are skipped, and those at the ends of dashes are not.
-        for (k, is_found) in [(2, true), (3, true), (4, false), (5, true)] {
-            assert_eq!(found(72, 360, 1.0, Some(k), true).is_some(), is_found, "{k}");
+        // There it is compared with the hairline only.
+        assert_eq!(found(36, 37, 5.0, Some(36), false), Some((36, 50.0)));
+        // Samples in gaps are compared with the hairline, and not with the dashes.
+        for k in 2..6 {
+            assert!(found(72, 360, 1.0, Some(k), true).is_some(), "{k}");
         }
+        let [mut undashed, mut bare] = [circle(72), circle(72)];
+        undashed.dashes.remove(1);
+        bare.hairline.clear();
+        let distance = |curve: &DrawnCurve, k: u32| {
+            let sample = samples(360, 1.0, None).skip(k as usize).take(2);
+            curve.furthest_sample(sample, Some(360.0)).unwrap().1 > 0.01
+        };
+        assert_eq!([3, 4, 5, 6, 8].map(|k| distance(&undashed, k)), [false, true, true, true, false]);
+        assert!(distance(&bare, 3));
         let empty = circle(0).furthest_sample(samples(72, 5.0, None), Some(360.0));
         assert_eq!(empty, Some((0, f64::INFINITY)));
     }
@@ -237,7 +308,7 @@ mod tests {
     #[test]
     fn a_detour_between_two_samples_is_found() {
         // Of 72 samples, the cubics are exact enough; of 4, there are none.
-        for (count, step, queries) in [(72, 5.0, 3), (4, 90.0, 1_000)] {
+        for (count, step, queries) in [(72, 5.0, 3), (4, 90.0, 3_000)] {
             let places: Vec<Point> = samples(count, step, None).map(|(_, place)| place).collect();
             let mut curve = circle(72);
             let asked = Cell::new(0);
@@ -248,8 +319,8 @@ mod tests {
             assert_eq!(curve.max_stray(&places, true, distance_from_curve), None);
             assert_eq!(asked.get() > 0, count == 4);
             let page_from_plane = curve.page_from_plane;
-            let out = (curve.polylines[9][3] - page_from_plane.origin) / 20.0;
-            curve.polylines[9][3] += out * 0.05;
+            let SplineSegment::Line(end) = &mut curve.dashes[9].segments[2] else { panic!("a line") };
+            *end += (*end - page_from_plane.origin) / 20.0 * 0.05;
             let stray = curve.max_stray(&places, true, distance_from_curve).unwrap();
             assert!((stray - 0.05).abs() < 1e-9, "{stray}");
             assert!(asked.get() <= 2 * queries, "{}", asked.get());
@@ -266,6 +337,8 @@ mod tests {
             if from_centre.y <= 0.0 { (from_centre.norm() - 20.0).abs() } else { from_ends[0].min(from_ends[1]) }
         };
         assert!(circle(72).max_stray(&places, false, distance_from_half).unwrap() > 10.0);
-        assert_eq!(circle(36).max_stray(&places, false, distance_from_half), None);
+        let mut half = circle(36);
+        half.hairline[0].segments.truncate(360);
+        assert_eq!(half.max_stray(&places, false, distance_from_half), None);
     }
 }

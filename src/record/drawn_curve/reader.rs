@@ -10,7 +10,7 @@ use super::path::{self, PathError};
 use super::{DrawnCurve, DrawnCurveError};
 use coupler_curves::geometry::{Point, Similarity};
 
-/// The most points of all curves of a page; pages have some thousands.
+/// The most points of all curves of a page, as chords; pages have some ten thousands.
 const MAX_POINTS: usize = 2_000_000;
 
 /// Reads the coupler curves of an SVG page, in the order in which they are drawn.
@@ -53,6 +53,8 @@ struct PageReader {
     barrier: Option<(usize, Barrier)>,
     /// The depth of the open curve, which is the last of `curves`.
     curve_depth: Option<usize>,
+    /// Whether no path of the open curve has been read.
+    expects_hairline: bool,
     curves: Vec<DrawnCurve>,
     /// The number of points that may still be read.
     points_left: usize,
@@ -121,7 +123,9 @@ impl PageReader {
     fn start_curve(&mut self, element: &BytesStart) -> Result<(), DrawnCurveError> {
         const NAMES: [&str; 7] =
             ["id", "data-cell", "data-trace", "data-circuit", "data-scale", "data-origin", "data-dash"];
+        const DRAWN: &str = "data-drawn";
         let values = self.read_attributes(element, NAMES)?;
+        let [drawn] = self.read_attributes(element, [DRAWN])?;
         let curve = values[0].as_deref().map(shorten).unwrap_or_default();
         match &self.barrier {
             Some((_, Barrier::Attribute(attribute))) => return Err(DrawnCurveError::Transformed { curve, attribute }),
@@ -136,6 +140,9 @@ impl PageReader {
         let [id, cell, trace, circuit, scale, origin, dash] = values.map(Option::unwrap_or_default);
         let curve_attribute =
             |k: usize, value: &str| CurveAttribute { curve_id: &curve, name: NAMES[k], value: value.to_owned() };
+        let stretches = |value: Cow<str>| {
+            CurveAttribute { curve_id: &curve, name: DRAWN, value: value.into_owned() }.parse_stretches()
+        };
         let scale =
             curve_attribute(4, &scale).parse_numbers("a positive number", |[scale]: &[f64; 1]| *scale > 0.0)?[0];
         let [x, y] = curve_attribute(5, &origin).parse_numbers("two numbers", |_| true)?;
@@ -149,9 +156,12 @@ impl PageReader {
             id: id.into_owned(),
             page_from_plane: Similarity { scale, flips_y: true, origin: Point::new(x, y) },
             dash,
-            polylines: Vec::new(),
+            dashed_travel: drawn.map(stretches).transpose()?,
+            hairline: Vec::new(),
+            dashes: Vec::new(),
         });
         self.curve_depth = Some(self.depth);
+        self.expects_hairline = true;
         Ok(())
     }
 
@@ -168,12 +178,14 @@ impl PageReader {
             return Err(DrawnCurveError::Transformed { curve, attribute });
         }
         if let Some(data) = data.filter(|_| name == "path") {
-            let lines = path::parse_polylines(&data, &mut self.points_left).map_err(|error| match error {
-                PathError::NotLines => DrawnCurveError::NotLines { curve },
+            let splines = path::parse_splines(&data, &mut self.points_left).map_err(|error| match error {
+                PathError::NotSplines => DrawnCurveError::NotSplines { curve },
                 PathError::TooManyPoints => DrawnCurveError::TooManyPoints { max_points: MAX_POINTS },
             })?;
             if let Some(open) = self.curves.last_mut() {
-                open.polylines.extend(lines);
+                // The first path is that of the whole curve, the others are its dashes.
+                let is_first = std::mem::take(&mut self.expects_hairline);
+                if is_first { open.hairline = splines } else { open.dashes.extend(splines) }
             }
         }
         Ok(())
@@ -237,6 +249,15 @@ struct CurveAttribute<'a> {
 impl CurveAttribute<'_> {
     fn parse_count(&self) -> Result<usize, DrawnCurveError> {
         self.value.parse().map_err(|_| self.invalid_attribute("a whole number"))
+    }
+
+    /// Parses the ends of stretches: finite numbers that do not fall, separated by spaces.
+    fn parse_stretches(&self) -> Result<Vec<[f64; 2]>, DrawnCurveError> {
+        let words = self.value.split_ascii_whitespace();
+        let numbers: Option<Vec<f64>> = words.map(|word| word.parse().ok().filter(|x: &f64| x.is_finite())).collect();
+        let numbers = numbers.filter(|numbers| numbers.len().is_multiple_of(2) && numbers.is_sorted());
+        let pairs = numbers.map(|numbers| numbers.as_chunks().0.to_vec());
+        pairs.ok_or_else(|| self.invalid_attribute("pairs of rising numbers"))
     }
 
     /// Parses finite numbers separated by spaces.

@@ -12,8 +12,8 @@ use std::fmt::{Display, Write};
 use super::SelectedCurve;
 use super::circle::{Circle, fit_circle};
 use crate::geometry::{Bounds, Point};
-use crate::linkage::{JointId, LinkOutline, Linkage, MotionOptions, is_plate};
-use crate::motion::{self, DashPattern};
+use crate::linkage::{JointId, LinkOutline, Linkage, is_plate};
+use crate::path::joint_polyline;
 
 const CURVE: &str = "CURVE";
 const LINKAGE: &str = "LINKAGE";
@@ -59,13 +59,8 @@ pub(super) fn document(selected: &SelectedCurve, chord: f64) -> String {
 fn curve_path(selected: &SelectedCurve, chord: f64) -> (Vec<Point>, bool) {
     let (circuit, joint) = (selected.circuit(), selected.curve().joint);
     let extent = Bounds::from_points(circuit.points(joint)).size().max();
-    // On pages the source's arc divides the path, but not in this drawing.
-    let motion_options = MotionOptions { figure_arc: None, ..selected.solved.linkage.motion_options.clone() };
-    let (alone, joint) = Linkage { motion_options, ..selected.solved.linkage.clone() }.with_one_point(joint);
-    let unbroken = DashPattern { period: f64::INFINITY, dash_span: f64::INFINITY };
-    let paths = motion::joint_paths(&alone, circuit, &[joint], unbroken, chord * extent);
-    let whole = paths.into_iter().flat_map(|path| path.points);
-    (whole.filter(is_finite).collect(), circuit.is_closed)
+    let (alone, joint) = selected.solved.linkage.with_one_point(joint);
+    (joint_polyline(&alone, circuit, joint, chord * extent), circuit.is_closed)
 }
 
 fn is_finite(p: &Point) -> bool {

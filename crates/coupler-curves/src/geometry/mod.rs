@@ -11,6 +11,7 @@ mod order;
 mod orientation;
 mod polyline;
 mod similarity;
+mod spline;
 pub mod trig;
 
 pub use bounds::Bounds;
@@ -20,6 +21,7 @@ pub use order::{in_rising_order, rising_order};
 pub use orientation::Orientation;
 pub use polyline::simplify_polyline;
 pub use similarity::Similarity;
+pub use spline::{CubicBezier, Spline, SplineSegment};
 
 /// A point of the plane.
 pub type Point = nalgebra::Point2<f64>;

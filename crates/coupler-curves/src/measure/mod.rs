@@ -5,7 +5,7 @@ mod axis_motion;
 mod circuit_function;
 mod class;
 mod column;
-mod curve;
+pub(crate) mod curve;
 mod curve_ring;
 mod curve_strip;
 mod dwell;

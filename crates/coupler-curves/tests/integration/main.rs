@@ -13,6 +13,7 @@ mod mccarthy;
 mod measures;
 mod output;
 mod output_by_samples;
+mod paths;
 mod portions;
 mod rates;
 mod sextic;

@@ -5,11 +5,11 @@ use std::collections::HashSet;
 use super::theme::Theme;
 use super::typography::is_article;
 use crate::scene::{
-    Anchor, Animation, Circle, Color, Face, Group, Item, Path, Polyline, Stroke, Text, TextRun, Typeface,
+    Anchor, Animation, Circle, Color, Curve, Face, Group, Item, Path, Polyline, Stroke, Text, TextRun, Typeface,
 };
 use coupler_curves::expression::{MathPiece, MathText};
-use coupler_curves::geometry::{Point, Similarity, Vector};
-use coupler_curves::motion::{self, DashPattern};
+use coupler_curves::geometry::{Point, Similarity, Spline, Vector};
+use coupler_curves::path::{DashPattern, JointPath};
 
 /// An element, whose geometry is in millimetres from the origin of the area it is drawn on.
 pub(super) trait Element {
@@ -27,8 +27,10 @@ pub(super) struct CouplerCurve {
     pub page_from_plane: Similarity,
     /// How the curve is cut into dashes.
     pub dashes: DashPattern,
-    /// The dashes, already in millimetres of the area.
-    pub dash_lines: Vec<motion::Dash>,
+    /// Its path, already in millimetres of the area.
+    pub path: JointPath,
+    /// The stroke of the whole path, under the dashes.
+    pub hairline: Stroke,
     /// The strokes of the dashes that belong to the figure, and of those that do not.
     pub stroke_styles: [Stroke; 2],
     /// Marks on the curve.
@@ -37,17 +39,17 @@ pub(super) struct CouplerCurve {
 
 impl Element for CouplerCurve {
     fn to_item(&self, origin: Vector) -> Item {
-        let lines = |figure: bool| -> Vec<Polyline> {
-            let drawn = self.dash_lines.iter().filter(|dash| dash.is_in_figure == figure && dash.points.len() > 1);
-            let moved = |p: &Point| p + origin;
-            drawn.map(|dash| Polyline { points: dash.points.iter().map(moved).collect(), is_closed: false }).collect()
+        let curve = |splines: Vec<&Spline>, stroke: Stroke| {
+            let splines: Vec<Spline> = splines.into_iter().map(|spline| spline.map(|p| p + origin)).collect();
+            (!splines.is_empty()).then_some(Item::Curve(Curve { splines, stroke }))
         };
-        let path = |(figure, stroke): (bool, Stroke)| {
-            let lines = lines(figure);
-            (!lines.is_empty()).then_some(Item::Path(Path { polylines: lines, stroke: Some(stroke), fill: None }))
+        let dashes = |is_in_figure: bool, stroke: Stroke| {
+            let dashes = self.path.dashes.iter().filter(|dash| dash.is_in_figure == is_in_figure);
+            curve(dashes.map(|dash| &dash.spline).collect(), stroke)
         };
         let [figure, other] = self.stroke_styles;
-        let paths = [(false, other), (true, figure)].into_iter().filter_map(path);
+        let hairline = curve(self.path.whole.iter().collect(), self.hairline);
+        let paths = [hairline, dashes(false, other), dashes(true, figure)].into_iter().flatten();
         let marks = self.marks.iter().map(|mark| translated(&Item::Circle(mark.clone()), origin));
         Item::Group(Group {
             id: self.id.clone(),
@@ -62,15 +64,20 @@ impl Element for CouplerCurve {
 impl CouplerCurve {
     /// The transform and the dashes of the curve, with which a drawing can be compared with its samples. The numbers
     /// parse to the same `f64`.
-    fn drawing_data(&self, origin: Vector) -> [(&'static str, String); 3] {
+    fn drawing_data(&self, origin: Vector) -> Vec<(&'static str, String)> {
         let Similarity { scale, origin: plane_origin, .. } = self.page_from_plane;
         let at = plane_origin + origin;
         let DashPattern { period, dash_span } = self.dashes;
-        [
+        let mut data = vec![
             ("scale", scale.to_string()),
             ("origin", format!("{} {}", at.x, at.y)),
             ("dash", format!("{period} {dash_span}")),
-        ]
+        ];
+        if let Some(stretches) = &self.path.dashed_travel {
+            let ends: Vec<String> = stretches.iter().flatten().map(f64::to_string).collect();
+            data.push(("drawn", ends.join(" ")));
+        }
+        data
     }
 }
 
@@ -104,6 +111,10 @@ fn translated(item: &Item, by: Vector) -> Item {
             let line =
                 |line: &Polyline| Polyline { points: line.points.iter().map(|p| p + by).collect(), ..line.clone() };
             Item::Path(Path { polylines: path.polylines.iter().map(line).collect(), ..path.clone() })
+        }
+        Item::Curve(curve) => {
+            let splines = curve.splines.iter().map(|spline| spline.map(|p| p + by)).collect();
+            Item::Curve(Curve { splines, ..curve.clone() })
         }
         Item::Circle(circle) => Item::Circle(Circle { centre: circle.centre + by, ..circle.clone() }),
         Item::Text(text) => Item::Text(Text { position: text.position + by, ..text.clone() }),

@@ -3,7 +3,7 @@
 use super::area::Area;
 use super::arrangement::{Arrangement, Extents, Rect};
 use super::element::{CouplerCurve, Drawing};
-use super::labels::Obstacles;
+use super::labels::{Obstacles, label_line};
 use super::marks;
 use super::mechanism::PosedMechanism;
 use super::motion_marks::{self, MotionMarks};
@@ -13,15 +13,16 @@ use super::symbols::{Mark, Symbol};
 use super::theme::Theme;
 use super::{Options, Panel, PanelPage, PoseChoice};
 use crate::mechanism::Mechanism;
-use crate::scene::{Animation, Circle, Color, Item, Path};
+use crate::scene::{Animation, Circle, Color, Curve, Item};
 use coupler_curves::geometry::{Bounds, Point, Similarity};
 use coupler_curves::linkage::{Input, JointId, Linkage};
-use coupler_curves::motion::{self, Circuit, DashPattern};
+use coupler_curves::motion::{self, Circuit};
+use coupler_curves::path::{self, DashPattern, JointPath};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 
-/// The greatest distance of a chord from its curve, in millimetres on paper. With the rounding to 1/1000 mm, a page can
+/// The greatest distance of a spline from its curve, in millimetres on paper. With the rounding to 1/1000 mm, a page can
 /// be compared with its samples to 0.01 mm.
-pub(super) const MAX_CHORD_ERROR: f64 = 0.009;
+pub(super) const MAX_CURVE_ERROR: f64 = 0.009;
 
 /// The rounding of a scale that is computed from a frame: panels of a page differ in size by a hundredth of a millimetre.
 const SCALE_ROUNDING: f64 = 1e-3;
@@ -39,34 +40,18 @@ pub fn dash_period(linkage: &Linkage, circuits: &[Circuit], options: &Options) -
     round_number_below(passes.map(|pass| pass.input_length()).fold(0.0, f64::max) / 20.0)
 }
 
-/// The paths of some curves of a cell on the page, in the same order; `dashes(k)` is the pattern of the k-th. The
-/// curves of one circuit with the same pattern are computed together.
-pub(super) fn curve_paths(
+/// The path of a curve of a cell on the page.
+pub(super) fn curve_path(
     solved: &SolvedCell,
-    curves: &[usize],
+    curve: &MeasuredCurve,
     page_from_plane: Similarity,
-    dashes: impl Fn(usize) -> DashPattern,
-) -> Vec<motion::JointPath> {
-    let tolerance = MAX_CHORD_ERROR / page_from_plane.scale;
-    let on_page = |points: &mut [Point]| points.iter_mut().for_each(|p| *p = page_from_plane.apply(*p));
-    let mut out = vec![motion::JointPath::default(); curves.len()];
-    for (number, circuit) in (1..).zip(&solved.motion.circuits) {
-        let mut remaining: Vec<usize> =
-            (0..curves.len()).filter(|&k| solved.curves[curves[k]].circuit == number).collect();
-        while let Some(&first) = remaining.first() {
-            let pattern = dashes(first);
-            let (alike, others) = remaining.into_iter().partition::<Vec<_>, _>(|&k| dashes(k) == pattern);
-            let joints: Vec<JointId> = alike.iter().map(|&k| solved.curves[curves[k]].joint).collect();
-            let paths = motion::joint_paths(&solved.linkage, circuit, &joints, pattern, tolerance);
-            for (k, mut path) in alike.into_iter().zip(paths) {
-                on_page(&mut path.points);
-                path.dashes.iter_mut().for_each(|dash| on_page(&mut dash.points));
-                out[k] = path;
-            }
-            remaining = others;
-        }
-    }
-    out
+    dashes: DashPattern,
+) -> JointPath {
+    let tolerance = MAX_CURVE_ERROR / page_from_plane.scale;
+    let mut path = path::joint_path(&solved.linkage, solved.circuit(curve), curve.joint, dashes, tolerance);
+    let splines = path.whole.iter_mut().chain(path.dashes.iter_mut().map(|dash| &mut dash.spline));
+    splines.for_each(|spline| *spline = spline.map(|p| page_from_plane.apply(p)));
+    path
 }
 
 /// The bounds of a curve, or only their centre if the curve is so small, compared with the coordinates of its linkage,
@@ -146,7 +131,6 @@ impl<'a> Figure<'a> {
         let period = dash_period(&self.solved_cell.linkage, &self.solved_cell.motion.circuits, options);
         let in_dashes = |plot: &Plot, obstacles: Obstacles| {
             let paths = self.paths(plot, period, theme);
-            self.draw_solid_curves(area, &paths, theme.hair_width, theme);
             self.draw_marks(area, plot, theme);
             self.draw_motion_marks(area, plot, &paths, obstacles, theme);
             self.draw_curves(area, plot, page, (paths, period), theme);
@@ -167,7 +151,7 @@ impl<'a> Figure<'a> {
             in_dashes(&key, obstacles);
             self.draw_linkage(area, &key, theme);
         } else {
-            self.draw_solid_curves(area, &self.paths(&key, period, theme), theme.fine_width, theme);
+            self.draw_key_curves(area, &key, period, theme);
             self.draw_linkage(area, &key, theme);
             let curve = curve.fitted_to(self.extents.curve);
             let enlargement = curve.page_from_plane.scale / key.page_from_plane.scale;
@@ -177,13 +161,13 @@ impl<'a> Figure<'a> {
         }
     }
 
-    /// Draws the curves in dashes, and their coupler points.
+    /// Draws the curves as hairlines with dashes, and their coupler points.
     fn draw_curves(
         &self,
         area: &impl Area,
         plot: &Plot,
         page: &PanelPage,
-        (paths, period): (Vec<motion::JointPath>, f64),
+        (paths, period): (Vec<JointPath>, f64),
         theme: &Theme,
     ) {
         let limits = self.limit_poses();
@@ -205,7 +189,8 @@ impl<'a> Figure<'a> {
                 data: vec![("cell", cell.to_string()), ("trace", trace.to_string()), ("circuit", circuit.to_string())],
                 page_from_plane: plot.page_from_plane,
                 dashes: self.dashes(curve, period, theme),
-                dash_lines: path.dashes,
+                path,
+                hairline: theme.stroke(theme.faded(ink), theme.hair_width),
                 stroke_styles: [stroke, theme.stroke(theme.faded(ink), theme.fine_width)],
                 // A dot marks each limit of the input.
                 marks: limits[circuit - 1].iter().map(dot).collect(),
@@ -216,13 +201,13 @@ impl<'a> Figure<'a> {
         area.record(&Drawing { class: "coupler-point", title: String::new(), items: points });
     }
 
-    /// Draws the curves as light solid lines: in the key, and under the dashes to lead the eye across the gaps.
-    fn draw_solid_curves(&self, area: &impl Area, paths: &[motion::JointPath], weight: f64, theme: &Theme) {
-        let solid = |(curve, path): (&MeasuredCurve, &motion::JointPath)| {
+    /// Draws the curves of the key as light solid lines.
+    fn draw_key_curves(&self, area: &impl Area, plot: &Plot, period: f64, theme: &Theme) {
+        let solid = |(curve, path): (&MeasuredCurve, JointPath)| {
             let ink = theme.faded(self.curve_ink(curve, theme));
-            Item::Path(Path::stroked(path.points.clone(), theme.stroke(ink, weight)))
+            Item::Curve(Curve { splines: path.whole, stroke: theme.stroke(ink, theme.fine_width) })
         };
-        let items = self.solved_cell.curves.iter().zip(paths).map(solid).collect();
+        let items = self.solved_cell.curves.iter().zip(self.paths(plot, period, theme)).map(solid).collect();
         area.record(&Drawing { class: "trail", title: String::new(), items });
     }
 
@@ -242,7 +227,7 @@ impl<'a> Figure<'a> {
         &self,
         area: &impl Area,
         plot: &Plot,
-        paths: &[motion::JointPath],
+        paths: &[JointPath],
         mut obstacles: Obstacles,
         theme: &Theme,
     ) {
@@ -252,7 +237,7 @@ impl<'a> Figure<'a> {
             MotionMarks::new(&solved.linkage, solved.circuit(curve), curve.joint, plot, ink, theme)
         };
         let marks: Vec<MotionMarks> = solved.curves.iter().map(marks).collect();
-        paths.iter().for_each(|path| obstacles.add_points(&path.points, theme.curve_width, false));
+        paths.iter().for_each(|path| obstacles.add_points(&label_line(path), theme.curve_width, false));
         obstacles.add(&marks::symmetry_axis_items(solved, plot, theme), false);
         for marks in &marks {
             obstacles.add(&marks.items, false);
@@ -265,10 +250,11 @@ impl<'a> Figure<'a> {
     }
 
     /// The path of every curve, in the order of the curves.
-    fn paths(&self, plot: &Plot, period: f64, theme: &Theme) -> Vec<motion::JointPath> {
-        let all: Vec<usize> = (0..self.solved_cell.curves.len()).collect();
-        let dashes = |k: usize| self.dashes(&self.solved_cell.curves[k], period, theme);
-        curve_paths(self.solved_cell, &all, plot.page_from_plane, dashes)
+    fn paths(&self, plot: &Plot, period: f64, theme: &Theme) -> Vec<JointPath> {
+        let path = |curve: &MeasuredCurve| {
+            curve_path(self.solved_cell, curve, plot.page_from_plane, self.dashes(curve, period, theme))
+        };
+        self.solved_cell.curves.iter().map(path).collect()
     }
 
     /// The dashes of a curve: by default a dash is the first 3 degrees of a period of 5.

@@ -4,6 +4,13 @@ use super::arrangement::Rect;
 use super::theme::Theme;
 use crate::scene::{Item, Polyline, Text};
 use coupler_curves::geometry::{Point, Vector, cross, distance_to_segment, trig};
+use coupler_curves::path::JointPath;
+
+/// The line of a path on the page for the placement of labels: through all of its splines, to a twentieth of a millimetre.
+pub(super) fn label_line(path: &JointPath) -> Vec<Point> {
+    const FLATNESS: f64 = 0.05;
+    path.whole.iter().flat_map(|spline| spline.flatten(FLATNESS)).collect()
+}
 
 /// The lines and circles that labels avoid.
 #[derive(Default)]
@@ -37,7 +44,7 @@ impl Obstacles {
                     let half = circle.stroke.map_or(0.0, |stroke| stroke.width / 2.0);
                     self.circles.push((circle.centre, circle.radius + half));
                 }
-                Item::Group(_) | Item::Text(_) | Item::Animation(_) => {}
+                Item::Group(_) | Item::Curve(_) | Item::Text(_) | Item::Animation(_) => {}
             }
         }
     }

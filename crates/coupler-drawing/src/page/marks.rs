@@ -1,11 +1,12 @@
 //! Measured properties that are marked on curves and written under them: straight portions and axes of symmetry.
 
+use super::figure::MAX_CURVE_ERROR;
 use super::plot::Plot;
 use super::theme::Theme;
 use crate::scene::{Color, Item, Path, Polyline};
 use coupler_curves::expression::{format_exactly, round_to_six_digits};
 use coupler_curves::family::{Family, StraightCriterion};
-use coupler_curves::geometry::{Bounds, Point};
+use coupler_curves::geometry::{Bounds, Point, simplify_polyline};
 use coupler_curves::linkage::{Input, JointId};
 use coupler_curves::measure::{StraightPortion, Symmetry, SymmetryAxis, Value};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
@@ -135,8 +136,8 @@ pub(super) fn straight_portion_item(
 ) -> Option<Item> {
     let portion = visible_straight_portion(solved, curve)?;
     let line = |points: &[Point]| {
-        let points = points.iter().map(|p| plot.page_from_plane.apply(*p)).collect();
-        Polyline { points, is_closed: false }
+        let points: Vec<Point> = points.iter().map(|p| plot.page_from_plane.apply(*p)).collect();
+        Polyline { points: simplify_polyline(&points, MAX_CURVE_ERROR), is_closed: false }
     };
     let image = mirrored_portion(solved, curve, portion);
     let polylines = std::iter::once(line(&portion.points)).chain(image.iter().map(|image| line(image))).collect();

@@ -4,7 +4,8 @@ use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 use tiny_skia::{FillRule, IntSize, LineCap, LineJoin, Paint, PathBuilder, Pixmap, Transform};
 
-use crate::scene::{Circle, Color, OutlineSegment, Path, Scene, Shape, Stroke, Text};
+use crate::scene::{Circle, Color, Curve, OutlineSegment, Path, Scene, Shape, Stroke, Text};
+use coupler_curves::geometry::{Point, Spline, SplineSegment};
 
 /// An error of rendering a scene to PNG.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -71,6 +72,7 @@ impl Strip {
     fn draw_shape(&mut self, shape: Shape) {
         match shape {
             Shape::Path(path) => self.draw_path(path),
+            Shape::Curve(curve) => self.draw_curve(curve),
             Shape::Circle(circle) => self.draw_circle(circle),
             Shape::Text(text) => self.draw_text(text),
         }
@@ -124,6 +126,33 @@ impl Strip {
             }
         }
         self.paint_path(builder.finish(), path.stroke, path.fill);
+    }
+
+    fn draw_curve(&mut self, curve: &Curve) {
+        let heights = || curve.splines.iter().flat_map(Spline::points).map(|point| point.y);
+        let (high, low) = (heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max));
+        if !self.is_visible(high - curve.stroke.width, low + curve.stroke.width) {
+            return;
+        }
+        let mut builder = PathBuilder::new();
+        let place = |point: Point| (point.x as f32, point.y as f32);
+        for spline in &curve.splines {
+            let (x, y) = place(spline.start);
+            builder.move_to(x, y);
+            for segment in &spline.segments {
+                match segment {
+                    SplineSegment::Line(end) => {
+                        let (x, y) = place(*end);
+                        builder.line_to(x, y);
+                    }
+                    SplineSegment::Cubic(points) => {
+                        let [(bx, by), (cx, cy), (dx, dy)] = points.map(place);
+                        builder.cubic_to(bx, by, cx, cy, dx, dy);
+                    }
+                }
+            }
+        }
+        self.paint_path(builder.finish(), Some(curve.stroke), None);
     }
 
     fn draw_circle(&mut self, circle: &Circle) {

@@ -20,7 +20,7 @@ pub use color::Color;
 pub use font::OutlineSegment;
 pub use font::{Face, Typeface};
 
-use coupler_curves::geometry::Point;
+use coupler_curves::geometry::{Point, Spline};
 
 /// A finished page, which can be rendered.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,6 +48,8 @@ pub enum Item {
     Group(Group),
     /// Polylines.
     Path(Path),
+    /// Splines.
+    Curve(Curve),
     /// A circle.
     Circle(Circle),
     /// A line of text.
@@ -61,6 +63,8 @@ pub enum Item {
 pub enum Shape<'a> {
     /// Polylines.
     Path(&'a Path),
+    /// Splines.
+    Curve(&'a Curve),
     /// A circle.
     Circle(&'a Circle),
     /// A line of text.
@@ -110,6 +114,15 @@ pub struct Polyline {
     pub points: Vec<Point>,
     /// Whether the last point is joined to the first.
     pub is_closed: bool,
+}
+
+/// Splines, stroked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve {
+    /// The splines.
+    pub splines: Vec<Spline>,
+    /// The stroke.
+    pub stroke: Stroke,
 }
 
 /// The stroke of a line; joins are round.
@@ -213,6 +226,7 @@ fn collect_shapes<'s>(items: &'s [Item], shapes: &mut Vec<Shape<'s>>) {
         match item {
             Item::Group(group) => collect_shapes(&group.items, shapes),
             Item::Path(path) => shapes.push(Shape::Path(path)),
+            Item::Curve(curve) => shapes.push(Shape::Curve(curve)),
             Item::Circle(circle) => shapes.push(Shape::Circle(circle)),
             Item::Text(text) => shapes.push(Shape::Text(text)),
             Item::Animation(animation) => {

@@ -281,7 +281,7 @@ impl CrossingSearch<'_> {
         for (one, other) in [(a, b), (b, a)] {
             for u in [-0.6, 0.1, 0.7] {
                 let point = one.arc.point(u);
-                let Some(foot) = foot(&other.arc, point) else { continue };
+                let Some(foot) = other.arc.foot(point) else { continue };
                 let distance = (other.arc.point(foot) - point).norm();
                 if distance > self.same_distance() {
                     return false;
@@ -291,21 +291,4 @@ impl CrossingSearch<'_> {
         }
         met > 1
     }
-}
-
-/// The parameter of the foot of the perpendicular from a point to an arc, if it is on the arc.
-fn foot(arc: &Arc, point: Point) -> Option<f64> {
-    let mut u = 0.0f64;
-    for _ in 0..8 {
-        let (offset, v) = (arc.point(u) - point, arc.velocity(u));
-        let step = offset.dot(&v) / v.norm_squared();
-        u -= step;
-        if u.is_nan() || u.abs() > 1.5 {
-            return None;
-        }
-        if step.abs() < 1e-12 {
-            break;
-        }
-    }
-    (u.abs() <= 1.0).then_some(u)
 }

@@ -74,6 +74,23 @@ impl Arc {
         )
     }
 
+    /// The parameter of the foot of the perpendicular from a point, if it is on the arc.
+    pub fn foot(&self, point: Point) -> Option<f64> {
+        let mut u = 0.0f64;
+        for _ in 0..8 {
+            let (offset, v) = (self.point(u) - point, self.velocity(u));
+            let step = offset.dot(&v) / v.norm_squared();
+            u -= step;
+            if u.is_nan() || u.abs() > 1.5 {
+                return None;
+            }
+            if step.abs() < 1e-12 {
+                break;
+            }
+        }
+        (u.abs() <= 1.0).then_some(u)
+    }
+
     /// The greatest speed at the nodes.
     pub fn greatest_speed(&self) -> f64 {
         let [x, y] = self.velocity.each_ref().map(Chebyshev::values);

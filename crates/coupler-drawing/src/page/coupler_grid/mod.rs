@@ -21,17 +21,17 @@ use super::arrangement::Rect;
 use super::element::{CouplerCurve, Drawing};
 use super::figure;
 use super::heading;
-use super::labels::{LabelPlacer, Obstacles};
+use super::labels::{LabelPlacer, Obstacles, label_line};
 use super::marks;
 use super::mechanism::PosedMechanism;
 use super::plot::Plot;
 use super::theme::Theme;
 use super::{CouplerGridPage, Layout, Options, Panel, PoseChoice, pose};
 use crate::mechanism::Mechanism;
-use crate::scene::{Anchor, Circle, Color, Item, Path, Scene};
+use crate::scene::{Anchor, Circle, Color, Item, Scene, Stroke};
 use coupler_curves::geometry::{Bounds, Point, Similarity, Vector};
 use coupler_curves::linkage::Input;
-use coupler_curves::motion::{self, DashPattern};
+use coupler_curves::path::{DashPattern, JointPath};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 use graphs::Graphs;
 use layout::{PageLayout, PanelLayout};
@@ -48,14 +48,23 @@ struct ShownCurve<'a> {
 }
 
 impl ShownCurve<'_> {
-    /// Whether the dashes have a thin line under them: a page has more points than inks, so each ink is used a second
-    /// time with an underline.
+    /// Whether the line under the dashes is in full ink and the point is filled: a page has more points than inks, so
+    /// each ink is used a second time.
     fn has_underline(&self, theme: &Theme) -> bool {
         self.point_index / theme.curve_inks.len() % 2 == 1
     }
 
     fn ink(&self, theme: &Theme) -> Color {
         theme.curve_ink(self.point_index)
+    }
+
+    /// The stroke of the line under the dashes.
+    fn hairline(&self, theme: &Theme) -> Stroke {
+        if self.has_underline(theme) {
+            theme.stroke(self.ink(theme), 0.6 * theme.fine_width)
+        } else {
+            theme.stroke(theme.faded(self.ink(theme)), theme.hair_width)
+        }
     }
 }
 
@@ -190,7 +199,8 @@ fn draw_figure(
     plot.draw_scale_bar(area, "", theme);
     let period = figure::dash_period(&solved.linkage, &solved.motion.circuits, options);
     let dashes = |k: usize| DashPattern { period, dash_span: theme.curve_dash_fraction(shown[k].point_index) * period };
-    let paths = figure::curve_paths(solved, &page.curve_indices, plot.page_from_plane, dashes);
+    let path = |(k, s): (usize, &ShownCurve)| figure::curve_path(solved, s.curve, plot.page_from_plane, dashes(k));
+    let paths: Vec<JointPath> = shown.iter().enumerate().map(path).collect();
     let underlay = mechanism.underlay_items(&plot, theme);
     let grid = grid.items(&mechanism.pose, &plot, theme);
     let portion = |s: &ShownCurve| marks::straight_portion_item(solved, s.curve, s.ink(theme), &plot, theme);
@@ -201,8 +211,9 @@ fn draw_figure(
     let mut obstacles = Obstacles::default();
     [&underlay, &grid, &straight].into_iter().for_each(|items| obstacles.add(items, true));
     [&linkage, &points].into_iter().for_each(|items| obstacles.add(items, false));
-    for (k, (shown, path)) in shown.iter().zip(&paths).enumerate() {
-        obstacles.add_curve(k, &path.points, theme.curve_stroke(shown.point_index).width);
+    let lines: Vec<Vec<Point>> = paths.iter().map(label_line).collect();
+    for (k, (shown, points)) in shown.iter().zip(&lines).enumerate() {
+        obstacles.add_curve(k, points, theme.curve_stroke(shown.point_index).width);
     }
     let mut placer = LabelPlacer::new(&obstacles, plot.rect_above_scale_bar(theme), theme);
     let number = |s: &ShownCurve| {
@@ -213,20 +224,15 @@ fn draw_figure(
     let mut numbers: Vec<Item> =
         at_points.into_iter().filter_map(|(at, s)| placer.place_at_point(at, number(s))).collect();
     // Curves that are nearly equal at their points differ at their far ends, where they have their numbers again.
-    numbers.extend(shown.iter().zip(&paths).enumerate().filter_map(|(k, (s, path))| {
+    numbers.extend(shown.iter().zip(&lines).enumerate().filter_map(|(k, (s, points))| {
         let point = plot.page_from_plane.apply(mechanism.pose[s.curve.joint]);
-        placer.place_far_from(point, (k, &path.points), number(s))
+        placer.place_far_from(point, (k, points), number(s))
     }));
 
     let group = |class, items| area.record(&Drawing { class, title: String::new(), items });
     group("underlay", underlay);
     group("grid", grid);
     group("straight", straight);
-    let underline = |(shown, path): (&ShownCurve, &motion::JointPath)| {
-        let line = || Path::stroked(path.points.clone(), theme.stroke(shown.ink(theme), 0.6 * theme.fine_width));
-        shown.has_underline(theme).then(|| Item::Path(line()))
-    };
-    group("trail", shown.iter().zip(&paths).filter_map(underline).collect());
     for (k, (shown, path)) in shown.iter().zip(paths).enumerate() {
         area.record(&coupler_curve(page, shown, path, (plot.page_from_plane, dashes(k)), theme));
     }
@@ -249,7 +255,7 @@ fn distinct_points<'a>(
 fn coupler_curve(
     page: &CouplerGridPage,
     shown: &ShownCurve,
-    path: motion::JointPath,
+    path: JointPath,
     (page_from_plane, dashes): (Similarity, DashPattern),
     theme: &Theme,
 ) -> CouplerCurve {
@@ -263,7 +269,8 @@ fn coupler_curve(
         data: vec![("cell", cell.to_string()), ("trace", trace.to_string()), ("circuit", circuit.to_string())],
         page_from_plane,
         dashes,
-        dash_lines: path.dashes,
+        path,
+        hairline: shown.hairline(theme),
         stroke_styles: [stroke, theme.stroke(theme.faded(stroke.color), theme.fine_width)],
         marks: Vec::new(),
     }

@@ -9,7 +9,7 @@ use super::super::theme::Theme;
 use super::ShownCurve;
 use super::columns::{ColumnGroup, column_groups, fitting_columns};
 use super::layout::HEAD_HEIGHT;
-use crate::scene::{Anchor, Circle, Item, Path, Polyline};
+use crate::scene::{Anchor, Circle, Item, Path, Polyline, Stroke};
 use coupler_curves::geometry::{Point, Vector};
 
 /// The table of a page, with the positions of its columns.
@@ -119,12 +119,10 @@ fn swatch(at: Point, shown: &ShownCurve, theme: &Theme) -> Drawing {
     };
     let drawn = 0.5 * theme.curve_dash_fraction(shown.point_index);
     let lines = vec![line(0.0, drawn), line(0.5, 0.5 + drawn)];
+    let path =
+        |polylines: Vec<Polyline>, stroke: Stroke| Item::Path(Path { polylines, stroke: Some(stroke), fill: None });
     let mut items =
-        vec![Item::Path(Path { polylines: lines, stroke: Some(theme.curve_stroke(shown.point_index)), fill: None })];
-    if shown.has_underline(theme) {
-        let stroke = Some(theme.stroke(ink, 0.6 * theme.fine_width));
-        items.insert(0, Item::Path(Path { polylines: vec![line(0.0, 1.0)], stroke, fill: None }));
-    }
+        vec![path(vec![line(0.0, 1.0)], shown.hairline(theme)), path(lines, theme.curve_stroke(shown.point_index))];
     let fill = Some(if shown.has_underline(theme) { ink } else { theme.paper });
     let centre = at + Vector::new(length, 0.0);
     let stroke = Some(theme.stroke(ink, theme.fine_width));

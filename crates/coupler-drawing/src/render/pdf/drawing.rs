@@ -6,8 +6,8 @@ use krilla::paint::{Fill, LineCap, LineJoin};
 use krilla::surface::Surface;
 
 use super::fonts::{FontCache, layout_glyphs};
-use crate::scene::{Circle, Color, Path, Polyline, Scene, Shape, Stroke, Text, TextRun};
-use coupler_curves::geometry::{Point, Vector};
+use crate::scene::{Circle, Color, Curve, Path, Polyline, Scene, Shape, Stroke, Text, TextRun};
+use coupler_curves::geometry::{Point, Spline, SplineSegment, Vector};
 
 /// A length in PDF points.
 pub(super) fn mm_to_points(mm: f64) -> f32 {
@@ -35,6 +35,12 @@ struct CoordinateFrame {
 impl CoordinateFrame {
     fn upright(origin: Point) -> CoordinateFrame {
         CoordinateFrame { origin, quarter_turns: 0 }
+    }
+
+    /// The frame whose origin is in the upper left of some points, at a whole millimetre, so that they have few digits.
+    fn at_corner(points: impl Iterator<Item = Point>) -> CoordinateFrame {
+        let corner = points.fold([f64::INFINITY; 2], |[x, y], p| [x.min(p.x), y.min(p.y)]);
+        CoordinateFrame::upright(Point::from(corner.map(|c| clamp_length(c).floor())))
     }
 
     fn points_from_units(self) -> Transform {
@@ -66,6 +72,7 @@ impl<'d> PagePainter<'d> {
         for shape in scene.shapes() {
             match shape {
                 Shape::Path(path) => self.draw_path(path),
+                Shape::Curve(curve) => self.draw_curve(curve),
                 Shape::Circle(circle) => self.draw_circle(circle),
                 Shape::Text(text) => self.draw_text(text),
             }
@@ -87,11 +94,9 @@ impl<'d> PagePainter<'d> {
         self.surface.pop();
     }
 
-    /// Draws a path. Coordinates are relative to a corner of the path, so that they have few digits.
+    /// Draws a path.
     fn draw_path(&mut self, path: &Path) {
-        let points = path.polylines.iter().flat_map(|line| &line.points);
-        let corner = points.fold([f64::INFINITY; 2], |[x, y], p| [x.min(p.x), y.min(p.y)]);
-        let frame = CoordinateFrame::upright(Point::from(corner.map(|c| clamp_length(c).floor())));
+        let frame = CoordinateFrame::at_corner(path.polylines.iter().flat_map(|line| &line.points).copied());
         let mut builder = PathBuilder::new();
         for line in &path.polylines {
             let mut last = None;
@@ -109,6 +114,29 @@ impl<'d> PagePainter<'d> {
             }
         }
         self.paint_path(frame, builder, path.stroke, path.fill);
+    }
+
+    /// Draws splines.
+    fn draw_curve(&mut self, curve: &Curve) {
+        let frame = CoordinateFrame::at_corner(curve.splines.iter().flat_map(Spline::points));
+        let mut builder = PathBuilder::new();
+        for spline in &curve.splines {
+            let [x, y] = point_in_units(&spline.start, frame.origin);
+            builder.move_to(x, y);
+            for segment in &spline.segments {
+                match segment {
+                    SplineSegment::Line(end) => {
+                        let [x, y] = point_in_units(end, frame.origin);
+                        builder.line_to(x, y);
+                    }
+                    SplineSegment::Cubic(points) => {
+                        let [[bx, by], [cx, cy], [dx, dy]] = points.map(|point| point_in_units(&point, frame.origin));
+                        builder.cubic_to(bx, by, cx, cy, dx, dy);
+                    }
+                }
+            }
+        }
+        self.paint_path(frame, builder, Some(curve.stroke), None);
     }
 
     /// Draws a circle as four cubics, which deviate from it by less than 3/10000 of the radius.

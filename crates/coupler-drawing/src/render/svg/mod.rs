@@ -8,9 +8,9 @@ mod path_data;
 use std::fmt::Write;
 
 use super::TextMode;
-use crate::scene::{Anchor, Animation, Circle, Color, Group, Item, Path, Scene, Stroke, Text};
+use crate::scene::{Anchor, Animation, Circle, Color, Curve, Group, Item, Path, Scene, Stroke, Text};
 use number::{Number, to_micrometres};
-use path_data::{absolute_path_data, write_path_data};
+use path_data::{absolute_path_data, write_path_data, write_spline_data};
 
 /// Renders a scene to an SVG document; coordinates are in millimetres, rounded to 1/1000 mm.
 pub fn svg(scene: &Scene, text: TextMode) -> Vec<u8> {
@@ -47,6 +47,7 @@ impl SvgWriter {
         match item {
             Item::Group(group) => self.write_group(group),
             Item::Path(path) => self.write_path(path, None),
+            Item::Curve(curve) => self.write_curve(curve),
             Item::Circle(circle) => self.write_circle(circle, None),
             Item::Animation(animation) => self.write_animation(animation),
             Item::Text(text) => match self.text_mode {
@@ -144,6 +145,14 @@ impl SvgWriter {
         self.output.push('"');
         self.write_paint(path.stroke, path.fill);
         self.end_element("path", animation);
+    }
+
+    fn write_curve(&mut self, curve: &Curve) {
+        self.output.push_str("<path d=\"");
+        write_spline_data(&mut self.output, curve);
+        self.output.push('"');
+        self.write_paint(Some(curve.stroke), None);
+        self.output.push_str("/>\n");
     }
 
     fn write_circle(&mut self, circle: &Circle, animation: Option<&String>) {

@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use super::number::{Number, to_micrometres};
-use crate::scene::Path;
-use coupler_curves::geometry::Point;
+use crate::scene::{Curve, Path};
+use coupler_curves::geometry::{Point, SplineSegment};
 
 /// Appends the data of a path in relative coordinates.
 pub(super) fn write_path_data(out: &mut String, path: &Path) {
@@ -17,6 +17,33 @@ pub(super) fn write_path_data(out: &mut String, path: &Path) {
             writer.close(out);
         }
     }
+}
+
+/// Appends the data of splines in relative coordinates.
+pub(super) fn write_spline_data(out: &mut String, curve: &Curve) {
+    let mut writer = PathWriter::default();
+    for spline in &curve.splines {
+        writer.write_command(out, 'm', &[spline.start]);
+        for (start, segment) in spline.segments_with_starts() {
+            match *segment {
+                SplineSegment::Line(end) => writer.write_command(out, 'l', &[end]),
+                SplineSegment::Cubic([b, c, d]) => match parabola_control([start, b, c, d]) {
+                    Some(control) => writer.write_command(out, 'q', &[control, d]),
+                    None => writer.write_command(out, 'c', &[b, c, d]),
+                },
+            }
+        }
+    }
+}
+
+/// The control point of a cubic Bézier curve that is a parabola, so that it can be written as a quadratic one; `None` if
+/// it is none.
+fn parabola_control([a, b, c, d]: [Point; 4]) -> Option<Point> {
+    /// In millimetres: more than the rounding of positions, and far less than that of the numbers written.
+    const SAME: f64 = 1e-7;
+    let control = |end: Point, control: Point| control + (control - end) * 0.5;
+    let (from_start, from_end) = (control(a, b), control(d, c));
+    ((from_start - from_end).norm() <= SAME).then_some(from_start)
 }
 
 /// The data of a path in absolute coordinates, in which interpolated values are interpolated positions.

@@ -1,0 +1,243 @@
+//! The curve of a joint by one parameter.
+
+use super::fit::{AT_POINTS, fit_cubic};
+use super::polyline::refined_lines;
+use crate::geometry::{Point, Spline, SplineSegment, TERMS, Vector, distance_to_segment};
+use crate::linkage::{JointId, Linkage};
+use crate::measure::curve::{Arc, Place, SmoothCurve};
+use crate::motion::{Circuit, Pass};
+
+/// The curve of a joint on a circuit, by a parameter `t`: `k` at the beginning of piece `k` of the curve, and `k + 1` at
+/// its end.
+pub(super) struct Trajectory<'a> {
+    pub linkage: &'a Linkage,
+    pub circuit: &'a Circuit,
+    joint: JointId,
+    pub curve: SmoothCurve,
+    tolerance: f64,
+    /// The greatest extent along x or y.
+    pub extent: f64,
+    /// Where the tangent may jump, or the curve stops, or pieces that are resolved meet others; rising.
+    pub knots: Vec<f64>,
+    /// Whether the curve is a polynomial on a piece, to a small part of the tolerance.
+    is_resolved: Vec<bool>,
+    /// The input travelled from the beginning of the circuit to that of each piece.
+    piece_starts: Vec<f64>,
+    /// The input travelled from the beginning of the circuit to that of each pass.
+    pass_starts: Vec<f64>,
+}
+
+/// The parameter at a place. Next to the end of a piece it is that end, so that nothing is left of the piece.
+pub(super) fn parameter(place: Place) -> f64 {
+    /// More than the rounding of inputs relative to the width of a piece.
+    const NEXT_TO_END: f64 = 1e-9;
+    let t = place.piece as f64 + (place.u + 1.0) / 2.0;
+    if (t - t.round()).abs() <= NEXT_TO_END { t.round() } else { t }
+}
+
+/// A side of a place.
+#[derive(Clone, Copy, PartialEq)]
+enum Side {
+    Before,
+    After,
+}
+
+impl<'a> Trajectory<'a> {
+    pub fn new(linkage: &'a Linkage, circuit: &'a Circuit, joint: JointId, tolerance: f64) -> Trajectory<'a> {
+        /// The last terms of the series of a resolved piece, relative to the tolerance.
+        const RESOLVED: f64 = 0.05;
+        let curve = SmoothCurve::new(circuit.pieces(linkage), joint, circuit.is_closed);
+        let mut travel = 0.0;
+        let pass_start = |pass: &Pass| {
+            travel += pass.input_length();
+            travel - pass.input_length()
+        };
+        let is_resolved = |arc: &Arc| {
+            let terms = arc.position.iter().flat_map(|series| &series.0[TERMS - 2..]);
+            terms.fold(0.0f64, |tail, term| tail.max(term.abs())) <= RESOLVED * tolerance
+        };
+        let mut out = Trajectory {
+            linkage,
+            circuit,
+            joint,
+            tolerance,
+            extent: extent(&curve),
+            knots: Vec::new(),
+            is_resolved: curve.arcs.iter().map(is_resolved).collect(),
+            piece_starts: Vec::new(),
+            pass_starts: circuit.passes.iter().map(pass_start).collect(),
+            curve,
+        };
+        let starts = out.curve.pieces.iter().map(|piece| out.travel_on_pass(piece.passes[0], piece.map.input(-1.0)));
+        out.piece_starts = starts.collect();
+        out.knots = out.find_knots();
+        out
+    }
+
+    /// The input travelled from the beginning of the circuit to an input of a pass.
+    fn travel_on_pass(&self, pass: usize, input: f64) -> f64 {
+        self.pass_starts[pass] + (input - self.circuit.passes[pass].from.input.value).abs()
+    }
+
+    fn find_knots(&self) -> Vec<f64> {
+        let is_knot = |k: &usize| self.curve.corners[*k] || self.is_resolved[*k] != self.is_resolved[k - 1];
+        let mut knots: Vec<f64> = (1..self.curve.arcs.len()).filter(is_knot).map(|k| k as f64).collect();
+        knots.extend(self.curve.stops().iter().map(|stop| parameter(stop.place)));
+        knots.sort_by(f64::total_cmp);
+        knots
+    }
+
+    /// The whole range of the parameter.
+    pub fn range(&self) -> [f64; 2] {
+        [0.0, self.curve.arcs.len() as f64]
+    }
+
+    /// The parameter at an input of a pass; next to a range of undefined positions if the input lies in it.
+    pub fn parameter(&self, pass: usize, input: f64) -> f64 {
+        let travel = self.travel_on_pass(pass, input);
+        let after = self.piece_starts.partition_point(|start| *start <= travel);
+        let Some(k) = after.checked_sub(1) else { return 0.0 };
+        self.curve.pieces[k].parameter_at(pass, input).map_or(after as f64, |u| parameter(Place { piece: k, u }))
+    }
+
+    /// The input travelled from the beginning of the circuit.
+    pub fn travel(&self, t: f64) -> f64 {
+        let Place { piece, u } = self.place(t, Side::Before);
+        self.piece_starts.get(piece).map_or(0.0, |start| start + self.curve.pieces[piece].input_travel_to(u))
+    }
+
+    /// The place at a parameter: where two pieces meet, on the piece of the given side.
+    fn place(&self, t: f64, side: Side) -> Place {
+        let k = if side == Side::After { t.floor() } else { t.ceil() - 1.0 };
+        let k = k.clamp(0.0, (self.curve.arcs.len() as f64 - 1.0).max(0.0));
+        Place { piece: k as usize, u: 2.0 * (t - k) - 1.0 }
+    }
+
+    /// The position, and the direction of motion; `None` if that is not known.
+    fn point_and_direction(&self, t: f64, side: Side) -> (Point, Option<Vector>) {
+        /// Of the acceleration, in the parameter of the piece: a curve that is slower stops here, to the accuracy to
+        /// which such places are found.
+        const AT_REST: f64 = 1e-6;
+        let Place { piece, u } = self.place(t, side);
+        let (point, [velocity, acceleration]) = self.curve.arcs[piece].point_and_rates(u);
+        // From rest it moves with the acceleration, and it comes to rest against it.
+        let along = match side {
+            _ if velocity.norm() > AT_REST * acceleration.norm() => velocity,
+            Side::After => acceleration,
+            Side::Before => -acceleration,
+        };
+        (point, along.try_normalize(0.0))
+    }
+
+    /// The position.
+    pub fn point(&self, t: f64) -> Point {
+        self.curve.point(self.place(t, Side::After))
+    }
+
+    /// The positions at evenly spaced parameters between two, on pieces between these.
+    fn points_between(&self, [from, to]: [f64; 2], count: usize) -> Vec<Point> {
+        let at = |k: usize| self.place(from + (to - from) * (k as f64 / (count + 1) as f64), Side::After);
+        let places: Vec<Place> = (1..=count).map(at).collect();
+        self.curve.points(&places)
+    }
+
+    /// The curve between two parameters. Parts that deviate from a line by no more than `straightness` are lines.
+    pub fn splines(&self, [from, to]: [f64; 2], straightness: f64) -> Vec<Spline> {
+        /// A part that is shorter is a point.
+        const SHORTEST: f64 = 1e-6;
+        let knots = self.knots.iter().copied().filter(|knot| from + SHORTEST < *knot && *knot < to - SHORTEST);
+        let cuts: Vec<f64> = [from].into_iter().chain(knots).chain([to]).collect();
+        let mut out = Vec::new();
+        for part in cuts.windows(2).map(|ends| [ends[0], ends[1]]).filter(|[from, to]| from < to) {
+            let Place { piece, .. } = self.place(part[0], Side::After);
+            if self.is_resolved[piece] {
+                self.append(&mut out, self.fitted(part, straightness));
+            } else {
+                self.refined(part).into_iter().for_each(|spline| self.append(&mut out, spline));
+            }
+        }
+        out
+    }
+
+    /// Appends a spline to the last one if it begins where that ends.
+    fn append(&self, splines: &mut Vec<Spline>, spline: Spline) {
+        /// Of the tolerance: a smaller gap is not seen.
+        const NO_GAP: f64 = 1e-3;
+        match splines.last_mut() {
+            Some(last) if (last.end() - spline.start).norm() <= self.tolerance => {
+                if (last.end() - spline.start).norm() > NO_GAP * self.tolerance {
+                    last.segments.push(SplineSegment::Line(spline.start));
+                }
+                last.segments.extend(spline.segments);
+            }
+            _ => splines.push(spline),
+        }
+    }
+
+    /// A spline fitted to the curve between neighbouring knots.
+    fn fitted(&self, [from, to]: [f64; 2], straightness: f64) -> Spline {
+        /// A cubic spans no more pieces, of at most an eighth of a turn each.
+        const MAX_PIECES: f64 = 3.0;
+        let (start, _) = self.point_and_direction(from, Side::After);
+        let mut segments = Vec::new();
+        let parts = ((to - from) / MAX_PIECES).ceil().max(1.0);
+        for k in 0..parts as usize {
+            let at = |k: usize| from + (to - from) * (k as f64 / parts);
+            self.fit([at(k), at(k + 1)], straightness, &mut segments);
+        }
+        Spline { start, segments }
+    }
+
+    /// Appends segments from one parameter to another: one, or those of both halves.
+    fn fit(&self, [from, to]: [f64; 2], straightness: f64, out: &mut Vec<SplineSegment>) {
+        /// Points with which a segment is compared: some, and more on each piece, which has 16 terms.
+        const POINTS: [f64; 2] = [5.0, 10.0];
+        let [(start, leaving), (end, arriving)] =
+            [self.point_and_direction(from, Side::After), self.point_and_direction(to, Side::Before)];
+        let points = self.points_between([from, to], (POINTS[0] + POINTS[1] * (to - from)) as usize);
+        let is_on_line = |point: &Point| distance_to_segment(*point, start, end) <= AT_POINTS * straightness;
+        if points.iter().all(is_on_line) {
+            return out.push(SplineSegment::Line(end));
+        }
+        let tangents = leaving.zip(arriving);
+        let cubic = tangents.and_then(|(a, b)| fit_cubic([start, end], [a, b], &points, self.tolerance));
+        let middle = (from + to) / 2.0;
+        match cubic {
+            Some(control_points) => out.push(SplineSegment::Cubic([control_points[0], control_points[1], end])),
+            None if from < middle && middle < to => {
+                self.fit([from, middle], straightness, out);
+                self.fit([middle, to], straightness, out);
+            }
+            None => out.push(SplineSegment::Line(end)),
+        }
+    }
+
+    /// The curve between two parameters in lines through positions, where it is not resolved.
+    fn refined(&self, [from, to]: [f64; 2]) -> Vec<Spline> {
+        let mut out = Vec::new();
+        for k in from.floor() as usize..to.ceil() as usize {
+            let piece = &self.curve.pieces[k];
+            let [a, b] = [from, to].map(|t| (2.0 * (t - k as f64) - 1.0).clamp(-1.0, 1.0));
+            let split = piece.split.clamp(a, b);
+            for (pass, [a, b]) in piece.passes.into_iter().zip([[a, split], [split, b]]).filter(|(_, [a, b])| a < b) {
+                let ends = [a, b].map(|u| piece.map.input(u));
+                for line in refined_lines(self.linkage, &self.circuit.passes[pass], ends, self.joint, self.tolerance) {
+                    let segments = line[1..].iter().map(|point| SplineSegment::Line(*point)).collect();
+                    self.append(&mut out, Spline { start: line[0], segments });
+                }
+            }
+        }
+        out
+    }
+}
+
+/// The greatest extent of a curve along x or y, or a little more.
+fn extent(curve: &SmoothCurve) -> f64 {
+    let span = |axis: usize| {
+        let ranges = curve.arcs.iter().map(|arc| arc.position[axis].range());
+        let [low, high] =
+            ranges.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], [a, b]| [low.min(a), high.max(b)]);
+        high - low
+    };
+    span(0).max(span(1)).max(0.0)
+}
