@@ -322,11 +322,11 @@ fn charts_have_ids_titles_and_escaped_names() {
         "<title>max(length of the curve, 1) over p</title>",
         "<g id=\"evans-chart-2-1\" class=\"series\" data-trace=\"1\" data-circuit=\"1\"><title>evans: least transmission angle over p</title>",
         ">least transmission angle (°)</text>",
-        "page 1 of 1",
         "A &amp; &lt;B&gt;",
     ] {
         assert!(svg.contains(part), "{part}");
     }
+    assert!(!svg.contains("page 1"), "there is one page");
     let ids: Vec<&str> = svg.split(" id=\"").skip(1).map(|part| part.split('"').next().unwrap()).collect();
     let mut unique = ids.clone();
     unique.sort_unstable();
@@ -590,18 +590,19 @@ fn lines_over_samples_are_denser_than_the_samples() {
     assert!(worst < 2e-3, "{worst}");
 }
 
-/// What is the same on all lines is at the foot, with what follows from it; the names in titles have spaces.
+/// What is the same on all lines is under the title, with what follows from it; names have spaces.
 #[test]
-fn the_foot_has_the_fixed_parameters() {
+fn the_heading_has_the_fixed_parameters() {
     let text = GOOD.replace("a = \"(1 + p)^1.5 / 2\"", "a = \"base_length^1.5 / 2\", base_length = \"1 + p\"");
     let svg = page(&rendered(&text), 1);
-    let foot: String = svg.split("<text").filter(|text| text.contains("base length")).collect();
-    let plain: String = foot.split('>').map(|part| part.split('<').next().unwrap()).collect();
-    assert!(plain.contains("r = 1, a = (base length)^1.5 / 2, s = a, base length = 1 + p"), "{plain}");
+    let line: String = svg.split("<text").filter(|text| text.contains("base length")).collect();
+    let plain: String = line.split('>').map(|part| part.split('<').next().unwrap()).collect();
+    // The exponent is raised.
+    assert!(plain.contains("r = 1, a = (base length)1.5 / 2, s = a, base length = 1 + p"), "{plain}");
     assert!(!svg.contains("base_length"));
     let given = GOOD.replace("\"mu_min_deg\"] }", "\"mu_min_deg\"], title = { mu_min_deg = \"transmission\" } }");
     assert!(page(&rendered(&given), 1).contains(">transmission (°)</text>"));
-    // Minus signs are true ones in labels and at the foot.
+    // Minus signs are true ones.
     let minus = GOOD.replace("k = [1.5, 2]", "k = [-1.5, 2]");
     assert!(page(&rendered(&minus), 1).contains("= −1.5</text>"));
 }

@@ -93,9 +93,11 @@ fn check_svg(bytes: &[u8]) -> Document<'_> {
     document
 }
 
-/// The text with single spaces between words.
+/// The text with single spaces between words, and the characters of a typewriter in place of those of typesetting.
 fn plain(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
+    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let quotes = text.replace(['‘', '’'], "'").replace(['“', '”'], "\"");
+    quotes.replace("--", "-").replace(['–', '−'], "-").replace('…', "...")
 }
 
 #[test]
@@ -142,7 +144,7 @@ fn markup_is_text_in_the_book_too() {
     let texts: Vec<String> =
         (0..book.pages().len()).flat_map(|page| book.contents(page).texts).map(|(text, ..)| text).collect();
     let begin = "<script>alert(1)</script> & \"two\"";
-    assert!(texts.iter().filter(|text| text.contains(begin)).count() >= 3, "{texts:?}");
+    assert!(texts.iter().filter(|text| plain(text).contains(begin)).count() >= 3, "{texts:?}");
 }
 
 /// A scene made without a manifest gives a well-formed page too: U+FFFD replaces characters that XML does not allow.

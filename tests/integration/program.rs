@@ -628,7 +628,7 @@ fn pages_are_sorted_and_tables_are_not() {
         for k in cells {
             let row = &rows[k - 1];
             assert!((value(row, "straight_input_deg") - 60.0).abs() < 1e-6);
-            let line = format!("crank-rocker –: straight {:.3}<", value(row, "straight_length"));
+            let line = format!("crank-rocker –: straight {:.3}", value(row, "straight_length"));
             assert!(page.contains(&line), "cell {k}: {line}");
         }
         assert_eq!(page.matches("class=\"straight\"").count(), cells.len());

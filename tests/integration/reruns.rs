@@ -98,7 +98,7 @@ fn force_draws_everything() {
 fn a_changed_case_draws_its_page() {
     let atlas = Atlas::new(MANIFEST);
     atlas.run(&[]);
-    let changed = MANIFEST.replace("{ p = 3, a = 4.0 }", "{ p = 3, a = 4.1 }");
+    let changed = MANIFEST.replace("{ p = 3, a = 4.0 }", "{ p = 3, a = 4.123456 }");
     atlas.edit(&changed);
     let (out, touched) = atlas.touched(&[]);
     assert!(out.contains("evans: 3 cells, 3 curves, 3 pages (1 of 3 pages drawn)\n"), "{out}");

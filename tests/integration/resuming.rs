@@ -65,7 +65,7 @@ fn a_run_continues_its_unfinished_tables() {
 #[test]
 fn a_run_continues_the_pieces_of_the_gallery() {
     let text = "[atlas]\ntitle = \"T\"\nformats = [\"svg\"]\n[[family]]\nid = \"evans\"\nlinkage = \"evans\"\n\
-                panels = [16, 16]\nmeasures = []\nsampling = { samples = 128 }\n\
+                panels = [32, 8]\nmeasures = []\nsampling = { samples = 128 }\n\
                 grid = { k = { from = 1, to = 9, count = 10000 } }\nlet = { p = 2, a = 2.6 }\n";
     let plan = manifest::parse(text).plan.unwrap();
     let fresh = TempDir::new().unwrap();

@@ -70,7 +70,7 @@ impl PlannedFamily {
         };
         let cases: Vec<String> = family.space.distinct_names().into_iter().map(|(first, _)| case(first)).collect();
         // In the excerpt other parameters vary.
-        let caption = self.automatic_caption.iter().map(|caption| format!("caption={},", quoted(caption)));
+        let caption = self.automatic_caption.iter().map(|caption| format!("\"caption\"={},", quoted(caption)));
         self.manifest_inputs.excerpt(&format!("{}cases=[{}]", caption.collect::<String>(), cases.join(",")))
     }
 

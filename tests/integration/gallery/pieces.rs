@@ -17,7 +17,7 @@ output = "out"
 [[family]]
 id = "large"
 linkage = "evans"
-panels = [25, 16]
+panels = [36, 9]
 sampling = { samples = 128 }
 measures = ["class", "length"]
 grid = { p = { from = 2, to = 4, count = 50 }, k = { from = 1, to = 2, count = 40 } }

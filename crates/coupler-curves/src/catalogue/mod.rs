@@ -54,7 +54,7 @@ mod tests {
     fn every_file_is_a_linkage_with_a_source() {
         assert_eq!(all().len(), FILES.len());
         for template in all() {
-            assert!(!template.source.is_empty() && template.caption.is_some(), "{}", template.id);
+            assert!(!template.source.is_empty() && !template.legend.is_empty(), "{}", template.id);
         }
     }
 }

@@ -244,11 +244,12 @@ impl TextLine {
         let face = self.text.runs.last().map(|run| run.face);
         let suffix_width = |size: f64| face.map_or(0.0, |face| face.width(suffix, size));
         let natural = self.text.width() + suffix_width(self.text.size);
-        if natural > width {
+        // Rounding is tolerated: `width` may have been computed from this very text, or the size from `width`.
+        let tolerated = width * (1.0 + 1e-9);
+        if natural > tolerated {
             self.text.size *= (width / natural).max(2.0 / 3.0);
         }
-        // Rounding is tolerated: `width` may have been computed from this very text, or the size from `width`.
-        let width = width * (1.0 + 1e-9);
+        let width = tolerated;
         if !suffix.is_empty() {
             self.truncate(width - suffix_width(self.text.size));
             match self.text.runs.last_mut() {

@@ -113,8 +113,8 @@ impl<'a> Heading<'a> {
             root.record(&dimension_line(&line, at).fit_width(right - left));
             at.y += SOURCE_LEADING * theme.source_size;
         }
-        let at = Point::new(right, foot_baseline(page, theme));
-        let atlas = theme.text_line(self.atlas_title, at, Anchor::End, theme.source_size, theme.grey);
+        let foot = Point::new(right, foot_baseline(page, theme));
+        let atlas = theme.text_line(self.atlas_title, foot, Anchor::End, theme.source_size, theme.grey);
         let folio = self.folio();
         let folio = if self.atlas_title.is_empty() { folio.trim_start_matches(SEPARATOR) } else { &folio };
         root.record(&atlas.fit_width_with_suffix(folio, right - left));

@@ -185,14 +185,18 @@ fn is_arc(solved: &SolvedCell, curve: &MeasuredCurve) -> bool {
     solved.linkage.pivots().into_iter().any(is_at_constant_distance)
 }
 
-/// Whether a curve leaves an axis of symmetry, and does not only run along it.
+/// Whether a curve leaves an axis of symmetry, and does not only run along it or straight across it.
 fn crosses_axis(solved: &SolvedCell, curve: &MeasuredCurve, axis: &SymmetryAxis) -> bool {
-    let (mut along, mut off) = (0.0f64, 0.0f64);
+    /// Symmetry is known to 1e-4 of the extent of a curve.
+    const VISIBLE: f64 = 1e-3;
+    let (mut along, mut off) = ([f64::INFINITY, f64::NEG_INFINITY], 0.0f64);
     for p in solved.circuit(curve).points(curve.joint) {
-        along = along.max((p - axis.point).norm());
+        let position = axis.direction.dot(&(p - axis.point));
+        along = [along[0].min(position), along[1].max(position)];
         off = off.max((axis.mirror(p) - p).norm());
     }
-    off > 1e-3 * along
+    let length = along[1] - along[0];
+    off > VISIBLE * length && length > VISIBLE * off
 }
 
 fn symmetry_axis_item(solved: &SolvedCell, axis: &SymmetryAxis, plot: &Plot, theme: &Theme) -> Option<Item> {

@@ -176,7 +176,7 @@ fn with_equal_captions(page: &PanelPage, width: f64, theme: &Theme) -> Theme {
     let widest = page.panels.iter().map(natural).fold(0.0, f64::max);
     let part = if widest > 0.0 { (width / widest).min(1.0) } else { 1.0 };
     let size = if part >= MIN_PART { part * theme.caption_size } else { theme.caption_size };
-    Theme { caption_size: size.max(Theme::MIN_TEXT_SIZE), ..theme.clone() }
+    Theme { caption_size: size.max(Theme::MIN_TEXT_SIZE.min(theme.caption_size)), ..theme.clone() }
 }
 
 /// The distance from a line of text to the next.

@@ -2,10 +2,12 @@
 
 use super::super::area::Area;
 use super::super::arrangement::Rect;
+use super::super::motion_marks::TICK_DEG;
 use super::super::theme::Theme;
 use super::super::{CouplerGridPage, Options, figure};
 use crate::scene::Anchor;
 use coupler_curves::geometry::{Point, Vector};
+use coupler_curves::linkage::Input;
 
 /// Draws the foot; the result is its height from the edge of the paper.
 pub(super) fn draw(area: &impl Area, page: &CouplerGridPage, options: &Options, theme: &Theme) -> f64 {
@@ -27,12 +29,16 @@ pub(super) fn draw(area: &impl Area, page: &CouplerGridPage, options: &Options, 
     theme.border + 0.65 * theme.margin + 1.5 * theme.title_size
 }
 
-/// The class, the range of the transmission angle, the note and, if a curve is drawn, the range of a dash.
+/// The class, the range of the transmission angle, the note and, if a curve is drawn, the range of a dash and the other marks.
 fn facts(page: &CouplerGridPage, options: &Options) -> String {
     let solved = page.panel.solved_cell;
     let dash = || {
         let span = figure::dash_period(&solved.linkage, &solved.motion.circuits, options);
-        format!("one dash and its gap = {span}{} of input", super::input_unit(solved))
+        let dash = format!("one dash and its gap = {span}{} of input", super::input_unit(solved));
+        match solved.linkage.input() {
+            Input::Length => dash,
+            Input::Angle { .. } => format!("{dash}, a tick every {TICK_DEG}°, a triangle at the start"),
+        }
     };
     let dash = if page.curve_indices.is_empty() { String::new() } else { dash() };
     let parts = [page.panel.facts[0].as_str(), &page.panel.note, &dash];

@@ -24,6 +24,7 @@ use super::heading;
 use super::labels::{LabelPlacer, Obstacles, label_line};
 use super::marks;
 use super::mechanism::PosedMechanism;
+use super::motion_marks::MotionMarks;
 use super::plot::Plot;
 use super::theme::Theme;
 use super::{CouplerGridPage, Layout, Options, Panel, PoseChoice, pose};
@@ -208,9 +209,15 @@ fn draw_figure(
     let linkage = mechanism.linkage_items(&plot, theme, |_| theme.ink);
     let points = point_circles(mechanism, shown, &plot, theme);
 
+    let motion = |s: &ShownCurve| {
+        let circuit = solved.circuit(s.curve);
+        MotionMarks::new(&solved.linkage, circuit, s.curve.joint, &plot, s.ink(theme), theme).items
+    };
+    let motion: Vec<Item> = shown.iter().flat_map(motion).collect();
+
     let mut obstacles = Obstacles::default();
     [&underlay, &grid, &straight].into_iter().for_each(|items| obstacles.add(items, true));
-    [&linkage, &points].into_iter().for_each(|items| obstacles.add(items, false));
+    [&linkage, &points, &motion].into_iter().for_each(|items| obstacles.add(items, false));
     let lines: Vec<Vec<Point>> = paths.iter().map(label_line).collect();
     for (k, (shown, points)) in shown.iter().zip(&lines).enumerate() {
         obstacles.add_curve(k, points, theme.curve_stroke(shown.point_index).width);
@@ -236,6 +243,7 @@ fn draw_figure(
     for (k, (shown, path)) in shown.iter().zip(paths).enumerate() {
         area.record(&coupler_curve(page, shown, path, (plot.page_from_plane, dashes(k)), theme));
     }
+    group("motion", motion);
     group("linkage", linkage);
     group("coupler-point", points);
     group("number", numbers);

@@ -87,7 +87,8 @@ impl Default for Theme {
 }
 
 impl Theme {
-    /// The least font size (em) on paper, in millimetres: 6 points.
+    /// The least font size (em), in millimetres: 6 points, but on paper whose shorter side is less than 148 mm, on which
+    /// such text would have no space, a seventieth of that side.
     pub const MIN_TEXT_SIZE: f64 = 6.0 * 25.4 / 72.0;
 
     /// The theme scaled from tabloid to another paper, by 0.3 to 2; weights change by the square root, so that lines do
@@ -95,7 +96,8 @@ impl Theme {
     pub fn for_paper(&self, paper: Paper) -> Theme {
         let scale = (paper.width / 431.8).min(paper.height / 279.4).clamp(0.3, 2.0);
         let weight = scale.sqrt();
-        let text = |size: f64| (size * scale).max(Theme::MIN_TEXT_SIZE);
+        let least = Theme::MIN_TEXT_SIZE.min(paper.width.min(paper.height) / 70.0);
+        let text = |size: f64| (size * scale).max(least);
         Theme {
             border: self.border * scale,
             margin: self.margin * scale,
@@ -118,7 +120,7 @@ impl Theme {
         let scale =
             (panel.x / (12.0 * self.caption_size)).min(panel.y / (14.0 * self.caption_size)).clamp(1.0 / 3.0, 1.0);
         let weight = scale.sqrt();
-        let text = |size: f64| (size * scale).max(Theme::MIN_TEXT_SIZE);
+        let text = |size: f64| (size * scale).max(Theme::MIN_TEXT_SIZE.min(size));
         Theme {
             caption_size: text(self.caption_size),
             note_size: text(self.note_size),
@@ -147,7 +149,7 @@ impl Theme {
 
     /// The size of the smallest text, such as the numbers in figures.
     pub(super) fn small_size(&self) -> f64 {
-        (0.75 * self.note_size).max(Theme::MIN_TEXT_SIZE)
+        (0.75 * self.note_size).max(Theme::MIN_TEXT_SIZE.min(self.note_size))
     }
 
     /// A line of mathematical text at a position of an area, in the theme's typeface.
