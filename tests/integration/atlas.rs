@@ -63,7 +63,7 @@ fn the_atlas_has_the_forty_captioned_figures() {
     });
     assert_eq!(pages.iter().map(|page| page.matches("class=\"curve\"").count()).collect::<Vec<_>>(), [10, 10, 14, 6]);
     assert!(pages[0].contains(">p = 2.00, r = 1.00, s = 2.59, a = 2.59</text>"));
-    assert!(pages[0].contains(">k is kept as 2.00</text>"));
+    assert!(pages[0].contains(">r = 1, k = 2</text>"));
     assert!(pages[1].contains(">p = 6.00, r = 10.20, s = 10.20, a = 1.00</text>"));
     assert!(pages[2].contains(">p = 6.00, r = 2.00, s = 2.00, a = 5.00</text>"));
     assert!(pages[3].contains(">b = 2.00</text>"));

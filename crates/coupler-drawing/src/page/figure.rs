@@ -6,7 +6,7 @@ use super::element::{CouplerCurve, Drawing};
 use super::labels::{Obstacles, label_line};
 use super::marks;
 use super::mechanism::PosedMechanism;
-use super::motion_marks::{self, MotionMarks};
+use super::motion_marks::{self, MotionMarks, TickPoses};
 use super::plot::{Plot, round_number_below};
 use super::pose;
 use super::symbols::{Mark, Symbol};
@@ -232,9 +232,10 @@ impl<'a> Figure<'a> {
         theme: &Theme,
     ) {
         let solved = self.solved_cell;
+        let poses = |circuit: &Circuit| TickPoses::new(&solved.linkage, circuit);
+        let poses: Vec<TickPoses> = solved.motion.circuits.iter().map(poses).collect();
         let marks = |curve: &MeasuredCurve| {
-            let ink = self.curve_ink(curve, theme);
-            MotionMarks::new(&solved.linkage, solved.circuit(curve), curve.joint, plot, ink, theme)
+            MotionMarks::new(&poses[curve.circuit - 1], curve.joint, plot, self.curve_ink(curve, theme), theme)
         };
         let marks: Vec<MotionMarks> = solved.curves.iter().map(marks).collect();
         paths.iter().for_each(|path| obstacles.add_points(&label_line(path), theme.curve_width, false));

@@ -8,7 +8,7 @@ use super::theme::Theme;
 use crate::scene::{Anchor, Color, Item, Path, Polyline};
 use coupler_curves::geometry::{Point, Vector, left_normal};
 use coupler_curves::linkage::{Input, JointId, Linkage};
-use coupler_curves::motion::{self, Circuit};
+use coupler_curves::motion::{self, Circuit, JointPositions};
 
 /// The input from a tick to the next, in degrees: a twelfth of a turn.
 pub(super) const TICK_DEG: f64 = 30.0;
@@ -36,19 +36,9 @@ impl MotionMarks {
     /// The marks of the curve of a joint on a circuit; none if an actuator drives the linkage, whose input has no turn.
     ///
     /// Ticks closer together than they are long are left out.
-    pub fn new(
-        linkage: &Linkage,
-        circuit: &Circuit,
-        joint: JointId,
-        plot: &Plot,
-        ink: Color,
-        theme: &Theme,
-    ) -> MotionMarks {
+    pub fn new(poses: &TickPoses, joint: JointId, plot: &Plot, ink: Color, theme: &Theme) -> MotionMarks {
         let mut marks = MotionMarks { items: Vec::new(), numbers: Vec::new() };
-        if linkage.input() == Input::Length {
-            return marks;
-        }
-        let stations = stations(linkage, circuit, joint, plot);
+        let stations = poses.stations(joint, plot);
         if let Some(start) = stations.first() {
             marks.items.push(start_item(start.at, start.direction, ink, theme));
         }
@@ -83,36 +73,60 @@ impl MotionMarks {
     }
 }
 
-/// The points of a curve at the multiples of [`TICK_DEG`], in the order of the circuit; the first is that at its start.
-fn stations(linkage: &Linkage, circuit: &Circuit, joint: JointId, plot: &Plot) -> Vec<Station> {
-    /// The input over which the direction of the motion is taken, in degrees: a chord of less than 0.01 mm on paper.
-    const STEP_DEG: f64 = 0.01;
-    let mut stations = Vec::new();
-    for pass in &circuit.passes {
-        let (from, to) = (pass.from.input.value, pass.to.input.value);
-        let sign = if to >= from { 1.0 } else { -1.0 };
-        let at = |input: f64| plot.page_from_plane.apply(motion::pose(linkage, pass, input)[joint]);
-        let [low, high] = pass.input_range();
-        let first = (low / TICK_DEG).ceil();
-        let count = ((high / TICK_DEG).floor() - first + 1.0).clamp(0.0, 1000.0) as usize;
-        let mut inputs: Vec<f64> = (0..count).map(|k| (first + k as f64) * TICK_DEG).collect();
-        if sign < 0.0 {
-            inputs.reverse();
-        }
-        if stations.is_empty() && inputs.first() != Some(&from) {
-            inputs.insert(0, from);
-        }
-        for input in inputs {
-            // The end of a full turn is its start.
-            let is_end_of_turn = circuit.is_closed && !stations.is_empty() && input == to;
-            let [before, after] = [-0.5, 0.5].map(|part| (input + part * sign * STEP_DEG).clamp(low, high));
-            let (here, direction) = (at(input), at(after) - at(before));
-            if !is_end_of_turn && here.x.is_finite() && here.y.is_finite() {
-                stations.push(Station { input, at: here, direction });
+/// The poses of a circuit at its start and at the multiples of [`TICK_DEG`], in its order; those of one pass are computed
+/// together.
+pub(super) struct TickPoses {
+    /// The inputs of each pass, and the positions of all joints: just before, at and just after each.
+    passes: Vec<(Vec<f64>, JointPositions)>,
+}
+
+impl TickPoses {
+    /// The poses of a circuit; none if an actuator drives the linkage.
+    pub fn new(linkage: &Linkage, circuit: &Circuit) -> TickPoses {
+        /// The input over which the direction of the motion is taken, in degrees: a chord of less than 0.01 mm on paper.
+        const STEP_DEG: f64 = 0.01;
+        let mut passes = Vec::new();
+        let is_turned = linkage.input() != Input::Length;
+        for (k, pass) in circuit.passes.iter().enumerate().filter(|_| is_turned) {
+            let (from, to) = (pass.from.input.value, pass.to.input.value);
+            let step = if to >= from { STEP_DEG } else { -STEP_DEG };
+            let [low, high] = pass.input_range();
+            let mut inputs = ticks_between(low, high);
+            if to < from {
+                inputs.reverse();
             }
+            if k == 0 && inputs.first() != Some(&from) {
+                inputs.insert(0, from);
+            }
+            // The end of a full turn is its start.
+            inputs.retain(|input| !circuit.is_closed || *input != to || (k == 0 && *input == from));
+            let around = |input: &f64| [-0.5, 0.0, 0.5].map(|part| (input + part * step).clamp(low, high));
+            let positions = motion::poses(linkage, pass, &inputs.iter().flat_map(around).collect::<Vec<f64>>());
+            passes.push((inputs, positions));
         }
+        TickPoses { passes }
     }
-    stations
+
+    /// The points of the curve of a joint at the inputs.
+    fn stations(&self, joint: JointId, plot: &Plot) -> Vec<Station> {
+        let of_pass = |(inputs, positions): &(Vec<f64>, JointPositions)| {
+            let at = |k: usize| plot.page_from_plane.apply(positions.point(joint, k));
+            let station = |(k, input): (usize, &f64)| {
+                let [before, here, after] = [3 * k, 3 * k + 1, 3 * k + 2].map(at);
+                Station { input: *input, at: here, direction: after - before }
+            };
+            inputs.iter().enumerate().map(station).collect::<Vec<_>>()
+        };
+        let is_defined = |station: &Station| station.at.x.is_finite() && station.at.y.is_finite();
+        self.passes.iter().flat_map(of_pass).filter(is_defined).collect()
+    }
+}
+
+/// The multiples of [`TICK_DEG`] from `low` to `high`, of which there are at most a thousand.
+fn ticks_between(low: f64, high: f64) -> Vec<f64> {
+    let first = (low / TICK_DEG).ceil();
+    let count = ((high / TICK_DEG).floor() - first + 1.0).clamp(0.0, 1000.0) as usize;
+    (0..count).map(|k| (first + k as f64) * TICK_DEG).collect()
 }
 
 /// The length of a tick in millimetres.

@@ -24,7 +24,7 @@ use super::heading;
 use super::labels::{LabelPlacer, Obstacles, label_line};
 use super::marks;
 use super::mechanism::PosedMechanism;
-use super::motion_marks::MotionMarks;
+use super::motion_marks::{MotionMarks, TickPoses};
 use super::plot::Plot;
 use super::theme::Theme;
 use super::{CouplerGridPage, Layout, Options, Panel, PoseChoice, pose};
@@ -209,10 +209,10 @@ fn draw_figure(
     let linkage = mechanism.linkage_items(&plot, theme, |_| theme.ink);
     let points = point_circles(mechanism, shown, &plot, theme);
 
-    let motion = |s: &ShownCurve| {
-        let circuit = solved.circuit(s.curve);
-        MotionMarks::new(&solved.linkage, circuit, s.curve.joint, &plot, s.ink(theme), theme).items
-    };
+    let poses: Vec<TickPoses> =
+        solved.motion.circuits.iter().map(|circuit| TickPoses::new(&solved.linkage, circuit)).collect();
+    let motion =
+        |s: &ShownCurve| MotionMarks::new(&poses[s.curve.circuit - 1], s.curve.joint, &plot, s.ink(theme), theme).items;
     let motion: Vec<Item> = shown.iter().flat_map(motion).collect();
 
     let mut obstacles = Obstacles::default();
