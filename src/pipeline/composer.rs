@@ -8,7 +8,7 @@ use coupler_curves::family::{CaptionParameter, Family};
 use coupler_curves::solve::SolvedCell;
 use coupler_drawing::chart::{Chart, ChartData};
 use coupler_drawing::page::{
-    self, ChartPage, CouplerGridPage, Heading, Key, Layout, LinkLabel, Panel, PanelPage, PanelScale, PoseChoice,
+    self, ChartPage, CouplerGridPage, Heading, Key, Layout, LinkLabel, Panel, PanelPage, PoseChoice,
 };
 use coupler_drawing::scene::Scene;
 
@@ -131,7 +131,7 @@ impl<'a> Composer<'a> {
             heading,
             layout: Layout::Panels { columns: 1, rows: 1 },
             panels: vec![self.panel(solved)],
-            scale: PanelScale::Panel,
+            scale: page::PanelScale::Panel,
             key: None,
         }
     }
