@@ -15,12 +15,11 @@ use crate::study::{Place, Study};
 /// The path of the traced point, no chord further from the curve than `tolerance`, and its dashes: their points one after
 /// another, and the index of the first point of each.
 pub(crate) fn path_json(study: &Study, options: &page::Options, tolerance: f64, numbers: &mut Numbers) -> Value {
-    let single = study.single_point(study.joint);
-    let (linkage, joint) = &*single;
+    let linkage = &study.linkage;
     let period = dash_period(linkage, std::slice::from_ref(&study.circuit), options);
     let pattern = DashPattern { period, dash_span: period * options.theme.dash_fraction };
     // Half of the tolerance for the splines, and half for their chords.
-    let path = joint_path(linkage, &study.circuit, *joint, pattern, tolerance / 2.0);
+    let path = joint_path(linkage, &study.circuit, study.joint, pattern, tolerance / 2.0);
     let chords = |spline: &Spline| spline.flatten(tolerance / 2.0);
     let (mut dashes, mut starts): (Vec<Point>, Vec<f64>) = (Vec::new(), Vec::new());
     for dash in &path.dashes {
