@@ -31,9 +31,8 @@ impl<'a> Inputs<'a> {
     }
 
     /// The digest of what a page is made from: its number, the number of pages, what it says of all cells of the family,
-    /// and its own cells. `shown` has the indices
-    /// of the curves on the page if it does not show all of them. All curves of a cell are in the digest in any case,
-    /// since all pages of the cell share what is derived from them.
+    /// and its own cells. `shown` has the indices of the curves on the page if it does not show all of them. All curves
+    /// of a cell are in the digest in any case, since all pages of the cell share what is derived from them.
     pub fn page_digest(
         self,
         (page, page_count): (usize, usize),

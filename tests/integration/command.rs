@@ -1,4 +1,4 @@
-//! Runs the program as a user would, in a folder, whatever the environment of the tests is.
+//! Runs the program as a user would, in a folder, independently of the environment of the tests.
 
 use std::fs;
 use std::path::Path;

@@ -1,7 +1,7 @@
 //! Numbers, points and circuits, as text.
 
 use coupler_curves::geometry::Point;
-use coupler_curves::linkage::{DyadId, Input, JointId, Linkage, OutputLink};
+use coupler_curves::linkage::{DyadId, JointId, Linkage, OutputLink};
 use coupler_curves::motion::{Circuit, Pass};
 
 use super::super::format;
@@ -18,7 +18,7 @@ pub(super) fn format_point(p: Point) -> String {
 
 /// The unit of the input: degrees, or none for the length of an actuator.
 pub(super) fn input_unit(linkage: &Linkage) -> &'static str {
-    if linkage.input() == Input::Length { "" } else { "°" }
+    linkage.input().unit_sign()
 }
 
 /// The output link: "link C-B", or "slider B".

@@ -96,6 +96,14 @@ impl Input {
             Input::Length => f64::MAX / 8.0,
         }
     }
+
+    /// What is written after a value of it: the sign of degrees, or nothing for a length.
+    pub fn unit_sign(self) -> &'static str {
+        match self {
+            Input::Angle { .. } => "°",
+            Input::Length => "",
+        }
+    }
 }
 
 impl Linkage {
@@ -190,6 +198,14 @@ impl Linkage {
     pub fn crank(&self) -> Option<[JointId; 2]> {
         self.joint_ids().find_map(|pin| match self.joints[pin].kind {
             JointKind::Crank { pivot, .. } => Some([pivot, pin]),
+            _ => None,
+        })
+    }
+
+    /// The length of that crank.
+    pub fn crank_length(&self) -> Option<f64> {
+        self.joints.iter().find_map(|joint| match joint.kind {
+            JointKind::Crank { length, .. } => Some(length),
             _ => None,
         })
     }

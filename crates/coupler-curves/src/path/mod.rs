@@ -40,6 +40,19 @@ pub struct JointPath {
     pub dashed_travel: Option<Vec<[f64; 2]>>,
 }
 
+/// The whole path of a joint on a circuit, as [`JointPath::whole`] has it.
+pub fn joint_splines(linkage: &Linkage, circuit: &Circuit, joint: JointId, tolerance: f64) -> Vec<Spline> {
+    whole(&Trajectory::new(linkage, circuit, joint, tolerance), tolerance)
+}
+
+/// The whole path, which is fitted ten times as closely as the dashes on it.
+fn whole(trajectory: &Trajectory, tolerance: f64) -> Vec<Spline> {
+    if trajectory.curve.arcs.is_empty() {
+        return Vec::new();
+    }
+    trajectory.splines(trajectory.range(), 0.1 * tolerance)
+}
+
 /// The path of a joint on a circuit.
 ///
 /// No point of the curve is further than `tolerance` (in the plane's unit) from the splines. They have the tangents of the
@@ -74,7 +87,7 @@ pub fn joint_path(
     }
     let travel = |stretch: &[f64; 2]| stretch.map(|t| trajectory.travel(t));
     JointPath {
-        whole: trajectory.splines(trajectory.range(), 0.1 * tolerance),
+        whole: whole(&trajectory, tolerance),
         dashes,
         dashed_travel: (first_traced != [trajectory.range()]).then(|| first_traced.iter().map(travel).collect()),
     }

@@ -193,29 +193,28 @@ impl TextLine {
     /// The line as it is if it fits `width` at no less than 85 % of its size; otherwise lines that do, broken between
     /// words, at 85 % of its size. Nothing is left out but what remains of a word that is wider.
     pub fn fit_or_wrap(mut self, width: f64) -> Vec<TextLine> {
-        const MIN_PART: f64 = 0.85;
         let natural = self.text.width();
-        if MIN_PART * natural <= width {
+        if TextLine::MIN_PART * natural <= width {
             return vec![self.fit_width(width)];
         }
-        self.text.size = (MIN_PART * self.text.size).max(Theme::MIN_TEXT_SIZE.min(self.text.size));
-        let text = &self.text;
-        let face = text.runs.first().map(|run| run.face);
-        let line = |words: &String| TextLine {
-            text: Text {
-                runs: face.map(|face| TextRun::new(words.as_str(), face)).into_iter().collect(),
-                ..text.clone()
-            },
-        };
-        self.wrap(width).iter().map(|words| line(words).fit_width(width)).collect()
+        self.text.size = (TextLine::MIN_PART * self.text.size).max(Theme::MIN_TEXT_SIZE.min(self.text.size));
+        self.wrap(width).iter().map(|words| self.with_words(words).fit_width(width)).collect()
+    }
+
+    /// The part of its size that a line may have to fit a width before it is broken.
+    pub const MIN_PART: f64 = 0.85;
+
+    /// A line like this one with other words, all in the face of its first run.
+    fn with_words(&self, words: &str) -> TextLine {
+        let runs = self.text.runs.first().map(|run| TextRun::new(words, run.face)).into_iter().collect();
+        TextLine { text: Text { runs, ..self.text.clone() } }
     }
 
     /// The text in lines no wider than `width`, broken at the separators of its parts where that is possible, and
     /// otherwise between words.
     pub fn wrap_at_separators(&self, width: f64) -> Vec<String> {
         let text: String = self.text.runs.iter().map(|run| run.text.as_str()).collect();
-        let face = self.text.runs.first().map(|run| run.face);
-        let is_wider = |line: &str| face.is_some_and(|face| face.width(line, self.text.size) > width);
+        let is_wider = |line: &str| self.with_words(line).text.width() > width;
         let mut lines: Vec<String> = Vec::new();
         for part in text.split(" · ").filter(|part| !part.is_empty()) {
             match lines.last_mut() {
@@ -223,10 +222,7 @@ impl TextLine {
                     line.push_str(" · ");
                     line.push_str(part);
                 }
-                _ if is_wider(part) => {
-                    let part = face.map(|face| TextRun::new(part, face)).into_iter().collect();
-                    lines.extend(TextLine { text: Text { runs: part, ..self.text.clone() } }.wrap(width));
-                }
+                _ if is_wider(part) => lines.extend(self.with_words(part).wrap(width)),
                 _ => lines.push(part.to_owned()),
             }
         }

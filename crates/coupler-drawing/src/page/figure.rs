@@ -111,11 +111,9 @@ impl<'a> Figure<'a> {
         key.fitted_to(self.extents.linkage).page_from_plane.scale
     }
 
-    /// The length of the crank; `None` if there is no crank.
+    /// The length of the crank; `None` if an actuator drives the linkage.
     pub fn crank_length(&self) -> Option<f64> {
-        let [pivot, pin] = self.solved_cell.linkage.crank()?;
-        let pose = &self.mechanisms.first()?.pose;
-        Some((pose[pin] - pose[pivot]).norm())
+        self.solved_cell.linkage.crank_length()
     }
 
     /// Draws the figure in a frame of an area, with the linkage at a scale in millimetres to a unit, or as large as it fits.
@@ -129,10 +127,13 @@ impl<'a> Figure<'a> {
     ) {
         let [curve, key] = arrangement.rects(whole).map(|frame| Plot::new(frame, theme));
         let period = dash_period(&self.solved_cell.linkage, &self.solved_cell.motion.circuits, options);
-        let in_dashes = |plot: &Plot, obstacles: Obstacles| {
+        let in_dashes = |plot: &Plot, obstacles: &[Item]| {
             let paths = self.paths(plot, period, theme);
-            self.draw_marks(area, plot, theme);
-            self.draw_motion_marks(area, plot, &paths, obstacles, theme);
+            let axes = marks::symmetry_axis_items(self.solved_cell, plot, theme);
+            let mut avoided = Obstacles::default();
+            [obstacles, &axes].into_iter().for_each(|items| avoided.add(items, false));
+            self.draw_marks(area, plot, axes, theme);
+            self.draw_motion_marks(area, plot, &paths, avoided, theme);
             self.draw_curves(area, plot, page, (paths, period), theme);
         };
         let key = key.fitted_to(self.extents.linkage);
@@ -146,18 +147,17 @@ impl<'a> Figure<'a> {
         key.draw_scale_bar(area, remark, theme);
         self.draw_underlay(area, &key, theme);
         if arrangement == Arrangement::Combined {
-            let mut obstacles = Obstacles::default();
-            obstacles.add(&self.linkage_items(&key, theme), false);
-            in_dashes(&key, obstacles);
-            self.draw_linkage(area, &key, theme);
+            let linkage = self.linkage_items(&key, theme);
+            in_dashes(&key, &linkage);
+            draw_linkage(area, linkage);
         } else {
-            self.draw_key_curves(area, &key, period, theme);
-            self.draw_linkage(area, &key, theme);
+            self.draw_key_curves(area, &key, theme);
+            draw_linkage(area, self.linkage_items(&key, theme));
             let curve = curve.fitted_to(self.extents.curve);
             let enlargement = curve.page_from_plane.scale / key.page_from_plane.scale;
             let remark = format!(", enlarged × {}", marks::format_significant(enlargement, 2));
             curve.draw_scale_bar(area, &remark, theme);
-            in_dashes(&curve, Obstacles::default());
+            in_dashes(&curve, &[]);
         }
     }
 
@@ -202,18 +202,21 @@ impl<'a> Figure<'a> {
     }
 
     /// Draws the curves of the key as light solid lines.
-    fn draw_key_curves(&self, area: &impl Area, plot: &Plot, period: f64, theme: &Theme) {
-        let solid = |(curve, path): (&MeasuredCurve, JointPath)| {
+    fn draw_key_curves(&self, area: &impl Area, plot: &Plot, theme: &Theme) {
+        let solved = self.solved_cell;
+        let tolerance = MAX_CURVE_ERROR / plot.page_from_plane.scale;
+        let solid = |curve: &MeasuredCurve| {
+            let splines = path::joint_splines(&solved.linkage, solved.circuit(curve), curve.joint, tolerance);
+            let splines = splines.iter().map(|spline| spline.map(|p| plot.page_from_plane.apply(p))).collect();
             let ink = theme.faded(self.curve_ink(curve, theme));
-            Item::Curve(Curve { splines: path.whole, stroke: theme.stroke(ink, theme.fine_width) })
+            Item::Curve(Curve { splines, stroke: theme.stroke(ink, theme.fine_width) })
         };
-        let items = self.solved_cell.curves.iter().zip(self.paths(plot, period, theme)).map(solid).collect();
+        let items = solved.curves.iter().map(solid).collect();
         area.record(&Drawing { class: "trail", title: String::new(), items });
     }
 
     /// Draws the marks of the curves: axes of symmetry and straight portions.
-    fn draw_marks(&self, area: &impl Area, plot: &Plot, theme: &Theme) {
-        let axes = marks::symmetry_axis_items(self.solved_cell, plot, theme);
+    fn draw_marks(&self, area: &impl Area, plot: &Plot, axes: Vec<Item>, theme: &Theme) {
         area.record(&Drawing { class: "axis", title: String::new(), items: axes });
         let portion =
             |curve| marks::straight_portion_item(self.solved_cell, curve, self.curve_ink(curve, theme), plot, theme);
@@ -239,7 +242,6 @@ impl<'a> Figure<'a> {
         };
         let marks: Vec<MotionMarks> = solved.curves.iter().map(marks).collect();
         paths.iter().for_each(|path| obstacles.add_points(&label_line(path), theme.curve_width, false));
-        obstacles.add(&marks::symmetry_axis_items(solved, plot, theme), false);
         for marks in &marks {
             obstacles.add(&marks.items, false);
             area.record(&Drawing { class: "motion", title: String::new(), items: marks.items.clone() });
@@ -305,11 +307,6 @@ impl<'a> Figure<'a> {
         area.record(&Drawing { class: "underlay", title: String::new(), items });
     }
 
-    fn draw_linkage(&self, area: &impl Area, plot: &Plot, theme: &Theme) {
-        let items = self.linkage_items(plot, theme);
-        area.record(&Drawing { class: "linkage", title: String::new(), items });
-    }
-
     fn linkage_items(&self, plot: &Plot, theme: &Theme) -> Vec<Item> {
         self.posed_items(|mechanism| mechanism.linkage_items(plot, theme, |joint| self.joint_ink(joint, theme)))
     }
@@ -365,4 +362,8 @@ impl<'a> Figure<'a> {
         }
         symbols.into_iter().map(|(mark, meaning)| Symbol { mark, meaning }).collect()
     }
+}
+
+fn draw_linkage(area: &impl Area, items: Vec<Item>) {
+    area.record(&Drawing { class: "linkage", title: String::new(), items });
 }

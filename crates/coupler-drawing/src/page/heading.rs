@@ -77,11 +77,7 @@ impl<'a> Heading<'a> {
 
     /// The title of the document the page is written to.
     pub(super) fn page_title(&self) -> String {
-        let number = match self.page_count {
-            1 => String::new(),
-            count => format!(", page {} of {count}", self.page),
-        };
-        let page = format!("{}{number}", self.family_title);
+        let page = format!("{}{}", self.family_title, self.page_number(", "));
         if self.atlas_title.is_empty() { page } else { format!("{page}: {}", self.atlas_title) }
     }
 
@@ -130,9 +126,14 @@ impl<'a> Heading<'a> {
 
     /// The page number, which ends the last line of the page, with a separator before it; empty if there is one page.
     pub(super) fn folio(&self) -> String {
+        self.page_number(SEPARATOR)
+    }
+
+    /// The page number with a separator before it; empty if there is one page.
+    fn page_number(&self, separator: &str) -> String {
         match self.page_count {
             1 => String::new(),
-            count => format!("{SEPARATOR}page {} of {count}", self.page),
+            count => format!("{separator}page {} of {count}", self.page),
         }
     }
 }

@@ -13,8 +13,8 @@ use crate::scene::{Anchor, Item, Path, Polyline, Text};
 use coupler_curves::expression::MathText;
 use coupler_curves::family::{Cell, Family};
 use coupler_curves::geometry::{Point, Vector, left_normal, trig};
-use coupler_curves::linkage::{JointKind, OutputLink};
-use coupler_curves::template::{OutputLinkTemplate, Template};
+use coupler_curves::linkage::OutputLink;
+use coupler_curves::template::{JointTemplate, OutputLinkTemplate, Template};
 
 /// What a page says about the linkages on it, so that they can be built: how the joints are placed by parameters, and
 /// the dimensions that are the same for all.
@@ -43,9 +43,7 @@ impl Key {
 
     fn with_dimensions(family: &Family, dimensions: Vec<MathText>) -> Key {
         let template = &*family.template;
-        let joint = |(k, joint): (usize, &coupler_curves::template::JointTemplate)| {
-            (joint.name.clone(), template.construction(k))
-        };
+        let joint = |(k, joint): (usize, &JointTemplate)| (joint.name.clone(), template.construction(k));
         Key {
             dimensions,
             joints: template.joints.iter().enumerate().map(joint).collect(),
@@ -81,14 +79,14 @@ pub(super) fn divide(contents: Rect, theme: &Theme) -> (Rect, Option<Rect>) {
     const MAX_PART: f64 = 0.36;
     let em = theme.note_size;
     let is_wide = contents.size.x > 1.1 * contents.size.y;
-    let (whole, wanted) =
+    let (whole, needed) =
         if is_wide { (contents.size.x, COLUMN_WIDTH * em) } else { (contents.size.y, 1.1 * COLUMN_WIDTH * em) };
-    if wanted > MAX_PART * whole {
+    if needed > MAX_PART * whole {
         return (contents, None);
     }
     let along = |length: f64| if is_wide { Vector::new(length, 0.0) } else { Vector::new(0.0, length) };
-    let panels = Rect { size: contents.size - along(wanted + em), ..contents };
-    let key = Rect { corner: contents.corner + along(whole - wanted), size: contents.size - along(whole - wanted) };
+    let panels = Rect { size: contents.size - along(needed + em), ..contents };
+    let key = Rect { corner: contents.corner + along(whole - needed), size: contents.size - along(whole - needed) };
     (panels, Some(key))
 }
 
@@ -146,7 +144,7 @@ fn draw_lines(area: &impl Area, rect: Rect, key: &Key, theme: &Theme) {
         let at = rect.corner + Vector::new(column as f64 * (width + em), em + gap + step * (k % per_column) as f64);
         for (line, x) in name.into_iter().map(|name| (name, 0.0)).chain([(text, indent)]) {
             let position = at + Vector::new(x, 0.0);
-            area.record(&TextLine { text: Text { position, ..line.text } }.fit_width(width - x));
+            area.record(&line.moved_to(position).fit_width(width - x));
         }
     }
 }
@@ -199,7 +197,7 @@ fn joint_names(mechanism: &PosedMechanism, plot: &Plot, theme: &Theme) -> Vec<(P
 fn crank_arrow(mechanism: &PosedMechanism, plot: &Plot, theme: &Theme) -> Option<(Vec<Item>, (Point, Text))> {
     const SWEEP_DEG: f64 = 60.0;
     let [pivot, pin] = mechanism.linkage.crank()?;
-    let (zero, turn) = input_axes(mechanism)?;
+    let (zero, turn) = mechanism.input_axes()?;
     let centre = plot.page_from_plane.apply(mechanism.pose[pivot]);
     let length = (plot.page_from_plane.apply(mechanism.pose[pin]) - centre).norm();
     let radius = (0.55 * length).max(4.0 * theme.joint_radius);
@@ -242,30 +240,9 @@ fn output_arrow(mechanism: &PosedMechanism, plot: &Plot, theme: &Theme) -> Vec<I
 }
 
 /// A filled arrowhead with its tip at a point, in a direction.
-pub(super) fn arrowhead(tip: Point, direction: Vector, theme: &Theme) -> Item {
+fn arrowhead(tip: Point, direction: Vector, theme: &Theme) -> Item {
     let along = direction.try_normalize(0.0).unwrap_or(Vector::new(1.0, 0.0)) * (2.0 * theme.joint_radius);
     let across = left_normal(along) * 0.38;
     let points = vec![tip + along * 0.5, tip - along * 0.5 + across, tip - along * 0.5 - across];
     Item::Path(Path { polylines: vec![Polyline { points, is_closed: true }], stroke: None, fill: Some(theme.ink) })
-}
-
-/// The directions of input 0 and of input 90 degrees in the plane, in a pose: the axes of the frame that the linkage was
-/// defined in. `None` if it has no two fixed joints apart.
-fn input_axes(mechanism: &PosedMechanism) -> Option<(Vector, Vector)> {
-    let linkage = mechanism.linkage;
-    let fixed = |joint: coupler_curves::linkage::JointId| match linkage.joints[joint].kind {
-        JointKind::Fixed(position) => Some((position, mechanism.pose[joint])),
-        _ => None,
-    };
-    let mut fixed = linkage.joint_ids().filter_map(fixed);
-    let (first, first_posed) = fixed.next()?;
-    let (other, other_posed) = fixed.find(|(other, _)| (other - first).norm() > 0.0)?;
-    let [defined, posed] = [other - first, other_posed - first_posed];
-    let handedness = linkage.placement.handedness();
-    // Of the x-axis relative to the line between the joints, which a mirror image reverses.
-    let unit = defined.normalize();
-    let (cos, sin) = (unit.x, -unit.y * handedness);
-    let posed = posed.try_normalize(0.0)?;
-    let zero = posed * cos + left_normal(posed) * sin;
-    Some((zero, left_normal(zero) * handedness))
 }

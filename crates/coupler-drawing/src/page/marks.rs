@@ -3,11 +3,12 @@
 use super::figure::MAX_CURVE_ERROR;
 use super::plot::Plot;
 use super::theme::Theme;
+use super::typography::superscript;
 use crate::scene::{Color, Item, Path, Polyline};
 use coupler_curves::expression::{format_exactly, round_to_six_digits};
 use coupler_curves::family::{Family, StraightCriterion};
 use coupler_curves::geometry::{Bounds, Point, simplify_polyline};
-use coupler_curves::linkage::{Input, JointId};
+use coupler_curves::linkage::JointId;
 use coupler_curves::measure::{StraightPortion, Symmetry, SymmetryAxis, Value};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 
@@ -29,7 +30,7 @@ pub fn cell_facts(family: &Family, solved: &SolvedCell) -> [String; 2] {
     let portions = solved.curves.iter().filter_map(|curve| Some((curve, curve.straight.as_ref()?)));
     let longest = portions.max_by(|(_, a), (_, b)| a.length.total_cmp(&b.length));
     let straight = longest.map_or(String::new(), |(curve, portion)| {
-        let unit = if solved.linkage.input() == Input::Length { "" } else { "°" };
+        let unit = solved.linkage.input().unit_sign();
         let times = if mirrored_portion(solved, curve, portion).is_some() { "twice " } else { "" };
         let length = format_significant(portion.length, 4);
         let [exactly, deviation] = deviation_texts(family.straight, portion);
@@ -41,7 +42,7 @@ pub fn cell_facts(family: &Family, solved: &SolvedCell) -> [String; 2] {
 }
 
 /// The range of the transmission angle, in degrees. At 0° and at 180° coupler and output link are on one line, and no force
-/// is transmitted, whatever the other end of the range is.
+/// is transmitted, which is said in words.
 fn transmission_text(least: f64, most: f64) -> String {
     /// What is printed as 0 or 180 with one decimal.
     const ROUNDING: f64 = 0.05;
@@ -117,13 +118,6 @@ pub(super) fn format_significant(value: f64, count: i32) -> String {
     let scientific = format!("{value:.decimals$e}");
     let (digits, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
     format!("{digits} × 10{}", superscript(exponent))
-}
-
-/// A whole number as superscript digits.
-fn superscript(number: &str) -> String {
-    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    let raise = |c: char| if c == '-' { Some('⁻') } else { DIGITS.get(c.to_digit(10)? as usize).copied() };
-    number.chars().filter_map(raise).collect()
 }
 
 /// The straight portion of a curve as a broad light band under the dashes, and its mirror image on a symmetrical curve.

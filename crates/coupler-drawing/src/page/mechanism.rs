@@ -33,9 +33,29 @@ impl<'a> PosedMechanism<'a> {
         self.link_inks.iter().find(|(inked, _)| *inked == link).map(|&(_, ink)| theme.curve_ink(ink))
     }
 
-    /// Whether a joint is that of a yoke, which is no pin.
+    /// Whether a joint is that of a yoke, which is not a pin.
     fn is_yoke(&self, joint: JointId) -> bool {
         matches!(self.linkage.joints[joint].kind, JointKind::Yoke { .. })
+    }
+
+    /// The directions of input 0 and of input 90 degrees in the plane: the axes of the frame that the linkage is defined in,
+    /// which may move in the pose. `None` if it has no two fixed joints apart.
+    pub fn input_axes(&self) -> Option<(Vector, Vector)> {
+        let fixed = |joint: JointId| match self.linkage.joints[joint].kind {
+            JointKind::Fixed(position) => Some((position, self.pose[joint])),
+            _ => None,
+        };
+        let mut fixed = self.linkage.joint_ids().filter_map(fixed);
+        let (first, first_posed) = fixed.next()?;
+        let (other, other_posed) = fixed.find(|(other, _)| (other - first).norm() > 0.0)?;
+        let [defined, posed] = [other - first, other_posed - first_posed];
+        let handedness = self.linkage.placement.handedness();
+        // Of the x-axis relative to the line between the joints, which a mirror image reverses.
+        let unit = defined.normalize();
+        let (cos, sin) = (unit.x, -unit.y * handedness);
+        let posed = posed.try_normalize(0.0)?;
+        let zero = posed * cos + left_normal(posed) * sin;
+        Some((zero, left_normal(zero) * handedness))
     }
 
     /// The joints that are drawn, each once.

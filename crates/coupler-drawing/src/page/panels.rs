@@ -16,8 +16,9 @@ use coupler_curves::solve::SolvedCell;
 pub(super) fn compose(root: &impl Area, page: &PanelPage, options: &Options, theme: &Theme) {
     let top = page.heading.draw(root, theme);
     let figures: Vec<Option<Figure>> = page.panels.iter().map(Figure::from_panel).collect();
+    let symbols = page_symbols(page, &figures, options, theme);
     // The scale is known after the panels are arranged; no statement of it is wider than this one.
-    let above_foot = layout_symbols(root, page, &figures, "one unit of length = 0000.0 mm", options, theme).1;
+    let above_foot = layout_symbols(root, page, &symbols, "one unit of length = 0000.0 mm", theme).1;
     let [_, _, side] = margins(theme);
     let contents = Rect {
         corner: Point::new(side, top),
@@ -35,7 +36,7 @@ pub(super) fn compose(root: &impl Area, page: &PanelPage, options: &Options, the
     let area = root.without_margins([panels.corner.y, root.size().y - far.y, panels.corner.x, root.size().x - far.x]);
     let scale = draw_panels(&area, page, &figures, options, theme);
     let scale = scale.map_or("units of length".to_owned(), |scale| scale_text(scale, &figures));
-    for (at, line) in layout_symbols(root, page, &figures, &scale, options, theme).0 {
+    for (at, line) in layout_symbols(root, page, &symbols, &scale, theme).0 {
         symbols::draw(root, &line, at, theme);
     }
 }
@@ -44,7 +45,7 @@ pub(super) fn compose(root: &impl Area, page: &PanelPage, options: &Options, the
 /// a unit.
 fn scale_text(scale: f64, figures: &[Option<Figure>]) -> String {
     let cranks: Vec<f64> = figures.iter().flatten().filter_map(Figure::crank_length).collect();
-    // Lengths of links are known to 1e-9 of themselves from the positions of their joints.
+    // Lengths that are computed in different ways may differ by rounding.
     let is_common = |first: f64| cranks.iter().all(|crank| (crank - first).abs() <= 1e-9 * first);
     match cranks.first().filter(|first| is_common(**first)) {
         Some(crank) => format!("crank = {:.1} mm", crank * scale),
@@ -52,22 +53,23 @@ fn scale_text(scale: f64, figures: &[Option<Figure>]) -> String {
     }
 }
 
-/// The lines that explain the symbols of a page at its foot, beside the folio, with their positions; and the greatest y of
-/// the contents.
+/// The lines that explain the symbols of a page and the scale bars at its foot, left of the folio, with their positions;
+/// and the greatest y of the contents.
 fn layout_symbols(
     root: &impl Area,
     page: &PanelPage,
-    figures: &[Option<Figure>],
+    symbols: &[Symbol],
     scale: &str,
-    options: &Options,
     theme: &Theme,
 ) -> (Vec<(Point, Vec<Symbol>)>, f64) {
     const LEADING: f64 = 1.45;
     let [_, bottom, _] = margins(theme);
     let [left, right] = [theme.border + theme.margin, root.size().x - theme.border - theme.margin];
     let folio = page.heading.folio_width(theme).min(0.5 * (right - left));
-    let symbols = page_symbols(page, figures, scale, options, theme);
-    let lines = symbols::lines(&symbols, right - left - folio - 2.0 * theme.note_size, theme);
+    let scale = Symbol { mark: Mark::ScaleBar, meaning: scale.to_owned() };
+    // A page without figures has no symbols.
+    let explained: Vec<Symbol> = symbols.iter().cloned().chain((!symbols.is_empty()).then_some(scale)).collect();
+    let lines = symbols::lines(&explained, right - left - folio - 2.0 * theme.note_size, theme);
     let step = LEADING * theme.note_size;
     let above = root.size().y - bottom - step * lines.len().saturating_sub(1) as f64;
     let first = foot_baseline(root.size(), theme) - step * lines.len().saturating_sub(1) as f64;
@@ -76,13 +78,7 @@ fn layout_symbols(
 }
 
 /// The symbols of all figures of a page, each once, and those of the texts under them.
-fn page_symbols(
-    page: &PanelPage,
-    figures: &[Option<Figure>],
-    scale: &str,
-    options: &Options,
-    theme: &Theme,
-) -> Vec<Symbol> {
+fn page_symbols(page: &PanelPage, figures: &[Option<Figure>], options: &Options, theme: &Theme) -> Vec<Symbol> {
     let mut symbols: Vec<Symbol> = Vec::new();
     for symbol in figures.iter().flatten().flat_map(|figure| figure.symbols(options, theme)) {
         if symbols.iter().all(|known| known.meaning != symbol.meaning) {
@@ -101,7 +97,6 @@ fn page_symbols(
     if has("μ") {
         add(Mark::Letter("μ"), "transmission angle");
     }
-    add(Mark::ScaleBar, scale);
     symbols
 }
 
@@ -169,13 +164,12 @@ fn draw_panels<A: Area>(
 
 /// The theme with the size of captions at which all of a page fit on a line, if that is not much smaller.
 fn with_equal_captions(page: &PanelPage, width: f64, theme: &Theme) -> Theme {
-    const MIN_PART: f64 = 0.85;
     let natural = |panel: &Panel| {
         theme.text_line(&panel.caption, Point::origin(), Anchor::Middle, theme.caption_size, theme.ink).text.width()
     };
     let widest = page.panels.iter().map(natural).fold(0.0, f64::max);
     let part = if widest > 0.0 { (width / widest).min(1.0) } else { 1.0 };
-    let size = if part >= MIN_PART { part * theme.caption_size } else { theme.caption_size };
+    let size = if part >= TextLine::MIN_PART { part * theme.caption_size } else { theme.caption_size };
     Theme { caption_size: size.max(Theme::MIN_TEXT_SIZE.min(theme.caption_size)), ..theme.clone() }
 }
 
@@ -213,14 +207,13 @@ enum FactsLayout {
 impl FactsLayout {
     /// One line if the facts of every panel fit `width` at no less than 85 % of their size; otherwise two.
     fn for_page(page: &PanelPage, width: f64, theme: &Theme) -> FactsLayout {
-        const MIN_SCALE: f64 = 0.85;
         let texts = || page.panels.iter().flat_map(|panel| FactsLayout::OneLine.panel_lines(panel));
         let natural = |text: String| {
             theme.text_line(&text, Point::origin(), Anchor::Middle, theme.note_size, theme.grey).text.width()
         };
         match texts().map(natural).fold(0.0, f64::max) {
             0.0 => FactsLayout::None,
-            widest if MIN_SCALE * widest <= width => FactsLayout::OneLine,
+            widest if TextLine::MIN_PART * widest <= width => FactsLayout::OneLine,
             _ => FactsLayout::TwoLines,
         }
     }
@@ -255,7 +248,7 @@ fn draw_number(area: &impl Area, panel: &Panel, theme: &Theme) {
     area.record(&theme.text_line(&number, at, Anchor::Start, theme.note_size, theme.grey));
 }
 
-/// Draws the lines under a figure from `top`, as far as there is space.
+/// Draws the lines under a figure from `top`, as many as fit.
 fn draw_lines(area: &impl Area, lines: Vec<TextLine>, top: f64, theme: &Theme) {
     let mut y = top + 1.5 * theme.caption_size;
     for line in lines {

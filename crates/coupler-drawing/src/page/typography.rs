@@ -1,4 +1,4 @@
-//! Typographic characters from plain input: apostrophes, quotation marks, dashes and minus signs.
+//! Typographic characters from plain input: apostrophes, quotation marks, dashes, minus signs and raised digits.
 
 /// The text with the characters of typesetting in place of those of a typewriter: `'` and `"` become quotation marks or an
 /// apostrophe, a hyphen between spaces and two hyphens an en dash, a hyphen before a number a minus sign, three dots an
@@ -46,6 +46,22 @@ pub(super) fn is_article(letter: &str, after: &str) -> bool {
     let Some(after) = after.strip_prefix(' ') else { return false };
     let word = after.split(|c: char| !c.is_alphabetic()).next().unwrap_or_default();
     matches!(letter, "a" | "A") && word.chars().nth(1).is_some() && !AFTER_SYMBOLS.contains(&word)
+}
+
+/// A number with a fixed number of decimals and a true minus sign, which zero does not have.
+pub(super) fn format_fixed(value: f64, decimals: usize) -> String {
+    let number = format!("{value:.decimals$}");
+    if number.trim_start_matches('-').chars().all(|c| c == '0' || c == '.') {
+        return number.trim_start_matches('-').to_owned();
+    }
+    number.replace('-', "−")
+}
+
+/// A whole number as superscript digits.
+pub(super) fn superscript(number: &str) -> String {
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let raise = |c: char| if c == '-' { Some('⁻') } else { DIGITS.get(c.to_digit(10)? as usize).copied() };
+    number.chars().filter_map(raise).collect()
 }
 
 #[cfg(test)]

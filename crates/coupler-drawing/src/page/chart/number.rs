@@ -1,5 +1,7 @@
 //! Decimal numbers as written on axes.
 
+use super::super::typography;
+
 /// The number `digits` times a power of ten, correctly rounded; `digits` is a whole number.
 pub(super) fn decimal(digits: f64, power: i32) -> f64 {
     // Parsing is correctly rounded; a multiplication by a power of ten would not be.
@@ -11,11 +13,9 @@ pub(super) fn decimal_exponent(value: f64) -> i32 {
     format!("{:e}", value.abs()).split_once('e').and_then(|(_, power)| power.parse().ok()).unwrap_or(0)
 }
 
-/// A number with a fixed number of decimals, 0 if that is negative, and with a true minus sign.
+/// A number with a fixed number of decimals, from 0 to 17.
 pub(super) fn format_fixed(value: f64, decimals: i32) -> String {
-    let decimals = decimals.clamp(0, 17) as usize;
-    // Adding 0 makes a negative zero positive.
-    format!("{:.decimals$}", value + 0.0).replace('-', "−")
+    typography::format_fixed(value, decimals.clamp(0, 17) as usize)
 }
 
 /// A number as a multiple of a power of ten with a fixed number of decimals: `2.5×10⁻⁷`; zero is `0`.
@@ -23,11 +23,7 @@ pub(super) fn format_scientific(value: f64, power: i32, decimals: i32) -> String
     if value == 0.0 {
         return "0".to_owned();
     }
-    let superscript = |digit: char| match digit {
-        '-' => '⁻',
-        digit => digit.to_digit(10).and_then(|k| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(k as usize)).unwrap_or(digit),
-    };
-    let power_of_ten: String = format!("10{}", power.to_string().chars().map(superscript).collect::<String>());
+    let power_of_ten = format!("10{}", typography::superscript(&power.to_string()));
     // Moving the decimal point in the text avoids the rounding of a division.
     let (mantissa, exponent) = split_exponent(value);
     let mantissa = format_fixed(parse_decimal(&mantissa, exponent - power), decimals);

@@ -1,8 +1,9 @@
 //! The columns of the table: what they contain, and how many of them fit.
 
 use super::super::theme::Theme;
-use super::numbers::{coordinate_decimals, format_fixed, significant_decimals};
-use super::{ShownCurve, input_unit};
+use super::super::typography::format_fixed;
+use super::ShownCurve;
+use super::numbers::{coordinate_decimals, significant_decimals};
 use crate::scene::Anchor;
 use coupler_curves::geometry::Point;
 use coupler_curves::linkage::{JointKind, Linkage};
@@ -144,7 +145,7 @@ pub(super) fn column_groups(
         values.iter().map(|value| value.map_or(MISSING.to_owned(), |value| format_fixed(value, decimals))).collect()
     };
     let inputs = |measure: &str| {
-        let text = |value: f64| format!("{value:.1}{}", input_unit(solved));
+        let text = |value: f64| format!("{value:.1}{}", solved.linkage.input().unit_sign());
         shown.iter().map(|s| number_of(s.curve, measure).map_or(MISSING.to_owned(), text)).collect()
     };
     let counts = |measure: &str| {
@@ -182,7 +183,8 @@ pub(super) fn percent(tolerance: f64) -> String {
     super::numbers::format_in_full(100.0 * tolerance)
 }
 
-fn number_of(curve: &MeasuredCurve, measure: &str) -> Option<f64> {
+/// A measure of a curve, if it is a finite number.
+pub(super) fn number_of(curve: &MeasuredCurve, measure: &str) -> Option<f64> {
     match curve.value(measure) {
         Value::Number(value) if value.is_finite() => Some(value),
         _ => None,

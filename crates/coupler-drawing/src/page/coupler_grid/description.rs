@@ -4,12 +4,12 @@ use super::super::area::Area;
 use super::super::arrangement::Rect;
 use super::super::theme::Theme;
 use super::super::{CouplerGridPage, LinkLabel};
+use super::columns::number_of;
 use super::notes::format_inputs;
 use super::turn::change_point_inputs;
 use crate::scene::Anchor;
 use coupler_curves::geometry::Point;
 use coupler_curves::linkage::{Continuation, FourBar, FourBarClass, JointId, Linkage, OutputLink};
-use coupler_curves::measure::Value;
 use coupler_curves::solve::SolvedCell;
 
 /// Draws the description in a frame, as many lines as fit.
@@ -92,13 +92,10 @@ fn role(linkage: &Linkage, joints: [JointId; 2]) -> Option<&'static str> {
     roles.into_iter().find(|(pins, _)| is_same(joints, *pins)).map(|(_, role)| role)
 }
 
-/// The swing or stroke of the output, and its time ratio, as far as they are measured.
+/// The swing or stroke of the output, and its time ratio, if they are measured.
 fn output_facts(solved: &SolvedCell) -> Option<String> {
     let first = solved.curves.first()?;
-    let number = |measure: &str| match first.value(measure) {
-        Value::Number(value) if value.is_finite() => Some(value),
-        _ => None,
-    };
+    let number = |measure: &str| number_of(first, measure);
     let swing = number("output_swing_deg").map(|swing| match swing {
         360.0 => "output turns fully".to_owned(),
         swing => format!("output swings {swing:.1}°"),

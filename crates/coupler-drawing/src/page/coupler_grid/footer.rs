@@ -34,7 +34,7 @@ fn facts(page: &CouplerGridPage, options: &Options) -> String {
     let solved = page.panel.solved_cell;
     let dash = || {
         let span = figure::dash_period(&solved.linkage, &solved.motion.circuits, options);
-        let dash = format!("one dash and its gap = {span}{} of input", super::input_unit(solved));
+        let dash = format!("one dash and its gap = {span}{} of input", solved.linkage.input().unit_sign());
         match solved.linkage.input() {
             Input::Length => dash,
             Input::Angle { .. } => format!("{dash}, a tick every {TICK_DEG}°, a triangle at the start"),

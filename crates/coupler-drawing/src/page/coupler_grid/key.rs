@@ -123,7 +123,7 @@ impl<'a> Key<'a> {
             })
         };
         let pivots = self.linkage.pivots();
-        let driven = driven_crank(self.linkage).map(|(pivot, _)| pivot);
+        let driven = driven_crank(self.linkage).map(|[pivot, _]| pivot);
         let mut items = Vec::new();
         for joint in self.named_joints() {
             if pivots.contains(&joint) {
@@ -260,14 +260,9 @@ impl<'a> Key<'a> {
     }
 }
 
-/// The pivot of the crank that is the input, and its length; `None` where the input is not an angle in the frame.
-fn driven_crank(linkage: &Linkage) -> Option<(JointId, f64)> {
-    let crank = |kind: &JointKind| match *kind {
-        JointKind::Crank { pivot, length } => Some((pivot, length)),
-        _ => None,
-    };
-    let find = || linkage.joints.iter().find_map(|joint| crank(&joint.kind));
-    linkage.seen_from.is_none().then(find).flatten()
+/// The pivot and the pin of the crank that is the input; `None` where the input is not an angle in the frame.
+fn driven_crank(linkage: &Linkage) -> Option<[JointId; 2]> {
+    linkage.crank().filter(|_| linkage.seen_from.is_none())
 }
 
 /// In the plane, a line from the crank's pivot in the direction of input 0, and an arc from that line in the direction
@@ -278,10 +273,12 @@ fn input_marks(linkage: &Linkage, mechanism: &PosedMechanism) -> Option<[Vec<Poi
     const LINE: f64 = 1.3;
     const ARC_DEG: i32 = 75;
     const STEP_DEG: usize = 3;
-    let (pivot, length) = driven_crank(linkage)?;
+    let [pivot, _] = driven_crank(linkage)?;
+    let length = linkage.crank_length()?;
+    let (zero, turn) = mechanism.input_axes()?;
     let at = |deg: i32, radius: f64| {
         let (cos, sin) = trig::cos_sin_deg(f64::from(deg));
-        mechanism.pose[pivot] + linkage.placement.transform_vector(Vector::new(cos, sin)) * (radius * length)
+        mechanism.pose[pivot] + (zero * cos + turn * sin) * (radius * length)
     };
     let zero = vec![mechanism.pose[pivot], at(0, LINE * RADIUS)];
     Some([zero, (0..=ARC_DEG).step_by(STEP_DEG).map(|deg| at(deg, RADIUS)).collect()])
@@ -304,7 +301,7 @@ fn output_marks(page: &CouplerGridPage, mechanism: &PosedMechanism) -> Option<[V
     Some([1, -1].map(|side| (0..=ARC_DEG).map(|deg| at(side * deg)).collect()))
 }
 
-/// Of the points beside their base, the one that is nearest to its middle: with it the key is largest.
+/// Of the points that are not on the line of their base, the one that is nearest to its middle: with it the key is largest.
 fn nearest_point<'a>(linkage: &Linkage, shown: &'a [ShownCurve<'a>]) -> Option<&'a ShownCurve<'a>> {
     let distance = |s: &&ShownCurve| match linkage.joints[s.curve.joint].kind {
         JointKind::Rigid { along, across, .. } if across != 0.0 => Some(Vector::new(along - 0.5, across).norm()),

@@ -31,7 +31,6 @@ use super::{CouplerGridPage, Layout, Options, Panel, PoseChoice, pose};
 use crate::mechanism::Mechanism;
 use crate::scene::{Anchor, Circle, Color, Item, Scene, Stroke};
 use coupler_curves::geometry::{Bounds, Point, Similarity, Vector};
-use coupler_curves::linkage::Input;
 use coupler_curves::path::{DashPattern, JointPath};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 use graphs::Graphs;
@@ -72,9 +71,9 @@ impl ShownCurve<'_> {
 pub(super) fn compose(scene: &mut Scene, page: &CouplerGridPage, options: &Options, theme: &Theme) {
     let size = Vector::new(scene.width, scene.height);
     let most = most_lettering(size);
-    let theme = &with_legible_notes(theme, MIN_LETTERING, most);
+    let theme = &with_legible_notes(theme, Theme::MIN_TEXT_SIZE, most);
     let small = Theme { note_size: PANEL_LETTERING * theme.note_size, ..theme.clone() };
-    let panel_theme = &with_legible_notes(&small, MIN_LETTERING, most);
+    let panel_theme = &with_legible_notes(&small, Theme::MIN_TEXT_SIZE, most);
     let root = area::whole_page(scene);
     heading::draw_border(&root, theme);
     let foot = footer::draw(&root, page, options, theme);
@@ -86,7 +85,8 @@ pub(super) fn compose(scene: &mut Scene, page: &CouplerGridPage, options: &Optio
     let shown = shown_curves(solved, &page.curve_indices);
     match posed_mechanism(&page.panel) {
         Some(mechanism) => {
-            let figure_theme = with_legible_notes(theme, MIN_LETTERING / SCALE_BAR_PART, size.min() / MIN_LINES);
+            let figure_theme =
+                with_legible_notes(theme, Theme::MIN_TEXT_SIZE / Theme::SMALL_PART, size.min() / MIN_LINES);
             draw_figure(&root, figure, page, &mechanism, &shown, options, &figure_theme);
             draw_panel(&root, panel, page, (&mechanism, &shown), panel_theme);
         }
@@ -96,14 +96,8 @@ pub(super) fn compose(scene: &mut Scene, page: &CouplerGridPage, options: &Optio
     }
 }
 
-/// The least font size on these pages, in millimetres: 6 points.
-const MIN_LETTERING: f64 = 6.0 * 25.4 / 72.0;
-
 /// The font size in the panel relative to that of notes: the table is wide.
 const PANEL_LETTERING: f64 = 0.84;
-
-/// The font size at a scale bar, which is the smallest in the figure, relative to that of notes.
-const SCALE_BAR_PART: f64 = 0.75;
 
 /// The least height of a page in ems of a note, and the least width of the panel: on smaller paper the letters are
 /// smaller.
@@ -167,8 +161,8 @@ fn draw_panel(
     let key_width = (0.5 * panel.size.x).min(1.8 * parts.key.size.y);
     let key = Rect { size: Vector::new(key_width, parts.key.size.y), ..parts.key };
     key::draw(area, key, page, (mechanism, shown), theme);
-    let beside = Vector::new(key_width + em, 0.0);
-    let description = Rect { corner: parts.key.corner + beside, size: parts.key.size - beside };
+    let after_key = Vector::new(key_width + em, 0.0);
+    let description = Rect { corner: parts.key.corner + after_key, size: parts.key.size - after_key };
     description::draw(area, description, page, theme);
 
     let rows = table.draw(area, parts.table, parts.row_height, shown, theme);
@@ -292,9 +286,4 @@ fn point_circles(mechanism: &PosedMechanism, shown: &[ShownCurve], plot: &Plot, 
         Item::Circle(Circle { centre, radius: 0.8 * theme.joint_radius, stroke, fill })
     };
     distinct_points(mechanism, shown, plot).map(circle).collect()
-}
-
-/// The unit of the input, as written after a number; empty for a length.
-fn input_unit(solved: &SolvedCell) -> &'static str {
-    if solved.linkage.input() == Input::Length { "" } else { "°" }
 }

@@ -4,11 +4,12 @@ use super::super::CouplerGridPage;
 use super::super::area::Area;
 use super::super::arrangement::Rect;
 use super::super::theme::Theme;
+use super::super::typography::format_fixed;
+use super::ShownCurve;
 use super::columns::{link_coordinates, percent};
 use super::graphs::{Graphs, POOR_TRANSMISSION};
 use super::numbers::{coordinate_decimals, exact_decimals, format_in_full};
 use super::table::Table;
-use super::{ShownCurve, input_unit};
 use crate::scene::Anchor;
 use coupler_curves::geometry::Point;
 use coupler_curves::linkage::{Input, JointId, JointKind};
@@ -101,8 +102,8 @@ fn transmission_note(graphs: &Graphs) -> Option<String> {
 
 /// An input, with a decimal if it is not a whole number.
 pub(super) fn format_rounded(input: f64) -> String {
-    let text = format!("{input:.1}").replace('-', "−");
-    text.strip_suffix(".0").map_or(text.clone(), |whole| if whole == "−0" { "0".to_owned() } else { whole.to_owned() })
+    let text = format_fixed(input, 1);
+    text.strip_suffix(".0").unwrap_or(&text).to_owned()
 }
 
 /// What the coordinates of points are, and those in full that the table has rounded.
@@ -160,8 +161,10 @@ fn straight_note(criterion: StraightCriterion) -> String {
 
 /// The inputs of a list, with their unit.
 pub(super) fn format_inputs(solved: &SolvedCell, inputs: &[f64]) -> String {
-    let texts: Vec<String> =
-        inputs.iter().map(|&input| format!("{}{}", format_rounded(input), input_unit(solved))).collect();
+    let texts: Vec<String> = inputs
+        .iter()
+        .map(|&input| format!("{}{}", format_rounded(input), solved.linkage.input().unit_sign()))
+        .collect();
     match texts.split_last() {
         Some((last, rest)) if !rest.is_empty() => format!("{} and {last}", rest.join(", ")),
         _ => texts.concat(),

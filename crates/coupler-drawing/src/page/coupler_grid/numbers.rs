@@ -1,5 +1,8 @@
 //! Numbers on a page: aligned at the decimal point, with true minus signs.
 
+use super::super::typography::format_fixed;
+use coupler_curves::expression::format_exactly;
+
 /// The greatest relative difference of a value from the number that it stands for: coordinates on a link were divided
 /// and are multiplied by the length of their base, which are two roundings, of half an epsilon each.
 const ROUNDING: f64 = 1.5 * f64::EPSILON;
@@ -7,20 +10,11 @@ const ROUNDING: f64 = 1.5 * f64::EPSILON;
 /// The decimals that are tried: fewer than give some doubles of about 1 or less in full.
 const MAX_DECIMALS: usize = 17;
 
-/// A number with a fixed number of decimals and a true minus sign, which zero does not have.
-pub(super) fn format_fixed(value: f64, decimals: usize) -> String {
-    let number = format!("{value:.decimals$}");
-    if number.trim_start_matches('-').chars().all(|c| c == '0' || c == '.') {
-        return number.trim_start_matches('-').to_owned();
-    }
-    number.replace('-', "−")
-}
-
 /// A number in full: with the fewest decimals that give it up to rounding, or with all digits of the double.
 pub(super) fn format_in_full(value: f64) -> String {
     match exact_decimals(value) {
         Some(decimals) => format_fixed(value, decimals),
-        None => value.to_string().replace('-', "−"),
+        None => format_exactly(value),
     }
 }
 

@@ -1,7 +1,7 @@
 //! The motion over the input: the speed of every point on the page, and the transmission angle.
 
 use super::ShownCurve;
-use coupler_curves::linkage::{Input, JointId, JointKind, Linkage};
+use coupler_curves::linkage::{Input, JointId};
 use coupler_curves::measure::transmission_angle;
 use coupler_curves::motion::{self, JointDerivatives, Pass};
 use coupler_curves::solve::SolvedCell;
@@ -16,7 +16,7 @@ pub(super) type Runs = Vec<Vec<Sample>>;
 pub(super) struct InputRange {
     pub from: f64,
     pub to: f64,
-    is_angle: bool,
+    input: Input,
 }
 
 impl InputRange {
@@ -26,7 +26,7 @@ impl InputRange {
         let ends = passes.flat_map(Pass::input_range);
         let [from, to] =
             ends.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)]);
-        InputRange { from, to, is_angle: solved.linkage.input() != Input::Length }
+        InputRange { from, to, input: solved.linkage.input() }
     }
 
     /// Inputs at round steps, for numbers on the axis: at most five.
@@ -35,8 +35,9 @@ impl InputRange {
         const DEGREES: [f64; 10] = [1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 90.0, 180.0, 360.0];
         const MOST: f64 = 4.5;
         let span = self.to - self.from;
+        let is_angle = self.input != Input::Length;
         let round = || super::super::plot::round_number_below(span / 2.0);
-        let step = DEGREES.into_iter().find(|step| self.is_angle && span <= MOST * step).unwrap_or_else(round);
+        let step = DEGREES.into_iter().find(|step| is_angle && span <= MOST * step).unwrap_or_else(round);
         let first = (self.from / step - 1e-9).ceil();
         let count = ((self.to / step + 1e-9).floor() - first).clamp(-1.0, MOST) as i32;
         (0..=count).map(|k| (first + f64::from(k)) * step).collect()
@@ -44,7 +45,7 @@ impl InputRange {
 
     /// The unit, as written after a number.
     pub fn unit(&self) -> &'static str {
-        if self.is_angle { "°" } else { "" }
+        self.input.unit_sign()
     }
 }
 
@@ -68,7 +69,8 @@ pub(super) struct Speeds {
 impl Speeds {
     /// The speeds of some curves over the input.
     pub fn of_curves(solved: &SolvedCell, shown: &[ShownCurve], range: &InputRange) -> Speeds {
-        let unit = crank_length(&solved.linkage);
+        // The speed of the crank's pin per radian.
+        let unit = solved.linkage.crank_length().unwrap_or(1.0);
         let mut curves: Vec<Runs> = shown.iter().map(|_| Vec::new()).collect();
         for (number, circuit) in (1..).zip(&solved.motion.circuits) {
             let on_circuit: Vec<usize> = (0..shown.len()).filter(|&k| shown[k].curve.circuit == number).collect();
@@ -92,12 +94,6 @@ impl Speeds {
         });
         Speeds { top: scale_top(&curves, has_limits), curves }
     }
-}
-
-/// The length of the crank that drives a linkage: the speed of its pin per radian. 1 for other linkages.
-fn crank_length(linkage: &Linkage) -> f64 {
-    let length = |kind: &JointKind| if let JointKind::Crank { length, .. } = kind { Some(*length) } else { None };
-    linkage.joints.iter().find_map(|joint| length(&joint.kind)).unwrap_or(1.0)
 }
 
 /// A round number no less than the greatest speed; where speeds grow beyond all bounds, near a limit, no less than

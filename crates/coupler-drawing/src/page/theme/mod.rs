@@ -147,9 +147,12 @@ impl Theme {
         Stroke { color, width, has_round_ends: false }
     }
 
+    /// The size of the smallest text relative to that of notes.
+    pub(super) const SMALL_PART: f64 = 0.75;
+
     /// The size of the smallest text, such as the numbers in figures.
     pub(super) fn small_size(&self) -> f64 {
-        (0.75 * self.note_size).max(Theme::MIN_TEXT_SIZE.min(self.note_size))
+        (Theme::SMALL_PART * self.note_size).max(Theme::MIN_TEXT_SIZE.min(self.note_size))
     }
 
     /// A line of mathematical text at a position of an area, in the theme's typeface.
