@@ -62,7 +62,8 @@ impl<'a> Composer<'a> {
         let missing = missing.map(|parameter| family.caption_dimension(cell, *parameter).to_string());
         let stated = (!is_automatic && !stated.is_empty()).then_some(stated);
         let caption = stated.into_iter().chain(missing).collect::<Vec<_>>().join(", ");
-        Panel::new(solved).with_caption(caption).with_note(note).with_facts(page::cell_facts(family, solved))
+        let panel = Panel::new(solved).with_caption(caption).with_note(note);
+        panel.with_facts(page::cell_facts(family, solved)).with_ghosts(self.planned.ghosts)
     }
 
     /// Composes a page of panels; pages are counted from 1.

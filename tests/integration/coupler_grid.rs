@@ -616,7 +616,10 @@ fn pages_are_numbered_throughout_the_family() {
     // A cell that cannot be assembled has one page, with the reason.
     assert!(pages[4].contains("not assembled") && pages[4].contains("</tspan> = 9.0<"), "{}", pages[4]);
     assert!(!pages[..4].iter().any(|page| page.contains("not assembled")));
-    assert!(pages[3].contains("one dash and its gap") && !pages[4].contains("one dash and its gap"));
+    for symbol in ["crank's pivot", "fixed pivot", "dash and gap: 5° of input", "every 30° of input"] {
+        let symbol = symbol.replace('\'', "’");
+        assert!(pages[3].contains(&symbol) && !pages[4].contains(&symbol), "{symbol}");
+    }
     let kept = rendered(&format!("{GOOD}where = \"is_crank_rocker or is_change_point\"\n"));
     assert_eq!(kept.len(), 4);
     assert!(kept[3].contains("page 4 of 4<") && kept[3].contains("change-point"));

@@ -330,6 +330,16 @@ fn each_mistake_in_a_linkage_has_its_message() {
         ("trace =", "output_link = [\"O\", \"C\"]\ntrace =", "`output_link` names `O` and `C`, which are at rest"),
         ("trace =", "output_link = \"B\"\ntrace =", "`output_link` names `B`, which is not a slider"),
         ("trace =", "output_link = 3\ntrace =", "expected a list"),
+        ("trace =", "chains = [[\"A\", \"E\"]]\ntrace =", "unknown joint `E`"),
+        ("trace =", "chains = [\"A\"]\ntrace =", "expected a list"),
+        ("trace =", "chains = [[\"A\"]]\ntrace =", "a chain has two or more joints, each once"),
+        ("trace =", "chains = [[\"A\", \"A\"]]\ntrace =", "a chain has two or more joints, each once"),
+        ("[[family]]", "[[family]]\nghosts = 1", "expected a boolean"),
+        (
+            "[[family]]",
+            "[[family]]\nghosts = true\nlayout = \"coupler-grid\"",
+            "a page of a coupler grid has no `ghosts`",
+        ),
     ];
     for (from, to, message) in cases {
         let mut text = OWN.replacen(from, to, 1);

@@ -6,6 +6,7 @@ use std::fs;
 
 use coupler_atlas::manifest::{self, Plan, PlannedFamily};
 use coupler_curves::family::Cell;
+use coupler_curves::geometry::trig;
 use coupler_drawing::page::{Layout, PanelScale};
 
 use crate::command::{folder_with, printed};
@@ -182,6 +183,68 @@ fn common_dimensions_are_exact_and_formulas_are_set_as_formulas() {
     assert!(!klann.iter().any(|text| text.starts_with("r =")), "{klann:?}");
     let helper = "id = \"f\"\nlinkage = \"evans\"\ngrid = { p = [2, 3], h = [0.1] }\nlet = { a = \"p + h\", unused = \"2 * h\" }\nsort = \"unused\"";
     assert_eq!(dimensions(helper), ["r = 1", "a = p + h", "s = a", "k = 2", "h = 0.1"]);
+}
+
+/// The part of a page in groups of a class.
+fn groups<'s>(svg: &'s str, class: &str) -> Vec<&'s str> {
+    let start = format!("<g class=\"{class}\"");
+    svg.split(&start).skip(1).map(|group| group.split("</g>").next().unwrap()).collect()
+}
+
+#[test]
+fn cognates_have_inks_and_lengths_of_their_own() {
+    let text =
+        family("id = \"f\"\nlinkage = \"cognates\"\ngrid = { p = 4, r = 1.5, a = 3, s = 3.5, u = 1.8, v = 1.3 }");
+    let plan = plan(&text);
+    let Page { svg, .. } = pages(&text, &plan).remove(0);
+    let theme = &plan.page.theme;
+    for links in groups(&svg, "linkage") {
+        for ink in [theme.ink, theme.curve_ink(2), theme.curve_ink(3)] {
+            assert!(links.contains(&format!("stroke=\"{ink}\"")), "{ink}");
+        }
+    }
+    // Lengths as of the theorem: the cognates are the four-bar's sides times |AM| / a and |BM| / a.
+    let [am, bm] = [trig::hypot(1.8, 1.3), trig::hypot(1.2, 1.3)];
+    for (name, length) in [("OD", am), ("DE", 0.5 * am), ("QE", 3.5 / 3.0 * am), ("CF", bm), ("QG", 0.5 * bm)] {
+        let label = format!("{name} = {length:.4}");
+        assert!(texts(&svg).iter().any(|line| line.contains(&label)), "{label}");
+    }
+}
+
+#[test]
+fn linkages_are_shown_at_their_limits_where_the_manifest_asks_for_it() {
+    let ghosts = |crank: f64, keys: &str| {
+        let text = family(&format!(
+            "id = \"f\"\nlinkage = \"four-bar\"\n{keys}\ngrid = {{ crank = {crank} }}\n\
+             let = {{ frame = 4, coupler = 3, rocker = 3.5, along = 1, across = 1 }}"
+        ));
+        let plan = plan(&text);
+        let Page { svg, .. } = pages(&text, &plan).remove(0);
+        let poses = groups(&svg, "ghost").concat().matches(['M', 'm']).count();
+        (poses > 0, texts(&svg).iter().any(|line| line == "linkage at its limits"))
+    };
+    assert_eq!(ghosts(1.0, ""), (false, false));
+    // A crank-rocker has limits of its output, a double-rocker limits of its input, a drag-link none.
+    assert_eq!(ghosts(1.0, "ghosts = true"), (true, true));
+    assert_eq!(ghosts(3.0, "ghosts = true"), (true, true));
+    let drag_link = "id = \"f\"\nlinkage = \"four-bar\"\nghosts = true\ngrid = { crank = 3 }\n\
+                     let = { frame = 1, coupler = 3, rocker = 3.5, along = 1, across = 1 }";
+    let text = family(drag_link);
+    assert!(!pages(&text, &plan(&text))[0].svg.contains("class=\"ghost\""));
+}
+
+#[test]
+fn circuits_that_are_apart_are_enlarged_in_frames_of_their_own() {
+    // Two small mirror images, far from each other.
+    let text = family(
+        "id = \"f\"\nlinkage = \"four-bar\"\ncircuits = \"all\"\npanels = [1, 1]\ngrid = { crank = 0.05 }\n\
+         let = { frame = 4, coupler = 3, rocker = 3.5, along = 3, across = 1 }",
+    );
+    let plan = plan(&text);
+    let Page { svg, .. } = pages(&text, &plan).remove(0);
+    assert_eq!(texts(&svg).iter().filter(|line| line.contains("enlarged ×")).count(), 2);
+    let curves: Vec<&str> = svg.split("class=\"curve\"").skip(1).collect();
+    assert_eq!(curves.len(), 2);
 }
 
 #[test]

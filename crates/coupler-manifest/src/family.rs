@@ -94,6 +94,7 @@ pub(crate) fn read<'t>(
     let charts = chart.as_ref().and_then(Option::as_ref).map_or(1, |chart| chart.y.len());
     let layout = layout(&fields, page, charts, parser);
     let scale = panel_scale(&fields, layout, parser);
+    let ghosts = ghosts(&fields, layout, parser);
     let (id, template, names, sampling, columns, straight) = (id?, template?, names?, sampling?, columns?, straight?);
     let mut family = Family {
         title: title.unwrap_or_else(|| id.clone()),
@@ -133,6 +134,7 @@ pub(crate) fn read<'t>(
         family,
         layout,
         scale: scale?,
+        ghosts: ghosts?,
         chart,
         formats,
         source,
@@ -326,18 +328,34 @@ fn name_indices<'t>(
     all_read.then_some(indices)
 }
 
+/// Reports a key that only pages of panels have, of a family with another layout.
+fn check_is_of_panels<'t>(
+    key: &str,
+    value: &TomlValue<'t>,
+    layout: Option<Layout>,
+    parser: &mut TomlParser<'t>,
+) -> Option<()> {
+    let Some(layout) = layout.filter(|layout| !matches!(layout, Layout::Panels { .. })) else { return Some(()) };
+    let name = if layout == Layout::CouplerGrid { "a coupler grid" } else { "charts" };
+    let problem = Problem::error(value.span(), format!("a page of {name} has no `{key}`"));
+    parser.report(problem.with_help(format!("leave `{key}` out, or write layout = \"panels\"")));
+    None
+}
+
+/// Reads whether pages of panels show the linkages at their limits.
+fn ghosts<'t>(fields: &Fields<'_, 't>, layout: Option<Layout>, parser: &mut TomlParser<'t>) -> Option<bool> {
+    let Some(value) = fields.get("ghosts") else { return Some(false) };
+    check_is_of_panels("ghosts", value, layout, parser)?;
+    parser.boolean(value)
+}
+
 /// Reads the scale of the linkages on pages of panels.
 fn panel_scale<'t>(fields: &Fields<'_, 't>, layout: Option<Layout>, parser: &mut TomlParser<'t>) -> Option<PanelScale> {
     /// The least and the greatest length of a unit on paper, in millimetres: a curve of a thousandth of a unit is seen at
     /// the greatest, a linkage of a million units fits the largest paper at the least.
     const RANGE: [f64; 2] = [0.001, 100_000.0];
     let Some(value) = fields.get("scale") else { return Some(PanelScale::default()) };
-    if let Some(layout) = layout.filter(|layout| !matches!(layout, Layout::Panels { .. })) {
-        let name = if layout == Layout::CouplerGrid { "a coupler grid" } else { "charts" };
-        let problem = Problem::error(value.span(), format!("a page of {name} has no `scale`"));
-        parser.report(problem.with_help("leave `scale` out, or write layout = \"panels\""));
-        return None;
-    }
+    check_is_of_panels("scale", value, layout, parser)?;
     let text = value.get_ref().as_str();
     if let Some((_, scale)) = PANEL_SCALES.iter().find(|(name, _)| Some(*name) == text) {
         return Some(*scale);

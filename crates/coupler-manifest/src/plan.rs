@@ -38,6 +38,8 @@ pub struct PlannedFamily {
     pub layout: page::Layout,
     /// The scale of the linkages on its pages of panels.
     pub scale: page::PanelScale,
+    /// Whether its pages of panels show the linkages at their limits as well.
+    pub ghosts: bool,
     /// What its charts show; `None` unless its layout is charts.
     pub chart: Option<Chart>,
     /// The formats of its pages.

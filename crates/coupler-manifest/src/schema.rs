@@ -59,6 +59,12 @@ pub(crate) static FAMILY: TableSchema = TableSchema::new(
         )
         .with_default(|| default_value::string("panel")),
         KeySchema::new(
+            "ghosts",
+            ValueSchema::Boolean,
+            "Whether pages of panels show the linkages in fine lines at the limits of their input, or else of their output.",
+        )
+        .with_default(|| "false".to_owned()),
+        KeySchema::new(
             "sampling",
             ValueSchema::Table(&SAMPLING),
             "How circuits are sampled; by default in steps of 2 deg, or at 180 samples if an actuator drives the linkage.",

@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use coupler_curves::geometry::Point;
 use coupler_curves::linkage::{
-    CircuitSelection, Cognate, CognateError, Cognates, DyadId, FourBar, FourBarClass, JointId, LinkId, Linkage,
-    MotionOptions, PlacedFourBar,
+    CircuitSelection, Cognate, CognateError, Cognates, DyadId, FourBar, FourBarClass, JointId, Linkage, MotionOptions,
+    PlacedFourBar,
 };
 use coupler_curves::motion::{Motion, Sampler, Sampling};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
@@ -23,8 +23,8 @@ pub(super) struct CognateSet {
     pub cognates: Cognates,
     /// The original as a plain four-bar, and its two cognates.
     pub linkages: [CognateMember; 3],
-    /// The original and both cognates, assembled as one linkage, and the links of each cognate.
-    pub assembled: (SolvedCell, [Vec<LinkId>; 2]),
+    /// The original and both cognates, assembled as one linkage.
+    pub assembled: SolvedCell,
 }
 
 /// One of the three four-bars, with its motion.
@@ -49,7 +49,7 @@ pub(super) fn find_cognates(id: &str, solved: &SolvedCell, trace: usize) -> anyh
     let input_error = |error: CognateError| InputError(format!("{id}: {error}; {}", error.help()));
     let placed = PlacedFourBar::from_linkage(&solved.linkage, joint).map_err(input_error)?;
     let cognates = Cognates::from_four_bar(placed).map_err(input_error)?;
-    let (assembled, links) = Cognates::assemble(&solved.linkage, joint).map_err(input_error)?;
+    let assembled = Cognates::assemble(&solved.linkage, joint).map_err(input_error)?;
     let poses = four_bar_poses(solved);
     let motion_options = &solved.linkage.motion_options;
     let member = |(name, cognate): (&'static str, Cognate)| -> anyhow::Result<CognateMember> {
@@ -61,7 +61,7 @@ pub(super) fn find_cognates(id: &str, solved: &SolvedCell, trace: usize) -> anyh
     };
     let [original, first, second] = cognates.all();
     let linkages = [member(("original", original))?, member(("cognate 1", first))?, member(("cognate 2", second))?];
-    Ok(CognateSet { trace, cognates, linkages, assembled: (with_motion(solved, assembled, joint), links) })
+    Ok(CognateSet { trace, cognates, linkages, assembled: with_motion(solved, assembled, joint) })
 }
 
 /// The crank pivot, crank pin, rocker pin and rocker pivot at each sample of the first circuit.
@@ -83,9 +83,6 @@ fn with_motion(solved: &SolvedCell, assembled: Linkage, joint: JointId) -> Solve
 
 /// A panel that shows the three four-bars.
 pub(super) fn panel<'a>(report: &'a Report, cognate_set: &'a CognateSet) -> Panel<'a> {
-    let (assembled, links) = &cognate_set.assembled;
-    let ink = |(links, ink): (&Vec<LinkId>, usize)| links.iter().map(move |&link| (link, ink)).collect::<Vec<_>>();
-    let [first, second] = links;
     let [_, first_cognate, second_cognate] = &cognate_set.linkages;
     let note = [(first_cognate, "green"), (second_cognate, "purple")].map(|(member, ink)| {
         let [frame, crank, coupler, rocker] =
@@ -93,12 +90,10 @@ pub(super) fn panel<'a>(report: &'a Report, cognate_set: &'a CognateSet) -> Pane
         format!("{ink}, {}: frame {frame}, crank {crank}, coupler {coupler}, rocker {rocker}", member.class.name())
     });
     let [caption, _] = report.family.format_captions(&report.solved.cell, report.solved.first_curve_values());
-    Panel::new(assembled)
+    Panel::new(&cognate_set.assembled)
         .with_caption(caption)
         .with_note(note.join(" · "))
         .with_facts(page::cell_facts(report.family, report.solved))
-        // Inks 0 and 1 are those of the circuits.
-        .with_link_inks([ink((first, 2)), ink((second, 3))].concat())
 }
 
 fn lengths(FourBar { frame, crank, coupler, rocker }: FourBar) -> [f64; 4] {

@@ -55,6 +55,9 @@ pub struct Linkage {
     pub seen_from: Option<[JointId; 2]>,
     /// The output link that is stated; where there is none, [`Linkage::output`] is the default.
     pub output_link: Option<OutputLink>,
+    /// The chains it is composed of in addition to the first, such as the cognates of a four-bar, each by its joints: the
+    /// links between them are a part of the linkage that a figure distinguishes.
+    pub chains: Vec<Vec<JointId>>,
     /// The orientation applied to everything reported, after `seen_from`.
     pub placement: Orientation,
     /// The start of the motion, its input range and its circuits.
@@ -183,6 +186,7 @@ impl Linkage {
             traced: new_id(joint).into_iter().collect(),
             seen_from: self.seen_from,
             output_link: self.output_link,
+            chains: Vec::new(),
             placement: self.placement,
             motion_options: self.motion_options.clone(),
         };

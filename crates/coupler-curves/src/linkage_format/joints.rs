@@ -18,6 +18,7 @@ pub(super) struct ParsedJoints {
     pub traced: Vec<usize>,
     pub seen_from: Option<[usize; 2]>,
     pub output_link: Option<OutputLinkTemplate>,
+    pub chains: Vec<Vec<usize>>,
     /// Each joint's name and its span in the text.
     pub spans: Vec<(String, Span)>,
 }
@@ -36,6 +37,7 @@ pub(super) fn parse_joints<'t>(
     let traced = parse_traced(linkage, &names, parser);
     let seen_from = linkage.get("seen_from").map(|value| parse_joint_pair(value, &names, parser));
     let output_link = linkage.get("output_link").map(|value| parse_output_link(value, &names, parser));
+    let chains = linkage.get("chains").map_or(Some(Vec::new()), |value| parse_chains(value, &names, parser));
     check_inputs(&entries, &parsed, &table, parser);
     let placings: Vec<JointKindTemplate> = parsed.into_iter().collect::<Option<_>>()?;
     check_grids(&entries, &placings, parser);
@@ -50,6 +52,7 @@ pub(super) fn parse_joints<'t>(
         None => None,
         Some(output) => Some(output?),
     };
+    let chains = chains?;
     let named: Vec<usize> = seen_from.into_iter().flatten().chain(output_joints(output_link)).collect();
     check_unused(&entries, (&placings, &needs), &traced, &named, parser);
     if seen_from.is_none() {
@@ -71,6 +74,7 @@ pub(super) fn parse_joints<'t>(
             OutputLinkTemplate::Link(joints) => OutputLinkTemplate::Link(joints.map(new_index)),
             OutputLinkTemplate::Slider(joint) => OutputLinkTemplate::Slider(new_index(joint)),
         }),
+        chains: chains.into_iter().map(|chain| chain.into_iter().map(new_index).collect()).collect(),
         spans,
     })
 }
@@ -111,6 +115,26 @@ fn parse_output_link<'t>(
         Some(_) => parse_joint_ref(value, names, parser).map(OutputLinkTemplate::Slider),
         None => parse_joint_pair(value, names, parser).map(OutputLinkTemplate::Link),
     }
+}
+
+/// Parses chains: lists of joints.
+fn parse_chains<'t>(value: &TomlValue<'t>, names: &JointNames, parser: &mut TomlParser<'t>) -> Option<Vec<Vec<usize>>> {
+    let mut chains = Vec::new();
+    let mut all_read = true;
+    for value in parser.list(value)? {
+        let joints = parser.list(value).unwrap_or_default();
+        let chain: Vec<usize> = joints.iter().filter_map(|joint| parse_joint_ref(joint, names, parser)).collect();
+        let distinct: HashSet<&usize> = chain.iter().collect();
+        let is_list = value.get_ref().is_array();
+        all_read &= is_list && chain.len() == joints.len();
+        if is_list && (joints.len() < 2 || distinct.len() < chain.len()) {
+            let problem = Problem::error(value.span(), "a chain has two or more joints, each once");
+            parser.report(problem.with_help("name the joints of its links, as in [\"O\", \"A\", \"B\"]"));
+            all_read = false;
+        }
+        chains.push(chain);
+    }
+    all_read.then_some(chains)
 }
 
 /// The joints that an output link is given by.

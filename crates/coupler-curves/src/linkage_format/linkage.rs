@@ -61,6 +61,12 @@ pub(super) static LINKAGE: TableSchema = TableSchema::new(
             "The link that it drives, by two of its joints, or the slider, by its joint; the last driven link on the frame by default.",
         ),
         KeySchema::new(
+            "chains",
+            ValueSchema::List(&ValueSchema::Set(&JOINT_NAME, [2, usize::MAX]), [0, usize::MAX]),
+            "Parts of the linkage, such as the cognates of a four-bar, each by its joints: the links between them are drawn in an ink of their own.",
+        )
+        .with_default(|| "[]".to_owned()),
+        KeySchema::new(
             "arc",
             ValueSchema::Table(&ARC),
             "The part of the curve that is drawn in full weight; all of it by default.",
@@ -180,6 +186,7 @@ pub fn parse_template<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) ->
         traced: joints.traced,
         seen_from: joints.seen_from,
         output_link: joints.output_link,
+        chains: joints.chains,
         orientation: Orientation::default(),
         circuits,
         continuation,

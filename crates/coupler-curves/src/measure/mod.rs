@@ -36,6 +36,7 @@ mod transmission;
 pub use column::{COLUMNS, Column, compute_columns, find_column};
 pub use dwell::Dwell;
 pub use measures::{ALL, BOOLEANS, Boolean, Measure, Value, compute_all, compute_selected};
+pub use output::output_limit_poses;
 pub use path::cumulative_lengths;
 pub use straight::{StraightCriterion, StraightPortion};
 pub use subject::Subject;

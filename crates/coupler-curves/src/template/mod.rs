@@ -37,6 +37,8 @@ pub struct Template {
     pub seen_from: Option<[usize; 2]>,
     /// The output link; `None` for the default of [`Linkage::output`].
     pub output_link: Option<OutputLinkTemplate>,
+    /// The chains it is composed of in addition to the first, each by its joints.
+    pub chains: Vec<Vec<usize>>,
     /// The orientation applied to everything reported, after `seen_from`.
     pub orientation: Orientation,
     /// The circuits to solve.
@@ -286,7 +288,9 @@ impl Template {
             Some(OutputLinkTemplate::Slider(joint)) => builder.set_output_slider(built[joint][0])?,
         }
         let linkage = builder.build(traced, seen_from, self.motion_options(values)?)?;
-        let linkage = Linkage { placement: self.orientation, ..linkage };
+        let chain = |joints: &Vec<usize>| joints.iter().flat_map(|&k| built[k].clone()).collect();
+        let chains = self.chains.iter().map(chain).collect();
+        let linkage = Linkage { placement: self.orientation, chains, ..linkage };
         match linkage.motion_options.range {
             Some([from, to]) if to - from > linkage.input().period() => {
                 let why = "which is more than a period from `from`";

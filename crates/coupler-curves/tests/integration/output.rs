@@ -1,8 +1,10 @@
 //! The motion of the output link, against closed forms of textbook linkages.
 
-use coupler_curves::geometry::{Point, trig};
-use coupler_curves::linkage::{CircuitSelection, JointId, Linkage, LinkageBuilder, MotionOptions, OutputLink, Side};
-use coupler_curves::measure::{self, TracedCurve, Value};
+use coupler_curves::geometry::{Point, Vector, trig};
+use coupler_curves::linkage::{
+    CircuitSelection, FourBar, JointId, Linkage, LinkageBuilder, MotionOptions, OutputLink, PlacedFourBar, Side,
+};
+use coupler_curves::measure::{self, TracedCurve, Value, output_limit_poses};
 use coupler_curves::motion::{Motion, Sampler, Sampling};
 
 use crate::catalogue::default_linkage;
@@ -229,6 +231,30 @@ fn a_crank_alone_has_no_output() {
     let linkage = builder.build(vec![a], None, all()).unwrap();
     let value = measures(&linkage, 0, 12);
     assert!(OUTPUT_MEASURES.iter().all(|name| value(name).is_nan()));
+}
+
+/// At the limits of a crank-rocker's output, crank and coupler are in line: the pin of the rocker is at the sum and at the
+/// difference of their lengths from the crank's pivot.
+#[test]
+fn the_output_is_at_its_limits_where_crank_and_coupler_are_in_line() {
+    let four_bar = FourBar { frame: 4.0, crank: 1.0, coupler: 3.0, rocker: 3.5 };
+    let pivots = [Point::new(0.0, 0.0), Point::new(4.0, 0.0)];
+    let placed = PlacedFourBar { pivots, lengths: four_bar, coupler_point: Vector::new(1.0, 1.0) };
+    let linkage = placed.to_linkage(Side::Left, all()).unwrap();
+    let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(12)));
+    let curve = TracedCurve::new(&linkage, &motion, &motion.circuits[0], linkage.traced[0]);
+    let poses = output_limit_poses(&curve).unwrap();
+    let [o, _, b, _] = FourBar::pins(&linkage).unwrap();
+    let mut reaches = poses.map(|pose| (pose[b] - pose[o]).norm());
+    reaches.sort_by(f64::total_cmp);
+    // A distance at rest changes with the square of an error of the input.
+    assert!((reaches[0] - 2.0).abs() < 1e-14 && (reaches[1] - 4.0).abs() < 1e-14, "{reaches:?}");
+    let pivots = [Point::new(0.0, 0.0), Point::new(1.0, 0.0)];
+    let turning = PlacedFourBar { pivots, lengths: FourBar { frame: 1.0, crank: 3.0, ..four_bar }, ..placed };
+    let linkage = turning.to_linkage(Side::Left, all()).unwrap();
+    let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(12)));
+    let curve = TracedCurve::new(&linkage, &motion, &motion.circuits[0], linkage.traced[0]);
+    assert!(output_limit_poses(&curve).is_none());
 }
 
 /// Every linkage of the catalogue states its output link, and has all measures of it.

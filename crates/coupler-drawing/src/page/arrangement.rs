@@ -25,6 +25,15 @@ impl Rect {
         }
     }
 
+    /// Equal parts of the rectangle, side by side along its longer side.
+    pub fn divide(&self, count: usize) -> Vec<Rect> {
+        let is_wide = self.size.x >= self.size.y;
+        let part = 1.0 / count as f64;
+        let step = if is_wide { Vector::new(part * self.size.x, 0.0) } else { Vector::new(0.0, part * self.size.y) };
+        let size = if is_wide { Vector::new(step.x, self.size.y) } else { Vector::new(self.size.x, step.y) };
+        (0..count).map(|k| Rect { corner: self.corner + step * k as f64, size }).collect()
+    }
+
     /// The rectangle without a border of `width`, at most a third of its size on each side.
     pub fn inset(&self, width: f64) -> Rect {
         let border = Vector::new(width.min(self.size.x / 3.0), width.min(self.size.y / 3.0));
@@ -44,12 +53,21 @@ pub(super) enum Arrangement {
 }
 
 /// The bounds of what a panel shows, in the plane of the linkage.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Extents {
-    /// The curves.
-    pub curve: Bounds,
+    /// The curves that are drawn in one frame each if they are apart from the linkage; at least one.
+    pub curves: Vec<Bounds>,
     /// The linkage in its poses, with the curves.
     pub linkage: Bounds,
+}
+
+impl Extents {
+    /// The scale at which each of the curves fits a frame of its own, all of which together are `rect`.
+    fn curve_scale(&self, rect: Rect, gap: f64) -> f64 {
+        let frames = rect.divide(self.curves.len());
+        let scales = frames.into_iter().zip(&self.curves).map(|(frame, bounds)| frame.inset(gap).fit_scale(*bounds));
+        scales.fold(f64::INFINITY, f64::min)
+    }
 }
 
 impl Arrangement {
@@ -71,19 +89,18 @@ impl Arrangement {
     /// of the same ratio for the key.
     fn merit(self, whole: Rect, gap: f64, extents: &Extents) -> f64 {
         let best = whole.inset(gap);
-        let [curve, key] = self.rects(whole).map(|frame| frame.inset(gap));
-        let (curve, key) = match self {
-            // One figure is easier to read than two, so a small gain is not enough to divide it.
-            Arrangement::Combined => return 1.25 * key.fit_scale(extents.linkage) / best.fit_scale(extents.curve),
-            _ => (curve.fit_scale(extents.curve), key.fit_scale(extents.linkage)),
-        };
-        curve / best.fit_scale(extents.curve) * (key / best.fit_scale(extents.linkage)).sqrt()
+        let greatest = extents.curves.iter().map(|bounds| best.fit_scale(*bounds)).fold(f64::INFINITY, f64::min);
+        let [curve, key] = self.rects(whole);
+        let key = key.inset(gap).fit_scale(extents.linkage);
+        // One figure is easier to read than two, so a small gain is not enough to divide it.
+        let curve = if self == Arrangement::Combined { return 1.25 * key / greatest } else { curve };
+        extents.curve_scale(curve, gap) / greatest * (key / best.fit_scale(extents.linkage)).sqrt()
     }
 
-    /// The enlargement of the curve relative to its key.
+    /// The enlargement of the curves relative to their key.
     fn enlargement(self, whole: Rect, gap: f64, extents: &Extents) -> f64 {
-        let [curve, key] = self.rects(whole).map(|frame| frame.inset(gap));
-        curve.fit_scale(extents.curve) / key.fit_scale(extents.linkage)
+        let [curve, key] = self.rects(whole);
+        extents.curve_scale(curve, gap) / key.inset(gap).fit_scale(extents.linkage)
     }
 
     /// The arrangement of a panel: this one if it enlarges the curve to at least twice the size it has in its key,
@@ -131,9 +148,19 @@ mod tests {
     fn a_small_curve_is_separated_from_its_linkage_and_a_large_one_is_not() {
         let whole = Rect { corner: Point::origin(), size: Vector::new(76.0, 90.0) };
         // Evans at p = 6: 4 wide and 0.4 high on a linkage of 8 by 20.
-        let small = Extents { curve: bounds(2.0, 19.0, 4.0, 0.4), linkage: bounds(-1.0, 0.0, 8.0, 20.0) };
+        let small = Extents { curves: vec![bounds(2.0, 19.0, 4.0, 0.4)], linkage: bounds(-1.0, 0.0, 8.0, 20.0) };
         assert!(matches!(Arrangement::best(whole, 2.0, &[small]), Arrangement::Stacked(_)));
-        let large = Extents { curve: bounds(0.0, -2.0, 3.0, 4.0), linkage: bounds(-1.0, -2.0, 5.0, 4.0) };
+        let large = Extents { curves: vec![bounds(0.0, -2.0, 3.0, 4.0)], linkage: bounds(-1.0, -2.0, 5.0, 4.0) };
         assert_eq!(Arrangement::best(whole, 2.0, &[large]), Arrangement::Combined);
+    }
+
+    #[test]
+    fn small_curves_far_from_each_other_are_enlarged_in_frames_of_their_own() {
+        let whole = Rect { corner: Point::origin(), size: Vector::new(76.0, 90.0) };
+        let linkage = bounds(0.0, 0.0, 10.0, 10.0);
+        let apart = [bounds(0.0, 0.0, 0.01, 0.01), bounds(9.0, 9.0, 0.01, 0.01)];
+        let arrange = |curves: Vec<Bounds>| Arrangement::best(whole, 2.0, &[Extents { curves, linkage }]);
+        assert_eq!(arrange(vec![apart[0].union(apart[1])]), Arrangement::Combined);
+        assert_ne!(arrange(apart.to_vec()), Arrangement::Combined);
     }
 }

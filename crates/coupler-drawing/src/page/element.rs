@@ -190,15 +190,19 @@ impl TextLine {
         TextLine { text: Text { position, ..self.text } }
     }
 
-    /// The line as it is if it fits `width` at no less than 85 % of its size; otherwise lines that do, broken between
-    /// words, at 85 % of its size. Nothing is left out but what remains of a word that is wider.
+    /// The line as it is if it fits `width` at no less than 85 % of its size; otherwise lines that do: broken at the
+    /// separators of its parts if these fit, or else between words at 85 % of its size. Nothing is left out but what remains
+    /// of a word that is wider.
     pub fn fit_or_wrap(mut self, width: f64) -> Vec<TextLine> {
         let natural = self.text.width();
         if TextLine::MIN_PART * natural <= width {
             return vec![self.fit_width(width)];
         }
-        self.text.size = (TextLine::MIN_PART * self.text.size).max(Theme::MIN_TEXT_SIZE.min(self.text.size));
-        self.wrap(width).iter().map(|words| self.with_words(words).fit_width(width)).collect()
+        let text: String = self.text.runs.iter().map(|run| run.text.as_str()).collect();
+        if text.split(" · ").any(|part| self.with_words(part).text.width() > width) {
+            self.text.size = (TextLine::MIN_PART * self.text.size).max(Theme::MIN_TEXT_SIZE.min(self.text.size));
+        }
+        self.wrap_at_separators(width).iter().map(|words| self.with_words(words).fit_width(width)).collect()
     }
 
     /// The part of its size that a line may have to fit a width before it is broken.

@@ -6,16 +6,17 @@ use super::element::{CouplerCurve, Drawing};
 use super::labels::{Obstacles, label_line};
 use super::marks;
 use super::mechanism::PosedMechanism;
-use super::motion_marks::{self, MotionMarks, TickPoses};
+use super::motion_marks::{MotionMarks, TickPoses};
 use super::plot::{Plot, round_number_below};
 use super::pose;
-use super::symbols::{Mark, Symbol};
+use super::symbols::{self, Mark, Symbol};
 use super::theme::Theme;
 use super::{Options, Panel, PanelPage, PoseChoice};
 use crate::mechanism::Mechanism;
 use crate::scene::{Animation, Circle, Color, Curve, Item};
 use coupler_curves::geometry::{Bounds, Point, Similarity};
 use coupler_curves::linkage::{Input, JointId, Linkage};
+use coupler_curves::measure::{self, TracedCurve};
 use coupler_curves::motion::{self, Circuit};
 use coupler_curves::path::{self, DashPattern, JointPath};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
@@ -65,6 +66,52 @@ fn without_rounding(curve: Bounds, linkage: Bounds) -> Bounds {
     if is_visible { curve } else { Bounds::from_points([curve.centre()]) }
 }
 
+/// The poses of a linkage at the limits of its input on the circuit of a curve, or at those of its output if the input
+/// turns fully.
+fn limits(solved: &SolvedCell, curve: &MeasuredCurve) -> Vec<Vec<Point>> {
+    let circuit = solved.circuit(curve);
+    if !circuit.is_full_turn() {
+        return limit_poses(&solved.linkage, circuit);
+    }
+    let traced = TracedCurve::new(&solved.linkage, &solved.motion, circuit, curve.joint);
+    measure::output_limit_poses(&traced).map(Vec::from).unwrap_or_default()
+}
+
+/// The poses of a circuit at which the input reverses.
+fn limit_poses(linkage: &Linkage, circuit: &Circuit) -> Vec<Vec<Point>> {
+    let passes = &circuit.passes;
+    let pose = |k: usize| motion::pose(linkage, &passes[k], passes[k].to.input.value);
+    (0..passes.len()).filter(|&k| circuit.reverses_after(k)).map(pose).collect()
+}
+
+/// The circuits of a cell with their bounds: those that have one place share a group.
+fn circuit_groups(solved: &SolvedCell) -> Vec<(Vec<usize>, Bounds)> {
+    /// Two circuits share a frame if it is hardly larger than that of the larger one.
+    const MAX_GROWTH: f64 = 1.25;
+    /// With more groups than this, the frames are too small to enlarge anything.
+    const MAX_GROUPS: usize = 4;
+    let mut groups: Vec<(Vec<usize>, Bounds)> = Vec::new();
+    for curve in &solved.curves {
+        let bounds = Bounds::from_points(solved.circuit(curve).points(curve.joint));
+        let shares = |(circuits, other): &(Vec<usize>, Bounds)| {
+            let growth = bounds.union(*other).size().max();
+            circuits.contains(&curve.circuit) || growth <= MAX_GROWTH * bounds.size().max().max(other.size().max())
+        };
+        match groups.iter_mut().find(|group| shares(group)) {
+            Some((circuits, whole)) => {
+                circuits.push(curve.circuit);
+                *whole = whole.union(bounds);
+            }
+            None => groups.push((vec![curve.circuit], bounds)),
+        }
+    }
+    if groups.len() > MAX_GROUPS {
+        let whole = groups.iter().fold(Bounds::EMPTY, |whole, (_, bounds)| whole.union(*bounds));
+        return vec![(groups.into_iter().flat_map(|(circuits, _)| circuits).collect(), whole)];
+    }
+    groups
+}
+
 /// The figure of a panel: curves, and the linkage in one pose or several.
 pub(super) struct Figure<'a> {
     pub panel: &'a Panel<'a>,
@@ -73,6 +120,10 @@ pub(super) struct Figure<'a> {
     pub mechanisms: Vec<PosedMechanism<'a>>,
     /// The duration of the animation.
     seconds: f64,
+    /// The linkage at its limits, if it is drawn there.
+    ghosts: Vec<PosedMechanism<'a>>,
+    /// The circuits that are enlarged in one frame, by their numbers, in the order of the curves of `extents`.
+    groups: Vec<Vec<usize>>,
     pub extents: Extents,
 }
 
@@ -88,13 +139,22 @@ impl<'a> Figure<'a> {
             PoseChoice::Animated { poses, seconds } => (poses.clone(), *seconds),
         };
         let parts = Mechanism::new(&solved.linkage, circuit);
-        let mechanism = |pose| PosedMechanism::new(&solved.linkage, parts.clone(), pose, &panel.link_inks);
-        let mechanisms: Vec<PosedMechanism> = poses.into_iter().map(mechanism).collect();
-        let curve =
-            Bounds::from_points(solved.curves.iter().flat_map(|curve| solved.circuit(curve).points(curve.joint)));
-        let key = mechanisms.iter().fold(curve, |key, mechanism| key.union(mechanism.bounds()));
-        let curve = without_rounding(curve, key);
-        Some(Figure { panel, solved_cell: solved, mechanisms, seconds, extents: Extents { curve, linkage: key } })
+        let mechanism = |pose| PosedMechanism::new(&solved.linkage, parts.clone(), pose);
+        let ghosts = if panel.has_ghosts { limits(solved, first) } else { Vec::new() };
+        let [mechanisms, ghosts] = [poses, ghosts].map(|poses| poses.into_iter().map(mechanism).collect::<Vec<_>>());
+        let groups = circuit_groups(solved);
+        let curves = groups.iter().fold(Bounds::EMPTY, |whole, (_, bounds)| whole.union(*bounds));
+        let linkage =
+            mechanisms.iter().chain(&ghosts).fold(curves, |linkage, mechanism| linkage.union(mechanism.bounds()));
+        let curves = groups.iter().map(|(_, bounds)| without_rounding(*bounds, linkage)).collect();
+        let groups = groups.into_iter().map(|(circuits, _)| circuits).collect();
+        let extents = Extents { curves, linkage };
+        Some(Figure { panel, solved_cell: solved, mechanisms, seconds, ghosts, groups, extents })
+    }
+
+    /// The circuit of the first curve.
+    pub fn first_circuit(&self) -> &Circuit {
+        self.solved_cell.circuit(&self.solved_cell.curves[0])
     }
 
     /// Items that depend on the pose, animated if there are several poses.
@@ -111,6 +171,11 @@ impl<'a> Figure<'a> {
         key.fitted_to(self.extents.linkage).page_from_plane.scale
     }
 
+    /// The range of the input that a dash and its gap span.
+    pub fn dash_period(&self, options: &Options) -> f64 {
+        dash_period(&self.solved_cell.linkage, &self.solved_cell.motion.circuits, options)
+    }
+
     /// The length of the crank; `None` if an actuator drives the linkage.
     pub fn crank_length(&self) -> Option<f64> {
         self.solved_cell.linkage.crank_length()
@@ -125,16 +190,17 @@ impl<'a> Figure<'a> {
         page: &PanelPage,
         (options, theme): (&Options, &Theme),
     ) {
-        let [curve, key] = arrangement.rects(whole).map(|frame| Plot::new(frame, theme));
-        let period = dash_period(&self.solved_cell.linkage, &self.solved_cell.motion.circuits, options);
-        let in_dashes = |plot: &Plot, obstacles: &[Item]| {
-            let paths = self.paths(plot, period, theme);
-            let axes = marks::symmetry_axis_items(self.solved_cell, plot, theme);
+        let [frame, key] = arrangement.rects(whole);
+        let key = Plot::new(key, theme);
+        let period = self.dash_period(options);
+        let in_dashes = |plot: &Plot, curves: &[&MeasuredCurve], obstacles: &[Item]| {
+            let paths = self.paths(plot, curves, period, theme);
+            let axes = marks::symmetry_axis_items(self.solved_cell, curves, plot, theme);
             let mut avoided = Obstacles::default();
             [obstacles, &axes].into_iter().for_each(|items| avoided.add(items, false));
-            self.draw_marks(area, plot, axes, theme);
-            self.draw_motion_marks(area, plot, &paths, avoided, theme);
-            self.draw_curves(area, plot, page, (paths, period), theme);
+            self.draw_marks(area, plot, curves, axes, theme);
+            self.draw_motion_marks(area, plot, curves, &paths, avoided, theme);
+            self.draw_curves(area, plot, page, curves, (paths, period), theme);
         };
         let key = key.fitted_to(self.extents.linkage);
         let (key, remark) = match scale {
@@ -148,16 +214,20 @@ impl<'a> Figure<'a> {
         self.draw_underlay(area, &key, theme);
         if arrangement == Arrangement::Combined {
             let linkage = self.linkage_items(&key, theme);
-            in_dashes(&key, &linkage);
+            in_dashes(&key, &self.solved_cell.curves.iter().collect::<Vec<_>>(), &linkage);
             draw_linkage(area, linkage);
         } else {
             self.draw_key_curves(area, &key, theme);
             draw_linkage(area, self.linkage_items(&key, theme));
-            let curve = curve.fitted_to(self.extents.curve);
-            let enlargement = curve.page_from_plane.scale / key.page_from_plane.scale;
-            let remark = format!(", enlarged × {}", marks::format_significant(enlargement, 2));
-            curve.draw_scale_bar(area, &remark, theme);
-            in_dashes(&curve, &[]);
+            let frames = frame.divide(self.groups.len());
+            for ((circuits, bounds), frame) in self.groups.iter().zip(&self.extents.curves).zip(frames) {
+                let plot = Plot::new(frame, theme).fitted_to(*bounds);
+                let enlargement = plot.page_from_plane.scale / key.page_from_plane.scale;
+                let remark = format!(", enlarged × {}", marks::format_significant(enlargement, 2));
+                plot.draw_scale_bar(area, &remark, theme);
+                let curves = self.solved_cell.curves.iter().filter(|curve| circuits.contains(&curve.circuit));
+                in_dashes(&plot, &curves.collect::<Vec<_>>(), &[]);
+            }
         }
     }
 
@@ -167,11 +237,12 @@ impl<'a> Figure<'a> {
         area: &impl Area,
         plot: &Plot,
         page: &PanelPage,
+        curves: &[&MeasuredCurve],
         (paths, period): (Vec<JointPath>, f64),
         theme: &Theme,
     ) {
         let limits = self.limit_poses();
-        for (curve, path) in self.solved_cell.curves.iter().zip(paths) {
+        for (curve, path) in curves.iter().zip(paths) {
             let stroke = theme.curve_stroke(self.style_index(curve));
             let ink = stroke.color;
             let MeasuredCurve { trace, circuit, joint, .. } = curve;
@@ -197,7 +268,7 @@ impl<'a> Figure<'a> {
             };
             area.record(&element);
         }
-        let points = self.coupler_point_items(plot, theme);
+        let points = self.coupler_point_items(plot, curves, theme);
         area.record(&Drawing { class: "coupler-point", title: String::new(), items: points });
     }
 
@@ -216,11 +287,12 @@ impl<'a> Figure<'a> {
     }
 
     /// Draws the marks of the curves: axes of symmetry and straight portions.
-    fn draw_marks(&self, area: &impl Area, plot: &Plot, axes: Vec<Item>, theme: &Theme) {
+    fn draw_marks(&self, area: &impl Area, plot: &Plot, curves: &[&MeasuredCurve], axes: Vec<Item>, theme: &Theme) {
         area.record(&Drawing { class: "axis", title: String::new(), items: axes });
-        let portion =
-            |curve| marks::straight_portion_item(self.solved_cell, curve, self.curve_ink(curve, theme), plot, theme);
-        let items = self.solved_cell.curves.iter().filter_map(portion).collect();
+        let portion = |curve: &&MeasuredCurve| {
+            marks::straight_portion_item(self.solved_cell, curve, self.curve_ink(curve, theme), plot, theme)
+        };
+        let items = curves.iter().filter_map(portion).collect();
         area.record(&Drawing { class: "straight", title: String::new(), items });
     }
 
@@ -230,6 +302,7 @@ impl<'a> Figure<'a> {
         &self,
         area: &impl Area,
         plot: &Plot,
+        curves: &[&MeasuredCurve],
         paths: &[JointPath],
         mut obstacles: Obstacles,
         theme: &Theme,
@@ -237,10 +310,10 @@ impl<'a> Figure<'a> {
         let solved = self.solved_cell;
         let poses = |circuit: &Circuit| TickPoses::new(&solved.linkage, circuit);
         let poses: Vec<TickPoses> = solved.motion.circuits.iter().map(poses).collect();
-        let marks = |curve: &MeasuredCurve| {
+        let marks = |curve: &&MeasuredCurve| {
             MotionMarks::new(&poses[curve.circuit - 1], curve.joint, plot, self.curve_ink(curve, theme), theme)
         };
-        let marks: Vec<MotionMarks> = solved.curves.iter().map(marks).collect();
+        let marks: Vec<MotionMarks> = curves.iter().map(marks).collect();
         paths.iter().for_each(|path| obstacles.add_points(&label_line(path), theme.curve_width, false));
         for marks in &marks {
             obstacles.add(&marks.items, false);
@@ -252,12 +325,12 @@ impl<'a> Figure<'a> {
         }
     }
 
-    /// The path of every curve, in the order of the curves.
-    fn paths(&self, plot: &Plot, period: f64, theme: &Theme) -> Vec<JointPath> {
-        let path = |curve: &MeasuredCurve| {
+    /// The paths of curves, in their order.
+    fn paths(&self, plot: &Plot, curves: &[&MeasuredCurve], period: f64, theme: &Theme) -> Vec<JointPath> {
+        let path = |curve: &&MeasuredCurve| {
             curve_path(self.solved_cell, curve, plot.page_from_plane, self.dashes(curve, period, theme))
         };
-        self.solved_cell.curves.iter().map(path).collect()
+        curves.iter().map(path).collect()
     }
 
     /// The dashes of a curve: by default a dash is the first 3 degrees of a period of 5.
@@ -278,20 +351,16 @@ impl<'a> Figure<'a> {
 
     /// The poses at the limits of the input, by circuit.
     fn limit_poses(&self) -> Vec<Vec<Vec<Point>>> {
-        let poses = |circuit: &Circuit| {
-            let passes = &circuit.passes;
-            let pose = |k: usize| motion::pose(&self.solved_cell.linkage, &passes[k], passes[k].to.input.value);
-            (0..passes.len()).filter(|&k| circuit.reverses_after(k)).map(pose).collect()
-        };
-        self.solved_cell.motion.circuits.iter().map(poses).collect()
+        let circuits = self.solved_cell.motion.circuits.iter();
+        circuits.map(|circuit| limit_poses(&self.solved_cell.linkage, circuit)).collect()
     }
 
-    fn coupler_point_items(&self, plot: &Plot, theme: &Theme) -> Vec<Item> {
-        let mut curves: Vec<&MeasuredCurve> = Vec::new();
-        for curve in self.solved_cell.curves.iter().filter(|curve| curve.circuit == self.solved_cell.curves[0].circuit)
-        {
-            if curves.iter().all(|other| other.joint != curve.joint) {
-                curves.push(curve);
+    /// The traced points of curves in the pose, which is on the circuit of the first curve.
+    fn coupler_point_items(&self, plot: &Plot, curves: &[&MeasuredCurve], theme: &Theme) -> Vec<Item> {
+        let mut posed: Vec<&MeasuredCurve> = Vec::new();
+        for curve in curves.iter().filter(|curve| curve.circuit == self.solved_cell.curves[0].circuit) {
+            if posed.iter().all(|other| other.joint != curve.joint) {
+                posed.push(curve);
             }
         }
         let circle = |curve: &MeasuredCurve, mechanism: &PosedMechanism| {
@@ -299,10 +368,14 @@ impl<'a> Figure<'a> {
             let centre = plot.page_from_plane.apply(mechanism.pose[curve.joint]);
             Item::Circle(Circle { centre, radius: theme.joint_radius, stroke, fill: Some(theme.paper) })
         };
-        self.posed_items(|mechanism| curves.iter().map(|curve| circle(curve, mechanism)).collect())
+        self.posed_items(|mechanism| posed.iter().map(|curve| circle(curve, mechanism)).collect())
     }
 
     fn draw_underlay(&self, area: &impl Area, plot: &Plot, theme: &Theme) {
+        let ghosts: Vec<Item> = self.ghosts.iter().flat_map(|ghost| ghost.ghost_items(plot, theme)).collect();
+        if !ghosts.is_empty() {
+            area.record(&Drawing { class: "ghost", title: String::new(), items: ghosts });
+        }
         let items = self.posed_items(|mechanism| mechanism.underlay_items(plot, theme));
         area.record(&Drawing { class: "underlay", title: String::new(), items });
     }
@@ -323,44 +396,31 @@ impl<'a> Figure<'a> {
         self.solved_cell.curves.iter().find(is_marked).map(|curve| self.curve_ink(curve, theme))
     }
 
-    /// The symbols that explain the figure.
-    pub fn symbols(&self, options: &Options, theme: &Theme) -> Vec<Symbol> {
+    /// The symbols that explain the figure; `period` is that of dashes, if it is the same in all figures.
+    pub fn symbols(&self, period: Option<f64>, theme: &Theme) -> Vec<Symbol> {
         let solved = self.solved_cell;
         let Some(first) = solved.curves.first() else { return Vec::new() };
         let ink = self.curve_ink(first, theme);
-        let is_turned = solved.linkage.input() != Input::Length;
-        let dashes = match is_turned {
-            true => format!("dash and gap: {}° of input", options.dash_deg),
-            false => "dash and gap: equal steps of the actuator's length".to_owned(),
-        };
-        let pivots = solved.linkage.pivots();
-        let crank_pivot = solved.linkage.crank().map(|[pivot, _]| pivot).filter(|pivot| pivots.contains(pivot));
-        let mut symbols: Vec<(Mark, String)> = Vec::new();
-        symbols.extend(crank_pivot.map(|_| (Mark::CrankPivot, "crank's pivot".to_owned())));
-        if pivots.iter().any(|pivot| Some(*pivot) != crank_pivot) {
-            symbols.push((Mark::Pivot, "fixed pivot".to_owned()));
-        }
-        symbols.push((Mark::TracedPoint(ink), "traced point".to_owned()));
-        symbols.push((Mark::Dashes(ink), dashes));
-        if is_turned {
-            symbols.push((Mark::Start(ink), "start and direction".to_owned()));
-            symbols.push((Mark::Tick(ink), format!("every {}° of input", motion_marks::TICK_DEG)));
-        }
+        let mut symbols = symbols::of_cell(solved, ink, period);
+        let mut add = |mark: Mark, meaning: &str| symbols.push(Symbol { mark, meaning: meaning.to_owned() });
         let later = solved.curves.iter().find(|curve| self.style_index(curve) == 1);
         if let Some(curve) = later {
             let what = if curve.trace > 1 { "second traced point" } else { "second circuit" };
-            symbols.push((Mark::Dashes(self.curve_ink(curve, theme)), what.to_owned()));
+            add(Mark::Dashes(self.curve_ink(curve, theme)), what);
         }
         if solved.motion.circuits.iter().any(|circuit| !circuit.is_full_turn()) {
-            symbols.push((Mark::Limit(ink), "limit of the input".to_owned()));
+            add(Mark::Limit(ink), "limit of the input");
         }
         if solved.linkage.motion_options.figure_arc.is_some() {
-            symbols.push((Mark::Light(ink), "outside the figure of the source".to_owned()));
+            add(Mark::Light(ink), "outside the figure of the source");
+        }
+        if !self.ghosts.is_empty() {
+            add(Mark::Ghost, "linkage at its limits");
         }
         if marks::has_symmetry_axis(solved) {
-            symbols.push((Mark::Axis, "axis of symmetry".to_owned()));
+            add(Mark::Axis, "axis of symmetry");
         }
-        symbols.into_iter().map(|(mark, meaning)| Symbol { mark, meaning }).collect()
+        symbols
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::area::Area;
 use super::arrangement::Rect;
+use super::direction::DirectionMarks;
 use super::element::{Drawing, TextLine};
 use super::figure::Figure;
 use super::labels::{LabelPlacer, Obstacles};
@@ -9,11 +10,10 @@ use super::marks::straight_criterion_text;
 use super::mechanism::PosedMechanism;
 use super::plot::Plot;
 use super::theme::Theme;
-use crate::scene::{Anchor, Item, Path, Polyline, Text};
+use crate::scene::{Anchor, Text};
 use coupler_curves::expression::MathText;
 use coupler_curves::family::{Cell, Family};
-use coupler_curves::geometry::{Point, Vector, left_normal, trig};
-use coupler_curves::linkage::OutputLink;
+use coupler_curves::geometry::{Point, Vector};
 use coupler_curves::template::{JointTemplate, OutputLinkTemplate, Template};
 
 /// What a page says about the linkages on it, so that they can be built: how the joints are placed by parameters, and
@@ -158,15 +158,16 @@ fn draw_linkage(area: &impl Area, rect: Rect, figure: &Figure, theme: &Theme) {
     let plot = Plot::whole(frame).fitted_to(mechanism.bounds());
     let underlay = mechanism.underlay_items(&plot, theme);
     let links = mechanism.linkage_items(&plot, theme, |joint| figure.joint_ink(joint, theme));
-    let (marks, zero_label) = crank_arrow(mechanism, &plot, theme).unzip();
-    let mut marks = marks.unwrap_or_default();
-    marks.extend(output_arrow(mechanism, &plot, theme));
+    let least_radius = 4.0 * theme.joint_radius / plot.page_from_plane.scale;
+    let directions = DirectionMarks::new(mechanism, figure.first_circuit(), least_radius).map(plot.page_from_plane);
+    let marks = directions.items(theme);
+    let zero = theme.text_line("0°", Point::origin(), Anchor::Middle, theme.note_size, theme.grey).text;
     let mut obstacles = Obstacles::default();
     obstacles.add(&underlay, true);
     obstacles.add(&links, false);
     obstacles.add(&marks, false);
     let mut placer = LabelPlacer::new(&obstacles, rect, theme);
-    let names = joint_names(mechanism, &plot, theme).into_iter().chain(zero_label);
+    let names = joint_names(mechanism, &plot, theme).into_iter().chain(directions.zero_end().map(|at| (at, zero)));
     let names = names.filter_map(|(at, name)| placer.place_at_point(at, name)).collect();
     for (class, items) in [("underlay", underlay), ("linkage", links), ("direction", marks), ("name", names)] {
         area.record(&Drawing { class, title: String::new(), items });
@@ -190,59 +191,4 @@ fn joint_names(mechanism: &PosedMechanism, plot: &Plot, theme: &Theme) -> Vec<(P
         }
     }
     labels
-}
-
-/// An arc about the crank's pivot from input 0, which is a short line, in the direction of increasing input; with the
-/// label of the line and the point it belongs to. `None` if there is no crank.
-fn crank_arrow(mechanism: &PosedMechanism, plot: &Plot, theme: &Theme) -> Option<(Vec<Item>, (Point, Text))> {
-    const SWEEP_DEG: f64 = 60.0;
-    let [pivot, pin] = mechanism.linkage.crank()?;
-    let (zero, turn) = mechanism.input_axes()?;
-    let centre = plot.page_from_plane.apply(mechanism.pose[pivot]);
-    let length = (plot.page_from_plane.apply(mechanism.pose[pin]) - centre).norm();
-    let radius = (0.55 * length).max(4.0 * theme.joint_radius);
-    let stroke = theme.stroke(theme.ink, theme.fine_width);
-    let at = |deg: f64, radius: f64| {
-        let (cos, sin) = trig::cos_sin_deg(deg);
-        // The page's y points down.
-        let direction = zero * cos + turn * sin;
-        centre + Vector::new(direction.x, -direction.y) * radius
-    };
-    let zero_line = Path::stroked(
-        vec![at(0.0, 2.0 * theme.joint_radius), at(0.0, radius + 2.0 * theme.joint_radius)],
-        theme.stroke(theme.ink, theme.hair_width),
-    );
-    let arc: Vec<Point> = (0..=20).map(|k| at(SWEEP_DEG * f64::from(k) / 20.0, radius)).collect();
-    let [before, tip] = [arc[19], arc[20]];
-    let text = theme.text_line("0", Point::origin(), Anchor::Middle, theme.note_size, theme.ink).text;
-    let items =
-        vec![Item::Path(zero_line), Item::Path(Path::stroked(arc, stroke)), arrowhead(tip, tip - before, theme)];
-    Some((items, (at(0.0, radius + 2.0 * theme.joint_radius), text)))
-}
-
-/// A double-headed arc about the fixed joint of the output link, on the link.
-fn output_arrow(mechanism: &PosedMechanism, plot: &Plot, theme: &Theme) -> Vec<Item> {
-    const HALF_SWEEP_DEG: f64 = 16.0;
-    let Some(OutputLink::Link([from, to])) = mechanism.linkage.output() else { return Vec::new() };
-    let [centre, end] = [from, to].map(|joint| plot.page_from_plane.apply(mechanism.pose[joint]));
-    let arm = (end - centre) * 0.62;
-    if arm.norm() < 6.0 * theme.joint_radius {
-        return Vec::new();
-    }
-    let at = |deg: f64| {
-        let (cos, sin) = trig::cos_sin_deg(deg);
-        centre + arm * cos + left_normal(arm) * sin
-    };
-    let arc: Vec<Point> = (-8..=8).map(|k| at(HALF_SWEEP_DEG * f64::from(k) / 8.0)).collect();
-    let heads = [arrowhead(arc[16], arc[16] - arc[15], theme), arrowhead(arc[0], arc[0] - arc[1], theme)];
-    let stroke = theme.stroke(theme.grey, theme.fine_width);
-    [Item::Path(Path::stroked(arc, stroke))].into_iter().chain(heads).collect()
-}
-
-/// A filled arrowhead with its tip at a point, in a direction.
-fn arrowhead(tip: Point, direction: Vector, theme: &Theme) -> Item {
-    let along = direction.try_normalize(0.0).unwrap_or(Vector::new(1.0, 0.0)) * (2.0 * theme.joint_radius);
-    let across = left_normal(along) * 0.38;
-    let points = vec![tip + along * 0.5, tip - along * 0.5 + across, tip - along * 0.5 - across];
-    Item::Path(Path { polylines: vec![Polyline { points, is_closed: true }], stroke: None, fill: Some(theme.ink) })
 }

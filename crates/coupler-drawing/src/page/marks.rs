@@ -141,18 +141,24 @@ pub(super) fn straight_portion_item(
 
 /// Whether an axis of symmetry is marked.
 pub(super) fn has_symmetry_axis(solved: &SolvedCell) -> bool {
-    !marked_axes(solved).is_empty()
+    !marked_axes(solved, &solved.curves.iter().collect::<Vec<_>>()).is_empty()
 }
 
 /// The axes of symmetry of the curves as dash-dotted lines, a little longer than the curves.
-pub(super) fn symmetry_axis_items(solved: &SolvedCell, plot: &Plot, theme: &Theme) -> Vec<Item> {
-    marked_axes(solved).iter().filter_map(|axis| symmetry_axis_item(solved, axis, plot, theme)).collect()
+pub(super) fn symmetry_axis_items(
+    solved: &SolvedCell,
+    curves: &[&MeasuredCurve],
+    plot: &Plot,
+    theme: &Theme,
+) -> Vec<Item> {
+    let item = |axis| symmetry_axis_item(solved, curves, axis, plot, theme);
+    marked_axes(solved, curves).iter().filter_map(item).collect()
 }
 
 /// The axes of symmetry that inform: not of straight lines and of arcs about a fixed pivot.
-fn marked_axes(solved: &SolvedCell) -> Vec<SymmetryAxis> {
+fn marked_axes(solved: &SolvedCell, curves: &[&MeasuredCurve]) -> Vec<SymmetryAxis> {
     let mut drawn: Vec<SymmetryAxis> = Vec::new();
-    for curve in &solved.curves {
+    for curve in curves {
         let axis = curve.symmetry.as_ref().and_then(Symmetry::axis_if_symmetric);
         let is_like = |other: &SymmetryAxis, axis: &SymmetryAxis| {
             (other.direction_deg() - axis.direction_deg()).abs() < 1e-6
@@ -193,8 +199,14 @@ fn crosses_axis(solved: &SolvedCell, curve: &MeasuredCurve, axis: &SymmetryAxis)
     off > VISIBLE * length && length > VISIBLE * off
 }
 
-fn symmetry_axis_item(solved: &SolvedCell, axis: &SymmetryAxis, plot: &Plot, theme: &Theme) -> Option<Item> {
-    let points = solved.curves.iter().flat_map(|curve| solved.circuit(curve).points(curve.joint));
+fn symmetry_axis_item(
+    solved: &SolvedCell,
+    curves: &[&MeasuredCurve],
+    axis: &SymmetryAxis,
+    plot: &Plot,
+    theme: &Theme,
+) -> Option<Item> {
+    let points = curves.iter().flat_map(|curve| solved.circuit(curve).points(curve.joint));
     let positions = points.map(|p| axis.direction.dot(&(p - axis.point)));
     let [low, high] = positions.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], s| [low.min(s), high.max(s)]);
     let beyond = 1.6 * theme.joint_radius / plot.page_from_plane.scale;

@@ -5,7 +5,7 @@ use super::theme::Theme;
 use crate::mechanism::{Block, Mechanism};
 use crate::scene::{Circle, Color, Item, Path, Polyline, Stroke};
 use coupler_curves::geometry::{Bounds, Point, Vector, left_normal, trig};
-use coupler_curves::linkage::{JointId, JointKind, LinkId, LinkOutline, Linkage, is_plate};
+use coupler_curves::linkage::{JointId, JointKind, LinkOutline, Linkage, is_plate};
 
 /// A linkage in a pose.
 pub(super) struct PosedMechanism<'a> {
@@ -13,24 +13,20 @@ pub(super) struct PosedMechanism<'a> {
     mechanism: Mechanism,
     /// The positions of all joints.
     pub pose: Vec<Point>,
-    /// The links drawn in the ink of a curve: index of the link, index of the ink.
-    link_inks: &'a [(LinkId, usize)],
 }
 
 impl<'a> PosedMechanism<'a> {
-    /// A linkage with its parts in a pose, with some links in the inks of curves.
-    pub fn new(
-        linkage: &'a Linkage,
-        mechanism: Mechanism,
-        pose: Vec<Point>,
-        inks: &'a [(LinkId, usize)],
-    ) -> PosedMechanism<'a> {
-        PosedMechanism { linkage, mechanism, pose, link_inks: inks }
+    /// A linkage with its parts in a pose.
+    pub fn new(linkage: &'a Linkage, mechanism: Mechanism, pose: Vec<Point>) -> PosedMechanism<'a> {
+        PosedMechanism { linkage, mechanism, pose }
     }
 
-    /// The ink of a link, if it is not the ink of the theme.
-    fn link_ink(&self, link: LinkId, theme: &Theme) -> Option<Color> {
-        self.link_inks.iter().find(|(inked, _)| *inked == link).map(|&(_, ink)| theme.curve_ink(ink))
+    /// The ink of a link between these joints, if it is that of a chain and not of the theme.
+    fn link_ink(&self, joints: &[JointId], theme: &Theme) -> Option<Color> {
+        /// The first two inks are for circuits, of which a linkage rarely has more.
+        const FIRST_INK: usize = 2;
+        let is_between = |chain: &Vec<JointId>| joints.iter().all(|joint| chain.contains(joint));
+        self.linkage.chains.iter().position(is_between).map(|chain| theme.curve_ink(FIRST_INK + chain))
     }
 
     /// Whether a joint is that of a yoke, which is not a pin.
@@ -72,10 +68,10 @@ impl<'a> PosedMechanism<'a> {
     pub fn underlay_items(&self, plot: &Plot, theme: &Theme) -> Vec<Item> {
         let at = |joint: &JointId| plot.page_from_plane.apply(self.pose[*joint]);
         let mut items = Vec::new();
-        for LinkOutline { link, joints } in &self.mechanism.links {
+        for LinkOutline { joints, .. } in &self.mechanism.links {
             let points: Vec<Point> = joints.iter().map(at).collect();
             if is_plate(&points) {
-                let body = self.link_ink(*link, theme).map_or(theme.hairline, |ink| theme.faded(ink));
+                let body = self.link_ink(joints, theme).map_or(theme.hairline, |ink| theme.faded(ink));
                 let fill = Some(theme.faded(theme.faded(body)));
                 items.push(Item::Path(Path {
                     polylines: vec![Polyline { points, is_closed: true }],
@@ -110,10 +106,24 @@ impl<'a> PosedMechanism<'a> {
                 true => [1.0, -1.0].map(|side| line(left_normal(along) * (side * 1.2 * theme.joint_radius))).to_vec(),
                 false => vec![line(Vector::zeros())],
             };
-            let stroke = Some(theme.stroke(theme.ink, theme.fine_width));
+            // Not as dark as the curve that a slider may trace on it.
+            let stroke = Some(theme.stroke(theme.grey, theme.fine_width));
             items.push(Item::Path(Path { polylines, stroke, fill: None }));
         }
         items
+    }
+
+    /// The linkage in fine light lines.
+    pub fn ghost_items(&self, plot: &Plot, theme: &Theme) -> Vec<Item> {
+        let outlines = self.mechanism.links.iter().map(|outline| &outline.joints[..]);
+        let lines = outlines.chain(self.mechanism.actuators.iter().map(|joints| &joints[..]));
+        let polylines = lines.map(|joints| {
+            let points: Vec<Point> = joints.iter().map(|&joint| plot.page_from_plane.apply(self.pose[joint])).collect();
+            let is_closed = is_plate(&points);
+            Polyline { points, is_closed }
+        });
+        let stroke = Some(theme.stroke(theme.hairline, theme.fine_width));
+        vec![Item::Path(Path { polylines: polylines.collect(), stroke, fill: None })]
     }
 
     /// The items over the curves: links, blocks and joints; `ink` is the colour of a joint.
@@ -125,10 +135,10 @@ impl<'a> PosedMechanism<'a> {
         for &[pivot, joint] in &self.mechanism.actuators {
             items.extend(actuator_items(at(pivot), at(joint), theme));
         }
-        for LinkOutline { link, joints } in &self.mechanism.links {
+        for LinkOutline { joints, .. } in &self.mechanism.links {
             let points: Vec<Point> = joints.iter().map(|&joint| at(joint)).collect();
             let closed = is_plate(&points);
-            let stroke = Some(Stroke { color: self.link_ink(*link, theme).unwrap_or(theme.ink), ..heavy });
+            let stroke = Some(Stroke { color: self.link_ink(joints, theme).unwrap_or(theme.ink), ..heavy });
             items.push(Item::Path(Path {
                 polylines: vec![Polyline { points, is_closed: closed }],
                 stroke,

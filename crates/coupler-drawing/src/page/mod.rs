@@ -11,6 +11,7 @@ pub mod book;
 mod chart;
 mod chart_grid;
 mod coupler_grid;
+mod direction;
 mod element;
 mod figure;
 mod heading;

@@ -1,7 +1,6 @@
 //! A panel of a page: a solved cell, the texts under it, and the pose its linkage is drawn in.
 
 use coupler_curves::geometry::Point;
-use coupler_curves::linkage::LinkId;
 use coupler_curves::solve::SolvedCell;
 
 /// A cell of a page: its curves, its linkage and the lines under them.
@@ -20,9 +19,8 @@ pub struct Panel<'a> {
     pub facts: [String; 2],
     /// The pose the linkage is drawn in.
     pub pose: PoseChoice,
-    /// Links drawn in the ink of a curve: pairs of a link's index in the linkage and the index of the ink. The other
-    /// links are drawn in the theme's ink.
-    pub link_inks: Vec<(LinkId, usize)>,
+    /// Whether the linkage is also drawn, in fine lines, at the limits of its input or else of its output.
+    pub has_ghosts: bool,
 }
 
 impl<'a> Panel<'a> {
@@ -34,7 +32,7 @@ impl<'a> Panel<'a> {
             note: String::new(),
             facts: Default::default(),
             pose: PoseChoice::default(),
-            link_inks: Vec::new(),
+            has_ghosts: false,
         }
     }
 
@@ -53,15 +51,14 @@ impl<'a> Panel<'a> {
         Panel { facts, ..self }
     }
 
+    /// The panel with or without the linkage in fine lines at the limits of its input or else of its output.
+    pub fn with_ghosts(self, has_ghosts: bool) -> Panel<'a> {
+        Panel { has_ghosts, ..self }
+    }
+
     /// The panel with its linkage in another pose.
     pub fn with_pose(self, pose: PoseChoice) -> Panel<'a> {
         Panel { pose, ..self }
-    }
-
-    /// The panel with some links in the inks of curves: pairs of a link's index in the linkage and the index of the
-    /// ink.
-    pub fn with_link_inks(self, link_inks: Vec<(LinkId, usize)>) -> Panel<'a> {
-        Panel { link_inks, ..self }
     }
 }
 

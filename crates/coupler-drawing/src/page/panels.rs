@@ -80,7 +80,9 @@ fn layout_symbols(
 /// The symbols of all figures of a page, each once, and those of the texts under them.
 fn page_symbols(page: &PanelPage, figures: &[Option<Figure>], options: &Options, theme: &Theme) -> Vec<Symbol> {
     let mut symbols: Vec<Symbol> = Vec::new();
-    for symbol in figures.iter().flatten().flat_map(|figure| figure.symbols(options, theme)) {
+    let mut periods = figures.iter().flatten().map(|figure| figure.dash_period(options));
+    let period = periods.next().filter(|first| periods.all(|period| period == *first));
+    for symbol in figures.iter().flatten().flat_map(|figure| figure.symbols(period, theme)) {
         if symbols.iter().all(|known| known.meaning != symbol.meaning) {
             symbols.push(symbol);
         }
@@ -128,7 +130,7 @@ fn draw_panels<A: Area>(
         let size = area.size() - Vector::new(gap, 0.0) - Vector::new(gap, foot);
         Rect { corner: Point::new(gap, 0.0), size: size.sup(&Vector::new(1.0, 1.0)) }
     };
-    let extents: Vec<Extents> = figures.iter().flatten().map(|figure| figure.extents).collect();
+    let extents: Vec<Extents> = figures.iter().flatten().map(|figure| figure.extents.clone()).collect();
     let gap = 2.0 * theme.joint_radius;
     let arrangement = Arrangement::best(figure_rect(&areas[0]), gap, &extents);
     let fitting_scale = |(figure, area): (&Figure, &A)| {
@@ -191,7 +193,7 @@ fn panel_lines(panel: &Panel, facts: FactsLayout, width: f64, symbols: &[String]
     facts.panel_lines(panel).iter().for_each(|fact| add(fact, theme.note_size, theme.grey, &[]));
     let motion = &panel.solved_cell.motion;
     if let Some(error) = motion.assembly_error.as_ref().filter(|_| motion.is_assembled()) {
-        add(&error.to_string(), theme.note_size, theme.curve_ink(0), &[]);
+        add(&error.to_string(), theme.note_size, theme.text_ink(theme.curve_ink(0)), &[]);
     }
     lines
 }
@@ -251,13 +253,14 @@ fn draw_number(area: &impl Area, panel: &Panel, theme: &Theme) {
 /// Draws the lines under a figure from `top`, as many as fit.
 fn draw_lines(area: &impl Area, lines: Vec<TextLine>, top: f64, theme: &Theme) {
     let mut y = top + 1.5 * theme.caption_size;
+    let mut after_last: Option<f64> = None;
     for line in lines {
-        let next = y + leading(&line);
+        y += after_last.map_or(0.0, |after| after.max(leading(&line)));
         if y > area.size().y {
             break;
         }
+        after_last = Some(leading(&line));
         area.record(&line.moved_to(Point::new(area.size().x / 2.0, y)));
-        y = next;
     }
 }
 
@@ -268,7 +271,7 @@ pub(super) fn draw_not_assembled(area: &impl Area, frame: Rect, cell: &SolvedCel
     let text_line = |text: &str, size: f64, color: Color| {
         theme.text_line(text, Point::new(centre.x, 0.0), Anchor::Middle, size, color)
     };
-    let mut lines = vec![text_line("not assembled", theme.caption_size, theme.curve_ink(0)).text];
+    let mut lines = vec![text_line("not assembled", theme.caption_size, theme.text_ink(theme.curve_ink(0))).text];
     let reason = text_line(&reason, theme.note_size, theme.grey).wrap(0.9 * frame.size.x);
     lines.extend(reason.iter().map(|line| text_line(line, theme.note_size, theme.grey).text));
     let step = 1.5 * theme.note_size;

@@ -2,11 +2,12 @@
 
 use super::area::Area;
 use super::element::{Drawing, TextLine};
-use super::mechanism;
-use super::motion_marks;
 use super::theme::Theme;
+use super::{mechanism, motion_marks};
 use crate::scene::{Anchor, Circle, Color, Item, Path, Polyline, Text};
 use coupler_curves::geometry::{Point, Vector};
+use coupler_curves::linkage::Input;
+use coupler_curves::solve::SolvedCell;
 
 /// A symbol and its meaning.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,12 +37,38 @@ pub(super) enum Mark {
     Light(Color),
     /// A straight portion.
     Band(Color),
+    /// The linkage in another pose.
+    Ghost,
     /// An axis of symmetry.
     Axis,
     /// A scale bar.
     ScaleBar,
     /// A letter or a sign in the text of the page.
     Letter(&'static str),
+}
+
+/// The symbols of the linkage and of the motion along its curves, of which the first is in an ink; `period` is that of
+/// dashes, if it is the same in all figures.
+pub(super) fn of_cell(solved: &SolvedCell, ink: Color, period: Option<f64>) -> Vec<Symbol> {
+    let pivots = solved.linkage.pivots();
+    let crank_pivot = solved.linkage.crank().map(|[pivot, _]| pivot).filter(|pivot| pivots.contains(pivot));
+    let mut symbols = Vec::new();
+    let mut add = |mark: Mark, meaning: String| symbols.push(Symbol { mark, meaning });
+    if crank_pivot.is_some() {
+        add(Mark::CrankPivot, "crank's pivot".to_owned());
+    }
+    if pivots.iter().any(|pivot| Some(*pivot) != crank_pivot) {
+        add(Mark::Pivot, "fixed pivot".to_owned());
+    }
+    add(Mark::TracedPoint(ink), "traced point".to_owned());
+    let unit = solved.linkage.input().unit_sign();
+    let dash = period.map_or("equal steps of the input".to_owned(), |period| format!("{period}{unit} of input"));
+    add(Mark::Dashes(ink), format!("dash and gap: {dash}"));
+    if solved.linkage.input() != Input::Length {
+        add(Mark::Start(ink), "start and direction".to_owned());
+        add(Mark::Tick(ink), format!("every {}° of input", motion_marks::TICK_DEG));
+    }
+    symbols
 }
 
 /// The symbols in lines that are not wider than `width`.
@@ -96,7 +123,7 @@ fn mark_width(mark: Mark, theme: &Theme) -> f64 {
         Mark::Limit(_) => theme.joint_radius,
         Mark::Start(_) => 2.0 * theme.joint_radius,
         Mark::Tick(_) => 0.9 * em,
-        Mark::Dashes(_) | Mark::Light(_) | Mark::Band(_) | Mark::Axis | Mark::ScaleBar => 2.0 * em,
+        Mark::Dashes(_) | Mark::Light(_) | Mark::Band(_) | Mark::Ghost | Mark::Axis | Mark::ScaleBar => 2.0 * em,
         Mark::Letter(letter) => theme.typeface.regular().width(letter, em),
     }
 }
@@ -137,6 +164,7 @@ impl Mark {
             Mark::Band(ink) => {
                 vec![stroked(vec![line(-1.0, 1.0)], theme.stroke(theme.faded(ink), 3.0 * theme.curve_width))]
             }
+            Mark::Ghost => vec![stroked(vec![line(-1.0, 1.0)], theme.stroke(theme.hairline, theme.fine_width))],
             Mark::Axis => {
                 let lines = vec![line(-1.0, -0.4), line(-0.15, -0.05), line(0.2, 1.0)];
                 vec![stroked(lines, theme.stroke(theme.grey, theme.hair_width))]

@@ -75,6 +75,21 @@ impl Color {
         Color(r, g, b)
     }
 
+    /// The colour of the same hue with at least a contrast ratio with a ground: darker on a light ground, lighter on a dark
+    /// one, by as little as whole steps of lightness allow.
+    pub fn with_contrast(self, ground: Color, least: f64) -> Color {
+        if self.contrast(ground) >= least {
+            return self;
+        }
+        let [black, white] = [Color(0, 0, 0), Color(255, 255, 255)];
+        let (far, step) = if black.contrast(ground) > white.contrast(ground) { (black, -1.0) } else { (white, 1.0) };
+        let [lightness, a, b] = self.to_lab();
+        let (hue, chroma) = (trig::degrees(trig::atan2(b, a)), trig::hypot(a, b));
+        let steps = (1..100).map(|k| lightness + step * f64::from(k)).take_while(|l| (0.0..=100.0).contains(l));
+        let mut colors = steps.map(|lightness| Color::from_lightness_and_hue(lightness, hue, chroma));
+        colors.find(|color| color.contrast(ground) >= least).unwrap_or(far)
+    }
+
     /// The lightness L* of CIELAB, from 0 for black to 100 for white.
     pub fn lightness(self) -> f64 {
         self.to_lab()[0]
@@ -148,6 +163,23 @@ mod tests {
         // L*, a* and b* of pure red are 53.2, 80.1 and 67.2: its difference from black is 117.3.
         assert!((Color(255, 0, 0).difference(black) - 117.3).abs() < 0.1);
         assert_eq!(Color(12, 12, 12).to_grey(), Color(12, 12, 12));
+    }
+
+    #[test]
+    fn contrast_is_reached_with_little_change() {
+        for (ink, ground) in [
+            (Color(0x39, 0x8a, 0xd0), Color(0xff, 0xfd, 0xf8)),
+            (Color(0x38, 0x88, 0xe0), Color(0x14, 0x18, 0x1d)),
+            (Color(0xee, 0xee, 0x00), Color(255, 255, 255)),
+            (Color(0x77, 0x77, 0x77), Color(0x77, 0x77, 0x77)),
+        ] {
+            let legible = ink.with_contrast(ground, 4.5);
+            // A step of lightness changes the contrast by less than a twentieth.
+            assert!((4.5..4.75).contains(&legible.contrast(ground).min(4.74)), "{legible}");
+            assert_eq!(legible.with_contrast(ground, 4.5), legible);
+        }
+        let dark = Color(0x7b, 0x25, 0x13);
+        assert_eq!(dark.with_contrast(Color(255, 255, 255), 4.5), dark);
     }
 
     #[test]

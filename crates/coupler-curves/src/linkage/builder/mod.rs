@@ -225,7 +225,8 @@ impl LinkageBuilder {
         let motion_options = MotionOptions { mode: self.mode, ..options };
         let placement = Orientation::default();
         let (joints, links, output_link) = (self.joints, self.links, self.output_link);
-        let linkage = Linkage { joints, links, traced, seen_from, output_link, placement, motion_options };
+        let linkage =
+            Linkage { joints, links, traced, seen_from, output_link, chains: Vec::new(), placement, motion_options };
         match output_link {
             Some(OutputLink::Link(pair)) if pair.iter().all(|&joint| linkage.ground().position(joint).is_some()) => {
                 Err(Error::OutputAtRest { base: pair.map(|joint| linkage.joints[joint].name.clone()) })

@@ -2,10 +2,10 @@
 
 use super::{CognateError, Cognates, PlacedFourBar};
 use crate::geometry::{Vector, complex_product};
-use crate::linkage::{FourBar, Joint, JointId, JointKind, Link, LinkId, Linkage};
+use crate::linkage::{FourBar, Joint, JointId, JointKind, Link, Linkage};
 
 impl Cognates {
-    /// A linkage with its cognates attached, and the indices of the links of the two cognates.
+    /// A linkage with its cognates attached, which are its chains.
     ///
     /// The cognates are attached by parallelograms and by triangles similar to the coupler's: the linkage moves as
     /// before, and all three couplers carry the coupler point `joint`. The new joints are Q, D, E, F and G, as in the
@@ -13,7 +13,7 @@ impl Cognates {
     ///
     /// # Errors
     /// As [`PlacedFourBar::from_linkage`] and [`Cognates::from_four_bar`].
-    pub fn assemble(linkage: &Linkage, joint: JointId) -> Result<(Linkage, [Vec<LinkId>; 2]), CognateError> {
+    pub fn assemble(linkage: &Linkage, joint: JointId) -> Result<Linkage, CognateError> {
         let mut assembled = linkage.clone();
         let mut placed = PlacedFourBar::from_linkage(linkage, joint)?;
         // In the plane of the joints themselves, before the linkage is mirrored.
@@ -44,23 +44,17 @@ impl Cognates {
         }
         let FourBar { crank, rocker, coupler, .. } = placed.lengths;
         let (near, far) = (placed.coupler_point.norm(), (rest * coupler).norm());
-        let mut link = |joints: &[(JointId, Vector)]| {
-            assembled.links.push(Link { joints: joints.to_vec() });
-            LinkId::new(assembled.links.len() - 1)
-        };
+        let mut link = |joints: &[(JointId, Vector)]| assembled.links.push(Link { joints: joints.to_vec() });
         let zero = Vector::zeros();
         let along = |length: f64| Vector::new(length, 0.0);
-        let first = vec![
-            link(&[(o, zero), (d, along(near))]),
-            link(&[(d, zero), (joint, along(crank)), (e, lambda * crank)]),
-            link(&[(q, zero), (e, along(near / coupler * rocker))]),
-        ];
-        let second = vec![
-            link(&[(c, zero), (f, along(far))]),
-            link(&[(f, zero), (joint, along(rocker)), (g, rest * rocker)]),
-            link(&[(q, zero), (g, along(far / coupler * crank))]),
-        ];
-        Ok((assembled, [first, second]))
+        link(&[(o, zero), (d, along(near))]);
+        link(&[(d, zero), (joint, along(crank)), (e, lambda * crank)]);
+        link(&[(q, zero), (e, along(near / coupler * rocker))]);
+        link(&[(c, zero), (f, along(far))]);
+        link(&[(f, zero), (joint, along(rocker)), (g, rest * rocker)]);
+        link(&[(q, zero), (g, along(far / coupler * crank))]);
+        assembled.chains = vec![vec![o, d, joint, e, q], vec![c, f, joint, g, q]];
+        Ok(assembled)
     }
 }
 

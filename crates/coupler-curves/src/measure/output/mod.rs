@@ -8,7 +8,7 @@ mod time_ratio;
 mod toggles;
 
 pub use dwell::{DWELL, DWELL_START};
-pub use range::{MAX, MIN, STROKE, SWING};
+pub use range::{MAX, MIN, STROKE, SWING, output_limit_poses};
 pub use ratio::{MECHANICAL_ADVANTAGE_MAX, MECHANICAL_ADVANTAGE_MIN, VELOCITY_RATIO_MAX, VELOCITY_RATIO_MIN};
 pub use time_ratio::TIME_RATIO;
 pub use toggles::TOGGLES;

@@ -1,8 +1,10 @@
 //! The limits of the output, and the angle or the distance between them.
 
 use super::{OutputMotion, output_value};
-use crate::geometry::trig;
-use crate::measure::{Measure, Subject, without_rounding};
+use crate::geometry::{Point, trig};
+use crate::measure::circuit_function::Extreme;
+use crate::measure::{Measure, Subject, TracedCurve, without_rounding};
+use crate::motion;
 
 /// The measure `output_min`.
 pub const MIN: Measure = Measure::number(
@@ -41,6 +43,21 @@ pub const STROKE: Measure = Measure::number(
     |curve| output_value(curve, |output| output.coordinate.quantity().is_slider().then(|| output.travel())),
 )
 .of(Subject::WithSlidingOutput);
+
+/// The positions of all joints at the limits of the output on the circuit of a curve: first where its angle or its
+/// displacement is least, then where it is greatest. `None` without an output link, and where that turns fully or does not
+/// move.
+pub fn output_limit_poses(curve: &TracedCurve) -> Option<[Vec<Point>; 2]> {
+    let output = curve.output().filter(|output| !output.turns_fully && !output.is_at_rest())?;
+    let coordinate = &output.coordinate;
+    let pose = |extreme: &Extreme| {
+        let place = *extreme.places.first()?;
+        let input = coordinate.refined_input(place, |derivatives| coordinate.quantity().rate(derivatives));
+        Some(motion::pose(curve.linkage, coordinate.pass(place), input))
+    };
+    let [least, greatest] = &output.extremes;
+    Some([pose(least)?, pose(greatest)?])
+}
 
 /// The accuracy of a limit, relative to a turn or to the stroke.
 const RESOLVED: f64 = 1e-12;

@@ -1,16 +1,15 @@
 //! The foot of a page: the proportions in large type, the facts and the folio; and the source in the column.
 
+use super::super::CouplerGridPage;
 use super::super::area::Area;
 use super::super::arrangement::Rect;
-use super::super::motion_marks::TICK_DEG;
+use super::super::symbols::{self, Symbol};
 use super::super::theme::Theme;
-use super::super::{CouplerGridPage, Options, figure};
 use crate::scene::Anchor;
 use coupler_curves::geometry::{Point, Vector};
-use coupler_curves::linkage::Input;
 
 /// Draws the foot; the result is its height from the edge of the paper.
-pub(super) fn draw(area: &impl Area, page: &CouplerGridPage, options: &Options, theme: &Theme) -> f64 {
+pub(super) fn draw(area: &impl Area, page: &CouplerGridPage, theme: &Theme) -> f64 {
     let paper = area.size();
     let (left, right) = (theme.border + theme.margin, paper.x - theme.border - theme.margin);
     let half = 0.49 * (right - left);
@@ -22,27 +21,26 @@ pub(super) fn draw(area: &impl Area, page: &CouplerGridPage, options: &Options, 
     let line =
         |text: &str, y: f64| theme.text_line(text, Point::new(right, y), Anchor::End, theme.source_size, theme.grey);
     area.record(&line(&page.heading.titles(), at.y).fit_width_with_suffix(&page.heading.folio(), half));
-    let facts = facts(page, options);
+    // The class and the range of the transmission angle, and the note.
+    let facts = [page.panel.facts[0].as_str(), &page.panel.note];
+    let facts = facts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" · ");
     if !facts.is_empty() {
         area.record(&line(&facts, at.y - 1.5 * theme.source_size).fit_width(half));
     }
     theme.border + 0.65 * theme.margin + 1.5 * theme.title_size
 }
 
-/// The class, the range of the transmission angle, the note and, if a curve is drawn, the range of a dash and the other marks.
-fn facts(page: &CouplerGridPage, options: &Options) -> String {
-    let solved = page.panel.solved_cell;
-    let dash = || {
-        let span = figure::dash_period(&solved.linkage, &solved.motion.circuits, options);
-        let dash = format!("one dash and its gap = {span}{} of input", solved.linkage.input().unit_sign());
-        match solved.linkage.input() {
-            Input::Length => dash,
-            Input::Angle { .. } => format!("{dash}, a tick every {TICK_DEG}°, a triangle at the start"),
-        }
-    };
-    let dash = if page.curve_indices.is_empty() { String::new() } else { dash() };
-    let parts = [page.panel.facts[0].as_str(), &page.panel.note, &dash];
-    parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" · ")
+/// Draws the symbols of the figure at the foot of a panel, in as many lines as needed; the result is the rest of the panel.
+pub(super) fn draw_symbols(area: &impl Area, panel: Rect, symbols: &[Symbol], theme: &Theme) -> Rect {
+    let lines = symbols::lines(symbols, panel.size.x, theme);
+    let step = 1.6 * theme.note_size;
+    let height = step * lines.len().saturating_sub(1) as f64;
+    let first = panel.corner.y + panel.size.y - height;
+    for (k, line) in lines.iter().enumerate() {
+        symbols::draw(area, line, Point::new(panel.corner.x, first + step * k as f64), theme);
+    }
+    let above = if lines.is_empty() { 0.0 } else { height + 1.5 * step };
+    Rect { size: panel.size - Vector::new(0.0, above), ..panel }
 }
 
 /// Draws the source, if there is one, at the foot of a panel, in as many lines as needed; the result is the rest of the

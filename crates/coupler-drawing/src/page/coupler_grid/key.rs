@@ -3,16 +3,16 @@
 
 use super::super::area::Area;
 use super::super::arrangement::Rect;
+use super::super::direction::DirectionMarks;
 use super::super::element::{Drawing, TextLine};
 use super::super::labels::{self, LabelBox, LabelPlacer, Obstacles};
-use super::super::mechanism::PosedMechanism;
+use super::super::mechanism::{PosedMechanism, pivot_items};
 use super::super::theme::Theme;
 use super::super::{CouplerGridPage, LinkLabel};
 use super::ShownCurve;
 use crate::scene::{Anchor, Circle, Color, Item, Path, Polyline, Text};
-use coupler_curves::geometry::{Bounds, Point, Similarity, Vector, cross, left_normal, trig};
-use coupler_curves::linkage::{JointId, JointKind, Linkage, OutputLink, is_plate};
-use coupler_curves::measure::Value;
+use coupler_curves::geometry::{Bounds, Point, Similarity, Vector, cross, left_normal};
+use coupler_curves::linkage::{JointId, JointKind, Linkage, is_plate};
 
 /// Draws the key in a frame.
 pub(super) fn draw(
@@ -25,8 +25,7 @@ pub(super) fn draw(
     let key = Key::new(frame, page, mechanism, shown, theme);
     let mut items = key.link_items();
     items.extend(key.coordinate_items());
-    items.extend(key.input_items());
-    items.extend(key.output_items());
+    items.extend(key.directions.items(theme));
     items.extend(key.joint_items());
     let mut obstacles = Obstacles::default();
     obstacles.add(&items, false);
@@ -50,6 +49,8 @@ struct Key<'a> {
     /// One of the points of the page, which shows what its coordinates are.
     point: Option<&'a ShownCurve<'a>>,
     page_from_plane: Similarity,
+    /// The directions of input and output, on the page.
+    directions: DirectionMarks,
     /// The middle of the linkage on the page.
     centre: Point,
     /// The font size of names.
@@ -66,14 +67,14 @@ impl<'a> Key<'a> {
         theme: &'a Theme,
     ) -> Key<'a> {
         let linkage = &page.panel.solved_cell.linkage;
+        let circuit = &page.panel.solved_cell.motion.circuits[shown.first().map_or(0, |s| s.curve.circuit - 1)];
         let letter = 1.1 * theme.note_size;
         let point = nearest_point(linkage, shown);
         let on_links = linkage.link_outlines().into_iter().flat_map(|outline| outline.joints);
         let joints = on_links.chain(linkage.pivots()).chain(point.map(|s| s.curve.joint));
         let joints = joints.map(|joint| mechanism.pose[joint]);
-        let marks =
-            input_marks(linkage, mechanism).into_iter().chain(output_marks(page, mechanism)).flatten().flatten();
-        let bounds = Bounds::from_points(joints.chain(marks));
+        let directions = DirectionMarks::new(mechanism, circuit, 0.0);
+        let bounds = Bounds::from_points(joints.chain(directions.points()));
         // Names need space outside the links on all sides.
         let width =
             |label: &LinkLabel| theme.text_line(&label.text, Point::origin(), Anchor::Start, letter, theme.grey);
@@ -83,7 +84,9 @@ impl<'a> Key<'a> {
             Rect { corner: frame.corner + space, size: (frame.size - space * 2.0).sup(&Vector::repeat(letter)) };
         let page_from_plane = Similarity::page_from_plane(bounds, inner.centre(), inner.fit_scale(bounds));
         let centre = page_from_plane.apply(bounds.centre());
-        Key { frame, page, linkage, mechanism, point, page_from_plane, centre, letter, theme }
+        let least_radius = 4.0 * theme.joint_radius / page_from_plane.scale;
+        let directions = DirectionMarks::new(mechanism, circuit, least_radius).map(page_from_plane);
+        Key { frame, page, linkage, mechanism, point, page_from_plane, directions, centre, letter, theme }
     }
 
     /// The position of a joint on the page.
@@ -110,33 +113,26 @@ impl<'a> Key<'a> {
         std::iter::once(ground).chain(links.iter().map(|outline| link(&outline.joints))).collect()
     }
 
-    /// The joints: that of the input is filled, other pivots are double circles, the others small circles.
+    /// The joints: fixed pivots as on the figure, the others small circles.
     fn joint_items(&self) -> Vec<Item> {
         let theme = self.theme;
-        let circle = |joint: JointId, radius: f64, fill: Color| {
-            let stroke = Some(theme.stroke(theme.grey, theme.fine_width));
-            Item::Circle(Circle {
-                centre: self.at(joint),
-                radius: radius * theme.joint_radius,
-                stroke,
-                fill: Some(fill),
-            })
+        let small = |joint: JointId, ink: Color, fill: Color| {
+            let stroke = Some(theme.stroke(ink, theme.fine_width));
+            Item::Circle(Circle { centre: self.at(joint), radius: 0.7 * theme.joint_radius, stroke, fill: Some(fill) })
         };
         let pivots = self.linkage.pivots();
-        let driven = driven_crank(self.linkage).map(|[pivot, _]| pivot);
+        let crank_pivot = self.linkage.crank().map(|[pivot, _]| pivot);
         let mut items = Vec::new();
         for joint in self.named_joints() {
             if pivots.contains(&joint) {
-                items.push(circle(joint, 1.3, theme.paper));
-                items.push(circle(joint, 0.6, if Some(joint) == driven { theme.grey } else { theme.paper }));
+                items.extend(pivot_items(self.at(joint), Some(joint) == crank_pivot, theme.grey, theme));
             } else {
-                items.push(circle(joint, 0.7, theme.paper));
+                items.push(small(joint, theme.grey, theme.paper));
             }
         }
         items.extend(self.point.map(|s| {
-            let stroke = Some(theme.stroke(s.ink(theme), theme.fine_width));
-            let fill = Some(if s.has_underline(theme) { s.ink(theme) } else { theme.paper });
-            Item::Circle(Circle { centre: self.at(s.curve.joint), radius: 0.7 * theme.joint_radius, stroke, fill })
+            let fill = if s.has_underline(theme) { s.ink(theme) } else { theme.paper };
+            small(s.curve.joint, s.ink(theme), fill)
         }));
         items
     }
@@ -150,40 +146,6 @@ impl<'a> Key<'a> {
             }
         }
         joints
-    }
-
-    /// The direction of input 0 as a hairline from the crank's pivot, and an arrow from it in the direction of rising
-    /// input.
-    fn input_items(&self) -> Vec<Item> {
-        let Some([zero, arc]) = self.input_marks() else { return Vec::new() };
-        let zero = vec![Polyline { points: zero, is_closed: false }];
-        let mut items = vec![self.path(zero, self.theme.grey, self.theme.hair_width)];
-        items.extend(self.arrow(arc));
-        items
-    }
-
-    /// The marks of the input on the page.
-    fn input_marks(&self) -> Option<[Vec<Point>; 2]> {
-        let marks = input_marks(self.linkage, self.mechanism)?;
-        Some(marks.map(|points| points.into_iter().map(|p| self.page_from_plane.apply(p)).collect()))
-    }
-
-    /// A line with an arrowhead at its end.
-    fn arrow(&self, points: Vec<Point>) -> Vec<Item> {
-        let [.., before, tip] = points[..] else { return Vec::new() };
-        let along = (tip - before).try_normalize(0.0).unwrap_or(Vector::new(1.0, 0.0)) * (0.55 * self.letter);
-        let across = left_normal(along) * 0.3;
-        let corners = vec![tip, tip - along + across, tip - along - across];
-        let head = vec![Polyline { points: corners, is_closed: true }];
-        let line = self.path(vec![Polyline { points, is_closed: false }], self.theme.grey, self.theme.hair_width);
-        vec![line, Item::Path(Path { polylines: head, stroke: None, fill: Some(self.theme.grey) })]
-    }
-
-    /// An arc with two arrowheads about the pivot of an output link that swings.
-    fn output_items(&self) -> Vec<Item> {
-        let arcs = output_marks(self.page, self.mechanism).into_iter().flatten();
-        let on_page = |arc: Vec<Point>| arc.into_iter().map(|p| self.page_from_plane.apply(p)).collect();
-        arcs.flat_map(|arc| self.arrow(on_page(arc))).collect()
     }
 
     /// The foot of the perpendicular from the point on the line of its base, and its ends: the base's first joint and
@@ -253,52 +215,12 @@ impl<'a> Key<'a> {
         let joints = self.named_joints().into_iter();
         let mut labels: Vec<(Point, Text)> =
             joints.map(|joint| (self.at(joint), text(&self.linkage.joints[joint].name, theme.ink))).collect();
-        labels.extend(self.point.map(|s| (self.at(s.curve.joint), text(&s.curve.trace.to_string(), s.ink(theme)))));
-        let zero = self.input_marks().and_then(|[zero, _]| zero.last().copied());
+        labels
+            .extend(self.point.map(|s| (self.at(s.curve.joint), text(&s.curve.trace.to_string(), s.text_ink(theme)))));
+        let zero = self.directions.zero_end();
         labels.extend(zero.map(|zero| (zero, text("0°", theme.grey))));
         labels
     }
-}
-
-/// The pivot and the pin of the crank that is the input; `None` where the input is not an angle in the frame.
-fn driven_crank(linkage: &Linkage) -> Option<[JointId; 2]> {
-    linkage.crank().filter(|_| linkage.seen_from.is_none())
-}
-
-/// In the plane, a line from the crank's pivot in the direction of input 0, and an arc from that line in the direction
-/// of rising input.
-fn input_marks(linkage: &Linkage, mechanism: &PosedMechanism) -> Option<[Vec<Point>; 2]> {
-    /// The radius of the arc relative to the crank, and the length of the line relative to the radius.
-    const RADIUS: f64 = 0.5;
-    const LINE: f64 = 1.3;
-    const ARC_DEG: i32 = 75;
-    const STEP_DEG: usize = 3;
-    let [pivot, _] = driven_crank(linkage)?;
-    let length = linkage.crank_length()?;
-    let (zero, turn) = mechanism.input_axes()?;
-    let at = |deg: i32, radius: f64| {
-        let (cos, sin) = trig::cos_sin_deg(f64::from(deg));
-        mechanism.pose[pivot] + (zero * cos + turn * sin) * (radius * length)
-    };
-    let zero = vec![mechanism.pose[pivot], at(0, LINE * RADIUS)];
-    Some([zero, (0..=ARC_DEG).step_by(STEP_DEG).map(|deg| at(deg, RADIUS)).collect()])
-}
-
-/// In the plane, two arcs from an output link that swings, to both sides; `None` if there is none.
-fn output_marks(page: &CouplerGridPage, mechanism: &PosedMechanism) -> Option<[Vec<Point>; 2]> {
-    /// The radius of the arcs relative to the link.
-    const RADIUS: f64 = 0.55;
-    const ARC_DEG: i32 = 14;
-    let solved = page.panel.solved_cell;
-    let swing = solved.curves.first().map(|curve| curve.value("output_swing_deg"));
-    let swings = matches!(swing, Some(Value::Number(swing)) if swing < 360.0);
-    let OutputLink::Link([pivot, end]) = solved.linkage.output().filter(|_| swings)? else { return None };
-    let (from, arm) = (mechanism.pose[pivot], mechanism.pose[end] - mechanism.pose[pivot]);
-    let at = |deg: i32| {
-        let (cos, sin) = trig::cos_sin_deg(f64::from(deg));
-        from + (arm * cos + left_normal(arm) * sin) * RADIUS
-    };
-    Some([1, -1].map(|side| (0..=ARC_DEG).map(|deg| at(side * deg)).collect()))
 }
 
 /// Of the points that are not on the line of their base, the one that is nearest to its middle: with it the key is largest.

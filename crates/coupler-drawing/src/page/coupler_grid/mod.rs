@@ -26,6 +26,7 @@ use super::marks;
 use super::mechanism::PosedMechanism;
 use super::motion_marks::{MotionMarks, TickPoses};
 use super::plot::Plot;
+use super::symbols::{self, Mark, Symbol};
 use super::theme::Theme;
 use super::{CouplerGridPage, Layout, Options, Panel, PoseChoice, pose};
 use crate::mechanism::Mechanism;
@@ -58,6 +59,11 @@ impl ShownCurve<'_> {
         theme.curve_ink(self.point_index)
     }
 
+    /// The ink of texts that belong to the curve.
+    fn text_ink(&self, theme: &Theme) -> Color {
+        theme.text_ink(self.ink(theme))
+    }
+
     /// The stroke of the line under the dashes.
     fn hairline(&self, theme: &Theme) -> Stroke {
         if self.has_underline(theme) {
@@ -76,7 +82,7 @@ pub(super) fn compose(scene: &mut Scene, page: &CouplerGridPage, options: &Optio
     let panel_theme = &with_legible_notes(&small, Theme::MIN_TEXT_SIZE, most);
     let root = area::whole_page(scene);
     heading::draw_border(&root, theme);
-    let foot = footer::draw(&root, page, options, theme);
+    let foot = footer::draw(&root, page, theme);
     let edge = theme.border + theme.margin;
     let whole = Rect { corner: Point::new(edge, edge), size: Vector::new(size.x - 2.0 * edge, size.y - edge - foot) };
     let PageLayout { figure, panel } = PageLayout::new(whole, panel_theme);
@@ -88,6 +94,7 @@ pub(super) fn compose(scene: &mut Scene, page: &CouplerGridPage, options: &Optio
             let figure_theme =
                 with_legible_notes(theme, Theme::MIN_TEXT_SIZE / Theme::SMALL_PART, size.min() / MIN_LINES);
             draw_figure(&root, figure, page, &mechanism, &shown, options, &figure_theme);
+            let panel = footer::draw_symbols(&root, panel, &page_symbols(solved, &shown, options, theme), panel_theme);
             draw_panel(&root, panel, page, (&mechanism, &shown), panel_theme);
         }
         None => {
@@ -138,7 +145,19 @@ fn posed_mechanism<'a>(panel: &'a Panel) -> Option<PosedMechanism<'a>> {
         PoseChoice::Clearest | PoseChoice::Animated { .. } => pose::clearest_pose(&solved.linkage, circuit),
     };
     let mechanism = Mechanism::new(&solved.linkage, circuit);
-    Some(PosedMechanism::new(&solved.linkage, mechanism, pose, &panel.link_inks))
+    Some(PosedMechanism::new(&solved.linkage, mechanism, pose))
+}
+
+/// The symbols of the figure.
+fn page_symbols(solved: &SolvedCell, shown: &[ShownCurve], options: &Options, theme: &Theme) -> Vec<Symbol> {
+    let Some(first) = shown.first() else { return Vec::new() };
+    let period = figure::dash_period(&solved.linkage, &solved.motion.circuits, options);
+    let mut symbols = symbols::of_cell(solved, first.ink(theme), Some(period));
+    if let Some(banded) = shown.iter().find(|s| marks::visible_straight_portion(solved, s.curve).is_some()) {
+        let meaning = "longest straight portion".to_owned();
+        symbols.push(Symbol { mark: Mark::Band(banded.ink(theme)), meaning });
+    }
+    symbols
 }
 
 /// Draws the panel: key and description, table and graphs, transmission angle and notes.
@@ -219,7 +238,7 @@ fn draw_figure(
     let mut placer = LabelPlacer::new(&obstacles, plot.rect_above_scale_bar(theme), theme);
     let number = |s: &ShownCurve| {
         let number = s.curve.trace.to_string();
-        theme.text_line(&number, Point::origin(), Anchor::Middle, 0.8 * theme.note_size, s.ink(theme)).text
+        theme.text_line(&number, Point::origin(), Anchor::Middle, 0.8 * theme.note_size, s.text_ink(theme)).text
     };
     let at_points: Vec<(Point, &ShownCurve)> = distinct_points(mechanism, shown, &plot).collect();
     let mut numbers: Vec<Item> =

@@ -100,7 +100,7 @@ impl Table {
 
     fn draw_row(&self, area: &impl Area, (row, shown): (usize, &ShownCurve), at: Point, theme: &Theme) {
         for (k, (left, group)) in self.groups.iter().enumerate() {
-            let color = if k == 0 { shown.ink(theme) } else { theme.grey };
+            let color = if k == 0 { shown.text_ink(theme) } else { theme.grey };
             for column in &group.columns {
                 let at = at + Vector::new(left + column.right, 0.0);
                 area.record(&theme.text_line(&column.texts[row], at, Anchor::End, theme.note_size, color));

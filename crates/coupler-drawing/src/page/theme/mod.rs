@@ -68,13 +68,13 @@ impl CurveStyle {
     pub const PLAIN: CurveStyle = CurveStyle { width_factor: 1.0, dash_factor: 1.0 };
 
     /// The styles of five greys: the darkest plain, the faintest broad, those between them with shorter and longer
-    /// dashes.
+    /// dashes. None is as broad as a link.
     const FOR_GREYS: [CurveStyle; 5] = [
         CurveStyle::PLAIN,
-        CurveStyle { width_factor: 2.2, dash_factor: 1.0 },
-        CurveStyle { width_factor: 1.5, dash_factor: 0.4 },
+        CurveStyle { width_factor: 1.45, dash_factor: 1.0 },
+        CurveStyle { width_factor: 1.25, dash_factor: 0.4 },
         CurveStyle { width_factor: 1.0, dash_factor: 1.5 },
-        CurveStyle { width_factor: 1.9, dash_factor: 0.7 },
+        CurveStyle { width_factor: 1.4, dash_factor: 0.7 },
     ];
 }
 
@@ -133,13 +133,19 @@ impl Theme {
     }
 
     /// The theme for linkages whose shortest crank has a length in millimetres: joints and links are so small that it can
-    /// be seen between its joints, down to a third.
+    /// be seen between its joints, down to a third; curves are finer by as much as links, so that they stay finer than these.
     pub(super) fn for_crank_length(&self, length: f64) -> Theme {
         /// The length of a crank in radii of its joints: a pivot has one and a half, so that half of the crank is seen.
         const CRANK_RADII: f64 = 5.0;
         let scale = (length / (CRANK_RADII * self.joint_radius)).clamp(1.0 / 3.0, 1.0);
-        let link_width = self.link_width * scale.sqrt();
-        Theme { joint_radius: self.joint_radius * scale, link_width, ..self.clone() }
+        let weight = scale.sqrt();
+        Theme {
+            joint_radius: self.joint_radius * scale,
+            link_width: self.link_width * weight,
+            curve_width: self.curve_width * weight,
+            fine_width: self.fine_width * weight,
+            ..self.clone()
+        }
     }
 
     /// A stroke with butt ends.
@@ -168,6 +174,13 @@ impl Theme {
     /// The ink of the k-th curve, from 0.
     pub fn curve_ink(&self, k: usize) -> Color {
         self.curve_inks[k % self.curve_inks.len()]
+    }
+
+    /// The ink of text that belongs to a curve: that of the curve, darker or lighter where it would be hard to read.
+    pub(super) fn text_ink(&self, ink: Color) -> Color {
+        /// The contrast that text needs on its background (WCAG 2.2, 1.4.3).
+        const MIN_CONTRAST: f64 = 4.5;
+        ink.with_contrast(self.paper, MIN_CONTRAST)
     }
 
     /// The ink of a line by its place in an order, from 0 for the first line to 1 for the last.
@@ -222,6 +235,28 @@ impl Theme {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn links_are_broader_than_curves_and_curves_than_hairlines() {
+        for named in Theme::NAMED {
+            let whole = (named.theme)();
+            for theme in [whole.clone(), whole.for_crank_length(0.0), whole.for_panel_size(Vector::zeros())] {
+                for k in 0..10 {
+                    let curve = theme.curve_stroke(k).width;
+                    assert!(theme.link_width > curve && curve > theme.hair_width, "{} {k}", named.name);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn text_is_legible_in_all_inks() {
+        for named in Theme::NAMED {
+            let theme = (named.theme)();
+            let inks = theme.curve_inks.iter().map(|ink| theme.text_ink(*ink)).chain([theme.ink, theme.grey]);
+            inks.for_each(|ink| assert!(ink.contrast(theme.paper) >= 4.5, "{} {ink}", named.name));
+        }
+    }
 
     #[test]
     fn ordered_inks_are_visible_and_monotonic_in_lightness() {
