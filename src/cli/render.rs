@@ -66,6 +66,9 @@ const MAX_WARNINGS: usize = 10;
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let source = source::read(&arguments.manifest)?;
     source.require_families(&arguments.only)?;
+    if arguments.format.iter().flatten().any(|format| *format != Format::Svg) {
+        source.require_drawable()?;
+    }
     if let Some(jobs) = arguments.jobs {
         rayon::ThreadPoolBuilder::new().num_threads(jobs.into()).build_global()?;
     }

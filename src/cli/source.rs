@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use coupler_atlas::manifest::{self, Plan};
+use coupler_atlas::manifest::{self, ParseOutcome, Plan};
 use coupler_atlas::output;
 use coupler_atlas::record::RunRecord;
 use coupler_curves::problem::{self, Problem, suggestion};
@@ -38,13 +38,18 @@ pub fn read_text(path: &Path) -> anyhow::Result<String> {
     })
 }
 
+/// Parses the text of a manifest, and reads the files that it names.
+pub fn parse(path: &Path, text: &str) -> ParseOutcome {
+    manifest::parse_with_files(text, Some(&|name| output::read_font(path, name)))
+}
+
 /// Reads a manifest, and prints every problem in it to standard error.
 ///
 /// # Errors
 /// The file cannot be read, or the manifest has errors.
 pub fn read(path: &Path) -> anyhow::Result<ManifestSource> {
     let text = read_text(path)?;
-    let loaded = manifest::parse(&text);
+    let loaded = parse(path, &text);
     report_problems(path, &text, &loaded.problems);
     match loaded.plan {
         Some(plan) => Ok(ManifestSource { path: path.to_owned(), text, plan }),
@@ -64,6 +69,16 @@ impl ManifestSource {
     /// Prints further problems in the manifest to standard error.
     pub fn report_problems(&self, problems: &[Problem]) {
         report_problems(&self.path, &self.text, problems);
+    }
+
+    /// Checks that all texts can be drawn, in a format that needs fonts, and prints those that cannot to standard error.
+    ///
+    /// # Errors
+    /// The number of texts.
+    pub fn require_drawable(&self) -> Result<(), InputError> {
+        let undrawable = &self.plan.undrawable;
+        self.report_problems(undrawable);
+        if undrawable.is_empty() { Ok(()) } else { Err(problems_error(&self.path, undrawable.len())) }
     }
 
     /// Checks that each id is that of a family.

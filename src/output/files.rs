@@ -18,15 +18,33 @@ use crate::record::{FileRecord, JOURNAL_FILE_NAME, LOCK_FILE_NAME, RUN_FILE_NAME
 pub fn read_manifest(path: &Path) -> Result<String, Error> {
     let text = match path.as_os_str() == RunRecord::STANDARD_INPUT {
         true => read_text(io::stdin().lock()),
-        false => open_manifest(path).and_then(read_text),
+        false => open_regular(path).and_then(read_text),
     };
     let text = text.map_err(|source| Error::Read { path: path.to_owned(), source })?;
     // The byte order mark is not part of the text: columns are counted without it.
     Ok(text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text))
 }
 
-/// Opens a manifest, which may be a link to a file. Opening a pipe would wait for another program.
-fn open_manifest(path: &Path) -> io::Result<fs::File> {
+/// The most bytes of a font file: those for Chinese, Japanese and Korean have some 20 MB.
+const MAX_FONT_BYTES: u64 = 1 << 26;
+
+/// Reads a font file that a manifest names, relative to the folder of the manifest.
+///
+/// # Errors
+/// Why it cannot be read, as a clause.
+pub fn read_font(manifest: &Path, name: &str) -> Result<Vec<u8>, String> {
+    let path = manifest.parent().unwrap_or(Path::new("")).join(name);
+    let mut bytes = Vec::new();
+    let read = open_regular(&path).and_then(|file| file.take(MAX_FONT_BYTES + 1).read_to_end(&mut bytes));
+    match read {
+        Err(error) => Err(error.to_string()),
+        Ok(_) if bytes.len() as u64 > MAX_FONT_BYTES => Err(format!("it has more than {MAX_FONT_BYTES} bytes")),
+        Ok(_) => Ok(bytes),
+    }
+}
+
+/// Opens a file, which may be a link to one. Opening a pipe would wait for another program.
+fn open_regular(path: &Path) -> io::Result<fs::File> {
     let metadata = fs::metadata(path)?;
     if !metadata.is_file() && !metadata.is_dir() {
         let message = "it is not a regular file; give a file, or `-` for standard input";

@@ -6,7 +6,7 @@ use std::fs;
 use coupler_atlas::manifest;
 use coupler_curves::problem::report;
 use coupler_drawing::render::{self, TextMode};
-use coupler_drawing::scene::{Group, Item, Scene, Typeface};
+use coupler_drawing::scene::{FontFamily, Group, Item, Scene, Typeface};
 use roxmltree::{Document, Node};
 
 use crate::book::reader::Pdf;
@@ -36,13 +36,18 @@ fn toml(text: &str) -> String {
 
 /// A manifest with this text in all titles, sources, legends, captions and notes.
 fn manifest_with(text: &str, mode: &str) -> String {
+    manifest_in_formats(text, mode, r#"["svg", "png", "pdf"]"#)
+}
+
+/// The same in some formats.
+fn manifest_in_formats(text: &str, mode: &str, formats: &str) -> String {
     let words = toml(text);
     let caption = toml(&text.replace('{', "{{").replace('}', "}}"));
     format!(
         r#"[atlas]
 title = {words}
 output = "out"
-formats = ["svg", "png", "pdf"]
+formats = {formats}
 [page]
 paper = {{ width = "150 mm", height = "110 mm" }}
 dpi = 30
@@ -104,7 +109,12 @@ fn plain(text: &str) -> String {
 fn strange_texts_are_written_unchanged() {
     for (k, text) in STRANGE.into_iter().enumerate() {
         let mode = if k % 3 == 2 { "outlines" } else { "text" };
-        let atlas = Atlas::new(&manifest_with(text, mode));
+        let manifest = manifest_with(text, mode);
+        // Only SVG shows characters that the typeface does not have.
+        let is_drawable = manifest::parse(&manifest).plan.is_some();
+        assert_eq!(is_drawable, !['ש', '漢', '\u{2400}'].iter().any(|c| text.contains(*c)), "{text}");
+        let manifest = if is_drawable { manifest } else { manifest_in_formats(text, "text", r#"["svg"]"#) };
+        let atlas = Atlas::new(&manifest);
         let (code, _, err) = atlas.run(&[]);
         assert_eq!(code, 0, "{text}: {err}");
         let files = tree(&atlas.out());
@@ -128,12 +138,58 @@ fn strange_texts_are_written_unchanged() {
         let record: serde_json::Value = serde_json::from_slice(&files["run.json"]).unwrap();
         assert_eq!(record["title"], text);
         assert_eq!(record["families"][0]["title"], text);
+        if !is_drawable {
+            continue;
+        }
         let book = Pdf::read(&files["atlas.pdf"]);
         for page in 0..book.pages().len() {
             book.contents(page);
         }
         assert!(book.outline().iter().any(|(_, title, _)| title.contains(text)), "{text}: {:?}", book.outline());
     }
+}
+
+/// Text that the typeface does not have needs a font file in all formats but SVG, and is drawn with it.
+#[test]
+fn a_font_file_draws_what_the_typeface_does_not_have() {
+    let text = STRANGE[2];
+    let manifest = manifest_with(text, "outlines");
+    let with_file =
+        |name: &str| manifest.replace("dpi = 30", &format!("dpi = 30\ntheme = {{ fallback_face = \"{name}\" }}"));
+    let refused = |manifest: &str, arguments: &[&str], message: &str| {
+        let (code, _, err) = Atlas::new(manifest).run(arguments);
+        assert!(code == 2 && err.contains(message), "{err}");
+    };
+    let missing = "the typeface `serif-condensed` has no `ש` (U+05E9)";
+    refused(&manifest, &[], missing);
+    refused(&manifest_in_formats(text, "outlines", r#"["svg"]"#), &[], missing);
+    refused(&manifest_in_formats(text, "text", r#"["svg"]"#), &["--format", "png"], missing);
+    refused(&with_file("none.ttf"), &[], "cannot use `none.ttf`: ");
+    refused(&with_file("atlas.toml"), &[], "cannot use `atlas.toml`: it is not a font");
+    let mixed = with_file("font.ttf").replace(&toml(text), &toml("שלום 漢"));
+    let atlas = Atlas::new(&mixed);
+    let font = atlas.0.path().join("font.ttf");
+    let face = |family: FontFamily| Typeface::from(family).regular().bytes();
+    fs::write(&font, face(FontFamily::Sans)).unwrap();
+    let (code, _, err) = atlas.run(&[]);
+    assert!(code == 2 && err.contains("and its fallback face have no `漢`"), "{err}");
+
+    let atlas = Atlas::new(&with_file("font.ttf"));
+    let font = atlas.0.path().join("font.ttf");
+    fs::write(&font, face(FontFamily::Sans)).unwrap();
+    let (code, _, err) = atlas.run(&[]);
+    assert_eq!(code, 0, "{err}");
+    let first = tree(&atlas.out());
+    let book = Pdf::read(&first["atlas.pdf"]);
+    assert!(book.outline().iter().any(|(_, title, _)| title.contains(text)));
+    let (_, out, _) = atlas.run(&[]);
+    assert!(out.contains("nothing has changed"), "{out}");
+    // Another font is another page.
+    fs::write(&font, face(FontFamily::SansCondensed)).unwrap();
+    atlas.run(&[]);
+    let second = tree(&atlas.out());
+    let page = "cells/cells-001.svg";
+    assert_ne!(first[page], second[page]);
 }
 
 #[test]
@@ -160,7 +216,7 @@ fn every_character_can_be_on_a_page() {
         title: all.clone(),
         items: vec![Item::Group(group)],
         links: Vec::new(),
-        typeface: Typeface::Serif,
+        typeface: FontFamily::Serif.into(),
     };
     let svg = render::svg(&scene, TextMode::Text);
     let document = check_svg(&svg);

@@ -7,7 +7,7 @@ use coupler_atlas::manifest::{self, Plan};
 use coupler_curves::geometry::trig;
 use coupler_curves::problem::report;
 use coupler_drawing::page::{Layout, Options, Paper, Theme};
-use coupler_drawing::scene::{Color, Typeface};
+use coupler_drawing::scene::{Color, FontFamily};
 use tempfile::TempDir;
 
 /// Panels with five curves each, plates, a case that cannot be assembled, and a chart with several lines.
@@ -159,7 +159,7 @@ fn a_table_changes_only_the_keys_it_gives() {
     let print = named("print");
     let expected = Theme {
         ink: Color(0x11, 0x22, 0x33),
-        typeface: Typeface::Mono,
+        typeface: FontFamily::Mono.into(),
         dash_fraction: 0.75,
         link_width: 0.05 * 25.4,
         title_size: 1.5 * print.title_size,
@@ -266,8 +266,8 @@ fn monochrome_pages_have_no_colour() {
 
 #[test]
 fn pages_have_the_typeface_of_the_theme() {
-    let families: Vec<&str> = Typeface::NAMED.iter().map(|(_, face)| face.fallback_families()).collect();
-    for (name, face) in Typeface::NAMED {
+    let families: Vec<&str> = FontFamily::NAMED.iter().map(|(_, face)| face.fallback_families()).collect();
+    for (name, face) in FontFamily::NAMED {
         let pages = pages(&format!("{{ face = \"{name}\" }}"));
         for (family, svg, _) in &pages {
             let named: Vec<&str> = svg.split("font-family=\"").skip(1).map(|s| s.split('"').next().unwrap()).collect();
@@ -383,7 +383,7 @@ fn docs_themes_has_a_valid_theme_and_names_every_key() {
     let page = text.split("```toml\n").nth(1).unwrap().split("```").next().unwrap();
     let (report, is_accepted) = check(page.split_once("theme = ").unwrap().1.trim());
     assert!(is_accepted && report.is_empty(), "{report}");
-    let names = Theme::NAMED.iter().map(|theme| theme.name).chain(Typeface::NAMED.iter().map(|(name, _)| *name));
+    let names = Theme::NAMED.iter().map(|theme| theme.name).chain(FontFamily::NAMED.iter().map(|(name, _)| *name));
     for name in names {
         assert!(text.contains(&format!("`\"{name}\"`")), "{name}");
     }

@@ -30,7 +30,7 @@ impl OpenFamily {
     /// # Errors
     /// The errors of the manifest, one on a line.
     pub fn from_manifest(manifest: &str) -> Result<OpenFamily, String> {
-        let outcome = coupler_manifest::parse_for_formats(manifest, &Format::ALL);
+        let outcome = coupler_manifest::parse_for_formats(manifest, &Format::ALL, None);
         let messages = || {
             let errors = outcome.problems.iter().filter(|problem| problem.is_error());
             errors.map(|Problem { message, .. }| message.as_str()).collect::<Vec<_>>().join("\n")

@@ -18,7 +18,7 @@ use serde_json::{Value, json};
 /// The plan of a manifest at the root of the repository.
 fn plan(name: &str) -> Plan {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(name);
-    parse_for_formats(&std::fs::read_to_string(path).unwrap(), &Format::ALL).plan.unwrap()
+    parse_for_formats(&std::fs::read_to_string(path).unwrap(), &Format::ALL, None).plan.unwrap()
 }
 
 fn call(kernel: &mut Kernel, request: &Value) -> (Value, Vec<f64>) {
@@ -74,7 +74,7 @@ fn an_excerpt_of_a_manifest_has_the_same_family() {
         let plan = plan(name);
         for planned in &plan.families {
             let text = planned.excerpt();
-            let outcome = parse_for_formats(&text, &Format::ALL);
+            let outcome = parse_for_formats(&text, &Format::ALL, None);
             let again = outcome.plan.unwrap_or_else(|| panic!("{text}\n{:?}", outcome.problems));
             let (family, excerpt) = (&planned.family, &again.families[0].family);
             assert_eq!((&again.title, &again.page), (&plan.title, &plan.page));
@@ -235,7 +235,7 @@ fn readings_and_portions_are_on_the_curve() {
 fn changed_curves_and_other_circuits_are_found() {
     let text = "[atlas]\ntitle = \"T\"\n[[family]]\nid = \"evans\"\nlinkage = \"evans\"\nsampling = { samples = 90 }\n\
                 grid = { p = [2, 3], a = [2.5] }";
-    let plan = parse_for_formats(text, &Format::ALL).plan.unwrap();
+    let plan = parse_for_formats(text, &Format::ALL, None).plan.unwrap();
     let planned = &plan.families[0];
     let mut kernel = Kernel::default();
     let family = open_family(&mut kernel, planned);

@@ -6,14 +6,16 @@ use std::sync::Arc;
 use coupler_curves::linkage_format::{Fields, TomlParser};
 use coupler_curves::problem::Problem;
 use coupler_curves::template::Template;
-use coupler_drawing::render::Format;
+use coupler_drawing::render::{Format, TextMode};
 
 use crate::cells::AtlasTotals;
 use crate::inputs::SharedInputs;
 use crate::plan::{Plan, PlannedFamily};
 use crate::schema::MANIFEST;
 use crate::templates::{Templates, id_and_span};
+use crate::theme::FileReader;
 use crate::tolerance::PartialTolerances;
+use crate::undrawable::{names_missing_font, undrawable_texts};
 use crate::{family, format_version, settings, tolerance};
 
 /// The result of parsing a manifest.
@@ -46,19 +48,24 @@ fn length_problem(text: &str) -> Option<Problem> {
     (count > limit).then(|| problem.with_help("divide it, or give ranges in place of lists"))
 }
 
-/// Parses a manifest; formats that this build cannot write are errors.
+/// Parses a manifest without the files that it names; formats that this build cannot write are errors.
 pub fn parse(text: &str) -> ParseOutcome {
+    parse_with_files(text, None)
+}
+
+/// Parses a manifest with the files that it names; formats that this build cannot write are errors.
+pub fn parse_with_files(text: &str, files: FileReader) -> ParseOutcome {
     let built_in: Vec<Format> = Format::ALL.into_iter().filter(|format| format.is_built_in()).collect();
-    parse_for_formats(text, &built_in)
+    parse_for_formats(text, &built_in, files)
 }
 
 /// Parses a manifest for a program that writes these formats; others are errors.
-pub fn parse_for_formats(text: &str, writable: &[Format]) -> ParseOutcome {
+pub fn parse_for_formats(text: &str, writable: &[Format], files: FileReader) -> ParseOutcome {
     if let Some(problem) = length_problem(text) {
         return ParseOutcome { plan: None, problems: vec![problem] };
     }
     let mut parser = TomlParser::new(text);
-    let plan = read_plan(text, writable, &mut parser);
+    let plan = read_plan(text, writable, files, &mut parser);
     let problems = parser.into_problems();
     let plan = plan.filter(|_| !problems.iter().any(Problem::is_error));
     ParseOutcome { plan, problems }
@@ -80,7 +87,7 @@ pub fn parse_linkages(text: &str) -> (Vec<Arc<Template>>, Vec<Problem>) {
     (templates, parser.into_problems())
 }
 
-fn read_plan(text: &str, writable: &[Format], parser: &mut TomlParser) -> Option<Plan> {
+fn read_plan(text: &str, writable: &[Format], files: FileReader, parser: &mut TomlParser) -> Option<Plan> {
     let document = parser.parse_document();
     if text.trim_start_matches('\u{feff}').trim().is_empty() {
         let help = "`coupler-atlas init` writes one to start from";
@@ -99,7 +106,7 @@ fn read_plan(text: &str, writable: &[Format], parser: &mut TomlParser) -> Option
             None
         }
     };
-    let page = settings::page(root.get("page"), parser);
+    let page = settings::page(root.get("page"), files, parser);
     let tolerances = tolerance::read(root.get("check"), &tolerance::CHECK, parser);
     let templates = Templates::read(&root, parser);
     let formats = atlas.as_ref().map_or_else(|| vec![Format::Svg], |atlas| atlas.formats.clone());
@@ -111,7 +118,8 @@ fn read_plan(text: &str, writable: &[Format], parser: &mut TomlParser) -> Option
     let mut families: Vec<PlannedFamily> = Vec::new();
     let mut ids: HashSet<String> = HashSet::new();
     let mut totals = AtlasTotals::default();
-    let shared_inputs = SharedInputs::from_manifest(&root);
+    let typeface = page.as_ref().map(|page| page.options.theme.typeface);
+    let shared_inputs = SharedInputs::from_manifest(&root, typeface.and_then(|typeface| typeface.fallback));
     for value in tables {
         let page = page.as_ref().map(|page| &page.options);
         let context = family::Context { templates: &templates, formats: &formats, writable, page };
@@ -130,6 +138,13 @@ fn read_plan(text: &str, writable: &[Format], parser: &mut TomlParser) -> Option
             ..read
         }));
     }
+    let undrawable = typeface.map(|typeface| undrawable_texts(&document, typeface)).unwrap_or_default();
+    let needs_fonts = page.as_ref().is_some_and(|page| page.text_mode == TextMode::Outlines)
+        || families.iter().flat_map(|family| &family.formats).any(|format| *format != Format::Svg);
+    // What is wrong with the font file has been reported.
+    if needs_fonts && !names_missing_font(&root, typeface) {
+        undrawable.iter().for_each(|problem| parser.report(problem.clone()));
+    }
     let (atlas, page) = (atlas?, page?);
     Some(Plan {
         title: atlas.title,
@@ -139,6 +154,7 @@ fn read_plan(text: &str, writable: &[Format], parser: &mut TomlParser) -> Option
         dpi: page.dpi,
         text_mode: page.text_mode,
         families,
+        undrawable,
     })
 }
 
@@ -154,9 +170,9 @@ mod tests {
     fn formats_that_cannot_be_written_are_errors() {
         let text = "[atlas]\ntitle = \"T\"\nformats = [\"pdf\"]\n[[family]]\nid = \"e\"\nlinkage = \"evans\"\n\
                     formats = [\"png\"]\nsampling = { samples = 9 }\ngrid = { p = [2], a = [2] }";
-        assert!(parse_for_formats(text, &Format::ALL).plan.is_some());
+        assert!(parse_for_formats(text, &Format::ALL, None).plan.is_some());
         let messages: Vec<String> =
-            parse_for_formats(text, &[Format::Svg]).problems.into_iter().map(|problem| problem.message).collect();
+            parse_for_formats(text, &[Format::Svg], None).problems.into_iter().map(|problem| problem.message).collect();
         assert_eq!(messages, ["this build cannot write `pdf`", "this build cannot write `png`"]);
     }
 }

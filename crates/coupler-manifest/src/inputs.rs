@@ -3,6 +3,8 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use coupler_drawing::scene::FontFile;
+
 use coupler_curves::linkage_format::{Fields, TomlValue, canonical_toml};
 
 /// The part of a manifest that determines a family's files, in a form that does not depend on how it is written.
@@ -60,8 +62,9 @@ pub(crate) struct SharedInputs {
 
 impl SharedInputs {
     /// The shared texts of a manifest.
-    pub fn from_manifest(root: &Fields) -> SharedInputs {
-        let mut tables = String::new();
+    pub fn from_manifest(root: &Fields, fallback: Option<&FontFile>) -> SharedInputs {
+        // As a comment, for an excerpt begins with these lines.
+        let mut tables = fallback.map_or(String::new(), |file| format!("# fallback_face {file:?}\n"));
         for (key, _, value) in root.entries().filter(|(key, ..)| !["family", "linkage", "check"].contains(key)) {
             let ignored_keys: &[&str] = if key == "atlas" { &IGNORED_ATLAS_KEYS } else { &[] };
             tables.push_str(&format!("{key}={}\n", canonical_toml(value, ignored_keys)));

@@ -1,7 +1,8 @@
 //! Parses manifests of atlases: TOML that names families of planar linkages and says how they are drawn.
 //!
 //! [`parse`] turns a text into a validated [`Plan`], or reports every problem in it with its place and a remedy. It uses
-//! no files, threads or clocks, and what it returns depends on the text alone.
+//! no files, threads or clocks, and what it returns depends on the text alone; [`parse_with_files`] also reads the font file
+//! that a theme may name.
 //!
 //! ```
 //! let text = r#"
@@ -29,6 +30,8 @@ mod unused_names;
 
 mod theme;
 
+mod undrawable;
+
 mod settings;
 
 mod grid;
@@ -49,11 +52,12 @@ mod family;
 mod document;
 
 pub use cells::MAX_PAGE_FILES;
-pub use document::{MAX_MANIFEST_BYTES, ParseOutcome, parse, parse_for_formats, parse_linkages};
+pub use document::{MAX_MANIFEST_BYTES, ParseOutcome, parse, parse_for_formats, parse_linkages, parse_with_files};
 pub use format_version::FORMAT_VERSION;
 pub use inputs::ManifestInputs;
 pub use plan::{Plan, PlannedFamily};
 pub use schema::MANIFEST;
+pub use theme::FileReader;
 pub use tolerance::{PartialTolerances, Tolerances};
 
 pub use coupler_curves::linkage_format::{KeySchema, TableSchema, ValueSchema};

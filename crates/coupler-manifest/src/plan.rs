@@ -2,7 +2,7 @@
 
 use coupler_curves::family::Family;
 use coupler_curves::linkage_format::{quoted, toml_number};
-use coupler_curves::problem::Span;
+use coupler_curves::problem::{Problem, Span};
 use coupler_drawing::chart::Chart;
 use coupler_drawing::page;
 use coupler_drawing::render::{Format, TextMode};
@@ -27,6 +27,8 @@ pub struct Plan {
     pub text_mode: TextMode,
     /// The families, in order.
     pub families: Vec<PlannedFamily>,
+    /// Texts of the manifest with characters that its typeface does not have: problems in all formats but SVG.
+    pub undrawable: Vec<Problem>,
 }
 
 /// A family and how it is rendered.

@@ -1,8 +1,9 @@
 //! Reads the tables `[atlas]` and `[page]`.
 
 use crate::bounded_number::read_within;
+use crate::default_value;
 use crate::format_version::FORMAT_VERSION;
-use crate::{default_value, theme};
+use crate::theme::{self, FileReader};
 use coupler_curves::expression::Dimension;
 use coupler_curves::linkage_format::{Fields, KeySchema, TableSchema, TomlParser, TomlValue, ValueSchema, words};
 use coupler_curves::problem::Problem;
@@ -208,7 +209,11 @@ pub(crate) fn formats<'t>(
 }
 
 /// Reads `[page]`; the defaults if there is none.
-pub(crate) fn page<'t>(value: Option<&TomlValue<'t>>, parser: &mut TomlParser<'t>) -> Option<PageSettings> {
+pub(crate) fn page<'t>(
+    value: Option<&TomlValue<'t>>,
+    files: FileReader,
+    parser: &mut TomlParser<'t>,
+) -> Option<PageSettings> {
     let default = PageSettings::default();
     let Some(value) = value else { return Some(default) };
     let fields = Fields::from_value(value, &PAGE, parser)?;
@@ -244,7 +249,7 @@ pub(crate) fn page<'t>(value: Option<&TomlValue<'t>>, parser: &mut TomlParser<'t
         None => Some(default.text_mode),
         Some(value) => parser.word(value, &TEXT_MODES),
     };
-    let theme = fields.get("theme").map_or(default.options.theme, |value| theme::read(value, parser));
+    let theme = fields.get("theme").map_or(default.options.theme, |value| theme::read(value, files, parser));
     let options = Options::for_paper(paper?).with_dash_deg(dash_deg?).with_theme(theme);
     Some(PageSettings { options, dpi: dpi?, text_mode: text? })
 }

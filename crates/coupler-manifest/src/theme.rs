@@ -6,7 +6,7 @@ use coupler_curves::expression::Dimension;
 use coupler_curves::linkage_format::{Fields, KeySchema, TableSchema, TomlParser, TomlValue, ValueSchema, words};
 use coupler_curves::problem::{Problem, Span};
 use coupler_drawing::page::Theme;
-use coupler_drawing::scene::{Color, Typeface};
+use coupler_drawing::scene::{Color, FontFamily, Typeface};
 
 /// The schema of the name of a theme.
 pub(crate) const NAME_FORM: ValueSchema = ValueSchema::Word(|| Theme::NAMED.map(|named| named.name).to_vec());
@@ -16,6 +16,10 @@ pub(crate) fn default_name() -> String {
     let [default, ..] = Theme::NAMED;
     default_value::string(default.name)
 }
+
+/// Reads a file that a manifest names, by its path relative to the manifest; the error says why it cannot be read. `None` if
+/// files are not read.
+pub type FileReader<'a> = Option<&'a dyn Fn(&str) -> Result<Vec<u8>, String>>;
 
 /// The table of a theme that modifies another.
 pub(crate) static THEME: TableSchema = TableSchema::new(
@@ -40,8 +44,13 @@ pub(crate) static THEME: TableSchema = TableSchema::new(
             ValueSchema::Boolean,
             "Whether every colour becomes the grey of its lightness; by default as in the base.",
         ),
-        KeySchema::new("face", ValueSchema::Word(|| words(&Typeface::NAMED)), "The typeface.")
-            .with_default(|| default_value::word(&Typeface::NAMED, &Theme::default().typeface)),
+        KeySchema::new("face", ValueSchema::Word(|| words(&FontFamily::NAMED)), "The typeface.")
+            .with_default(|| default_value::word(&FontFamily::NAMED, &Theme::default().typeface.family)),
+        KeySchema::new(
+            "fallback_face",
+            ValueSchema::Text,
+            "A font file for characters that the typeface does not have, relative to the manifest's folder.",
+        ),
         KeySchema::new("drawn", ValueSchema::InRange(DRAWN_RANGE), "The drawn fraction of a dash and its gap.")
             .with_default(|| Theme::default().dash_fraction.to_string()),
         KeySchema::new("weights", WEIGHTS_FORM, "Line weights on tabloid paper, or a factor for all of them."),
@@ -99,7 +108,7 @@ const LETTERING_SIZES: SizeAccessor =
     |theme| vec![&mut theme.title_size, &mut theme.source_size, &mut theme.caption_size, &mut theme.note_size];
 
 /// Reads a theme; values that cannot be parsed keep those of the base theme.
-pub(crate) fn read<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Theme {
+pub(crate) fn read<'t>(value: &TomlValue<'t>, files: FileReader, parser: &mut TomlParser<'t>) -> Theme {
     if value.get_ref().is_str() {
         return named_theme(value, parser).unwrap_or_default();
     }
@@ -109,7 +118,10 @@ pub(crate) fn read<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Th
     let mut theme = base.unwrap_or_default();
     let colors_read = apply_colors(&fields, &mut theme, parser) && base_read;
     if let Some(face) = fields.get("face") {
-        theme.typeface = parser.word(face, &Typeface::NAMED).unwrap_or_default();
+        theme.typeface.family = parser.word(face, &FontFamily::NAMED).unwrap_or_default();
+    }
+    if let Some(value) = fields.get("fallback_face") {
+        theme.typeface = with_fallback(theme.typeface, value, files, parser).unwrap_or(theme.typeface);
     }
     if let Some(value) = fields.get("drawn") {
         let drawn = read_within(value, parser, |value, parser| parser.constant(value), DRAWN_RANGE, "of a dash's span");
@@ -123,6 +135,23 @@ pub(crate) fn read<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Th
         check_curves(&fields, &theme, parser);
     }
     theme
+}
+
+/// A typeface with the font file at a path; as it is if files are not read.
+fn with_fallback<'t>(
+    typeface: Typeface,
+    value: &TomlValue<'t>,
+    files: FileReader,
+    parser: &mut TomlParser<'t>,
+) -> Option<Typeface> {
+    let path = parser.text(value)?;
+    let Some(read) = files else { return Some(typeface) };
+    let font = read(&path).and_then(|bytes| typeface.with_fallback(bytes).map_err(|error| error.to_string()));
+    if let Err(why) = &font {
+        let problem = Problem::error(value.span(), format!("cannot use `{}`: {why}", path.escape_debug()));
+        parser.report(problem.with_help("give the path of a .ttf, .otf or .ttc file, relative to the manifest"));
+    }
+    font.ok()
 }
 
 /// Changes a theme's colours, and returns whether all of those given could be parsed.

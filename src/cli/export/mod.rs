@@ -201,6 +201,9 @@ fn select_from_manifest(arguments: &Arguments) -> anyhow::Result<(Vec<CurveSelec
     };
     let source = source::read(path)?;
     source.require_families(&arguments.only)?;
+    if arguments.format.contains(&Format::Png) {
+        source.require_drawable()?;
+    }
     let is_requested = |id: &str| arguments.only.is_empty() || arguments.only.iter().any(|only| only == id);
     let planned: Vec<_> = source.plan.families.iter().filter(|planned| is_requested(&planned.family.id)).collect();
     let ids: Vec<&str> = planned.iter().map(|planned| planned.family.id.as_str()).collect();

@@ -6,15 +6,17 @@ pub mod reader;
 use coupler_curves::geometry::{Point, Vector};
 use coupler_drawing::render::pdf::{Book, Error};
 use coupler_drawing::scene::{
-    Anchor, Animation, Circle, Color, Face, Group, Item, OutlineEntry, PageLink, PageNumber, Path, Polyline, Scene,
-    Stroke, Text, TextRun, Typeface,
+    Anchor, Animation, Circle, Color, Face, FontFamily, Group, Item, OutlineEntry, PageLink, PageNumber, Path,
+    Polyline, Scene, Stroke, Text, TextRun, Typeface,
 };
 use reader::Pdf;
 
 const INK: Color = Color(0x11, 0x22, 0x33);
 
-const REGULAR: Face = Face { typeface: Typeface::SerifCondensed, is_italic: false };
-const ITALIC: Face = Face { typeface: Typeface::SerifCondensed, is_italic: true };
+const REGULAR: Face =
+    Face { typeface: Typeface { family: FontFamily::SerifCondensed, fallback: None }, is_italic: false };
+const ITALIC: Face =
+    Face { typeface: Typeface { family: FontFamily::SerifCondensed, fallback: None }, is_italic: true };
 
 fn scene(items: Vec<Item>) -> Scene {
     let paper = Color(0xff, 0xfd, 0xf8);
@@ -25,7 +27,7 @@ fn scene(items: Vec<Item>) -> Scene {
         title: "A page".into(),
         items,
         links: Vec::new(),
-        typeface: Typeface::SerifCondensed,
+        typeface: FontFamily::SerifCondensed.into(),
     }
 }
 

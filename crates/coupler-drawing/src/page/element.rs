@@ -355,17 +355,19 @@ fn truncated_length(run: &TextRun, size: f64, width: f64) -> Option<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::FontFamily;
 
     fn sans(text: &str) -> TextLine {
-        TextLine::new(text, Typeface::Sans, Point::origin(), Anchor::Start, (3.0, Color(0, 0, 0)))
+        TextLine::new(text, FontFamily::Sans.into(), Point::origin(), Anchor::Start, (3.0, Color(0, 0, 0)))
     }
 
     #[test]
     fn single_letters_that_are_parameters_are_italic() {
         let symbols = ["p".to_owned(), "frame".to_owned()];
         let runs = sans("p = 2, prop frame's p's").with_italics(&symbols).text.runs;
+        let sans = Typeface::from(FontFamily::Sans);
         let texts: Vec<(&str, Face)> = runs.iter().map(|run| (run.text.as_str(), run.face)).collect();
-        assert_eq!(texts, [("p", Typeface::Sans.italic()), (" = 2, prop frame's p's", Typeface::Sans.regular())]);
+        assert_eq!(texts, [("p", sans.italic()), (" = 2, prop frame's p's", sans.regular())]);
     }
 
     #[test]

@@ -172,12 +172,11 @@ impl Strip {
             return;
         }
         let mut builder = PathBuilder::new();
-        let mut at = text.start();
-        for run in &text.runs {
-            let (size, baseline) = (run.size(text.size), at.y - run.rise(text.size));
-            for c in run.text.chars() {
-                let place = |[x, y]: [f64; 2]| ((at.x + x * size) as f32, (baseline - y * size) as f32);
-                for segment in run.face.outline(c).iter().copied() {
+        for run in text.glyph_runs() {
+            let size = run.size;
+            for (at, outline) in run.outlines() {
+                let place = |[x, y]: [f64; 2]| ((at.x + x * size) as f32, (at.y - y * size) as f32);
+                for segment in outline.iter().copied() {
                     match segment {
                         OutlineSegment::Move(p) => builder.move_to(place(p).0, place(p).1),
                         OutlineSegment::Line(p) => builder.line_to(place(p).0, place(p).1),
@@ -189,7 +188,6 @@ impl Strip {
                         OutlineSegment::Close => builder.close(),
                     }
                 }
-                at.x += run.face.advance(c) * size;
             }
         }
         let angle = f32::from(text.quarter_turns) * 90.0;

@@ -16,9 +16,10 @@ pub use book::{OutlineEntry, PageLink, PageNumber};
 #[cfg(feature = "plotters")]
 pub use canvas::Canvas;
 pub use color::Color;
+pub(crate) use font::has_right_to_left;
+pub use font::{Face, FontFamily, FontFile, FontFileError, Typeface};
 #[cfg(feature = "fonts")]
-pub use font::OutlineSegment;
-pub use font::{Face, Typeface};
+pub use font::{GlyphRun, OutlineSegment, PlacedGlyph};
 
 use coupler_curves::geometry::{Point, Spline};
 
@@ -239,6 +240,10 @@ fn collect_shapes<'s>(items: &'s [Item], shapes: &mut Vec<Shape<'s>>) {
 impl Text {
     /// The width in millimetres.
     pub fn width(&self) -> f64 {
+        #[cfg(feature = "fonts")]
+        if self.runs.iter().any(|run| run.face.typeface.fallback.is_some()) {
+            return font::runs_width(&self.runs, self.size);
+        }
         self.runs.iter().map(|run| run.width(self.size)).sum()
     }
 

@@ -1,7 +1,7 @@
 //! The named themes.
 
 use super::{CurveStyle, Theme};
-use crate::scene::{Color, Typeface};
+use crate::scene::{Color, FontFamily};
 
 /// A theme with a name.
 #[derive(Clone, Copy, Debug)]
@@ -43,7 +43,7 @@ impl Theme {
                 Color(0x97, 0x64, 0x0c),
             ],
             curve_styles: vec![CurveStyle::PLAIN],
-            typeface: Typeface::SerifCondensed,
+            typeface: FontFamily::SerifCondensed.into(),
             dash_fraction: 0.6,
             border: 8.0,
             margin: 8.0,

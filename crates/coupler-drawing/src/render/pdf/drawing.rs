@@ -6,8 +6,8 @@ use krilla::paint::{Fill, LineCap, LineJoin};
 use krilla::surface::Surface;
 
 use super::fonts::{FontCache, layout_glyphs};
-use crate::scene::{Circle, Color, Curve, Path, Polyline, Scene, Shape, Stroke, Text, TextRun};
-use coupler_curves::geometry::{Point, Spline, SplineSegment, Vector};
+use crate::scene::{Circle, Color, Curve, Path, Polyline, Scene, Shape, Stroke, Text};
+use coupler_curves::geometry::{Point, Spline, SplineSegment};
 
 /// A length in PDF points.
 pub(super) fn mm_to_points(mm: f64) -> f32 {
@@ -160,18 +160,15 @@ impl<'d> PagePainter<'d> {
         } else {
             CoordinateFrame { origin: text.position, quarter_turns: text.quarter_turns }
         };
-        let mut at = text.start();
         self.surface.set_fill(Some(to_fill(text.color)));
         self.surface.set_stroke(None);
         self.surface.push_transform(&frame.points_from_units());
-        for run in &text.runs {
-            let TextRun { text: characters, face, .. } = run;
-            let [x, y] = point_in_units(&(at - Vector::new(0.0, run.rise(text.size))), frame.origin);
-            if let Some(font) = self.fonts.get(*face) {
-                let (start, size) = (geom::Point::from_xy(x, y), mm_to_units(run.size(text.size)));
-                self.surface.draw_glyphs(start, &layout_glyphs(characters, *face), font, characters, size, false);
+        for run in text.glyph_runs() {
+            let [x, y] = point_in_units(&run.origin, frame.origin);
+            if let Some(font) = self.fonts.get(&run) {
+                let (start, size) = (geom::Point::from_xy(x, y), mm_to_units(run.size));
+                self.surface.draw_glyphs(start, &layout_glyphs(&run), font, run.text, size, false);
             }
-            at.x += run.width(text.size);
         }
         self.surface.pop();
     }

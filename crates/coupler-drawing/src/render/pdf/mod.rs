@@ -114,8 +114,9 @@ impl Book {
         if let Some(index) = furthest.filter(|&index| index >= self.page_count) {
             return Err(Error::MissingPage { page: index + 1, page_count: self.page_count });
         }
-        if let Some(face) = self.fonts.first_unreadable() {
-            return Err(Error::Writing(format!("the font of {face:?} cannot be read")));
+        if let Some((face, file)) = self.fonts.first_unreadable() {
+            let font = file.map_or_else(|| format!("{face:?}"), |file| format!("{file:?}"));
+            return Err(Error::Writing(format!("the font {font} cannot be read")));
         }
         let mut root = Outline::new();
         outline.iter().for_each(|entry| root.push_child(outline_node(entry)));

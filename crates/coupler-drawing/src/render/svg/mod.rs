@@ -8,7 +8,9 @@ mod path_data;
 use std::fmt::Write;
 
 use super::TextMode;
-use crate::scene::{Anchor, Animation, Circle, Color, Curve, Group, Item, Path, Scene, Stroke, Text};
+use crate::scene::{
+    Anchor, Animation, Circle, Color, Curve, Group, Item, Path, Scene, Stroke, Text, has_right_to_left,
+};
 use number::{Number, to_micrometres};
 use path_data::{absolute_path_data, write_path_data, write_spline_data};
 
@@ -20,7 +22,7 @@ pub fn svg(scene: &Scene, text: TextMode) -> Vec<u8> {
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"0 0 {w} {h}\" \
          font-family=\"{}\" font-kerning=\"none\" style=\"font-variant-ligatures:none\" \
          stroke-linejoin=\"round\" fill=\"none\">\n",
-        scene.typeface.fallback_families()
+        scene.typeface.family.fallback_families()
     ));
     writer.write(format_args!("<title>{}</title>\n", Escaped(&scene.title)));
     writer.write(format_args!("<rect width=\"{w}\" height=\"{h}\" fill=\"{}\"/>\n", scene.paper));
@@ -173,6 +175,10 @@ impl SvgWriter {
         }
         if text.quarter_turns != 0 {
             self.write(format_args!(" transform=\"rotate({} {x} {y})\"", u32::from(text.quarter_turns) * 90));
+        }
+        if text.runs.iter().any(|run| has_right_to_left(&run.text)) {
+            // The direction is that of the first letter, as in the other formats.
+            self.output.push_str(" unicode-bidi=\"plaintext\"");
         }
         if text.runs.iter().any(|run| run.text.contains("  ")) {
             // By default a viewer collapses consecutive spaces.

@@ -17,12 +17,11 @@ impl SvgWriter {
         }
         self.output.push_str(" d=\"");
         let mut path = PathWriter::default();
-        let mut at = text.start();
-        for run in &text.runs {
-            let (size, baseline) = (run.size(text.size), at.y - run.rise(text.size));
-            for c in run.text.chars() {
-                let on_page = |[x, y]: [f64; 2]| Point::new(at.x + x * size, baseline - y * size);
-                for segment in run.face.outline(c).iter().copied() {
+        for run in text.glyph_runs() {
+            let size = run.size;
+            for (at, outline) in run.outlines() {
+                let on_page = |[x, y]: [f64; 2]| Point::new(at.x + x * size, at.y - y * size);
+                for segment in outline.iter().copied() {
                     match segment {
                         OutlineSegment::Move(p) => path.write_command(&mut self.output, 'm', &[on_page(p)]),
                         OutlineSegment::Line(p) => path.write_command(&mut self.output, 'l', &[on_page(p)]),
@@ -35,7 +34,6 @@ impl SvgWriter {
                         OutlineSegment::Close => path.close(&mut self.output),
                     }
                 }
-                at.x += run.face.advance(c) * size;
             }
         }
         self.output.push('"');

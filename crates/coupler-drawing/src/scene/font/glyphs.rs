@@ -7,7 +7,7 @@ use skrifa::instance::{LocationRef, Size};
 use skrifa::outline::{DrawSettings, OutlinePen};
 use skrifa::{FontRef, GlyphId, MetadataProvider};
 
-use super::{Face, Typeface};
+use super::{Face, FontFamily};
 
 /// A segment of the outline of a glyph, in ems with y up, from the origin of the glyph on the baseline.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,12 +62,7 @@ impl Font {
     /// The glyph of a character; a box if the face does not have it.
     fn read_glyph(&self, character: char) -> Glyph {
         let id = self.font.charmap().map(character).unwrap_or(GlyphId::NOTDEF);
-        let mut pen = Pen { units_per_em: self.units_per_em, segments: Vec::new() };
-        if let Some(glyph) = self.font.outline_glyphs().get(id) {
-            // A glyph that cannot be drawn has an empty outline.
-            let _ = glyph.draw(DrawSettings::unhinted(Size::unscaled(), LocationRef::default()), &mut pen);
-        }
-        Glyph { index: id.to_u32(), outline: pen.segments }
+        Glyph { index: id.to_u32(), outline: outline(&self.font, id, self.units_per_em) }
     }
 }
 
@@ -86,18 +81,23 @@ impl Face {
     }
 
     fn font(self) -> &'static Font {
-        match (self.typeface, self.is_italic) {
-            (Typeface::Serif, false) => font!(serif, regular),
-            (Typeface::Serif, true) => font!(serif, italic),
-            (Typeface::SerifCondensed, false) => font!(serif_condensed, regular),
-            (Typeface::SerifCondensed, true) => font!(serif_condensed, italic),
-            (Typeface::Sans, false) => font!(sans, regular),
-            (Typeface::Sans, true) => font!(sans, oblique),
-            (Typeface::SansCondensed, false) => font!(sans_condensed, regular),
-            (Typeface::SansCondensed, true) => font!(sans_condensed, oblique),
-            (Typeface::Mono, false) => font!(sans_mono, regular),
-            (Typeface::Mono, true) => font!(sans_mono, oblique),
+        match (self.typeface.family, self.is_italic) {
+            (FontFamily::Serif, false) => font!(serif, regular),
+            (FontFamily::Serif, true) => font!(serif, italic),
+            (FontFamily::SerifCondensed, false) => font!(serif_condensed, regular),
+            (FontFamily::SerifCondensed, true) => font!(serif_condensed, italic),
+            (FontFamily::Sans, false) => font!(sans, regular),
+            (FontFamily::Sans, true) => font!(sans, oblique),
+            (FontFamily::SansCondensed, false) => font!(sans_condensed, regular),
+            (FontFamily::SansCondensed, true) => font!(sans_condensed, oblique),
+            (FontFamily::Mono, false) => font!(sans_mono, regular),
+            (FontFamily::Mono, true) => font!(sans_mono, oblique),
         }
+    }
+
+    /// Whether the face has a character and can draw it as it is: one that is written from right to left it cannot.
+    pub fn has(self, character: char) -> bool {
+        self.glyph_index(character) != 0 && !super::has_right_to_left(character.encode_utf8(&mut [0; 4]))
     }
 
     /// The outline of a character; a box if the face does not have it.
@@ -112,6 +112,16 @@ impl Face {
     pub fn glyph_index(self, character: char) -> u32 {
         self.font().glyph(character).index
     }
+}
+
+/// The outline of a glyph in ems; empty if it cannot be drawn.
+pub(super) fn outline(font: &FontRef, glyph: GlyphId, units_per_em: f64) -> Vec<OutlineSegment> {
+    let mut pen = Pen { units_per_em, segments: Vec::new() };
+    if let Some(glyph) = font.outline_glyphs().get(glyph) {
+        // A glyph that cannot be drawn has an empty outline.
+        let _ = glyph.draw(DrawSettings::unhinted(Size::unscaled(), LocationRef::default()), &mut pen);
+    }
+    pen.segments
 }
 
 /// Collects the outline of a glyph in ems.
@@ -150,10 +160,14 @@ impl OutlinePen for Pen {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Typeface;
     use super::*;
 
     fn faces() -> impl Iterator<Item = Face> {
-        Typeface::NAMED.into_iter().flat_map(|(_, typeface)| [typeface.regular(), typeface.italic()])
+        FontFamily::NAMED
+            .into_iter()
+            .map(|(_, family)| Typeface::from(family))
+            .flat_map(|typeface| [typeface.regular(), typeface.italic()])
     }
 
     #[test]
@@ -199,7 +213,7 @@ mod tests {
     /// `widths.bin`, from the fonts.
     fn encode_widths() -> Vec<u8> {
         let mut bytes = Vec::new();
-        for typeface in [Typeface::Serif, Typeface::Sans] {
+        for typeface in [FontFamily::Serif, FontFamily::Sans].map(Typeface::from) {
             let [upright, italic] = [typeface.regular(), typeface.italic()].map(font_widths);
             let differences: Vec<i32> = italic.iter().zip(&upright).map(|(italic, upright)| italic - upright).collect();
             bytes.extend(encode_runs(&upright));

@@ -15,7 +15,7 @@
 use std::iter::repeat_n;
 use std::sync::LazyLock;
 
-use super::{Face, Typeface};
+use super::{Face, FontFamily};
 
 /// The units of an em, in which widths are whole numbers.
 pub(super) const UNITS_PER_EM: f64 = 2048.0;
@@ -33,12 +33,12 @@ const MONO_WIDTH: u32 = 1233;
 pub(super) fn units(face: Face, character: char) -> u32 {
     let [serif, sans] = &*TABLES;
     let width = |faces: &[WidthTable; 2]| faces[usize::from(face.is_italic)].width(character);
-    match face.typeface {
-        Typeface::Serif => width(serif),
-        Typeface::SerifCondensed => width(serif) * 9 / 10,
-        Typeface::Sans => width(sans),
-        Typeface::SansCondensed => width(sans) * 9 / 10,
-        Typeface::Mono => MONO_WIDTH,
+    match face.typeface.family {
+        FontFamily::Serif => width(serif),
+        FontFamily::SerifCondensed => width(serif) * 9 / 10,
+        FontFamily::Sans => width(sans),
+        FontFamily::SansCondensed => width(sans) * 9 / 10,
+        FontFamily::Mono => MONO_WIDTH,
     }
 }
 

@@ -1,0 +1,124 @@
+//! Font files that a manifest names, for characters that the embedded fonts do not have.
+
+use std::hash::{Hash, Hasher};
+use std::sync::Mutex;
+
+use harfrust::{Direction, ShapeOptions, ShaperData, UnicodeBuffer};
+use skrifa::instance::{LocationRef, Size};
+use skrifa::{FontRef, GlyphId, MetadataProvider};
+
+use super::{FontFileError, OutlineSegment, glyphs};
+
+/// A font file, in memory until the program ends; two with the same contents are one.
+pub struct FontFile {
+    bytes: &'static [u8],
+    font: FontRef<'static>,
+    shaper: ShaperData,
+    units_per_em: f64,
+}
+
+/// A glyph of a shaped text, in ems.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct ShapedGlyph {
+    pub index: u32,
+    /// The byte of the text at which the characters of the glyph begin.
+    pub cluster: usize,
+    pub advance: f64,
+    /// To the right and up, before the glyph is drawn.
+    pub offset: [f64; 2],
+}
+
+static FILES: Mutex<Vec<&'static FontFile>> = Mutex::new(Vec::new());
+
+impl FontFile {
+    /// The font in a file, or the first of a collection.
+    ///
+    /// # Errors
+    /// It is not a font, or its glyphs have no outlines.
+    pub fn from_bytes(bytes: Vec<u8>) -> Result<&'static FontFile, FontFileError> {
+        let mut files = FILES.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        if let Some(known) = files.iter().find(|file| file.bytes == bytes) {
+            return Ok(known);
+        }
+        let units_per_em = {
+            let font = FontRef::from_index(&bytes, 0).map_err(|_| FontFileError::NotAFont)?;
+            let metrics = font.metrics(Size::unscaled(), LocationRef::default());
+            if metrics.units_per_em == 0 || font.charmap().mappings().next().is_none() {
+                return Err(FontFileError::NotAFont);
+            }
+            font.outline_glyphs().format().ok_or(FontFileError::NoOutlines)?;
+            f64::from(metrics.units_per_em)
+        };
+        let bytes: &'static [u8] = Box::leak(bytes.into_boxed_slice());
+        let font = FontRef::from_index(bytes, 0).map_err(|_| FontFileError::NotAFont)?;
+        let shaper = ShaperData::new(&font);
+        let file: &'static FontFile = Box::leak(Box::new(FontFile { bytes, font, shaper, units_per_em }));
+        files.push(file);
+        Ok(file)
+    }
+
+    /// The contents of the file.
+    pub fn bytes(&self) -> &'static [u8] {
+        self.bytes
+    }
+
+    /// The length of the file and its CRC-32, by which a changed file is recognized.
+    pub fn fingerprint(&self) -> String {
+        format!("{} bytes, {:08x}", self.bytes.len(), crc32fast::hash(self.bytes))
+    }
+
+    /// Whether the font has a character.
+    pub fn has(&self, character: char) -> bool {
+        self.font.charmap().map(character).is_some()
+    }
+
+    /// The advance width of a character by itself, in ems.
+    pub(super) fn advance(&self, character: char) -> f64 {
+        let glyph = self.font.charmap().map(character).unwrap_or(GlyphId::NOTDEF);
+        let metrics = self.font.glyph_metrics(Size::unscaled(), LocationRef::default());
+        f64::from(metrics.advance_width(glyph).unwrap_or_default()) / self.units_per_em
+    }
+
+    /// The outline of a glyph.
+    pub(super) fn outline(&self, index: u32) -> Vec<OutlineSegment> {
+        glyphs::outline(&self.font, GlyphId::new(index), self.units_per_em)
+    }
+
+    /// The glyphs of a text in one direction, from left to right.
+    pub(super) fn shape(&self, text: &str, is_right_to_left: bool) -> Vec<ShapedGlyph> {
+        let mut buffer = UnicodeBuffer::new();
+        buffer.push_str(text);
+        buffer.set_direction(if is_right_to_left { Direction::RightToLeft } else { Direction::LeftToRight });
+        buffer.guess_segment_properties();
+        let shaped = self.shaper.shaper(&self.font).build().shape(buffer, ShapeOptions::new());
+        let ems = |units: i32| f64::from(units) / self.units_per_em;
+        let glyphs = shaped.glyph_infos().iter().zip(shaped.glyph_positions());
+        let glyph = |(info, position): (&harfrust::GlyphInfo, &harfrust::GlyphPosition)| ShapedGlyph {
+            index: info.glyph_id,
+            cluster: info.cluster as usize,
+            advance: ems(position.x_advance),
+            offset: [ems(position.x_offset), ems(position.y_offset)],
+        };
+        glyphs.map(glyph).collect()
+    }
+}
+
+impl std::fmt::Debug for FontFile {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "FontFile({})", self.fingerprint())
+    }
+}
+
+impl PartialEq for FontFile {
+    fn eq(&self, other: &FontFile) -> bool {
+        std::ptr::eq(self, other)
+    }
+}
+
+impl Eq for FontFile {}
+
+impl Hash for FontFile {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        std::ptr::from_ref(self).hash(state);
+    }
+}
