@@ -71,7 +71,7 @@ fn last_word(name: &str) -> String {
     name.rsplit('_').next().unwrap_or_default().to_owned()
 }
 
-/// The values that the lines state: "p = 2.50" and, of a formula, "u = 2 a = 5".
+/// The values that the lines state: "p = 2.50", of a formula "u = 2 a = 5", and of a fraction "p = 22 / 9".
 fn stated_values(lines: &[String]) -> Vec<(String, f64)> {
     let mut values = Vec::new();
     // An equation may go on in the next line.
@@ -80,8 +80,11 @@ fn stated_values(lines: &[String]) -> Vec<(String, f64)> {
         let mut sides = equation.split(" = ");
         let Some(name) = sides.next().and_then(|name| name.split(' ').next_back()) else { continue };
         for side in sides {
-            let number = side.trim_end_matches(['°', ',']).replace('−', "-");
-            values.extend(number.parse().ok().map(|value: f64| (name.to_owned(), value)));
+            let side = side.trim_end_matches(['°', ',']).replace('−', "-");
+            let (numerator, denominator) = side.split_once(" / ").unwrap_or((&side, "1"));
+            if let (Ok(numerator), Ok(denominator)) = (numerator.parse::<f64>(), denominator.parse::<f64>()) {
+                values.push((name.to_owned(), numerator / denominator));
+            }
         }
     }
     values

@@ -28,7 +28,7 @@ mod scope;
 
 pub use caption::{Caption, round_to_six_digits};
 pub use function::Function;
-pub use math_text::{MathPiece, MathText, format_exactly};
+pub use math_text::{MathPiece, MathText, format_exactly, format_in_full};
 pub use program::{CompiledExpression, Expression, Kind, PostfixToken};
 pub use quantity::{Dimension, Quantity, Unit};
 pub use scope::Scope;

@@ -1,7 +1,9 @@
 //! The dimensions of a family's linkages as text: those that all cells share, and those of a cell.
 
 use super::{Cell, Family, ParameterSpace};
-use crate::expression::{Caption, CompiledExpression, MathText, Unit, format_exactly, round_to_six_digits};
+use crate::expression::{
+    Caption, CompiledExpression, MathText, Unit, format_exactly, format_in_full, round_to_six_digits,
+};
 use crate::template::ParameterKind;
 
 /// A name that the caption of a cell should show.
@@ -110,7 +112,7 @@ impl Family {
 
     /// A name, by its index in [`Family::names`], and a value in full: "p = 2.5", "phase = 30°".
     pub fn equation(&self, slot: usize, value: f64) -> MathText {
-        MathText::from_name(&self.names[slot]).with_words(format!(" = {}{}", format_exactly(value), self.unit(slot)))
+        MathText::from_name(&self.names[slot]).with_words(format!(" = {}{}", format_in_full(value), self.unit(slot)))
     }
 
     /// Whether the captions of a cell show a parameter: in full if it is given.

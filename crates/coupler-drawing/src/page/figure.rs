@@ -182,18 +182,19 @@ impl<'a> Figure<'a> {
     }
 
     /// Draws the figure in a frame of an area, with the linkage at a scale in millimetres to a unit, or as large as it fits.
+    /// The first theme is for curves that are drawn apart from the linkage, the second for all else.
     pub fn draw(
         &self,
         area: &impl Area,
         whole: Rect,
         (arrangement, scale): (Arrangement, Option<f64>),
         page: &PanelPage,
-        (options, theme): (&Options, &Theme),
+        (options, curve_theme, theme): (&Options, &Theme, &Theme),
     ) {
         let [frame, key] = arrangement.rects(whole);
         let key = Plot::new(key, theme);
         let period = self.dash_period(options);
-        let in_dashes = |plot: &Plot, curves: &[&MeasuredCurve], obstacles: &[Item]| {
+        let in_dashes = |plot: &Plot, curves: &[&MeasuredCurve], obstacles: &[Item], theme: &Theme| {
             let paths = self.paths(plot, curves, period, theme);
             let axes = marks::symmetry_axis_items(self.solved_cell, curves, plot, theme);
             let mut avoided = Obstacles::default();
@@ -214,19 +215,19 @@ impl<'a> Figure<'a> {
         self.draw_underlay(area, &key, theme);
         if arrangement == Arrangement::Combined {
             let linkage = self.linkage_items(&key, theme);
-            in_dashes(&key, &self.solved_cell.curves.iter().collect::<Vec<_>>(), &linkage);
+            in_dashes(&key, &self.solved_cell.curves.iter().collect::<Vec<_>>(), &linkage, theme);
             draw_linkage(area, linkage);
         } else {
             self.draw_key_curves(area, &key, theme);
             draw_linkage(area, self.linkage_items(&key, theme));
             let frames = frame.divide(self.groups.len());
             for ((circuits, bounds), frame) in self.groups.iter().zip(&self.extents.curves).zip(frames) {
-                let plot = Plot::new(frame, theme).fitted_to(*bounds);
+                let plot = Plot::new(frame, curve_theme).fitted_to(*bounds);
                 let enlargement = plot.page_from_plane.scale / key.page_from_plane.scale;
                 let remark = format!(", enlarged × {}", marks::format_significant(enlargement, 2));
-                plot.draw_scale_bar(area, &remark, theme);
+                plot.draw_scale_bar(area, &remark, curve_theme);
                 let curves = self.solved_cell.curves.iter().filter(|curve| circuits.contains(&curve.circuit));
-                in_dashes(&plot, &curves.collect::<Vec<_>>(), &[]);
+                in_dashes(&plot, &curves.collect::<Vec<_>>(), &[], curve_theme);
             }
         }
     }
@@ -403,10 +404,14 @@ impl<'a> Figure<'a> {
         let ink = self.curve_ink(first, theme);
         let mut symbols = symbols::of_cell(solved, ink, period);
         let mut add = |mark: Mark, meaning: &str| symbols.push(Symbol { mark, meaning: meaning.to_owned() });
-        let later = solved.curves.iter().find(|curve| self.style_index(curve) == 1);
-        if let Some(curve) = later {
-            let what = if curve.trace > 1 { "second traced point" } else { "second circuit" };
-            add(Mark::Dashes(self.curve_ink(curve, theme)), what);
+        for (style, ordinal) in (1..).zip(["second", "third", "fourth", "fifth"]) {
+            let Some(curve) = solved.curves.iter().find(|curve| self.style_index(curve) == style) else { break };
+            let what = match marks::path_name(solved, curve) {
+                Some(name) => name,
+                None if solved.linkage.traced.len() > 1 => format!("{ordinal} traced point"),
+                None => format!("{ordinal} circuit"),
+            };
+            add(Mark::Dashes(self.curve_ink(curve, theme)), &what);
         }
         if solved.motion.circuits.iter().any(|circuit| !circuit.is_full_turn()) {
             add(Mark::Limit(ink), "limit of the input");

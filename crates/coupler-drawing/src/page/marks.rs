@@ -34,11 +34,23 @@ pub fn cell_facts(family: &Family, solved: &SolvedCell) -> [String; 2] {
         let times = if mirrored_portion(solved, curve, portion).is_some() { "twice " } else { "" };
         let length = format_significant(portion.length, 4);
         let [exactly, deviation] = deviation_texts(family.straight, portion);
-        let curve_number =
-            if solved.linkage.traced.len() > 1 { format!(" (curve {})", curve.trace) } else { String::new() };
-        format!("{exactly}straight {times}{length}{deviation} over {:.1}{unit}{curve_number}", portion.input_span)
+        let which = match path_name(solved, curve) {
+            Some(name) => format!(" ({name})"),
+            None if solved.linkage.traced.len() > 1 => format!(" (curve {})", curve.trace),
+            None => String::new(),
+        };
+        format!("{exactly}straight {times}{length}{deviation} over {:.1}{unit}{which}", portion.input_span)
     });
     [parts.join(" · "), straight]
+}
+
+/// The path of a curve by the name of its joint, where several joints are traced and their names differ.
+pub(super) fn path_name(solved: &SolvedCell, curve: &MeasuredCurve) -> Option<String> {
+    let linkage = &solved.linkage;
+    let name = |joint: JointId| linkage.joints[joint].name.as_str();
+    let has_name = |other: &&JointId| name(**other) == name(curve.joint);
+    let is_alone = linkage.traced.len() > 1 && linkage.traced.iter().filter(has_name).count() == 1;
+    is_alone.then(|| format!("path of {}", name(curve.joint)))
 }
 
 /// The range of the transmission angle, in degrees. At 0° and at 180° coupler and output link are on one line, and no force

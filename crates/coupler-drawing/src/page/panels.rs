@@ -117,13 +117,18 @@ fn draw_panels<A: Area>(
     let width = size.x - 1.2 * theme.caption_size;
     let facts = FactsLayout::for_page(page, width, theme);
     let theme = &with_equal_captions(page, width, theme);
-    let texts: Vec<Vec<TextLine>> =
-        page.panels.iter().map(|panel| panel_lines(panel, facts, width, page.heading.symbols, theme)).collect();
+    let texts = |facts: FactsLayout| -> Vec<Vec<TextLine>> {
+        page.panels.iter().map(|panel| panel_lines(panel, facts, width, page.heading.symbols, theme)).collect()
+    };
+    let height = |lines: &Vec<TextLine>| lines.iter().map(leading).sum::<f64>();
+    let foot = |texts: &[Vec<TextLine>]| texts.iter().map(height).fold(0.0, f64::max) + 2.2 * theme.caption_size;
     /// The part of a panel that is left to its figure, however long its text is.
     const MIN_FIGURE: f64 = 0.4;
-    let height = |lines: &Vec<TextLine>| lines.iter().map(leading).sum::<f64>();
-    let longest = texts.iter().map(height).fold(0.0, f64::max);
-    let foot = (longest + 2.2 * theme.caption_size).min((1.0 - MIN_FIGURE) * size.y);
+    let most_text = (1.0 - MIN_FIGURE) * size.y;
+    // Facts that leave too little to the figures are left out: captions say how the linkages are built, and the facts are
+    // in the table of cells.
+    let texts = Some(texts(facts)).filter(|texts| foot(texts) <= most_text).unwrap_or_else(|| texts(FactsLayout::None));
+    let foot = foot(&texts).min(most_text);
     // One arrangement fits all panels: a page is split to within a hundredth of a millimetre.
     let figure_rect = |area: &A| {
         let gap = 1.2 * theme.caption_size;
@@ -147,14 +152,18 @@ fn draw_panels<A: Area>(
         let fitting = fitting_scale((figure, area));
         Some(figure.crank_length()? * scale.map_or(fitting, |scale| scale.min(fitting)))
     };
-    let shortest_crank = drawn().filter_map(crank_on_paper).fold(f64::INFINITY, f64::min);
+    // The smallest joints, of a third of the radius, would hide a shorter crank as well.
+    let can_be_seen = |length: &f64| *length >= 0.75 * theme.joint_radius;
+    let shortest_crank = drawn().filter_map(crank_on_paper).filter(can_be_seen).fold(f64::INFINITY, f64::min);
     let figure_theme = &theme.for_crank_length(shortest_crank);
+    // Ticks on an enlarged curve are as long as without such a crank.
+    let curve_theme = &Theme { joint_radius: theme.joint_radius, ..figure_theme.clone() };
     for (((panel, figure), area), lines) in page.panels.iter().zip(figures).zip(&areas).zip(texts) {
         let frame = figure_rect(area);
         match figure {
             Some(figure) => {
                 let arrangement = arrangement.if_enlarging(frame, gap, &figure.extents);
-                figure.draw(area, frame, (arrangement, scale), page, (options, figure_theme));
+                figure.draw(area, frame, (arrangement, scale), page, (options, curve_theme, figure_theme));
             }
             None => draw_not_assembled(area, frame, panel.solved_cell, theme),
         }
@@ -275,6 +284,8 @@ pub(super) fn draw_not_assembled(area: &impl Area, frame: Rect, cell: &SolvedCel
     let reason = text_line(&reason, theme.note_size, theme.grey).wrap(0.9 * frame.size.x);
     lines.extend(reason.iter().map(|line| text_line(line, theme.note_size, theme.grey).text));
     let step = 1.5 * theme.note_size;
+    // In a small panel the beginning of the reason.
+    lines.truncate(((frame.size.y / step).floor() as usize).max(1));
     let first = centre.y - step * (lines.len() - 1) as f64 / 2.0;
     for (k, text) in lines.iter_mut().enumerate() {
         text.position.y = first + step * k as f64;

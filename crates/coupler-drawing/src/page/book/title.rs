@@ -108,6 +108,6 @@ fn draw_rule(root: &impl Area, centre: Point, length: f64, theme: &Theme) {
 fn draw_frontispiece(root: &impl Area, frame: Rect, page: &PanelPage, (options, theme): (&Options, &Theme)) {
     let Some(figure) = page.panels.first().and_then(Figure::from_panel) else { return };
     if frame.size.x > 10.0 * theme.joint_radius && frame.size.y > 10.0 * theme.joint_radius {
-        figure.draw(root, frame, (Arrangement::Combined, None), page, (options, theme));
+        figure.draw(root, frame, (Arrangement::Combined, None), page, (options, theme, theme));
     }
 }
