@@ -236,6 +236,34 @@ fn linkages_are_shown_at_their_limits_where_the_manifest_asks_for_it() {
     assert!(!pages(&text, &plan(&text))[0].svg.contains("class=\"ghost\""));
 }
 
+/// A manifest of a linkage with points on its coupler, each placed from the one before.
+fn with_coupler_points(count: usize) -> String {
+    let point = |k: usize| format!("T{} = {{ point = [\"A\", \"T{k}\"], along = 2, across = 0.1 }}\n", k + 1);
+    let points: String = (0..count).map(point).collect();
+    format!(
+        "{}\n[[linkage]]\nid = \"many\"\ntrace = [\"T{count}\"]\n[linkage.joints]\nO = {{ fixed = [0, 0] }}\n\
+        C = {{ fixed = [4, 0] }}\nA = {{ crank = \"O\", length = 1 }}\n\
+        B = {{ dyad = [\"A\", \"C\"], lengths = [3, 3.5], side = \"left\" }}\n\
+        T0 = {{ point = [\"A\", \"B\"], along = 1 }}\n{points}",
+        family("id = \"f\"\nlinkage = \"many\"\npanels = [2, 2]\ncases = [{}]")
+    )
+}
+
+#[test]
+fn a_key_of_many_joints_is_complete_or_says_what_it_leaves_out() {
+    let missing = |count: usize| {
+        let text = with_coupler_points(count);
+        let plan = plan(&text);
+        let lines = texts(&pages(&text, &plan)[0].svg);
+        let joints = &plan.families[0].family.template.joints;
+        let named = joints.iter().filter(|joint| lines.contains(&joint.name)).count();
+        (joints.len() - named, lines.iter().any(|line| line.ends_with("for which this page is too small")))
+    };
+    assert_eq!([5, 40].map(missing), [(0, false); 2]);
+    let (missing, is_said) = missing(200);
+    assert!(missing > 50 && is_said, "{missing}");
+}
+
 #[test]
 fn circuits_that_are_apart_are_enlarged_in_frames_of_their_own() {
     // Two small mirror images, far from each other.

@@ -126,6 +126,7 @@ fn translated(item: &Item, by: Vector) -> Item {
 }
 
 /// A line of text.
+#[derive(Clone)]
 pub(super) struct TextLine {
     pub text: Text,
 }

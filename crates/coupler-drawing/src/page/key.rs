@@ -109,42 +109,83 @@ pub(super) fn draw(area: &impl Area, rect: Rect, key: &Key, figure: Option<&Figu
     draw_lines(area, text, key, theme);
 }
 
-/// Writes the joints and the remarks in columns, from the upper left.
+/// Writes the joints and the remarks in columns, from the upper left. Where they are too many, the text is smaller, and at
+/// last the number of lines that are left out is stated.
 fn draw_lines(area: &impl Area, rect: Rect, key: &Key, theme: &Theme) {
-    let em = theme.note_size;
-    let step = 1.42 * em;
-    let columns = (rect.size.x / (COLUMN_WIDTH * em)).floor().max(1.0);
-    let width = rect.size.x / columns - em;
-    let line = |text: &MathText, color| theme.math_line(text, Point::origin(), Anchor::Start, em, color);
-    let names: Vec<TextLine> =
-        key.joints.iter().map(|(name, _)| line(&MathText::from_words(name.as_str()), theme.ink)).collect();
-    let indent = names.iter().map(|name| name.text.width()).fold(0.0, f64::max).min(0.4 * width) + 0.7 * em;
-    let fits = |text: &MathText| line(text, theme.grey).text.width() <= width - indent;
-    let mut rows: Vec<(Option<TextLine>, TextLine, f64)> = Vec::new();
-    for (name, (_, construction)) in names.into_iter().zip(&key.joints) {
-        let mut name = Some(name);
-        for part in construction.wrap(fits) {
-            rows.push((name.take(), line(&part, theme.grey), indent));
+    let smallest = Theme::MIN_TEXT_SIZE.min(theme.note_size);
+    let sizes = [1.0, 0.9, 0.8, 0.7, 0.0].map(|part| (part * theme.note_size).max(smallest));
+    let layouts = sizes.map(|em| KeyLines::new(rect, key, em, theme));
+    let [.., last] = &layouts;
+    let layout = layouts.iter().find(|layout| layout.rows.len() <= layout.capacity()).unwrap_or(last);
+    layout.draw(area, rect, theme);
+}
+
+/// The lines of a key at a size of text.
+struct KeyLines {
+    em: f64,
+    columns: usize,
+    per_column: usize,
+    /// The width of a column without the space after it.
+    width: f64,
+    /// The name of the joint that begins here, the text, and its indent.
+    rows: Vec<(Option<TextLine>, TextLine, f64)>,
+    /// The place of the first remark among the rows.
+    first_remark: usize,
+}
+
+impl KeyLines {
+    fn new(rect: Rect, key: &Key, em: f64, theme: &Theme) -> KeyLines {
+        let columns = (rect.size.x / (COLUMN_WIDTH * em)).floor().max(1.0);
+        let width = rect.size.x / columns - em;
+        let line = |text: &MathText, color| theme.math_line(text, Point::origin(), Anchor::Start, em, color);
+        let names: Vec<TextLine> =
+            key.joints.iter().map(|(name, _)| line(&MathText::from_words(name.as_str()), theme.ink)).collect();
+        let indent = names.iter().map(|name| name.text.width()).fold(0.0, f64::max).min(0.4 * width) + 0.7 * em;
+        let fits = |text: &MathText| line(text, theme.grey).text.width() <= width - indent;
+        let mut rows = Vec::new();
+        for (name, (_, construction)) in names.into_iter().zip(&key.joints) {
+            let mut name = Some(name);
+            for part in construction.wrap(fits) {
+                rows.push((name.take(), line(&part, theme.grey), indent));
+            }
         }
-    }
-    let first_remark = rows.len();
-    for remark in &key.remarks {
-        let text = theme.text_line(remark, Point::origin(), Anchor::Start, em, theme.grey);
-        let wrapped = text.wrap(width);
-        rows.extend(wrapped.iter().map(|part| (None, line(&MathText::from_words(part.as_str()), theme.grey), 0.0)));
-    }
-    let per_column = ((rect.size.y / step).floor() as usize).max(1);
-    for (k, (name, text, indent)) in rows.into_iter().enumerate() {
-        let column = k / per_column;
-        if column as f64 >= columns {
-            break;
+        let first_remark = rows.len();
+        for remark in &key.remarks {
+            let text = theme.text_line(remark, Point::origin(), Anchor::Start, em, theme.grey);
+            let wrapped = text.wrap(width);
+            rows.extend(wrapped.iter().map(|part| (None, line(&MathText::from_words(part.as_str()), theme.grey), 0.0)));
         }
-        // The remarks are apart from the joints.
-        let gap = if k >= first_remark && k / per_column == first_remark / per_column { 0.5 * step } else { 0.0 };
-        let at = rect.corner + Vector::new(column as f64 * (width + em), em + gap + step * (k % per_column) as f64);
-        for (line, x) in name.into_iter().map(|name| (name, 0.0)).chain([(text, indent)]) {
-            let position = at + Vector::new(x, 0.0);
-            area.record(&line.moved_to(position).fit_width(width - x));
+        let per_column = ((rect.size.y / (KeyLines::LEADING * em)).floor() as usize).max(1);
+        KeyLines { em, columns: columns as usize, per_column, width, rows, first_remark }
+    }
+
+    /// The distance from a line to the next, in ems.
+    const LEADING: f64 = 1.42;
+
+    /// The number of lines that the rectangle has.
+    fn capacity(&self) -> usize {
+        self.columns * self.per_column
+    }
+
+    fn draw(&self, area: &impl Area, rect: Rect, theme: &Theme) {
+        let (em, step) = (self.em, KeyLines::LEADING * self.em);
+        let left_out = match self.rows.len() > self.capacity() {
+            true => self.rows.len() + 1 - self.capacity(),
+            false => 0,
+        };
+        let text = format!("… and {left_out} more lines, for which this page is too small");
+        let rest = theme.text_line(&text, Point::origin(), Anchor::Start, em, theme.ink);
+        let rest = (left_out > 0).then_some((None, rest, 0.0));
+        let shown = self.rows.len() - left_out;
+        for (k, (name, text, indent)) in self.rows[..shown].iter().chain(&rest).enumerate() {
+            // The remarks are apart from the joints.
+            let is_apart = k >= self.first_remark && k / self.per_column == self.first_remark / self.per_column;
+            let gap = if is_apart { 0.5 * step } else { 0.0 };
+            let column = Vector::new((k / self.per_column) as f64 * (self.width + em), 0.0);
+            let at = rect.corner + column + Vector::new(0.0, em + gap + step * (k % self.per_column) as f64);
+            for (line, x) in name.iter().map(|name| (name, 0.0)).chain([(text, *indent)]) {
+                area.record(&line.clone().moved_to(at + Vector::new(x, 0.0)).fit_width(self.width - x));
+            }
         }
     }
 }

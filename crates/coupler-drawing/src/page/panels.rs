@@ -16,7 +16,7 @@ use coupler_curves::solve::SolvedCell;
 pub(super) fn compose(root: &impl Area, page: &PanelPage, options: &Options, theme: &Theme) {
     let top = page.heading.draw(root, theme);
     let figures: Vec<Option<Figure>> = page.panels.iter().map(Figure::from_panel).collect();
-    let symbols = page_symbols(page, &figures, options, theme);
+    let mut symbols = page_symbols(page, &figures, options, theme);
     // The scale is known after the panels are arranged; no statement of it is wider than this one.
     let above_foot = layout_symbols(root, page, &symbols, "one unit of length = 0000.0 mm", theme).1;
     let [_, _, side] = margins(theme);
@@ -34,8 +34,9 @@ pub(super) fn compose(root: &impl Area, page: &PanelPage, options: &Options, the
     }
     let far = panels.corner + panels.size;
     let area = root.without_margins([panels.corner.y, root.size().y - far.y, panels.corner.x, root.size().x - far.x]);
-    let scale = draw_panels(&area, page, &figures, options, theme);
-    let scale = scale.map_or("units of length".to_owned(), |scale| scale_text(scale, &figures));
+    let drawn = draw_panels(&area, page, &figures, options, theme);
+    symbols.retain(|symbol| drawn.has_facts || symbol.meaning != TRANSMISSION_ANGLE);
+    let scale = drawn.scale.map_or("units of length".to_owned(), |scale| scale_text(scale, &figures));
     for (at, line) in layout_symbols(root, page, &symbols, &scale, theme).0 {
         symbols::draw(root, &line, at, theme);
     }
@@ -97,19 +98,30 @@ fn page_symbols(page: &PanelPage, figures: &[Option<Figure>], options: &Options,
         add(Mark::Band(ink), &key.straight);
     }
     if has("μ") {
-        add(Mark::Letter("μ"), "transmission angle");
+        add(Mark::Letter("μ"), TRANSMISSION_ANGLE);
     }
     symbols
 }
 
-/// Draws the panels; the result is the scale of their linkages, if it is common to all.
+/// What the symbol μ of the facts means.
+const TRANSMISSION_ANGLE: &str = "transmission angle";
+
+/// What was decided when the panels of a page were drawn.
+struct DrawnPanels {
+    /// The scale of the linkages in millimetres to a unit, if it is common to all.
+    scale: Option<f64>,
+    /// Whether the facts of the cells are under the figures.
+    has_facts: bool,
+}
+
+/// Draws the panels.
 fn draw_panels<A: Area>(
     root: &A,
     page: &PanelPage,
     figures: &[Option<Figure>],
     options: &Options,
     theme: &Theme,
-) -> Option<f64> {
+) -> DrawnPanels {
     let [columns, rows] = page.layout.grid();
     let areas = root.grid_cells(rows, columns);
     let size = areas[0].size();
@@ -127,7 +139,8 @@ fn draw_panels<A: Area>(
     let most_text = (1.0 - MIN_FIGURE) * size.y;
     // Facts that leave too little to the figures are left out: captions say how the linkages are built, and the facts are
     // in the table of cells.
-    let texts = Some(texts(facts)).filter(|texts| foot(texts) <= most_text).unwrap_or_else(|| texts(FactsLayout::None));
+    let facts = if foot(&texts(facts)) <= most_text { facts } else { FactsLayout::None };
+    let texts = texts(facts);
     let foot = foot(&texts).min(most_text);
     // One arrangement fits all panels: a page is split to within a hundredth of a millimetre.
     let figure_rect = |area: &A| {
@@ -170,7 +183,7 @@ fn draw_panels<A: Area>(
         draw_number(area, panel, theme);
         draw_lines(area, lines, area.size().y - foot, theme);
     }
-    scale
+    DrawnPanels { scale, has_facts: facts != FactsLayout::None }
 }
 
 /// The theme with the size of captions at which all of a page fit on a line, if that is not much smaller.
