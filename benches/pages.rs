@@ -30,7 +30,8 @@ fn compose(plan: &Plan, solved: &SolvedCell) -> Vec<Scene> {
             .with_page(page, page_count);
         let panel = Panel::new(solved).with_caption(caption).with_note(note).with_facts(facts).with_pose(pose.clone());
         let straight_criterion = family.straight;
-        let sheet = CouplerGridPage { heading, panel, curve_indices: shown, labels: &[], straight_criterion };
+        let sheet =
+            CouplerGridPage { heading, panel, curve_indices: shown, labels: &[], key: None, straight_criterion };
         page::compose_coupler_grid(&sheet, &plan.page)
     };
     (1..).zip(pages).map(sheet).collect()

@@ -5,7 +5,9 @@ use std::rc::Rc;
 
 use crate::manifest::{Plan, PlannedFamily};
 use coupler_curves::family::{CaptionParameter, Family};
-use coupler_curves::solve::SolvedCell;
+use coupler_curves::linkage::FourBar;
+use coupler_curves::motion::Sampler;
+use coupler_curves::solve::{SolvedCell, solve_cell};
 use coupler_drawing::chart::{Chart, ChartData};
 use coupler_drawing::page::{
     self, ChartPage, CouplerGridPage, Heading, Key, Layout, LinkLabel, Panel, PanelPage, PoseChoice,
@@ -20,6 +22,14 @@ fn link_labels(family: &Family, solved: &SolvedCell) -> Vec<LinkLabel> {
         Some(LinkLabel { joints: [from?, to?], text })
     };
     family.template.link_length_names().into_iter().filter_map(label).collect()
+}
+
+/// The first cell of a family that has a curve, of as many as are solved in an instant.
+fn first_with_curve(family: &Family) -> Option<SolvedCell> {
+    const MOST: usize = 64;
+    let sampler = Sampler::new(family.sampling);
+    let solve = |k: usize| solve_cell(family, &sampler, k).filter(|solved| !solved.curves.is_empty());
+    (0..family.cell_count().min(MOST)).find_map(solve)
 }
 
 /// Composes the pages of a family as scenes.
@@ -88,16 +98,21 @@ impl<'a> Composer<'a> {
     ) -> impl Iterator<Item = (usize, Vec<usize>, impl FnOnce() -> Scene)> {
         let &Composer { plan, planned, .. } = self;
         let labels = Rc::new(link_labels(&planned.family, solved));
+        // The lengths of a four-bar's links are all its dimensions.
+        let is_four_bar = FourBar::from_linkage(&solved.linkage).is_some();
+        let key = Rc::new((!is_four_bar).then(|| Key::for_cell(&planned.family, &solved.cell)));
         // All pages of a cell have the same pose; it is computed when the first of them is drawn.
         let pose =
             Rc::new(LazyCell::new(|| page::clearest_pose(solved).map_or(PoseChoice::Clearest, PoseChoice::Fixed)));
         (page..).zip(curves_by_page(solved)).map(move |(page, curve_indices)| {
-            let (labels, pose, indices) = (Rc::clone(&labels), Rc::clone(&pose), curve_indices.clone());
+            let (labels, key, pose) = (Rc::clone(&labels), Rc::clone(&key), Rc::clone(&pose));
+            let indices = curve_indices.clone();
             let compose = move || {
                 let heading = self.heading(page, planned.source.clone());
                 let panel = self.panel(solved).with_pose(PoseChoice::clone(&pose));
                 let straight_criterion = planned.family.straight;
-                let sheet = CouplerGridPage { heading, panel, curve_indices, labels: &labels, straight_criterion };
+                let key = Option::as_ref(&key);
+                let sheet = CouplerGridPage { heading, panel, curve_indices, labels: &labels, key, straight_criterion };
                 page::compose_coupler_grid(&sheet, &plan.page)
             };
             (page, indices, compose)
@@ -114,12 +129,15 @@ impl<'a> Composer<'a> {
             source.push(format!("only the first {} of {curves} curves are drawn", curves - left_out));
         }
         source.retain(|part| !part.is_empty());
+        let solved = first_with_curve(&planned.family);
+        let panel = solved.as_ref().map(Panel::new);
         let sheet = ChartPage {
             heading: self.heading(page, source.join(" · ")).with_dimensions(&self.key.dimensions),
             layout: planned.layout,
             chart,
             quantity_range: first..(first + planned.layout.cells_per_page()).min(chart.y.len()),
             series: &data.series,
+            key: panel.as_ref().map(|panel| (&self.key, panel)),
         };
         page::compose_charts(&sheet, &plan.page)
     }

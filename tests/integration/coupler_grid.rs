@@ -100,6 +100,7 @@ fn pages(family: &Family, source: &str, solved: &SolvedCell, options: &Options) 
             heading,
             panel,
             curve_indices: shown.clone(),
+            key: None,
             labels: &labels,
             straight_criterion: family.straight,
         };

@@ -236,6 +236,36 @@ fn linkages_are_shown_at_their_limits_where_the_manifest_asks_for_it() {
     assert!(!pages(&text, &plan(&text))[0].svg.contains("class=\"ghost\""));
 }
 
+/// A manifest of forty panels on a sheet of a size.
+fn forty_panels(paper: &str) -> String {
+    let cranks = "[0.5, 0.625, 0.75, 0.875, 1, 1.125, 1.25, 1.375]";
+    format!(
+        "[atlas]\ntitle = \"T\"\n[page]\npaper = \"{paper}\"\n[[family]]\nid = \"f\"\nlinkage = \"four-bar\"\n\
+         panels = [8, 5]\ngrid = {{ crank = {cranks}, across = [0, 0.25, 0.5, 0.75, 1] }}\n\
+         let = {{ frame = 4, coupler = 3.125, rocker = 3.5, along = 1.5 }}"
+    )
+}
+
+#[test]
+fn enlarged_curves_are_at_least_twice_as_large_and_no_text_is_below_six_points() {
+    let mut factors = 0;
+    for text in manifests().into_iter().chain(["a4", "tabloid"].map(forty_panels)) {
+        let plan = plan(&text);
+        for Page { svg, planned, .. } in pages(&text, &plan) {
+            let stated = texts(&svg);
+            for factor in stated.iter().filter_map(|line| line.rsplit_once("× ")?.1.parse::<f64>().ok()) {
+                assert!(factor >= 2.0, "{}: {factor}", planned.family.id);
+                factors += 1;
+            }
+            for size in svg.split("font-size=\"").skip(1).map(|rest| rest.split('"').next().unwrap()) {
+                let points = size.parse::<f64>().unwrap() / 25.4 * 72.0;
+                assert!(points >= 6.0 - 0.005, "{}: {points}", planned.family.id);
+            }
+        }
+    }
+    assert!(factors > 20, "{factors}");
+}
+
 /// A manifest of a linkage with points on its coupler, each placed from the one before.
 fn with_coupler_points(count: usize) -> String {
     let point = |k: usize| format!("T{} = {{ point = [\"A\", \"T{k}\"], along = 2, across = 0.1 }}\n", k + 1);

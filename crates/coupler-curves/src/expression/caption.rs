@@ -99,7 +99,7 @@ impl Caption {
                     match decimals {
                         _ if value.is_nan() => out.push('–'),
                         _ if value.is_infinite() => out.push_str(if value > 0.0 { "∞" } else { "−∞" }),
-                        Some(n) => out.push_str(&format!("{value:.n$}")),
+                        Some(n) => out.push_str(&format_fixed(value, *n)),
                         None => out.push_str(&round_to_six_digits(value).to_string()),
                     }
                 }
@@ -130,6 +130,13 @@ fn parse_value(text: &str, start: usize, end: usize) -> Result<Piece, Error> {
     let expression =
         Expression::parse(source).map_err(|e| Error { span: start + e.span.start..start + e.span.end, ..e })?;
     Ok(Piece::Value { expression, decimals, start })
+}
+
+/// A number with a fixed number of decimals; a zero has no minus sign.
+pub fn format_fixed(value: f64, decimals: usize) -> String {
+    let number = format!("{value:.decimals$}");
+    let is_zero = number.chars().all(|c| matches!(c, '-' | '0' | '.'));
+    if is_zero { number.trim_start_matches('-').to_owned() } else { number }
 }
 
 #[cfg(test)]

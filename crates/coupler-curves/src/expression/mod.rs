@@ -26,7 +26,7 @@ mod program;
 mod quantity;
 mod scope;
 
-pub use caption::{Caption, round_to_six_digits};
+pub use caption::{Caption, format_fixed, round_to_six_digits};
 pub use function::Function;
 pub use math_text::{MathPiece, MathText, format_exactly, format_in_full};
 pub use program::{CompiledExpression, Expression, Kind, PostfixToken};

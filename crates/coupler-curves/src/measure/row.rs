@@ -58,7 +58,9 @@ impl Row {
             before += curve.pieces[piece].input_travel();
         }
         if !curve.is_closed {
-            places.push((Place { piece: curve.arcs.len() - 1, u: 1.0 }, 0.0));
+            // The end is approached at the speed of the interval before it.
+            let step = places.last().map_or(0.0, |(_, step)| *step);
+            places.push((Place { piece: curve.arcs.len() - 1, u: 1.0 }, step));
             travel.push(before);
         }
         let mut points = curve.points(&places.iter().map(|(place, _)| *place).collect::<Vec<Place>>());

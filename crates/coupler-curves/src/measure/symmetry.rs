@@ -83,8 +83,10 @@ pub(super) fn find_symmetry(curve: &TracedCurve) -> Option<Symmetry> {
     let extent = curve.extent();
     let row = curve.row()?;
     let images = MirrorImages::new(row);
-    // If a linkage has two circuits, their curves may be mirror images of each other, and not of themselves.
-    if let Some((axis, theorem)) = axis_by_theorem(curve)
+    // If a linkage has two circuits, their curves may be mirror images of each other, and not of themselves. A part of a
+    // curve does not have the axis of the whole.
+    if row.is_closed
+        && let Some((axis, theorem)) = axis_by_theorem(curve)
         && (has_one_circuit(curve) || images.residual(axis, FEW_POINTS) <= MAX_ROUGH_RESIDUAL * extent)
     {
         let residual = residual_by_sextic(curve, row, axis).unwrap_or_else(|| images.exact_residual(axis)) / extent;

@@ -151,6 +151,12 @@ impl<'a> MirrorImages<'a> {
         AxisCandidates::Lines(lines)
     }
 
+    /// The indices of every nth point, and of the end of an open curve, whose image is often furthest away.
+    fn every_nth(&self, n: usize) -> impl Iterator<Item = usize> {
+        let end = (!self.row.is_closed).then(|| self.points.len() - 1);
+        (0..self.points.len()).step_by(n).chain(end)
+    }
+
     /// The greatest distance of the mirror images of about `count` points of the row from the curve.
     pub fn residual(&self, axis: SymmetryAxis, count: usize) -> f64 {
         self.greatest_distance(axis, count).0
@@ -160,7 +166,7 @@ impl<'a> MirrorImages<'a> {
     fn greatest_distance(&self, axis: SymmetryAxis, count: usize) -> (f64, usize) {
         let mut near = 0;
         let mut most = (0.0, 0);
-        for k in (0..self.points.len()).step_by((self.points.len() / count).max(1)) {
+        for k in self.every_nth((self.points.len() / count).max(1)) {
             let image = axis.mirror(self.points[k]);
             near = self.nearest(image, near);
             // The curve is no further away than its nearest point of the row.
@@ -205,7 +211,7 @@ impl<'a> MirrorImages<'a> {
             near = self.nearest(axis.mirror(self.points[k]), near);
             (k, near)
         };
-        let mut pairs: Vec<(usize, usize)> = (0..self.points.len()).step_by(stride).map(nearest).collect();
+        let mut pairs: Vec<(usize, usize)> = self.every_nth(stride).map(nearest).collect();
         let start = axis;
         // Least squares first: a few points that are compared with the wrong one of two neighbouring parts of the curve
         // do not hold them up.

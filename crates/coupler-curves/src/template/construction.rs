@@ -1,7 +1,7 @@
 //! The construction of a linkage in words: for each joint, the lengths and angles that place it.
 
-use super::{Coordinate, InputValue, JointKindTemplate, Template};
-use crate::expression::{CompiledExpression, MathText, Unit};
+use super::{Coordinate, JointKindTemplate, Template};
+use crate::expression::{CompiledExpression, MathText};
 
 impl Template {
     /// How a joint, by its index in [`Template::joints`], is placed: "AB = a, CB = s". The dimensions are as in the
@@ -33,13 +33,13 @@ impl Template {
                 let geared = geared.with(length(*pivot, own_length)).with_words(", ratio ").with(ratio);
                 match is_zero(&phase.value) {
                     true => geared,
-                    false => geared.with_words(", ahead by ").with(angle(phase)),
+                    false => geared.with_words(", ahead by ").with(phase.to_math_text()),
                 }
             }
             JointKindTemplate::Piston { base: [from, pivot], length: crank, offset, .. } => {
                 let driven = MathText::from_words("pin of the crank, ").with(length(*pivot, crank));
                 let driven = driven.with_words(format!(", driven by the actuator from {}", name(*from)));
-                with_unless_zero(driven, ", its line offset by ", offset, "")
+                with_unless_zero(driven, ", its line at a distance of ", offset, &format!(" from {}", name(*from)))
             }
             JointKindTemplate::Dyad { base: [a, b], lengths: [first, second], .. } => {
                 length(*a, first).with_words(", ").with(length(*b, second))
@@ -52,7 +52,8 @@ impl Template {
             JointKindTemplate::Yoke { from, line: along, offset, angle: slot } => {
                 let guided = MathText::from_words(format!("yoke on a guide along {}", between(*along)));
                 let guided = with_unless_zero(guided, ", ", offset, " to its left");
-                let slot = MathText::from_words(format!("; {} moves in its slot at ", name(*from))).with(angle(slot));
+                let slot =
+                    MathText::from_words(format!("; {} moves in its slot at ", name(*from))).with(slot.to_math_text());
                 guided.with(slot).with_words(" to the guide")
             }
             JointKindTemplate::Slot { base: [pivot, through], offset, .. } => MathText::from_words(format!(
@@ -110,18 +111,6 @@ fn line(a: &str, b: &str) -> String {
 fn join_names(names: &[&str]) -> String {
     let are_letters = names.iter().all(|name| name.chars().nth(1).is_none());
     names.join(if are_letters { "" } else { "–" })
-}
-
-/// An angle; a number with its unit.
-fn angle(value: &InputValue) -> MathText {
-    let is_number = value.value.slots().is_empty();
-    // The value of a parameter is stated with its unit.
-    let unit = match value.unit {
-        Some(Unit::Deg) if is_number => "°",
-        Some(Unit::Rad) if is_number => " rad",
-        _ => "",
-    };
-    value.value.to_math_text().with_words(unit)
 }
 
 /// The text with a dimension between words, unless the dimension is always 0.
@@ -182,7 +171,11 @@ mod tests {
             ("klann", "Hip", "Knee–Hip = b, Upper–Hip = c"),
             ("slider-crank", "X", "fixed point at (1, 0)"),
             ("slider-crank", "B", "slider, AB = coupler, on a line along OX, offset to its left"),
-            ("linear-actuator", "A", "pin of the crank, OA = r, driven by the actuator from C, its line offset by e"),
+            (
+                "linear-actuator",
+                "A",
+                "pin of the crank, OA = r, driven by the actuator from C, its line at a distance of e from C",
+            ),
             ("inverted-slider-crank", "B", "foot of the perpendicular from C to the bar that slides through A, CB = e"),
             ("geared-five-bar", "D", "pin of a crank geared to A, PD = d, ratio n : m, ahead by phase"),
             (

@@ -9,7 +9,7 @@ pub use joint_kind::{Coordinate, JointKindTemplate};
 pub use order::{DependencyCycle, dependency_order};
 pub use parameter::{Parameter, ParameterKind};
 
-use crate::expression::{Caption, CompiledExpression, Unit};
+use crate::expression::{Caption, CompiledExpression, MathText, Unit};
 use crate::linkage::{self, BranchArc, JointId, LinkageBuilder, MotionOptions};
 
 pub use crate::linkage::{CircuitSelection, CoincidentDyads, Continuation, Linkage, Orientation, Side};
@@ -77,6 +77,17 @@ impl InputValue {
     fn evaluate(&self, values: &[f64]) -> f64 {
         let value = self.value.evaluate(|slot| values[slot]);
         self.unit.map_or(value, |unit| unit.to_base_unit(value))
+    }
+
+    /// The value as it is printed: a number with its unit; that of a parameter is stated with its unit.
+    pub fn to_math_text(&self) -> MathText {
+        let is_number = self.value.slots().is_empty();
+        let unit = match self.unit {
+            Some(Unit::Deg) if is_number => "°",
+            Some(Unit::Rad) if is_number => " rad",
+            _ => "",
+        };
+        self.value.to_math_text().with_words(unit)
     }
 }
 

@@ -65,3 +65,39 @@ fn other_symmetrical_curves_are_found_by_their_shape() {
         *TracedCurve::new(&linkage, &motion, &motion.circuits[0], linkage.traced[0]).symmetry().expect("a curve");
     assert_eq!((circle.axis, circle.residual), (None, 0.0));
 }
+
+/// The distance of a point from a polyline.
+fn distance(point: Point, line: &[Point]) -> f64 {
+    let to_segment = |pair: &[Point]| {
+        let along = pair[1] - pair[0];
+        let part = ((point - pair[0]).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
+        (point - (pair[0] + along * part)).norm()
+    };
+    line.windows(2).map(to_segment).fold(f64::INFINITY, f64::min)
+}
+
+/// Over a part of a turn a curve is open: its ends count, and it does not have the axis of the whole curve.
+#[test]
+fn the_residual_of_an_open_curve_is_that_of_its_image_including_its_ends() {
+    let lengths = [[4.0, 1.0, 3.0, 3.5], [2.0, 1.0, 2.5, 2.5]];
+    let mut closest = f64::INFINITY;
+    for (k, lengths) in lengths.into_iter().cycle().take(12).enumerate() {
+        let linkage = four_bar(lengths, (0.5 + 0.5 * k as f64, 0.25 * k as f64));
+        let range = Some([30.0, 60.0 + 20.0 * k as f64]);
+        let motion_options = MotionOptions { range, ..linkage.motion_options.clone() };
+        let linkage = Linkage { motion_options, ..linkage };
+        let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(2000)));
+        let (circuit, joint) = (&motion.circuits[0], linkage.traced[2]);
+        let curve = TracedCurve::new(&linkage, &motion, circuit, joint);
+        let symmetry = *curve.symmetry().expect("a curve");
+        let axis = symmetry.axis.expect("an axis");
+        let points: Vec<Point> = circuit.points(joint).collect();
+        let far = points.iter().step_by(7).map(|p| distance(axis.mirror(*p), &points)).fold(0.0, f64::max);
+        let ends = [points[0], points[points.len() - 1]].map(|p| distance(axis.mirror(p), &points));
+        let brute = ends.into_iter().fold(far, f64::max) / curve.extent();
+        assert!((symmetry.residual - brute).abs() <= 0.01 * brute + 1e-6, "{k}: {symmetry:?}, not {brute}");
+        assert_eq!(symmetry.theorem, None);
+        closest = closest.min(symmetry.residual);
+    }
+    assert!((1e-4..0.1).contains(&closest), "{closest}");
+}

@@ -249,6 +249,16 @@ impl<'a> ChartBuilder<'a> {
         has_one_line.then(|| ordered_places(&self.groups)).flatten()
     }
 
+    /// What the curve of the n-th traced joint, from 1, is called.
+    fn path_name(&self, trace: usize) -> String {
+        let template = &self.family.template;
+        let name = |&joint: &usize| template.joints[joint].name.as_str();
+        let traced = template.traced.get(trace - 1).map(name);
+        // A grid of points has one name for all of them.
+        let is_alone = template.traced.iter().filter(|joint| Some(name(joint)) == traced).count() == 1;
+        traced.filter(|_| is_alone).map_or_else(|| format!("trace {trace}"), |name| format!("path of {name}"))
+    }
+
     /// The label of each line, with only those values that are not the same for all lines.
     fn labels(&self) -> Vec<String> {
         let keys: Vec<LineKey> = self.lines.keys().copied().collect();
@@ -267,7 +277,7 @@ impl<'a> ChartBuilder<'a> {
             };
             let mut parts: Vec<String> = names.iter().map(value).collect();
             parts.extend(needs_cell.then(|| format!("no. {cell}")));
-            parts.extend(traces.then(|| format!("trace {trace}")));
+            parts.extend(traces.then(|| self.path_name(trace)));
             parts.extend(circuits.then(|| format!("circuit {circuit}")));
             parts.join(", ")
         };

@@ -13,7 +13,11 @@ fn contents_size(paper: Paper, theme: &Theme) -> Vector {
 
 /// The most columns and rows of charts on a page: at its smallest, a chart is 18 ems of a caption wide and 12 high.
 pub(super) fn max_grid(paper: Paper, theme: &Theme) -> [usize; 2] {
-    let contents = contents_size(paper, theme);
+    max_in(contents_size(paper, theme), theme)
+}
+
+/// The most columns and rows of charts in contents of a size.
+pub(super) fn max_in(contents: Vector, theme: &Theme) -> [usize; 2] {
     let em = theme.for_panel_size(Vector::zeros()).caption_size;
     let fit = |length: f64, least: f64| ((length / least).floor() as usize).max(1);
     [fit(contents.x, 18.0 * em), fit(contents.y, 12.0 * em)]

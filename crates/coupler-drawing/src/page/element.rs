@@ -2,10 +2,10 @@
 
 use std::collections::HashSet;
 
-use super::theme::Theme;
 use super::typography::is_article;
 use crate::scene::{
-    Anchor, Animation, Circle, Color, Curve, Face, Group, Item, Path, Polyline, Stroke, Text, TextRun, Typeface,
+    Anchor, Animation, Circle, Color, Curve, Face, Group, Item, MIN_TEXT_SIZE, Path, Polyline, Stroke, Text, TextRun,
+    Typeface,
 };
 use coupler_curves::expression::{MathPiece, MathText};
 use coupler_curves::geometry::{Point, Similarity, Spline, Vector};
@@ -191,23 +191,26 @@ impl TextLine {
         TextLine { text: Text { position, ..self.text } }
     }
 
-    /// The line as it is if it fits `width` at no less than 85 % of its size; otherwise lines that do: broken at the
-    /// separators of its parts if these fit, or else between words at 85 % of its size. Nothing is left out but what remains
+    /// The line as it is if it fits `width` at no less than [`TextLine::min_part`] of its size; otherwise lines that
+    /// do: broken at the separators of its parts if these fit, or else between words at that part of its size. Nothing is left out but what remains
     /// of a word that is wider.
     pub fn fit_or_wrap(mut self, width: f64) -> Vec<TextLine> {
-        let natural = self.text.width();
-        if TextLine::MIN_PART * natural <= width {
+        let least = TextLine::min_part(self.text.size);
+        if least * self.text.width() <= width {
             return vec![self.fit_width(width)];
         }
         let text: String = self.text.runs.iter().map(|run| run.text.as_str()).collect();
         if text.split(" · ").any(|part| self.with_words(part).text.width() > width) {
-            self.text.size = (TextLine::MIN_PART * self.text.size).max(Theme::MIN_TEXT_SIZE.min(self.text.size));
+            self.text.size *= least;
         }
         self.wrap_at_separators(width).iter().map(|words| self.with_words(words).fit_width(width)).collect()
     }
 
-    /// The part of its size that a line may have to fit a width before it is broken.
-    pub const MIN_PART: f64 = 0.85;
+    /// The least part of its size that a line may have to fit a width before it is broken: 85 %, but no text becomes
+    /// smaller than [`MIN_TEXT_SIZE`].
+    pub fn min_part(size: f64) -> f64 {
+        (MIN_TEXT_SIZE / size).clamp(0.85, 1.0)
+    }
 
     /// A line like this one with other words, all in the face of its first run.
     fn with_words(&self, words: &str) -> TextLine {
@@ -234,7 +237,8 @@ impl TextLine {
         lines
     }
 
-    /// The line fitted to `width`: set smaller, down to two thirds, and then truncated.
+    /// The line fitted to `width`: set smaller, down to two thirds but not below [`MIN_TEXT_SIZE`], and then
+    /// truncated.
     pub fn fit_width(self, width: f64) -> TextLine {
         self.fit_width_with_suffix("", width)
     }
@@ -248,7 +252,8 @@ impl TextLine {
         // Rounding is tolerated: `width` may have been computed from this very text, or the size from `width`.
         let tolerated = width * (1.0 + 1e-9);
         if natural > tolerated {
-            self.text.size *= (width / natural).max(2.0 / 3.0);
+            let least = (2.0 / 3.0 * self.text.size).max(MIN_TEXT_SIZE.min(self.text.size));
+            self.text.size = (self.text.size * width / natural).max(least);
         }
         let width = tolerated;
         if !suffix.is_empty() {
@@ -287,13 +292,17 @@ impl TextLine {
         }
     }
 
-    /// The text in lines no wider than `width`, broken between words.
+    /// The text in lines no wider than `width`, broken between words; a name stays with its value if both fit a line.
     pub fn wrap(&self, width: f64) -> Vec<String> {
         let text: String = self.text.runs.iter().map(|run| run.text.as_str()).collect();
         let is_wider =
             |line: &str| self.text.runs.first().is_some_and(|run| run.face.width(line, self.text.size) > width);
         let mut lines: Vec<String> = Vec::new();
-        for word in text.split(' ') {
+        let words = equations(&text).into_iter().flat_map(|part| match is_wider(part) {
+            true => part.split(' ').collect(),
+            false => vec![part],
+        });
+        for word in words {
             match lines.last_mut() {
                 Some(line) if !is_wider(&format!("{line} {word}")) => {
                     line.push(' ');
@@ -312,6 +321,20 @@ impl Element for TextLine {
     fn to_item(&self, origin: Vector) -> Item {
         translated(&Item::Text(self.text.clone()), origin)
     }
+}
+
+/// The words of a text; what is on both sides of an equals sign is one of them.
+fn equations(text: &str) -> Vec<&str> {
+    let mut words = Vec::new();
+    let mut start = 0;
+    for (at, _) in text.match_indices(' ') {
+        if !(text[at..].starts_with(" = ") || text[..at].ends_with(" =")) {
+            words.push(&text[start..at]);
+            start = at + 1;
+        }
+    }
+    words.push(&text[start..]);
+    words
 }
 
 /// The exponent at the start of a text, after its `^`: a number, a name, or what parentheses enclose, with them.

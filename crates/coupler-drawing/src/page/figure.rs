@@ -1,14 +1,15 @@
 //! The figure of a cell: its curves and the linkage that traces them.
 
 use super::area::Area;
-use super::arrangement::{Arrangement, Extents, Rect};
+use super::arrangement::{Arrangement, Extents, SCALE_ROUNDING};
 use super::element::{CouplerCurve, Drawing};
 use super::labels::{Obstacles, label_line};
 use super::marks;
 use super::mechanism::PosedMechanism;
-use super::motion_marks::{MotionMarks, TickPoses};
+use super::motion_marks::{MotionMarks, TickPoses, TickSteps};
 use super::plot::{Plot, round_number_below};
 use super::pose;
+use super::rect::Rect;
 use super::symbols::{self, Mark, Symbol};
 use super::theme::Theme;
 use super::{Options, Panel, PanelPage, PoseChoice};
@@ -25,11 +26,9 @@ use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 /// be compared with its samples to 0.01 mm.
 pub(super) const MAX_CURVE_ERROR: f64 = 0.009;
 
-/// The rounding of a scale that is computed from a frame: panels of a page differ in size by a hundredth of a millimetre.
-const SCALE_ROUNDING: f64 = 1e-3;
-
-/// The least side of a frame in which inputs are numbered, in ems of the numbers: in a smaller one they hide the curve.
-const MIN_NUMBERED_FRAME: f64 = 14.0;
+/// The least width and height of a frame in which inputs are numbered, in ems of the numbers: in a smaller one they hide the
+/// curve.
+const MIN_NUMBERED_FRAME: [f64; 2] = [14.0, 5.0];
 
 /// The range of the input that a dash and its gap span: `dash_deg` for an angle; for a length, the greatest round
 /// number up to a twentieth of the longest pass.
@@ -187,20 +186,19 @@ impl<'a> Figure<'a> {
         &self,
         area: &impl Area,
         whole: Rect,
-        (arrangement, scale): (Arrangement, Option<f64>),
+        (arrangement, scale, period): (Arrangement, Option<f64>, f64),
         page: &PanelPage,
-        (options, curve_theme, theme): (&Options, &Theme, &Theme),
+        [curve_theme, theme]: [&Theme; 2],
     ) {
         let [frame, key] = arrangement.rects(whole);
         let key = Plot::new(key, theme);
-        let period = self.dash_period(options);
         let in_dashes = |plot: &Plot, curves: &[&MeasuredCurve], obstacles: &[Item], theme: &Theme| {
             let paths = self.paths(plot, curves, period, theme);
             let axes = marks::symmetry_axis_items(self.solved_cell, curves, plot, theme);
             let mut avoided = Obstacles::default();
             [obstacles, &axes].into_iter().for_each(|items| avoided.add(items, false));
             self.draw_marks(area, plot, curves, axes, theme);
-            self.draw_motion_marks(area, plot, curves, &paths, avoided, theme);
+            self.draw_motion_marks(area, plot, curves, (&paths, period), avoided, theme);
             self.draw_curves(area, plot, page, curves, (paths, period), theme);
         };
         let key = key.fitted_to(self.extents.linkage);
@@ -211,7 +209,7 @@ impl<'a> Figure<'a> {
             Some(_) => (key, ", reduced"),
             None => (key, ""),
         };
-        key.draw_scale_bar(area, remark, theme);
+        key.draw_scale_bar(area, &[remark.to_owned()], theme);
         self.draw_underlay(area, &key, theme);
         if arrangement == Arrangement::Combined {
             let linkage = self.linkage_items(&key, theme);
@@ -224,8 +222,9 @@ impl<'a> Figure<'a> {
             for ((circuits, bounds), frame) in self.groups.iter().zip(&self.extents.curves).zip(frames) {
                 let plot = Plot::new(frame, curve_theme).fitted_to(*bounds);
                 let enlargement = plot.page_from_plane.scale / key.page_from_plane.scale;
-                let remark = format!(", enlarged × {}", marks::format_significant(enlargement, 2));
-                plot.draw_scale_bar(area, &remark, curve_theme);
+                let factor = marks::format_significant(enlargement, 2);
+                let remarks = [format!(", enlarged × {factor}"), format!(", × {factor}")];
+                plot.draw_scale_bar(area, &remarks, curve_theme);
                 let curves = self.solved_cell.curves.iter().filter(|curve| circuits.contains(&curve.circuit));
                 in_dashes(&plot, &curves.collect::<Vec<_>>(), &[], curve_theme);
             }
@@ -304,12 +303,13 @@ impl<'a> Figure<'a> {
         area: &impl Area,
         plot: &Plot,
         curves: &[&MeasuredCurve],
-        paths: &[JointPath],
+        (paths, period): (&[JointPath], f64),
         mut obstacles: Obstacles,
         theme: &Theme,
     ) {
         let solved = self.solved_cell;
-        let poses = |circuit: &Circuit| TickPoses::new(&solved.linkage, circuit);
+        let steps = TickSteps::new(&solved.linkage, period);
+        let poses = |circuit: &Circuit| TickPoses::new(&solved.linkage, circuit, steps);
         let poses: Vec<TickPoses> = solved.motion.circuits.iter().map(poses).collect();
         let marks = |curve: &&MeasuredCurve| {
             MotionMarks::new(&poses[curve.circuit - 1], curve.joint, plot, self.curve_ink(curve, theme), theme)
@@ -321,7 +321,8 @@ impl<'a> Figure<'a> {
             area.record(&Drawing { class: "motion", title: String::new(), items: marks.items.clone() });
         }
         let frame = plot.rect_above_scale_bar(theme);
-        if frame.size.x.min(frame.size.y) >= MIN_NUMBERED_FRAME * theme.small_size() {
+        let least = MIN_NUMBERED_FRAME.map(|ems| ems * theme.small_size());
+        if frame.size.x >= least[0] && frame.size.y >= least[1] {
             area.record(&MotionMarks::place_numbers(marks, &obstacles, frame, theme));
         }
     }
@@ -391,14 +392,19 @@ impl<'a> Figure<'a> {
         traced.map_or(theme.ink, |curve| self.curve_ink(curve, theme))
     }
 
+    /// The ink of the first curve.
+    pub fn first_ink(&self, theme: &Theme) -> Color {
+        self.curve_ink(&self.solved_cell.curves[0], theme)
+    }
+
     /// The ink of the first curve that has its straight portion marked.
     pub fn band_ink(&self, theme: &Theme) -> Option<Color> {
         let is_marked = |curve: &&MeasuredCurve| marks::visible_straight_portion(self.solved_cell, curve).is_some();
         self.solved_cell.curves.iter().find(is_marked).map(|curve| self.curve_ink(curve, theme))
     }
 
-    /// The symbols that explain the figure; `period` is that of dashes, if it is the same in all figures.
-    pub fn symbols(&self, period: Option<f64>, theme: &Theme) -> Vec<Symbol> {
+    /// The symbols that explain the figure; `period` is that of dashes.
+    pub fn symbols(&self, period: f64, theme: &Theme) -> Vec<Symbol> {
         let solved = self.solved_cell;
         let Some(first) = solved.curves.first() else { return Vec::new() };
         let ink = self.curve_ink(first, theme);

@@ -93,13 +93,10 @@ impl<'a> Heading<'a> {
         let page = root.size();
         let mut at = draw_title(root, self.family_title, theme);
         let (left, right) = (at.x, page.x - at.x);
-        let source_line = |text: &str, at| {
-            theme.text_line(text, at, Anchor::Start, theme.source_size, theme.grey).with_italics(self.symbols)
-        };
+        let source_line = |text: &str, at| theme.text_line(text, at, Anchor::Start, theme.source_size, theme.grey);
         // A source too long for one line is broken at separators.
-        let source = source_line(&self.source, Point::origin());
-        for line in source.wrap_at_separators(right - left) {
-            root.record(&source_line(&line, at).fit_width(right - left));
+        for line in source_line(&self.source, Point::origin()).wrap_at_separators(right - left) {
+            root.record(&source_line(&line, at).with_italics(self.symbols).fit_width(right - left));
             at.y += SOURCE_LEADING * theme.source_size;
         }
         let dimension_line =

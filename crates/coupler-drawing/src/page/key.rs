@@ -1,7 +1,6 @@
 //! The key of a page: the linkage with the names of its joints, and how each joint is placed.
 
 use super::area::Area;
-use super::arrangement::Rect;
 use super::direction::DirectionMarks;
 use super::element::{Drawing, TextLine};
 use super::figure::Figure;
@@ -9,12 +8,14 @@ use super::labels::{LabelPlacer, Obstacles};
 use super::marks::straight_criterion_text;
 use super::mechanism::PosedMechanism;
 use super::plot::Plot;
+use super::rect::Rect;
 use super::theme::Theme;
-use crate::scene::{Anchor, Text};
+use crate::scene::{Anchor, Circle, Item, MIN_TEXT_SIZE, Text};
 use coupler_curves::expression::MathText;
 use coupler_curves::family::{Cell, Family};
-use coupler_curves::geometry::{Point, Vector};
-use coupler_curves::template::{JointTemplate, OutputLinkTemplate, Template};
+use coupler_curves::geometry::{Bounds, Point, Vector};
+use coupler_curves::linkage::{JointId, JointKind, OutputLink};
+use coupler_curves::template::{InputValue, JointTemplate, Template};
 
 /// What a page says about the linkages on it, so that they can be built: how the joints are placed by parameters, and
 /// the dimensions that are the same for all.
@@ -61,9 +62,21 @@ fn remarks(template: &Template) -> Vec<String> {
         (false, None) => "input: the crank's angle from 0, in the direction of its arrow",
         (false, Some(_)) => "input: the driving link's angle from 0, in the direction of its arrow",
     };
-    let output = template.output_link.map(|output| match output {
-        OutputLinkTemplate::Link([from, to]) => format!("output: the link from {} to {}", name(from), name(to)),
-        OutputLinkTemplate::Slider(joint) => format!("output: the slider {}", name(joint)),
+    let range = template.input.as_ref().map_or(String::new(), |[from, to]| {
+        let [from, to] = [from, to].map(InputValue::to_math_text);
+        format!(", from {from} to {to}")
+    });
+    let driven_by = format!("{driven_by}{range}");
+    let structure = template.structure().ok();
+    let output = structure.as_ref().and_then(|linkage| {
+        let name = |joint: JointId| &linkage.joints[joint].name;
+        Some(match linkage.output()? {
+            OutputLink::Link([from, to]) => format!("output: the link from {} to {}", name(from), name(to)),
+            OutputLink::Slot { base: [pivot, through], .. } => {
+                format!("output: the link from {} that slides through {}", name(pivot), name(through))
+            }
+            OutputLink::Slider { joint, .. } => format!("output: the slider {}", name(joint)),
+        })
     });
     let frame = template.seen_from.map(|[origin, x]| format!("drawn with {} and {} fixed", name(origin), name(x)));
     [driven_by.to_owned()].into_iter().chain(output).chain(frame).collect()
@@ -106,15 +119,15 @@ pub(super) fn draw(area: &impl Area, rect: Rect, key: &Key, figure: Option<&Figu
         draw_linkage(area, Rect { corner: rect.corner, size: drawing }, figure, theme);
     }
     let text = Rect { corner: text_corner, size: rect.corner + rect.size - text_corner };
-    draw_lines(area, text, key, theme);
+    draw_lines(area, text, &[], key, theme);
 }
 
-/// Writes the joints and the remarks in columns, from the upper left. Where they are too many, the text is smaller, and at
-/// last the number of lines that are left out is stated.
-fn draw_lines(area: &impl Area, rect: Rect, key: &Key, theme: &Theme) {
-    let smallest = Theme::MIN_TEXT_SIZE.min(theme.note_size);
+/// Writes dimensions, the joints of a key and its remarks in columns, from the upper left. Where they are too many, the text
+/// is smaller, and at last the number of lines that are left out is stated.
+pub(super) fn draw_lines(area: &impl Area, rect: Rect, dimensions: &[MathText], key: &Key, theme: &Theme) {
+    let smallest = MIN_TEXT_SIZE.min(theme.note_size);
     let sizes = [1.0, 0.9, 0.8, 0.7, 0.0].map(|part| (part * theme.note_size).max(smallest));
-    let layouts = sizes.map(|em| KeyLines::new(rect, key, em, theme));
+    let layouts = sizes.map(|em| KeyLines::new(rect, dimensions, key, em, theme));
     let [.., last] = &layouts;
     let layout = layouts.iter().find(|layout| layout.rows.len() <= layout.capacity()).unwrap_or(last);
     layout.draw(area, rect, theme);
@@ -134,7 +147,7 @@ struct KeyLines {
 }
 
 impl KeyLines {
-    fn new(rect: Rect, key: &Key, em: f64, theme: &Theme) -> KeyLines {
+    fn new(rect: Rect, dimensions: &[MathText], key: &Key, em: f64, theme: &Theme) -> KeyLines {
         let columns = (rect.size.x / (COLUMN_WIDTH * em)).floor().max(1.0);
         let width = rect.size.x / columns - em;
         let line = |text: &MathText, color| theme.math_line(text, Point::origin(), Anchor::Start, em, color);
@@ -142,7 +155,10 @@ impl KeyLines {
             key.joints.iter().map(|(name, _)| line(&MathText::from_words(name.as_str()), theme.ink)).collect();
         let indent = names.iter().map(|name| name.text.width()).fold(0.0, f64::max).min(0.4 * width) + 0.7 * em;
         let fits = |text: &MathText| line(text, theme.grey).text.width() <= width - indent;
-        let mut rows = Vec::new();
+        let fits_column = |text: &MathText| line(text, theme.ink).text.width() <= width;
+        let dimensions = MathText::join(dimensions.iter().cloned(), ", ").wrap(fits_column);
+        let dimensions = dimensions.iter().filter(|part| !part.pieces().is_empty());
+        let mut rows: Vec<_> = dimensions.map(|part| (None, line(part, theme.ink), 0.0)).collect();
         for (name, (_, construction)) in names.into_iter().zip(&key.joints) {
             let mut name = Some(name);
             for part in construction.wrap(fits) {
@@ -196,29 +212,55 @@ fn draw_linkage(area: &impl Area, rect: Rect, figure: &Figure, theme: &Theme) {
     let Some(mechanism) = figure.mechanisms.first() else { return };
     let letter = theme.caption_size;
     let frame = rect.inset(1.6 * letter);
-    let plot = Plot::whole(frame).fitted_to(mechanism.bounds());
+    let points = fixed_points(mechanism);
+    let at_points = points.iter().map(|&joint| mechanism.pose[joint]);
+    let plot = Plot::whole(frame).fitted_to(mechanism.bounds().union(Bounds::from_points(at_points)));
     let underlay = mechanism.underlay_items(&plot, theme);
     let links = mechanism.linkage_items(&plot, theme, |joint| figure.joint_ink(joint, theme));
     let least_radius = 4.0 * theme.joint_radius / plot.page_from_plane.scale;
     let directions = DirectionMarks::new(mechanism, figure.first_circuit(), least_radius).map(plot.page_from_plane);
-    let marks = directions.items(theme);
+    let mut marks = directions.items(theme);
+    let dot = |&joint: &JointId| Circle {
+        centre: plot.page_from_plane.apply(mechanism.pose[joint]),
+        radius: 0.35 * theme.joint_radius,
+        stroke: None,
+        fill: Some(theme.grey),
+    };
+    marks.extend(points.iter().map(dot).map(Item::Circle));
     let zero = theme.text_line("0°", Point::origin(), Anchor::Middle, theme.note_size, theme.grey).text;
     let mut obstacles = Obstacles::default();
     obstacles.add(&underlay, true);
     obstacles.add(&links, false);
     obstacles.add(&marks, false);
     let mut placer = LabelPlacer::new(&obstacles, rect, theme);
-    let names = joint_names(mechanism, &plot, theme).into_iter().chain(directions.zero_end().map(|at| (at, zero)));
+    let names =
+        joint_names(mechanism, &points, &plot, theme).into_iter().chain(directions.zero_end().map(|at| (at, zero)));
     let names = names.filter_map(|(at, name)| placer.place_at_point(at, name)).collect();
     for (class, items) in [("underlay", underlay), ("linkage", links), ("direction", marks), ("name", names)] {
         area.record(&Drawing { class, title: String::new(), items });
     }
 }
 
-/// The names of the joints that are drawn, and of those that are traced, with their positions.
-fn joint_names(mechanism: &PosedMechanism, plot: &Plot, theme: &Theme) -> Vec<(Point, Text)> {
+/// The fixed joints that are no pivots and only define lines, as far as they are near the linkage.
+fn fixed_points(mechanism: &PosedMechanism) -> Vec<JointId> {
+    /// The growth of the drawing up to which a point is shown.
+    const MAX_GROWTH: f64 = 1.3;
+    let (linkage, bounds) = (mechanism.linkage, mechanism.bounds());
+    let drawn = mechanism.drawn_joints();
+    let is_point = |joint: &JointId| {
+        let with = bounds.union(Bounds::from_points([mechanism.pose[*joint]]));
+        matches!(linkage.joints[*joint].kind, JointKind::Fixed(_))
+            && !drawn.contains(joint)
+            && with.size().max() <= MAX_GROWTH * bounds.size().max()
+    };
+    linkage.joint_ids().filter(is_point).collect()
+}
+
+/// The names of the joints that are drawn, of those that are traced and of fixed points, with their positions.
+fn joint_names(mechanism: &PosedMechanism, fixed_points: &[JointId], plot: &Plot, theme: &Theme) -> Vec<(Point, Text)> {
     let linkage = mechanism.linkage;
     let mut joints = mechanism.drawn_joints();
+    joints.extend(fixed_points);
     joints.extend(linkage.traced.iter().filter(|traced| !joints.contains(traced)).collect::<Vec<_>>());
     // A grid of points has one name for all of them.
     let mut named: Vec<&str> = Vec::new();

@@ -1,6 +1,6 @@
 //! The placement of labels: each next to its point, where it is clearest of everything that is drawn.
 
-use super::arrangement::Rect;
+use super::rect::Rect;
 use super::theme::Theme;
 use crate::scene::{Item, Polyline, Text};
 use coupler_curves::geometry::{Point, Vector, cross, distance_to_segment, trig};
@@ -190,9 +190,23 @@ impl<'a> LabelPlacer<'a> {
         Item::Text(Text { position: spot.centre + Vector::new(0.0, spot.half_size.y), ..text })
     }
 
-    /// Places a label at a point.
+    /// Places a label at a point, where it is clearest of everything.
     pub fn place_at_point(&mut self, centre: Point, text: Text) -> Option<Item> {
-        let (half, enough) = (half_size(&text), self.enough());
+        let (_, spot) = self.clearest_at_point(centre, &text)?;
+        Some(self.add(spot, text))
+    }
+
+    /// Places a label at a point if it overlaps nothing there.
+    pub fn place_if_clear(&mut self, centre: Point, text: Text) -> Option<Item> {
+        /// The least part of enough clearance: so that a label does not touch a line.
+        const LEAST: f64 = 0.4;
+        let (clearance, spot) = self.clearest_at_point(centre, &text)?;
+        (clearance >= LEAST * self.enough()).then(|| self.add(spot, text))
+    }
+
+    /// The clearest box for a label at a point, with its clearance.
+    fn clearest_at_point(&self, centre: Point, text: &Text) -> Option<(f64, LabelBox)> {
+        let (half, enough) = (half_size(text), self.enough());
         let within = |radii: f64| (radii + 1.0) * self.joint_radius + 2.0 * half.x;
         let around = self.obstacles.nearby(centre, within(RING_RADII[RING_RADII.len() - 1]));
         let ring = |radii: f64| {
@@ -205,8 +219,7 @@ impl<'a> LabelPlacer<'a> {
             let boxes = boxes_around(centre, half, radii * self.joint_radius);
             clearest_box(boxes.filter(|spot| self.is_free(spot)), clearance)
         };
-        let spot = best_box(ring, 1.25 * enough)?;
-        Some(self.add(spot, text))
+        best_box(ring, 1.25 * enough)
     }
 
     /// Places a label on a curve by its index as far as possible from a point, where it is clear of everything and
@@ -245,8 +258,9 @@ fn half_size(text: &Text) -> Vector {
 /// The distances of labels from their points, in radii of a joint.
 const RING_RADII: [f64; 6] = [1.6, 2.2, 3.0, 4.0, 5.2, 6.8];
 
-/// The clearest box of the nearest ring that has a clear enough one; if there is none, the clearest of all rings.
-fn best_box(ring: impl Fn(f64) -> Option<(f64, LabelBox)>, enough: f64) -> Option<LabelBox> {
+/// The clearest box of the nearest ring that has a clear enough one, with its clearance; if there is none, the clearest of
+/// all rings.
+fn best_box(ring: impl Fn(f64) -> Option<(f64, LabelBox)>, enough: f64) -> Option<(f64, LabelBox)> {
     let mut best: Option<(f64, LabelBox)> = None;
     for radii in RING_RADII {
         best = [best, ring(radii)].into_iter().flatten().reduce(clearer_box);
@@ -254,7 +268,7 @@ fn best_box(ring: impl Fn(f64) -> Option<(f64, LabelBox)>, enough: f64) -> Optio
             break;
         }
     }
-    best.map(|(_, spot)| spot)
+    best
 }
 
 /// The first box with the greatest clearance, with its clearance.

@@ -8,7 +8,7 @@ use crate::scene::{Color, Item, Path, Polyline};
 use coupler_curves::expression::{format_exactly, round_to_six_digits};
 use coupler_curves::family::{Family, StraightCriterion};
 use coupler_curves::geometry::{Bounds, Point, simplify_polyline};
-use coupler_curves::linkage::JointId;
+use coupler_curves::linkage::{Input, JointId, JointKind};
 use coupler_curves::measure::{StraightPortion, Symmetry, SymmetryAxis, Value};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 
@@ -16,7 +16,7 @@ use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 pub(super) const PAGE_MEASURES: [&str; 7] =
     ["class", "mu_min_deg", "mu_max_deg", "mu_worst_deg", "length", "straight_length", "symmetry"];
 
-/// The facts of a cell of a family: first its class and the range of its transmission angle, second its longest straight
+/// The facts of a cell of a family: first its class, the range of its transmission angle and that of its actuator, second its longest straight
 /// portion. Either may be empty.
 pub fn cell_facts(family: &Family, solved: &SolvedCell) -> [String; 2] {
     let Some(first) = solved.curves.first() else { return Default::default() };
@@ -27,7 +27,13 @@ pub fn cell_facts(family: &Family, solved: &SolvedCell) -> [String; 2] {
     if let (Value::Number(least), Value::Number(most)) = (first.value("mu_min_deg"), first.value("mu_max_deg")) {
         parts.push(transmission_text(least, most));
     }
-    let portions = solved.curves.iter().filter_map(|curve| Some((curve, curve.straight.as_ref()?)));
+    parts.extend(actuator_range(solved, first));
+    // The path of a slider on its guide is straight by construction.
+    let is_of_slider = |curve: &&MeasuredCurve| {
+        matches!(solved.linkage.joints[curve.joint].kind, JointKind::Slide { .. } | JointKind::Yoke { .. })
+    };
+    let portions = solved.curves.iter().filter(|curve| !is_of_slider(curve));
+    let portions = portions.filter_map(|curve| Some((curve, curve.straight.as_ref()?)));
     let longest = portions.max_by(|(_, a), (_, b)| a.length.total_cmp(&b.length));
     let straight = longest.map_or(String::new(), |(curve, portion)| {
         let unit = solved.linkage.input().unit_sign();
@@ -42,6 +48,14 @@ pub fn cell_facts(family: &Family, solved: &SolvedCell) -> [String; 2] {
         format!("{exactly}straight {times}{length}{deviation} over {:.1}{unit}{which}", portion.input_span)
     });
     [parts.join(" · "), straight]
+}
+
+/// The range of an actuator's length on the circuit of a curve.
+fn actuator_range(solved: &SolvedCell, curve: &MeasuredCurve) -> Option<String> {
+    let is_length = solved.linkage.input() == Input::Length;
+    let passes = solved.circuit(curve).passes.iter().filter(|_| is_length);
+    let [least, most] = passes.map(|pass| pass.input_range()).reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])?;
+    Some(format!("actuator {}–{}", format_significant(least, 4), format_significant(most, 4)))
 }
 
 /// The path of a curve by the name of its joint, where several joints are traced and their names differ.

@@ -133,7 +133,11 @@ impl<'a> PosedMechanism<'a> {
         let mut items = Vec::new();
         let heavy = Stroke { has_round_ends: true, ..theme.stroke(theme.ink, theme.link_width) };
         for &[pivot, joint] in &self.mechanism.actuators {
-            items.extend(actuator_items(at(pivot), at(joint), theme));
+            let offset = match self.linkage.joints[joint].kind {
+                JointKind::Piston { offset, .. } => offset * plot.page_from_plane.scale,
+                _ => 0.0,
+            };
+            items.extend(actuator_items(at(pivot), at(joint), offset, theme));
         }
         for LinkOutline { joints, .. } in &self.mechanism.links {
             let points: Vec<Point> = joints.iter().map(|&joint| at(joint)).collect();
@@ -194,14 +198,23 @@ pub(super) fn sliding_line(linkage: &Linkage, joint: JointId) -> Option<[JointId
     }
 }
 
-/// A linear actuator: its rod, and its cylinder on the half near `from`.
-fn actuator_items(from: Point, to: Point, theme: &Theme) -> [Item; 2] {
+/// A linear actuator: its rod, and its cylinder on the half near `pivot`, which its line passes at a distance of `offset`.
+fn actuator_items(pivot: Point, to: Point, offset: f64, theme: &Theme) -> [Item; 2] {
+    let whole = to - pivot;
+    // The line touches the circle of the offset about the pivot.
+    let sin = offset / whole.norm();
+    let is_offset = offset != 0.0 && sin.abs() < 1.0;
+    let from = match is_offset {
+        true => pivot + (whole * sin + left_normal(whole) * (1.0 - sin * sin).sqrt()) * sin,
+        false => pivot,
+    };
     let along = to - from;
     let across = left_normal(along).try_normalize(0.0).unwrap_or(Vector::zeros()) * (1.2 * theme.joint_radius);
     let (near, far) = (from + along * 0.1, from + along * 0.6);
     let points = vec![near - across, far - across, far + across, near + across];
     let stroke = Some(theme.stroke(theme.ink, theme.fine_width));
-    let rod = Path::stroked(vec![from, to], theme.stroke(theme.ink, theme.link_width));
+    let points_of_rod = if is_offset { vec![pivot, from, to] } else { vec![from, to] };
+    let rod = Path::stroked(points_of_rod, theme.stroke(theme.ink, theme.link_width));
     let cylinder = Path { polylines: vec![Polyline { points, is_closed: true }], stroke, fill: Some(theme.paper) };
     [Item::Path(rod), Item::Path(cylinder)]
 }

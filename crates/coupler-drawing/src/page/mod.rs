@@ -25,6 +25,7 @@ mod panel;
 mod panels;
 mod plot;
 mod pose;
+mod rect;
 mod symbols;
 mod theme;
 mod typography;
@@ -209,6 +210,8 @@ pub struct CouplerGridPage<'a> {
     pub curve_indices: Vec<usize>,
     /// The names of the links.
     pub labels: &'a [LinkLabel],
+    /// How the linkage is built, if the lengths of its links do not say it.
+    pub key: Option<&'a Key>,
     /// The criterion by which the straight portions were selected.
     pub straight_criterion: StraightCriterion,
 }
@@ -241,6 +244,8 @@ pub struct ChartPage<'a> {
     pub quantity_range: std::ops::Range<usize>,
     /// The lines of all charts.
     pub series: &'a [Series],
+    /// How the linkages are built, and one of them.
+    pub key: Option<(&'a Key, &'a Panel<'a>)>,
 }
 
 /// A page on which a curve is overlaid on the same curve as it was recorded earlier.

@@ -1,20 +1,36 @@
 //! Marks of the motion along a curve: its start with an arrowhead, and ticks at equal steps of the input.
 
-use super::arrangement::Rect;
 use super::element::Drawing;
 use super::labels::{LabelPlacer, Obstacles};
 use super::plot::Plot;
+use super::rect::Rect;
 use super::theme::Theme;
 use crate::scene::{Anchor, Color, Item, Path, Polyline};
+use coupler_curves::expression::{format_exactly, round_to_six_digits};
 use coupler_curves::geometry::{Point, Vector, left_normal};
 use coupler_curves::linkage::{Input, JointId, Linkage};
 use coupler_curves::motion::{self, Circuit, JointPositions};
 
-/// The input from a tick to the next, in degrees: a twelfth of a turn.
-pub(super) const TICK_DEG: f64 = 30.0;
+/// The input from a tick to the next, and from a number at a tick to the next, in degrees or as lengths.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct TickSteps {
+    pub tick: f64,
+    number: f64,
+}
 
-/// The input from a number at a tick to the next, in degrees.
-const NUMBER_DEG: f64 = 90.0;
+impl TickSteps {
+    /// The steps for a linkage: a twelfth and a quarter of a turn; for the length of an actuator five dashes with their
+    /// gaps, of which the greatest range has at least twenty.
+    pub fn new(linkage: &Linkage, dash_period: f64) -> TickSteps {
+        match linkage.input() {
+            Input::Length => {
+                let tick = round_to_six_digits(5.0 * dash_period);
+                TickSteps { tick, number: tick }
+            }
+            _ => TickSteps { tick: 30.0, number: 90.0 },
+        }
+    }
+}
 
 /// A point of a curve at an input, with the direction of the motion as the input increases or decreases along the
 /// circuit.
@@ -33,7 +49,7 @@ pub(super) struct MotionMarks {
 }
 
 impl MotionMarks {
-    /// The marks of the curve of a joint on a circuit; none if an actuator drives the linkage, whose input has no turn.
+    /// The marks of the curve of a joint on a circuit.
     ///
     /// Ticks closer together than they are long are left out.
     pub fn new(poses: &TickPoses, joint: JointId, plot: &Plot, ink: Color, theme: &Theme) -> MotionMarks {
@@ -50,8 +66,7 @@ impl MotionMarks {
             }
             last = Some(station.at);
             marks.items.push(tick_item(station.at, station.direction, ink, theme));
-            if station.input.rem_euclid(NUMBER_DEG) == 0.0 {
-                let number = format!("{}", station.input.rem_euclid(360.0));
+            if let Some(number) = poses.number_at(station.input) {
                 // A path that is traversed twice at the same inputs has each number once.
                 let is_like = |(at, known): &(Point, String)| *known == number && (at - station.at).norm() < 0.01;
                 if !marks.numbers.iter().any(is_like) {
@@ -68,30 +83,30 @@ impl MotionMarks {
             |number: &str| theme.text_line(number, Point::origin(), Anchor::Middle, theme.small_size(), theme.grey);
         let mut placer = LabelPlacer::new(obstacles, frame, theme);
         let numbers = all.iter().flat_map(|marks| &marks.numbers);
-        let items = numbers.filter_map(|(at, number)| placer.place_at_point(*at, line(number).text)).collect();
+        let items = numbers.filter_map(|(at, number)| placer.place_if_clear(*at, line(number).text)).collect();
         Drawing { class: "input", title: String::new(), items }
     }
 }
 
-/// The poses of a circuit at its start and at the multiples of [`TICK_DEG`], in its order; those of one pass are computed
-/// together.
+/// The poses of a circuit at its start and at its ticks, in its order; those of one pass are computed together.
 pub(super) struct TickPoses {
+    steps: TickSteps,
+    is_angle: bool,
     /// The inputs of each pass, and the positions of all joints: just before, at and just after each.
     passes: Vec<(Vec<f64>, JointPositions)>,
 }
 
 impl TickPoses {
-    /// The poses of a circuit; none if an actuator drives the linkage.
-    pub fn new(linkage: &Linkage, circuit: &Circuit) -> TickPoses {
-        /// The input over which the direction of the motion is taken, in degrees: a chord of less than 0.01 mm on paper.
-        const STEP_DEG: f64 = 0.01;
+    /// The poses of a circuit.
+    pub fn new(linkage: &Linkage, circuit: &Circuit, steps: TickSteps) -> TickPoses {
+        /// The part of a step over which the direction of the motion is taken: a chord of less than 0.01 mm on paper.
+        const PART: f64 = 1.0 / 3000.0;
         let mut passes = Vec::new();
-        let is_turned = linkage.input() != Input::Length;
-        for (k, pass) in circuit.passes.iter().enumerate().filter(|_| is_turned) {
+        for (k, pass) in circuit.passes.iter().enumerate() {
             let (from, to) = (pass.from.input.value, pass.to.input.value);
-            let step = if to >= from { STEP_DEG } else { -STEP_DEG };
+            let step = PART * if to >= from { steps.tick } else { -steps.tick };
             let [low, high] = pass.input_range();
-            let mut inputs = ticks_between(low, high);
+            let mut inputs = ticks_between(low, high, steps.tick);
             if to < from {
                 inputs.reverse();
             }
@@ -104,7 +119,14 @@ impl TickPoses {
             let positions = motion::poses(linkage, pass, &inputs.iter().flat_map(around).collect::<Vec<f64>>());
             passes.push((inputs, positions));
         }
-        TickPoses { passes }
+        TickPoses { steps, is_angle: linkage.input() != Input::Length, passes }
+    }
+
+    /// The number at a tick, if it has one: an angle is from 0 up to a turn.
+    fn number_at(&self, input: f64) -> Option<String> {
+        let input = if self.is_angle { input.rem_euclid(360.0) } else { round_to_six_digits(input) };
+        let count = input / self.steps.number;
+        ((count - count.round()).abs() < 1e-9).then(|| format_exactly(input))
     }
 
     /// The points of the curve of a joint at the inputs.
@@ -122,11 +144,11 @@ impl TickPoses {
     }
 }
 
-/// The multiples of [`TICK_DEG`] from `low` to `high`, of which there are at most a thousand.
-fn ticks_between(low: f64, high: f64) -> Vec<f64> {
-    let first = (low / TICK_DEG).ceil();
-    let count = ((high / TICK_DEG).floor() - first + 1.0).clamp(0.0, 1000.0) as usize;
-    (0..count).map(|k| (first + k as f64) * TICK_DEG).collect()
+/// The multiples of a step from `low` to `high`, of which there are at most a thousand.
+fn ticks_between(low: f64, high: f64, step: f64) -> Vec<f64> {
+    let first = (low / step).ceil();
+    let count = ((high / step).floor() - first + 1.0).clamp(0.0, 1000.0) as usize;
+    (0..count).map(|k| (first + k as f64) * step).collect()
 }
 
 /// The length of a tick in millimetres.

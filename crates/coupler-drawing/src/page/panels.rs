@@ -1,11 +1,13 @@
 //! The `panels` layout: a grid of cells, each with its figure, number and caption.
 
 use super::area::Area;
-use super::arrangement::{Arrangement, Extents, Rect};
+use super::arrangement::{Arrangement, Extents};
 use super::element::{Drawing, TextLine};
 use super::figure::Figure;
 use super::heading::{foot_baseline, margins};
 use super::key;
+use super::marks;
+use super::rect::Rect;
 use super::symbols::{self, Mark, Symbol};
 use super::theme::Theme;
 use super::{Options, Panel, PanelPage, PanelScale, Paper};
@@ -16,7 +18,9 @@ use coupler_curves::solve::SolvedCell;
 pub(super) fn compose(root: &impl Area, page: &PanelPage, options: &Options, theme: &Theme) {
     let top = page.heading.draw(root, theme);
     let figures: Vec<Option<Figure>> = page.panels.iter().map(Figure::from_panel).collect();
-    let mut symbols = page_symbols(page, &figures, options, theme);
+    // All panels have the dashes of the one with the greatest range of the input.
+    let period = figures.iter().flatten().map(|figure| figure.dash_period(options)).fold(0.0, f64::max);
+    let mut symbols = page_symbols(page, &figures, period, theme);
     // The scale is known after the panels are arranged; no statement of it is wider than this one.
     let above_foot = layout_symbols(root, page, &symbols, "one unit of length = 0000.0 mm", theme).1;
     let [_, _, side] = margins(theme);
@@ -34,8 +38,12 @@ pub(super) fn compose(root: &impl Area, page: &PanelPage, options: &Options, the
     }
     let far = panels.corner + panels.size;
     let area = root.without_margins([panels.corner.y, root.size().y - far.y, panels.corner.x, root.size().x - far.x]);
-    let drawn = draw_panels(&area, page, &figures, options, theme);
-    symbols.retain(|symbol| drawn.has_facts || symbol.meaning != TRANSMISSION_ANGLE);
+    let drawn = draw_panels(&area, page, &figures, period, theme);
+    symbols.retain(|symbol| match symbol.meaning.as_str() {
+        TRANSMISSION_ANGLE => drawn.has_facts,
+        NOT_ENLARGED => drawn.has_enlarged,
+        _ => true,
+    });
     let scale = drawn.scale.map_or("units of length".to_owned(), |scale| scale_text(scale, &figures));
     for (at, line) in layout_symbols(root, page, &symbols, &scale, theme).0 {
         symbols::draw(root, &line, at, theme);
@@ -50,7 +58,7 @@ fn scale_text(scale: f64, figures: &[Option<Figure>]) -> String {
     let is_common = |first: f64| cranks.iter().all(|crank| (crank - first).abs() <= 1e-9 * first);
     match cranks.first().filter(|first| is_common(**first)) {
         Some(crank) => format!("crank = {:.1} mm", crank * scale),
-        None => format!("one unit of length = {scale:.1} mm"),
+        None => format!("one unit of length = {} mm", marks::format_significant(scale, 3)),
     }
 }
 
@@ -79,10 +87,8 @@ fn layout_symbols(
 }
 
 /// The symbols of all figures of a page, each once, and those of the texts under them.
-fn page_symbols(page: &PanelPage, figures: &[Option<Figure>], options: &Options, theme: &Theme) -> Vec<Symbol> {
+fn page_symbols(page: &PanelPage, figures: &[Option<Figure>], period: f64, theme: &Theme) -> Vec<Symbol> {
     let mut symbols: Vec<Symbol> = Vec::new();
-    let mut periods = figures.iter().flatten().map(|figure| figure.dash_period(options));
-    let period = periods.next().filter(|first| periods.all(|period| period == *first));
     for symbol in figures.iter().flatten().flat_map(|figure| figure.symbols(period, theme)) {
         if symbols.iter().all(|known| known.meaning != symbol.meaning) {
             symbols.push(symbol);
@@ -97,6 +103,9 @@ fn page_symbols(page: &PanelPage, figures: &[Option<Figure>], options: &Options,
     if let (Some(key), Some(ink)) = (page.key, band) {
         add(Mark::Band(ink), &key.straight);
     }
+    if let Some(ink) = figures.iter().flatten().map(|figure| figure.first_ink(theme)).next() {
+        add(Mark::Light(ink), NOT_ENLARGED);
+    }
     if has("μ") {
         add(Mark::Letter("μ"), TRANSMISSION_ANGLE);
     }
@@ -106,12 +115,17 @@ fn page_symbols(page: &PanelPage, figures: &[Option<Figure>], options: &Options,
 /// What the symbol μ of the facts means.
 const TRANSMISSION_ANGLE: &str = "transmission angle";
 
+/// What the light curve on a linkage means whose curve is drawn apart from it.
+const NOT_ENLARGED: &str = "curve at the scale of the linkage";
+
 /// What was decided when the panels of a page were drawn.
 struct DrawnPanels {
     /// The scale of the linkages in millimetres to a unit, if it is common to all.
     scale: Option<f64>,
     /// Whether the facts of the cells are under the figures.
     has_facts: bool,
+    /// Whether a curve is drawn apart from its linkage.
+    has_enlarged: bool,
 }
 
 /// Draws the panels.
@@ -119,7 +133,7 @@ fn draw_panels<A: Area>(
     root: &A,
     page: &PanelPage,
     figures: &[Option<Figure>],
-    options: &Options,
+    period: f64,
     theme: &Theme,
 ) -> DrawnPanels {
     let [columns, rows] = page.layout.grid();
@@ -149,17 +163,19 @@ fn draw_panels<A: Area>(
         Rect { corner: Point::new(gap, 0.0), size: size.sup(&Vector::new(1.0, 1.0)) }
     };
     let extents: Vec<Extents> = figures.iter().flatten().map(|figure| figure.extents.clone()).collect();
-    let gap = 2.0 * theme.joint_radius;
-    let arrangement = Arrangement::best(figure_rect(&areas[0]), gap, &extents);
+    let page_scale = match page.scale {
+        PanelScale::Fixed(scale) => Some(scale),
+        PanelScale::Panel | PanelScale::Page => None,
+    };
+    let arrangement = Arrangement::best(figure_rect(&areas[0]), page_scale, theme, &extents);
     let fitting_scale = |(figure, area): (&Figure, &A)| {
         let frame = figure_rect(area);
-        figure.fitting_scale(frame, arrangement.if_enlarging(frame, gap, &figure.extents), theme)
+        figure.fitting_scale(frame, arrangement.if_enlarging(frame, page_scale, [theme; 2], &figure.extents), theme)
     };
     let drawn = || figures.iter().zip(&areas).filter_map(|(figure, area)| Some((figure.as_ref()?, area)));
     let scale = match page.scale {
-        PanelScale::Panel => None,
         PanelScale::Page => Some(drawn().map(fitting_scale).fold(f64::INFINITY, f64::min)),
-        PanelScale::Fixed(scale) => Some(scale),
+        PanelScale::Panel | PanelScale::Fixed(_) => page_scale,
     };
     let crank_on_paper = |(figure, area): (&Figure, &A)| {
         let fitting = fitting_scale((figure, area));
@@ -171,19 +187,22 @@ fn draw_panels<A: Area>(
     let figure_theme = &theme.for_crank_length(shortest_crank);
     // Ticks on an enlarged curve are as long as without such a crank.
     let curve_theme = &Theme { joint_radius: theme.joint_radius, ..figure_theme.clone() };
+    let mut has_enlarged = false;
     for (((panel, figure), area), lines) in page.panels.iter().zip(figures).zip(&areas).zip(texts) {
         let frame = figure_rect(area);
         match figure {
             Some(figure) => {
-                let arrangement = arrangement.if_enlarging(frame, gap, &figure.extents);
-                figure.draw(area, frame, (arrangement, scale), page, (options, curve_theme, figure_theme));
+                let themes = [curve_theme, figure_theme];
+                let arrangement = arrangement.if_enlarging(frame, scale, themes, &figure.extents);
+                has_enlarged |= arrangement != Arrangement::Combined;
+                figure.draw(area, frame, (arrangement, scale, period), page, themes);
             }
             None => draw_not_assembled(area, frame, panel.solved_cell, theme),
         }
         draw_number(area, panel, theme);
         draw_lines(area, lines, area.size().y - foot, theme);
     }
-    DrawnPanels { scale, has_facts: facts != FactsLayout::None }
+    DrawnPanels { scale, has_facts: facts != FactsLayout::None, has_enlarged }
 }
 
 /// The theme with the size of captions at which all of a page fit on a line, if that is not much smaller.
@@ -193,8 +212,8 @@ fn with_equal_captions(page: &PanelPage, width: f64, theme: &Theme) -> Theme {
     };
     let widest = page.panels.iter().map(natural).fold(0.0, f64::max);
     let part = if widest > 0.0 { (width / widest).min(1.0) } else { 1.0 };
-    let size = if part >= TextLine::MIN_PART { part * theme.caption_size } else { theme.caption_size };
-    Theme { caption_size: size.max(Theme::MIN_TEXT_SIZE.min(theme.caption_size)), ..theme.clone() }
+    let part = if part >= TextLine::min_part(theme.caption_size) { part } else { 1.0 };
+    Theme { caption_size: part * theme.caption_size, ..theme.clone() }
 }
 
 /// The distance from a line of text to the next.
@@ -229,7 +248,7 @@ enum FactsLayout {
 }
 
 impl FactsLayout {
-    /// One line if the facts of every panel fit `width` at no less than 85 % of their size; otherwise two.
+    /// One line if the facts of every panel fit `width` at no less than [`TextLine::min_part`] of their size; otherwise two.
     fn for_page(page: &PanelPage, width: f64, theme: &Theme) -> FactsLayout {
         let texts = || page.panels.iter().flat_map(|panel| FactsLayout::OneLine.panel_lines(panel));
         let natural = |text: String| {
@@ -237,7 +256,7 @@ impl FactsLayout {
         };
         match texts().map(natural).fold(0.0, f64::max) {
             0.0 => FactsLayout::None,
-            widest if TextLine::MIN_PART * widest <= width => FactsLayout::OneLine,
+            widest if TextLine::min_part(theme.note_size) * widest <= width => FactsLayout::OneLine,
             _ => FactsLayout::TwoLines,
         }
     }

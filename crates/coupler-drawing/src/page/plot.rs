@@ -1,8 +1,8 @@
 //! A frame in which a figure is drawn to scale, with its scale bar.
 
 use super::area::Area;
-use super::arrangement::Rect;
 use super::element::Drawing;
+use super::rect::Rect;
 use super::theme::Theme;
 use crate::scene::{Anchor, Item, Path, Polyline, Text};
 use coupler_curves::geometry::{Bounds, Point, Similarity, Vector};
@@ -48,9 +48,14 @@ impl Plot {
         Plot { page_from_plane: Similarity::page_from_plane(bounds, self.rect.centre(), scale), ..self }
     }
 
-    /// Draws a scale bar under the frame: the largest round number of units up to a fifth of the frame's width. A remark on
-    /// the scale, which may be empty, follows its label.
-    pub fn draw_scale_bar(&self, area: &impl Area, remark: &str, theme: &Theme) {
+    /// The least width of a frame that has room for a scale bar and a short remark on the scale.
+    pub fn min_width(theme: &Theme) -> f64 {
+        10.0 * theme.small_size() + 4.0 * theme.joint_radius
+    }
+
+    /// Draws a scale bar under the frame: the largest round number of units up to a fifth of the frame's width. The first
+    /// remark on the scale that fits follows its label, or else the last.
+    pub fn draw_scale_bar(&self, area: &impl Area, remarks: &[String], theme: &Theme) {
         let scale = self.page_from_plane.scale;
         let units = round_number_below(0.2 * self.rect.size.x / scale);
         let length = units * scale;
@@ -58,8 +63,12 @@ impl Plot {
         let size = theme.small_size();
         let at =
             Point::new(self.rect.centre().x, self.rect.corner.y + self.rect.size.y + 2.2 * theme.joint_radius + size);
-        let text = theme.text_line(&format!("{label}{remark}"), Point::origin(), Anchor::Start, size, theme.grey);
         let gap = 0.4 * size;
+        let text = |remark: &str| {
+            theme.text_line(&format!("{label}{remark}"), Point::origin(), Anchor::Start, size, theme.grey)
+        };
+        let fits = |remark: &&String| length + gap + text(remark).text.width() <= self.rect.size.x;
+        let text = text(remarks.iter().find(fits).or(remarks.last()).map_or("", String::as_str));
         let left = at.x - (length + gap + text.text.width()) / 2.0;
         let tick = 0.3 * size;
         let y = at.y - 0.35 * size;

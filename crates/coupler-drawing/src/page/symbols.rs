@@ -2,11 +2,12 @@
 
 use super::area::Area;
 use super::element::{Drawing, TextLine};
+use super::mechanism;
+use super::motion_marks::{self, TickSteps};
 use super::theme::Theme;
-use super::{mechanism, motion_marks};
+use crate::mechanism::Mechanism;
 use crate::scene::{Anchor, Circle, Color, Item, Path, Polyline, Text};
 use coupler_curves::geometry::{Point, Vector};
-use coupler_curves::linkage::Input;
 use coupler_curves::solve::SolvedCell;
 
 /// A symbol and its meaning.
@@ -25,6 +26,8 @@ pub(super) enum Mark {
     Pivot,
     /// A traced point in the pose.
     TracedPoint(Color),
+    /// The pitch circle of a gear.
+    PitchCircle,
     /// A curve in dashes.
     Dashes(Color),
     /// The start of a curve, with its direction.
@@ -47,9 +50,8 @@ pub(super) enum Mark {
     Letter(&'static str),
 }
 
-/// The symbols of the linkage and of the motion along its curves, of which the first is in an ink; `period` is that of
-/// dashes, if it is the same in all figures.
-pub(super) fn of_cell(solved: &SolvedCell, ink: Color, period: Option<f64>) -> Vec<Symbol> {
+/// The symbols of the joints of a linkage, of which the first that is traced is in an ink.
+pub(super) fn of_joints(solved: &SolvedCell, ink: Color) -> Vec<Symbol> {
     let pivots = solved.linkage.pivots();
     let crank_pivot = solved.linkage.crank().map(|[pivot, _]| pivot).filter(|pivot| pivots.contains(pivot));
     let mut symbols = Vec::new();
@@ -61,13 +63,22 @@ pub(super) fn of_cell(solved: &SolvedCell, ink: Color, period: Option<f64>) -> V
         add(Mark::Pivot, "fixed pivot".to_owned());
     }
     add(Mark::TracedPoint(ink), "traced point".to_owned());
-    let unit = solved.linkage.input().unit_sign();
-    let dash = period.map_or("equal steps of the input".to_owned(), |period| format!("{period}{unit} of input"));
-    add(Mark::Dashes(ink), format!("dash and gap: {dash}"));
-    if solved.linkage.input() != Input::Length {
-        add(Mark::Start(ink), "start and direction".to_owned());
-        add(Mark::Tick(ink), format!("every {}° of input", motion_marks::TICK_DEG));
+    symbols
+}
+
+/// The symbols of the linkage and of the motion along its curves, of which the first is in an ink; `period` is that of
+/// dashes.
+pub(super) fn of_cell(solved: &SolvedCell, ink: Color, period: f64) -> Vec<Symbol> {
+    let mut symbols = of_joints(solved, ink);
+    let mut add = |mark: Mark, meaning: String| symbols.push(Symbol { mark, meaning });
+    if !Mechanism::new(&solved.linkage, &solved.motion.circuits[0]).pitch_circles.is_empty() {
+        add(Mark::PitchCircle, "pitch circle of a gear".to_owned());
     }
+    let unit = solved.linkage.input().unit_sign();
+    add(Mark::Dashes(ink), format!("dash and gap: {period}{unit} of input"));
+    add(Mark::Start(ink), "start and direction".to_owned());
+    let tick = TickSteps::new(&solved.linkage, period).tick;
+    add(Mark::Tick(ink), format!("every {tick}{unit} of input"));
     symbols
 }
 
@@ -120,6 +131,7 @@ fn mark_width(mark: Mark, theme: &Theme) -> f64 {
     match mark {
         Mark::CrankPivot | Mark::Pivot => 3.0 * theme.joint_radius,
         Mark::TracedPoint(_) => 2.0 * theme.joint_radius,
+        Mark::PitchCircle => 3.0 * theme.joint_radius,
         Mark::Limit(_) => theme.joint_radius,
         Mark::Start(_) => 2.0 * theme.joint_radius,
         Mark::Tick(_) => 0.9 * em,
@@ -146,6 +158,10 @@ impl Mark {
                     stroke,
                     fill: Some(theme.paper),
                 })]
+            }
+            Mark::PitchCircle => {
+                let stroke = Some(theme.stroke(theme.grey, theme.hair_width));
+                vec![Item::Circle(Circle { centre: middle, radius: 1.5 * theme.joint_radius, stroke, fill: None })]
             }
             Mark::Dashes(ink) => vec![
                 stroked(vec![line(-1.0, 1.0)], theme.stroke(theme.faded(ink), theme.hair_width)),

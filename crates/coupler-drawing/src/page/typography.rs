@@ -1,5 +1,7 @@
 //! Typographic characters from plain input: apostrophes, quotation marks, dashes, minus signs and raised digits.
 
+use coupler_curves::expression;
+
 /// The text with the characters of typesetting in place of those of a typewriter: `'` and `"` become quotation marks or an
 /// apostrophe, a hyphen between spaces and two hyphens an en dash, a hyphen before a number a minus sign, three dots an
 /// ellipsis. A hyphen in a word, and between digits, stays.
@@ -48,13 +50,9 @@ pub(super) fn is_article(letter: &str, after: &str) -> bool {
     matches!(letter, "a" | "A") && word.chars().nth(1).is_some() && !AFTER_SYMBOLS.contains(&word)
 }
 
-/// A number with a fixed number of decimals and a true minus sign, which zero does not have.
+/// A number with a fixed number of decimals and a true minus sign.
 pub(super) fn format_fixed(value: f64, decimals: usize) -> String {
-    let number = format!("{value:.decimals$}");
-    if number.trim_start_matches('-').chars().all(|c| c == '0' || c == '.') {
-        return number.trim_start_matches('-').to_owned();
-    }
-    number.replace('-', "−")
+    expression::format_fixed(value, decimals).replace('-', "−")
 }
 
 /// A whole number as superscript digits.

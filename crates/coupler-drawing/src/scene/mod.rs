@@ -167,6 +167,9 @@ pub struct Text {
     pub quarter_turns: u8,
 }
 
+/// The least size of text on paper, in millimetres: 6 points.
+pub const MIN_TEXT_SIZE: f64 = 6.0 * 25.4 / 72.0;
+
 /// A run of text in one face.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextRun {
@@ -188,7 +191,7 @@ impl TextRun {
     pub fn size(&self, text_size: f64) -> f64 {
         /// As large as a lower-case letter of the text.
         const RAISED: f64 = 0.7;
-        if self.is_raised { RAISED * text_size } else { text_size }
+        if self.is_raised { (RAISED * text_size).max(MIN_TEXT_SIZE.min(text_size)) } else { text_size }
     }
 
     /// The height of the run's baseline above that of a text of a size.

@@ -1,10 +1,11 @@
 //! The title page of a volume.
 
 use super::super::area::{self, Area};
-use super::super::arrangement::{Arrangement, Rect};
+use super::super::arrangement::Arrangement;
 use super::super::element::Drawing;
 use super::super::figure::Figure;
 use super::super::heading;
+use super::super::rect::Rect;
 use super::super::theme::Theme;
 use super::super::{Options, PanelPage};
 use super::{Atlas, Chapter, Volume, draw_page_number};
@@ -108,6 +109,7 @@ fn draw_rule(root: &impl Area, centre: Point, length: f64, theme: &Theme) {
 fn draw_frontispiece(root: &impl Area, frame: Rect, page: &PanelPage, (options, theme): (&Options, &Theme)) {
     let Some(figure) = page.panels.first().and_then(Figure::from_panel) else { return };
     if frame.size.x > 10.0 * theme.joint_radius && frame.size.y > 10.0 * theme.joint_radius {
-        figure.draw(root, frame, (Arrangement::Combined, None), page, (options, theme, theme));
+        let period = figure.dash_period(options);
+        figure.draw(root, frame, (Arrangement::Combined, None, period), page, [theme; 2]);
     }
 }

@@ -17,7 +17,12 @@ pub(super) fn shared_labels(series: &[Series], quantity_index: usize) -> Vec<Opt
     for lines in groups.into_values() {
         labels[lines[0]] = Some(match lines.len() == series.len() {
             true => String::new(),
-            false => joined_label(lines.iter().map(|&k| series[k].label.as_str()).collect()),
+            false => {
+                let label = |&k: &usize| series[k].label.as_str();
+                let all: Vec<&str> = series.iter().map(|line| line.label.as_str()).collect();
+                let own: Vec<&str> = lines.iter().map(label).collect();
+                common_parts(&own, &all).unwrap_or_else(|| joined_label(own))
+            }
         });
     }
     if let [only] = series {
@@ -29,6 +34,16 @@ pub(super) fn shared_labels(series: &[Series], quantity_index: usize) -> Vec<Opt
 /// The bits of a value, by which lines are compared: all gaps are equal, and so are both zeros.
 fn value_bits(value: f64) -> u64 {
     if value.is_nan() { f64::NAN.to_bits() } else { (value + 0.0).to_bits() }
+}
+
+/// The parts that some labels have in common, if no other label has all of them: the other parts distinguish no lines.
+fn common_parts(own: &[&str], all: &[&str]) -> Option<String> {
+    let parts = |label: &str| label.split(", ").map(str::to_owned).collect::<Vec<String>>();
+    let (first, others) = own.split_first()?;
+    let mut common = parts(first);
+    common.retain(|part| others.iter().all(|label| parts(label).contains(part)));
+    let has_all = |label: &&&str| common.iter().all(|part| parts(label).contains(part));
+    (!common.is_empty() && all.iter().filter(has_all).count() == own.len()).then(|| common.join(", "))
 }
 
 fn joined_label(labels: Vec<&str>) -> String {
@@ -60,6 +75,11 @@ mod tests {
         assert_eq!(labels(&[a.clone(), c.clone()]), ["", "-"]);
         assert_eq!(labels(std::slice::from_ref(&b)), ["b"]);
         assert_eq!(labels(&[b, a.clone(), a.clone(), c.clone(), c])[1], "a … c (4 lines)");
+        let [first, second] = ["p = 1", "p = 2"].map(|p| {
+            let y = [p.len() as f64, if p == "p = 1" { 1.0 } else { 2.0 }];
+            ["path of M", "path of B"].map(|path| line(&format!("{p}, {path}"), &y))
+        });
+        assert_eq!(labels(&[first, second].concat()), ["p = 1", "-", "p = 2", "-"]);
         assert!(labels(&[]).is_empty());
     }
 }

@@ -3,7 +3,7 @@
 use super::super::element::TextLine;
 use super::super::theme::Theme;
 use super::line::LineStyle;
-use crate::scene::{Anchor, Item};
+use crate::scene::{Anchor, Item, MIN_TEXT_SIZE};
 use coupler_curves::geometry::Point;
 
 /// A label and the end of its line.
@@ -45,13 +45,9 @@ pub(super) fn label_items(
     symbols: &[String],
     theme: &Theme,
 ) -> Vec<Item> {
-    /// The smallest size of a label, as a part of that of notes.
-    const MIN_SIZE: f64 = 0.6;
-    let natural = SPACING * theme.note_size;
-    let theme = &Theme {
-        note_size: theme.note_size * (height / (labels.len() as f64 * natural)).clamp(MIN_SIZE, 1.0),
-        ..theme.clone()
-    };
+    let least = MIN_TEXT_SIZE.min(theme.note_size);
+    let theme =
+        &Theme { note_size: (height / (labels.len() as f64 * SPACING)).clamp(least, theme.note_size), ..theme.clone() };
     let spacing = SPACING * theme.note_size;
     let most = ((height / spacing).floor() as usize).max(1);
     let count = labels.len();

@@ -10,10 +10,14 @@ mod number;
 mod scale;
 
 use super::area::{self, Area, PlottersArea};
-use super::heading::margins;
+use super::figure::Figure;
+use super::heading::{foot_baseline, margins};
+use super::key::{self, Key};
+use super::rect::Rect;
 use super::theme::Theme;
-use super::{ChartPage, Options, empty_scene};
+use super::{ChartPage, Options, Panel, chart_grid, empty_scene, symbols};
 use crate::scene::{Group, Item, Scene};
+use coupler_curves::geometry::{Point, Vector};
 use figure::ChartFigure;
 
 /// Composes a page of charts.
@@ -27,11 +31,22 @@ pub fn compose_charts(page: &ChartPage, options: &Options) -> Scene {
 fn draw_charts(scene: &mut Scene, page: &ChartPage, theme: &Theme) {
     let [columns, rows] = page.layout.grid();
     let top = page.heading.draw(&area::whole_page(scene), theme);
+    let [_, bottom, _] = margins(theme);
+    // The charts are aligned with the title and the folio.
+    let side = theme.border + theme.margin;
+    let size = area::whole_page(scene).size();
+    let contents = Rect { corner: Point::new(side, top), size: size - Vector::new(2.0 * side, top + bottom) };
+    let charts = match page.key {
+        Some((key, panel)) => draw_key(&area::whole_page(scene), contents, (key, panel), page, theme),
+        None => contents,
+    };
+    let far = charts.corner + charts.size;
+    let margins = [charts.corner.y, size.y - far.y, charts.corner.x, size.x - far.x];
     for (k, quantity_index) in page.quantity_range.clone().enumerate() {
         // The items that plotters records are collected in a group.
         let first_item = scene.items.len();
         let data = {
-            let areas = chart_areas(scene, top, [columns, rows], theme);
+            let areas: Vec<PlottersArea> = area::whole_page(scene).without_margins(margins).grid_cells(rows, columns);
             let Some(area) = areas.get(k) else { continue };
             let theme = theme.for_panel_size(area.size());
             let figures: Vec<ChartFigure> =
@@ -48,15 +63,19 @@ fn draw_charts(scene: &mut Scene, page: &ChartPage, theme: &Theme) {
     }
 }
 
-/// The areas of the charts below the heading, row by row.
-fn chart_areas<'s>(
-    scene: &'s mut Scene,
-    top: f64,
-    [columns, rows]: [usize; 2],
-    theme: &Theme,
-) -> Vec<PlottersArea<'s>> {
-    let [_, bottom, _] = margins(theme);
-    // The charts are aligned with the title and the folio.
-    let side = theme.border + theme.margin;
-    area::whole_page(scene).without_margins([top, bottom, side, side]).grid_cells(rows, columns)
+/// Draws the key of the linkages next to the charts, and its symbols at the foot, if the charts do not become too small; the
+/// part of the contents that is left to the charts.
+fn draw_key(root: &impl Area, contents: Rect, (key, panel): (&Key, &Panel), page: &ChartPage, theme: &Theme) -> Rect {
+    let [columns, rows] = page.layout.grid();
+    let (charts, rect) = key::divide(contents, theme);
+    let [most_columns, most_rows] = chart_grid::max_in(charts.size, theme);
+    let (Some(rect), Some(figure)) = (rect, Figure::from_panel(panel)) else { return contents };
+    if columns > most_columns || rows > most_rows {
+        return contents;
+    }
+    key::draw(root, rect.inset(0.5 * theme.margin), key, Some(&figure), theme);
+    let symbols = symbols::of_joints(panel.solved_cell, figure.first_ink(theme));
+    let at = Point::new(contents.corner.x, foot_baseline(root.size(), theme));
+    symbols::draw(root, &symbols, at, theme);
+    charts
 }

@@ -1,7 +1,8 @@
 //! The description of the linkage, next to its key: its class, every length in full, its output.
 
 use super::super::area::Area;
-use super::super::arrangement::Rect;
+use super::super::key;
+use super::super::rect::Rect;
 use super::super::theme::Theme;
 use super::super::{CouplerGridPage, LinkLabel};
 use super::columns::number_of;
@@ -35,6 +36,12 @@ pub(super) fn draw(area: &impl Area, frame: Rect, page: &CouplerGridPage, theme:
     let wrapped = |text: &str| theme.text_line(text, Point::origin(), Anchor::Start, em, theme.grey).wrap(frame.size.x);
     if class == Some(FourBarClass::ChangePoint) {
         wrapped(&change_point_note(solved)).iter().for_each(|text| line(text, (em, theme.grey)));
+    }
+    if let Some(key) = page.key {
+        output_facts(solved).iter().flat_map(|text| wrapped(text)).for_each(|text| line(&text, (em, theme.grey)));
+        let corner = Point::new(frame.corner.x, y + 0.5 * em);
+        let rest = Rect { corner, size: frame.corner + frame.size - corner };
+        return key::draw_lines(area, rest, &key.dimensions, key, theme);
     }
     for text in dimensions(&solved.linkage, page.labels).iter().chain(&output_facts(solved)) {
         wrapped(text).iter().for_each(|text| line(text, (em, theme.grey)));

@@ -2,7 +2,7 @@
 
 use super::super::CouplerGridPage;
 use super::super::area::Area;
-use super::super::arrangement::Rect;
+use super::super::rect::Rect;
 use super::super::symbols::{self, Symbol};
 use super::super::theme::Theme;
 use crate::scene::Anchor;

@@ -2,8 +2,8 @@
 //! axis.
 
 use super::super::area::Area;
-use super::super::arrangement::Rect;
 use super::super::element::{Drawing, TextLine};
+use super::super::rect::Rect;
 use super::super::theme::Theme;
 use super::ShownCurve;
 use super::layout::AXIS_HEIGHT;

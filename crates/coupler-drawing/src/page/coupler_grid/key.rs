@@ -2,11 +2,11 @@
 //! and one of the page's points with its coordinates.
 
 use super::super::area::Area;
-use super::super::arrangement::Rect;
 use super::super::direction::DirectionMarks;
 use super::super::element::{Drawing, TextLine};
 use super::super::labels::{self, LabelBox, LabelPlacer, Obstacles};
 use super::super::mechanism::{PosedMechanism, pivot_items};
+use super::super::rect::Rect;
 use super::super::theme::Theme;
 use super::super::{CouplerGridPage, LinkLabel};
 use super::ShownCurve;

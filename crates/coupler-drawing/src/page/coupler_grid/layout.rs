@@ -1,6 +1,6 @@
 //! The division of a page: the figure, and next to it or below it the panel with the key, the table and the graphs.
 
-use super::super::arrangement::Rect;
+use super::super::rect::Rect;
 use super::super::theme::Theme;
 use coupler_curves::geometry::Vector;
 

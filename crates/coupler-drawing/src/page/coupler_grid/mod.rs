@@ -17,20 +17,20 @@ mod table;
 mod turn;
 
 use super::area::{self, Area};
-use super::arrangement::Rect;
 use super::element::{CouplerCurve, Drawing};
 use super::figure;
 use super::heading;
 use super::labels::{LabelPlacer, Obstacles, label_line};
 use super::marks;
 use super::mechanism::PosedMechanism;
-use super::motion_marks::{MotionMarks, TickPoses};
+use super::motion_marks::{MotionMarks, TickPoses, TickSteps};
 use super::plot::Plot;
+use super::rect::Rect;
 use super::symbols::{self, Mark, Symbol};
 use super::theme::Theme;
 use super::{CouplerGridPage, Layout, Options, Panel, PoseChoice, pose};
 use crate::mechanism::Mechanism;
-use crate::scene::{Anchor, Circle, Color, Item, Scene, Stroke};
+use crate::scene::{Anchor, Circle, Color, Item, MIN_TEXT_SIZE, Scene, Stroke};
 use coupler_curves::geometry::{Bounds, Point, Similarity, Vector};
 use coupler_curves::path::{DashPattern, JointPath};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
@@ -77,9 +77,9 @@ impl ShownCurve<'_> {
 pub(super) fn compose(scene: &mut Scene, page: &CouplerGridPage, options: &Options, theme: &Theme) {
     let size = Vector::new(scene.width, scene.height);
     let most = most_lettering(size);
-    let theme = &with_legible_notes(theme, Theme::MIN_TEXT_SIZE, most);
+    let theme = &with_legible_notes(theme, MIN_TEXT_SIZE, most);
     let small = Theme { note_size: PANEL_LETTERING * theme.note_size, ..theme.clone() };
-    let panel_theme = &with_legible_notes(&small, Theme::MIN_TEXT_SIZE, most);
+    let panel_theme = &with_legible_notes(&small, MIN_TEXT_SIZE, most);
     let root = area::whole_page(scene);
     heading::draw_border(&root, theme);
     let foot = footer::draw(&root, page, theme);
@@ -91,8 +91,7 @@ pub(super) fn compose(scene: &mut Scene, page: &CouplerGridPage, options: &Optio
     let shown = shown_curves(solved, &page.curve_indices);
     match posed_mechanism(&page.panel) {
         Some(mechanism) => {
-            let figure_theme =
-                with_legible_notes(theme, Theme::MIN_TEXT_SIZE / Theme::SMALL_PART, size.min() / MIN_LINES);
+            let figure_theme = with_legible_notes(theme, MIN_TEXT_SIZE / Theme::SMALL_PART, size.min() / MIN_LINES);
             draw_figure(&root, figure, page, &mechanism, &shown, options, &figure_theme);
             let panel = footer::draw_symbols(&root, panel, &page_symbols(solved, &shown, options, theme), panel_theme);
             draw_panel(&root, panel, page, (&mechanism, &shown), panel_theme);
@@ -152,7 +151,7 @@ fn posed_mechanism<'a>(panel: &'a Panel) -> Option<PosedMechanism<'a>> {
 fn page_symbols(solved: &SolvedCell, shown: &[ShownCurve], options: &Options, theme: &Theme) -> Vec<Symbol> {
     let Some(first) = shown.first() else { return Vec::new() };
     let period = figure::dash_period(&solved.linkage, &solved.motion.circuits, options);
-    let mut symbols = symbols::of_cell(solved, first.ink(theme), Some(period));
+    let mut symbols = symbols::of_cell(solved, first.ink(theme), period);
     if let Some(banded) = shown.iter().find(|s| marks::visible_straight_portion(solved, s.curve).is_some()) {
         let meaning = "longest straight portion".to_owned();
         symbols.push(Symbol { mark: Mark::Band(banded.ink(theme)), meaning });
@@ -210,7 +209,7 @@ fn draw_figure(
     let curves = shown.iter().flat_map(|s| solved.circuit(s.curve).points(s.curve.joint));
     let extents = Bounds::from_points(curves.chain(grid.line_ends(&mechanism.pose))).union(mechanism.bounds());
     let plot = Plot::new(frame, theme).fitted_to(extents);
-    plot.draw_scale_bar(area, "", theme);
+    plot.draw_scale_bar(area, &[], theme);
     let period = figure::dash_period(&solved.linkage, &solved.motion.circuits, options);
     let dashes = |k: usize| DashPattern { period, dash_span: theme.curve_dash_fraction(shown[k].point_index) * period };
     let path = |(k, s): (usize, &ShownCurve)| figure::curve_path(solved, s.curve, plot.page_from_plane, dashes(k));
@@ -222,8 +221,9 @@ fn draw_figure(
     let linkage = mechanism.linkage_items(&plot, theme, |_| theme.ink);
     let points = point_circles(mechanism, shown, &plot, theme);
 
+    let steps = TickSteps::new(&solved.linkage, period);
     let poses: Vec<TickPoses> =
-        solved.motion.circuits.iter().map(|circuit| TickPoses::new(&solved.linkage, circuit)).collect();
+        solved.motion.circuits.iter().map(|circuit| TickPoses::new(&solved.linkage, circuit, steps)).collect();
     let motion =
         |s: &ShownCurve| MotionMarks::new(&poses[s.curve.circuit - 1], s.curve.joint, &plot, s.ink(theme), theme).items;
     let motion: Vec<Item> = shown.iter().flat_map(motion).collect();

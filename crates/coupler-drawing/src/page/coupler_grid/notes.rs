@@ -2,7 +2,7 @@
 
 use super::super::CouplerGridPage;
 use super::super::area::Area;
-use super::super::arrangement::Rect;
+use super::super::rect::Rect;
 use super::super::theme::Theme;
 use super::super::typography::format_fixed;
 use super::ShownCurve;

@@ -3,8 +3,8 @@
 
 use super::super::CouplerGridPage;
 use super::super::area::Area;
-use super::super::arrangement::Rect;
 use super::super::element::Drawing;
+use super::super::rect::Rect;
 use super::super::theme::Theme;
 use super::ShownCurve;
 use super::columns::{ColumnGroup, column_groups, fitting_columns};

@@ -7,7 +7,7 @@ pub use named::NamedTheme;
 use super::Paper;
 use super::element::TextLine;
 use super::typography::typeset;
-use crate::scene::{Anchor, Color, Stroke, Typeface};
+use crate::scene::{Anchor, Color, MIN_TEXT_SIZE, Stroke, Typeface};
 use coupler_curves::expression::MathText;
 use coupler_curves::geometry::{Point, Vector};
 
@@ -87,16 +87,13 @@ impl Default for Theme {
 }
 
 impl Theme {
-    /// The least font size (em), in millimetres: 6 points, but on paper whose shorter side is less than 148 mm, on which
-    /// such text would have no space, a seventieth of that side.
-    pub const MIN_TEXT_SIZE: f64 = 6.0 * 25.4 / 72.0;
-
     /// The theme scaled from tabloid to another paper, by 0.3 to 2; weights change by the square root, so that lines do
-    /// not become too fine to print, and no text is smaller than [`Theme::MIN_TEXT_SIZE`].
+    /// not become too fine to print, and no text is smaller than [`MIN_TEXT_SIZE`], but on paper
+    /// whose shorter side is less than 148 mm, on which such text would have no space, a seventieth of that side.
     pub fn for_paper(&self, paper: Paper) -> Theme {
         let scale = (paper.width / 431.8).min(paper.height / 279.4).clamp(0.3, 2.0);
         let weight = scale.sqrt();
-        let least = Theme::MIN_TEXT_SIZE.min(paper.width.min(paper.height) / 70.0);
+        let least = MIN_TEXT_SIZE.min(paper.width.min(paper.height) / 70.0);
         let text = |size: f64| (size * scale).max(least);
         Theme {
             border: self.border * scale,
@@ -115,12 +112,12 @@ impl Theme {
     }
 
     /// The theme for panels of a size in millimetres: text, joints and lines are smaller in small panels, down to a
-    /// third, but no text is smaller than [`Theme::MIN_TEXT_SIZE`].
+    /// third, but no text is smaller than [`MIN_TEXT_SIZE`].
     pub fn for_panel_size(&self, panel: Vector) -> Theme {
         let scale =
             (panel.x / (12.0 * self.caption_size)).min(panel.y / (14.0 * self.caption_size)).clamp(1.0 / 3.0, 1.0);
         let weight = scale.sqrt();
-        let text = |size: f64| (size * scale).max(Theme::MIN_TEXT_SIZE.min(size));
+        let text = |size: f64| (size * scale).max(MIN_TEXT_SIZE.min(size));
         Theme {
             caption_size: text(self.caption_size),
             note_size: text(self.note_size),
@@ -158,7 +155,7 @@ impl Theme {
 
     /// The size of the smallest text, such as the numbers in figures.
     pub(super) fn small_size(&self) -> f64 {
-        (Theme::SMALL_PART * self.note_size).max(Theme::MIN_TEXT_SIZE.min(self.note_size))
+        (Theme::SMALL_PART * self.note_size).max(MIN_TEXT_SIZE.min(self.note_size))
     }
 
     /// A line of mathematical text at a position of an area, in the theme's typeface.
