@@ -158,7 +158,9 @@ addTest(
 
 addTest("1.10", "a view keeps its scroll position", startAt(large, "/hrones-nelson"), async (g, page) => {
   await page.evaluate(() => window.scrollTo(0, 9000));
-  await page.waitForTimeout(100);
+  const isBelowTop = () =>
+    [...document.querySelectorAll(".window a")].some((a) => a.getBoundingClientRect().top > 0);
+  await page.waitForFunction(isBelowTop);
   const followed = await page.evaluate(() => {
     const link = [...document.querySelectorAll(".window a")].find((a) => a.getBoundingClientRect().top > 0);
     link.focus({ preventScroll: true });
