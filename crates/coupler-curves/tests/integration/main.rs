@@ -6,6 +6,7 @@ mod circuits;
 mod cognates;
 mod dyad_chains;
 mod expressions;
+mod find;
 mod grids;
 mod instant;
 mod linkages;

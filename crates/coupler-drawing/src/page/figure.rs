@@ -28,7 +28,7 @@ pub(super) const MAX_CURVE_ERROR: f64 = 0.009;
 
 /// The least width and height of a frame in which inputs are numbered, in ems of the numbers: in a smaller one they hide the
 /// curve.
-const MIN_NUMBERED_FRAME: [f64; 2] = [14.0, 5.0];
+const MIN_NUMBERED_FRAME: [f64; 2] = [9.0, 5.0];
 
 /// The range of the input that a dash and its gap span: `dash_deg` for an angle; for a length, the greatest round
 /// number up to a twentieth of the longest pass.

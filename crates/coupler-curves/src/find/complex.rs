@@ -1,0 +1,43 @@
+//! Vectors of the plane as complex numbers.
+
+use crate::geometry::trig;
+
+/// A vector of the plane.
+pub(super) type Complex = nalgebra::Complex<f64>;
+
+/// The scalar product of two vectors.
+pub(super) fn dot(a: Complex, b: Complex) -> f64 {
+    a.re * b.re + a.im * b.im
+}
+
+/// The length of a vector, with the same bits on every machine, which those of `hypot` are not.
+pub(super) fn length(a: Complex) -> f64 {
+    a.norm_sqr().sqrt()
+}
+
+/// A vector turned by a quarter turn to the left.
+pub(super) fn times_i(a: Complex) -> Complex {
+    Complex::new(-a.im, a.re)
+}
+
+/// The vector of length 1 at an angle in radians.
+pub(super) fn unit(angle: f64) -> Complex {
+    Complex::new(trig::cos(angle), trig::sin(angle))
+}
+
+/// A vector of length 1 turned by the angle whose tangent is `tan`, without a loss of length.
+pub(super) fn turned(unit: Complex, tan: f64) -> Complex {
+    let turned = unit * Complex::new(1.0, tan);
+    turned / length(turned)
+}
+
+/// The mean of some points.
+pub(super) fn mean(points: &[Complex]) -> Complex {
+    points.iter().sum::<Complex>() / points.len().max(1) as f64
+}
+
+/// The length of the closed polyline through some points.
+pub(super) fn closed_length(points: &[Complex]) -> f64 {
+    let next = points.iter().cycle().skip(1);
+    points.iter().zip(next).map(|(a, b)| length(b - a)).sum()
+}

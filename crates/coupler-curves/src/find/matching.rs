@@ -1,0 +1,168 @@
+//! The matching of a target with a curve: each point has its own point of the curve, in order.
+
+use super::complex::{Complex, mean};
+use super::parameters::Parameters;
+use super::pose::Pose;
+
+/// The points of a closed row of samples that are nearest to the points of a target in the mean square, in their order and
+/// within one round: indices that do not fall, of which the last is at most a round after the first; they may be in the
+/// second round. `None` without samples.
+pub(super) fn match_in_order(target: &[Complex], samples: &[Complex]) -> Option<Vec<usize>> {
+    let count = samples.len();
+    let free = best_path(target, samples, 0..count)?;
+    let (first, last) = (*free.first()?, *free.last()?);
+    if last <= first + count {
+        return Some(free);
+    }
+    // Rarely the best path is longer than a round. Then each start is tried that is nearest to the first point among its
+    // neighbours.
+    let square = |k: usize| (samples[k % count] - target[0]).norm_sqr();
+    let is_near = |k: &usize| square(*k) <= square(k + 1) && square(*k) <= square(k + count - 1);
+    let cost = |path: &Vec<usize>| -> f64 {
+        path.iter().zip(target).map(|(&k, point)| (samples[k % count] - point).norm_sqr()).sum()
+    };
+    let paths = (0..count).filter(is_near).filter_map(|start| best_path(target, samples, start..start + 1));
+    paths.map(|path| (cost(&path), path)).min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, path)| path)
+}
+
+/// The indices that do not fall and have the least sum of squares, the first of which is in a range; if that is a single
+/// index, they end at most a round after it.
+fn best_path(target: &[Complex], samples: &[Complex], starts: std::ops::Range<usize>) -> Option<Vec<usize>> {
+    let count = samples.len();
+    let rounds = 2 * count;
+    let end = if starts.len() == 1 { starts.start + count } else { rounds - 1 };
+    // For each point, the best sum of squares up to it if it is matched with a sample, and the sample before.
+    let mut sums = vec![f64::INFINITY; rounds];
+    let mut before: Vec<u32> = vec![0; target.len() * rounds];
+    let mut squares = vec![0.0; count];
+    for (k, point) in target.iter().enumerate() {
+        squares.iter_mut().zip(samples).for_each(|(square, sample)| *square = (sample - point).norm_sqr());
+        if k == 0 {
+            starts.clone().for_each(|start| sums[start] = squares[start]);
+            continue;
+        }
+        let row = &mut before[k * rounds..(k + 1) * rounds];
+        let mut best = (f64::INFINITY, 0);
+        for (j, sum) in sums.iter_mut().enumerate() {
+            if *sum < best.0 {
+                best = (*sum, j as u32);
+            }
+            row[j] = best.1;
+            *sum = best.0 + squares[if j < count { j } else { j - count }];
+        }
+    }
+    let reachable = sums.iter().enumerate().take(end + 1);
+    let mut at = reachable.min_by(|a, b| a.1.total_cmp(b.1)).filter(|(_, sum)| sum.is_finite())?.0;
+    let mut path = vec![0; target.len()];
+    for k in (0..target.len()).rev() {
+        path[k] = at;
+        at = before[k * rounds + at] as usize;
+    }
+    Some(path)
+}
+
+/// The samples of a circuit that are matched with a target in order, and the sum of the squares of their distances.
+pub(super) fn nearest_samples(linkage: &Parameters, circuit: &[Pose], target: &[Complex]) -> Option<(f64, Vec<Pose>)> {
+    let samples: Vec<Complex> = circuit.iter().map(|pose| linkage.coupler_point(pose)).collect();
+    let path = match_in_order(target, &samples)?;
+    let places = path.iter().map(|k| k % circuit.len());
+    let sum = places.clone().zip(target).map(|(k, point)| (samples[k] - point).norm_sqr()).sum();
+    Some((sum, places.map(|k| circuit[k]).collect()))
+}
+
+/// The points of a curve that are matched with those of a target.
+pub(super) struct Matching {
+    /// The pose for each point of the target.
+    pub poses: Vec<Pose>,
+    /// For each point the mean of those that share its pose: the sum of the squares of the distances from it differs from that of
+    /// the points by a constant.
+    pub means: Vec<Complex>,
+    /// The sum of the squares of the distances.
+    pub sum: f64,
+    /// The greatest distance.
+    pub greatest: f64,
+    /// Whether each point is matched with the nearest part of the curve, without the order keeping it from there.
+    pub is_in_order: bool,
+}
+
+/// The number of Newton rounds for a foot of a perpendicular.
+const ROUNDS: usize = 20;
+
+impl Matching {
+    /// The matching of a target with a circuit of a linkage, given by samples of it.
+    pub fn new(linkage: &Parameters, circuit: &[Pose], target: &[Complex]) -> Option<Matching> {
+        let samples: Vec<Complex> = circuit.iter().map(|pose| linkage.coupler_point(pose)).collect();
+        let path = match_in_order(target, &samples)?;
+        let start = |&k: &usize| circuit[k % circuit.len()];
+        Some(Matching::in_order(linkage, circuit, (target, &path.iter().map(start).collect::<Vec<_>>(), &path)))
+    }
+
+    /// The matching from starting poses, which are those of samples. Where the feet of neighbouring points would change
+    /// their order, these share the foot of their mean: of all common feet it has the least sum of squares (pool adjacent
+    /// violators).
+    fn in_order(
+        linkage: &Parameters,
+        circuit: &[Pose],
+        (target, starts, path): (&[Complex], &[Pose], &[usize]),
+    ) -> Matching {
+        struct Block {
+            points: std::ops::Range<usize>,
+            pose: Pose,
+            position: f64,
+        }
+        let foot = |points: std::ops::Range<usize>, start: Pose, near: usize| {
+            let (pose, _) = linkage.nearest(start, mean(&target[points.clone()]), ROUNDS);
+            Block { points, pose, position: position(circuit, near, &pose) }
+        };
+        let mut blocks: Vec<Block> = Vec::with_capacity(target.len());
+        let mut is_in_order = true;
+        for k in 0..target.len() {
+            let mut block = foot(k..k + 1, starts[k], path[k]);
+            while let Some(last) = blocks.pop() {
+                if last.position <= block.position {
+                    blocks.push(last);
+                    break;
+                }
+                is_in_order = false;
+                let points = last.points.start..block.points.end;
+                block = foot(points, last.pose, path[last.points.start]);
+            }
+            blocks.push(block);
+        }
+        let poses: Vec<Pose> = blocks.iter().flat_map(|block| block.points.clone().map(|_| block.pose)).collect();
+        let shared = |block: &Block| {
+            let mean = mean(&target[block.points.clone()]);
+            block.points.clone().map(move |_| mean)
+        };
+        let means = blocks.iter().flat_map(shared).collect();
+        let squares = poses.iter().zip(target).map(|(pose, point)| (point - linkage.coupler_point(pose)).norm_sqr());
+        let (sum, greatest) = squares.fold((0.0, 0.0f64), |(sum, most), square| (sum + square, most.max(square)));
+        Matching { poses, means, sum, greatest: greatest.sqrt(), is_in_order }
+    }
+}
+
+/// The position of a pose along a circuit near one of its samples, in samples.
+fn position(circuit: &[Pose], near: usize, pose: &Pose) -> f64 {
+    let count = circuit.len();
+    let offset = |from: &Pose, to: &Pose| [to.crank - from.crank, to.coupler - from.coupler];
+    let dot =
+        |a: &[Complex; 2], b: &[Complex; 2]| -> f64 { a.iter().zip(b).map(|(a, b)| super::complex::dot(*a, *b)).sum() };
+    // From sample to sample towards the pose, which is beyond one and before the next.
+    let mut at = near + count;
+    for _ in 0..count {
+        let here = &circuit[at % count];
+        let [ahead, behind] = [at + 1, at + count - 1].map(|k| offset(here, &circuit[k % count]));
+        let to = offset(here, pose);
+        let forward = dot(&to, &ahead) / dot(&ahead, &ahead).max(f64::MIN_POSITIVE);
+        let backward = dot(&to, &behind) / dot(&behind, &behind).max(f64::MIN_POSITIVE);
+        if forward > 1.0 {
+            at += 1;
+        } else if backward > 1.0 {
+            at -= 1;
+        } else {
+            let part = if forward >= backward { forward.max(0.0) } else { -backward.max(0.0) };
+            return at as f64 - count as f64 + part;
+        }
+    }
+    near as f64
+}

@@ -1,0 +1,30 @@
+//! The four-bar whose coupler curve is nearest to a path.
+//!
+//! # The metric
+//!
+//! The size of a target with points p is S = sqrt(mean |p - p̄|²). The deviation of a curve C from it is
+//! E = sqrt(mean d(p, C(t))²), the distances of the points from the continuous curve, where the t of the points are in their order along one
+//! circuit within one turn, in either direction. An answer is valid only if the length of its curve is 0.87 to 1.15 of that of the
+//! target's polygon; otherwise curves with excursions between the points would win.
+//!
+//! # The search
+//!
+//! An [`Index`] has the shapes of many four-bars' curves. Those most like the target, in any position, size, direction, reflection
+//! and with any start, are placed on it and refined by Levenberg and Marquardt's method on nine parameters, with the distances
+//! across the curve and derivatives that are regular at limits of the input. The constraints are kept in each step. The best
+//! begin again from their cognates (Roberts and Chebyshev). All of it is in steps of bounded work.
+
+mod complex;
+mod constraints;
+mod index;
+mod matching;
+mod parameters;
+mod pose;
+mod refinement;
+mod search;
+mod spectrum;
+mod target;
+
+pub use index::Index;
+pub use search::{Answer, Effort, LENGTH_RATIOS, Options, Search};
+pub use target::{Target, TargetError};

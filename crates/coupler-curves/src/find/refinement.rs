@@ -1,0 +1,135 @@
+//! The linkage near another one whose curve is nearest to a target: Levenberg and Marquardt's method on nine parameters.
+
+use super::complex::{Complex, dot, length, times_i};
+use super::constraints::{Limits, Motion, Normal};
+use super::parameters::{COUNT, Parameters};
+use super::pose::{Pose, PoseRates};
+
+/// A linkage on its way to the target.
+#[derive(Clone, Debug)]
+pub(super) struct Refinement {
+    pub linkage: Parameters,
+    /// The pose for each point of the target.
+    pub poses: Vec<Pose>,
+    /// The sum of the squares of the distances.
+    pub sum: f64,
+    /// Whether no step improves it.
+    pub is_done: bool,
+    damping: f64,
+    is_frame_longer: bool,
+}
+
+/// The number of Newton rounds in which a foot follows its curve.
+const FOOT_ROUNDS: usize = 4;
+
+impl Refinement {
+    /// Begins with a linkage that satisfies the limits, and a pose for each point of the target.
+    pub fn new(linkage: Parameters, poses: &[Pose], target: &[Complex]) -> Option<Refinement> {
+        let (poses, sum) = feet(&linkage, poses, target)?;
+        let is_frame_longer = linkage.frame >= linkage.crank;
+        Some(Refinement { linkage, poses, sum, is_done: false, damping: 1e-2, is_frame_longer })
+    }
+
+    /// Takes one step.
+    pub fn step(&mut self, target: &[Complex], limits: &Limits) {
+        /// The most trials with more and more damping.
+        const TRIALS: usize = 8;
+        const MAX_DAMPING: f64 = 1e8;
+        /// A relative gain that is no progress.
+        const NO_GAIN: f64 = 1e-9;
+        if self.is_done {
+            return;
+        }
+        let (normal, gradient) = self.normal_equations(target);
+        let trace = normal.trace().max(f64::MIN_POSITIVE);
+        for _ in 0..TRIALS {
+            let mut damped = normal;
+            for k in 0..COUNT {
+                // A parameter that moves no point is held by a small part of what holds the others.
+                damped[(k, k)] += self.damping * normal[(k, k)].max(1e-9 * trace);
+            }
+            if let Some(matrix) = damped.cholesky() {
+                let free = matrix.solve(&gradient);
+                let motion = limits.constrained_step(&self.linkage, self.is_frame_longer, (&matrix, free));
+                let promised = 2.0 * gradient.dot(&motion) - motion.dot(&(normal * motion));
+                if let Some((linkage, poses, sum)) = self.tried(&motion, target, limits) {
+                    let gain = self.sum - sum;
+                    self.is_done = gain <= NO_GAIN * self.sum;
+                    match gain / promised.max(f64::MIN_POSITIVE) {
+                        kept if kept > 0.75 => self.damping = (0.2 * self.damping).max(1e-12),
+                        kept if kept < 0.25 => self.damping *= 3.0,
+                        _ => {}
+                    }
+                    (self.linkage, self.poses, self.sum) = (linkage, poses, sum);
+                    return;
+                }
+            }
+            self.damping *= 6.0;
+            if self.damping > MAX_DAMPING {
+                break;
+            }
+        }
+        self.is_done = true;
+    }
+
+    /// The linkage after a motion, if it satisfies the limits and is nearer to the target.
+    fn tried(&self, motion: &Motion, target: &[Complex], limits: &Limits) -> Option<(Parameters, Vec<Pose>, f64)> {
+        let moved = self.linkage.moved(&(*motion).into());
+        let linkage = limits.nearest(&moved, self.is_frame_longer)?;
+        let (poses, sum) = feet(&linkage, &self.poses, target)?;
+        (sum < self.sum).then_some((linkage, poses, sum))
+    }
+
+    /// The normal equations of the distances across the curve: along it, the feet move by themselves.
+    fn normal_equations(&self, target: &[Complex]) -> (Normal, Motion) {
+        /// Slower than this part of a radian's motion, the point is at a cusp, and its offset is the direction that counts.
+        const CUSP: f64 = 1e-6;
+        let small = 1e-7 * (self.sum / target.len() as f64).sqrt();
+        let linkage = &self.linkage;
+        let (mut normal, mut gradient) = (Normal::zeros(), Motion::zeros());
+        for (pose, point) in self.poses.iter().zip(target) {
+            let rates = PoseRates::new(linkage, pose);
+            let (offset, velocity) = (point - rates.at, rates.velocity());
+            let (distance, speed) = (length(offset), length(velocity));
+            let across = match speed > CUSP || distance <= small {
+                true => times_i(velocity) / speed.max(f64::MIN_POSITIVE),
+                false => offset / distance,
+            };
+            // If a parameter opens the linkage, its angles close it by the shortest motion, which is regular at limits.
+            let [crank, coupler] = [0, 1].map(|k| dot(across, rates.by_angles[k]) * rates.closure[k]);
+            let closing = (crank + coupler) / rates.square;
+            let by = |at: f64, closure: f64| at - closing * closure;
+            let row = Motion::from([
+                across.re,
+                across.im,
+                by(0.0, -linkage.frame * dot(rates.arm, times_i(linkage.direction))),
+                by(0.0, -dot(rates.arm, linkage.direction)),
+                by(dot(across, pose.crank), dot(rates.arm, pose.crank)),
+                by(0.0, dot(rates.arm, pose.coupler)),
+                by(0.0, -linkage.rocker),
+                dot(across, pose.coupler),
+                dot(across, times_i(pose.coupler)),
+            ]);
+            for j in 0..COUNT {
+                for k in 0..=j {
+                    normal[(j, k)] += row[j] * row[k];
+                }
+            }
+            gradient += row * dot(across, offset);
+        }
+        normal.fill_upper_triangle_with_lower_triangle();
+        (normal, gradient)
+    }
+}
+
+/// The feet of the target's points on the curve of a linkage near some poses, and the sum of the squares of the distances.
+fn feet(linkage: &Parameters, poses: &[Pose], target: &[Complex]) -> Option<(Vec<Pose>, f64)> {
+    let mut feet = Vec::with_capacity(poses.len());
+    let mut sum = 0.0;
+    for (pose, point) in poses.iter().zip(target) {
+        let (foot, square) = linkage.nearest(linkage.settle(*pose)?, *point, FOOT_ROUNDS);
+        feet.push(foot);
+        sum += square;
+    }
+    Some((feet, sum))
+}

@@ -1,0 +1,151 @@
+//! The shape of a closed curve as the spectrum of its points at equal distances along it.
+//!
+//! The curve z(s), from its centroid, is the sum of harmonics c(k) e^(2πi k s), k = ±1 to ±10, where s is the part of its length;
+//! they have a sum of squares of at most 1, the mean square of a curve of size 1. A rotation by α and a start at -τ multiply
+//! c(k) by e^(i(α + kτ)); the opposite direction exchanges c(k) and c(-k); a reflection and the opposite direction together
+//! conjugate c(k). So one correlation compares two curves in all positions, sizes, directions, reflections and starts.
+
+use super::complex::{Complex, length, mean, unit};
+use std::f64::consts::TAU;
+
+/// The number of harmonics of either sign.
+pub(super) const HARMONICS: usize = 10;
+
+/// The number of points at equal distances from which a spectrum is computed.
+pub(super) const POINTS: usize = 64;
+
+/// The harmonics 1 to 10, then -1 to -10.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Spectrum(pub [Complex; 2 * HARMONICS]);
+
+/// The directions of equal parts of a turn.
+pub(super) fn directions(count: usize) -> Vec<Complex> {
+    (0..count).map(|k| unit(TAU * k as f64 / count as f64)).collect()
+}
+
+/// Points at equal distances along a closed polyline, from its first point on.
+pub(super) fn resampled(points: &[Complex], count: usize) -> Vec<Complex> {
+    let next = |k: usize| points[(k + 1) % points.len()];
+    let lengths: Vec<f64> = (0..points.len()).map(|k| length(next(k) - points[k])).collect();
+    let step = lengths.iter().sum::<f64>() / count as f64;
+    let (mut segment, mut before) = (0, 0.0);
+    let point = |k: usize| {
+        let at = step * k as f64;
+        while segment + 1 < points.len() && before + lengths[segment] <= at {
+            before += lengths[segment];
+            segment += 1;
+        }
+        let part = if lengths[segment] > 0.0 { ((at - before) / lengths[segment]).min(1.0) } else { 0.0 };
+        points[segment] + (next(segment) - points[segment]) * part
+    };
+    (0..count).map(point).collect()
+}
+
+/// How a curve is placed on the one it is like.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Likeness {
+    /// The correlation, up to 1 for similar curves.
+    pub value: f64,
+    /// Whether the curve is mirrored in the x-axis before.
+    pub is_mirrored: bool,
+    /// Whether it is passed in the opposite direction.
+    pub is_reversed: bool,
+    /// The factor of the similarity that follows, for curves of size 1.
+    pub factor: Complex,
+}
+
+/// The table of a spectrum's computation.
+pub(super) struct Transform {
+    directions: Vec<Complex>,
+}
+
+impl Transform {
+    pub fn new() -> Transform {
+        Transform { directions: directions(POINTS) }
+    }
+
+    /// The spectrum of [`POINTS`] points, their centroid and their size, the root of the mean square from it.
+    pub fn spectrum(&self, points: &[Complex]) -> (Spectrum, Complex, f64) {
+        let centre = mean(points);
+        let mut harmonics = [Complex::new(0.0, 0.0); 2 * HARMONICS];
+        let mut squares = 0.0;
+        for (n, point) in points.iter().enumerate() {
+            let z = point - centre;
+            squares += z.norm_sqr();
+            for k in 1..=HARMONICS {
+                let direction = self.directions[(n * k) % POINTS];
+                harmonics[k - 1] += z * direction.conj();
+                harmonics[HARMONICS + k - 1] += z * direction;
+            }
+        }
+        let size = (squares / points.len() as f64).sqrt();
+        let scale = 1.0 / (points.len() as f64 * size.max(f64::MIN_POSITIVE));
+        (Spectrum(harmonics.map(|harmonic| harmonic * scale)), centre, size)
+    }
+
+    /// How a curve of a spectrum is most like another one, over all starts, directions and reflections.
+    pub fn likeness(&self, target: &Spectrum, curve: &Spectrum) -> Likeness {
+        let mut best = Likeness { value: 0.0, is_mirrored: false, is_reversed: false, factor: Complex::new(1.0, 0.0) };
+        for (is_mirrored, is_reversed) in [(false, false), (false, true), (true, false), (true, true)] {
+            let placed = curve.oriented(is_mirrored, is_reversed);
+            let product = |k: usize| target.0[k] * placed.0[k].conj();
+            let products: [Complex; 2 * HARMONICS] = std::array::from_fn(product);
+            // No start gives more than the amplitudes.
+            if products.iter().map(|product| length(*product)).sum::<f64>() <= best.value {
+                continue;
+            }
+            for start in 0..POINTS {
+                let sum: Complex = (1..=HARMONICS)
+                    .map(|k| {
+                        let turn = self.directions[(k * start) % POINTS];
+                        products[k - 1] * turn.conj() + products[HARMONICS + k - 1] * turn
+                    })
+                    .sum();
+                if sum.norm_sqr() > best.value * best.value {
+                    best = Likeness { value: length(sum), is_mirrored, is_reversed, factor: sum };
+                }
+            }
+        }
+        best
+    }
+}
+
+/// The square root of a vector of length 1 with a real part that is not negative.
+fn unit_root(z: Complex) -> Complex {
+    let cos = (0.5 * (1.0 + z.re)).max(0.0).sqrt();
+    let sin = (0.5 * (1.0 - z.re)).max(0.0).sqrt();
+    Complex::new(cos, sin.copysign(z.im))
+}
+
+impl Spectrum {
+    /// The spectrum of the curve after a reflection in the x-axis, and in the opposite direction.
+    pub fn oriented(&self, is_mirrored: bool, is_reversed: bool) -> Spectrum {
+        let Spectrum(mut harmonics) = *self;
+        // A reflection conjugates the harmonics and exchanges their signs; so does the opposite direction the signs.
+        if is_mirrored != is_reversed {
+            let (positive, negative) = harmonics.split_at_mut(HARMONICS);
+            positive.swap_with_slice(negative);
+        }
+        Spectrum(if is_mirrored { harmonics.map(|harmonic| harmonic.conj()) } else { harmonics })
+    }
+
+    /// The spectrum in canonical phase and direction: of the harmonics 1 and -1, the first is the greater one, and both are
+    /// real and positive. A start on the opposite side, which changes the sign of the even harmonics, is the only other one.
+    pub fn canonical(&self) -> Spectrum {
+        let is_reversed = self.0[HARMONICS].norm_sqr() > self.0[0].norm_sqr();
+        let Spectrum(harmonics) = self.oriented(false, is_reversed);
+        let phase = |z: Complex| if z.norm_sqr() > 0.0 { z.conj() / length(z) } else { Complex::new(1.0, 0.0) };
+        let [first, second] = [phase(harmonics[0]), phase(harmonics[HARMONICS])];
+        // e^(2iα) and e^(2iτ).
+        let rotation = unit_root(first * second);
+        let start = first * rotation.conj();
+        let mut power = start;
+        let mut canonical = harmonics;
+        for k in 0..HARMONICS {
+            canonical[k] *= rotation * power;
+            canonical[HARMONICS + k] *= rotation * power.conj();
+            power *= start;
+        }
+        Spectrum(canonical)
+    }
+}

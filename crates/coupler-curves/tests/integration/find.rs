@@ -1,0 +1,355 @@
+//! Searching for the linkage whose curve is nearest to a path: published targets, random linkages with and without noise,
+//! invariance, and wrong input. Answers are evaluated by a formula of their own.
+
+use std::f64::consts::TAU;
+use std::sync::LazyLock;
+
+use coupler_curves::find::{Answer, Index, LENGTH_RATIOS, Options, Search, Target, TargetError};
+use coupler_curves::geometry::{Bounds, Point, Vector, distance_to_segment, trig};
+use coupler_curves::linkage::{FourBar, PlacedFourBar, Side};
+
+static INDEX: LazyLock<Index> = LazyLock::new(|| Index::with_count(Index::DEFAULT_COUNT));
+
+/// Bulatović, Miodragović and Bošković, Mechanism and Machine Theory 95 (2016) 1-21.
+const MKH2: [(f64, f64); 12] = [
+    (4.15, 2.21),
+    (4.5, 2.18),
+    (4.53, 1.83),
+    (4.13, 1.68),
+    (3.67, 1.58),
+    (2.96, 1.33),
+    (2.67, 1.06),
+    (2.63, 0.82),
+    (2.92, 0.81),
+    (3.23, 1.07),
+    (3.49, 1.45),
+    (3.76, 1.87),
+];
+
+/// Yu, Tang and Wang, Mechanism and Machine Theory 42 (2007) 383-392: the first and the second path.
+const YU1: [(f64, f64); 20] = [
+    (-27.0, 1.0),
+    (-21.857, -3.214),
+    (-16.7, -7.428),
+    (-11.571, -11.642),
+    (-6.428, -15.857),
+    (-1.285, -20.071),
+    (3.857, -24.285),
+    (9.0, -28.5),
+    (15.0, -29.9),
+    (20.0, -30.0),
+    (27.2, -25.0),
+    (29.2, -20.0),
+    (28.0, -10.0),
+    (22.7, 2.0),
+    (15.0, 10.6),
+    (5.0, 16.5),
+    (-10.0, 19.6),
+    (-22.0, 17.0),
+    (-28.0, 11.0),
+    (-29.0, 5.0),
+];
+const YU2: [(f64, f64); 20] = [
+    (-24.0, 40.0),
+    (-30.0, 41.0),
+    (-34.0, 40.0),
+    (-38.0, 36.0),
+    (-36.0, 30.0),
+    (-28.0, 29.0),
+    (-21.0, 31.0),
+    (-17.0, 32.0),
+    (-8.0, 34.0),
+    (3.0, 37.0),
+    (10.0, 41.0),
+    (17.0, 41.0),
+    (26.0, 39.0),
+    (28.0, 33.0),
+    (29.0, 26.0),
+    (26.0, 23.0),
+    (17.0, 23.0),
+    (11.0, 24.0),
+    (6.0, 27.0),
+    (0.0, 31.0),
+];
+
+fn points(coordinates: &[(f64, f64)]) -> Vec<Point> {
+    coordinates.iter().map(|&(x, y)| Point::new(x, y)).collect()
+}
+
+fn find(points: &[Point], options: Options) -> Vec<Answer> {
+    Search::new(&Target::new(points).unwrap(), &INDEX, options).run()
+}
+
+/// The coupler point of a placed four-bar at an angle of the crank from the x-axis, by the intersection of two circles.
+fn coupler_point(placed: &PlacedFourBar, side: Side, crank_angle: f64) -> Option<Point> {
+    let PlacedFourBar { pivots: [o, c], lengths: FourBar { crank, coupler, rocker, .. }, coupler_point } = *placed;
+    let a = o + Vector::new(trig::cos(crank_angle), trig::sin(crank_angle)) * crank;
+    let diagonal = c - a;
+    let along = (diagonal.norm_squared() + coupler * coupler - rocker * rocker) / (2.0 * diagonal.norm());
+    let across = coupler * coupler - along * along;
+    if across < 0.0 {
+        return None;
+    }
+    let unit = diagonal.normalize();
+    let left = Vector::new(-unit.y, unit.x) * if side == Side::Left { 1.0 } else { -1.0 };
+    let b = a + unit * along + left * across.sqrt();
+    let coupler_unit = (b - a) / coupler;
+    Some(a + coupler_unit * coupler_point.x + Vector::new(-coupler_unit.y, coupler_unit.x) * coupler_point.y)
+}
+
+/// The curve of a four-bar whose crank turns fully, at equal steps of the crank.
+fn samples(placed: &PlacedFourBar, side: Side, steps: usize) -> Vec<Point> {
+    let at = |k: usize| coupler_point(placed, side, trig::radians(360.0 * k as f64 / steps as f64));
+    (0..steps).filter_map(at).collect()
+}
+
+/// The root of the mean square of the distances of points from the samples of a curve, matched in order within one turn and in
+/// the better direction.
+fn deviation_in_order(points: &[Point], curve: &[Point]) -> f64 {
+    let reversed: Vec<Point> = curve.iter().rev().copied().collect();
+    let sums = [curve, &reversed].map(|curve| {
+        let count = curve.len();
+        // The least sum of squares with the last point matched at each sample of two rounds.
+        let mut sums: Vec<f64> = (0..2 * count).map(|_| f64::INFINITY).collect();
+        for (k, p) in points.iter().enumerate() {
+            let mut best = f64::INFINITY;
+            for j in 0..2 * count {
+                best = best.min(sums[j]);
+                let before = if k == 0 { if j < count { 0.0 } else { f64::INFINITY } } else { best };
+                sums[j] = before + (curve[j % count] - p).norm_squared();
+            }
+        }
+        sums.into_iter().fold(f64::INFINITY, f64::min)
+    });
+    (sums[0].min(sums[1]) / points.len() as f64).sqrt()
+}
+
+/// The root of the mean square of the distances of points from a curve, each from its nearest part, in whatever order.
+fn deviation(points: &[Point], curve: &[Point]) -> f64 {
+    let distance = |p: &Point| {
+        let next = curve.iter().cycle().skip(1);
+        curve.iter().zip(next).map(|(a, b)| distance_to_segment(*p, *a, *b)).fold(f64::INFINITY, f64::min)
+    };
+    let squares = points.iter().map(|p| distance(p) * distance(p));
+    (squares.sum::<f64>() / points.len() as f64).sqrt()
+}
+
+#[test]
+fn published_targets_are_met_as_well_as_is_known() {
+    for (name, coordinates, best_known) in
+        [("mkh2", &MKH2[..], 0.002518), ("yu1", &YU1[..], 0.2067), ("yu2", &YU2[..], 0.6232)]
+    {
+        let points = points(coordinates);
+        let answers = find(&points, Options::default());
+        let first = &answers[0];
+        assert!(first.rms <= 1.0005 * best_known, "{name}: {}", first.rms);
+        let curve = samples(&first.linkage, first.side, 50_000);
+        let [rms, in_order] = [deviation(&points, &curve), deviation_in_order(&points, &curve)];
+        assert!((rms - first.rms).abs() <= 1e-4 * first.rms, "{name}: {rms} by formula, {}", first.rms);
+        assert!((in_order - first.rms).abs() <= 1e-3 * first.rms, "{name}: {in_order} in order, {}", first.rms);
+        assert!(first.is_in_order, "{name}");
+        assert!((LENGTH_RATIOS[0]..=LENGTH_RATIOS[1]).contains(&first.length_ratio));
+        assert!(answers.windows(2).all(|pair| pair[0].rms <= pair[1].rms));
+        let FourBar { frame, crank, coupler, rocker } = first.linkage.lengths;
+        let size = Target::new(&points).unwrap().size();
+        assert!([frame, crank, coupler, rocker].iter().all(|length| *length <= 10.0 * size * (1.0 + 1e-9)));
+        assert!((frame - crank).abs() >= (coupler - rocker).abs() && frame + crank <= coupler + rocker, "{name}");
+    }
+    // On any circuit, of which each may be that of a triple-rocker.
+    let any = find(&points(&YU2), Options { full_turn: false, ..Options::default() });
+    assert!(any[0].rms <= 0.6232, "{}", any[0].rms);
+}
+
+/// Numbers from 0 to 1 that are not those of the index.
+struct Random(u64);
+
+impl Random {
+    fn number(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.number()
+    }
+
+    /// About normally distributed, with a standard deviation of 1.
+    fn normal(&mut self) -> f64 {
+        (0..12).map(|_| self.number()).sum::<f64>() - 6.0
+    }
+}
+
+/// A random four-bar whose crank turns fully, in random position, size and direction, and its side.
+fn random_four_bar(random: &mut Random) -> (PlacedFourBar, Side) {
+    loop {
+        let [frame, crank, coupler, rocker] = std::array::from_fn(|_| random.between(0.2, 4.0));
+        if (frame - crank).abs() < (coupler - rocker).abs() + 0.02 || frame + crank + 0.02 > coupler + rocker {
+            continue;
+        }
+        let scale = random.between(0.1, 20.0);
+        let angle = random.between(0.0, TAU);
+        let origin = Point::new(random.between(-9.0, 9.0), random.between(-9.0, 9.0));
+        let to_pivot = Vector::new(trig::cos(angle), trig::sin(angle)) * (scale * frame);
+        let lengths = [frame, crank, coupler, rocker].map(|length| scale * length);
+        let [frame, crank, coupler, rocker] = lengths;
+        let coupler_point = Vector::new(random.between(-4.0, 4.0), random.between(-4.0, 4.0)) * scale;
+        let lengths = FourBar { frame, crank, coupler, rocker };
+        let side = if random.number() < 0.5 { Side::Left } else { Side::Right };
+        return (PlacedFourBar { pivots: [origin, origin + to_pivot], lengths, coupler_point }, side);
+    }
+}
+
+/// A hundred points of a curve at equal steps of the crank, and its size.
+fn hundred_points(placed: &PlacedFourBar, side: Side, random: &mut Random) -> (Vec<Point>, f64) {
+    let start = random.between(0.0, 360.0);
+    let sign = if random.number() < 0.5 { 1.0 } else { -1.0 };
+    let at = |k: usize| coupler_point(placed, side, trig::radians(start + sign * 3.6 * k as f64)).unwrap();
+    let points: Vec<Point> = (0..100).map(at).collect();
+    let size = Target::new(&points).unwrap().size();
+    (points, size)
+}
+
+#[test]
+fn random_linkages_are_found_again() {
+    const COUNT: usize = 40;
+    let mut random = Random(17);
+    let mut found = 0;
+    for _ in 0..COUNT {
+        let (placed, side) = random_four_bar(&mut random);
+        let (points, size) = hundred_points(&placed, side, &mut random);
+        let options = Options { max_link: f64::INFINITY, ..Options::default() };
+        let answers = find(&points, options);
+        found += usize::from(answers.first().is_some_and(|answer| answer.rms < 1e-4 * size));
+    }
+    assert!(found >= COUNT * 9 / 10, "{found} of {COUNT}");
+}
+
+#[test]
+fn with_noise_the_answer_is_as_near_as_the_linkage_that_made_the_path() {
+    const COUNT: usize = 15;
+    let mut random = Random(4);
+    for (noise, least) in [(0.01, 14), (0.02, 14)] {
+        let mut found = 0;
+        for _ in 0..COUNT {
+            let (placed, side) = random_four_bar(&mut random);
+            let (clean, size) = hundred_points(&placed, side, &mut random);
+            // The root of the mean square of the displacements is the noise.
+            let mut displacement = || noise * size / 2f64.sqrt() * random.normal();
+            let points: Vec<Point> = clean.iter().map(|p| p + Vector::new(displacement(), displacement())).collect();
+            let own = deviation_in_order(&points, &samples(&placed, side, 2000));
+            let answers = find(&points, Options { max_link: f64::INFINITY, ..Options::default() });
+            let rms = answers.first().map_or(f64::INFINITY, |answer| answer.rms);
+            found += usize::from(rms <= 1.02 * own);
+        }
+        assert!(found >= least, "{noise}: {found} of {COUNT}");
+    }
+}
+
+/// A target that is moved, turned, scaled, mirrored, reversed or begun elsewhere has the same answers.
+#[test]
+fn answers_are_invariant() {
+    let original = points(&YU1);
+    let rms = |points: &[Point]| {
+        let answers = find(points, Options::default());
+        answers[0].rms_relative
+    };
+    let expected = rms(&original);
+    let (cos, sin) = trig::cos_sin_deg(37.0);
+    let turned = |p: &Point| Point::new(3.0 + 250.0 * (cos * p.x - sin * p.y), -7.0 + 250.0 * (sin * p.x + cos * p.y));
+    let mut rotated = original.clone();
+    rotated.rotate_left(7);
+    let mut reversed = original.clone();
+    reversed.reverse();
+    let mirrored: Vec<Point> = original.iter().map(|p| Point::new(p.x, -p.y)).collect();
+    let placed: Vec<Point> = original.iter().map(turned).collect();
+    for (what, points) in
+        [("start", rotated), ("direction", reversed), ("mirror image", mirrored), ("placement", placed)]
+    {
+        assert!((rms(&points) - expected).abs() <= 1e-9, "{what}: {} and {expected}", rms(&points));
+    }
+}
+
+#[test]
+fn limits_are_kept() {
+    let points = points(&YU1);
+    let size = Target::new(&points).unwrap().size();
+    let free = find(&points, Options::default());
+    for max_link in [2.0, 1.5] {
+        let answers = find(&points, Options { max_link, ..Options::default() });
+        for Answer { linkage, .. } in &answers {
+            let FourBar { frame, crank, coupler, rocker } = linkage.lengths;
+            let to_rocker_pin = linkage.coupler_point - Vector::new(coupler, 0.0);
+            let sides = [linkage.coupler_point.norm(), to_rocker_pin.norm()];
+            let longest = [frame, crank, coupler, rocker].into_iter().chain(sides).fold(0.0, f64::max);
+            assert!(longest <= max_link * size * (1.0 + 1e-9), "{longest}");
+        }
+        assert!(answers[0].rms >= free[0].rms * (1.0 - 1e-9));
+    }
+    let low = Point::new(-80.0, -80.0);
+    let high = Point::new(80.0, -35.0);
+    let pivots = Some(Bounds::from_points([low, high]));
+    let answers = find(&points, Options { pivots, ..Options::default() });
+    assert!(!answers.is_empty());
+    for pivot in answers.iter().flat_map(|answer| answer.linkage.pivots) {
+        let is_inside = |at: f64, [low, high]: [f64; 2]| (low - 1e-6..=high + 1e-6).contains(&at);
+        assert!(is_inside(pivot.x, [low.x, high.x]) && is_inside(pivot.y, [low.y, high.y]), "{pivot}");
+    }
+}
+
+/// Of the curves that are most like a target by a comparison over all starts, nearly all are among ten times as many that the
+/// descriptions find.
+#[test]
+fn the_likeliest_curves_are_among_those_that_are_looked_up() {
+    const QUERIES: usize = 20;
+    let index = Index::with_count(10_000);
+    let mut random = Random(23);
+    let mut found = 0;
+    for _ in 0..QUERIES {
+        let (placed, side) = random_four_bar(&mut random);
+        let (points, _) = hundred_points(&placed, side, &mut random);
+        let target = Target::new(&points).unwrap();
+        let candidates = index.most_alike(&target, true, 200);
+        // The lookup leaves out curves of quite another length.
+        let all = index.most_alike(&target, true, index.len());
+        let mut exact: Vec<(f64, usize)> = all.iter().map(|&k| (index.likeness(&target, k).unwrap(), k)).collect();
+        exact.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let hits = exact.iter().take(20).filter(|(_, number)| candidates.contains(number)).count();
+        found += hits;
+    }
+    assert!(found as f64 >= 0.97 * 20.0 * QUERIES as f64, "{found} of {}", 20 * QUERIES);
+}
+
+/// An index that grows in steps is the same as one built at once, and so are the answers of a search that is watched.
+#[test]
+fn steps_do_not_change_the_answers() {
+    let mut grown = Index::new();
+    (0..4).for_each(|_| grown.extend(500));
+    let whole = Index::with_count(2000);
+    let target = Target::new(&points(&MKH2)).unwrap();
+    let answers = |index: &Index| Search::new(&target, index, Options::default()).run();
+    assert_eq!(answers(&grown), answers(&whole));
+    assert_eq!((grown.len(), Index::BYTES_PER_CURVE <= 64), (2000, true));
+    assert!(Search::new(&target, &Index::new(), Options::default()).run().is_empty());
+}
+
+#[test]
+fn points_that_are_no_target_are_refused_with_the_reason() {
+    let error = |coordinates: &[(f64, f64)]| Target::new(&points(coordinates)).unwrap_err();
+    let square = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
+    assert_eq!(error(&square), TargetError::TooFew { distinct: 4 });
+    assert_eq!(error(&[]), TargetError::TooFew { distinct: 0 });
+    let nan = error(&[(0.0, 0.0), (1.0, f64::NAN)]);
+    assert!(matches!(nan, TargetError::NotFinite { number: 2, .. }), "{nan}");
+    assert!(nan.to_string().contains("point 2"), "{nan}");
+    let far = [0.0, 1.0, 2.0, 3.0, 4.0].map(|k| (1e9 + k * 1e-6, 1e9));
+    assert!(matches!(error(&far), TargetError::NoExtent { .. }));
+    // Extreme targets have an end.
+    for scale in [1e-150, 1e150] {
+        let coordinates: Vec<(f64, f64)> = YU1.iter().map(|(x, y)| (x * scale, y * scale)).collect();
+        if let Ok(target) = Target::new(&points(&coordinates)) {
+            Search::new(&target, &Index::with_count(200), Options::default()).run();
+        }
+    }
+    let line: Vec<(f64, f64)> = (0..9).map(|k| (f64::from(k), 0.0)).collect();
+    Search::new(&Target::new(&points(&line)).unwrap(), &Index::with_count(200), Options::default()).run();
+}
