@@ -66,9 +66,9 @@ impl Limits {
             }
         }
         if let Some([low, high]) = self.pivots {
-            for (pivot, length) in [(linkage.crank_pivot, 0.0), (linkage.rocker_pivot(), frame)] {
-                let turn = length * times_i(direction);
-                let along = if length > 0.0 { direction } else { Complex::new(0.0, 0.0) };
+            // The part of the frame that moves each pivot.
+            for (pivot, part) in [(linkage.crank_pivot, 0.0), (linkage.rocker_pivot(), 1.0)] {
+                let (turn, along) = (part * frame * times_i(direction), part * direction);
                 let parts = [
                     (pivot.re - low.re, 1.0, [turn.re, along.re], 0),
                     (high.re - pivot.re, -1.0, [turn.re, along.re], 0),

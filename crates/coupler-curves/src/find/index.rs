@@ -3,7 +3,7 @@
 use super::complex::{Complex, closed_length, unit};
 use super::parameters::Parameters;
 use super::pose::Pose;
-use super::spectrum::{HARMONICS, POINTS, Spectrum, Transform, directions, resampled};
+use super::spectrum::{HARMONICS, Spectrum, Transform, directions};
 use super::target::Target;
 use crate::linkage::FourBarClass;
 
@@ -85,10 +85,10 @@ impl Index {
         self.shapes.is_empty()
     }
 
-    /// The numbers of the curves that are most like a target, at most `most` of them, the likeliest first, as far as their
-    /// descriptions tell: the harmonics are compared in canonical phase only.
+    /// The numbers of the curves that are most like a target, at most `most` of them, the likeliest first. Their harmonics are
+    /// compared in canonical phase only.
     pub fn most_alike(&self, target: &Target, full_turn: bool, most: usize) -> Vec<usize> {
-        let (spectrum, ..) = self.transform.spectrum(&resampled(&target.normalized(), POINTS));
+        let (spectrum, ..) = self.transform.spectrum(&target.normalized());
         let query = (&spectrum, target.polygon_length(), full_turn);
         self.nearest(query, 0..self.len(), Vec::new(), most).into_iter().map(|(_, number)| number).collect()
     }
@@ -96,7 +96,7 @@ impl Index {
     /// How much a curve is like a target, up to 1 for similar curves: the greatest correlation of their harmonics over all
     /// starts, directions and reflections. `None` if the index has no such curve.
     pub fn likeness(&self, target: &Target, number: usize) -> Option<f64> {
-        let (spectrum, ..) = self.transform.spectrum(&resampled(&target.normalized(), POINTS));
+        let (spectrum, ..) = self.transform.spectrum(&target.normalized());
         let (curve, ..) = self.spectrum(&self.entry(number).filter(|_| number < self.len())?);
         Some(self.transform.likeness(&spectrum, &curve).value)
     }
@@ -123,8 +123,8 @@ impl Index {
 
     /// The spectrum of a curve, with its centroid, its size, and its length in sizes.
     pub(super) fn spectrum(&self, entry: &Entry) -> (Spectrum, Complex, f64, f64) {
-        let points: Vec<Complex> = entry.circuit.iter().map(|pose| entry.linkage.coupler_point(pose)).collect();
-        let (spectrum, centre, size) = self.transform.spectrum(&resampled(&points, POINTS));
+        let points = entry.linkage.curve(&entry.circuit);
+        let (spectrum, centre, size) = self.transform.spectrum(&points);
         (spectrum, centre, size, closed_length(&points) / size)
     }
 

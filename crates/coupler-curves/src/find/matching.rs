@@ -6,28 +6,25 @@ use super::pose::Pose;
 
 /// The points of a closed row of samples that are nearest to the points of a target in the mean square, in their order and
 /// within one round: indices that do not fall, of which the last is at most a round after the first; they may be in the
-/// second round. `None` without samples.
-pub(super) fn match_in_order(target: &[Complex], samples: &[Complex]) -> Option<Vec<usize>> {
+/// second round. With the sum of the squares; `None` without samples.
+fn match_in_order(target: &[Complex], samples: &[Complex]) -> Option<(f64, Vec<usize>)> {
     let count = samples.len();
-    let free = best_path(target, samples, 0..count)?;
+    let (sum, free) = best_path(target, samples, 0..count)?;
     let (first, last) = (*free.first()?, *free.last()?);
     if last <= first + count {
-        return Some(free);
+        return Some((sum, free));
     }
     // Rarely the best path is longer than a round. Then each start is tried that is nearest to the first point among its
     // neighbours.
     let square = |k: usize| (samples[k % count] - target[0]).norm_sqr();
     let is_near = |k: &usize| square(*k) <= square(k + 1) && square(*k) <= square(k + count - 1);
-    let cost = |path: &Vec<usize>| -> f64 {
-        path.iter().zip(target).map(|(&k, point)| (samples[k % count] - point).norm_sqr()).sum()
-    };
     let paths = (0..count).filter(is_near).filter_map(|start| best_path(target, samples, start..start + 1));
-    paths.map(|path| (cost(&path), path)).min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, path)| path)
+    paths.min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
 /// The indices that do not fall and have the least sum of squares, the first of which is in a range; if that is a single
-/// index, they end at most a round after it.
-fn best_path(target: &[Complex], samples: &[Complex], starts: std::ops::Range<usize>) -> Option<Vec<usize>> {
+/// index, they end at most a round after it. With that sum.
+fn best_path(target: &[Complex], samples: &[Complex], starts: std::ops::Range<usize>) -> Option<(f64, Vec<usize>)> {
     let count = samples.len();
     let rounds = 2 * count;
     let end = if starts.len() == 1 { starts.start + count } else { rounds - 1 };
@@ -52,22 +49,19 @@ fn best_path(target: &[Complex], samples: &[Complex], starts: std::ops::Range<us
         }
     }
     let reachable = sums.iter().enumerate().take(end + 1);
-    let mut at = reachable.min_by(|a, b| a.1.total_cmp(b.1)).filter(|(_, sum)| sum.is_finite())?.0;
+    let (mut at, sum) = reachable.min_by(|a, b| a.1.total_cmp(b.1)).filter(|(_, sum)| sum.is_finite())?;
     let mut path = vec![0; target.len()];
     for k in (0..target.len()).rev() {
         path[k] = at;
         at = before[k * rounds + at] as usize;
     }
-    Some(path)
+    Some((*sum, path))
 }
 
 /// The samples of a circuit that are matched with a target in order, and the sum of the squares of their distances.
 pub(super) fn nearest_samples(linkage: &Parameters, circuit: &[Pose], target: &[Complex]) -> Option<(f64, Vec<Pose>)> {
-    let samples: Vec<Complex> = circuit.iter().map(|pose| linkage.coupler_point(pose)).collect();
-    let path = match_in_order(target, &samples)?;
-    let places = path.iter().map(|k| k % circuit.len());
-    let sum = places.clone().zip(target).map(|(k, point)| (samples[k] - point).norm_sqr()).sum();
-    Some((sum, places.map(|k| circuit[k]).collect()))
+    let (sum, path) = match_in_order(target, &linkage.curve(circuit))?;
+    Some((sum, path.iter().map(|k| circuit[k % circuit.len()]).collect()))
 }
 
 /// The points of a curve that are matched with those of a target.
@@ -91,20 +85,14 @@ const ROUNDS: usize = 20;
 impl Matching {
     /// The matching of a target with a circuit of a linkage, given by samples of it.
     pub fn new(linkage: &Parameters, circuit: &[Pose], target: &[Complex]) -> Option<Matching> {
-        let samples: Vec<Complex> = circuit.iter().map(|pose| linkage.coupler_point(pose)).collect();
-        let path = match_in_order(target, &samples)?;
-        let start = |&k: &usize| circuit[k % circuit.len()];
-        Some(Matching::in_order(linkage, circuit, (target, &path.iter().map(start).collect::<Vec<_>>(), &path)))
+        let (_, path) = match_in_order(target, &linkage.curve(circuit))?;
+        Some(Matching::in_order(linkage, circuit, (target, &path)))
     }
 
-    /// The matching from starting poses, which are those of samples. Where the feet of neighbouring points would change
+    /// The matching from a path of samples. Where the feet of neighbouring points would change
     /// their order, these share the foot of their mean: of all common feet it has the least sum of squares (pool adjacent
     /// violators).
-    fn in_order(
-        linkage: &Parameters,
-        circuit: &[Pose],
-        (target, starts, path): (&[Complex], &[Pose], &[usize]),
-    ) -> Matching {
+    fn in_order(linkage: &Parameters, circuit: &[Pose], (target, path): (&[Complex], &[usize])) -> Matching {
         struct Block {
             points: std::ops::Range<usize>,
             pose: Pose,
@@ -117,7 +105,7 @@ impl Matching {
         let mut blocks: Vec<Block> = Vec::with_capacity(target.len());
         let mut is_in_order = true;
         for k in 0..target.len() {
-            let mut block = foot(k..k + 1, starts[k], path[k]);
+            let mut block = foot(k..k + 1, circuit[path[k] % circuit.len()], path[k]);
             while let Some(last) = blocks.pop() {
                 if last.position <= block.position {
                     blocks.push(last);

@@ -14,10 +14,12 @@
 //! across the curve and derivatives that are regular at limits of the input. The constraints are kept in each step. The best
 //! begin again from their cognates (Roberts and Chebyshev). All of it is in steps of bounded work.
 
+mod answer;
 mod complex;
 mod constraints;
 mod index;
 mod matching;
+mod options;
 mod parameters;
 mod pose;
 mod refinement;
@@ -25,6 +27,8 @@ mod search;
 mod spectrum;
 mod target;
 
+pub use answer::{Answer, LENGTH_RATIOS};
 pub use index::Index;
-pub use search::{Answer, Effort, LENGTH_RATIOS, Options, Search};
+pub use options::{Effort, Options};
+pub use search::Search;
 pub use target::{Target, TargetError};

@@ -1,6 +1,6 @@
 //! A four-bar with a coupler point by its nine parameters.
 
-use super::complex::{Complex, length, times_i, turned, unit};
+use super::complex::{Complex, dot, length, times_i, turned, unit};
 use super::pose::Pose;
 use crate::geometry::{Point, Vector, trig};
 use crate::linkage::{FourBar, PlacedFourBar};
@@ -105,6 +105,11 @@ impl Parameters {
         self.crank_pivot + self.crank * pose.crank + self.point * pose.coupler
     }
 
+    /// The points of the coupler curve in the poses of a circuit.
+    pub fn curve(&self, circuit: &[Pose]) -> Vec<Complex> {
+        circuit.iter().map(|pose| self.coupler_point(pose)).collect()
+    }
+
     /// The pose with the crank in a direction and the rocker pin on a side of the line from the crank pin to the rocker's
     /// pivot, 1 for the left and -1 for the right; `None` if coupler and rocker do not reach each other.
     pub fn assemble(&self, crank: Complex, side: f64) -> Option<Pose> {
@@ -202,7 +207,6 @@ impl Parameters {
 
     /// The derivatives of the closure with respect to the angles of crank and coupler.
     pub(super) fn closure_rates(&self, pose: &Pose, arm: Complex) -> [f64; 2] {
-        use super::complex::dot;
         [self.crank * dot(arm, times_i(pose.crank)), self.coupler * dot(arm, times_i(pose.coupler))]
     }
 }

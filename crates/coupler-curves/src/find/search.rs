@@ -1,75 +1,18 @@
 //! The search: from the curves of an index that are most like the target to the linkages whose curves are nearest to it.
 
+use super::answer::{Answer, LENGTH_RATIOS};
 use super::complex::{Complex, closed_length, dot, length, times_i};
 use super::constraints::Limits;
 use super::index::Index;
 use super::matching::{Matching, nearest_samples};
-use super::parameters::Parameters;
+use super::options::{Effort, Options};
+use super::parameters::{COUNT, Parameters};
 use super::pose::Pose;
 use super::refinement::Refinement;
-use super::spectrum::{POINTS, Spectrum, resampled};
+use super::spectrum::Spectrum;
 use super::target::Target;
-use crate::geometry::{Bounds, trig};
-use crate::linkage::{Cognates, PlacedFourBar, Side};
-
-/// How many linkages are tried.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Effort {
-    /// A third of the normal effort.
-    Quick,
-    /// Less than half a second for a hundred points.
-    #[default]
-    Normal,
-    /// Four times the normal effort.
-    Thorough,
-}
-
-/// What the linkages must satisfy.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Options {
-    /// Whether the crank must turn fully.
-    pub full_turn: bool,
-    /// The greatest distance of two joints of a link, in sizes of the target; may be infinite.
-    pub max_link: f64,
-    /// The box of the fixed pivots, in the unit of the target.
-    pub pivots: Option<Bounds>,
-    /// How many linkages are tried.
-    pub effort: Effort,
-    /// The most answers.
-    pub most: usize,
-}
-
-impl Default for Options {
-    fn default() -> Options {
-        Options { full_turn: true, max_link: 10.0, pivots: None, effort: Effort::Normal, most: 10 }
-    }
-}
-
-/// A four-bar whose coupler curve is near a target.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Answer {
-    /// The linkage, in the unit and axes of the target.
-    pub linkage: PlacedFourBar,
-    /// The side of the line from the crank pin to the rocker's pivot on which the rocker pin is at the first point of the
-    /// target.
-    pub side: Side,
-    /// E: the root of the mean square of the distances of the target's points from the curve, in the unit of the target.
-    pub rms: f64,
-    /// E relative to the size of the target.
-    pub rms_relative: f64,
-    /// The greatest of these distances.
-    pub greatest: f64,
-    /// Whether the points of the curve that are nearest to those of the target are in their order.
-    pub is_in_order: bool,
-    /// Whether the curve passes the target backwards as the crank turns counterclockwise.
-    pub is_reversed: bool,
-    /// The length of the curve relative to that of the polygon of the target.
-    pub length_ratio: f64,
-}
-
-/// The lengths that the curve of an answer may have, relative to that of the target's polygon: others have excursions between
-/// its points, or cut them off.
-pub const LENGTH_RATIOS: [f64; 2] = [0.87, 1.15];
+use crate::geometry::trig;
+use crate::linkage::{Cognates, Side};
 
 /// A search in bounded steps.
 pub struct Search<'i> {
@@ -135,7 +78,7 @@ impl<'i> Search<'i> {
     /// Begins a search.
     pub fn new(target: &Target, index: &'i Index, options: Options) -> Search<'i> {
         let points = target.normalized();
-        let (spectrum, even_centre, even_size) = index.transform().spectrum(&resampled(&points, POINTS));
+        let (spectrum, even_centre, even_size) = index.transform().spectrum(&points);
         let (size, centre) = target.placement();
         let corner = |x: f64, y: f64| (Complex::new(x, y) - centre) / size;
         let pivots = options.pivots.map(|b| [corner(b.min.x, b.min.y), corner(b.max.x, b.max.y)]);
@@ -268,8 +211,7 @@ impl<'i> Search<'i> {
         let Some(best) = self.refinements.first().filter(|_| !self.has_looked_again) else { return Stage::Restart(0) };
         let circuit = self.circuit_of(&best.linkage, &best.poses[0]);
         let points: Vec<Complex> = circuit.iter().map(|pose| best.linkage.coupler_point(pose)).collect();
-        (self.spectrum, self.even_centre, self.even_size) =
-            self.index.transform().spectrum(&resampled(&points, POINTS));
+        (self.spectrum, self.even_centre, self.even_size) = self.index.transform().spectrum(&points);
         self.has_looked_again = true;
         self.kept = std::mem::take(&mut self.refinements);
         self.best.clear();
@@ -301,9 +243,11 @@ impl<'i> Search<'i> {
                 }
                 refinement.step(&self.points, &self.limits);
             }
-            self.refinements.push(refinement);
+            // Those from before have been found valid.
+            if self.has_valid_length(&refinement) {
+                self.refinements.push(refinement);
+            }
         }
-        self.keep_valid();
         Stage::Restart(count + 1)
     }
 
@@ -353,7 +297,7 @@ impl<'i> Search<'i> {
         };
         let mut scaled = |length: f64| length * trig::exp(next());
         let [frame, crank, coupler, rocker] = [from.frame, from.crank, from.coupler, from.rocker].map(&mut scaled);
-        let mut by = [0.0; super::parameters::COUNT];
+        let mut by = [0.0; COUNT];
         by[0] = 0.3 * next();
         by[1] = 0.3 * next();
         by[2] = 0.5 * next();
@@ -376,13 +320,13 @@ impl<'i> Search<'i> {
 
     /// Keeps the refinements whose curve has about the length of the target.
     fn keep_valid(&mut self) {
-        let refinements = std::mem::take(&mut self.refinements);
-        let is_valid = |refinement: &Refinement| {
-            let circuit = self.circuit_of(&refinement.linkage, &refinement.poses[0]);
-            let ratio = self.length_ratio(&refinement.linkage, &circuit);
-            (LENGTH_RATIOS[0]..=LENGTH_RATIOS[1]).contains(&ratio)
-        };
-        self.refinements = refinements.into_iter().filter(is_valid).collect();
+        let mut refinements = std::mem::take(&mut self.refinements);
+        refinements.retain(|refinement| self.has_valid_length(refinement));
+        self.refinements = refinements;
+    }
+
+    fn has_valid_length(&self, refinement: &Refinement) -> bool {
+        is_valid_ratio(self.length_ratio(refinement))
     }
 
     /// The samples of the circuit that a pose is on.
@@ -396,9 +340,9 @@ impl<'i> Search<'i> {
         circuits.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or_default()
     }
 
-    fn length_ratio(&self, linkage: &Parameters, circuit: &[Pose]) -> f64 {
-        let points: Vec<Complex> = circuit.iter().map(|pose| linkage.coupler_point(pose)).collect();
-        closed_length(&points) / self.polygon_length
+    /// The length of the curve relative to that of the target's polygon.
+    fn length_ratio(&self, Refinement { linkage, poses, .. }: &Refinement) -> f64 {
+        closed_length(&linkage.curve(&self.circuit_of(linkage, &poses[0]))) / self.polygon_length
     }
 
     /// The answers that have been found so far, the nearest first. Those whose curves are the same to a thousandth of the
@@ -425,8 +369,8 @@ impl<'i> Search<'i> {
     /// The answer of a refinement, with the feet of the target's points.
     fn answer(&self, refinement: &Refinement) -> Option<(Answer, Vec<Complex>)> {
         let linkage = refinement.linkage;
-        let length_ratio = self.length_ratio(&linkage, &self.circuit_of(&linkage, &refinement.poses[0]));
-        if !(LENGTH_RATIOS[0]..=LENGTH_RATIOS[1]).contains(&length_ratio) || !self.limits.are_satisfied(&linkage) {
+        let length_ratio = self.length_ratio(refinement);
+        if !is_valid_ratio(length_ratio) || !self.limits.are_satisfied(&linkage) {
             return None;
         }
         let (matching, is_reversed) = self.matching(&linkage, &refinement.poses[0])?;
@@ -445,8 +389,12 @@ impl<'i> Search<'i> {
             is_reversed,
             length_ratio,
         };
-        Some((answer, matching.poses.iter().map(|pose| linkage.coupler_point(pose)).collect()))
+        Some((answer, linkage.curve(&matching.poses)))
     }
+}
+
+fn is_valid_ratio(length_ratio: f64) -> bool {
+    (LENGTH_RATIOS[0]..=LENGTH_RATIOS[1]).contains(&length_ratio)
 }
 
 /// The two other four-bars that trace the same curve.

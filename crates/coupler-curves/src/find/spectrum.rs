@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 pub(super) const HARMONICS: usize = 10;
 
 /// The number of points at equal distances from which a spectrum is computed.
-pub(super) const POINTS: usize = 64;
+const POINTS: usize = 64;
 
 /// The harmonics 1 to 10, then -1 to -10.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,7 +24,7 @@ pub(super) fn directions(count: usize) -> Vec<Complex> {
 }
 
 /// Points at equal distances along a closed polyline, from its first point on.
-pub(super) fn resampled(points: &[Complex], count: usize) -> Vec<Complex> {
+fn resampled(points: &[Complex], count: usize) -> Vec<Complex> {
     let next = |k: usize| points[(k + 1) % points.len()];
     let lengths: Vec<f64> = (0..points.len()).map(|k| length(next(k) - points[k])).collect();
     let step = lengths.iter().sum::<f64>() / count as f64;
@@ -48,8 +48,6 @@ pub(super) struct Likeness {
     pub value: f64,
     /// Whether the curve is mirrored in the x-axis before.
     pub is_mirrored: bool,
-    /// Whether it is passed in the opposite direction.
-    pub is_reversed: bool,
     /// The factor of the similarity that follows, for curves of size 1.
     pub factor: Complex,
 }
@@ -64,9 +62,11 @@ impl Transform {
         Transform { directions: directions(POINTS) }
     }
 
-    /// The spectrum of [`POINTS`] points, their centroid and their size, the root of the mean square from it.
-    pub fn spectrum(&self, points: &[Complex]) -> (Spectrum, Complex, f64) {
-        let centre = mean(points);
+    /// The spectrum of a closed polyline, and of [`POINTS`] points at equal distances along it the centroid and the size, the
+    /// root of the mean square from it.
+    pub fn spectrum(&self, polyline: &[Complex]) -> (Spectrum, Complex, f64) {
+        let points = resampled(polyline, POINTS);
+        let centre = mean(&points);
         let mut harmonics = [Complex::new(0.0, 0.0); 2 * HARMONICS];
         let mut squares = 0.0;
         for (n, point) in points.iter().enumerate() {
@@ -85,7 +85,7 @@ impl Transform {
 
     /// How a curve of a spectrum is most like another one, over all starts, directions and reflections.
     pub fn likeness(&self, target: &Spectrum, curve: &Spectrum) -> Likeness {
-        let mut best = Likeness { value: 0.0, is_mirrored: false, is_reversed: false, factor: Complex::new(1.0, 0.0) };
+        let mut best = Likeness { value: 0.0, is_mirrored: false, factor: Complex::new(1.0, 0.0) };
         for (is_mirrored, is_reversed) in [(false, false), (false, true), (true, false), (true, true)] {
             let placed = curve.oriented(is_mirrored, is_reversed);
             let product = |k: usize| target.0[k] * placed.0[k].conj();
@@ -102,7 +102,7 @@ impl Transform {
                     })
                     .sum();
                 if sum.norm_sqr() > best.value * best.value {
-                    best = Likeness { value: length(sum), is_mirrored, is_reversed, factor: sum };
+                    best = Likeness { value: length(sum), is_mirrored, factor: sum };
                 }
             }
         }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::parameters::ordered_places;
 use super::path::{LinePath, union};
 use super::refinement::{ForEachInterval, Path, Refinement};
-use super::{Chart, ChartSample, PointSource};
+use super::{Chart, ChartSample, PointSource, path_name};
 use coupler_curves::expression::round_to_six_digits;
 use coupler_curves::family::Family;
 
@@ -252,11 +252,10 @@ impl<'a> ChartBuilder<'a> {
     /// What the curve of the n-th traced joint, from 1, is called.
     fn path_name(&self, trace: usize) -> String {
         let template = &self.family.template;
-        let name = |&joint: &usize| template.joints[joint].name.as_str();
-        let traced = template.traced.get(trace - 1).map(name);
-        // A grid of points has one name for all of them.
-        let is_alone = template.traced.iter().filter(|joint| Some(name(joint)) == traced).count() == 1;
-        traced.filter(|_| is_alone).map_or_else(|| format!("trace {trace}"), |name| format!("path of {name}"))
+        let traced = template.traced.iter().map(|&joint| template.joints[joint].name.as_str());
+        let name = traced.clone().nth(trace - 1);
+        let path = name.and_then(|name| path_name(traced, name));
+        path.unwrap_or_else(|| format!("trace {trace}"))
     }
 
     /// The label of each line, with only those values that are not the same for all lines.

@@ -60,6 +60,11 @@ pub fn parameter_unit(parameter: &Parameter) -> &'static str {
     }
 }
 
+/// What the path of a traced joint is called, if no other traced joint has its name: a grid of points has one for all.
+pub(crate) fn path_name<'n>(traced: impl Iterator<Item = &'n str>, name: &str) -> Option<String> {
+    (traced.filter(|other| *other == name).count() == 1).then(|| format!("path of {name}"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

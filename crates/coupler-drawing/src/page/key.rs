@@ -127,10 +127,9 @@ pub(super) fn draw(area: &impl Area, rect: Rect, key: &Key, figure: Option<&Figu
 pub(super) fn draw_lines(area: &impl Area, rect: Rect, dimensions: &[MathText], key: &Key, theme: &Theme) {
     let smallest = MIN_TEXT_SIZE.min(theme.note_size);
     let sizes = [1.0, 0.9, 0.8, 0.7, 0.0].map(|part| (part * theme.note_size).max(smallest));
-    let layouts = sizes.map(|em| KeyLines::new(rect, dimensions, key, em, theme));
-    let [.., last] = &layouts;
-    let layout = layouts.iter().find(|layout| layout.rows.len() <= layout.capacity()).unwrap_or(last);
-    layout.draw(area, rect, theme);
+    let lines = |em: f64| KeyLines::new(rect, dimensions, key, em, theme);
+    let fitting = sizes.into_iter().map(lines).find(|lines| lines.rows.len() <= lines.capacity());
+    fitting.unwrap_or_else(|| lines(smallest)).draw(area, rect, theme);
 }
 
 /// The lines of a key at a size of text.

@@ -4,6 +4,7 @@ use super::figure::MAX_CURVE_ERROR;
 use super::plot::Plot;
 use super::theme::Theme;
 use super::typography::superscript;
+use crate::chart;
 use crate::scene::{Color, Item, Path, Polyline};
 use coupler_curves::expression::{format_exactly, round_to_six_digits};
 use coupler_curves::family::{Family, StraightCriterion};
@@ -16,8 +17,8 @@ use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 pub(super) const PAGE_MEASURES: [&str; 7] =
     ["class", "mu_min_deg", "mu_max_deg", "mu_worst_deg", "length", "straight_length", "symmetry"];
 
-/// The facts of a cell of a family: first its class, the range of its transmission angle and that of its actuator, second its longest straight
-/// portion. Either may be empty.
+/// The facts of a cell of a family: first its class, the range of its transmission angle and that of its actuator, second
+/// its longest straight portion. Either may be empty.
 pub fn cell_facts(family: &Family, solved: &SolvedCell) -> [String; 2] {
     let Some(first) = solved.curves.first() else { return Default::default() };
     let mut parts = Vec::new();
@@ -62,9 +63,8 @@ fn actuator_range(solved: &SolvedCell, curve: &MeasuredCurve) -> Option<String> 
 pub(super) fn path_name(solved: &SolvedCell, curve: &MeasuredCurve) -> Option<String> {
     let linkage = &solved.linkage;
     let name = |joint: JointId| linkage.joints[joint].name.as_str();
-    let has_name = |other: &&JointId| name(**other) == name(curve.joint);
-    let is_alone = linkage.traced.len() > 1 && linkage.traced.iter().filter(has_name).count() == 1;
-    is_alone.then(|| format!("path of {}", name(curve.joint)))
+    let traced = linkage.traced.iter().map(|&joint| name(joint));
+    chart::path_name(traced, name(curve.joint)).filter(|_| linkage.traced.len() > 1)
 }
 
 /// The range of the transmission angle, in degrees. At 0° and at 180° coupler and output link are on one line, and no force

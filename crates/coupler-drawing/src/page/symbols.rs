@@ -5,9 +5,9 @@ use super::element::{Drawing, TextLine};
 use super::mechanism;
 use super::motion_marks::{self, TickSteps};
 use super::theme::Theme;
-use crate::mechanism::Mechanism;
 use crate::scene::{Anchor, Circle, Color, Item, Path, Polyline, Text};
 use coupler_curves::geometry::{Point, Vector};
+use coupler_curves::linkage::{Joint, JointKind};
 use coupler_curves::solve::SolvedCell;
 
 /// A symbol and its meaning.
@@ -71,7 +71,8 @@ pub(super) fn of_joints(solved: &SolvedCell, ink: Color) -> Vec<Symbol> {
 pub(super) fn of_cell(solved: &SolvedCell, ink: Color, period: f64) -> Vec<Symbol> {
     let mut symbols = of_joints(solved, ink);
     let mut add = |mark: Mark, meaning: String| symbols.push(Symbol { mark, meaning });
-    if !Mechanism::new(&solved.linkage, &solved.motion.circuits[0]).pitch_circles.is_empty() {
+    let is_gear = |joint: &Joint| matches!(joint.kind, JointKind::Gear { .. });
+    if solved.linkage.joints.iter().any(is_gear) {
         add(Mark::PitchCircle, "pitch circle of a gear".to_owned());
     }
     let unit = solved.linkage.input().unit_sign();

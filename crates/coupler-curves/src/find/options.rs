@@ -1,0 +1,36 @@
+//! What is asked of a search.
+
+use crate::geometry::Bounds;
+
+/// How many linkages are tried.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Effort {
+    /// A third of the normal effort.
+    Quick,
+    /// Less than half a second for a hundred points.
+    #[default]
+    Normal,
+    /// Four times the normal effort.
+    Thorough,
+}
+
+/// What the linkages must satisfy.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// Whether the crank must turn fully.
+    pub full_turn: bool,
+    /// The greatest distance of two joints of a link, in sizes of the target; may be infinite.
+    pub max_link: f64,
+    /// The box of the fixed pivots, in the unit of the target.
+    pub pivots: Option<Bounds>,
+    /// How many linkages are tried.
+    pub effort: Effort,
+    /// The most answers.
+    pub most: usize,
+}
+
+impl Default for Options {
+    fn default() -> Options {
+        Options { full_turn: true, max_link: 10.0, pivots: None, effort: Effort::Normal, most: 10 }
+    }
+}
