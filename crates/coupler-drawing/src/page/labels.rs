@@ -225,18 +225,9 @@ impl<'a> LabelPlacer<'a> {
     /// Places a label on a curve by its index as far as possible from a point, where it is clear of everything and
     /// nearer to its curve than to any other.
     pub fn place_far_from(&mut self, from: Point, (curve, points): (usize, &[Point]), text: Text) -> Option<Item> {
-        /// The positions tried on a curve, the furthest first.
-        const MOST_POSITIONS: usize = 48;
-        /// The part of the greatest distance that is far.
-        const FAR: f64 = 0.6;
         let (half, distance) = (half_size(&text), RING_RADII[0] * self.joint_radius);
-        let stride = points.len().div_ceil(2 * MOST_POSITIONS).max(1);
-        let mut positions: Vec<(f64, Point)> = points.iter().step_by(stride).map(|p| ((p - from).norm(), *p)).collect();
-        positions.sort_by(|(a, _), (b, _)| b.total_cmp(a));
-        let least = FAR * positions.first()?.0;
-        positions.retain(|(distance, _)| *distance >= least);
-        let spot = positions.iter().take(MOST_POSITIONS).find_map(|(_, at)| {
-            let near = self.obstacles.nearby(*at, 3.0 * distance + 2.0 * half.x);
+        let spot = far_positions(from, points).into_iter().find_map(|at| {
+            let near = self.obstacles.nearby(at, 3.0 * distance + 2.0 * half.x);
             let is_clear = |spot: &LabelBox| {
                 let others = self.placed.iter().map(|other| spot.distance_to_box(other)).fold(f64::INFINITY, f64::min);
                 others >= distance
@@ -244,10 +235,48 @@ impl<'a> LabelPlacer<'a> {
                     && near.clearance(*spot, self.enough()) >= 1.25 * self.enough() * (1.0 - 1e-9)
                     && near.distance_to_other_curves(*spot, curve, 2.0 * distance) >= 2.0 * distance
             };
-            boxes_around(*at, half, distance).find(is_clear)
+            boxes_around(at, half, distance).find(is_clear)
         })?;
         Some(self.add(spot, text))
     }
+
+    /// Places a label beside a bundle of curves, as far as possible from a point, and a line to it from its own curve; the label
+    /// and the ends of the line, the first of which is on the curve.
+    pub fn place_with_leader(&mut self, from: Point, points: &[Point], text: Text) -> Option<(Item, [Point; 2])> {
+        /// The distances of labels from their curve, in radii of a joint.
+        const RADII: [f64; 6] = [4.0, 6.0, 9.0, 12.0, 16.0, 20.0];
+        let (half, enough) = (half_size(&text), self.enough());
+        let places = far_positions(from, points).into_iter().step_by(4);
+        let distances = RADII.map(|radii| radii * self.joint_radius);
+        let mut spots = distances.into_iter().flat_map(|distance| places.clone().map(move |at| (at, distance)));
+        let (at, spot) = spots.find_map(|(at, distance)| {
+            let near = self.obstacles.nearby(at, 2.0 * distance + 2.0 * half.x);
+            let is_clear = |spot: &LabelBox| {
+                let others = self.placed.iter().map(|other| spot.distance_to_box(other)).fold(f64::INFINITY, f64::min);
+                others >= enough && self.is_free(spot) && near.clearance(*spot, enough) >= enough
+            };
+            boxes_around(at, half, distance).find(is_clear).map(|spot| (at, spot))
+        })?;
+        // The line ends at the edge of the label.
+        let along = spot.centre - at;
+        let [x, y] = [half.x / along.x.abs().max(1e-9), half.y / along.y.abs().max(1e-9)];
+        let end = spot.centre - along * (1.3 * x.min(y)).min(1.0);
+        Some((self.add(spot, text), [at, end]))
+    }
+}
+
+/// Positions of a curve that are far from a point, the furthest first.
+fn far_positions(from: Point, points: &[Point]) -> Vec<Point> {
+    /// The most positions.
+    const MOST_POSITIONS: usize = 48;
+    /// The part of the greatest distance that is far.
+    const FAR: f64 = 0.6;
+    let stride = points.len().div_ceil(2 * MOST_POSITIONS).max(1);
+    let mut positions: Vec<(f64, Point)> = points.iter().step_by(stride).map(|p| ((p - from).norm(), *p)).collect();
+    positions.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+    let least = FAR * positions.first().map_or(0.0, |(distance, _)| *distance);
+    let far = positions.into_iter().take_while(|(distance, _)| *distance >= least);
+    far.map(|(_, at)| at).take(MOST_POSITIONS).collect()
 }
 
 /// Half the width and height of a number or a capital.

@@ -30,7 +30,7 @@ use super::symbols::{self, Mark, Symbol};
 use super::theme::Theme;
 use super::{CouplerGridPage, Layout, Options, Panel, PoseChoice, pose};
 use crate::mechanism::Mechanism;
-use crate::scene::{Anchor, Circle, Color, Item, MIN_TEXT_SIZE, Scene, Stroke};
+use crate::scene::{Anchor, Circle, Color, Item, MIN_TEXT_SIZE, Path, Scene, Stroke};
 use coupler_curves::geometry::{Bounds, Point, Similarity, Vector};
 use coupler_curves::path::{DashPattern, JointPath};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
@@ -244,10 +244,21 @@ fn draw_figure(
     let mut numbers: Vec<Item> =
         at_points.into_iter().filter_map(|(at, s)| placer.place_at_point(at, number(s))).collect();
     // Curves that are nearly equal at their points differ at their far ends, where they have their numbers again.
-    numbers.extend(shown.iter().zip(&lines).enumerate().filter_map(|(k, (s, points))| {
-        let point = plot.page_from_plane.apply(mechanism.pose[s.curve.joint]);
-        placer.place_far_from(point, (k, points), number(s))
-    }));
+    let far_from = |s: &ShownCurve| plot.page_from_plane.apply(mechanism.pose[s.curve.joint]);
+    let mut in_bundles = Vec::new();
+    for (k, (s, points)) in shown.iter().zip(&lines).enumerate() {
+        match placer.place_far_from(far_from(s), (k, points), number(s)) {
+            Some(placed) => numbers.push(placed),
+            None => in_bundles.push((s, points)),
+        }
+    }
+    // In a bundle no number is next to its curve only: a line leads from it to the number.
+    for (s, points) in in_bundles {
+        if let Some((placed, ends)) = placer.place_with_leader(far_from(s), points, number(s)) {
+            let stroke = theme.stroke(s.ink(theme), theme.hair_width);
+            numbers.extend([Item::Path(Path::stroked(ends.to_vec(), stroke)), placed]);
+        }
+    }
 
     let group = |class, items| area.record(&Drawing { class, title: String::new(), items });
     group("underlay", underlay);
