@@ -63,6 +63,7 @@ impl<'a> CurveStrips<'a> {
         const EXACT: f64 = 1e-12;
         /// The strip of the points that touch contains all others to this part of its width.
         const TURNED: f64 = 1e-4;
+        const ROUNDS: usize = 2;
         self.portion.turn_to(ends);
         let last = self.portion.last();
         if self.touching[2] > last || self.touching[0] >= self.touching[1] || self.touching[1] >= self.touching[2] {
@@ -74,9 +75,13 @@ impl<'a> CurveStrips<'a> {
         if strip.width > EXACT * strip.length {
             self.portion.collect_contacts(&Lines(strip.direction), &strip.contacts, &mut self.contacts);
             // The contacts move along the curve, and the strip with them: the second time by the square of the first.
-            let mut three = strip.contacts.map(|k| self.contacts.partition_point(|contact| contact.index < k));
-            three.sort_unstable();
-            for _ in 0..2 {
+            for _ in 0..ROUNDS {
+                let lines = Lines(strip.direction);
+                if self.contacts.iter().any(|contact| !contact.is_close(&lines)) {
+                    self.portion.collect_contacts(&lines, &strip.contacts, &mut self.contacts);
+                }
+                let mut three = strip.contacts.map(|k| self.contacts.partition_point(|contact| contact.index < k));
+                three.sort_unstable();
                 self.touched.clear();
                 self.touched.extend(self.contacts.iter().map(|contact| contact.touching(&Lines(strip.direction))));
                 let touched = Strip::of_row(&self.touched, &mut three);

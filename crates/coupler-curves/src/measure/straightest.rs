@@ -68,30 +68,42 @@ pub(super) fn straightest(
         let longest = end((from + stride) as f64).map_or(f64::INFINITY, |to| length_between(from, to.ceil() as usize));
         cells.push((narrowest.size(width, longest), from as f64));
     }
-    let mut found: Vec<Candidate> = Vec::new();
+    // The portion that begins in the part from a point and is the best by a rank.
+    let best_from = |from: f64, rank: &dyn Fn(Candidate) -> f64| {
+        let mut strips = CurveStrips::new(row, [from, end(from)?], POINTS);
+        let to = from + stride as f64;
+        let bracket = Bracket { from, to, first_parts: 2, accuracy: ACCURACY * stride as f64 };
+        let ranked = |at: f64, _: f64| {
+            let to = end(at)?;
+            let PortionStrip { width, length, .. } = strips.strip([at, to]);
+            let candidate = Candidate { size: narrowest.size(width, length), length, ends: [at, to] };
+            (width <= most).then(|| (candidate, rank(candidate)))
+        };
+        greatest_in(bracket, ranked).map(|(_, (candidate, _))| candidate)
+    };
+    let mut found: Vec<(f64, Candidate)> = Vec::new();
     let mut least = f64::INFINITY;
     for (bound, from) in in_rising_order(cells, |cell| cell.0) {
         if bound > least * (1.0 + EQUAL) {
             break;
         }
-        let Some(to) = end(from) else { continue };
-        let mut strips = CurveStrips::new(row, [from, to], POINTS);
-        let to = from + stride as f64;
-        let bracket = Bracket { from, to, first_parts: 2, accuracy: ACCURACY * stride as f64 };
-        let narrowest_in_cell = greatest_in(bracket, |at, _| {
-            let to = end(at)?;
-            let PortionStrip { width, length, .. } = strips.strip([at, to]);
-            let size = narrowest.size(width, length);
+        if let Some(candidate) = best_from(from, &|Candidate { size, length, .. }| match size {
             // Straight lines are all equally narrow.
-            let rank = if size == 0.0 { length } else { -size };
-            (width <= most).then_some((Candidate { size, length, ends: [at, to] }, rank))
-        });
-        if let Some((_, (candidate, _))) = narrowest_in_cell {
+            0.0 => length,
+            _ => -size,
+        }) {
             least = least.min(candidate.size);
-            found.push(candidate);
+            found.push((from, candidate));
         }
     }
-    found.retain(|candidate| candidate.size <= least * (1.0 + EQUAL));
+    let is_least = |candidate: &Candidate| candidate.size <= least * (1.0 + EQUAL);
+    found.retain(|(_, candidate)| is_least(candidate));
+    // A strip that touches no end of its portion is as wide for others, which begin next to it and are longer.
+    let longest_from = |(from, candidate): (f64, Candidate)| {
+        let rank = |other: Candidate| if is_least(&other) { other.length } else { -other.size };
+        best_from(from, &rank).filter(|other| rank(*other) > candidate.length).unwrap_or(candidate)
+    };
+    let mut found: Vec<Candidate> = found.into_iter().map(longest_from).collect();
     let longest = found.iter().map(|candidate| candidate.length).fold(0.0, f64::max);
     found.retain(|candidate| candidate.length >= longest * (1.0 - EQUAL));
     let start_input = |ends: &[f64; 2]| within_period(row.input_at(ends[0]), 360.0);

@@ -38,6 +38,13 @@ impl Contact {
         height + levels.height_rates(self.point, velocity, acceleration)[0] * self.step(levels) / 2.0
     }
 
+    /// Whether the curve is as good as a parabola up to where it touches one of the levels. It is not where it is so flat
+    /// that the place moves far as the levels turn.
+    pub fn is_close(&self, levels: &impl Levels) -> bool {
+        let step = |[velocity, acceleration]: [Vector; 2]| vertex(levels, self.point, velocity, acceleration);
+        self.rates.is_none_or(|rates| step(rates).abs() < CLOSE)
+    }
+
     /// How far it is to where the curve touches one of the levels; 0 if it is not near.
     fn step(&self, levels: &impl Levels) -> f64 {
         let Some([velocity, acceleration]) = self.rates else { return 0.0 };
@@ -45,6 +52,9 @@ impl Contact {
         if step.abs() <= 1.0 { step } else { 0.0 }
     }
 }
+
+/// The part of the distance of two points over which the curve is as good as a parabola.
+const CLOSE: f64 = 0.02;
 
 /// How far it is to where the height of a moving point is stationary.
 fn vertex(levels: &impl Levels, point: Point, velocity: Vector, acceleration: Vector) -> f64 {
@@ -94,11 +104,11 @@ impl<'a> PortionPoints<'a> {
     /// Turns to the portion between two positions.
     pub fn turn_to(&mut self, ends: [f64; 2]) {
         /// A point closer to an end than this part of the spacing says nothing that the end does not.
-        const CLOSE: f64 = 0.3;
+        const TOO_CLOSE: f64 = 0.3;
         self.positions = ends.map(|position| position / self.spacing);
         let [from, to] = self.positions;
-        self.begin = (from + CLOSE).ceil() as i64;
-        let end = ((to - CLOSE).floor() as i64 + 1).max(self.begin);
+        self.begin = (from + TOO_CLOSE).ceil() as i64;
+        let end = ((to - TOO_CLOSE).floor() as i64 + 1).max(self.begin);
         self.prepare([self.begin, end]);
         let [first, last] = ends.map(|position| self.row.point_and_velocity_at(position));
         self.velocities = [first.1, last.1].map(|velocity| velocity * self.spacing);

@@ -59,6 +59,52 @@ fn of_equally_straight_half_turns_the_first_is_reported() {
     assert!((0.0..90.0).contains(&starts[0]) && (starts[0] - starts[1]).abs() < 1e-3, "{starts:?}");
 }
 
+/// Near the condition of Chebyshev's linkage for six points on a line, the strip over 120 degrees of input touches three
+/// points between the ends, so that other portions are as narrow: the longest of them is reported.
+#[test]
+fn of_equally_narrow_portions_the_longest_is_reported() {
+    const SAMPLES: usize = 2880;
+    let chebyshev = coupler_curves::catalogue::find("chebyshev").expect("in the catalogue");
+    for p in [2.44675, 2.447, 2.45025] {
+        let arm = (1.0 + p) * f64::sqrt(1.0 + p) / 2.0;
+        let linkage = chebyshev.linkage(&[p, arm, arm, 1.0, 0.5]).expect("a linkage");
+        let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(SAMPLES)));
+        let curve = TracedCurve::new(&linkage, &motion, &motion.circuits[0], linkage.traced[0])
+            .with_straight_criterion(StraightCriterion::Input(120.0));
+        let found = curve.straight().expect("a portion");
+        let points: Vec<Point> = motion.circuits[0].points(linkage.traced[0]).collect();
+        // The portions that begin every three degrees: the extents across and along its narrowest strip.
+        for from in (0..SAMPLES).step_by(24) {
+            let part: Vec<Point> = (from..=from + SAMPLES / 3).map(|k| points[k % SAMPLES]).collect();
+            let chord = part[part.len() - 1] - part[0];
+            let extents = |turn: f64| {
+                let (cos, sin) = (trig::cos(turn), trig::sin(turn));
+                let along = [cos * chord.x - sin * chord.y, sin * chord.x + cos * chord.y].map(|c| c / chord.norm());
+                let extent = |[a, b]: [f64; 2]| {
+                    let heights = part.iter().map(|p| a * p.x + b * p.y);
+                    heights.clone().fold(f64::NEG_INFINITY, f64::max) - heights.fold(f64::INFINITY, f64::min)
+                };
+                [extent([-along[1], along[0]]), extent(along)]
+            };
+            let (mut low, mut high) = (-0.02, 0.02);
+            while high - low > 1e-9 {
+                let thirds = [low + (high - low) / 3.0, high - (high - low) / 3.0];
+                match extents(thirds[0])[0] < extents(thirds[1])[0] {
+                    true => high = thirds[1],
+                    false => low = thirds[0],
+                }
+            }
+            let [width, length] = extents(low);
+            // Between two of these points the curve is up to 2e-5 of the width further out.
+            assert!(width >= 2.0 * found.deviation * (1.0 - 2e-5), "{p} {from}: {width}");
+            if width <= 2.0 * found.deviation {
+                assert!(length <= found.length * (1.0 + 1e-6), "{p} {from}: {length}");
+            }
+        }
+        assert!((found.length - 2.0523).abs() < 1e-4, "{p}: {}", found.length);
+    }
+}
+
 /// Next to a change point of Hart's inversor rounding is magnified so much that the measures are not exact.
 #[test]
 fn a_curve_that_is_not_known_exactly_is_reported() {
