@@ -3,17 +3,18 @@
 use std::hint::black_box;
 
 use coupler_curves::FourBar;
-use coupler_curves::find::{Effort, Index, Options, Search, Target};
+use coupler_curves::find::{Effort, Index, Options, PathKind, Search, Target};
 use coupler_curves::geometry::Point;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
-/// A hundred points of a coupler curve.
-fn target() -> Target {
+/// A hundred points of a coupler curve, or the first of them.
+fn target(kind: PathKind) -> Target {
     let four_bar = FourBar { frame: 3.1, crank: 1.2, coupler: 2.7, rocker: 3.3 };
     let curve = four_bar.coupler_curve(1.9, 1.4).unwrap();
     let points: Vec<Point> = curve.points().collect();
     let every = points.len() / 100;
-    Target::new(&points.into_iter().step_by(every).take(100).collect::<Vec<_>>()).unwrap()
+    let count = if kind == PathKind::Closed { 100 } else { 40 };
+    Target::new(&points.into_iter().step_by(every).take(count).collect::<Vec<_>>(), kind).unwrap()
 }
 
 fn find(criterion: &mut Criterion) {
@@ -21,14 +22,21 @@ fn find(criterion: &mut Criterion) {
     group.sample_size(10);
     group.throughput(Throughput::Elements(10_000));
     group.bench_function("index of 10,000 curves", |bencher| bencher.iter(|| Index::with_count(black_box(10_000))));
-    let target = target();
+    let [target, part] = [PathKind::Closed, PathKind::Part].map(target);
     for (name, count) in [("lookup in 100,000 curves", 100_000), ("lookup in 1,000,000 curves", 1_000_000)] {
         let index = Index::with_count(count);
         group.throughput(Throughput::Elements(count as u64));
         group.bench_function(name, |bencher| bencher.iter(|| index.most_alike(black_box(&target), true, 200)));
     }
     let index = Index::with_count(Index::DEFAULT_COUNT);
+    group.throughput(Throughput::Elements(index.len() as u64));
+    group.bench_function("portions of 100,000 curves", |bencher| {
+        bencher.iter(|| index.most_alike(black_box(&part), true, 200));
+    });
     group.throughput(Throughput::Elements(1));
+    group.bench_function("search for a part", |bencher| {
+        bencher.iter(|| Search::new(&part, &index, Options::default()).run());
+    });
     for (name, effort) in [("quick search", Effort::Quick), ("search", Effort::Normal)] {
         let options = Options { effort, ..Options::default() };
         group.bench_function(name, |bencher| bencher.iter(|| Search::new(&target, &index, options.clone()).run()));

@@ -16,6 +16,8 @@ pub mod sweep;
 
 pub mod design;
 
+pub mod find;
+
 pub use coupler_manifest as manifest;
 
 pub mod record;

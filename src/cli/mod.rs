@@ -7,6 +7,7 @@ mod completions;
 mod design;
 mod export;
 mod files;
+mod find;
 mod format;
 mod init;
 mod inspect;
@@ -75,6 +76,7 @@ enum Command {
     Check(check::Arguments),
     Inspect(inspect::Arguments),
     Design(Box<design::Arguments>),
+    Find(Box<find::Arguments>),
     Export(export::Arguments),
     List(list::Arguments),
     Init(init::Arguments),
@@ -133,6 +135,7 @@ pub fn main() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments),
         Command::Inspect(arguments) => inspect::run(&arguments),
         Command::Design(arguments) => design::run(&arguments),
+        Command::Find(arguments) => find::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
         Command::List(arguments) => list::run(&arguments),
         Command::Init(arguments) => init::run(&arguments),

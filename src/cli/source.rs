@@ -25,7 +25,7 @@ pub struct ManifestSource {
 /// The file cannot be read.
 pub fn read_text(path: &Path) -> anyhow::Result<String> {
     files::protect(path);
-    output::read_manifest(path).map_err(|error| match error {
+    output::read_text(path).map_err(|error| match error {
         output::Error::Read { source, .. } if files::is_standard(path) => {
             InputError(format!("cannot read standard input: {source}")).into()
         }

@@ -11,14 +11,14 @@ use super::Error;
 use crate::manifest::MAX_MANIFEST_BYTES;
 use crate::record::{FileRecord, JOURNAL_FILE_NAME, LOCK_FILE_NAME, RUN_FILE_NAME, RunRecord, file_digest};
 
-/// Reads the text of a manifest: of a file, or of standard input if the path is `-`.
+/// Reads the text of a manifest or of a path: of a file, or of standard input if the name is `-`.
 ///
 /// # Errors
 /// The file cannot be read, is not a regular file, is too large, or is not UTF-8 text.
-pub fn read_manifest(path: &Path) -> Result<String, Error> {
+pub fn read_text(path: &Path) -> Result<String, Error> {
     let text = match path.as_os_str() == RunRecord::STANDARD_INPUT {
-        true => read_text(io::stdin().lock()),
-        false => open_regular(path).and_then(read_text),
+        true => read_limited(io::stdin().lock()),
+        false => open_regular(path).and_then(read_limited),
     };
     let text = text.map_err(|source| Error::Read { path: path.to_owned(), source })?;
     // The byte order mark is not part of the text: columns are counted without it.
@@ -54,11 +54,11 @@ fn open_regular(path: &Path) -> io::Result<fs::File> {
 }
 
 /// Reads a text of at most [`MAX_MANIFEST_BYTES`].
-fn read_text(source: impl Read) -> io::Result<String> {
+fn read_limited(source: impl Read) -> io::Result<String> {
     let mut text = String::new();
     source.take(MAX_MANIFEST_BYTES as u64 + 1).read_to_string(&mut text)?;
     if text.len() > MAX_MANIFEST_BYTES {
-        let message = format!("it has more than {MAX_MANIFEST_BYTES} bytes, the most of a manifest; divide it");
+        let message = format!("it has more than {MAX_MANIFEST_BYTES} bytes, the most that are read; divide it");
         return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
     }
     Ok(text)

@@ -16,7 +16,7 @@ mod registry;
 mod table_file;
 
 pub use error::Error;
-pub use files::{create_folder, read_font, read_manifest, write as write_file, write_new};
+pub use files::{create_folder, read_font, read_text, write as write_file, write_new};
 
 use std::collections::HashSet;
 use std::path::Path;

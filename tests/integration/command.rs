@@ -19,6 +19,7 @@ pub fn program(folder: &Path) -> Command {
     for name in ["NO_COLOR", "CLICOLOR_FORCE", "COLUMNS"] {
         program.env_remove(name);
     }
+    program.env("XDG_CACHE_HOME", env!("CARGO_TARGET_TMPDIR"));
     program
 }
 

@@ -19,6 +19,7 @@ mod drawn;
 mod export;
 mod family_measures;
 mod faults;
+mod find;
 mod folder;
 mod formats;
 mod gallery;

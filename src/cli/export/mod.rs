@@ -11,6 +11,7 @@ use coupler_atlas::export::{self, Format, Options};
 use coupler_atlas::manifest::Plan;
 use coupler_curves::exchange::{CurveName, ParameterSet, SelectedCurve, manifest_fragment};
 use coupler_curves::family::{Family, MAX_SAMPLES, ParameterText, Sampling};
+use coupler_curves::geometry::Point;
 use coupler_curves::problem::suggestion;
 use coupler_curves::template::Template;
 use coupler_drawing::curve_file::FileOptions;
@@ -204,8 +205,43 @@ fn select_from_manifest(arguments: &Arguments) -> anyhow::Result<(Vec<CurveSelec
     if arguments.format.contains(&Format::Png) {
         source.require_drawable()?;
     }
-    let is_requested = |id: &str| arguments.only.is_empty() || arguments.only.iter().any(|only| only == id);
-    let planned: Vec<_> = source.plan.families.iter().filter(|planned| is_requested(&planned.family.id)).collect();
+    Ok((select_curves(&source.plan, &arguments.only, words)?, source.plan))
+}
+
+/// The samples of a named curve of a manifest, and whether it is closed.
+///
+/// # Errors
+/// The manifest cannot be read, there is no such curve, or the name is that of several.
+pub(super) fn curve_points(manifest: &Path, name: &str) -> anyhow::Result<(Vec<Point>, bool)> {
+    let source = source::read(manifest)?;
+    let selections = select_curves(&source.plan, &[], &[name.to_owned()])?;
+    let count = count_curves(&selections)?;
+    let [selection] = &selections[..] else { return Err(InputError(format!("there is no curve {name}")).into()) };
+    if count > 1 {
+        let message = format!("{name} has {count} curves: name one, as FAMILY:CELL.TRACE.CIRCUIT");
+        return Err(InputError(message).into());
+    }
+    let points = |solved| {
+        let solved = selection.retain_selected(solved);
+        let curve = solved.curves.first()?;
+        let circuit = solved.circuit(curve);
+        Some((circuit.points(curve.joint).collect::<Vec<Point>>(), circuit.is_closed))
+    };
+    let mut found = None;
+    selection.solve_cells(false, points, |curve| {
+        found = found.take().or(curve);
+        Ok::<(), anyhow::Error>(())
+    })?;
+    found.ok_or_else(|| InputError(format!("there is no curve {name}")).into())
+}
+
+/// Selects the named curves of a plan, of some of its families or of all; without names, all of their curves.
+///
+/// # Errors
+/// Every error in the names.
+fn select_curves(plan: &Plan, only: &[String], words: &[String]) -> anyhow::Result<Vec<CurveSelection>> {
+    let is_requested = |id: &str| only.is_empty() || only.iter().any(|only| only == id);
+    let planned: Vec<_> = plan.families.iter().filter(|planned| is_requested(&planned.family.id)).collect();
     let ids: Vec<&str> = planned.iter().map(|planned| planned.family.id.as_str()).collect();
     let mut problems = Vec::new();
     let mut selections: Vec<CurveSelection> = Vec::new();
@@ -242,7 +278,7 @@ fn select_from_manifest(arguments: &Arguments) -> anyhow::Result<(Vec<CurveSelec
         selections
             .extend(planned.iter().map(|planned| CurveSelection::all(planned.family.clone(), planned.source.clone())));
     }
-    if problems.is_empty() { Ok((selections, source.plan)) } else { Err(problems_error(&problems)) }
+    if problems.is_empty() { Ok(selections) } else { Err(problems_error(&problems)) }
 }
 
 /// The number of selected curves.

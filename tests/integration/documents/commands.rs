@@ -10,11 +10,11 @@ use super::text::{Document, codes};
 use super::{copy, documents, printed, put_manifests};
 use crate::command::run;
 
-const COMMANDS: [&str; 10] =
-    ["render", "validate", "check", "inspect", "design", "export", "list", "init", "completions", "man"];
+const COMMANDS: [&str; 11] =
+    ["render", "validate", "check", "inspect", "design", "find", "export", "list", "init", "completions", "man"];
 
 /// Commands with placeholders, shortened or presupposing something else: what is run instead, and with which exit code.
-const SUBSTITUTED: [(&str, &[(&str, i32)]); 10] = [
+const SUBSTITUTED: [(&str, &[(&str, i32)]); 12] = [
     // There is an `atlas.toml`.
     ("coupler-atlas init", &[("coupler-atlas init new/atlas.toml", 0), ("coupler-atlas init", 2)]),
     ("coupler-atlas check [MANIFEST] --against DIR", &[("coupler-atlas check atlas.toml --against output", 0)]),
@@ -26,6 +26,7 @@ const SUBSTITUTED: [(&str, &[(&str, i32)]); 10] = [
             ("coupler-atlas check --help", 0),
             ("coupler-atlas inspect --help", 0),
             ("coupler-atlas design --help", 0),
+            ("coupler-atlas find --help", 0),
             ("coupler-atlas export --help", 0),
             ("coupler-atlas list --help", 0),
             ("coupler-atlas init --help", 0),
@@ -33,6 +34,8 @@ const SUBSTITUTED: [(&str, &[(&str, i32)]); 10] = [
             ("coupler-atlas man --help", 0),
         ],
     ),
+    ("coupler-atlas find PATH", &[("coupler-atlas find examples/sketch.svg", 0)]),
+    ("coupler-atlas find --json", &[("coupler-atlas find examples/sketch.svg --json", 0)]),
     ("coupler-atlas list linkages NAME", &[("coupler-atlas list linkages evans", 0)]),
     ("coupler-atlas inspect --json", &[("coupler-atlas inspect evans p=2.5 a=3 --json", 0)]),
     ("coupler-atlas inspect --svg -", &[("coupler-atlas inspect evans p=2.5 a=3 --svg -", 0)]),

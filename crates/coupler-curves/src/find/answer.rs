@@ -1,15 +1,14 @@
 //! What a search finds.
 
-use crate::linkage::{PlacedFourBar, Side};
+use super::mechanism::Mechanism;
 
-/// A four-bar whose coupler curve is near a target.
+/// A coupler curve near a target, and the four-bars that trace it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
-    /// The linkage, in the unit and axes of the target.
-    pub linkage: PlacedFourBar,
-    /// The side of the line from the crank pin to the rocker's pivot on which the rocker pin is at the first point of the
-    /// target.
-    pub side: Side,
+    /// The four-bar to build: of those that meet the constraints the one with the best transmission angle.
+    pub mechanism: Mechanism,
+    /// Its cognates: the other four-bars that trace the same curve (Roberts and Chebyshev); none if the coupler point is a pin.
+    pub cognates: Vec<Mechanism>,
     /// E: the root of the mean square of the distances of the target's points from the curve, in the unit of the target.
     pub rms: f64,
     /// E relative to the size of the target.
@@ -18,12 +17,53 @@ pub struct Answer {
     pub greatest: f64,
     /// Whether the points of the curve that are nearest to those of the target are in their order.
     pub is_in_order: bool,
-    /// Whether the curve passes the target backwards as the crank turns counterclockwise.
-    pub is_reversed: bool,
-    /// The length of the curve relative to that of the polygon of the target.
+    /// The length of the curve relative to that of the polygon of a closed target; of an open one, of the portion from the first point to the
+    /// last relative to that of the target.
     pub length_ratio: f64,
 }
 
-/// The lengths that the curve of an answer may have, relative to that of the target's polygon: others have excursions between
+/// How near a curve is to a target, in a word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Quality {
+    /// E is at most 0.0001 of the target's size: no difference is seen in a drawing.
+    Exact,
+    /// At most 0.01: a line's width in a drawing as large as a hand.
+    Close,
+    /// At most 0.05.
+    Fair,
+    /// More than that.
+    Poor,
+}
+
+impl Quality {
+    /// The word.
+    pub fn name(self) -> &'static str {
+        match self {
+            Quality::Exact => "exact",
+            Quality::Close => "close",
+            Quality::Fair => "fair",
+            Quality::Poor => "poor",
+        }
+    }
+}
+
+impl Answer {
+    /// How near the curve is.
+    pub fn quality(&self) -> Quality {
+        match self.rms_relative {
+            ..=1e-4 => Quality::Exact,
+            ..=0.01 => Quality::Close,
+            ..=0.05 => Quality::Fair,
+            _ => Quality::Poor,
+        }
+    }
+
+    /// The four-bar to build, and its cognates.
+    pub fn mechanisms(&self) -> impl Iterator<Item = &Mechanism> {
+        std::iter::once(&self.mechanism).chain(&self.cognates)
+    }
+}
+
+/// The lengths that the curve of an answer, or its portion, may have relative to that of the target: others have excursions between
 /// its points, or cut them off.
 pub const LENGTH_RATIOS: [f64; 2] = [0.87, 1.15];

@@ -36,6 +36,11 @@ pub(super) fn mean(points: &[Complex]) -> Complex {
     points.iter().sum::<Complex>() / points.len().max(1) as f64
 }
 
+/// The length of the polyline through some points.
+pub(super) fn open_length(points: &[Complex]) -> f64 {
+    points.windows(2).map(|pair| length(pair[1] - pair[0])).sum()
+}
+
 /// The length of the closed polyline through some points.
 pub(super) fn closed_length(points: &[Complex]) -> f64 {
     let next = points.iter().cycle().skip(1);

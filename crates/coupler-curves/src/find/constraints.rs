@@ -1,7 +1,9 @@
 //! What a linkage must satisfy, and the least-squares step that keeps to it.
 
 use super::complex::{Complex, length, times_i};
+use super::mechanism::Condition;
 use super::parameters::{COUNT, FRAME, Parameters};
+use super::pose::Pose;
 use nalgebra::{Cholesky, Const, SMatrix, SVector};
 
 /// A motion of the parameters.
@@ -11,7 +13,7 @@ pub(super) type Motion = SVector<f64, COUNT>;
 pub(super) type Normal = SMatrix<f64, COUNT, COUNT>;
 
 /// The limits of a linkage, in sizes of the target.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Limits {
     /// Whether the crank must turn fully.
     pub full_turn: bool,
@@ -19,6 +21,10 @@ pub(super) struct Limits {
     pub max_link: f64,
     /// The corners of the box of the fixed pivots.
     pub pivots: Option<[Complex; 2]>,
+    /// The condition on the linkage, in the unit and axes of the target.
+    pub condition: Option<Condition>,
+    /// The size and the centroid of the target.
+    pub placement: (f64, Complex),
 }
 
 /// Shorter links are not built: a hundredth of a millimetre in a path of ten.
@@ -92,6 +98,21 @@ impl Limits {
     pub fn are_satisfied(&self, linkage: &Parameters) -> bool {
         let is_frame_longer = linkage.frame >= linkage.crank;
         self.constraints(linkage, is_frame_longer).iter().all(|(value, _)| *value >= 0.0)
+    }
+
+    /// Whether a linkage that was computed from another one, such as a cognate, satisfies the constraints to rounding.
+    pub fn are_nearly_satisfied(&self, linkage: &Parameters) -> bool {
+        const ROUNDING: f64 = 1e-10;
+        let is_frame_longer = linkage.frame >= linkage.crank;
+        self.constraints(linkage, is_frame_longer).iter().all(|(value, _)| *value >= -ROUNDING)
+    }
+
+    /// Whether a linkage satisfies the condition on the circuit of a pose.
+    pub fn meets_condition(&self, linkage: &Parameters, pose: &Pose) -> bool {
+        let Some(condition) = &self.condition else { return true };
+        let (size, centre) = self.placement;
+        let placed = linkage.transformed(Complex::new(size, 0.0), centre);
+        condition.is_met(&placed.to_placed(), placed.pins(pose))
     }
 
     /// A linkage near another one that satisfies the constraints: each that is violated is corrected by the shortest

@@ -2,9 +2,10 @@
 
 use super::complex::{Complex, closed_length, unit};
 use super::parameters::Parameters;
+use super::portion::{Stroke, Synthesis};
 use super::pose::Pose;
 use super::spectrum::{HARMONICS, Spectrum, Transform, directions};
-use super::target::Target;
+use super::target::{PathKind, Target};
 use crate::linkage::FourBarClass;
 
 /// The curves of the four-bars of a fixed sequence, whose parameters fill their ranges evenly.
@@ -15,8 +16,12 @@ use crate::linkage::FourBarClass;
 pub struct Index {
     shapes: Vec<Shape>,
     transform: Transform,
+    synthesis: Synthesis,
     directions: Vec<Complex>,
 }
+
+/// Some curves of an index.
+pub struct IndexPart(Vec<Shape>);
 
 /// The harmonics of a curve in canonical phase: those of order 1 and 2, and the others as parts of their greatest, so that the
 /// small differences of curves that are nearly circles are kept.
@@ -51,12 +56,20 @@ impl Index {
     /// The memory of a curve.
     pub const BYTES_PER_CURVE: usize = size_of::<Shape>();
 
+    /// The version of the sequence and of the bytes.
+    pub const VERSION: u32 = 1;
+
     /// The number of curves that are searched unless another one is asked for.
     pub const DEFAULT_COUNT: usize = 100_000;
 
     /// An index without curves.
     pub fn new() -> Index {
-        Index { shapes: Vec::new(), transform: Transform::new(), directions: directions(SAMPLES) }
+        Index {
+            shapes: Vec::new(),
+            transform: Transform::new(),
+            synthesis: Synthesis::new(),
+            directions: directions(SAMPLES),
+        }
     }
 
     /// An index of the first curves of the sequence.
@@ -64,6 +77,29 @@ impl Index {
         let mut index = Index::new();
         index.extend(count);
         index
+    }
+
+    /// A part of an index, which can be computed on any thread.
+    pub fn part(range: std::ops::Range<usize>) -> IndexPart {
+        let index = Index::new();
+        IndexPart(range.map(|number| index.shape(number)).collect())
+    }
+
+    /// The index of parts that follow each other from the first curve on.
+    pub fn from_parts(parts: impl IntoIterator<Item = IndexPart>) -> Index {
+        Index { shapes: parts.into_iter().flat_map(|IndexPart(shapes)| shapes).collect(), ..Index::new() }
+    }
+
+    /// The curves as bytes, [`Index::BYTES_PER_CURVE`] for each, the same on every machine.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        self.shapes.iter().flat_map(|shape| shape.to_bytes()).collect()
+    }
+
+    /// The index with these bytes; `None` if they are not a whole number of curves. They must be those of an index of this
+    /// [`Index::VERSION`].
+    pub fn from_bytes(bytes: &[u8]) -> Option<Index> {
+        let (shapes, []) = bytes.as_chunks() else { return None };
+        Some(Index { shapes: shapes.iter().map(Shape::from_bytes).collect(), ..Index::new() })
     }
 
     /// Adds the next curves of the sequence; the order in which an index grows does not change it.
@@ -85,15 +121,24 @@ impl Index {
         self.shapes.is_empty()
     }
 
-    /// The numbers of the curves that are most like a target, at most `most` of them, the likeliest first. Their harmonics are
-    /// compared in canonical phase only.
+    /// The numbers of the curves that are most like a closed target, or of those with a portion that is most like an open one; at
+    /// most `most`, the likeliest first. Of closed ones the harmonics are compared in canonical phase only.
     pub fn most_alike(&self, target: &Target, full_turn: bool, most: usize) -> Vec<usize> {
-        let (spectrum, ..) = self.transform.spectrum(&target.normalized());
-        let query = (&spectrum, target.polygon_length(), full_turn);
-        self.nearest(query, 0..self.len(), Vec::new(), most).into_iter().map(|(_, number)| number).collect()
+        let points = target.normalized();
+        let found = match target.kind() {
+            PathKind::Closed => {
+                let (spectrum, ..) = self.transform.spectrum(&points);
+                let query = (&spectrum, target.polyline_length(), full_turn);
+                self.nearest(query, 0..self.len(), Vec::new(), most)
+            }
+            PathKind::Open | PathKind::Part => {
+                self.nearest_portions((&Stroke::new(&points), full_turn), 0..self.len(), Vec::new(), most)
+            }
+        };
+        found.into_iter().map(|(_, number)| number).collect()
     }
 
-    /// How much a curve is like a target, up to 1 for similar curves: the greatest correlation of their harmonics over all
+    /// How much a curve is like a closed target, up to 1 for similar curves: the greatest correlation of their harmonics over all
     /// starts, directions and reflections. `None` if the index has no such curve.
     pub fn likeness(&self, target: &Target, number: usize) -> Option<f64> {
         let (spectrum, ..) = self.transform.spectrum(&target.normalized());
@@ -152,6 +197,37 @@ impl Index {
                 continue;
             }
             let likeness = -shape.square_distance(other);
+            if likeness > least {
+                best.push((likeness, number));
+                if best.len() >= 2 * most {
+                    least = keep_best(&mut best, most);
+                }
+            }
+        }
+        keep_best(&mut best, most);
+        best
+    }
+}
+
+impl Index {
+    /// The curves of a range of which a portion is most like a stroke, at most `most` with those that are given, the best first:
+    /// how much, and their numbers.
+    pub(super) fn nearest_portions(
+        &self,
+        (stroke, full_turn): (&Stroke, bool),
+        range: std::ops::Range<usize>,
+        mut best: Vec<(f32, usize)>,
+        most: usize,
+    ) -> Vec<(f32, usize)> {
+        let mut least = f32::NEG_INFINITY;
+        for number in range.start..range.end.min(self.shapes.len()) {
+            let shape = &self.shapes[number];
+            if shape.length == 0 || (full_turn && !shape.is_full_turn) {
+                continue;
+            }
+            let length = f32::from(shape.length) * LENGTH_UNIT as f32;
+            let Some(window) = self.synthesis.best_window(&shape.harmonics(), length, stroke) else { continue };
+            let likeness = -window.residual;
             if likeness > least {
                 best.push((likeness, number));
                 if best.len() >= 2 * most {
@@ -230,6 +306,42 @@ impl Shape {
         let left_out = 1.0 - harmonics.iter().map(|z| z.norm_sqr()).sum::<f64>();
         shape.rest = left_out as f32 + (1..4).map(|part| shape.product(&shape, part)).sum::<f32>();
         shape
+    }
+
+    fn to_bytes(self) -> [u8; Index::BYTES_PER_CURVE] {
+        let low = self.low.iter().flat_map(|value| value.to_le_bytes());
+        let high = self.high.iter().flat_map(|value| value.to_le_bytes());
+        let units = [self.high_unit, self.rest].into_iter().flat_map(f32::to_le_bytes);
+        let rest = self.length.to_le_bytes().into_iter().chain([u8::from(self.is_full_turn), 0]);
+        let mut bytes = low.chain(high).chain(units).chain(rest);
+        std::array::from_fn(|_| bytes.next().unwrap_or_default())
+    }
+
+    fn from_bytes(bytes: &[u8; Index::BYTES_PER_CURVE]) -> Shape {
+        let (low, rest) = bytes.split_at(16);
+        let (high, rest) = rest.split_at(32);
+        let mut next = rest.as_chunks::<4>().0.iter().copied();
+        let mut next = || next.next().unwrap_or_default();
+        let mut shape =
+            Shape { high_unit: f32::from_le_bytes(next()), rest: f32::from_le_bytes(next()), ..Shape::EMPTY };
+        let [length, after, is_full_turn, _] = next();
+        shape.length = u16::from_le_bytes([length, after]);
+        shape.is_full_turn = is_full_turn != 0;
+        shape.low.iter_mut().zip(low.as_chunks().0).for_each(|(value, bytes)| *value = i16::from_le_bytes(*bytes));
+        shape.high.iter_mut().zip(high).for_each(|(value, byte)| *value = byte.cast_signed());
+        shape
+    }
+
+    /// The harmonics of order 1 to 10, then -1 to -10.
+    fn harmonics(&self) -> [[f32; 2]; 2 * HARMONICS] {
+        let mut harmonics = [[0.0; 2]; 2 * HARMONICS];
+        for (slot, k) in Shape::LOW.into_iter().enumerate() {
+            harmonics[k] = [self.low[slot], self.low[4 + slot]].map(|value| f32::from(value) * LOW_UNIT);
+        }
+        for (slot, k) in Shape::HIGH.into_iter().enumerate() {
+            harmonics[k] = [self.high[slot], self.high[16 + slot]].map(|value| f32::from(value) * self.high_unit);
+        }
+        harmonics
     }
 
     /// The harmonics of a part: the real parts of odd orders, of even orders, and the imaginary parts of both.

@@ -1,6 +1,6 @@
 //! The matching of a target with a curve: each point has its own point of the curve, in order.
 
-use super::complex::{Complex, mean};
+use super::complex::{Complex, mean, open_length};
 use super::parameters::Parameters;
 use super::pose::Pose;
 
@@ -71,6 +71,8 @@ pub(super) struct Matching {
     /// For each point the mean of those that share its pose: the sum of the squares of the distances from it differs from that of
     /// the points by a constant.
     pub means: Vec<Complex>,
+    /// The length of the curve from the first of the poses to the last.
+    pub portion_length: f64,
     /// The sum of the squares of the distances.
     pub sum: f64,
     /// The greatest distance.
@@ -125,8 +127,22 @@ impl Matching {
         let means = blocks.iter().flat_map(shared).collect();
         let squares = poses.iter().zip(target).map(|(pose, point)| (point - linkage.coupler_point(pose)).norm_sqr());
         let (sum, greatest) = squares.fold((0.0, 0.0f64), |(sum, most), square| (sum + square, most.max(square)));
-        Matching { poses, means, sum, greatest: greatest.sqrt(), is_in_order }
+        let ends = [&blocks[0], &blocks[blocks.len() - 1]].map(|block| block.position);
+        let portion_length = portion_length(&linkage.curve(circuit), ends);
+        Matching { poses, means, portion_length, sum, greatest: greatest.sqrt(), is_in_order }
     }
+}
+
+/// The length of the closed polyline through samples between two positions, of which the second is at most a round after the first.
+fn portion_length(samples: &[Complex], [from, to]: [f64; 2]) -> f64 {
+    let at = |position: f64| {
+        let (sample, part) = (position.floor(), position - position.floor());
+        let point = |k: f64| samples[(k as i64).rem_euclid(samples.len() as i64) as usize];
+        point(sample) + (point(sample + 1.0) - point(sample)) * part
+    };
+    let between = (from.ceil() as i64..=to.floor() as i64).map(|k| at(k as f64));
+    let points: Vec<Complex> = std::iter::once(at(from)).chain(between).chain([at(to)]).collect();
+    open_length(&points)
 }
 
 /// The position of a pose along a circuit near one of its samples, in samples.

@@ -3,32 +3,38 @@
 //! # The metric
 //!
 //! The size of a target with points p is S = sqrt(mean |p - p̄|²). The deviation of a curve C from it is
-//! E = sqrt(mean d(p, C(t))²), the distances of the points from the continuous curve, where the t of the points are in their order along one
-//! circuit within one turn, in either direction. An answer is valid only if the length of its curve is 0.87 to 1.15 of that of the
-//! target's polygon; otherwise curves with excursions between the points would win.
+//! E = sqrt(mean d(p, C(t))²), the distances of the points from the continuous curve, where the t of the points are in their order
+//! along one circuit within one turn, in either direction. An answer for a closed target is valid only if the length of its curve
+//! is 0.87 to 1.15 of that of the target's polygon, and one for a part if that of its portion is; otherwise curves with excursions
+//! between the points would win.
 //!
 //! # The search
 //!
-//! An [`Index`] has the shapes of many four-bars' curves. Those most like the target, in any position, size, direction, reflection
-//! and with any start, are placed on it and refined by Levenberg and Marquardt's method on nine parameters, with the distances
-//! across the curve and derivatives that are regular at limits of the input. The constraints are kept in each step. The best
-//! begin again from their cognates (Roberts and Chebyshev). All of it is in steps of bounded work.
+//! An [`Index`] has the shapes of many four-bars' curves. Those most like the target, or with a portion most like an open one, in any
+//! position, size, direction, reflection and with any start, are placed on it and refined by Levenberg and Marquardt's method on
+//! nine parameters, with the distances across the curve and derivatives that are regular at limits of the input. The constraints
+//! are kept in each step. The best begin again from their cognates (Roberts and Chebyshev). All of it is in steps of bounded work.
 
 mod answer;
 mod complex;
 mod constraints;
 mod index;
 mod matching;
+mod mechanism;
 mod options;
 mod parameters;
+mod portion;
 mod pose;
 mod refinement;
+mod relaxation;
 mod search;
 mod spectrum;
 mod target;
 
-pub use answer::{Answer, LENGTH_RATIOS};
-pub use index::Index;
+pub use answer::{Answer, LENGTH_RATIOS, Quality};
+pub use index::{Index, IndexPart};
+pub use mechanism::{Condition, Mechanism};
 pub use options::{Effort, Options};
+pub use relaxation::{Constraint, nearest_miss};
 pub use search::Search;
-pub use target::{Target, TargetError};
+pub use target::{PathKind, Target, TargetError};

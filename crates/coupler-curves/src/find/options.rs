@@ -1,5 +1,6 @@
 //! What is asked of a search.
 
+use super::mechanism::Condition;
 use crate::geometry::Bounds;
 
 /// How many linkages are tried.
@@ -23,14 +24,29 @@ pub struct Options {
     pub max_link: f64,
     /// The box of the fixed pivots, in the unit of the target.
     pub pivots: Option<Bounds>,
+    /// A condition on the linkage.
+    pub condition: Option<Condition>,
     /// How many linkages are tried.
     pub effort: Effort,
+    /// Whether the curves of the index are refined, or only placed on the target.
+    pub refine: bool,
+    /// The number from which the linkages follow that are tried near those that have been found.
+    pub seed: u64,
     /// The most answers.
     pub most: usize,
 }
 
 impl Default for Options {
     fn default() -> Options {
-        Options { full_turn: true, max_link: 10.0, pivots: None, effort: Effort::Normal, most: 10 }
+        Options {
+            full_turn: true,
+            max_link: 10.0,
+            pivots: None,
+            condition: None,
+            effort: Effort::default(),
+            refine: true,
+            seed: 1,
+            most: 10,
+        }
     }
 }

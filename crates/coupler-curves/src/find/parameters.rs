@@ -105,6 +105,12 @@ impl Parameters {
         self.crank_pivot + self.crank * pose.crank + self.point * pose.coupler
     }
 
+    /// The crank pin and the rocker pin in a pose.
+    pub fn pins(&self, pose: &Pose) -> [Point; 2] {
+        let crank_pin = self.crank_pivot + self.crank * pose.crank;
+        [crank_pin, crank_pin + self.coupler * pose.coupler].map(|z| Point::new(z.re, z.im))
+    }
+
     /// The points of the coupler curve in the poses of a circuit.
     pub fn curve(&self, circuit: &[Pose]) -> Vec<Complex> {
         circuit.iter().map(|pose| self.coupler_point(pose)).collect()

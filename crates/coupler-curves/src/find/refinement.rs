@@ -77,7 +77,7 @@ impl Refinement {
         let moved = self.linkage.moved(&(*motion).into());
         let linkage = limits.nearest(&moved, self.is_frame_longer)?;
         let (poses, sum) = feet(&linkage, &self.poses, target)?;
-        (sum < self.sum).then_some((linkage, poses, sum))
+        (sum < self.sum && limits.meets_condition(&linkage, &poses[0])).then_some((linkage, poses, sum))
     }
 
     /// The normal equations of the distances across the curve: along it, the feet move by themselves.

@@ -1,18 +1,20 @@
 //! The search: from the curves of an index that are most like the target to the linkages whose curves are nearest to it.
 
 use super::answer::{Answer, LENGTH_RATIOS};
-use super::complex::{Complex, closed_length, dot, length, times_i};
+use super::complex::{Complex, closed_length, length};
 use super::constraints::Limits;
-use super::index::Index;
+use super::index::{Entry, Index};
 use super::matching::{Matching, nearest_samples};
+use super::mechanism::Mechanism;
 use super::options::{Effort, Options};
 use super::parameters::{COUNT, Parameters};
+use super::portion::Stroke;
 use super::pose::Pose;
 use super::refinement::Refinement;
 use super::spectrum::Spectrum;
-use super::target::Target;
-use crate::geometry::trig;
-use crate::linkage::{Cognates, Side};
+use super::target::{PathKind, Target};
+use crate::geometry::{Point, trig};
+use crate::linkage::{Cognate, Cognates, PlacedFourBar};
 
 /// A search in bounded steps.
 pub struct Search<'i> {
@@ -20,13 +22,10 @@ pub struct Search<'i> {
     target: Target,
     options: Options,
     limits: Limits,
-    /// The points of the target with centroid 0 and size 1, and the length of their polygon.
+    /// The points of the target with centroid 0 and size 1, and the length of their polyline.
     points: Vec<Complex>,
-    polygon_length: f64,
-    spectrum: Spectrum,
-    /// The size and the centroid of the points at equal distances along the polygon.
-    even_size: f64,
-    even_centre: Complex,
+    polyline_length: f64,
+    query: Query,
     stage: Stage,
     best: Vec<(f32, usize)>,
     /// Their linkages on the target, with how much their curves are like it.
@@ -35,7 +34,17 @@ pub struct Search<'i> {
     /// Whether the nearest curve has been looked up in place of the target, and the refinements from before.
     has_looked_again: bool,
     kept: Vec<Refinement>,
+    /// The refinements that were left behind in the last rounds, for further answers.
+    left_behind: Vec<Refinement>,
     random: u64,
+}
+
+/// What is looked up in the index.
+enum Query {
+    /// A closed curve: its spectrum, and the centroid and the size of points at equal distances along it.
+    Whole(Spectrum, Complex, f64),
+    /// A portion of a curve.
+    Portion(Stroke),
 }
 
 /// What the next step does.
@@ -57,49 +66,67 @@ enum Stage {
     Restart(usize),
     /// Refines one of the nearest in the order of the target's points.
     Polish(usize),
+    /// Refines one of those that were left behind.
+    Complete(usize),
     Done,
 }
 
 /// The curves of a step of comparison.
 const CURVES_PER_STEP: usize = 4096;
 
+/// Those whose portions are compared in a step.
+const PORTIONS_PER_STEP: usize = 1024;
+
 /// The curves that are compared exactly, for each that is refined.
 const EXACT_PER_START: usize = 3;
 
+/// The curves that are compared exactly, for each that is refined, until so many are found that meet a condition.
+const EXACT_PER_START_WITH_CONDITION: usize = 20;
+
 /// The parts of the starts that are refined in each round, and the steps of a round.
-const ROUNDS: [(usize, usize); 4] = [(1, 6), (3, 10), (8, 30), (20, 60)];
+const ROUNDS: [(usize, usize); 4] = [(1, 6), (3, 12), (8, 40), (20, 200)];
 
 /// The steps after a restart, and those after which it must be near the best.
 const RESTART_STEPS: usize = 60;
 const PROMISING_STEPS: usize = 15;
 const PROMISING_SUM: f64 = 30.0;
 
+/// So many of those left behind are refined for each answer: some find a curve that is known.
+const FURTHER_PER_ANSWER: usize = 2;
+
 impl<'i> Search<'i> {
     /// Begins a search.
     pub fn new(target: &Target, index: &'i Index, options: Options) -> Search<'i> {
         let points = target.normalized();
-        let (spectrum, even_centre, even_size) = index.transform().spectrum(&points);
+        let query = Query::new(target.kind(), &points, index);
         let (size, centre) = target.placement();
         let corner = |x: f64, y: f64| (Complex::new(x, y) - centre) / size;
         let pivots = options.pivots.map(|b| [corner(b.min.x, b.min.y), corner(b.max.x, b.max.y)]);
-        let limits = Limits { full_turn: options.full_turn, max_link: options.max_link, pivots };
+        let limits = Limits {
+            full_turn: options.full_turn,
+            max_link: options.max_link,
+            pivots,
+            condition: options.condition.clone(),
+            placement: (size, centre),
+        };
         Search {
             index,
             target: target.clone(),
-            options,
             limits,
-            polygon_length: target.polygon_length(),
+            polyline_length: target.polyline_length(),
             points,
-            spectrum,
-            even_size,
-            even_centre,
+            query,
             stage: Stage::Compare(0),
             best: Vec::new(),
             placed: Vec::new(),
             refinements: Vec::new(),
-            has_looked_again: false,
+            // Portions are looked up more slowly, and hardly by their noise.
+            has_looked_again: target.kind() != PathKind::Closed,
             kept: Vec::new(),
-            random: 0x9E37_79B9_7F4A_7C15,
+            left_behind: Vec::new(),
+            // Any number but 0.
+            random: options.seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1,
+            options,
         }
     }
 
@@ -118,17 +145,20 @@ impl<'i> Search<'i> {
             Stage::Refine { round, place, step } => self.refine(round, place, step),
             Stage::Restart(count) => self.restart(count),
             Stage::Polish(place) => self.polish(place),
+            Stage::Complete(place) => self.complete(place),
             Stage::Done => Stage::Done,
         };
         self.stage != Stage::Done
     }
 
     fn start_count(&self) -> usize {
-        match self.options.effort {
+        let count = match self.options.effort {
             Effort::Quick => 70,
             Effort::Normal => 200,
             Effort::Thorough => 800,
-        }
+        };
+        // A portion is looked up once only.
+        if self.target.kind() == PathKind::Closed { count } else { 2 * count }
     }
 
     fn restart_count(&self) -> usize {
@@ -136,38 +166,71 @@ impl<'i> Search<'i> {
     }
 
     fn compare(&mut self, from: usize) -> Stage {
-        let query = (&self.spectrum, self.polygon_length, self.limits.full_turn);
         let best = std::mem::take(&mut self.best);
-        let most = EXACT_PER_START * self.start_count();
-        let to = from + CURVES_PER_STEP;
-        self.best = self.index.nearest(query, from..to, best, most);
+        let per_start = if self.limits.condition.is_some() { EXACT_PER_START_WITH_CONDITION } else { EXACT_PER_START };
+        let most = per_start * self.start_count();
+        let is_whole = matches!(self.query, Query::Whole(..));
+        let to = from + if is_whole { CURVES_PER_STEP } else { PORTIONS_PER_STEP };
+        self.best = match &self.query {
+            Query::Whole(spectrum, ..) => {
+                let query = (spectrum, self.polyline_length, self.limits.full_turn);
+                self.index.nearest(query, from..to, best, most)
+            }
+            Query::Portion(stroke) => {
+                self.index.nearest_portions((stroke, self.limits.full_turn), from..to, best, most)
+            }
+        };
         if to < self.index.len() { Stage::Compare(to) } else { Stage::Place(0) }
     }
 
     /// Places a curve of the index on the target, where it is most like it.
     fn place(&mut self, place: usize) -> Stage {
-        let Some(&(_, number)) = self.best.get(place) else {
+        let is_enough = self.limits.condition.is_some() && self.placed.len() >= self.start_count();
+        let Some(&(_, number)) = self.best.get(place).filter(|_| !is_enough) else {
             self.placed.sort_by(|a, b| b.0.total_cmp(&a.0));
-            self.placed.truncate(self.start_count() / if self.has_looked_again { 2 } else { 1 });
+            self.placed.truncate(self.start_count() / if self.kept.is_empty() { 1 } else { 2 });
             return Stage::Begin(0);
         };
         if let Some(entry) = self.index.entry(number) {
-            let (spectrum, centre, size, _) = self.index.spectrum(&entry);
-            let likeness = self.index.transform().likeness(&self.spectrum, &spectrum);
-            let (linkage, centre) = match likeness.is_mirrored {
-                true => (entry.linkage.mirrored(), centre.conj()),
-                false => (entry.linkage, centre),
+            let Some((likeness, linkage)) = self.placed_on_target(&entry) else { return Stage::Place(place + 1) };
+            let starts: Vec<Parameters> = match self.limits.condition.is_some() {
+                true => cognates(&linkage).into_iter().chain([linkage]).filter(|start| self.may_begin(start)).collect(),
+                false => vec![linkage],
             };
-            let factor = likeness.factor * (self.even_size / size);
-            self.placed.push((likeness.value, linkage.transformed(factor, self.even_centre - factor * centre)));
+            self.placed.extend(starts.into_iter().map(|start| (likeness, start)));
         }
         Stage::Place(place + 1)
+    }
+
+    /// The linkage of a curve of the index where it is most like the target, with how much it is.
+    fn placed_on_target(&self, entry: &Entry) -> Option<(f64, Parameters)> {
+        let mirrored = |is_mirrored: bool| if is_mirrored { entry.linkage.mirrored() } else { entry.linkage };
+        match &self.query {
+            Query::Whole(target, target_centre, target_size) => {
+                let (spectrum, centre, size, _) = self.index.spectrum(entry);
+                let likeness = self.index.transform().likeness(target, &spectrum);
+                let centre = if likeness.is_mirrored { centre.conj() } else { centre };
+                let factor = likeness.factor * (target_size / size);
+                let linkage = mirrored(likeness.is_mirrored).transformed(factor, target_centre - factor * centre);
+                Some((likeness.value, linkage))
+            }
+            Query::Portion(stroke) => {
+                let (window, factor, shift) = stroke.placement(&entry.linkage.curve(&entry.circuit))?;
+                Some((-f64::from(window.residual), mirrored(window.is_mirrored).transformed(factor, shift)))
+            }
+        }
+    }
+
+    /// Whether a linkage meets the condition on one of its circuits.
+    fn may_begin(&self, linkage: &Parameters) -> bool {
+        let circuits = linkage.circuits(self.index.directions());
+        circuits.iter().any(|circuit| circuit.first().is_some_and(|pose| self.limits.meets_condition(linkage, pose)))
     }
 
     /// Begins to refine a linkage that is placed.
     fn begin_placed(&mut self, place: usize) -> Stage {
         let Some((_, linkage)) = self.placed.get(place) else {
-            return Stage::Refine { round: 0, place: 0, step: 0 };
+            return if self.options.refine { Stage::Refine { round: 0, place: 0, step: 0 } } else { Stage::Done };
         };
         self.refinements.extend(self.begin(linkage));
         Stage::Begin(place + 1)
@@ -186,7 +249,8 @@ impl<'i> Search<'i> {
                 circuit.reverse();
             }
         }
-        Refinement::new(linkage, &best?.1, &self.points)
+        let refinement = Refinement::new(linkage, &best?.1, &self.points)?;
+        Some(refinement).filter(|refinement| self.limits.meets_condition(&linkage, &refinement.poses[0]))
     }
 
     fn refine(&mut self, round: usize, place: usize, step: usize) -> Stage {
@@ -194,7 +258,10 @@ impl<'i> Search<'i> {
         let Some(refinement) = self.refinements.get_mut(place) else {
             let next = ROUNDS.get(round + 1).map_or(1, |(part, _)| *part);
             self.keep_valid();
-            self.keep_nearest(self.start_count() / next);
+            let left_behind = self.keep_nearest(self.start_count() / next);
+            if round + 2 == ROUNDS.len() {
+                self.left_behind.extend(left_behind);
+            }
             return Stage::Refine { round: round + 1, place: 0, step: 0 };
         };
         refinement.step(&self.points, &self.limits);
@@ -209,9 +276,8 @@ impl<'i> Search<'i> {
         self.refinements.append(&mut self.kept);
         self.keep_nearest(self.start_count());
         let Some(best) = self.refinements.first().filter(|_| !self.has_looked_again) else { return Stage::Restart(0) };
-        let circuit = self.circuit_of(&best.linkage, &best.poses[0]);
-        let points: Vec<Complex> = circuit.iter().map(|pose| best.linkage.coupler_point(pose)).collect();
-        (self.spectrum, self.even_centre, self.even_size) = self.index.transform().spectrum(&points);
+        let points = best.linkage.curve(&self.circuit_of(&best.linkage, &best.poses[0]));
+        self.query = Query::new(self.target.kind(), &points, self.index);
         self.has_looked_again = true;
         self.kept = std::mem::take(&mut self.refinements);
         self.best.clear();
@@ -224,7 +290,8 @@ impl<'i> Search<'i> {
         const COGNATES: usize = 6;
         /// The mean square of the distances at which a target is met to rounding.
         const EXACT: f64 = 1e-16;
-        self.keep_nearest(self.start_count() / ROUNDS[ROUNDS.len() - 1].0);
+        let left_behind = self.keep_nearest(self.start_count() / ROUNDS[ROUNDS.len() - 1].0);
+        self.left_behind.extend(left_behind);
         let Some(best) = self.refinements.first() else { return Stage::Done };
         if count == self.restart_count() || best.sum <= EXACT * self.points.len() as f64 {
             return Stage::Polish(0);
@@ -254,14 +321,18 @@ impl<'i> Search<'i> {
     /// Refines a linkage in the order of the target's points: those that share a pose are replaced by their mean.
     fn polish(&mut self, place: usize) -> Stage {
         const STEPS: usize = 20;
-        let Some(refinement) = self.refinements.get(place) else { return Stage::Done };
-        if let Some((matching, _)) = self.matching(&refinement.linkage, &refinement.poses[0])
+        let Some(refinement) = self.refinements.get(place) else {
+            self.left_behind.sort_by(|a, b| a.sum.total_cmp(&b.sum));
+            self.left_behind.truncate(if self.options.most > 1 { FURTHER_PER_ANSWER * self.options.most } else { 0 });
+            return Stage::Complete(0);
+        };
+        if let Some(matching) = self.matching(&refinement.linkage, &refinement.poses[0])
             && !matching.is_in_order
             && let Some(mut polished) = Refinement::new(refinement.linkage, &matching.poses, &matching.means)
         {
             (0..STEPS).for_each(|_| polished.step(&matching.means, &self.limits));
             let better = self.matching(&polished.linkage, &polished.poses[0]);
-            if let Some((better, _)) = better.filter(|(better, _)| better.sum < matching.sum) {
+            if let Some(better) = better.filter(|better| better.sum < matching.sum) {
                 (polished.sum, polished.poses) = (better.sum, better.poses);
                 self.refinements[place] = polished;
             }
@@ -269,15 +340,24 @@ impl<'i> Search<'i> {
         Stage::Polish(place + 1)
     }
 
-    /// The matching of the target with the circuit of a pose, in the direction that is nearer, and whether that is the
-    /// opposite one.
-    fn matching(&self, linkage: &Parameters, pose: &Pose) -> Option<(Matching, bool)> {
+    /// Refines one of those that were left behind, for a further answer.
+    fn complete(&mut self, place: usize) -> Stage {
+        let Some(refinement) = self.left_behind.get_mut(place) else {
+            self.refinements.append(&mut self.left_behind);
+            return Stage::Done;
+        };
+        let (_, steps) = ROUNDS[ROUNDS.len() - 1];
+        (0..steps).for_each(|_| refinement.step(&self.points, &self.limits));
+        Stage::Complete(place + 1)
+    }
+
+    /// The matching of the target with the circuit of a pose, in the direction that is nearer.
+    fn matching(&self, linkage: &Parameters, pose: &Pose) -> Option<Matching> {
         let mut circuit = self.circuit_of(linkage, pose);
         let forward = Matching::new(linkage, &circuit, &self.points)?;
         circuit.reverse();
         let backward = Matching::new(linkage, &circuit, &self.points)?;
-        let is_reversed = backward.sum < forward.sum;
-        Some((if is_reversed { backward } else { forward }, is_reversed))
+        Some(if backward.sum < forward.sum { backward } else { forward })
     }
 
     /// A linkage near another one.
@@ -306,8 +386,8 @@ impl<'i> Search<'i> {
         Parameters { frame, crank, coupler, rocker, ..from.moved(&by) }
     }
 
-    /// Keeps the nearest refinements that are not alike.
-    fn keep_nearest(&mut self, most: usize) {
+    /// Keeps the nearest refinements that are not alike; those that are left behind.
+    fn keep_nearest(&mut self, most: usize) -> Vec<Refinement> {
         /// Refinements that have found the same linkage differ by less than this.
         const ALIKE: f64 = 1e-6;
         self.refinements.sort_by(|a, b| a.sum.total_cmp(&b.sum));
@@ -315,7 +395,7 @@ impl<'i> Search<'i> {
             (a.sum - b.sum).abs() <= ALIKE * b.sum && (a.linkage.frame - b.linkage.frame).abs() <= ALIKE
         };
         self.refinements.dedup_by(|a, b| is_alike(a, b));
-        self.refinements.truncate(most.max(1));
+        self.refinements.split_off(most.max(1).min(self.refinements.len()))
     }
 
     /// Keeps the refinements whose curve has about the length of the target.
@@ -326,7 +406,14 @@ impl<'i> Search<'i> {
     }
 
     fn has_valid_length(&self, refinement: &Refinement) -> bool {
-        is_valid_ratio(self.length_ratio(refinement))
+        match self.target.kind() {
+            PathKind::Closed => is_valid_ratio(self.whole_length_ratio(refinement)),
+            PathKind::Open => true,
+            PathKind::Part => {
+                let matching = self.matching(&refinement.linkage, &refinement.poses[0]);
+                matching.is_some_and(|matching| is_valid_ratio(matching.portion_length / self.polyline_length))
+            }
+        }
     }
 
     /// The samples of the circuit that a pose is on.
@@ -340,9 +427,9 @@ impl<'i> Search<'i> {
         circuits.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or_default()
     }
 
-    /// The length of the curve relative to that of the target's polygon.
-    fn length_ratio(&self, Refinement { linkage, poses, .. }: &Refinement) -> f64 {
-        closed_length(&linkage.curve(&self.circuit_of(linkage, &poses[0]))) / self.polygon_length
+    /// The length of the whole curve relative to that of the target's polyline.
+    fn whole_length_ratio(&self, Refinement { linkage, poses, .. }: &Refinement) -> f64 {
+        closed_length(&linkage.curve(&self.circuit_of(linkage, &poses[0]))) / self.polyline_length
     }
 
     /// The answers that have been found so far, the nearest first. Those whose curves are the same to a thousandth of the
@@ -350,46 +437,97 @@ impl<'i> Search<'i> {
     pub fn answers(&self) -> Vec<Answer> {
         /// The distance up to which curves are the same, in sizes of the target.
         const SAME: f64 = 1e-3;
-        let mut found: Vec<(Answer, Vec<Complex>)> = Vec::new();
-        let mut refinements: Vec<&Refinement> = self.refinements.iter().collect();
-        refinements.sort_by(|a, b| a.sum.total_cmp(&b.sum));
-        for refinement in refinements {
-            let Some((answer, feet)) = self.answer(refinement) else { continue };
-            let is_same =
-                |(_, other): &(Answer, Vec<Complex>)| other.iter().zip(&feet).all(|(a, b)| length(a - b) <= SAME);
-            if !found.iter().any(is_same) {
-                found.push((answer, feet));
+        let is_same = |a: &[Complex], b: &[Complex]| a.iter().zip(b).all(|(a, b)| length(a - b) <= SAME);
+        let mut found: Vec<(Fit, Vec<Complex>)> = Vec::new();
+        for fit in self.refinements.iter().filter_map(|refinement| self.fit(refinement)) {
+            let feet = fit.linkage.curve(&fit.matching.poses);
+            match found.iter_mut().find(|(_, other)| is_same(other, &feet)) {
+                Some((other, _)) if other.matching.sum <= fit.matching.sum => {}
+                Some(other) => *other = (fit, feet),
+                None => found.push((fit, feet)),
             }
         }
-        found.sort_by(|a, b| a.0.rms.total_cmp(&b.0.rms));
-        found.truncate(self.options.most);
-        found.into_iter().map(|(answer, _)| answer).collect()
+        found.sort_by(|a, b| a.0.matching.sum.total_cmp(&b.0.matching.sum));
+        found.into_iter().filter_map(|(fit, _)| self.answer(&fit)).take(self.options.most).collect()
     }
 
-    /// The answer of a refinement, with the feet of the target's points.
-    fn answer(&self, refinement: &Refinement) -> Option<(Answer, Vec<Complex>)> {
+    /// How a refined linkage fits the target; `None` if it is not valid.
+    fn fit(&self, refinement: &Refinement) -> Option<Fit> {
         let linkage = refinement.linkage;
-        let length_ratio = self.length_ratio(refinement);
-        if !is_valid_ratio(length_ratio) || !self.limits.are_satisfied(&linkage) {
+        if !self.limits.are_satisfied(&linkage) {
             return None;
         }
-        let (matching, is_reversed) = self.matching(&linkage, &refinement.poses[0])?;
-        let rms_relative = (matching.sum / self.points.len() as f64).sqrt();
+        let matching = self.matching(&linkage, &refinement.poses[0])?;
+        let length_ratio = match self.target.kind() {
+            PathKind::Closed => self.whole_length_ratio(refinement),
+            PathKind::Open | PathKind::Part => matching.portion_length / self.polyline_length,
+        };
+        let is_valid = self.target.kind() == PathKind::Open || is_valid_ratio(length_ratio);
+        is_valid.then_some(Fit { linkage, matching, length_ratio })
+    }
+
+    /// The answer of a fit, if one of the four-bars that trace its curve meets the constraints.
+    fn answer(&self, Fit { linkage, matching, length_ratio }: &Fit) -> Option<Answer> {
         let (size, centre) = self.target.placement();
-        let first = &matching.poses[0];
-        let to_pivot = linkage.frame * linkage.direction - linkage.crank * first.crank;
-        let is_left = dot(times_i(to_pivot), first.coupler) >= 0.0;
-        let answer = Answer {
-            linkage: linkage.transformed(Complex::new(size, 0.0), centre).to_placed(),
-            side: if is_left { Side::Left } else { Side::Right },
+        let original = linkage.transformed(Complex::new(size, 0.0), centre);
+        let placed = original.to_placed();
+        let poses: Vec<[Point; 2]> = matching.poses.iter().map(|pose| original.pins(pose)).collect();
+        // A point on a pin has no cognates.
+        let all = match Cognates::from_four_bar(placed) {
+            Ok(cognates) => cognates.all().to_vec(),
+            Err(_) => Vec::new(),
+        };
+        let solve = |cognate: &Cognate| {
+            let pins = |[a, b]: &[Point; 2]| cognate.pins([placed.pivots[0], *a, *b, placed.pivots[1]]);
+            self.mechanism(cognate.four_bar, &poses.iter().map(pins).collect::<Vec<_>>())
+        };
+        let mut mechanisms: Vec<Mechanism> = match all.is_empty() {
+            true => self.mechanism(placed, &poses).into_iter().collect(),
+            false => all.iter().filter_map(solve).collect(),
+        };
+        let angle = |mechanism: &Mechanism| if mechanism.meets_constraints { mechanism.mu_worst_deg } else { f64::NAN };
+        let best = (0..mechanisms.len()).filter(|k| mechanisms[*k].meets_constraints);
+        let best = best.reduce(|best, k| if angle(&mechanisms[k]) > angle(&mechanisms[best]) { k } else { best })?;
+        mechanisms[..=best].rotate_right(1);
+        let rms_relative = (matching.sum / self.points.len() as f64).sqrt();
+        Some(Answer {
+            mechanism: mechanisms.remove(0),
+            cognates: mechanisms,
             rms: size * rms_relative,
             rms_relative,
             greatest: size * matching.greatest,
             is_in_order: matching.is_in_order,
-            is_reversed,
-            length_ratio,
-        };
-        Some((answer, linkage.curve(&matching.poses)))
+            length_ratio: *length_ratio,
+        })
+    }
+
+    /// A four-bar, solved, with its pins at each point of the target.
+    fn mechanism(&self, four_bar: PlacedFourBar, pins: &[[Point; 2]]) -> Option<Mechanism> {
+        let mut mechanism = Mechanism::solve(four_bar, pins, self.options.condition.as_ref())?;
+        let (size, centre) = self.target.placement();
+        let normalized = Parameters::from_placed(&four_bar).transformed(Complex::new(1.0 / size, 0.0), -centre / size);
+        mechanism.meets_constraints &= self.limits.are_nearly_satisfied(&normalized);
+        Some(mechanism)
+    }
+}
+
+/// A linkage with its points that are matched with those of the target.
+struct Fit {
+    linkage: Parameters,
+    matching: Matching,
+    length_ratio: f64,
+}
+
+impl Query {
+    /// The query for a path.
+    fn new(kind: PathKind, points: &[Complex], index: &Index) -> Query {
+        match kind {
+            PathKind::Closed => {
+                let (spectrum, centre, size) = index.transform().spectrum(points);
+                Query::Whole(spectrum, centre, size)
+            }
+            PathKind::Open | PathKind::Part => Query::Portion(Stroke::new(points)),
+        }
     }
 }
 

@@ -24,7 +24,7 @@ pub(super) fn directions(count: usize) -> Vec<Complex> {
 }
 
 /// Points at equal distances along a closed polyline, from its first point on.
-fn resampled(points: &[Complex], count: usize) -> Vec<Complex> {
+pub(super) fn resampled(points: &[Complex], count: usize) -> Vec<Complex> {
     let next = |k: usize| points[(k + 1) % points.len()];
     let lengths: Vec<f64> = (0..points.len()).map(|k| length(next(k) - points[k])).collect();
     let step = lengths.iter().sum::<f64>() / count as f64;

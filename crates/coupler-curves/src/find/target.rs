@@ -1,12 +1,35 @@
 //! The path that a linkage is searched for.
 
-use super::complex::{Complex, closed_length, mean};
+use super::complex::{Complex, closed_length, mean, open_length};
 use crate::geometry::Point;
 
-/// The points that a closed curve is to pass, in their order, round and round.
+/// What a curve has in common with a path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PathKind {
+    /// The curve is as long as the closed path.
+    Closed,
+    /// The curve passes the points in their order, whatever it does between them and elsewhere.
+    Open,
+    /// A part of the curve is as long as the open path.
+    Part,
+}
+
+impl PathKind {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            PathKind::Closed => "closed",
+            PathKind::Open => "open",
+            PathKind::Part => "part",
+        }
+    }
+}
+
+/// The points that a curve is to pass, in their order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {
     points: Vec<Point>,
+    kind: PathKind,
     size: f64,
     centre: Complex,
 }
@@ -16,7 +39,7 @@ pub struct Target {
 #[non_exhaustive]
 pub enum TargetError {
     /// A coordinate is not finite.
-    #[error("point {number} of the target is ({x}, {y}), which is not finite")]
+    #[error("point {number} of the path is ({x}, {y}), which is not finite")]
     NotFinite {
         /// The number of the point, from 1.
         number: usize,
@@ -26,13 +49,13 @@ pub enum TargetError {
         y: f64,
     },
     /// There are too few points.
-    #[error("the target has {distinct} distinct points, and needs at least {}", Target::MIN_POINTS)]
+    #[error("the path needs at least {} distinct points, and has {distinct}", Target::MIN_POINTS)]
     TooFew {
         /// The number of distinct points.
         distinct: usize,
     },
     /// All points are in one place, to rounding.
-    #[error("the target has no extent: its points are within rounding of ({x}, {y})")]
+    #[error("the path has no extent: its points are within rounding of ({x}, {y})")]
     NoExtent {
         /// The first coordinate of that place.
         x: f64,
@@ -45,12 +68,12 @@ impl Target {
     /// The least number of distinct points.
     pub const MIN_POINTS: usize = 5;
 
-    /// A target with points in any unit and axes. Of points that follow each other in one place the first is kept, also round
-    /// the end.
+    /// A target with points in any unit and axes. Of points that follow each other in one place the first is kept, in a closed
+    /// path also round the end.
     ///
     /// # Errors
     /// A coordinate is not finite, there are fewer than [`Target::MIN_POINTS`] distinct points, or they have no extent.
-    pub fn new(points: &[Point]) -> Result<Target, TargetError> {
+    pub fn new(points: &[Point], kind: PathKind) -> Result<Target, TargetError> {
         /// Coordinates are known to this part of their greatest.
         const ROUNDING: f64 = 1e-13;
         if let Some(k) = points.iter().position(|p| !(p.x.is_finite() && p.y.is_finite())) {
@@ -58,7 +81,7 @@ impl Target {
         }
         let mut points = points.to_vec();
         points.dedup();
-        while points.len() > 1 && points.first() == points.last() {
+        while kind == PathKind::Closed && points.len() > 1 && points.first() == points.last() {
             points.pop();
         }
         let mut sorted: Vec<[f64; 2]> = points.iter().map(|p| [p.x + 0.0, p.y + 0.0]).collect();
@@ -74,7 +97,12 @@ impl Target {
         if size.is_nan() || size <= ROUNDING * greatest || !size.is_normal() {
             return Err(TargetError::NoExtent { x: centre.re, y: centre.im });
         }
-        Ok(Target { points, size, centre })
+        Ok(Target { points, kind, size, centre })
+    }
+
+    /// What a curve is to have in common with it.
+    pub fn kind(&self) -> PathKind {
+        self.kind
     }
 
     /// The points.
@@ -97,8 +125,11 @@ impl Target {
         self.points.iter().map(|p| (Complex::new(p.x, p.y) - self.centre) / self.size).collect()
     }
 
-    /// The length of the closed polyline through the points, in sizes of the target.
-    pub(super) fn polygon_length(&self) -> f64 {
-        closed_length(&self.normalized())
+    /// The length of the polyline through the points, in sizes of the target.
+    pub(super) fn polyline_length(&self) -> f64 {
+        match self.kind {
+            PathKind::Closed => closed_length(&self.normalized()),
+            PathKind::Open | PathKind::Part => open_length(&self.normalized()),
+        }
     }
 }

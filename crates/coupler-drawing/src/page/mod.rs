@@ -4,6 +4,7 @@
 //! [`PanelPage`], [`ChartPage`], [`CouplerGridPage`] and [`OverlayPage`] say what is on a page; [`Options`] says what
 //! all pages of an atlas have in common. Each has a function that composes it, such as [`compose_panels`].
 
+mod answers;
 mod area;
 mod arrangement;
 pub mod book;
@@ -276,6 +277,42 @@ pub fn compose_overlay(page: &OverlayPage, options: &Options) -> Scene {
     let (paper, typeface, title) = (theme.paper, theme.typeface, page.title.to_owned());
     let mut scene = Scene { width, height, paper, typeface, title, items: Vec::new(), links: Vec::new() };
     overlay::compose(&mut scene, page, &theme);
+    scene
+}
+
+/// A page of the curves that are near a path, with the linkage of the first of them.
+#[derive(Clone, Debug)]
+pub struct AnswersPage<'a> {
+    /// The title.
+    pub title: &'a str,
+    /// The lines under the title.
+    pub details: Vec<String>,
+    /// The points of the path.
+    pub target: Vec<Point>,
+    /// What the legend says of the path.
+    pub target_label: String,
+    /// The curves, the best first.
+    pub curves: Vec<FoundCurve>,
+}
+
+/// A curve that is near a path.
+#[derive(Clone, Debug)]
+pub struct FoundCurve {
+    /// The solved linkage with this curve only.
+    pub solved: SolvedCell,
+    /// The positions of all joints, in which the linkage of the first curve is drawn.
+    pub pose: Vec<Point>,
+    /// What the legend says of it.
+    pub label: String,
+}
+
+/// Composes a page of curves that are near a path.
+pub fn compose_answers(page: &AnswersPage, options: &Options) -> Scene {
+    let theme = options.theme.for_paper(options.paper);
+    let Paper { width, height } = options.paper;
+    let (paper, typeface, title) = (theme.paper, theme.typeface, page.title.to_owned());
+    let mut scene = Scene { width, height, paper, typeface, title, items: Vec::new(), links: Vec::new() };
+    answers::compose(&mut scene, page, &theme);
     scene
 }
 

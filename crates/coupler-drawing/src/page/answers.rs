@@ -1,0 +1,108 @@
+//! A page of the curves that a search has found for a path, with the linkage that traces the best of them.
+
+use super::area::{self, Area};
+use super::element::Drawing;
+use super::heading;
+use super::mechanism::PosedMechanism;
+use super::plot::Plot;
+use super::rect::Rect;
+use super::theme::Theme;
+use super::{AnswersPage, FoundCurve};
+use crate::mechanism::Mechanism;
+use crate::scene::{Anchor, Circle, Curve, Item, Path, Scene};
+use coupler_curves::geometry::{Bounds, Point, Vector};
+use coupler_curves::path;
+
+pub(super) fn compose(scene: &mut Scene, page: &AnswersPage, theme: &Theme) {
+    let root = area::whole_page(scene);
+    heading::draw_border(&root, theme);
+    let mut at = heading::draw_title(&root, page.title, theme);
+    let paper = root.size();
+    let width = paper.x - 2.0 * at.x;
+    for line in &page.details {
+        let line = theme.text_line(line, Point::origin(), Anchor::Start, theme.source_size, theme.grey);
+        for line in line.wrap(width) {
+            root.record(&theme.text_line(&line, at, Anchor::Start, theme.source_size, theme.grey));
+            at.y += 1.35 * theme.source_size;
+        }
+    }
+    let entries: Vec<&FoundCurve> = page.curves.iter().collect();
+    let step = 1.45 * theme.note_size;
+    let foot = theme.border + theme.margin + step * (entries.len() + 1) as f64;
+    let frame = Rect { corner: at, size: Vector::new(width, (paper.y - foot - at.y).max(0.3 * paper.y)) };
+    draw_figure(&root, frame, page, theme);
+    // The target, then the curves with their ranks.
+    let mut baseline = frame.corner.y + frame.size.y + step;
+    let mut legend = |item: Item, text: &str| {
+        let line = theme.text_line(
+            text,
+            Point::new(at.x + 4.0 * theme.note_size, baseline),
+            Anchor::Start,
+            theme.note_size,
+            theme.ink,
+        );
+        root.record(&Drawing { class: "legend", title: String::new(), items: vec![item] });
+        root.record(&line.fit_width(width - 4.0 * theme.note_size));
+        baseline += step;
+        Point::new(at.x, baseline - 0.35 * theme.note_size)
+    };
+    let mut place = Point::new(at.x, frame.corner.y + frame.size.y + step - 0.35 * theme.note_size);
+    let centre = |place: Point| place + Vector::new(1.5 * theme.note_size, 0.0);
+    place = legend(dot(centre(place), theme), &page.target_label);
+    for (k, curve) in entries.iter().enumerate() {
+        let ends = vec![place, place + Vector::new(3.0 * theme.note_size, 0.0)];
+        place = legend(
+            Item::Path(Path::stroked(ends, theme.stroke(theme.curve_ink(k), curve_width(k, theme)))),
+            &curve.label,
+        );
+    }
+}
+
+/// The best curve is as broad as on other pages, and the others are finer.
+fn curve_width(rank: usize, theme: &Theme) -> f64 {
+    if rank == 0 { theme.curve_width } else { theme.fine_width }
+}
+
+/// A point of the target.
+fn dot(centre: Point, theme: &Theme) -> Item {
+    Item::Circle(Circle { centre, radius: 0.45 * theme.joint_radius, stroke: None, fill: Some(theme.ink) })
+}
+
+fn draw_figure(area: &impl Area, frame: Rect, page: &AnswersPage, theme: &Theme) {
+    let samples = page
+        .curves
+        .iter()
+        .flat_map(|curve| curve.solved.circuit(&curve.solved.curves[0]).points(curve.solved.curves[0].joint));
+    let joints = page.curves.iter().take(1).flat_map(|curve| curve.pose.iter().copied());
+    let plot = Plot::new(frame, theme);
+    let plot = plot.fitted_to(Bounds::from_points(page.target.iter().copied().chain(samples).chain(joints)));
+    plot.draw_scale_bar(area, &[], theme);
+    // A hundredth of a millimetre, as on other pages.
+    let tolerance = 0.01 / plot.page_from_plane.scale;
+    // Behind the curves, which its plate would hide.
+    if let Some(found) = page.curves.first() {
+        let traced = found.solved.curves[0].joint;
+        let mechanism = Mechanism::new(&found.solved.linkage, found.solved.circuit(&found.solved.curves[0]));
+        let posed = PosedMechanism::new(&found.solved.linkage, mechanism, found.pose.clone());
+        let mut items = posed.underlay_items(&plot, theme);
+        items.extend(posed.linkage_items(
+            &plot,
+            theme,
+            |joint| if joint == traced { theme.curve_ink(0) } else { theme.ink },
+        ));
+        area.record(&Drawing { class: "linkage", title: "the linkage of the first curve".to_owned(), items });
+    }
+    for (k, found) in page.curves.iter().enumerate().rev() {
+        let (solved, curve) = (&found.solved, &found.solved.curves[0]);
+        let splines = path::joint_splines(&solved.linkage, solved.circuit(curve), curve.joint, tolerance);
+        let splines = splines.iter().map(|spline| spline.map(|p| plot.page_from_plane.apply(p))).collect();
+        let stroke = theme.stroke(theme.curve_ink(k), curve_width(k, theme));
+        area.record(&Drawing {
+            class: "found",
+            title: found.label.clone(),
+            items: vec![Item::Curve(Curve { splines, stroke })],
+        });
+    }
+    let dots = page.target.iter().map(|p| dot(plot.page_from_plane.apply(*p), theme)).collect();
+    area.record(&Drawing { class: "target", title: page.target_label.clone(), items: dots });
+}

@@ -1,0 +1,274 @@
+//! `find`: the linkages whose coupler curves are nearest to a path.
+
+mod drawing;
+mod json;
+mod manifest;
+mod text;
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum, ValueHint};
+use coupler_atlas::find::{self, MAX_CURVES, MAX_POINTS};
+use coupler_atlas::output;
+use coupler_curves::expression::Expression;
+use coupler_curves::find::{
+    Answer, Condition, Constraint, Effort, Index, Options, PathKind, Search, Target, nearest_miss,
+};
+use coupler_curves::geometry::{Bounds, Point};
+
+use super::{InputError, InputErrors, Outcome, export, files, print, print_bytes, source};
+
+/// Find the linkages whose coupler curves are nearest to a path, with their cognates.
+///
+/// The path is a table of points (x, y on each line), JSON or a drawing in SVG, of which the longest outline is read, with y
+/// pointing up; - for standard input. Curves are compared by E, the root of the mean square of the distances of its points from the
+/// continuous curve, in their order along one circuit, relative to the path's size S, the root of the mean square of their
+/// distances from their centroid. docs/find.md describes the search and its limits.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// The file of the path.
+    #[arg(value_name = "PATH", value_hint = ValueHint::FilePath, required_unless_present = "like")]
+    path: Option<PathBuf>,
+    /// Take a curve of an atlas as the path, by its name, as in evans:3.1.1 or "evans:3.1.1?p=2.5".
+    #[arg(long, value_name = "CURVE", conflicts_with = "path")]
+    like: Option<String>,
+    #[arg(
+        long,
+        value_name = "FILE",
+        requires = "like",
+        value_hint = ValueHint::FilePath,
+        help = format!("The manifest with that curve; - for standard input [default: {}]", source::DEFAULT_MANIFEST)
+    )]
+    manifest: Option<PathBuf>,
+    /// The path is closed; without these three it is if the gap between its ends is at most 1.5 times the median distance of its points,
+    /// and otherwise open.
+    #[arg(long, conflicts_with_all = ["open", "part"])]
+    closed: bool,
+    /// The path is open: the curve passes its points in their order, whatever it does between them and elsewhere.
+    #[arg(long, conflicts_with = "part")]
+    open: bool,
+    /// The path is a part of the curve, and that part is as long as the path.
+    #[arg(long)]
+    part: bool,
+    /// Whether the crank must turn fully.
+    #[arg(long, value_enum, default_value_t = InputChoice::FullTurn)]
+    input: InputChoice,
+    /// A condition on the linkage, as in `where` of a manifest: "is_crank_rocker and mu_worst_deg >= 30". Its names are frame, crank,
+    /// coupler, rocker, along and across, the crank's pivot x and y, turn, the frame's angle, and all measures.
+    #[arg(long = "where", value_name = "EXPR")]
+    condition: Option<String>,
+    /// The greatest distance of two joints of a link, in sizes S of the path; inf for any.
+    #[arg(long, value_name = "X", default_value = "10", allow_hyphen_values = true)]
+    max_link: String,
+    /// The box in which both fixed pivots must be, in the unit of the path: XMIN,YMIN,XMAX,YMAX.
+    #[arg(long, value_name = "BOX", allow_hyphen_values = true)]
+    pivots: Option<String>,
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = Options::default().most as u16,
+        value_parser = clap::value_parser!(u16).range(1..=MAX_TOP),
+        help = format!("How many linkages to show at most, 1 to {MAX_TOP}")
+    )]
+    top: u16,
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = Index::DEFAULT_COUNT as u64,
+        value_parser = clap::value_parser!(u64).range(1..=MAX_CURVES as u64),
+        help = format!(
+            "How many four-bars to look the path up in, 1 to {MAX_CURVES}; the index of each number is kept in the user's cache folder"
+        )
+    )]
+    index: u64,
+    /// Only place the curves of the index on the path, without moving their linkages towards it.
+    #[arg(long)]
+    no_refine: bool,
+    /// How many linkages are tried.
+    #[arg(long, value_enum, default_value_t = EffortChoice::Normal)]
+    effort: EffortChoice,
+    /// A number that changes which linkages are tried near those that have been found.
+    #[arg(long, value_name = "N", default_value_t = Options::default().seed)]
+    seed: u64,
+    /// The number of threads for the index [default: one for each processor].
+    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    jobs: Option<u16>,
+    /// Draw the path and the curves on one page, and write it to this file; - for standard output, in place of the text.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    svg: Option<PathBuf>,
+    /// Print a manifest that renders the linkages: coupler-atlas find … --toml > found.toml
+    #[arg(long, conflicts_with = "json")]
+    toml: bool,
+    /// Print the linkages as JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+/// The greatest `--top`.
+const MAX_TOP: i64 = 100;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum InputChoice {
+    /// The crank turns fully.
+    FullTurn,
+    /// Any linkage.
+    Any,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum EffortChoice {
+    /// A third of the normal effort.
+    Quick,
+    /// About half a second for a hundred points.
+    Normal,
+    /// Four times the normal effort.
+    Thorough,
+}
+
+/// A path, and what has been found for it.
+struct Report {
+    /// The name of the path, for titles.
+    name: String,
+    target: Target,
+    answers: Vec<Answer>,
+    /// If there is no answer, the constraints to relax, and the answer without them.
+    nearest_miss: Option<(Vec<Constraint>, Answer)>,
+}
+
+impl Report {
+    /// The name of the path without its folder.
+    fn title(&self) -> String {
+        Path::new(&self.name).file_name().map_or(self.name.clone(), |name| name.to_string_lossy().into_owned())
+    }
+}
+
+pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
+    let printed = [("--json", arguments.json), ("--toml", arguments.toml)];
+    let is_drawing_printed = files::is_drawing_printed(arguments.svg.as_deref(), &printed)?;
+    let options = parse_options(arguments).map_err(|errors| InputErrors::from_messages(&errors))?;
+    let (name, points, kind) = read_path(arguments)?;
+    let target = Target::new(&points, kind).map_err(|error| InputError(format!("{name}: {error}")))?;
+    if let Some(jobs) = arguments.jobs {
+        rayon::ThreadPoolBuilder::new().num_threads(jobs.into()).build_global()?;
+    }
+    let index = find::load_index(arguments.index as usize);
+    let answers = Search::new(&target, &index, options.clone()).run();
+    let nearest_miss = if answers.is_empty() { nearest_miss(&target, &index, &options) } else { None };
+    let report = Report { name, target, answers, nearest_miss };
+    if let Some(path) = &arguments.svg {
+        files::write(path, &drawing::page(&report))?;
+        if is_drawing_printed {
+            return Ok(Outcome::Done);
+        }
+    }
+    match (arguments.json, arguments.toml) {
+        (true, _) => print_bytes(json::json(&report)?.as_bytes())?,
+        (_, true) => print_bytes(manifest::manifest(&report).as_bytes())?,
+        _ => print(&text::text(&report))?,
+    }
+    Ok(Outcome::Done)
+}
+
+/// Reads the options of the search.
+///
+/// # Errors
+/// Every error in them, one message each.
+fn parse_options(arguments: &Arguments) -> Result<Options, Vec<String>> {
+    let mut errors = Vec::new();
+    let mut max_link = Options::default().max_link;
+    match parse_max_link(&arguments.max_link) {
+        Ok(value) => max_link = value,
+        Err(error) => errors.push(format!("--max-link: {error}")),
+    }
+    let mut pivots = None;
+    match arguments.pivots.as_deref().map(parse_box).transpose() {
+        Ok(value) => pivots = value,
+        Err(error) => errors.push(format!("--pivots: {error}")),
+    }
+    let mut condition = None;
+    match arguments.condition.as_deref().map(|text| Condition::new(text).map_err(|error| (text, error))).transpose() {
+        Ok(value) => condition = value,
+        Err((text, error)) => errors.push(format!("--where: `{text}`: {error}")),
+    }
+    let effort = match arguments.effort {
+        EffortChoice::Quick => Effort::Quick,
+        EffortChoice::Normal => Effort::Normal,
+        EffortChoice::Thorough => Effort::Thorough,
+    };
+    let options = Options {
+        full_turn: arguments.input == InputChoice::FullTurn,
+        max_link,
+        pivots,
+        condition,
+        effort,
+        refine: !arguments.no_refine,
+        seed: arguments.seed,
+        most: arguments.top.into(),
+    };
+    if errors.is_empty() { Ok(options) } else { Err(errors) }
+}
+
+/// Reads a length in sizes of the path, or `inf`.
+fn parse_max_link(text: &str) -> Result<f64, String> {
+    if text.trim() == "inf" {
+        return Ok(f64::INFINITY);
+    }
+    let value =
+        Expression::evaluate_constant(text).map_err(|error| format!("`{text}`: {error}; write it like 10, or inf"))?;
+    match value {
+        value if value.is_finite() && value > 0.0 => Ok(value),
+        value => Err(format!("`{text}` is {value}: give a positive number of sizes of the path, as in 10, or inf")),
+    }
+}
+
+/// Reads a box: `XMIN,YMIN,XMAX,YMAX`.
+fn parse_box(text: &str) -> Result<Bounds, String> {
+    const EXAMPLE: &str = "write it like --pivots=-50,-20,50,0";
+    let values: Result<Vec<f64>, String> = text
+        .split(',')
+        .map(|part| match part.trim().parse::<f64>() {
+            Ok(value) if value.is_finite() => Ok(value),
+            _ => Err(format!("`{part}` is not a number; {EXAMPLE}")),
+        })
+        .collect();
+    match values?[..] {
+        [x_min, y_min, x_max, y_max] if x_min < x_max && y_min < y_max => {
+            Ok(Bounds::from_points([Point::new(x_min, y_min), Point::new(x_max, y_max)]))
+        }
+        [_, _, _, _] => Err(format!("`{text}` is no box: XMIN < XMAX and YMIN < YMAX; {EXAMPLE}")),
+        _ => Err(format!("`{text}` does not have four numbers; {EXAMPLE}")),
+    }
+}
+
+/// The points of the path, its kind and its name.
+///
+/// # Errors
+/// It cannot be read.
+fn read_path(arguments: &Arguments) -> anyhow::Result<(String, Vec<Point>, PathKind)> {
+    let kind = |is_closed: bool| match arguments {
+        Arguments { closed: true, .. } => PathKind::Closed,
+        Arguments { open: true, .. } => PathKind::Open,
+        Arguments { part: true, .. } => PathKind::Part,
+        _ if is_closed => PathKind::Closed,
+        _ => PathKind::Open,
+    };
+    if let Some(name) = &arguments.like {
+        let manifest = arguments.manifest.as_deref().unwrap_or(Path::new(source::DEFAULT_MANIFEST));
+        let (points, is_closed) = export::curve_points(manifest, name)?;
+        if points.len() > MAX_POINTS {
+            let message = format!("{name} has {} samples, and at most {MAX_POINTS} can be searched for", points.len());
+            return Err(InputError(message).into());
+        }
+        return Ok((name.clone(), points, kind(is_closed)));
+    }
+    let path = arguments.path.as_deref().unwrap_or(Path::new("-"));
+    files::protect(path);
+    let name = files::input_name(path);
+    let text = output::read_text(path).map_err(|error| InputError(error.to_string()))?;
+    let outline = find::parse_outline(&text).map_err(|problems| {
+        let problems: Vec<String> = problems.iter().map(|problem| format!("{name}: {problem}")).collect();
+        InputErrors::from_messages(&problems)
+    })?;
+    let is_closed = outline.is_closed.unwrap_or_else(|| outline.looks_closed());
+    Ok((name, outline.points, kind(is_closed)))
+}

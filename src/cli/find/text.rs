@@ -1,0 +1,151 @@
+//! The table of linkages, and what to relax when there are none.
+
+use std::fmt::Write;
+
+use coupler_curves::find::{Answer, Constraint, Mechanism};
+use coupler_curves::linkage::{FourBar, PlacedFourBar, Side};
+
+use super::super::format::{format_significant, pluralize};
+use super::Report;
+
+/// A table of the answers, each row followed by its dimensions and its cognates.
+pub(super) fn text(report: &Report) -> String {
+    const HEAD: [&str; 9] =
+        ["E/S", "E", "greatest", "fit", "class", "mu worst", "longest link", "in order", "direction"];
+    let Report { name, target, answers, .. } = report;
+    let size = target.size();
+    let points = pluralize(target.points().len(), "point");
+    let mut out = format!("{name}: {points}, {}, S = {}\n", target.kind().name(), number(size, size));
+    if answers.is_empty() {
+        return out + &nothing_found(report);
+    }
+    let rows: Vec<[String; 9]> = answers.iter().map(|answer| row(answer, size)).collect();
+    let width = |k: usize| rows.iter().map(|row| row[k].chars().count()).chain([HEAD[k].len()]).max().unwrap_or(0);
+    let widths: Vec<usize> = (0..HEAD.len()).map(width).collect();
+    let line = |rank: &str, cells: &[&str]| {
+        let mut line = format!("{rank:>3}");
+        for (k, (cell, width)) in cells.iter().zip(&widths).enumerate() {
+            // Words are aligned left, numbers right.
+            let pad = " ".repeat(width - cell.chars().count());
+            line += &if matches!(k, 3 | 4 | 7 | 8) { format!("  {cell}{pad}") } else { format!("  {pad}{cell}") };
+        }
+        format!("{}\n", line.trim_end())
+    };
+    out += &line("", &HEAD);
+    for (k, (answer, row)) in answers.iter().zip(&rows).enumerate() {
+        out += &line(&(k + 1).to_string(), &row.each_ref().map(String::as_str));
+        let _ = writeln!(out, "     {}", dimensions(&answer.mechanism, size));
+        let _ = writeln!(out, "     {}", place(&answer.mechanism, size));
+        for cognate in &answer.cognates {
+            let _ = writeln!(out, "     cognate, {}: {}", summary(cognate), dimensions(cognate, size));
+        }
+    }
+    out
+}
+
+fn row(answer: &Answer, size: f64) -> [String; 9] {
+    let mechanism = &answer.mechanism;
+    let longest = mechanism.longest_link();
+    [
+        relative(answer.rms_relative),
+        number(answer.rms, size),
+        number(answer.greatest, size),
+        answer.quality().name().to_owned(),
+        mechanism.class.to_owned(),
+        angle(mechanism.mu_worst_deg),
+        format!("{} = {:.2} S", number(longest, size), longest / size),
+        if answer.is_in_order { "yes" } else { "no" }.to_owned(),
+        direction(mechanism).to_owned(),
+    ]
+}
+
+/// The direction in which the crank turns as the path is followed.
+pub(super) fn direction(mechanism: &Mechanism) -> &'static str {
+    if mechanism.is_reversed { "backward" } else { "forward" }
+}
+
+pub(super) fn side(mechanism: &Mechanism) -> &'static str {
+    if mechanism.side == Side::Left { "left" } else { "right" }
+}
+
+/// The dimensions of a four-bar, in six significant digits.
+pub(super) fn dimensions(mechanism: &Mechanism, size: f64) -> String {
+    let PlacedFourBar { lengths: FourBar { frame, crank, coupler, rocker }, coupler_point, .. } = mechanism.four_bar;
+    let values = [
+        ("frame", frame),
+        ("crank", crank),
+        ("coupler", coupler),
+        ("rocker", rocker),
+        ("along", coupler_point.x),
+        ("across", coupler_point.y),
+    ];
+    values.map(|(name, value)| format!("{name} = {}", number(value, size))).join(", ")
+}
+
+/// Where a four-bar is, and how it moves along the path.
+fn place(mechanism: &Mechanism, size: f64) -> String {
+    let [crank, rocker] = mechanism.four_bar.pivots.map(|p| format!("({}, {})", number(p.x, size), number(p.y, size)));
+    let [from, to] = mechanism.input_deg.map(angle);
+    let rocker_pin = format!("rocker pin on the {}", side(mechanism));
+    format!("crank pivot {crank}, rocker pivot {rocker}; crank from {from} to {to}, {rocker_pin} at first")
+}
+
+/// A cognate in a few words.
+fn summary(mechanism: &Mechanism) -> String {
+    let constraints = if mechanism.meets_constraints { "" } else { ", outside the constraints" };
+    format!("{}, mu worst {}{constraints}", mechanism.class, angle(mechanism.mu_worst_deg))
+}
+
+/// A length in six significant digits, for a path of a size: what is 0 but for rounding is 0.
+pub(super) fn number(value: f64, size: f64) -> String {
+    const ROUNDING: f64 = 1e-12;
+    if value.abs() < ROUNDING * size { "0".to_owned() } else { format_significant(value, 6, 1e-4 * size.min(1.0)) }
+}
+
+/// A deviation relative to the size of the path.
+pub(super) fn relative(value: f64) -> String {
+    number(format_significant(value, 3, 0.0).parse().unwrap_or(value), 1.0)
+}
+
+fn angle(degrees: f64) -> String {
+    // Without the sign of -0.0.
+    format!("{:.1}°", (10.0 * degrees).round() / 10.0 + 0.0)
+}
+
+/// The message when no linkage meets the constraints: the nearest one, and what to relax for it.
+fn nothing_found(report: &Report) -> String {
+    let Some((constraints, answer)) = &report.nearest_miss else {
+        return "no linkage was found: no curve in the index is about as long as the path and near it; try --effort thorough, or a \
+                larger --index\n"
+            .to_owned();
+    };
+    let size = report.target.size();
+    let options: Vec<&str> = constraints.iter().map(|constraint| option_of(*constraint)).collect();
+    let relax = match &constraints[..] {
+        [Constraint::MaxLink] => {
+            format!("a greater --max-link ({:.2} or more)", answer.mechanism.longest_link() / size)
+        }
+        [Constraint::FullTurn] => "--input any".to_owned(),
+        [_] => format!("another {}", options[0]),
+        _ => format!("{} together", options.join(", ")),
+    };
+    format!(
+        "no linkage meets the constraints; the nearest miss has E = {} ({} S, {}), and is an answer with {relax}:\n     {}\n     {}\n     {}\n",
+        number(answer.rms, size),
+        relative(answer.rms_relative),
+        answer.quality().name(),
+        summary(&answer.mechanism),
+        dimensions(&answer.mechanism, size),
+        place(&answer.mechanism, size)
+    )
+}
+
+/// The option that sets a constraint.
+pub(super) fn option_of(constraint: Constraint) -> &'static str {
+    match constraint {
+        Constraint::Condition => "--where",
+        Constraint::Pivots => "--pivots",
+        Constraint::MaxLink => "--max-link",
+        Constraint::FullTurn => "--input",
+    }
+}
