@@ -6,7 +6,6 @@ use std::fmt::Write;
 use super::{ParameterSet, format_number, sampling_fields};
 use crate::catalogue;
 use crate::family::{Family, StraightCriterion};
-use crate::geometry::{Vector, trig};
 use crate::linkage_format::quoted;
 use crate::template::{CircuitSelection, CoincidentDyads, Continuation, Orientation, Template};
 
@@ -125,13 +124,8 @@ fn family_settings(family: &Family) -> String {
     out
 }
 
-/// The `place` of a family, with the angle to nine decimal places if that gives the same orientation: these are
-/// likely the digits of the manifest it came from.
+/// The `place` of a family.
 fn placement_to_toml(placement: &Orientation) -> String {
-    let axis = placement.transform_vector(Vector::new(1.0, 0.0));
-    let deg = trig::degrees(trig::atan2(axis.y, axis.x));
-    let rounded = (deg * 1e9).round() / 1e9 + 0.0;
     let is_mirrored = placement.handedness() < 0.0;
-    let deg = if Orientation::new(is_mirrored, rounded) == *placement { rounded } else { deg };
-    format!("{{ mirror = {is_mirrored}, rotate = \"{} deg\" }}", format_number(deg))
+    format!("{{ mirror = {is_mirrored}, rotate = \"{} deg\" }}", format_number(placement.rotation_deg()))
 }

@@ -36,6 +36,15 @@ impl Orientation {
         Point::from(self.transform_vector(p.coords))
     }
 
+    /// The rotation in degrees, above -180 up to 180, to nine decimal places if that gives the same orientation: these are likely the
+    /// digits that it was made from.
+    pub fn rotation_deg(&self) -> f64 {
+        // The sine of half a turn may be -0.
+        let deg = trig::degrees(trig::atan2(self.axis.y + 0.0, self.axis.x));
+        let rounded = (deg * 1e9).round() / 1e9 + 0.0;
+        if Orientation::new(self.is_mirrored, rounded) == *self { rounded } else { deg }
+    }
+
     /// The factor of angles: 1, or -1 if mirrored.
     pub fn handedness(&self) -> f64 {
         if self.is_mirrored { -1.0 } else { 1.0 }
@@ -52,5 +61,8 @@ mod tests {
         assert_eq!(Orientation::default().transform_point(p), p);
         assert_eq!(Orientation::new(false, 90.0).transform_point(p), Point::new(-1.0, 2.0));
         assert_eq!(Orientation::new(true, 90.0).transform_point(p), Point::new(1.0, 2.0));
+        for deg in [0.0, 90.0, -30.1, 123.456789, 180.0] {
+            assert_eq!(Orientation::new(true, deg).rotation_deg(), deg);
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! The construction of a linkage in words: for each joint, the lengths and angles that place it.
 
-use super::{Coordinate, JointKindTemplate, Template};
+use super::{Coordinate, JointKindTemplate, Side, Template};
 use crate::expression::{CompiledExpression, MathText};
 
 impl Template {
@@ -56,23 +56,45 @@ impl Template {
                     MathText::from_words(format!("; {} moves in its slot at ", name(*from))).with(slot.to_math_text());
                 guided.with(slot).with_words(" to the guide")
             }
-            JointKindTemplate::Slot { base: [pivot, through], offset, .. } => MathText::from_words(format!(
-                "foot of the perpendicular from {} to the bar that slides through {}, ",
-                name(*pivot),
-                name(*through)
-            ))
-            .with(length(*pivot, offset)),
+            JointKindTemplate::Slot { base: [pivot, through], offset, side } => {
+                let foot = MathText::from_words(format!(
+                    "foot of the perpendicular from {} to the bar that slides through {}, ",
+                    name(*pivot),
+                    name(*through)
+                ));
+                let side = format!(" to the {} of {}", side_name(*side), between([*pivot, *through]));
+                foot.with(length(*pivot, offset)).with_words(if is_zero(offset) { "" } else { &side })
+            }
             JointKindTemplate::Parallelogram { corners } => {
                 let corners: Vec<&str> = corners.iter().map(|&corner| name(corner)).chain([own]).collect();
                 MathText::from_words(format!("parallelogram {}", join_names(&corners)))
             }
             JointKindTemplate::Point { base, along, across } => {
-                point_on_link(&between(*base), name(base[0]), along, across)
+                let place = match self.sliding_direction(*base) {
+                    Some(direction) => format!("parallel to {direction}"),
+                    None => format!("along {}", between(*base)),
+                };
+                point_on_link(&place, name(base[0]), along, across)
             }
             JointKindTemplate::Distances { base: [a, b], distances: [first, second], .. } => {
                 length(*a, first).with_words(", ").with(length(*b, second))
             }
         }
+    }
+
+    /// The direction in which points on a link are measured whose base is a pivot and a joint that slides along the link at an offset from
+    /// that pivot: the line through both turns on the link.
+    fn sliding_direction(&self, base: [usize; 2]) -> Option<String> {
+        let is_base = |a: usize, b: usize| base == [a, b] || base == [b, a];
+        self.joints.iter().enumerate().find_map(|(own, joint)| match &joint.kind {
+            JointKindTemplate::Slot { base: [pivot, through], offset, .. } if is_base(*pivot, *through) => {
+                (!is_zero(offset)).then(|| "the bar".to_owned())
+            }
+            JointKindTemplate::Piston { base: [from, _], offset, .. } if is_base(*from, own) => {
+                (!is_zero(offset)).then(|| "the actuator".to_owned())
+            }
+            _ => None,
+        })
     }
 
     /// The link that the joints are defined in, by its joints; in the reported frame it moves.
@@ -122,22 +144,21 @@ fn is_zero(value: &CompiledExpression) -> bool {
     value.slots().is_empty() && value.evaluate(|_| f64::NAN) == 0.0
 }
 
-/// "on AB, k a from A", or "u from A along AB, v to its left".
-fn point_on_link(base: &str, first: &str, along: &Coordinate, across: &Coordinate) -> MathText {
-    let (along_count, across_count) = (along.count(), across.count());
-    let start = match (along_count, across_count) {
+/// "k a from A along AB", or "u from A along AB, v to its left"; `place` is "along AB", or "parallel to the bar".
+fn point_on_link(place: &str, first: &str, along: &Coordinate, across: &Coordinate) -> MathText {
+    let start = match (along.count(), across.count()) {
         (1, 1) => MathText::default(),
         (rows, columns) => MathText::from_words(format!("{rows} × {columns} points, ")),
     };
+    let along = start.with(coordinate(along)).with_words(format!(" from {first} {place}"));
     match across {
-        Coordinate::Single(across) if is_zero(across) => {
-            start.with_words(format!("on {base}, ")).with(coordinate(along)).with_words(format!(" from {first}"))
-        }
-        _ => {
-            let along = start.with(coordinate(along)).with_words(format!(" from {first} along {base}, "));
-            along.with(coordinate(across)).with_words(" to its left")
-        }
+        Coordinate::Single(across) if is_zero(across) => along,
+        _ => along.with_words(", ").with(coordinate(across)).with_words(" to its left"),
     }
+}
+
+fn side_name(side: Side) -> &'static str {
+    if side == Side::Left { "left" } else { "right" }
 }
 
 fn coordinate(coordinate: &Coordinate) -> MathText {
@@ -162,7 +183,7 @@ mod tests {
             ("evans", "C", "fixed pivot at (p, 0)"),
             ("evans", "A", "pin of the crank, OA = r"),
             ("evans", "B", "AB = a, CB = s"),
-            ("evans", "M", "on AB, k a from A"),
+            ("evans", "M", "k a from A along AB"),
             ("chebyshev", "O", "on link AO, at (r, 0)"),
             ("chebyshev", "B", "pin of the driving link, AB = a"),
             ("cognates", "M", "u from A along AB, v to its left"),
@@ -176,7 +197,12 @@ mod tests {
                 "A",
                 "pin of the crank, OA = r, driven by the actuator from C, its line at a distance of e from C",
             ),
-            ("inverted-slider-crank", "B", "foot of the perpendicular from C to the bar that slides through A, CB = e"),
+            (
+                "inverted-slider-crank",
+                "B",
+                "foot of the perpendicular from C to the bar that slides through A, CB = e to the right of CA",
+            ),
+            ("inverted-slider-crank", "M", "along from C parallel to the bar, across to its left"),
             ("geared-five-bar", "D", "pin of a crank geared to A, PD = d, ratio n : m, ahead by phase"),
             (
                 "scotch-yoke",

@@ -4,7 +4,7 @@ use super::mechanism::PosedMechanism;
 use super::theme::Theme;
 use crate::scene::{Item, Path, Polyline};
 use coupler_curves::geometry::{Point, Similarity, Vector, cross, left_normal, trig};
-use coupler_curves::linkage::OutputLink;
+use coupler_curves::linkage::{JointId, JointKind, OutputLink};
 use coupler_curves::motion::Circuit;
 
 /// The lines of the marks, in the plane of the linkage or on the page.
@@ -12,8 +12,8 @@ use coupler_curves::motion::Circuit;
 pub(super) struct DirectionMarks {
     /// From the crank's pivot in the direction of input 0; none if there is no crank.
     zero: Vec<Point>,
-    /// Arcs that end with an arrowhead: from that line in the direction of increasing input, and to both sides of an
-    /// output link that swings.
+    /// Lines that end with an arrowhead: an arc from that line in the direction of increasing input, a line in which an actuator
+    /// extends, arcs to both sides of an output link that swings or to one of a link that turns, lines to both sides of a slider.
     arrows: Vec<Vec<Point>>,
 }
 
@@ -22,7 +22,8 @@ impl DirectionMarks {
     /// has at least a radius, for a short crank is hidden by its joints.
     pub fn new(mechanism: &PosedMechanism, circuit: &Circuit, least_radius: f64) -> DirectionMarks {
         let mut marks = input_marks(mechanism, least_radius).unwrap_or_default();
-        marks.arrows.extend(output_arcs(mechanism, circuit).into_iter().flatten());
+        marks.arrows.extend(actuator_arrows(mechanism, least_radius));
+        marks.arrows.extend(output_arrows(mechanism, circuit, least_radius));
         marks
     }
 
@@ -77,23 +78,70 @@ fn input_marks(mechanism: &PosedMechanism, least_radius: f64) -> Option<Directio
     Some(DirectionMarks { zero: vec![centre, centre + zero * (LINE * radius)], arrows: vec![arc] })
 }
 
-/// Two arcs from the output link to its sides, about its pivot; `None` if it does not swing.
-fn output_arcs(mechanism: &PosedMechanism, circuit: &Circuit) -> Option<[Vec<Point>; 2]> {
-    /// The radius of the arcs relative to the link.
+/// A line beside each actuator, in the direction in which it extends.
+fn actuator_arrows(mechanism: &PosedMechanism, least_radius: f64) -> Vec<Vec<Point>> {
+    /// Where it begins and ends, in parts of the actuator.
+    const ENDS: [f64; 2] = [0.35, 0.7];
+    let linkage = mechanism.linkage;
+    let arrow = |joint: JointId| {
+        let JointKind::Piston { base: [from, _], .. } = linkage.joints[joint].kind else { return None };
+        let (start, along) = (mechanism.pose[from], mechanism.pose[joint] - mechanism.pose[from]);
+        let aside = left_normal(along.try_normalize(0.0)?) * (0.6 * least_radius);
+        Some(ENDS.map(|part| start + along * part + aside).to_vec())
+    };
+    linkage.joint_ids().filter_map(arrow).collect()
+}
+
+/// The arrows of the output.
+fn output_arrows(mechanism: &PosedMechanism, circuit: &Circuit, least_radius: f64) -> Vec<Vec<Point>> {
+    match mechanism.linkage.output() {
+        Some(OutputLink::Link(ends)) => output_arcs(mechanism, circuit, ends, least_radius),
+        Some(OutputLink::Slot { base, .. }) => output_arcs(mechanism, circuit, base, least_radius),
+        Some(OutputLink::Slider { joint, .. }) => slider_arrows(mechanism, joint, least_radius).unwrap_or_default(),
+        None => Vec::new(),
+    }
+}
+
+/// Lines to both sides of a slider, along its guide.
+fn slider_arrows(mechanism: &PosedMechanism, joint: JointId, least_radius: f64) -> Option<Vec<Vec<Point>>> {
+    /// Where they begin and end, in least radii from the slider's centre.
+    const ENDS: [f64; 2] = [1.2, 2.6];
+    let (JointKind::Slide { line, .. } | JointKind::Yoke { line, .. }) = mechanism.linkage.joints[joint].kind else {
+        return None;
+    };
+    let guide = line.map(|joint| mechanism.pose[joint]);
+    let along = (guide[1] - guide[0]).try_normalize(0.0)? * least_radius;
+    let aside = left_normal(along) * 0.6;
+    let centre = mechanism.pose[joint] + aside;
+    Some([1.0, -1.0].map(|side| ENDS.map(|end| centre + along * (side * end)).to_vec()).to_vec())
+}
+
+/// Two arcs from an output link to its sides, about its pivot; if it turns fully, one in the direction in which it begins to.
+fn output_arcs(
+    mechanism: &PosedMechanism,
+    circuit: &Circuit,
+    [pivot, end]: [JointId; 2],
+    least_radius: f64,
+) -> Vec<Vec<Point>> {
+    /// The radius of the arcs relative to the link, and the least in least radii: a short link is hidden by its joints.
     const RADIUS: f64 = 0.6;
+    const LEAST: f64 = 2.0;
     const ARC_DEG: i32 = 15;
-    let OutputLink::Link([pivot, end]) = mechanism.linkage.output()? else { return None };
     let arm = |k: usize| circuit.positions.point(end, k) - circuit.positions.point(pivot, k);
     let turned: f64 = (1..circuit.len()).map(|k| angle_between(arm(k - 1), arm(k))).sum();
-    if turned.abs() > 180.0 && circuit.is_closed {
-        return None;
-    }
+    let sides: &[i32] = match turned {
+        turned if !circuit.is_closed || turned.abs() <= 180.0 => &[1, -1],
+        turned if turned > 0.0 => &[2],
+        _ => &[-2],
+    };
     let (centre, arm) = (mechanism.pose[pivot], mechanism.pose[end] - mechanism.pose[pivot]);
+    let Some(along) = arm.try_normalize(0.0) else { return Vec::new() };
+    let along = along * (RADIUS * arm.norm()).max(LEAST * least_radius);
     let at = |deg: i32| {
         let (cos, sin) = trig::cos_sin_deg(f64::from(deg));
-        centre + (arm * cos + left_normal(arm) * sin) * RADIUS
+        centre + along * cos + left_normal(along) * sin
     };
-    Some([1, -1].map(|side| (0..=ARC_DEG).map(|deg| at(side * deg)).collect()))
+    sides.iter().map(|side| (0..=ARC_DEG).map(|deg| at(side * deg)).collect()).collect()
 }
 
 /// The angle from a vector to another, in degrees from -180 to 180.

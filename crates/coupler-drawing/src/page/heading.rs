@@ -110,15 +110,16 @@ impl<'a> Heading<'a> {
         let atlas = theme.text_line(self.atlas_title, foot, Anchor::End, theme.source_size, theme.grey);
         let folio = self.folio();
         let folio = if self.atlas_title.is_empty() { folio.trim_start_matches(SEPARATOR) } else { &folio };
-        root.record(&atlas.fit_width_with_suffix(folio, right - left));
+        root.record(&atlas.fit_width_with_suffix(folio, MAX_FOLIO_PART * (right - left)));
         // Two thirds of the last line's leading are above the contents.
         (at.y - 0.6 * theme.source_size).max(margins(theme)[0])
     }
 
-    /// The width of the last line of the page, the title of the atlas and the page number.
-    pub(super) fn folio_width(&self, theme: &Theme) -> f64 {
+    /// The width of the last line of a page, the title of the atlas and the page number.
+    pub(super) fn folio_width(&self, page: Vector, theme: &Theme) -> f64 {
         let text = format!("{}{}", self.atlas_title, self.folio());
-        theme.text_line(&text, Point::origin(), Anchor::End, theme.source_size, theme.grey).text.width()
+        let width = theme.text_line(&text, Point::origin(), Anchor::End, theme.source_size, theme.grey).text.width();
+        width.min(MAX_FOLIO_PART * (page.x - 2.0 * (theme.border + theme.margin)))
     }
 
     /// The page number, which ends the last line of the page, with a separator before it; empty if there is one page.
@@ -134,6 +135,9 @@ impl<'a> Heading<'a> {
         }
     }
 }
+
+/// The part of the width of a page that its title and number may take at the foot; the symbols are left of them.
+const MAX_FOLIO_PART: f64 = 0.5;
 
 /// Separates the parts of a line.
 const SEPARATOR: &str = " · ";

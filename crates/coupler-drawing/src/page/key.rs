@@ -11,7 +11,7 @@ use super::plot::Plot;
 use super::rect::Rect;
 use super::theme::Theme;
 use crate::scene::{Anchor, Circle, Item, MIN_TEXT_SIZE, Text};
-use coupler_curves::expression::MathText;
+use coupler_curves::expression::{MathText, format_exactly};
 use coupler_curves::family::{Cell, Family};
 use coupler_curves::geometry::{Bounds, Point, Vector};
 use coupler_curves::linkage::{JointId, JointKind, OutputLink};
@@ -79,7 +79,19 @@ fn remarks(template: &Template) -> Vec<String> {
         })
     });
     let frame = template.seen_from.map(|[origin, x]| format!("drawn with {} and {} fixed", name(origin), name(x)));
-    [driven_by.to_owned()].into_iter().chain(output).chain(frame).collect()
+    [driven_by.to_owned()].into_iter().chain(output).chain(frame).chain(orientation(template)).collect()
+}
+
+/// How the drawing is turned against what the key says of the linkage, if it is.
+fn orientation(template: &Template) -> Option<String> {
+    let rotation = match template.orientation.rotation_deg() {
+        0.0 => None,
+        deg => Some(format!("turned by {}°", format_exactly(deg))),
+    };
+    let reflection = (template.orientation.handedness() < 0.0).then(|| "mirrored about the x-axis".to_owned());
+    let parts: Vec<String> = reflection.into_iter().chain(rotation).collect();
+    let what = "coordinates, sides and angles are those before";
+    (!parts.is_empty()).then(|| format!("drawn {}: {what}", parts.join(", then ")))
 }
 
 /// The width of a line of text of the key, in ems of a note.
@@ -101,6 +113,27 @@ pub(super) fn divide(contents: Rect, theme: &Theme) -> (Rect, Option<Rect>) {
     let panels = Rect { size: contents.size - along(needed + em), ..contents };
     let key = Rect { corner: contents.corner + along(whole - needed), size: contents.size - along(whole - needed) };
     (panels, Some(key))
+}
+
+/// The figure whose linkage a key shows: the first of those with the most joints, as a joint at an offset of 0 is not drawn, in which no
+/// two are close together, or else the one of them in which they are furthest apart.
+pub(super) fn clearest_figure<'f, 'a>(figures: &[&'f Figure<'a>]) -> Option<&'f Figure<'a>> {
+    /// The least distance of joints, relative to the size of the linkage: some three of their radii in a key.
+    const CLEAR: f64 = 0.06;
+    let mechanism = |figure: &'f Figure<'a>| figure.mechanisms.first();
+    let count = |figure: &'f Figure<'a>| mechanism(figure).map_or(0, |mechanism| mechanism.drawn_joints().len());
+    let most = figures.iter().copied().map(count).max()?;
+    let distance = |figure: &'f Figure<'a>| mechanism(figure).map_or(0.0, least_distance).min(CLEAR);
+    let with_most = figures.iter().copied().filter(|figure| count(figure) == most);
+    with_most.reduce(|best, next| if distance(next) > distance(best) { next } else { best })
+}
+
+/// The least distance of two joints of a linkage that are drawn, relative to its size.
+fn least_distance(mechanism: &PosedMechanism) -> f64 {
+    let joints = mechanism.drawn_joints();
+    let pairs = joints.iter().enumerate().flat_map(|(k, a)| joints[..k].iter().map(move |b| (a, b)));
+    let distances = pairs.map(|(a, b)| (mechanism.pose[*a] - mechanism.pose[*b]).norm());
+    distances.fold(f64::INFINITY, f64::min) / mechanism.bounds().size().max()
 }
 
 /// Draws a key in a rectangle, with the linkage of a figure.

@@ -33,8 +33,8 @@ pub(super) fn compose(root: &impl Area, page: &PanelPage, options: &Options, the
         None => (contents, None),
     };
     if let (Some(key), Some(rect)) = (page.key, key) {
-        let first = figures.iter().flatten().next();
-        key::draw(root, rect.inset(0.5 * theme.margin), key, first, theme);
+        let figures: Vec<&Figure> = figures.iter().flatten().collect();
+        key::draw(root, rect.inset(0.5 * theme.margin), key, key::clearest_figure(&figures), theme);
     }
     let far = panels.corner + panels.size;
     let area = root.without_margins([panels.corner.y, root.size().y - far.y, panels.corner.x, root.size().x - far.x]);
@@ -74,7 +74,7 @@ fn layout_symbols(
     const LEADING: f64 = 1.45;
     let [_, bottom, _] = margins(theme);
     let [left, right] = [theme.border + theme.margin, root.size().x - theme.border - theme.margin];
-    let folio = page.heading.folio_width(theme).min(0.5 * (right - left));
+    let folio = page.heading.folio_width(root.size(), theme);
     let scale = Symbol { mark: Mark::ScaleBar, meaning: scale.to_owned() };
     // A page without figures has no symbols.
     let explained: Vec<Symbol> = symbols.iter().cloned().chain((!symbols.is_empty()).then_some(scale)).collect();

@@ -36,7 +36,7 @@ pub(super) fn label_width<'a>(labels: impl Iterator<Item = &'a str>, symbols: &[
 
 /// The items of the labels: each as close as possible to the height of the end of its line, without overlaps.
 ///
-/// If not all labels fit, they are set smaller; if they do not fit then, every n-th is drawn, and then the number of the
+/// Labels that are too long are broken. If not all fit, they are set smaller; if they do not fit then, every n-th is drawn, and then the number of the
 /// others. `left` is the right edge of the frame, `height` the height of the frame, and `width` the space for the labels, all in millimetres.
 pub(super) fn label_items(
     labels: Vec<LineLabel>,
@@ -45,12 +45,29 @@ pub(super) fn label_items(
     symbols: &[String],
     theme: &Theme,
 ) -> Vec<Item> {
+    let from = |theme: &Theme| left + 0.8 * theme.note_size;
+    let text_start = |theme: &Theme| from(theme) + sample_length(theme) + 0.5 * theme.note_size;
+    // A label that is too long for the space is broken into lines.
+    let lines = |label: &LineLabel, theme: &Theme| {
+        /// The space is that of the longest label, to rounding.
+        const ROUNDING: f64 = 1e-6;
+        let (line, space) = (label_text(label.text, Point::origin(), symbols, theme), left + width - text_start(theme));
+        if line.text.width() <= space + ROUNDING { vec![label.text.to_owned()] } else { line.wrap(space) }
+    };
+    // In lines; broken labels are apart from each other.
+    let spacing_of = |theme: &Theme| match labels.iter().map(|label| lines(label, theme).len()).max() {
+        Some(most @ 2..) => most as f64 + 0.4,
+        _ => 1.0,
+    };
     let least = MIN_TEXT_SIZE.min(theme.note_size);
-    let theme =
-        &Theme { note_size: (height / (labels.len() as f64 * SPACING)).clamp(least, theme.note_size), ..theme.clone() };
-    let spacing = SPACING * theme.note_size;
-    let most = ((height / spacing).floor() as usize).max(1);
+    let with_size = |part: f64| Theme { note_size: (part * theme.note_size).max(least), ..theme.clone() };
     let count = labels.len();
+    let needed = |theme: &Theme| count as f64 * spacing_of(theme) * SPACING * theme.note_size;
+    let theme = [1.0, 0.95, 0.9, 0.85, 0.8, 0.75, 0.7].map(with_size).into_iter().find(|theme| needed(theme) <= height);
+    let theme = &theme.unwrap_or_else(|| with_size(0.0));
+    let leading = SPACING * theme.note_size;
+    let spacing = leading * spacing_of(theme);
+    let most = ((height / spacing).floor() as usize).max(1);
     let mut drawn: Vec<LineLabel> = if count > most {
         labels.into_iter().step_by(count.div_ceil(most.saturating_sub(1).max(1))).collect()
     } else {
@@ -59,10 +76,9 @@ pub(super) fn label_items(
     drawn.sort_by(|a, b| a.end_height.total_cmp(&b.end_height));
     let mut items = Vec::new();
     let omitted = count - drawn.len();
-    let foot = if omitted > 0 { height - spacing } else { height };
+    let foot = if omitted > 0 { height - leading } else { height };
     let heights = spread_heights(&drawn.iter().map(|label| label.end_height).collect::<Vec<_>>(), spacing, foot);
-    let from = left + 0.8 * theme.note_size;
-    let text = from + sample_length(theme) + 0.5 * theme.note_size;
+    let (from, text) = (from(theme), text_start(theme));
     // From the middle of a letter down to its baseline.
     let drop = 0.35 * theme.note_size;
     for (label, y) in drawn.iter().zip(heights) {
@@ -72,8 +88,12 @@ pub(super) fn label_items(
         if with_marks {
             items.push(label.style.mark_item(Point::new(from + sample_length(theme) / 2.0, y), theme));
         }
-        let line = label_text(label.text, Point::new(text, y + drop), symbols, theme);
-        items.push(Item::Text(line.fit_width(left + width - text).text));
+        let lines = lines(label, theme);
+        for (k, line) in lines.iter().enumerate() {
+            let below = (k as f64 - 0.5 * (lines.len() - 1) as f64) * leading;
+            let line = label_text(line, Point::new(text, y + drop + below), symbols, theme);
+            items.push(Item::Text(line.fit_width(left + width - text).text));
+        }
     }
     if omitted > 0 {
         let more = format!("and {omitted} more");
