@@ -8,6 +8,7 @@ import {
   fieldOf,
   sliderOf,
   changeParameter,
+  plateIsUpdated,
   measureNow,
   assertNear,
 } from "./plate-support.mjs";
@@ -26,7 +27,7 @@ export const PARAMETERS = [
       );
       const before = await page.locator(".dashes").getAttribute("d");
       await sliderOf(page, "p").fill("2.5");
-      await page.waitForTimeout(400);
+      await plateIsUpdated(page);
       assert.notEqual(await page.locator(".dashes").getAttribute("d"), before);
       assert.match(await plate.fragment(), /\?p=2\.5$/);
       // Extreme transmission angles: frame less crank 1.5, frame and crank 3.5.

@@ -21,11 +21,15 @@ export const fieldOf = (page, name) =>
 export const sliderOf = (page, name) =>
   page.locator(`.parameter:has(input[aria-label="Value of ${name}"]) input[type=range]`);
 
+/** Waits until the plate shows the last change. */
+export const plateIsUpdated = (page) =>
+  page.waitForFunction(() => !document.querySelector(".stage").hasAttribute("aria-busy"));
+
 /** Enters the value of a parameter and waits until the plate is updated. */
 export async function changeParameter(page, name, value) {
   await fieldOf(page, name).fill(String(value));
   await fieldOf(page, name).press("Tab");
-  await page.waitForTimeout(300);
+  await plateIsUpdated(page);
 }
 
 export async function measureNow(page, name) {

@@ -145,7 +145,9 @@ export class Plate extends PlateFigure {
 
   #settleSoon(after) {
     window.clearTimeout(this.resting);
+    this.stage.element.setAttribute("aria-busy", "true");
     this.resting = window.setTimeout(() => {
+      this.stage.element.removeAttribute("aria-busy");
       window.cancelAnimationFrame(this.waiting);
       this.waiting = 0;
       this.#restudy(false);
