@@ -38,7 +38,8 @@ pub(super) fn longest_outline(text: &str) -> Result<Outline, String> {
         return Err("the drawing has no path, line, polygon, rectangle, circle or ellipse".to_owned());
     };
     let is_closed = path.first() == path.last();
-    Ok(Outline { points: spaced_evenly(&path, length, is_closed), is_closed: Some(is_closed).filter(|closed| *closed) })
+    let points = spaced_evenly(&path, length, is_closed);
+    Ok(Outline { points, angles_deg: None, is_closed: Some(is_closed).filter(|closed| *closed) })
 }
 
 /// The outlines of a drawing as polylines; the first point of a closed one is repeated.

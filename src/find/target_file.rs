@@ -16,6 +16,8 @@ const MAX_PROBLEMS: usize = 20;
 pub struct Outline {
     /// Its points, with y pointing up.
     pub points: Vec<Point>,
+    /// The angle of the crank at each point in degrees, where the file has them and they are asked for.
+    pub angles_deg: Option<Vec<f64>>,
     /// Whether it is closed, where the file says so.
     pub is_closed: Option<bool>,
 }
@@ -36,16 +38,16 @@ impl Outline {
     }
 }
 
-/// Reads the path in a text: a drawing in SVG, JSON, or a table of points.
+/// Reads the path in a text: a drawing in SVG, JSON, or a table of points; and the angles of its points if it is timed.
 ///
 /// # Errors
 /// Every problem, with its line in a table.
-pub fn parse_outline(text: &str) -> Result<Outline, Vec<String>> {
+pub fn parse_outline(text: &str, is_timed: bool) -> Result<Outline, Vec<String>> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let outline = match text.trim_start().chars().next() {
         Some('<') => svg_outlines::longest_outline(text).map_err(|problem| vec![problem])?,
-        Some('{' | '[') => parse_json(text).map_err(|problem| vec![problem])?,
-        _ => Outline { points: parse_table(text)?, is_closed: None },
+        Some('{' | '[') => parse_json(text, is_timed).map_err(|problem| vec![problem])?,
+        _ => parse_table(text, is_timed)?,
     };
     match outline.points.len() {
         count if count > MAX_POINTS => {
@@ -55,12 +57,21 @@ pub fn parse_outline(text: &str) -> Result<Outline, Vec<String>> {
     }
 }
 
-/// Reads a table: a point on each line, x and y, divided by commas, semicolons or blanks; empty lines and what follows `#` are
-/// skipped. A first line of names says which columns are x and y.
-fn parse_table(text: &str) -> Result<Vec<Point>, Vec<String>> {
+/// The columns of a table.
+#[derive(Clone, Copy)]
+struct Columns {
+    x: usize,
+    y: usize,
+    angle: Option<usize>,
+}
+
+/// Reads a table: a point on each line, x and y and perhaps an angle, divided by commas, semicolons or blanks; empty lines and what
+/// follows `#` are skipped. A first line of names says which columns are x, y and angle.
+fn parse_table(text: &str, is_timed: bool) -> Result<Outline, Vec<String>> {
     let mut points = Vec::new();
+    let mut angles_deg = Vec::new();
     let mut problems = Vec::new();
-    let mut columns: Option<[usize; 2]> = None;
+    let mut columns: Option<Columns> = None;
     for (number, line) in (1..).zip(text.lines()) {
         let line = line.split('#').next().unwrap_or_default().trim();
         if line.is_empty() {
@@ -76,9 +87,17 @@ fn parse_table(text: &str) -> Result<Vec<Point>, Vec<String>> {
             }
             continue;
         }
-        let [x, y] = *columns.get_or_insert([0, 1]);
+        let angle = (fields.len() > 2).then_some(2);
+        let Columns { x, y, angle } = *columns.get_or_insert(Columns { x: 0, y: 1, angle });
+        if let Some(column) = angle.filter(|_| is_timed) {
+            match fields.get(column).map(|field| parse_number(field, "an angle")) {
+                Some(Ok(angle)) => angles_deg.push(angle),
+                Some(Err(error)) => problems.push(format!("line {number}: {error}")),
+                None => problems.push(format!("line {number}: `{line}` has no angle, as the others have")),
+            }
+        }
         match [x, y].map(|column| fields.get(column)) {
-            [Some(x), Some(y)] => match [x, y].map(|field| parse_coordinate(field)) {
+            [Some(x), Some(y)] => match [x, y].map(|field| parse_number(field, "a coordinate")) {
                 [Ok(x), Ok(y)] => points.push(Point::new(x, y)),
                 coordinates => {
                     let errors = coordinates.into_iter().filter_map(Result::err);
@@ -93,7 +112,11 @@ fn parse_table(text: &str) -> Result<Vec<Point>, Vec<String>> {
         problems.truncate(MAX_PROBLEMS);
         problems.push(format!("and {more} further lines that cannot be read"));
     }
-    if problems.is_empty() { Ok(points) } else { Err(problems) }
+    if !problems.is_empty() {
+        return Err(problems);
+    }
+    let angles_deg = (!angles_deg.is_empty()).then_some(angles_deg);
+    Ok(Outline { points, angles_deg, is_closed: None })
 }
 
 /// The fields of a line. Where semicolons divide them, commas are decimal.
@@ -113,23 +136,23 @@ fn fields_of(line: &str) -> Vec<String> {
     }
 }
 
-/// The columns of x and y by their names.
-fn name_columns(fields: &[String]) -> Option<[usize; 2]> {
+/// The columns of x, y and the angle by their names.
+fn name_columns(fields: &[String]) -> Option<Columns> {
     let column = |name: &str| fields.iter().position(|field| field.trim_matches('"').eq_ignore_ascii_case(name));
-    Some([column("x")?, column("y")?])
+    Some(Columns { x: column("x")?, y: column("y")?, angle: column("angle") })
 }
 
-fn parse_coordinate(text: &str) -> Result<f64, String> {
+fn parse_number(text: &str, what: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(value),
-        Ok(value) => Err(format!("`{text}` is {value}: a coordinate must be finite")),
+        Ok(value) => Err(format!("`{text}` is {value}: {what} must be finite")),
         Err(_) => Err(format!("`{text}` is not a number")),
     }
 }
 
-/// Reads JSON: a list of points, or an object with one as `points`, and perhaps `closed`. A point is a list of x and y, or an object
-/// with `x` and `y`.
-fn parse_json(text: &str) -> Result<Outline, String> {
+/// Reads JSON: a list of points, or an object with one as `points`, and perhaps `closed`. A point is a list of x and y and perhaps an
+/// angle, or an object with `x`, `y` and perhaps `angle`.
+fn parse_json(text: &str, is_timed: bool) -> Result<Outline, String> {
     let value: Value = serde_json::from_str(text).map_err(|error| format!("the JSON cannot be read: {error}"))?;
     // What `find --json` and `export --format json` print can be read as well.
     let object = value.get("target").unwrap_or(&value);
@@ -148,7 +171,16 @@ fn parse_json(text: &str) -> Result<Outline, String> {
             _ => Err(format!("point {number} of the JSON is {value}: write [x, y] or {{\"x\": …, \"y\": …}}")),
         }
     };
-    Ok(Outline { points: (1..).zip(list).map(point).collect::<Result<_, String>>()?, is_closed })
+    let angle_of = |value: &'_ Value| if value.is_array() { value.get(2) } else { value.get("angle") }.cloned();
+    let angle = |(number, value): (usize, &Value)| {
+        let example = "write [x, y, angle] or {\"x\": …, \"y\": …, \"angle\": …}";
+        let angle = angle_of(value);
+        coordinate(angle.as_ref()).ok_or(format!("point {number} of the JSON is {value}, without an angle: {example}"))
+    };
+    let has_angles = is_timed && list.iter().any(|value| angle_of(value).is_some());
+    let points = (1..).zip(list).map(point).collect::<Result<_, String>>()?;
+    let angles_deg = (1..).zip(list).filter(|_| has_angles).map(angle).collect::<Result<Vec<f64>, String>>()?;
+    Ok(Outline { points, angles_deg: has_angles.then_some(angles_deg), is_closed })
 }
 
 #[cfg(test)]
@@ -157,7 +189,7 @@ mod tests {
     use coupler_curves::geometry::trig;
 
     fn points(text: &str) -> Vec<[f64; 2]> {
-        parse_outline(text).unwrap().points.iter().map(|p| [p.x, p.y]).collect()
+        parse_outline(text, false).unwrap().points.iter().map(|p| [p.x, p.y]).collect()
     }
 
     #[test]
@@ -179,8 +211,28 @@ mod tests {
     }
 
     #[test]
+    fn angles_are_read_where_they_are_asked_for() {
+        let angles = |text: &str| parse_outline(text, true).map(|outline| outline.angles_deg);
+        for text in [
+            "1,2,30\n3,4,-45.5",
+            "angle;y;x\n30;2;1\n-45,5;4;3",
+            "[[1, 2, 30], [3, 4, -45.5]]",
+            "[{\"x\": 1, \"y\": 2, \"angle\": 30}, [3, 4, -45.5]]",
+        ] {
+            assert_eq!(angles(text), Ok(Some(vec![30.0, -45.5])), "{text}");
+            assert_eq!(parse_outline(text, false).unwrap().angles_deg, None);
+        }
+        assert_eq!(angles("1,2\n3,4"), Ok(None));
+        assert_eq!(angles("[[1, 2], [3, 4]]"), Ok(None));
+        let problems = |text: &str| angles(text).unwrap_err();
+        assert_eq!(problems("1,2,30\n3,4"), ["line 2: `3,4` has no angle, as the others have"]);
+        assert_eq!(problems("1,2,30\n3,4,x"), ["line 2: `x` is not a number"]);
+        assert!(problems("[[1, 2, 30], [3, 4]]")[0].starts_with("point 2 of the JSON is [3,4], without an angle"));
+    }
+
+    #[test]
     fn every_line_that_cannot_be_read_is_named() {
-        let problems = |text: &str| parse_outline(text).unwrap_err();
+        let problems = |text: &str| parse_outline(text, false).unwrap_err();
         assert_eq!(
             problems("1,2\nabc,3\n4\n5,NaN\n"),
             [
@@ -204,10 +256,10 @@ mod tests {
         let outline = |count: usize| {
             let angle = |k: usize| std::f64::consts::TAU * k as f64 / 20.0;
             let point = |k| Point::new(trig::cos(angle(k)), trig::sin(angle(k)));
-            Outline { points: (0..count).map(point).collect(), is_closed: None }
+            Outline { points: (0..count).map(point).collect(), angles_deg: None, is_closed: None }
         };
         assert!(outline(20).looks_closed() && outline(21).looks_closed());
         assert!(!outline(18).looks_closed());
-        assert!(!Outline { points: Vec::new(), is_closed: None }.looks_closed());
+        assert!(!Outline { points: Vec::new(), angles_deg: None, is_closed: None }.looks_closed());
     }
 }

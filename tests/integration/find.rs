@@ -210,6 +210,48 @@ fn a_path_is_closed_open_or_a_part() {
 }
 
 #[test]
+fn timed_paths_are_reached_at_the_angles_of_the_crank() {
+    let folder = folder_with_bean();
+    // A crank-rocker at uneven inputs, by the intersection of two circles.
+    let point = |degrees: f64| {
+        let (a, c) = ([trig::cos(trig::radians(degrees)), trig::sin(trig::radians(degrees))], [3.0, 0.0]);
+        let (dx, dy) = (c[0] - a[0], c[1] - a[1]);
+        let distance = trig::hypot(dx, dy);
+        let along = (distance * distance + 3.0 * 3.0 - 2.5 * 2.5) / (2.0 * distance);
+        let across = (9.0 - along * along).sqrt();
+        let unit = [(dx * along - dy * across) / (3.0 * distance), (dy * along + dx * across) / (3.0 * distance)];
+        [a[0] + 1.5 * unit[0] - unit[1], a[1] + 1.5 * unit[1] + unit[0]]
+    };
+    let angles: Vec<f64> = (0..36).map(|k| 10.0 * f64::from(k) + 3.0 * trig::sin(f64::from(k))).collect();
+    let rows = angles.iter().map(|angle| (point(*angle), 77.0 - angle));
+    let table: String = rows.map(|([x, y], angle)| format!("{x},{y},{angle}\n")).collect();
+    fs::write(folder.path().join("timed.csv"), &table).unwrap();
+    let found = json(&folder, &["timed.csv", "--timed", "--top", "1"]);
+    let first = &found["results"][0];
+    assert!(number(&first["rms_relative"]) < 1e-6, "{first}");
+    assert_eq!(found["target"]["angles_deg"].as_array().unwrap().len(), 36);
+    let turned = (number(&first["input_deg"][1]) - number(&first["input_deg"][0])).abs();
+    assert!((turned - (angles[35] - angles[0])).abs() < 1e-4, "{turned}");
+    // Without angles a closed path has equal steps, which this one does not take.
+    let untimed: String = table.lines().map(|line| line.rsplit_once(',').unwrap().0.to_owned() + "\n").collect();
+    fs::write(folder.path().join("even.csv"), untimed).unwrap();
+    let found = json(&folder, &["even.csv", "--timed", "--closed", "--top", "1"]);
+    assert!(number(&found["results"][0]["rms_relative"]) > 1e-3, "{found}");
+    let (code, text, _) = run(folder.path(), &["find", "even.csv", "--timed", "--closed", "--effort", "quick"]);
+    assert!(code == 0 && text.starts_with("even.csv: 36 points, closed, timed"), "{text}");
+    let (code, _, error) = run(folder.path(), &["find", "even.csv", "--timed", "--open"]);
+    assert!(code == 2 && error.contains("--timed needs an angle"), "{error}");
+    fs::write(folder.path().join("still.csv"), with_one_angle(&table)).unwrap();
+    let (code, _, error) = run(folder.path(), &["find", "still.csv", "--timed"]);
+    assert!(code == 2 && error.contains("the crank does not move"), "{error}");
+}
+
+/// A table with one angle for all points.
+fn with_one_angle(table: &str) -> String {
+    table.lines().map(|line| format!("{},30\n", line.rsplit_once(',').unwrap().0)).collect()
+}
+
+#[test]
 fn constraints_are_kept_or_named() {
     let folder = folder_with_bean();
     let found = json(&folder, &["bean.csv", "--where", "mu_worst_deg >= 35 and is_crank_rocker", "--max-link", "5"]);

@@ -12,6 +12,7 @@ use coupler_atlas::manifest::Plan;
 use coupler_curves::exchange::{CurveName, ParameterSet, SelectedCurve, manifest_fragment};
 use coupler_curves::family::{Family, MAX_SAMPLES, ParameterText, Sampling};
 use coupler_curves::geometry::Point;
+use coupler_curves::linkage::Input;
 use coupler_curves::problem::suggestion;
 use coupler_curves::template::Template;
 use coupler_drawing::curve_file::FileOptions;
@@ -208,11 +209,19 @@ fn select_from_manifest(arguments: &Arguments) -> anyhow::Result<(Vec<CurveSelec
     Ok((select_curves(&source.plan, &arguments.only, words)?, source.plan))
 }
 
-/// The samples of a named curve of a manifest, and whether it is closed.
+/// The samples of a curve.
+pub(super) struct CurveSamples {
+    pub points: Vec<Point>,
+    /// The input of each in degrees; `None` if an actuator drives the linkage.
+    pub inputs_deg: Option<Vec<f64>>,
+    pub is_closed: bool,
+}
+
+/// The samples of a named curve of a manifest.
 ///
 /// # Errors
 /// The manifest cannot be read, there is no such curve, or the name is that of several.
-pub(super) fn curve_points(manifest: &Path, name: &str) -> anyhow::Result<(Vec<Point>, bool)> {
+pub(super) fn curve_points(manifest: &Path, name: &str) -> anyhow::Result<CurveSamples> {
     let source = source::read(manifest)?;
     let selections = select_curves(&source.plan, &[], &[name.to_owned()])?;
     let count = count_curves(&selections)?;
@@ -225,7 +234,8 @@ pub(super) fn curve_points(manifest: &Path, name: &str) -> anyhow::Result<(Vec<P
         let solved = selection.retain_selected(solved);
         let curve = solved.curves.first()?;
         let circuit = solved.circuit(curve);
-        Some((circuit.points(curve.joint).collect::<Vec<Point>>(), circuit.is_closed))
+        let inputs_deg = (solved.linkage.input() != Input::Length).then(|| circuit.inputs.clone());
+        Some(CurveSamples { points: circuit.points(curve.joint).collect(), inputs_deg, is_closed: circuit.is_closed })
     };
     let mut found = None;
     selection.solve_cells(false, points, |curve| {

@@ -22,6 +22,8 @@ struct Document {
 #[derive(Serialize)]
 struct Target {
     points: Vec<[f64; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    angles_deg: Option<Vec<f64>>,
     closed: bool,
     kind: &'static str,
     size: f64,
@@ -85,6 +87,7 @@ pub(super) fn json(report: &Report) -> anyhow::Result<String> {
     let document = Document {
         target: Target {
             points: target.points().iter().map(|p| [p.x, p.y]).collect(),
+            angles_deg: target.angles_deg().map(<[f64]>::to_vec),
             closed: target.kind() == PathKind::Closed,
             kind: target.kind().name(),
             size: target.size(),

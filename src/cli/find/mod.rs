@@ -16,6 +16,7 @@ use coupler_curves::find::{
 };
 use coupler_curves::geometry::{Bounds, Point};
 
+use super::export::CurveSamples;
 use super::{InputError, InputErrors, Outcome, export, files, print, print_bytes, source};
 
 /// Find the linkages whose coupler curves are nearest to a path, with their cognates.
@@ -50,6 +51,10 @@ pub struct Arguments {
     /// The path is a part of the curve, and that part is as long as the path.
     #[arg(long)]
     part: bool,
+    /// The crank reaches the points at their angles, in degrees from any zero and in either direction: a third column, or one named
+    /// `angle`; without angles a closed path has equal steps of a turn.
+    #[arg(long)]
+    timed: bool,
     /// Whether the crank must turn fully.
     #[arg(long, value_enum, default_value_t = InputChoice::FullTurn)]
     input: InputChoice,
@@ -146,8 +151,12 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let printed = [("--json", arguments.json), ("--toml", arguments.toml)];
     let is_drawing_printed = files::is_drawing_printed(arguments.svg.as_deref(), &printed)?;
     let options = parse_options(arguments).map_err(|errors| InputErrors::from_messages(&errors))?;
-    let (name, points, kind) = read_path(arguments)?;
-    let target = Target::new(&points, kind).map_err(|error| InputError(format!("{name}: {error}")))?;
+    let TracedPath { name, points, kind, angles_deg } = read_path(arguments)?;
+    let target = match &angles_deg {
+        Some(angles_deg) => Target::timed(&points, kind, angles_deg),
+        None => Target::new(&points, kind),
+    };
+    let target = target.map_err(|error| InputError(format!("{name}: {error}")))?;
     if let Some(jobs) = arguments.jobs {
         rayon::ThreadPoolBuilder::new().num_threads(jobs.into()).build_global()?;
     }
@@ -188,7 +197,10 @@ fn parse_options(arguments: &Arguments) -> Result<Options, Vec<String>> {
     let mut condition = None;
     match arguments.condition.as_deref().map(|text| Condition::new(text).map_err(|error| (text, error))).transpose() {
         Ok(value) => condition = value,
-        Err((text, error)) => errors.push(format!("--where: `{text}`: {error}")),
+        Err((text, error)) => {
+            let help = if error.help.is_empty() { String::new() } else { format!("; {}", error.help) };
+            errors.push(format!("--where: `{text}`: {error}{help}"));
+        }
     }
     let effort = match arguments.effort {
         EffortChoice::Quick => Effort::Quick,
@@ -240,11 +252,44 @@ fn parse_box(text: &str) -> Result<Bounds, String> {
     }
 }
 
-/// The points of the path, its kind and its name.
+/// The path to search for.
+struct TracedPath {
+    name: String,
+    points: Vec<Point>,
+    kind: PathKind,
+    /// The angles of the crank at the points, if it is timed.
+    angles_deg: Option<Vec<f64>>,
+}
+
+impl TracedPath {
+    /// A path with the angles that it has or, if it is closed and has none, equal steps of a turn.
+    ///
+    /// # Errors
+    /// It is open and has none.
+    fn timed(mut self, angles_deg: Option<Vec<f64>>) -> anyhow::Result<TracedPath> {
+        if angles_deg.is_none() && self.kind != PathKind::Closed {
+            let message = format!(
+                "{}: --timed needs an angle of the crank for each point of an open path: write them as a third column, in degrees",
+                self.name
+            );
+            return Err(InputError(message).into());
+        }
+        self.angles_deg = Some(angles_deg.unwrap_or_else(|| {
+            while self.points.len() > 1 && self.points.first() == self.points.last() {
+                self.points.pop();
+            }
+            let count = self.points.len();
+            (0..count).map(|k| 360.0 * k as f64 / count as f64).collect()
+        }));
+        Ok(self)
+    }
+}
+
+/// The path that the arguments name.
 ///
 /// # Errors
 /// It cannot be read.
-fn read_path(arguments: &Arguments) -> anyhow::Result<(String, Vec<Point>, PathKind)> {
+fn read_path(arguments: &Arguments) -> anyhow::Result<TracedPath> {
     let kind = |is_closed: bool| match arguments {
         Arguments { closed: true, .. } => PathKind::Closed,
         Arguments { open: true, .. } => PathKind::Open,
@@ -254,21 +299,23 @@ fn read_path(arguments: &Arguments) -> anyhow::Result<(String, Vec<Point>, PathK
     };
     if let Some(name) = &arguments.like {
         let manifest = arguments.manifest.as_deref().unwrap_or(Path::new(source::DEFAULT_MANIFEST));
-        let (points, is_closed) = export::curve_points(manifest, name)?;
+        let CurveSamples { points, inputs_deg, is_closed } = export::curve_points(manifest, name)?;
         if points.len() > MAX_POINTS {
             let message = format!("{name} has {} samples, and at most {MAX_POINTS} can be searched for", points.len());
             return Err(InputError(message).into());
         }
-        return Ok((name.clone(), points, kind(is_closed)));
+        let path = TracedPath { name: name.clone(), points, kind: kind(is_closed), angles_deg: None };
+        return if arguments.timed { path.timed(inputs_deg) } else { Ok(path) };
     }
     let path = arguments.path.as_deref().unwrap_or(Path::new("-"));
     files::protect(path);
     let name = files::input_name(path);
     let text = output::read_text(path).map_err(|error| InputError(error.to_string()))?;
-    let outline = find::parse_outline(&text).map_err(|problems| {
+    let outline = find::parse_outline(&text, arguments.timed).map_err(|problems| {
         let problems: Vec<String> = problems.iter().map(|problem| format!("{name}: {problem}")).collect();
         InputErrors::from_messages(&problems)
     })?;
     let is_closed = outline.is_closed.unwrap_or_else(|| outline.looks_closed());
-    Ok((name, outline.points, kind(is_closed)))
+    let path = TracedPath { name, points: outline.points, kind: kind(is_closed), angles_deg: None };
+    if arguments.timed { path.timed(outline.angles_deg) } else { Ok(path) }
 }

@@ -15,7 +15,8 @@ pub(super) fn text(report: &Report) -> String {
     let Report { name, target, answers, .. } = report;
     let size = target.size();
     let points = pluralize(target.points().len(), "point");
-    let mut out = format!("{name}: {points}, {}, S = {}\n", target.kind().name(), number(size, size));
+    let timed = if target.angles_deg().is_some() { ", timed" } else { "" };
+    let mut out = format!("{name}: {points}, {}{timed}, S = {}\n", target.kind().name(), number(size, size));
     if answers.is_empty() {
         return out + &nothing_found(report);
     }

@@ -185,54 +185,50 @@ impl Index {
         &self,
         (target, length, full_turn): (&Spectrum, f64, bool),
         range: std::ops::Range<usize>,
-        mut best: Vec<(f32, usize)>,
+        best: Vec<(f32, usize)>,
         most: usize,
     ) -> Vec<(f32, usize)> {
         let shape = Shape::new(&target.canonical(), length, true);
         let lengths = [MIN_LENGTH, MAX_LENGTH].map(|part| length_units(part * length));
-        let mut least = f32::NEG_INFINITY;
-        for number in range.start..range.end.min(self.shapes.len()) {
-            let other = &self.shapes[number];
-            if other.length < lengths[0] || other.length > lengths[1] || (full_turn && !other.is_full_turn) {
-                continue;
-            }
-            let likeness = -shape.square_distance(other);
-            if likeness > least {
-                best.push((likeness, number));
-                if best.len() >= 2 * most {
-                    least = keep_best(&mut best, most);
-                }
-            }
-        }
-        keep_best(&mut best, most);
-        best
+        self.best_of(range, best, most, |other| {
+            let is_candidate = (lengths[0]..=lengths[1]).contains(&other.length) && (other.is_full_turn || !full_turn);
+            is_candidate.then(|| -shape.square_distance(other))
+        })
     }
-}
 
-impl Index {
     /// The curves of a range of which a portion is most like a stroke, at most `most` with those that are given, the best first:
     /// how much, and their numbers.
     pub(super) fn nearest_portions(
         &self,
         (stroke, full_turn): (&Stroke, bool),
         range: std::ops::Range<usize>,
+        best: Vec<(f32, usize)>,
+        most: usize,
+    ) -> Vec<(f32, usize)> {
+        self.best_of(range, best, most, |shape| {
+            if shape.length == 0 || (full_turn && !shape.is_full_turn) {
+                return None;
+            }
+            let length = f32::from(shape.length) * LENGTH_UNIT as f32;
+            let window = self.synthesis.best_window(&shape.harmonics(), length, stroke)?;
+            Some(-window.residual)
+        })
+    }
+
+    /// The shapes of a range with the greatest likeness, at most `most` with those that are given, the best first.
+    fn best_of(
+        &self,
+        range: std::ops::Range<usize>,
         mut best: Vec<(f32, usize)>,
         most: usize,
+        likeness: impl Fn(&Shape) -> Option<f32>,
     ) -> Vec<(f32, usize)> {
         let mut least = f32::NEG_INFINITY;
         for number in range.start..range.end.min(self.shapes.len()) {
-            let shape = &self.shapes[number];
-            if shape.length == 0 || (full_turn && !shape.is_full_turn) {
-                continue;
-            }
-            let length = f32::from(shape.length) * LENGTH_UNIT as f32;
-            let Some(window) = self.synthesis.best_window(&shape.harmonics(), length, stroke) else { continue };
-            let likeness = -window.residual;
-            if likeness > least {
-                best.push((likeness, number));
-                if best.len() >= 2 * most {
-                    least = keep_best(&mut best, most);
-                }
+            let Some(likeness) = likeness(&self.shapes[number]).filter(|likeness| *likeness > least) else { continue };
+            best.push((likeness, number));
+            if best.len() >= 2 * most {
+                least = keep_best(&mut best, most);
             }
         }
         keep_best(&mut best, most);

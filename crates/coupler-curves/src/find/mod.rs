@@ -8,6 +8,9 @@
 //! is 0.87 to 1.15 of that of the target's polygon, and one for a part if that of its portion is; otherwise curves with excursions
 //! between the points would win.
 //!
+//! A timed target has an angle for each point: the curve's point is that at which the crank has turned by it since the first, in
+//! either direction, and the t are not free but for a common offset.
+//!
 //! # The search
 //!
 //! An [`Index`] has the shapes of many four-bars' curves. Those most like the target, or with a portion most like an open one, in any
@@ -30,6 +33,7 @@ mod relaxation;
 mod search;
 mod spectrum;
 mod target;
+mod timing;
 
 pub use answer::{Answer, LENGTH_RATIOS, Quality};
 pub use index::{Index, IndexPart};

@@ -4,6 +4,7 @@ use super::complex::{Complex, dot, length, times_i};
 use super::constraints::{Limits, Motion, Normal};
 use super::parameters::{COUNT, Parameters};
 use super::pose::{Pose, PoseRates};
+use super::timing::{self, Timing};
 
 /// A linkage on its way to the target.
 #[derive(Clone, Debug)]
@@ -17,6 +18,8 @@ pub(super) struct Refinement {
     pub is_done: bool,
     damping: f64,
     is_frame_longer: bool,
+    /// If the target is timed.
+    timing: Option<Timing>,
 }
 
 /// The number of Newton rounds in which a foot follows its curve.
@@ -24,10 +27,15 @@ const FOOT_ROUNDS: usize = 4;
 
 impl Refinement {
     /// Begins with a linkage that satisfies the limits, and a pose for each point of the target.
-    pub fn new(linkage: Parameters, poses: &[Pose], target: &[Complex]) -> Option<Refinement> {
-        let (poses, sum) = feet(&linkage, poses, target)?;
+    pub fn new(linkage: Parameters, poses: &[Pose], target: &[Complex], timing: Option<Timing>) -> Option<Refinement> {
+        let (poses, sum) = feet(&linkage, poses, target, timing.as_ref())?;
         let is_frame_longer = linkage.frame >= linkage.crank;
-        Some(Refinement { linkage, poses, sum, is_done: false, damping: 1e-2, is_frame_longer })
+        Some(Refinement { linkage, poses, sum, is_done: false, damping: 1e-2, is_frame_longer, timing })
+    }
+
+    /// The timing in the direction that it follows, if the target is timed.
+    pub fn timing(&self) -> Option<&Timing> {
+        self.timing.as_ref()
     }
 
     /// Takes one step.
@@ -40,7 +48,10 @@ impl Refinement {
         if self.is_done {
             return;
         }
-        let (normal, gradient) = self.normal_equations(target);
+        let (normal, gradient) = match self.timing {
+            None => self.normal_equations(target),
+            Some(_) => self.timed_normal_equations(target),
+        };
         let trace = normal.trace().max(f64::MIN_POSITIVE);
         for _ in 0..TRIALS {
             let mut damped = normal;
@@ -76,7 +87,7 @@ impl Refinement {
     fn tried(&self, motion: &Motion, target: &[Complex], limits: &Limits) -> Option<(Parameters, Vec<Pose>, f64)> {
         let moved = self.linkage.moved(&(*motion).into());
         let linkage = limits.nearest(&moved, self.is_frame_longer)?;
-        let (poses, sum) = feet(&linkage, &self.poses, target)?;
+        let (poses, sum) = feet(&linkage, &self.poses, target, self.timing.as_ref())?;
         (sum < self.sum && limits.meets_condition(&linkage, &poses[0])).then_some((linkage, poses, sum))
     }
 
@@ -98,32 +109,76 @@ impl Refinement {
             // If a parameter opens the linkage, its angles close it by the shortest motion, which is regular at limits.
             let [crank, coupler] = [0, 1].map(|k| dot(across, rates.by_angles[k]) * rates.closure[k]);
             let closing = (crank + coupler) / rates.square;
-            let by = |at: f64, closure: f64| at - closing * closure;
-            let row = Motion::from([
-                across.re,
-                across.im,
-                by(0.0, -linkage.frame * dot(rates.arm, times_i(linkage.direction))),
-                by(0.0, -dot(rates.arm, linkage.direction)),
-                by(dot(across, pose.crank), dot(rates.arm, pose.crank)),
-                by(0.0, dot(rates.arm, pose.coupler)),
-                by(0.0, -linkage.rocker),
-                dot(across, pose.coupler),
-                dot(across, times_i(pose.coupler)),
-            ]);
-            for j in 0..COUNT {
-                for k in 0..=j {
-                    normal[(j, k)] += row[j] * row[k];
-                }
-            }
+            let row = row(linkage, pose, &rates, across, closing);
+            add_square(&mut normal, &row, 1.0);
             gradient += row * dot(across, offset);
         }
         normal.fill_upper_triangle_with_lower_triangle();
         (normal, gradient)
     }
+
+    /// The normal equations of the distances of a timed target, in both directions of the plane: the offset of the input moves by
+    /// itself (variable projection).
+    fn timed_normal_equations(&self, target: &[Complex]) -> (Normal, Motion) {
+        let linkage = &self.linkage;
+        let (mut normal, mut gradient) = (Normal::zeros(), Motion::zeros());
+        // By the offset: its products with the rows, with itself and with the distances.
+        let (mut mixed, mut square, mut slope) = (Motion::zeros(), 0.0, 0.0);
+        for (pose, point) in self.poses.iter().zip(target) {
+            let rates = PoseRates::new(linkage, pose);
+            let (offset, velocity) = (point - rates.at, timing::velocity(&rates));
+            for axis in [Complex::new(1.0, 0.0), Complex::new(0.0, 1.0)] {
+                // At a given angle of the crank the coupler closes the linkage.
+                let closing = dot(axis, rates.by_angles[1]) / timing::closure_rate(&rates);
+                let row = row(linkage, pose, &rates, axis, closing);
+                let (distance, rate) = (dot(axis, offset), dot(axis, velocity));
+                add_square(&mut normal, &row, 1.0);
+                gradient += row * distance;
+                mixed += row * rate;
+                square += rate * rate;
+                slope += rate * distance;
+            }
+        }
+        let part = 1.0 / square.max(f64::MIN_POSITIVE);
+        add_square(&mut normal, &mixed, -part);
+        gradient -= mixed * (slope * part);
+        normal.fill_upper_triangle_with_lower_triangle();
+        (normal, gradient)
+    }
 }
 
-/// The feet of the target's points on the curve of a linkage near some poses, and the sum of the squares of the distances.
-fn feet(linkage: &Parameters, poses: &[Pose], target: &[Complex]) -> Option<(Vec<Pose>, f64)> {
+/// The derivatives of the coupler point's coordinate in a direction by the parameters, if the linkage is closed by `closing` for
+/// each unit of its closure.
+fn row(linkage: &Parameters, pose: &Pose, rates: &PoseRates, axis: Complex, closing: f64) -> Motion {
+    let by = |at: f64, closure: f64| at - closing * closure;
+    Motion::from([
+        axis.re,
+        axis.im,
+        by(0.0, -linkage.frame * dot(rates.arm, times_i(linkage.direction))),
+        by(0.0, -dot(rates.arm, linkage.direction)),
+        by(dot(axis, pose.crank), dot(rates.arm, pose.crank)),
+        by(0.0, dot(rates.arm, pose.coupler)),
+        by(0.0, -linkage.rocker),
+        dot(axis, pose.coupler),
+        dot(axis, times_i(pose.coupler)),
+    ])
+}
+
+/// Adds a multiple of the products of a row with itself to the lower triangle.
+fn add_square(normal: &mut Normal, row: &Motion, factor: f64) {
+    for j in 0..COUNT {
+        for k in 0..=j {
+            normal[(j, k)] += factor * row[j] * row[k];
+        }
+    }
+}
+
+/// The feet of the target's points on the curve of a linkage near some poses, or where it is at their inputs if they are timed, and
+/// the sum of the squares of the distances.
+fn feet(linkage: &Parameters, poses: &[Pose], target: &[Complex], timing: Option<&Timing>) -> Option<(Vec<Pose>, f64)> {
+    if let Some(timing) = timing {
+        return timing.feet(linkage, poses, target);
+    }
     let mut feet = Vec::with_capacity(poses.len());
     let mut sum = 0.0;
     for (pose, point) in poses.iter().zip(target) {

@@ -13,6 +13,7 @@ use super::pose::Pose;
 use super::refinement::Refinement;
 use super::spectrum::Spectrum;
 use super::target::{PathKind, Target};
+use super::timing::Timing;
 use crate::geometry::{Point, trig};
 use crate::linkage::{Cognate, Cognates, PlacedFourBar};
 
@@ -25,6 +26,8 @@ pub struct Search<'i> {
     /// The points of the target with centroid 0 and size 1, and the length of their polyline.
     points: Vec<Complex>,
     polyline_length: f64,
+    /// The inputs of the points, forward and backward, if they are timed.
+    timing: Option<[Timing; 2]>,
     query: Query,
     stage: Stage,
     best: Vec<(f32, usize)>,
@@ -36,6 +39,8 @@ pub struct Search<'i> {
     kept: Vec<Refinement>,
     /// The refinements that were left behind in the last rounds, for further answers.
     left_behind: Vec<Refinement>,
+    /// The linkages to begin again from.
+    restarts: Vec<Parameters>,
     random: u64,
 }
 
@@ -67,7 +72,10 @@ enum Stage {
     /// Refines one of the nearest in the order of the target's points.
     Polish(usize),
     /// Refines one of those that were left behind.
-    Complete(usize),
+    Complete {
+        place: usize,
+        step: usize,
+    },
     Done,
 }
 
@@ -114,6 +122,7 @@ impl<'i> Search<'i> {
             target: target.clone(),
             limits,
             polyline_length: target.polyline_length(),
+            timing: target.angles_deg().map(Timing::both),
             points,
             query,
             stage: Stage::Compare(0),
@@ -124,6 +133,7 @@ impl<'i> Search<'i> {
             has_looked_again: target.kind() != PathKind::Closed,
             kept: Vec::new(),
             left_behind: Vec::new(),
+            restarts: Vec::new(),
             // Any number but 0.
             random: options.seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1,
             options,
@@ -145,7 +155,7 @@ impl<'i> Search<'i> {
             Stage::Refine { round, place, step } => self.refine(round, place, step),
             Stage::Restart(count) => self.restart(count),
             Stage::Polish(place) => self.polish(place),
-            Stage::Complete(place) => self.complete(place),
+            Stage::Complete { place, step } => self.complete(place, step),
             Stage::Done => Stage::Done,
         };
         self.stage != Stage::Done
@@ -239,18 +249,34 @@ impl<'i> Search<'i> {
     /// Begins a refinement from a linkage near the limits, on the circuit and in the direction that are nearest to the target.
     fn begin(&self, linkage: &Parameters) -> Option<Refinement> {
         let linkage = self.limits.nearest(linkage, linkage.frame >= linkage.crank)?;
+        let refinement = match &self.timing {
+            None => Refinement::new(linkage, &self.nearest_samples(&linkage)?, &self.points, None)?,
+            Some(both) => {
+                let samples = |timing: &Timing| {
+                    let (sum, poses) = timing.nearest_samples(&linkage, self.index.directions(), &self.points)?;
+                    Some((sum, poses, timing.clone()))
+                };
+                let nearer = both.iter().filter_map(samples).min_by(|a, b| a.0.total_cmp(&b.0));
+                let (_, poses, timing) = nearer?;
+                Refinement::new(linkage, &poses, &self.points, Some(timing))?
+            }
+        };
+        Some(refinement).filter(|refinement| self.limits.meets_condition(&linkage, &refinement.poses[0]))
+    }
+
+    /// The samples of a linkage that are matched with the target, on the circuit and in the direction that are nearest to it.
+    fn nearest_samples(&self, linkage: &Parameters) -> Option<Vec<Pose>> {
         let mut best: Option<(f64, Vec<Pose>)> = None;
         for mut circuit in linkage.circuits(self.index.directions()) {
             for _ in 0..2 {
-                let (sum, poses) = nearest_samples(&linkage, &circuit, &self.points)?;
+                let (sum, poses) = nearest_samples(linkage, &circuit, &self.points)?;
                 if best.as_ref().is_none_or(|(least, _)| sum < *least) {
                     best = Some((sum, poses));
                 }
                 circuit.reverse();
             }
         }
-        let refinement = Refinement::new(linkage, &best?.1, &self.points)?;
-        Some(refinement).filter(|refinement| self.limits.meets_condition(&linkage, &refinement.poses[0]))
+        best.map(|(_, poses)| poses)
     }
 
     fn refine(&mut self, round: usize, place: usize, step: usize) -> Stage {
@@ -285,37 +311,44 @@ impl<'i> Search<'i> {
         Stage::Compare(0)
     }
 
+    /// Refines one of the linkages to begin again from, or chooses the next.
     fn restart(&mut self, count: usize) -> Stage {
         /// So many of the best have their cognates tried; then linkages near them.
         const COGNATES: usize = 6;
         /// The mean square of the distances at which a target is met to rounding.
         const EXACT: f64 = 1e-16;
+        if let Some(start) = self.restarts.pop() {
+            self.refine_restart(&start);
+            return Stage::Restart(count);
+        }
         let left_behind = self.keep_nearest(self.start_count() / ROUNDS[ROUNDS.len() - 1].0);
         self.left_behind.extend(left_behind);
         let Some(best) = self.refinements.first() else { return Stage::Done };
         if count == self.restart_count() || best.sum <= EXACT * self.points.len() as f64 {
             return Stage::Polish(0);
         }
-        let promising = PROMISING_SUM * best.sum;
         let from = self.refinements[count % self.refinements.len().min(COGNATES)].linkage;
-        let starts: Vec<Parameters> = match count < COGNATES {
+        self.restarts = match count < COGNATES {
             true => cognates(&from),
             false => vec![self.scattered(&from), self.scattered(&from)],
         };
-        for start in starts {
-            let Some(mut refinement) = self.begin(&start) else { continue };
-            for step in 0..RESTART_STEPS {
-                if refinement.is_done || (step == PROMISING_STEPS && refinement.sum > promising) {
-                    break;
-                }
-                refinement.step(&self.points, &self.limits);
-            }
-            // Those from before have been found valid.
-            if self.has_valid_length(&refinement) {
-                self.refinements.push(refinement);
-            }
-        }
         Stage::Restart(count + 1)
+    }
+
+    /// Refines a linkage, as long as it may become better than the best.
+    fn refine_restart(&mut self, start: &Parameters) {
+        let promising = PROMISING_SUM * self.refinements.first().map_or(f64::INFINITY, |best| best.sum);
+        let Some(mut refinement) = self.begin(start) else { return };
+        for step in 0..RESTART_STEPS {
+            if refinement.is_done || (step == PROMISING_STEPS && refinement.sum > promising) {
+                break;
+            }
+            refinement.step(&self.points, &self.limits);
+        }
+        // Those from before have been found valid.
+        if self.has_valid_length(&refinement) {
+            self.refinements.push(refinement);
+        }
     }
 
     /// Refines a linkage in the order of the target's points: those that share a pose are replaced by their mean.
@@ -324,14 +357,14 @@ impl<'i> Search<'i> {
         let Some(refinement) = self.refinements.get(place) else {
             self.left_behind.sort_by(|a, b| a.sum.total_cmp(&b.sum));
             self.left_behind.truncate(if self.options.most > 1 { FURTHER_PER_ANSWER * self.options.most } else { 0 });
-            return Stage::Complete(0);
+            return Stage::Complete { place: 0, step: 0 };
         };
-        if let Some(matching) = self.matching(&refinement.linkage, &refinement.poses[0])
+        if let Some(matching) = self.matching(refinement)
             && !matching.is_in_order
-            && let Some(mut polished) = Refinement::new(refinement.linkage, &matching.poses, &matching.means)
+            && let Some(mut polished) = Refinement::new(refinement.linkage, &matching.poses, &matching.means, None)
         {
             (0..STEPS).for_each(|_| polished.step(&matching.means, &self.limits));
-            let better = self.matching(&polished.linkage, &polished.poses[0]);
+            let better = self.matching(&polished);
             if let Some(better) = better.filter(|better| better.sum < matching.sum) {
                 (polished.sum, polished.poses) = (better.sum, better.poses);
                 self.refinements[place] = polished;
@@ -340,20 +373,28 @@ impl<'i> Search<'i> {
         Stage::Polish(place + 1)
     }
 
-    /// Refines one of those that were left behind, for a further answer.
-    fn complete(&mut self, place: usize) -> Stage {
+    /// Takes some steps of one of those that were left behind, for a further answer.
+    fn complete(&mut self, place: usize, step: usize) -> Stage {
+        const STEPS: usize = 20;
         let Some(refinement) = self.left_behind.get_mut(place) else {
             self.refinements.append(&mut self.left_behind);
             return Stage::Done;
         };
-        let (_, steps) = ROUNDS[ROUNDS.len() - 1];
-        (0..steps).for_each(|_| refinement.step(&self.points, &self.limits));
-        Stage::Complete(place + 1)
+        (0..STEPS).for_each(|_| refinement.step(&self.points, &self.limits));
+        let (_, most) = ROUNDS[ROUNDS.len() - 1];
+        match refinement.is_done || step + STEPS >= most {
+            true => Stage::Complete { place: place + 1, step: 0 },
+            false => Stage::Complete { place, step: step + STEPS },
+        }
     }
 
-    /// The matching of the target with the circuit of a pose, in the direction that is nearer.
-    fn matching(&self, linkage: &Parameters, pose: &Pose) -> Option<Matching> {
-        let mut circuit = self.circuit_of(linkage, pose);
+    /// The matching of the target with the circuit of a refined linkage, in the direction that is nearer.
+    fn matching(&self, refinement: &Refinement) -> Option<Matching> {
+        let Refinement { linkage, poses, .. } = refinement;
+        if let Some(timing) = refinement.timing() {
+            return timing.matching(linkage, poses, &self.points);
+        }
+        let mut circuit = self.circuit_of(linkage, &poses[0]);
         let forward = Matching::new(linkage, &circuit, &self.points)?;
         circuit.reverse();
         let backward = Matching::new(linkage, &circuit, &self.points)?;
@@ -410,7 +451,7 @@ impl<'i> Search<'i> {
             PathKind::Closed => is_valid_ratio(self.whole_length_ratio(refinement)),
             PathKind::Open => true,
             PathKind::Part => {
-                let matching = self.matching(&refinement.linkage, &refinement.poses[0]);
+                let matching = self.matching(refinement);
                 matching.is_some_and(|matching| is_valid_ratio(matching.portion_length / self.polyline_length))
             }
         }
@@ -457,7 +498,7 @@ impl<'i> Search<'i> {
         if !self.limits.are_satisfied(&linkage) {
             return None;
         }
-        let matching = self.matching(&linkage, &refinement.poses[0])?;
+        let matching = self.matching(refinement)?;
         let length_ratio = match self.target.kind() {
             PathKind::Closed => self.whole_length_ratio(refinement),
             PathKind::Open | PathKind::Part => matching.portion_length / self.polyline_length,
@@ -479,7 +520,12 @@ impl<'i> Search<'i> {
         };
         let solve = |cognate: &Cognate| {
             let pins = |[a, b]: &[Point; 2]| cognate.pins([placed.pivots[0], *a, *b, placed.pivots[1]]);
-            self.mechanism(cognate.four_bar, &poses.iter().map(pins).collect::<Vec<_>>())
+            let pins: Vec<[Point; 2]> = poses.iter().map(pins).collect();
+            // One of the cognates has another timing: its crank moves as the rocker of this one.
+            let cranks = || pins.iter().map(|[crank, _]| *crank);
+            let is_kept = |[timing, _]: &[Timing; 2]| timing.is_kept(cognate.four_bar.pivots[0], cranks());
+            let is_timed = self.timing.as_ref().is_none_or(is_kept);
+            if is_timed { self.mechanism(cognate.four_bar, &pins) } else { None }
         };
         let mut mechanisms: Vec<Mechanism> = match all.is_empty() {
             true => self.mechanism(placed, &poses).into_iter().collect(),

@@ -32,6 +32,8 @@ pub struct Target {
     kind: PathKind,
     size: f64,
     centre: Complex,
+    /// The angle of the crank at each point, up to an offset and the direction, if they are timed.
+    angles_deg: Option<Vec<f64>>,
 }
 
 /// Why points are no target.
@@ -53,6 +55,28 @@ pub enum TargetError {
     TooFew {
         /// The number of distinct points.
         distinct: usize,
+    },
+    /// An angle is not finite.
+    #[error("the angle of point {number} of the path is {angle}, which is not finite")]
+    AngleNotFinite {
+        /// The number of the point, from 1.
+        number: usize,
+        /// The angle in degrees.
+        angle: f64,
+    },
+    /// There is not an angle for each point.
+    #[error("the path has {points} points and {angles} angles")]
+    AnglesMissing {
+        /// The number of points.
+        points: usize,
+        /// The number of angles.
+        angles: usize,
+    },
+    /// All points have one angle.
+    #[error("all points of the path have the angle {angle}°: the crank does not move")]
+    SameAngle {
+        /// The angle in degrees.
+        angle: f64,
     },
     /// All points are in one place, to rounding.
     #[error("the path has no extent: its points are within rounding of ({x}, {y})")]
@@ -91,13 +115,38 @@ impl Target {
             return Err(TargetError::TooFew { distinct: sorted.len() });
         }
         let values: Vec<Complex> = points.iter().map(|p| Complex::new(p.x, p.y)).collect();
-        let centre = mean(&values);
-        let size = (values.iter().map(|z| (z - centre).norm_sqr()).sum::<f64>() / values.len() as f64).sqrt();
+        let (size, centre) = size_and_centre(&values);
         let greatest = values.iter().map(|z| z.re.abs().max(z.im.abs())).fold(0.0, f64::max);
         if size.is_nan() || size <= ROUNDING * greatest || !size.is_normal() {
             return Err(TargetError::NoExtent { x: centre.re, y: centre.im });
         }
-        Ok(Target { points, kind, size, centre })
+        Ok(Target { points, kind, size, centre, angles_deg: None })
+    }
+
+    /// A timed target: the angle in degrees by which the crank has turned at each point, up to a common offset and the direction. All
+    /// points are kept.
+    ///
+    /// # Errors
+    /// As of [`Target::new`], or there is not a finite angle for each point, or all are the same.
+    pub fn timed(points: &[Point], kind: PathKind, angles_deg: &[f64]) -> Result<Target, TargetError> {
+        let distinct = Target::new(points, kind)?;
+        if points.len() != angles_deg.len() {
+            return Err(TargetError::AnglesMissing { points: points.len(), angles: angles_deg.len() });
+        }
+        if let Some(k) = angles_deg.iter().position(|angle| !angle.is_finite()) {
+            return Err(TargetError::AngleNotFinite { number: k + 1, angle: angles_deg[k] });
+        }
+        if angles_deg.iter().all(|angle| *angle == angles_deg[0]) {
+            return Err(TargetError::SameAngle { angle: angles_deg[0] });
+        }
+        let values: Vec<Complex> = points.iter().map(|p| Complex::new(p.x, p.y)).collect();
+        let (size, centre) = size_and_centre(&values);
+        Ok(Target { points: points.to_vec(), size, centre, angles_deg: Some(angles_deg.to_vec()), ..distinct })
+    }
+
+    /// The angles of the crank at the points in degrees, up to a common offset and the direction, if they are timed.
+    pub fn angles_deg(&self) -> Option<&[f64]> {
+        self.angles_deg.as_deref()
     }
 
     /// What a curve is to have in common with it.
@@ -132,4 +181,11 @@ impl Target {
             PathKind::Open | PathKind::Part => open_length(&self.normalized()),
         }
     }
+}
+
+/// The root of the mean square of the distances of some points from their centroid, and that.
+fn size_and_centre(points: &[Complex]) -> (f64, Complex) {
+    let centre = mean(points);
+    let square = points.iter().map(|z| (z - centre).norm_sqr()).sum::<f64>() / points.len() as f64;
+    (square.sqrt(), centre)
 }

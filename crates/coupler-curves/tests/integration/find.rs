@@ -341,6 +341,101 @@ fn the_length_of_a_part_counts() {
     }
 }
 
+/// Fifty points of a four-bar's curve at uneven angles of its crank in degrees, with these angles from another zero and perhaps in
+/// the other direction; and their size.
+fn timed_points(placed: &PlacedFourBar, side: Side, random: &mut Random) -> (Vec<Point>, Vec<f64>, f64) {
+    const COUNT: usize = 50;
+    let (start, zero) = (360.0 * random.number(), 360.0 * random.number());
+    let sign = if random.number() < 0.5 { 1.0 } else { -1.0 };
+    let angles: Vec<f64> = (0..COUNT).map(|k| 330.0 * (k as f64 + 0.8 * random.number()) / COUNT as f64).collect();
+    let at = |angle: &f64| coupler_point(placed, side, trig::radians(start + sign * angle)).unwrap();
+    let points: Vec<Point> = angles.iter().map(at).collect();
+    let size = Target::new(&points, PathKind::Open).unwrap().size();
+    (points, angles.into_iter().map(|angle| zero + angle).collect(), size)
+}
+
+/// The root of the mean square of the distances of points from those of an answer at their angles.
+fn timed_deviation(answer: &Answer, points: &[Point], angles: &[f64]) -> f64 {
+    let mechanism = &answer.mechanism;
+    let sign = if mechanism.is_reversed { -1.0 } else { 1.0 };
+    let at = |angle: f64| trig::radians(mechanism.input_deg[0] + sign * (angle - angles[0]));
+    let reached = angles.iter().map(|angle| coupler_point(&mechanism.four_bar, mechanism.side, at(*angle)).unwrap());
+    (reached.zip(points).map(|(p, q)| (p - q).norm_squared()).sum::<f64>() / points.len() as f64).sqrt()
+}
+
+#[test]
+fn timed_targets_are_reached_at_their_inputs() {
+    const COUNT: usize = 20;
+    let mut random = Random(31);
+    let mut found = 0;
+    for _ in 0..COUNT {
+        let (placed, side) = random_four_bar(&mut random);
+        let (points, angles, size) = timed_points(&placed, side, &mut random);
+        let target = Target::timed(&points, PathKind::Closed, &angles).unwrap();
+        let options = Options { max_link: f64::INFINITY, ..Options::default() };
+        let Some(answer) = Search::new(&target, &INDEX, options).run().into_iter().next() else { continue };
+        assert!((timed_deviation(&answer, &points, &angles) - answer.rms).abs() <= 1e-7 * size);
+        found += usize::from(answer.rms < 1e-6 * size);
+    }
+    assert!(found >= COUNT * 9 / 10, "{found} of {COUNT}");
+}
+
+#[test]
+fn a_timed_answer_with_noise_is_as_near_as_the_linkage_that_made_the_path() {
+    const COUNT: usize = 10;
+    let mut random = Random(8);
+    let mut found = 0;
+    for _ in 0..COUNT {
+        let (placed, side) = random_four_bar(&mut random);
+        let (clean, angles, size) = timed_points(&placed, side, &mut random);
+        let mut displacement = || 0.01 * size / 2f64.sqrt() * random.normal();
+        let points: Vec<Point> = clean.iter().map(|p| p + Vector::new(displacement(), displacement())).collect();
+        let square: f64 = points.iter().zip(&clean).map(|(p, q)| (p - q).norm_squared()).sum();
+        let own = (square / points.len() as f64).sqrt();
+        let target = Target::timed(&points, PathKind::Closed, &angles).unwrap();
+        let options = Options { max_link: f64::INFINITY, ..Options::default() };
+        let answers = Search::new(&target, &INDEX, options.clone()).run();
+        found += usize::from(answers.first().is_some_and(|answer| answer.rms <= own));
+        // Without its inputs the path is met at least as well.
+        let free = Search::new(&Target::new(&points, PathKind::Closed).unwrap(), &INDEX, options).run();
+        assert!(answers.first().is_none_or(|answer| free[0].rms <= answer.rms));
+    }
+    assert!(found >= COUNT * 9 / 10, "{found} of {COUNT}");
+}
+
+#[test]
+fn timed_answers_have_the_cognates_with_their_timing_and_are_invariant() {
+    let mut random = Random(12);
+    let (placed, side) = random_four_bar(&mut random);
+    let (points, angles, size) = timed_points(&placed, side, &mut random);
+    let find = |points: &[Point], angles: &[f64]| {
+        let target = Target::timed(points, PathKind::Closed, angles).unwrap();
+        Search::new(&target, &INDEX, Options::default()).run().remove(0)
+    };
+    let answer = find(&points, &angles);
+    // Of the three four-bars that trace a curve, two have cranks that turn alike.
+    assert_eq!(answer.cognates.len(), 1);
+    for mechanism in answer.mechanisms() {
+        let alone = Answer { mechanism: mechanism.clone(), cognates: Vec::new(), ..answer.clone() };
+        assert!((timed_deviation(&alone, &points, &angles) - answer.rms).abs() < 1e-7 * size);
+    }
+    let reversed = |values: &[f64]| values.iter().rev().copied().collect::<Vec<f64>>();
+    let mirrored: Vec<Point> = points.iter().rev().map(|p| Point::new(7.0 - 3.0 * p.x, 3.0 * p.y)).collect();
+    let other = find(&mirrored, &reversed(&angles));
+    assert!((other.rms_relative - answer.rms_relative).abs() <= 1e-9);
+}
+
+#[test]
+fn angles_that_are_no_timing_are_refused_with_the_reason() {
+    let points = points(&MKH2);
+    let timed = |angles: &[f64]| Target::timed(&points, PathKind::Closed, angles).unwrap_err();
+    assert_eq!(timed(&[0.0; 3]), TargetError::AnglesMissing { points: 12, angles: 3 });
+    assert_eq!(timed(&[30.0; 12]), TargetError::SameAngle { angle: 30.0 });
+    let mut angles = [0.0; 12];
+    angles[4] = f64::INFINITY;
+    assert_eq!(timed(&angles), TargetError::AngleNotFinite { number: 5, angle: f64::INFINITY });
+}
+
 #[test]
 fn limits_are_kept() {
     let points = points(&YU1);
