@@ -6,7 +6,7 @@ use std::hint::black_box;
 use coupler_atlas::manifest::{self, Plan};
 use coupler_curves::motion::Sampler;
 use coupler_curves::solve::SolvedCell;
-use coupler_drawing::page::{self, CouplerGridPage, Heading, Layout, Panel, PoseChoice};
+use coupler_drawing::page::{self, CouplerGridPage, Heading, Layout, Panel, PanelScale, PoseChoice};
 use coupler_drawing::render::{self, TextMode};
 use coupler_drawing::scene::Scene;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
@@ -30,8 +30,17 @@ fn compose(plan: &Plan, solved: &SolvedCell) -> Vec<Scene> {
             .with_page(page, page_count);
         let panel = Panel::new(solved).with_caption(caption).with_note(note).with_facts(facts).with_pose(pose.clone());
         let straight_criterion = family.straight;
-        let sheet =
-            CouplerGridPage { heading, panel, curve_indices: shown, labels: &[], key: None, straight_criterion };
+        let (scale, curve_indices) = (PanelScale::Panel, shown);
+        let sheet = CouplerGridPage {
+            heading,
+            panel,
+            scale,
+            curve_indices,
+            coordinates: &[],
+            labels: &[],
+            key: None,
+            straight_criterion,
+        };
         page::compose_coupler_grid(&sheet, &plan.page)
     };
     (1..).zip(pages).map(sheet).collect()

@@ -7,7 +7,7 @@ use crate::manifest::{Plan, PlannedFamily};
 use coupler_curves::family::{CaptionParameter, Family};
 use coupler_curves::linkage::FourBar;
 use coupler_curves::motion::Sampler;
-use coupler_curves::solve::{SolvedCell, solve_cell};
+use coupler_curves::solve::{MovablePoint, SolvedCell, solve_cell};
 use coupler_drawing::chart::{Chart, ChartData};
 use coupler_drawing::page::{
     self, ChartPage, CouplerGridPage, Heading, Key, Layout, LinkLabel, Panel, PanelPage, PoseChoice,
@@ -98,6 +98,12 @@ impl<'a> Composer<'a> {
     ) -> impl Iterator<Item = (usize, Vec<usize>, impl FnOnce() -> Scene)> {
         let &Composer { plan, planned, .. } = self;
         let labels = Rc::new(link_labels(&planned.family, solved));
+        let template = &planned.family.template;
+        let coordinates = |trace| {
+            let point = MovablePoint::of_trace(template, trace, &solved.cell.values)?;
+            Some(point.coordinates.map(|coordinate| coordinate.value))
+        };
+        let coordinates: Rc<Vec<_>> = Rc::new((1..=template.curve_count()).map(coordinates).collect());
         // The lengths of a four-bar's links are all its dimensions.
         let is_four_bar = FourBar::from_linkage(&solved.linkage).is_some();
         let key = Rc::new((!is_four_bar).then(|| Key::for_cell(&planned.family, &solved.cell)));
@@ -106,13 +112,25 @@ impl<'a> Composer<'a> {
             Rc::new(LazyCell::new(|| page::clearest_pose(solved).map_or(PoseChoice::Clearest, PoseChoice::Fixed)));
         (page..).zip(curves_by_page(solved)).map(move |(page, curve_indices)| {
             let (labels, key, pose) = (Rc::clone(&labels), Rc::clone(&key), Rc::clone(&pose));
+            let coordinates = Rc::clone(&coordinates);
             let indices = curve_indices.clone();
             let compose = move || {
                 let heading = self.heading(page, planned.source.clone());
                 let panel = self.panel(solved).with_pose(PoseChoice::clone(&pose));
                 let straight_criterion = planned.family.straight;
                 let key = Option::as_ref(&key);
-                let sheet = CouplerGridPage { heading, panel, curve_indices, labels: &labels, key, straight_criterion };
+                let scale = planned.scale;
+                let (labels, coordinates) = (&labels, &coordinates);
+                let sheet = CouplerGridPage {
+                    heading,
+                    panel,
+                    scale,
+                    curve_indices,
+                    coordinates,
+                    labels,
+                    key,
+                    straight_criterion,
+                };
                 page::compose_coupler_grid(&sheet, &plan.page)
             };
             (page, indices, compose)

@@ -11,9 +11,9 @@ use coupler_curves::family::{Family, Sampling};
 use coupler_curves::geometry::{Point, Vector, distance_to_segment};
 use coupler_curves::motion::{self, Sampler};
 use coupler_curves::problem::report;
-use coupler_curves::solve::SolvedCell;
+use coupler_curves::solve::{MovablePoint, SolvedCell};
 use coupler_drawing::page::{
-    self, CouplerGridPage, Heading, Layout, LinkLabel, Options, Panel, Paper, PoseChoice, Theme,
+    self, CouplerGridPage, Heading, Layout, LinkLabel, Options, Panel, PanelScale, Paper, PoseChoice, Theme,
 };
 use coupler_drawing::scene::{Circle, Color, Curve, Group, Item, Path, Scene, Stroke, Text};
 use tempfile::TempDir;
@@ -84,6 +84,11 @@ fn pages(family: &Family, source: &str, solved: &SolvedCell, options: &Options) 
     }
     let page_count = shown.len();
     let labels = labels(family, solved);
+    let coordinates = |trace| {
+        let point = MovablePoint::of_trace(&family.template, trace, &solved.cell.values)?;
+        Some(point.coordinates.map(|coordinate| coordinate.value))
+    };
+    let coordinates: Vec<_> = (1..=family.template.curve_count()).map(coordinates).collect();
     let view = page::clearest_pose(solved).map_or(PoseChoice::Clearest, PoseChoice::Fixed);
     let compose = |(page, shown): (usize, Vec<usize>)| {
         let [caption, note] = family.format_captions(&solved.cell, solved.first_curve_values());
@@ -99,8 +104,10 @@ fn pages(family: &Family, source: &str, solved: &SolvedCell, options: &Options) 
         let grid_page = CouplerGridPage {
             heading,
             panel,
+            scale: PanelScale::Panel,
             curve_indices: shown.clone(),
             key: None,
+            coordinates: &coordinates,
             labels: &labels,
             straight_criterion: family.straight,
         };

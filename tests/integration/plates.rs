@@ -327,3 +327,89 @@ fn linkages_have_one_scale_where_the_manifest_asks_for_it() {
     assert_eq!(common, [free[0].min(free[1]); 2]);
     assert_eq!(fixed, [5.0; 2]);
 }
+
+#[test]
+fn coupler_grids_have_the_scale_that_the_manifest_gives_or_say_that_they_are_reduced() {
+    let pages = |scale: &str| -> Vec<String> {
+        let text = family(&format!(
+            "id = \"f\"\nlinkage = \"hrones-nelson\"\nlayout = \"coupler-grid\"\nscale = \"{scale}\"\n\
+             cases = [{{ A = 3, B = 3.5, C = 4 }}, {{ A = 2, B = 2, C = 2 }}]"
+        ));
+        let folder = folder_with(&text);
+        printed(folder.path(), &["render", "-q", "--format", "svg", "-o", "out"]);
+        let files = fs::read_dir(folder.path().join("out/f")).unwrap().map(|entry| entry.unwrap().path());
+        let pages: Vec<String> = files
+            .filter(|path| path.extension().is_some_and(|extension| extension == "svg"))
+            .map(|path| fs::read_to_string(path).unwrap())
+            .collect();
+        assert!(pages.len() >= 2);
+        pages
+    };
+    for svg in pages("25 mm") {
+        assert!(svg.split("data-scale=\"").skip(1).all(|rest| rest.starts_with("25\"")));
+        assert!(texts(&svg).contains(&"crank = 25.0 mm".to_owned()) && !svg.contains(", reduced"));
+    }
+    for svg in pages("100 mm") {
+        assert!(texts(&svg).iter().any(|line| line.ends_with(", reduced")));
+    }
+}
+
+#[test]
+fn notes_that_do_not_fit_their_panels_are_left_out_whole_and_this_is_said() {
+    let cognates = |panels: &str| {
+        let text = family(&format!(
+            "id = \"f\"\nlinkage = \"cognates\"\npanels = {panels}\n\
+             grid = {{ u = [0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4], v = [0.25, 0.5, 0.75, 1, 1.25] }}"
+        ));
+        let text = text.replace("[[family]]", "[page]\npaper = \"a4\"\n[[family]]");
+        let plan = plan(&text);
+        let lines = texts(&pages(&text, &plan)[0].svg);
+        // The chains of the cognates are explained in any case.
+        assert!(["links of ODEMHQ", "links of CFGMIQ"].iter().all(|links| lines.iter().any(|line| line == links)));
+        let lengths = lines.iter().filter(|line| line.contains("CQ = ")).count();
+        (lengths, lines.iter().any(|line| line == "notes that need larger panels are left out"))
+    };
+    assert_eq!(["[8, 5]", "[2, 2]"].map(cognates), [(0, true), (4, false)]);
+}
+
+#[test]
+fn the_key_of_a_coupler_grid_of_an_eight_bar_is_complete() {
+    let text = "\
+        [atlas]\ntitle = \"T\"\n[page]\npaper = \"a4\"\n[[family]]\nid = \"f\"\nlinkage = \"eight\"\n\
+        layout = \"coupler-grid\"\ncases = [{}]\n[[linkage]]\nid = \"eight\"\ntrace = [\"N\"]\n[linkage.joints]\n\
+        O = { fixed = [0, 0] }\nC = { fixed = [4, 0] }\nG = { fixed = [6.125, -1.0625] }\n\
+        H = { fixed = [-1.5, 3.03125] }\nA = { crank = \"O\", length = 0.5 }\n\
+        B = { dyad = [\"A\", \"C\"], lengths = [3, 3.5], side = \"left\" }\n\
+        M = { point = [\"A\", \"B\"], along = 1.5, across = 1.03125 }\n\
+        D = { dyad = [\"M\", \"G\"], lengths = [4.75, 4.53125], side = \"left\" }\n\
+        K = { point = [\"M\", \"D\"], along = 2, across = -0.75 }\n\
+        E = { dyad = [\"K\", \"H\"], lengths = [4.5, 2.25], side = \"right\" }\n\
+        N = { point = [\"K\", \"E\"], along = { from = 0, to = 2, count = 5 }, across = { from = -0.5, to = 0.5, count = 2 } }\n";
+    let folder = folder_with(text);
+    printed(folder.path(), &["render", "-q", "--format", "svg", "-o", "out"]);
+    let lines = texts(&fs::read_to_string(folder.path().join("out/f/f-001.svg")).unwrap());
+    assert!(lines.contains(&"output: the link from H to E".to_owned()), "{lines:?}");
+    assert!(!lines.iter().any(|line| line.contains("too small")));
+    // The columns have portions to 1 % only, and the notes are on these.
+    assert!(!lines.iter().any(|line| line.contains("0.1 %")));
+}
+
+#[test]
+fn points_of_a_grid_on_a_sliding_body_have_the_coordinates_of_its_linkage() {
+    let text = "[atlas]\ntitle = \"T\"\n[[family]]\nid = \"f\"\nlinkage = \"cylinder\"\nlayout = \"coupler-grid\"\n\
+        cases = [{}]\n[[linkage]]\nid = \"cylinder\"\ntrace = [\"M\"]\n[linkage.joints]\nO = { fixed = [0, 0] }\n\
+        C = { fixed = [2.5, 0] }\nA = { piston = [\"C\", \"O\"], length = 1.2, offset = 0.2, side = \"left\" }\n\
+        M = { point = [\"C\", \"A\"], along = { from = 0.5, to = 1.25, count = 3 }, across = { from = -0.5, to = 0.25, count = 2 } }\n";
+    let folder = folder_with(text);
+    printed(folder.path(), &["render", "-q", "--format", "svg", "-o", "out"]);
+    let svg = fs::read_to_string(folder.path().join("out/f/f-001.svg")).unwrap();
+    let lines = texts(&svg);
+    let count = |text: &str| lines.iter().filter(|line| *line == text).count();
+    // Three values along, twice each, and two across, three times each; decimals as many as needed for all.
+    for (coordinate, times) in [("0.500", 2), ("0.875", 2), ("1.250", 2), ("−0.50", 3), ("0.25", 3)] {
+        assert_eq!(count(coordinate), times, "{coordinate}: {lines:?}");
+    }
+    // The key has one name for all points, and no link joins them: one through C, the foot and A, and the crank.
+    assert_eq!(groups(&svg, "name").iter().flat_map(|names| texts(names)).filter(|name| name == "M").count(), 1);
+    assert!(groups(&svg, "linkage").iter().all(|links| links.matches("<path").count() <= 4), "{svg}");
+}

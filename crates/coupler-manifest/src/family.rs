@@ -328,14 +328,14 @@ fn name_indices<'t>(
     all_read.then_some(indices)
 }
 
-/// Reports a key that only pages of panels have, of a family with another layout.
-fn check_is_of_panels<'t>(
+/// Reports a key that pages of a family's layout do not have.
+fn check_has_layout<'t>(
     key: &str,
     value: &TomlValue<'t>,
-    layout: Option<Layout>,
+    (layout, applies): (Option<Layout>, impl Fn(Layout) -> bool),
     parser: &mut TomlParser<'t>,
 ) -> Option<()> {
-    let Some(layout) = layout.filter(|layout| !matches!(layout, Layout::Panels { .. })) else { return Some(()) };
+    let Some(layout) = layout.filter(|layout| !applies(*layout)) else { return Some(()) };
     let name = if layout == Layout::CouplerGrid { "a coupler grid" } else { "charts" };
     let problem = Problem::error(value.span(), format!("a page of {name} has no `{key}`"));
     parser.report(problem.with_help(format!("leave `{key}` out, or write layout = \"panels\"")));
@@ -345,17 +345,17 @@ fn check_is_of_panels<'t>(
 /// Reads whether pages of panels show the linkages at their limits.
 fn ghosts<'t>(fields: &Fields<'_, 't>, layout: Option<Layout>, parser: &mut TomlParser<'t>) -> Option<bool> {
     let Some(value) = fields.get("ghosts") else { return Some(false) };
-    check_is_of_panels("ghosts", value, layout, parser)?;
+    check_has_layout("ghosts", value, (layout, |layout| matches!(layout, Layout::Panels { .. })), parser)?;
     parser.boolean(value)
 }
 
-/// Reads the scale of the linkages on pages of panels.
+/// Reads the scale of the linkages on pages of panels and of coupler grids.
 fn panel_scale<'t>(fields: &Fields<'_, 't>, layout: Option<Layout>, parser: &mut TomlParser<'t>) -> Option<PanelScale> {
     /// The least and the greatest length of a unit on paper, in millimetres: a curve of a thousandth of a unit is seen at
     /// the greatest, a linkage of a million units fits the largest paper at the least.
     const RANGE: [f64; 2] = [0.001, 100_000.0];
     let Some(value) = fields.get("scale") else { return Some(PanelScale::default()) };
-    check_is_of_panels("scale", value, layout, parser)?;
+    check_has_layout("scale", value, (layout, |layout| !matches!(layout, Layout::Chart { .. })), parser)?;
     let text = value.get_ref().as_str();
     if let Some((_, scale)) = PANEL_SCALES.iter().find(|(name, _)| Some(*name) == text) {
         return Some(*scale);

@@ -16,7 +16,8 @@ pub struct MathText {
 pub struct MathPiece {
     /// The text.
     pub text: String,
-    /// Whether it is a symbol, which is set in italics: a parameter of a single letter. Longer names are read as words.
+    /// Whether it is a symbol, which is set in italics: a parameter of a single letter, also with an index. Longer names are read
+    /// as words.
     pub is_symbol: bool,
     /// Whether it is an exponent, which is raised.
     pub is_raised: bool,
@@ -28,10 +29,10 @@ impl MathText {
         MathText::default().with_words(words)
     }
 
-    /// The name of a parameter, with spaces in place of underscores.
+    /// The name of a parameter, as of [`displayed_name`]; a letter, also with an index, is a symbol.
     pub fn from_name(name: &str) -> MathText {
         let mut text = MathText::default();
-        text.push(&name.replace('_', " "), is_single_letter(name), false);
+        text.push(&displayed_name(name), is_single_letter(name) || indexed_letter(name).is_some(), false);
         text
     }
 
@@ -173,6 +174,35 @@ fn is_single_letter(name: &str) -> bool {
     name.chars().nth(1).is_none()
 }
 
+/// The letter and the index of a name such as `k_1`.
+fn indexed_letter(name: &str) -> Option<(&str, &str)> {
+    let (letter, index) = name.split_once('_')?;
+    let is_indexed = is_single_letter(letter)
+        && letter.chars().all(char::is_alphabetic)
+        && !index.is_empty()
+        && index.chars().all(|c| c.is_ascii_digit());
+    (is_indexed && !letter.is_empty()).then_some((letter, index))
+}
+
+/// The name of a parameter as it is printed: `k_1` as k₁, and otherwise with spaces in place of underscores.
+pub fn displayed_name(name: &str) -> String {
+    const INDICES: [char; 10] = ['₀', '₁', '₂', '₃', '₄', '₅', '₆', '₇', '₈', '₉'];
+    match indexed_letter(name) {
+        Some((letter, index)) => {
+            let digits = index.chars().filter_map(|c| INDICES.get(c.to_digit(10)? as usize));
+            letter.chars().chain(digits.copied()).collect()
+        }
+        None => name.replace('_', " "),
+    }
+}
+
+/// Names of joints in a row as they are printed: AB, O₁A₁, or Knee–Hip if one of them is a word.
+pub fn join_names(names: &[&str]) -> String {
+    let are_letters = names.iter().all(|name| is_single_letter(name) || indexed_letter(name).is_some());
+    let displayed: Vec<String> = names.iter().map(|name| displayed_name(name)).collect();
+    displayed.join(if are_letters { "" } else { "–" })
+}
+
 /// How tightly a part of an expression holds together, by the table in [`super`].
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Binding {
@@ -300,6 +330,11 @@ fn set_call(function: Function, mut arguments: Vec<(MathText, Binding)>) -> (Mat
         let argument = arguments.pop().unwrap_or_else(nothing);
         return (MathText::from_words("√").with(in_parentheses(argument, Binding::Atom)), Binding::Power);
     }
+    if let (Function::Hypot, [_, _]) = (function, &arguments[..]) {
+        let square = |side| in_parentheses(side, Binding::Atom).with(MathText::from_words("2").raised());
+        let sum = MathText::join(arguments.into_iter().map(square), " + ");
+        return (MathText::from_words("√(").with(sum).with_words(")"), Binding::Power);
+    }
     let list = MathText::join(arguments.into_iter().map(|(text, _)| text), ", ");
     (MathText::from_words(format!("{}(", function.name())).with(list).with_words(")"), Binding::Atom)
 }
@@ -332,7 +367,8 @@ mod tests {
             ("a - -b", "a − (−b)"),
             ("p * (a / 2)", "p a / 2"),
             ("foot_along^2", "(foot along)^2"),
-            ("hypot(0.268, 0.176)", "hypot(0.268, 0.176)"),
+            ("hypot(0.268, 0.176)", "√(0.268^2 + 0.176^2)"),
+            ("2 * hypot(a - 1, -k_1)", "2 √((a − 1)^2 + (−k₁)^2)"),
             ("a >= 2 and not b < 3", "a ≥ 2 and not b < 3"),
         ] {
             assert_eq!(set(text), expected, "{text}");

@@ -28,7 +28,7 @@ mod scope;
 
 pub use caption::{Caption, format_fixed, round_to_six_digits};
 pub use function::Function;
-pub use math_text::{MathPiece, MathText, format_exactly, format_in_full};
+pub use math_text::{MathPiece, MathText, displayed_name, format_exactly, format_in_full, join_names};
 pub use program::{CompiledExpression, Expression, Kind, PostfixToken};
 pub use quantity::{Dimension, Quantity, Unit};
 pub use scope::Scope;

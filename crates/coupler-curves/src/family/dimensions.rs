@@ -2,7 +2,7 @@
 
 use super::{Cell, Family, ParameterSpace};
 use crate::expression::{
-    Caption, CompiledExpression, MathText, Unit, format_exactly, format_in_full, round_to_six_digits,
+    Caption, CompiledExpression, MathText, Unit, displayed_name, format_exactly, format_in_full, round_to_six_digits,
 };
 use crate::template::ParameterKind;
 
@@ -98,7 +98,7 @@ impl Family {
     pub fn automatic_caption(&self) -> Option<String> {
         let equation = |parameter: &CaptionParameter| {
             let name = &self.names[parameter.slot];
-            format!("{} = {{{name}}}{}", name.replace('_', " "), self.unit(parameter.slot))
+            format!("{} = {{{name}}}{}", displayed_name(name), self.unit(parameter.slot))
         };
         let equations: Vec<String> = self.caption_parameters().iter().map(equation).collect();
         (!equations.is_empty()).then(|| equations.join(", "))

@@ -38,7 +38,7 @@ fn outline(linkage: &Linkage, link: &Link) -> Vec<JointId> {
     let name = |index: usize| linkage.joints.get(index).map(|joint| &joint.name);
     let is_grid = |joint: JointId| {
         let index = joint.index();
-        matches!(linkage.joints[joint].kind, JointKind::Rigid { .. })
+        matches!(linkage.joints[joint].kind, JointKind::Rigid { .. } | JointKind::Aligned { .. })
             && (name(index + 1) == name(index) || index.checked_sub(1).and_then(name) == name(index))
     };
     let joints: Vec<(JointId, Vector)> = link.joints.iter().filter(|(joint, _)| !is_grid(*joint)).copied().collect();

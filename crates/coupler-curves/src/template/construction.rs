@@ -1,17 +1,16 @@
 //! The construction of a linkage in words: for each joint, the lengths and angles that place it.
 
 use super::{Coordinate, JointKindTemplate, Side, Template};
-use crate::expression::{CompiledExpression, MathText};
+use crate::expression::{CompiledExpression, MathText, displayed_name, join_names};
 
 impl Template {
     /// How a joint, by its index in [`Template::joints`], is placed: "AB = a, CB = s". The dimensions are as in the
     /// template, by the names of its parameters.
     pub fn construction(&self, joint: usize) -> MathText {
         let Some(placed) = self.joints.get(joint) else { return MathText::default() };
-        let name = |k: usize| self.joints[k].name.as_str();
-        let own = placed.name.as_str();
-        let length = |from: usize, value: &CompiledExpression| equation(&line(name(from), own), value.to_math_text());
-        let between = |[a, b]: [usize; 2]| line(name(a), name(b));
+        let name = |k: usize| displayed_name(&self.joints[k].name);
+        let between = |[a, b]: [usize; 2]| join_names(&[a, b].map(|k| self.joints[k].name.as_str()));
+        let length = |from: usize, value: &CompiledExpression| equation(&between([from, joint]), value.to_math_text());
         match &placed.kind {
             JointKindTemplate::Fixed([x, y]) => {
                 let what = match (self.seen_from, self.is_pivot(joint)) {
@@ -66,7 +65,8 @@ impl Template {
                 foot.with(length(*pivot, offset)).with_words(if is_zero(offset) { "" } else { &side })
             }
             JointKindTemplate::Parallelogram { corners } => {
-                let corners: Vec<&str> = corners.iter().map(|&corner| name(corner)).chain([own]).collect();
+                let corners = corners.iter().chain([&joint]).map(|&corner| self.joints[corner].name.as_str());
+                let corners: Vec<&str> = corners.collect();
                 MathText::from_words(format!("parallelogram {}", join_names(&corners)))
             }
             JointKindTemplate::Point { base, along, across } => {
@@ -74,7 +74,7 @@ impl Template {
                     Some(direction) => format!("parallel to {direction}"),
                     None => format!("along {}", between(*base)),
                 };
-                point_on_link(&place, name(base[0]), along, across)
+                point_on_link(&place, &name(base[0]), along, across)
             }
             JointKindTemplate::Distances { base: [a, b], distances: [first, second], .. } => {
                 length(*a, first).with_words(", ").with(length(*b, second))
@@ -123,16 +123,6 @@ impl Template {
 /// "AB = a".
 fn equation(left: &str, right: MathText) -> MathText {
     MathText::from_words(format!("{left} = ")).with(right)
-}
-
-/// The line from one joint to another: AB, or Knee–Hip if their names are longer than a letter.
-fn line(a: &str, b: &str) -> String {
-    join_names(&[a, b])
-}
-
-fn join_names(names: &[&str]) -> String {
-    let are_letters = names.iter().all(|name| name.chars().nth(1).is_none());
-    names.join(if are_letters { "" } else { "–" })
 }
 
 /// The text with a dimension between words, unless the dimension is always 0.

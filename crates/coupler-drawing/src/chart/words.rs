@@ -1,6 +1,6 @@
 //! The quantities of charts in words: titles and units of names, and expressions as formulas of titles.
 
-use coupler_curves::expression::{CompiledExpression, MathText, PostfixToken, Unit};
+use coupler_curves::expression::{CompiledExpression, MathText, PostfixToken, Unit, displayed_name};
 use coupler_curves::measure::{self, Measure};
 use coupler_curves::template::{Parameter, ParameterKind, Template};
 
@@ -62,7 +62,7 @@ pub fn parameter_unit(parameter: &Parameter) -> &'static str {
 
 /// What the path of a traced joint is called, if no other traced joint has its name: a grid of points has one for all.
 pub(crate) fn path_name<'n>(traced: impl Iterator<Item = &'n str>, name: &str) -> Option<String> {
-    (traced.filter(|other| *other == name).count() == 1).then(|| format!("path of {name}"))
+    (traced.filter(|other| *other == name).count() == 1).then(|| format!("path of {}", displayed_name(name)))
 }
 
 #[cfg(test)]

@@ -1,12 +1,9 @@
 //! The arrangement of curve and linkage in a panel: one figure of both, or a large curve with the linkage as its key.
 
-use super::plot::Plot;
+use super::plot::{Plot, SCALE_ROUNDING};
 use super::rect::Rect;
 use super::theme::Theme;
 use coupler_curves::geometry::{Bounds, Vector};
-
-/// The rounding of a scale that is computed from a frame: panels of a page differ in size by a hundredth of a millimetre.
-pub(super) const SCALE_ROUNDING: f64 = 1e-3;
 
 /// The division of a panel.
 #[derive(Clone, Copy, Debug, PartialEq)]

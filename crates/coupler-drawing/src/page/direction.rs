@@ -123,10 +123,13 @@ fn output_arcs(
     [pivot, end]: [JointId; 2],
     least_radius: f64,
 ) -> Vec<Vec<Point>> {
-    /// The radius of the arcs relative to the link, and the least in least radii: a short link is hidden by its joints.
-    const RADIUS: f64 = 0.6;
+    /// The radii of the arcs relative to the link, of which the first is chosen that is clear of joints, and the least in least
+    /// radii: a short link is hidden by its joints.
+    const RADII: [f64; 7] = [0.6, 0.45, 0.75, 0.35, 0.85, 1.4, 2.0];
     const LEAST: f64 = 2.0;
+    /// The angle of an arc, and its least length in least radii: it is longer than its arrowhead.
     const ARC_DEG: i32 = 15;
+    const LEAST_LENGTH: f64 = 1.0;
     let arm = |k: usize| circuit.positions.point(end, k) - circuit.positions.point(pivot, k);
     let turned: f64 = (1..circuit.len()).map(|k| angle_between(arm(k - 1), arm(k))).sum();
     let sides: &[i32] = match turned {
@@ -136,12 +139,24 @@ fn output_arcs(
     };
     let (centre, arm) = (mechanism.pose[pivot], mechanism.pose[end] - mechanism.pose[pivot]);
     let Some(along) = arm.try_normalize(0.0) else { return Vec::new() };
-    let along = along * (RADIUS * arm.norm()).max(LEAST * least_radius);
-    let at = |deg: i32| {
-        let (cos, sin) = trig::cos_sin_deg(f64::from(deg));
-        centre + along * cos + left_normal(along) * sin
+    let arcs = |part: f64| -> Vec<Vec<Point>> {
+        let radius = (part * arm.norm()).max(LEAST * least_radius);
+        let arc_deg = ARC_DEG.max(trig::degrees(LEAST_LENGTH * least_radius / radius).ceil() as i32);
+        let along = along * radius;
+        let at = |deg: i32| {
+            let (cos, sin) = trig::cos_sin_deg(f64::from(deg));
+            centre + along * cos + left_normal(along) * sin
+        };
+        sides.iter().map(|side| (0..=arc_deg).map(|deg| at(side * deg)).collect()).collect()
     };
-    sides.iter().map(|side| (0..=ARC_DEG).map(|deg| at(side * deg)).collect()).collect()
+    let joints = mechanism.drawn_joints();
+    let clearance = |arcs: &Vec<Vec<Point>>| {
+        let distances =
+            arcs.iter().flatten().flat_map(|&p| joints.iter().map(move |&joint| (mechanism.pose[joint] - p).norm()));
+        distances.fold(f64::INFINITY, f64::min).min(0.5 * least_radius)
+    };
+    let candidates = RADII.map(arcs).into_iter();
+    candidates.reduce(|best, next| if clearance(&next) > clearance(&best) { next } else { best }).unwrap_or_default()
 }
 
 /// The angle from a vector to another, in degrees from -180 to 180.

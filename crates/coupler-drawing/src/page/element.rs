@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use super::typography::is_article;
+use super::typography::{is_article, is_defined};
 use crate::scene::{
     Anchor, Animation, Circle, Color, Curve, Face, Group, Item, MIN_TEXT_SIZE, Path, Polyline, Stroke, Text, TextRun,
     Typeface,
@@ -158,9 +158,10 @@ impl TextLine {
     /// The line with the words that are single-letter `symbols` in italics, and with raised exponents: what follows `^` up
     /// to the end of its number, name or parentheses.
     pub fn with_italics(mut self, symbols: &[String]) -> TextLine {
-        // A single letter is a symbol; a longer name is read as a word.
-        let letters: HashSet<&str> =
-            symbols.iter().map(String::as_str).filter(|symbol| symbol.chars().nth(1).is_none()).collect();
+        // A single letter, also with an index, is a symbol; a longer name is read as a word.
+        let printed = |symbol: &String| MathText::from_name(symbol).pieces().first().cloned();
+        let letters: HashSet<String> =
+            symbols.iter().filter_map(printed).filter(|piece| piece.is_symbol).map(|piece| piece.text).collect();
         let text: String = self.text.runs.iter().map(|run| run.text.as_str()).collect();
         let mut runs: Vec<TextRun> = Vec::new();
         let typeface = self.text.runs.first().map_or(Typeface::default(), |run| run.face.typeface);
@@ -179,7 +180,8 @@ impl TextLine {
             // A word, or a single character between words.
             let word_end = rest.find(|c| !is_word(c)).unwrap_or(rest.len());
             let (piece, after) = rest.split_at(word_end.max(c.len_utf8()));
-            push(piece, letters.contains(piece) && !is_article(piece, after), false);
+            let is_symbol = letters.contains(piece) && !is_article(piece, after);
+            push(piece, is_symbol || is_defined(piece, after), false);
             rest = after;
         }
         self.text.runs = runs;
@@ -323,12 +325,14 @@ impl Element for TextLine {
     }
 }
 
-/// The words of a text; what is on both sides of an equals sign is one of them.
+/// The words of a text; what is on both sides of an equals sign is one of them, and so are an article or pronoun of one letter and
+/// the word after it.
 fn equations(text: &str) -> Vec<&str> {
     let mut words = Vec::new();
     let mut start = 0;
     for (at, _) in text.match_indices(' ') {
-        if !(text[at..].starts_with(" = ") || text[..at].ends_with(" =")) {
+        let is_letter = matches!(text[start..at].rsplit(' ').next(), Some("a" | "A" | "I"));
+        if !(is_letter || text[at..].starts_with(" = ") || text[..at].ends_with(" =")) {
             words.push(&text[start..at]);
             start = at + 1;
         }

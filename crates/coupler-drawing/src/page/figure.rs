@@ -1,8 +1,8 @@
 //! The figure of a cell: its curves and the linkage that traces them.
 
 use super::area::Area;
-use super::arrangement::{Arrangement, Extents, SCALE_ROUNDING};
-use super::element::{CouplerCurve, Drawing};
+use super::arrangement::{Arrangement, Extents};
+use super::element::{CouplerCurve, Drawing, TextLine};
 use super::labels::{Obstacles, label_line};
 use super::marks;
 use super::mechanism::PosedMechanism;
@@ -14,8 +14,8 @@ use super::symbols::{self, Mark, Symbol};
 use super::theme::Theme;
 use super::{Options, Panel, PanelPage, PoseChoice};
 use crate::mechanism::Mechanism;
-use crate::scene::{Animation, Circle, Color, Curve, Item};
-use coupler_curves::geometry::{Bounds, Point, Similarity};
+use crate::scene::{Anchor, Animation, Circle, Color, Curve, Item};
+use coupler_curves::geometry::{Bounds, Point, Similarity, Vector};
 use coupler_curves::linkage::{Input, JointId, Linkage};
 use coupler_curves::measure::{self, TracedCurve};
 use coupler_curves::motion::{self, Circuit};
@@ -29,6 +29,9 @@ pub(super) const MAX_CURVE_ERROR: f64 = 0.009;
 /// The least width and height of a frame in which inputs are numbered, in ems of the numbers: in a smaller one they hide the
 /// curve.
 const MIN_NUMBERED_FRAME: [f64; 2] = [9.0, 5.0];
+
+/// The least extent of a curve on which inputs are numbered, in ems of the numbers.
+const MIN_NUMBERED_CURVE: f64 = 4.0;
 
 /// The range of the input that a dash and its gap span: `dash_deg` for an angle; for a length, the greatest round
 /// number up to a twentieth of the longest pass.
@@ -83,24 +86,15 @@ fn limit_poses(linkage: &Linkage, circuit: &Circuit) -> Vec<Vec<Point>> {
     (0..passes.len()).filter(|&k| circuit.reverses_after(k)).map(pose).collect()
 }
 
-/// The circuits of a cell with their bounds: those that have one place share a group.
+/// The circuits of a cell with the bounds of their curves, each in a group of its own if there are not too many.
 fn circuit_groups(solved: &SolvedCell) -> Vec<(Vec<usize>, Bounds)> {
-    /// Two circuits share a frame if it is hardly larger than that of the larger one.
-    const MAX_GROWTH: f64 = 1.25;
     /// With more groups than this, the frames are too small to enlarge anything.
     const MAX_GROUPS: usize = 4;
     let mut groups: Vec<(Vec<usize>, Bounds)> = Vec::new();
     for curve in &solved.curves {
         let bounds = Bounds::from_points(solved.circuit(curve).points(curve.joint));
-        let shares = |(circuits, other): &(Vec<usize>, Bounds)| {
-            let growth = bounds.union(*other).size().max();
-            circuits.contains(&curve.circuit) || growth <= MAX_GROWTH * bounds.size().max().max(other.size().max())
-        };
-        match groups.iter_mut().find(|group| shares(group)) {
-            Some((circuits, whole)) => {
-                circuits.push(curve.circuit);
-                *whole = whole.union(bounds);
-            }
+        match groups.iter_mut().find(|(circuits, _)| circuits.contains(&curve.circuit)) {
+            Some((_, whole)) => *whole = whole.union(bounds),
             None => groups.push((vec![curve.circuit], bounds)),
         }
     }
@@ -109,6 +103,12 @@ fn circuit_groups(solved: &SolvedCell) -> Vec<(Vec<usize>, Bounds)> {
         return vec![(groups.into_iter().flat_map(|(circuits, _)| circuits).collect(), whole)];
     }
     groups
+}
+
+/// The number of a cell at the upper left of its panel.
+pub(super) fn number_line(solved: &SolvedCell, theme: &Theme) -> TextLine {
+    let at = Point::new(0.8 * theme.caption_size, theme.note_size);
+    theme.text_line(&solved.cell.number.to_string(), at, Anchor::Start, theme.note_size, theme.grey)
 }
 
 /// The figure of a panel: curves, and the linkage in one pose or several.
@@ -192,33 +192,34 @@ impl<'a> Figure<'a> {
     ) {
         let [frame, key] = arrangement.rects(whole);
         let key = Plot::new(key, theme);
-        let in_dashes = |plot: &Plot, curves: &[&MeasuredCurve], obstacles: &[Item], theme: &Theme| {
+        let in_dashes = |plot: &Plot, curves: &[&MeasuredCurve], mut avoided: Obstacles, theme: &Theme| {
             let paths = self.paths(plot, curves, period, theme);
             let axes = marks::symmetry_axis_items(self.solved_cell, curves, plot, theme);
-            let mut avoided = Obstacles::default();
-            [obstacles, &axes].into_iter().for_each(|items| avoided.add(items, false));
+            avoided.add(&axes, false);
             self.draw_marks(area, plot, curves, axes, theme);
             self.draw_motion_marks(area, plot, curves, (&paths, period), avoided, theme);
             self.draw_curves(area, plot, page, curves, (paths, period), theme);
         };
-        let key = key.fitted_to(self.extents.linkage);
-        let (key, remark) = match scale {
-            Some(scale) if scale <= key.page_from_plane.scale * (1.0 + SCALE_ROUNDING) => {
-                (key.with_scale(self.extents.linkage, scale), "")
-            }
-            Some(_) => (key, ", reduced"),
-            None => (key, ""),
-        };
+        let (key, remark) = key.at_scale(self.extents.linkage, scale);
         key.draw_scale_bar(area, &[remark.to_owned()], theme);
         self.draw_underlay(area, &key, theme);
+        let number = number_line(self.solved_cell, theme).text;
+        let above = number.position - Vector::new(0.0, 0.36 * number.size);
+        let mut with_number = Obstacles::default();
+        with_number.add_points(&[above, above + Vector::new(number.width(), 0.0)], 0.72 * number.size, false);
         if arrangement == Arrangement::Combined {
             let linkage = self.linkage_items(&key, theme);
-            in_dashes(&key, &self.solved_cell.curves.iter().collect::<Vec<_>>(), &linkage, theme);
+            let mut obstacles = with_number;
+            obstacles.add(&linkage, false);
+            obstacles.add(&self.posed_items(|mechanism| mechanism.underlay_items(&key, theme)), true);
+            in_dashes(&key, &self.solved_cell.curves.iter().collect::<Vec<_>>(), obstacles, theme);
             draw_linkage(area, linkage);
         } else {
             self.draw_key_curves(area, &key, theme);
             draw_linkage(area, self.linkage_items(&key, theme));
             let frames = frame.divide(self.groups.len());
+            // The number is in the first frame.
+            let mut obstacles = Some(with_number);
             for ((circuits, bounds), frame) in self.groups.iter().zip(&self.extents.curves).zip(frames) {
                 let plot = Plot::new(frame, curve_theme).fitted_to(*bounds);
                 let enlargement = plot.page_from_plane.scale / key.page_from_plane.scale;
@@ -226,7 +227,7 @@ impl<'a> Figure<'a> {
                 let remarks = [format!(", enlarged × {factor}"), format!(", × {factor}")];
                 plot.draw_scale_bar(area, &remarks, curve_theme);
                 let curves = self.solved_cell.curves.iter().filter(|curve| circuits.contains(&curve.circuit));
-                in_dashes(&plot, &curves.collect::<Vec<_>>(), &[], curve_theme);
+                in_dashes(&plot, &curves.collect::<Vec<_>>(), obstacles.take().unwrap_or_default(), curve_theme);
             }
         }
     }
@@ -315,6 +316,9 @@ impl<'a> Figure<'a> {
             MotionMarks::new(&poses[curve.circuit - 1], curve.joint, plot, self.curve_ink(curve, theme), theme)
         };
         let marks: Vec<MotionMarks> = curves.iter().map(marks).collect();
+        let least_size = MIN_NUMBERED_CURVE * theme.small_size();
+        let is_large = |path: &JointPath| Bounds::from_points(label_line(path)).size().max() >= least_size;
+        let is_numbered: Vec<bool> = paths.iter().map(is_large).collect();
         paths.iter().for_each(|path| obstacles.add_points(&label_line(path), theme.curve_width, false));
         for marks in &marks {
             obstacles.add(&marks.items, false);
@@ -323,6 +327,8 @@ impl<'a> Figure<'a> {
         let frame = plot.rect_above_scale_bar(theme);
         let least = MIN_NUMBERED_FRAME.map(|ems| ems * theme.small_size());
         if frame.size.x >= least[0] && frame.size.y >= least[1] {
+            let marks = marks.into_iter().zip(is_numbered).filter(|(_, is_numbered)| *is_numbered);
+            let marks = marks.map(|(marks, _)| marks).collect();
             area.record(&MotionMarks::place_numbers(marks, &obstacles, frame, theme));
         }
     }
@@ -409,6 +415,7 @@ impl<'a> Figure<'a> {
         let Some(first) = solved.curves.first() else { return Vec::new() };
         let ink = self.curve_ink(first, theme);
         let mut symbols = symbols::of_cell(solved, ink, period);
+        symbols.extend(symbols::of_chains(&solved.linkage, theme));
         let mut add = |mark: Mark, meaning: &str| symbols.push(Symbol { mark, meaning: meaning.to_owned() });
         for (style, ordinal) in (1..).zip(["second", "third", "fourth", "fifth"]) {
             let Some(curve) = solved.curves.iter().find(|curve| self.style_index(curve) == style) else { break };

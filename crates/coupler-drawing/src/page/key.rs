@@ -10,11 +10,12 @@ use super::mechanism::PosedMechanism;
 use super::plot::Plot;
 use super::rect::Rect;
 use super::theme::Theme;
-use crate::scene::{Anchor, Circle, Item, MIN_TEXT_SIZE, Text};
-use coupler_curves::expression::{MathText, format_exactly};
+use crate::scene::{Anchor, Circle, Color, Item, MIN_TEXT_SIZE, Text};
+use coupler_curves::expression::{MathText, displayed_name, format_exactly};
 use coupler_curves::family::{Cell, Family};
 use coupler_curves::geometry::{Bounds, Point, Vector};
 use coupler_curves::linkage::{JointId, JointKind, OutputLink};
+use coupler_curves::motion::Circuit;
 use coupler_curves::template::{InputValue, JointTemplate, Template};
 
 /// What a page says about the linkages on it, so that they can be built: how the joints are placed by parameters, and
@@ -44,7 +45,7 @@ impl Key {
 
     fn with_dimensions(family: &Family, dimensions: Vec<MathText>) -> Key {
         let template = &*family.template;
-        let joint = |(k, joint): (usize, &JointTemplate)| (joint.name.clone(), template.construction(k));
+        let joint = |(k, joint): (usize, &JointTemplate)| (displayed_name(&joint.name), template.construction(k));
         Key {
             dimensions,
             joints: template.joints.iter().enumerate().map(joint).collect(),
@@ -56,7 +57,7 @@ impl Key {
 
 /// The input, the output and the frame of a linkage in words.
 fn remarks(template: &Template) -> Vec<String> {
-    let name = |joint: usize| template.joints[joint].name.as_str();
+    let name = |joint: usize| displayed_name(&template.joints[joint].name);
     let driven_by = match (template.is_driven_by_length(), template.seen_from) {
         (true, _) => "input: the actuator's length",
         (false, None) => "input: the crank's angle from 0, in the direction of its arrow",
@@ -69,7 +70,7 @@ fn remarks(template: &Template) -> Vec<String> {
     let driven_by = format!("{driven_by}{range}");
     let structure = template.structure().ok();
     let output = structure.as_ref().and_then(|linkage| {
-        let name = |joint: JointId| &linkage.joints[joint].name;
+        let name = |joint: JointId| displayed_name(&linkage.joints[joint].name);
         Some(match linkage.output()? {
             OutputLink::Link([from, to]) => format!("output: the link from {} to {}", name(from), name(to)),
             OutputLink::Slot { base: [pivot, through], .. } => {
@@ -128,9 +129,9 @@ pub(super) fn clearest_figure<'f, 'a>(figures: &[&'f Figure<'a>]) -> Option<&'f 
     with_most.reduce(|best, next| if distance(next) > distance(best) { next } else { best })
 }
 
-/// The least distance of two joints of a linkage that are drawn, relative to its size.
+/// The least distance of two joints of a linkage that have names in its key, relative to its size.
 fn least_distance(mechanism: &PosedMechanism) -> f64 {
-    let joints = mechanism.drawn_joints();
+    let joints = named_joints(mechanism, &fixed_points(mechanism));
     let pairs = joints.iter().enumerate().flat_map(|(k, a)| joints[..k].iter().map(move |b| (a, b)));
     let distances = pairs.map(|(a, b)| (mechanism.pose[*a] - mechanism.pose[*b]).norm());
     distances.fold(f64::INFINITY, f64::min) / mechanism.bounds().size().max()
@@ -149,7 +150,11 @@ pub(super) fn draw(area: &impl Area, rect: Rect, key: &Key, figure: Option<&Figu
         false => rect.corner + Vector::new(drawing.x + em, 0.0),
     };
     if let Some(figure) = figure {
-        draw_linkage(area, Rect { corner: rect.corner, size: drawing }, figure, theme);
+        let drawing = Rect { corner: rect.corner, size: drawing };
+        if let Some(mechanism) = figure.mechanisms.first() {
+            let ink = |joint| figure.joint_ink(joint, theme);
+            draw_linkage(area, drawing, (mechanism, figure.first_circuit()), ink, theme);
+        }
     }
     let text = Rect { corner: text_corner, size: rect.corner + rect.size - text_corner };
     draw_lines(area, text, &[], key, theme);
@@ -163,6 +168,13 @@ pub(super) fn draw_lines(area: &impl Area, rect: Rect, dimensions: &[MathText], 
     let lines = |em: f64| KeyLines::new(rect, dimensions, key, em, theme);
     let fitting = sizes.into_iter().map(lines).find(|lines| lines.rows.len() <= lines.capacity());
     fitting.unwrap_or_else(|| lines(smallest)).draw(area, rect, theme);
+}
+
+/// The height of the lines of a key in a column of a width, at their full size.
+pub(super) fn lines_height(width: f64, dimensions: &[MathText], key: &Key, theme: &Theme) -> f64 {
+    let em = theme.note_size;
+    let column = Rect { corner: Point::origin(), size: Vector::new(width, em) };
+    KeyLines::LEADING * em * (KeyLines::new(column, dimensions, key, em, theme).rows.len() as f64 + 1.0)
 }
 
 /// The lines of a key at a size of text.
@@ -238,19 +250,25 @@ impl KeyLines {
     }
 }
 
-/// Draws the linkage of a figure in its first pose with the names of its joints, the direction of the crank and the
-/// output.
-fn draw_linkage(area: &impl Area, rect: Rect, figure: &Figure, theme: &Theme) {
-    let Some(mechanism) = figure.mechanisms.first() else { return };
+/// Draws a linkage in its pose on a circuit with the names of its joints, the direction of the crank and the output; `ink` is the
+/// colour of a joint.
+pub(super) fn draw_linkage(
+    area: &impl Area,
+    rect: Rect,
+    (mechanism, circuit): (&PosedMechanism, &Circuit),
+    ink: impl Fn(JointId) -> Color,
+    theme: &Theme,
+) {
     let letter = theme.caption_size;
     let frame = rect.inset(1.6 * letter);
     let points = fixed_points(mechanism);
-    let at_points = points.iter().map(|&joint| mechanism.pose[joint]);
+    let named = named_joints(mechanism, &points);
+    let at_points = named.iter().map(|&joint| mechanism.pose[joint]);
     let plot = Plot::whole(frame).fitted_to(mechanism.bounds().union(Bounds::from_points(at_points)));
     let underlay = mechanism.underlay_items(&plot, theme);
-    let links = mechanism.linkage_items(&plot, theme, |joint| figure.joint_ink(joint, theme));
+    let links = mechanism.linkage_items(&plot, theme, ink);
     let least_radius = 4.0 * theme.joint_radius / plot.page_from_plane.scale;
-    let directions = DirectionMarks::new(mechanism, figure.first_circuit(), least_radius).map(plot.page_from_plane);
+    let directions = DirectionMarks::new(mechanism, circuit, least_radius).map(plot.page_from_plane);
     let mut marks = directions.items(theme);
     let dot = |&joint: &JointId| Circle {
         centre: plot.page_from_plane.apply(mechanism.pose[joint]),
@@ -258,7 +276,10 @@ fn draw_linkage(area: &impl Area, rect: Rect, figure: &Figure, theme: &Theme) {
         stroke: None,
         fill: Some(theme.grey),
     };
-    marks.extend(points.iter().map(dot).map(Item::Circle));
+    // Fixed points, yokes and the points of grids are no pins.
+    let pins = mechanism.drawn_joints();
+    let is_pin = |joint: &JointId| pins.contains(joint) && !mechanism.is_yoke(*joint);
+    marks.extend(named.iter().filter(|joint| !is_pin(joint)).map(dot).map(Item::Circle));
     let zero = theme.text_line("0°", Point::origin(), Anchor::Middle, theme.note_size, theme.grey).text;
     let mut obstacles = Obstacles::default();
     obstacles.add(&underlay, true);
@@ -266,7 +287,7 @@ fn draw_linkage(area: &impl Area, rect: Rect, figure: &Figure, theme: &Theme) {
     obstacles.add(&marks, false);
     let mut placer = LabelPlacer::new(&obstacles, rect, theme);
     let names =
-        joint_names(mechanism, &points, &plot, theme).into_iter().chain(directions.zero_end().map(|at| (at, zero)));
+        joint_names(mechanism, &named, &plot, theme).into_iter().chain(directions.zero_end().map(|at| (at, zero)));
     let names = names.filter_map(|(at, name)| placer.place_at_point(at, name)).collect();
     for (class, items) in [("underlay", underlay), ("linkage", links), ("direction", marks), ("name", names)] {
         area.record(&Drawing { class, title: String::new(), items });
@@ -288,22 +309,27 @@ fn fixed_points(mechanism: &PosedMechanism) -> Vec<JointId> {
     linkage.joint_ids().filter(is_point).collect()
 }
 
-/// The names of the joints that are drawn, of those that are traced and of fixed points, with their positions.
-fn joint_names(mechanism: &PosedMechanism, fixed_points: &[JointId], plot: &Plot, theme: &Theme) -> Vec<(Point, Text)> {
+/// The joints that are drawn, those that are traced and the fixed points, each name once: a grid of points has one name for all of
+/// them.
+fn named_joints(mechanism: &PosedMechanism, fixed_points: &[JointId]) -> Vec<JointId> {
     let linkage = mechanism.linkage;
-    let mut joints = mechanism.drawn_joints();
-    joints.extend(fixed_points);
-    joints.extend(linkage.traced.iter().filter(|traced| !joints.contains(traced)).collect::<Vec<_>>());
-    // A grid of points has one name for all of them.
-    let mut named: Vec<&str> = Vec::new();
-    let mut labels = Vec::new();
-    for joint in joints {
-        let name = linkage.joints[joint].name.as_str();
-        if !named.contains(&name) {
-            named.push(name);
-            let text = theme.text_line(name, Point::origin(), Anchor::Middle, theme.caption_size, theme.ink).text;
-            labels.push((plot.page_from_plane.apply(mechanism.pose[joint]), text));
+    let name = |joint: JointId| linkage.joints[joint].name.as_str();
+    let all = mechanism.drawn_joints().into_iter().chain(fixed_points.iter().chain(&linkage.traced).copied());
+    let mut joints: Vec<JointId> = Vec::new();
+    for joint in all {
+        if joints.iter().all(|known| name(*known) != name(joint)) {
+            joints.push(joint);
         }
     }
-    labels
+    joints
+}
+
+/// The names of joints, with their positions.
+fn joint_names(mechanism: &PosedMechanism, joints: &[JointId], plot: &Plot, theme: &Theme) -> Vec<(Point, Text)> {
+    let label = |&joint: &JointId| {
+        let name = displayed_name(&mechanism.linkage.joints[joint].name);
+        let text = theme.text_line(&name, Point::origin(), Anchor::Middle, theme.caption_size, theme.ink).text;
+        (plot.page_from_plane.apply(mechanism.pose[joint]), text)
+    };
+    joints.iter().map(label).collect()
 }

@@ -2,7 +2,7 @@
 
 use super::rect::Rect;
 use super::theme::Theme;
-use crate::scene::{Item, Polyline, Text};
+use crate::scene::{Circle, Item, Polyline, Text};
 use coupler_curves::geometry::{Point, Vector, cross, distance_to_segment, trig};
 use coupler_curves::path::JointPath;
 
@@ -40,10 +40,17 @@ impl Obstacles {
                     let weight = path.stroke.map_or(0.0, |stroke| stroke.width);
                     path.polylines.iter().for_each(|line| self.add_line(line, weight, is_light));
                 }
-                Item::Circle(circle) => {
-                    let half = circle.stroke.map_or(0.0, |stroke| stroke.width / 2.0);
-                    self.circles.push((circle.centre, circle.radius + half));
-                }
+                // A circle that is not filled, such as that of a gear, may have a label inside.
+                Item::Circle(circle) => match (circle.fill, circle.stroke) {
+                    (None, stroke) => {
+                        let weight = stroke.map_or(0.0, |stroke| stroke.width);
+                        self.add_points(&circle_points(circle), weight, is_light);
+                    }
+                    (Some(_), stroke) => {
+                        let half = stroke.map_or(0.0, |stroke| stroke.width / 2.0);
+                        self.circles.push((circle.centre, circle.radius + half));
+                    }
+                },
                 Item::Group(_) | Item::Curve(_) | Item::Text(_) | Item::Animation(_) => {}
             }
         }
@@ -99,6 +106,16 @@ impl Obstacles {
         let others = self.segments.iter().filter(|segment| segment.curve.is_some_and(|curve| curve != own));
         others.map(|segment| spot.distance_to_segment(segment.ends)).fold(enough, f64::min)
     }
+}
+
+/// A circle as a closed polyline.
+fn circle_points(circle: &Circle) -> Vec<Point> {
+    const SIDES: u32 = 72;
+    let at = |k: u32| {
+        let (cos, sin) = trig::cos_sin_deg(360.0 / f64::from(SIDES) * f64::from(k));
+        circle.centre + Vector::new(cos, sin) * circle.radius
+    };
+    (0..=SIDES).map(at).collect()
 }
 
 impl Segment {
@@ -320,4 +337,28 @@ fn boxes_around(centre: Point, half: Vector, distance: f64) -> impl Iterator<Ite
         let reach = half + Vector::repeat(distance);
         LabelBox { centre: centre + Vector::new(cos * reach.x, -sin * reach.y), half_size: half }
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Color, Stroke};
+
+    #[test]
+    fn a_label_may_be_inside_a_circle_that_is_not_filled() {
+        let stroke = Some(Stroke { color: Color(0, 0, 0), width: 0.1, has_round_ends: false });
+        let circle = |fill| Item::Circle(Circle { centre: Point::origin(), radius: 10.0, stroke, fill });
+        let spot = LabelBox { centre: Point::origin(), half_size: Vector::new(1.0, 1.0) };
+        let clearance = |fill| {
+            let mut obstacles = Obstacles::default();
+            obstacles.add(&[circle(fill)], false);
+            obstacles.clearance(spot, 1.0)
+        };
+        assert!(clearance(Some(Color(0, 0, 0))) < 0.0);
+        assert_eq!(clearance(None), 1.25);
+        let on_line = LabelBox { centre: Point::new(10.0, 0.0), ..spot };
+        let mut obstacles = Obstacles::default();
+        obstacles.add(&[circle(None)], false);
+        assert!(obstacles.clearance(on_line, 1.0) < 0.25);
+    }
 }

@@ -3,7 +3,7 @@
 use super::figure::MAX_CURVE_ERROR;
 use super::plot::Plot;
 use super::theme::Theme;
-use super::typography::superscript;
+use super::typography::{format_fixed, superscript};
 use crate::chart;
 use crate::scene::{Color, Item, Path, Polyline};
 use coupler_curves::expression::{format_exactly, round_to_six_digits};
@@ -73,6 +73,7 @@ fn transmission_text(least: f64, most: f64) -> String {
     /// What is printed as 0 or 180 with one decimal.
     const ROUNDING: f64 = 0.05;
     match (least < ROUNDING, most > 180.0 - ROUNDING) {
+        (false, false) if format_fixed(least, 1) == format_fixed(most, 1) => format!("μ {least:.1}°"),
         (false, false) => format!("μ {least:.1}°–{most:.1}°"),
         (true, false) => format!("μ reaches 0°, up to {most:.1}°"),
         (false, true) => format!("μ from {least:.1}°, reaches 180°"),

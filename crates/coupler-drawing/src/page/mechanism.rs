@@ -23,14 +23,12 @@ impl<'a> PosedMechanism<'a> {
 
     /// The ink of a link between these joints, if it is that of a chain and not of the theme.
     fn link_ink(&self, joints: &[JointId], theme: &Theme) -> Option<Color> {
-        /// The first two inks are for circuits, of which a linkage rarely has more.
-        const FIRST_INK: usize = 2;
         let is_between = |chain: &Vec<JointId>| joints.iter().all(|joint| chain.contains(joint));
-        self.linkage.chains.iter().position(is_between).map(|chain| theme.curve_ink(FIRST_INK + chain))
+        self.linkage.chains.iter().position(is_between).map(|chain| chain_ink(chain, theme))
     }
 
     /// Whether a joint is that of a yoke, which is not a pin.
-    fn is_yoke(&self, joint: JointId) -> bool {
+    pub fn is_yoke(&self, joint: JointId) -> bool {
         matches!(self.linkage.joints[joint].kind, JointKind::Yoke { .. })
     }
 
@@ -179,6 +177,13 @@ impl<'a> PosedMechanism<'a> {
         }
         items
     }
+}
+
+/// The ink of the links of a chain, from 0.
+pub(super) fn chain_ink(chain: usize, theme: &Theme) -> Color {
+    /// The first two inks are for circuits, of which a linkage rarely has more.
+    const FIRST_INK: usize = 2;
+    theme.curve_ink(FIRST_INK + chain)
 }
 
 /// A fixed pivot: a double circle, filled in its middle if it is the crank's.

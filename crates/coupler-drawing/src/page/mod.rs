@@ -207,8 +207,13 @@ pub struct CouplerGridPage<'a> {
     pub heading: Heading<'a>,
     /// The cell.
     pub panel: Panel<'a>,
+    /// The scale of the linkage; the only one of a page is as large as its frame unless the scale is fixed.
+    pub scale: PanelScale,
     /// The indices of the curves that are on this page.
     pub curve_indices: Vec<usize>,
+    /// The coordinates along and across its base of each traced point, in their order, as the linkage gives them; `None` for one
+    /// that has none.
+    pub coordinates: &'a [Option<[f64; 2]>],
     /// The names of the links.
     pub labels: &'a [LinkLabel],
     /// How the linkage is built, if the lengths of its links do not say it.

@@ -3,10 +3,9 @@
 use super::area::Area;
 use super::arrangement::{Arrangement, Extents};
 use super::element::{Drawing, TextLine};
-use super::figure::Figure;
+use super::figure::{self, Figure};
 use super::heading::{foot_baseline, margins};
 use super::key;
-use super::marks;
 use super::rect::Rect;
 use super::symbols::{self, Mark, Symbol};
 use super::theme::Theme;
@@ -22,7 +21,7 @@ pub(super) fn compose(root: &impl Area, page: &PanelPage, options: &Options, the
     let period = figures.iter().flatten().map(|figure| figure.dash_period(options)).fold(0.0, f64::max);
     let mut symbols = page_symbols(page, &figures, period, theme);
     // The scale is known after the panels are arranged; no statement of it is wider than this one.
-    let above_foot = layout_symbols(root, page, &symbols, "one unit of length = 0000.0 mm", theme).1;
+    let above_foot = layout_symbols(root, page, &symbols, symbols::scale_bar(Some(1234.0), None), theme).1;
     let [_, _, side] = margins(theme);
     let contents = Rect {
         corner: Point::new(side, top),
@@ -40,26 +39,23 @@ pub(super) fn compose(root: &impl Area, page: &PanelPage, options: &Options, the
     let area = root.without_margins([panels.corner.y, root.size().y - far.y, panels.corner.x, root.size().x - far.x]);
     let drawn = draw_panels(&area, page, &figures, period, theme);
     symbols.retain(|symbol| match symbol.meaning.as_str() {
-        TRANSMISSION_ANGLE => drawn.has_facts,
+        TRANSMISSION_ANGLE | LIMITS_OF_TRANSMISSION => drawn.has_facts,
         NOT_ENLARGED => drawn.has_enlarged,
+        NOTES_LEFT_OUT => !drawn.has_notes,
         _ => true,
     });
-    let scale = drawn.scale.map_or("units of length".to_owned(), |scale| scale_text(scale, &figures));
-    for (at, line) in layout_symbols(root, page, &symbols, &scale, theme).0 {
+    let scale = symbols::scale_bar(drawn.scale, common_crank(&figures));
+    for (at, line) in layout_symbols(root, page, &symbols, scale, theme).0 {
         symbols::draw(root, &line, at, theme);
     }
 }
 
-/// A scale that is common to all panels of a page, in millimetres to a unit, as the length of a crank that all have, or of
-/// a unit.
-fn scale_text(scale: f64, figures: &[Option<Figure>]) -> String {
+/// The length of a crank that all linkages of a page have.
+fn common_crank(figures: &[Option<Figure>]) -> Option<f64> {
     let cranks: Vec<f64> = figures.iter().flatten().filter_map(Figure::crank_length).collect();
     // Lengths that are computed in different ways may differ by rounding.
-    let is_common = |first: f64| cranks.iter().all(|crank| (crank - first).abs() <= 1e-9 * first);
-    match cranks.first().filter(|first| is_common(**first)) {
-        Some(crank) => format!("crank = {:.1} mm", crank * scale),
-        None => format!("one unit of length = {} mm", marks::format_significant(scale, 3)),
-    }
+    let is_common = |first: &f64| cranks.iter().all(|crank| (crank - first).abs() <= 1e-9 * first);
+    cranks.first().copied().filter(is_common)
 }
 
 /// The lines that explain the symbols of a page and the scale bars at its foot, left of the folio, with their positions;
@@ -68,19 +64,19 @@ fn layout_symbols(
     root: &impl Area,
     page: &PanelPage,
     symbols: &[Symbol],
-    scale: &str,
+    scale: Symbol,
     theme: &Theme,
 ) -> (Vec<(Point, Vec<Symbol>)>, f64) {
     const LEADING: f64 = 1.45;
     let [_, bottom, _] = margins(theme);
     let [left, right] = [theme.border + theme.margin, root.size().x - theme.border - theme.margin];
     let folio = page.heading.folio_width(root.size(), theme);
-    let scale = Symbol { mark: Mark::ScaleBar, meaning: scale.to_owned() };
     // A page without figures has no symbols.
     let explained: Vec<Symbol> = symbols.iter().cloned().chain((!symbols.is_empty()).then_some(scale)).collect();
     let lines = symbols::lines(&explained, right - left - folio - 2.0 * theme.note_size, theme);
     let step = LEADING * theme.note_size;
-    let above = root.size().y - bottom - step * lines.len().saturating_sub(1) as f64;
+    let height = (step * lines.len().saturating_sub(1) as f64).max(page.heading.folio_height(root.size(), theme));
+    let above = root.size().y - bottom - height;
     let first = foot_baseline(root.size(), theme) - step * lines.len().saturating_sub(1) as f64;
     let placed = lines.into_iter().enumerate().map(|(k, line)| (Point::new(left, first + step * k as f64), line));
     (placed.collect(), above)
@@ -107,7 +103,10 @@ fn page_symbols(page: &PanelPage, figures: &[Option<Figure>], period: f64, theme
         add(Mark::Light(ink), NOT_ENLARGED);
     }
     if has("μ") {
-        add(Mark::Letter("μ"), TRANSMISSION_ANGLE);
+        add(Mark::Letter("μ"), if has("reaches") { LIMITS_OF_TRANSMISSION } else { TRANSMISSION_ANGLE });
+    }
+    if page.panels.iter().any(|panel| !panel.note.is_empty()) {
+        add(Mark::Letter("…"), NOTES_LEFT_OUT);
     }
     symbols
 }
@@ -115,8 +114,14 @@ fn page_symbols(page: &PanelPage, figures: &[Option<Figure>], period: f64, theme
 /// What the symbol μ of the facts means.
 const TRANSMISSION_ANGLE: &str = "transmission angle";
 
+/// What it means where an angle at a limit is stated.
+const LIMITS_OF_TRANSMISSION: &str = "transmission angle; at 0° and 180° coupler and output link are on one line";
+
 /// What the light curve on a linkage means whose curve is drawn apart from it.
 const NOT_ENLARGED: &str = "curve at the scale of the linkage";
+
+/// What is said where the notes of panels are left out.
+const NOTES_LEFT_OUT: &str = "notes that need larger panels are left out";
 
 /// What was decided when the panels of a page were drawn.
 struct DrawnPanels {
@@ -124,6 +129,8 @@ struct DrawnPanels {
     scale: Option<f64>,
     /// Whether the facts of the cells are under the figures.
     has_facts: bool,
+    /// Whether the notes of the cells are there.
+    has_notes: bool,
     /// Whether a curve is drawn apart from its linkage.
     has_enlarged: bool,
 }
@@ -143,18 +150,21 @@ fn draw_panels<A: Area>(
     let width = size.x - 1.2 * theme.caption_size;
     let facts = FactsLayout::for_page(page, width, theme);
     let theme = &with_equal_captions(page, width, theme);
-    let texts = |facts: FactsLayout| -> Vec<Vec<TextLine>> {
-        page.panels.iter().map(|panel| panel_lines(panel, facts, width, page.heading.symbols, theme)).collect()
+    let texts = |facts: FactsLayout, has_notes: bool| -> Vec<Vec<TextLine>> {
+        let lines = |panel| panel_lines(panel, (facts, has_notes), width, page.heading.symbols, theme);
+        page.panels.iter().map(lines).collect()
     };
     let height = |lines: &Vec<TextLine>| lines.iter().map(leading).sum::<f64>();
     let foot = |texts: &[Vec<TextLine>]| texts.iter().map(height).fold(0.0, f64::max) + 2.2 * theme.caption_size;
     /// The part of a panel that is left to its figure, however long its text is.
     const MIN_FIGURE: f64 = 0.4;
     let most_text = (1.0 - MIN_FIGURE) * size.y;
-    // Facts that leave too little to the figures are left out: captions say how the linkages are built, and the facts are
-    // in the table of cells.
-    let facts = if foot(&texts(facts)) <= most_text { facts } else { FactsLayout::None };
-    let texts = texts(facts);
+    // Facts, and then notes, that leave too little to the figures are left out: captions say how the linkages are built, and the
+    // facts are in the table of cells.
+    let fits = |(facts, has_notes): &(FactsLayout, bool)| foot(&texts(*facts, *has_notes)) <= most_text;
+    let choices = [(facts, true), (FactsLayout::None, true)];
+    let (facts, has_notes) = choices.into_iter().find(fits).unwrap_or((FactsLayout::None, false));
+    let texts = texts(facts, has_notes);
     let foot = foot(&texts).min(most_text);
     // One arrangement fits all panels: a page is split to within a hundredth of a millimetre.
     let figure_rect = |area: &A| {
@@ -183,15 +193,15 @@ fn draw_panels<A: Area>(
     };
     // The smallest joints, of a third of the radius, would hide a shorter crank as well.
     let can_be_seen = |length: &f64| *length >= 0.75 * theme.joint_radius;
-    let shortest_crank = drawn().filter_map(crank_on_paper).filter(can_be_seen).fold(f64::INFINITY, f64::min);
-    let figure_theme = &theme.for_crank_length(shortest_crank);
-    // Ticks on an enlarged curve are as long as without such a crank.
-    let curve_theme = &Theme { joint_radius: theme.joint_radius, ..figure_theme.clone() };
     let mut has_enlarged = false;
     for (((panel, figure), area), lines) in page.panels.iter().zip(figures).zip(&areas).zip(texts) {
         let frame = figure_rect(area);
         match figure {
             Some(figure) => {
+                let crank = crank_on_paper((figure, area)).filter(can_be_seen);
+                let figure_theme = &theme.for_crank_length(crank.unwrap_or(f64::INFINITY));
+                // Ticks on an enlarged curve are as long as without such a crank.
+                let curve_theme = &Theme { joint_radius: theme.joint_radius, ..figure_theme.clone() };
                 let themes = [curve_theme, figure_theme];
                 let arrangement = arrangement.if_enlarging(frame, scale, themes, &figure.extents);
                 has_enlarged |= arrangement != Arrangement::Combined;
@@ -199,10 +209,10 @@ fn draw_panels<A: Area>(
             }
             None => draw_not_assembled(area, frame, panel.solved_cell, theme),
         }
-        draw_number(area, panel, theme);
+        area.record(&figure::number_line(panel.solved_cell, theme));
         draw_lines(area, lines, area.size().y - foot, theme);
     }
-    DrawnPanels { scale, has_facts: facts != FactsLayout::None, has_enlarged }
+    DrawnPanels { scale, has_facts: facts != FactsLayout::None, has_notes, has_enlarged }
 }
 
 /// The theme with the size of captions at which all of a page fit on a line, if that is not much smaller.
@@ -222,7 +232,13 @@ fn leading(line: &TextLine) -> f64 {
 }
 
 /// The lines under a figure: caption, note, facts, and why the linkage cannot move through the whole range.
-fn panel_lines(panel: &Panel, facts: FactsLayout, width: f64, symbols: &[String], theme: &Theme) -> Vec<TextLine> {
+fn panel_lines(
+    panel: &Panel,
+    (facts, has_note): (FactsLayout, bool),
+    width: f64,
+    symbols: &[String],
+    theme: &Theme,
+) -> Vec<TextLine> {
     let mut lines: Vec<TextLine> = Vec::new();
     let mut add = |text: &str, size: f64, color: Color, symbols: &[String]| {
         let line = theme.text_line(text, Point::origin(), Anchor::Middle, size, color);
@@ -230,7 +246,9 @@ fn panel_lines(panel: &Panel, facts: FactsLayout, width: f64, symbols: &[String]
         lines.extend(wrapped.map(|line| line.with_italics(symbols)));
     };
     add(&panel.caption, theme.caption_size, theme.ink, symbols);
-    add(&panel.note, theme.note_size, theme.grey, symbols);
+    if has_note {
+        add(&panel.note, theme.note_size, theme.grey, symbols);
+    }
     facts.panel_lines(panel).iter().for_each(|fact| add(fact, theme.note_size, theme.grey, &[]));
     let motion = &panel.solved_cell.motion;
     if let Some(error) = motion.assembly_error.as_ref().filter(|_| motion.is_assembled()) {
@@ -282,13 +300,6 @@ pub(super) fn max_grid(paper: Paper, theme: &Theme) -> [usize; 2] {
         fit(paper.width - 2.0 * side, 5.0 * theme.caption_size),
         fit(paper.height - top - bottom, 10.5 * theme.caption_size),
     ]
-}
-
-/// Draws the cell's number at the upper left.
-fn draw_number(area: &impl Area, panel: &Panel, theme: &Theme) {
-    let number = panel.solved_cell.cell.number.to_string();
-    let at = Point::new(0.8 * theme.caption_size, theme.note_size);
-    area.record(&theme.text_line(&number, at, Anchor::Start, theme.note_size, theme.grey));
 }
 
 /// Draws the lines under a figure from `top`, as many as fit.

@@ -7,6 +7,9 @@ use super::theme::Theme;
 use crate::scene::{Anchor, Item, Path, Polyline, Text};
 use coupler_curves::geometry::{Bounds, Point, Similarity, Vector};
 
+/// The rounding of a scale that is computed from a frame: panels of a page differ in size by a hundredth of a millimetre.
+pub(super) const SCALE_ROUNDING: f64 = 1e-3;
+
 /// A frame in which a figure is drawn to scale.
 pub(super) struct Plot {
     rect: Rect,
@@ -37,15 +40,24 @@ impl Plot {
         Plot { page_from_plane: Similarity::page_from_plane(bounds, self.rect.centre(), scale), ..self }
     }
 
+    /// The plot with a scale in millimetres to a unit, with `bounds` at its centre, or with the one at which they fill the frame if
+    /// there is none or it is greater; and what the scale bar says of a scale that is reduced.
+    pub fn at_scale(self, bounds: Bounds, scale: Option<f64>) -> (Plot, &'static str) {
+        let fitted = self.fitted_to(bounds);
+        match scale {
+            Some(scale) if scale <= fitted.page_from_plane.scale * (1.0 + SCALE_ROUNDING) => {
+                let page_from_plane = Similarity::page_from_plane(bounds, fitted.rect.centre(), scale);
+                (Plot { page_from_plane, ..fitted }, "")
+            }
+            Some(_) => (fitted, ", reduced"),
+            None => (fitted, ""),
+        }
+    }
+
     /// The frame without its foot, where the scale bar is, but with the margin around the figure.
     pub fn rect_above_scale_bar(&self, theme: &Theme) -> Rect {
         let margin = Vector::repeat(2.0 * theme.joint_radius);
         Rect { corner: self.rect.corner - margin, size: self.rect.size + margin * 2.0 }
-    }
-
-    /// The plot with a scale in millimetres to a unit, with `bounds` at its centre.
-    pub fn with_scale(self, bounds: Bounds, scale: f64) -> Plot {
-        Plot { page_from_plane: Similarity::page_from_plane(bounds, self.rect.centre(), scale), ..self }
     }
 
     /// The least width of a frame that has room for a scale bar and a short remark on the scale.

@@ -2,12 +2,14 @@
 
 use super::area::Area;
 use super::element::{Drawing, TextLine};
+use super::marks;
 use super::mechanism;
 use super::motion_marks::{self, TickSteps};
 use super::theme::Theme;
 use crate::scene::{Anchor, Circle, Color, Item, Path, Polyline, Text};
+use coupler_curves::expression::join_names;
 use coupler_curves::geometry::{Point, Vector};
-use coupler_curves::linkage::{Joint, JointKind};
+use coupler_curves::linkage::{Joint, JointId, JointKind, LinkOutline, Linkage};
 use coupler_curves::solve::SolvedCell;
 
 /// A symbol and its meaning.
@@ -28,6 +30,8 @@ pub(super) enum Mark {
     TracedPoint(Color),
     /// The pitch circle of a gear.
     PitchCircle,
+    /// A link in an ink.
+    Link(Color),
     /// A curve in dashes.
     Dashes(Color),
     /// The start of a curve, with its direction.
@@ -63,6 +67,10 @@ pub(super) fn of_joints(solved: &SolvedCell, ink: Color) -> Vec<Symbol> {
         add(Mark::Pivot, "fixed pivot".to_owned());
     }
     add(Mark::TracedPoint(ink), "traced point".to_owned());
+    let is_gear = |joint: &Joint| matches!(joint.kind, JointKind::Gear { .. });
+    if solved.linkage.joints.iter().any(is_gear) {
+        add(Mark::PitchCircle, "pitch circle of a gear".to_owned());
+    }
     symbols
 }
 
@@ -71,16 +79,45 @@ pub(super) fn of_joints(solved: &SolvedCell, ink: Color) -> Vec<Symbol> {
 pub(super) fn of_cell(solved: &SolvedCell, ink: Color, period: f64) -> Vec<Symbol> {
     let mut symbols = of_joints(solved, ink);
     let mut add = |mark: Mark, meaning: String| symbols.push(Symbol { mark, meaning });
-    let is_gear = |joint: &Joint| matches!(joint.kind, JointKind::Gear { .. });
-    if solved.linkage.joints.iter().any(is_gear) {
-        add(Mark::PitchCircle, "pitch circle of a gear".to_owned());
-    }
     let unit = solved.linkage.input().unit_sign();
     add(Mark::Dashes(ink), format!("dash and gap: {period}{unit} of input"));
     add(Mark::Start(ink), "start and direction".to_owned());
     let tick = TickSteps::new(&solved.linkage, period).tick;
-    add(Mark::Tick(ink), format!("every {tick}{unit} of input"));
+    // A curve with a smaller range of the input may have no tick.
+    if solved.motion.circuits.iter().flat_map(|circuit| &circuit.passes).any(|pass| pass.input_length() >= tick) {
+        add(Mark::Tick(ink), format!("every {tick}{unit} of input"));
+    }
     symbols
+}
+
+/// The inks of chains of links that are drawn in one, such as those of cognates.
+pub(super) fn of_chains(linkage: &Linkage, theme: &Theme) -> Vec<Symbol> {
+    let symbol = |joints: &[JointId], ink: Color| {
+        let names = joints.iter().map(|&joint| linkage.joints[joint].name.as_str()).collect::<Vec<_>>();
+        let meaning = format!("links of {}", join_names(&names));
+        Symbol { mark: Mark::Link(ink), meaning }
+    };
+    let is_in_chain = |outline: &LinkOutline| {
+        linkage.chains.iter().any(|chain| outline.joints.iter().all(|joint| chain.contains(joint)))
+    };
+    let others = linkage.link_outlines().into_iter().filter(|outline| !is_in_chain(outline));
+    let mut others: Vec<JointId> = others.flat_map(|outline| outline.joints).collect();
+    others.sort_unstable();
+    others.dedup();
+    let first = (!linkage.chains.is_empty() && !others.is_empty()).then(|| symbol(&others, theme.ink));
+    let chains = linkage.chains.iter().enumerate();
+    first.into_iter().chain(chains.map(|(k, chain)| symbol(chain, mechanism::chain_ink(k, theme)))).collect()
+}
+
+/// The scale bar, which says what length on paper the crank has, or else a unit, if that is common to all figures, in millimetres to
+/// a unit.
+pub(super) fn scale_bar(scale: Option<f64>, crank: Option<f64>) -> Symbol {
+    let meaning = match (scale, crank) {
+        (Some(scale), Some(crank)) => format!("crank = {:.1} mm", crank * scale),
+        (Some(scale), None) => format!("one unit of length = {} mm", marks::format_significant(scale, 3)),
+        (None, _) => "units of length".to_owned(),
+    };
+    Symbol { mark: Mark::ScaleBar, meaning }
 }
 
 /// The symbols in lines that are not wider than `width`.
@@ -136,7 +173,13 @@ fn mark_width(mark: Mark, theme: &Theme) -> f64 {
         Mark::Limit(_) => theme.joint_radius,
         Mark::Start(_) => 2.0 * theme.joint_radius,
         Mark::Tick(_) => 0.9 * em,
-        Mark::Dashes(_) | Mark::Light(_) | Mark::Band(_) | Mark::Ghost | Mark::Axis | Mark::ScaleBar => 2.0 * em,
+        Mark::Dashes(_)
+        | Mark::Link(_)
+        | Mark::Light(_)
+        | Mark::Band(_)
+        | Mark::Ghost
+        | Mark::Axis
+        | Mark::ScaleBar => 2.0 * em,
         Mark::Letter(letter) => theme.typeface.regular().width(letter, em),
     }
 }
@@ -168,6 +211,7 @@ impl Mark {
                 stroked(vec![line(-1.0, 1.0)], theme.stroke(theme.faded(ink), theme.hair_width)),
                 stroked(vec![line(-1.0, -0.4), line(0.0, 0.6)], theme.stroke(ink, theme.curve_width)),
             ],
+            Mark::Link(ink) => vec![stroked(vec![line(-1.0, 1.0)], theme.stroke(ink, theme.link_width))],
             Mark::Start(ink) => vec![motion_marks::start_item(middle, Vector::new(1.0, 0.0), ink, theme)],
             Mark::Tick(ink) => vec![
                 stroked(vec![line(-1.0, 1.0)], theme.stroke(ink, theme.curve_width)),

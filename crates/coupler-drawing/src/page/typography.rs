@@ -23,7 +23,8 @@ fn set_next(before: Option<char>, rest: &str) -> Option<(char, usize)> {
     let opens = before.is_none_or(|c| c.is_whitespace() || matches!(c, '(' | '[' | '“' | '‘' | '–'));
     let after = rest.chars().nth(1);
     match rest.as_bytes() {
-        [b'\'', ..] => Some((if opens { '‘' } else { '’' }, 1)),
+        // What is not closed again is an apostrophe, as in 'Twas.
+        [b'\'', ..] => Some((if opens && is_closed_again(&rest[1..]) { '‘' } else { '’' }, 1)),
         [b'"', ..] => Some((if opens { '“' } else { '”' }, 1)),
         [b'.', b'.', b'.', ..] => Some(('…', 3)),
         [b'-', b'-', ..] => Some(('–', 2)),
@@ -37,6 +38,14 @@ fn set_next(before: Option<char>, rest: &str) -> Option<(char, usize)> {
     }
 }
 
+/// Whether a text after an opening single quotation mark has the closing one: after a word, and not in it.
+fn is_closed_again(text: &str) -> bool {
+    text.match_indices('\'').any(|(at, _)| {
+        let (before, after) = (text[..at].chars().next_back(), text[at + 1..].chars().next());
+        before.is_some_and(|c| !c.is_whitespace()) && after.is_none_or(|c| !c.is_alphanumeric())
+    })
+}
+
 /// Whether the letter at the end of `before` is an article or a pronoun and not a symbol: it is followed by a word that may
 /// follow an article.
 pub(super) fn is_article(letter: &str, after: &str) -> bool {
@@ -47,7 +56,12 @@ pub(super) fn is_article(letter: &str, after: &str) -> bool {
     ];
     let Some(after) = after.strip_prefix(' ') else { return false };
     let word = after.split(|c: char| !c.is_alphabetic()).next().unwrap_or_default();
-    matches!(letter, "a" | "A") && word.chars().nth(1).is_some() && !AFTER_SYMBOLS.contains(&word)
+    matches!(letter, "a" | "A" | "I") && word.chars().nth(1).is_some() && !AFTER_SYMBOLS.contains(&word)
+}
+
+/// Whether a letter is followed by its value, so that it is a symbol, as `k` in "k = 2".
+pub(super) fn is_defined(letter: &str, after: &str) -> bool {
+    letter.chars().all(char::is_alphabetic) && letter.chars().nth(1).is_none() && after.starts_with(" = ")
 }
 
 /// A number with a fixed number of decimals and a true minus sign.
@@ -71,6 +85,7 @@ mod tests {
         for (plain, set) in [
             ("Jansen's leg", "Jansen’s leg"),
             ("the 'holy' numbers", "the ‘holy’ numbers"),
+            ("'Twas in '51", "’Twas in ’51"),
             ("\"How (\"a\")\"", "“How (“a”)”"),
             ("u = -1.5, (-2) and x-1", "u = −1.5, (−2) and x-1"),
             (

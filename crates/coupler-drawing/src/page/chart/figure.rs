@@ -15,6 +15,25 @@ use crate::chart::{PointSource, Quantity, Series, is_drawable};
 use crate::scene::{Anchor, Color, Group, Item, pixel};
 use coupler_curves::geometry::{Point, Vector};
 
+/// What the lines of a chart have that is explained on its page.
+#[derive(Clone, Copy, Default)]
+pub(super) struct LineFeatures {
+    /// Whether the linkages of the family are marked on them.
+    pub has_marks: bool,
+    /// Whether some line has a gap.
+    pub has_gaps: bool,
+}
+
+impl LineFeatures {
+    /// What either has.
+    pub fn or(self, other: LineFeatures) -> LineFeatures {
+        LineFeatures { has_marks: self.has_marks || other.has_marks, has_gaps: self.has_gaps || other.has_gaps }
+    }
+}
+
+/// The data attributes of a chart, which relate positions on the page to values.
+type ChartData = Vec<(&'static str, String)>;
+
 /// A chart with its scales and margins.
 pub(super) struct ChartFigure<'a> {
     page: &'a ChartPage<'a>,
@@ -82,16 +101,16 @@ impl<'a> ChartFigure<'a> {
         &self.page.chart.y[self.quantity_index]
     }
 
-    /// Draws the chart with a width for the tick labels on the left, in millimetres; the result is the data attributes
-    /// that relate positions on the page to values.
-    pub fn draw(&self, area: &PlottersArea, left: f64, theme: &Theme) -> Vec<(&'static str, String)> {
+    /// Draws the chart with a width for the tick labels on the left, in millimetres; the result is its data
+    /// and what is explained on its page.
+    pub fn draw(&self, area: &PlottersArea, left: f64, theme: &Theme) -> (ChartData, LineFeatures) {
         let gap = 1.2 * theme.caption_size;
         let head = 2.6 * theme.caption_size;
         let foot = 2.0 * tick_length(theme) + 1.5 * theme.note_size + 3.0 * theme.caption_size;
         self.draw_title(area, theme);
         let Some([x, y]) = &self.scales else {
             self.draw_empty_message(area, theme);
-            return Vec::new();
+            return Default::default();
         };
         let mut builder = ChartBuilder::on(area);
         builder
@@ -116,8 +135,8 @@ impl<'a> ChartFigure<'a> {
             .expect("recording a scene does not fail");
         let frame = context.plotting_area().strip_coord_spec();
         self.draw_x_title(area, &frame, foot, theme);
-        self.draw_lines(&frame, theme);
-        axis_data(&frame, [x, y])
+        let features = self.draw_lines(&frame, theme);
+        (axis_data(&frame, [x, y]), features)
     }
 
     /// Draws the quantity of the y axis above the frame, with its unit.
@@ -172,7 +191,7 @@ impl<'a> ChartFigure<'a> {
     }
 
     /// Draws the lines, each as a group, and their labels next to the frame.
-    fn draw_lines(&self, frame: &PlottersArea, theme: &Theme) {
+    fn draw_lines(&self, frame: &PlottersArea, theme: &Theme) -> LineFeatures {
         let lines = self.clipped_lines(frame);
         let span = frame_size(frame);
         // Points are marked if they are far enough apart on all charts of the page.
@@ -201,6 +220,7 @@ impl<'a> ChartFigure<'a> {
         if !items.is_empty() {
             frame.record(&Drawing { class: "keys", title: String::new(), items });
         }
+        LineFeatures { has_marks: with_marks, has_gaps: lines.iter().any(|[line, _]| line.runs.len() > 1) }
     }
 
     /// The style of the k-th line: by its place, if the lines are in an order.

@@ -1,14 +1,15 @@
 //! The columns of the table: what they contain, and how many of them fit.
 
+use super::super::CouplerGridPage;
 use super::super::theme::Theme;
 use super::super::typography::format_fixed;
 use super::ShownCurve;
 use super::numbers::{coordinate_decimals, significant_decimals};
 use crate::scene::Anchor;
 use coupler_curves::geometry::Point;
-use coupler_curves::linkage::{JointKind, Linkage};
+use coupler_curves::linkage::Input;
 use coupler_curves::measure::{StraightCriterion, Value};
-use coupler_curves::solve::{MeasuredCurve, SolvedCell};
+use coupler_curves::solve::MeasuredCurve;
 
 /// The measures of columns and description, in addition to those of all pages.
 pub const MEASURES: [&str; 9] = [
@@ -123,28 +124,32 @@ const GROUPS_BEFORE_GRAPHS: usize = 3;
 
 /// The groups of columns for the curves of a page; `None` where no curve has a value.
 pub(super) fn column_groups(
-    solved: &SolvedCell,
+    page: &CouplerGridPage,
     shown: &[ShownCurve],
-    criterion: StraightCriterion,
     theme: &Theme,
 ) -> [Option<ColumnGroup>; GROUP_COUNT] {
+    let solved = page.panel.solved_cell;
     let has_circuits = solved.motion.circuits.len() > 1;
     let number = |s: &ShownCurve| match has_circuits {
         true => format!("{}/{}", s.curve.trace, s.curve.circuit),
         false => s.curve.trace.to_string(),
     };
-    let coordinates: Vec<Option<[f64; 2]>> = shown.iter().map(|s| link_coordinates(&solved.linkage, s.curve)).collect();
+    let coordinates: Vec<Option<[f64; 2]>> = shown.iter().map(|s| coordinates_of(page, s)).collect();
     let coordinate = |k: usize| {
         let values: Vec<f64> = coordinates.iter().flatten().map(|pair| pair[k]).collect();
         let decimals = coordinate_decimals(&values);
         coordinates.iter().map(|pair| pair.map_or(String::new(), |pair| format_fixed(pair[k], decimals))).collect()
     };
-    let lengths = |measure: &str| {
+    let lengths = |measure: &str| -> Vec<String> {
         let values: Vec<Option<f64>> = shown.iter().map(|s| number_of(s.curve, measure)).collect();
         let decimals = significant_decimals(values.iter().flatten().copied(), 4);
         values.iter().map(|value| value.map_or(MISSING.to_owned(), |value| format_fixed(value, decimals))).collect()
     };
     let inputs = |measure: &str| {
+        // The lengths of an actuator have no common order of magnitude.
+        if solved.linkage.input() == Input::Length {
+            return lengths(measure);
+        }
         let text = |value: f64| format!("{value:.1}{}", solved.linkage.input().unit_sign());
         shown.iter().map(|s| number_of(s.curve, measure).map_or(MISSING.to_owned(), text)).collect()
     };
@@ -152,31 +157,38 @@ pub(super) fn column_groups(
         let text = |value: f64| format_fixed(value, 0);
         shown.iter().map(|s| number_of(s.curve, measure).map_or(MISSING.to_owned(), text)).collect()
     };
-    let straight = match criterion {
-        StraightCriterion::Tolerance(tolerance) => format!("straight to {} %", percent(tolerance)),
-        StraightCriterion::Input(_) | StraightCriterion::Length(_) => "straightest".to_owned(),
-    };
     [
         ColumnGroup::new("", [("point", shown.iter().map(number).collect())], theme),
         ColumnGroup::new("", [("along", coordinate(0)), ("across", coordinate(1))], theme),
         ColumnGroup::new(
-            straight,
+            straight_title(page.straight_criterion),
             [("length", lengths("straight_length")), ("over", inputs("straight_input_deg"))],
             theme,
         ),
         ColumnGroup::new(
-            "straight to 1 %",
+            straight_title(StraightCriterion::Tolerance(0.01)),
             [("length", lengths("straight_10_length")), ("over", inputs("straight_10_input_deg"))],
             theme,
         ),
         ColumnGroup::new(
-            "dwell on an arc",
+            DWELL_TITLE,
             [("radius", lengths("dwell_radius")), ("over", inputs("dwell_input_deg"))],
             theme,
         ),
         ColumnGroup::new("", [("cusps", counts("cusps"))], theme),
     ]
 }
+
+/// The head over the columns of straight portions.
+pub(super) fn straight_title(criterion: StraightCriterion) -> String {
+    match criterion {
+        StraightCriterion::Tolerance(tolerance) => format!("straight to {} %", percent(tolerance)),
+        StraightCriterion::Input(_) | StraightCriterion::Length(_) => "straightest".to_owned(),
+    }
+}
+
+/// The head over the columns of circular portions.
+pub(super) const DWELL_TITLE: &str = "dwell on an arc";
 
 /// A tolerance in percent.
 pub(super) fn percent(tolerance: f64) -> String {
@@ -191,11 +203,7 @@ pub(super) fn number_of(curve: &MeasuredCurve, measure: &str) -> Option<f64> {
     }
 }
 
-/// The coordinates of a point on its link: along the base from its first joint, and to the left of it. `None` if the
-/// joint is not a point of a rigid link.
-pub(super) fn link_coordinates(linkage: &Linkage, curve: &MeasuredCurve) -> Option<[f64; 2]> {
-    let JointKind::Rigid { base: [from, to], along, across } = linkage.joints[curve.joint].kind else { return None };
-    let link = linkage.links.iter().find(|link| link.position(from).is_some() && link.position(to).is_some())?;
-    let base = (link.position(to)? - link.position(from)?).norm();
-    Some([along * base, across * base])
+/// The coordinates of a point on its link, as the linkage gives them.
+pub(super) fn coordinates_of(page: &CouplerGridPage, shown: &ShownCurve) -> Option<[f64; 2]> {
+    page.coordinates.get(shown.curve.trace.checked_sub(1)?).copied().flatten()
 }

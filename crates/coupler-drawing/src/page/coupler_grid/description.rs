@@ -8,43 +8,71 @@ use super::super::{CouplerGridPage, LinkLabel};
 use super::columns::number_of;
 use super::notes::format_inputs;
 use super::turn::change_point_inputs;
-use crate::scene::Anchor;
+use crate::scene::{Anchor, Color};
+use coupler_curves::expression::join_names;
 use coupler_curves::geometry::Point;
 use coupler_curves::linkage::{Continuation, FourBar, FourBarClass, JointId, Linkage, OutputLink};
 use coupler_curves::solve::SolvedCell;
 
-/// Draws the description in a frame, as many lines as fit.
-pub(super) fn draw(area: &impl Area, frame: Rect, page: &CouplerGridPage, theme: &Theme) {
-    let em = theme.note_size;
-    let solved = page.panel.solved_cell;
-    let mut y = frame.corner.y;
-    let bottom = frame.corner.y + frame.size.y;
-    let mut line = |text: &str, (size, color): (f64, _)| {
-        y += 1.45 * size;
-        if y <= bottom {
-            let at = Point::new(frame.corner.x, y);
-            let line = theme.text_line(text, at, Anchor::Start, size, color).with_italics(page.heading.symbols);
-            area.record(&line.fit_width(frame.size.x));
+/// The description of the linkage of a page: lines, and the lines of its key, if it has one.
+pub(super) struct Description {
+    /// Each line with its size and colour.
+    lines: Vec<(String, f64, Color)>,
+    /// The height of the lines of the key.
+    key_height: f64,
+}
+
+/// The distance of lines relative to their size.
+const LEADING: f64 = 1.45;
+
+impl Description {
+    /// The description for a width.
+    pub fn new(page: &CouplerGridPage, width: f64, theme: &Theme) -> Description {
+        let em = theme.note_size;
+        let solved = page.panel.solved_cell;
+        let class = FourBar::from_linkage(&solved.linkage).map(FourBar::class);
+        let mut lines = Vec::new();
+        if let Some(class) = class {
+            let is_change_point = class == FourBarClass::ChangePoint;
+            let (name, size) = if is_change_point { ("change point", 1.6) } else { (class.name(), 1.25) };
+            lines.push((name.to_owned(), size * em, theme.ink));
         }
-    };
-    let class = FourBar::from_linkage(&solved.linkage).map(FourBar::class);
-    if let Some(class) = class {
-        let is_change_point = class == FourBarClass::ChangePoint;
-        let (name, size) = if is_change_point { ("change point", 1.6) } else { (class.name(), 1.25) };
-        line(name, (size * em, theme.ink));
+        let mut texts = Vec::new();
+        if class == Some(FourBarClass::ChangePoint) {
+            texts.push(change_point_note(solved));
+        }
+        if page.key.is_none() {
+            texts.extend(dimensions(&solved.linkage, page.labels));
+        }
+        texts.extend(output_facts(solved));
+        let wrapped = |text: &String| theme.text_line(text, Point::origin(), Anchor::Start, em, theme.grey).wrap(width);
+        lines.extend(texts.iter().flat_map(wrapped).map(|text| (text, em, theme.grey)));
+        let key_height = page.key.map_or(0.0, |key| 0.5 * em + key::lines_height(width, &key.dimensions, key, theme));
+        Description { lines, key_height }
     }
-    let wrapped = |text: &str| theme.text_line(text, Point::origin(), Anchor::Start, em, theme.grey).wrap(frame.size.x);
-    if class == Some(FourBarClass::ChangePoint) {
-        wrapped(&change_point_note(solved)).iter().for_each(|text| line(text, (em, theme.grey)));
+
+    /// The height that it needs, in millimetres.
+    pub fn height(&self) -> f64 {
+        self.key_height + self.lines.iter().map(|(_, size, _)| LEADING * size).sum::<f64>()
     }
-    if let Some(key) = page.key {
-        output_facts(solved).iter().flat_map(|text| wrapped(text)).for_each(|text| line(&text, (em, theme.grey)));
-        let corner = Point::new(frame.corner.x, y + 0.5 * em);
-        let rest = Rect { corner, size: frame.corner + frame.size - corner };
-        return key::draw_lines(area, rest, &key.dimensions, key, theme);
-    }
-    for text in dimensions(&solved.linkage, page.labels).iter().chain(&output_facts(solved)) {
-        wrapped(text).iter().for_each(|text| line(text, (em, theme.grey)));
+
+    /// Draws the description in a frame, as many lines as fit.
+    pub fn draw(&self, area: &impl Area, frame: Rect, page: &CouplerGridPage, theme: &Theme) {
+        let mut y = frame.corner.y;
+        let bottom = frame.corner.y + frame.size.y;
+        for (text, size, color) in &self.lines {
+            y += LEADING * size;
+            if y <= bottom {
+                let at = Point::new(frame.corner.x, y);
+                let line = theme.text_line(text, at, Anchor::Start, *size, *color).with_italics(page.heading.symbols);
+                area.record(&line.fit_width(frame.size.x));
+            }
+        }
+        if let Some(key) = page.key {
+            let corner = Point::new(frame.corner.x, y + 0.5 * theme.note_size);
+            let rest = Rect { corner, size: frame.corner + frame.size - corner };
+            key::draw_lines(area, rest, &key.dimensions, key, theme);
+        }
     }
 }
 
@@ -64,7 +92,7 @@ fn dimensions(linkage: &Linkage, labels: &[LinkLabel]) -> Vec<String> {
     let output = output_joints(linkage);
     let line = |label: &LinkLabel| {
         let [from, to] = label.joints;
-        let names = label.joints.map(|joint| linkage.joints[joint].name.as_str()).concat();
+        let names = join_names(&label.joints.map(|joint| linkage.joints[joint].name.as_str()));
         // All digits that are needed to read back the same number.
         let length = length(linkage, [from, to])?.to_string();
         let length = if label.text == length { length } else { format!("{} = {length}", label.text) };

@@ -80,12 +80,16 @@ pub(super) const AXIS_HEIGHT: f64 = 1.9;
 pub(super) const STRIP_HEIGHT: f64 = 8.0;
 
 impl PanelLayout {
-    /// The division of a panel for a table of some rows and a foot that is `foot_height` high.
-    pub fn new(panel: Rect, row_count: usize, foot_height: f64, theme: &Theme) -> PanelLayout {
+    /// The division of a panel for a table of some rows, with a description next to the key and a foot of these heights, if there is
+    /// space.
+    pub fn new(panel: Rect, row_count: usize, [description, foot_height]: [f64; 2], theme: &Theme) -> PanelLayout {
         let em = theme.note_size;
         let rows = row_count.max(1) as f64;
-        let key = (0.25 * panel.size.y).clamp(KEY_HEIGHTS[0] * em, KEY_HEIGHTS[1] * em).min(0.5 * panel.size.y);
+        let key = (0.25 * panel.size.y).clamp(KEY_HEIGHTS[0] * em, KEY_HEIGHTS[1] * em);
         let least_table = (HEAD_HEIGHT + AXIS_HEIGHT + ROW_HEIGHTS[0] * rows) * em;
+        // The description is as high as it needs to be, at the expense of the table.
+        let spare = panel.size.y - foot_height - least_table;
+        let key = key.max(description.min(spare)).min(0.5 * panel.size.y);
         let rest = panel.size.y - key;
         let foot = if least_table + foot_height <= rest { foot_height } else { 0.0 };
         let row = (rest - foot - (HEAD_HEIGHT + AXIS_HEIGHT) * em) / rows;

@@ -20,6 +20,7 @@ use super::area::{self, Area};
 use super::element::{CouplerCurve, Drawing};
 use super::figure;
 use super::heading;
+use super::key as linkage_key;
 use super::labels::{LabelPlacer, Obstacles, label_line};
 use super::marks;
 use super::mechanism::PosedMechanism;
@@ -28,12 +29,13 @@ use super::plot::Plot;
 use super::rect::Rect;
 use super::symbols::{self, Mark, Symbol};
 use super::theme::Theme;
-use super::{CouplerGridPage, Layout, Options, Panel, PoseChoice, pose};
+use super::{CouplerGridPage, Layout, Options, Panel, PanelScale, PoseChoice, pose};
 use crate::mechanism::Mechanism;
 use crate::scene::{Anchor, Circle, Color, Item, MIN_TEXT_SIZE, Path, Scene, Stroke};
 use coupler_curves::geometry::{Bounds, Point, Similarity, Vector};
 use coupler_curves::path::{DashPattern, JointPath};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
+use description::Description;
 use graphs::Graphs;
 use layout::{PageLayout, PanelLayout};
 use notes::Notes;
@@ -93,7 +95,7 @@ pub(super) fn compose(scene: &mut Scene, page: &CouplerGridPage, options: &Optio
         Some(mechanism) => {
             let figure_theme = with_legible_notes(theme, MIN_TEXT_SIZE / Theme::SMALL_PART, size.min() / MIN_LINES);
             draw_figure(&root, figure, page, &mechanism, &shown, options, &figure_theme);
-            let panel = footer::draw_symbols(&root, panel, &page_symbols(solved, &shown, options, theme), panel_theme);
+            let panel = footer::draw_symbols(&root, panel, &page_symbols(page, &shown, options, theme), panel_theme);
             draw_panel(&root, panel, page, (&mechanism, &shown), panel_theme);
         }
         None => {
@@ -148,15 +150,25 @@ fn posed_mechanism<'a>(panel: &'a Panel) -> Option<PosedMechanism<'a>> {
 }
 
 /// The symbols of the figure.
-fn page_symbols(solved: &SolvedCell, shown: &[ShownCurve], options: &Options, theme: &Theme) -> Vec<Symbol> {
+fn page_symbols(page: &CouplerGridPage, shown: &[ShownCurve], options: &Options, theme: &Theme) -> Vec<Symbol> {
     let Some(first) = shown.first() else { return Vec::new() };
+    let solved = page.panel.solved_cell;
     let period = figure::dash_period(&solved.linkage, &solved.motion.circuits, options);
     let mut symbols = symbols::of_cell(solved, first.ink(theme), period);
     if let Some(banded) = shown.iter().find(|s| marks::visible_straight_portion(solved, s.curve).is_some()) {
         let meaning = "longest straight portion".to_owned();
         symbols.push(Symbol { mark: Mark::Band(banded.ink(theme)), meaning });
     }
+    symbols.push(symbols::scale_bar(common_scale(page), solved.linkage.crank_length()));
     symbols
+}
+
+/// The scale that is common to all pages, in millimetres to a unit.
+fn common_scale(page: &CouplerGridPage) -> Option<f64> {
+    match page.scale {
+        PanelScale::Fixed(scale) => Some(scale),
+        PanelScale::Panel | PanelScale::Page => None,
+    }
 }
 
 /// Draws the panel: key and description, table and graphs, transmission angle and notes.
@@ -174,14 +186,26 @@ fn draw_panel(
     let notes_width = strip_left.map_or(panel.size.x, |left| left - (graphs::NUMBERS_WIDTH + 1.0) * em);
     let notes = Notes::new(page, shown, (&table, graphs.as_ref().map(|(_, graphs)| graphs)), notes_width, theme);
     let strip_height = strip_left.map_or(0.0, |_| layout::STRIP_HEIGHT * em);
-    let parts = PanelLayout::new(panel, shown.len(), notes.height(theme).max(strip_height), theme);
+    let half_width = 0.5 * panel.size.x;
+    let description = Description::new(page, half_width - em, theme);
+    let heights = [description.height(), notes.height(theme).max(strip_height)];
+    let parts = PanelLayout::new(panel, shown.len(), heights, theme);
 
-    let key_width = (0.5 * panel.size.x).min(1.8 * parts.key.size.y);
+    let key_width = half_width.min(1.8 * parts.key.size.y);
     let key = Rect { size: Vector::new(key_width, parts.key.size.y), ..parts.key };
-    key::draw(area, key, page, (mechanism, shown), theme);
+    match page.key {
+        None => key::draw(area, key, page, (mechanism, shown), theme),
+        Some(_) => {
+            let solved = page.panel.solved_cell;
+            let circuit = shown.first().map_or(0, |s| s.curve.circuit - 1);
+            let lettering = Theme { caption_size: 1.1 * em, ..theme.clone() };
+            let ink = |_| theme.ink;
+            linkage_key::draw_linkage(area, key, (mechanism, &solved.motion.circuits[circuit]), ink, &lettering);
+        }
+    }
     let after_key = Vector::new(key_width + em, 0.0);
-    let description = Rect { corner: parts.key.corner + after_key, size: parts.key.size - after_key };
-    description::draw(area, description, page, theme);
+    let frame = Rect { corner: parts.key.corner + after_key, size: parts.key.size - after_key };
+    description.draw(area, frame, page, theme);
 
     let rows = table.draw(area, parts.table, parts.row_height, shown, theme);
     if let Some((left, graphs)) = &graphs {
@@ -208,8 +232,8 @@ fn draw_figure(
     let grid = grid::PointGrids::from_joints(&solved.linkage, shown.iter().map(|s| s.curve.joint));
     let curves = shown.iter().flat_map(|s| solved.circuit(s.curve).points(s.curve.joint));
     let extents = Bounds::from_points(curves.chain(grid.line_ends(&mechanism.pose))).union(mechanism.bounds());
-    let plot = Plot::new(frame, theme).fitted_to(extents);
-    plot.draw_scale_bar(area, &[], theme);
+    let (plot, remark) = Plot::new(frame, theme).at_scale(extents, common_scale(page));
+    plot.draw_scale_bar(area, &[remark.to_owned()], theme);
     let period = figure::dash_period(&solved.linkage, &solved.motion.circuits, options);
     let dashes = |k: usize| DashPattern { period, dash_span: theme.curve_dash_fraction(shown[k].point_index) * period };
     let path = |(k, s): (usize, &ShownCurve)| figure::curve_path(solved, s.curve, plot.page_from_plane, dashes(k));

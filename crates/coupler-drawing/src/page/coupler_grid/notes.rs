@@ -6,11 +6,12 @@ use super::super::rect::Rect;
 use super::super::theme::Theme;
 use super::super::typography::format_fixed;
 use super::ShownCurve;
-use super::columns::{link_coordinates, percent};
+use super::columns::{DWELL_TITLE, coordinates_of, percent, straight_title};
 use super::graphs::{Graphs, POOR_TRANSMISSION};
 use super::numbers::{coordinate_decimals, exact_decimals, format_in_full};
 use super::table::Table;
 use crate::scene::Anchor;
+use coupler_curves::expression::displayed_name;
 use coupler_curves::geometry::Point;
 use coupler_curves::linkage::{Input, JointId, JointKind};
 use coupler_curves::measure::StraightCriterion;
@@ -48,11 +49,12 @@ impl Notes {
                 }
             });
         }
-        notes.extend(coordinates_note(solved, shown));
-        if table.has_group("straight") {
-            notes.push(straight_note(page.straight_criterion));
-        }
-        if table.has_group("dwell") {
+        notes.extend(coordinates_note(page, shown));
+        // A second group is to another tolerance, with the same meaning.
+        let criteria = [page.straight_criterion, StraightCriterion::Tolerance(0.01)];
+        let has_column = |criterion: &&StraightCriterion| table.has_group(&straight_title(**criterion));
+        notes.extend(criteria.iter().find(has_column).map(|criterion| straight_note(*criterion)));
+        if table.has_group(DWELL_TITLE) {
             notes.push(
                 "dwell on an arc: the portion that takes the most input of those within 0.05 % of the curve's extent \
                  of a circle; the far end of a link of that radius dwells"
@@ -107,23 +109,24 @@ pub(super) fn format_rounded(input: f64) -> String {
 }
 
 /// What the coordinates of points are, and those in full that the table has rounded.
-fn coordinates_note(solved: &SolvedCell, shown: &[ShownCurve]) -> Option<String> {
-    let linkage = &solved.linkage;
-    let name = |joint: JointId| linkage.joints[joint].name.as_str();
-    let bases: Vec<[&str; 2]> = shown
-        .iter()
-        .filter_map(|s| match linkage.joints[s.curve.joint].kind {
-            JointKind::Rigid { base, .. } => Some(base.map(name)),
-            _ => None,
-        })
-        .collect();
-    let [from, to] = *bases.first()?;
-    let meaning = if bases.iter().all(|base| *base == [from, to]) {
-        format!("along, across: coordinates on the link, from {from} towards {to} and to the left of that line")
-    } else {
-        "along, across: coordinates on the link, along its line and to the left of it".to_owned()
+fn coordinates_note(page: &CouplerGridPage, shown: &[ShownCurve]) -> Option<String> {
+    let linkage = &page.panel.solved_cell.linkage;
+    let name = |joint: JointId| displayed_name(&linkage.joints[joint].name);
+    let pairs: Vec<[f64; 2]> = shown.iter().filter_map(|s| coordinates_of(page, s)).collect();
+    let is_foot = |joint: JointId| matches!(linkage.joints[joint].kind, JointKind::Slot { .. });
+    let base = |s: &ShownCurve| match linkage.joints[s.curve.joint].kind {
+        JointKind::Rigid { base, .. } if !base.into_iter().any(is_foot) => Some(base),
+        _ => None,
     };
-    let pairs: Vec<[f64; 2]> = shown.iter().filter_map(|s| link_coordinates(linkage, s.curve)).collect();
+    let first = shown.first().filter(|_| !pairs.is_empty())?;
+    let meaning = match base(first).filter(|first| shown.iter().all(|s| base(s) == Some(*first))) {
+        Some(base) => {
+            let [from, to] = base.map(name);
+            format!("along, across: coordinates on the link, from {from} towards {to} and to the left of that line")
+        }
+        // The base of a point on a body that slides is in the list of joints.
+        None => "along, across: coordinates on the link, along its line and to the left of it".to_owned(),
+    };
     let rounded: Vec<String> =
         [0, 1].into_iter().flat_map(|k| rounded_in_full(pairs.iter().map(|pair| pair[k]))).collect();
     Some(if rounded.is_empty() { meaning } else { format!("{meaning}; in full: {}", rounded.join(", ")) })

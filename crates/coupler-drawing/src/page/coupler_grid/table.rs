@@ -27,7 +27,7 @@ const MIN_GRAPH_WIDTH: f64 = 9.0;
 impl Table {
     /// The table of a page that fits a width.
     pub fn new(page: &CouplerGridPage, shown: &[ShownCurve], width: f64, theme: &Theme) -> Table {
-        let groups = column_groups(page.panel.solved_cell, shown, page.straight_criterion, theme);
+        let groups = column_groups(page, shown, theme);
         let em = theme.note_size;
         let (groups, graph_left) = fitting_columns(groups, (SWATCH_LENGTH * em, width, MIN_GRAPH_WIDTH * em), theme);
         Table { groups, graph_left }
@@ -38,9 +38,9 @@ impl Table {
         self.graph_left
     }
 
-    /// Whether there is a group of columns with a title that begins with `title`.
+    /// Whether there is a group of columns with a title.
     pub fn has_group(&self, title: &str) -> bool {
-        self.groups.iter().any(|(_, group)| group.title.starts_with(title))
+        self.groups.iter().any(|(_, group)| group.title == title)
     }
 
     /// Draws the table; the result is the frames of the graphs of the rows that are shown, in order.
