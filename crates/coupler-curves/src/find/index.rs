@@ -44,7 +44,7 @@ const LOW_UNIT: f32 = 1.0 / 32_000.0;
 const LENGTH_UNIT: f64 = 1.0 / 1024.0;
 
 /// The number of poses from which a curve is computed.
-const SAMPLES: usize = 128;
+pub(super) const SAMPLES: usize = 128;
 
 /// A four-bar of the sequence on one of its circuits.
 pub(super) struct Entry {
@@ -149,11 +149,6 @@ impl Index {
     /// The transform of spectra.
     pub(super) fn transform(&self) -> &Transform {
         &self.transform
-    }
-
-    /// The directions of the cranks of sampled circuits.
-    pub(super) fn directions(&self) -> &[Complex] {
-        &self.directions
     }
 
     /// A four-bar of the sequence.

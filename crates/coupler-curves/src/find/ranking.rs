@@ -1,0 +1,81 @@
+//! The answers of a search: refined linkages without those whose curves are the same, with their cognates.
+
+use super::answer::Answer;
+use super::complex::{Complex, length};
+use super::fitting::{Fit, Fitting};
+use super::mechanism::Mechanism;
+use super::parameters::Parameters;
+use super::refinement::Refinement;
+use super::timing::Timing;
+use crate::geometry::Point;
+use crate::linkage::{Cognate, Cognates, PlacedFourBar};
+
+impl Fitting {
+    /// The answers of refined linkages, the nearest first, at most `most`. Those whose curves are the same to a thousandth of the
+    /// target's size are one.
+    pub fn answers(&self, refinements: &[Refinement], most: usize) -> Vec<Answer> {
+        /// The distance up to which curves are the same, in sizes of the target.
+        const SAME: f64 = 1e-3;
+        let is_same = |a: &[Complex], b: &[Complex]| a.iter().zip(b).all(|(a, b)| length(a - b) <= SAME);
+        let mut found: Vec<(Fit, Vec<Complex>)> = Vec::new();
+        for fit in refinements.iter().filter_map(|refinement| self.fit(refinement)) {
+            let feet = fit.linkage.curve(&fit.matching.poses);
+            match found.iter_mut().find(|(_, other)| is_same(other, &feet)) {
+                Some((other, _)) if other.matching.sum <= fit.matching.sum => {}
+                Some(other) => *other = (fit, feet),
+                None => found.push((fit, feet)),
+            }
+        }
+        found.sort_by(|a, b| a.0.matching.sum.total_cmp(&b.0.matching.sum));
+        found.into_iter().filter_map(|(fit, _)| self.answer(&fit)).take(most).collect()
+    }
+
+    /// The answer of a fit, if one of the four-bars that trace its curve meets the constraints.
+    fn answer(&self, Fit { linkage, matching, length_ratio }: &Fit) -> Option<Answer> {
+        let (size, centre) = self.target.placement();
+        let original = linkage.transformed(Complex::new(size, 0.0), centre);
+        let placed = original.to_placed();
+        let poses: Vec<[Point; 2]> = matching.poses.iter().map(|pose| original.pins(pose)).collect();
+        // A point on a pin has no cognates.
+        let all = match Cognates::from_four_bar(placed) {
+            Ok(cognates) => cognates.all().to_vec(),
+            Err(_) => Vec::new(),
+        };
+        let solve = |cognate: &Cognate| {
+            let pins = |[a, b]: &[Point; 2]| cognate.pins([placed.pivots[0], *a, *b, placed.pivots[1]]);
+            let pins: Vec<[Point; 2]> = poses.iter().map(pins).collect();
+            // One of the cognates has another timing: its crank moves as the rocker of this one.
+            let cranks = || pins.iter().map(|[crank, _]| *crank);
+            let is_kept = |[timing, _]: &[Timing; 2]| timing.is_kept(cognate.four_bar.pivots[0], cranks());
+            let is_timed = self.timing.as_ref().is_none_or(is_kept);
+            if is_timed { self.mechanism(cognate.four_bar, &pins) } else { None }
+        };
+        let mut mechanisms: Vec<Mechanism> = match all.is_empty() {
+            true => self.mechanism(placed, &poses).into_iter().collect(),
+            false => all.iter().filter_map(solve).collect(),
+        };
+        let angle = |mechanism: &Mechanism| if mechanism.meets_constraints { mechanism.mu_worst_deg } else { f64::NAN };
+        let best = (0..mechanisms.len()).filter(|k| mechanisms[*k].meets_constraints);
+        let best = best.reduce(|best, k| if angle(&mechanisms[k]) > angle(&mechanisms[best]) { k } else { best })?;
+        mechanisms[..=best].rotate_right(1);
+        let rms_relative = (matching.sum / self.points.len() as f64).sqrt();
+        Some(Answer {
+            mechanism: mechanisms.remove(0),
+            cognates: mechanisms,
+            rms: size * rms_relative,
+            rms_relative,
+            greatest: size * matching.greatest,
+            is_in_order: matching.is_in_order,
+            length_ratio: *length_ratio,
+        })
+    }
+
+    /// A four-bar, solved, with its pins at each point of the target.
+    fn mechanism(&self, four_bar: PlacedFourBar, pins: &[[Point; 2]]) -> Option<Mechanism> {
+        let mut mechanism = Mechanism::solve(four_bar, pins, self.limits.condition.as_ref())?;
+        let (size, centre) = self.target.placement();
+        let normalized = Parameters::from_placed(&four_bar).transformed(Complex::new(1.0 / size, 0.0), -centre / size);
+        mechanism.meets_constraints &= self.limits.are_nearly_satisfied(&normalized);
+        Some(mechanism)
+    }
+}
