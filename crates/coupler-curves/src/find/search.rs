@@ -72,6 +72,11 @@ struct Polish {
 /// The steps of a refinement in a step of the search: two milliseconds for a target of a hundred points.
 const STEPS_AT_ONCE: usize = 4;
 
+/// The number of points for which an effort is measured. A path of fewer points is refined in less time, and has more minima that are
+/// not the least, as precision points do: more linkages are tried, up to this factor.
+const POINTS_OF_EFFORT: usize = 100;
+const MAX_MORE: usize = 4;
+
 /// The parts of the starts that are refined in each round, and the steps of a round.
 const ROUNDS: [(usize, usize); 4] = [(1, 6), (3, 12), (8, 40), (20, 200)];
 
@@ -140,7 +145,8 @@ impl Search {
             Effort::Thorough => 800,
         };
         // A portion is looked up once only.
-        if self.fitting.target.kind() == PathKind::Closed { count } else { 2 * count }
+        let count = if self.fitting.target.kind() == PathKind::Closed { count } else { 2 * count };
+        count * (POINTS_OF_EFFORT / self.fitting.points.len()).clamp(1, MAX_MORE)
     }
 
     fn restart_count(&self) -> usize {
@@ -176,7 +182,6 @@ impl Search {
         let Some(&(_, most)) = ROUNDS.get(round) else { return self.look_again() };
         let Some(refinement) = self.refinements.get_mut(place) else {
             let next = ROUNDS.get(round + 1).map_or(1, |(part, _)| *part);
-            self.refinements.retain(|refinement| self.fitting.has_valid_length(refinement));
             let left_behind = self.keep_nearest(self.start_count() / next);
             if round + 2 == ROUNDS.len() {
                 self.left_behind.extend(left_behind);
@@ -184,10 +189,14 @@ impl Search {
             return Stage::Refine { round: round + 1, place: 0, steps: 0 };
         };
         let steps = self.fitting.advance(refinement, steps, most);
-        if refinement.is_done || steps == most {
+        if !refinement.is_done && steps < most {
+            return Stage::Refine { round, place, steps };
+        }
+        if self.fitting.has_valid_length(&self.refinements[place]) {
             return Stage::Refine { round, place: place + 1, steps: 0 };
         }
-        Stage::Refine { round, place, steps }
+        self.refinements.remove(place);
+        Stage::Refine { round, place, steps: 0 }
     }
 
     /// Looks the nearest curve up in the index in place of the target, whose noise hides what it is like.
