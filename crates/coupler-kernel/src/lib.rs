@@ -38,6 +38,8 @@ mod reading;
 
 mod description;
 
+mod finder;
+
 mod kernel;
 
 mod exports;

@@ -2,8 +2,12 @@
 
 use serde_json::Value;
 
+use coupler_curves::find::Options;
+use coupler_curves::geometry::Point;
+
 /// A request. As JSON it is an object with its name in snake case as `method`, and with its fields. Numbers may be given as
-/// strings: these are read to the last bit, as numbers of JSON need not be.
+/// strings: these are read to the last bit, as numbers of JSON need not be. `{"$": [start, length]}` is an array of the numbers
+/// that come with it, as in a [`crate::Response`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum Request {
     /// What the module was built from.
@@ -91,6 +95,35 @@ pub enum Request {
         /// The curves.
         curves: Vec<CurveRequest>,
     },
+    /// Adds some four-bars to the index that searches look their paths up in.
+    GrowIndex,
+    /// Begins to search the index for the four-bars whose curves are nearest to a path.
+    OpenSearch {
+        /// The points of the path, an array `[x, y, x, y, …]`.
+        points: Vec<Point>,
+        /// What a curve has in common with it: `closed`, `open` or `part`.
+        kind: String,
+        /// Whether the crank must turn fully, the greatest distance of two joints of a link in sizes of the path, and the most
+        /// answers.
+        options: Options,
+    },
+    /// Takes a step of a search.
+    StepSearch {
+        /// The handle.
+        search: usize,
+    },
+    /// The answers of a search so far.
+    Answers {
+        /// The handle of the search.
+        search: usize,
+        /// The name of the path, for the manifest.
+        name: String,
+    },
+    /// Closes a search; its handle is not used again.
+    CloseSearch {
+        /// The handle.
+        search: usize,
+    },
 }
 
 /// A curve of a family, perhaps with changed parameters.
@@ -109,11 +142,11 @@ pub struct CurveRequest {
 }
 
 impl Request {
-    /// Parses a request.
+    /// Parses a request with its numbers.
     ///
     /// # Errors
     /// What is wrong with it.
-    pub fn parse(text: &str) -> Result<Request, String> {
+    pub fn parse(text: &str, numbers: &[f64]) -> Result<Request, String> {
         let value: Value = serde_json::from_str(text).map_err(|error| format!("the request is not JSON: {error}"))?;
         let of = Object(&value);
         Ok(match of.text("method")?.as_str() {
@@ -123,7 +156,7 @@ impl Request {
             "open_study" => Request::OpenStudy {
                 curve: CurveRequest::from_value(of.member("curve")?)?,
                 shown: if of.member("shown")?.is_null() { None } else { Some(of.index("shown")?) },
-                is_rough: of.member("is_rough")?.as_bool().ok_or("`is_rough` is neither true nor false")?,
+                is_rough: of.flag("is_rough")?,
             },
             "close_study" => Request::CloseStudy { study: of.index("study")? },
             "path" => Request::Path { study: of.index("study")?, tolerance: of.number("tolerance")? },
@@ -139,6 +172,20 @@ impl Request {
                 Request::Export { curve: CurveRequest::from_value(of.member("curve")?)?, format: of.text("format")? }
             }
             "fragment" => Request::Fragment { curves: of.list("curves", CurveRequest::from_value)? },
+            "grow_index" => Request::GrowIndex,
+            "open_search" => Request::OpenSearch {
+                points: of.points("points", numbers)?,
+                kind: of.text("kind")?,
+                options: Options {
+                    full_turn: of.flag("full_turn")?,
+                    max_link: of.number("max_link")?,
+                    most: of.index("most")?,
+                    ..Options::default()
+                },
+            },
+            "step_search" => Request::StepSearch { search: of.index("search")? },
+            "answers" => Request::Answers { search: of.index("search")?, name: of.text("name")? },
+            "close_search" => Request::CloseSearch { search: of.index("search")? },
             method => return Err(format!("there is no request `{method}`")),
         })
     }
@@ -176,6 +223,24 @@ impl<'v> Object<'v> {
 
     fn number(&self, key: &str) -> Result<f64, String> {
         self.read(key, number)
+    }
+
+    fn flag(&self, key: &str) -> Result<bool, String> {
+        self.read(key, Value::as_bool)
+    }
+
+    /// The points of an array `[x, y, x, y, …]` of numbers.
+    fn points(&self, key: &str, numbers: &[f64]) -> Result<Vec<Point>, String> {
+        let array = self.read(key, |value| {
+            let [start, length] = Object(value).pair("$", index).ok()?;
+            numbers.get(start..start.checked_add(length)?)
+        })?;
+        let (points, rest) = array.as_chunks();
+        if rest.is_empty() {
+            Ok(points.iter().map(|&[x, y]| Point::new(x, y)).collect())
+        } else {
+            Err(format!("`{key}` of the request has an x without a y"))
+        }
     }
 
     fn index(&self, key: &str) -> Result<usize, String> {

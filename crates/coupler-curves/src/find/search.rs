@@ -1,5 +1,8 @@
 //! The search: from the curves of an index that are most like the target to the linkages whose curves are nearest to it.
 
+use std::ops::Deref;
+use std::sync::Arc;
+
 use super::answer::{Answer, LENGTH_RATIOS};
 use super::complex::{Complex, closed_length, length};
 use super::constraints::Limits;
@@ -19,7 +22,7 @@ use crate::linkage::{Cognate, Cognates, PlacedFourBar};
 
 /// A search in bounded steps.
 pub struct Search<'i> {
-    index: &'i Index,
+    index: IndexSource<'i>,
     target: Target,
     options: Options,
     limits: Limits,
@@ -42,6 +45,23 @@ pub struct Search<'i> {
     /// The linkages to begin again from.
     restarts: Vec<Parameters>,
     random: u64,
+}
+
+/// The index of a search, which may grow when no search is left that shares it.
+enum IndexSource<'i> {
+    Borrowed(&'i Index),
+    Shared(Arc<Index>),
+}
+
+impl Deref for IndexSource<'_> {
+    type Target = Index;
+
+    fn deref(&self) -> &Index {
+        match self {
+            IndexSource::Borrowed(index) => index,
+            IndexSource::Shared(index) => index,
+        }
+    }
 }
 
 /// What is looked up in the index.
@@ -105,8 +125,17 @@ const FURTHER_PER_ANSWER: usize = 2;
 impl<'i> Search<'i> {
     /// Begins a search.
     pub fn new(target: &Target, index: &'i Index, options: Options) -> Search<'i> {
+        Search::begin(target, IndexSource::Borrowed(index), options)
+    }
+
+    /// Begins a search that can be kept beside its index.
+    pub fn with_shared_index(target: &Target, index: Arc<Index>, options: Options) -> Search<'static> {
+        Search::begin(target, IndexSource::Shared(index), options)
+    }
+
+    fn begin<'a>(target: &Target, index: IndexSource<'a>, options: Options) -> Search<'a> {
         let points = target.normalized();
-        let query = Query::new(target.kind(), &points, index);
+        let query = Query::new(target.kind(), &points, &index);
         let (size, centre) = target.placement();
         let corner = |x: f64, y: f64| (Complex::new(x, y) - centre) / size;
         let pivots = options.pivots.map(|b| [corner(b.min.x, b.min.y), corner(b.max.x, b.max.y)]);
@@ -242,12 +271,12 @@ impl<'i> Search<'i> {
         let Some((_, linkage)) = self.placed.get(place) else {
             return if self.options.refine { Stage::Refine { round: 0, place: 0, step: 0 } } else { Stage::Done };
         };
-        self.refinements.extend(self.begin(linkage));
+        self.refinements.extend(self.begin_refinement(linkage));
         Stage::Begin(place + 1)
     }
 
     /// Begins a refinement from a linkage near the limits, on the circuit and in the direction that are nearest to the target.
-    fn begin(&self, linkage: &Parameters) -> Option<Refinement> {
+    fn begin_refinement(&self, linkage: &Parameters) -> Option<Refinement> {
         let linkage = self.limits.nearest(linkage, linkage.frame >= linkage.crank)?;
         let refinement = match &self.timing {
             None => Refinement::new(linkage, &self.nearest_samples(&linkage)?, &self.points, None)?,
@@ -303,7 +332,7 @@ impl<'i> Search<'i> {
         self.keep_nearest(self.start_count());
         let Some(best) = self.refinements.first().filter(|_| !self.has_looked_again) else { return Stage::Restart(0) };
         let points = best.linkage.curve(&self.circuit_of(&best.linkage, &best.poses[0]));
-        self.query = Query::new(self.target.kind(), &points, self.index);
+        self.query = Query::new(self.target.kind(), &points, &self.index);
         self.has_looked_again = true;
         self.kept = std::mem::take(&mut self.refinements);
         self.best.clear();
@@ -338,7 +367,7 @@ impl<'i> Search<'i> {
     /// Refines a linkage, as long as it may become better than the best.
     fn refine_restart(&mut self, start: &Parameters) {
         let promising = PROMISING_SUM * self.refinements.first().map_or(f64::INFINITY, |best| best.sum);
-        let Some(mut refinement) = self.begin(start) else { return };
+        let Some(mut refinement) = self.begin_refinement(start) else { return };
         for step in 0..RESTART_STEPS {
             if refinement.is_done || (step == PROMISING_STEPS && refinement.sum > promising) {
                 break;

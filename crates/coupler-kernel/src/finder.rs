@@ -1,0 +1,89 @@
+//! The search for four-bars in steps, and the index of curves that it looks paths up in.
+
+use std::sync::Arc;
+
+use serde_json::{Value, json};
+
+use coupler_curves::find::{Answer, AnswerRecord, Index, Options, PathKind, Search, Target, answers_manifest};
+use coupler_curves::geometry::Point;
+
+use crate::response::Numbers;
+
+/// The most curves that are added to the index in a step, some 5 ms of work.
+const CURVES_PER_STEP: usize = 128;
+
+/// The most points of a path that is searched for: the time of a step grows with them.
+const MAX_POINTS: usize = 400;
+
+/// The index of four-bars. It grows while no search is open.
+#[derive(Default)]
+pub(crate) struct FourBarIndex(Arc<Index>);
+
+impl FourBarIndex {
+    /// Adds the next curves, up to the number that the program searches by default; how many there are, and how many there will
+    /// be.
+    ///
+    /// # Errors
+    /// A search is open.
+    pub fn grow(&mut self) -> Result<Value, String> {
+        let index = Arc::get_mut(&mut self.0).ok_or("the index does not grow while a search is open")?;
+        index.extend(CURVES_PER_STEP.min(Index::DEFAULT_COUNT - index.len()));
+        Ok(json!({ "count": index.len(), "full_count": Index::DEFAULT_COUNT }))
+    }
+}
+
+/// A search for the four-bars whose curves are nearest to a path.
+pub(crate) struct FourBarSearch {
+    search: Search<'static>,
+    target: Target,
+    /// The curves of the index.
+    count: usize,
+}
+
+impl FourBarSearch {
+    /// Begins a search in the curves that the index has so far.
+    ///
+    /// # Errors
+    /// The points are no path.
+    pub fn new(index: &FourBarIndex, points: &[Point], kind: &str, options: Options) -> Result<FourBarSearch, String> {
+        if points.len() > MAX_POINTS {
+            return Err(format!("the path has {} points, and at most {MAX_POINTS} are searched for", points.len()));
+        }
+        let kinds = [PathKind::Closed, PathKind::Open, PathKind::Part];
+        let kind = kinds.into_iter().find(|known| known.name() == kind);
+        let kind = kind.ok_or("a path is `closed`, `open` or `part`")?;
+        let target = Target::new(points, kind).map_err(|error| error.to_string())?;
+        let search = Search::with_shared_index(&target, index.0.clone(), options);
+        Ok(FourBarSearch { search, target, count: index.0.len() })
+    }
+
+    /// Takes a step of bounded work; whether nothing is left to do.
+    pub fn step(&mut self) -> bool {
+        !self.search.step()
+    }
+
+    /// The answers so far: those of `find --json` with their curves, and the manifest of `find --toml` for a path with a name.
+    pub fn answers_json(&self, name: &str, numbers: &mut Numbers) -> Value {
+        let answers = self.search.answers();
+        let size = self.target.size();
+        let answer = |(rank, answer): (usize, &Answer)| {
+            let curve = answer.mechanism.solved().map(|solved| {
+                let curve = &solved.curves[0];
+                let circuit = solved.circuit(curve);
+                json!({ "closed": circuit.is_closed, "points": numbers.points(circuit.points(curve.joint)) })
+            });
+            json!({
+                "record": AnswerRecord::new(rank, answer),
+                "curve": curve,
+                "pose": numbers.points(answer.mechanism.pose()),
+                "manifest": answers_manifest(name, size, std::slice::from_ref(answer)),
+            })
+        };
+        json!({
+            "size": size,
+            "index_count": self.count,
+            "answers": (1..).zip(&answers).map(answer).collect::<Vec<_>>(),
+            "manifest": answers_manifest(name, size, &answers),
+        })
+    }
+}
