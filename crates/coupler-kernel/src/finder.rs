@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use serde_json::{Value, json};
 
-use coupler_curves::find::{Answer, AnswerRecord, Index, Options, PathKind, Search, Target, answers_manifest};
+use coupler_curves::find::{Answer, AnswerRecord, Index, Options, PathKind, Ranking, Search, Target, answers_manifest};
 use coupler_curves::geometry::Point;
 
 use crate::response::Numbers;
@@ -14,6 +14,20 @@ const CURVES_PER_STEP: usize = 128;
 
 /// The most points of a path that is searched for: the time of a step grows with them.
 const MAX_POINTS: usize = 400;
+
+/// The path through points with the name of its kind.
+///
+/// # Errors
+/// The points are no path, or too many.
+pub(crate) fn target_of(points: &[Point], kind: &str) -> Result<Target, String> {
+    if points.len() > MAX_POINTS {
+        return Err(format!("the path has {} points, and at most {MAX_POINTS} are searched for", points.len()));
+    }
+    let kinds = [PathKind::Closed, PathKind::Open, PathKind::Part];
+    let kind = kinds.into_iter().find(|known| known.name() == kind);
+    let kind = kind.ok_or("a path is `closed`, `open` or `part`")?;
+    Target::new(points, kind).map_err(|error| error.to_string())
+}
 
 /// The index of four-bars. It grows while no search is open.
 #[derive(Default)]
@@ -38,6 +52,8 @@ pub(crate) struct FourBarSearch {
     target: Target,
     /// The curves of the index.
     count: usize,
+    /// The answers so far that are being made.
+    ranking: Ranking,
 }
 
 impl FourBarSearch {
@@ -46,25 +62,23 @@ impl FourBarSearch {
     /// # Errors
     /// The points are no path.
     pub fn new(index: &FourBarIndex, points: &[Point], kind: &str, options: Options) -> Result<FourBarSearch, String> {
-        if points.len() > MAX_POINTS {
-            return Err(format!("the path has {} points, and at most {MAX_POINTS} are searched for", points.len()));
-        }
-        let kinds = [PathKind::Closed, PathKind::Open, PathKind::Part];
-        let kind = kinds.into_iter().find(|known| known.name() == kind);
-        let kind = kind.ok_or("a path is `closed`, `open` or `part`")?;
-        let target = Target::new(points, kind).map_err(|error| error.to_string())?;
+        let target = target_of(points, kind)?;
         let search = Search::with_shared_index(&target, index.0.clone(), options);
-        Ok(FourBarSearch { search, target, count: index.0.len() })
+        Ok(FourBarSearch { search, target, count: index.0.len(), ranking: Ranking::default() })
     }
 
     /// Takes a step of bounded work; whether nothing is left to do.
     pub fn step(&mut self) -> bool {
+        self.ranking = Ranking::default();
         !self.search.step()
     }
 
-    /// The answers so far: those of `find --json` with their curves, and the manifest of `find --toml` for a path with a name.
-    pub fn answers_json(&self, name: &str, numbers: &mut Numbers) -> Value {
-        let answers = self.search.answers();
+    /// Takes a step towards the answers so far, or has them: those of `find --json` with their curves, and the manifest of `find --toml` for a path with a name.
+    pub fn answers_json(&mut self, name: &str, numbers: &mut Numbers) -> Value {
+        if self.ranking.step(&self.search) {
+            return json!({ "is_complete": false });
+        }
+        let answers = std::mem::take(&mut self.ranking).into_answers();
         let size = self.target.size();
         let answer = |(rank, answer): (usize, &Answer)| {
             let curve = answer.mechanism.solved().map(|solved| {
@@ -80,6 +94,7 @@ impl FourBarSearch {
             })
         };
         json!({
+            "is_complete": true,
             "size": size,
             "index_count": self.count,
             "answers": (1..).zip(&answers).map(answer).collect::<Vec<_>>(),

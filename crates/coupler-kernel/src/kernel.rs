@@ -2,10 +2,12 @@
 
 use serde_json::{Value, json};
 
+use coupler_curves::find::CurveIndex;
 use coupler_curves::geometry::Point;
 use coupler_curves::linkage::{Cognates, JointId};
 use coupler_curves::motion;
 
+use crate::curves::{ShapeSearch, add_curves, deviation};
 use crate::description::{opened_json, study_json};
 use crate::family::{OpenFamily, fragment};
 use crate::finder::{FourBarIndex, FourBarSearch};
@@ -23,6 +25,8 @@ pub struct Kernel {
     studies: Slots<OpenStudy>,
     index: FourBarIndex,
     searches: Slots<FourBarSearch>,
+    curves: Slots<CurveIndex>,
+    shapes: Slots<ShapeSearch>,
 }
 
 /// A study with what is computed once for all its poses.
@@ -92,8 +96,22 @@ impl Kernel {
                 json!({ "search": self.searches.insert(search) })
             }
             Request::StepSearch { search } => json!({ "is_done": self.searches.get_mut(search)?.step() }),
-            Request::Answers { search, name } => self.searches.get(search)?.answers_json(&name, numbers),
+            Request::Answers { search, name } => self.searches.get_mut(search)?.answers_json(&name, numbers),
             Request::CloseSearch { search } => json!({ "closed": self.searches.remove(search) }),
+            Request::OpenCurves => json!({ "curves": self.curves.insert(CurveIndex::new()) }),
+            Request::AddCurves { curves, points, counts, closed } => {
+                add_curves(self.curves.get_mut(curves)?, &points, &counts, &closed)?
+            }
+            Request::CloseCurves { curves } => json!({ "closed": self.curves.remove(curves) }),
+            Request::OpenShape { points, kind, mirror, least, most } => {
+                json!({ "shape": self.shapes.insert(ShapeSearch::new(&points, &kind, mirror, least, most)?) })
+            }
+            Request::CompareShape { shape, curves, from } => {
+                self.shapes.get_mut(shape)?.compare(self.curves.get(curves)?, from, numbers)
+            }
+            Request::FitShape { shape, points, closed } => self.shapes.get(shape)?.fit(&points, closed),
+            Request::CloseShape { shape } => json!({ "closed": self.shapes.remove(shape) }),
+            Request::Deviation { from, points, closed } => deviation(&from, &points, closed)?,
         })
     }
 

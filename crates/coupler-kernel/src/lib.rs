@@ -40,6 +40,8 @@ mod description;
 
 mod finder;
 
+mod curves;
+
 mod kernel;
 
 mod exports;

@@ -112,7 +112,7 @@ pub enum Request {
         /// The handle.
         search: usize,
     },
-    /// The answers of a search so far.
+    /// Takes a step towards the answers of a search so far, until they are complete.
     Answers {
         /// The handle of the search.
         search: usize,
@@ -123,6 +123,69 @@ pub enum Request {
     CloseSearch {
         /// The handle.
         search: usize,
+    },
+    /// Opens an index of given curves by their shape: its handle.
+    OpenCurves,
+    /// Adds curves to an index.
+    AddCurves {
+        /// The handle of the index.
+        curves: usize,
+        /// The points of all of them, an array `[x, y, x, y, …]`.
+        points: Vec<Point>,
+        /// The number of points of each.
+        counts: Vec<f64>,
+        /// For each whether it is closed: not 0.
+        closed: Vec<f64>,
+    },
+    /// Closes an index; its handle is not used again.
+    CloseCurves {
+        /// The handle.
+        curves: usize,
+    },
+    /// Opens a path to which curves are compared: its handle.
+    OpenShape {
+        /// The points of the path, an array `[x, y, x, y, …]`.
+        points: Vec<Point>,
+        /// What a curve has in common with it: `closed`, `open` or `part`.
+        kind: String,
+        /// Whether a curve may be mirrored.
+        mirror: bool,
+        /// The least part of a curve that is compared with an open path.
+        least: f64,
+        /// The most curves of an index that are found.
+        most: usize,
+    },
+    /// Compares some curves of an index with a path by their shape, in steps.
+    CompareShape {
+        /// The handle of the path.
+        shape: usize,
+        /// The handle of the index.
+        curves: usize,
+        /// The number of the curve to begin with: 0, and then what the step before returned.
+        from: usize,
+    },
+    /// How a curve fits a path where it is nearest to it.
+    FitShape {
+        /// The handle of the path.
+        shape: usize,
+        /// The points of the curve, an array `[x, y, x, y, …]`.
+        points: Vec<Point>,
+        /// Whether it is closed.
+        closed: bool,
+    },
+    /// Closes a path; its handle is not used again.
+    CloseShape {
+        /// The handle.
+        shape: usize,
+    },
+    /// The deviation of a curve from points where both are.
+    Deviation {
+        /// The points, an array `[x, y, x, y, …]`.
+        from: Vec<Point>,
+        /// The points of the curve, an array `[x, y, x, y, …]`.
+        points: Vec<Point>,
+        /// Whether the curve is closed.
+        closed: bool,
     },
 }
 
@@ -186,6 +249,37 @@ impl Request {
             "step_search" => Request::StepSearch { search: of.index("search")? },
             "answers" => Request::Answers { search: of.index("search")?, name: of.text("name")? },
             "close_search" => Request::CloseSearch { search: of.index("search")? },
+            "open_curves" => Request::OpenCurves,
+            "add_curves" => Request::AddCurves {
+                curves: of.index("curves")?,
+                points: of.points("points", numbers)?,
+                counts: of.array("counts", numbers)?.to_vec(),
+                closed: of.array("closed", numbers)?.to_vec(),
+            },
+            "close_curves" => Request::CloseCurves { curves: of.index("curves")? },
+            "open_shape" => Request::OpenShape {
+                points: of.points("points", numbers)?,
+                kind: of.text("kind")?,
+                mirror: of.flag("mirror")?,
+                least: of.number("least")?,
+                most: of.index("most")?,
+            },
+            "compare_shape" => Request::CompareShape {
+                shape: of.index("shape")?,
+                curves: of.index("curves")?,
+                from: of.index("from")?,
+            },
+            "fit_shape" => Request::FitShape {
+                shape: of.index("shape")?,
+                points: of.points("points", numbers)?,
+                closed: of.flag("closed")?,
+            },
+            "close_shape" => Request::CloseShape { shape: of.index("shape")? },
+            "deviation" => Request::Deviation {
+                from: of.points("from", numbers)?,
+                points: of.points("points", numbers)?,
+                closed: of.flag("closed")?,
+            },
             method => return Err(format!("there is no request `{method}`")),
         })
     }
@@ -229,13 +323,17 @@ impl<'v> Object<'v> {
         self.read(key, Value::as_bool)
     }
 
-    /// The points of an array `[x, y, x, y, …]` of numbers.
-    fn points(&self, key: &str, numbers: &[f64]) -> Result<Vec<Point>, String> {
-        let array = self.read(key, |value| {
+    /// An array of numbers.
+    fn array<'n>(&self, key: &str, numbers: &'n [f64]) -> Result<&'n [f64], String> {
+        self.read(key, |value| {
             let [start, length] = Object(value).pair("$", index).ok()?;
             numbers.get(start..start.checked_add(length)?)
-        })?;
-        let (points, rest) = array.as_chunks();
+        })
+    }
+
+    /// The points of an array `[x, y, x, y, …]` of numbers.
+    fn points(&self, key: &str, numbers: &[f64]) -> Result<Vec<Point>, String> {
+        let (points, rest) = self.array(key, numbers)?.as_chunks();
         if rest.is_empty() {
             Ok(points.iter().map(|&[x, y]| Point::new(x, y)).collect())
         } else {

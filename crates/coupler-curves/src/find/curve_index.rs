@@ -108,6 +108,12 @@ impl CurveLookup {
         };
     }
 
+    /// The curves that have been found so far, the likeliest first: how much they are like the target, the more the greater, and their
+    /// numbers.
+    pub fn found(&self) -> impl Iterator<Item = (f64, usize)> {
+        self.best.iter().map(|(likeness, number)| (f64::from(*likeness), *number))
+    }
+
     /// The numbers of the curves that have been found so far, the likeliest first.
     pub fn numbers(&self) -> Vec<usize> {
         self.best.iter().map(|(_, number)| *number).collect()

@@ -13,6 +13,7 @@ use super::options::{Effort, Options};
 use super::parameters::{COUNT, Parameters};
 use super::portion::Stroke;
 use super::pose::Pose;
+use super::ranking::Ranking;
 use super::refinement::Refinement;
 use super::spectrum::Spectrum;
 use super::target::{PathKind, Target};
@@ -503,26 +504,23 @@ impl<'i> Search<'i> {
     }
 
     /// The answers that have been found so far, the nearest first. Those whose curves are the same to a thousandth of the
-    /// target's size are one.
+    /// target's size are one. A [`super::Ranking`] makes them in steps.
     pub fn answers(&self) -> Vec<Answer> {
-        /// The distance up to which curves are the same, in sizes of the target.
-        const SAME: f64 = 1e-3;
-        let is_same = |a: &[Complex], b: &[Complex]| a.iter().zip(b).all(|(a, b)| length(a - b) <= SAME);
-        let mut found: Vec<(Fit, Vec<Complex>)> = Vec::new();
-        for fit in self.refinements.iter().filter_map(|refinement| self.fit(refinement)) {
-            let feet = fit.linkage.curve(&fit.matching.poses);
-            match found.iter_mut().find(|(_, other)| is_same(other, &feet)) {
-                Some((other, _)) if other.matching.sum <= fit.matching.sum => {}
-                Some(other) => *other = (fit, feet),
-                None => found.push((fit, feet)),
-            }
-        }
-        found.sort_by(|a, b| a.0.matching.sum.total_cmp(&b.0.matching.sum));
-        found.into_iter().filter_map(|(fit, _)| self.answer(&fit)).take(self.options.most).collect()
+        let mut ranking = Ranking::default();
+        while ranking.step(self) {}
+        ranking.into_answers()
+    }
+
+    pub(super) fn refinements(&self) -> &[Refinement] {
+        &self.refinements
+    }
+
+    pub(super) fn most_answers(&self) -> usize {
+        self.options.most
     }
 
     /// How a refined linkage fits the target; `None` if it is not valid.
-    fn fit(&self, refinement: &Refinement) -> Option<Fit> {
+    pub(super) fn fit(&self, refinement: &Refinement) -> Option<Fit> {
         let linkage = refinement.linkage;
         if !self.limits.are_satisfied(&linkage) {
             return None;
@@ -537,7 +535,7 @@ impl<'i> Search<'i> {
     }
 
     /// The answer of a fit, if one of the four-bars that trace its curve meets the constraints.
-    fn answer(&self, Fit { linkage, matching, length_ratio }: &Fit) -> Option<Answer> {
+    pub(super) fn answer(&self, Fit { linkage, matching, length_ratio }: &Fit) -> Option<Answer> {
         let (size, centre) = self.target.placement();
         let original = linkage.transformed(Complex::new(size, 0.0), centre);
         let placed = original.to_placed();
@@ -587,9 +585,9 @@ impl<'i> Search<'i> {
 }
 
 /// A linkage with its points that are matched with those of the target.
-struct Fit {
-    linkage: Parameters,
-    matching: Matching,
+pub(super) struct Fit {
+    pub linkage: Parameters,
+    pub matching: Matching,
     length_ratio: f64,
 }
 
