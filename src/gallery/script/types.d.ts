@@ -37,6 +37,7 @@ type PageView = import("./view/page.js").PageView;
 type CurveTable = import("./find/table.js").CurveTable;
 type Filters = import("./find/filter.js").Filters;
 type Series = import("./data/series.js").Series;
+type Slices = import("./view/slices.js").Slices;
 
 /** What all views share; an address is opened, or replaced without opening it. */
 type App = {

@@ -31,9 +31,10 @@ export function decodeBase64(data) {
   return bytes;
 }
 
-const BASE91_LETTERS = 'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789!#$%&()*+,./:;-=>?@[]^_`{|}~"';
+const BASE91_LETTERS =
+  'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789!#$%&()*+,./:;-=>?@[]^_\x60{|}~"';
 
-/** Decodes bytes in basE91 with `-` in place of `<` (src/gallery/base91.rs). */
+/** Decodes bytes in basE91 with - in place of < (src/gallery/base91.rs). */
 export function decodeBase91(/** @type {string} */ text) {
   const digits = new Uint8Array(128);
   for (let k = 0; k < BASE91_LETTERS.length; k += 1) digits[BASE91_LETTERS.charCodeAt(k)] = k;

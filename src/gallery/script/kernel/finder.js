@@ -21,7 +21,7 @@ export class FourBarFinder {
    * seconds and at the end. In an index that is not complete by then, it searches again when it is.
    * @param {{ points: Float64Array, closed: boolean, name: string }} path
    * @param {{ fullTurn: boolean, maxLink: number }} options
-   * @param {import("../view/slices.js").Slices} slices @param {(found: FoundFourBars, isDone: boolean) => void} report
+   * @param {Slices} slices @param {(found: FoundFourBars, isDone: boolean) => void} report
    */
   find(path, options, slices, report) {
     return this.#after(async () => {
@@ -37,7 +37,7 @@ export class FourBarFinder {
   }
 
   /** Completes the index while nothing is searched. */
-  prepare(/** @type {import("../view/slices.js").Slices} */ slices) {
+  prepare(/** @type {Slices} */ slices) {
     return this.#after(() => this.#grow(slices, Infinity));
   }
 

@@ -15,7 +15,7 @@ export class ShapeSearch {
 
   /**
    * The curves of an index that are most like the path, the likeliest first; null if stopped.
-   * @param {ShapeIndex} index @param {import("../view/slices.js").Slices} slices @returns {Promise<Candidate[] | null>}
+   * @param {ShapeIndex} index @param {Slices} slices @returns {Promise<Candidate[] | null>}
    */
   async candidates({ family, first, curves }, slices) {
     for (let from = 0; ;) {

@@ -3,7 +3,8 @@
 import { withoutDuplicates, extentOf, resampled, lengthOf } from "./outline.js";
 
 // The number of points that are taken as they are, and of those that other shapes get.
-const [FEWEST_POINTS, MOST_POINTS] = [30, 200];
+const FEWEST_POINTS = 30;
+const MOST_POINTS = 200;
 const PATH_POINTS = 100;
 
 /**

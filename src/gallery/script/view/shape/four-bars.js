@@ -59,7 +59,7 @@ export class FourBarSection {
     );
   }
 
-  /** Searches for a shape in slices. @param {Shape} shape @param {import("../slices.js").Slices} slices */
+  /** Searches for a shape in slices. @param {Shape} shape @param {Slices} slices */
   async search(shape, slices) {
     const { fullTurn, maxLink, part, like } = this.query;
     this.element.hidden = false;

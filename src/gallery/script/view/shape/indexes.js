@@ -63,7 +63,7 @@ export function needPart({ family, pieces }) {
 /**
  * The index of the curves of a part, whose data must be loaded; null if stopped. One that is not kept is released by
  * `releaseIndex`.
- * @param {Kernel} kernel @param {SearchedPart} _ @param {import("../slices.js").Slices} slices @returns {Promise<ShapeIndex | null>}
+ * @param {Kernel} kernel @param {SearchedPart} _ @param {Slices} slices @returns {Promise<ShapeIndex | null>}
  */
 export async function shapeIndex(kernel, { family, first, count, isKept }, slices) {
   const known = keptIndexes(kernel, family);

@@ -14,7 +14,7 @@ const MAX_CANDIDATES = 120;
  * has whole curves near it, unless it is a part; an open one has open curves as wholes, and portions of others that are
  * as long as almost all of them. `progress(part, searched)` is called before each part.
  * @param {App} app @param {SearchedPart[]} parts @param {Shape} shape @param {SearchOptions} options
- * @param {import("../slices.js").Slices} slices @param {(part: SearchedPart, searched: number) => void} progress
+ * @param {Slices} slices @param {(part: SearchedPart, searched: number) => void} progress
  */
 export async function nearestCurves(app, parts, shape, options, slices, progress) {
   const { isPart, mirror, least, by } = options;
