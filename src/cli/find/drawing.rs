@@ -1,12 +1,12 @@
 //! A drawing of the path and the curves that have been found for it.
 
-use coupler_curves::find::Answer;
+use coupler_curves::find::{Answer, format_length as number, format_relative as relative};
 use coupler_drawing::page::{self, AnswersPage, FoundCurve, Options, Paper};
 use coupler_drawing::render::{self, TextMode};
 
 use super::super::format::pluralize;
 use super::Report;
-use super::text::{dimensions, number, relative};
+use super::text::dimensions;
 
 /// The most curves of a drawing: more of them hide each other.
 const MAX_CURVES: usize = 5;

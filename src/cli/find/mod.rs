@@ -2,7 +2,6 @@
 
 mod drawing;
 mod json;
-mod manifest;
 mod text;
 
 use std::path::{Path, PathBuf};
@@ -12,7 +11,7 @@ use coupler_atlas::find::{self, MAX_CURVES, MAX_POINTS};
 use coupler_atlas::output;
 use coupler_curves::expression::Expression;
 use coupler_curves::find::{
-    Answer, Condition, Constraint, Effort, Index, Options, PathKind, Search, Target, nearest_miss,
+    Answer, Condition, Constraint, Effort, Index, Options, PathKind, Search, Target, answers_manifest, nearest_miss,
 };
 use coupler_curves::geometry::{Bounds, Point};
 
@@ -172,7 +171,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     }
     match (arguments.json, arguments.toml) {
         (true, _) => print_bytes(json::json(&report)?.as_bytes())?,
-        (_, true) => print_bytes(manifest::manifest(&report).as_bytes())?,
+        (_, true) => print_bytes(answers_manifest(&report.title(), report.target.size(), &report.answers).as_bytes())?,
         _ => print(&text::text(&report))?,
     }
     Ok(Outcome::Done)

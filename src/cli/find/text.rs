@@ -2,10 +2,10 @@
 
 use std::fmt::Write;
 
-use coupler_curves::find::{Answer, Constraint, Mechanism};
-use coupler_curves::linkage::{FourBar, PlacedFourBar, Side};
+use coupler_curves::find::{Answer, Constraint, Mechanism, format_length as number, format_relative as relative};
+use coupler_curves::linkage::{FourBar, PlacedFourBar};
 
-use super::super::format::{format_significant, pluralize};
+use super::super::format::pluralize;
 use super::Report;
 
 /// A table of the answers, each row followed by its dimensions and its cognates.
@@ -56,17 +56,8 @@ fn row(answer: &Answer, size: f64) -> [String; 9] {
         angle(mechanism.mu_worst_deg),
         format!("{} = {:.2} S", number(longest, size), longest / size),
         if answer.is_in_order { "yes" } else { "no" }.to_owned(),
-        direction(mechanism).to_owned(),
+        mechanism.direction().to_owned(),
     ]
-}
-
-/// The direction in which the crank turns as the path is followed.
-pub(super) fn direction(mechanism: &Mechanism) -> &'static str {
-    if mechanism.is_reversed { "backward" } else { "forward" }
-}
-
-pub(super) fn side(mechanism: &Mechanism) -> &'static str {
-    if mechanism.side == Side::Left { "left" } else { "right" }
 }
 
 /// The dimensions of a four-bar, in six significant digits.
@@ -87,7 +78,7 @@ pub(super) fn dimensions(mechanism: &Mechanism, size: f64) -> String {
 fn place(mechanism: &Mechanism, size: f64) -> String {
     let [crank, rocker] = mechanism.four_bar.pivots.map(|p| format!("({}, {})", number(p.x, size), number(p.y, size)));
     let [from, to] = mechanism.input_deg.map(angle);
-    let rocker_pin = format!("rocker pin on the {}", side(mechanism));
+    let rocker_pin = format!("rocker pin on the {}", mechanism.side_name());
     format!("crank pivot {crank}, rocker pivot {rocker}; crank from {from} to {to}, {rocker_pin} at first")
 }
 
@@ -95,17 +86,6 @@ fn place(mechanism: &Mechanism, size: f64) -> String {
 fn summary(mechanism: &Mechanism) -> String {
     let constraints = if mechanism.meets_constraints { "" } else { ", outside the constraints" };
     format!("{}, mu worst {}{constraints}", mechanism.class, angle(mechanism.mu_worst_deg))
-}
-
-/// A length in six significant digits, for a path of a size: what is 0 but for rounding is 0.
-pub(super) fn number(value: f64, size: f64) -> String {
-    const ROUNDING: f64 = 1e-12;
-    if value.abs() < ROUNDING * size { "0".to_owned() } else { format_significant(value, 6, 1e-4 * size.min(1.0)) }
-}
-
-/// A deviation relative to the size of the path.
-pub(super) fn relative(value: f64) -> String {
-    number(format_significant(value, 3, 0.0).parse().unwrap_or(value), 1.0)
 }
 
 fn angle(degrees: f64) -> String {

@@ -16,7 +16,7 @@ mod table;
 pub use curve_name::{CurveName, CurveNameError};
 pub use fragment::manifest_fragment;
 pub use json::{Members, PassDocument};
-pub use number::{append_integer, append_number};
+pub use number::{append_integer, append_number, format_significant};
 pub use table::PointTable;
 
 use crate::family::{Family, ParameterText, Sampling};

@@ -19,6 +19,17 @@ pub fn append_number(value: f64, out: &mut Vec<u8>) {
     }
 }
 
+/// A number rounded to `digits` significant digits without trailing zeros; in scientific notation if its magnitude is
+/// below `least_decimal` or at least 1e7.
+pub fn format_significant(value: f64, digits: usize, least_decimal: f64) -> String {
+    let rounded: f64 = format!("{value:.*e}", digits - 1).parse().unwrap_or(value);
+    match rounded {
+        0.0 => "0".to_owned(),
+        x if x.is_finite() && !(least_decimal..1e7).contains(&x.abs()) => format!("{x:e}"),
+        x => x.to_string(),
+    }
+}
+
 /// Appends a whole number.
 pub fn append_integer(value: usize, out: &mut Vec<u8>) {
     out.extend_from_slice(itoa::Buffer::new().format(value).as_bytes());

@@ -99,6 +99,16 @@ impl Mechanism {
         parameters(&self.four_bar)
     }
 
+    /// The direction in which the crank turns as the target is followed: `forward` if the input rises at its first point.
+    pub fn direction(&self) -> &'static str {
+        if self.is_reversed { "backward" } else { "forward" }
+    }
+
+    /// [`Mechanism::side`] in a word.
+    pub fn side_name(&self) -> &'static str {
+        if self.side == Side::Left { "left" } else { "right" }
+    }
+
     /// The greatest distance of two joints of a link.
     pub fn longest_link(&self) -> f64 {
         let PlacedFourBar { lengths: FourBar { frame, crank, coupler, rocker }, coupler_point: point, .. } =

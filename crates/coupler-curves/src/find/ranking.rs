@@ -1,35 +1,70 @@
-//! The answers of a search: refined linkages without those whose curves are the same, with their cognates.
+//! The answers of a search, made from its refinements in bounded steps: those whose curves are the same are one, with its cognates.
 
 use super::answer::Answer;
 use super::complex::{Complex, length};
 use super::fitting::{Fit, Fitting};
 use super::mechanism::Mechanism;
 use super::parameters::Parameters;
-use super::refinement::Refinement;
+use super::search::Search;
 use super::timing::Timing;
 use crate::geometry::Point;
 use crate::linkage::{Cognate, Cognates, PlacedFourBar};
 
-impl Fitting {
-    /// The answers of refined linkages, the nearest first, at most `most`. Those whose curves are the same to a thousandth of the
-    /// target's size are one.
-    pub fn answers(&self, refinements: &[Refinement], most: usize) -> Vec<Answer> {
+/// Makes the answers of a search so far, the nearest first. Those whose curves are the same to a thousandth of the target's size are
+/// one. The search takes no step meanwhile.
+#[derive(Default)]
+pub struct Ranking {
+    /// How many refinements are compared.
+    compared: usize,
+    /// The fits that differ, with the points of the curves at those of the target.
+    found: Vec<(Fit, Vec<Complex>)>,
+    /// The answers that are made, and the number of the next fit.
+    answers: Vec<Answer>,
+    next: usize,
+}
+
+impl Ranking {
+    /// Takes a step, of a few milliseconds at most for a target of a hundred points; false if nothing is left to do.
+    pub fn step(&mut self, search: &Search) -> bool {
+        if let Some(refinement) = search.refinements().get(self.compared) {
+            self.compared += 1;
+            if let Some(fit) = search.fitting().fit(refinement) {
+                self.add(fit);
+            }
+            return true;
+        }
+        if self.next == 0 {
+            self.found.sort_by(|a, b| a.0.matching.sum.total_cmp(&b.0.matching.sum));
+        }
+        if self.answers.len() == search.most_answers() {
+            return false;
+        }
+        let Some((fit, _)) = self.found.get(self.next) else { return false };
+        self.answers.extend(search.fitting().answer(fit));
+        self.next += 1;
+        true
+    }
+
+    /// Adds a fit, unless one that is at least as near has the same curve.
+    fn add(&mut self, fit: Fit) {
         /// The distance up to which curves are the same, in sizes of the target.
         const SAME: f64 = 1e-3;
         let is_same = |a: &[Complex], b: &[Complex]| a.iter().zip(b).all(|(a, b)| length(a - b) <= SAME);
-        let mut found: Vec<(Fit, Vec<Complex>)> = Vec::new();
-        for fit in refinements.iter().filter_map(|refinement| self.fit(refinement)) {
-            let feet = fit.linkage.curve(&fit.matching.poses);
-            match found.iter_mut().find(|(_, other)| is_same(other, &feet)) {
-                Some((other, _)) if other.matching.sum <= fit.matching.sum => {}
-                Some(other) => *other = (fit, feet),
-                None => found.push((fit, feet)),
-            }
+        let feet = fit.linkage.curve(&fit.matching.poses);
+        match self.found.iter_mut().find(|(_, other)| is_same(other, &feet)) {
+            Some((other, _)) if other.matching.sum <= fit.matching.sum => {}
+            Some(other) => *other = (fit, feet),
+            None => self.found.push((fit, feet)),
         }
-        found.sort_by(|a, b| a.0.matching.sum.total_cmp(&b.0.matching.sum));
-        found.into_iter().filter_map(|(fit, _)| self.answer(&fit)).take(most).collect()
     }
 
+    /// The answers.
+    pub fn into_answers(self) -> Vec<Answer> {
+        self.answers
+    }
+}
+
+impl Fitting {
     /// The answer of a fit, if one of the four-bars that trace its curve meets the constraints.
     fn answer(&self, Fit { linkage, matching, length_ratio }: &Fit) -> Option<Answer> {
         let (size, centre) = self.target.placement();

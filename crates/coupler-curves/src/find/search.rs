@@ -7,6 +7,7 @@ use super::index::Index;
 use super::lookup::Lookup;
 use super::options::{Effort, Options};
 use super::parameters::Parameters;
+use super::ranking::Ranking;
 use super::refinement::Refinement;
 use super::scatter::Scatter;
 use super::target::{PathKind, Target};
@@ -133,9 +134,23 @@ impl Search {
     }
 
     /// The answers that have been found so far, the nearest first. Those whose curves are the same to a thousandth of the
-    /// target's size are one.
+    /// target's size are one. A [`Ranking`] makes them in steps.
     pub fn answers(&self) -> Vec<Answer> {
-        self.fitting.answers(&self.refinements, self.options.most)
+        let mut ranking = Ranking::default();
+        while ranking.step(self) {}
+        ranking.into_answers()
+    }
+
+    pub(super) fn fitting(&self) -> &Fitting {
+        &self.fitting
+    }
+
+    pub(super) fn refinements(&self) -> &[Refinement] {
+        &self.refinements
+    }
+
+    pub(super) fn most_answers(&self) -> usize {
+        self.options.most
     }
 
     fn start_count(&self) -> usize {

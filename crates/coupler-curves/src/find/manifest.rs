@@ -2,12 +2,11 @@
 
 use std::fmt::Write;
 
-use coupler_curves::find::{Answer, Mechanism};
-use coupler_curves::linkage::Side;
-use coupler_curves::linkage_format::quoted;
-
-use super::Report;
-use super::text::{number, relative};
+use super::answer::Answer;
+use super::mechanism::Mechanism;
+use super::significant::{format_length, format_relative};
+use crate::linkage::Side;
+use crate::linkage_format::quoted;
 
 /// The linkages of a manifest: a four-bar whose crank turns fully has a circuit for each side of its rocker pin, and of others all
 /// circuits are drawn.
@@ -24,28 +23,28 @@ fn form_of(mechanism: &Mechanism) -> &'static str {
     }
 }
 
-/// A complete manifest: linkages with their pivots where they are on the path, and families with a case for each answer, in order
-/// of rank.
-pub(super) fn manifest(report: &Report) -> String {
-    let title = quoted(&format!("Linkages for {}", report.title()));
+/// A complete manifest that renders answers, for a path with a name and a size: linkages with their pivots where they are on the
+/// path, and families with a case for each answer, in order of rank.
+pub fn answers_manifest(name: &str, size: f64, answers: &[Answer]) -> String {
+    let title = quoted(&format!("Linkages for {name}"));
     let mut out = format!(
         "# Linkages found by `coupler-atlas find`; `coupler-atlas render` draws them.\n\n[atlas]\ntitle = {title}\n\
          formats = [\"svg\"]\n\n[page]\npaper = \"a4\"\n"
     );
     for form in FORMS {
-        let ranked = (1..).zip(&report.answers).filter(|(_, answer)| form_of(&answer.mechanism) == form);
+        let ranked = (1..).zip(answers).filter(|(_, answer)| form_of(&answer.mechanism) == form);
         let ranked: Vec<(usize, &Answer)> = ranked.collect();
         if !ranked.is_empty() {
-            append_family(form, &ranked, report, &mut out);
+            append_family((form, &title), &ranked, size, &mut out);
         }
     }
-    if report.answers.is_empty() {
+    if answers.is_empty() {
         out.push_str("\n# No linkage meets the constraints.\n");
     }
     out
 }
 
-fn append_family(form: &str, ranked: &[(usize, &Answer)], report: &Report, out: &mut String) {
+fn append_family((form, title): (&str, &str), ranked: &[(usize, &Answer)], size: f64, out: &mut String) {
     let id = &Mechanism::template().id;
     let mut linkage = Mechanism::TEMPLATE_TOML.replace(&format!("id = \"{id}\""), &format!("id = \"{id}-{form}\""));
     if form != ROCKING {
@@ -54,17 +53,15 @@ fn append_family(form: &str, ranked: &[(usize, &Answer)], report: &Report, out: 
     }
     let columns = ranked.len().min(3);
     let rows = ranked.len().div_ceil(columns).min(3);
-    let title = quoted(&format!("Linkages for {}", report.title()));
     // Writing to a string cannot fail.
     let _ = write!(
         out,
         "\n{linkage}\n[[family]]\nid = \"found-{form}\"\nlinkage = \"{id}-{form}\"\ntitle = {title}\npanels = [{columns}, {rows}]\n\
          cases = [\n"
     );
-    let size = report.target.size();
     for (rank, answer) in ranked {
         let values = answer.mechanism.parameters().map(|(name, value)| format!("{name} = {}", rounded(value, size)));
-        let deviation = format!("E = {} = {} S", number(answer.rms, size), relative(answer.rms_relative));
+        let deviation = format!("E = {} = {} S", format_length(answer.rms, size), format_relative(answer.rms_relative));
         let _ = writeln!(out, "    {{ {} }}, # {rank}: {deviation}", values.join(", "));
     }
     out.push_str("]\n");
