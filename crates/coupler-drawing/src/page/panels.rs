@@ -4,7 +4,7 @@ use super::area::Area;
 use super::arrangement::{Arrangement, Extents};
 use super::element::{Drawing, TextLine};
 use super::figure::{self, Figure};
-use super::heading::{foot_baseline, margins};
+use super::heading::margins;
 use super::key;
 use super::rect::Rect;
 use super::symbols::{self, Mark, Symbol};
@@ -58,8 +58,8 @@ fn common_crank(figures: &[Option<Figure>]) -> Option<f64> {
     cranks.first().copied().filter(is_common)
 }
 
-/// The lines that explain the symbols of a page and the scale bars at its foot, left of the folio, with their positions;
-/// and the greatest y of the contents.
+/// The lines that explain the symbols of a page and the scale bars at its foot, with their positions; and the greatest y of the
+/// contents.
 fn layout_symbols(
     root: &impl Area,
     page: &PanelPage,
@@ -67,19 +67,9 @@ fn layout_symbols(
     scale: Symbol,
     theme: &Theme,
 ) -> (Vec<(Point, Vec<Symbol>)>, f64) {
-    const LEADING: f64 = 1.45;
-    let [_, bottom, _] = margins(theme);
-    let [left, right] = [theme.border + theme.margin, root.size().x - theme.border - theme.margin];
-    let folio = page.heading.folio_width(root.size(), theme);
     // A page without figures has no symbols.
     let explained: Vec<Symbol> = symbols.iter().cloned().chain((!symbols.is_empty()).then_some(scale)).collect();
-    let lines = symbols::lines(&explained, right - left - folio - 2.0 * theme.note_size, theme);
-    let step = LEADING * theme.note_size;
-    let height = (step * lines.len().saturating_sub(1) as f64).max(page.heading.folio_height(root.size(), theme));
-    let above = root.size().y - bottom - height;
-    let first = foot_baseline(root.size(), theme) - step * lines.len().saturating_sub(1) as f64;
-    let placed = lines.into_iter().enumerate().map(|(k, line)| (Point::new(left, first + step * k as f64), line));
-    (placed.collect(), above)
+    symbols::at_foot(root.size(), &page.heading, &explained, theme)
 }
 
 /// The symbols of all figures of a page, each once, and those of the texts under them.
@@ -150,22 +140,19 @@ fn draw_panels<A: Area>(
     let width = size.x - 1.2 * theme.caption_size;
     let facts = FactsLayout::for_page(page, width, theme);
     let theme = &with_equal_captions(page, width, theme);
-    let texts = |facts: FactsLayout, has_notes: bool| -> Vec<Vec<TextLine>> {
+    let texts = |TextChoice { facts, has_notes, width, .. }: TextChoice| -> Vec<Vec<TextLine>> {
         let lines = |panel| panel_lines(panel, (facts, has_notes), width, page.heading.symbols, theme);
         page.panels.iter().map(lines).collect()
     };
     let height = |lines: &Vec<TextLine>| lines.iter().map(leading).sum::<f64>();
     let foot = |texts: &[Vec<TextLine>]| texts.iter().map(height).fold(0.0, f64::max) + 2.2 * theme.caption_size;
-    /// The part of a panel that is left to its figure, however long its text is.
-    const MIN_FIGURE: f64 = 0.4;
-    let most_text = (1.0 - MIN_FIGURE) * size.y;
-    // Facts, and then notes, that leave too little to the figures are left out: captions say how the linkages are built, and the
-    // facts are in the table of cells.
-    let fits = |(facts, has_notes): &(FactsLayout, bool)| foot(&texts(*facts, *has_notes)) <= most_text;
-    let choices = [(facts, true), (FactsLayout::None, true)];
-    let (facts, has_notes) = choices.into_iter().find(fits).unwrap_or((FactsLayout::None, false));
-    let texts = texts(facts, has_notes);
-    let foot = foot(&texts).min(most_text);
+    let most_text = |choice: &TextChoice| (1.0 - choice.min_figure) * size.y;
+    let fits = |choice: &TextChoice| foot(&texts(*choice)) <= most_text(choice);
+    let choices = TextChoice::in_order(facts, width, theme);
+    let choice = choices.into_iter().find(fits).unwrap_or(choices[choices.len() - 1]);
+    let TextChoice { facts, has_notes, .. } = choice;
+    let texts = texts(choice);
+    let foot = foot(&texts).min(most_text(&choice));
     // One arrangement fits all panels: a page is split to within a hundredth of a millimetre.
     let figure_rect = |area: &A| {
         let gap = 1.2 * theme.caption_size;
@@ -213,6 +200,32 @@ fn draw_panels<A: Area>(
         draw_lines(area, lines, area.size().y - foot, theme);
     }
     DrawnPanels { scale, has_facts: facts != FactsLayout::None, has_notes, has_enlarged }
+}
+
+/// A choice of the texts under the figures.
+#[derive(Clone, Copy)]
+struct TextChoice {
+    facts: FactsLayout,
+    has_notes: bool,
+    /// The width of a line.
+    width: f64,
+    /// The part of a panel that is left to its figure, however long its text is.
+    min_figure: f64,
+}
+
+impl TextChoice {
+    /// The choices from the best to the last, for lines of a width.
+    ///
+    /// Facts, and then notes, that leave too little to the figures are left out: captions say how the linkages are built, and the facts
+    /// are in the table of cells. Notes may have dimensions, such as those of cognates, so that before they are left out they
+    /// take a little more of the panel, up to the gap to the next.
+    fn in_order(facts: FactsLayout, width: f64, theme: &Theme) -> [TextChoice; 4] {
+        let all = TextChoice { facts, has_notes: true, width, min_figure: 0.4 };
+        let without_facts = TextChoice { facts: FactsLayout::None, ..all };
+        let with_tight_notes =
+            TextChoice { width: width + 0.7 * theme.caption_size, min_figure: 0.35, ..without_facts };
+        [all, without_facts, with_tight_notes, TextChoice { has_notes: false, ..without_facts }]
+    }
 }
 
 /// The theme with the size of captions at which all of a page fit on a line, if that is not much smaller.

@@ -183,23 +183,35 @@ impl<'a> Key<'a> {
             !label.joints.iter().all(is_fixed) || label.joints.iter().all(|end| pivots.contains(end))
         };
         let links = self.page.labels.iter().filter(is_link);
-        let mut names: Vec<(&str, [Point; 2])> =
-            links.map(|label| (label.text.as_str(), label.joints.map(|joint| self.at(joint)))).collect();
+        let mut names: Vec<(&str, [Point; 2], Option<Point>)> =
+            links.map(|label| (label.text.as_str(), label.joints.map(|joint| self.at(joint)), None)).collect();
         if let Some([from, foot, point]) = self.coordinate_corners() {
-            let coordinates = [("across", [foot, point]), ("along", [foot, from])];
-            names.extend(coordinates.into_iter().filter(|(_, [a, b])| (b - a).norm() > 2.0 * self.letter));
+            // On the other side of the point, so that it cannot be read as the name of the line across.
+            let coordinates = [("across", [foot, point], None), ("along", [foot, from], Some(point))];
+            names.extend(coordinates.into_iter().filter(|(_, [a, b], _)| (b - a).norm() > 0.8 * self.letter));
         }
         let mut placed: Vec<(TextLine, LabelBox)> = Vec::new();
-        for (name, ends) in names {
+        for (name, ends, not_beside) in names {
             let line = self.theme.text_line(name, Point::origin(), Anchor::Middle, self.letter, self.theme.grey);
             let mut line = line.with_italics(self.page.heading.symbols);
             let half = self.half_size(&line.text);
             let is_free = |spot: &LabelBox| {
+                let side_of = |at: Point| cross(ends[1] - ends[0], at - ends[0]);
                 spot.is_inside(self.frame)
+                    && not_beside.is_none_or(|point| side_of(point) * side_of(spot.centre) < 0.0)
                     && placed.iter().all(|(_, other)| spot.distance_to_box(other) > self.label_gap())
             };
-            let spots = label_boxes(ends, self.centre, half, 0.45 * self.letter).filter(is_free);
-            if let Some((_, spot)) = labels::clearest_box(spots, |spot| obstacles.clearance(spot, 0.3 * self.letter)) {
+            let enough = 0.3 * self.letter;
+            let clearest = |gap: f64| {
+                let spots = label_boxes(ends, self.centre, half, gap * self.letter).filter(is_free);
+                labels::clearest_box(spots, |spot| obstacles.clearance(spot, enough))
+            };
+            // Further away if everywhere next to the line it would touch another: all lines count as heavy, so that a quarter is for
+            // the light ones.
+            let touches = |(clearance, _): &(f64, LabelBox)| *clearance < 0.35 * enough;
+            let near = clearest(0.45);
+            let far = near.filter(touches).and_then(|_| clearest(1.2));
+            if let Some((_, spot)) = far.filter(|far| !touches(far)).or(near) {
                 line.text.position = spot.centre + Vector::new(0.0, half.y);
                 placed.push((line, spot));
             }
