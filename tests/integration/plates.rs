@@ -355,7 +355,7 @@ fn coupler_grids_have_the_scale_that_the_manifest_gives_or_say_that_they_are_red
 }
 
 #[test]
-fn the_lengths_of_cognates_are_in_forty_panels_and_smaller_panels_say_that_they_are_left_out() {
+fn the_lengths_of_cognates_are_under_their_panels_or_as_formulas_in_the_key() {
     let cognates = |panels: &str, paper: &str| {
         let text = family(&format!(
             "id = \"f\"\nlinkage = \"cognates\"\npanels = {panels}\n\
@@ -370,11 +370,31 @@ fn the_lengths_of_cognates_are_in_forty_panels_and_smaller_panels_say_that_they_
         let lengths = ["OD", "DE", "QE", "OQ", "CF", "FG", "QG", "CQ"]
             .map(|name| lines.iter().filter(|line| line.contains(&format!("{name} = "))).count());
         assert!(lengths.iter().all(|count| *count == lengths[0]), "{lengths:?}");
-        (lengths[0], lines.iter().any(|line| line == "notes that need larger panels are left out"))
+        let has_formulas = lines.iter().any(|line| line.contains("QE = s √(u2 + v2) / a"));
+        assert!(!lines.iter().any(|line| line == "notes that need larger panels are left out"));
+        (lengths[0], has_formulas)
     };
-    assert_eq!(cognates("[8, 5]", "\"a4\""), (40, false));
+    assert_eq!(cognates("[8, 5]", "\"a4\""), (1, true));
+    assert_eq!(cognates("[4, 3]", "\"tabloid\""), (12, false));
     assert_eq!(cognates("[2, 2]", "\"a4\""), (4, false));
-    assert_eq!(cognates("[8, 5]", "{ width = \"240 mm\", height = \"170 mm\" }"), (0, true));
+}
+
+#[test]
+fn notes_that_do_not_fit_their_panels_are_left_out_whole_and_this_is_said() {
+    let measured = |panels: &str| {
+        let note = "the transmission angle is from {mu_min_deg:.2} to {mu_max_deg:.2} degrees, and the curve is {length:.3} long in all";
+        let text = family(&format!(
+            "id = \"f\"\nlinkage = \"four-bar\"\nnote = \"{note}\"\npanels = {panels}\n\
+             grid = {{ crank = [0.5, 0.75, 1, 1.25, 1.5], along = [0, 1, 2, 3, 4, 5, 6, 7] }}\n\
+             let = {{ frame = 4, coupler = 3, rocker = 3.5 }}"
+        ));
+        let text = text.replace("[[family]]", "[page]\npaper = \"a4\"\n[[family]]");
+        let plan = plan(&text);
+        let lines = texts(&pages(&text, &plan)[0].svg);
+        let notes = lines.iter().filter(|line| line.starts_with("the transmission angle is")).count();
+        (notes, lines.iter().any(|line| line == "notes that need larger panels are left out"))
+    };
+    assert_eq!(["[8, 5]", "[2, 2]"].map(measured), [(0, true), (4, false)]);
 }
 
 #[test]
@@ -386,8 +406,8 @@ fn a_crank_that_its_joints_would_hide_is_longer_in_the_key_which_says_so() {
         ));
         let plan = plan(&text);
         let svg = pages(&text, &plan).remove(0).svg;
-        // The key is drawn before the panels; its joints are circles of two radii and their middles.
-        let linkage = groups(&svg, "linkage")[0].to_owned();
+        // The key is drawn after the panel; a pivot has circles of two radii.
+        let linkage = groups(&svg, "linkage")[1].to_owned();
         let circles = linkage.split("<circle ").skip(1).map(|circle| {
             ["cx", "cy", "r"].map(|name| {
                 let value = circle.split(&format!("{name}=\"")).nth(1).unwrap();

@@ -30,6 +30,8 @@ pub struct Key {
     pub dimensions: Vec<MathText>,
     /// The name of each joint, and how it is placed.
     pub joints: Vec<(String, MathText)>,
+    /// The formulas of the note under each panel, if its values follow from the parameters, such as the lengths of cognates.
+    pub note: Option<MathText>,
     /// What drives the linkage, what it drives, and from where it is seen.
     pub remarks: Vec<String>,
     /// Which straight portions are marked.
@@ -44,7 +46,7 @@ impl Key {
 
     /// The key of one cell, with all its dimensions.
     pub fn for_cell(family: &Family, cell: &Cell) -> Key {
-        Key::with_dimensions(family, family.cell_dimensions(cell))
+        Key { note: None, ..Key::with_dimensions(family, family.cell_dimensions(cell)) }
     }
 
     fn with_dimensions(family: &Family, dimensions: Vec<MathText>) -> Key {
@@ -53,10 +55,19 @@ impl Key {
         Key {
             dimensions,
             joints: template.joints.iter().enumerate().map(joint).collect(),
+            note: note_formulas(family),
             remarks: remarks(template),
             straight: straight_criterion_text(family.straight, if template.is_driven_by_length() { "" } else { "°" }),
         }
     }
+}
+
+/// The note of a family's panels with formulas in place of values, if it has any and all are of parameters.
+fn note_formulas(family: &Family) -> Option<MathText> {
+    let note = family.captions[1].as_ref()?;
+    let mut names = note.expressions().flat_map(|(expression, _)| expression.names());
+    let has_values = note.expressions().next().is_some();
+    (has_values && names.all(|name| family.names.contains(name))).then(|| note.to_math_text())
 }
 
 /// The input, the output and the frame of a linkage in words.
@@ -241,6 +252,8 @@ impl KeyLines {
             }
         }
         let first_remark = rows.len();
+        let formulas = key.note.iter().flat_map(|note| note.wrap(fits_column));
+        rows.extend(formulas.map(|part| (None, line(&part, theme.grey), 0.0)));
         for remark in &key.remarks {
             let text = theme.text_line(remark, Point::origin(), Anchor::Start, em, theme.grey);
             let wrapped = text.wrap(width);

@@ -5,7 +5,7 @@ use super::arrangement::{Arrangement, Extents};
 use super::element::{Drawing, TextLine};
 use super::figure::{self, Figure};
 use super::heading::margins;
-use super::key;
+use super::key::{self, Key};
 use super::rect::Rect;
 use super::symbols::{self, Mark, Symbol};
 use super::theme::Theme;
@@ -31,17 +31,22 @@ pub(super) fn compose(root: &impl Area, page: &PanelPage, options: &Options, the
         Some(_) => key::divide(contents, theme),
         None => (contents, None),
     };
-    if let (Some(key), Some(rect)) = (page.key, key) {
-        let figures: Vec<&Figure> = figures.iter().flatten().collect();
-        key::draw(root, rect.inset(0.5 * theme.margin), key, key::clearest_figure(&figures), theme);
-    }
     let far = panels.corner + panels.size;
     let area = root.without_margins([panels.corner.y, root.size().y - far.y, panels.corner.x, root.size().x - far.x]);
     let drawn = draw_panels(&area, page, &figures, period, theme);
+    let mut has_formulas = false;
+    if let (Some(key), Some(rect)) = (page.key, key) {
+        let figures: Vec<&Figure> = figures.iter().flatten().collect();
+        // Where the numbers are left out, the formulas are in the key.
+        let note = key.note.clone().filter(|_| !drawn.has_notes);
+        has_formulas = note.is_some();
+        let key = Key { note, ..key.clone() };
+        key::draw(root, rect.inset(0.5 * theme.margin), &key, key::clearest_figure(&figures), theme);
+    }
     symbols.retain(|symbol| match symbol.meaning.as_str() {
         TRANSMISSION_ANGLE | LIMITS_OF_TRANSMISSION => drawn.has_facts,
         NOT_ENLARGED => drawn.has_enlarged,
-        NOTES_LEFT_OUT => !drawn.has_notes,
+        NOTES_LEFT_OUT => !drawn.has_notes && !has_formulas,
         _ => true,
     });
     let scale = symbols::scale_bar(drawn.scale, common_crank(&figures));
@@ -140,19 +145,22 @@ fn draw_panels<A: Area>(
     let width = size.x - 1.2 * theme.caption_size;
     let facts = FactsLayout::for_page(page, width, theme);
     let theme = &with_equal_captions(page, width, theme);
-    let texts = |TextChoice { facts, has_notes, width, .. }: TextChoice| -> Vec<Vec<TextLine>> {
+    let texts = |facts: FactsLayout, has_notes: bool| -> Vec<Vec<TextLine>> {
         let lines = |panel| panel_lines(panel, (facts, has_notes), width, page.heading.symbols, theme);
         page.panels.iter().map(lines).collect()
     };
     let height = |lines: &Vec<TextLine>| lines.iter().map(leading).sum::<f64>();
     let foot = |texts: &[Vec<TextLine>]| texts.iter().map(height).fold(0.0, f64::max) + 2.2 * theme.caption_size;
-    let most_text = |choice: &TextChoice| (1.0 - choice.min_figure) * size.y;
-    let fits = |choice: &TextChoice| foot(&texts(*choice)) <= most_text(choice);
-    let choices = TextChoice::in_order(facts, width, theme);
-    let choice = choices.into_iter().find(fits).unwrap_or(choices[choices.len() - 1]);
-    let TextChoice { facts, has_notes, .. } = choice;
-    let texts = texts(choice);
-    let foot = foot(&texts).min(most_text(&choice));
+    /// The part of a panel that is left to its figure, however long its text is.
+    const MIN_FIGURE: f64 = 0.4;
+    let most_text = (1.0 - MIN_FIGURE) * size.y;
+    // Facts, and then notes, that leave too little to the figures are left out: captions say how the linkages are built, and the
+    // facts are in the table of cells. The key has the formulas of such notes.
+    let fits = |(facts, has_notes): &(FactsLayout, bool)| foot(&texts(*facts, *has_notes)) <= most_text;
+    let choices = [(facts, true), (FactsLayout::None, true)];
+    let (facts, has_notes) = choices.into_iter().find(fits).unwrap_or((FactsLayout::None, false));
+    let texts = texts(facts, has_notes);
+    let foot = foot(&texts).min(most_text);
     // One arrangement fits all panels: a page is split to within a hundredth of a millimetre.
     let figure_rect = |area: &A| {
         let gap = 1.2 * theme.caption_size;
@@ -200,32 +208,6 @@ fn draw_panels<A: Area>(
         draw_lines(area, lines, area.size().y - foot, theme);
     }
     DrawnPanels { scale, has_facts: facts != FactsLayout::None, has_notes, has_enlarged }
-}
-
-/// A choice of the texts under the figures.
-#[derive(Clone, Copy)]
-struct TextChoice {
-    facts: FactsLayout,
-    has_notes: bool,
-    /// The width of a line.
-    width: f64,
-    /// The part of a panel that is left to its figure, however long its text is.
-    min_figure: f64,
-}
-
-impl TextChoice {
-    /// The choices from the best to the last, for lines of a width.
-    ///
-    /// Facts, and then notes, that leave too little to the figures are left out: captions say how the linkages are built, and the facts
-    /// are in the table of cells. Notes may have dimensions, such as those of cognates, so that before they are left out they
-    /// take a little more of the panel, up to the gap to the next.
-    fn in_order(facts: FactsLayout, width: f64, theme: &Theme) -> [TextChoice; 4] {
-        let all = TextChoice { facts, has_notes: true, width, min_figure: 0.4 };
-        let without_facts = TextChoice { facts: FactsLayout::None, ..all };
-        let with_tight_notes =
-            TextChoice { width: width + 0.7 * theme.caption_size, min_figure: 0.35, ..without_facts };
-        [all, without_facts, with_tight_notes, TextChoice { has_notes: false, ..without_facts }]
-    }
 }
 
 /// The theme with the size of captions at which all of a page fit on a line, if that is not much smaller.

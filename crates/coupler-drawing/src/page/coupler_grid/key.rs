@@ -202,15 +202,15 @@ impl<'a> Key<'a> {
                     && placed.iter().all(|(_, other)| spot.distance_to_box(other) > self.label_gap())
             };
             let enough = 0.3 * self.letter;
-            let clearest = |gap: f64| {
-                let spots = label_boxes(ends, self.centre, half, gap * self.letter).filter(is_free);
+            let clearest = |parts: &[f64]| {
+                let spots = label_boxes(ends, self.centre, half, 0.45 * self.letter, parts).filter(is_free);
                 labels::clearest_box(spots, |spot| obstacles.clearance(spot, enough))
             };
-            // Further away if everywhere next to the line it would touch another: all lines count as heavy, so that a quarter is for
-            // the light ones.
+            // Beyond a short line to the point if everywhere next to it the name would touch another line: all lines count as heavy, so
+            // that a quarter of the clearance is for the light ones.
             let touches = |(clearance, _): &(f64, LabelBox)| *clearance < 0.35 * enough;
-            let near = clearest(0.45);
-            let far = near.filter(touches).and_then(|_| clearest(1.2));
+            let near = clearest(&BESIDE);
+            let far = near.filter(|near| not_beside.is_none() && touches(near)).and_then(|_| clearest(&BEYOND));
             if let Some((_, spot)) = far.filter(|far| !touches(far)).or(near) {
                 line.text.position = spot.centre + Vector::new(0.0, half.y);
                 placed.push((line, spot));
@@ -245,14 +245,24 @@ fn nearest_point<'a>(linkage: &Linkage, shown: &'a [ShownCurve<'a>]) -> Option<&
     points.min_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, s)| s)
 }
 
-/// The candidate positions of a label next to a link, the best first: at the middle of the link, on the side away from
+/// The places of a name beside a line, as parts of its length, the best first; and those beyond its end.
+const BESIDE: [f64; 5] = [0.5, 0.35, 0.65, 0.2, 0.8];
+const BEYOND: [f64; 4] = [1.0, 1.25, 1.5, 1.8];
+
+/// The candidate positions of a label next to a link, in the order of `parts` of its length: on the side away from
 /// the `centre` of the linkage. The nearest corner or side of the box is at the distance `gap` from the link.
-fn label_boxes([a, b]: [Point; 2], centre: Point, half: Vector, gap: f64) -> impl Iterator<Item = LabelBox> {
+fn label_boxes(
+    [a, b]: [Point; 2],
+    centre: Point,
+    half: Vector,
+    gap: f64,
+    parts: &[f64],
+) -> impl Iterator<Item = LabelBox> {
     let normal = left_normal(b - a).try_normalize(0.0).unwrap_or(Vector::new(0.0, -1.0));
     let outward = if cross(b - a, centre - a) > 0.0 { -normal } else { normal };
     let away = outward * (half.x * outward.x.abs() + half.y * outward.y.abs() + gap);
     let spot = move |(part, away): (f64, Vector)| LabelBox { centre: a + (b - a) * part + away, half_size: half };
-    [0.5, 0.35, 0.65, 0.2, 0.8].into_iter().flat_map(move |part| [(part, away), (part, -away)]).map(spot)
+    parts.iter().flat_map(move |&part| [(part, away), (part, -away)]).map(spot)
 }
 
 fn line(a: Point, b: Point) -> Polyline {
