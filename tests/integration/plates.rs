@@ -6,7 +6,7 @@ use std::fs;
 
 use coupler_atlas::manifest::{self, Plan, PlannedFamily};
 use coupler_curves::family::Cell;
-use coupler_curves::geometry::trig;
+use coupler_curves::geometry::{Vector, trig};
 use coupler_drawing::page::{Layout, PanelScale};
 
 use crate::command::{folder_with, printed};
@@ -416,7 +416,7 @@ fn a_crank_that_its_joints_would_hide_is_longer_in_the_key_which_says_so() {
         });
         let circles: Vec<[f64; 3]> = circles.collect();
         let least = circles.iter().map(|[.., r]| *r).fold(f64::INFINITY, f64::min);
-        let distance = |a: &[f64; 3], b: &[f64; 3]| (a[0] - b[0]).hypot(a[1] - b[1]);
+        let distance = |a: &[f64; 3], b: &[f64; 3]| Vector::new(a[0] - b[0], a[1] - b[1]).norm();
         let pairs = circles.iter().enumerate().flat_map(|(k, a)| circles[..k].iter().map(move |b| (a, b)));
         let apart =
             pairs.map(|(a, b)| distance(a, b)).filter(|distance| *distance > 1e-9).fold(f64::INFINITY, f64::min);

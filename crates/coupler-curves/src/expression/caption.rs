@@ -63,10 +63,10 @@ impl Caption {
         })
     }
 
-    /// The text with its expressions as formulas in place of their values.
+    /// The text with its expressions as formulas in place of their values, and with commas between its parts.
     pub fn to_math_text(&self) -> MathText {
         let piece = |piece: &Piece| match piece {
-            Piece::Text(text) => MathText::from_words(text.as_str()),
+            Piece::Text(text) => MathText::from_words(text.replace(" · ", ", ")),
             Piece::Value { expression, .. } => expression.to_math_text(),
         };
         MathText::join(self.pieces.iter().map(piece), "")

@@ -251,9 +251,9 @@ impl KeyLines {
                 rows.push((name.take(), line(&part, theme.grey), indent));
             }
         }
-        let first_remark = rows.len();
         let formulas = key.note.iter().flat_map(|note| note.wrap(fits_column));
         rows.extend(formulas.map(|part| (None, line(&part, theme.grey), 0.0)));
+        let first_remark = rows.len();
         for remark in &key.remarks {
             let text = theme.text_line(remark, Point::origin(), Anchor::Start, em, theme.grey);
             let wrapped = text.wrap(width);
