@@ -617,3 +617,82 @@ fn lines_in_an_order_have_places() {
     let two = GOOD.replace("k = [1.5, 2]", "k = [1.5, 2], r = [1, 1.1]");
     assert_eq!(places(&two), [None; 4]);
 }
+
+/// The texts of a page with their positions and sizes.
+fn placed_texts(svg: &str) -> Vec<(String, [f64; 3])> {
+    let attribute = |tag: &str, name: &str| -> f64 {
+        let value = tag.split(&format!("{name}=\"")).nth(1).unwrap_or_else(|| panic!("{name} in {tag}"));
+        value.split('"').next().unwrap().parse().unwrap()
+    };
+    let of = |element: &str| {
+        let (tag, rest) = element.split_once('>').unwrap();
+        let content = rest.split("</text>").next().unwrap();
+        let text: String = content.split('<').map(|part| part.rsplit('>').next().unwrap()).collect();
+        (text, ["x", "y", "font-size"].map(|name| attribute(tag, name)))
+    };
+    svg.split("<text ").skip(1).map(of).collect()
+}
+
+#[test]
+fn labels_in_several_lines_do_not_overprint_the_number_of_those_left_out() {
+    let folder = rendered(
+        "[atlas]\ntitle = \"T\"\nformats = [\"svg\"]\noutput = \"out\"\n[[family]]\nid = \"f\"\nlinkage = \"four-bar\"\n\
+         layout = \"chart\"\nchart = { x = \"crank\", y = [\"mu_min_deg\", \"length\", \"bbox_x_max\", \"output_swing_deg\"], \
+         by = [\"coupler\", \"rocker\"] }\nsampling = { step = \"10 deg\" }\n\
+         grid = { crank = [0.25, 0.5, 1], coupler = [2.5, 3, 3.5, 4], rocker = [2.5, 3, 3.5, 4, 4.5] }\nlet = { frame = 4 }\n",
+    );
+    let svg = fs::read_to_string(folder.path().join("out/f/f-001.svg")).unwrap();
+    let texts = placed_texts(&svg);
+    let rests: Vec<_> = texts.iter().filter(|(text, _)| text.starts_with("and ") && text.ends_with(" more")).collect();
+    assert!(!rests.is_empty() && texts.iter().any(|(text, _)| text.ends_with("lines)")), "{texts:?}");
+    for (rest, [x, y, size]) in rests {
+        let overprints =
+            |[other_x, other_y, _]: &[f64; 3]| (other_x - x).abs() < 1e-6 && (other_y - y).abs() < size * 0.9;
+        let count = texts.iter().filter(|(_, place)| overprints(place)).count();
+        assert_eq!(count, 1, "{rest} at {x}, {y}");
+    }
+}
+
+#[test]
+fn a_chart_shows_its_lines_as_far_as_they_have_values_and_explains_the_inks_of_its_key() {
+    let folder = rendered(
+        "[atlas]\ntitle = \"T\"\nformats = [\"svg\"]\noutput = \"out\"\n[[family]]\nid = \"f\"\nlinkage = \"cognates\"\n\
+         layout = \"chart\"\nchart = { x = \"u\", y = [\"straight_length\"] }\nsampling = { step = \"5 deg\" }\n\
+         grid = { u = { from = 0.5, to = 2, step = 0.25 } }\nlet = { p = 4, r = 1.5, a = 3, s = 3.5, v = 0.5 }\n",
+    );
+    let svg = fs::read_to_string(folder.path().join("out/f/f-001.svg")).unwrap();
+    let range = svg.split("data-x-range=\"").nth(1).unwrap().split('"').next().unwrap();
+    let low: f64 = range.split(' ').next().unwrap().parse().unwrap();
+    // There is a straight portion from u = 1.41 on, and the first cell that has one is 1.5.
+    assert!((1.25..1.42).contains(&low), "{range}");
+    let texts: Vec<String> = placed_texts(&svg).into_iter().map(|(text, _)| text).collect();
+    for meaning in ["links of OCABM", "links of ODEMHQ", "links of CFGMIQ"] {
+        assert!(texts.iter().any(|text| text == meaning), "{texts:?}");
+    }
+}
+
+#[test]
+fn the_symbols_of_a_chart_leave_the_folio_free() {
+    let title = "A long title of an atlas that is printed in full at the foot of each of its pages, on the right";
+    let folder = rendered(&format!(
+        "[atlas]\ntitle = \"{title}\"\nformats = [\"svg\"]\noutput = \"out\"\n\
+         [page]\npaper = {{ width = \"210 mm\", height = \"148 mm\" }}\n\
+         [[family]]\nid = \"f\"\nlinkage = \"cognates\"\nlayout = \"chart\"\nchart = {{ x = \"u\", y = [\"length\"] }}\n\
+         sampling = {{ step = \"10 deg\" }}\ngrid = {{ u = [1, 1.5, 2] }}\n"
+    ));
+    let svg = fs::read_to_string(folder.path().join("out/f/f-001.svg")).unwrap();
+    let texts = placed_texts(&svg);
+    let find = |start: &str| {
+        texts.iter().find(|(text, _)| text.starts_with(start)).unwrap_or_else(|| panic!("{start}: {texts:?}"))
+    };
+    let first_folio = find("A long title").1;
+    // The symbols are in several lines, none of which is as wide as half of the page.
+    let symbols = ["crank’s pivot", "traced point", "links of CFGMIQ", "mark: a linkage"].map(|start| find(start).1);
+    let rows: std::collections::BTreeSet<u64> = symbols.iter().map(|[_, y, _]| y.to_bits()).collect();
+    assert!(rows.len() > 1, "{symbols:?}");
+    assert!(symbols.iter().all(|[x, ..]| *x < 105.0) && first_folio[0] > 190.0, "{symbols:?} {first_folio:?}");
+    // And they are under the chart.
+    let frame = svg.split("data-frame=\"").nth(1).unwrap().split('"').next().unwrap();
+    let bottom: f64 = frame.split(' ').nth(3).unwrap().parse().unwrap();
+    assert!(symbols.iter().all(|[_, y, size]| y - size > bottom), "{symbols:?} {bottom}");
+}

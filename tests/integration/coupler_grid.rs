@@ -503,7 +503,7 @@ fn long_captions_and_single_points_fit() {
 
 #[test]
 fn a_page_keeps_its_number_however_long_its_titles_are() {
-    let long = "goes on and on and then on again, ".repeat(6);
+    let long = "goes on and on and then on again, ".repeat(60);
     let text = format!("{GOOD}title = \"A family with a title that {long}\"\n")
         .replace("\"T\"", "\"An atlas of no few words, with a title as long as that\"");
     for (k, (scene, _)) in first(&text).1.iter().enumerate() {
@@ -733,4 +733,66 @@ fn change_points_are_a_chapter_after_the_others_in_a_book() {
     }
     let contents = pdf.contents(1).texts;
     assert!(contents.iter().any(|(text, ..)| text == "grid: change points"), "{contents:?}");
+}
+
+/// The texts of a page of a manifest that is rendered as SVG, in its order.
+fn page_texts(manifest: &str, page: &str) -> Vec<String> {
+    let folder = TempDir::new().unwrap();
+    fs::write(folder.path().join("atlas.toml"), manifest).unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"))
+        .current_dir(&folder)
+        .args(["render", "-q", "--format", "svg", "-o", "out"])
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let svg = fs::read_to_string(folder.path().join("out").join(page)).unwrap();
+    let content = |element: &str| -> String {
+        let content = element.split_once('>').unwrap().1.split("</text>").next().unwrap();
+        content.split('<').map(|part| part.rsplit('>').next().unwrap()).collect()
+    };
+    svg.split("<text ").skip(1).map(content).collect()
+}
+
+#[test]
+fn long_titles_and_captions_are_printed_in_full() {
+    let [atlas, title] =
+        ["an atlas", "a family"].map(|of| format!("A long title of {of} that is printed in full on each of its pages"));
+    let caption = "the ratios A = {A:.2}, B = {B:.2} and C = {C:.2} of a linkage with a caption that goes on and on";
+    let text = format!(
+        "[atlas]\ntitle = \"{atlas}\"\n[page]\npaper = {{ width = \"210 mm\", height = \"148 mm\" }}\n[[family]]\nid = \"f\"\n\
+         title = \"{title}\"\nlinkage = \"hrones-nelson\"\nlayout = \"coupler-grid\"\ncaption = \"{caption}\"\n\
+         cases = [{{ A = 2.5, B = 3, C = 2 }}, {{ A = 2.5, B = 3.5, C = 2 }}]\n"
+    );
+    let all = page_texts(&text, "f/f-001.svg").join(" ");
+    let caption = "the ratios A = 2.50, B = 3.00 and C = 2.00 of a linkage with a caption that goes on and on";
+    for whole in [caption, &format!("{atlas} · {title}"), "page 1 of 2"] {
+        assert!(all.contains(whole), "{whole}: {all}");
+    }
+}
+
+#[test]
+fn a_page_on_which_nothing_varies_has_the_title_of_its_family() {
+    let text = "[atlas]\ntitle = \"T\"\n[[family]]\nid = \"f\"\ntitle = \"A family of one\"\nlinkage = \"one\"\n\
+        layout = \"coupler-grid\"\ncases = [{}]\n[[linkage]]\nid = \"one\"\ntrace = [\"M\"]\n[linkage.joints]\n\
+        O = { fixed = [0, 0] }\nC = { fixed = [3, 0] }\nA = { crank = \"O\", length = 1 }\n\
+        B = { dyad = [\"A\", \"C\"], lengths = [2.5, 2.5], side = \"left\" }\n\
+        M = { point = [\"A\", \"B\"], along = { from = 0, to = 2, count = 4 }, across = 0.5 }\n";
+    let texts = page_texts(text, "f/f-001.svg");
+    assert!(texts.contains(&"A family of one".to_owned()) && texts.contains(&"T".to_owned()), "{texts:?}");
+    // Two thirds and four thirds are in full as fractions.
+    assert!(texts.join(" ").contains("in full: 2 / 3, 4 / 3"), "{texts:?}");
+}
+
+#[test]
+fn the_key_names_both_coordinates_of_a_point_on_small_paper() {
+    for paper in ["\"tabloid\"", "{ width = \"210 mm\", height = \"148 mm\" }"] {
+        let text = format!(
+            "[atlas]\ntitle = \"T\"\n[page]\npaper = {paper}\n[[family]]\nid = \"f\"\nlinkage = \"hrones-nelson\"\n\
+             layout = \"coupler-grid\"\ncases = [{{ A = 2.5, B = 3, C = 2 }}]\n"
+        );
+        let texts = page_texts(&text, "f/f-001.svg");
+        // In the key and at the head of a column.
+        let count = |name: &str| texts.iter().filter(|text| *text == name).count();
+        assert_eq!(["along", "across"].map(count), [2, 2], "{paper}: {texts:?}");
+    }
 }

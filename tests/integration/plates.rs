@@ -6,7 +6,7 @@ use std::fs;
 
 use coupler_atlas::manifest::{self, Plan, PlannedFamily};
 use coupler_curves::family::Cell;
-use coupler_curves::geometry::trig;
+use coupler_curves::geometry::{Vector, trig};
 use coupler_drawing::page::{Layout, PanelScale};
 
 use crate::command::{folder_with, printed};
@@ -355,21 +355,77 @@ fn coupler_grids_have_the_scale_that_the_manifest_gives_or_say_that_they_are_red
 }
 
 #[test]
-fn notes_that_do_not_fit_their_panels_are_left_out_whole_and_this_is_said() {
-    let cognates = |panels: &str| {
+fn the_lengths_of_cognates_are_under_their_panels_or_as_formulas_in_the_key() {
+    let cognates = |panels: &str, paper: &str| {
         let text = family(&format!(
             "id = \"f\"\nlinkage = \"cognates\"\npanels = {panels}\n\
              grid = {{ u = [0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4], v = [0.25, 0.5, 0.75, 1, 1.25] }}"
         ));
-        let text = text.replace("[[family]]", "[page]\npaper = \"a4\"\n[[family]]");
+        let text = text.replace("[[family]]", &format!("[page]\npaper = {paper}\n[[family]]"));
         let plan = plan(&text);
         let lines = texts(&pages(&text, &plan)[0].svg);
         // The chains of the cognates are explained in any case.
         assert!(["links of ODEMHQ", "links of CFGMIQ"].iter().all(|links| lines.iter().any(|line| line == links)));
-        let lengths = lines.iter().filter(|line| line.contains("CQ = ")).count();
-        (lengths, lines.iter().any(|line| line == "notes that need larger panels are left out"))
+        // All lengths of a note, or none.
+        let lengths = ["OD", "DE", "QE", "OQ", "CF", "FG", "QG", "CQ"]
+            .map(|name| lines.iter().filter(|line| line.contains(&format!("{name} = "))).count());
+        assert!(lengths.iter().all(|count| *count == lengths[0]), "{lengths:?}");
+        let has_formulas = lines.iter().any(|line| line.contains("QE = s √(u2 + v2) / a"));
+        assert!(!lines.iter().any(|line| line == "notes that need larger panels are left out"));
+        (lengths[0], has_formulas)
     };
-    assert_eq!(["[8, 5]", "[2, 2]"].map(cognates), [(0, true), (4, false)]);
+    assert_eq!(cognates("[8, 5]", "\"a4\""), (1, true));
+    assert_eq!(cognates("[4, 3]", "\"tabloid\""), (12, false));
+    assert_eq!(cognates("[2, 2]", "\"a4\""), (4, false));
+}
+
+#[test]
+fn notes_that_do_not_fit_their_panels_are_left_out_whole_and_this_is_said() {
+    let measured = |panels: &str| {
+        let note = "the transmission angle is from {mu_min_deg:.2} to {mu_max_deg:.2} degrees, and the curve is {length:.3} long in all";
+        let text = family(&format!(
+            "id = \"f\"\nlinkage = \"four-bar\"\nnote = \"{note}\"\npanels = {panels}\n\
+             grid = {{ crank = [0.5, 0.75, 1, 1.25, 1.5], along = [0, 1, 2, 3, 4, 5, 6, 7] }}\n\
+             let = {{ frame = 4, coupler = 3, rocker = 3.5 }}"
+        ));
+        let text = text.replace("[[family]]", "[page]\npaper = \"a4\"\n[[family]]");
+        let plan = plan(&text);
+        let lines = texts(&pages(&text, &plan)[0].svg);
+        let notes = lines.iter().filter(|line| line.starts_with("the transmission angle is")).count();
+        (notes, lines.iter().any(|line| line == "notes that need larger panels are left out"))
+    };
+    assert_eq!(["[8, 5]", "[2, 2]"].map(measured), [(0, true), (4, false)]);
+}
+
+#[test]
+fn a_crank_that_its_joints_would_hide_is_longer_in_the_key_which_says_so() {
+    let remark = "hidden by its joints";
+    let key = |crank: &str| {
+        let text = family(&format!(
+            "id = \"f\"\nlinkage = \"four-bar\"\ncases = [{{ frame = 1, crank = {crank}, coupler = 1.2, rocker = 0.8 }}]"
+        ));
+        let plan = plan(&text);
+        let svg = pages(&text, &plan).remove(0).svg;
+        // The key is drawn after the panel; a pivot has circles of two radii.
+        let linkage = groups(&svg, "linkage")[1].to_owned();
+        let circles = linkage.split("<circle ").skip(1).map(|circle| {
+            ["cx", "cy", "r"].map(|name| {
+                let value = circle.split(&format!("{name}=\"")).nth(1).unwrap();
+                value.split('"').next().unwrap().parse::<f64>().unwrap()
+            })
+        });
+        let circles: Vec<[f64; 3]> = circles.collect();
+        let least = circles.iter().map(|[.., r]| *r).fold(f64::INFINITY, f64::min);
+        let distance = |a: &[f64; 3], b: &[f64; 3]| Vector::new(a[0] - b[0], a[1] - b[1]).norm();
+        let pairs = circles.iter().enumerate().flat_map(|(k, a)| circles[..k].iter().map(move |b| (a, b)));
+        let apart =
+            pairs.map(|(a, b)| distance(a, b)).filter(|distance| *distance > 1e-9).fold(f64::INFINITY, f64::min);
+        (apart > 2.0 * least, texts(&svg).join(" ").contains(remark))
+    };
+    assert_eq!(key("0.2"), (true, false));
+    for crank in ["0.01", "0.0001"] {
+        assert_eq!(key(crank), (true, true), "{crank}");
+    }
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Captions: text with expressions in braces.
 
-use super::{Error, Expression};
+use super::{Error, Expression, MathText};
 
 /// A line of text with expressions in braces, as in `p = {p:.2}, area {p * r}`.
 ///
@@ -61,6 +61,15 @@ impl Caption {
             Piece::Value { expression, start, .. } => Some((expression, *start)),
             Piece::Text(_) => None,
         })
+    }
+
+    /// The text with its expressions as formulas in place of their values, and with commas between its parts.
+    pub fn to_math_text(&self) -> MathText {
+        let piece = |piece: &Piece| match piece {
+            Piece::Text(text) => MathText::from_words(text.replace(" · ", ", ")),
+            Piece::Value { expression, .. } => expression.to_math_text(),
+        };
+        MathText::join(self.pieces.iter().map(piece), "")
     }
 
     /// Whether one of its expressions contains a name.

@@ -211,7 +211,8 @@ impl<'a> Figure<'a> {
             let linkage = self.linkage_items(&key, theme);
             let mut obstacles = with_number;
             obstacles.add(&linkage, false);
-            obstacles.add(&self.posed_items(|mechanism| mechanism.underlay_items(&key, theme)), true);
+            // Numbers in small panels would be on the line of the frame.
+            obstacles.add(&self.posed_items(|mechanism| mechanism.underlay_items(&key, theme)), false);
             in_dashes(&key, &self.solved_cell.curves.iter().collect::<Vec<_>>(), obstacles, theme);
             draw_linkage(area, linkage);
         } else {

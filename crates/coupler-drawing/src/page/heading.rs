@@ -108,7 +108,7 @@ impl<'a> Heading<'a> {
             at.y += SOURCE_LEADING * theme.source_size;
         }
         let mut foot = Point::new(right, foot_baseline(page, theme) - self.folio_height(page, theme));
-        for line in self.folio_lines(page, theme) {
+        for line in self.folio_lines(self.atlas_title, page, theme) {
             root.record(&line.moved_to(foot));
             foot.y += SOURCE_LEADING * theme.source_size;
         }
@@ -116,19 +116,19 @@ impl<'a> Heading<'a> {
         (at.y - 0.6 * theme.source_size).max(margins(theme)[0])
     }
 
-    /// The lines at the foot of a page on the right: the title of the atlas and the page number.
-    fn folio_lines(&self, page: Vector, theme: &Theme) -> Vec<TextLine> {
+    /// The lines at the foot of a page on the right: `titles`, such as that of the atlas, and the page number.
+    pub(super) fn folio_lines(&self, titles: &str, page: Vector, theme: &Theme) -> Vec<TextLine> {
         /// The end of a longer title is left out.
         const MOST: usize = 3;
         let width = MAX_FOLIO_PART * (page.x - 2.0 * (theme.border + theme.margin));
         let line = |text: &str| theme.text_line(text, Point::origin(), Anchor::End, theme.source_size, theme.grey);
         let folio = self.folio();
-        let folio = if self.atlas_title.is_empty() { folio.trim_start_matches(SEPARATOR) } else { &folio };
-        let whole = line(&format!("{}{folio}", self.atlas_title));
+        let folio = if titles.is_empty() { folio.trim_start_matches(SEPARATOR) } else { &folio };
+        let whole = line(&format!("{titles}{folio}"));
         if TextLine::min_part(theme.source_size) * whole.text.width() <= width {
             return vec![whole.fit_width(width)];
         }
-        let words = line(self.atlas_title).wrap(width);
+        let words = line(titles).wrap(width);
         let [first, rest] = [&words[..words.len().min(MOST - 1)], words.get(MOST - 1..).unwrap_or_default()];
         let last = if rest.is_empty() { folio.trim_start_matches(SEPARATOR).to_owned() } else { rest.join(" ") };
         let suffix = if rest.is_empty() { "" } else { folio };
@@ -139,12 +139,14 @@ impl<'a> Heading<'a> {
 
     /// The width of the lines at the foot of a page on the right.
     pub(super) fn folio_width(&self, page: Vector, theme: &Theme) -> f64 {
-        self.folio_lines(page, theme).iter().map(|line| line.text.width()).fold(0.0, f64::max)
+        self.folio_lines(self.atlas_title, page, theme).iter().map(|line| line.text.width()).fold(0.0, f64::max)
     }
 
     /// The height of these lines above the last.
     pub(super) fn folio_height(&self, page: Vector, theme: &Theme) -> f64 {
-        SOURCE_LEADING * theme.source_size * self.folio_lines(page, theme).len().saturating_sub(1) as f64
+        SOURCE_LEADING
+            * theme.source_size
+            * self.folio_lines(self.atlas_title, page, theme).len().saturating_sub(1) as f64
     }
 
     /// The page number, which ends the last line of the page, with a separator before it; empty if there is one page.

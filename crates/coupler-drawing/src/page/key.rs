@@ -1,5 +1,7 @@
 //! The key of a page: the linkage with the names of its joints, and how each joint is placed.
 
+use std::borrow::Cow;
+
 use super::area::Area;
 use super::direction::DirectionMarks;
 use super::element::{Drawing, TextLine};
@@ -8,14 +10,16 @@ use super::labels::{LabelPlacer, Obstacles};
 use super::marks::straight_criterion_text;
 use super::mechanism::PosedMechanism;
 use super::plot::Plot;
+use super::pose;
 use super::rect::Rect;
 use super::theme::Theme;
+use crate::mechanism::Mechanism;
 use crate::scene::{Anchor, Circle, Color, Item, MIN_TEXT_SIZE, Text};
 use coupler_curves::expression::{MathText, displayed_name, format_exactly};
 use coupler_curves::family::{Cell, Family};
 use coupler_curves::geometry::{Bounds, Point, Vector};
-use coupler_curves::linkage::{JointId, JointKind, OutputLink};
-use coupler_curves::motion::Circuit;
+use coupler_curves::linkage::{JointId, JointKind, Linkage, OutputLink};
+use coupler_curves::motion::{Circuit, Motion, Sampler, Sampling};
 use coupler_curves::template::{InputValue, JointTemplate, Template};
 
 /// What a page says about the linkages on it, so that they can be built: how the joints are placed by parameters, and
@@ -26,6 +30,8 @@ pub struct Key {
     pub dimensions: Vec<MathText>,
     /// The name of each joint, and how it is placed.
     pub joints: Vec<(String, MathText)>,
+    /// The formulas of the note under each panel, if its values follow from the parameters, such as the lengths of cognates.
+    pub note: Option<MathText>,
     /// What drives the linkage, what it drives, and from where it is seen.
     pub remarks: Vec<String>,
     /// Which straight portions are marked.
@@ -40,7 +46,7 @@ impl Key {
 
     /// The key of one cell, with all its dimensions.
     pub fn for_cell(family: &Family, cell: &Cell) -> Key {
-        Key::with_dimensions(family, family.cell_dimensions(cell))
+        Key { note: None, ..Key::with_dimensions(family, family.cell_dimensions(cell)) }
     }
 
     fn with_dimensions(family: &Family, dimensions: Vec<MathText>) -> Key {
@@ -49,10 +55,19 @@ impl Key {
         Key {
             dimensions,
             joints: template.joints.iter().enumerate().map(joint).collect(),
+            note: note_formulas(family),
             remarks: remarks(template),
             straight: straight_criterion_text(family.straight, if template.is_driven_by_length() { "" } else { "°" }),
         }
     }
+}
+
+/// The note of a family's panels with formulas in place of values, if it has any and all are of parameters.
+fn note_formulas(family: &Family) -> Option<MathText> {
+    let note = family.captions[1].as_ref()?;
+    let mut names = note.expressions().flat_map(|(expression, _)| expression.names());
+    let has_values = note.expressions().next().is_some();
+    (has_values && names.all(|name| family.names.contains(name))).then(|| note.to_math_text())
 }
 
 /// The input, the output and the frame of a linkage in words.
@@ -149,15 +164,42 @@ pub(super) fn draw(area: &impl Area, rect: Rect, key: &Key, figure: Option<&Figu
         true => rect.corner + Vector::new(0.0, drawing.y + em),
         false => rect.corner + Vector::new(drawing.x + em, 0.0),
     };
-    if let Some(figure) = figure {
+    let mut key = Cow::Borrowed(key);
+    if let Some((figure, mechanism)) = figure.and_then(|figure| Some((figure, figure.mechanisms.first()?))) {
         let drawing = Rect { corner: rect.corner, size: drawing };
-        if let Some(mechanism) = figure.mechanisms.first() {
-            let ink = |joint| figure.joint_ink(joint, theme);
-            draw_linkage(area, drawing, (mechanism, figure.first_circuit()), ink, theme);
+        let ink = |joint| figure.joint_ink(joint, theme);
+        match with_longer_crank(mechanism) {
+            Some((linkage, circuit)) => {
+                let pose = pose::clearest_pose(&linkage, &circuit);
+                let mechanism = PosedMechanism::new(&linkage, Mechanism::new(&linkage, &circuit), pose);
+                draw_linkage(area, drawing, (&mechanism, &circuit), ink, theme);
+                key.to_mut()
+                    .remarks
+                    .push("shown here with a longer crank, as its own is hidden by its joints".to_owned());
+            }
+            None => draw_linkage(area, drawing, (mechanism, figure.first_circuit()), ink, theme),
         }
     }
     let text = Rect { corner: text_corner, size: rect.corner + rect.size - text_corner };
-    draw_lines(area, text, &[], key, theme);
+    draw_lines(area, text, &[], &key, theme);
+}
+
+/// The linkage with a longer crank, sampled, if its own is so short that its joints hide it.
+fn with_longer_crank(mechanism: &PosedMechanism) -> Option<(Linkage, Circuit)> {
+    /// The length up to which a crank is hidden, and that with which it is shown, relative to the size of the linkage.
+    const LENGTHS: [f64; 2] = [0.02, 0.12];
+    /// Enough to choose a clear pose.
+    const SAMPLES: usize = 120;
+    let size = mechanism.bounds().size().max();
+    let mut linkage = mechanism.linkage.clone();
+    let [_, pin] = linkage.crank()?;
+    match &mut linkage.joints[pin].kind {
+        JointKind::Crank { length, .. } if *length <= LENGTHS[0] * size => *length = LENGTHS[1] * size,
+        _ => return None,
+    }
+    let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(SAMPLES)));
+    let circuit = motion.circuits.into_iter().next()?;
+    Some((linkage, circuit))
 }
 
 /// Writes dimensions, the joints of a key and its remarks in columns, from the upper left. Where they are too many, the text
@@ -209,6 +251,8 @@ impl KeyLines {
                 rows.push((name.take(), line(&part, theme.grey), indent));
             }
         }
+        let formulas = key.note.iter().flat_map(|note| note.wrap(fits_column));
+        rows.extend(formulas.map(|part| (None, line(&part, theme.grey), 0.0)));
         let first_remark = rows.len();
         for remark in &key.remarks {
             let text = theme.text_line(remark, Point::origin(), Anchor::Start, em, theme.grey);

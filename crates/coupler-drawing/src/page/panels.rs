@@ -4,8 +4,8 @@ use super::area::Area;
 use super::arrangement::{Arrangement, Extents};
 use super::element::{Drawing, TextLine};
 use super::figure::{self, Figure};
-use super::heading::{foot_baseline, margins};
-use super::key;
+use super::heading::margins;
+use super::key::{self, Key};
 use super::rect::Rect;
 use super::symbols::{self, Mark, Symbol};
 use super::theme::Theme;
@@ -31,17 +31,22 @@ pub(super) fn compose(root: &impl Area, page: &PanelPage, options: &Options, the
         Some(_) => key::divide(contents, theme),
         None => (contents, None),
     };
-    if let (Some(key), Some(rect)) = (page.key, key) {
-        let figures: Vec<&Figure> = figures.iter().flatten().collect();
-        key::draw(root, rect.inset(0.5 * theme.margin), key, key::clearest_figure(&figures), theme);
-    }
     let far = panels.corner + panels.size;
     let area = root.without_margins([panels.corner.y, root.size().y - far.y, panels.corner.x, root.size().x - far.x]);
     let drawn = draw_panels(&area, page, &figures, period, theme);
+    let mut has_formulas = false;
+    if let (Some(key), Some(rect)) = (page.key, key) {
+        let figures: Vec<&Figure> = figures.iter().flatten().collect();
+        // Where the numbers are left out, the formulas are in the key.
+        let note = key.note.clone().filter(|_| !drawn.has_notes);
+        has_formulas = note.is_some();
+        let key = Key { note, ..key.clone() };
+        key::draw(root, rect.inset(0.5 * theme.margin), &key, key::clearest_figure(&figures), theme);
+    }
     symbols.retain(|symbol| match symbol.meaning.as_str() {
         TRANSMISSION_ANGLE | LIMITS_OF_TRANSMISSION => drawn.has_facts,
         NOT_ENLARGED => drawn.has_enlarged,
-        NOTES_LEFT_OUT => !drawn.has_notes,
+        NOTES_LEFT_OUT => !drawn.has_notes && !has_formulas,
         _ => true,
     });
     let scale = symbols::scale_bar(drawn.scale, common_crank(&figures));
@@ -58,8 +63,8 @@ fn common_crank(figures: &[Option<Figure>]) -> Option<f64> {
     cranks.first().copied().filter(is_common)
 }
 
-/// The lines that explain the symbols of a page and the scale bars at its foot, left of the folio, with their positions;
-/// and the greatest y of the contents.
+/// The lines that explain the symbols of a page and the scale bars at its foot, with their positions; and the greatest y of the
+/// contents.
 fn layout_symbols(
     root: &impl Area,
     page: &PanelPage,
@@ -67,19 +72,9 @@ fn layout_symbols(
     scale: Symbol,
     theme: &Theme,
 ) -> (Vec<(Point, Vec<Symbol>)>, f64) {
-    const LEADING: f64 = 1.45;
-    let [_, bottom, _] = margins(theme);
-    let [left, right] = [theme.border + theme.margin, root.size().x - theme.border - theme.margin];
-    let folio = page.heading.folio_width(root.size(), theme);
     // A page without figures has no symbols.
     let explained: Vec<Symbol> = symbols.iter().cloned().chain((!symbols.is_empty()).then_some(scale)).collect();
-    let lines = symbols::lines(&explained, right - left - folio - 2.0 * theme.note_size, theme);
-    let step = LEADING * theme.note_size;
-    let height = (step * lines.len().saturating_sub(1) as f64).max(page.heading.folio_height(root.size(), theme));
-    let above = root.size().y - bottom - height;
-    let first = foot_baseline(root.size(), theme) - step * lines.len().saturating_sub(1) as f64;
-    let placed = lines.into_iter().enumerate().map(|(k, line)| (Point::new(left, first + step * k as f64), line));
-    (placed.collect(), above)
+    symbols::at_foot(root.size(), &page.heading, &explained, theme)
 }
 
 /// The symbols of all figures of a page, each once, and those of the texts under them.
@@ -160,7 +155,7 @@ fn draw_panels<A: Area>(
     const MIN_FIGURE: f64 = 0.4;
     let most_text = (1.0 - MIN_FIGURE) * size.y;
     // Facts, and then notes, that leave too little to the figures are left out: captions say how the linkages are built, and the
-    // facts are in the table of cells.
+    // facts are in the table of cells. The key has the formulas of such notes.
     let fits = |(facts, has_notes): &(FactsLayout, bool)| foot(&texts(*facts, *has_notes)) <= most_text;
     let choices = [(facts, true), (FactsLayout::None, true)];
     let (facts, has_notes) = choices.into_iter().find(fits).unwrap_or((FactsLayout::None, false));

@@ -2,6 +2,7 @@
 
 use super::area::Area;
 use super::element::{Drawing, TextLine};
+use super::heading::{Heading, foot_baseline, margins};
 use super::marks;
 use super::mechanism;
 use super::motion_marks::{self, TickSteps};
@@ -134,6 +135,27 @@ pub(super) fn lines(symbols: &[Symbol], width: f64, theme: &Theme) -> Vec<Vec<Sy
         }
     }
     lines.into_iter().map(|(_, line)| line).collect()
+}
+
+/// The lines of symbols at the foot of a page, left of its folio, with their positions; and the greatest y of the contents above
+/// them and the folio.
+pub(super) fn at_foot(
+    page: Vector,
+    heading: &Heading,
+    symbols: &[Symbol],
+    theme: &Theme,
+) -> (Vec<(Point, Vec<Symbol>)>, f64) {
+    const LEADING: f64 = 1.45;
+    let [_, bottom, _] = margins(theme);
+    let [left, right] = [theme.border + theme.margin, page.x - theme.border - theme.margin];
+    let folio = heading.folio_width(page, theme);
+    let lines = lines(symbols, right - left - folio - 2.0 * theme.note_size, theme);
+    let step = LEADING * theme.note_size;
+    let height = step * lines.len().saturating_sub(1) as f64;
+    let above = page.y - bottom - height.max(heading.folio_height(page, theme));
+    let first = foot_baseline(page, theme) - height;
+    let placed = lines.into_iter().enumerate().map(|(k, line)| (Point::new(left, first + step * k as f64), line));
+    (placed.collect(), above)
 }
 
 /// Draws a line of symbols from a point on its baseline.

@@ -3,8 +3,8 @@
 use coupler_curves::expression;
 
 /// The text with the characters of typesetting in place of those of a typewriter: `'` and `"` become quotation marks or an
-/// apostrophe, a hyphen between spaces and two hyphens an en dash, a hyphen before a number a minus sign, three dots an
-/// ellipsis. A hyphen in a word, and between digits, stays.
+/// apostrophe, a hyphen between spaces and two hyphens an en dash, three hyphens an em dash, a hyphen before a number a minus
+/// sign, three dots an ellipsis. A hyphen in a word, and between digits, stays.
 pub(super) fn typeset(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     let mut rest = text;
@@ -20,13 +20,14 @@ pub(super) fn typeset(text: &str) -> String {
 /// The character that replaces the beginning of a text, and the length of that beginning in bytes; `None` if the first
 /// character stays.
 fn set_next(before: Option<char>, rest: &str) -> Option<(char, usize)> {
-    let opens = before.is_none_or(|c| c.is_whitespace() || matches!(c, '(' | '[' | '“' | '‘' | '–'));
+    let opens = before.is_none_or(|c| c.is_whitespace() || matches!(c, '(' | '[' | '“' | '‘' | '–' | '—'));
     let after = rest.chars().nth(1);
     match rest.as_bytes() {
         // What is not closed again is an apostrophe, as in 'Twas.
         [b'\'', ..] => Some((if opens && is_closed_again(&rest[1..]) { '‘' } else { '’' }, 1)),
         [b'"', ..] => Some((if opens { '“' } else { '”' }, 1)),
         [b'.', b'.', b'.', ..] => Some(('…', 3)),
+        [b'-', b'-', b'-', ..] => Some(('—', 3)),
         [b'-', b'-', ..] => Some(('–', 2)),
         [b'-', b' ', ..] if before == Some(' ') => Some(('–', 1)),
         [b'-', ..] => {
@@ -92,6 +93,7 @@ mod tests {
                 "Roberts - Chebyshev, Roberts-Chebyshev, 1--2, 10-12",
                 "Roberts – Chebyshev, Roberts-Chebyshev, 1–2, 10-12",
             ),
+            ("one --- 'two' ---three", "one — ‘two’ —three"),
             ("and so on...", "and so on…"),
             ("", ""),
         ] {

@@ -83,7 +83,15 @@ impl<'a> ChartFigure<'a> {
         let between_cells = |series: &Series| series.paths.get(quantity_index)?.range;
         let heights = drawn(quantity_index).map(|[_, y]| y);
         let heights = heights.chain(page.series.iter().filter_map(between_cells).flatten());
-        let x = Scale::from_values(page.quantity_range.clone().flat_map(drawn).map(|[x, _]| x), &options[0]);
+        // A line may begin and end between cells, where it has values but they have none.
+        let beyond_cells = |index: usize| {
+            let is_log = chart.y[index].is_log;
+            let points =
+                page.series.iter().filter_map(move |series| series.paths.get(index)).flat_map(|path| &path.points);
+            points.copied().filter(move |[_, y]| is_drawable(*y, is_log))
+        };
+        let on_lines = page.quantity_range.clone().flat_map(|index| drawn(index).chain(beyond_cells(index)));
+        let x = Scale::from_values(on_lines.map(|[x, _]| x), &options[0]);
         let y = Scale::from_values(heights, &options[1]);
         let scales = x.zip(y).map(|(x, y)| [x, y]);
         let ticks = scales.iter().flat_map(|[_, y]| y.ticks.iter().map(|tick| y.tick_label(*tick)));

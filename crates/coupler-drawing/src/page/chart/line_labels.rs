@@ -67,6 +67,8 @@ pub(super) fn label_items(
     let theme = &theme.unwrap_or_else(|| with_size(0.0));
     let leading = SPACING * theme.note_size;
     let spacing = leading * spacing_of(theme);
+    // Above and below the middle of a label are the other lines of the longest one.
+    let half = 0.5 * (spacing_of(theme).floor() - 1.0) * leading;
     let most = ((height / spacing).floor() as usize).max(1);
     let mut drawn: Vec<LineLabel> = if count > most {
         labels.into_iter().step_by(count.div_ceil(most.saturating_sub(1).max(1))).collect()
@@ -77,7 +79,8 @@ pub(super) fn label_items(
     let mut items = Vec::new();
     let omitted = count - drawn.len();
     let foot = if omitted > 0 { height - leading } else { height };
-    let heights = spread_heights(&drawn.iter().map(|label| label.end_height).collect::<Vec<_>>(), spacing, foot);
+    let ends: Vec<f64> = drawn.iter().map(|label| label.end_height - half).collect();
+    let heights = spread_heights(&ends, spacing, foot - 2.0 * half).into_iter().map(|height| height + half);
     let (from, text) = (from(theme), text_start(theme));
     // From the middle of a letter down to its baseline.
     let drop = 0.35 * theme.note_size;

@@ -11,12 +11,13 @@ mod scale;
 
 use super::area::{self, Area, PlottersArea};
 use super::figure::Figure;
-use super::heading::{foot_baseline, margins};
-use super::key::{self, Key};
+use super::heading::margins;
+use super::key;
 use super::rect::Rect;
 use super::symbols::{self, Mark, Symbol};
 use super::theme::Theme;
-use super::{ChartPage, Options, Panel, chart_grid, empty_scene};
+use super::{ChartPage, Options, chart_grid, empty_scene};
+use crate::chart::PointSource;
 use crate::scene::{Group, Item, Scene};
 use coupler_curves::geometry::{Point, Vector};
 use figure::{ChartFigure, LineFeatures};
@@ -33,15 +34,22 @@ fn draw_charts(scene: &mut Scene, page: &ChartPage, theme: &Theme) {
     let [columns, rows] = page.layout.grid();
     let top = page.heading.draw(&area::whole_page(scene), theme);
     let [_, margin, _] = margins(theme);
-    let bottom = margin + page.heading.folio_height(area::whole_page(scene).size(), theme);
+    let size = area::whole_page(scene).size();
+    let bottom = margin + page.heading.folio_height(size, theme);
     // The charts are aligned with the title and the folio.
     let side = theme.border + theme.margin;
-    let size = area::whole_page(scene).size();
-    let contents = Rect { corner: Point::new(side, top), size: size - Vector::new(2.0 * side, top + bottom) };
-    let charts = match page.key {
-        Some((key, panel)) => draw_key(&area::whole_page(scene), contents, (key, panel), page, theme),
-        None => contents,
-    };
+    let above =
+        |bottom: f64| Rect { corner: Point::new(side, top), size: Vector::new(size.x - 2.0 * side, bottom - top) };
+    // What the lines have is known after they are drawn.
+    let all_features = LineFeatures { has_marks: page.chart.point_source == PointSource::Curves, has_gaps: true };
+    let foot = |features| symbols::at_foot(size, &page.heading, &page_symbols(page, features, theme), theme);
+    let mut contents = above(size.y - bottom);
+    let mut charts = contents;
+    if let Some((rect, beside)) = page.key.and_then(|_| key_rect(above(foot(all_features).1), page, theme)) {
+        contents = above(foot(all_features).1);
+        charts = beside;
+        draw_key(&area::whole_page(scene), rect, page, theme);
+    }
     let far = charts.corner + charts.size;
     let margins = [charts.corner.y, size.y - far.y, charts.corner.x, size.x - far.x];
     let mut features = LineFeatures::default();
@@ -66,16 +74,20 @@ fn draw_charts(scene: &mut Scene, page: &ChartPage, theme: &Theme) {
         let id = format!("{}-chart-{}", page.heading.family_id, quantity_index + 1);
         scene.items.push(Item::Group(Group { id, class: "chart", title, data, items }));
     }
-    if let (Some((_, panel)), true) = (page.key, charts.size != contents.size) {
-        draw_symbols(&area::whole_page(scene), contents.corner.x, panel, features, theme);
+    if charts.size != contents.size {
+        for (at, line) in foot(features).0 {
+            symbols::draw(&area::whole_page(scene), &line, at, theme);
+        }
     }
 }
 
-/// Draws the symbols of a key, and of the lines of the charts, at the foot.
-fn draw_symbols(root: &impl Area, left: f64, panel: &Panel, features: LineFeatures, theme: &Theme) {
-    let Some(figure) = Figure::from_panel(panel) else { return };
+/// The symbols of the key, and of the lines of the charts.
+fn page_symbols(page: &ChartPage, features: LineFeatures, theme: &Theme) -> Vec<Symbol> {
+    let figure = page.key.and_then(|(_, panel)| Some((panel, Figure::from_panel(panel)?)));
+    let Some((panel, figure)) = figure else { return Vec::new() };
     let ink = figure.first_ink(theme);
     let mut symbols = symbols::of_joints(panel.solved_cell, ink);
+    symbols.extend(symbols::of_chains(&panel.solved_cell.linkage, theme));
     let mut add = |mark: Mark, meaning: &str| symbols.push(Symbol { mark, meaning: meaning.to_owned() });
     if features.has_marks {
         add(Mark::Limit(ink), "mark: a linkage of the family; lines between marks are computed, too");
@@ -83,19 +95,21 @@ fn draw_symbols(root: &impl Area, left: f64, panel: &Panel, features: LineFeatur
     if features.has_gaps {
         add(Mark::Letter("–  –"), "a gap: no value, or a jump");
     }
-    symbols::draw(root, &symbols, Point::new(left, foot_baseline(root.size(), theme)), theme);
+    symbols
 }
 
-/// Draws the key of the linkages next to the charts, if they do not become too small; the
-/// part of the contents that is left to the charts.
-fn draw_key(root: &impl Area, contents: Rect, (key, panel): (&Key, &Panel), page: &ChartPage, theme: &Theme) -> Rect {
+/// The rectangles of the key and of the charts next to it, if there is a linkage and they do not become too small.
+fn key_rect(contents: Rect, page: &ChartPage, theme: &Theme) -> Option<(Rect, Rect)> {
     let [columns, rows] = page.layout.grid();
     let (charts, rect) = key::divide(contents, theme);
     let [most_columns, most_rows] = chart_grid::max_in(charts.size, theme);
-    let (Some(rect), Some(figure)) = (rect, Figure::from_panel(panel)) else { return contents };
-    if columns > most_columns || rows > most_rows {
-        return contents;
+    let has_figure = page.key.is_some_and(|(_, panel)| Figure::from_panel(panel).is_some());
+    (has_figure && columns <= most_columns && rows <= most_rows).then_some((rect?, charts))
+}
+
+/// Draws the key of the linkages.
+fn draw_key(root: &impl Area, rect: Rect, page: &ChartPage, theme: &Theme) {
+    if let Some((key, panel)) = page.key {
+        key::draw(root, rect.inset(0.5 * theme.margin), key, Figure::from_panel(panel).as_ref(), theme);
     }
-    key::draw(root, rect.inset(0.5 * theme.margin), key, Some(&figure), theme);
-    charts
 }

@@ -2,6 +2,7 @@
 
 use super::super::CouplerGridPage;
 use super::super::area::Area;
+use super::super::element::TextLine;
 use super::super::rect::Rect;
 use super::super::symbols::{self, Symbol};
 use super::super::theme::Theme;
@@ -13,21 +14,47 @@ pub(super) fn draw(area: &impl Area, page: &CouplerGridPage, theme: &Theme) -> f
     let paper = area.size();
     let (left, right) = (theme.border + theme.margin, paper.x - theme.border - theme.margin);
     let half = 0.49 * (right - left);
-    let at = Point::new(left, paper.y - theme.border - 0.65 * theme.margin);
-    // Some SVG viewers collapse consecutive spaces, but not an em space.
-    let proportions = page.panel.caption.replace("  ", "\u{2003}");
-    let proportions = theme.text_line(&proportions, at, Anchor::Start, theme.title_size, theme.ink);
-    area.record(&proportions.with_italics(page.heading.symbols).fit_width(half));
-    let line =
-        |text: &str, y: f64| theme.text_line(text, Point::new(right, y), Anchor::End, theme.source_size, theme.grey);
-    area.record(&line(&page.heading.titles(), at.y).fit_width_with_suffix(&page.heading.folio(), half));
+    let baseline = paper.y - theme.border - 0.65 * theme.margin;
+    // A page on which nothing varies has the title in place of the proportions.
+    let [large, titles] = match page.panel.caption.as_str() {
+        "" => [page.heading.family_title.to_owned(), page.heading.atlas_title.to_owned()],
+        // Some SVG viewers collapse consecutive spaces, but not an em space.
+        caption => [caption.replace("  ", "\u{2003}"), page.heading.titles()],
+    };
+    let large = large_lines(&large, half, page, theme);
     // The class and the range of the transmission angle, and the note.
     let facts = [page.panel.facts[0].as_str(), &page.panel.note];
     let facts = facts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" · ");
-    if !facts.is_empty() {
-        area.record(&line(&facts, at.y - 1.5 * theme.source_size).fit_width(half));
+    let facts = theme.text_line(&facts, Point::origin(), Anchor::End, theme.source_size, theme.grey).fit_or_wrap(half);
+    let facts = facts.into_iter().filter(|line| line.text.width() > 0.0);
+    let small: Vec<TextLine> = facts.chain(page.heading.folio_lines(&titles, paper, theme)).collect();
+    let columns = [(large, left, 1.25), (small, right, 1.5)];
+    let heights = columns.map(|(lines, x, leading)| {
+        let height: f64 = lines.iter().map(|line| leading * line.text.size).sum();
+        // The last line is on the baseline.
+        let mut y = baseline - height;
+        for line in lines {
+            y += leading * line.text.size;
+            area.record(&line.moved_to(Point::new(x, y)));
+        }
+        height
+    });
+    theme.border + 0.65 * theme.margin + heights.into_iter().fold(1.5 * theme.title_size, f64::max)
+}
+
+/// The proportions of the linkage in large type; where they are too long for that, in lines half as large.
+fn large_lines(text: &str, width: f64, page: &CouplerGridPage, theme: &Theme) -> Vec<TextLine> {
+    /// The least part of its size that a single line may have, as of [`TextLine::fit_width`].
+    const MIN_PART: f64 = 2.0 / 3.0;
+    let symbols = page.heading.symbols;
+    let line = |text: &str, size| theme.text_line(text, Point::origin(), Anchor::Start, size, theme.ink);
+    let single = line(text, theme.title_size).with_italics(symbols);
+    if MIN_PART * single.text.width() <= width {
+        return vec![single.fit_width(width)];
     }
-    theme.border + 0.65 * theme.margin + 1.5 * theme.title_size
+    let size = (0.5 * theme.title_size).max(theme.source_size);
+    let lines = line(text, size).wrap_at_separators(width);
+    lines.iter().map(|words| line(words, size).with_italics(symbols).fit_width(width)).collect()
 }
 
 /// Draws the symbols of the figure at the foot of a panel, in as many lines as needed; the result is the rest of the panel.
@@ -52,7 +79,7 @@ pub(super) fn draw_source(area: &impl Area, panel: Rect, page: &CouplerGridPage,
     }
     let lines = theme
         .text_line(&page.heading.source, Point::origin(), Anchor::End, theme.note_size, theme.grey)
-        .wrap(panel.size.x);
+        .wrap_at_separators(panel.size.x);
     let right = panel.corner.x + panel.size.x;
     let step = 1.45 * theme.note_size;
     let height = step * lines.len() as f64;

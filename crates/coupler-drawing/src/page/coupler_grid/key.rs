@@ -183,23 +183,35 @@ impl<'a> Key<'a> {
             !label.joints.iter().all(is_fixed) || label.joints.iter().all(|end| pivots.contains(end))
         };
         let links = self.page.labels.iter().filter(is_link);
-        let mut names: Vec<(&str, [Point; 2])> =
-            links.map(|label| (label.text.as_str(), label.joints.map(|joint| self.at(joint)))).collect();
+        let mut names: Vec<(&str, [Point; 2], Option<Point>)> =
+            links.map(|label| (label.text.as_str(), label.joints.map(|joint| self.at(joint)), None)).collect();
         if let Some([from, foot, point]) = self.coordinate_corners() {
-            let coordinates = [("across", [foot, point]), ("along", [foot, from])];
-            names.extend(coordinates.into_iter().filter(|(_, [a, b])| (b - a).norm() > 2.0 * self.letter));
+            // On the other side of the point, so that it cannot be read as the name of the line across.
+            let coordinates = [("across", [foot, point], None), ("along", [foot, from], Some(point))];
+            names.extend(coordinates.into_iter().filter(|(_, [a, b], _)| (b - a).norm() > 0.8 * self.letter));
         }
         let mut placed: Vec<(TextLine, LabelBox)> = Vec::new();
-        for (name, ends) in names {
+        for (name, ends, not_beside) in names {
             let line = self.theme.text_line(name, Point::origin(), Anchor::Middle, self.letter, self.theme.grey);
             let mut line = line.with_italics(self.page.heading.symbols);
             let half = self.half_size(&line.text);
             let is_free = |spot: &LabelBox| {
+                let side_of = |at: Point| cross(ends[1] - ends[0], at - ends[0]);
                 spot.is_inside(self.frame)
+                    && not_beside.is_none_or(|point| side_of(point) * side_of(spot.centre) < 0.0)
                     && placed.iter().all(|(_, other)| spot.distance_to_box(other) > self.label_gap())
             };
-            let spots = label_boxes(ends, self.centre, half, 0.45 * self.letter).filter(is_free);
-            if let Some((_, spot)) = labels::clearest_box(spots, |spot| obstacles.clearance(spot, 0.3 * self.letter)) {
+            let enough = 0.3 * self.letter;
+            let clearest = |parts: &[f64]| {
+                let spots = label_boxes(ends, self.centre, half, 0.45 * self.letter, parts).filter(is_free);
+                labels::clearest_box(spots, |spot| obstacles.clearance(spot, enough))
+            };
+            // Beyond a short line to the point if everywhere next to it the name would touch another line: all lines count as heavy, so
+            // that a quarter of the clearance is for the light ones.
+            let touches = |(clearance, _): &(f64, LabelBox)| *clearance < 0.35 * enough;
+            let near = clearest(&BESIDE);
+            let far = near.filter(|near| not_beside.is_none() && touches(near)).and_then(|_| clearest(&BEYOND));
+            if let Some((_, spot)) = far.filter(|far| !touches(far)).or(near) {
                 line.text.position = spot.centre + Vector::new(0.0, half.y);
                 placed.push((line, spot));
             }
@@ -233,14 +245,24 @@ fn nearest_point<'a>(linkage: &Linkage, shown: &'a [ShownCurve<'a>]) -> Option<&
     points.min_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, s)| s)
 }
 
-/// The candidate positions of a label next to a link, the best first: at the middle of the link, on the side away from
+/// The places of a name beside a line, as parts of its length, the best first; and those beyond its end.
+const BESIDE: [f64; 5] = [0.5, 0.35, 0.65, 0.2, 0.8];
+const BEYOND: [f64; 4] = [1.0, 1.25, 1.5, 1.8];
+
+/// The candidate positions of a label next to a link, in the order of `parts` of its length: on the side away from
 /// the `centre` of the linkage. The nearest corner or side of the box is at the distance `gap` from the link.
-fn label_boxes([a, b]: [Point; 2], centre: Point, half: Vector, gap: f64) -> impl Iterator<Item = LabelBox> {
+fn label_boxes(
+    [a, b]: [Point; 2],
+    centre: Point,
+    half: Vector,
+    gap: f64,
+    parts: &[f64],
+) -> impl Iterator<Item = LabelBox> {
     let normal = left_normal(b - a).try_normalize(0.0).unwrap_or(Vector::new(0.0, -1.0));
     let outward = if cross(b - a, centre - a) > 0.0 { -normal } else { normal };
     let away = outward * (half.x * outward.x.abs() + half.y * outward.y.abs() + gap);
     let spot = move |(part, away): (f64, Vector)| LabelBox { centre: a + (b - a) * part + away, half_size: half };
-    [0.5, 0.35, 0.65, 0.2, 0.8].into_iter().flat_map(move |part| [(part, away), (part, -away)]).map(spot)
+    parts.iter().flat_map(move |&part| [(part, away), (part, -away)]).map(spot)
 }
 
 fn line(a: Point, b: Point) -> Polyline {

@@ -10,12 +10,26 @@ const ROUNDING: f64 = 1.5 * f64::EPSILON;
 /// The decimals that are tried: fewer than give some doubles of about 1 or less in full.
 const MAX_DECIMALS: usize = 17;
 
-/// A number in full: with the fewest decimals that give it up to rounding, or with all digits of the double.
+/// A number in full: with the fewest decimals that give it up to rounding, as a fraction if these are many, or with all digits of
+/// the double.
 pub(super) fn format_in_full(value: f64) -> String {
-    match exact_decimals(value) {
-        Some(decimals) => format_fixed(value, decimals),
-        None => format_exactly(value),
+    const MAX_SHORT: usize = 8;
+    let decimals = exact_decimals(value);
+    match decimals {
+        Some(decimals) if decimals <= MAX_SHORT => format_fixed(value, decimals),
+        _ => fraction(value).or_else(|| Some(format_fixed(value, decimals?))).unwrap_or_else(|| format_exactly(value)),
     }
+}
+
+/// A number as a fraction with a denominator below 1000, if it is one up to rounding.
+fn fraction(value: f64) -> Option<String> {
+    const MAX_DENOMINATOR: u32 = 999;
+    let numerator = |denominator: u32| {
+        let numerator = (value * f64::from(denominator)).round();
+        ((numerator / f64::from(denominator) - value).abs() <= ROUNDING * value.abs()).then_some(numerator)
+    };
+    let (numerator, denominator) = (2..=MAX_DENOMINATOR).find_map(|d| Some((numerator(d)?, d)))?;
+    Some(format!("{} / {denominator}", format_exactly(numerator)))
 }
 
 /// The fewest decimals with which a number is given in full, up to rounding.
@@ -78,7 +92,8 @@ mod tests {
         for (value, text) in numbers {
             assert_eq!(format_in_full(value), text);
         }
-        assert_eq!(format_in_full(third).parse::<f64>(), Ok(third));
+        assert_eq!(format_in_full(third), "1 / 3");
+        assert_eq!(format_in_full(-0.5 + 1.0 / 3.0), "−1 / 6");
         assert_eq!(format_in_full(6.0_f64.sqrt()).parse::<f64>(), Ok(6.0_f64.sqrt()));
     }
 
