@@ -41,6 +41,7 @@ mod resuming;
 mod schema;
 mod surroundings;
 mod themes;
+mod watching;
 
 /// The configuration of property tests, with the same random cases in every run; `PROPTEST_CASES=20000` sets their
 /// number, and `PROPTEST_RNG_SEED=…` the seed.

@@ -51,7 +51,8 @@ const SUBSTITUTED: [(&str, &[(&str, i32)]); 12] = [
 ];
 
 /// Commands that are not run, each with the reason.
-const NOT_RUN: [(&str, &str); 6] = [
+const NOT_RUN: [(&str, &str); 7] = [
+    ("coupler-atlas render --watch --open", "it runs until it is interrupted: watching.rs"),
     ("cargo test", "this is it"),
     ("cargo bench", "takes minutes"),
     ("cargo install --locked --path .", "builds the program, which has been built"),

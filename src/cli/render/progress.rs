@@ -1,0 +1,123 @@
+//! The progress of a run, and a line for each family at its end.
+
+use coupler_atlas::output::Event;
+use coupler_atlas::record::FamilyRecord;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use super::super::{pluralize, print_stderr, printable};
+
+/// The number of cells of a family that are reported one by one as not assembled.
+const MAX_WARNINGS: usize = 10;
+
+/// Reports the progress of a run: a bar on a terminal, and a line for each family at the end.
+pub(super) struct ProgressReporter {
+    is_quiet: bool,
+    /// Whether families and books in which nothing has changed have a line, too.
+    reports_unchanged: bool,
+    bar: ProgressBar,
+    /// The cells of the current family that are not assembled.
+    warnings: usize,
+    /// The cells of all families that are not assembled.
+    pub not_assembled: usize,
+    /// Whether anything of a family or of the book was drawn.
+    pub has_drawn: bool,
+}
+
+impl ProgressReporter {
+    pub fn new(is_quiet: bool, reports_unchanged: bool) -> ProgressReporter {
+        ProgressReporter {
+            is_quiet,
+            reports_unchanged,
+            bar: ProgressBar::hidden(),
+            warnings: 0,
+            not_assembled: 0,
+            has_drawn: false,
+        }
+    }
+
+    pub fn handle_event(&mut self, event: Event, lines: &mut String) {
+        match event {
+            Event::Begin { family, pages } if !self.is_quiet => {
+                let style = ProgressStyle::with_template("{msg:20} {bar:40} {pos}/{len} pages");
+                self.bar = ProgressBar::with_draw_target(Some(pages as u64), ProgressDrawTarget::stderr());
+                self.bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+                self.bar.set_message(printable(family));
+            }
+            Event::Begin { .. } => {}
+            Event::Page => self.bar.inc(1),
+            Event::Shortfall { family, cell, reason } => {
+                self.not_assembled += 1;
+                self.warnings += 1;
+                if self.warnings <= MAX_WARNINGS {
+                    self.bar
+                        .suspend(|| print_stderr(&format!("warning: {family}, cell {cell}: {}\n", printable(reason))));
+                }
+            }
+            Event::End { record, drawn } => {
+                self.bar.finish_and_clear();
+                if self.warnings > MAX_WARNINGS {
+                    print_stderr(&format!(
+                        "warning: {}: {} more cells are not assembled; see cells.csv\n",
+                        record.id,
+                        self.warnings - MAX_WARNINGS
+                    ));
+                }
+                self.warnings = 0;
+                self.has_drawn |= drawn.is_some();
+                if drawn.is_some() || self.reports_unchanged {
+                    lines.push_str(&summary(record, drawn));
+                }
+            }
+            Event::Book { record, is_drawn } => {
+                self.bar.finish_and_clear();
+                self.has_drawn |= is_drawn;
+                if !is_drawn && !self.reports_unchanged {
+                    return;
+                }
+                let names: Vec<&str> = record.files.iter().map(|file| file.name.as_str()).collect();
+                let files = match &names[..] {
+                    [first, .., last] => format!("{first} to {last}"),
+                    _ => names.concat(),
+                };
+                let unchanged = if is_drawn { "" } else { " (unchanged)" };
+                lines.push_str(&format!("{files}: {}{unchanged}\n", pluralize(record.pages, "page")));
+            }
+            Event::UnusableRecord { record, error } => {
+                let (record, error) = (printable(record.display()), printable(error));
+                print_stderr(&format!(
+                    "warning: {record} is replaced: {error}; every page is drawn, and no file is removed\n"
+                ));
+            }
+        }
+    }
+}
+
+/// "evans: 3 cells (1 not assembled), 2 curves, 1 page"; `drawn` is `None` if the family is unchanged.
+fn summary(record: &FamilyRecord, drawn: Option<usize>) -> String {
+    let mut line = format!("{}: {}", record.id, pluralize(record.cells, "cell"));
+    let counts = [
+        (record.not_assembled - record.partly_assembled + record.unassembled_left_out, "not assembled"),
+        (record.partly_assembled, "assembled over a part of the range"),
+        (record.cells - record.kept - record.unassembled_left_out, "left out by `where`"),
+    ];
+    let counts = counts.into_iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}"));
+    let counts: Vec<String> = counts.collect();
+    if !counts.is_empty() {
+        line.push_str(&format!(" ({})", counts.join(", ")));
+    }
+    line.push_str(&format!(", {}", pluralize(record.curves, "curve")));
+    if record.curves_left_out > 0 {
+        line.push_str(&format!(" ({} more left out by `where`)", record.curves_left_out));
+    }
+    line.push_str(&format!(", {}", pluralize(record.pages, "page")));
+    match drawn {
+        None => line.push_str(" (unchanged)"),
+        // Pages that are only in the book have no files.
+        Some(drawn) if drawn < record.pages && record.files.len() > record.pages => {
+            line.push_str(&format!(" ({drawn} of {} drawn)", pluralize(record.pages, "page")));
+        }
+        Some(_) => {}
+    }
+    line.push('\n');
+    line
+}
