@@ -1,6 +1,7 @@
 //! Benchmarks the search for linkages on one core: `cargo bench --bench find`.
 
 use std::hint::black_box;
+use std::time::{Duration, Instant};
 
 use coupler_curves::FourBar;
 use coupler_curves::find::{
@@ -17,6 +18,27 @@ fn target(kind: PathKind) -> Target {
     let every = points.len() / 100;
     let count = if kind == PathKind::Closed { 100 } else { 40 };
     Target::new(&points.into_iter().step_by(every).take(count).collect::<Vec<_>>(), kind).unwrap()
+}
+
+/// The time of the longest step of a search, the shortest of some repetitions: what a page waits for between two frames.
+fn longest_step(target: &Target, index: &Index) -> Duration {
+    const REPETITIONS: usize = 3;
+    let times = |_| {
+        let mut search = Search::new(target, Options::default());
+        let mut times = Vec::new();
+        loop {
+            let start = Instant::now();
+            let is_left = search.step(index);
+            times.push(start.elapsed());
+            if !is_left {
+                break times;
+            }
+        }
+    };
+    let repetitions: Vec<Vec<Duration>> = (0..REPETITIONS).map(times).collect();
+    // All repetitions take the same steps.
+    let shortest = (0..repetitions[0].len()).filter_map(|k| repetitions.iter().map(|times| times[k]).min());
+    shortest.max().unwrap_or_default()
 }
 
 fn find(criterion: &mut Criterion) {
@@ -37,11 +59,14 @@ fn find(criterion: &mut Criterion) {
     });
     group.throughput(Throughput::Elements(1));
     group.bench_function("search for a part", |bencher| {
-        bencher.iter(|| Search::new(&part, &index, Options::default()).run());
+        bencher.iter(|| Search::new(&part, Options::default()).run(&index));
     });
+    for (name, kind) in [("closed path", &target), ("part", &part)] {
+        println!("find: the longest step of a search for a {name} takes {:.1?}", longest_step(kind, &index));
+    }
     for (name, effort) in [("quick search", Effort::Quick), ("search", Effort::Normal)] {
         let options = Options { effort, ..Options::default() };
-        group.bench_function(name, |bencher| bencher.iter(|| Search::new(&target, &index, options.clone()).run()));
+        group.bench_function(name, |bencher| bencher.iter(|| Search::new(&target, options.clone()).run(&index)));
     }
     let other = FourBar { frame: 3.2, crank: 1.3, coupler: 2.7, rocker: 3.2 };
     let curve: Vec<Point> = other.coupler_curve(1.8, 1.5).unwrap().points().collect();

@@ -91,9 +91,8 @@ fn answers_are_those_of_the_program() {
             let points: Vec<Point> = numbers.as_chunks().0.iter().map(|&[x, y]| Point::new(x, y)).collect();
             let target = Target::new(&points, kind).unwrap();
             let options = Options { full_turn, most: 3, ..Options::default() };
-            let expected = Search::new(&target, &index, options).run();
+            let expected = Search::new(&target, options).run(&index);
             assert!(!expected.is_empty(), "{name}");
-            assert_eq!(found["index_count"], count);
             assert_eq!(found["size"], target.size());
             assert_eq!(found["manifest"], answers_manifest("bean", target.size(), &expected));
             let answers = found["answers"].as_array().unwrap();
@@ -148,15 +147,10 @@ fn there_are_answers_before_the_end() {
 }
 
 #[test]
-fn the_index_grows_while_no_search_is_open() {
-    let (mut kernel, count) = kernel_with_index(1);
+fn the_index_grows_in_steps() {
+    let (_, count) = kernel_with_index(1);
     // Bounded work for a page with one thread.
     assert!(count <= 128, "{count} curves in a step");
-    let numbers = path(30, 1.0);
-    let (opened, _) = answer(&mut kernel, &open_request(&numbers, "closed", true), &numbers);
-    assert!(error(&mut kernel, &json!({ "method": "grow_index" }), &[]).contains("while a search is open"));
-    answer(&mut kernel, &json!({ "method": "close_search", "search": opened["search"] }), &[]);
-    answer(&mut kernel, &json!({ "method": "grow_index" }), &[]);
 }
 
 #[test]

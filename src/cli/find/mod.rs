@@ -160,7 +160,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         rayon::ThreadPoolBuilder::new().num_threads(jobs.into()).build_global()?;
     }
     let index = find::load_index(arguments.index as usize);
-    let answers = Search::new(&target, &index, options.clone()).run();
+    let answers = Search::new(&target, options.clone()).run(&index);
     let nearest_miss = if answers.is_empty() { nearest_miss(&target, &index, &options) } else { None };
     let report = Report { name, target, answers, nearest_miss };
     if let Some(path) = &arguments.svg {

@@ -24,7 +24,7 @@ pub struct Index {
 pub struct IndexPart(Vec<Shape>);
 
 /// The number of poses from which a curve is computed.
-const SAMPLES: usize = 128;
+pub(super) const SAMPLES: usize = 128;
 
 /// A four-bar of the sequence on one of its circuits.
 pub(super) struct Entry {
@@ -124,11 +124,6 @@ impl Index {
     /// The transform of spectra.
     pub(super) fn transform(&self) -> &Transform {
         &self.transform
-    }
-
-    /// The directions of the cranks of sampled circuits.
-    pub(super) fn directions(&self) -> &[Complex] {
-        &self.directions
     }
 
     /// A four-bar of the sequence.

@@ -3,7 +3,7 @@
 use super::complex::{Complex, dot, length, times_i, turned, unit};
 use super::pose::Pose;
 use crate::geometry::{Point, Vector, trig};
-use crate::linkage::{FourBar, PlacedFourBar};
+use crate::linkage::{Cognates, FourBar, PlacedFourBar};
 
 /// The number of parameters of a placed four-bar with a coupler point.
 pub(super) const COUNT: usize = 9;
@@ -88,6 +88,12 @@ impl Parameters {
             rocker: scale * self.rocker,
             point: scale * self.point,
         }
+    }
+
+    /// The two other four-bars that trace the same curve.
+    pub fn cognates(&self) -> Vec<Parameters> {
+        let Ok(cognates) = Cognates::from_four_bar(self.to_placed()) else { return Vec::new() };
+        cognates.others.iter().map(|cognate| Parameters::from_placed(&cognate.four_bar)).collect()
     }
 
     /// The mirror image in the x-axis.

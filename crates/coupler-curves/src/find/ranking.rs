@@ -1,8 +1,14 @@
-//! The answers of a search, made from its refinements in bounded steps.
+//! The answers of a search: refined linkages without those whose curves are the same, with their cognates.
 
 use super::answer::Answer;
 use super::complex::{Complex, length};
-use super::search::{Fit, Search};
+use super::fitting::{Fit, Fitting};
+use super::mechanism::Mechanism;
+use super::parameters::Parameters;
+use super::search::Search;
+use super::timing::Timing;
+use crate::geometry::Point;
+use crate::linkage::{Cognate, Cognates, PlacedFourBar};
 
 /// Makes the answers of a search so far, the nearest first. Those whose curves are the same to a thousandth of the target's size are
 /// one. The search takes no step meanwhile.
@@ -20,9 +26,10 @@ pub struct Ranking {
 impl Ranking {
     /// Takes a step, of a few milliseconds at most for a target of a hundred points; false if nothing is left to do.
     pub fn step(&mut self, search: &Search) -> bool {
-        if let Some(refinement) = search.refinements().get(self.compared) {
+        let (fitting, refinements, most) = search.results();
+        if let Some(refinement) = refinements.get(self.compared) {
             self.compared += 1;
-            if let Some(fit) = search.fit(refinement) {
+            if let Some(fit) = fitting.fit(refinement) {
                 self.add(fit);
             }
             return true;
@@ -30,11 +37,8 @@ impl Ranking {
         if self.next == 0 {
             self.found.sort_by(|a, b| a.0.matching.sum.total_cmp(&b.0.matching.sum));
         }
-        if self.answers.len() == search.most_answers() {
-            return false;
-        }
-        let Some((fit, _)) = self.found.get(self.next) else { return false };
-        self.answers.extend(search.answer(fit));
+        let Some((fit, _)) = self.found.get(self.next).filter(|_| self.answers.len() < most) else { return false };
+        self.answers.extend(fitting.answer(fit));
         self.next += 1;
         true
     }
@@ -55,5 +59,56 @@ impl Ranking {
     /// The answers.
     pub fn into_answers(self) -> Vec<Answer> {
         self.answers
+    }
+}
+
+impl Fitting {
+    /// The answer of a fit, if one of the four-bars that trace its curve meets the constraints.
+    fn answer(&self, Fit { linkage, matching, length_ratio }: &Fit) -> Option<Answer> {
+        let (size, centre) = self.target.placement();
+        let original = linkage.transformed(Complex::new(size, 0.0), centre);
+        let placed = original.to_placed();
+        let poses: Vec<[Point; 2]> = matching.poses.iter().map(|pose| original.pins(pose)).collect();
+        // A point on a pin has no cognates.
+        let all = match Cognates::from_four_bar(placed) {
+            Ok(cognates) => cognates.all().to_vec(),
+            Err(_) => Vec::new(),
+        };
+        let solve = |cognate: &Cognate| {
+            let pins = |[a, b]: &[Point; 2]| cognate.pins([placed.pivots[0], *a, *b, placed.pivots[1]]);
+            let pins: Vec<[Point; 2]> = poses.iter().map(pins).collect();
+            // One of the cognates has another timing: its crank moves as the rocker of this one.
+            let cranks = || pins.iter().map(|[crank, _]| *crank);
+            let is_kept = |[timing, _]: &[Timing; 2]| timing.is_kept(cognate.four_bar.pivots[0], cranks());
+            let is_timed = self.timing.as_ref().is_none_or(is_kept);
+            if is_timed { self.mechanism(cognate.four_bar, &pins) } else { None }
+        };
+        let mut mechanisms: Vec<Mechanism> = match all.is_empty() {
+            true => self.mechanism(placed, &poses).into_iter().collect(),
+            false => all.iter().filter_map(solve).collect(),
+        };
+        let angle = |mechanism: &Mechanism| if mechanism.meets_constraints { mechanism.mu_worst_deg } else { f64::NAN };
+        let best = (0..mechanisms.len()).filter(|k| mechanisms[*k].meets_constraints);
+        let best = best.reduce(|best, k| if angle(&mechanisms[k]) > angle(&mechanisms[best]) { k } else { best })?;
+        mechanisms[..=best].rotate_right(1);
+        let rms_relative = (matching.sum / self.points.len() as f64).sqrt();
+        Some(Answer {
+            mechanism: mechanisms.remove(0),
+            cognates: mechanisms,
+            rms: size * rms_relative,
+            rms_relative,
+            greatest: size * matching.greatest,
+            is_in_order: matching.is_in_order,
+            length_ratio: *length_ratio,
+        })
+    }
+
+    /// A four-bar, solved, with its pins at each point of the target.
+    fn mechanism(&self, four_bar: PlacedFourBar, pins: &[[Point; 2]]) -> Option<Mechanism> {
+        let mut mechanism = Mechanism::solve(four_bar, pins, self.limits.condition.as_ref())?;
+        let (size, centre) = self.target.placement();
+        let normalized = Parameters::from_placed(&four_bar).transformed(Complex::new(1.0 / size, 0.0), -centre / size);
+        mechanism.meets_constraints &= self.limits.are_nearly_satisfied(&normalized);
+        Some(mechanism)
     }
 }

@@ -40,7 +40,7 @@ impl Constraint {
 /// one with the nearest answer, or else all of them. `None` if there is no answer even then. It takes a search for each.
 pub fn nearest_miss(target: &Target, index: &Index, options: &Options) -> Option<(Vec<Constraint>, Answer)> {
     let options = Options { most: 1, ..options.clone() };
-    let first = |options: Options| Search::new(target, index, options).run().into_iter().next();
+    let first = |options: Options| Search::new(target, options).run(index).into_iter().next();
     let alone = Constraint::ALL.into_iter().filter_map(|constraint| {
         let answer = first(constraint.relaxed(&options)?)?;
         Some((vec![constraint], answer))

@@ -77,7 +77,7 @@ fn points(coordinates: &[(f64, f64)]) -> Vec<Point> {
 }
 
 fn find(points: &[Point], options: Options) -> Vec<Answer> {
-    Search::new(&Target::new(points, PathKind::Closed).unwrap(), &INDEX, options).run()
+    Search::new(&Target::new(points, PathKind::Closed).unwrap(), options).run(&INDEX)
 }
 
 /// The coupler point of a placed four-bar at an angle of the crank from the x-axis, by the intersection of two circles.
@@ -157,7 +157,7 @@ fn published_targets_are_met_as_well_as_is_known() {
     }
     // On any circuit, of which each may be that of a triple-rocker.
     let any = find(&points(&YU2), Options { full_turn: false, ..Options::default() });
-    assert!(any[0].rms <= 0.6232, "{}", any[0].rms);
+    assert!(any[0].rms <= 1.0005 * 0.5202, "{}", any[0].rms);
 }
 
 /// Numbers from 0 to 1 that are not those of the index.
@@ -299,7 +299,7 @@ fn open_strokes_are_met_as_well_as_is_known() {
     for (name, stroke, most) in strokes {
         let target = Target::new(&stroke, PathKind::Open).unwrap();
         let options = Options { full_turn: false, most: 1, ..Options::default() };
-        let answers = Search::new(&target, &INDEX, options).run();
+        let answers = Search::new(&target, options).run(&INDEX);
         let first = &answers[0];
         assert!(first.rms_relative <= most, "{name}: {}", first.rms_relative);
         assert!(first.mechanism.longest_link() <= 10.0 * target.size() * (1.0 + 1e-9), "{name}");
@@ -320,7 +320,7 @@ fn parts_of_curves_are_found_again() {
         for (k, (points, kind)) in [(part, PathKind::Part), (nine, PathKind::Open)].into_iter().enumerate() {
             let target = Target::new(&points, kind).unwrap();
             let options = Options { most: 1, max_link: f64::INFINITY, ..Options::default() };
-            let answers = Search::new(&target, &INDEX, options).run();
+            let answers = Search::new(&target, options).run(&INDEX);
             near[k] += usize::from(answers.first().is_some_and(|first| first.rms_relative < [1e-4, 1e-9][k]));
         }
     }
@@ -334,7 +334,7 @@ fn the_length_of_a_part_counts() {
     let stroke = along(&[(0.0, 1.0), (0.5, 0.0), (1.0, 1.0)], 61);
     let options = || Options { full_turn: false, ..Options::default() };
     let target = Target::new(&stroke, PathKind::Part).unwrap();
-    let answers = Search::new(&target, &INDEX, options()).run();
+    let answers = Search::new(&target, options()).run(&INDEX);
     assert!(!answers.is_empty());
     for answer in answers {
         assert!((LENGTH_RATIOS[0]..=LENGTH_RATIOS[1]).contains(&answer.length_ratio), "{}", answer.length_ratio);
@@ -373,7 +373,7 @@ fn timed_targets_are_reached_at_their_inputs() {
         let (points, angles, size) = timed_points(&placed, side, &mut random);
         let target = Target::timed(&points, PathKind::Closed, &angles).unwrap();
         let options = Options { max_link: f64::INFINITY, ..Options::default() };
-        let Some(answer) = Search::new(&target, &INDEX, options).run().into_iter().next() else { continue };
+        let Some(answer) = Search::new(&target, options).run(&INDEX).into_iter().next() else { continue };
         assert!((timed_deviation(&answer, &points, &angles) - answer.rms).abs() <= 1e-7 * size);
         found += usize::from(answer.rms < 1e-6 * size);
     }
@@ -394,10 +394,10 @@ fn a_timed_answer_with_noise_is_as_near_as_the_linkage_that_made_the_path() {
         let own = (square / points.len() as f64).sqrt();
         let target = Target::timed(&points, PathKind::Closed, &angles).unwrap();
         let options = Options { max_link: f64::INFINITY, ..Options::default() };
-        let answers = Search::new(&target, &INDEX, options.clone()).run();
+        let answers = Search::new(&target, options.clone()).run(&INDEX);
         found += usize::from(answers.first().is_some_and(|answer| answer.rms <= own));
         // Without its inputs the path is met at least as well.
-        let free = Search::new(&Target::new(&points, PathKind::Closed).unwrap(), &INDEX, options).run();
+        let free = Search::new(&Target::new(&points, PathKind::Closed).unwrap(), options).run(&INDEX);
         assert!(answers.first().is_none_or(|answer| free[0].rms <= answer.rms));
     }
     assert!(found >= COUNT * 9 / 10, "{found} of {COUNT}");
@@ -410,7 +410,7 @@ fn timed_answers_have_the_cognates_with_their_timing_and_are_invariant() {
     let (points, angles, size) = timed_points(&placed, side, &mut random);
     let find = |points: &[Point], angles: &[f64]| {
         let target = Target::timed(points, PathKind::Closed, angles).unwrap();
-        Search::new(&target, &INDEX, Options::default()).run().remove(0)
+        Search::new(&target, Options::default()).run(&INDEX).remove(0)
     };
     let answer = find(&points, &angles);
     // Of the three four-bars that trace a curve, two have cranks that turn alike.
@@ -493,10 +493,10 @@ fn steps_do_not_change_the_answers() {
     (0..4).for_each(|_| grown.extend(500));
     let whole = Index::with_count(2000);
     let target = Target::new(&points(&MKH2), PathKind::Closed).unwrap();
-    let answers = |index: &Index| Search::new(&target, index, Options::default()).run();
+    let answers = |index: &Index| Search::new(&target, Options::default()).run(index);
     assert_eq!(answers(&grown), answers(&whole));
     assert_eq!((grown.len(), Index::BYTES_PER_CURVE <= 64), (2000, true));
-    assert!(Search::new(&target, &Index::new(), Options::default()).run().is_empty());
+    assert!(Search::new(&target, Options::default()).run(&Index::new()).is_empty());
 }
 
 #[test]
@@ -514,10 +514,10 @@ fn points_that_are_no_target_are_refused_with_the_reason() {
     for scale in [1e-150, 1e150] {
         let coordinates: Vec<(f64, f64)> = YU1.iter().map(|(x, y)| (x * scale, y * scale)).collect();
         if let Ok(target) = Target::new(&points(&coordinates), PathKind::Closed) {
-            Search::new(&target, &Index::with_count(200), Options::default()).run();
+            Search::new(&target, Options::default()).run(&Index::with_count(200));
         }
     }
     let line: Vec<(f64, f64)> = (0..9).map(|k| (f64::from(k), 0.0)).collect();
-    Search::new(&Target::new(&points(&line), PathKind::Closed).unwrap(), &Index::with_count(200), Options::default())
-        .run();
+    Search::new(&Target::new(&points(&line), PathKind::Closed).unwrap(), Options::default())
+        .run(&Index::with_count(200));
 }
