@@ -27,48 +27,40 @@ pub(crate) fn target_of(points: &[Point], kind: &str) -> Result<Target, String> 
     Target::new(points, kind).map_err(|error| error.to_string())
 }
 
-/// The index of four-bars.
-#[derive(Default)]
-pub(crate) struct FourBarIndex(Index);
-
-impl FourBarIndex {
-    /// Adds the next curves, up to the number that the program searches by default; how many there are, and how many there will
-    /// be.
-    pub fn grow(&mut self) -> Value {
-        let FourBarIndex(index) = self;
-        index.extend(CURVES_PER_STEP.min(Index::DEFAULT_COUNT - index.len()));
-        json!({ "count": index.len(), "full_count": Index::DEFAULT_COUNT })
-    }
+/// Adds the next curves to the index, up to the number that the program searches by default; how many there are, and how many there
+/// will be.
+pub(crate) fn grow_index(index: &mut Index) -> Value {
+    index.extend(CURVES_PER_STEP.min(Index::DEFAULT_COUNT - index.len()));
+    json!({ "count": index.len(), "full_count": Index::DEFAULT_COUNT })
 }
 
 /// A search for the four-bars whose curves are nearest to a path.
 pub(crate) struct FourBarSearch {
     search: Search,
     target: Target,
-    /// The curves of the index.
-    count: usize,
     /// The answers so far that are being made.
     ranking: Ranking,
 }
 
 impl FourBarSearch {
-    /// Begins a search in the curves that the index has so far.
+    /// Begins a search.
     ///
     /// # Errors
     /// The points are no path.
-    pub fn new(index: &FourBarIndex, points: &[Point], kind: &str, options: Options) -> Result<FourBarSearch, String> {
+    pub fn new(points: &[Point], kind: &str, options: Options) -> Result<FourBarSearch, String> {
         let target = target_of(points, kind)?;
         let search = Search::new(&target, options);
-        Ok(FourBarSearch { search, target, count: index.0.len(), ranking: Ranking::default() })
+        Ok(FourBarSearch { search, target, ranking: Ranking::default() })
     }
 
-    /// Takes a step of bounded work in the index with which it began; whether nothing is left to do.
-    pub fn step(&mut self, index: &FourBarIndex) -> bool {
+    /// Takes a step of bounded work; whether nothing is left to do.
+    pub fn step(&mut self, index: &Index) -> bool {
         self.ranking = Ranking::default();
-        !self.search.step(&index.0)
+        !self.search.step(index)
     }
 
-    /// Takes a step towards the answers so far, or has them: those of `find --json` with their curves, and the manifest of `find --toml` for a path with a name.
+    /// Takes a step towards the answers so far, or has them: those of `find --json` with their curves, and the manifest
+    /// of `find --toml` for a path with a name.
     pub fn answers_json(&mut self, name: &str, numbers: &mut Numbers) -> Value {
         if self.ranking.step(&self.search) {
             return json!({ "is_complete": false });
@@ -91,7 +83,6 @@ impl FourBarSearch {
         json!({
             "is_complete": true,
             "size": size,
-            "index_count": self.count,
             "answers": (1..).zip(&answers).map(answer).collect::<Vec<_>>(),
             "manifest": answers_manifest(name, size, &answers),
         })

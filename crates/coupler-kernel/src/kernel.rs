@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use coupler_curves::find::CurveIndex;
+use coupler_curves::find::{CurveIndex, Index};
 use coupler_curves::geometry::Point;
 use coupler_curves::linkage::{Cognates, JointId};
 use coupler_curves::motion;
@@ -10,7 +10,7 @@ use coupler_curves::motion;
 use crate::curves::{ShapeSearch, add_curves, deviation};
 use crate::description::{opened_json, study_json};
 use crate::family::{OpenFamily, fragment};
-use crate::finder::{FourBarIndex, FourBarSearch};
+use crate::finder::{FourBarSearch, grow_index};
 use crate::overlays::{centrodes_json, cognate_pins, cognates, cognates_json};
 use crate::paths::{measures_json, path_json, speeds_json};
 use crate::reading::{nearest_place, reading_json};
@@ -23,7 +23,7 @@ use crate::study::{Opened, Place, Study};
 pub struct Kernel {
     families: Slots<OpenFamily>,
     studies: Slots<OpenStudy>,
-    index: FourBarIndex,
+    index: Index,
     searches: Slots<FourBarSearch>,
     curves: Slots<CurveIndex>,
     shapes: Slots<ShapeSearch>,
@@ -90,9 +90,9 @@ impl Kernel {
                     .collect::<Result<Vec<_>, String>>()?;
                 json!({ "text": fragment(&curves)? })
             }
-            Request::GrowIndex => self.index.grow(),
+            Request::GrowIndex => grow_index(&mut self.index),
             Request::OpenSearch { points, kind, options } => {
-                let search = FourBarSearch::new(&self.index, &points, &kind, options)?;
+                let search = FourBarSearch::new(&points, &kind, options)?;
                 json!({ "search": self.searches.insert(search) })
             }
             Request::StepSearch { search } => json!({ "is_done": self.searches.get_mut(search)?.step(&self.index) }),

@@ -1,4 +1,4 @@
-//! The answers of a search, made from its refinements in bounded steps: those whose curves are the same are one, with its cognates.
+//! The answers of a search: refined linkages without those whose curves are the same, with their cognates.
 
 use super::answer::Answer;
 use super::complex::{Complex, length};
@@ -26,9 +26,10 @@ pub struct Ranking {
 impl Ranking {
     /// Takes a step, of a few milliseconds at most for a target of a hundred points; false if nothing is left to do.
     pub fn step(&mut self, search: &Search) -> bool {
-        if let Some(refinement) = search.refinements().get(self.compared) {
+        let (fitting, refinements, most) = search.results();
+        if let Some(refinement) = refinements.get(self.compared) {
             self.compared += 1;
-            if let Some(fit) = search.fitting().fit(refinement) {
+            if let Some(fit) = fitting.fit(refinement) {
                 self.add(fit);
             }
             return true;
@@ -36,11 +37,8 @@ impl Ranking {
         if self.next == 0 {
             self.found.sort_by(|a, b| a.0.matching.sum.total_cmp(&b.0.matching.sum));
         }
-        if self.answers.len() == search.most_answers() {
-            return false;
-        }
-        let Some((fit, _)) = self.found.get(self.next) else { return false };
-        self.answers.extend(search.fitting().answer(fit));
+        let Some((fit, _)) = self.found.get(self.next).filter(|_| self.answers.len() < most) else { return false };
+        self.answers.extend(fitting.answer(fit));
         self.next += 1;
         true
     }

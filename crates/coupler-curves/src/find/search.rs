@@ -141,16 +141,9 @@ impl Search {
         ranking.into_answers()
     }
 
-    pub(super) fn fitting(&self) -> &Fitting {
-        &self.fitting
-    }
-
-    pub(super) fn refinements(&self) -> &[Refinement] {
-        &self.refinements
-    }
-
-    pub(super) fn most_answers(&self) -> usize {
-        self.options.most
+    /// What answers are made of: the refinements, and the most answers.
+    pub(super) fn results(&self) -> (&Fitting, &[Refinement], usize) {
+        (&self.fitting, &self.refinements, self.options.most)
     }
 
     fn start_count(&self) -> usize {

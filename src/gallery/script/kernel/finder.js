@@ -8,9 +8,12 @@ const REPORT_MS = 2000;
 /** The most answers of a search. */
 export const MAX_FOUR_BARS = 5;
 
-/** The search for four-bars of a kernel. One is made at a time, in the index as it is when it begins. */
+/** The search for four-bars of a kernel. One search is made at a time: its index does not grow meanwhile. */
 export class FourBarFinder {
   /** @type {Promise<unknown>} */ running = Promise.resolve();
+
+  /** The curves of the index. */
+  count = 0;
 
   constructor(/** @type {Kernel} */ kernel) {
     this.kernel = kernel;
@@ -51,6 +54,7 @@ export class FourBarFinder {
     for (;;) {
       if (!(await slices.goOn()) || performance.now() > until) return false;
       const { count, full_count: full } = this.kernel.call({ method: "grow_index" });
+      this.count = count;
       if (count === full) return true;
     }
   }
@@ -73,7 +77,7 @@ export class FourBarFinder {
           if (!(await slices.goOn())) return;
           found = kernel.call({ method: "answers", search, name });
         } while (!found.is_complete);
-        report(found, isDone);
+        report({ ...found, index_count: this.count }, isDone);
       };
       let at = reportAt;
       while (!kernel.call({ method: "step_search", search }).is_done) {
