@@ -3,7 +3,9 @@
 use std::hint::black_box;
 
 use coupler_curves::FourBar;
-use coupler_curves::find::{Effort, Index, Options, PathKind, Search, Target};
+use coupler_curves::find::{
+    CurveFitOptions, CurveFitter, CurveIndex, CurveLookup, Effort, Index, Options, PathKind, Search, Target,
+};
 use coupler_curves::geometry::Point;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
@@ -41,6 +43,22 @@ fn find(criterion: &mut Criterion) {
         let options = Options { effort, ..Options::default() };
         group.bench_function(name, |bencher| bencher.iter(|| Search::new(&target, &index, options.clone()).run()));
     }
+    let other = FourBar { frame: 3.2, crank: 1.3, coupler: 2.7, rocker: 3.2 };
+    let curve: Vec<Point> = other.coupler_curve(1.8, 1.5).unwrap().points().collect();
+    for (name, target) in [("fit of a curve", &target), ("fit of a portion of a curve", &part)] {
+        let fitter = CurveFitter::new(target, CurveFitOptions::default());
+        group.bench_function(name, |bencher| bencher.iter(|| fitter.fit(black_box(&curve), true)));
+    }
+    group.throughput(Throughput::Elements(1000));
+    let mut curves = CurveIndex::new();
+    (0..1000).for_each(|_| curves.push(&curve, true));
+    group.bench_function("portions of 1000 given curves", |bencher| {
+        bencher.iter(|| {
+            let mut lookup = CurveLookup::new(black_box(&part), 0.15, 200);
+            lookup.compare(&curves, 0..curves.len());
+            lookup.numbers()
+        });
+    });
     group.finish();
 }
 

@@ -36,6 +36,16 @@ pub enum Quality {
 }
 
 impl Quality {
+    /// The word for a deviation relative to the size of the target.
+    pub fn of(rms_relative: f64) -> Quality {
+        match rms_relative {
+            ..=1e-4 => Quality::Exact,
+            ..=0.01 => Quality::Close,
+            ..=0.05 => Quality::Fair,
+            _ => Quality::Poor,
+        }
+    }
+
     /// The word.
     pub fn name(self) -> &'static str {
         match self {
@@ -50,12 +60,7 @@ impl Quality {
 impl Answer {
     /// How near the curve is.
     pub fn quality(&self) -> Quality {
-        match self.rms_relative {
-            ..=1e-4 => Quality::Exact,
-            ..=0.01 => Quality::Close,
-            ..=0.05 => Quality::Fair,
-            _ => Quality::Poor,
-        }
+        Quality::of(self.rms_relative)
     }
 
     /// The four-bar to build, and its cognates.

@@ -4,36 +4,57 @@ use super::complex::{Complex, mean, open_length};
 use super::parameters::Parameters;
 use super::pose::Pose;
 
-/// The points of a closed row of samples that are nearest to the points of a target in the mean square, in their order and
-/// within one round: indices that do not fall, of which the last is at most a round after the first; they may be in the
-/// second round. With the sum of the squares; `None` without samples.
+/// The points of a closed row of samples that are nearest to the points of a target in the mean square, see [`match_places`].
 fn match_in_order(target: &[Complex], samples: &[Complex]) -> Option<(f64, Vec<usize>)> {
-    let count = samples.len();
-    let (sum, free) = best_path(target, samples, 0..count)?;
+    match_places(target.len(), samples.len(), |k, j| (samples[j] - target[k]).norm_sqr())
+}
+
+/// The places of a closed row that are nearest to points in the mean square, in their order and within one round: indices that do
+/// not fall, of which the last is at most a round after the first; they may be in the second round. With the sum of the squares, each of
+/// which `square` gives for a point and a place; `None` without places.
+pub(super) fn match_places(
+    points: usize,
+    count: usize,
+    square: impl Fn(usize, usize) -> f64,
+) -> Option<(f64, Vec<usize>)> {
+    let (sum, free) = best_path((points, count, 2 * count), &square, 0..count)?;
     let (first, last) = (*free.first()?, *free.last()?);
     if last <= first + count {
         return Some((sum, free));
     }
     // Rarely the best path is longer than a round. Then each start is tried that is nearest to the first point among its
     // neighbours.
-    let square = |k: usize| (samples[k % count] - target[0]).norm_sqr();
-    let is_near = |k: &usize| square(*k) <= square(k + 1) && square(*k) <= square(k + count - 1);
-    let paths = (0..count).filter(is_near).filter_map(|start| best_path(target, samples, start..start + 1));
+    let first_square = |k: usize| square(0, k % count);
+    let is_near =
+        |k: &usize| first_square(*k) <= first_square(k + 1) && first_square(*k) <= first_square(k + count - 1);
+    let paths =
+        (0..count).filter(is_near).filter_map(|start| best_path((points, count, 2 * count), &square, start..start + 1));
     paths.min_by(|a, b| a.0.total_cmp(&b.0))
+}
+
+/// The same for a row that is open.
+pub(super) fn match_open_places(
+    points: usize,
+    count: usize,
+    square: impl Fn(usize, usize) -> f64,
+) -> Option<(f64, Vec<usize>)> {
+    best_path((points, count, count), square, 0..count)
 }
 
 /// The indices that do not fall and have the least sum of squares, the first of which is in a range; if that is a single
 /// index, they end at most a round after it. With that sum.
-fn best_path(target: &[Complex], samples: &[Complex], starts: std::ops::Range<usize>) -> Option<(f64, Vec<usize>)> {
-    let count = samples.len();
-    let rounds = 2 * count;
-    let end = if starts.len() == 1 { starts.start + count } else { rounds - 1 };
-    // For each point, the best sum of squares up to it if it is matched with a sample, and the sample before.
+fn best_path(
+    (points, count, rounds): (usize, usize, usize),
+    square: impl Fn(usize, usize) -> f64,
+    starts: std::ops::Range<usize>,
+) -> Option<(f64, Vec<usize>)> {
+    let end = if starts.len() == 1 { starts.start + count } else { rounds.checked_sub(1)? };
+    // For each point, the best sum of squares up to it if it is matched with a place, and the place before.
     let mut sums = vec![f64::INFINITY; rounds];
-    let mut before: Vec<u32> = vec![0; target.len() * rounds];
+    let mut before: Vec<u32> = vec![0; points * rounds];
     let mut squares = vec![0.0; count];
-    for (k, point) in target.iter().enumerate() {
-        squares.iter_mut().zip(samples).for_each(|(square, sample)| *square = (sample - point).norm_sqr());
+    for k in 0..points {
+        squares.iter_mut().enumerate().for_each(|(j, value)| *value = square(k, j));
         if k == 0 {
             starts.clone().for_each(|start| sums[start] = squares[start]);
             continue;
@@ -50,8 +71,8 @@ fn best_path(target: &[Complex], samples: &[Complex], starts: std::ops::Range<us
     }
     let reachable = sums.iter().enumerate().take(end + 1);
     let (mut at, sum) = reachable.min_by(|a, b| a.1.total_cmp(b.1)).filter(|(_, sum)| sum.is_finite())?;
-    let mut path = vec![0; target.len()];
-    for k in (0..target.len()).rev() {
+    let mut path = vec![0; points];
+    for k in (0..points).rev() {
         path[k] = at;
         at = before[k * rounds + at] as usize;
     }

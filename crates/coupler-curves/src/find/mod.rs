@@ -17,10 +17,19 @@
 //! position, size, direction, reflection and with any start, are placed on it and refined by Levenberg and Marquardt's method on
 //! nine parameters, with the distances across the curve and derivatives that are regular at limits of the input. The constraints
 //! are kept in each step. The best begin again from their cognates (Roberts and Chebyshev). All of it is in steps of bounded work.
+//!
+//! # Given curves
+//!
+//! Those of an atlas, of any linkages, are looked up by their shapes in a [`CurveIndex`], and placed on the target by a [`CurveFitter`],
+//! with the same metric.
 
 mod answer;
 mod complex;
 mod constraints;
+mod curve_alignment;
+mod curve_fit;
+mod curve_index;
+mod curve_path;
 mod index;
 mod matching;
 mod mechanism;
@@ -31,11 +40,15 @@ mod pose;
 mod refinement;
 mod relaxation;
 mod search;
+mod sequence;
+mod shape;
 mod spectrum;
 mod target;
 mod timing;
 
 pub use answer::{Answer, LENGTH_RATIOS, Quality};
+pub use curve_fit::{CurveFit, CurveFitOptions, CurveFitter, Placement};
+pub use curve_index::{CurveIndex, CurveLookup, CurveShape};
 pub use index::{Index, IndexPart};
 pub use mechanism::{Condition, Mechanism};
 pub use options::{Effort, Options};

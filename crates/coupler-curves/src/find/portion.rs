@@ -17,6 +17,11 @@ const INTERVALS: usize = POINTS - 1;
 /// The points of a curve in the index, at equal distances.
 const CURVE_POINTS: usize = 64;
 
+/// The greatest difference of spans in parts of the length, and that where windows are compared more closely afterwards: it allows for
+/// portions between the windows.
+const TOLERANCE: f32 = 0.1;
+const LOOSE_TOLERANCE: f32 = 0.25;
+
 /// A path, described for comparison.
 #[derive(Clone, Debug)]
 pub(super) struct Stroke {
@@ -39,7 +44,16 @@ pub(super) struct Window {
     /// Its first point, the distance to the next, in points of the curve, and whether the stroke is reversed.
     first: usize,
     stride: usize,
-    is_reversed: bool,
+    pub is_reversed: bool,
+}
+
+impl Window {
+    /// Whether the window is on the first or on the second half of the curve.
+    pub fn is_on_half(&self) -> [bool; 2] {
+        let ends = [self.first, self.first + INTERVALS * self.stride];
+        // Windows of [`Stroke::placements`], in the points of [`repeated`].
+        [ends[1] <= CURVE_POINTS, CURVE_POINTS <= ends[0] && ends[1] <= 2 * CURVE_POINTS]
+    }
 }
 
 impl Stroke {
@@ -66,17 +80,32 @@ impl Stroke {
     /// The window of a closed curve that is most like the stroke. The curve is given by points at equal distances, repeated once,
     /// and its length; every `step`-th point may be the first, and every multiple of `stride` the distance of its points. `None` if no
     /// window has about the stroke's spans.
-    fn best_window(&self, [xs, ys]: [&[f32]; 2], curve_length: f32, step: usize) -> Option<Window> {
-        /// The greatest difference of spans.
-        const TOLERANCE: f32 = 0.1;
-        let count = xs.len() / 2;
+    fn best_window(&self, curve: [&[f32]; 2], curve_length: f32, options: (usize, f64, f32)) -> Option<Window> {
         let mut best: Option<Window> = None;
-        for stride in 1..=count / INTERVALS {
+        self.for_each_window(curve, curve_length, options, |window| {
+            if best.is_none_or(|best| window.residual < best.residual) {
+                best = Some(window);
+            }
+        });
+        best
+    }
+
+    /// Calls a function with the windows that have about the stroke's spans, to a tolerance, and are at least a part of the curve.
+    fn for_each_window(
+        &self,
+        [xs, ys]: [&[f32]; 2],
+        curve_length: f32,
+        (step, least, tolerance): (usize, f64, f32),
+        mut receive: impl FnMut(Window),
+    ) {
+        let count = xs.len() / 2;
+        let least = (least * count as f64 / INTERVALS as f64) as usize;
+        for stride in least.max(1)..=count / INTERVALS {
             let whole = curve_length * (INTERVALS * stride) as f32 / count as f32;
             // Bounds of the squares of distances, in the unit of the curve.
             let bounds = self.spans.map(|spans| {
                 spans
-                    .map(|span| [(span - TOLERANCE).max(0.0), span + TOLERANCE].map(|span| span * whole * span * whole))
+                    .map(|span| [(span - tolerance).max(0.0), span + tolerance].map(|span| span * whole * span * whole))
             });
             for first in (0..count).step_by(step) {
                 let [a, b, c] = [0, INTERVALS / 2, INTERVALS].map(|k| (xs[first + k * stride], ys[first + k * stride]));
@@ -88,18 +117,16 @@ impl Stroke {
                     if !is_within {
                         continue;
                     }
-                    let window = self.compare([&xs[first..], &ys[first..]], stride, direction);
-                    if best.is_none_or(|best| window.residual < best.residual) {
-                        best = Some(Window { first, ..window });
-                    }
+                    let [same, mirrored] = self.residuals([&xs[first..], &ys[first..]], stride, direction);
+                    let (residual, is_mirrored) = (same.min(mirrored), mirrored < same);
+                    receive(Window { residual, is_mirrored, first, stride, is_reversed: direction == 1 });
                 }
             }
         }
-        best
     }
 
-    /// The window from the first of some points on.
-    fn compare(&self, [xs, ys]: [&[f32]; 2], stride: usize, direction: usize) -> Window {
+    /// The part of the stroke's sum of squares that remains for the window from the first of some points on, and for its mirror image.
+    fn residuals(&self, [xs, ys]: [&[f32]; 2], stride: usize, direction: usize) -> [f32; 2] {
         let [us, vs] = &self.directions[direction];
         let (mut x_sum, mut y_sum, mut squares) = (0.0, 0.0, 0.0);
         let (mut ux, mut uy, mut vx, mut vy) = (0.0, 0.0, 0.0, 0.0);
@@ -112,24 +139,110 @@ impl Stroke {
         let spread = (squares - (x_sum * x_sum + y_sum * y_sum) / POINTS as f32).max(f32::MIN_POSITIVE);
         let same = (ux + vy) * (ux + vy) + (uy - vx) * (uy - vx);
         let mirrored = (ux - vy) * (ux - vy) + (uy + vx) * (uy + vx);
-        let residual = 1.0 - same.max(mirrored) / spread;
-        Window { residual, is_mirrored: mirrored > same, first: 0, stride, is_reversed: direction == 1 }
+        [same, mirrored].map(|square| 1.0 - square / spread)
+    }
+
+    /// The residual of the best portion near a window of a curve of [`CURVE_POINTS`] points that are repeated once: its ends move by less
+    /// and less.
+    fn least_residual_near(&self, [xs, ys]: &[[f32; 2 * CURVE_POINTS]; 2], window: &Window, least: f32) -> f32 {
+        const STEPS: [f32; 4] = [2.0, 1.0, 0.5, 0.25];
+        const WHOLE: f32 = CURVE_POINTS as f32;
+        let residual = |[from, to]: [f32; 2]| -> f32 {
+            if to - from > WHOLE || to - from < least * WHOLE || to - from < 1.0 {
+                return f32::INFINITY;
+            }
+            let from_first_round = from.rem_euclid(WHOLE);
+            let mut points = [[0.0f32; POINTS]; 2];
+            for k in 0..POINTS {
+                let at = from_first_round + (to - from) * (k as f32 / INTERVALS as f32);
+                let (n, part) = (at as usize, at.fract());
+                for (points, values) in points.iter_mut().zip([xs, ys]) {
+                    let next = values[(n + 1) % values.len()];
+                    points[k] = values[n % values.len()] + (next - values[n % values.len()]) * part;
+                }
+            }
+            let [xs, ys] = &points;
+            let [same, mirrored] = self.residuals([xs, ys], 1, usize::from(window.is_reversed));
+            same.min(mirrored)
+        };
+        let mut ends = [window.first as f32, (window.first + INTERVALS * window.stride) as f32];
+        let mut best = window.residual;
+        for step in STEPS {
+            for by in [[step, step], [-step, -step], [0.0, step], [0.0, -step], [step, 0.0], [-step, 0.0]] {
+                loop {
+                    let next = [ends[0] + by[0], ends[1] + by[1]];
+                    let other = residual(next);
+                    if other >= best {
+                        break;
+                    }
+                    (ends, best) = (next, other);
+                }
+            }
+        }
+        best
     }
 
     /// The window of a closed curve that is most like the stroke, and the factor and the shift of the similarity that places the curve, after
     /// its reflection, on the stroke.
     pub fn placement(&self, curve: &[Complex]) -> Option<(Window, Complex, Complex)> {
-        const COUNT: usize = 2 * CURVE_POINTS;
-        let points = resampled(curve, COUNT);
-        let twice = |coordinate: fn(&Complex) -> f64| -> Vec<f32> {
-            points.iter().chain(&points).map(|z| coordinate(z) as f32).collect()
+        let (points, coordinates, whole) = repeated(curve);
+        let window = self.best_window(coordinates.each_ref().map(|values| &values[..]), whole, (1, 0.0, TOLERANCE))?;
+        let (factor, shift) = self.placed(&window, &points)?;
+        Some((window, factor, shift))
+    }
+
+    /// Windows of a closed curve that are like the stroke and are at least a part of the curve, the likeliest first, in different places or
+    /// directions, with and without a reflection, as far as `may_begin` allows. With the similarities that place the curve on the stroke.
+    pub fn placements(
+        &self,
+        curve: &[Complex],
+        (least, most): (f64, usize),
+        may_begin: impl Fn(&Window) -> bool,
+    ) -> Vec<(Window, Complex, Complex)> {
+        /// Of the points of the curve, an end of windows in different places.
+        const APART: f32 = 1.0 / 20.0;
+        let (points, coordinates, whole) = repeated(curve);
+        let coordinates = coordinates.each_ref().map(|values| &values[..]);
+        let mut windows: Vec<Window> = Vec::new();
+        self.for_each_window(coordinates, whole, (1, least, LOOSE_TOLERANCE), |window| {
+            let [xs, ys] = coordinates.map(|values| &values[window.first..]);
+            let residuals = self.residuals([xs, ys], window.stride, usize::from(window.is_reversed));
+            let both = [false, true].into_iter().zip(residuals);
+            let both = both.map(|(is_mirrored, residual)| Window { residual, is_mirrored, ..window });
+            windows.extend(both.filter(&may_begin));
+        });
+        windows.sort_by(|a, b| a.residual.total_cmp(&b.residual));
+        let count = points.len() as f32;
+        let apart = |a: usize, b: usize| {
+            let difference = (a as f32 - b as f32).rem_euclid(count);
+            difference.min(count - difference) > APART * count
         };
-        let (xs, ys) = (twice(|z| z.re), twice(|z| z.im));
-        let whole = closed_length(&points) as f32;
-        let window = self.best_window([&xs, &ys], whole, 1)?;
+        let mut found: Vec<Window> = Vec::new();
+        for window in windows {
+            let is_new = |other: &Window| {
+                (window.is_mirrored, window.is_reversed) != (other.is_mirrored, other.is_reversed)
+                    || apart(window.first, other.first)
+                    || apart(window.first + INTERVALS * window.stride, other.first + INTERVALS * other.stride)
+            };
+            if found.iter().all(is_new) {
+                found.push(window);
+            }
+            if found.len() == most {
+                break;
+            }
+        }
+        let placed = found.into_iter().filter_map(|window| {
+            let (factor, shift) = self.placed(&window, &points)?;
+            Some((window, factor, shift))
+        });
+        placed.collect()
+    }
+
+    /// The similarity that places a window of a curve of [`repeated`] points on the stroke.
+    fn placed(&self, window: &Window, points: &[Complex]) -> Option<(Complex, Complex)> {
         let at = |k: usize| {
             let k = if window.is_reversed { INTERVALS - k } else { k };
-            let z = points[(window.first + k * window.stride) % COUNT];
+            let z = points[(window.first + k * window.stride) % points.len()];
             if window.is_mirrored { z.conj() } else { z }
         };
         let own: Vec<Complex> = (0..POINTS).map(at).collect();
@@ -139,8 +252,20 @@ impl Stroke {
         let product: Complex = (0..POINTS).map(|k| (own[k] - own_centre).conj() * stroke(k)).sum();
         let spread: f64 = own.iter().map(|z| (z - own_centre).norm_sqr()).sum();
         let factor = product / spread.max(f64::MIN_POSITIVE) * self.size;
-        (factor.norm_sqr() > 0.0).then(|| (window, factor, self.centre - factor * own_centre))
+        (factor.norm_sqr() > 0.0).then(|| (factor, self.centre - factor * own_centre))
     }
+}
+
+/// A closed curve at equal distances, its coordinates repeated once, and its length.
+fn repeated(curve: &[Complex]) -> (Vec<Complex>, [Vec<f32>; 2], f32) {
+    const COUNT: usize = 2 * CURVE_POINTS;
+    let points = resampled(curve, COUNT);
+    let twice = |coordinate: fn(&Complex) -> f64| -> Vec<f32> {
+        points.iter().chain(&points).map(|z| coordinate(z) as f32).collect()
+    };
+    let coordinates = [twice(|z| z.re), twice(|z| z.im)];
+    let whole = closed_length(&points) as f32;
+    (points, coordinates, whole)
 }
 
 /// Points at equal distances along an open polyline, with both ends.
@@ -179,6 +304,13 @@ impl Synthesis {
     /// The window of a curve that is most like a stroke: the curve is given by its harmonics of order 1 to 10 and then of -1 to -10, and by its
     /// length.
     pub fn best_window(&self, harmonics: &[[f32; 2]; 2 * HARMONICS], length: f32, stroke: &Stroke) -> Option<Window> {
+        let coordinates = self.coordinates(harmonics);
+        let [xs, ys] = &coordinates;
+        stroke.best_window([xs, ys], length, (2, 0.0, TOLERANCE))
+    }
+
+    /// The coordinates of points of a curve, repeated once.
+    fn coordinates(&self, harmonics: &[[f32; 2]; 2 * HARMONICS]) -> [[f32; 2 * CURVE_POINTS]; 2] {
         const HALF: usize = CURVE_POINTS / 2;
         let mut even = [[0.0f32; HALF]; 2];
         let mut odd = [[0.0f32; HALF]; 2];
@@ -194,15 +326,37 @@ impl Synthesis {
                 opposite[axis] += if k % 2 == 0 { -sum[axis] } else { sum[axis] };
             }
         }
-        let coordinates: [[f32; 2 * CURVE_POINTS]; 2] = std::array::from_fn(|axis| {
+        std::array::from_fn(|axis| {
             let at = |n: usize| match n {
                 HALF => opposite[axis],
                 n if n < HALF => even[axis][n] + odd[axis][n],
                 n => even[axis][CURVE_POINTS - n] - odd[axis][CURVE_POINTS - n],
             };
             std::array::from_fn(|n| at(n % CURVE_POINTS))
-        });
+        })
+    }
+
+    /// The part of a stroke's sum of squares that remains for the portion of a curve that is most like it: between the windows of
+    /// [`Synthesis::best_window`], which are eighths of the curve and more.
+    pub fn least_residual(
+        &self,
+        harmonics: &[[f32; 2]; 2 * HARMONICS],
+        length: f32,
+        (stroke, least): (&Stroke, f64),
+    ) -> Option<f32> {
+        let coordinates = self.coordinates(harmonics);
         let [xs, ys] = &coordinates;
-        stroke.best_window([xs, ys], length, 2)
+        // The best window of each quarter, in both directions.
+        let mut best: [Option<Window>; 8] = [None; 8];
+        stroke.for_each_window([xs, ys], length, (2, least, LOOSE_TOLERANCE), |window| {
+            let place = &mut best[2 * (4 * window.first / CURVE_POINTS) + usize::from(window.is_reversed)];
+            if place.is_none_or(|best| window.residual < best.residual) {
+                *place = Some(window);
+            }
+        });
+        let least_residual = best.iter().flatten().map(|window| window.residual).fold(f32::INFINITY, f32::min);
+        let is_near = |window: &&Window| window.residual <= 4.0 * least_residual + 0.01;
+        let near = best.iter().flatten().filter(is_near);
+        near.map(|window| stroke.least_residual_near(&coordinates, window, least as f32)).reduce(f32::min)
     }
 }

@@ -110,6 +110,29 @@ impl Transform {
     }
 }
 
+impl Transform {
+    /// How a curve of a spectrum is like another one with any start, in all directions and reflections: the greatest correlations among those
+    /// of neighbouring starts, the greatest first; and whether the curve's direction is the opposite one.
+    pub fn likenesses(&self, target: &Spectrum, curve: &Spectrum) -> Vec<(Likeness, bool)> {
+        let mut found: Vec<(Likeness, bool)> = Vec::new();
+        for (is_mirrored, is_reversed) in [(false, false), (false, true), (true, false), (true, true)] {
+            let placed = curve.oriented(is_mirrored, is_reversed);
+            let products: [Complex; 2 * HARMONICS] = std::array::from_fn(|k| target.0[k] * placed.0[k].conj());
+            let factors: [Complex; POINTS] = std::array::from_fn(|start| {
+                let turn = |k: usize| self.directions[(k * start) % POINTS];
+                (1..=HARMONICS).map(|k| products[k - 1] * turn(k).conj() + products[HARMONICS + k - 1] * turn(k)).sum()
+            });
+            let value = |start: usize| length(factors[start % POINTS]);
+            let is_greatest =
+                |start: &usize| value(*start) > value(start + POINTS - 1) && value(*start) >= value(start + 1);
+            let likeness = |start| (Likeness { value: value(start), is_mirrored, factor: factors[start] }, is_reversed);
+            found.extend((0..POINTS).filter(is_greatest).map(likeness));
+        }
+        found.sort_by(|a, b| b.0.value.total_cmp(&a.0.value));
+        found
+    }
+}
+
 /// The square root of a vector of length 1 with a real part that is not negative.
 fn unit_root(z: Complex) -> Complex {
     let cos = (0.5 * (1.0 + z.re)).max(0.0).sqrt();

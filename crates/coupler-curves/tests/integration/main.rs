@@ -7,6 +7,7 @@ mod cognates;
 mod dyad_chains;
 mod expressions;
 mod find;
+mod find_curves;
 mod grids;
 mod instant;
 mod linkages;
