@@ -1,6 +1,6 @@
 //! The JSON that `find --json` prints.
 
-use coupler_curves::find::{Answer, Mechanism, PathKind};
+use coupler_curves::find::{self, Answer, Mechanism, PathKind};
 use coupler_curves::linkage::{FourBar, PlacedFourBar, Side};
 use serde::Serialize;
 
@@ -9,7 +9,7 @@ use super::text::option_of;
 use super::{Report, text};
 
 /// The version of the format.
-const FORMAT: u32 = 1;
+pub(super) const FORMAT: u32 = 1;
 
 #[derive(Serialize)]
 struct Document {
@@ -20,7 +20,7 @@ struct Document {
 }
 
 #[derive(Serialize)]
-struct Target {
+pub(super) struct Target {
     points: Vec<[f64; 2]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     angles_deg: Option<Vec<f64>>,
@@ -36,7 +36,7 @@ struct NearestMiss {
 }
 
 #[derive(Serialize)]
-struct Result {
+pub(super) struct Result {
     rank: usize,
     quality: &'static str,
     rms: f64,
@@ -77,6 +77,16 @@ struct Parameters {
     across: f64,
 }
 
+pub(super) fn target(target: &find::Target) -> Target {
+    Target {
+        points: target.points().iter().map(|p| [p.x, p.y]).collect(),
+        angles_deg: target.angles_deg().map(<[f64]>::to_vec),
+        closed: target.kind() == PathKind::Closed,
+        kind: target.kind().name(),
+        size: target.size(),
+    }
+}
+
 /// The path, the linkages and their cognates, as indented JSON.
 pub(super) fn json(report: &Report) -> anyhow::Result<String> {
     let Report { target, answers, nearest_miss, .. } = report;
@@ -85,20 +95,14 @@ pub(super) fn json(report: &Report) -> anyhow::Result<String> {
         result: result(1, answer),
     });
     let document = Document {
-        target: Target {
-            points: target.points().iter().map(|p| [p.x, p.y]).collect(),
-            angles_deg: target.angles_deg().map(<[f64]>::to_vec),
-            closed: target.kind() == PathKind::Closed,
-            kind: target.kind().name(),
-            size: target.size(),
-        },
+        target: self::target(target),
         results: (1..).zip(answers).map(|(rank, answer)| result(rank, answer)).collect(),
         nearest_miss: miss,
     };
     report::json(FORMAT, &document)
 }
 
-fn result(rank: usize, answer: &Answer) -> Result {
+pub(super) fn result(rank: usize, answer: &Answer) -> Result {
     Result {
         rank,
         quality: answer.quality().name(),

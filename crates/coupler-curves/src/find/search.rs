@@ -140,6 +140,14 @@ impl<'i> Search<'i> {
         }
     }
 
+    /// Begins with a four-bar that is placed on the target, in place of those of the index.
+    pub fn from_four_bar(target: &Target, index: &'i Index, options: Options, start: &PlacedFourBar) -> Search<'i> {
+        let (size, centre) = target.placement();
+        let start = Parameters::from_placed(start).transformed(Complex::new(1.0 / size, 0.0), -centre / size);
+        let placed = vec![(1.0, start)];
+        Search { placed, stage: Stage::Begin(0), has_looked_again: true, ..Search::new(target, index, options) }
+    }
+
     /// Searches to the end.
     pub fn run(mut self) -> Vec<Answer> {
         while self.step() {}
