@@ -20,6 +20,7 @@ mod export;
 mod family_measures;
 mod faults;
 mod find;
+mod find_atlas;
 mod folder;
 mod formats;
 mod gallery;

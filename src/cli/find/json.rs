@@ -1,6 +1,6 @@
 //! The JSON that `find --json` prints.
 
-use coupler_curves::find::{AnswerRecord, PathKind};
+use coupler_curves::find::{self, AnswerRecord, PathKind};
 use serde::Serialize;
 
 use super::super::report;
@@ -8,7 +8,7 @@ use super::Report;
 use super::text::option_of;
 
 /// The version of the format.
-const FORMAT: u32 = 1;
+pub(super) const FORMAT: u32 = 1;
 
 #[derive(Serialize)]
 struct Document {
@@ -19,7 +19,7 @@ struct Document {
 }
 
 #[derive(Serialize)]
-struct Target {
+pub(super) struct Target {
     points: Vec<[f64; 2]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     angles_deg: Option<Vec<f64>>,
@@ -34,6 +34,16 @@ struct NearestMiss {
     result: AnswerRecord,
 }
 
+pub(super) fn target(target: &find::Target) -> Target {
+    Target {
+        points: target.points().iter().map(|p| [p.x, p.y]).collect(),
+        angles_deg: target.angles_deg().map(<[f64]>::to_vec),
+        closed: target.kind() == PathKind::Closed,
+        kind: target.kind().name(),
+        size: target.size(),
+    }
+}
+
 /// The path, the linkages and their cognates, as indented JSON.
 pub(super) fn json(report: &Report) -> anyhow::Result<String> {
     let Report { target, answers, nearest_miss, .. } = report;
@@ -42,13 +52,7 @@ pub(super) fn json(report: &Report) -> anyhow::Result<String> {
         result: AnswerRecord::new(1, answer),
     });
     let document = Document {
-        target: Target {
-            points: target.points().iter().map(|p| [p.x, p.y]).collect(),
-            angles_deg: target.angles_deg().map(<[f64]>::to_vec),
-            closed: target.kind() == PathKind::Closed,
-            kind: target.kind().name(),
-            size: target.size(),
-        },
+        target: self::target(target),
         results: (1..).zip(answers).map(|(rank, answer)| AnswerRecord::new(rank, answer)).collect(),
         nearest_miss: miss,
     };

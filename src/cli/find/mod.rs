@@ -1,5 +1,6 @@
 //! `find`: the linkages whose coupler curves are nearest to a path.
 
+mod atlas;
 mod drawing;
 mod json;
 mod text;
@@ -78,13 +79,21 @@ pub struct Arguments {
     #[arg(
         long,
         value_name = "N",
-        default_value_t = Index::DEFAULT_COUNT as u64,
         value_parser = clap::value_parser!(u64).range(1..=MAX_CURVES as u64),
         help = format!(
-            "How many four-bars to look the path up in, 1 to {MAX_CURVES}; the index of each number is kept in the user's cache folder"
+            "How many four-bars to look the path up in, 1 to {MAX_CURVES}; the index of each number is kept in the user's cache folder \
+             [default: {}]",
+            Index::DEFAULT_COUNT
         )
     )]
-    index: u64,
+    index: Option<u64>,
+    /// Look the path up in the curves of an atlas, of any linkages: its manifest, or the folder of a rendered one with the manifest beside it.
+    /// Four-bars are refined, others only placed on the path.
+    #[arg(long, value_name = "MANIFEST|DIR", value_hint = ValueHint::AnyPath)]
+    atlas: Option<PathBuf>,
+    /// With --atlas, compare its curves where they are: position, size and rotation count.
+    #[arg(long)]
+    fixed: bool,
     /// Only place the curves of the index on the path, without moving their linkages towards it.
     #[arg(long)]
     no_refine: bool,
@@ -142,13 +151,19 @@ struct Report {
 impl Report {
     /// The name of the path without its folder.
     fn title(&self) -> String {
-        Path::new(&self.name).file_name().map_or(self.name.clone(), |name| name.to_string_lossy().into_owned())
+        title_of(&self.name)
     }
+}
+
+/// The name of a path without its folder.
+fn title_of(name: &str) -> String {
+    Path::new(name).file_name().map_or(name.to_owned(), |name| name.to_string_lossy().into_owned())
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let printed = [("--json", arguments.json), ("--toml", arguments.toml)];
     let is_drawing_printed = files::is_drawing_printed(arguments.svg.as_deref(), &printed)?;
+    atlas::check(arguments)?;
     let options = parse_options(arguments).map_err(|errors| InputErrors::from_messages(&errors))?;
     let TracedPath { name, points, kind, angles_deg } = read_path(arguments)?;
     let target = match &angles_deg {
@@ -159,7 +174,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     if let Some(jobs) = arguments.jobs {
         rayon::ThreadPoolBuilder::new().num_threads(jobs.into()).build_global()?;
     }
-    let index = find::load_index(arguments.index as usize);
+    if let Some(atlas) = &arguments.atlas {
+        return atlas::run((arguments, atlas), &options, (name, target), is_drawing_printed);
+    }
+    let index = find::load_index(arguments.index.map_or(Index::DEFAULT_COUNT, |count| count as usize));
     let answers = Search::new(&target, options.clone()).run(&index);
     let nearest_miss = if answers.is_empty() { nearest_miss(&target, &index, &options) } else { None };
     let report = Report { name, target, answers, nearest_miss };
@@ -194,7 +212,9 @@ fn parse_options(arguments: &Arguments) -> Result<Options, Vec<String>> {
         Err(error) => errors.push(format!("--pivots: {error}")),
     }
     let mut condition = None;
-    match arguments.condition.as_deref().map(|text| Condition::new(text).map_err(|error| (text, error))).transpose() {
+    // The names of an atlas's linkages are not known yet.
+    let own = arguments.condition.as_deref().filter(|_| arguments.atlas.is_none());
+    match own.map(|text| Condition::new(text).map_err(|error| (text, error))).transpose() {
         Ok(value) => condition = value,
         Err((text, error)) => {
             let help = if error.help.is_empty() { String::new() } else { format!("; {}", error.help) };

@@ -75,7 +75,7 @@ pub(super) fn dimensions(mechanism: &Mechanism, size: f64) -> String {
 }
 
 /// Where a four-bar is, and how it moves along the path.
-fn place(mechanism: &Mechanism, size: f64) -> String {
+pub(super) fn place(mechanism: &Mechanism, size: f64) -> String {
     let [crank, rocker] = mechanism.four_bar.pivots.map(|p| format!("({}, {})", number(p.x, size), number(p.y, size)));
     let [from, to] = mechanism.input_deg.map(angle);
     let rocker_pin = format!("rocker pin on the {}", mechanism.side_name());

@@ -11,6 +11,7 @@ use super::ranking::Ranking;
 use super::refinement::Refinement;
 use super::scatter::Scatter;
 use super::target::{PathKind, Target};
+use crate::linkage::PlacedFourBar;
 
 /// A search in bounded steps.
 pub struct Search {
@@ -109,6 +110,13 @@ impl Search {
         };
         search.stage = Stage::LookUp(search.lookup(&search.fitting.points));
         search
+    }
+
+    /// Begins with a four-bar that is placed on the target, in place of those of the index.
+    pub fn from_four_bar(target: &Target, options: Options, start: &PlacedFourBar) -> Search {
+        let (size, centre) = target.placement();
+        let start = Parameters::from_placed(start).transformed(Complex::new(1.0 / size, 0.0), -centre / size);
+        Search { stage: Stage::Begin(vec![start]), has_looked_again: true, ..Search::new(target, options) }
     }
 
     /// Searches to the end.

@@ -10,6 +10,7 @@ use super::theme::Theme;
 use super::{AnswersPage, FoundCurve};
 use crate::mechanism::Mechanism;
 use crate::scene::{Anchor, Circle, Curve, Item, Path, Scene};
+use coupler_curves::find::Placement;
 use coupler_curves::geometry::{Bounds, Point, Vector};
 use coupler_curves::path;
 
@@ -69,18 +70,19 @@ fn dot(centre: Point, theme: &Theme) -> Item {
 }
 
 fn draw_figure(area: &impl Area, frame: Rect, page: &AnswersPage, theme: &Theme) {
-    let samples = page
-        .curves
-        .iter()
-        .flat_map(|curve| curve.solved.circuit(&curve.solved.curves[0]).points(curve.solved.curves[0].joint));
-    let joints = page.curves.iter().take(1).flat_map(|curve| curve.pose.iter().copied());
+    let samples = page.curves.iter().flat_map(|found| {
+        let curve = &found.solved.curves[0];
+        found.solved.circuit(curve).points(curve.joint).map(|p| found.placement.apply(p))
+    });
+    let first = page.curves.first().filter(|found| found.placement == Placement::IDENTITY);
+    let joints = first.iter().flat_map(|curve| curve.pose.iter().copied());
     let plot = Plot::new(frame, theme);
     let plot = plot.fitted_to(Bounds::from_points(page.target.iter().copied().chain(samples).chain(joints)));
     plot.draw_scale_bar(area, &[], theme);
     // A hundredth of a millimetre, as on other pages.
     let tolerance = 0.01 / plot.page_from_plane.scale;
     // Behind the curves, which its plate would hide.
-    if let Some(found) = page.curves.first() {
+    if let Some(found) = first {
         let traced = found.solved.curves[0].joint;
         let mechanism = Mechanism::new(&found.solved.linkage, found.solved.circuit(&found.solved.curves[0]));
         let posed = PosedMechanism::new(&found.solved.linkage, mechanism, found.pose.clone());
@@ -94,8 +96,10 @@ fn draw_figure(area: &impl Area, frame: Rect, page: &AnswersPage, theme: &Theme)
     }
     for (k, found) in page.curves.iter().enumerate().rev() {
         let (solved, curve) = (&found.solved, &found.solved.curves[0]);
+        let tolerance = tolerance / found.placement.scale();
         let splines = path::joint_splines(&solved.linkage, solved.circuit(curve), curve.joint, tolerance);
-        let splines = splines.iter().map(|spline| spline.map(|p| plot.page_from_plane.apply(p))).collect();
+        let on_page = |p: Point| plot.page_from_plane.apply(found.placement.apply(p));
+        let splines = splines.iter().map(|spline| spline.map(on_page)).collect();
         let stroke = theme.stroke(theme.curve_ink(k), curve_width(k, theme));
         area.record(&Drawing {
             class: "found",

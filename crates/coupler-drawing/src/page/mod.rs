@@ -43,6 +43,7 @@ pub use theme::{CurveStyle, NamedTheme, Theme};
 
 use crate::chart::{Chart, Series};
 use crate::scene::Scene;
+use coupler_curves::find::Placement;
 use coupler_curves::geometry::Point;
 use coupler_curves::linkage::JointId;
 use coupler_curves::measure::StraightCriterion;
@@ -305,6 +306,8 @@ pub struct AnswersPage<'a> {
 pub struct FoundCurve {
     /// The solved linkage with this curve only.
     pub solved: SolvedCell,
+    /// Where it is on the target. Its linkage is drawn only if it is in its own place.
+    pub placement: Placement,
     /// The positions of all joints, in which the linkage of the first curve is drawn.
     pub pose: Vec<Point>,
     /// What the legend says of it.

@@ -1,0 +1,81 @@
+//! The table of an atlas's curves.
+
+use std::fmt::Write;
+
+use coupler_atlas::find::AtlasAnswer;
+use coupler_curves::find::{Quality, format_length as number, format_relative as relative};
+
+use super::super::super::format::pluralize;
+use super::super::text::{dimensions, place};
+use super::{AtlasReport, Found};
+
+/// The answers, each with its cell, where it is placed or what was refined from it.
+pub(super) fn text(report: &AtlasReport) -> String {
+    let AtlasReport { name, target, answers, curves, nearest_miss, .. } = report;
+    let size = target.size();
+    let points = pluralize(target.points().len(), "point");
+    let mut out = format!(
+        "{name}: {points}, {}, S = {}; {} of the atlas\n",
+        target.kind().name(),
+        number(size, size),
+        pluralize(*curves, "curve")
+    );
+    for (rank, found) in (1..).zip(answers) {
+        out += &entry(&rank.to_string(), found, size);
+    }
+    if answers.is_empty() {
+        match nearest_miss {
+            Some((relax, nearest)) => {
+                let _ = writeln!(
+                    out,
+                    "no curve meets the constraints; the nearest miss is an answer without {}:",
+                    relax.join(", ")
+                );
+                out += &entry("-", nearest, size);
+            }
+            None => out += "no curve of the atlas is like the path\n",
+        }
+    }
+    out
+}
+
+fn entry(rank: &str, Found { curve, refined }: &Found, size: f64) -> String {
+    let fit = &curve.fit;
+    let line = |relative_rms: f64, rms: f64, greatest: f64| {
+        let quality = Quality::of(relative_rms).name();
+        format!(
+            "E = {} S = {}, greatest {}, {quality}",
+            relative(relative_rms),
+            number(rms, size),
+            number(greatest, size)
+        )
+    };
+    match refined {
+        Some(answer) => format!(
+            "{rank:>3}  {}, refined from {} (E = {} S)\n     {}\n     {}\n",
+            line(answer.rms_relative, answer.rms, answer.greatest),
+            curve.name,
+            relative(fit.rms_relative),
+            dimensions(&answer.mechanism, size),
+            place(&answer.mechanism, size)
+        ),
+        None => {
+            let deviation = line(fit.rms_relative, fit.rms, fit.greatest);
+            let class = if curve.class.is_empty() { String::new() } else { format!(", {}", curve.class) };
+            format!("{rank:>3}  {deviation}, {}{class}\n     {}\n", curve.name, placed(curve, size))
+        }
+    }
+}
+
+/// Where a curve is placed, in words.
+pub(super) fn placed(curve: &AtlasAnswer, size: f64) -> String {
+    let placement = &curve.fit.placement;
+    let mirrored = if placement.is_mirrored { "y mirrored, " } else { "" };
+    format!(
+        "{mirrored}scale {}, turned by {}°, shifted by ({}, {})",
+        number(placement.scale(), placement.scale()),
+        (1000.0 * placement.rotation_deg()).round() / 1000.0 + 0.0,
+        number(placement.shift.x, size),
+        number(placement.shift.y, size)
+    )
+}
