@@ -93,6 +93,9 @@ const REPORTED: [&str; 2] = ["class", "mu_worst_deg"];
 /// A curve: its cell by index, its trace and its circuit.
 type Curve = [u32; 3];
 
+/// A family by its index in the plan, and the condition in its names.
+type ConditionedFamily<'p> = (usize, &'p Family, Option<CompiledExpression>);
+
 /// Why an atlas cannot be searched.
 #[derive(Debug, thiserror::Error)]
 #[error("--where: `{condition}`: {error}")]
@@ -111,7 +114,7 @@ pub fn search_atlas(
     target: &Target,
     options: &AtlasOptions,
 ) -> Result<(Vec<AtlasAnswer>, usize), ConditionError> {
-    let families: Vec<(usize, &Family, Option<CompiledExpression>)> = compile(plan, options.condition.as_deref())?;
+    let families = compile(plan, options.condition.as_deref())?;
     let mut index = CurveIndex::new();
     let mut curves: Vec<Curve> = Vec::new();
     let mut ranges: Vec<Range<usize>> = Vec::new();
@@ -176,10 +179,7 @@ pub fn search_atlas(
 }
 
 /// The families in which a condition has a meaning, with it.
-fn compile<'p>(
-    plan: &'p Plan,
-    condition: Option<&str>,
-) -> Result<Vec<(usize, &'p Family, Option<CompiledExpression>)>, ConditionError> {
+fn compile<'p>(plan: &'p Plan, condition: Option<&str>) -> Result<Vec<ConditionedFamily<'p>>, ConditionError> {
     let mut error = None;
     let mut families = Vec::new();
     for (place, planned) in plan.families.iter().enumerate() {

@@ -162,10 +162,8 @@ fn options_that_do_not_go_together_are_errors() {
     assert!(error(&["--atlas", "atlas.toml", "--where", "nothing > 1"]).contains("--where: `nothing > 1`"));
     assert!(error(&["--atlas", "missing.toml"]).contains("cannot find missing.toml"));
     // A family whose cells cannot be assembled has no curve.
-    let text = MANIFEST
-        .replace("coupler = [2, 2.5, 3]", "coupler = [0.1], offset = [9]")
-        .replace("rocker = 2.8", "rocker = 0.1")
-        .replace("rocker = 2.2", "rocker = 0.1");
+    let sliders = MANIFEST.replace("coupler = [2, 2.5, 3]", "coupler = [0.1], offset = [9]");
+    let text = sliders.replace("frame = 3", "frame = 30").replace("frame = 1,", "frame = 30,");
     fs::write(folder.path().join("empty.toml"), text).unwrap();
     let (code, stdout, stderr) = run(folder.path(), &["find", "path.csv", "--atlas", "empty.toml"]);
     assert!(code == 0 && stdout.contains("no curve of the atlas is like the path"), "{code} {stdout} {stderr}");

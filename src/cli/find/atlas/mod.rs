@@ -130,22 +130,18 @@ fn ranked(curves: Vec<AtlasAnswer>, target: &Target, options: &Options, argument
     {
         let options = Options { most: 1, condition, ..options.clone() };
         let index = Index::new();
-        let refine = |(found, outline): (Found, Vec<Point>)| {
+        let refine = |found: &Found| {
             let start = found.curve.four_bar?;
             let answer = Search::from_four_bar(target, options.clone(), &start).run(&index).into_iter().next()?;
             let solved = answer.mechanism.solved().filter(|_| answer.rms < found.curve.fit.rms)?;
             let curve = &solved.curves[0];
-            let outline_of = solved.circuit(curve).points(curve.joint).collect();
-            drop(outline);
-            Some((Found { refined: Some(answer), ..found }, outline_of))
+            Some((answer, solved.circuit(curve).points(curve.joint).collect()))
         };
-        found = found
-            .into_par_iter()
-            .map(|(found, outline)| {
-                let same = Found { curve: found.curve.clone(), refined: None };
-                refine((found, outline.clone())).unwrap_or((same, outline))
-            })
-            .collect();
+        found.par_iter_mut().for_each(|(found, outline)| {
+            if let Some((answer, points)) = refine(found) {
+                (found.refined, *outline) = (Some(answer), points);
+            }
+        });
     }
     found.sort_by(|a, b| a.0.rms().total_cmp(&b.0.rms()));
     distinct(found, options.most).into_iter().map(|(found, _)| found).collect()
