@@ -51,10 +51,11 @@ const SUBSTITUTED: [(&str, &[(&str, i32)]); 12] = [
 ];
 
 /// Commands that are not run, each with the reason.
-const NOT_RUN: [(&str, &str); 7] = [
+const NOT_RUN: [(&str, &str); 8] = [
     ("coupler-atlas render --watch --open", "it runs until it is interrupted: watching.rs"),
     ("cargo test", "this is it"),
     ("cargo bench", "takes minutes"),
+    ("cargo bench --bench find", "takes minutes"),
     ("cargo install --locked --path .", "builds the program, which has been built"),
     (
         "cargo tree -p PACKAGE -e normal --prefix none | sed 's/ (\\*)$//' | sort -u | wc -l",
