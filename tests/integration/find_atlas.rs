@@ -84,7 +84,8 @@ fn a_curve_of_another_linkage_is_found_placed_and_scaled() {
 #[test]
 fn fixed_curves_are_compared_where_they_are() {
     let (folder, _) = folder();
-    let args = ["find", "--like", "bars:2.1.1", "--atlas", "atlas.toml", "--fixed", "--json", "--input", "any"];
+    let args =
+        ["find", "--like", "bars:2.1.1", "--atlas", "atlas.toml", "--fixed", "--json", "--input", "any", "-j", "1"];
     let json: Json = serde_json::from_str(&printed(folder.path(), &args)).unwrap();
     assert_eq!(json["results"][0]["cell"], "bars:2.1.1");
     assert!(json["results"][0]["rms_relative"].as_f64().unwrap() < 1e-12);

@@ -165,15 +165,16 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let is_drawing_printed = files::is_drawing_printed(arguments.svg.as_deref(), &printed)?;
     atlas::check(arguments)?;
     let options = parse_options(arguments).map_err(|errors| InputErrors::from_messages(&errors))?;
+    // Before a curve of an atlas is solved on these threads.
+    if let Some(jobs) = arguments.jobs {
+        rayon::ThreadPoolBuilder::new().num_threads(jobs.into()).build_global()?;
+    }
     let TracedPath { name, points, kind, angles_deg } = read_path(arguments)?;
     let target = match &angles_deg {
         Some(angles_deg) => Target::timed(&points, kind, angles_deg),
         None => Target::new(&points, kind),
     };
     let target = target.map_err(|error| InputError(format!("{name}: {error}")))?;
-    if let Some(jobs) = arguments.jobs {
-        rayon::ThreadPoolBuilder::new().num_threads(jobs.into()).build_global()?;
-    }
     if let Some(atlas) = &arguments.atlas {
         return atlas::run((arguments, atlas), &options, (name, target), is_drawing_printed);
     }
