@@ -46,7 +46,7 @@ pub fn parse_outline(text: &str, is_timed: bool) -> Result<Outline, Vec<String>>
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let outline = match text.trim_start().chars().next() {
         Some('<') => svg_outlines::longest_outline(text).map_err(|problem| vec![problem])?,
-        Some('{' | '[') => parse_json(text, is_timed).map_err(|problem| vec![problem])?,
+        Some('{' | '[') => parse_json(text, is_timed)?,
         _ => parse_table(text, is_timed)?,
     };
     match outline.points.len() {
@@ -107,16 +107,21 @@ fn parse_table(text: &str, is_timed: bool) -> Result<Outline, Vec<String>> {
             _ => problems.push(format!("line {number}: `{line}` has no two coordinates: write them like 1.5, 2")),
         }
     }
-    if problems.len() > MAX_PROBLEMS {
-        let more = problems.len() - MAX_PROBLEMS;
-        problems.truncate(MAX_PROBLEMS);
-        problems.push(format!("and {more} further lines that cannot be read"));
-    }
     if !problems.is_empty() {
-        return Err(problems);
+        return Err(limited(problems, "lines"));
     }
     let angles_deg = (!angles_deg.is_empty()).then_some(angles_deg);
     Ok(Outline { points, angles_deg, is_closed: None })
+}
+
+/// The first problems, and the number of the others.
+fn limited(mut problems: Vec<String>, what: &str) -> Vec<String> {
+    if problems.len() > MAX_PROBLEMS {
+        let more = problems.len() - MAX_PROBLEMS;
+        problems.truncate(MAX_PROBLEMS);
+        problems.push(format!("and {more} further {what} that cannot be read"));
+    }
+    problems
 }
 
 /// The fields of a line. Where semicolons divide them, commas are decimal.
@@ -152,34 +157,49 @@ fn parse_number(text: &str, what: &str) -> Result<f64, String> {
 
 /// Reads JSON: a list of points, or an object with one as `points`, and perhaps `closed`. A point is a list of x and y and perhaps an
 /// angle, or an object with `x`, `y` and perhaps `angle`.
-fn parse_json(text: &str, is_timed: bool) -> Result<Outline, String> {
-    let value: Value = serde_json::from_str(text).map_err(|error| format!("the JSON cannot be read: {error}"))?;
+fn parse_json(text: &str, is_timed: bool) -> Result<Outline, Vec<String>> {
+    let value: Value = serde_json::from_str(text).map_err(|error| vec![format!("the JSON cannot be read: {error}")])?;
     // What `find --json` and `export --format json` print can be read as well.
     let object = value.get("target").unwrap_or(&value);
     let list = object.get("points").unwrap_or(object);
-    let list =
-        list.as_array().ok_or("the JSON has no list of points: write [[x, y], …] or {\"points\": [[x, y], …]}")?;
-    let is_closed = object.get("closed").and_then(Value::as_bool);
+    let Some(list) = list.as_array() else {
+        let example = "write [[x, y], …] or {\"points\": [[x, y], …]}";
+        return Err(vec![format!("the JSON has no list of points: {example}")]);
+    };
+    let mut problems = Vec::new();
+    let closed = object.get("closed");
+    if let Some(value) = closed.filter(|value| !value.is_boolean()) {
+        problems.push(format!("`closed` of the JSON is {value}: write true or false"));
+    }
     let coordinate = |value: Option<&Value>| value.and_then(Value::as_f64).filter(|value| value.is_finite());
-    let point = |(number, value): (usize, &Value)| {
+    let angle_of = |value: &'_ Value| if value.is_array() { value.get(2) } else { value.get("angle") }.cloned();
+    let has_angles = is_timed && list.iter().any(|value| angle_of(value).is_some());
+    let (mut points, mut angles_deg) = (Vec::new(), Vec::new());
+    for (number, value) in (1..).zip(list) {
         let [x, y] = match value {
             Value::Array(_) => [value.get(0), value.get(1)],
             _ => [value.get("x"), value.get("y")],
         };
         match [x, y].map(coordinate) {
-            [Some(x), Some(y)] => Ok(Point::new(x, y)),
-            _ => Err(format!("point {number} of the JSON is {value}: write [x, y] or {{\"x\": …, \"y\": …}}")),
+            [Some(x), Some(y)] => points.push(Point::new(x, y)),
+            _ => {
+                problems.push(format!("point {number} of the JSON is {value}: write [x, y] or {{\"x\": …, \"y\": …}}"));
+                continue;
+            }
         }
-    };
-    let angle_of = |value: &'_ Value| if value.is_array() { value.get(2) } else { value.get("angle") }.cloned();
-    let angle = |(number, value): (usize, &Value)| {
-        let example = "write [x, y, angle] or {\"x\": …, \"y\": …, \"angle\": …}";
-        let angle = angle_of(value);
-        coordinate(angle.as_ref()).ok_or(format!("point {number} of the JSON is {value}, without an angle: {example}"))
-    };
-    let has_angles = is_timed && list.iter().any(|value| angle_of(value).is_some());
-    let points = (1..).zip(list).map(point).collect::<Result<_, String>>()?;
-    let angles_deg = (1..).zip(list).filter(|_| has_angles).map(angle).collect::<Result<Vec<f64>, String>>()?;
+        match coordinate(angle_of(value).as_ref()) {
+            Some(angle) => angles_deg.push(angle),
+            None if has_angles => {
+                let example = "write [x, y, angle] or {\"x\": …, \"y\": …, \"angle\": …}";
+                problems.push(format!("point {number} of the JSON is {value}, without an angle: {example}"));
+            }
+            None => {}
+        }
+    }
+    if !problems.is_empty() {
+        return Err(limited(problems, "points"));
+    }
+    let is_closed = closed.and_then(Value::as_bool);
     Ok(Outline { points, angles_deg: has_angles.then_some(angles_deg), is_closed })
 }
 
@@ -244,9 +264,10 @@ mod tests {
         assert_eq!(problems("a,b\n1,2"), ["line 1: no columns `x` and `y` among a, b"]);
         assert_eq!(problems(&"x\n".repeat(50)).len(), 1);
         assert_eq!(problems(&format!("1,2\n{}", "z,1\n".repeat(50))).len(), MAX_PROBLEMS + 1);
-        for json in ["{", "{}", "[1, 2]", "[[1, \"2\"]]", "{\"points\": 3}", "[[1, 1e999]]"] {
+        for json in ["{", "{}", "[1]", "[[1, \"2\"]]", "{\"points\": 3}", "[[1, 1e999]]"] {
             assert_eq!(problems(json).len(), 1, "{json}");
         }
+        assert_eq!(problems("{\"points\": [[0, 0], [\"a\", 1], [null, 3]], \"closed\": 3}").len(), 3);
         let many = "1,2\n".repeat(MAX_POINTS + 1);
         assert!(problems(&many)[0].contains(&MAX_POINTS.to_string()));
     }

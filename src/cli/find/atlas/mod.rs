@@ -104,6 +104,9 @@ pub(super) fn run(
     Ok(Outcome::Done)
 }
 
+/// The curves that are refined for each answer.
+const STARTS_PER_ANSWER: usize = 8;
+
 /// Refines four-bars, merges curves that are the same to a thousandth of the target's size, and ranks them.
 fn ranked(curves: Vec<AtlasAnswer>, target: &Target, options: &Options, arguments: &Arguments) -> Vec<Found> {
     let distinct = |found: Vec<(Found, Vec<Point>)>, most: usize| {
@@ -120,8 +123,8 @@ fn ranked(curves: Vec<AtlasAnswer>, target: &Target, options: &Options, argument
         let outline = curve.outline.clone();
         (Found { curve, refined: None }, outline)
     });
-    // Several may be refined to the same curve.
-    let mut found = distinct(placed.collect(), 2 * options.most);
+    // Several are refined to the same curve.
+    let mut found = distinct(placed.collect(), STARTS_PER_ANSWER * options.most);
     // A condition on names that a four-bar does not have cannot be kept in a refinement.
     let condition = arguments.condition.as_deref().map(Condition::new).transpose();
     if options.refine
