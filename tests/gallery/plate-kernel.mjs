@@ -12,7 +12,7 @@ const withoutWebAssembly = (page) =>
     delete globalThis.WebAssembly;
   });
 
-/** Makes the function of the kernel with a name fail when `window.failing` is its name, and then no more. */
+/** Makes the function of the kernel with a name fail while `window.failing` is its name. */
 const failingKernel = (page) =>
   page.addInitScript(() => {
     const { Instance } = WebAssembly;
@@ -22,7 +22,6 @@ const failingKernel = (page) =>
       for (const name of ["kernel_pose", "kernel_call"])
         failing[name] = (...numbers) => {
           if (window.failing !== name) return exports[name](...numbers);
-          window.failing = null;
           throw new WebAssembly.RuntimeError("unreachable");
         };
       return { exports: failing };
@@ -74,11 +73,14 @@ export const KERNEL = [
       });
       const reason = page.locator(".stage .reason");
       const before = await inputNow(page);
-      await page.evaluate(() => {
-        window.failing = "kernel_pose";
-      });
+      const fail = (name) =>
+        page.evaluate((failing) => {
+          window.failing = failing;
+        }, name);
+      await fail("kernel_pose");
       await page.keyboard.press("ArrowRight");
       await eventually(() => reason.isVisible(), "it is not reported");
+      await fail(null);
       assert.match(await reason.textContent(), /^Stopped: the kernel failed: unreachable/);
       // A change opens the family and its study again.
       await page.getByRole("spinbutton", { name: "Value of p", exact: true }).fill("2.2");
@@ -86,12 +88,10 @@ export const KERNEL = [
       await page.locator("h1").click();
       await page.keyboard.press("ArrowRight");
       await eventually(async () => (await inputNow(page)) > before, "it does not move");
-      await page.evaluate(() => {
-        window.failing = "kernel_call";
-      });
+      await fail("kernel_call");
       await page.getByRole("spinbutton", { name: "Value of p", exact: true }).fill("2.4");
       await eventually(() => reason.isVisible(), "a failing study is not reported");
-      await page.waitForTimeout(300);
+      await fail(null);
       await page.getByRole("spinbutton", { name: "Value of p", exact: true }).fill("2.5");
       await eventually(() => reason.isHidden(), "the plate does not go on");
       await close();
