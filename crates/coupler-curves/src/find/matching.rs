@@ -6,14 +6,14 @@ use super::pose::Pose;
 
 /// The points of a closed row of samples that are nearest to the points of a target in the mean square, see [`match_places`].
 fn match_in_order(target: &[Complex], samples: &[Complex]) -> Option<(f64, Vec<usize>)> {
-    match_places(target.len(), samples.len(), |k, j| (samples[j] - target[k]).norm_sqr())
+    match_places((target.len(), usize::MAX), samples.len(), |k, j| (samples[j] - target[k]).norm_sqr())
 }
 
 /// The places of a closed row that are nearest to points in the mean square, in their order and within one round: indices that do
 /// not fall, of which the last is at most a round after the first; they may be in the second round. With the sum of the squares, each of
 /// which `square` gives for a point and a place; `None` without places.
 pub(super) fn match_places(
-    points: usize,
+    (points, most_starts): (usize, usize),
     count: usize,
     square: impl Fn(usize, usize) -> f64,
 ) -> Option<(f64, Vec<usize>)> {
