@@ -133,8 +133,8 @@ fn blocks(path: &CurvePath, points: &[Complex], (factor, shift): (Complex, Compl
         Block { points: points_of, mean, position }
     };
     let mut blocks: Vec<Block> = Vec::with_capacity(points.len());
-    for k in 0..points.len() {
-        let mut block = foot(k..k + 1, near[k]);
+    for (k, near) in near.iter().enumerate() {
+        let mut block = foot(k..k + 1, *near);
         while let Some(last) = blocks.pop() {
             if last.position <= block.position {
                 blocks.push(last);

@@ -27,8 +27,11 @@ pub(super) fn match_places(
     let first_square = |k: usize| square(0, k % count);
     let is_near =
         |k: &usize| first_square(*k) <= first_square(k + 1) && first_square(*k) <= first_square(k + count - 1);
-    let paths =
-        (0..count).filter(is_near).filter_map(|start| best_path((points, count, 2 * count), &square, start..start + 1));
+    let mut starts: Vec<usize> = (0..count).filter(is_near).collect();
+    starts.sort_by(|a, b| first_square(*a).total_cmp(&first_square(*b)));
+    starts.truncate(most_starts);
+    let from = |start: usize| best_path((points, count, 2 * count), &square, start..start + 1);
+    let paths = starts.into_iter().filter_map(from);
     paths.min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
