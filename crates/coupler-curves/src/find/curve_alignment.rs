@@ -60,7 +60,7 @@ impl<'a> Alignment<'a> {
     pub fn refine(&mut self, steps: usize) {
         const MAX_DAMPING: f64 = 1e10;
         /// A relative gain that is no progress.
-        const NO_GAIN: f64 = 1e-14;
+        const NO_GAIN: f64 = 1e-12;
         let mut damping = 1e-4;
         let mut equations = self.normal_equations();
         for _ in 0..steps {
@@ -133,21 +133,14 @@ fn blocks(path: &CurvePath, points: &[Complex], (factor, shift): (Complex, Compl
         Block { points: points_of, mean, position }
     };
     let mut blocks: Vec<Block> = Vec::with_capacity(points.len());
-    for k in 0..points.len() {
-        let mut block = foot(k..k + 1, near[k]);
+    for (k, near) in near.iter().enumerate() {
+        let mut block = foot(k..k + 1, *near);
         while let Some(last) = blocks.pop() {
             if last.position <= block.position {
                 blocks.push(last);
                 break;
             }
-            // Of the feet near those of its points the one that is nearest to their mean.
-            let shared = last.points.start..block.points.end;
-            let starts = [near[shared.start], near[shared.end - 1], last.position, block.position];
-            let square = |block: &Block| (factor * path.point(block.position) + shift - block.mean).norm_sqr();
-            let feet = starts.map(|start| foot(shared.clone(), start));
-            let [first, others @ ..] = feet;
-            block =
-                others.into_iter().fold(first, |best, other| if square(&other) < square(&best) { other } else { best });
+            block = foot(last.points.start..block.points.end, last.position);
         }
         blocks.push(block);
     }

@@ -95,7 +95,7 @@ impl CurveFit {
 
 /// Fits curves to a target.
 ///
-/// A fit takes some milliseconds at most for a hundred points of a target and up to a thousand of a curve. The curve is the cubic spline
+/// A fit takes 2 to 10 ms, at most some 20, for a hundred points of a target and 180 to 720 of a curve. The curve is the cubic spline
 /// through its points by the lengths of chords: of forty random four-bars with a crank that turns fully, 90, 180 and 360 points at equal
 /// steps of the crank give E to 7e-5, 3e-5 and 6e-6 of the size in the worst case, a curve with a cusp nearly.
 pub struct CurveFitter {
@@ -139,6 +139,10 @@ const STARTS: usize = 6;
 const PORTION_STARTS: usize = 12;
 const REFINED: usize = 3;
 
+/// Those with a sum of squares so many times as great as that of the nearest are not refined, and none after one that is met to rounding.
+const PROMISING: f64 = 4.0;
+const EXACT: f64 = 1e-10;
+
 impl CurveFitter {
     /// Prepares fits to a target. The angles of a timed one do not count.
     pub fn new(target: &Target, options: CurveFitOptions) -> CurveFitter {
@@ -178,11 +182,18 @@ impl CurveFitter {
             .filter_map(|start| self.tried(start, path_of(start), (&coarse[usize::from(!start.is_mirrored)], &every)))
             .collect();
         tried.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let refined = tried.iter().take(REFINED).filter_map(|(_, start)| {
+        let nearest = tried.first()?.0;
+        let mut best: Option<CurveFit> = None;
+        for (sum, start) in tried.iter().take(REFINED) {
+            let is_promising = *sum <= PROMISING * nearest && best.is_none_or(|best| best.rms_relative > EXACT);
+            if best.is_some() && !is_promising {
+                break;
+            }
             let samples = (&fine[usize::from(!start.is_mirrored)][..], &positions[..]);
-            self.refined(start, path_of(start), samples)
-        });
-        refined.reduce(|best, other| if other.rms < best.rms { other } else { best })
+            let found = self.refined(start, path_of(start), samples);
+            best = found.filter(|found| best.is_none_or(|best| found.rms < best.rms)).or(best);
+        }
+        best
     }
 
     /// Where the curve is like the target. An open curve is passed in both directions anyway, except by an open target on the way there.
@@ -354,9 +365,11 @@ fn matched(start: &Start, samples: &[Complex], points: &[Complex]) -> Option<Vec
         (dot(points[k] - placed[j], chord) * scale).clamp(0.0, 1.0)
     };
     let square = |k: usize, j: usize| (placed[j] + chords[j].0 * part(k, j) - points[k]).norm_sqr();
+    /// The first point has two or three places near it, and neighbouring chords may be as near.
+    const MOST_STARTS: usize = 4;
     let (_, path) = match start.is_one_way {
         true => match_open_places(points.len(), count, square)?,
-        false => match_places(points.len(), count, square)?,
+        false => match_places((points.len(), MOST_STARTS), count, square)?,
     };
     Some((0..).zip(path).map(|(k, j)| (j, part(k, j % count))).collect())
 }

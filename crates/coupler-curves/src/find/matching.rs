@@ -6,14 +6,14 @@ use super::pose::Pose;
 
 /// The points of a closed row of samples that are nearest to the points of a target in the mean square, see [`match_places`].
 fn match_in_order(target: &[Complex], samples: &[Complex]) -> Option<(f64, Vec<usize>)> {
-    match_places(target.len(), samples.len(), |k, j| (samples[j] - target[k]).norm_sqr())
+    match_places((target.len(), usize::MAX), samples.len(), |k, j| (samples[j] - target[k]).norm_sqr())
 }
 
 /// The places of a closed row that are nearest to points in the mean square, in their order and within one round: indices that do
 /// not fall, of which the last is at most a round after the first; they may be in the second round. With the sum of the squares, each of
 /// which `square` gives for a point and a place; `None` without places.
 pub(super) fn match_places(
-    points: usize,
+    (points, most_starts): (usize, usize),
     count: usize,
     square: impl Fn(usize, usize) -> f64,
 ) -> Option<(f64, Vec<usize>)> {
@@ -27,8 +27,11 @@ pub(super) fn match_places(
     let first_square = |k: usize| square(0, k % count);
     let is_near =
         |k: &usize| first_square(*k) <= first_square(k + 1) && first_square(*k) <= first_square(k + count - 1);
-    let paths =
-        (0..count).filter(is_near).filter_map(|start| best_path((points, count, 2 * count), &square, start..start + 1));
+    let mut starts: Vec<usize> = (0..count).filter(is_near).collect();
+    starts.sort_by(|a, b| first_square(*a).total_cmp(&first_square(*b)));
+    starts.truncate(most_starts);
+    let from = |start: usize| best_path((points, count, 2 * count), &square, start..start + 1);
+    let paths = starts.into_iter().filter_map(from);
     paths.min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
