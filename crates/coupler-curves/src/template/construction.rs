@@ -46,14 +46,14 @@ impl Template {
             JointKindTemplate::Slide { from, length: link, line: along, offset, .. } => {
                 let slider = MathText::from_words("slider, ").with(length(*from, link));
                 let slider = slider.with_words(format!(", on a line along {}", between(*along)));
-                with_unless_zero(slider, ", ", offset, " to its left")
+                with_unless_zero(slider, ", to its left: ", offset, "")
             }
             JointKindTemplate::Yoke { from, line: along, offset, angle: slot } => {
                 let guided = MathText::from_words(format!("yoke on a guide along {}", between(*along)));
-                let guided = with_unless_zero(guided, ", ", offset, " to its left");
-                let slot =
-                    MathText::from_words(format!("; {} moves in its slot at ", name(*from))).with(slot.to_math_text());
-                guided.with(slot).with_words(" to the guide")
+                let guided = with_unless_zero(guided, ", to its left: ", offset, "");
+                let pin =
+                    MathText::from_words(format!("; {} moves in its slot, its angle to the guide: ", name(*from)));
+                guided.with(pin).with(slot.to_math_text())
             }
             JointKindTemplate::Slot { base: [pivot, through], offset, side } => {
                 let foot = MathText::from_words(format!(
@@ -134,16 +134,17 @@ fn is_zero(value: &CompiledExpression) -> bool {
     value.slots().is_empty() && value.evaluate(|_| f64::NAN) == 0.0
 }
 
-/// "k a from A along AB", or "u from A along AB, v to its left"; `place` is "along AB", or "parallel to the bar".
+/// "along AB from A: k a", or "along AB from A: u, to its left: v"; `place` is "along AB", or "parallel to the bar". The colons keep
+/// a parameter whose name is a word apart from the words.
 fn point_on_link(place: &str, first: &str, along: &Coordinate, across: &Coordinate) -> MathText {
     let start = match (along.count(), across.count()) {
         (1, 1) => MathText::default(),
         (rows, columns) => MathText::from_words(format!("{rows} × {columns} points, ")),
     };
-    let along = start.with(coordinate(along)).with_words(format!(" from {first} {place}"));
+    let along = start.with_words(format!("{place} from {first}: ")).with(coordinate(along));
     match across {
         Coordinate::Single(across) if is_zero(across) => along,
-        _ => along.with_words(", ").with(coordinate(across)).with_words(" to its left"),
+        _ => along.with_words(", to its left: ").with(coordinate(across)),
     }
 }
 
@@ -173,15 +174,15 @@ mod tests {
             ("evans", "C", "fixed pivot at (p, 0)"),
             ("evans", "A", "pin of the crank, OA = r"),
             ("evans", "B", "AB = a, CB = s"),
-            ("evans", "M", "k a from A along AB"),
+            ("evans", "M", "along AB from A: k a"),
             ("chebyshev", "O", "on link AO, at (r, 0)"),
             ("chebyshev", "B", "pin of the driving link, AB = a"),
-            ("cognates", "M", "u from A along AB, v to its left"),
+            ("cognates", "M", "along AB from A: u, to its left: v"),
             ("cognates", "D", "parallelogram OAMD"),
-            ("hrones-nelson", "M", "5 × 2 points, 0 to 1.6 A from P along PR, 0.5 to 1 to its left"),
+            ("hrones-nelson", "M", "5 × 2 points, along PR from P: 0 to 1.6 A, to its left: 0.5 to 1"),
             ("klann", "Hip", "Knee–Hip = b, Upper–Hip = c"),
             ("slider-crank", "X", "fixed point at (1, 0)"),
-            ("slider-crank", "B", "slider, AB = coupler, on a line along OX, offset to its left"),
+            ("slider-crank", "B", "slider, AB = coupler, on a line along OX, to its left: offset"),
             (
                 "linear-actuator",
                 "A",
@@ -192,12 +193,12 @@ mod tests {
                 "B",
                 "foot of the perpendicular from C to the bar that slides through A, CB = e to the right of CA",
             ),
-            ("inverted-slider-crank", "M", "along from C parallel to the bar, across to its left"),
+            ("inverted-slider-crank", "M", "parallel to the bar from C: along, to its left: across"),
             ("geared-five-bar", "D", "pin of a crank geared to A, PD = d, ratio n : m, ahead by phase"),
             (
                 "scotch-yoke",
                 "Y",
-                "yoke on a guide along OX, offset to its left; A moves in its slot at angle to the guide",
+                "yoke on a guide along OX, to its left: offset; A moves in its slot, its angle to the guide: angle",
             ),
             ("roberts", "M", "AM = b, BM = b"),
         ] {

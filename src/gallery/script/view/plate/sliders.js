@@ -48,7 +48,9 @@ export class Sliders {
     row.range.disabled = kind === "derived";
     row.range.setAttribute("aria-valuetext", formatInputNumber(value));
     row.field.readOnly = kind === "derived";
-    if (document.activeElement !== row.field) row.field.value = formatInputNumber(value);
+    // What is being typed stays; a derived value cannot be typed, and follows also where it has the focus.
+    if (document.activeElement !== row.field || row.field.readOnly)
+      row.field.value = formatInputNumber(value);
     const { min, max } = parameter;
     const isOut =
       (min !== null && (value < min || (min === 0 && value === 0))) || (max !== null && value > max);
