@@ -38,10 +38,6 @@ mod reading;
 
 mod description;
 
-mod finder;
-
-mod curves;
-
 mod kernel;
 
 mod exports;

@@ -31,13 +31,13 @@ export function decodeBase64(data) {
   return bytes;
 }
 
-const BASE91_LETTERS =
-  'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789!#$%&()*+,./:;-=>?@[]^_\x60{|}~"';
+const LETTERS =
+  'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789!#$%&()*+,./:;-=>?@[]^_`{|}~"';
 
-/** Decodes bytes in basE91 with - in place of < (src/gallery/base91.rs). */
+/** Decodes bytes in basE91 with `-` in place of `<` (src/gallery/base91.rs). */
 export function decodeBase91(/** @type {string} */ text) {
   const digits = new Uint8Array(128);
-  for (let k = 0; k < BASE91_LETTERS.length; k += 1) digits[BASE91_LETTERS.charCodeAt(k)] = k;
+  for (let k = 0; k < LETTERS.length; k += 1) digits[LETTERS.charCodeAt(k)] = k;
   const bytes = new Uint8Array(Math.ceil((text.length * 7) / 8));
   let [bits, count, at] = [0, 0, 0];
   for (let k = 0; k < text.length; k += 2) {

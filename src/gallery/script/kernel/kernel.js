@@ -4,13 +4,12 @@
 // they are used.
 
 import { decodeBase91 } from "../data/packed.js";
-import { FourBarFinder } from "./finder.js";
 import { KernelFailure, KernelInstance } from "./instance.js";
 import { KernelStudy } from "./study.js";
 
 /** What does not work without the kernel, as a sentence. */
 export const NO_KERNEL =
-  "This browser does not run WebAssembly: linkages are not moved, changed, compared in detail, found by shape or exported.";
+  "This browser does not run WebAssembly: linkages are not moved, changed, compared in detail or exported.";
 
 /** The kernel of a document, loaded when it is first needed. */
 export class KernelLoader {
@@ -50,7 +49,6 @@ export class Kernel {
     this.module = module;
     this.instance = new KernelInstance(module);
     /** @type {Map<string, KernelFamily>} */ this.families = new Map();
-    this.fourBars = new FourBarFinder(this);
   }
 
   /**
