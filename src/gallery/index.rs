@@ -10,7 +10,6 @@ use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
 use super::assets::{KERNEL, SCRIPTS, STYLES, compact, join_modules};
-use super::base91::encode_base91;
 use super::pieces::{PieceSeries, is_data_file_name, parse_piece_file_name};
 use crate::record::{FamilyRecord, RunRecord};
 use coupler_curves::measure;
@@ -74,7 +73,7 @@ pub fn index_html(run: &RunRecord, families: &[GalleryFamily]) -> String {
         ("policy", content_security_policy(&style, [&loader, &script])),
         ("style", style),
         ("atlas", data),
-        ("kernel", encode_base91(KERNEL)),
+        ("kernel", BASE64_STANDARD.encode(KERNEL)),
         ("packed_script", BASE64_STANDARD.encode(gzip(script.as_bytes()).expect("memory takes all bytes"))),
         ("loader", loader),
     ];

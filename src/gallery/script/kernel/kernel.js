@@ -3,7 +3,7 @@
 // After a failure of the kernel, a new instance replaces it, in which families and studies are opened again when
 // they are used.
 
-import { decodeBase91 } from "../data/packed.js";
+import { decodeBase64 } from "../data/packed.js";
 import { KernelFailure, KernelInstance } from "./instance.js";
 import { KernelStudy } from "./study.js";
 
@@ -38,7 +38,7 @@ export class KernelLoader {
 }
 
 async function compileKernel(/** @type {Document} */ document) {
-  const packed = decodeBase91(document.getElementById("kernel")?.textContent ?? "");
+  const packed = decodeBase64(document.getElementById("kernel")?.textContent);
   const unpacked = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
   return WebAssembly.compile(await new Response(unpacked).arrayBuffer());
 }
