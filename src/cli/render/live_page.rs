@@ -75,8 +75,8 @@ impl LivePage {
                     continue;
                 }
                 let path = output.join(&family.id).join(&file.name).to_string_lossy().replace('\\', "/");
+                let slash = if path.starts_with('/') { "" } else { "/" };
                 let path = utf8_percent_encode(&path, KEPT);
-                let slash = if path.to_string().starts_with('/') { "" } else { "/" };
                 let digest = file.sha256.or(file.drawn_from_sha256).map_or(String::new(), |digest| digest.to_string());
                 self.state
                     .pages

@@ -5,8 +5,9 @@ use super::complex::{Complex, dot, length};
 use super::curve_alignment::Alignment;
 use super::curve_path::CurvePath;
 use super::matching::{match_open_places, match_places};
-use super::portion::{Stroke, Window};
-use super::spectrum::{Likeness, Spectrum, Transform};
+use super::portion::Window;
+use super::query::Query;
+use super::spectrum::{Likeness, Transform};
 use super::target::{PathKind, Target};
 use crate::geometry::{Point, Vector, trig};
 
@@ -101,17 +102,12 @@ impl CurveFit {
 pub struct CurveFitter {
     target: Target,
     options: CurveFitOptions,
-    query: Query,
+    /// None if the curves stay where they are.
+    query: Option<Query>,
     /// The points with centroid 0 and size 1, forward and backward; all, and some of them.
     points: [Vec<Complex>; 2],
     some_points: [Vec<Complex>; 2],
     transform: Transform,
-}
-
-enum Query {
-    Fixed,
-    Whole(Box<Spectrum>, Complex, f64),
-    Portion(Box<Stroke>),
 }
 
 /// Samples of a curve, and their positions.
@@ -148,19 +144,18 @@ impl CurveFitter {
     pub fn new(target: &Target, options: CurveFitOptions) -> CurveFitter {
         /// So many points at most decide where a curve is tried.
         const SOME: usize = 50;
-        let transform = Transform::new();
         let points = target.normalized();
-        let query = match target.kind() {
-            _ if options.is_fixed => Query::Fixed,
-            PathKind::Closed => {
-                let (spectrum, centre, size) = transform.spectrum(&points);
-                Query::Whole(Box::new(spectrum), centre, size)
-            }
-            PathKind::Open | PathKind::Part => Query::Portion(Box::new(Stroke::new(&points))),
-        };
+        let query = (!options.is_fixed).then(|| Query::new(target.kind(), &points));
         let both = |points: Vec<Complex>| [points.clone(), points.into_iter().rev().collect()];
         let some = points.iter().step_by(points.len().div_ceil(SOME)).copied().collect();
-        CurveFitter { target: target.clone(), options, query, some_points: both(some), points: both(points), transform }
+        CurveFitter {
+            target: target.clone(),
+            options,
+            query,
+            some_points: both(some),
+            points: both(points),
+            transform: Transform::new(),
+        }
     }
 
     /// How the curve through points fits the target; `None` if it does not in any place: its length is not that of the target, no
@@ -200,7 +195,7 @@ impl CurveFitter {
     fn starts(&self, path: &CurvePath, samples: &[Complex]) -> Vec<Start> {
         let is_open_target = self.target.kind() != PathKind::Closed;
         match &self.query {
-            Query::Fixed => {
+            None => {
                 let (size, centre) = self.target.placement();
                 let (factor, shift) = (Complex::new(path.size / size, 0.0), (path.centre - centre) / size);
                 let start =
@@ -212,14 +207,11 @@ impl CurveFitter {
                 };
                 ways.iter().copied().map(start).collect()
             }
-            Query::Whole(target, target_centre, target_size) => {
+            Some(Query::Whole(target, target_centre, target_size)) => {
                 let (spectrum, centre, size) = self.transform.spectrum(samples);
                 let start = |(likeness, is_reversed): (Likeness, bool)| {
-                    let is_mirrored = likeness.is_mirrored;
-                    let factor = likeness.factor * (target_size / size);
-                    let centre = if is_mirrored { centre.conj() } else { centre };
-                    let shift = target_centre - factor * centre;
-                    Start { is_mirrored, is_reversed, is_one_way: false, factor, shift }
+                    let (factor, shift) = likeness.similarity((*target_centre, *target_size), (centre, size));
+                    Start { is_mirrored: likeness.is_mirrored, is_reversed, is_one_way: false, factor, shift }
                 };
                 let found = self.transform.likenesses(target, &spectrum).into_iter().map(start);
                 let may_begin = |start: &Start| {
@@ -227,7 +219,7 @@ impl CurveFitter {
                 };
                 found.filter(may_begin).take(STARTS).collect()
             }
-            Query::Portion(stroke) => {
+            Some(Query::Portion(stroke)) => {
                 let least = self.options.least_portion * if path.is_open { 0.5 } else { 1.0 };
                 let start = |(window, factor, shift): (Window, Complex, Complex)| Start {
                     is_mirrored: window.is_mirrored,

@@ -3,10 +3,10 @@
 use std::ops::Range;
 
 use super::curve_path::CurvePath;
-use super::portion::Stroke;
+use super::query::Query;
 use super::shape::{Shape, Shapes};
-use super::spectrum::{Spectrum, Transform};
-use super::target::{PathKind, Target};
+use super::spectrum::Transform;
+use super::target::Target;
 use crate::geometry::Point;
 
 /// The shape of a curve, which can be computed on any thread.
@@ -73,45 +73,35 @@ impl Default for CurveIndex {
 /// The curves of an index that are most like a target, found in steps of any number of curves.
 pub struct CurveLookup {
     query: Query,
+    /// The length of the target in its sizes.
+    length: f64,
+    least_portion: f64,
     most: usize,
     best: Vec<(f32, usize)>,
-}
-
-enum Query {
-    /// The spectrum of a closed target, and its length in its sizes.
-    Whole(Box<Spectrum>, f64),
-    /// An open target, and the least part of a curve that may be like it.
-    Portion(Box<Stroke>, f64),
 }
 
 impl CurveLookup {
     /// Begins to look up a target: at most `most` curves are kept. An open one is looked up in portions of at least
     /// `least_portion` of the length of a curve.
     pub fn new(target: &Target, least_portion: f64, most: usize) -> CurveLookup {
-        let points = target.normalized();
-        let query = match target.kind() {
-            PathKind::Closed => {
-                let (spectrum, ..) = Transform::new().spectrum(&points);
-                Query::Whole(Box::new(spectrum), target.polyline_length())
-            }
-            PathKind::Open | PathKind::Part => Query::Portion(Box::new(Stroke::new(&points)), least_portion),
-        };
-        CurveLookup { query, most: most.max(1), best: Vec::new() }
+        CurveLookup {
+            query: Query::new(target.kind(), &target.normalized()),
+            length: target.polyline_length(),
+            least_portion,
+            most: most.max(1),
+            best: Vec::new(),
+        }
     }
 
     /// Compares the curves of a range, or as many of them as the index has. A closed target takes some 20 ns for each, an open one 20 µs.
     pub fn compare(&mut self, CurveIndex(shapes): &CurveIndex, range: Range<usize>) {
         let best = std::mem::take(&mut self.best);
         self.best = match &self.query {
-            Query::Whole(spectrum, length) => shapes.nearest((spectrum, *length, false), range, best, self.most),
-            Query::Portion(stroke, least) => shapes.nearest_portions_closely((stroke, *least), range, best, self.most),
+            Query::Whole(spectrum, ..) => shapes.nearest((spectrum, self.length, false), range, best, self.most),
+            Query::Portion(stroke) => {
+                shapes.nearest_portions_closely((stroke, self.least_portion), range, best, self.most)
+            }
         };
-    }
-
-    /// The curves that have been found so far, the likeliest first: how much they are like the target, the more the greater, and their
-    /// numbers.
-    pub fn found(&self) -> impl Iterator<Item = (f64, usize)> {
-        self.best.iter().map(|(likeness, number)| (f64::from(*likeness), *number))
     }
 
     /// The numbers of the curves that have been found so far, the likeliest first.

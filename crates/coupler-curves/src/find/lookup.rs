@@ -4,8 +4,7 @@ use super::complex::Complex;
 use super::fitting::Fitting;
 use super::index::{Entry, Index};
 use super::parameters::Parameters;
-use super::portion::Stroke;
-use super::spectrum::{Spectrum, Transform};
+use super::query::Query;
 use super::target::PathKind;
 
 /// The comparison of the curves of an index with a path, in bounded steps.
@@ -23,14 +22,6 @@ pub(super) struct Lookup {
     placed: Vec<(f64, Parameters)>,
 }
 
-/// What is looked up.
-enum Query {
-    /// A closed curve: its spectrum, and the centroid and the size of points at equal distances along it.
-    Whole(Box<Spectrum>, Complex, f64),
-    /// A portion of a curve.
-    Portion(Stroke),
-}
-
 /// The curves of a step of comparison.
 const CURVES_PER_STEP: usize = 4096;
 
@@ -46,14 +37,7 @@ const EXACT_PER_START_WITH_CONDITION: usize = 20;
 impl Lookup {
     /// Begins the lookup of a path of the kind of the target, for a number of starts.
     pub fn new(kind: PathKind, points: &[Complex], starts: usize) -> Lookup {
-        let query = match kind {
-            PathKind::Closed => {
-                let (spectrum, centre, size) = Transform::new().spectrum(points);
-                Query::Whole(Box::new(spectrum), centre, size)
-            }
-            PathKind::Open | PathKind::Part => Query::Portion(Stroke::new(points)),
-        };
-        Lookup { query, starts, next: 0, best: Vec::new(), next_place: 0, placed: Vec::new() }
+        Lookup { query: Query::new(kind, points), starts, next: 0, best: Vec::new(), next_place: 0, placed: Vec::new() }
     }
 
     /// Compares or places some curves; false if nothing is left to do.
@@ -115,10 +99,8 @@ impl Lookup {
             Query::Whole(target, target_centre, target_size) => {
                 let (spectrum, centre, size, _) = index.spectrum(entry);
                 let likeness = index.transform().likeness(target, &spectrum);
-                let centre = if likeness.is_mirrored { centre.conj() } else { centre };
-                let factor = likeness.factor * (target_size / size);
-                let linkage = mirrored(likeness.is_mirrored).transformed(factor, target_centre - factor * centre);
-                Some((likeness.value, linkage))
+                let (factor, shift) = likeness.similarity((*target_centre, *target_size), (centre, size));
+                Some((likeness.value, mirrored(likeness.is_mirrored).transformed(factor, shift)))
             }
             Query::Portion(stroke) => {
                 let (window, factor, shift) = stroke.placement(&entry.linkage.curve(&entry.circuit))?;

@@ -3,12 +3,13 @@
 use serde::Serialize;
 
 use super::answer::Answer;
+use super::curve_fit::CurveFit;
 use super::mechanism::Mechanism;
 use crate::linkage::{FourBar, PlacedFourBar, Side};
 
-/// An answer as it is written in JSON, in the unit and axes of the target; docs/find.md describes its keys.
+/// How near a curve is to the target, as it is written in JSON, in the unit of the target; docs/find.md describes its keys.
 #[derive(Debug, Serialize)]
-pub struct AnswerRecord {
+pub struct FitRecord {
     rank: usize,
     quality: &'static str,
     rms: f64,
@@ -16,6 +17,13 @@ pub struct AnswerRecord {
     max: f64,
     in_order: bool,
     length_ratio: f64,
+}
+
+/// An answer as it is written in JSON, in the unit and axes of the target; docs/find.md describes its keys.
+#[derive(Debug, Serialize)]
+pub struct AnswerRecord {
+    #[serde(flatten)]
+    fit: FitRecord,
     #[serde(flatten)]
     linkage: LinkageRecord,
     cognates: Vec<LinkageRecord>,
@@ -49,17 +57,34 @@ struct Parameters {
     across: f64,
 }
 
+impl FitRecord {
+    /// The record of a fit with a rank, from 1.
+    pub fn new(rank: usize, fit: &CurveFit) -> FitRecord {
+        FitRecord {
+            rank,
+            quality: fit.quality().name(),
+            rms: fit.rms,
+            rms_relative: fit.rms_relative,
+            max: fit.greatest,
+            in_order: fit.is_in_order,
+            length_ratio: fit.length_ratio,
+        }
+    }
+}
+
 impl AnswerRecord {
     /// The record of an answer with a rank, from 1.
     pub fn new(rank: usize, answer: &Answer) -> AnswerRecord {
         AnswerRecord {
-            rank,
-            quality: answer.quality().name(),
-            rms: answer.rms,
-            rms_relative: answer.rms_relative,
-            max: answer.greatest,
-            in_order: answer.is_in_order,
-            length_ratio: answer.length_ratio,
+            fit: FitRecord {
+                rank,
+                quality: answer.quality().name(),
+                rms: answer.rms,
+                rms_relative: answer.rms_relative,
+                max: answer.greatest,
+                in_order: answer.is_in_order,
+                length_ratio: answer.length_ratio,
+            },
             linkage: LinkageRecord::new(&answer.mechanism),
             cognates: answer.cognates.iter().map(LinkageRecord::new).collect(),
         }

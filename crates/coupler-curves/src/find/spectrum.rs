@@ -52,6 +52,20 @@ pub(super) struct Likeness {
     pub factor: Complex,
 }
 
+impl Likeness {
+    /// The factor and the shift of the similarity that places the curve on the target after its reflection, if it is there; each is given by the
+    /// centroid and the size that go with its spectrum.
+    pub fn similarity(
+        &self,
+        (target_centre, target_size): (Complex, f64),
+        (centre, size): (Complex, f64),
+    ) -> (Complex, Complex) {
+        let factor = self.factor * (target_size / size);
+        let centre = if self.is_mirrored { centre.conj() } else { centre };
+        (factor, target_centre - factor * centre)
+    }
+}
+
 /// The table of a spectrum's computation.
 pub(super) struct Transform {
     directions: Vec<Complex>,

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use coupler_atlas::find::{AtlasAnswer, scaled_values};
-use coupler_curves::find::AnswerRecord;
+use coupler_curves::find::{AnswerRecord, FitRecord};
 use serde::Serialize;
 
 use super::super::super::report;
@@ -43,13 +43,8 @@ enum Linkage {
 
 #[derive(Serialize)]
 struct Placed {
-    rank: usize,
-    quality: &'static str,
-    rms: f64,
-    rms_relative: f64,
-    max: f64,
-    in_order: bool,
-    length_ratio: f64,
+    #[serde(flatten)]
+    fit: FitRecord,
     direction: &'static str,
     ends: [f64; 2],
     linkage: String,
@@ -102,13 +97,7 @@ fn placed(report: &AtlasReport, rank: usize, curve: &AtlasAnswer) -> Placed {
     let values = scaled_values(template, &curve.values, if curve.is_scalable { scale } else { 1.0 });
     let names = template.parameters.iter().map(|parameter| parameter.name.clone());
     Placed {
-        rank,
-        quality: fit.quality().name(),
-        rms: fit.rms,
-        rms_relative: fit.rms_relative,
-        max: fit.greatest,
-        in_order: fit.is_in_order,
-        length_ratio: fit.length_ratio,
+        fit: FitRecord::new(rank, fit),
         direction: if fit.is_reversed { "backward" } else { "forward" },
         ends: fit.ends,
         linkage: template.id.clone(),

@@ -10,7 +10,6 @@ use coupler_atlas::manifest::Plan;
 use coupler_atlas::record::{FolderRecord, RunRecord};
 use coupler_curves::exchange::{ParameterSet, manifest_fragment};
 use coupler_curves::find::{Answer, Condition, Index, Options, Placement, Search, Target, answers_manifest};
-use coupler_curves::geometry::Point;
 use coupler_curves::linkage_format::quoted;
 use coupler_curves::measure;
 use coupler_curves::motion::Sampler;
@@ -33,7 +32,7 @@ pub(super) struct AtlasReport {
     nearest_miss: Option<(Vec<&'static str>, Found)>,
 }
 
-/// A curve of an atlas, and the four-bar that was refined from it, if it is one.
+/// A curve of an atlas, and the four-bar that was refined from it, if it is one; the outline is then that of the refined curve.
 pub(super) struct Found {
     curve: AtlasAnswer,
     refined: Option<Answer>,
@@ -109,20 +108,17 @@ const STARTS_PER_ANSWER: usize = 8;
 
 /// Refines four-bars, merges curves that are the same to a thousandth of the target's size, and ranks them.
 fn ranked(curves: Vec<AtlasAnswer>, target: &Target, options: &Options, arguments: &Arguments) -> Vec<Found> {
-    let distinct = |found: Vec<(Found, Vec<Point>)>, most: usize| {
-        let mut kept: Vec<(Found, Vec<Point>)> = Vec::new();
-        for (found, outline) in found {
-            if kept.len() < most && kept.iter().all(|(_, other)| !find::are_same(&outline, other, 1e-3 * target.size()))
-            {
-                kept.push((found, outline));
+    let is_same = |a: &Found, b: &Found| find::are_same(&a.curve.outline, &b.curve.outline, 1e-3 * target.size());
+    let distinct = |found: Vec<Found>, most: usize| {
+        let mut kept: Vec<Found> = Vec::new();
+        for found in found {
+            if kept.len() < most && kept.iter().all(|other| !is_same(&found, other)) {
+                kept.push(found);
             }
         }
         kept
     };
-    let placed = curves.into_iter().map(|curve| {
-        let outline = curve.outline.clone();
-        (Found { curve, refined: None }, outline)
-    });
+    let placed = curves.into_iter().map(|curve| Found { curve, refined: None });
     // Several are refined to the same curve.
     let mut found = distinct(placed.collect(), STARTS_PER_ANSWER * options.most);
     // A condition on names that a four-bar does not have cannot be kept in a refinement.
@@ -140,14 +136,14 @@ fn ranked(curves: Vec<AtlasAnswer>, target: &Target, options: &Options, argument
             let curve = &solved.curves[0];
             Some((answer, solved.circuit(curve).points(curve.joint).collect()))
         };
-        found.par_iter_mut().for_each(|(found, outline)| {
-            if let Some((answer, points)) = refine(found) {
-                (found.refined, *outline) = (Some(answer), points);
+        found.par_iter_mut().for_each(|found| {
+            if let Some((answer, outline)) = refine(found) {
+                (found.refined, found.curve.outline) = (Some(answer), outline);
             }
         });
     }
-    found.sort_by(|a, b| a.0.rms().total_cmp(&b.0.rms()));
-    distinct(found, options.most).into_iter().map(|(found, _)| found).collect()
+    found.sort_by(|a, b| a.rms().total_cmp(&b.rms()));
+    distinct(found, options.most)
 }
 
 /// Reads the manifest of an atlas, or that beside the folder of a rendered one.

@@ -1,0 +1,27 @@
+//! What curves are compared with.
+
+use super::complex::Complex;
+use super::portion::Stroke;
+use super::spectrum::{Spectrum, Transform};
+use super::target::PathKind;
+
+/// A path, described for comparison with the curves of an index.
+pub(super) enum Query {
+    /// A closed path: its spectrum, and the centroid and the size of points at equal distances along it.
+    Whole(Box<Spectrum>, Complex, f64),
+    /// A path that is like a portion of a curve.
+    Portion(Box<Stroke>),
+}
+
+impl Query {
+    /// The description of a path of a kind.
+    pub fn new(kind: PathKind, points: &[Complex]) -> Query {
+        match kind {
+            PathKind::Closed => {
+                let (spectrum, centre, size) = Transform::new().spectrum(points);
+                Query::Whole(Box::new(spectrum), centre, size)
+            }
+            PathKind::Open | PathKind::Part => Query::Portion(Box::new(Stroke::new(points))),
+        }
+    }
+}
