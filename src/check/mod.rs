@@ -160,9 +160,9 @@ pub fn check_atlas(
         report.add_findings(volumes.filter_map(|file| images::check_volume(recorded, file)).collect());
         report.add_findings(images::check_images_file(&folder_record).into_iter().collect());
         let page = match &record.gallery {
-            Some(page) => gallery::check_file(recorded, PAGE_FILE, page),
+            Some(page) if page.name == PAGE_FILE => gallery::check_file(recorded, PAGE_FILE, page),
             None if folder_record.is_unfinished => None,
-            None => {
+            _ => {
                 let message = format!("does not list {PAGE_FILE}");
                 Some(Location::default().with_file(RUN_FILE_NAME).finding(Change::Damaged { message }))
             }

@@ -227,7 +227,14 @@ fn solve_cells<T: Send>(
             || condition.is_some_and(|condition| family.expression_uses(condition, k))
     };
     let requested: Vec<bool> = (0..measure::ALL.len()).map(is_needed).collect();
-    let groups = CellGroups { cells, first_group: 0, size: 8, work_bytes: 0, requested_measures: Some(&requested) };
+    let groups = CellGroups {
+        cells,
+        first_group: 0,
+        size: 8,
+        work_bytes: 0,
+        requested_measures: Some(&requested),
+        solve_known: None,
+    };
     let works = |_, solved: Vec<SolvedCell>| solved.into_iter().flat_map(&work).collect::<Vec<T>>();
     let Ok(()) = sweep::process_groups(family, groups, works, |found| {
         receive(found);

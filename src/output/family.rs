@@ -9,6 +9,7 @@ use super::inputs::Inputs;
 use super::journal::Journal;
 use super::pages::OutputSink;
 use super::registry::FileRegistry;
+use super::survey::{FamilySurvey, Surveyor};
 use super::{Error, Event, Options, previous_run};
 use crate::gallery::FamilyScript;
 use crate::manifest::{Plan, PlannedFamily};
@@ -17,14 +18,15 @@ use crate::record::{CellTable, FamilyRecord, FileRecord, open_regular_file, read
 use coupler_curves::exchange::PointTable;
 use coupler_drawing::render::{Format, PageFormat};
 
-/// Writes a family into its folder, unless all of its files are up to date.
+/// Writes a family into its folder, unless all of its files are up to date. If there is a surveyor, the result is the survey of its
+/// cells; `None` if not all of them have been solved.
 pub(super) fn write(
     (plan, planned): (&Plan, &PlannedFamily),
     output: &Path,
     options: &Options,
-    journal: &mut Journal,
+    (journal, surveyor): (&mut Journal, Option<Surveyor>),
     report: &mut dyn FnMut(Event),
-) -> Result<(), Error> {
+) -> Result<Option<FamilySurvey>, Error> {
     let family = &planned.family;
     let folder = output.join(&family.id);
     let formats = options.formats.as_ref().unwrap_or(&planned.formats);
@@ -46,7 +48,8 @@ pub(super) fn write(
         report(Event::End { record: &record, drawn: None });
         // A change is recorded before a file is removed.
         journal.set_family(record.clone())?;
-        return remove_stale_files(earlier, &record, &folder);
+        remove_stale_files(earlier, &record, &folder)?;
+        return Ok(None);
     }
     let pipeline = FamilyPipeline::new(plan, planned, &options.interrupt).ok_or(Error::Interrupted)?;
     let page_count = pipeline.pagination.page_count;
@@ -71,20 +74,23 @@ pub(super) fn write(
     let (composer, interrupt) = (&pipeline.composer, &*options.interrupt);
     let tables = (PointTable::new(family), CellTable::new(family));
     let script = FamilyScript::new(plan, planned);
-    let sink = OutputSink { composer, formats: &formats, inputs, tables, script, registry: &registry, interrupt };
+    let sink =
+        OutputSink { composer, formats: &formats, inputs, tables, script, registry: &registry, interrupt, surveyor };
     let task = FamilyTask { pipeline: &pipeline, sink, folder: &folder, journal: &journal_file, inputs_sha256 };
-    let writer = match progress.and_then(|(progress, pieces)| FamilyWriter::resume(task, (&progress, &pieces), report))
-    {
+    let resumed = progress.and_then(|(progress, pieces)| FamilyWriter::resume(task, (&progress, &pieces), report));
+    let is_surveyed = resumed.is_none() && surveyor.is_some();
+    let writer = match resumed {
         Some(writer) => writer,
         None => FamilyWriter::start(task)?,
     };
-    let (record, drawn) = writer.write_all(report)?;
+    let (record, drawn, survey) = writer.write_all(report)?;
     let mut record = FamilyRecord { inputs_sha256: Some(inputs_sha256), ..record };
     record.files.extend(pages_in_other_formats(earlier.as_ref(), &record, &formats, options));
     previous_run::sort_files(&family.id, &mut record.files);
     report(Event::End { record: &record, drawn: Some(drawn) });
     journal.set_family(record.clone())?;
-    remove_stale_files(earlier, &record, &folder)
+    remove_stale_files(earlier, &record, &folder)?;
+    Ok(is_surveyed.then_some(survey))
 }
 
 /// The unassembled cells of a family that is up to date, from its table; `None` if the table can no longer be read.

@@ -9,6 +9,7 @@ use serde_json::Value;
 use super::family::initial_record;
 use super::journal::JournalFile;
 use super::pages::{OutputSink, PageFiles, TableRows};
+use super::survey::FamilySurvey;
 use super::table_file::TableFile;
 use super::{Error, Event};
 use crate::gallery::{CellData, DataFile, PieceContent, PieceWriter};
@@ -36,7 +37,12 @@ pub(super) struct FamilyWriter<'a> {
     record: FamilyRecord,
     /// The number of pages drawn.
     drawn_pages: usize,
+    /// What the book needs to know of the cells.
+    survey: FamilySurvey,
 }
+
+/// The written family: its record, the number of pages drawn, and what the book needs to know of its cells.
+pub(super) type WrittenFamily = (FamilyRecord, usize, FamilySurvey);
 
 /// The tables and the gallery's data of a family while they are written.
 struct Tables<'a> {
@@ -63,7 +69,14 @@ impl<'a> FamilyWriter<'a> {
             open_pieces: [table?, curves?],
         };
         let record = initial_record(task.pipeline);
-        Ok(FamilyWriter { task, tables, done: GroupsDone::default(), record, drawn_pages: 0 })
+        Ok(FamilyWriter {
+            task,
+            tables,
+            done: GroupsDone::default(),
+            record,
+            drawn_pages: 0,
+            survey: FamilySurvey::default(),
+        })
     }
 
     /// Continues the tables of a family, and reports what has been done; `None` if they, or the pages of the cells in
@@ -108,14 +121,17 @@ impl<'a> FamilyWriter<'a> {
             record.files.extend(page);
             report(Event::Page);
         }
-        Some(FamilyWriter { task, tables, done, record, drawn_pages: 0 })
+        Some(FamilyWriter { task, tables, done, record, drawn_pages: 0, survey: FamilySurvey::default() })
     }
 
-    /// Writes the tables, the script and the pages; returns the record of the family and the number of pages drawn.
-    pub fn write_all(mut self, report: &mut dyn FnMut(Event)) -> Result<(FamilyRecord, usize), Error> {
+    /// Writes the tables, the script and the pages. The survey is of the cells that no earlier run has finished.
+    pub fn write_all(mut self, report: &mut dyn FnMut(Event)) -> Result<WrittenFamily, Error> {
         let FamilyTask { pipeline, sink, .. } = self.task;
         let result = pipeline.run(&sink, self.done, |output| match output {
-            Output::Cells(rows) => self.add_rows(&rows, report),
+            Output::Cells(mut rows) => {
+                self.survey.add(std::mem::take(&mut rows.surveyed), &sink.composer.plan.book);
+                self.add_rows(&rows, report)
+            }
             Output::Page(page) => self.add_page(page, report),
             Output::Done(done) => self.record_progress(done),
         });
@@ -134,7 +150,7 @@ impl<'a> FamilyWriter<'a> {
         }
         let tables = [cells, points].map(|table| sink.registry.commit_file(table));
         self.record.files.extend(tables.into_iter().collect::<Result<Vec<FileRecord>, Error>>()?);
-        Ok((self.record, self.drawn_pages))
+        Ok((self.record, self.drawn_pages, self.survey))
     }
 
     /// Appends the rows of some cells, adds their counts to the record, and reports those that could not be assembled.

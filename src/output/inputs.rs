@@ -55,11 +55,11 @@ impl<'a> Inputs<'a> {
         digest.finish()
     }
 
-    /// The digest of what a book is made from: its families, and the most pages of a volume.
+    /// The digest of what a book is made from: its families, the most pages of a volume, and the table `[book]`.
     #[cfg(feature = "pdf")]
-    pub fn book_digest(families: &[&PlannedFamily], volume_pages: usize) -> Digest {
+    pub fn book_digest(families: &[&PlannedFamily], volume_pages: usize, book: &str) -> Digest {
         let mut digest = RunningDigest::default();
-        digest.update(format!("book in volumes of {volume_pages}\n").as_bytes());
+        digest.update(format!("book in volumes of {volume_pages}\n{book}\n").as_bytes());
         families
             .iter()
             .for_each(|planned| digest.update(format!("{}\n", Inputs::new(planned).family_digest()).as_bytes()));

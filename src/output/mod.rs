@@ -13,6 +13,7 @@ mod ownership;
 mod pages;
 mod previous_run;
 mod registry;
+mod survey;
 mod table_file;
 
 pub use error::Error;
@@ -31,6 +32,7 @@ use coupler_drawing::render::Format;
 use journal::Journal;
 use lock::Lock;
 use previous_run::PreviousRun;
+use survey::{FamilySurvey, Surveyor};
 
 /// How an atlas is written.
 #[derive(Clone, Debug, Default)]
@@ -137,16 +139,23 @@ fn write_families(
     let resumable: HashSet<String> = previous.progress.iter().map(|progress| progress.family.clone()).collect();
     files::remove_temporary_files(output, &|family| resumable.contains(family));
     let mut journal = Journal::open(plan, output, options, previous);
-    for planned in plan.families.iter().filter(is_selected) {
+    #[cfg(feature = "pdf")]
+    let is_surveyed = book::families_to_survey(plan, output, options, &journal);
+    #[cfg(not(feature = "pdf"))]
+    let is_surveyed = vec![false; plan.families.len()];
+    let mut surveys: Vec<Option<FamilySurvey>> = plan.families.iter().map(|_| None).collect();
+    let families = plan.families.iter().enumerate().zip(is_surveyed).zip(&mut surveys);
+    for (((number, planned), is_surveyed), survey) in families.filter(|(((_, planned), _), _)| is_selected(planned)) {
         check_interrupt(&options.interrupt)?;
-        family::write((plan, planned), output, options, &mut journal, report)?;
+        let surveyor = is_surveyed.then(|| Surveyor::new(planned, &plan.book, number));
+        *survey = family::write((plan, planned), output, options, (&mut journal, surveyor), report)?;
     }
     if options.only.is_empty() {
         journal.remove_unplanned_families()?;
     }
     // A build without PDF leaves the book of another as it is.
     #[cfg(feature = "pdf")]
-    book::write(plan, output, options, &mut journal, report)?;
+    book::write(plan, output, options, (&mut journal, surveys), report)?;
     journal.write_gallery()?;
     if !resumable.is_empty() {
         // Tables of an earlier run that this one did not continue.

@@ -4,6 +4,7 @@ use std::sync::atomic::AtomicBool;
 
 use super::inputs::Inputs;
 use super::registry::FileRegistry;
+use super::survey::{CellSurvey, Surveyor};
 use super::{Error, check_interrupt};
 use crate::gallery::{CellData, FamilyScript};
 use crate::pipeline::{Composer, PageContent, PageJob, Sink, page_file_name};
@@ -33,6 +34,8 @@ pub(super) struct TableRows {
     pub shortfalls: Vec<(usize, String)>,
     /// The number of those that are assembled over a part of the range.
     pub partly_assembled: usize,
+    /// What the book needs to know of the cells; empty if it does not.
+    pub surveyed: Vec<CellSurvey>,
 }
 
 /// Renders and writes the output of a family; used by all worker threads.
@@ -47,6 +50,8 @@ pub(super) struct OutputSink<'a> {
     pub registry: &'a FileRegistry<'a>,
     /// Set to true when no more pages are to be begun.
     pub interrupt: &'a AtomicBool,
+    /// Surveys the cells for the book, if that is written.
+    pub surveyor: Option<Surveyor<'a>>,
 }
 
 impl Sink for OutputSink<'_> {
@@ -70,6 +75,7 @@ impl Sink for OutputSink<'_> {
             gallery_data: self.script.cells(solved),
             curve_count: solved.iter().map(|s| s.curves.len()).sum(),
             curves_left_out: solved.iter().map(|s| s.left_out_count).sum(),
+            surveyed: self.surveyor.map(|surveyor| surveyor.survey(solved)).unwrap_or_default(),
             shortfalls: solved.iter().filter_map(shortfall).collect(),
             partly_assembled: solved.iter().filter(|s| s.status() == Status::Partial).count(),
         })

@@ -204,6 +204,7 @@ impl<'a> FamilyPipeline<'a> {
             size: self.pagination.group_size,
             work_bytes: sink.bytes_per_page(),
             requested_measures: measures,
+            solve_known: None,
         }
     }
 

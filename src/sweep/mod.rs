@@ -132,7 +132,7 @@ fn rank_bits(key: f64) -> u64 {
 }
 
 /// Cells to be processed in groups.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct CellGroups<'a> {
     /// The cells, by index.
     pub cells: &'a CellIndices,
@@ -145,7 +145,12 @@ pub struct CellGroups<'a> {
     /// Which measures are computed, by their indices in [`measure::ALL`]; must include those that `where` uses. Those
     /// of the family if `None`.
     pub requested_measures: Option<&'a [bool]>,
+    /// Solves a cell by its index from what is known of it already; `None` for a cell of which nothing is known.
+    pub solve_known: Option<&'a SolveKnown<'a>>,
 }
+
+/// Solves a cell of which something is known.
+pub type SolveKnown<'a> = dyn Fn(&Sampler, usize) -> Option<SolvedCell> + Sync + 'a;
 
 /// The approximate limit of memory for groups in flight, in bytes.
 const MAX_BYTES: usize = motion::MAX_CIRCUIT_BYTES;
@@ -177,7 +182,11 @@ pub fn process_groups<T: Send, E>(
     let stopped = &AtomicBool::new(false);
     let work = &work;
     let measures = groups.requested_measures.unwrap_or(&family.is_computed);
-    let solve = move |cell: usize| solve_measuring(family, sampler, cell, measures);
+    let known = groups.solve_known;
+    let solve = move |cell: usize| {
+        let solved = known.and_then(|known| known(sampler, cell));
+        solved.or_else(|| solve_measuring(family, sampler, cell, measures))
+    };
     let cells = groups.cells;
     let size = groups.size.max(1);
     let solve_group = move |group: usize| {

@@ -51,7 +51,14 @@ fn chart_data(text: &str, build: impl FnOnce(ChartBuilder) -> ChartData) -> Char
     let sample = |_, solved: Vec<solve::SolvedCell>| {
         solved.iter().flat_map(|solved| chart.sample_cell(&planned.family, solved)).collect::<Vec<_>>()
     };
-    let groups = sweep::CellGroups { cells: &kept, first_group: 0, size: 4, work_bytes: 0, requested_measures: None };
+    let groups = sweep::CellGroups {
+        cells: &kept,
+        first_group: 0,
+        size: 4,
+        work_bytes: 0,
+        requested_measures: None,
+        solve_known: None,
+    };
     sweep::process_groups(&planned.family, groups, sample, |samples| -> Result<(), ()> {
         samples.into_iter().for_each(|sample| builder.add(sample));
         Ok(())

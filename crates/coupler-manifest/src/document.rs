@@ -16,7 +16,7 @@ use crate::templates::{Templates, id_and_span};
 use crate::theme::FileReader;
 use crate::tolerance::PartialTolerances;
 use crate::undrawable::{names_missing_font, undrawable_texts};
-use crate::{family, format_version, settings, tolerance};
+use crate::{book, family, format_version, settings, tolerance};
 
 /// The result of parsing a manifest.
 #[derive(Clone, Debug)]
@@ -138,6 +138,7 @@ fn read_plan(text: &str, writable: &[Format], files: FileReader, parser: &mut To
             ..read
         }));
     }
+    let book = book::read(root.get("book"), (&families, families.len() == tables.len()), parser);
     let undrawable = typeface.map(|typeface| undrawable_texts(&document, typeface)).unwrap_or_default();
     let needs_fonts = page.as_ref().is_some_and(|page| page.text_mode == TextMode::Outlines)
         || families.iter().flat_map(|family| &family.formats).any(|format| *format != Format::Svg);
@@ -145,11 +146,12 @@ fn read_plan(text: &str, writable: &[Format], files: FileReader, parser: &mut To
     if needs_fonts && !names_missing_font(&root, typeface) {
         undrawable.iter().for_each(|problem| parser.report(problem.clone()));
     }
-    let (atlas, page) = (atlas?, page?);
+    let (atlas, page, book) = (atlas?, page?, book?);
     Some(Plan {
         title: atlas.title,
         output: atlas.output,
         volume_pages: atlas.volume_pages,
+        book,
         page: page.options,
         dpi: page.dpi,
         text_mode: page.text_mode,

@@ -65,7 +65,8 @@ impl SharedInputs {
     pub fn from_manifest(root: &Fields, fallback: Option<&FontFile>) -> SharedInputs {
         // As a comment, for an excerpt begins with these lines.
         let mut tables = fallback.map_or(String::new(), |file| format!("# fallback_face {file:?}\n"));
-        for (key, _, value) in root.entries().filter(|(key, ..)| !["family", "linkage", "check"].contains(key)) {
+        for (key, _, value) in root.entries().filter(|(key, ..)| !["family", "linkage", "check", "book"].contains(key))
+        {
             let ignored_keys: &[&str] = if key == "atlas" { &IGNORED_ATLAS_KEYS } else { &[] };
             tables.push_str(&format!("{key}={}\n", canonical_toml(value, ignored_keys)));
         }

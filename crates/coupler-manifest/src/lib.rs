@@ -40,9 +40,11 @@ mod names;
 
 mod chart;
 
-mod schema;
-
 mod plan;
+
+mod book;
+
+mod schema;
 
 mod cells;
 mod templates;
@@ -55,7 +57,7 @@ pub use cells::MAX_PAGE_FILES;
 pub use document::{MAX_MANIFEST_BYTES, ParseOutcome, parse, parse_for_formats, parse_linkages, parse_with_files};
 pub use format_version::FORMAT_VERSION;
 pub use inputs::ManifestInputs;
-pub use plan::{Plan, PlannedFamily};
+pub use plan::{BookPlan, ListCriteria, Plan, PlannedChapter, PlannedFamily, PlannedList};
 pub use schema::MANIFEST;
 pub use theme::FileReader;
 pub use tolerance::{PartialTolerances, Tolerances};

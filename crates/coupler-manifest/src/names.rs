@@ -147,7 +147,7 @@ pub(crate) fn check_expression_syntax<'t>(fields: &Fields<'_, 't>, parser: &mut 
 }
 
 /// Whether a condition or a sort key uses a measure whose value is a word; reports it.
-fn uses_text_measure<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> bool {
+pub(crate) fn uses_text_measure<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> bool {
     let Some(expression) = value.get_ref().as_str().and_then(|text| Expression::parse(text).ok()) else { return false };
     let is_boolean = |word: &&str| BOOLEANS.iter().any(|boolean| boolean.name == *word);
     let mut words = Family::word_measure_names().filter(|word| !is_boolean(word));
@@ -162,7 +162,11 @@ fn uses_text_measure<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> 
 }
 
 /// Reads `where`.
-fn read_filter<'t>(value: &TomlValue<'t>, scope: &Scope, parser: &mut TomlParser<'t>) -> Option<CompiledExpression> {
+pub(crate) fn read_filter<'t>(
+    value: &TomlValue<'t>,
+    scope: &Scope,
+    parser: &mut TomlParser<'t>,
+) -> Option<CompiledExpression> {
     if !value.get_ref().is_str() {
         let problem = Problem::error(value.span(), "`where` must be a condition in quotes");
         parser.report(problem.with_help("write where = \"a < 5 and is_crank_rocker\""));

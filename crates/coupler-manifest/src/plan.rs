@@ -1,10 +1,12 @@
 //! What a manifest asks for.
 
+use coupler_curves::expression::{Caption, CompiledExpression};
 use coupler_curves::family::Family;
 use coupler_curves::linkage_format::{quoted, toml_number};
 use coupler_curves::problem::{Problem, Span};
 use coupler_drawing::chart::Chart;
 use coupler_drawing::page;
+use coupler_drawing::page::book::Emphasis;
 use coupler_drawing::render::{Format, TextMode};
 
 use crate::inputs::ManifestInputs;
@@ -19,6 +21,8 @@ pub struct Plan {
     pub output: Option<String>,
     /// The most pages of a volume of the book.
     pub volume_pages: usize,
+    /// What the book has in addition to the pages of its families.
+    pub book: BookPlan,
     /// The options that all pages share.
     pub page: page::Options,
     /// The resolution of PNG images, in pixels per inch.
@@ -29,6 +33,62 @@ pub struct Plan {
     pub families: Vec<PlannedFamily>,
     /// Texts of the manifest with characters that its typeface does not have: problems in all formats but SVG.
     pub undrawable: Vec<Problem>,
+}
+
+/// What a book has in addition to the pages of its families.
+#[derive(Clone, Debug, Default)]
+pub struct BookPlan {
+    /// Whether it says how its plates are read.
+    pub how_to_read: bool,
+    /// Whether it has charts of the shapes of curves over the grids of its families.
+    pub finding_charts: bool,
+    /// Whether it has marks at the outer edges of its pages.
+    pub thumb_index: bool,
+    /// Whether it has an index of geometries.
+    pub index: bool,
+    /// The chapters for cells that are taken out of their families.
+    pub chapters: Vec<PlannedChapter>,
+    /// The lists of curves.
+    pub lists: Vec<PlannedList>,
+    /// What the manifest contributes to the book in addition to its families.
+    pub manifest_inputs: String,
+}
+
+/// A chapter of a book: the cells of each family with a curve for which a condition holds.
+#[derive(Clone, Debug)]
+pub struct PlannedChapter {
+    /// Its title, after that of the family.
+    pub title: String,
+    /// The condition for each family, over [`Family::scope`]; `None` for a family that it does not apply to.
+    pub conditions: Vec<Option<CompiledExpression>>,
+}
+
+/// A list of the best curves of a book.
+#[derive(Clone, Debug)]
+pub struct PlannedList {
+    /// The title.
+    pub title: String,
+    /// What is listed and in what order, in words; may be empty.
+    pub note: String,
+    /// The most entries.
+    pub count: usize,
+    /// The most entries of a cell.
+    pub per_geometry: usize,
+    /// What its entries emphasise: what the measures by which it is sorted are measures of.
+    pub emphasis: Emphasis,
+    /// The criteria for each family; `None` for a family that it does not apply to.
+    pub criteria: Vec<Option<ListCriteria>>,
+}
+
+/// Which curves of a family are in a list.
+#[derive(Clone, Debug)]
+pub struct ListCriteria {
+    /// The condition on a curve, over [`Family::scope`].
+    pub filter: Option<CompiledExpression>,
+    /// The key by which curves are sorted, least first, over [`Family::scope`].
+    pub sort: CompiledExpression,
+    /// What is said of each.
+    pub caption: Caption,
 }
 
 /// A family and how it is rendered.

@@ -1,5 +1,6 @@
 //! The keys of a manifest and of its `[[family]]` tables.
 
+use crate::book::BOOK;
 use crate::chart::{CHART, measure_names, numeric_measures};
 use crate::default_value;
 use crate::grid::VALUES_FORM;
@@ -29,6 +30,12 @@ pub static MANIFEST: TableSchema = TableSchema::new(
             "The families: each a linkage over a grid of parameters, or over cases.",
         ),
         LINKAGES_KEY,
+        KeySchema::new(
+            "book",
+            ValueSchema::Table(&BOOK),
+            "What the book has in addition to the pages of its families.",
+        )
+        .with_default(default_value::empty_table),
     ],
 );
 

@@ -105,6 +105,7 @@ impl CurveSelection {
             size: 1,
             work_bytes: 0,
             requested_measures: (!with_measures).then_some(&needed),
+            solve_known: None,
         };
         let works =
             |_, solved: Vec<SolvedCell>| solved.into_iter().map(|solved| work(self.restore_numbers(solved))).next();

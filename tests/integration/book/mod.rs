@@ -1,6 +1,7 @@
 //! Books in PDF, read back.
 
 mod bound;
+mod designer;
 pub mod reader;
 
 use coupler_curves::geometry::{Point, Vector};

@@ -136,7 +136,7 @@ const CONSTANTS: [(&str, &str, &str, &str); 25] = [
         "coupler-curves/src/motion/interval_search.rs",
         "MAX_ASSEMBLY_MODES",
     ),
-    ("manifest", "if its pages would take more than @ MB", "../src/output/book.rs", "MAX_VOLUME_BYTES"),
+    ("manifest", "if its pages would take more than @ MB", "../src/output/book/mod.rs", "MAX_VOLUME_BYTES"),
     (
         "manifest",
         "Of more than @ problems in a manifest",

@@ -67,7 +67,7 @@ fn the_keys_of_manifests_are_those_of_the_schema() {
             assert!(found.contains(name), "{file}: {section} has the key {name}");
         }
     }
-    let text: String = ["docs/manifest.md", "docs/themes.md", "docs/check.md"]
+    let text: String = ["docs/manifest.md", "docs/themes.md", "docs/check.md", "docs/book.md"]
         .iter()
         .map(|file| fs::read_to_string(super::root().join(file)).unwrap())
         .collect();

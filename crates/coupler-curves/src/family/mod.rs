@@ -190,6 +190,13 @@ impl Family {
     /// The caption lines of a cell, with its values and the measures of its first curve filled in; empty where the
     /// family has none.
     pub fn format_captions(&self, cell: &Cell, measures: &[measure::Value]) -> [String; 2] {
+        self.captions
+            .each_ref()
+            .map(|line| line.as_ref().map(|line| self.format_caption(line, cell, measures)).unwrap_or_default())
+    }
+
+    /// A caption over [`Family::scope`] with the values of a cell and the measures of a curve filled in.
+    pub fn format_caption(&self, caption: &Caption, cell: &Cell, measures: &[measure::Value]) -> String {
         static MEASURES_AND_BOOLEANS: [LazyLock<Scope>; 2] =
             [LazyLock::new(|| Family::scope(&[], false)), LazyLock::new(|| Family::scope(&[], true))];
         let measures_and_booleans = &MEASURES_AND_BOOLEANS[usize::from(self.template.is_driven_by_length())];
@@ -208,7 +215,7 @@ impl Family {
                 _ => Some("–"),
             }
         };
-        self.captions.each_ref().map(|line| line.as_ref().map(|line| line.format(load, word)).unwrap_or_default())
+        caption.format(load, word)
     }
 
     /// The value of a name in a cell; NaN for an unknown name.

@@ -135,6 +135,20 @@ pub fn solve_cell(family: &Family, sampler: &Sampler, k: usize) -> Option<Solved
     solve_measuring(family, sampler, k, &family.is_computed)
 }
 
+/// Solves the `k`-th cell of a family, from 0, whose curves have been measured before: `measured` is the curves and the number of
+/// those that `where` excludes, as of [`solve_measuring`] for the same cell.
+pub fn solve_measured(
+    family: &Family,
+    sampler: &Sampler,
+    k: usize,
+    (curves, left_out_count): (Vec<MeasuredCurve>, usize),
+) -> Option<SolvedCell> {
+    let cell = family.cell(k);
+    let linkage = family.linkage(&cell).ok()?;
+    let motion = Motion::solve(&linkage, sampler);
+    Some(SolvedCell { cell, linkage, motion, curves, left_out_count })
+}
+
 /// Solves the `k`-th cell of a family, from 0, and computes the requested measures, by their indices in
 /// [`measure::ALL`]; those that `where` uses must be among them.
 pub fn solve_measuring(family: &Family, sampler: &Sampler, k: usize, requested: &[bool]) -> Option<SolvedCell> {

@@ -5,14 +5,65 @@ use super::super::area::{self, Area};
 use super::super::element::{Drawing, TextLine};
 use super::super::heading;
 use super::super::theme::Theme;
-use super::{Atlas, Volume, draw_page_number, empty_scene};
+use super::{Atlas, Volume, empty_scene};
 use crate::scene::{Anchor, Item, PageLink, PageNumber, Path, Polyline, Scene, Text};
 use coupler_curves::geometry::{Point, Vector};
 
-/// A row of a list. Pages are numbered as in the atlas, from 1.
+/// A page that a list refers to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Target {
+    /// The first page that says how plates are read.
+    HowToRead,
+    /// A finding chart, counted in the volume, from 0.
+    Chart(usize),
+    /// A page by its number in the atlas, from 1.
+    Page(usize),
+}
+
+/// Where the parts of the front matter are in the file of a volume, by the indices of their first pages.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Places {
+    pub how_to_read: usize,
+    pub charts: usize,
+    /// The number of pages of front matter.
+    pub front: usize,
+}
+
+impl Target {
+    /// A label that is at least as wide as that of the page: that of a page of the front matter is not known yet.
+    fn widest_label(self) -> String {
+        match self {
+            Target::HowToRead | Target::Chart(_) => "xxviii".to_owned(),
+            Target::Page(page) => page.to_string(),
+        }
+    }
+}
+
+impl Places {
+    /// The index of a page in the file; `None` if it is in another volume.
+    fn index(&self, target: Target, volume: &Volume) -> Option<usize> {
+        match target {
+            Target::HowToRead => Some(self.how_to_read),
+            Target::Chart(k) => Some(self.charts + k),
+            Target::Page(page) => volume.page_index(page, self.front),
+        }
+    }
+
+    /// The number of a page.
+    pub fn label(&self, target: Target) -> String {
+        let roman = |index: usize| PageNumber::Roman(u32::try_from(index + 1).unwrap_or(u32::MAX)).to_string();
+        match target {
+            Target::HowToRead => roman(self.how_to_read),
+            Target::Chart(k) => roman(self.charts + k),
+            Target::Page(page) => page.to_string(),
+        }
+    }
+}
+
+/// A row of a list.
 pub(super) enum Row<'a> {
     /// A heading of the rows after it.
-    Heading { text: String, page: Option<usize> },
+    Heading { text: String, page: Option<Target> },
     /// A note, wrapped to as many lines as needed.
     Note(String),
     /// An entry with its page.
@@ -30,7 +81,7 @@ pub(super) struct Entry<'a> {
     pub value: String,
     /// The number of the measured curve, if the geometry has several.
     pub curve: Option<usize>,
-    pub page: usize,
+    pub page: Target,
 }
 
 impl Entry<'_> {
@@ -51,13 +102,11 @@ impl Entry<'_> {
     }
 }
 
-/// The title of a list and the numbering of its pages.
+/// The title of a list.
 pub(super) struct ListHeader<'a> {
     pub title: &'static str,
     pub atlas: &'a Atlas<'a>,
     pub volume: &'a Volume,
-    /// The number of the first page, written as a Roman numeral.
-    pub first_number: usize,
 }
 
 /// The dimensions of the columns, in millimetres.
@@ -86,19 +135,25 @@ struct PlacedLine<'r> {
     y: f64,
 }
 
-/// Composes rows to pages. `front` maps the number of these pages to the number of pages of front matter.
+/// The number of pages of rows.
+pub(super) fn page_count(rows: &[Row], options: &Options, theme: &Theme) -> usize {
+    let columns = ColumnLayout::fit(rows, options, theme);
+    columns.place_rows(rows, theme).last().map_or(0, |last| last.column / columns.count + 1)
+}
+
+/// Composes rows to pages. `places` maps the number of these pages to the places of the front matter.
 pub(super) fn compose_list(
     rows: &[Row],
     header: &ListHeader,
-    front: impl Fn(usize) -> usize,
+    places: impl Fn(usize) -> Places,
     (options, theme): (&Options, &Theme),
 ) -> Vec<Scene> {
     let columns = ColumnLayout::fit(rows, options, theme);
     let placed = columns.place_rows(rows, theme);
     let pages: Vec<&[PlacedLine]> =
         placed.chunk_by(|a, b| a.column / columns.count == b.column / columns.count).collect();
-    let front = front(pages.len());
-    let page = |(k, placed): (usize, &&[PlacedLine])| {
+    let places = places(pages.len());
+    let page = |placed: &&[PlacedLine]| {
         let mut scene = empty_scene(format!("{}: {}", header.title, header.atlas.title), options, theme);
         let root = area::whole_page(&mut scene);
         heading::draw_border(&root, theme);
@@ -107,18 +162,13 @@ pub(super) fn compose_list(
         let subtitle = header.volume.name().map_or(title.to_owned(), |name| format!("{title} · {name}"));
         let subtitle = theme.text_line(&subtitle, at, Anchor::Start, theme.source_size, theme.grey);
         root.record(&subtitle.fit_width(root.size().x - 2.0 * at.x));
-        let leaders = columns.draw_lines(&root, placed, theme);
+        let leaders = columns.draw_lines(&root, placed, &places, theme);
         root.record(&Drawing { class: "leaders", title: String::new(), items: leaders });
         drop(root);
-        scene.links = placed.iter().filter_map(|placed| columns.line_link(placed, header.volume, front)).collect();
-        draw_page_number(
-            &mut scene,
-            PageNumber::Roman(u32::try_from(header.first_number + k).unwrap_or(u32::MAX)),
-            options,
-        );
+        scene.links = placed.iter().filter_map(|placed| columns.line_link(placed, header.volume, &places)).collect();
         scene
     };
-    pages.iter().enumerate().map(page).collect()
+    pages.iter().map(page).collect()
 }
 
 fn text_line(text: &str, at: Point, anchor: Anchor, size: f64, theme: &Theme) -> TextLine {
@@ -149,7 +199,7 @@ impl ColumnLayout {
                 text = text.max(entry.text_line(Point::origin(), theme).text.width());
                 value = value.max(text_width(&entry.value, theme));
                 curve = curve.max(text_width(&entry.curve_label(), theme));
-                page = page.max(text_width(&entry.page.to_string(), theme));
+                page = page.max(text_width(&entry.page.widest_label(), theme));
             }
         }
         let gap = 1.2 * theme.note_size;
@@ -203,7 +253,7 @@ impl ColumnLayout {
     }
 
     /// The width of the text of a heading, next to its page number.
-    fn heading_width(&self, page: Option<usize>) -> f64 {
+    fn heading_width(&self, page: Option<Target>) -> f64 {
         self.column_size.x - page.map_or(0.0, |_| self.page_width)
     }
 
@@ -214,7 +264,7 @@ impl ColumnLayout {
     }
 
     /// Draws lines; the result is the leaders of their entries.
-    fn draw_lines(&self, root: &impl Area, placed: &[PlacedLine], theme: &Theme) -> Vec<Item> {
+    fn draw_lines(&self, root: &impl Area, placed: &[PlacedLine], places: &Places, theme: &Theme) -> Vec<Item> {
         let mut leaders = Vec::new();
         for line in placed {
             let at = self.line_start(line);
@@ -225,11 +275,13 @@ impl ColumnLayout {
                 Row::Heading { page, .. } => {
                     root.record(&at_start(heading_line(text, theme)).fit_width(self.heading_width(*page)));
                     if let Some(page) = page.filter(|_| line.is_first) {
-                        root.record(&text_line(&page.to_string(), end, Anchor::End, theme.note_size, theme));
+                        root.record(&text_line(&places.label(page), end, Anchor::End, theme.note_size, theme));
                     }
                 }
                 Row::Note(_) => root.record(&at_start(note_line(text, theme)).fit_width(self.column_size.x)),
-                Row::Entry(entry) => leaders.extend(self.draw_entry(root, entry, at, theme)),
+                Row::Entry(entry) => {
+                    leaders.extend(self.draw_entry(root, (entry, &places.label(entry.page)), at, theme))
+                }
             }
         }
         let stroke = Some(theme.stroke(theme.hairline, theme.fine_width));
@@ -237,7 +289,7 @@ impl ColumnLayout {
     }
 
     /// Draws an entry; the result is the dots of its leader.
-    fn draw_entry(&self, root: &impl Area, entry: &Entry, at: Point, theme: &Theme) -> Vec<Polyline> {
+    fn draw_entry(&self, root: &impl Area, (entry, page): (&Entry, &str), at: Point, theme: &Theme) -> Vec<Polyline> {
         let right = at.x + self.column_size.x;
         let line = entry
             .text_line(at, theme)
@@ -245,7 +297,7 @@ impl ColumnLayout {
         let from = at.x + line.text.width();
         root.record(&line);
         let numbers = [
-            (entry.page.to_string(), right, theme.ink),
+            (page.to_owned(), right, theme.ink),
             (entry.value.clone(), right - self.page_width, theme.ink),
             (entry.curve_label(), right - self.page_width - self.value_width, theme.grey),
         ];
@@ -259,7 +311,7 @@ impl ColumnLayout {
     }
 
     /// The link over a line, if it leads to a page of its volume.
-    fn line_link(&self, placed: &PlacedLine, volume: &Volume, front: usize) -> Option<PageLink> {
+    fn line_link(&self, placed: &PlacedLine, volume: &Volume, places: &Places) -> Option<PageLink> {
         let page = match placed.row {
             Row::Heading { page, .. } => (*page)?,
             Row::Entry(entry) => entry.page,
@@ -269,7 +321,7 @@ impl ColumnLayout {
         Some(PageLink {
             corner,
             size: Vector::new(self.column_size.x, self.line_height),
-            page_index: volume.page_index(page, front)?,
+            page_index: places.index(page, volume)?,
         })
     }
 }

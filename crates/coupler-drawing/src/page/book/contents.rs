@@ -1,18 +1,37 @@
 //! The contents of a volume.
 
-use super::columns::{Entry, Row};
-use super::{Atlas, CellEntry, Chapter, Volume};
+use super::columns::{Entry, Places, Row, Target};
+use super::{Atlas, BackMatter, CHARTS_TITLE, CellEntry, Chapter, Volume, charts_in, how_to_read};
 
 /// The most cells of a family that contents and outline list.
 const MAX_CELLS: usize = 1000;
 
-/// The rows of the contents: every family with its cells.
-pub(super) fn rows<'a>(atlas: &'a Atlas, volume: &Volume) -> Vec<Row<'a>> {
+/// The rows of the contents: what a curve is found by, and every family with its cells.
+pub(super) fn rows<'a>(atlas: &'a Atlas, volume: &'a Volume, back_matter: &'a [BackMatter]) -> Vec<Row<'a>> {
     let mut rows = Vec::new();
+    if atlas.how_to_read.is_some() {
+        rows.push(Row::Heading { text: how_to_read::TITLE.to_owned(), page: Some(Target::HowToRead) });
+    }
+    let plain = |caption: &'a str, symbols: &'a [String], page: Target| {
+        Row::Entry(Entry { family: None, caption, symbols, value: String::new(), curve: None, page })
+    };
+    let charts: Vec<Row> = (0..)
+        .zip(charts_in(atlas, volume))
+        .filter(|(_, (_, chart))| !chart.title.is_empty())
+        .map(|(k, (_, chart))| plain(&chart.title, &chart.symbols, Target::Chart(k)))
+        .collect();
+    if charts_in(atlas, volume).next().is_some() {
+        rows.push(Row::Heading { text: CHARTS_TITLE.to_owned(), page: Some(Target::Chart(0)) });
+        rows.extend(charts);
+    }
+    if let Some(first) = back_matter.first() {
+        rows.push(Row::Heading { text: LISTS_TITLE.to_owned(), page: Some(Target::Page(first.first_page)) });
+        rows.extend(back_matter.iter().map(|part| plain(&part.title, &[], Target::Page(part.first_page))));
+    }
     for (pages_before, chapter) in atlas.chapters_with_offset() {
         rows.push(Row::Heading {
             text: chapter.title.to_owned(),
-            page: (chapter.page_count > 0).then_some(pages_before + 1),
+            page: (chapter.page_count > 0).then_some(Target::Page(pages_before + 1)),
         });
         let (listed, count) = listed_cells(pages_before, chapter, volume);
         rows.push(Row::Note(chapter.format_counts(", ")));
@@ -26,11 +45,56 @@ pub(super) fn rows<'a>(atlas: &'a Atlas, volume: &Volume) -> Vec<Row<'a>> {
                 symbols: chapter.symbols,
                 value: String::new(),
                 curve: None,
-                page: pages_before + cell.page,
+                page: Target::Page(pages_before + cell.page),
             })
         }));
     }
     rows
+}
+
+/// The title of the back matter in the contents.
+const LISTS_TITLE: &str = "Lists and index";
+
+/// The ways to find a curve, in words, each with its pages.
+pub(super) fn ways_to_find(atlas: &Atlas, volume: &Volume, back_matter: &[BackMatter], places: &Places) -> Vec<String> {
+    let mut ways = Vec::new();
+    let charts = charts_in(atlas, volume).count();
+    if charts > 0 {
+        let [first, last] = [0, charts - 1].map(|k| places.label(Target::Chart(k)));
+        let pages = if first == last { format!("page {first}") } else { format!("pages {first} to {last}") };
+        ways.push(format!(
+            "By its shape: the finding charts, {pages}, have small drawings of curves over the dimensions of their linkages, each \
+             with the number of its page."
+        ));
+    }
+    let lists: Vec<String> = back_matter
+        .iter()
+        .take(atlas.lists.len())
+        .map(|part| format!("{}, page {}", part.title, part.first_page))
+        .collect();
+    if !lists.is_empty() && !atlas.lists.is_empty() {
+        ways.push(format!(
+            "By its use: the lists have the best curves of the whole book, each with a drawing, what is needed to choose, and its \
+             page. {}.",
+            lists.join("; ")
+        ));
+    }
+    let by_dimensions = match &atlas.tabs[..] {
+        [] => "By dimensions: the contents have every linkage with its page.".to_owned(),
+        [first, ..] => format!(
+            "By dimensions: the contents have every linkage with its page, and the marks at the outer edges of the pages, such as \
+             {}, lead to it.",
+            first.label
+        ),
+    };
+    ways.push(by_dimensions);
+    if let Some(index) = back_matter.iter().find(|part| part.title == super::INDEX_TITLE) {
+        ways.push(format!(
+            "By a measure: the index, page {}, has the linkages by straightness, transmission angle and symmetry.",
+            index.first_page
+        ));
+    }
+    ways
 }
 
 /// The cells of a family that are listed in a volume, and the number of all its cells there.

@@ -1,10 +1,10 @@
-//! The index of a volume: geometries by straightness, transmission angle and symmetry.
+//! The index: geometries by straightness, transmission angle and symmetry.
 
 use std::cmp::Ordering;
 
-use super::columns::{Entry, Row};
+use super::columns::{Entry, Row, Target};
 use super::index_entry::IndexValue;
-use super::{Atlas, IndexEntry, Volume};
+use super::{Atlas, IndexEntry};
 
 /// The most entries of a section.
 const MAX_ENTRIES: usize = 2000;
@@ -12,11 +12,11 @@ const MAX_ENTRIES: usize = 2000;
 type RankedEntries<'g> = Vec<(&'g IndexEntry, IndexValue)>;
 
 /// The rows of the index: for every measure its definition and the geometries, the best first.
-pub(super) fn rows<'a>(atlas: &'a Atlas, volume: &Volume, index_entries: &'a [IndexEntry]) -> Vec<Row<'a>> {
-    let is_in_volume = |(_, value): &(&IndexEntry, IndexValue)| volume.page_range().contains(&value.page);
+pub(super) fn rows<'a>(atlas: &'a Atlas) -> Vec<Row<'a>> {
+    let index_entries = &atlas.index;
     let ranked = |pick: fn(&IndexEntry) -> Option<IndexValue>, order: fn(f64, f64) -> Ordering| {
         let picked = index_entries.iter().filter_map(|geometry| Some((geometry, pick(geometry)?)));
-        let mut entries: RankedEntries = picked.filter(is_in_volume).collect();
+        let mut entries: RankedEntries = picked.collect();
         entries.sort_by(|(_, a), (_, b)| order(a.value, b.value).then(a.page.cmp(&b.page)));
         entries
     };
@@ -43,7 +43,7 @@ pub(super) fn rows<'a>(atlas: &'a Atlas, volume: &Volume, index_entries: &'a [In
         Section {
             title: "By symmetry",
             note: "the deviation of the most symmetrical curve from its mirror image, in percent of its greatest \
-                   extent; the least first",
+                   extent; the least first; without curves that are nearly circles",
             unit: " %",
             scale: 100.0,
             decimals: 2,
@@ -51,6 +51,22 @@ pub(super) fn rows<'a>(atlas: &'a Atlas, volume: &Volume, index_entries: &'a [In
         },
     ];
     sections.iter().flat_map(|section| section.rows(atlas)).collect()
+}
+
+/// Keeps those of many index entries, each with anything else, that a section of the index can list.
+pub fn keep_listed<T>(entries: &mut Vec<(T, IndexEntry)>) {
+    let mut is_kept = vec![false; entries.len()];
+    let mut keep_first = |pick: fn(&IndexEntry) -> Option<f64>| {
+        let picked = entries.iter().enumerate().filter_map(|(k, (_, entry))| Some((pick(entry)?, k)));
+        let mut ranked: Vec<(f64, usize)> = picked.collect();
+        ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        ranked.iter().take(MAX_ENTRIES).for_each(|(_, k)| is_kept[*k] = true);
+    };
+    keep_first(|entry| entry.straightness.map(|best| -best.value));
+    keep_first(|entry| entry.transmission_angle.map(|best| -best.value));
+    keep_first(|entry| entry.asymmetry.map(|best| best.value));
+    let mut kept = is_kept.into_iter();
+    entries.retain(|_| kept.next().unwrap_or(false));
 }
 
 /// A section of the index: the geometries in the order of one measure.
@@ -74,7 +90,7 @@ impl<'a> Section<'a> {
         }
         let mut rows = vec![Row::Heading { text: title.to_owned(), page: None }, Row::Note(note.to_owned())];
         if entries.len() > MAX_ENTRIES {
-            rows.push(Row::Note(format!("the first {MAX_ENTRIES} of {}", entries.len())));
+            rows.push(Row::Note(format!("the first {MAX_ENTRIES}")));
         }
         rows.extend(entries.iter().take(MAX_ENTRIES).map(|(geometry, best)| {
             let chapter = atlas.chapters.get(geometry.chapter);
@@ -86,7 +102,7 @@ impl<'a> Section<'a> {
                 // Adding 0 removes the sign of a negative zero.
                 value: format!("{:.decimals$}{unit}", (fine * scale * best.value).round() / fine + 0.0),
                 curve: best.curve,
-                page: best.page,
+                page: Target::Page(best.page),
             })
         }));
         rows

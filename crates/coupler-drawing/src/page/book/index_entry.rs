@@ -28,16 +28,10 @@ pub(super) struct IndexValue {
 }
 
 impl IndexEntry {
-    /// The index entry of a solved cell.
+    /// The index entry of a solved cell, whose chapter and first page are not known yet.
     ///
-    /// `chapter` is the index of its family among the chapters of the atlas; `page(k)` is the number of the page of the
-    /// atlas, from 1, that shows the k-th curve.
-    pub fn from_solved_cell(
-        solved: &SolvedCell,
-        chapter: usize,
-        caption: &str,
-        page: impl Fn(usize) -> usize,
-    ) -> IndexEntry {
+    /// `page(k)` is the number of the page that shows the k-th curve, from 0 for the first page of the cell.
+    pub fn from_solved_cell(solved: &SolvedCell, caption: &str, page: impl Fn(usize) -> usize) -> IndexEntry {
         let has_many = solved.linkage.traced.len() > 1;
         let index_value = |value: f64, k: usize, curve: &MeasuredCurve| {
             value.is_finite().then(|| IndexValue { value, curve: has_many.then_some(curve.trace), page: page(k) })
@@ -48,13 +42,26 @@ impl IndexEntry {
             values.reduce(|best, other| if is_better(other.value, best.value) { other } else { best })
         };
         IndexEntry {
-            chapter,
+            chapter: 0,
             caption: caption.to_owned(),
             straightness: best(straightness, |a, b| a > b),
             // The transmission angle is the same for all points of a linkage.
             transmission_angle: best(|curve| number_measure(curve, "mu_worst_deg"), |a, b| a > b)
                 .map(|value| IndexValue { curve: None, ..value }),
             asymmetry: best(asymmetry, |a, b| a < b),
+        }
+    }
+
+    /// The entry of a cell in a chapter, by its index among those of the atlas, whose first page has a number in the atlas.
+    pub fn placed(self, chapter: usize, first_page: usize) -> IndexEntry {
+        let placed =
+            |value: Option<IndexValue>| value.map(|value| IndexValue { page: first_page + value.page, ..value });
+        IndexEntry {
+            chapter,
+            caption: self.caption,
+            straightness: placed(self.straightness),
+            transmission_angle: placed(self.transmission_angle),
+            asymmetry: placed(self.asymmetry),
         }
     }
 }
@@ -67,8 +74,15 @@ fn straightness(curve: &MeasuredCurve) -> Option<f64> {
 
 /// The deviation of a curve from its mirror image relative to its greatest extent, rounded to multiples of
 /// [`Symmetry::TOLERANCE`], so that all symmetrical curves are equal. `None` for a circle, which has no particular
-/// axis.
+/// axis, and for a curve that is nearly one.
 fn asymmetry(curve: &MeasuredCurve) -> Option<f64> {
+    /// The area relative to that of a circle of the same length from which a curve is nearly a circle.
+    const NEARLY_A_CIRCLE: f64 = 0.95;
+    if let (Some(area), Some(length)) = (number_measure(curve, "area"), number_measure(curve, "length"))
+        && 4.0 * std::f64::consts::PI * area.abs() > NEARLY_A_CIRCLE * length * length
+    {
+        return None;
+    }
     let symmetry = curve.symmetry.as_ref().filter(|symmetry| symmetry.axis.is_some())?;
     Some((symmetry.residual / Symmetry::TOLERANCE).round() * Symmetry::TOLERANCE)
 }

@@ -8,8 +8,8 @@ use super::super::heading;
 use super::super::rect::Rect;
 use super::super::theme::Theme;
 use super::super::{Options, PanelPage};
-use super::{Atlas, Chapter, Volume, draw_page_number};
-use crate::scene::{Anchor, Color, Item, PageNumber, Path, Scene};
+use super::{Atlas, Chapter, Volume};
+use crate::scene::{Anchor, Color, Item, Path, Scene};
 use coupler_curves::geometry::{Point, Vector};
 
 /// The most lines for families.
@@ -54,8 +54,6 @@ pub(super) fn compose(
         let size = Vector::new(width, first - theme.title_size - corner.y);
         draw_frontispiece(&root, Rect { corner, size }, frontispiece, (options, theme));
     }
-    drop(root);
-    draw_page_number(scene, PageNumber::Roman(1), options);
 }
 
 /// The font size of the title, relative to that of the title of a page.

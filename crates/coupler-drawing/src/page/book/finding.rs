@@ -1,0 +1,143 @@
+//! Finding charts: the shapes of the curves of a family over its grid.
+
+use super::super::area::{self, Area};
+use super::super::element::Drawing;
+use super::super::rect::Rect;
+use super::super::theme::Theme;
+use super::super::{Options, heading};
+use super::miniature::Miniature;
+use super::{Atlas, empty_scene};
+use crate::scene::{Anchor, Item, PageLink, Path, Scene};
+use coupler_curves::geometry::{Point, Vector};
+
+/// A finding chart: a page.
+#[derive(Clone, Debug)]
+pub struct FindingChart {
+    /// What is the same on the whole page, as in "C = 2"; may be empty.
+    pub title: String,
+    /// What is shown; may be empty.
+    pub note: String,
+    /// The names of parameters, set in italics.
+    pub symbols: Vec<String>,
+    /// The values of the columns, as in "B = 2"; empty if they differ from row to row.
+    pub columns: Vec<String>,
+    /// The values of the rows, as in "A = 2".
+    pub rows: Vec<String>,
+    /// The cells.
+    pub cells: Vec<FindingCell>,
+}
+
+/// A cell of a finding chart.
+#[derive(Clone, Debug)]
+pub struct FindingCell {
+    /// Its row and column, from 0.
+    pub place: [usize; 2],
+    /// What it is, if the columns do not say it; may be empty.
+    pub label: String,
+    /// The curves of the cell, each with the number of its page in the atlas, from 1.
+    pub curves: Vec<(Miniature, usize)>,
+}
+
+/// The title of a chart, before what is the same on the whole page.
+const TITLE: &str = "Finding chart";
+
+/// The least size of a cell with one curve, in ems of a note.
+const LEAST: [f64; 2] = [3.4, 7.0];
+
+/// The most columns and rows of a chart whose cells have so many curves.
+pub fn max_chart_grid(curves: usize, options: &Options) -> [usize; 2] {
+    let theme = &options.theme.for_paper(options.paper);
+    let whole = frame(options, theme).size;
+    let em = theme.note_size;
+    let most = |length: f64, least: f64| (length / least).floor().max(1.0) as usize;
+    [most(whole.x, curves.clamp(1, 6) as f64 * LEAST[0] * em), most(whole.y, LEAST[1] * em)]
+}
+
+/// The frame of the cells.
+fn frame(options: &Options, theme: &Theme) -> Rect {
+    let [top, bottom, _] = heading::margins(theme);
+    let left = theme.border + theme.margin;
+    let corner = Point::new(left + 2.4 * theme.note_size, top + 2.2 * theme.note_size);
+    let end = Point::new(options.paper.width - left, options.paper.height - bottom);
+    Rect { corner, size: (end - corner).sup(&Vector::repeat(8.0 * theme.note_size)) }
+}
+
+/// Composes a chart. `link` is the index in the file of a page of the atlas, if it is in the file.
+pub(super) fn compose(
+    chart: &FindingChart,
+    atlas: &Atlas,
+    link: impl Fn(usize) -> Option<usize>,
+    options: &Options,
+) -> Scene {
+    let theme = &options.theme.for_paper(options.paper);
+    let mut scene = empty_scene(format!("{}: {}", chart.title, atlas.title), options, theme);
+    let root = area::whole_page(&mut scene);
+    heading::draw_border(&root, theme);
+    let title = if chart.title.is_empty() { TITLE.to_owned() } else { format!("{TITLE}: {}", chart.title) };
+    let at = heading::draw_title(&root, &title, theme);
+    let note = theme.text_line(&chart.note, at, Anchor::Start, theme.source_size, theme.grey);
+    root.record(&note.with_italics(&chart.symbols).fit_width(root.size().x - 2.0 * at.x));
+    let whole = frame(options, theme);
+    let column_count = chart.cells.iter().map(|cell| cell.place[1] + 1).max().unwrap_or(1).max(chart.columns.len());
+    let row_count = chart.cells.iter().map(|cell| cell.place[0] + 1).max().unwrap_or(1).max(chart.rows.len());
+    let step = Vector::new(whole.size.x / column_count as f64, whole.size.y / row_count as f64);
+    let em = theme.note_size;
+    let label = |text: &str, at: Point, width: f64, turns: u8| {
+        let line = theme.text_line(text, at, Anchor::Middle, em, theme.ink).with_italics(&chart.symbols);
+        let mut line = line.fit_width(width);
+        line.text.quarter_turns = turns;
+        root.record(&line);
+    };
+    for (k, text) in chart.columns.iter().enumerate() {
+        label(text, whole.corner + Vector::new((k as f64 + 0.5) * step.x, -0.6 * em), step.x, 0);
+    }
+    for (k, text) in chart.rows.iter().enumerate() {
+        label(text, whole.corner + Vector::new(-0.7 * em, (k as f64 + 0.5) * step.y), step.y, 3);
+    }
+    draw_lines(&root, whole, [column_count, row_count], theme);
+    let mut links = Vec::new();
+    let small = &Theme { fine_width: 0.8 * theme.fine_width, ..theme.clone() };
+    for cell in &chart.cells {
+        let [row, column] = cell.place;
+        let corner = whole.corner + Vector::new(step.x * column as f64, step.y * row as f64);
+        let mut frame = Rect { corner, size: step }.inset(0.3 * em);
+        if !cell.label.is_empty() {
+            let at = frame.corner + Vector::new(0.5 * frame.size.x, 1.0 * em);
+            label(&cell.label, at, frame.size.x, 0);
+            frame = Rect {
+                corner: frame.corner + Vector::new(0.0, 1.2 * em),
+                size: frame.size - Vector::new(0.0, 1.2 * em),
+            };
+        }
+        let width = frame.size.x / cell.curves.len().max(1) as f64;
+        for (k, (drawing, page)) in cell.curves.iter().enumerate() {
+            let part = Rect {
+                corner: frame.corner + Vector::new(width * k as f64, 0.0),
+                size: Vector::new(width, frame.size.y),
+            };
+            let picture = Rect { size: part.size - Vector::new(0.0, 1.5 * em), ..part };
+            drawing.draw(&root, picture.inset(0.25 * em), small);
+            let at = part.corner + Vector::new(0.5 * width, part.size.y - 0.25 * em);
+            let size = (0.9 * em).max(crate::scene::MIN_TEXT_SIZE.min(em));
+            let number = theme.text_line(&page.to_string(), at, Anchor::Middle, size, theme.grey);
+            root.record(&number.fit_width(width));
+            if let Some(page_index) = link(*page) {
+                links.push(PageLink { corner: part.corner, size: part.size, page_index });
+            }
+        }
+    }
+    drop(root);
+    scene.links = links;
+    scene
+}
+
+/// Draws the lines between the cells.
+fn draw_lines(root: &impl Area, whole: Rect, [columns, rows]: [usize; 2], theme: &Theme) {
+    let stroke = theme.stroke(theme.hairline, theme.hair_width);
+    let at = |x: f64, y: f64| whole.corner + Vector::new(x * whole.size.x, y * whole.size.y);
+    let line = |ends: [Point; 2]| Item::Path(Path::stroked(ends.to_vec(), stroke));
+    let down = (0..=columns).map(|k| k as f64 / columns as f64).map(|x| line([at(x, 0.0), at(x, 1.0)]));
+    let across = (0..=rows).map(|k| k as f64 / rows as f64).map(|y| line([at(0.0, y), at(1.0, y)]));
+    let items = down.chain(across).collect();
+    root.record(&Drawing { class: "rule", title: String::new(), items });
+}

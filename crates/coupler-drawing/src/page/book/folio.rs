@@ -1,0 +1,83 @@
+//! What is outside the border of the pages of a book: the folio, and the thumb index.
+
+use super::super::Options;
+use super::super::area::{self, Area};
+use super::super::element::Drawing;
+use crate::scene::{Anchor, Item, PageLink, PageNumber, Path, Polyline, Scene};
+use coupler_curves::geometry::{Point, Vector};
+
+/// A mark of the thumb index: a part of the book.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Tab {
+    /// What is in the part, in a few words.
+    pub label: String,
+    /// The number of its first page in the atlas, from 1.
+    pub first_page: usize,
+}
+
+/// Draws the number of a page below the border, at its outer corner. The first page of a file is a right-hand page.
+pub fn draw_folio(scene: &mut Scene, label: PageNumber, page_index: usize, options: &Options) {
+    let theme = options.theme.for_paper(options.paper);
+    let text = label.to_string();
+    let root = area::whole_page(scene);
+    let page = root.size();
+    let (x, anchor) = match is_right_hand(page_index) {
+        true => (page.x - theme.border, Anchor::End),
+        false => (theme.border, Anchor::Start),
+    };
+    let at = Point::new(x, page.y - 0.5 * theme.border + 0.35 * theme.source_size);
+    root.record(&theme.text_line(&text, at, anchor, theme.source_size, theme.ink));
+}
+
+fn is_right_hand(page_index: usize) -> bool {
+    page_index.is_multiple_of(2)
+}
+
+/// Draws the marks of the thumb index at the outer edge of a page: that of the part of the page with a number of the atlas is
+/// filled. `link` is the index
+/// in the file of a page of the atlas, if it is in the file; the marks are links.
+pub(super) fn draw_tabs(
+    scene: &mut Scene,
+    tabs: &[Tab],
+    (page, page_index): (Option<usize>, usize),
+    link: impl Fn(usize) -> Option<usize>,
+    options: &Options,
+) {
+    let theme = &options.theme.for_paper(options.paper);
+    let current = page.and_then(|page| tabs.iter().rposition(|tab| tab.first_page <= page));
+    if tabs.len() < 2 {
+        return;
+    }
+    let root = area::whole_page(scene);
+    let paper = root.size();
+    let height = (paper.y - 2.0 * theme.border) / tabs.len() as f64;
+    // The border needs a line of its own.
+    let width = theme.border - 2.0 * theme.fine_width;
+    let size = theme.note_size.min(0.62 * width).min(0.8 * height);
+    let is_right = is_right_hand(page_index);
+    let left = if is_right { paper.x - width } else { 0.0 };
+    let mut links = Vec::new();
+    for (k, tab) in tabs.iter().enumerate() {
+        let top = theme.border + height * k as f64;
+        let is_current = Some(k) == current;
+        if is_current {
+            let corner = |x: f64, y: f64| Point::new(left + x * width, top + y * height);
+            let points = vec![corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)];
+            let polylines = vec![Polyline { points, is_closed: true }];
+            let tab = Item::Path(Path { polylines, stroke: None, fill: Some(theme.ink) });
+            root.record(&Drawing { class: "tab", title: String::new(), items: vec![tab] });
+        }
+        let ink = if is_current { theme.paper } else { theme.grey };
+        // The text reads from the outer edge, downwards on a right-hand page and upwards on the other.
+        let (turns, shift) = if is_right { (1, -0.35) } else { (3, 0.35) };
+        let at = Point::new(left + 0.5 * width + shift * size, top + 0.5 * height);
+        let mut line = theme.text_line(&tab.label, at, Anchor::Middle, size, ink).fit_width(0.94 * height);
+        line.text.quarter_turns = turns;
+        root.record(&line);
+        if let Some(page_index) = link(tab.first_page).filter(|_| !is_current) {
+            links.push(PageLink { corner: Point::new(left, top), size: Vector::new(width, height), page_index });
+        }
+    }
+    drop(root);
+    scene.links.extend(links);
+}

@@ -1,0 +1,500 @@
+//! Two facing pages that say how plates are read, and how a curve is found: a plate with numbers, and what is at them.
+
+use super::super::area::{self, Area};
+use super::super::element::Drawing;
+use super::super::heading;
+use super::super::theme::Theme;
+use super::super::{Layout, Options};
+use super::{Atlas, empty_scene};
+use crate::scene::{Anchor, Circle, Color, Curve, Group, Item, Path, Polyline, Scene, Stroke, Text};
+use coupler_curves::geometry::{Point, Vector};
+
+/// What the two pages show and say.
+#[derive(Clone, Debug)]
+pub struct HowToRead {
+    /// A plate of the book.
+    pub plate: Scene,
+    /// The layout of the plate.
+    pub layout: Layout,
+    /// What a dash and its gap span, as in "5° of input".
+    pub dash: String,
+    /// The name of a curve on the plate, as in "hrones-nelson:14.25"; empty if it has none.
+    pub curve_name: String,
+}
+
+/// The title of both pages.
+pub(super) const TITLE: &str = "How to read this book";
+
+/// A part of a plate that is explained.
+struct Part {
+    /// The class of the group in the scene of the plate.
+    class: &'static str,
+    /// The layouts in which it is explained.
+    layouts: [bool; 3],
+    /// The side of the group at which its number is.
+    side: Vector,
+    title: &'static str,
+    text: &'static str,
+}
+
+const PANELS: [bool; 3] = [true, false, false];
+const GRID: [bool; 3] = [false, true, false];
+const CHART: [bool; 3] = [false, false, true];
+const FIGURES: [bool; 3] = [true, true, false];
+
+/// The parts in the order of their numbers. `{dash}` stands for what a dash and its gap span.
+static PARTS: [Part; 16] = [
+    Part {
+        class: "curve",
+        layouts: FIGURES,
+        side: Vector::new(-1.0, 0.0),
+        title: "The curve",
+        text: "is the path of a traced point. It is drawn in dashes: a dash and its gap are {dash}. Where the dashes are long, the \
+               point moves fast.",
+    },
+    Part {
+        class: "motion",
+        layouts: FIGURES,
+        side: Vector::new(0.0, -1.0),
+        title: "Start and ticks:",
+        text: "the arrow marks where the input begins, and the direction; ticks across the curve are at the inputs that the line of \
+               symbols states.",
+    },
+    Part {
+        class: "straight",
+        layouts: FIGURES,
+        side: Vector::new(0.0, 1.0),
+        title: "A band",
+        text: "under a curve is its straight portion.",
+    },
+    Part {
+        class: "coupler-point",
+        layouts: FIGURES,
+        side: Vector::new(1.0, -0.6),
+        title: "The traced points",
+        text: "are circles on their link. On a page with many points each has a number, which is at the far end of its curve, too.",
+    },
+    Part {
+        class: "grid",
+        layouts: GRID,
+        side: Vector::new(0.6, 1.0),
+        title: "The grid",
+        text: "joins the points of the page, which are on one link.",
+    },
+    Part {
+        class: "linkage",
+        layouts: FIGURES,
+        side: Vector::new(1.0, 0.6),
+        title: "The linkage",
+        text: "is drawn in one pose. Double circles are fixed pivots; a plate between joints is a single link.",
+    },
+    Part {
+        class: "axis",
+        layouts: PANELS,
+        side: Vector::new(0.0, -1.0),
+        title: "The axis",
+        text: "is drawn where the curve is symmetrical.",
+    },
+    Part {
+        class: "ghost",
+        layouts: PANELS,
+        side: Vector::new(0.0, 1.0),
+        title: "Fine lines",
+        text: "are the linkage at the limits of its motion.",
+    },
+    Part {
+        class: "scale",
+        layouts: FIGURES,
+        side: Vector::new(0.0, 1.0),
+        title: "The scale bar",
+        text: "has the length that is written next to it, or that the line of symbols states.",
+    },
+    Part {
+        class: "key",
+        layouts: GRID,
+        side: Vector::new(-1.0, -0.4),
+        title: "The key",
+        text: "has the letters of links and joints, and shows from where and in which direction the coordinates of a point are counted.",
+    },
+    Part {
+        class: "swatch",
+        layouts: GRID,
+        side: Vector::new(-1.0, 0.0),
+        title: "The table",
+        text: "has a row for each curve, in its ink: the coordinates of the point, the straight portions to two tolerances with the \
+               input that they take, the portion that is nearest to an arc, and the cusps. The notes under it define each.",
+    },
+    Part {
+        class: "speed",
+        layouts: GRID,
+        side: Vector::new(1.0, 0.0),
+        title: "The graphs",
+        text: "are the speed of the point over the input.",
+    },
+    Part {
+        class: "transmission",
+        layouts: GRID,
+        side: Vector::new(1.0, 0.6),
+        title: "The transmission angle",
+        text: "is drawn over the same input: in the bands it is too small to transmit a force well.",
+    },
+    Part {
+        class: "symbol",
+        layouts: FIGURES,
+        side: Vector::new(-1.0, 0.0),
+        title: "The line of symbols",
+        text: "explains every mark on the page.",
+    },
+    Part {
+        class: "series",
+        layouts: CHART,
+        side: Vector::new(0.0, -1.0),
+        title: "A line",
+        text: "is a quantity of the curves over another, for one value of the name written next to it.",
+    },
+    Part {
+        class: LARGEST_TEXT,
+        layouts: [true, true, true],
+        side: Vector::new(0.0, -1.0),
+        title: "The largest letters",
+        text: "name the linkage: on a page with a single linkage they are its dimensions, which with the coordinates of a point are \
+               all that is needed to build it.",
+    },
+];
+
+/// Stands for the text in the largest letters, which has no group.
+const LARGEST_TEXT: &str = "largest text";
+
+/// The part of the width and height that the plate takes on its page.
+const PLATE_SCALE: f64 = 0.84;
+
+/// Composes the two pages.
+pub(super) fn compose(how: &HowToRead, atlas: &Atlas, find: &[String], options: &Options) -> [Scene; 2] {
+    let theme = &options.theme.for_paper(options.paper);
+    let shown: Vec<(&Part, Point)> = PARTS
+        .iter()
+        .filter(|part| part.layouts[layout_index(how.layout)])
+        .filter_map(|part| Some((part, part_anchor(part, &how.plate)?)))
+        .collect();
+    [compose_plate(how, atlas, &shown, options, theme), compose_text(how, atlas, (&shown, find), options, theme)]
+}
+
+fn layout_index(layout: Layout) -> usize {
+    match layout {
+        Layout::Panels { .. } => 0,
+        Layout::CouplerGrid => 1,
+        Layout::Chart { .. } => 2,
+    }
+}
+
+/// The place on the plate at which a part has its number: the point of its first group that is furthest to one side.
+fn part_anchor(part: &Part, plate: &Scene) -> Option<Point> {
+    let points = if part.class == LARGEST_TEXT {
+        let mut texts = Vec::new();
+        collect_texts(&plate.items, &mut texts);
+        text_corners(texts.into_iter().reduce(|a, b| if b.size > a.size { b } else { a })?)
+    } else {
+        let mut found = Vec::new();
+        collect_groups(&plate.items, part.class, &mut found);
+        found.into_iter().map(items_points).find(|points| !points.is_empty())?
+    };
+    let reach = |p: &Point| p.coords.dot(&part.side);
+    points.into_iter().reduce(|a, b| if reach(&b) > reach(&a) { b } else { a })
+}
+
+fn collect_groups<'s>(items: &'s [Item], class: &str, found: &mut Vec<&'s [Item]>) {
+    for item in items {
+        if let Item::Group(group) = item {
+            if group.class == class {
+                found.push(&group.items);
+            }
+            collect_groups(&group.items, class, found);
+        }
+    }
+}
+
+fn collect_texts<'s>(items: &'s [Item], found: &mut Vec<&'s Text>) {
+    for item in items {
+        match item {
+            Item::Group(group) => collect_texts(&group.items, found),
+            Item::Text(text) => found.push(text),
+            _ => {}
+        }
+    }
+}
+
+/// The middle of the upper edge, and the ends of the baseline.
+fn text_corners(text: &Text) -> Vec<Point> {
+    let start = text.start();
+    let corner = |x: f64, y: f64| start + Vector::new(x * text.width(), -0.7 * y * text.size);
+    vec![corner(0.5, 1.0), corner(0.0, 0.0), corner(1.0, 0.0)]
+}
+
+/// Points of items: ends and corners of lines, and of circles those in four directions.
+fn items_points(items: &[Item]) -> Vec<Point> {
+    let of_item = |item: &Item| -> Vec<Point> {
+        match item {
+            Item::Group(group) => items_points(&group.items),
+            Item::Path(path) => path.polylines.iter().flat_map(|line| line.points.iter().copied()).collect(),
+            Item::Curve(curve) => curve.splines.iter().flat_map(|spline| spline.points()).collect(),
+            Item::Circle(circle) => {
+                let reach = [Vector::x(), -Vector::x(), Vector::y(), -Vector::y()].map(|unit| unit * circle.radius);
+                reach.map(|reach| circle.centre + reach).to_vec()
+            }
+            Item::Text(text) => text_corners(text),
+            Item::Animation(animation) => animation.frames.first().map(|frame| items_points(frame)).unwrap_or_default(),
+        }
+    };
+    items.iter().flat_map(of_item).collect()
+}
+
+/// An item at a scale, moved.
+fn scaled(item: &Item, scale: f64, shift: Vector) -> Item {
+    let at = |p: Point| Point::from(p.coords * scale + shift);
+    let thin = |stroke: Stroke| Stroke { width: stroke.width * scale, ..stroke };
+    match item {
+        Item::Group(group) => Item::Group(Group {
+            // Ids are those of the plate itself.
+            id: String::new(),
+            items: group.items.iter().map(|item| scaled(item, scale, shift)).collect(),
+            ..group.clone()
+        }),
+        Item::Path(path) => Item::Path(Path {
+            polylines: path
+                .polylines
+                .iter()
+                .map(|line| Polyline { points: line.points.iter().map(|p| at(*p)).collect(), ..line.clone() })
+                .collect(),
+            stroke: path.stroke.map(thin),
+            fill: path.fill,
+        }),
+        Item::Curve(curve) => Item::Curve(Curve {
+            splines: curve.splines.iter().map(|spline| spline.map(at)).collect(),
+            stroke: thin(curve.stroke),
+        }),
+        Item::Circle(circle) => Item::Circle(Circle {
+            centre: at(circle.centre),
+            radius: circle.radius * scale,
+            stroke: circle.stroke.map(thin),
+            fill: circle.fill,
+        }),
+        Item::Text(text) => Item::Text(Text { position: at(text.position), size: text.size * scale, ..text.clone() }),
+        Item::Animation(animation) => {
+            let items = animation.frames.first().map(Vec::as_slice).unwrap_or_default();
+            Item::Group(Group {
+                items: items.iter().map(|item| scaled(item, scale, shift)).collect(),
+                ..Group::default()
+            })
+        }
+    }
+}
+
+/// The page with the plate.
+fn compose_plate(how: &HowToRead, atlas: &Atlas, shown: &[(&Part, Point)], options: &Options, theme: &Theme) -> Scene {
+    let mut scene = empty_scene(format!("{TITLE}: {}", atlas.title), options, theme);
+    let root = area::whole_page(&mut scene);
+    heading::draw_border(&root, theme);
+    let at = heading::draw_title(&root, TITLE, theme);
+    let page = root.size();
+    let subtitle = "A plate of this book, reduced. The numbers are explained on the facing page.";
+    root.record(
+        &theme.text_line(subtitle, at, Anchor::Start, theme.source_size, theme.grey).fit_width(page.x - 2.0 * at.x),
+    );
+    let [top, bottom, _] = heading::margins(theme);
+    let plate = Vector::new(how.plate.width, how.plate.height);
+    let space = page.y - top - bottom;
+    let scale = PLATE_SCALE.min(space / plate.y);
+    let shift = Vector::new(0.5 * (page.x - scale * plate.x), top + 0.5 * (space - scale * plate.y));
+    let items = how.plate.items.iter().map(|item| scaled(item, scale, shift)).collect();
+    root.record(&Drawing { class: "plate", title: String::new(), items });
+    let radius = 1.1 * theme.source_size;
+    let ink = theme.text_ink(theme.curve_ink(0));
+    let mut placed: Vec<Point> = Vec::new();
+    for (k, (part, anchor)) in shown.iter().enumerate() {
+        let anchor = Point::from(anchor.coords * scale + shift);
+        let direction = part.side.try_normalize(0.0).unwrap_or(Vector::new(0.0, -1.0));
+        // Out of the way of the numbers before it.
+        let mut centre = anchor + direction * (2.4 * radius);
+        for turn in 0..24 {
+            let is_free = |at: &Point| placed.iter().all(|other| (other - at).norm() > 2.3 * radius);
+            let is_inside = centre.x > shift.x + radius
+                && centre.x < shift.x + scale * plate.x - radius
+                && centre.y > shift.y + radius
+                && centre.y < shift.y + scale * plate.y - radius;
+            if is_free(&centre) && is_inside {
+                break;
+            }
+            let (cos, sin) = coupler_curves::geometry::trig::cos_sin_deg(45.0 * f64::from(turn));
+            centre = anchor + Vector::new(cos, sin) * (2.4 + f64::from(turn / 8)) * radius;
+        }
+        placed.push(centre);
+        draw_number(&root, (k + 1, anchor, centre), radius, ink, theme);
+    }
+    drop(root);
+    scene
+}
+
+/// Draws a number in a circle with a line to what it is the number of.
+fn draw_number(
+    root: &impl Area,
+    (number, anchor, centre): (usize, Point, Point),
+    radius: f64,
+    ink: Color,
+    theme: &Theme,
+) {
+    let stroke = theme.stroke(ink, theme.fine_width);
+    let towards = (anchor - centre).try_normalize(0.0).unwrap_or(Vector::new(0.0, 1.0));
+    let line = Path::stroked(vec![centre + towards * radius, anchor], stroke);
+    let circle = Circle { centre, radius, stroke: Some(stroke), fill: Some(theme.paper) };
+    root.record(&Drawing {
+        class: "callout",
+        title: String::new(),
+        items: vec![Item::Path(line), Item::Circle(circle)],
+    });
+    let at = centre + Vector::new(0.0, 0.36 * theme.source_size);
+    root.record(&theme.text_line(&number.to_string(), at, Anchor::Middle, theme.source_size, ink));
+}
+
+/// A paragraph: a number, if it has one, a title, and its text.
+struct Paragraph {
+    number: Option<usize>,
+    title: String,
+    text: String,
+    is_heading: bool,
+}
+
+impl Paragraph {
+    fn heading(title: &str) -> Paragraph {
+        Paragraph { number: None, title: title.to_owned(), text: String::new(), is_heading: true }
+    }
+
+    fn plain(text: impl Into<String>) -> Paragraph {
+        Paragraph { number: None, title: String::new(), text: text.into(), is_heading: false }
+    }
+}
+
+/// What is said of the plate, of building a linkage, and of finding a curve.
+fn paragraphs(how: &HowToRead, shown: &[(&Part, Point)], find: &[String]) -> Vec<Paragraph> {
+    let mut said = vec![Paragraph::heading("What a plate shows")];
+    said.extend(shown.iter().zip(1..).map(|((part, _), number)| Paragraph {
+        number: Some(number),
+        title: part.title.to_owned(),
+        text: part.text.replace("{dash}", &how.dash),
+        is_heading: false,
+    }));
+    if !matches!(how.layout, Layout::Chart { .. }) {
+        said.push(Paragraph::heading("From a plate to a linkage"));
+        let (from, point) = match how.layout {
+            Layout::CouplerGrid => (
+                "Choose a curve, and read the dimensions at the foot of its page and the coordinates of its point in the table.",
+                "Lay off the coordinates as the key shows: along from the joint where the arrow begins, and across from there.",
+            ),
+            _ => (
+                "Choose a curve, and read the dimensions in the caption of its figure.",
+                "What is the same for all figures of a page is stated under its title; the drawing shows what the letters mean.",
+            ),
+        };
+        said.push(Paragraph::plain(from));
+        said.push(Paragraph::plain(point));
+        said.push(Paragraph::plain(
+            "All lengths of the linkage, those of straight portions and the radii of arcs are in one unit. Multiply all of them by \
+             the same number for the size that is needed; angles, inputs, ratios of times and the shape do not change.",
+        ));
+        said.push(Paragraph::plain(
+            "A dwell: a further link as long as the radius, pivoted on the traced point, stands nearly still with its other end at \
+             the centre of the arc while the point is on it.",
+        ));
+        said.push(Paragraph::plain(
+            "μ is the transmission angle. Below about 30° a linkage needs large forces or jams.",
+        ));
+        if !how.curve_name.is_empty() {
+            said.push(Paragraph::plain(format!(
+                "Every curve has a name, such as {} on the plate on the left. With it, the program that made this book writes drawings \
+                 for CAD, tables and the linkage itself: coupler-atlas export.",
+                how.curve_name
+            )));
+        }
+    }
+    if !find.is_empty() {
+        said.push(Paragraph::heading("To find a curve"));
+        said.extend(find.iter().map(Paragraph::plain));
+    }
+    said
+}
+
+/// The page with the explanations, in columns.
+fn compose_text(
+    how: &HowToRead,
+    atlas: &Atlas,
+    (shown, find): (&[(&Part, Point)], &[String]),
+    options: &Options,
+    theme: &Theme,
+) -> Scene {
+    let mut scene = empty_scene(format!("{TITLE}: {}", atlas.title), options, theme);
+    let root = area::whole_page(&mut scene);
+    heading::draw_border(&root, theme);
+    let page = root.size();
+    let [_, bottom, _] = heading::margins(theme);
+    let left = theme.border + theme.margin;
+    let top = theme.border + 1.5 * theme.margin;
+    let paragraphs = paragraphs(how, shown, find);
+    let height = page.y - top - bottom;
+    // The largest letters with which everything fits.
+    let sizes = (0..12)
+        .map(|k| (1.25 * theme.source_size - 0.07 * theme.source_size * f64::from(k)).max(0.5 * theme.note_size));
+    let mut laid_out = Vec::new();
+    for size in sizes {
+        let count = ((page.x - 2.0 * left) / (34.0 * size)).floor().max(1.0);
+        let gutter = 2.5 * size;
+        let width = (page.x - 2.0 * left + gutter) / count - gutter;
+        let frame = (Point::new(left, top), Vector::new(width, height), gutter);
+        let (lines, columns) = lay_out(&paragraphs, frame, size, theme);
+        laid_out = lines;
+        if columns as f64 <= count {
+            break;
+        }
+    }
+    for line in laid_out.iter().filter(|line| line.text.position.x < page.x - left) {
+        root.record(line);
+    }
+    drop(root);
+    scene
+}
+
+/// The lines of paragraphs in columns, and the number of columns.
+fn lay_out(
+    paragraphs: &[Paragraph],
+    (corner, size, gutter): (Point, Vector, f64),
+    em: f64,
+    theme: &Theme,
+) -> (Vec<super::super::element::TextLine>, usize) {
+    let leading = 1.42 * em;
+    let mut lines = Vec::new();
+    let (mut column, mut y) = (0, 0.0);
+    for paragraph in paragraphs {
+        let (text_size, ink) = if paragraph.is_heading { (1.3 * em, theme.ink) } else { (em, theme.ink) };
+        let indent = if paragraph.number.is_some() { 2.2 * em } else { 0.0 };
+        let line = |text: &str| theme.text_line(text, Point::origin(), Anchor::Start, text_size, ink);
+        let text = [paragraph.title.as_str(), &paragraph.text].join(" ");
+        let wrapped = line(text.trim()).wrap(size.x - indent);
+        let space = if paragraph.is_heading { 1.1 * leading } else { 0.45 * leading };
+        // A heading stays with what follows, and paragraphs are not broken.
+        let needed = wrapped.len() as f64 * leading + if paragraph.is_heading { 5.0 * leading } else { 0.0 };
+        if y > 0.0 && y + space + needed > size.y {
+            (column, y) = (column + 1, 0.0);
+        }
+        y += if y > 0.0 { space } else { 0.0 };
+        for (k, words) in wrapped.iter().enumerate() {
+            y += leading * text_size / em;
+            let at = corner + Vector::new((size.x + gutter) * f64::from(column) + indent, y);
+            lines.push(line(words).fit_width(size.x - indent).moved_to(at));
+            if let (0, Some(number)) = (k, paragraph.number) {
+                let ink = theme.text_ink(theme.curve_ink(0));
+                let at = at - Vector::new(indent, 0.0);
+                lines.push(theme.text_line(&number.to_string(), at, Anchor::Start, em, ink));
+            }
+        }
+    }
+    let columns = usize::try_from(column).unwrap_or(0) + 1;
+    (lines, columns)
+}

@@ -1,0 +1,246 @@
+//! Small drawings of curves.
+
+use super::super::area::Area;
+use super::super::element::Drawing;
+use super::super::plot::Plot;
+use super::super::rect::Rect;
+use super::super::theme::Theme;
+use crate::scene::{Circle, Curve, Item, Path, Polyline};
+use coupler_curves::geometry::{Bounds, Point, Spline, Vector};
+use coupler_curves::linkage::{JointId, LinkOutline, Linkage};
+use coupler_curves::measure::{self, TracedCurve, Value};
+use coupler_curves::motion::{self, Circuit};
+use coupler_curves::path;
+use coupler_curves::solve::{MeasuredCurve, SolvedCell};
+
+/// What a small drawing of a curve emphasises.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Emphasis {
+    /// Nothing.
+    None,
+    /// The straight portion.
+    Straight,
+    /// The straight portion to 0.005 of its length.
+    Straight5,
+    /// The straight portion to 0.01 of its length.
+    Straight10,
+    /// The circular portion.
+    Dwell,
+    /// The sharpest point.
+    Sharpest,
+    /// The axis of symmetry.
+    Axis,
+    /// The linkage at the limits of its output.
+    Limits,
+}
+
+/// A small drawing of a curve, in the plane.
+#[derive(Clone, Debug)]
+pub struct Miniature {
+    curve: Vec<Spline>,
+    /// The emphasised portion.
+    portion: Vec<Point>,
+    /// The emphasised point.
+    point: Option<Point>,
+    axis: Option<[Point; 2]>,
+    /// The links in each pose that is drawn, instead of the curve.
+    poses: Vec<Vec<Vec<Point>>>,
+    pivots: Vec<Point>,
+    bounds: Bounds,
+    /// The input at the sharpest point, in degrees or as a length, if that is emphasised.
+    pub sharpest_input: Option<f64>,
+    /// How far the curve goes from the circle of its circular portion, if that is emphasised.
+    pub dwell_lift: Option<f64>,
+}
+
+/// The greatest distance of a spline from its curve relative to the greatest extent of the curve: less than is visible in a
+/// drawing of 50 mm.
+const TOLERANCE: f64 = 4e-4;
+
+impl Miniature {
+    /// The drawing of a curve of a cell.
+    pub fn new(solved: &SolvedCell, curve: &MeasuredCurve, emphasis: Emphasis) -> Miniature {
+        let circuit = solved.circuit(curve);
+        let bounds = Bounds::from_points(circuit.points(curve.joint));
+        let extent = bounds.size().max();
+        let tolerance = if extent > 0.0 { TOLERANCE * extent } else { 1.0 };
+        let splines = path::joint_splines(&solved.linkage, circuit, curve.joint, tolerance);
+        let bounds = Bounds::from_points(splines.iter().flat_map(|spline| spline.points())).union(bounds);
+        let mut drawing = Miniature {
+            curve: splines,
+            portion: Vec::new(),
+            point: None,
+            axis: None,
+            poses: Vec::new(),
+            pivots: Vec::new(),
+            bounds,
+            sharpest_input: None,
+            dwell_lift: None,
+        };
+        let number = |name: &str| match curve.value(name) {
+            Value::Number(value) if value.is_finite() => Some(value),
+            _ => None,
+        };
+        let between = |start: &str, span: &str| {
+            let (start, span) = (number(start)?, number(span)?);
+            portion(&solved.linkage, circuit, curve.joint, [start, span])
+        };
+        match emphasis {
+            Emphasis::None => {}
+            Emphasis::Straight => {
+                drawing.portion = curve.straight.as_ref().map(|portion| portion.points.clone()).unwrap_or_default();
+            }
+            Emphasis::Straight5 => {
+                drawing.portion = between("straight_5_start_deg", "straight_5_input_deg").unwrap_or_default();
+            }
+            Emphasis::Straight10 => {
+                drawing.portion = between("straight_10_start_deg", "straight_10_input_deg").unwrap_or_default();
+            }
+            Emphasis::Dwell => {
+                drawing.portion = between("dwell_start_deg", "dwell_input_deg").unwrap_or_default();
+                if let (Some(x), Some(y), Some(radius)) = (number("dwell_x"), number("dwell_y"), number("dwell_radius"))
+                {
+                    let distance = |p: Point| ((p - Point::new(x, y)).norm() - radius).abs();
+                    drawing.dwell_lift = Some(circuit.points(curve.joint).map(distance).fold(0.0, f64::max));
+                }
+            }
+            Emphasis::Sharpest => {
+                let sharpest = sharpest_point(&solved.linkage, circuit, curve.joint);
+                drawing.point = sharpest.map(|(_, point)| point);
+                drawing.sharpest_input = sharpest.map(|(input, _)| input);
+            }
+            Emphasis::Axis => {
+                let axis = curve.symmetry.as_ref().and_then(|symmetry| symmetry.axis);
+                drawing.axis = axis.map(|axis| across(bounds, axis.point, axis.direction));
+            }
+            Emphasis::Limits => drawing.add_limits(solved, curve),
+        }
+        drawing
+    }
+
+    /// Adds the linkage at the limits of its output, which are then drawn instead of the curve.
+    fn add_limits(&mut self, solved: &SolvedCell, curve: &MeasuredCurve) {
+        let traced = TracedCurve::new(&solved.linkage, &solved.motion, solved.circuit(curve), curve.joint);
+        let Some(poses) = measure::output_limit_poses(&traced) else { return };
+        let outlines = solved.linkage.link_outlines();
+        self.bounds = Bounds::EMPTY;
+        for pose in poses {
+            let corners = |outline: &LinkOutline| {
+                let mut corners: Vec<Point> = outline.joints.iter().map(|&joint| pose[joint]).collect();
+                let first = corners.first().copied().filter(|_| corners.len() > 2);
+                corners.extend(first);
+                corners
+            };
+            let links: Vec<Vec<Point>> = outlines.iter().map(corners).collect();
+            self.pivots = solved.linkage.pivots().into_iter().map(|joint| pose[joint]).collect();
+            let points = links.iter().flatten().chain(&self.pivots).copied();
+            self.bounds = self.bounds.union(Bounds::from_points(points));
+            self.poses.push(links);
+        }
+        self.curve.clear();
+    }
+
+    /// Draws it as large as it fits a frame.
+    pub(super) fn draw(&self, area: &impl Area, frame: Rect, theme: &Theme) {
+        let plot = Plot::whole(frame).fitted_to(self.bounds);
+        let on_page = |p: Point| plot.page_from_plane.apply(p);
+        let line =
+            |points: &[Point]| Polyline { points: points.iter().map(|p| on_page(*p)).collect(), is_closed: false };
+        let mut items = Vec::new();
+        let path = |polylines: Vec<Polyline>, color, width| {
+            let stroke = Some(crate::scene::Stroke { color, width, has_round_ends: true });
+            Item::Path(Path { polylines, stroke, fill: None })
+        };
+        if let Some(ends) = &self.axis {
+            items.push(path(vec![line(ends)], theme.grey, theme.hair_width));
+        }
+        let ink = theme.curve_ink(0);
+        if self.portion.len() > 1 {
+            items.push(path(vec![line(&self.portion)], theme.faded(ink), 4.0 * theme.curve_width));
+        }
+        for (links, color) in self.poses.iter().zip([theme.ink, ink]).rev() {
+            items.push(path(links.iter().map(|link| line(link)).collect(), color, theme.curve_width));
+        }
+        if !self.curve.is_empty() {
+            let splines = self.curve.iter().map(|spline| spline.map(on_page)).collect();
+            let stroke = theme.stroke(theme.ink, theme.fine_width);
+            items.push(Item::Curve(Curve { splines, stroke }));
+        }
+        let circle = |centre: Point, radius: f64, stroke, fill| Item::Circle(Circle { centre, radius, stroke, fill });
+        for pivot in &self.pivots {
+            let stroke = Some(theme.stroke(theme.ink, theme.fine_width));
+            items.push(circle(on_page(*pivot), 0.6 * theme.joint_radius, stroke, Some(theme.paper)));
+        }
+        if let Some(point) = self.point {
+            items.push(circle(
+                on_page(point),
+                1.2 * theme.joint_radius,
+                Some(theme.stroke(ink, theme.curve_width)),
+                None,
+            ));
+        }
+        area.record(&Drawing { class: "miniature", title: String::new(), items });
+    }
+}
+
+/// The part of a line that crosses bounds, and a little more.
+fn across(bounds: Bounds, through: Point, direction: Vector) -> [Point; 2] {
+    let corners =
+        [bounds.min, bounds.max, Point::new(bounds.min.x, bounds.max.y), Point::new(bounds.max.x, bounds.min.y)];
+    let along = corners.map(|corner| (corner - through).dot(&direction));
+    let [least, most] =
+        [along.into_iter().fold(f64::INFINITY, f64::min), along.into_iter().fold(-f64::INFINITY, f64::max)];
+    [through + direction * least, through + direction * most]
+}
+
+/// Points of the portion of a curve from an input over a span of it, in degrees; `None` unless the circuit is one pass in
+/// which the input turns fully, where an input is one position.
+fn portion(linkage: &Linkage, circuit: &Circuit, joint: JointId, [start, span]: [f64; 2]) -> Option<Vec<Point>> {
+    const STEP: f64 = 2.0;
+    let [pass] = &circuit.passes[..] else { return None };
+    if !circuit.is_full_turn() {
+        return None;
+    }
+    let turn = pass.input_length();
+    let first = pass.input_range()[0];
+    let count = (span / STEP).ceil().clamp(1.0, 720.0);
+    let input = |k: usize| first + (start + span * (k as f64 / count) - first).rem_euclid(turn);
+    let inputs: Vec<f64> = (0..=count as usize).map(input).collect();
+    let positions = motion::poses(linkage, pass, &inputs);
+    Some((0..inputs.len()).map(|k| positions.point(joint, k)).collect())
+}
+
+/// The input and the position at which a path bends most sharply.
+fn sharpest_point(linkage: &Linkage, circuit: &Circuit, joint: JointId) -> Option<(f64, Point)> {
+    /// Samples of a pass, and of the two intervals around the sharpest of them.
+    const COUNTS: [usize; 3] = [720, 64, 64];
+    let mut best: Option<(f64, f64, Point)> = None;
+    for pass in &circuit.passes {
+        let [mut from, mut to] = [pass.from.input.value, pass.to.input.value];
+        let (mut found, mut is_whole) = (None, true);
+        for count in COUNTS {
+            let step = (to - from) / count as f64;
+            let inputs: Vec<f64> = (0..=count).map(|k| from + step * k as f64).collect();
+            let positions = motion::poses(linkage, pass, &inputs);
+            let point = |k: usize| positions.point(joint, k);
+            // In a full turn the last sample is the first.
+            let is_ring = is_whole && circuit.is_full_turn();
+            let sharpness = |k: usize| {
+                let (before, after) =
+                    if is_ring { ((k + count - 1) % count, k + 1) } else { (k.checked_sub(1)?, k + 1) };
+                let (from, to) = (point(k) - point(before), point(after) - point(k));
+                let (a, b) = (from.norm(), to.norm());
+                // The square of the angle per length, for small angles.
+                let sharpness = 2.0 * (1.0 - from.dot(&to) / (a * b)) / ((a + b) * (a + b));
+                sharpness.is_finite().then_some((sharpness, k))
+            };
+            is_whole = false;
+            let sharpest = (0..count).filter_map(sharpness);
+            let Some((sharpness, k)) = sharpest.max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1))) else { break };
+            found = Some((sharpness, inputs[k], point(k)));
+            [from, to] = [inputs[k] - step, inputs[k] + step];
+        }
+        best = [best, found].into_iter().flatten().reduce(|a, b| if b.0 > a.0 { b } else { a });
+    }
+    best.map(|(_, input, point)| (input, point))
+}

@@ -1,0 +1,377 @@
+//! Reads `[book]`: what the book has in addition to the pages of its families.
+
+use crate::names::{read_filter, uses_text_measure};
+use crate::plan::{BookPlan, ListCriteria, PlannedChapter, PlannedFamily, PlannedList};
+use coupler_curves::expression::{Caption, CompiledExpression, Expression, Kind, Scope};
+use coupler_curves::family::{Family, MEASURES};
+use coupler_curves::linkage_format::{Fields, KeySchema, TableSchema, TomlParser, TomlValue, ValueSchema};
+use coupler_curves::problem::Problem;
+use coupler_drawing::page::Layout;
+use coupler_drawing::page::book::Emphasis;
+use coupler_drawing::render::Format;
+
+/// The prefixes of the names of measures, with what they are measures of.
+const EMPHASES: [(&str, Emphasis); 10] = [
+    ("straight_half_turn_", Emphasis::None),
+    ("straight_5_", Emphasis::Straight5),
+    ("straight_10_", Emphasis::Straight10),
+    ("straight_", Emphasis::Straight),
+    ("dwell_", Emphasis::Dwell),
+    ("curvature_", Emphasis::Sharpest),
+    ("cusps", Emphasis::Sharpest),
+    ("symmetry_", Emphasis::Axis),
+    ("time_ratio", Emphasis::Limits),
+    ("output_", Emphasis::Limits),
+];
+
+/// What the measures of a sort key are measures of, or else those of a condition: of the first that has something to emphasise.
+fn emphasis_of(sort: Option<&Expression>, filter: Option<&Expression>) -> Emphasis {
+    let of_name = |name: &String| EMPHASES.iter().find(|(prefix, _)| name.starts_with(prefix)).map(|(_, e)| *e);
+    let mut names = sort.into_iter().chain(filter).flat_map(Expression::names);
+    names.find_map(of_name).unwrap_or(Emphasis::None)
+}
+
+/// The most entries of a list.
+const MAX_COUNT: usize = 1000;
+
+/// The default number of entries of a list.
+const DEFAULT_COUNT: usize = 100;
+
+/// The default number of entries of a cell.
+const DEFAULT_PER_GEOMETRY: usize = 1;
+
+/// The most lists and chapters.
+const MAX_TABLES: usize = 50;
+
+/// The `[book]` table.
+pub(crate) static BOOK: TableSchema = TableSchema::new(
+    "[book]",
+    &[
+        KeySchema::new("how_to_read", ValueSchema::Boolean, "Whether two facing pages say how plates are read.")
+            .with_default(|| "true".to_owned()),
+        KeySchema::new(
+            "finding_charts",
+            ValueSchema::Boolean,
+            "Whether charts show the shapes of the curves over the grid of each family.",
+        )
+        .with_default(|| "true".to_owned()),
+        KeySchema::new("thumb_index", ValueSchema::Boolean, "Whether pages have marks at their outer edges.")
+            .with_default(|| "true".to_owned()),
+        KeySchema::new(
+            "index",
+            ValueSchema::Boolean,
+            "Whether geometries are listed by straightness, transmission angle and symmetry.",
+        )
+        .with_default(|| "true".to_owned()),
+        KeySchema::new(
+            "chapter",
+            ValueSchema::List(&ValueSchema::Table(&CHAPTER), [0, MAX_TABLES]),
+            "Chapters for cells that are taken out of their families; by default the change points of coupler grids.",
+        ),
+        KeySchema::new(
+            "list",
+            ValueSchema::List(&ValueSchema::Table(&LIST), [0, MAX_TABLES]),
+            "Lists of the best curves; by default straight portions, dwells, cusps, symmetrical curves, quick returns.",
+        ),
+    ],
+);
+
+/// A `[[book.chapter]]` table.
+static CHAPTER: TableSchema = TableSchema::new(
+    "a [[book.chapter]]",
+    &[
+        KeySchema::required("title", ValueSchema::Text, "Its title, after that of the family."),
+        KeySchema::required(
+            "where",
+            ValueSchema::Text,
+            "The cells in it: those with a curve that meets a condition over names and measures.",
+        ),
+    ],
+);
+
+/// A `[[book.list]]` table.
+static LIST: TableSchema = TableSchema::new(
+    "a [[book.list]]",
+    &[
+        KeySchema::required("title", ValueSchema::Text, "Its title."),
+        KeySchema::new("note", ValueSchema::Text, "What is listed and in what order, in words."),
+        KeySchema::new("where", ValueSchema::Text, "The curves that are listed: a condition over names and measures."),
+        KeySchema::required(
+            "sort",
+            ValueSchema::WithExamples(&ValueSchema::Number, crate::chart::numeric_measures),
+            "The order of the curves, least first: an expression over names and measures.",
+        ),
+        KeySchema::new(
+            "caption",
+            ValueSchema::Text,
+            "What is said of each curve, with values and measures in braces; its parts, between ` · `, are lines.",
+        ),
+        KeySchema::new("count", ValueSchema::Integer([1, MAX_COUNT]), "The most curves.")
+            .with_default(|| DEFAULT_COUNT.to_string()),
+        KeySchema::new("per_geometry", ValueSchema::Integer([1, MAX_COUNT]), "The most curves of a cell.")
+            .with_default(|| DEFAULT_PER_GEOMETRY.to_string()),
+    ],
+);
+
+/// A list of a book without lists of its own.
+struct DefaultList {
+    title: &'static str,
+    note: &'static str,
+    filter: &'static str,
+    sort: &'static str,
+    caption: &'static str,
+}
+
+/// The lists of a book by default. Curves that are nearly circles, and those that are nearly arcs traversed back and
+/// forth, as of points next to a pin, are trivial: the area they enclose is that of a circle, or nothing.
+static DEFAULT_LISTS: [DefaultList; 5] = [
+    DefaultList {
+        title: "Straight portions",
+        note: "The longest straight portions, relative to the greatest extent of the curve; of curves that are not \
+               nearly circles.",
+        filter: "straight_share >= 0.2 and 4 * pi * abs(area) < 0.9 * length^2 and mu_worst_deg >= 15",
+        sort: "-straight_share",
+        caption: "straight over {straight_length:.3} ± {straight_deviation:.4} · {100 * straight_share:.0} % of the \
+                  extent · input {straight_start_deg:.0}° + {straight_input_deg:.0}° · μ ≥ {mu_worst_deg:.0}°",
+    },
+    DefaultList {
+        title: "Dwells",
+        note: "The circular portions that span the most input: a link as long as the radius, pivoted on the point, \
+               rests with its other end. Of curves that are neither nearly circles nor thin crescents, which would \
+               hardly move it.",
+        filter: "dwell_input_deg >= 30 and 4 * pi * abs(area) < 0.9 * length^2 and \
+                 4 * pi * abs(area) > 0.3 * length^2 and mu_worst_deg >= 15",
+        sort: "-dwell_input_deg",
+        caption: "dwell {dwell_input_deg:.0}° from {dwell_start_deg:.0}° of input · radius {dwell_radius:.3} ± \
+                  {dwell_deviation:.4} · μ ≥ {mu_worst_deg:.0}°",
+    },
+    DefaultList {
+        title: "Cusps",
+        note: "Curves with a point so sharp that it is a cusp for all purposes: its radius of curvature is less than \
+               1/5000 of the length of the curve. The greatest transmission angle first; without thin crescents.",
+        filter: "(cusps > 0 or curvature_max * length > 5000) and \
+                 4 * pi * abs(area) > 0.15 * length^2 and mu_worst_deg >= 15",
+        sort: "-mu_worst_deg",
+        caption: "radius {1 / curvature_max:.5} · crunodes {crunodes:.0} · μ ≥ {mu_worst_deg:.0}°",
+    },
+    DefaultList {
+        title: "Symmetrical curves",
+        note: "The curves that are most nearly symmetrical: the least deviation from the mirror image first. Of curves \
+               with inflections, cusps or crunodes, which excludes ovals, and without thin crescents.",
+        filter: "symmetry_residual < 0.01 and inflections + cusps + crunodes > 0 and \
+                 4 * pi * abs(area) > 0.15 * length^2 and mu_worst_deg >= 15",
+        sort: "symmetry_residual",
+        caption: "deviation {100 * symmetry_residual:.3} % of the extent · axis at {symmetry_deg:.1}° · inflections \
+                  {inflections:.0}, crunodes {crunodes:.0} · μ ≥ {mu_worst_deg:.0}°",
+    },
+    DefaultList {
+        title: "Quick returns",
+        note: "The linkages with the greatest time ratios of their outputs, drawn at the limits of the output.",
+        filter: "time_ratio >= 1.1 and mu_worst_deg >= 15",
+        sort: "-time_ratio",
+        caption: "time ratio {time_ratio:.3} · output from {output_min:.2} to {output_max:.2} · μ ≥ {mu_worst_deg:.0}°",
+    },
+];
+
+/// The title of the chapter that a book has by default.
+const CHANGE_POINTS: &str = "change points";
+
+/// Reads `[book]`; the defaults if there is none.
+///
+/// If some families could not be read, names that the others do not have are no problem.
+pub(crate) fn read<'t>(
+    value: Option<&TomlValue<'t>>,
+    (planned, are_complete): (&[PlannedFamily], bool),
+    parser: &mut TomlParser<'t>,
+) -> Option<BookPlan> {
+    let families = Families { planned, are_complete };
+    let fields = match value {
+        None => None,
+        Some(value) => Some(Fields::from_value(value, &BOOK, parser)?),
+    };
+    let get = |key: &str| fields.as_ref().and_then(|fields| fields.get(key));
+    let mut flag = |key: &str| get(key).map_or(Some(true), |value| parser.boolean(value));
+    let [how_to_read, finding_charts, thumb_index, index] =
+        ["how_to_read", "finding_charts", "thumb_index", "index"].map(&mut flag);
+    let chapters = match (&fields, get("chapter")) {
+        (Some(fields), Some(_)) => {
+            tables(fields, "chapter", parser)?.iter().map(|value| chapter(value, families, parser)).collect()
+        }
+        _ => Some(vec![change_points(planned)]),
+    };
+    let lists = match (&fields, get("list")) {
+        (Some(fields), Some(_)) => {
+            let read: Vec<_> =
+                tables(fields, "list", parser)?.iter().map(|value| list(value, families, parser)).collect();
+            read.into_iter().collect()
+        }
+        _ => Some(DEFAULT_LISTS.iter().filter_map(|default| default_list(default, planned)).collect()),
+    };
+    let manifest_inputs =
+        value.map_or(String::new(), |value| coupler_curves::linkage_format::canonical_toml(value, &[]));
+    Some(BookPlan {
+        how_to_read: how_to_read?,
+        finding_charts: finding_charts?,
+        thumb_index: thumb_index?,
+        index: index?,
+        chapters: chapters?,
+        lists: lists?,
+        manifest_inputs,
+    })
+}
+
+/// The families of a manifest.
+#[derive(Clone, Copy)]
+struct Families<'a> {
+    planned: &'a [PlannedFamily],
+    /// Whether all of them could be read.
+    are_complete: bool,
+}
+
+/// The tables of a list of tables, which are not too many.
+fn tables<'v, 't>(fields: &Fields<'v, 't>, key: &str, parser: &mut TomlParser<'t>) -> Option<&'v [TomlValue<'t>]> {
+    let tables = fields.tables(key, parser);
+    match tables.get(MAX_TABLES) {
+        None => Some(tables),
+        Some(first) => {
+            let message = format!("there are {} tables `{key}`, more than the limit of {MAX_TABLES}", tables.len());
+            parser.report(Problem::error(first.span(), message).with_help("leave some out"));
+            None
+        }
+    }
+}
+
+/// The chapter of change points of coupler grids: their motion is not determined by their lengths.
+fn change_points(families: &[PlannedFamily]) -> PlannedChapter {
+    let condition = |planned: &PlannedFamily| {
+        if planned.layout != Layout::CouplerGrid {
+            return None;
+        }
+        let scope = scope(&planned.family);
+        Expression::parse("is_change_point").ok()?.compile(&scope, Kind::Boolean).ok()
+    };
+    PlannedChapter { title: CHANGE_POINTS.to_owned(), conditions: families.iter().map(condition).collect() }
+}
+
+/// The names that expressions about the curves of a family may use.
+fn scope(family: &Family) -> Scope<'_> {
+    Family::scope(&family.names, family.template.is_driven_by_length())
+}
+
+/// Whether a family computes all measures that an expression uses.
+fn computes(family: &Family, expression: &CompiledExpression) -> bool {
+    (0..MEASURES.len()).all(|k| family.is_computed[k] || !family.expression_uses(expression, k))
+}
+
+/// A default list; `None` if no family has its measures.
+fn default_list(default: &DefaultList, families: &[PlannedFamily]) -> Option<PlannedList> {
+    let [filter, sort] = [default.filter, default.sort].map(Expression::parse);
+    let (filter, sort) = (filter.ok()?, sort.ok()?);
+    let criteria = |planned: &PlannedFamily| {
+        let family = &planned.family;
+        let scope = scope(family);
+        let criteria = ListCriteria {
+            filter: Some(filter.compile(&scope, Kind::Boolean).ok()?),
+            sort: sort.compile(&scope, Kind::Number).ok()?,
+            caption: Caption::parse(default.caption).ok()?,
+        };
+        applies(planned, &criteria).then_some(criteria)
+    };
+    let criteria: Vec<Option<ListCriteria>> = families.iter().map(criteria).collect();
+    criteria.iter().any(Option::is_some).then(|| PlannedList {
+        title: default.title.to_owned(),
+        note: default.note.to_owned(),
+        count: DEFAULT_COUNT,
+        per_geometry: DEFAULT_PER_GEOMETRY,
+        emphasis: emphasis_of(Some(&sort), Some(&filter)),
+        criteria,
+    })
+}
+
+/// Whether a family has curves on pages and the measures of a list.
+fn applies(planned: &PlannedFamily, criteria: &ListCriteria) -> bool {
+    let expressions = criteria.filter.iter().chain([&criteria.sort]);
+    planned.chart.is_none() && { expressions }.all(|expression| computes(&planned.family, expression))
+}
+
+/// The compiled results of an expression for the families that have its names; reports the problem of the first family
+/// if no family has them.
+fn for_families<'t, T>(
+    Families { planned: families, are_complete }: Families,
+    parser: &mut TomlParser<'t>,
+    knows_names: impl Fn(&Scope) -> bool,
+    read: impl Fn(&PlannedFamily, &Scope, &mut TomlParser<'t>) -> Option<T>,
+) -> Option<Vec<Option<T>>> {
+    let is_known: Vec<bool> = families.iter().map(|planned| knows_names(&scope(&planned.family))).collect();
+    // Names that no family has are reported once, with those of the first.
+    let first = usize::from(are_complete && !is_known.contains(&true));
+    let mut found = Vec::new();
+    for (k, (planned, is_known)) in families.iter().zip(is_known).enumerate() {
+        let is_read = is_known || k < first;
+        found.push(if is_read { Some(read(planned, &scope(&planned.family), parser)?) } else { None });
+    }
+    Some(found)
+}
+
+/// The names of the expressions of a value, as far as they can be parsed.
+fn names_in(value: Option<&TomlValue>) -> Vec<String> {
+    let text = value.and_then(|value| value.get_ref().as_str());
+    text.and_then(|text| Expression::parse(text).ok()).map(|parsed| parsed.names().to_vec()).unwrap_or_default()
+}
+
+fn chapter<'t>(value: &TomlValue<'t>, families: Families, parser: &mut TomlParser<'t>) -> Option<PlannedChapter> {
+    let fields = Fields::from_value(value, &CHAPTER, parser)?;
+    let title = fields.required_text("title", "title = \"change points\"", parser);
+    let condition = fields.required("where", "where = \"is_change_point\"", parser);
+    let names = names_in(condition);
+    let knows = |scope: &Scope| names.iter().all(|name| scope.index_of(name).is_some());
+    let conditions = condition.and_then(|value| {
+        for_families(families, parser, knows, |planned, scope, parser| {
+            let condition = read_filter(value, scope, parser)?;
+            Some((planned.chart.is_none() && computes(&planned.family, &condition)).then_some(condition))
+        })
+    });
+    let conditions = conditions?.into_iter().map(Option::flatten).collect();
+    Some(PlannedChapter { title: title?, conditions })
+}
+
+fn list<'t>(value: &TomlValue<'t>, families: Families, parser: &mut TomlParser<'t>) -> Option<PlannedList> {
+    let fields = Fields::from_value(value, &LIST, parser)?;
+    let title = fields.required_text("title", "title = \"Straight portions\"", parser);
+    let note = fields.get("note").map_or(Some(String::new()), |value| parser.text(value));
+    let mut number =
+        |key: &str, default: usize| fields.get(key).map_or(Some(default), |value| parser.integer(value, 1, MAX_COUNT));
+    let (count, per_geometry) = (number("count", DEFAULT_COUNT), number("per_geometry", DEFAULT_PER_GEOMETRY));
+    let sort = fields.required("sort", "sort = \"-straight_length\"", parser);
+    let (filter, caption) = (fields.get("where"), fields.get("caption"));
+    let mut names = [filter, sort].map(names_in).concat();
+    let parsed = caption.and_then(|value| Caption::parse(value.get_ref().as_str()?).ok());
+    names.extend(parsed.iter().flat_map(Caption::expressions).flat_map(|(expression, _)| expression.names().to_vec()));
+    let words: Vec<&str> = Family::word_measure_names().collect();
+    let knows =
+        |scope: &Scope| names.iter().all(|name| words.contains(&name.as_str()) || scope.index_of(name).is_some());
+    let sort = sort.filter(|value| !uses_text_measure(value, parser))?;
+    let criteria = for_families(families, parser, knows, |planned, scope, parser| {
+        let filter = match filter {
+            None => Some(None),
+            Some(value) => read_filter(value, scope, parser).map(Some),
+        };
+        let sort = parser.numeric_expression(sort, scope);
+        let caption = match caption {
+            None => Caption::parse("").ok(),
+            Some(value) => parser.caption(value, scope, &words),
+        };
+        let criteria = ListCriteria { filter: filter?, sort: sort?, caption: caption? };
+        Some(applies(planned, &criteria).then_some(criteria))
+    });
+    let criteria: Vec<Option<ListCriteria>> = criteria?.into_iter().map(Option::flatten).collect();
+    // An atlas without a book needs no list.
+    let has_book = families.planned.iter().any(|planned| planned.formats.contains(&Format::Pdf));
+    if criteria.iter().all(Option::is_none) && families.are_complete && has_book {
+        let problem = Problem::warning(value.span(), "no family has curves and the measures of this list");
+        parser.report(problem.with_help("name them in `measures` of a family, or leave its `measures` out"));
+    }
+    let parsed = |value: &TomlValue| value.get_ref().as_str().and_then(|text| Expression::parse(text).ok());
+    let emphasis = emphasis_of(parsed(sort).as_ref(), filter.and_then(parsed).as_ref());
+    Some(PlannedList { title: title?, note: note?, count: count?, per_geometry: per_geometry?, emphasis, criteria })
+}

@@ -1,0 +1,178 @@
+//! The finding charts of a book: small drawings of the curves of a family over its grid.
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+
+use super::super::{Error, Options, check_interrupt};
+use super::part::{BookFamily, FamilyPart};
+use crate::manifest::Plan;
+use crate::pipeline::{curves_by_page, measures_used_on_pages};
+use coupler_curves::expression::round_to_six_digits;
+use coupler_curves::family::{Axis, ParameterSpace};
+use coupler_curves::motion::Sampler;
+use coupler_drawing::page::Layout;
+use coupler_drawing::page::book::{self, Emphasis, FindingCell, FindingChart, Miniature};
+
+/// A name with its value, as in "A = 1.5".
+pub(super) fn assignment(names: &[String], slot: usize, value: f64) -> String {
+    format!("{} = {}", names.get(slot).map_or("", String::as_str), round_to_six_digits(value))
+}
+
+/// The most cells in the charts of a family: a chart of more is not for eyes.
+const MAX_CELLS: usize = 6000;
+
+/// The most pages of the charts of a family.
+const MAX_PAGES: usize = 60;
+
+/// The finding charts of a family with these chapters; none unless one to three parameters of its grid vary.
+///
+/// The first of them varies from row to row, the second from column to column, the third from page to page. The cells of a grid in which one
+/// varies follow one another.
+///
+/// Titles name the family if `names_family`.
+pub(super) fn finding_charts(
+    parts: &[&FamilyPart],
+    names_family: bool,
+    (plan, options): (&Plan, &Options),
+) -> Result<Vec<FindingChart>, Error> {
+    let Some(family) = parts.first().map(|part| part.family) else { return Ok(Vec::new()) };
+    let planned = family.pipeline.composer.planned;
+    let ParameterSpace::Grid(axes) = &planned.family.space else { return Ok(Vec::new()) };
+    let varying: Vec<usize> = (0..axes.len()).filter(|&k| axes[k].values.len() > 1).collect();
+    let count: usize = parts.iter().map(|part| part.cells.len()).sum();
+    if !matches!(varying.len(), 1..=3) || planned.chart.is_some() || !(2..=MAX_CELLS).contains(&count) {
+        return Ok(Vec::new());
+    }
+    let per_cell = match planned.layout {
+        Layout::CouplerGrid => planned.family.template.curve_count().div_ceil(Layout::POINTS_PER_PAGE),
+        _ => 1,
+    };
+    let grid = ChartGrid { axes, varying: &varying, most: book::max_chart_grid(per_cell, &plan.page) };
+    // In the order of the grid, whatever the order of pages.
+    let first_pages = |part: &&FamilyPart| -> Vec<(usize, usize)> {
+        part.cells.iter().enumerate().map(|(k, cell)| (cell, part.pages_before + part.first_page(k))).collect()
+    };
+    let cells: BTreeMap<usize, usize> = parts.iter().flat_map(first_pages).collect();
+    let mut pages: BTreeMap<[usize; 3], Vec<(usize, [usize; 2])>> = BTreeMap::new();
+    for (sequence, &cell) in cells.keys().enumerate() {
+        let (page, place) = grid.place(cell, sequence);
+        pages.entry(page).or_default().push((cell, place));
+    }
+    if pages.len() > MAX_PAGES {
+        return Ok(Vec::new());
+    }
+    let mut drawn: BTreeMap<usize, Vec<(Miniature, usize)>> = draw_cells(family, &cells, options)?;
+    let names = &planned.family.names;
+    let label = |axis: usize, k: usize| {
+        let value = axes[axis].values.get(k).unwrap_or(f64::NAN);
+        assignment(names, axes[axis].slot, value)
+    };
+    let shown = match planned.layout {
+        Layout::CouplerGrid => "The curve of the middle point of each page, as large as it fits; below it the page.",
+        _ => "The first curve of each linkage, as large as it fits; below it the page.",
+    };
+    // The charts of a value need numbers if they are divided.
+    let values = if let [_, _, axis] = varying[..] { axes[axis].values.len() } else { 1 };
+    let is_numbered = pages.len() > values;
+    let chart = |(number, (page, placed)): (usize, ([usize; 3], Vec<(usize, [usize; 2])>))| {
+        let value = if let [_, _, axis] = varying[..] { Some(label(axis, page[0])) } else { None };
+        let family = names_family.then(|| planned.family.title.clone());
+        let parts: Vec<String> = family.into_iter().chain(value).collect();
+        let number = is_numbered.then(|| format!("({})", number + 1));
+        let title = [Some(parts.join(": ")).filter(|title| !title.is_empty()), number];
+        let title = title.into_iter().flatten().collect::<Vec<_>>().join(" ");
+        let (rows, columns) = grid.labels(page, &label);
+        let cell = |(cell, place): (usize, [usize; 2])| FindingCell {
+            place,
+            label: if let [axis] = varying[..] { label(axis, grid.index(cell, axis)) } else { String::new() },
+            curves: drawn.remove(&cell).unwrap_or_default(),
+        };
+        let cells = placed.into_iter().map(cell).collect();
+        FindingChart { title, note: shown.to_owned(), symbols: names.clone(), columns, rows, cells }
+    };
+    Ok(pages.into_iter().enumerate().map(chart).collect())
+}
+
+/// How the cells of a grid are distributed over charts.
+struct ChartGrid<'a> {
+    axes: &'a [Axis],
+    /// The axes with several values: one to three.
+    varying: &'a [usize],
+    /// The most columns and rows of a page.
+    most: [usize; 2],
+}
+
+impl ChartGrid<'_> {
+    /// The index of a cell's value on an axis.
+    fn index(&self, cell: usize, axis: usize) -> usize {
+        let stride: usize = self.axes[axis + 1..].iter().map(|axis| axis.values.len()).product();
+        cell / stride.max(1) % self.axes[axis].values.len().max(1)
+    }
+
+    /// The rows and columns of the parts into which a table is divided: as even as possible.
+    fn part_sizes(&self) -> [usize; 2] {
+        let size = |axis: usize, most: usize| {
+            let count = self.axes[axis].values.len();
+            count.div_ceil(count.div_ceil(most))
+        };
+        let [columns, rows] = self.most;
+        match *self.varying {
+            [row, column, ..] => [size(row, rows), size(column, columns)],
+            _ => [rows, columns],
+        }
+    }
+
+    /// The page of a cell, and its row and column there; `sequence` is its place among all cells.
+    fn place(&self, cell: usize, sequence: usize) -> ([usize; 3], [usize; 2]) {
+        let [rows, columns] = self.part_sizes();
+        let [row, column, page] = match *self.varying {
+            [row, column, ref rest @ ..] => {
+                let page = rest.first().map_or(0, |&axis| self.index(cell, axis));
+                [self.index(cell, row), self.index(cell, column), page]
+            }
+            _ => [sequence / columns, sequence % columns, 0],
+        };
+        ([page, row / rows, column / columns], [row % rows, column % columns])
+    }
+
+    /// The labels of the rows and columns of a page.
+    fn labels(
+        &self,
+        [_, row_part, column_part]: [usize; 3],
+        label: &dyn Fn(usize, usize) -> String,
+    ) -> (Vec<String>, Vec<String>) {
+        let [row, column, ..] = *self.varying else { return Default::default() };
+        let [rows, columns] = self.part_sizes();
+        let labels = |axis: usize, part: usize, size: usize| {
+            let count = self.axes[axis].values.len();
+            (part * size..count.min((part + 1) * size)).map(|k| label(axis, k)).collect()
+        };
+        (labels(row, row_part, rows), labels(column, column_part, columns))
+    }
+}
+
+/// The drawings of cells, each with its page: of a coupler grid the middle curve of each page, otherwise the first curve.
+fn draw_cells(
+    family: &BookFamily,
+    cells: &BTreeMap<usize, usize>,
+    options: &Options,
+) -> Result<BTreeMap<usize, Vec<(Miniature, usize)>>, Error> {
+    let planned = family.pipeline.composer.planned;
+    let sampler = Sampler::new(planned.family.sampling);
+    let measures = measures_used_on_pages(planned);
+    let draw = |(&cell, &first_page): (&usize, &usize)| {
+        check_interrupt(&options.interrupt)?;
+        let Some(solved) = family.solve(&sampler, cell, &measures) else { return Ok((cell, Vec::new())) };
+        let pages = match planned.layout {
+            Layout::CouplerGrid => curves_by_page(&solved),
+            _ => vec![(0..solved.curves.len()).take(1).collect()],
+        };
+        let drawing = |(page, curves): (usize, &Vec<usize>)| {
+            let curve = solved.curves.get(*curves.get(curves.len() / 2)?)?;
+            Some((Miniature::new(&solved, curve, Emphasis::None), page))
+        };
+        Ok((cell, (first_page..).zip(&pages).filter_map(drawing).collect()))
+    };
+    cells.par_iter().map(draw).collect()
+}

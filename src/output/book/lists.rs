@@ -1,0 +1,101 @@
+//! The lists of the best curves of a book.
+
+use std::collections::BTreeSet;
+
+use rayon::prelude::*;
+
+use super::super::survey::{self, Candidate};
+use super::super::{Error, Options, check_interrupt};
+use super::part::{BookFamily, CellPlaces, FamilyPart, find_cells};
+use crate::manifest::{Plan, PlannedList};
+use coupler_curves::motion::Sampler;
+use coupler_curves::solve;
+use coupler_drawing::page::Layout;
+use coupler_drawing::page::book::{CurveList, Emphasis, ListEntry, Miniature};
+
+/// The lists of a book, without those that have no entry.
+pub(super) fn curve_lists(
+    plan: &Plan,
+    families: &[BookFamily],
+    parts: &[FamilyPart],
+    options: &Options,
+) -> Result<Vec<CurveList>, Error> {
+    let best = |number: usize, list: &PlannedList| {
+        let candidates = families.iter().filter_map(|family| family.survey.candidates.get(number));
+        let mut found: Vec<Candidate> = candidates.flatten().cloned().collect();
+        survey::keep_first(&mut found, list.count);
+        found
+    };
+    let found: Vec<Vec<Candidate>> = plan.book.lists.iter().enumerate().map(|(k, list)| best(k, list)).collect();
+    let wanted: BTreeSet<(usize, u32)> = found.iter().flatten().map(|entry| (entry.family, entry.cell)).collect();
+    let places = find_cells(parts, &wanted);
+    let mut lists = Vec::new();
+    for (list, found) in plan.book.lists.iter().zip(found) {
+        let entry = |candidate: &Candidate| {
+            check_interrupt(&options.interrupt)?;
+            let family = families.iter().find(|family| family.number == candidate.family);
+            Ok(family.and_then(|family| list_entry(list, candidate, family, &places)))
+        };
+        let entries: Vec<Option<ListEntry>> = found.par_iter().map(entry).collect::<Result<_, Error>>()?;
+        let entries: Vec<ListEntry> = entries.into_iter().flatten().collect();
+        if !entries.is_empty() {
+            lists.push(CurveList { title: list.title.clone(), note: note(list), entries });
+        }
+    }
+    Ok(lists)
+}
+
+/// What is listed, and how many curves of a linkage.
+fn note(list: &PlannedList) -> String {
+    let most = match list.per_geometry {
+        1 if list.emphasis == Emphasis::Limits => "Each linkage once".to_owned(),
+        1 => "The best curve of each linkage".to_owned(),
+        most => format!("The best {most} curves of each linkage"),
+    };
+    [list.note.as_str(), &format!("{most}, at most {} in all.", list.count)].join(" ").trim().to_owned()
+}
+
+fn list_entry(
+    list: &PlannedList,
+    candidate: &Candidate,
+    family: &BookFamily,
+    places: &CellPlaces,
+) -> Option<ListEntry> {
+    let planned = family.pipeline.composer.planned;
+    let own = &planned.family;
+    let &(chapter, first_page) = places.get(&(candidate.family, candidate.cell))?;
+    let curve = &candidate.curve;
+    let sampler = Sampler::new(own.sampling);
+    let measured = (vec![curve.clone()], 0);
+    let solved = solve::solve_measured(own, &sampler, candidate.cell as usize, measured)?;
+    let drawing = Miniature::new(&solved, curve, list.emphasis);
+    let [caption, _] = own.format_captions(&solved.cell, &curve.values);
+    let criteria = list.criteria.get(candidate.family)?.as_ref()?;
+    let said = own.format_caption(&criteria.caption, &solved.cell, &curve.values);
+    let mut lines: Vec<String> = said.split(" · ").map(str::to_owned).collect();
+    if let Some(input) = drawing.sharpest_input {
+        let unit = solved.linkage.input().unit_sign();
+        // Where the input turns fully, it is less than a turn.
+        let input = if solved.circuit(curve).is_full_turn() { input.rem_euclid(360.0) } else { input };
+        lines.insert(lines.len().min(1), format!("at input {input:.1}{unit}"));
+    }
+    if let Some(lift) = drawing.dwell_lift {
+        lines.insert(lines.len().min(2), format!("lift {lift:.3}"));
+    }
+    let noun = if planned.layout == Layout::CouplerGrid { "point" } else { "curve" };
+    // The limits of the output are those of the linkage.
+    let is_of_linkage = list.emphasis == Emphasis::Limits;
+    let has_many = solved.linkage.traced.len() > 1 && !is_of_linkage;
+    let has_circuits = solved.motion.circuits.len() > 1;
+    let which = has_many.then(|| format!("{noun} {}", curve.trace));
+    let circuit = has_circuits.then(|| format!("circuit {}", curve.circuit));
+    let which: Vec<String> = which.into_iter().chain(circuit).collect();
+    Some(ListEntry {
+        drawing,
+        chapter,
+        caption,
+        curve: which.join(", "),
+        lines,
+        page: first_page + if is_of_linkage { 0 } else { candidate.page_offset },
+    })
+}

@@ -1,0 +1,393 @@
+//! Writes the pages of families as a book, in one or several volumes.
+//!
+//! The book is written whole if any page of it has changed. First its cells are surveyed, unless they have been while the tables
+//! were written: pages in front of the plates say where curves are that are found only then.
+
+mod charts;
+mod lists;
+mod part;
+
+use std::path::Path;
+
+use super::inputs::Inputs;
+use super::journal::{Journal, JournalFile};
+use super::survey::{CellSurvey, FamilySurvey, Surveyor};
+use super::{Error, Event, Options, check_interrupt, files, previous_run};
+use crate::manifest::{Plan, PlannedFamily};
+use crate::pipeline::{Composer, FamilyPipeline, curves_by_page, measures_used_on_pages};
+use crate::record::{BookRecord, Digest, FileRecord};
+use crate::sweep::{self, CellGroups};
+use coupler_curves::motion::Sampler;
+use coupler_curves::solve::SolvedCell;
+use coupler_drawing::page::book::{self, Atlas, HowToRead, PageFinisher, Volume};
+use coupler_drawing::page::{self, Layout, PanelPage};
+use coupler_drawing::render::{Format, pdf};
+use coupler_drawing::scene::Scene;
+use part::{BookFamily, FamilyPart};
+
+/// The name and version of the program in the metadata of a book.
+const PROGRAM: &str = concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION"));
+
+/// The families of the book that this run writes, with their places in the plan.
+///
+/// If the run is restricted to some families, their book is written only if the run also names the formats.
+fn selected_families<'a>(plan: &'a Plan, options: &Options) -> Vec<(usize, &'a PlannedFamily)> {
+    let is_in_book = |(_, planned): &(usize, &PlannedFamily)| {
+        let formats = options.formats.as_ref().unwrap_or(&planned.formats);
+        let is_selected = options.only.is_empty() || options.only.contains(&planned.family.id);
+        is_selected && formats.contains(&Format::Pdf)
+    };
+    plan.families.iter().enumerate().filter(is_in_book).collect()
+}
+
+/// Whether this run leaves the book as it is.
+fn is_left_alone(selected: &[(usize, &PlannedFamily)], options: &Options) -> bool {
+    options.formats.is_none() && !options.only.is_empty() || options.formats.is_some() && selected.is_empty()
+}
+
+fn inputs_digest(plan: &Plan, selected: &[(usize, &PlannedFamily)]) -> Digest {
+    let families: Vec<&PlannedFamily> = selected.iter().map(|(_, planned)| *planned).collect();
+    Inputs::book_digest(&families, plan.volume_pages, &plan.book.manifest_inputs)
+}
+
+/// Whether a recorded book is up to date.
+fn is_unchanged(record: &BookRecord, inputs_sha256: Digest, output: &Path, options: &Options) -> bool {
+    let is_intact = |file: &FileRecord| file.inputs_sha256.is_some() && files::is_intact(output, file);
+    !options.force && record.inputs_sha256 == Some(inputs_sha256) && record.files.iter().all(is_intact)
+}
+
+/// Which families of the plan are surveyed for a book while their tables are written.
+pub(super) fn families_to_survey(plan: &Plan, output: &Path, options: &Options, journal: &Journal) -> Vec<bool> {
+    let selected = selected_families(plan, options);
+    let mut is_surveyed = vec![false; plan.families.len()];
+    let is_unchanged = |record: &BookRecord| is_unchanged(record, inputs_digest(plan, &selected), output, options);
+    if !is_left_alone(&selected, options) && !journal.book().is_some_and(is_unchanged) {
+        selected.iter().for_each(|(k, planned)| is_surveyed[*k] = planned.chart.is_none());
+    }
+    is_surveyed
+}
+
+/// Writes the book of all families with the format `pdf`, unless it is up to date. Of some families there are surveys, by their
+/// places in the plan.
+pub(super) fn write(
+    plan: &Plan,
+    output: &Path,
+    options: &Options,
+    (journal, surveys): (&mut Journal, Vec<Option<FamilySurvey>>),
+    report: &mut dyn FnMut(Event),
+) -> Result<(), Error> {
+    let selected = selected_families(plan, options);
+    if is_left_alone(&selected, options) {
+        return Ok(());
+    }
+    let earlier = journal.book().cloned();
+    if selected.is_empty() {
+        if earlier.is_some() {
+            journal.file()?;
+        }
+        remove_stale_volumes(earlier.as_ref(), &[], output)?;
+        return journal.set_book(None);
+    }
+    let inputs_sha256 = inputs_digest(plan, &selected);
+    if let Some(record) = earlier.as_ref().filter(|record| is_unchanged(record, inputs_sha256, output, options)) {
+        report(Event::Book { record, is_drawn: false });
+        return Ok(());
+    }
+    // From here on, the files of an earlier run may be replaced at any time.
+    let earlier_files = earlier.iter().flat_map(|earlier| earlier.files.clone()).collect();
+    journal.set_book(Some(BookRecord { inputs_sha256: None, pages: 0, files: earlier_files }))?;
+    let families = book_families(plan, &selected, surveys, options)?;
+    let files = write_volumes(plan, &families, (output, inputs_sha256, &*journal.file()?), options, report)?;
+    let pages = files.iter().map(|(_, pages)| pages).sum();
+    let files: Vec<FileRecord> = files.into_iter().map(|(file, _)| file).collect();
+    remove_stale_volumes(earlier.as_ref(), &files, output)?;
+    let record = BookRecord { inputs_sha256: Some(inputs_sha256), pages, files };
+    report(Event::Book { record: &record, is_drawn: true });
+    journal.set_book(Some(record))
+}
+
+fn remove_stale_volumes(earlier: Option<&BookRecord>, current: &[FileRecord], output: &Path) -> Result<(), Error> {
+    let known = earlier.iter().flat_map(|record| &record.files).map(|file| file.name.as_str());
+    files::remove_files(output, known.filter(|name| current.iter().all(|file| file.name != **name)))
+}
+
+/// The approximate memory of the pages of a volume, which is written when it is complete, in bytes.
+const MAX_VOLUME_BYTES: usize = 150_000_000;
+/// The memory of a page of a book, and of each curve on it, in bytes.
+const BYTES_PER_BOOK_PAGE: usize = 4_000;
+const BYTES_PER_BOOK_CURVE: usize = 6_000;
+
+/// The most pages of a volume for which it fits memory.
+fn max_volume_pages(selected: &[&PlannedFamily]) -> usize {
+    let bytes = |planned: &&PlannedFamily| {
+        let curves = match planned.layout {
+            Layout::Panels { .. } => planned.layout.cells_per_page() * planned.family.template.curve_count(),
+            Layout::CouplerGrid => Layout::POINTS_PER_PAGE,
+            Layout::Chart { .. } => 0,
+        };
+        BYTES_PER_BOOK_PAGE + curves * BYTES_PER_BOOK_CURVE
+    };
+    (MAX_VOLUME_BYTES / selected.iter().map(bytes).max().unwrap_or(BYTES_PER_BOOK_PAGE)).max(1)
+}
+
+/// What is known of the families of a book, of which some have been surveyed while their tables were written.
+fn book_families<'a>(
+    plan: &'a Plan,
+    selected: &[(usize, &'a PlannedFamily)],
+    mut surveys: Vec<Option<FamilySurvey>>,
+    options: &Options,
+) -> Result<Vec<BookFamily<'a>>, Error> {
+    let family = |&(number, planned): &(usize, &'a PlannedFamily)| {
+        let mut pipeline = FamilyPipeline::new(plan, planned, &options.interrupt).ok_or(Error::Interrupted)?;
+        // Pages have the numbers of the book only.
+        pipeline.composer.page_count = 1;
+        let survey = match surveys.get_mut(number).and_then(Option::take) {
+            Some(survey) => survey,
+            None => survey_family(plan, number, &pipeline, options)?,
+        };
+        Ok(BookFamily { number, pipeline, survey })
+    };
+    selected.iter().map(family).collect()
+}
+
+/// Surveys the cells of a family.
+fn survey_family(
+    plan: &Plan,
+    number: usize,
+    pipeline: &FamilyPipeline,
+    options: &Options,
+) -> Result<FamilySurvey, Error> {
+    let planned = pipeline.composer.planned;
+    let mut survey = FamilySurvey::default();
+    if planned.chart.is_some() {
+        return Ok(survey);
+    }
+    let surveyor = Surveyor::new(planned, &plan.book, number);
+    let groups = CellGroups {
+        cells: &pipeline.arrangement.kept,
+        first_group: 0,
+        size: pipeline.pagination.group_size,
+        work_bytes: 0,
+        requested_measures: None,
+        solve_known: None,
+    };
+    let work = |_, solved: Vec<SolvedCell>| {
+        check_interrupt(&options.interrupt)?;
+        Ok(surveyor.survey(&solved))
+    };
+    sweep::process_groups(&planned.family, groups, work, |surveyed: Result<Vec<CellSurvey>, Error>| {
+        survey.add(surveyed?, &plan.book);
+        Ok(())
+    })?;
+    Ok(survey)
+}
+
+/// Composes all pages and writes the volumes in order; returns their records and page counts.
+fn write_volumes(
+    plan: &Plan,
+    families: &[BookFamily],
+    (output, inputs_sha256, journal): (&Path, Digest, &JournalFile),
+    options: &Options,
+    report: &mut dyn FnMut(Event),
+) -> Result<Vec<(FileRecord, usize)>, Error> {
+    let mut parts: Vec<FamilyPart> = Vec::new();
+    let mut page_count = 0;
+    for family in families {
+        let own = part::family_parts(family, &plan.book, page_count);
+        page_count += own.iter().map(FamilyPart::page_count).sum::<usize>();
+        parts.extend(own);
+    }
+    report(Event::Begin { family: "book", pages: page_count });
+    let selected: Vec<&PlannedFamily> = families.iter().map(|family| family.pipeline.composer.planned).collect();
+    let atlas = atlas(plan, families, &parts, options)?;
+    let first = families.iter().find(|family| family.pipeline.composer.planned.chart.is_none()).and_then(first_cell);
+    let frontispiece = first.as_ref().map(|(composer, solved)| composer.frontispiece(solved));
+    let volumes = atlas.volumes(plan.volume_pages.min(max_volume_pages(&selected)), &plan.page);
+    let mut writer = BookWriter {
+        plan,
+        atlas: &atlas,
+        frontispiece: frontispiece.as_ref(),
+        output,
+        inputs_sha256,
+        journal,
+        remaining_volumes: volumes.iter(),
+        open_volume: None,
+        files: Vec::new(),
+    };
+    writer.open_next_volume()?;
+    for part in &parts {
+        part.compose_pages(options, &mut |scenes: Vec<Scene>| {
+            for scene in scenes {
+                writer.add_page(scene)?;
+                report(Event::Page);
+            }
+            Ok(())
+        })?;
+    }
+    writer.close_volume()?;
+    Ok(writer.files)
+}
+
+/// The atlas with everything that a curve is found by.
+fn atlas<'a>(
+    plan: &'a Plan,
+    families: &[BookFamily],
+    parts: &'a [FamilyPart],
+    options: &Options,
+) -> Result<Atlas<'a>, Error> {
+    let book = &plan.book;
+    let mut atlas = Atlas::new(&plan.title, PROGRAM, parts.iter().map(FamilyPart::chapter).collect());
+    atlas.names_families = families.len() > 1;
+    atlas.lists = lists::curve_lists(plan, families, parts, options)?;
+    for family in families.iter().filter(|_| book.finding_charts) {
+        let own: Vec<&FamilyPart> = parts.iter().filter(|part| part.family.number == family.number).collect();
+        atlas.charts.extend(charts::finding_charts(&own, families.len() > 1, (plan, options))?);
+    }
+    let entries = |family: &BookFamily| -> Vec<(usize, u32)> {
+        family.survey.index.iter().map(|(cell, _)| (family.number, *cell)).collect()
+    };
+    let places = part::find_cells(parts, &families.iter().flat_map(entries).collect());
+    for family in families {
+        let placed = family.survey.index.iter().filter_map(|(cell, entry)| {
+            let &(chapter, first_page) = places.get(&(family.number, *cell))?;
+            Some(entry.clone().placed(chapter, first_page))
+        });
+        atlas.index.extend(placed);
+    }
+    if book.thumb_index {
+        atlas.tabs = parts.iter().flat_map(|part| part.tabs(families.len() == 1)).collect();
+        if atlas.tabs.len() > MAX_TABS {
+            atlas.tabs.clear();
+        }
+    }
+    if book.how_to_read {
+        atlas.how_to_read = how_to_read(plan, parts);
+    }
+    Ok(atlas)
+}
+
+/// The most marks of a thumb index, without lists and index: more are too small to be found.
+const MAX_TABS: usize = 40;
+
+/// The plate that two pages of the book explain: that of the middle cell of the first chapter with curves.
+fn how_to_read(plan: &Plan, parts: &[FamilyPart]) -> Option<HowToRead> {
+    let part = parts.iter().find(|part| part.family.pipeline.composer.planned.chart.is_none())?;
+    let FamilyPipeline { composer, pagination, .. } = &part.family.pipeline;
+    let family = &composer.planned.family;
+    let sampler = Sampler::new(family.sampling);
+    let measures = measures_used_on_pages(composer.planned);
+    let size = pagination.group_size;
+    let first = part.cells.len() / 2 / size * size;
+    let cells = (first..first + size).filter_map(|k| part.cells.get(k));
+    let mut solved: Vec<SolvedCell> = cells.filter_map(|cell| part.family.solve(&sampler, cell, &measures)).collect();
+    if let (Layout::CouplerGrid, [solved]) = (composer.planned.layout, &mut solved[..]) {
+        keep_middle_page(solved);
+    }
+    let curve_name = solved.iter().find_map(|solved| {
+        let curve = solved.curves.get(solved.curves.len() / 2)?;
+        Some(format!("{}:{}.{}", family.id, solved.cell.number, curve.trace))
+    });
+    let shown = solved.first()?;
+    let period = page::dash_period(&shown.linkage, &shown.motion.circuits, &plan.page);
+    let unit = shown.linkage.input().unit_sign();
+    Some(HowToRead {
+        plate: part::compose_group(composer, &solved).into_iter().next()?,
+        layout: composer.planned.layout,
+        dash: format!("{period}{unit} of input"),
+        curve_name: curve_name.unwrap_or_default(),
+    })
+}
+
+/// Leaves only the curves of the middle page of a cell of a coupler grid.
+fn keep_middle_page(solved: &mut SolvedCell) {
+    let pages = curves_by_page(solved);
+    let shown = &pages[pages.len() / 2];
+    solved.curves = shown.iter().map(|&k| solved.curves[k].clone()).collect();
+}
+
+/// The first cell of a family that has a curve, among its first hundred; of a coupler grid, with the curves of the
+/// middle page only.
+fn first_cell<'a>(family: &'a BookFamily) -> Option<(&'a Composer<'a>, SolvedCell)> {
+    let FamilyPipeline { composer, arrangement, .. } = &family.pipeline;
+    let sampler = Sampler::new(composer.planned.family.sampling);
+    let measures = measures_used_on_pages(composer.planned);
+    let order = arrangement.page_order();
+    let solved = order.iter().filter_map(|cell| family.solve(&sampler, cell, &measures));
+    let mut solved = solved.take(100).find(|solved| !solved.curves.is_empty())?;
+    if composer.planned.layout == Layout::CouplerGrid {
+        keep_middle_page(&mut solved);
+    }
+    Some((composer, solved))
+}
+
+/// Writes the volumes of a book, one after another.
+struct BookWriter<'a> {
+    plan: &'a Plan,
+    atlas: &'a Atlas<'a>,
+    frontispiece: Option<&'a PanelPage<'a>>,
+    output: &'a Path,
+    inputs_sha256: Digest,
+    journal: &'a JournalFile,
+    /// The volumes not begun yet.
+    remaining_volumes: std::slice::Iter<'a, Volume>,
+    open_volume: Option<OpenVolume<'a>>,
+    /// The finished volumes, each with its page count.
+    files: Vec<(FileRecord, usize)>,
+}
+
+/// A volume that is being written.
+struct OpenVolume<'a> {
+    volume: &'a Volume,
+    book: pdf::Book,
+    /// The number of pages of front matter.
+    front_pages: usize,
+    finisher: PageFinisher<'a>,
+}
+
+impl<'a> BookWriter<'a> {
+    /// Adds a page of a family; opens the next volume if this one is full.
+    fn add_page(&mut self, mut scene: Scene) -> Result<(), Error> {
+        let is_full = |open: &OpenVolume| open.book.page_count() == open.front_pages + open.volume.page_count;
+        if self.open_volume.as_ref().is_some_and(is_full) {
+            self.close_volume()?;
+            self.open_next_volume()?;
+        }
+        let Some(open) = &mut self.open_volume else { return Ok(()) };
+        let label = open.finisher.finish(&mut scene, open.book.page_count());
+        open.book.add_page(&scene, label).map_err(Error::Book)
+    }
+
+    /// Opens the next volume.
+    fn open_next_volume(&mut self) -> Result<(), Error> {
+        let Some(volume) = self.remaining_volumes.next() else { return Ok(()) };
+        let mut book = pdf::Book::new(self.atlas.title, PROGRAM);
+        let front = book::compose_front_matter(self.atlas, volume, self.frontispiece, &self.plan.page);
+        for (place, scene) in front.iter().enumerate() {
+            book.add_page(scene, book::page_number(volume, front.len(), place)).map_err(Error::Book)?;
+        }
+        let finisher = PageFinisher::new(self.atlas, volume, front.len(), &self.plan.page);
+        self.open_volume = Some(OpenVolume { volume, book, front_pages: front.len(), finisher });
+        Ok(())
+    }
+
+    /// Adds the back matter to the open volume, and writes it.
+    fn close_volume(&mut self) -> Result<(), Error> {
+        let Some(OpenVolume { volume, mut book, front_pages: front, .. }) = self.open_volume.take() else {
+            return Ok(());
+        };
+        for scene in &book::compose_back_matter(self.atlas, volume, front, &self.plan.page) {
+            let label = book::page_number(volume, front, book.page_count());
+            book.add_page(scene, label).map_err(Error::Book)?;
+        }
+        let pages = book.page_count();
+        let outline = book::outline(self.atlas, volume, front, &self.plan.page);
+        let bytes = book.finish(&outline).map_err(Error::Book)?;
+        let name = previous_run::volume_name(volume);
+        let record = self.journal.replace_file("", &name, || {
+            files::write(&self.output.join(&name), &bytes)?;
+            Ok(FileRecord::from_book(name.clone(), &bytes).with_inputs(self.inputs_sha256))
+        })?;
+        self.files.push((record, pages));
+        Ok(())
+    }
+}

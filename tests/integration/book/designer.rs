@@ -1,0 +1,248 @@
+//! What a designer finds curves by in a book: charts, lists, thumb index, folios and links, compared with the tables.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+
+use super::reader::Pdf;
+use crate::folder::Atlas;
+
+const MANIFEST: &str = r#"
+[atlas]
+title = "Rockers"
+output = "out"
+formats = ["pdf"]
+[book]
+[[book.list]]
+title = "Straightest"
+where = "mu_worst_deg >= 20"
+sort = "-straight_length"
+caption = "over {straight_length:.4}"
+count = 12
+per_geometry = 2
+[[book.list]]
+title = "Returns"
+where = "time_ratio > 1.2"
+sort = "-time_ratio"
+caption = "ratio {time_ratio:.4}"
+[[book.list]]
+title = "None at all"
+where = "mu_worst_deg > 91"
+sort = "length"
+[[family]]
+id = "grid"
+linkage = "points"
+title = "Points"
+layout = "coupler-grid"
+sampling = { samples = 36 }
+grid = { A = [2, 2.5, 3], B = [2.5, 3, 3.5], C = [2, 2.5, 3] }
+where = "is_crank_rocker or is_change_point"
+[[linkage]]
+id = "points"
+parameters = { A = { min = 0 }, B = { min = 0 }, C = { min = 0 } }
+caption = "A = {A:.1} B = {B:.1} C = {C:.1}"
+trace = ["M"]
+continuation = "branch"
+[linkage.joints]
+O = { fixed = [0, 0] }
+Q = { fixed = ["C", 0] }
+P = { crank = "O", length = 1 }
+R = { dyad = ["P", "Q"], lengths = ["A", "B"], side = "left" }
+M = { point = ["P", "R"], along = { from = 0, to = "A", count = 3 }, across = { from = -1, to = 1, count = 5 } }
+"#;
+
+/// The texts of a page whose start is in a rectangle of a link, in points.
+fn texts_in(pdf: &Pdf, page: usize, [left, bottom, right, top]: [f64; 4]) -> Vec<String> {
+    let mm = |points: f64| points * 25.4 / 72.0;
+    let inside = |at: &[f64; 2]| {
+        at[0] > mm(left) - 1e-3 && at[0] < mm(right) && at[1] > mm(792.0 - top) && at[1] < mm(792.0 - bottom) + 1e-3
+    };
+    pdf.contents(page).texts.into_iter().filter(|(_, at, _)| inside(at)).map(|(text, ..)| text).collect()
+}
+
+/// The book of the manifest, and its index of parts: titles with the indices of their pages.
+fn book(arguments: &[&str]) -> (Atlas, Pdf, BTreeMap<String, usize>) {
+    let atlas = Atlas::new(MANIFEST);
+    let (code, _, err) = atlas.run(arguments);
+    assert_eq!(code, 0, "{err}");
+    let pdf = Pdf::read(&fs::read(atlas.out().join("atlas.pdf")).unwrap());
+    let parts = pdf.outline().into_iter().filter(|entry| entry.0 == 0).map(|(_, title, page)| (title, page)).collect();
+    (atlas, pdf, parts)
+}
+
+/// The rows of `cells.csv` as names with values.
+fn rows(atlas: &Atlas) -> Vec<BTreeMap<String, String>> {
+    let text = fs::read_to_string(atlas.out().join("grid/cells.csv")).unwrap();
+    let mut lines = text.lines().map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>());
+    let header = lines.next().unwrap();
+    lines.map(|line| header.iter().cloned().zip(line).collect()).collect()
+}
+
+fn number(row: &BTreeMap<String, String>, name: &str) -> f64 {
+    row[name].parse().unwrap_or(f64::NAN)
+}
+
+#[test]
+fn lists_have_the_best_curves_of_the_tables() {
+    let (atlas, pdf, parts) = book(&[]);
+    assert!(!parts.contains_key("None at all"), "a list without entries has no pages");
+    let mut rows = rows(&atlas);
+    rows.retain(|row| number(row, "mu_worst_deg") >= 20.0 && number(row, "straight_length") > 0.0);
+    rows.sort_by(|a, b| number(b, "straight_length").total_cmp(&number(a, "straight_length")));
+    let mut taken: BTreeMap<String, usize> = BTreeMap::new();
+    rows.retain(|row| {
+        let count = taken.entry(row["cell"].clone()).or_default();
+        *count += 1;
+        *count <= 2
+    });
+    let expected: Vec<String> =
+        rows.iter().take(12).map(|row| format!("over {:.4}", number(row, "straight_length"))).collect();
+    let first = parts["Straightest"];
+    let pages = first..parts["Returns"];
+    let mut found = Vec::new();
+    for page in pages {
+        // Links of the thumb index lead out of the page, too; those of entries are in order.
+        for (corners, to) in pdf.links(page) {
+            let texts = texts_in(&pdf, page, corners);
+            let Some(said) = texts.iter().find(|text| text.starts_with("over ")) else { continue };
+            let row = &rows[found.len()];
+            let number = texts.iter().find_map(|text| text.strip_prefix("page ")).unwrap();
+            assert_eq!(pdf.labels()[to], format!("<</Type/PageLabel/S/D/St{number}>>"));
+            // The plate shows the linkage and the point.
+            let plate: String = pdf.contents(to).texts.into_iter().map(|(text, ..)| text + " ").collect();
+            let point = format!("point {}", row["trace"]);
+            assert!(texts.contains(&point), "{texts:?} {point}");
+            for name in ["A", "B", "C"] {
+                let value = format!(" = {:.1}", number_of(row, name));
+                assert!(plate.contains(&value), "{plate} {value}");
+            }
+            assert!(plate.split(' ').any(|word| word == row["trace"]), "{plate}");
+            found.push(said.clone());
+        }
+    }
+    assert_eq!(found, expected);
+}
+
+fn number_of(row: &BTreeMap<String, String>, name: &str) -> f64 {
+    number(row, name)
+}
+
+#[test]
+fn every_geometry_is_on_a_finding_chart_with_its_pages() {
+    let (atlas, pdf, parts) = book(&[]);
+    let charts: Vec<(String, usize)> = pdf
+        .outline()
+        .into_iter()
+        .filter(|entry| entry.0 == 1 && entry.1.starts_with("C = "))
+        .map(|(_, title, page)| (title, page))
+        .collect();
+    assert_eq!(charts.iter().map(|(title, _)| title.as_str()).collect::<Vec<_>>(), ["C = 2", "C = 2.5", "C = 3"]);
+    assert_eq!(parts["Finding charts"], charts[0].1);
+    let cells: BTreeSet<String> = rows(&atlas).iter().map(|row| row["cell"].clone()).collect();
+    let mut linked = BTreeSet::new();
+    for (title, page) in &charts {
+        for (corners, to) in pdf.links(*page) {
+            let texts = texts_in(&pdf, *page, corners);
+            // The marks of the thumb index have no number.
+            let Some(number) = texts.iter().find_map(|text| text.parse::<usize>().ok()) else { continue };
+            assert_eq!(pdf.labels()[to], format!("<</Type/PageLabel/S/D/St{number}>>"));
+            let plate: String = pdf.contents(to).texts.into_iter().map(|(text, ..)| text).collect();
+            let value: f64 = title.strip_prefix("C = ").unwrap().parse().unwrap();
+            assert!(plate.contains(&format!("= {value:.1}")), "{title}: {number} {texts:?} {corners:?} {to} {plate}");
+            assert!(linked.insert(number), "{number} is there twice");
+        }
+    }
+    // Fifteen points are on two pages.
+    assert_eq!(linked, (1..=2 * cells.len()).collect());
+}
+
+#[test]
+fn every_page_has_one_number_at_its_outer_corner_and_marks_of_the_thumb_index() {
+    let (_, pdf, parts) = book(&[]);
+    let labels = pdf.labels();
+    let front = labels.iter().position(|label| label.contains("/S/D")).unwrap();
+    assert!(front % 2 == 0, "the first plate is a right-hand page");
+    let tabs = ["A = 2", "A = 2.5", "A = 3", "change points", "lists", "index"];
+    for page in front..labels.len() {
+        let contents = pdf.contents(page);
+        let folio = (page - front + 1).to_string();
+        let below: Vec<_> = contents.texts.iter().filter(|(_, at, _)| at[1] > 273.0).collect();
+        assert_eq!(below.iter().map(|(text, ..)| text.as_str()).collect::<Vec<_>>(), [&folio], "page {page}");
+        assert_eq!(below[0].1[0] > 215.9, page % 2 == 0, "outer corner of page {page}");
+        let outside = |at: &[f64; 2]| if page % 2 == 0 { at[0] > 424.0 } else { at[0] < 7.8 };
+        let marks = contents.texts.iter().filter(|(_, at, _)| outside(at) && at[1] < 273.0);
+        assert_eq!(marks.map(|(text, ..)| text.as_str()).collect::<Vec<_>>(), tabs, "page {page}");
+    }
+    // Marks are links to the first page of each part.
+    let first_links: BTreeSet<usize> = pdf.links(front).into_iter().map(|(_, to)| to).collect();
+    assert!(first_links.contains(&parts["Points: change points"]), "{first_links:?} {parts:?}");
+    assert!(first_links.contains(&parts["Straightest"]) && first_links.contains(&parts["Index of geometries"]));
+}
+
+#[test]
+fn what_is_said_of_plates_is_right_for_the_atlas() {
+    let (_, pdf, parts) = book(&[]);
+    let said = |pdf: &Pdf, page: usize| -> String {
+        pdf.contents(page).texts.into_iter().map(|(text, ..)| text + " ").collect()
+    };
+    let first = parts["How to read this book"];
+    assert_eq!(first % 2, 1, "the two pages face each other");
+    let text = said(&pdf, first + 1);
+    assert!(text.contains("The table") && text.contains("5° of input") && text.contains("grid:"), "{text}");
+    assert!(text.contains("Straightest, page"), "{text}");
+    let panels = Atlas::new(
+        "[atlas]\ntitle = \"T\"\noutput = \"out\"\nformats = [\"pdf\"]\n[page]\ndash = \"10 deg\"\n[[family]]\nid = \"evans\"\n\
+         linkage = \"evans\"\nsampling = { samples = 24 }\npanels = [2, 1]\ngrid = { p = [2, 3, 4] }\nlet = { a = \"(1 + p)^1.5 / 2\" }",
+    );
+    assert_eq!(panels.run(&[]).0, 0);
+    let pdf = Pdf::read(&fs::read(panels.out().join("atlas.pdf")).unwrap());
+    let text = said(&pdf, 2);
+    assert!(text.contains("10° of input") && text.contains("in the caption of its figure"), "{text}");
+    assert!(!text.contains("The table") && !text.contains("The grid") && !text.contains("speed"), "{text}");
+}
+
+#[test]
+fn a_book_is_the_same_whether_its_cells_are_measured_with_the_tables_or_for_it() {
+    let (atlas, ..) = book(&["--jobs", "1"]);
+    let whole = fs::read(atlas.out().join("atlas.pdf")).unwrap();
+    // The tables are up to date, so that only the book is made.
+    fs::remove_file(atlas.out().join("atlas.pdf")).unwrap();
+    let (code, out, err) = atlas.run(&["--jobs", "3"]);
+    assert!(code == 0 && out.contains("(unchanged)"), "{out}{err}");
+    assert!(fs::read(atlas.out().join("atlas.pdf")).unwrap() == whole);
+}
+
+#[test]
+fn what_the_manifest_leaves_out_is_not_in_the_book() {
+    let keys = "[book]\nhow_to_read = false\nfinding_charts = false\nthumb_index = false\nindex = false\nlist = []\nchapter = []\n";
+    let (begin, rest) = MANIFEST.split_once("[book]").unwrap();
+    let families = &rest[rest.find("[[family]]").unwrap()..];
+    let atlas = Atlas::new(&[begin, keys, families].concat());
+    assert_eq!(atlas.run(&[]).0, 0);
+    let pdf = Pdf::read(&fs::read(atlas.out().join("atlas.pdf")).unwrap());
+    let parts: Vec<String> =
+        pdf.outline().into_iter().filter(|entry| entry.0 == 0).map(|(_, title, _)| title).collect();
+    assert_eq!(parts, ["Rockers", "Contents", "Points"]);
+}
+
+#[test]
+fn mistakes_in_the_table_are_reported_at_their_places() {
+    let problems = |book: &str| -> Vec<(String, String)> {
+        let text = MANIFEST.replacen("[book]", book, 1);
+        let loaded = coupler_atlas::manifest::parse(&text);
+        let place = |problem: &coupler_curves::problem::Problem| text[problem.span.clone()].to_owned();
+        loaded.problems.iter().map(|problem| (problem.message.clone(), place(problem))).collect()
+    };
+    let problem = |message: &str, place: &str| (message.to_owned(), place.to_owned());
+    assert_eq!(problems("[book]"), []);
+    let unknown = "[book]\n[[book.list]]\ntitle = \"T\"\nsort = \"-strait_length\"";
+    assert_eq!(problems(unknown), [problem("unknown name `strait_length`", "strait_length")]);
+    assert_eq!(
+        problems("[book]\nfinding_chart = true"),
+        [problem("[book] has no key `finding_chart`", "finding_chart")]
+    );
+    let chapter = "[book]\n[[book.chapter]]\ntitle = \"T\"\nwhere = \"A + 1\"";
+    assert_eq!(problems(chapter), [problem("expected a condition, found a numeric expression", "A +")]);
+    let caption = "[book]\n[[book.list]]\ntitle = \"T\"\nsort = \"A\"\ncaption = \"{aera:.2}\"\ncount = 0";
+    assert_eq!(problems(caption).len(), 2, "{:?}", problems(caption));
+    assert!(problems("[book]\n[[book.list]]\nsort = \"A\"")[0].0.contains("has no `title`"));
+}
