@@ -45,6 +45,7 @@ pub(super) struct Candidate {
     /// The index of its cell.
     pub cell: u32,
     /// The number of pages of the cell before that of the curve.
+    #[cfg_attr(not(feature = "pdf"), expect(dead_code, reason = "only books have pages in this order"))]
     pub page_offset: usize,
     pub curve: MeasuredCurve,
 }

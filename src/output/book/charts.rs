@@ -25,10 +25,16 @@ const MAX_CELLS: usize = 6000;
 /// The most pages of the charts of a family.
 const MAX_PAGES: usize = 60;
 
+/// The least number of plates for each page of charts.
+const LEAST_PLATES: usize = 5;
+
+/// Cells by their indices, with their rows and columns.
+type PlacedCells = Vec<(usize, [usize; 2])>;
+
 /// The finding charts of a family with these chapters; none unless one to three parameters of its grid vary.
 ///
-/// The first of them varies from row to row, the second from column to column, the third from page to page. The cells of a grid in which one
-/// varies follow one another.
+/// The first of them varies from row to row, the second from column to column, the third from page to page. The cells of a
+/// grid in which one varies follow one another.
 ///
 /// Titles name the family if `names_family`.
 pub(super) fn finding_charts(
@@ -48,18 +54,20 @@ pub(super) fn finding_charts(
         Layout::CouplerGrid => planned.family.template.curve_count().div_ceil(Layout::POINTS_PER_PAGE),
         _ => 1,
     };
-    let grid = ChartGrid { axes, varying: &varying, most: book::max_chart_grid(per_cell, &plan.page) };
+    let grid = ChartGrid { axes, varying: &varying, count, most: book::max_chart_grid(per_cell, &plan.page) };
     // In the order of the grid, whatever the order of pages.
     let first_pages = |part: &&FamilyPart| -> Vec<(usize, usize)> {
         part.cells.iter().enumerate().map(|(k, cell)| (cell, part.pages_before + part.first_page(k))).collect()
     };
     let cells: BTreeMap<usize, usize> = parts.iter().flat_map(first_pages).collect();
-    let mut pages: BTreeMap<[usize; 3], Vec<(usize, [usize; 2])>> = BTreeMap::new();
+    let mut pages: BTreeMap<[usize; 3], PlacedCells> = BTreeMap::new();
     for (sequence, &cell) in cells.keys().enumerate() {
         let (page, place) = grid.place(cell, sequence);
         pages.entry(page).or_default().push((cell, place));
     }
-    if pages.len() > MAX_PAGES {
+    // Charts serve to look at fewer pages.
+    let plates: usize = parts.iter().map(|part| part.page_count()).sum();
+    if pages.len() > MAX_PAGES || LEAST_PLATES * pages.len() > plates {
         return Ok(Vec::new());
     }
     let mut drawn: BTreeMap<usize, Vec<(Miniature, usize)>> = draw_cells(family, &cells, options)?;
@@ -72,14 +80,16 @@ pub(super) fn finding_charts(
         Layout::CouplerGrid => "The curve of the middle point of each page, as large as it fits; below it the page.",
         _ => "The first curve of each linkage, as large as it fits; below it the page.",
     };
+    let mut previous = None;
+    let mut part = 0;
     // The charts of a value need numbers if they are divided.
-    let values = if let [_, _, axis] = varying[..] { axes[axis].values.len() } else { 1 };
-    let is_numbered = pages.len() > values;
-    let chart = |(number, (page, placed)): (usize, ([usize; 3], Vec<(usize, [usize; 2])>))| {
+    let is_divided = pages.keys().any(|[_, row, column]| row + column > 0);
+    let chart = |(page, placed): ([usize; 3], PlacedCells)| {
         let value = if let [_, _, axis] = varying[..] { Some(label(axis, page[0])) } else { None };
         let family = names_family.then(|| planned.family.title.clone());
         let parts: Vec<String> = family.into_iter().chain(value).collect();
-        let number = is_numbered.then(|| format!("({})", number + 1));
+        part = if previous.replace(page[0]) == Some(page[0]) { part + 1 } else { 1 };
+        let number = is_divided.then(|| format!("({part})"));
         let title = [Some(parts.join(": ")).filter(|title| !title.is_empty()), number];
         let title = title.into_iter().flatten().collect::<Vec<_>>().join(" ");
         let (rows, columns) = grid.labels(page, &label);
@@ -91,7 +101,7 @@ pub(super) fn finding_charts(
         let cells = placed.into_iter().map(cell).collect();
         FindingChart { title, note: shown.to_owned(), symbols: names.clone(), columns, rows, cells }
     };
-    Ok(pages.into_iter().enumerate().map(chart).collect())
+    Ok(pages.into_iter().map(chart).collect())
 }
 
 /// How the cells of a grid are distributed over charts.
@@ -99,6 +109,8 @@ struct ChartGrid<'a> {
     axes: &'a [Axis],
     /// The axes with several values: one to three.
     varying: &'a [usize],
+    /// The number of cells that are shown.
+    count: usize,
     /// The most columns and rows of a page.
     most: [usize; 2],
 }
@@ -119,7 +131,11 @@ impl ChartGrid<'_> {
         let [columns, rows] = self.most;
         match *self.varying {
             [row, column, ..] => [size(row, rows), size(column, columns)],
-            _ => [rows, columns],
+            // As many columns as rows, and some more, since pages are wide.
+            _ => {
+                let columns = (1..columns).find(|columns| 3 * columns * columns >= 5 * self.count).unwrap_or(columns);
+                [rows.min(self.count.div_ceil(columns)).max(1), columns]
+            }
         }
     }
 

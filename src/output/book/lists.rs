@@ -50,7 +50,8 @@ fn note(list: &PlannedList) -> String {
     let most = match list.per_geometry {
         1 if list.emphasis == Emphasis::Limits => "Each linkage once".to_owned(),
         1 => "The best curve of each linkage".to_owned(),
-        most => format!("The best {most} curves of each linkage"),
+        2 => "The two best curves of each linkage".to_owned(),
+        most => format!("The {most} best curves of each linkage"),
     };
     [list.note.as_str(), &format!("{most}, at most {} in all.", list.count)].join(" ").trim().to_owned()
 }

@@ -269,30 +269,37 @@ fn atlas<'a>(
 /// The most marks of a thumb index, without lists and index: more are too small to be found.
 const MAX_TABS: usize = 40;
 
-/// The plate that two pages of the book explain: that of the middle cell of the first chapter with curves.
+/// The plate that two pages of the book explain: that of the middle cell of the first chapter with curves, or one of two panels.
 fn how_to_read(plan: &Plan, parts: &[FamilyPart]) -> Option<HowToRead> {
     let part = parts.iter().find(|part| part.family.pipeline.composer.planned.chart.is_none())?;
-    let FamilyPipeline { composer, pagination, .. } = &part.family.pipeline;
-    let family = &composer.planned.family;
+    let planned = part.family.pipeline.composer.planned;
+    let family = &planned.family;
+    // In many panels nothing has space for a number.
+    let layout = match planned.layout {
+        Layout::Panels { columns, .. } => Layout::Panels { columns: columns.min(2), rows: 1 },
+        layout => layout,
+    };
+    let shown = PlannedFamily { layout, ..planned.clone() };
+    let composer = Composer::new(plan, &shown, 1);
     let sampler = Sampler::new(family.sampling);
-    let measures = measures_used_on_pages(composer.planned);
-    let size = pagination.group_size;
+    let measures = measures_used_on_pages(planned);
+    let size = layout.cells_per_page();
     let first = part.cells.len() / 2 / size * size;
     let cells = (first..first + size).filter_map(|k| part.cells.get(k));
     let mut solved: Vec<SolvedCell> = cells.filter_map(|cell| part.family.solve(&sampler, cell, &measures)).collect();
-    if let (Layout::CouplerGrid, [solved]) = (composer.planned.layout, &mut solved[..]) {
+    if let (Layout::CouplerGrid, [solved]) = (layout, &mut solved[..]) {
         keep_middle_page(solved);
     }
     let curve_name = solved.iter().find_map(|solved| {
         let curve = solved.curves.get(solved.curves.len() / 2)?;
         Some(format!("{}:{}.{}", family.id, solved.cell.number, curve.trace))
     });
-    let shown = solved.first()?;
-    let period = page::dash_period(&shown.linkage, &shown.motion.circuits, &plan.page);
-    let unit = shown.linkage.input().unit_sign();
+    let first = solved.first()?;
+    let period = page::dash_period(&first.linkage, &first.motion.circuits, &plan.page);
+    let unit = first.linkage.input().unit_sign();
     Some(HowToRead {
-        plate: part::compose_group(composer, &solved).into_iter().next()?,
-        layout: composer.planned.layout,
+        plate: part::compose_group(&composer, &solved).into_iter().next()?,
+        layout,
         dash: format!("{period}{unit} of input"),
         curve_name: curve_name.unwrap_or_default(),
     })

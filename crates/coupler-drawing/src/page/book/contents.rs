@@ -1,6 +1,7 @@
 //! The contents of a volume.
 
 use super::columns::{Entry, Places, Row, Target};
+use super::folio::are_labelled;
 use super::{Atlas, BackMatter, CHARTS_TITLE, CellEntry, Chapter, Volume, charts_in, how_to_read};
 
 /// The most cells of a family that contents and outline list.
@@ -81,6 +82,11 @@ pub(super) fn ways_to_find(atlas: &Atlas, volume: &Volume, back_matter: &[BackMa
     }
     let by_dimensions = match &atlas.tabs[..] {
         [] => "By dimensions: the contents have every linkage with its page.".to_owned(),
+        tabs if !are_labelled(tabs.len() + 2) => {
+            "By dimensions: the contents have every linkage with its page, and the marks at the outer edges of the pages lead to its \
+             chapter."
+                .to_owned()
+        }
         [first, ..] => format!(
             "By dimensions: the contents have every linkage with its page, and the marks at the outer edges of the pages, such as \
              {}, lead to it.",

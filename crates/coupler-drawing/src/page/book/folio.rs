@@ -29,6 +29,11 @@ pub fn draw_folio(scene: &mut Scene, label: PageNumber, page_index: usize, optio
     root.record(&theme.text_line(&text, at, anchor, theme.source_size, theme.ink));
 }
 
+/// Whether so many marks have space for what they stand for.
+pub(super) fn are_labelled(count: usize) -> bool {
+    count <= 18
+}
+
 fn is_right_hand(page_index: usize) -> bool {
     page_index.is_multiple_of(2)
 }
@@ -54,6 +59,7 @@ pub(super) fn draw_tabs(
     // The border needs a line of its own.
     let width = theme.border - 2.0 * theme.fine_width;
     let size = theme.note_size.min(0.62 * width).min(0.8 * height);
+    let is_labelled = are_labelled(tabs.len());
     let is_right = is_right_hand(page_index);
     let left = if is_right { paper.x - width } else { 0.0 };
     let mut links = Vec::new();
@@ -67,6 +73,12 @@ pub(super) fn draw_tabs(
             let tab = Item::Path(Path { polylines, stroke: None, fill: Some(theme.ink) });
             root.record(&Drawing { class: "tab", title: String::new(), items: vec![tab] });
         }
+        if let Some(page_index) = link(tab.first_page).filter(|_| !is_current) {
+            links.push(PageLink { corner: Point::new(left, top), size: Vector::new(width, height), page_index });
+        }
+        if !is_labelled {
+            continue;
+        }
         let ink = if is_current { theme.paper } else { theme.grey };
         // The text reads from the outer edge, downwards on a right-hand page and upwards on the other.
         let (turns, shift) = if is_right { (1, -0.35) } else { (3, 0.35) };
@@ -74,9 +86,6 @@ pub(super) fn draw_tabs(
         let mut line = theme.text_line(&tab.label, at, Anchor::Middle, size, ink).fit_width(0.94 * height);
         line.text.quarter_turns = turns;
         root.record(&line);
-        if let Some(page_index) = link(tab.first_page).filter(|_| !is_current) {
-            links.push(PageLink { corner: Point::new(left, top), size: Vector::new(width, height), page_index });
-        }
     }
     drop(root);
     scene.links.extend(links);

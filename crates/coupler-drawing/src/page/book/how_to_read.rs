@@ -296,7 +296,7 @@ fn compose_plate(how: &HowToRead, atlas: &Atlas, shown: &[(&Part, Point)], optio
     heading::draw_border(&root, theme);
     let at = heading::draw_title(&root, TITLE, theme);
     let page = root.size();
-    let subtitle = "A plate of this book, reduced. The numbers are explained on the facing page.";
+    let subtitle = "A plate as in this book. The numbers are explained on the facing page.";
     root.record(
         &theme.text_line(subtitle, at, Anchor::Start, theme.source_size, theme.grey).fit_width(page.x - 2.0 * at.x),
     );

@@ -3,7 +3,8 @@
 //!
 //! A book is an [`Atlas`] of chapters. If it has more pages than a volume, it is divided into [`Volume`]s: files with front
 //! matter of their own; the back matter is in the last. Pages are numbered throughout the atlas, from 1. This module composes all
-//! pages but those of the families, and draws what is outside their borders with [`finish_page`].
+//! pages but those of the families, and draws what is outside their borders with a
+//! [`PageFinisher`].
 
 mod columns;
 mod contents;
