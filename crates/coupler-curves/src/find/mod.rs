@@ -32,6 +32,7 @@ mod curve_index;
 mod curve_path;
 mod fitting;
 mod index;
+mod linkage;
 mod lookup;
 mod manifest;
 mod matching;
@@ -58,6 +59,10 @@ pub use answer::{Answer, LENGTH_RATIOS, Quality};
 pub use curve_fit::{CurveFit, CurveFitOptions, CurveFitter, Placement};
 pub use curve_index::{CurveIndex, CurveLookup, CurveShape};
 pub use index::{Index, IndexPart};
+pub use linkage::{
+    LinkageFit, LinkageRefinement, LinkageSearch, LinkageSpace, LinkageSpaceError, SampleCurve, SampleIndex, SampleShape,
+    is_scalable, longest_link, pivots_of, scaled_values,
+};
 pub use manifest::answers_manifest;
 pub use mechanism::{Condition, Mechanism};
 pub use options::{Effort, Options};
