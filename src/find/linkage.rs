@@ -26,13 +26,14 @@ pub struct LinkageAnswer {
     pub family: Family,
 }
 
-/// The parameter sets in which a path is looked up unless another number is asked for, and the most.
-pub const DEFAULT_SAMPLES: usize = 10_000;
-/// The most parameter sets.
+/// The most parameter sets in which a path is looked up.
 pub const MAX_SAMPLES: usize = 1_000_000;
 
 /// The most curves of all parameter sets together.
 const MAX_CURVES: usize = 8_000_000;
+
+/// Linkages whose circuits are found slowly have so many times fewer starts.
+const SLOWER: usize = 3;
 
 /// The parameter sets of a piece of work, and how many are tried for each that is wanted: others cannot be assembled, or their input does
 /// not turn.
@@ -40,7 +41,10 @@ const PIECE: usize = 1024;
 const TRIES: usize = 8;
 
 /// The parts of the starts that are refined in each round, and the steps of a round.
-const ROUNDS: [(usize, usize); 4] = [(1, 6), (3, 12), (8, 40), (20, 150)];
+const ROUNDS: [(usize, usize); 4] = [(2, 6), (4, 12), (8, 40), (20, 150)];
+
+/// The steps in which the curves are placed before.
+const PLACING_STEPS: usize = 10;
 
 /// The samples of a circuit of an answer, as a family has them.
 const SAMPLES: usize = 360;
@@ -52,17 +56,22 @@ pub fn search_linkage(
     space: &LinkageSpace,
     target: &Target,
     options: &Options,
-    samples: usize,
+    samples: Option<usize>,
 ) -> (Vec<LinkageAnswer>, usize) {
     let search = LinkageSearch::new(space, target, options);
+    let samples = samples.unwrap_or_else(|| search.default_samples());
     let (mut index, curves) = build_index(&search, samples);
-    let starts = start_count(target, options);
+    // Few parameters have few minima.
+    let starts = start_count(target, options).min(samples / 10);
+    let starts = if search.is_slow() { starts.div_ceil(SLOWER) } else { starts };
     // Many do not satisfy a condition.
     let most = if options.condition.is_some() { 20 * starts } else { starts };
     let candidates = index.most_alike(&search, most);
     drop(index);
     let mut refinements = begin(&search, &candidates, starts);
-    for (part, steps) in ROUNDS {
+    refinements.par_iter_mut().for_each(|refinement| search.place(refinement, PLACING_STEPS));
+    let rounds = if options.refine { &ROUNDS[..] } else { &[] };
+    for &(part, steps) in rounds {
         keep_nearest(&mut refinements, (starts / part).max(2 * options.most));
         advance(&search, &mut refinements, steps);
     }

@@ -10,6 +10,6 @@ mod target_file;
 
 pub use atlas::{AtlasAnswer, AtlasOptions, ConditionError, are_same, search_atlas};
 pub use index_file::{MAX_CURVES, load_index};
-pub use linkage::{DEFAULT_SAMPLES, LinkageAnswer, MAX_SAMPLES, search_linkage};
+pub use linkage::{LinkageAnswer, MAX_SAMPLES, search_linkage};
 pub use placed_curve::PlacedCurve;
 pub use target_file::{MAX_POINTS, Outline, parse_outline};

@@ -83,7 +83,7 @@ fn placed(points: &[Point], random: &mut Random) -> Vec<Point> {
 fn search(template: &Arc<Template>, points: &[Point], options: &Options) -> Vec<LinkageAnswer> {
     let target = Target::new(points, PathKind::Closed).unwrap();
     let space = LinkageSpace::new(template.clone(), &[]).unwrap();
-    search_linkage(&space, &target, options, 10_000).0
+    search_linkage(&space, &target, options, None).0
 }
 
 /// The built-in linkages, and whether their input turns fully.

@@ -68,7 +68,7 @@ pub use mechanism::{Condition, Mechanism};
 pub use options::{Effort, Options};
 pub use ranking::Ranking;
 pub use record::{AnswerRecord, FitRecord};
-pub use relaxation::{Constraint, nearest_miss};
+pub use relaxation::{Constraint, nearest_miss, nearest_miss_by};
 pub use search::Search;
 pub use significant::{format_length, format_relative};
 pub use target::{PathKind, Target, TargetError};

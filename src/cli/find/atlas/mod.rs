@@ -3,6 +3,8 @@
 mod json;
 mod text;
 
+pub(super) use text::placed;
+
 use std::path::{Path, PathBuf};
 
 use coupler_atlas::find::{self, AtlasAnswer, AtlasOptions};
@@ -48,7 +50,7 @@ impl Found {
 pub(super) fn check(arguments: &Arguments) -> Result<(), InputError> {
     let error = |message: &str| Err(InputError(message.to_owned()));
     match arguments {
-        Arguments { atlas: None, fixed: true, .. } => {
+        Arguments { atlas: None, linkage: None, fixed: true, .. } => {
             error("--fixed compares the curves of an atlas where they are: name one with --atlas MANIFEST|DIR")
         }
         Arguments { atlas: Some(_), timed: true, .. } => error(

@@ -22,8 +22,6 @@ pub(super) struct Aim {
     /// The input at the points of a timed target, from that at the first.
     pub angles_deg: Option<Vec<f64>>,
     pub full_turn: bool,
-    /// Whether parameters stay as they are.
-    pub is_frozen: bool,
     max_link: f64,
     /// The corners of the box of the fixed pivots.
     pivots: Option<[Complex; 2]>,
@@ -71,7 +69,6 @@ impl Aim {
             polyline_length: target.polyline_length(),
             angles_deg: target.angles_deg().map(|angles| angles.iter().map(|angle| angle - angles[0]).collect()),
             full_turn: options.full_turn,
-            is_frozen: !options.refine,
             max_link: options.max_link,
             pivots: options.pivots.map(|b| [corner(b.min.x, b.min.y), corner(b.max.x, b.max.y)]),
             condition: options.condition.clone(),

@@ -1,8 +1,8 @@
 //! The curve of a traced joint on a circuit, by a coordinate in which it is regular at limits of the input.
 
 use crate::find::complex::Complex;
-use crate::linkage::{Input, JointId, Linkage};
-use crate::motion::{UnsampledCircuit, eased_input, find_circuits, poses};
+use crate::linkage::{DyadSet, Input, JointId, Linkage};
+use crate::motion::{InputPosition, Pass, PassEnd, UnsampledCircuit, eased_input, find_circuits, poses};
 
 /// A traced joint of a linkage on one of its circuits.
 ///
@@ -16,6 +16,20 @@ pub(super) struct Traced {
 }
 
 impl Traced {
+    /// A joint of a linkage whose input turns fully on the branch of its start, without limits or change points, as far as its links keep
+    /// their lengths at some inputs. `None` otherwise. It takes far less time than to find the circuits of a chain of dyads.
+    pub fn on_full_turn(linkage: &Linkage, joint: JointId) -> Option<Traced> {
+        /// The inputs of a turn.
+        const CHECKED: usize = 64;
+        let end = |value| PassEnd { input: InputPosition::from_degrees(value), flat_dyads: DyadSet::EMPTY };
+        let Input::Angle { .. } = linkage.input() else { return None };
+        let mode = linkage.motion_options.mode.truncated(linkage.dyad_count());
+        let pass = Pass { from: end(0.0), to: end(linkage.input().period()), mode };
+        let circuit = UnsampledCircuit { passes: vec![pass], is_closed: true };
+        let traced = Traced { linkage: linkage.clone(), circuit, joint };
+        traced.is_closed_at(&traced.positions(CHECKED)).then_some(traced)
+    }
+
     /// The number of positions of a round.
     pub fn period(&self) -> f64 {
         let passes = self.circuit.passes.len() as f64;
@@ -32,6 +46,11 @@ impl Traced {
     pub fn is_regular(&self) -> bool {
         let passes = &self.circuit.passes;
         passes.iter().all(|pass| pass.from.flat_dyads.is_empty() && pass.to.flat_dyads.is_empty())
+    }
+
+    /// Whether the passes do not depend on the dimensions as long as the linkage can be assembled on them.
+    pub fn has_fixed_passes(&self) -> bool {
+        self.is_regular() && self.linkage.motion_options.range.is_none()
     }
 
     /// The same joint of another linkage of the same template on a circuit with the same passes, that nearest to this one.
@@ -62,9 +81,10 @@ impl Traced {
         Some(Traced { linkage, circuit, joint: self.joint })
     }
 
-    /// The same joint of a linkage that differs a little, at the same positions: on a circuit without limits the same inputs.
+    /// The same joint of a linkage that differs little, at the same positions: on a circuit without limits the same inputs, where it is
+    /// not certain that it can be assembled at them.
     pub fn perturbed(&self, linkage: Linkage) -> Option<Traced> {
-        match self.is_regular() && linkage.motion_options.range.is_none() {
+        match self.has_fixed_passes() {
             true => Some(Traced { linkage, circuit: self.circuit.clone(), joint: self.joint }),
             false => self.followed(linkage),
         }
@@ -110,6 +130,33 @@ impl Traced {
             if is_before { low = middle } else { high = middle }
         }
         pass as f64 + 0.5 * (low + high)
+    }
+
+    /// Whether the linkage keeps the lengths of its links at positions of a round: where it cannot be assembled, its joints are placed
+    /// otherwise. A circuit on which no dyad is flat has the same passes then, up to what is between the positions.
+    pub fn is_closed_at(&self, positions: &[f64]) -> bool {
+        /// Relative to the length of a link.
+        const ROUNDING: f64 = 1e-9;
+        self.circuit.passes.iter().enumerate().all(|(k, pass)| {
+            let inputs: Vec<f64> = positions
+                .iter()
+                .map(|position| self.place(*position))
+                .filter(|(pass, _)| *pass == k)
+                .map(|(_, fraction)| eased_input(pass, fraction))
+                .collect();
+            let placed = poses(&self.linkage, pass, &inputs);
+            self.linkage.links.iter().all(|link| {
+                let Some((first, from)) = link.joints.first() else { return true };
+                link.joints[1..].iter().all(|(joint, to)| {
+                    let own = (to - from).norm();
+                    let is_kept = |n: usize| {
+                        let distance = (placed.point(*joint, n) - placed.point(*first, n)).norm();
+                        (distance - own).abs() <= ROUNDING * own.max(distance)
+                    };
+                    (0..inputs.len()).all(is_kept)
+                })
+            })
+        })
     }
 
     /// The points at some positions; `None` if one of them is not defined.

@@ -47,8 +47,14 @@ pub(super) struct Block {
     pub position: f64,
 }
 
+/// The damping at first.
+const DAMPING: f64 = 1e-2;
+
 /// The samples of a curve with which a target is matched.
 const SAMPLES: usize = 180;
+
+/// Those at which a linkage is checked to be assembled in a step.
+const CHECKED: usize = 64;
 
 /// The rounds in which feet follow the curve in a step, and in the end.
 const ROUNDS: usize = 6;
@@ -67,7 +73,7 @@ impl LinkageRefinement {
             Some((is_reversed, state))
         });
         let (is_reversed, state) = matched.min_by(|a, b| a.1.sum.total_cmp(&b.1.sum))?;
-        Some(LinkageRefinement { values, trace, is_reversed, state, is_done: false, damping: 1e-2 })
+        Some(LinkageRefinement { values, trace, is_reversed, state, is_done: false, damping: DAMPING })
     }
 
     /// Begins with a curve at the inputs of a timed target.
@@ -79,7 +85,7 @@ impl LinkageRefinement {
         (is_reversed, start): (bool, (usize, f64)),
     ) -> Option<LinkageRefinement> {
         let state = aim.timed_state(traced, placed, is_reversed, start)?;
-        Some(LinkageRefinement { values, trace, is_reversed, state, is_done: false, damping: 1e-2 })
+        Some(LinkageRefinement { values, trace, is_reversed, state, is_done: false, damping: DAMPING })
     }
 
     /// The sum of the squares of the distances, in sizes of the target.
@@ -87,13 +93,33 @@ impl LinkageRefinement {
         self.state.sum
     }
 
-    /// Takes some steps.
+    /// Takes some steps that move the curve and leave the parameters as they are.
+    pub(super) fn place(&mut self, space: &LinkageSpace, aim: &Aim, steps: usize) {
+        for _ in 0..steps {
+            if !self.is_done {
+                self.step((space, 0), aim);
+            }
+        }
+        (self.is_done, self.damping) = (false, DAMPING);
+    }
+
+    /// Takes some steps; none of them, if the circuit is another one then.
     pub(super) fn advance(&mut self, space: &LinkageSpace, aim: &Aim, steps: usize) {
+        if self.is_done {
+            return;
+        }
+        let before = (self.values.clone(), self.state.clone());
         for _ in 0..steps {
             if self.is_done {
                 break;
             }
-            self.step(space, aim);
+            self.step((space, space.dimension()), aim);
+        }
+        let traced = &self.state.traced;
+        let is_kept = |found: Traced| found.circuit.passes == traced.circuit.passes;
+        if traced.has_fixed_passes() && !traced.followed(traced.linkage.clone()).is_some_and(is_kept) {
+            (self.values, self.state) = before;
+            self.is_done = true;
         }
     }
 
@@ -109,14 +135,14 @@ impl LinkageRefinement {
         }
     }
 
-    fn step(&mut self, space: &LinkageSpace, aim: &Aim) {
+    fn step(&mut self, (space, free): (&LinkageSpace, usize), aim: &Aim) {
         /// The most trials with more and more damping.
         const TRIALS: usize = 8;
         const MAX_DAMPING: f64 = 1e8;
         /// A relative gain that is no progress, and the mean square of distances that are rounding.
         const NO_GAIN: f64 = 1e-9;
         const EXACT: f64 = 1e-26;
-        let Some((normal, gradient)) = self.normal_equations(space, aim) else {
+        let Some((normal, gradient)) = self.normal_equations((space, free), aim) else {
             self.is_done = true;
             return;
         };
@@ -166,7 +192,10 @@ impl LinkageRefinement {
             0 => Some(self.state.traced.clone()),
             _ => {
                 let linkage = space.template.linkage(&values).ok().filter(|_| space.are_valid(&values))?;
-                self.state.traced.followed(linkage)
+                // All circuits are found in the end of several steps only: of a chain of dyads that takes long.
+                let traced = self.state.traced.perturbed(linkage)?;
+                let is_closed = !traced.has_fixed_passes() || traced.is_closed_at(&traced.positions(CHECKED));
+                is_closed.then_some(traced)
             }
         }?;
         if aim.full_turn && !traced.is_full_turn() {
@@ -192,11 +221,14 @@ impl LinkageRefinement {
 
     /// The normal equations of the distances across the curve, or in both directions of the plane if the target is timed. The curves of
     /// other parameters are compared at the same positions, in which they are regular.
-    fn normal_equations(&self, space: &LinkageSpace, aim: &Aim) -> Option<(DMatrix<f64>, DVector<f64>)> {
+    fn normal_equations(
+        &self,
+        (space, free): (&LinkageSpace, usize),
+        aim: &Aim,
+    ) -> Option<(DMatrix<f64>, DVector<f64>)> {
         /// The change of a parameter in its unit.
         const STEP: f64 = 1e-6;
         let State { traced, placed, blocks, start, .. } = &self.state;
-        let free = if aim.is_frozen { 0 } else { space.dimension() };
         let count = free + self.other_count();
         let positions: Vec<f64> = blocks.iter().map(|block| block.position).collect();
         let at = aim.points(traced, &positions, *start)?;

@@ -15,6 +15,7 @@ use crate::find::scatter::Scatter;
 use crate::find::spectrum::Transform;
 use crate::find::target::{PathKind, Target};
 use crate::geometry::{Point, Vector};
+use crate::linkage::CircuitSelection;
 use crate::motion::find_circuits;
 
 /// A search for the dimensions of a linkage whose curve is nearest to a target, in steps that do not depend on each other.
@@ -23,6 +24,8 @@ pub struct LinkageSearch {
     aim: Aim,
     query: Query,
     transform: Transform,
+    /// Whether the input must turn fully, and where it does, it has no change points and the circuit is the only one.
+    is_simple: bool,
 }
 
 /// A curve of the samples of a search: the number of the parameter set, from 0, the traced joint and the circuit, from 0.
@@ -72,12 +75,49 @@ const LEAST_PORTION: f64 = 0.05;
 impl LinkageSearch {
     /// Begins a search. The condition of the options must be one of the linkage's.
     pub fn new(space: &LinkageSpace, target: &Target, options: &Options) -> LinkageSearch {
-        LinkageSearch {
+        let mut search = LinkageSearch {
             aim: Aim::new(space, target, options),
             query: Query::new(target.kind(), &target.normalized()),
             transform: Transform::new(),
             space: space.clone(),
+            is_simple: false,
+        };
+        search.is_simple = search.has_simple_circuits();
+        search
+    }
+
+    /// Whether the first samples whose input turns fully have no change points.
+    fn has_simple_circuits(&self) -> bool {
+        /// The samples that turn, and those among which they are sought.
+        const ENOUGH: usize = 16;
+        const MOST: usize = 200;
+        let template = self.space.template();
+        if !self.aim.full_turn || template.circuits != CircuitSelection::Start || template.input.is_some() {
+            return false;
         }
+        let turning = (0..MOST).filter_map(|sample| {
+            let (_, _, traced) = self.traced(&self.space.sample(sample)?).into_iter().next()?;
+            Some(traced.has_fixed_passes())
+        });
+        let mut count = 0;
+        let are_simple = turning.take(ENOUGH).inspect(|_| count += 1).all(|is_simple| is_simple);
+        are_simple && count > 0
+    }
+
+    /// The default number of parameter sets: for few parameters fewer fill their ranges.
+    pub fn default_samples(&self) -> usize {
+        const MOST: usize = 10_000;
+        const LEAST: usize = 500;
+        let dimension = self.space.dimension() - usize::from(self.space.is_scalable && self.space.dimension() > 1);
+        let samples = (250 * dimension * dimension).clamp(LEAST, MOST);
+        if self.is_slow() { samples.div_ceil(2) } else { samples }
+    }
+
+    /// Whether it takes long to find the circuits: limits of a chain of dyads are searched for.
+    pub fn is_slow(&self) -> bool {
+        let template = self.space.template();
+        let dyads = template.structure().map_or(0, |linkage| linkage.dyad_count());
+        !self.is_simple && dyads > 1
     }
 
     /// The linkage and its parameters.
@@ -89,7 +129,8 @@ impl LinkageSearch {
     pub fn curves(&self, sample: usize) -> Vec<(SampleCurve, SampleShape)> {
         let Some(values) = self.space.sample(sample) else { return Vec::new() };
         let mut found = Vec::new();
-        for (trace, circuit, traced) in self.traced(&values) {
+        let traced = if self.is_simple { self.simply_traced(&values) } else { self.traced(&values) };
+        for (trace, circuit, traced) in traced {
             let shape = match &self.aim.angles_deg {
                 None => self.shape(&traced).map(SampleShape::Free),
                 Some(_) => timed::best(&self.aim, &traced).map(|best| SampleShape::Timed(best.sum)),
@@ -148,6 +189,11 @@ impl LinkageSearch {
             ),
             None => LinkageRefinement::new(&self.aim, values, (from.trace, traced), state.placed),
         }
+    }
+
+    /// Moves the curve of a refinement without changing the linkage.
+    pub fn place(&self, refinement: &mut LinkageRefinement, steps: usize) {
+        refinement.place(&self.space, &self.aim, steps);
     }
 
     /// Takes some steps of a refinement.
@@ -266,6 +312,16 @@ impl LinkageSearch {
             }
         }
         found
+    }
+
+    /// The same where the input turns fully, without the certainty that it does.
+    fn simply_traced(&self, values: &[f64]) -> Vec<(usize, usize, Traced)> {
+        let Ok(linkage) = self.space.template().linkage(values) else { return Vec::new() };
+        let Some(first) = linkage.traced.first().and_then(|joint| Traced::on_full_turn(&linkage, *joint)) else {
+            return Vec::new();
+        };
+        let joints = linkage.traced.iter().enumerate();
+        joints.map(|(trace, joint)| (trace, 0, Traced { joint: *joint, ..first.clone() })).collect()
     }
 
     fn shape(&self, traced: &Traced) -> Option<CurveShape> {
