@@ -35,10 +35,11 @@ const MAX_CURVES: usize = 8_000_000;
 /// Linkages whose circuits are found slowly have so many times fewer starts.
 const SLOWER: usize = 3;
 
-/// The parameter sets of a piece of work, and how many are tried for each that is wanted: others cannot be assembled, or their input does
-/// not turn.
+/// The curves of a piece of work, and how many parameter sets are tried for each that is wanted: others cannot be assembled, or their input
+/// does not turn.
 const PIECE: usize = 1024;
 const TRIES: usize = 8;
+const SLOW_TRIES: usize = 2;
 
 /// The parts of the starts that are refined in each round, and the steps of a round.
 const ROUNDS: [(usize, usize); 4] = [(2, 6), (4, 12), (8, 40), (20, 150)];
@@ -84,20 +85,21 @@ pub fn search_linkage(
 }
 
 fn build_index(search: &LinkageSearch, samples: usize) -> (SampleIndex, usize) {
-    let most_curves = MAX_CURVES;
+    let tries = samples * if search.is_slow() { SLOW_TRIES } else { TRIES };
+    let piece = (PIECE / search.space().template().curve_count().max(1)).max(1);
     let mut index = SampleIndex::default();
     let mut found = 0;
-    for piece in 0..(TRIES * samples).div_ceil(PIECE) {
-        let numbers = piece * PIECE..((piece + 1) * PIECE).min(TRIES * samples);
+    for start in (0..tries).step_by(piece) {
+        let numbers = start..(start + piece).min(tries);
         let curves: Vec<Vec<(SampleCurve, SampleShape)>> =
             numbers.into_par_iter().map(|sample| search.curves(sample)).collect();
         for curves in curves {
-            if found < samples && index.len() < most_curves {
+            if found < samples && index.len() < MAX_CURVES {
                 found += usize::from(!curves.is_empty());
                 index.extend(curves);
             }
         }
-        if found >= samples || index.len() >= most_curves {
+        if found >= samples || index.len() >= MAX_CURVES {
             break;
         }
     }
@@ -180,7 +182,8 @@ fn restart(
         }
         let from = &refinements[..NEAREST.min(refinements.len())];
         let begun = |k: usize| {
-            let seed = options.seed.wrapping_add((round * count as u64 + k as u64 + 1).wrapping_mul(0x5851_F42D_4C95_7F2D));
+            let seed =
+                options.seed.wrapping_add((round * count as u64 + k as u64 + 1).wrapping_mul(0x5851_F42D_4C95_7F2D));
             let mut refinement = search.begin_near(&from[k % from.len()], seed, SPREADS[k % SPREADS.len()])?;
             search.advance(&mut refinement, PROMISING_STEPS);
             if refinement.sum() > PROMISING_SUM * best {

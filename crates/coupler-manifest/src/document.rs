@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::sync::Arc;
 
-use coupler_curves::linkage_format::{Fields, canonical_toml, TomlParser};
+use coupler_curves::linkage_format::{Fields, TomlParser, canonical_toml};
 use coupler_curves::problem::Problem;
 use coupler_curves::template::Template;
 use coupler_drawing::render::{Format, TextMode};

@@ -110,7 +110,8 @@ const STARTS_PER_ANSWER: usize = 8;
 
 /// Refines four-bars, merges curves that are the same to a thousandth of the target's size, and ranks them.
 fn ranked(curves: Vec<AtlasAnswer>, target: &Target, options: &Options, arguments: &Arguments) -> Vec<Found> {
-    let is_same = |a: &Found, b: &Found| find::are_same(&a.curve.curve.outline, &b.curve.curve.outline, 1e-3 * target.size());
+    let is_same =
+        |a: &Found, b: &Found| find::are_same(&a.curve.curve.outline, &b.curve.curve.outline, 1e-3 * target.size());
     let distinct = |found: Vec<Found>, most: usize| {
         let mut kept: Vec<Found> = Vec::new();
         for found in found {

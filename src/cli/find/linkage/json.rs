@@ -7,6 +7,7 @@ use super::super::super::report;
 use super::super::json::{self, FORMAT, PlacedRecord, Target};
 use super::super::text::option_of;
 use super::LinkageReport;
+use super::text::branch;
 
 #[derive(Serialize)]
 struct Document {
@@ -57,7 +58,7 @@ fn entry(report: &LinkageReport, rank: usize, answer: &LinkageAnswer) -> Entry {
     let is_length = template.is_driven_by_length();
     Entry {
         placed: PlacedRecord::new(rank, template, &answer.curve),
-        branch: if answer.branch > 0 { 1 } else { 2 },
+        branch: branch(answer),
         input_deg: (!is_length).then_some(answer.inputs),
         input_length: is_length.then_some(answer.inputs),
     }

@@ -10,7 +10,9 @@ use coupler_atlas::find::{self, LinkageAnswer, MAX_SAMPLES};
 use coupler_atlas::manifest;
 use coupler_curves::exchange::{ParameterSet, manifest_fragment};
 use coupler_curves::family::Family;
-use coupler_curves::find::{Condition, Constraint, LinkageSpace, Mechanism, Options, Target, answers_manifest, nearest_miss_by};
+use coupler_curves::find::{
+    Condition, Constraint, LinkageSpace, Mechanism, Options, Target, answers_manifest, nearest_miss_by,
+};
 use coupler_curves::measure;
 use coupler_curves::motion::Sampler;
 use coupler_curves::solve::solve_measuring;
@@ -48,12 +50,12 @@ pub(super) fn check(arguments: &Arguments) -> Result<(), InputError> {
         Arguments { linkage: Some(_), fixed: true, .. } => error(
             "--fixed compares the curves of an atlas where they are, and --linkage searches linkages of any size in any place: leave one out",
         ),
-        Arguments { linkage: None, like: None, manifest: Some(_), .. } => error(
-            "--manifest FILE has the curve of --like CURVE or the linkage of --linkage NAME: give one of these",
-        ),
-        Arguments { linkage: Some(_), index: Some(index), .. } if *index > MAX_SAMPLES as u64 => Err(InputError(format!(
-            "--index {index}: of --linkage it is the number of parameter sets, at most {MAX_SAMPLES}"
-        ))),
+        Arguments { linkage: None, like: None, manifest: Some(_), .. } => {
+            error("--manifest FILE has the curve of --like CURVE or the linkage of --linkage NAME: give one of these")
+        }
+        Arguments { linkage: Some(_), index: Some(index), .. } if *index > MAX_SAMPLES as u64 => Err(InputError(
+            format!("--index {index}: of --linkage it is the number of parameter sets, at most {MAX_SAMPLES}"),
+        )),
         _ => Ok(()),
     }
 }
@@ -66,7 +68,6 @@ pub(super) fn sought(arguments: &Arguments) -> anyhow::Result<Option<Sought>> {
     /// The linkage of the catalogue that the search of four-bars finds.
     const FOUR_BAR: &str = "four-bar";
     let Some(name) = &arguments.linkage else { return Ok(None) };
-    // With `--like` and a built-in linkage the manifest need not be read for it.
     let template = find_template(name, arguments.manifest.as_deref())?;
     if template.id == FOUR_BAR && arguments.keep.is_empty() {
         return Ok(None);
@@ -137,7 +138,10 @@ pub(super) fn run(
 ///
 /// # Errors
 /// It is none.
-pub(super) fn condition(template: Option<&Template>, text: &str) -> Result<Condition, coupler_curves::expression::Error> {
+pub(super) fn condition(
+    template: Option<&Template>,
+    text: &str,
+) -> Result<Condition, coupler_curves::expression::Error> {
     match template {
         Some(template) => Condition::for_template(template, text),
         None => Condition::for_template(&Mechanism::template(), text),
@@ -155,7 +159,8 @@ impl LinkageReport {
         out = out.replace("\n# No linkage meets the constraints.\n", "");
         out.extend(self.own_linkage.iter().map(|text| format!("\n{text}")));
         out.push('\n');
-        let families: Vec<Family> = self.answers.iter().map(placed_family).collect();
+        let families: Vec<Family> =
+            (1..).zip(&self.answers).map(|(rank, answer)| placed_family(&format!("curve {rank}"), answer)).collect();
         let mut sets = Vec::new();
         for ((rank, answer), family) in (1..).zip(&self.answers).zip(&families) {
             out += &format!("# {rank}: {}\n", text::place_comment(answer, self.target.size()));
@@ -191,9 +196,10 @@ impl LinkageReport {
 }
 
 /// The family of an answer, in its direction on the path.
-fn placed_family(answer: &LinkageAnswer) -> Family {
+fn placed_family(title: &str, answer: &LinkageAnswer) -> Family {
     let placement = &answer.curve.fit.placement;
     let mut family = answer.family.clone();
+    family.title = format!("{}: {}", family.title, title);
     let template = Arc::make_mut(&mut family.template);
     template.orientation = Orientation::new(placement.is_mirrored, placement.rotation_deg());
     family

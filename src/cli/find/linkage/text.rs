@@ -4,9 +4,7 @@ use std::fmt::Write;
 
 use coupler_atlas::find::{LinkageAnswer, PlacedCurve};
 
-use coupler_curves::find::{
-    Constraint, LinkageSpace, Quality, format_length as number, format_relative as relative,
-};
+use coupler_curves::find::{Constraint, LinkageSpace, Quality, format_length as number, format_relative as relative};
 use coupler_curves::linkage_format::toml_number;
 use coupler_curves::template::ParameterKind;
 
@@ -65,7 +63,11 @@ fn entry(rank: &str, answer: &LinkageAnswer, space: &LinkageSpace, size: f64) ->
     let fit = &curve.fit;
     let [trace, circuit] = curve.numbers;
     let class = if curve.class.is_empty() { String::new() } else { format!(", {}", curve.class) };
-    let mu = if curve.mu_worst_deg.is_finite() { format!(", mu worst {}", angle(curve.mu_worst_deg)) } else { String::new() };
+    let mu = if curve.mu_worst_deg.is_finite() {
+        format!(", mu worst {}", angle(curve.mu_worst_deg))
+    } else {
+        String::new()
+    };
     let order = if fit.is_in_order { "in order" } else { "not in order" };
     let mut out = format!(
         "{rank:>3}  {}, greatest {}, {order}, {}{class}{mu}, longest link {} = {:.2} S\n     {}\n",
@@ -84,10 +86,16 @@ fn entry(rank: &str, answer: &LinkageAnswer, space: &LinkageSpace, size: f64) ->
     let _ = writeln!(
         out,
         "     {} (trace {trace}) on circuit {circuit}, branch {} at first, input from {from} to {to}",
-        curve.joint, answer.branch
+        curve.joint,
+        branch(answer)
     );
     let _ = writeln!(out, "     {pivots}{}", placed(curve, size));
     out
+}
+
+/// The branch at the first point of the path, as it is numbered: 1 left, 2 right.
+pub(super) fn branch(answer: &LinkageAnswer) -> u8 {
+    if answer.branch > 0 { 1 } else { 2 }
 }
 
 /// The dimensions, in six significant digits.
@@ -105,7 +113,14 @@ pub(super) fn place_comment(answer: &LinkageAnswer, size: f64) -> String {
     let curve = &answer.curve;
     let placement = &curve.fit.placement;
     let [x, y] = [placement.shift.x, placement.shift.y].map(toml_number);
-    let scaled = if curve.is_scalable { String::new() } else { format!("{} times as large and ", toml_number(placement.scale())) };
+    let scaled = if curve.is_scalable {
+        String::new()
+    } else {
+        format!("{} times as large and ", toml_number(placement.scale()))
+    };
     let [trace, circuit] = curve.numbers;
-    format!("{}; on the path it is {scaled}shifted by ({x}, {y}); trace {trace}, circuit {circuit}", deviation(curve, size))
+    format!(
+        "{}; on the path it is {scaled}shifted by ({x}, {y}); trace {trace}, circuit {circuit}",
+        deviation(curve, size)
+    )
 }

@@ -133,13 +133,13 @@ impl Aim {
         };
         let requested: Vec<bool> =
             (0..MEASURES.len()).map(|k| family.expression_uses(condition.compiled(), k)).collect();
-        let Some(solved) = solve_measuring(&family, &Sampler::new(family.sampling), 0, &requested) else { return false };
+        let Some(solved) = solve_measuring(&family, &Sampler::new(family.sampling), 0, &requested) else {
+            return false;
+        };
         family.filter = Some(condition.compiled().clone());
         solved.curves.iter().any(|curve| {
             let passes = &solved.circuit(curve).passes;
-            curve.joint == traced.joint
-                && *passes == traced.circuit.passes
-                && family.keeps(&solved.cell, &curve.values)
+            curve.joint == traced.joint && *passes == traced.circuit.passes && family.keeps(&solved.cell, &curve.values)
         })
     }
 }

@@ -211,7 +211,8 @@ impl LinkageRefinement {
                 aim.state(traced, placed, self.is_reversed, (near, ROUNDS))
             }
         }?;
-        (state.objective < self.state.objective && aim.meets_condition(&values, &state.traced)).then_some((values, state))
+        (state.objective < self.state.objective && aim.meets_condition(&values, &state.traced))
+            .then_some((values, state))
     }
 
     /// The number of unknowns other than parameters: the similarity, and the input at the first point of a timed target.
@@ -427,13 +428,7 @@ fn blocks(
 
 /// Moves positions to where the distances from points are least among their neighbours: Newton's method for all of them at once, each
 /// step of which comes nearer.
-fn feet(
-    traced: &Traced,
-    placed: &Placed,
-    points: &[Complex],
-    positions: &mut [f64],
-    rounds: usize,
-) -> Option<()> {
+fn feet(traced: &Traced, placed: &Placed, points: &[Complex], positions: &mut [f64], rounds: usize) -> Option<()> {
     /// The interval of positions from which derivatives are computed.
     const STEP: f64 = 1e-4;
     /// The greatest step.

@@ -104,19 +104,29 @@ impl LinkageSearch {
         are_simple && count > 0
     }
 
-    /// The default number of parameter sets: for few parameters fewer fill their ranges.
+    /// The default number of parameter sets: for few parameters fewer fill their ranges, and those of linkages that take long or trace many
+    /// joints are fewer.
     pub fn default_samples(&self) -> usize {
         const MOST: usize = 10_000;
         const LEAST: usize = 500;
+        /// Of many traced joints together.
+        const MOST_CURVES: usize = 200_000;
+        /// For so many dyads more all circuits take as many times as long as there are modes.
+        const MODES: u32 = 4;
+        let template = self.space.template();
         let dimension = self.space.dimension() - usize::from(self.space.is_scalable && self.space.dimension() > 1);
-        let samples = (250 * dimension * dimension).clamp(LEAST, MOST);
-        if self.is_slow() { samples.div_ceil(2) } else { samples }
+        let mut samples = (250 * dimension * dimension).clamp(LEAST, MOST);
+        if self.is_slow() {
+            let dyads = template.structure().map_or(0, |linkage| linkage.dyad_count()) as u32;
+            let modes = if template.circuits == CircuitSelection::All { dyads.saturating_sub(2).min(MODES) } else { 0 };
+            samples = samples.div_ceil(2 << modes);
+        }
+        samples.min((MOST_CURVES / template.curve_count().max(1)).max(1))
     }
 
     /// Whether it takes long to find the circuits: limits of a chain of dyads are searched for.
     pub fn is_slow(&self) -> bool {
-        let template = self.space.template();
-        let dyads = template.structure().map_or(0, |linkage| linkage.dyad_count());
+        let dyads = self.space.template().structure().map_or(0, |linkage| linkage.dyad_count());
         !self.is_simple && dyads > 1
     }
 

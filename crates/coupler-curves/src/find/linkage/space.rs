@@ -18,7 +18,7 @@ use crate::template::{JointKindTemplate, Parameter, ParameterKind, Template};
 pub struct LinkageSpace {
     pub(super) template: Arc<Template>,
     free: Vec<FreeParameter>,
-    /// The names of the parameters that are varied, and of those that are not.
+    /// Those that are not varied.
     kept: Vec<usize>,
     /// The values of parameters without an expression.
     base: Vec<f64>,
@@ -177,7 +177,8 @@ impl LinkageSpace {
             return Err(vec![LinkageSpaceError::NothingFree { linkage: linkage(), why }]);
         }
         let kept = (0..names.len()).filter(|slot| is_kept[*slot]).collect();
-        let mut space = LinkageSpace { free, kept, base, expressions, is_scalable: false, held: None, template: template.clone() };
+        let mut space =
+            LinkageSpace { free, kept, base, expressions, is_scalable: false, held: None, template: template.clone() };
         space.is_scalable = is_scalable(&template, &space.base) && space.keeps_scale();
         let is_held = |free: &&FreeParameter| {
             parameters[free.slot].kind == ParameterKind::Length && matches!(free.unit, VariationUnit::Factor)
@@ -233,7 +234,9 @@ impl LinkageSpace {
         let parts = even_parts(self.free.len(), number / WIDTHS.len());
         let mut values = self.base.clone();
         let vary = |values: &mut [f64], slot: usize| {
-            let Some(place) = self.free.iter().position(|free| free.slot == slot && self.held != Some(slot)) else { return };
+            let Some(place) = self.free.iter().position(|free| free.slot == slot && self.held != Some(slot)) else {
+                return;
+            };
             let part = 2.0 * parts[place] - 1.0;
             let parameter = &self.template.parameters[slot];
             let (value, by) = (values[slot], &mut values[slot]);

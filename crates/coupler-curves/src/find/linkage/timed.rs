@@ -41,14 +41,14 @@ pub(super) fn best(aim: &Aim, traced: &Traced) -> Option<Timed> {
             let sign = if is_reversed { -1.0 } else { 1.0 };
             let shifts: Vec<i64> = chosen.iter().map(|k| (sign * angles[*k] / step).round() as i64).collect();
             let needed = if is_reversed { [-high, -low] } else { [low, high] };
-            for first in 0..count {
-                let input = inputs[first];
+            for (first, &input) in inputs.iter().enumerate() {
                 if !is_whole && (input + needed[0] < range[0] || input + needed[1] > range[1]) {
                     continue;
                 }
                 let at = |shift: &i64| {
                     let place = first as i64 + shift;
-                    let place = if is_whole { place.rem_euclid(count as i64) } else { place.clamp(0, count as i64 - 1) };
+                    let place =
+                        if is_whole { place.rem_euclid(count as i64) } else { place.clamp(0, count as i64 - 1) };
                     samples[place as usize]
                 };
                 let curve: Vec<Complex> = shifts.iter().map(at).collect();
