@@ -9,6 +9,7 @@ use std::sync::atomic::AtomicBool;
 use coupler_atlas::manifest::{self, Plan};
 use coupler_atlas::sweep;
 use coupler_curves::family::Family;
+use coupler_curves::geometry::trig;
 use coupler_curves::measure::Value;
 use coupler_curves::motion::Sampler;
 use coupler_curves::problem::report;
@@ -104,7 +105,10 @@ fn a_part_of_every_example_is_rendered() {
         assert_eq!(pages.len(), page_count, "{name}: {pages:?}");
         for page in pages {
             let svg = fs::read_to_string(folder.path().join("out").join(id).join(page)).unwrap();
-            assert!(svg.contains("data-cell=") || svg.contains("class=\"series\""), "{name}: nothing is drawn on {page}");
+            assert!(
+                svg.contains("data-cell=") || svg.contains("class=\"series\""),
+                "{name}: nothing is drawn on {page}"
+            );
             assert!(!svg.contains("cannot be"), "{name}: a linkage on {page} cannot be assembled");
             assert!(!svg.contains(", reduced"), "{name}: a linkage on {page} does not have the common scale");
         }
@@ -117,7 +121,10 @@ fn the_examples_have_the_sizes_that_their_comments_state() {
     let state = |name: &str, statement: String| {
         assert!(examples()[name].replace("\n# ", " ").contains(&statement), "{name}: {statement}");
     };
-    for (name, ids) in [("offset-slider-crank", &["in-line", "offset"][..]), ("inverted-slider-crank", &["swinging", "turning", "offset"])] {
+    for (name, ids) in [
+        ("offset-slider-crank", &["in-line", "offset"][..]),
+        ("inverted-slider-crank", &["swinging", "turning", "offset"]),
+    ] {
         let plan = plan(name);
         let counts: Vec<usize> = ids
             .iter()
@@ -125,7 +132,8 @@ fn the_examples_have_the_sizes_that_their_comments_state() {
             .map(|points| points as usize)
             .collect();
         let curves: usize = counts.iter().sum();
-        let thousands = if curves >= 1000 { format!("{},{:03}", curves / 1000, curves % 1000) } else { curves.to_string() };
+        let thousands =
+            if curves >= 1000 { format!("{},{:03}", curves / 1000, curves % 1000) } else { curves.to_string() };
         state(name, format!("{thousands} curves of {} linkages on {} pages", counts.len(), curves.div_ceil(10)));
     }
     let geared = plan("geared-five-bars");
@@ -148,7 +156,7 @@ fn the_offset_of_slider_cranks_is_limited_by_their_transmission_angle() {
     for solved in solved(family, 4) {
         let [l, e] = ["L", "e"].map(|name| value(family, &solved, name));
         let cosine = (1.0 + e) / l;
-        let expected = if cosine < 1.0 { cosine.acos().to_degrees() } else { 0.0 };
+        let expected = if cosine < 1.0 { trig::degrees(trig::acos(cosine)) } else { 0.0 };
         assert_eq!(solved.curves.is_empty(), expected < 20.0, "L = {l}, e = {e}");
         if !solved.curves.is_empty() {
             assert_eq!(solved.curves.len(), 50);
@@ -172,7 +180,7 @@ fn points_of_the_conchoids_are_on_lines_through_the_pivot() {
         assert!(circuit.len() >= 72);
         for (m, a) in m.zip(a) {
             let [to_m, to_c] = [[m.x - a.x, m.y - a.y], [g - a.x, -a.y]];
-            assert!((to_m[0].hypot(to_m[1]) - along.abs()).abs() < 1e-12);
+            assert!((trig::hypot(to_m[0], to_m[1]) - along.abs()).abs() < 1e-12);
             assert!((to_m[0] * to_c[1] - to_m[1] * to_c[0]).abs() < 1e-12, "g = {g}, along = {along}");
         }
     }
@@ -194,7 +202,9 @@ fn the_cranks_of_geared_five_bars_turn_fully() {
 #[test]
 fn the_outputs_of_dwell_linkages_rest() {
     let plan = plan("dwell-six-bars");
-    for (id, least) in [("arc-rocker", 100.0), ("arc-slider", 100.0), ("line-rocker", 80.0), ("two-dwells", 50.0), ("line-yoke", 90.0)] {
+    for (id, least) in
+        [("arc-rocker", 100.0), ("arc-slider", 100.0), ("line-rocker", 80.0), ("two-dwells", 50.0), ("line-yoke", 90.0)]
+    {
         for solved in solved(family(&plan, id), 5) {
             assert!(measure(&solved, "output_dwell_deg") >= least, "{id}");
             assert!(measure(&solved, "mu_worst_deg") >= 30.0, "{id}");
