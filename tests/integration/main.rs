@@ -16,6 +16,7 @@ mod dependencies;
 mod design;
 mod documents;
 mod drawn;
+mod examples;
 mod export;
 mod family_measures;
 mod faults;
