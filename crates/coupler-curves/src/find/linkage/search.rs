@@ -7,7 +7,7 @@ use super::space::LinkageSpace;
 use super::timed;
 use crate::find::answer::LENGTH_RATIOS;
 use crate::find::complex::{Complex, closed_length, length};
-use crate::find::curve_fit::{CurveFit, Placement};
+use crate::find::curve_fit::{CurveFit, CurveFitOptions, Placement};
 use crate::find::curve_index::{CurveIndex, CurveLookup, CurveShape};
 use crate::find::options::Options;
 use crate::find::query::Query;
@@ -153,7 +153,8 @@ impl LinkageSearch {
 
     /// Begins to look the target up among shapes.
     pub fn lookup(&self, most: usize) -> CurveLookup {
-        CurveLookup::new(&self.aim.target, LEAST_PORTION, most)
+        let options = CurveFitOptions { least_portion: LEAST_PORTION, ..CurveFitOptions::default() };
+        CurveLookup::new(&self.aim.target, options, most)
     }
 
     /// Begins to refine a curve of a sample; with how much it is like the target, the greater the more. `None` if it is not like it
@@ -355,7 +356,7 @@ impl LinkageSearch {
                 let (factor, shift) = likeness.similarity((*target_centre, *target_size), (centre, size));
                 (likeness.is_mirrored, factor, shift)
             }
-            Query::Portion(stroke) => {
+            Query::Portion(stroke, _) => {
                 let (window, factor, shift) = stroke.placement(&points)?;
                 (window.is_mirrored, factor, shift)
             }
@@ -423,7 +424,8 @@ impl SampleIndex {
         }
         let mut lookup = search.lookup(most);
         lookup.compare(&self.shapes, 0..self.shapes.len());
-        lookup.numbers().into_iter().map(|number| self.curves[number]).collect()
+        // The points of samples are not kept for a closer comparison.
+        lookup.found().take(most).map(|(_, number)| self.curves[number]).collect()
     }
 }
 
