@@ -8,7 +8,7 @@ use coupler_curves::family::Family;
 use coupler_curves::find::{
     CurveFitOptions, CurveFitter, CurveIndex, CurveLookup, CurveShape, Options, Target, is_scalable,
 };
-use coupler_curves::geometry::{Bounds, Point, distance_to_segment};
+use coupler_curves::geometry::{Bounds, Point};
 use coupler_curves::measure;
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 
@@ -261,13 +261,4 @@ fn is_placed_well(answer: &AtlasAnswer, target: &Target, options: &AtlasOptions)
     let is_inside = |b: &Bounds, p: &Point| b.min.x <= p.x && p.x <= b.max.x && b.min.y <= p.y && p.y <= b.max.y;
     let are_inside = |b: &Bounds| answer.curve.pivots.iter().all(|(_, pivot)| is_inside(b, pivot));
     answer.curve.longest_link <= options.max_link * target.size() && options.pivots.as_ref().is_none_or(are_inside)
-}
-
-/// Whether two curves, each given by some of its points, are the same to a distance.
-pub fn are_same(a: &[Point], b: &[Point], distance: f64) -> bool {
-    let is_near = |p: &Point, curve: &[Point]| {
-        let chords = (0..curve.len()).map(|k| [curve[k], curve[(k + 1) % curve.len()]]);
-        chords.into_iter().any(|[from, to]| distance_to_segment(*p, from, to) <= distance)
-    };
-    a.iter().all(|p| is_near(p, b)) && b.iter().all(|p| is_near(p, a))
 }

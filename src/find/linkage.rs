@@ -10,8 +10,7 @@ use coupler_curves::motion::Sampler;
 use coupler_curves::solve::{SolvedCell, solve_measuring};
 use rayon::prelude::*;
 
-use super::atlas::are_same;
-use super::placed_curve::{PlacedCurve, REPORTED};
+use super::placed_curve::{PlacedCurve, REPORTED, distinct};
 
 /// Dimensions of a linkage near a target.
 #[derive(Clone, Debug)]
@@ -61,13 +60,13 @@ pub fn search_linkage(
 ) -> (Vec<LinkageAnswer>, usize) {
     let search = LinkageSearch::new(space, target, options);
     let samples = samples.unwrap_or_else(|| search.default_samples());
-    let (mut index, curves) = build_index(&search, samples);
+    let (index, curves) = build_index(&search, samples);
     // Few parameters have few minima.
     let starts = start_count(target, options).min(samples / 10);
     let starts = if search.is_slow() { starts.div_ceil(SLOWER) } else { starts };
     // Many do not satisfy a condition.
     let most = if options.condition.is_some() { 20 * starts } else { starts };
-    let candidates = index.most_alike(&search, most);
+    let candidates = search.most_alike(&index, most);
     drop(index);
     let mut refinements = begin(&search, &candidates, starts);
     refinements.par_iter_mut().for_each(|refinement| search.place(refinement, PLACING_STEPS));
@@ -200,17 +199,7 @@ fn restart(
 /// The answers of fits, the nearest first, without those whose curves are the same.
 fn ranked(mut fits: Vec<LinkageFit>, space: &LinkageSpace, target: &Target, most: usize) -> Vec<LinkageAnswer> {
     fits.sort_by(|a, b| a.fit.rms.total_cmp(&b.fit.rms));
-    let mut answers: Vec<LinkageAnswer> = Vec::new();
-    for fit in fits {
-        if answers.len() == most {
-            break;
-        }
-        let is_new = |answer: &LinkageAnswer| {
-            answers.iter().all(|other| !are_same(&answer.curve.outline, &other.curve.outline, 1e-3 * target.size()))
-        };
-        answers.extend(answer(fit, space).filter(is_new));
-    }
-    answers
+    distinct(fits.into_iter().filter_map(|fit| answer(fit, space)), |answer| &answer.curve, target, most)
 }
 
 fn answer(fit: LinkageFit, space: &LinkageSpace) -> Option<LinkageAnswer> {

@@ -8,8 +8,8 @@ mod placed_curve;
 mod svg_outlines;
 mod target_file;
 
-pub use atlas::{AtlasAnswer, AtlasOptions, ConditionError, are_same, search_atlas};
+pub use atlas::{AtlasAnswer, AtlasOptions, ConditionError, search_atlas};
 pub use index_file::{MAX_CURVES, load_index};
 pub use linkage::{LinkageAnswer, MAX_SAMPLES, search_linkage};
-pub use placed_curve::PlacedCurve;
+pub use placed_curve::{PlacedCurve, distinct};
 pub use target_file::{MAX_POINTS, Outline, parse_outline};

@@ -1,8 +1,8 @@
 //! A curve of any linkage where it is on a path.
 
 use coupler_curves::family::Family;
-use coupler_curves::find::{CurveFit, Placement, longest_link, pivots_of};
-use coupler_curves::geometry::{Point, Vector};
+use coupler_curves::find::{CurveFit, Placement, Target, longest_link, pivots_of};
+use coupler_curves::geometry::{Point, Vector, distance_to_segment};
 use coupler_curves::linkage::{FourBar, JointId, Linkage, PlacedFourBar};
 use coupler_curves::measure::Value;
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
@@ -82,4 +82,36 @@ fn placed_four_bar(linkage: &Linkage, joint: JointId, placement: &Placement) -> 
         },
         coupler_point: Vector::new(scale * coupler_point.x, scale * across),
     })
+}
+
+/// The first of what has been found whose curves are not the same to a thousandth of the target's size, at most so many; nothing after
+/// these is looked at.
+pub fn distinct<T>(
+    found: impl IntoIterator<Item = T>,
+    curve: impl Fn(&T) -> &PlacedCurve,
+    target: &Target,
+    most: usize,
+) -> Vec<T> {
+    /// In sizes of the target.
+    const SAME: f64 = 1e-3;
+    let are_same = |a: &T, b: &T| are_same(&curve(a).outline, &curve(b).outline, SAME * target.size());
+    let mut kept: Vec<T> = Vec::new();
+    let mut found = found.into_iter();
+    while kept.len() < most
+        && let Some(next) = found.next()
+    {
+        if kept.iter().all(|other| !are_same(&next, other)) {
+            kept.push(next);
+        }
+    }
+    kept
+}
+
+/// Whether two curves, each given by some of its points, are the same to a distance.
+fn are_same(a: &[Point], b: &[Point], distance: f64) -> bool {
+    let is_near = |p: &Point, curve: &[Point]| {
+        let chords = (0..curve.len()).map(|k| [curve[k], curve[(k + 1) % curve.len()]]);
+        chords.into_iter().any(|[from, to]| distance_to_segment(*p, from, to) <= distance)
+    };
+    a.iter().all(|p| is_near(p, b)) && b.iter().all(|p| is_near(p, a))
 }

@@ -9,17 +9,30 @@ use serde::Serialize;
 
 use super::super::report;
 use super::Report;
-use super::text::option_of;
+use super::text::options_of;
 
 /// The version of the format.
 pub(super) const FORMAT: u32 = 1;
 
+/// What has been found for a path, in entries of its kind.
 #[derive(Serialize)]
-struct Document {
-    target: Target,
-    results: Vec<AnswerRecord>,
+pub(super) struct Document<E> {
+    pub target: Target,
+    /// The number of curves with which it was compared, where that is reported.
     #[serde(skip_serializing_if = "Option::is_none")]
-    nearest_miss: Option<NearestMiss>,
+    pub curves: Option<usize>,
+    /// The names of the parameters that were searched.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub searched: Option<Vec<String>>,
+    pub results: Vec<E>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub nearest_miss: Option<NearestMiss<E>>,
+}
+
+#[derive(Serialize)]
+pub(super) struct NearestMiss<E> {
+    pub relax: Vec<&'static str>,
+    pub result: E,
 }
 
 #[derive(Serialize)]
@@ -30,12 +43,6 @@ pub(super) struct Target {
     closed: bool,
     kind: &'static str,
     size: f64,
-}
-
-#[derive(Serialize)]
-struct NearestMiss {
-    relax: Vec<&'static str>,
-    result: AnswerRecord,
 }
 
 /// A curve of any linkage, where it is placed on the path.
@@ -113,11 +120,13 @@ pub(super) fn target(target: &find::Target) -> Target {
 pub(super) fn json(report: &Report) -> anyhow::Result<String> {
     let Report { target, answers, nearest_miss, .. } = report;
     let miss = nearest_miss.as_ref().map(|(constraints, answer)| NearestMiss {
-        relax: constraints.iter().map(|constraint| option_of(*constraint)).collect(),
+        relax: options_of(constraints),
         result: AnswerRecord::new(1, answer),
     });
     let document = Document {
         target: self::target(target),
+        curves: None,
+        searched: None,
         results: (1..).zip(answers).map(|(rank, answer)| AnswerRecord::new(rank, answer)).collect(),
         nearest_miss: miss,
     };

@@ -166,6 +166,24 @@ impl Report {
     }
 }
 
+impl Shown for Report {
+    fn drawing(&self) -> Vec<u8> {
+        drawing::page(self)
+    }
+
+    fn json(&self) -> anyhow::Result<String> {
+        json::json(self)
+    }
+
+    fn manifest(&self) -> String {
+        answers_manifest(&self.title(), self.target.size(), &self.answers)
+    }
+
+    fn text(&self) -> String {
+        text::text(self)
+    }
+}
+
 /// The name of a path without its folder.
 fn title_of(name: &str) -> String {
     Path::new(name).file_name().map_or(name.to_owned(), |name| name.to_string_lossy().into_owned())
@@ -199,16 +217,31 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let answers = Search::new(&target, options.clone()).run(&index);
     let nearest_miss = if answers.is_empty() { nearest_miss(&target, &index, &options) } else { None };
     let report = Report { name, target, answers, nearest_miss };
+    show(&report, arguments, is_drawing_printed)
+}
+
+/// What a search has found, in the forms in which it is shown.
+trait Shown {
+    /// The path and the curves on one page, as SVG.
+    fn drawing(&self) -> Vec<u8>;
+    fn json(&self) -> anyhow::Result<String>;
+    /// A manifest that renders the linkages.
+    fn manifest(&self) -> String;
+    fn text(&self) -> String;
+}
+
+/// Writes the drawing that the arguments ask for, and prints what they ask for unless that is the drawing.
+fn show(report: &impl Shown, arguments: &Arguments, is_drawing_printed: bool) -> anyhow::Result<Outcome> {
     if let Some(path) = &arguments.svg {
-        files::write(path, &drawing::page(&report))?;
+        files::write(path, &report.drawing())?;
         if is_drawing_printed {
             return Ok(Outcome::Done);
         }
     }
     match (arguments.json, arguments.toml) {
-        (true, _) => print_bytes(json::json(&report)?.as_bytes())?,
-        (_, true) => print_bytes(answers_manifest(&report.title(), report.target.size(), &report.answers).as_bytes())?,
-        _ => print(&text::text(&report))?,
+        (true, _) => print_bytes(report.json()?.as_bytes())?,
+        (_, true) => print_bytes(report.manifest().as_bytes())?,
+        _ => print(&report.text())?,
     }
     Ok(Outcome::Done)
 }

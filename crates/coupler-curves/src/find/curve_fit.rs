@@ -163,13 +163,12 @@ impl CurveFitter {
         let path = CurvePath::new(points, is_closed)?;
         let paths = [path.mirrored(), path];
         let path_of = |start: &Start| &paths[usize::from(!start.is_mirrored)];
-        let [even, every, positions] =
-            [paths[1].spaced_evenly(EVEN), paths[1].spaced_evenly(COARSE), paths[1].knots(FINE)];
+        let even = paths[1].even_points(EVEN);
+        let [every, positions] = [paths[1].spaced_evenly(COARSE), paths[1].knots(FINE)];
         let samples = |positions: &[f64]| {
             paths.each_ref().map(|path| positions.iter().map(|position| path.point(*position)).collect::<Vec<_>>())
         };
         let (coarse, fine) = (samples(&every), samples(&positions));
-        let [_, even] = samples(&even);
         let mut tried: Vec<(f64, Start)> = self
             .starts(&paths[1], &even)
             .iter()

@@ -20,9 +20,7 @@ impl CurveShape {
     /// points without extent, or with a coordinate that is not finite, the shape is one that is like no target.
     pub fn new(points: &[Point], is_closed: bool) -> CurveShape {
         let Some(path) = CurvePath::new(points, is_closed) else { return CurveShape(Shape::EMPTY) };
-        let positions = path.spaced_evenly(EVEN);
-        let curve: Vec<_> = positions.iter().map(|position| path.point(*position)).collect();
-        let (spectrum, _, size) = Transform::new().spectrum(&curve);
+        let (spectrum, _, size) = Transform::new().spectrum(&path.even_points(EVEN));
         let shape = Shape::new(&spectrum.canonical(), path.length() / size, true);
         CurveShape(if path.is_open { shape.of_open() } else { shape })
     }
@@ -125,7 +123,7 @@ impl CurveLookup {
     /// has no extent. It takes some 0.2 ms.
     pub fn likeness(&self, points: &[Point], is_closed: bool) -> Option<f64> {
         let path = CurvePath::new(points, is_closed)?;
-        let curve: Vec<_> = path.spaced_evenly(EVEN).iter().map(|position| path.point(*position)).collect();
+        let curve = path.even_points(EVEN);
         match &self.query {
             Query::Whole(target, ..) => {
                 let transform = Transform::new();

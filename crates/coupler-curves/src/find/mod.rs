@@ -70,7 +70,7 @@ pub use linkage::{
     LinkageFit, LinkageRefinement, LinkageSearch, LinkageSpace, LinkageSpaceError, SampleCurve, SampleIndex,
     SampleShape, is_scalable, longest_link, pivots_of, scaled_values,
 };
-pub use manifest::answers_manifest;
+pub use manifest::{answer_families, answers_manifest, manifest_head};
 pub use mechanism::{Condition, Mechanism};
 pub use options::{Effort, Options};
 pub use ranking::Ranking;

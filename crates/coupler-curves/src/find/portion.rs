@@ -216,8 +216,8 @@ impl Stroke {
         });
         windows.sort_by(|a, b| a.residual.total_cmp(&b.residual));
         let are_apart = |a: f64, b: f64| {
-            let difference = (a - b).abs();
-            difference.min((1.0 - difference).abs()) > APART
+            let difference = (a - b).rem_euclid(1.0);
+            difference.min(1.0 - difference) > APART
         };
         let mut found: Vec<Window> = Vec::new();
         for window in windows {

@@ -5,23 +5,8 @@ use coupler_curves::find::AnswerRecord;
 use serde::Serialize;
 
 use super::super::super::report;
-use super::super::json::{self, FORMAT, PlacedRecord, Target};
+use super::super::json::{self, Document, FORMAT, NearestMiss, PlacedRecord};
 use super::{AtlasReport, Found};
-
-#[derive(Serialize)]
-struct Document {
-    target: Target,
-    curves: usize,
-    results: Vec<Entry>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    nearest_miss: Option<NearestMiss>,
-}
-
-#[derive(Serialize)]
-struct NearestMiss {
-    relax: Vec<&'static str>,
-    result: Entry,
-}
 
 #[derive(Serialize)]
 struct Entry {
@@ -45,7 +30,8 @@ pub(super) fn json(report: &AtlasReport) -> anyhow::Result<String> {
     let miss = report.nearest_miss.as_ref();
     let document = Document {
         target: json::target(&report.target),
-        curves: report.curves,
+        curves: Some(report.curves),
+        searched: None,
         results: (1..).zip(&report.answers).map(entry).collect(),
         nearest_miss: miss.map(|(relax, found)| NearestMiss { relax: relax.clone(), result: entry((1, found)) }),
     };

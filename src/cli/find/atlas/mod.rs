@@ -10,8 +10,10 @@ use std::path::{Path, PathBuf};
 use coupler_atlas::find::{self, AtlasAnswer, AtlasOptions};
 use coupler_atlas::manifest::Plan;
 use coupler_atlas::record::{FolderRecord, RunRecord};
-use coupler_curves::exchange::{ParameterSet, manifest_fragment};
-use coupler_curves::find::{Answer, Condition, Index, Options, Search, Target, answers_manifest, scaled_values};
+use coupler_curves::exchange::{ParameterSet, manifest_families};
+use coupler_curves::find::{
+    Answer, Condition, Index, Options, Search, Target, answer_families, answers_manifest, manifest_head, scaled_values,
+};
 use coupler_curves::linkage_format::quoted;
 use coupler_curves::measure;
 use coupler_curves::motion::Sampler;
@@ -20,7 +22,7 @@ use coupler_drawing::page::FoundCurve;
 use rayon::prelude::*;
 
 use super::super::source::ManifestSource;
-use super::{Arguments, InputError, Outcome, drawing, files, print, print_bytes, source, title_of};
+use super::{Arguments, InputError, Outcome, Shown, drawing, show, source, title_of};
 
 /// What has been found in an atlas.
 pub(super) struct AtlasReport {
@@ -91,18 +93,7 @@ pub(super) fn run(
         nearest_miss = nearest.map(|nearest| (relax, nearest));
     }
     let report = AtlasReport { name, target, plan: source.plan, curves, answers, nearest_miss };
-    if let Some(path) = &arguments.svg {
-        files::write(path, &report.drawing())?;
-        if is_drawing_printed {
-            return Ok(Outcome::Done);
-        }
-    }
-    match (arguments.json, arguments.toml) {
-        (true, _) => print_bytes(json::json(&report)?.as_bytes())?,
-        (_, true) => print_bytes(report.manifest().as_bytes())?,
-        _ => print(&text::text(&report))?,
-    }
-    Ok(Outcome::Done)
+    show(&report, arguments, is_drawing_printed)
 }
 
 /// The curves that are refined for each answer.
@@ -110,17 +101,7 @@ const STARTS_PER_ANSWER: usize = 8;
 
 /// Refines four-bars, merges curves that are the same to a thousandth of the target's size, and ranks them.
 fn ranked(curves: Vec<AtlasAnswer>, target: &Target, options: &Options, arguments: &Arguments) -> Vec<Found> {
-    let is_same =
-        |a: &Found, b: &Found| find::are_same(&a.curve.curve.outline, &b.curve.curve.outline, 1e-3 * target.size());
-    let distinct = |found: Vec<Found>, most: usize| {
-        let mut kept: Vec<Found> = Vec::new();
-        for found in found {
-            if kept.len() < most && kept.iter().all(|other| !is_same(&found, other)) {
-                kept.push(found);
-            }
-        }
-        kept
-    };
+    let distinct = |found: Vec<Found>, most| find::distinct(found, |found| &found.curve.curve, target, most);
     let placed = curves.into_iter().map(|curve| Found { curve, refined: None });
     // Several are refined to the same curve.
     let mut found = distinct(placed.collect(), STARTS_PER_ANSWER * options.most);
@@ -189,23 +170,22 @@ fn read(atlas: &Path) -> anyhow::Result<ManifestSource> {
     Ok(source)
 }
 
-impl AtlasReport {
+impl Shown for AtlasReport {
     /// A manifest that renders the linkages: refined four-bars where they are on the path, others in the direction that they have in the
     /// atlas, and as large as they are on the path if their dimensions scale.
     fn manifest(&self) -> String {
+        let name = title_of(&self.name);
         let refined: Vec<Answer> = self.answers.iter().filter_map(|found| found.refined.clone()).collect();
-        let mut out = answers_manifest(&title_of(&self.name), self.target.size(), &refined);
         let placed: Vec<(usize, &AtlasAnswer)> = (1..)
             .zip(&self.answers)
             .filter(|(_, found)| found.refined.is_none())
             .map(|(k, found)| (k, &found.curve))
             .collect();
         if placed.is_empty() {
-            return out;
+            return answers_manifest(&name, self.target.size(), &refined);
         }
         let mut sets = Vec::new();
-        out = out.replace("\n# No linkage meets the constraints.\n", "");
-        out.push('\n');
+        let mut out = manifest_head(&name) + &answer_families(&name, self.target.size(), &refined) + "\n";
         for (rank, AtlasAnswer { place, name, curve }) in placed {
             let family = &self.plan.families[place[0]].family;
             let scale = curve.fit.placement.scale();
@@ -215,8 +195,15 @@ impl AtlasReport {
             let values = scaled_values(&family.template, &curve.values, factor);
             sets.push(ParameterSet { family, values, curve_name: format!("{rank}: {name}") });
         }
-        let fragment = manifest_fragment(&sets);
-        out + fragment.split_once('\n').map_or("", |(_, families)| families)
+        out + &manifest_families(&sets, false)
+    }
+
+    fn json(&self) -> anyhow::Result<String> {
+        json::json(self)
+    }
+
+    fn text(&self) -> String {
+        text::text(self)
     }
 
     /// The path and the curves on one page.
@@ -232,7 +219,9 @@ impl AtlasReport {
             found.collect(),
         )
     }
+}
 
+impl AtlasReport {
     fn drawn(&self, rank: usize, AtlasAnswer { place, name, curve }: &AtlasAnswer) -> Option<FoundCurve> {
         let [place, cell] = *place;
         let family = &self.plan.families[place].family;

@@ -6,20 +6,14 @@ use coupler_atlas::find::PlacedCurve;
 use coupler_curves::find::{Quality, format_length as number, format_relative as relative};
 
 use super::super::super::format::pluralize;
-use super::super::text::{dimensions, place};
+use super::super::text::{described, dimensions, place};
 use super::{AtlasReport, Found};
 
 /// The answers, each with its cell, where it is placed or what was refined from it.
 pub(super) fn text(report: &AtlasReport) -> String {
     let AtlasReport { name, target, answers, curves, nearest_miss, .. } = report;
     let size = target.size();
-    let points = pluralize(target.points().len(), "point");
-    let mut out = format!(
-        "{name}: {points}, {}, S = {}; {} of the atlas\n",
-        target.kind().name(),
-        number(size, size),
-        pluralize(*curves, "curve")
-    );
+    let mut out = format!("{}; {} of the atlas\n", described(name, target), pluralize(*curves, "curve"));
     for (rank, found) in (1..).zip(answers) {
         out += &entry(&rank.to_string(), found, size);
     }

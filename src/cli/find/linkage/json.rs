@@ -4,26 +4,10 @@ use coupler_atlas::find::LinkageAnswer;
 use serde::Serialize;
 
 use super::super::super::report;
-use super::super::json::{self, FORMAT, PlacedRecord, Target};
-use super::super::text::option_of;
+use super::super::json::{self, Document, FORMAT, NearestMiss, PlacedRecord};
+use super::super::text::options_of;
 use super::LinkageReport;
 use super::text::branch;
-
-#[derive(Serialize)]
-struct Document {
-    target: Target,
-    curves: usize,
-    searched: Vec<String>,
-    results: Vec<Entry>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    nearest_miss: Option<NearestMiss>,
-}
-
-#[derive(Serialize)]
-struct NearestMiss {
-    relax: Vec<&'static str>,
-    result: Entry,
-}
 
 #[derive(Serialize)]
 struct Entry {
@@ -39,14 +23,14 @@ struct Entry {
 /// The path and the linkages, as indented JSON.
 pub(super) fn json(report: &LinkageReport) -> anyhow::Result<String> {
     let entry = |(rank, answer): (usize, &LinkageAnswer)| entry(report, rank, answer);
-    let miss = report.nearest_miss.as_ref().map(|(constraints, answer)| NearestMiss {
-        relax: constraints.iter().map(|constraint| option_of(*constraint)).collect(),
-        result: entry((1, answer)),
-    });
+    let miss = report
+        .nearest_miss
+        .as_ref()
+        .map(|(constraints, answer)| NearestMiss { relax: options_of(constraints), result: entry((1, answer)) });
     let document = Document {
         target: json::target(&report.target),
-        curves: report.curves,
-        searched: report.space.free_names().map(str::to_owned).collect(),
+        curves: Some(report.curves),
+        searched: Some(report.space.free_names().map(str::to_owned).collect()),
         results: (1..).zip(&report.answers).map(entry).collect(),
         nearest_miss: miss,
     };

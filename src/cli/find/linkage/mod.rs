@@ -8,10 +8,10 @@ use std::sync::Arc;
 
 use coupler_atlas::find::{self, LinkageAnswer, MAX_SAMPLES};
 use coupler_atlas::manifest;
-use coupler_curves::exchange::{ParameterSet, manifest_fragment};
+use coupler_curves::exchange::{ParameterSet, manifest_families};
 use coupler_curves::family::Family;
 use coupler_curves::find::{
-    Condition, Constraint, LinkageSpace, Mechanism, Options, Target, answers_manifest, nearest_miss_by,
+    Condition, Constraint, LinkageSpace, Mechanism, Options, Target, answers_manifest, manifest_head, nearest_miss_by,
 };
 use coupler_curves::measure;
 use coupler_curves::motion::Sampler;
@@ -20,7 +20,7 @@ use coupler_curves::template::{Orientation, Template};
 
 use super::super::linkage::find_template;
 use super::super::source;
-use super::{Arguments, InputError, InputErrors, Outcome, drawing, files, print, print_bytes, title_of};
+use super::{Arguments, InputError, InputErrors, Outcome, Shown, drawing, show, title_of};
 
 /// What has been found for a linkage.
 pub(super) struct LinkageReport {
@@ -120,18 +120,7 @@ pub(super) fn run(
         false => None,
     };
     let report = LinkageReport { name, target, space, curves, answers, nearest_miss, own_linkage };
-    if let Some(path) = &arguments.svg {
-        files::write(path, &report.drawing())?;
-        if is_drawing_printed {
-            return Ok(Outcome::Done);
-        }
-    }
-    match (arguments.json, arguments.toml) {
-        (true, _) => print_bytes(json::json(&report)?.as_bytes())?,
-        (_, true) => print_bytes(report.manifest().as_bytes())?,
-        _ => print(&text::text(&report))?,
-    }
-    Ok(Outcome::Done)
+    show(&report, arguments, is_drawing_printed)
 }
 
 /// The condition of the arguments for a linkage.
@@ -148,15 +137,15 @@ pub(super) fn condition(
     }
 }
 
-impl LinkageReport {
+impl Shown for LinkageReport {
     /// A manifest that renders the linkages: in the direction that they have on the path and mirrored as there, and as large if their
     /// dimensions scale. Families have no shift; comments have it.
     fn manifest(&self) -> String {
-        let mut out = answers_manifest(&title_of(&self.name), self.target.size(), &[]);
+        let name = title_of(&self.name);
         if self.answers.is_empty() {
-            return out;
+            return answers_manifest(&name, self.target.size(), &[]);
         }
-        out = out.replace("\n# No linkage meets the constraints.\n", "");
+        let mut out = manifest_head(&name);
         out.extend(self.own_linkage.iter().map(|text| format!("\n{text}")));
         out.push('\n');
         let families: Vec<Family> =
@@ -167,14 +156,15 @@ impl LinkageReport {
             let curve_name = format!("{rank}: {}", text::deviation(&answer.curve, self.target.size()));
             sets.push(ParameterSet { family, values: answer.curve.values.clone(), curve_name });
         }
-        let fragment = manifest_fragment(&sets);
-        let families = fragment.split_once('\n').map_or("", |(_, families)| families);
-        let copied = format!(
-            "\n# The [[linkage]] `{}` is the atlas's own: copy it from its manifest.",
-            self.space.template().id
-        );
-        let families = if self.own_linkage.is_some() { families.replace(&copied, "") } else { families.to_owned() };
-        out + &families
+        out + &manifest_families(&sets, self.own_linkage.is_some())
+    }
+
+    fn json(&self) -> anyhow::Result<String> {
+        json::json(self)
+    }
+
+    fn text(&self) -> String {
+        text::text(self)
     }
 
     /// The path and the curves on one page.

@@ -3,28 +3,24 @@
 use std::fmt::Write;
 
 use coupler_atlas::find::{LinkageAnswer, PlacedCurve};
-
-use coupler_curves::find::{Constraint, LinkageSpace, Quality, format_length as number, format_relative as relative};
+use coupler_curves::find::{LinkageSpace, Quality, format_length as number, format_relative as relative};
 use coupler_curves::linkage_format::toml_number;
 use coupler_curves::template::ParameterKind;
 
 use super::super::super::format::pluralize;
 use super::super::atlas::placed;
-use super::super::text::{angle, option_of};
+use super::super::text::{angle, described, relaxed};
 use super::LinkageReport;
 
 /// The answers, each with its dimensions and its place.
 pub(super) fn text(report: &LinkageReport) -> String {
     let LinkageReport { name, target, answers, curves, space, nearest_miss, .. } = report;
     let size = target.size();
-    let points = pluralize(target.points().len(), "point");
-    let timed = if target.angles_deg().is_some() { ", timed" } else { "" };
     let id = &space.template().id;
     let free: Vec<&str> = space.free_names().collect();
     let mut out = format!(
-        "{name}: {points}, {}{timed}, S = {}; {id}, {} searched: {}; {}\n",
-        target.kind().name(),
-        number(size, size),
+        "{}; {id}, {} searched: {}; {}\n",
+        described(name, target),
         pluralize(free.len(), "parameter"),
         free.join(", "),
         pluralize(*curves, "curve")
@@ -39,15 +35,7 @@ pub(super) fn text(report: &LinkageReport) -> String {
         return out
             + "no linkage was found: no curve is about as long as the path and near it; try --effort thorough, or a larger --index\n";
     };
-    let options: Vec<&str> = constraints.iter().map(|constraint| option_of(*constraint)).collect();
-    let relax = match &constraints[..] {
-        [Constraint::MaxLink] => {
-            format!("a greater --max-link ({:.2} or more)", answer.curve.longest_link / size)
-        }
-        [Constraint::FullTurn] => "--input any".to_owned(),
-        [_] => format!("another {}", options[0]),
-        _ => format!("{} together", options.join(", ")),
-    };
+    let relax = relaxed(constraints, answer.curve.longest_link / size);
     let _ = writeln!(out, "no linkage meets the constraints; the nearest miss is an answer with {relax}:");
     out + &entry("-", answer, space, size)
 }

@@ -8,14 +8,18 @@
 
 mod aim;
 mod circuit;
+mod measured;
 mod refinement;
+mod samples;
 mod scaling;
 mod search;
 mod space;
+mod state;
 mod timed;
 
 pub use aim::{longest_link, pivots_of};
 pub use refinement::LinkageRefinement;
+pub use samples::{SampleCurve, SampleIndex, SampleShape};
 pub use scaling::{is_scalable, scaled_values};
-pub use search::{LinkageFit, LinkageSearch, SampleCurve, SampleIndex, SampleShape};
+pub use search::{LinkageFit, LinkageSearch};
 pub use space::{LinkageSpace, LinkageSpaceError};

@@ -2,13 +2,16 @@
 
 use super::aim::{Aim, Placed};
 use super::circuit::Traced;
+use super::measured::Measured;
 use super::refinement::{FINAL_ROUNDS, LinkageRefinement};
+use super::samples::{SampleCurve, SampleIndex, SampleShape};
 use super::space::LinkageSpace;
+use super::state::squares;
 use super::timed;
 use crate::find::answer::LENGTH_RATIOS;
-use crate::find::complex::{Complex, closed_length, length};
+use crate::find::complex::{Complex, length};
 use crate::find::curve_fit::{CurveFit, CurveFitOptions, Placement};
-use crate::find::curve_index::{CurveIndex, CurveLookup, CurveShape};
+use crate::find::curve_index::{CurveLookup, CurveShape};
 use crate::find::options::Options;
 use crate::find::query::Query;
 use crate::find::scatter::Scatter;
@@ -28,26 +31,6 @@ pub struct LinkageSearch {
     is_simple: bool,
 }
 
-/// A curve of the samples of a search: the number of the parameter set, from 0, the traced joint and the circuit, from 0.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct SampleCurve {
-    /// The number of the parameter set, from 0.
-    pub sample: u32,
-    /// The number of the traced joint, from 0.
-    pub trace: u32,
-    /// The number of the circuit, from 0.
-    pub circuit: u32,
-}
-
-/// How a curve of a sample is described for comparison.
-#[derive(Clone, Copy)]
-pub enum SampleShape {
-    /// Its shape.
-    Free(CurveShape),
-    /// Of a timed target, the sum of the squares of the distances at the inputs of some points, where it is least.
-    Timed(f64),
-}
-
 /// Dimensions of a linkage, and how the curve fits the target.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinkageFit {
@@ -65,9 +48,6 @@ pub struct LinkageFit {
 
 /// The points of a curve of which the shape is computed.
 const POINTS: usize = 128;
-
-/// Those of which its length is.
-const FINE_POINTS: usize = 720;
 
 /// The least part of a curve that may be like an open target before it is refined.
 const LEAST_PORTION: f64 = 0.05;
@@ -151,10 +131,18 @@ impl LinkageSearch {
         found
     }
 
-    /// Begins to look the target up among shapes.
-    pub fn lookup(&self, most: usize) -> CurveLookup {
+    /// The curves of an index that are most like the target, the likeliest first, at most so many.
+    pub fn most_alike(&self, index: &SampleIndex, most: usize) -> Vec<SampleCurve> {
+        if self.aim.angles_deg.is_some() {
+            let mut sums = index.sums.clone();
+            sums.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            return sums.iter().take(most).map(|(_, number)| index.curves[*number]).collect();
+        }
         let options = CurveFitOptions { least_portion: LEAST_PORTION, ..CurveFitOptions::default() };
-        CurveLookup::new(&self.aim.target, options, most)
+        let mut lookup = CurveLookup::new(&self.aim.target, options, most);
+        lookup.compare(&index.shapes, 0..index.shapes.len());
+        // The points of samples are not kept for a closer comparison.
+        lookup.found().take(most).map(|(_, number)| index.curves[number]).collect()
     }
 
     /// Begins to refine a curve of a sample; with how much it is like the target, the greater the more. `None` if it is not like it
@@ -241,11 +229,7 @@ impl LinkageSearch {
         refinement.state = match refinement.state.start {
             Some(start) => self.aim.timed_state(traced, placed, refinement.is_reversed, start)?,
             None => {
-                let states = [false, true].into_iter().filter_map(|is_reversed| {
-                    let state = self.aim.matched(traced.clone(), placed, is_reversed, FINAL_ROUNDS)?;
-                    Some((is_reversed, state))
-                });
-                let (is_reversed, state) = states.min_by(|a, b| a.1.sum.total_cmp(&b.1.sum))?;
+                let (is_reversed, state) = self.aim.matched_either_way(&traced, placed, FINAL_ROUNDS)?;
                 refinement.is_reversed = is_reversed;
                 state
             }
@@ -302,11 +286,7 @@ impl LinkageSearch {
         let points = self.aim.points_of(is_reversed);
         let positions: Vec<f64> = state.blocks.iter().map(|block| block.position).collect();
         let at = self.aim.points(&state.traced, &positions, state.start)?;
-        let squares = state.blocks.iter().zip(&at).flat_map(|(block, z)| {
-            let image = state.placed.apply(*z);
-            points[block.points.clone()].iter().map(move |point| (point - image).norm_sqr())
-        });
-        Some(squares.fold(0.0, f64::max).sqrt())
+        Some(squares(points, &state.placed, &state.blocks, &at).fold(0.0, f64::max).sqrt())
     }
 
     /// The traced joints on the circuits of a parameter set.
@@ -383,82 +363,5 @@ impl LinkageSearch {
 
     fn is_valid(&self, length_ratio: f64) -> bool {
         self.aim.target.kind() == PathKind::Open || (LENGTH_RATIOS[0]..=LENGTH_RATIOS[1]).contains(&length_ratio)
-    }
-}
-
-/// The shapes of a search's curves, and which they are.
-#[derive(Default)]
-pub struct SampleIndex {
-    curves: Vec<SampleCurve>,
-    shapes: CurveIndex,
-    sums: Vec<(f64, usize)>,
-}
-
-impl SampleIndex {
-    /// Adds curves.
-    pub fn extend(&mut self, found: impl IntoIterator<Item = (SampleCurve, SampleShape)>) {
-        for (curve, shape) in found {
-            match shape {
-                SampleShape::Free(shape) => self.shapes.push_shape(shape),
-                SampleShape::Timed(sum) => self.sums.push((sum, self.curves.len())),
-            }
-            self.curves.push(curve);
-        }
-    }
-
-    /// The number of curves.
-    pub fn len(&self) -> usize {
-        self.curves.len()
-    }
-
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.curves.is_empty()
-    }
-
-    /// The curves that are most like the target of a search, the likeliest first, at most so many.
-    pub fn most_alike(&mut self, search: &LinkageSearch, most: usize) -> Vec<SampleCurve> {
-        if search.aim.angles_deg.is_some() {
-            self.sums.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-            return self.sums.iter().take(most).map(|(_, number)| self.curves[*number]).collect();
-        }
-        let mut lookup = search.lookup(most);
-        lookup.compare(&self.shapes, 0..self.shapes.len());
-        // The points of samples are not kept for a closer comparison.
-        lookup.found().take(most).map(|(_, number)| self.curves[number]).collect()
-    }
-}
-
-/// The lengths of a curve along it.
-struct Measured {
-    /// The positions of samples, and the length up to each; the last is the end of the round.
-    positions: Vec<f64>,
-    lengths: Vec<f64>,
-}
-
-impl Measured {
-    fn new(traced: &Traced) -> Option<Measured> {
-        let mut positions = traced.positions(FINE_POINTS);
-        let points = traced.points(&positions)?;
-        let mut lengths = vec![0.0];
-        for k in 1..points.len() {
-            lengths.push(lengths[k - 1] + length(points[k] - points[k - 1]));
-        }
-        lengths.push(closed_length(&points));
-        positions.push(traced.period());
-        Some(Measured { positions, lengths })
-    }
-
-    fn whole(&self) -> f64 {
-        self.lengths[self.lengths.len() - 1]
-    }
-
-    fn length_at(&self, position: f64) -> f64 {
-        let period = self.positions[self.positions.len() - 1];
-        let round = (position / period).floor();
-        let within = position - round * period;
-        let k = self.positions.partition_point(|at| *at <= within).clamp(1, self.positions.len() - 1);
-        let part = (within - self.positions[k - 1]) / (self.positions[k] - self.positions[k - 1]);
-        round * self.whole() + self.lengths[k - 1] + part * (self.lengths[k] - self.lengths[k - 1])
     }
 }
