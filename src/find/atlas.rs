@@ -144,28 +144,33 @@ pub fn search_atlas(
     let wanted = if options.is_fixed || curves.len() <= options.candidates {
         (0..curves.len()).collect()
     } else {
-        let mut lookup = CurveLookup::new(target, fit_options.least_portion, options.candidates);
+        let mut lookup = CurveLookup::new(target, fit_options, options.candidates);
         lookup.compare(&index, 0..index.len());
-        let mut wanted = lookup.numbers();
-        wanted.sort_unstable();
-        wanted
+        let mut found: Vec<usize> = lookup.found().map(|(_, number)| number).collect();
+        if found.len() > options.candidates {
+            let mut closely: Vec<(f64, usize)> = Vec::new();
+            let likeness = |solved: &SolvedCell, curve: &MeasuredCurve, number| {
+                let circuit = solved.circuit(curve);
+                let points: Vec<Point> = circuit.points(curve.joint).collect();
+                Some((lookup.likeness(&points, circuit.is_closed)?, number))
+            };
+            for (family, range) in families.iter().zip(&ranges) {
+                let curves = (&curves[..], range);
+                solve_curves(family, curves, &found, likeness, |likenesses| closely.extend(likenesses));
+            }
+            closely.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+            closely.truncate(options.candidates);
+            found = closely.into_iter().map(|(_, number)| number).collect();
+        }
+        found
     };
     drop(index);
     let fitter = CurveFitter::new(target, fit_options);
     let mut answers: Vec<AtlasAnswer> = Vec::new();
-    for ((place, family, condition), range) in families.iter().zip(&ranges) {
-        let chosen: Vec<Curve> = wanted.iter().filter(|k| range.contains(k)).map(|k| curves[*k]).collect();
-        let mut cells: Vec<u32> = chosen.iter().map(|[cell, ..]| *cell).collect();
-        cells.dedup();
-        let fits = |solved: SolvedCell| -> Vec<AtlasAnswer> {
-            let is_chosen = |curve: &&MeasuredCurve| {
-                let numbers = [solved.cell.number - 1, curve.trace, curve.circuit].map(|number| number as u32);
-                chosen.binary_search(&numbers).is_ok()
-            };
-            let found = solved.curves.iter().filter(is_chosen);
-            found.filter_map(|curve| answer(*place, family, &solved, curve, &fitter)).collect()
-        };
-        solve_cells(family, condition.as_ref(), &CellIndices::Listed(cells), fits, |found| {
+    for (family, range) in families.iter().zip(&ranges) {
+        let (place, of_family, _) = family;
+        let fit = |solved: &SolvedCell, curve: &MeasuredCurve, _| answer(*place, of_family, solved, curve, &fitter);
+        solve_curves(family, (&curves, range), &wanted, fit, |found| {
             answers.extend(found.into_iter().filter(|answer| is_placed_well(answer, target, options)));
             answers.sort_by(|a, b| a.fit.rms.total_cmp(&b.fit.rms));
             answers.truncate(options.candidates);
@@ -233,6 +238,29 @@ fn solve_cells<T: Send>(
         receive(found);
         Ok::<(), Infallible>(())
     });
+}
+
+/// Solves those curves of a family again that are among some of all curves by number, and receives what is made of them in order. The curves
+/// of the family are those of a range of all.
+fn solve_curves<T: Send>(
+    (_, family, condition): &ConditionedFamily,
+    (curves, range): (&[Curve], &Range<usize>),
+    numbers: &[usize],
+    work: impl Fn(&SolvedCell, &MeasuredCurve, usize) -> Option<T> + Sync,
+    receive: impl FnMut(Vec<T>),
+) {
+    let mut chosen: Vec<usize> = numbers.iter().filter(|number| range.contains(number)).copied().collect();
+    chosen.sort_unstable();
+    let mut cells: Vec<u32> = chosen.iter().map(|number| curves[*number][0]).collect();
+    cells.dedup();
+    let works = |solved: SolvedCell| -> Vec<T> {
+        let number = |curve: &MeasuredCurve| {
+            let place = [solved.cell.number - 1, curve.trace, curve.circuit].map(|number| number as u32);
+            chosen.binary_search_by(|number| curves[*number].cmp(&place)).ok().map(|k| chosen[k])
+        };
+        solved.curves.iter().filter_map(|curve| work(&solved, curve, number(curve)?)).collect()
+    };
+    solve_cells(family, condition.as_ref(), &CellIndices::Listed(cells), works, receive);
 }
 
 fn answer(

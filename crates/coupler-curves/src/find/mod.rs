@@ -24,6 +24,7 @@
 //! with the same metric.
 
 mod answer;
+mod close_portion;
 mod complex;
 mod constraints;
 mod curve_alignment;
@@ -51,6 +52,7 @@ mod sequence;
 mod shape;
 mod significant;
 mod spectrum;
+mod synthesis;
 mod target;
 mod timing;
 
