@@ -88,7 +88,7 @@ fn summary(mechanism: &Mechanism) -> String {
     format!("{}, mu worst {}{constraints}", mechanism.class, angle(mechanism.mu_worst_deg))
 }
 
-fn angle(degrees: f64) -> String {
+pub(super) fn angle(degrees: f64) -> String {
     // Without the sign of -0.0.
     format!("{:.1}°", (10.0 * degrees).round() / 10.0 + 0.0)
 }

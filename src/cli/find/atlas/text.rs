@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use coupler_atlas::find::AtlasAnswer;
+use coupler_atlas::find::PlacedCurve;
 use coupler_curves::find::{Quality, format_length as number, format_relative as relative};
 
 use super::super::super::format::pluralize;
@@ -39,7 +39,8 @@ pub(super) fn text(report: &AtlasReport) -> String {
     out
 }
 
-fn entry(rank: &str, Found { curve, refined }: &Found, size: f64) -> String {
+fn entry(rank: &str, Found { curve: answer, refined }: &Found, size: f64) -> String {
+    let (curve, name) = (&answer.curve, &answer.name);
     let fit = &curve.fit;
     let line = |relative_rms: f64, rms: f64, greatest: f64| {
         let quality = Quality::of(relative_rms).name();
@@ -54,7 +55,7 @@ fn entry(rank: &str, Found { curve, refined }: &Found, size: f64) -> String {
         Some(answer) => format!(
             "{rank:>3}  {}, refined from {} (E = {} S)\n     {}\n     {}\n",
             line(answer.rms_relative, answer.rms, answer.greatest),
-            curve.name,
+            name,
             relative(fit.rms_relative),
             dimensions(&answer.mechanism, size),
             place(&answer.mechanism, size)
@@ -62,13 +63,13 @@ fn entry(rank: &str, Found { curve, refined }: &Found, size: f64) -> String {
         None => {
             let deviation = line(fit.rms_relative, fit.rms, fit.greatest);
             let class = if curve.class.is_empty() { String::new() } else { format!(", {}", curve.class) };
-            format!("{rank:>3}  {deviation}, {}{class}\n     {}\n", curve.name, placed(curve, size))
+            format!("{rank:>3}  {deviation}, {}{class}\n     {}\n", name, placed(curve, size))
         }
     }
 }
 
 /// Where a curve is placed, in words.
-pub(super) fn placed(curve: &AtlasAnswer, size: f64) -> String {
+pub(in super::super) fn placed(curve: &PlacedCurve, size: f64) -> String {
     let placement = &curve.fit.placement;
     let mirrored = if placement.is_mirrored { "y mirrored, " } else { "" };
     format!(
