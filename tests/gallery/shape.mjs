@@ -12,7 +12,12 @@ import { extentOf, lengthsAlong, portion, resampled } from "../../src/gallery/sc
 import { smoothed } from "../../src/gallery/script/shape/query-shape.js";
 import { parseShape } from "../../src/gallery/script/shape/parse.js";
 import { inverted, transformed } from "../../src/gallery/script/draw/similarity.js";
-import { bestFit, deviationInPlace, ShapeSearch, WHOLE } from "../../src/gallery/script/kernel/shape-search.js";
+import {
+  bestFit,
+  deviationInPlace,
+  ShapeSearch,
+  WHOLE,
+} from "../../src/gallery/script/kernel/shape-search.js";
 import { searchedParts } from "../../src/gallery/script/view/shape/indexes.js";
 import { nearestCurves } from "../../src/gallery/script/view/shape/matches.js";
 import { Slices } from "../../src/gallery/script/view/slices.js";

@@ -27,7 +27,8 @@ export async function nearestCurves(app, parts, shape, options, slices, progress
   });
   try {
     const found = await candidatesOf(app, kernel, search, parts, slices, progress);
-    const candidates = found && found.length > WANTED ? await nearestCandidates(search, found, slices) : found;
+    const candidates =
+      found && found.length > WANTED ? await nearestCandidates(search, found, slices) : found;
     if (!candidates) return null;
     /** @type {Match[]} */ const matches = [];
     for (const { family, curve } of candidates) {
