@@ -79,9 +79,9 @@ fn find(criterion: &mut Criterion) {
     (0..1000).for_each(|_| curves.push(&curve, true));
     group.bench_function("portions of 1000 given curves", |bencher| {
         bencher.iter(|| {
-            let mut lookup = CurveLookup::new(black_box(&part), 0.15, 200);
+            let mut lookup = CurveLookup::new(black_box(&part), CurveFitOptions::default(), 200);
             lookup.compare(&curves, 0..curves.len());
-            lookup.numbers()
+            lookup.found().count()
         });
     });
     group.finish();

@@ -10,6 +10,7 @@ use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
 use super::assets::{KERNEL, SCRIPTS, STYLES, compact, join_modules};
+use super::base91::encode_base91;
 use super::pieces::{PieceSeries, is_data_file_name, parse_piece_file_name};
 use crate::record::{FamilyRecord, RunRecord};
 use coupler_curves::measure;
@@ -52,14 +53,14 @@ pub const PAGE_FILE: &str = "index.html";
 /// The page, with placeholders like `{{title}}`.
 const PAGE_TEMPLATE: &str = include_str!("index.html");
 
-/// The script that unpacks and runs the page's script.
+/// The script that unpacks the page's style sheet, and unpacks and runs its script.
 const LOADER: &str = include_str!("loader.js");
 
 /// The text of `index.html`, for the families of a run.
 ///
 /// # Panics
 ///
-/// Never: its script is compressed in memory.
+/// Never: its style sheet and its script are compressed in memory.
 pub fn index_html(run: &RunRecord, families: &[GalleryFamily]) -> String {
     // Without indentation and empty lines.
     let lines = STYLES.iter().flat_map(|part| part.text.lines()).map(str::trim_start).filter(|line| !line.is_empty());
@@ -68,13 +69,14 @@ pub fn index_html(run: &RunRecord, families: &[GalleryFamily]) -> String {
     let loader = compact(LOADER.lines());
     // Escaped, so that the data cannot end its script element.
     let data = atlas_json(run, families).to_string().replace('<', "\\u003c");
+    let packed = |text: &str| BASE64_STANDARD.encode(gzip(text.as_bytes()).expect("memory takes all bytes"));
     let parts = [
         ("title", escape_html(&run.title)),
         ("policy", content_security_policy(&style, [&loader, &script])),
-        ("style", style),
         ("atlas", data),
-        ("kernel", BASE64_STANDARD.encode(KERNEL)),
-        ("packed_script", BASE64_STANDARD.encode(gzip(script.as_bytes()).expect("memory takes all bytes"))),
+        ("kernel", encode_base91(KERNEL)),
+        ("packed_style", packed(&style)),
+        ("packed_script", packed(&script)),
         ("loader", loader),
     ];
     let mut page = String::new();

@@ -1,13 +1,17 @@
-// Unpacks the page's script, which is compressed in the page, and runs it. The policy allows it by its digest.
+// Unpacks the page's style sheet and its script, which are compressed in the page. The policy allows them by their digests.
 const root = document.getElementById("gallery");
-if (typeof DecompressionStream === "function") {
-  const packed = atob(document.getElementById("script").textContent);
+const add = async (id, element) => {
+  const packed = atob(document.getElementById(id).textContent);
   const bytes = Uint8Array.from(packed, (c) => c.charCodeAt(0));
   const unpacked = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+  element.textContent = await new Response(unpacked).text();
+  document.head.append(element);
+};
+if (typeof DecompressionStream === "function") {
+  await add("style", document.createElement("style"));
   const script = document.createElement("script");
   script.type = "module";
-  script.textContent = await new Response(unpacked).text();
-  document.head.append(script);
+  await add("script", script);
 } else
   root.textContent =
     "The gallery needs a browser of 2023 or later. The pages are in the folders next to this file.";

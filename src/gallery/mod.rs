@@ -6,12 +6,14 @@
 //! scripts in this folder, and has a module for WebAssembly, the kernel, which computes with the linkages.
 
 mod assets;
+mod base91;
 mod family_script;
 mod index;
 mod pieces;
 mod typed_array;
 
 pub use assets::{Asset, KERNEL, SCRIPTS, STYLES, join_modules};
+pub use base91::encode_base91;
 pub use family_script::{FamilyScript, SCRIPT_FILE};
 pub use index::{DataBytes, GalleryFamily, PAGE_FILE, index_html};
 pub use pieces::{

@@ -40,21 +40,6 @@ export function familyOf(folder, script) {
   return family;
 }
 
-/**
- * Runs a generator to its end: { value, longest, whole }, the longest step and the whole time in
- * milliseconds.
- */
-export function runToEnd(generator) {
-  const began = performance.now();
-  let longest = 0;
-  for (;;) {
-    const from = performance.now();
-    const { value, done } = generator.next();
-    longest = Math.max(longest, performance.now() - from);
-    if (done) return { value, longest, whole: performance.now() - began };
-  }
-}
-
 /** Pseudorandom numbers from 0 to 1 from a seed (a linear congruential generator of Numerical Recipes). */
 export function randomNumbers(seed) {
   let state = seed >>> 0;

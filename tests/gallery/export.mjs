@@ -43,7 +43,8 @@ function manifestOf(theme) {
   });
   const head = `[atlas]\ntitle = "Exports"\noutput = "out"\n[page]\ntheme = ${theme}\n`;
   const own = `[[family]]\nid = "own"\nlinkage = "own"\nsampling = { samples = 90 }\ncircuits = "all"\ncolumns = ["vx", "curvature"]\ncases = [{ d = 1.05 }, {}]\n`;
-  return [head, OWN_LINKAGE, ...chosen.map((text) => `[[family]]\n${text}\n`), own].join("\n");
+  const linkages = atlas.slice(atlas.indexOf("[[linkage]]"));
+  return [head, OWN_LINKAGE, linkages, ...chosen.map((text) => `[[family]]\n${text}\n`), own].join("\n");
 }
 
 /** The names of the first and the last curve of each family in a folder, and of changed ones. */

@@ -6,6 +6,7 @@
 import assert from "node:assert/strict";
 
 import { eventually, openGallery, runTests } from "./browser.mjs";
+import { FOUR_BARS } from "./four-bars.mjs";
 import { COMPARING } from "./compare.mjs";
 import { browserBoxes, parsedBoxes, DRAWING } from "./pasted-drawing.mjs";
 import { FILTERING } from "./search-filters.mjs";
@@ -364,4 +365,4 @@ const tests = [
   ],
 ];
 
-await runTests([...tests, ...FILTERING, ...COMPARING, ...PRINTING]);
+await runTests([...tests, ...FOUR_BARS, ...FILTERING, ...COMPARING, ...PRINTING]);

@@ -1,27 +1,28 @@
 // Tests the search by shape: node tests/gallery/shape.mjs ATLAS…
 //
 // Curves of each atlas are rotated, scaled, mirrored, started elsewhere, reversed, resampled and disturbed by
-// noise; the search must find them again. Times are printed, not asserted: they depend on the machine.
+// noise; the search must find them again, with the kernel. Times are printed, not asserted: they depend on the machine.
 
 import assert from "node:assert/strict";
 
 import { curveKey, curvePoints } from "../../src/gallery/script/data/family.js";
-import { queryShape } from "../../src/gallery/script/shape/query-shape.js";
+import { queryShape, searchedPath } from "../../src/gallery/script/shape/query-shape.js";
 import { decodeShape, encodeShape } from "../../src/gallery/script/shape/encode.js";
-import { buildIndex, addWindows } from "../../src/gallery/script/shape/shape-index.js";
-import {
-  extentOf,
-  lengthsAlong,
-  portion,
-  resampled,
-  reversedOutline,
-} from "../../src/gallery/script/shape/outline.js";
+import { extentOf, lengthsAlong, portion, resampled } from "../../src/gallery/script/shape/outline.js";
 import { smoothed } from "../../src/gallery/script/shape/query-shape.js";
 import { parseShape } from "../../src/gallery/script/shape/parse.js";
-import { searchByShape } from "../../src/gallery/script/shape/search.js";
-import { composed, fitted, inverted, transformed } from "../../src/gallery/script/shape/similarity.js";
-import { fourier } from "../../src/gallery/script/shape/fourier.js";
-import { atlasOf, runToEnd, randomNumbers } from "./atlas-data.mjs";
+import { inverted, transformed } from "../../src/gallery/script/draw/similarity.js";
+import {
+  bestFit,
+  deviationInPlace,
+  ShapeSearch,
+  WHOLE,
+} from "../../src/gallery/script/kernel/shape-search.js";
+import { searchedParts } from "../../src/gallery/script/view/shape/indexes.js";
+import { nearestCurves } from "../../src/gallery/script/view/shape/matches.js";
+import { Slices } from "../../src/gallery/script/view/slices.js";
+import { atlasOf, randomNumbers } from "./atlas-data.mjs";
+import { kernelOf } from "./kernel.mjs";
 
 const near = (a, b, tolerance, what) => assert.ok(Math.abs(a - b) <= tolerance, `${what}: ${a}, not ${b}`);
 
@@ -34,35 +35,12 @@ const near = (a, b, tolerance, what) => assert.ok(Math.abs(a - b) <= tolerance, 
   near(extentOf(circle), 2, 1e-4, "extent of a circle");
   const even = resampled(Float64Array.of(0, 0, 3, 0, 3, 1), false, 5);
   assert.deepEqual([...even], [0, 0, 1, 0, 2, 0, 3, 0, 3, 1]);
-  assert.deepEqual([...reversedOutline(Float64Array.of(0, 0, 1, 0, 1, 1), true)], [0, 0, 1, 1, 1, 0]);
-
-  const { forward, inverse } = fourier(16);
-  const random = randomNumbers(1);
-  const [re, im] = [0, 1].map(() => Float64Array.from({ length: 16 }, random));
-  const [x, y] = [re.slice(), im.slice()];
-  forward(x, y);
-  let [u, v] = [0, 0];
-  for (let n = 0; n < 16; n += 1) {
-    const angle = (-2 * Math.PI * 3 * n) / 16;
-    u += re[n] * Math.cos(angle) - im[n] * Math.sin(angle);
-    v += re[n] * Math.sin(angle) + im[n] * Math.cos(angle);
-  }
-  near(x[3], u, 1e-12, "transform");
-  near(y[3], v, 1e-12, "transform");
-  inverse(x, y);
-  re.forEach((value, k) => near(x[k], value, 1e-14, "there and back"));
 
   const similarity = { mirror: true, re: 0.6, im: -1.1, x: 3, y: -2 };
   const there = transformed(similarity, even);
   transformed(inverted(similarity), there).forEach((value, k) =>
     near(value, even[k], 1e-13, "inverse of a similarity"),
   );
-  transformed(composed(inverted(similarity), similarity), even).forEach((value, k) =>
-    near(value, even[k], 1e-13, "composition"),
-  );
-  const turned = { mirror: false, re: 0.3, im: 2, x: 1, y: 1 };
-  const fit = fitted(even, transformed(turned, even));
-  for (const part of ["re", "im", "x", "y"]) near(fit[part], turned[part], 1e-12, `fit, ${part}`);
 }
 
 // Noisy outlines are smoothed, others are not changed.
@@ -215,6 +193,13 @@ const near = (a, b, tolerance, what) => assert.ok(Math.abs(a - b) <= tolerance, 
 
 // Curves of atlases are found again.
 
+/** An outline in the opposite direction, with the same first point if it is closed. */
+function reversedOutline(points, closed) {
+  const count = points.length / 2;
+  const from = (k) => (closed ? (count - k) % count : count - 1 - k);
+  return Float64Array.from(points, (_, at) => points[2 * from(at >> 1) + (at & 1)]);
+}
+
 /**
  * A curve transformed, resampled and disturbed; `noise` displaces each point by up to this part of the
  * extent.
@@ -241,63 +226,85 @@ function disturbed(points, closed, random, { count, noise }) {
   return random() < 0.5 ? reversedOutline(placedThere, closed) : placedThere;
 }
 
-// Deviations that differ by less than this, by the extent, count as equal: the chords of the samples deviate
+// Deviations that differ by less than this, by the size, count as equal: the chords of the samples deviate
 // as much from the curve.
 const AS_NEAR = 3e-4;
 
+// The least part of a curve that a portion is.
+const LEAST = 0.15;
+
+/** Searches families for a shape with a kernel. */
+function searchFor(kernel, parts, shape, options) {
+  const app = { kernel: { load: async () => kernel }, announce: assert.fail };
+  const slices = new Slices(() => false);
+  return nearestCurves(
+    app,
+    parts,
+    shape,
+    { mirror: true, least: LEAST, by: "rms", ...options },
+    slices,
+    () => {},
+  );
+}
+
 /**
- * Searches for disturbed curves of an atlas; { first, five } are the numbers of those found first and among
- * the first five.
+ * Searches for disturbed curves of an atlas; { first, five } are the shares of those that are found first and among the
+ * first five, where others that are as near count for the curve.
  */
-function trial(indexes, families, { label, tries, part, ...disturbance }) {
+async function trial(kernel, parts, families, { label, tries, part, ...disturbance }) {
   const random = randomNumbers(20);
   const curves = families.flatMap((family) =>
     Array.from({ length: family.curves.count }, (_, curve) => ({ family, curve })),
   );
-  const [ranks, times] = [[], []];
-  let [longest, alone] = [0, 0];
+  const times = [];
+  let [alone, first, five] = [0, 0, 0];
   for (let n = 0; n < tries; n += 1) {
     const { family, curve } = curves[Math.floor(random() * curves.length)];
     const closed = family.curves.closed[curve] === 1;
     const own = curvePoints(family, curve);
     const from = closed ? random() : random() * (1 - part);
     const points = part < 1 ? portion(own, closed, from, from + part, 300).points : own;
-    const shape = queryShape(
-      disturbed(points, closed && part === 1, random, disturbance),
-      closed && part === 1,
-    );
-    const {
-      value,
-      longest: step,
-      whole,
-    } = runToEnd(searchByShape(indexes, shape, { part: part < 1, least: 0.15 }));
+    const isWhole = closed && part === 1;
+    const shape = queryShape(disturbed(points, isWhole, random, disturbance), isWhole);
+    const began = performance.now();
+    const found = await searchFor(kernel, parts, shape, { isPart: part < 1 });
+    times.push(performance.now() - began);
     const name = `${family.id}:${curveKey(family, curve)}`;
     // Cognates and overlapping families draw the same curve: results with equal deviations share a rank.
-    const at = value.findIndex((one) => one.name === name);
-    ranks.push(at < 0 ? Infinity : value.filter(({ rms }) => rms < value[at].rms - AS_NEAR).length + 1);
+    // Cognates and overlapping families draw the same curve, and many curves have a third that is as near: what is
+    // found in the place of the curve must be as near as the curve itself.
+    const search = new ShapeSearch(kernel, searchedPath(shape, part < 1), {
+      mirror: true,
+      least: isWhole ? WHOLE : LEAST,
+    });
+    const deviation = search.fit({ points: own, closed }).rms + AS_NEAR;
+    search.close();
+    const at = found.findIndex((one) => one.name === name);
     if (at === 0) alone += 1;
-    times.push(whole);
-    longest = Math.max(longest, step);
+    if (found[0]?.rms <= deviation) first += 1;
+    if ((at >= 0 && at < 5) || found[4]?.rms <= deviation) five += 1;
   }
   times.sort((a, b) => a - b);
-  const [first, five] = [1, 5].map((most) => ranks.filter((rank) => rank <= most).length);
   console.log(
-    `${label}: ${alone} first, ${first} with what is as near, ${five} among five, of ${tries}; ${Math.round(times[tries >> 1])} ms, at most ${Math.round(times.at(-1))}, the longest step ${Math.round(longest)}`,
+    `${label}: ${alone} first, ${first} with what is as near, ${five} among five, of ${tries}; ${Math.round(times[tries >> 1])} ms, at most ${Math.round(times.at(-1))}`,
   );
   return { first: first / tries, five: five / tries };
 }
 
 for (const folder of process.argv.slice(2)) {
   const { families } = atlasOf(folder);
-  const made = families.map((family) => runToEnd(buildIndex(family)));
-  const indexes = made.map(({ value }) => value);
-  const windows = indexes.map((index) => runToEnd(addWindows(index, 0.15)));
-  const sum = (runs) => Math.round(runs.reduce((whole, run) => whole + run.whole, 0));
-  console.log(`${folder}: index ${sum(made)} ms, windows ${sum(windows)} ms`);
-  const tries = 100;
-  const whole = trial(indexes, families, { label: "whole", tries, part: 1, count: 150, noise: 0 });
+  const kernel = await kernelOf(folder);
+  const parts = searchedParts(families, Infinity);
+  const tries = 40;
+  const whole = await trial(kernel, parts, families, {
+    label: "whole",
+    tries,
+    part: 1,
+    count: 150,
+    noise: 0,
+  });
   assert.ok(whole.first >= 0.97 && whole.five === 1, "whole curves come first");
-  const noised = trial(indexes, families, {
+  const noised = await trial(kernel, parts, families, {
     label: "whole, 1 % of noise",
     tries,
     part: 1,
@@ -306,31 +313,53 @@ for (const folder of process.argv.slice(2)) {
   });
   // Neighbours in a dense atlas differ by less than this noise.
   assert.ok(noised.first >= 0.85 && noised.five >= 0.95, "noised curves come first");
-  const third = trial(indexes, families, { label: "a third", tries, part: 1 / 3, count: 80, noise: 0 });
+  const third = await trial(kernel, parts, families, {
+    label: "a third",
+    tries,
+    part: 1 / 3,
+    count: 80,
+    noise: 0,
+  });
   // Thirds without features, nearly circular arcs, are drawn by very many curves.
   assert.ok(third.five >= 0.85, "thirds of curves come among the first five");
-  const rough = trial(indexes, families, {
+  const rough = await trial(kernel, parts, families, {
     label: "a third, 1 % of noise",
-    tries: 40,
+    tries,
     part: 1 / 3,
     count: 80,
     noise: 0.01,
   });
   // Of thousands of curves hundreds have a third that differs from another's by less than this noise.
   assert.ok(rough.five >= 0.4, "noised thirds come among the first five as often as not");
-  unmirrored(indexes, families[0]);
+  await unmirrored(kernel, parts, families[0]);
+  compared(kernel, families[0]);
 }
 
-/** Tests that no mirror image is found if they are excluded, and that deviations agree with the overlays. */
-function unmirrored(indexes, family) {
-  const points = curvePoints(family, 0);
-  const closed = family.curves.closed[0] === 1;
-  const shape = queryShape(points, closed);
-  const { value } = runToEnd(searchByShape(indexes, shape, { mirror: false }));
-  assert.ok(value.every(({ similarity }) => !similarity.mirror));
-  assert.ok(value[0].rms < 1e-3);
-  value.slice(1).forEach(({ rms }, k) => assert.ok(rms >= value[k].rms, "ranked by deviation"));
-  const byGreatest = runToEnd(searchByShape(indexes, shape, { by: "greatest" })).value;
+/** Tests that no mirror image is found if they are excluded, and that results are ranked. */
+async function unmirrored(kernel, parts, family) {
+  const shape = queryShape(curvePoints(family, 0), family.curves.closed[0] === 1);
+  const found = await searchFor(kernel, parts, shape, { isPart: false, mirror: false });
+  assert.ok(found.every(({ similarity }) => !similarity.mirror));
+  assert.ok(found[0].rms < 1e-3);
+  found.slice(1).forEach(({ rms }, k) => assert.ok(rms >= found[k].rms, "ranked by deviation"));
+  const byGreatest = await searchFor(kernel, parts, shape, { isPart: false, by: "greatest" });
   byGreatest.slice(1).forEach(({ greatest }, k) => assert.ok(greatest >= byGreatest[k].greatest));
+}
+
+/** Tests the alignment of a curve with its image, and its deviation where it is. */
+function compared(kernel, family) {
+  const own = { points: curvePoints(family, 0), closed: family.curves.closed[0] === 1 };
+  const image = { ...own, points: transformed({ mirror: true, re: 0.6, im: -1.1, x: 3, y: -2 }, own.points) };
+  const fit = bestFit(kernel, own, image, true);
+  assert.ok(fit.rms < 1e-6);
+  transformed(fit.similarity, image.points).forEach((value, k) =>
+    near(value, own.points[k], 1e-4 * extentOf(own.points), "aligned"),
+  );
+  assert.ok(deviationInPlace(kernel, own, own).rms < 1e-6);
+  // Moved far along one axis, the nearest points are about as far.
+  const away = 100 * extentOf(own.points);
+  const moved = { ...own, points: transformed({ mirror: false, re: 1, im: 0, x: away, y: 0 }, own.points) };
+  const { rms, greatest } = deviationInPlace(kernel, own, moved);
+  assert.ok(greatest >= rms && rms > 90);
 }
 console.log("shape: as it should be");

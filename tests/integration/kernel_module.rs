@@ -6,6 +6,7 @@ use std::path::Path;
 
 use coupler_atlas::manifest::{self, PlannedFamily};
 use coupler_curves::family::Sampling;
+use coupler_curves::geometry::trig;
 use coupler_curves::motion::{Motion, Sampler};
 use coupler_drawing::curve_file::CurveFormat;
 use coupler_kernel::{Kernel, Response};
@@ -54,6 +55,14 @@ impl Page {
     }
 
     fn call(&mut self, request: &str) -> Response {
+        self.call_with_numbers(request, &[])
+    }
+
+    fn call_with_numbers(&mut self, request: &str, numbers: &[f64]) -> Response {
+        let input = self.function::<u32, u32>("kernel_numbers").call(&mut self.store, numbers.len() as u32).unwrap();
+        let bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
+        let memory = self.instance.get_memory(&self.store, "memory").unwrap();
+        memory.write(&mut self.store, input as usize, &bytes).unwrap();
         let allocate = self.function::<u32, u32>("kernel_allocate");
         let at = allocate.call(&mut self.store, request.len() as u32).unwrap();
         let memory = self.instance.get_memory(&self.store, "memory").unwrap();
@@ -95,8 +104,13 @@ struct Both {
 impl Both {
     /// The answer to a request, which must be the same of both.
     fn answer(&mut self, request: &Value) -> Value {
+        self.answer_with_numbers(request, &[])
+    }
+
+    fn answer_with_numbers(&mut self, request: &Value, numbers: &[f64]) -> Value {
         let request = request.to_string();
-        let (found, expected) = (self.page.call(&request), self.kernel.call(&request));
+        let found = self.page.call_with_numbers(&request, numbers);
+        let expected = self.kernel.call_with_numbers(&request, numbers);
         assert!(found.json == expected.json, "{request}\n{}\n{}", found.json, expected.json);
         assert_eq!(bits(&found.numbers), bits(&expected.numbers), "{request}");
         self.compared += 1;
@@ -199,4 +213,44 @@ fn the_module_returns_what_the_kernel_returns_here() {
     assert!(cells > 80 && answers > 8 * cells, "{cells} cells, {answers} answers");
     let joints = "Aligned Crank Dyad Fixed Gear Parallelogram Piston Rigid Slide Slot Yoke";
     assert_eq!(kinds.into_iter().collect::<Vec<_>>().join(" "), joints);
+}
+
+#[test]
+fn the_module_finds_what_the_kernel_finds_here() {
+    let mut both = Both { page: Page::new(), kernel: Kernel::default(), compared: 0 };
+    both.answer(&json!({ "method": "grow_index" }));
+    let point = |k: usize| {
+        let t = std::f64::consts::TAU * k as f64 / 24.0;
+        [3.0 * trig::cos(t) + 0.4 * trig::cos(2.0 * t), 2.0 * trig::sin(t)]
+    };
+    let points: Vec<f64> = (0..24).flat_map(point).collect();
+    let array = json!({ "$": [0, points.len()] });
+    let options = json!({ "points": array, "kind": "closed", "full_turn": false, "max_link": "inf", "most": 1 });
+    let with_options = |method: &str, more: &Value| {
+        let mut request = json!({ "method": method });
+        let members = [&options, more].into_iter().flat_map(|part| part.as_object().unwrap().clone());
+        request.as_object_mut().unwrap().extend(members);
+        request
+    };
+    both.answer_with_numbers(&with_options("open_search", &json!({})), &points);
+    for _ in 0..900 {
+        both.answer(&json!({ "method": "step_search", "search": 0 }));
+    }
+    let request = json!({ "method": "answers", "search": 0, "name": "egg" });
+    let found = std::iter::repeat_with(|| both.answer(&request)).find(|found| found["is_complete"] == true).unwrap();
+    assert_eq!(found["answers"].as_array().unwrap().len(), 1, "{found}");
+    // The path itself, and a curve like nothing.
+    both.answer(&json!({ "method": "open_curves" }));
+    let curves: Vec<f64> = points.iter().copied().chain([0.0, 0.0, 1.0, 0.0, 2.0, 0.0, 24.0, 3.0, 1.0, 0.0]).collect();
+    let at = |start: usize, length: usize| json!({ "$": [start, length] });
+    let added =
+        json!({ "method": "add_curves", "curves": 0, "points": at(0, 54), "counts": at(54, 2), "closed": at(56, 2) });
+    assert_eq!(both.answer_with_numbers(&added, &curves)["count"], 2);
+    both.answer_with_numbers(&with_options("open_shape", &json!({ "mirror": true, "least": 0.15 })), &points);
+    let compared = both.answer(&json!({ "method": "compare_shape", "shape": 0, "curves": 0, "from": 0 }));
+    assert_eq!(compared["next"], Value::Null);
+    let fit = json!({ "method": "fit_shape", "shape": 0, "points": array, "closed": true });
+    assert!(both.answer_with_numbers(&fit, &points)["fit"]["rms"].as_f64().unwrap() < 1e-6);
+    let deviation = json!({ "method": "deviation", "from": array, "points": array, "closed": true });
+    both.answer_with_numbers(&deviation, &points);
 }

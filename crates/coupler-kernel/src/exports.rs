@@ -11,6 +11,8 @@ use crate::response::Response;
 #[derive(Default)]
 struct Module {
     kernel: Kernel,
+    /// The numbers of the next request.
+    numbers: Vec<f64>,
     response: Response,
     /// The places and lengths of the response's parts.
     parts: [usize; 4],
@@ -35,7 +37,16 @@ pub extern "C" fn kernel_allocate(length: usize) -> *mut u8 {
     Box::into_raw(vec![0u8; length].into_boxed_slice()).cast()
 }
 
-/// Answers a request in UTF-8. Returns four numbers of the size of a pointer: place and length of the response's JSON,
+/// Memory for the numbers of the next request.
+#[unsafe(no_mangle)]
+pub extern "C" fn kernel_numbers(count: usize) -> *mut f64 {
+    MODULE.with_borrow_mut(|module| {
+        module.numbers = vec![0.0; count];
+        module.numbers.as_mut_ptr()
+    })
+}
+
+/// Answers a request in UTF-8 with the numbers of [`kernel_numbers`]. Returns four numbers of the size of a pointer: place and length of the response's JSON,
 /// and place and count of its numbers.
 ///
 /// # Safety
@@ -45,7 +56,8 @@ pub unsafe extern "C" fn kernel_call(request: *mut u8, length: usize) -> *const 
     // SAFETY: by the contract of this function, this is the box that `kernel_allocate` made.
     let request = unsafe { Box::from_raw(std::ptr::slice_from_raw_parts_mut(request, length)) };
     MODULE.with_borrow_mut(|module| {
-        module.response = module.kernel.call(&String::from_utf8_lossy(&request));
+        let numbers = std::mem::take(&mut module.numbers);
+        module.response = module.kernel.call_with_numbers(&String::from_utf8_lossy(&request), &numbers);
         let Response { json, numbers } = &module.response;
         module.parts = [json.as_ptr() as usize, json.len(), numbers.as_ptr() as usize, numbers.len()];
         module.parts.as_ptr()

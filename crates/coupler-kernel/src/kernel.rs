@@ -1,13 +1,16 @@
-//! The kernel: open families and studies by their handles.
+//! The kernel: open families, studies and searches by their handles.
 
 use serde_json::{Value, json};
 
+use coupler_curves::find::{CurveIndex, Index};
 use coupler_curves::geometry::Point;
 use coupler_curves::linkage::{Cognates, JointId};
 use coupler_curves::motion;
 
+use crate::curves::{ShapeSearch, add_curves, deviation};
 use crate::description::{opened_json, study_json};
 use crate::family::{OpenFamily, fragment};
+use crate::finder::{FourBarSearch, grow_index};
 use crate::overlays::{centrodes_json, cognate_pins, cognates, cognates_json};
 use crate::paths::{measures_json, path_json, speeds_json};
 use crate::reading::{nearest_place, reading_json};
@@ -16,10 +19,14 @@ use crate::response::{Numbers, Response};
 use crate::study::{Opened, Place, Study};
 
 /// What the page has opened, by handles from 0; the handle of what is closed is used again.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub struct Kernel {
     families: Slots<OpenFamily>,
     studies: Slots<OpenStudy>,
+    index: Index,
+    searches: Slots<FourBarSearch>,
+    curves: Slots<CurveIndex>,
+    shapes: Slots<ShapeSearch>,
 }
 
 /// A study with what is computed once for all its poses.
@@ -37,8 +44,13 @@ impl Kernel {
 
     /// Answers a request in JSON.
     pub fn call(&mut self, request: &str) -> Response {
+        self.call_with_numbers(request, &[])
+    }
+
+    /// Answers a request in JSON with numbers, to which it refers.
+    pub fn call_with_numbers(&mut self, request: &str, given: &[f64]) -> Response {
         let mut numbers = Numbers::default();
-        let answer = Request::parse(request).and_then(|request| self.answer(request, &mut numbers));
+        let answer = Request::parse(request, given).and_then(|request| self.answer(request, &mut numbers));
         numbers.into_response(&answer.unwrap_or_else(|error| json!({ "error": error })))
     }
 
@@ -78,6 +90,30 @@ impl Kernel {
                     .collect::<Result<Vec<_>, String>>()?;
                 json!({ "text": fragment(&curves)? })
             }
+            Request::GrowIndex => grow_index(&mut self.index),
+            Request::OpenSearch { points, kind, options } => {
+                let search = FourBarSearch::new(&points, &kind, options)?;
+                json!({ "search": self.searches.insert(search) })
+            }
+            Request::StepSearch { search } => json!({ "is_done": self.searches.get_mut(search)?.step(&self.index) }),
+            Request::Answers { search, name } => self.searches.get_mut(search)?.answers_json(&name, numbers),
+            Request::CloseSearch { search } => json!({ "closed": self.searches.remove(search) }),
+            Request::OpenCurves => json!({ "curves": self.curves.insert(CurveIndex::new()) }),
+            Request::AddCurves { curves, points, counts, closed } => {
+                add_curves(self.curves.get_mut(curves)?, &points, &counts, &closed)?
+            }
+            Request::CloseCurves { curves } => json!({ "closed": self.curves.remove(curves) }),
+            Request::OpenShape { points, kind, mirror, least, wanted } => {
+                let search = ShapeSearch::new(&points, &kind, mirror, least, wanted)?;
+                json!({ "most": search.most(), "shape": self.shapes.insert(search) })
+            }
+            Request::CompareShape { shape, curves, from } => {
+                self.shapes.get_mut(shape)?.compare(self.curves.get(curves)?, from, numbers)
+            }
+            Request::CompareClosely { shape, points, closed } => self.shapes.get(shape)?.likeness(&points, closed),
+            Request::FitShape { shape, points, closed } => self.shapes.get(shape)?.fit(&points, closed),
+            Request::CloseShape { shape } => json!({ "closed": self.shapes.remove(shape) }),
+            Request::Deviation { from, points, closed } => deviation(&from, &points, closed)?,
         })
     }
 
@@ -166,6 +202,14 @@ impl<T> Slots<T> {
     }
 
     fn get(&self, handle: usize) -> Result<&T, String> {
-        self.0.get(handle).and_then(Option::as_ref).ok_or_else(|| format!("the handle {handle} is not open"))
+        self.0.get(handle).and_then(Option::as_ref).ok_or_else(|| not_open(handle))
     }
+
+    fn get_mut(&mut self, handle: usize) -> Result<&mut T, String> {
+        self.0.get_mut(handle).and_then(Option::as_mut).ok_or_else(|| not_open(handle))
+    }
+}
+
+fn not_open(handle: usize) -> String {
+    format!("the handle {handle} is not open")
 }

@@ -38,6 +38,10 @@ mod reading;
 
 mod description;
 
+mod finder;
+
+mod curves;
+
 mod kernel;
 
 mod exports;

@@ -2,8 +2,12 @@
 
 use serde_json::Value;
 
+use coupler_curves::find::Options;
+use coupler_curves::geometry::Point;
+
 /// A request. As JSON it is an object with its name in snake case as `method`, and with its fields. Numbers may be given as
-/// strings: these are read to the last bit, as numbers of JSON need not be.
+/// strings: these are read to the last bit, as numbers of JSON need not be. `{"$": [start, length]}` is an array of the numbers
+/// that come with it, as in a [`crate::Response`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum Request {
     /// What the module was built from.
@@ -91,6 +95,107 @@ pub enum Request {
         /// The curves.
         curves: Vec<CurveRequest>,
     },
+    /// Adds some four-bars to the index that searches look their paths up in.
+    GrowIndex,
+    /// Begins to search the index for the four-bars whose curves are nearest to a path.
+    OpenSearch {
+        /// The points of the path, an array `[x, y, x, y, …]`.
+        points: Vec<Point>,
+        /// What a curve has in common with it: `closed`, `open` or `part`.
+        kind: String,
+        /// Whether the crank must turn fully, the greatest distance of two joints of a link in sizes of the path, and the most
+        /// answers.
+        options: Options,
+    },
+    /// Takes a step of a search.
+    StepSearch {
+        /// The handle.
+        search: usize,
+    },
+    /// Takes a step towards the answers of a search so far, until they are complete.
+    Answers {
+        /// The handle of the search.
+        search: usize,
+        /// The name of the path, for the manifest.
+        name: String,
+    },
+    /// Closes a search; its handle is not used again.
+    CloseSearch {
+        /// The handle.
+        search: usize,
+    },
+    /// Opens an index of given curves by their shape: its handle.
+    OpenCurves,
+    /// Adds curves to an index.
+    AddCurves {
+        /// The handle of the index.
+        curves: usize,
+        /// The points of all of them, an array `[x, y, x, y, …]`.
+        points: Vec<Point>,
+        /// The number of points of each.
+        counts: Vec<f64>,
+        /// For each whether it is closed: not 0.
+        closed: Vec<f64>,
+    },
+    /// Closes an index; its handle is not used again.
+    CloseCurves {
+        /// The handle.
+        curves: usize,
+    },
+    /// Opens a path to which curves are compared: its handle.
+    OpenShape {
+        /// The points of the path, an array `[x, y, x, y, …]`.
+        points: Vec<Point>,
+        /// What a curve has in common with it: `closed`, `open` or `part`.
+        kind: String,
+        /// Whether a curve may be mirrored.
+        mirror: bool,
+        /// The least part of a curve that is compared with an open path.
+        least: f64,
+        /// The curves that are wanted.
+        wanted: usize,
+    },
+    /// Compares some curves of an index with a path by their shape, in steps.
+    CompareShape {
+        /// The handle of the path.
+        shape: usize,
+        /// The handle of the index.
+        curves: usize,
+        /// The number of the curve to begin with: 0, and then what the step before returned.
+        from: usize,
+    },
+    /// How much a curve is like a path, compared more closely than in an index.
+    CompareClosely {
+        /// The handle of the path.
+        shape: usize,
+        /// The points of the curve, an array `[x, y, x, y, …]`.
+        points: Vec<Point>,
+        /// Whether it is closed.
+        closed: bool,
+    },
+    /// How a curve fits a path where it is nearest to it.
+    FitShape {
+        /// The handle of the path.
+        shape: usize,
+        /// The points of the curve, an array `[x, y, x, y, …]`.
+        points: Vec<Point>,
+        /// Whether it is closed.
+        closed: bool,
+    },
+    /// Closes a path; its handle is not used again.
+    CloseShape {
+        /// The handle.
+        shape: usize,
+    },
+    /// The deviation of a curve from points where both are.
+    Deviation {
+        /// The points, an array `[x, y, x, y, …]`.
+        from: Vec<Point>,
+        /// The points of the curve, an array `[x, y, x, y, …]`.
+        points: Vec<Point>,
+        /// Whether the curve is closed.
+        closed: bool,
+    },
 }
 
 /// A curve of a family, perhaps with changed parameters.
@@ -109,11 +214,11 @@ pub struct CurveRequest {
 }
 
 impl Request {
-    /// Parses a request.
+    /// Parses a request with its numbers.
     ///
     /// # Errors
     /// What is wrong with it.
-    pub fn parse(text: &str) -> Result<Request, String> {
+    pub fn parse(text: &str, numbers: &[f64]) -> Result<Request, String> {
         let value: Value = serde_json::from_str(text).map_err(|error| format!("the request is not JSON: {error}"))?;
         let of = Object(&value);
         Ok(match of.text("method")?.as_str() {
@@ -123,7 +228,7 @@ impl Request {
             "open_study" => Request::OpenStudy {
                 curve: CurveRequest::from_value(of.member("curve")?)?,
                 shown: if of.member("shown")?.is_null() { None } else { Some(of.index("shown")?) },
-                is_rough: of.member("is_rough")?.as_bool().ok_or("`is_rough` is neither true nor false")?,
+                is_rough: of.flag("is_rough")?,
             },
             "close_study" => Request::CloseStudy { study: of.index("study")? },
             "path" => Request::Path { study: of.index("study")?, tolerance: of.number("tolerance")? },
@@ -139,6 +244,56 @@ impl Request {
                 Request::Export { curve: CurveRequest::from_value(of.member("curve")?)?, format: of.text("format")? }
             }
             "fragment" => Request::Fragment { curves: of.list("curves", CurveRequest::from_value)? },
+            "grow_index" => Request::GrowIndex,
+            "open_search" => Request::OpenSearch {
+                points: of.points("points", numbers)?,
+                kind: of.text("kind")?,
+                options: Options {
+                    full_turn: of.flag("full_turn")?,
+                    max_link: of.number("max_link")?,
+                    most: of.index("most")?,
+                    ..Options::default()
+                },
+            },
+            "step_search" => Request::StepSearch { search: of.index("search")? },
+            "answers" => Request::Answers { search: of.index("search")?, name: of.text("name")? },
+            "close_search" => Request::CloseSearch { search: of.index("search")? },
+            "open_curves" => Request::OpenCurves,
+            "add_curves" => Request::AddCurves {
+                curves: of.index("curves")?,
+                points: of.points("points", numbers)?,
+                counts: of.array("counts", numbers)?.to_vec(),
+                closed: of.array("closed", numbers)?.to_vec(),
+            },
+            "close_curves" => Request::CloseCurves { curves: of.index("curves")? },
+            "open_shape" => Request::OpenShape {
+                points: of.points("points", numbers)?,
+                kind: of.text("kind")?,
+                mirror: of.flag("mirror")?,
+                least: of.number("least")?,
+                wanted: of.index("wanted")?,
+            },
+            "compare_shape" => Request::CompareShape {
+                shape: of.index("shape")?,
+                curves: of.index("curves")?,
+                from: of.index("from")?,
+            },
+            "compare_closely" => Request::CompareClosely {
+                shape: of.index("shape")?,
+                points: of.points("points", numbers)?,
+                closed: of.flag("closed")?,
+            },
+            "fit_shape" => Request::FitShape {
+                shape: of.index("shape")?,
+                points: of.points("points", numbers)?,
+                closed: of.flag("closed")?,
+            },
+            "close_shape" => Request::CloseShape { shape: of.index("shape")? },
+            "deviation" => Request::Deviation {
+                from: of.points("from", numbers)?,
+                points: of.points("points", numbers)?,
+                closed: of.flag("closed")?,
+            },
             method => return Err(format!("there is no request `{method}`")),
         })
     }
@@ -176,6 +331,28 @@ impl<'v> Object<'v> {
 
     fn number(&self, key: &str) -> Result<f64, String> {
         self.read(key, number)
+    }
+
+    fn flag(&self, key: &str) -> Result<bool, String> {
+        self.read(key, Value::as_bool)
+    }
+
+    /// An array of numbers.
+    fn array<'n>(&self, key: &str, numbers: &'n [f64]) -> Result<&'n [f64], String> {
+        self.read(key, |value| {
+            let [start, length] = Object(value).pair("$", index).ok()?;
+            numbers.get(start..start.checked_add(length)?)
+        })
+    }
+
+    /// The points of an array `[x, y, x, y, …]` of numbers.
+    fn points(&self, key: &str, numbers: &[f64]) -> Result<Vec<Point>, String> {
+        let (points, rest) = self.array(key, numbers)?.as_chunks();
+        if rest.is_empty() {
+            Ok(points.iter().map(|&[x, y]| Point::new(x, y)).collect())
+        } else {
+            Err(format!("`{key}` of the request has an x without a y"))
+        }
     }
 
     fn index(&self, key: &str) -> Result<usize, String> {

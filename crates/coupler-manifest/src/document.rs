@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::sync::Arc;
 
-use coupler_curves::linkage_format::{Fields, TomlParser};
+use coupler_curves::linkage_format::{Fields, TomlParser, canonical_toml};
 use coupler_curves::problem::Problem;
 use coupler_curves::template::Template;
 use coupler_drawing::render::{Format, TextMode};
@@ -85,6 +85,23 @@ pub fn parse_linkages(text: &str) -> (Vec<Arc<Template>>, Vec<Problem>) {
         None => Vec::new(),
     };
     (templates, parser.into_problems())
+}
+
+/// The `[[linkage]]` of a manifest with an id, as TOML for another manifest; `None` if it has none.
+pub fn linkage_text(text: &str, id: &str) -> Option<String> {
+    let mut parser = TomlParser::new(text);
+    let document = parser.parse_document();
+    let root = Fields::with_any_keys(&document, "a manifest", &mut parser)?;
+    for table in root.tables("linkage", &mut parser) {
+        let Some(linkage) = Fields::with_any_keys(table, "a linkage", &mut parser) else { continue };
+        let Some(own) = linkage.get("id") else { continue };
+        if parser.text(own).as_deref() != Some(id) {
+            continue;
+        }
+        let entry = |(key, _, value)| format!("{key} = {}\n", canonical_toml(value, &[]));
+        return Some(format!("[[linkage]]\n{}", linkage.entries().map(entry).collect::<String>()));
+    }
+    None
 }
 
 fn read_plan(text: &str, writable: &[Format], files: FileReader, parser: &mut TomlParser) -> Option<Plan> {

@@ -54,7 +54,9 @@ mod family;
 mod document;
 
 pub use cells::MAX_PAGE_FILES;
-pub use document::{MAX_MANIFEST_BYTES, ParseOutcome, parse, parse_for_formats, parse_linkages, parse_with_files};
+pub use document::{
+    MAX_MANIFEST_BYTES, ParseOutcome, linkage_text, parse, parse_for_formats, parse_linkages, parse_with_files,
+};
 pub use format_version::FORMAT_VERSION;
 pub use inputs::ManifestInputs;
 pub use plan::{BookPlan, ListCriteria, Plan, PlannedChapter, PlannedFamily, PlannedList};

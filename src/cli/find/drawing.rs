@@ -1,6 +1,8 @@
 //! A drawing of the path and the curves that have been found for it.
 
+use coupler_atlas::find::PlacedCurve;
 use coupler_curves::find::{Answer, Placement, Target, format_length as number, format_relative as relative};
+use coupler_curves::solve::SolvedCell;
 use coupler_drawing::page::{self, AnswersPage, FoundCurve, Options, Paper};
 use coupler_drawing::render::{self, TextMode};
 
@@ -38,6 +40,14 @@ pub(super) fn found(rank: usize, answer: &Answer, size: f64) -> Option<FoundCurv
         dimensions(mechanism, size)
     );
     Some(FoundCurve { solved: mechanism.solved()?, placement: Placement::IDENTITY, pose: mechanism.pose(), label })
+}
+
+/// A curve of any linkage of the page, where it is placed, with its linkage at the first sample.
+pub(super) fn placed(curve: &PlacedCurve, mut solved: SolvedCell, label: String) -> Option<FoundCurve> {
+    solved.curves.retain(|other| [other.trace, other.circuit] == curve.numbers);
+    let circuit = solved.circuit(solved.curves.first()?);
+    let pose = solved.linkage.joint_ids().map(|joint| circuit.positions.point(joint, 0)).collect();
+    Some(FoundCurve { solved, placement: curve.fit.placement, pose, label })
 }
 
 /// The page of some curves, of which the first are drawn.

@@ -3,6 +3,7 @@
 mod atlas;
 mod drawing;
 mod json;
+mod linkage;
 mod text;
 
 use std::path::{Path, PathBuf};
@@ -12,9 +13,10 @@ use coupler_atlas::find::{self, MAX_CURVES, MAX_POINTS};
 use coupler_atlas::output;
 use coupler_curves::expression::Expression;
 use coupler_curves::find::{
-    Answer, Condition, Constraint, Effort, Index, Options, PathKind, Search, Target, answers_manifest, nearest_miss,
+    Answer, Constraint, Effort, Index, Options, PathKind, Search, Target, answers_manifest, nearest_miss,
 };
 use coupler_curves::geometry::{Bounds, Point};
+use coupler_curves::template::Template;
 
 use super::export::CurveSamples;
 use super::{InputError, InputErrors, Outcome, export, files, print, print_bytes, source};
@@ -36,9 +38,11 @@ pub struct Arguments {
     #[arg(
         long,
         value_name = "FILE",
-        requires = "like",
         value_hint = ValueHint::FilePath,
-        help = format!("The manifest with that curve; - for standard input [default: {}]", source::DEFAULT_MANIFEST)
+        help = format!(
+            "The manifest with the curve of --like, or with the linkage of --linkage; - for standard input [default of --like: {}]",
+            source::DEFAULT_MANIFEST
+        )
     )]
     manifest: Option<PathBuf>,
     /// The path is closed; without these three it is if the gap between its ends is at most 1.5 times the median distance of its points,
@@ -59,7 +63,8 @@ pub struct Arguments {
     #[arg(long, value_enum, default_value_t = InputChoice::FullTurn)]
     input: InputChoice,
     /// A condition on the linkage, as in `where` of a manifest: "is_crank_rocker and mu_worst_deg >= 30". Its names are frame, crank,
-    /// coupler, rocker, along and across, the crank's pivot x and y, turn, the frame's angle, and all measures.
+    /// coupler, rocker, along and across, the crank's pivot x and y, turn, the frame's angle, and all measures; with --linkage the
+    /// parameters of that linkage and all measures.
     #[arg(long = "where", value_name = "EXPR")]
     condition: Option<String>,
     /// The greatest distance of two joints of a link, in sizes S of the path; inf for any.
@@ -82,7 +87,7 @@ pub struct Arguments {
         value_parser = clap::value_parser!(u64).range(1..=MAX_CURVES as u64),
         help = format!(
             "How many four-bars to look the path up in, 1 to {MAX_CURVES}; the index of each number is kept in the user's cache folder \
-             [default: {}]",
+             [default: {}]. With --linkage, the number of its parameter sets, which are not kept",
             Index::DEFAULT_COUNT
         )
     )]
@@ -91,6 +96,12 @@ pub struct Arguments {
     /// Four-bars are refined, others only placed on the path.
     #[arg(long, value_name = "MANIFEST|DIR", value_hint = ValueHint::AnyPath)]
     atlas: Option<PathBuf>,
+    /// Search the dimensions of a linkage, a built-in one (coupler-atlas list linkages) or one of --manifest, in place of a four-bar.
+    #[arg(long, value_name = "NAME", conflicts_with = "atlas")]
+    linkage: Option<String>,
+    /// With --linkage, keep a parameter at its default or at a value, which may use others; may be repeated: --keep s --keep "k=2".
+    #[arg(long, value_name = "NAME[=EXPR]", requires = "linkage")]
+    keep: Vec<String>,
     /// With --atlas, compare its curves where they are: position, size and rotation count.
     #[arg(long)]
     fixed: bool,
@@ -155,6 +166,24 @@ impl Report {
     }
 }
 
+impl Shown for Report {
+    fn drawing(&self) -> Vec<u8> {
+        drawing::page(self)
+    }
+
+    fn json(&self) -> anyhow::Result<String> {
+        json::json(self)
+    }
+
+    fn manifest(&self) -> String {
+        answers_manifest(&self.title(), self.target.size(), &self.answers)
+    }
+
+    fn text(&self) -> String {
+        text::text(self)
+    }
+}
+
 /// The name of a path without its folder.
 fn title_of(name: &str) -> String {
     Path::new(name).file_name().map_or(name.to_owned(), |name| name.to_string_lossy().into_owned())
@@ -164,7 +193,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let printed = [("--json", arguments.json), ("--toml", arguments.toml)];
     let is_drawing_printed = files::is_drawing_printed(arguments.svg.as_deref(), &printed)?;
     atlas::check(arguments)?;
-    let options = parse_options(arguments).map_err(|errors| InputErrors::from_messages(&errors))?;
+    linkage::check(arguments)?;
+    let sought = linkage::sought(arguments)?;
+    let template = sought.as_ref().map(|sought| &*sought.template);
+    let options = parse_options(arguments, template).map_err(|errors| InputErrors::from_messages(&errors))?;
     // Before a curve of an atlas is solved on these threads.
     if let Some(jobs) = arguments.jobs {
         rayon::ThreadPoolBuilder::new().num_threads(jobs.into()).build_global()?;
@@ -178,29 +210,47 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     if let Some(atlas) = &arguments.atlas {
         return atlas::run((arguments, atlas), &options, (name, target), is_drawing_printed);
     }
+    if let Some(sought) = sought {
+        return linkage::run(arguments, sought, &options, (name, target), is_drawing_printed);
+    }
     let index = find::load_index(arguments.index.map_or(Index::DEFAULT_COUNT, |count| count as usize));
     let answers = Search::new(&target, options.clone()).run(&index);
     let nearest_miss = if answers.is_empty() { nearest_miss(&target, &index, &options) } else { None };
     let report = Report { name, target, answers, nearest_miss };
+    show(&report, arguments, is_drawing_printed)
+}
+
+/// What a search has found, in the forms in which it is shown.
+trait Shown {
+    /// The path and the curves on one page, as SVG.
+    fn drawing(&self) -> Vec<u8>;
+    fn json(&self) -> anyhow::Result<String>;
+    /// A manifest that renders the linkages.
+    fn manifest(&self) -> String;
+    fn text(&self) -> String;
+}
+
+/// Writes the drawing that the arguments ask for, and prints what they ask for unless that is the drawing.
+fn show(report: &impl Shown, arguments: &Arguments, is_drawing_printed: bool) -> anyhow::Result<Outcome> {
     if let Some(path) = &arguments.svg {
-        files::write(path, &drawing::page(&report))?;
+        files::write(path, &report.drawing())?;
         if is_drawing_printed {
             return Ok(Outcome::Done);
         }
     }
     match (arguments.json, arguments.toml) {
-        (true, _) => print_bytes(json::json(&report)?.as_bytes())?,
-        (_, true) => print_bytes(answers_manifest(&report.title(), report.target.size(), &report.answers).as_bytes())?,
-        _ => print(&text::text(&report))?,
+        (true, _) => print_bytes(report.json()?.as_bytes())?,
+        (_, true) => print_bytes(report.manifest().as_bytes())?,
+        _ => print(&report.text())?,
     }
     Ok(Outcome::Done)
 }
 
-/// Reads the options of the search.
+/// Reads the options of the search, for a linkage other than the four-bar if there is one.
 ///
 /// # Errors
 /// Every error in them, one message each.
-fn parse_options(arguments: &Arguments) -> Result<Options, Vec<String>> {
+fn parse_options(arguments: &Arguments, template: Option<&Template>) -> Result<Options, Vec<String>> {
     let mut errors = Vec::new();
     let mut max_link = Options::default().max_link;
     match parse_max_link(&arguments.max_link) {
@@ -215,7 +265,7 @@ fn parse_options(arguments: &Arguments) -> Result<Options, Vec<String>> {
     let mut condition = None;
     // The names of an atlas's linkages are not known yet.
     let own = arguments.condition.as_deref().filter(|_| arguments.atlas.is_none());
-    match own.map(|text| Condition::new(text).map_err(|error| (text, error))).transpose() {
+    match own.map(|text| linkage::condition(template, text).map_err(|error| (text, error))).transpose() {
         Ok(value) => condition = value,
         Err((text, error)) => {
             let help = if error.help.is_empty() { String::new() } else { format!("; {}", error.help) };

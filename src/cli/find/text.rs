@@ -2,7 +2,9 @@
 
 use std::fmt::Write;
 
-use coupler_curves::find::{Answer, Constraint, Mechanism, format_length as number, format_relative as relative};
+use coupler_curves::find::{
+    Answer, Constraint, Mechanism, Target, format_length as number, format_relative as relative,
+};
 use coupler_curves::linkage::{FourBar, PlacedFourBar};
 
 use super::super::format::pluralize;
@@ -14,9 +16,7 @@ pub(super) fn text(report: &Report) -> String {
         ["E/S", "E", "greatest", "fit", "class", "mu worst", "longest link", "in order", "direction"];
     let Report { name, target, answers, .. } = report;
     let size = target.size();
-    let points = pluralize(target.points().len(), "point");
-    let timed = if target.angles_deg().is_some() { ", timed" } else { "" };
-    let mut out = format!("{name}: {points}, {}{timed}, S = {}\n", target.kind().name(), number(size, size));
+    let mut out = described(name, target) + "\n";
     if answers.is_empty() {
         return out + &nothing_found(report);
     }
@@ -42,6 +42,13 @@ pub(super) fn text(report: &Report) -> String {
         }
     }
     out
+}
+
+/// The path in a few words.
+pub(super) fn described(name: &str, target: &Target) -> String {
+    let points = pluralize(target.points().len(), "point");
+    let timed = if target.angles_deg().is_some() { ", timed" } else { "" };
+    format!("{name}: {points}, {}{timed}, S = {}", target.kind().name(), number(target.size(), target.size()))
 }
 
 fn row(answer: &Answer, size: f64) -> [String; 9] {
@@ -88,7 +95,7 @@ fn summary(mechanism: &Mechanism) -> String {
     format!("{}, mu worst {}{constraints}", mechanism.class, angle(mechanism.mu_worst_deg))
 }
 
-fn angle(degrees: f64) -> String {
+pub(super) fn angle(degrees: f64) -> String {
     // Without the sign of -0.0.
     format!("{:.1}°", (10.0 * degrees).round() / 10.0 + 0.0)
 }
@@ -101,15 +108,7 @@ fn nothing_found(report: &Report) -> String {
             .to_owned();
     };
     let size = report.target.size();
-    let options: Vec<&str> = constraints.iter().map(|constraint| option_of(*constraint)).collect();
-    let relax = match &constraints[..] {
-        [Constraint::MaxLink] => {
-            format!("a greater --max-link ({:.2} or more)", answer.mechanism.longest_link() / size)
-        }
-        [Constraint::FullTurn] => "--input any".to_owned(),
-        [_] => format!("another {}", options[0]),
-        _ => format!("{} together", options.join(", ")),
-    };
+    let relax = relaxed(constraints, answer.mechanism.longest_link() / size);
     format!(
         "no linkage meets the constraints; the nearest miss has E = {} ({} S, {}), and is an answer with {relax}:\n     {}\n     {}\n     {}\n",
         number(answer.rms, size),
@@ -121,12 +120,24 @@ fn nothing_found(report: &Report) -> String {
     )
 }
 
-/// The option that sets a constraint.
-pub(super) fn option_of(constraint: Constraint) -> &'static str {
-    match constraint {
+/// What to change for the nearest miss, whose longest link is so many sizes of the path long.
+pub(super) fn relaxed(constraints: &[Constraint], longest_link: f64) -> String {
+    let options = options_of(constraints);
+    match constraints {
+        [Constraint::MaxLink] => format!("a greater --max-link ({longest_link:.2} or more)"),
+        [Constraint::FullTurn] => "--input any".to_owned(),
+        [_] => format!("another {}", options[0]),
+        _ => format!("{} together", options.join(", ")),
+    }
+}
+
+/// The options that set constraints.
+pub(super) fn options_of(constraints: &[Constraint]) -> Vec<&'static str> {
+    let option = |constraint: &Constraint| match constraint {
         Constraint::Condition => "--where",
         Constraint::Pivots => "--pivots",
         Constraint::MaxLink => "--max-link",
         Constraint::FullTurn => "--input",
-    }
+    };
+    constraints.iter().map(option).collect()
 }

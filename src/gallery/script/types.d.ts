@@ -10,7 +10,6 @@ type Placement = { scale: number; x: number; y: number };
 type Outline = { points: Float64Array; closed: boolean };
 /** z → (re + i·im) z̃ + (x + iy), where z̃ is the conjugate of z if mirrored, else z. */
 type Similarity = { mirror: boolean; re: number; im: number; x: number; y: number };
-type Complex = { re: Float64Array; im: Float64Array };
 type Matrix = [number, number, number, number, number, number];
 type Atlas = ReturnType<typeof import("./data/atlas.js").openAtlas>;
 type Kernel = import("./kernel/kernel.js").Kernel;
@@ -38,6 +37,7 @@ type PageView = import("./view/page.js").PageView;
 type CurveTable = import("./find/table.js").CurveTable;
 type Filters = import("./find/filter.js").Filters;
 type Series = import("./data/series.js").Series;
+type Slices = import("./view/slices.js").Slices;
 
 /** What all views share; an address is opened, or replaced without opening it. */
 type App = {
@@ -204,17 +204,31 @@ type LoadState = { done: boolean; curves: number; total: number; bytes: number }
 /** What the page makes of the kernel's text has an ending of its own and `convert`. */
 type ExportFormat = Record<"label" | "note" | "type" | "kernel", string> & { ending?: string } & Converted;
 type Converted = { convert?(text: string): Promise<Uint8Array<ArrayBuffer>> };
-type ShapeIndex = CurveIndex & { family: Family; closed: Uint8Array; points: Float64Array | null };
-type CurveIndex = Record<"kept" | "re" | "im" | "size", Float32Array> &
-  Record<"first" | "count", number> & { windows: Uint8Array[] | null };
-type QueryOutlines = { open: Outline; closed: Outline };
-/** Where and how a shape lies on a curve, by the curve's length; a whole curve has no span. */
-type Seed = { mirror: boolean; reversed: boolean; start: number; span?: number; value?: number };
-type Candidate = { index: ShapeIndex; curve: number; value: number; seeds: Seed[] };
-type SearchOptions = { part?: boolean; mirror?: boolean; least?: number; by?: "rms" | "greatest" };
+/** An index in the kernel of the curves of a family from `first` on. */
+type ShapeIndex = { family: Family; curves: number } & Record<"first" | "count", number>;
+type Candidate = CurveOfFamily & { likeness: number };
+/** What is searched for: `least` is the least part of a curve, `by` the deviation to rank by. */
+type SearchOptions = { isPart: boolean; mirror: boolean; least: number; by: "rms" | "greatest" };
 type CurveOfFamily = { family: Family; curve: number };
+/** How a curve fits a path: deviations relative to its size, and the part of the curve's length that it matches. */
 type Fit = { rms: number; greatest: number; similarity: Similarity; from: number; to: number };
 type Match = CurveOfFamily & Fit & { name: string };
+/** The answers of a search for four-bars so far, and how many curves of the index it looked the path up in. */
+type FoundFourBars = Record<"size" | "index_count", number> & { answers: FourBarAnswer[]; manifest: string };
+/** A four-bar of `find --json` (docs/find.md) with its curve, and its joints at the first point of the path. */
+type FourBarAnswer = { record: FourBarRecord; manifest: string; pose: Float64Array } & {
+  curve: { closed: boolean; points: Float64Array } | null;
+};
+type FourBarRecord = FoundLinkage & { quality: string; in_order: boolean; cognates: FoundLinkage[] } & Record<
+    "rank" | "rms" | "rms_relative" | "max",
+    number
+  >;
+type FoundLinkage = { parameters: Lengths; class: string; mu_worst_deg: number | null } & {
+  crank_pivot: Point;
+  rocker_pivot: Point;
+  longest_link: number;
+  meets_constraints: boolean;
+};
 /** A curve to compare; one with changes has what the kernel draws instead. */
 type ComparedCurve = CurveOfFamily & ChangedCurve & { name: string; key: string; release(): void };
 type ChangedCurve = { changes: Map<string, number>; requested?: KernelCurve; shown?: number | null };
@@ -225,7 +239,7 @@ type TypedArrayKind = { new (of: number | ArrayBuffer): TypedArray };
 type Base64Decoder = { fromBase64(data: string): Uint8Array<ArrayBuffer> };
 type Chunk = Pick<PieceData, "box" | "points" | "caption" | "note" | "reason"> & { counts: Uint16Array };
 type KernelExports = Record<KernelFunction, (...of: number[]) => number> & { memory: WebAssembly.Memory };
-type KernelFunction = `kernel_${"start" | "allocate" | "call" | "pose" | "joint_position"}` | KernelLength;
+type KernelFunction = `kernel_${"start" | "allocate" | "numbers" | "call" | "pose" | "joint_position"}` | KernelLength;
 type KernelLength = "kernel_pose_length" | "kernel_panic_message" | "kernel_panic_length";
 type TagOf<N extends string> = N extends `${infer T}.${string}` ? T : N;
 type HtmlElementOf<N extends string> =

@@ -5,7 +5,7 @@ use std::io::Read;
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
-use coupler_atlas::gallery::{KERNEL, SCRIPTS, join_modules};
+use coupler_atlas::gallery::{KERNEL, SCRIPTS, encode_base91, join_modules};
 use flate2::read::GzDecoder;
 use sha2::{Digest, Sha256};
 
@@ -52,35 +52,38 @@ fn the_page_allows_its_own_script_and_style_only() {
     let policy = between(&page, "http-equiv=\"Content-Security-Policy\" content=\"", "\"");
     let digest = |text: &str| format!("'sha256-{}'", BASE64_STANDARD.encode(Sha256::digest(text)));
     let loader = between(&page, "<script type=\"module\">", "</script>");
-    let packed = between(&page, "<script type=\"application/octet-stream\" id=\"script\">", "</script>");
-    let mut script = String::new();
-    GzDecoder::new(&BASE64_STANDARD.decode(packed).unwrap()[..]).read_to_string(&mut script).unwrap();
+    let unpacked = |id: &str| {
+        let packed = between(&page, &format!("<script type=\"application/octet-stream\" id=\"{id}\">"), "</script>");
+        let mut text = String::new();
+        GzDecoder::new(&BASE64_STANDARD.decode(packed).unwrap()[..]).read_to_string(&mut text).unwrap();
+        text
+    };
+    let (script, style) = (unpacked("script"), unpacked("style"));
     assert_eq!(script, join_modules(SCRIPTS));
-    let style = between(&page, "<style>", "</style>");
     assert!(policy.starts_with("default-src 'none'; "), "{policy}");
     assert!(
         policy.contains(&format!("script-src 'self' 'wasm-unsafe-eval' {} {};", digest(loader), digest(&script))),
         "{policy}"
     );
-    assert!(policy.contains(&format!("style-src {};", digest(style))), "{policy}");
+    assert!(policy.contains(&format!("style-src {};", digest(&style))), "{policy}");
     let policy = policy.replace("'wasm-unsafe-eval'", "");
     for wide in ["unsafe", "http:", "https:", "*"] {
         assert!(!policy.contains(wide), "{policy}");
     }
     // The namespaces of SVG and XLink are not links.
-    let without_namespaces = format!("{page}{script}").replace("http://www.w3.org/", "");
+    let without_namespaces = format!("{page}{script}{style}").replace("http://www.w3.org/", "");
     assert!(
         !without_namespaces.contains("http://") && !without_namespaces.contains("https://"),
         "the page has a link to another site"
     );
-    assert_eq!(page.matches("<script").count(), 4);
+    assert_eq!(page.matches("<script").count(), 5);
 }
 
 #[test]
 fn the_page_has_the_kernel_and_is_small() {
     let page = page(&new_atlas());
     let packed = between(&page, "<script type=\"application/octet-stream\" id=\"kernel\">", "</script>");
-    assert_eq!(BASE64_STANDARD.decode(packed).unwrap(), KERNEL);
+    assert_eq!(packed, encode_base91(KERNEL));
     assert!(page.len() <= 1_000_000, "the page has {} bytes", page.len());
 }
 

@@ -12,6 +12,11 @@ use crate::template::{CircuitSelection, CoincidentDyads, Continuation, Orientati
 /// The families of some parameter sets, in their order, to be put into a manifest that has an `[atlas]` and the custom
 /// linkages that they use. A cell with several curves is written once.
 pub fn manifest_fragment(cases: &[ParameterSet]) -> String {
+    "# Put this into a manifest with an [atlas].\n".to_owned() + &manifest_families(cases, false)
+}
+
+/// The families of some parameter sets, in their order. If the manifest has no custom linkages, a comment says of each which is missing.
+pub fn manifest_families(cases: &[ParameterSet], has_linkages: bool) -> String {
     let mut families: Vec<(String, Vec<&ParameterSet>)> = Vec::new();
     for case in cases {
         let settings = family_settings(case.family);
@@ -23,10 +28,13 @@ pub fn manifest_fragment(cases: &[ParameterSet]) -> String {
             None => families.push((settings, vec![case])),
         }
     }
-    let mut out = "# Put this into a manifest with an [atlas].\n".to_owned();
+    let mut out = String::new();
     for (k, (settings, cases)) in families.iter().enumerate() {
         let id = &cases[0].family.template.id;
         let earlier = families[..k].iter().filter(|(_, others)| others[0].family.template.id == *id).count();
+        if !has_linkages && !is_built_in(&cases[0].family.template) {
+            let _ = write!(out, "\n# The [[linkage]] `{id}` is the atlas's own: copy it from its manifest.");
+        }
         write_family(&family_id(id, earlier + 1), settings, cases, &mut out);
     }
     out
@@ -54,9 +62,6 @@ fn write_family(id: &str, settings: &str, cases: &[&ParameterSet], out: &mut Str
     }
     let columns = rows.len().min(3);
     let panels = [columns, rows.len().div_ceil(columns.max(1)).min(3)];
-    if !is_built_in(template) {
-        let _ = write!(out, "\n# The [[linkage]] `{}` is the atlas's own: copy it from its manifest.", template.id);
-    }
     // Writing to a string cannot fail.
     let _ = write!(
         out,

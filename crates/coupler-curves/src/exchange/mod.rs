@@ -14,7 +14,7 @@ mod pretty_json;
 mod table;
 
 pub use curve_name::{CurveName, CurveNameError};
-pub use fragment::manifest_fragment;
+pub use fragment::{manifest_families, manifest_fragment};
 pub use json::{Members, PassDocument};
 pub use number::{append_integer, append_number, format_significant};
 pub use table::PointTable;

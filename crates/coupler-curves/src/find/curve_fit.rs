@@ -1,11 +1,11 @@
 //! How a given curve fits a target: where it is placed on it, and its deviation.
 
 use super::answer::{LENGTH_RATIOS, Quality};
+use super::close_portion::{Portion, portions};
 use super::complex::{Complex, dot, length};
 use super::curve_alignment::Alignment;
 use super::curve_path::CurvePath;
 use super::matching::{match_open_places, match_places};
-use super::portion::Window;
 use super::query::Query;
 use super::spectrum::{Likeness, Transform};
 use super::target::{PathKind, Target};
@@ -124,15 +124,14 @@ struct Start {
     shift: Complex,
 }
 
-/// The samples of a curve, at equal distances: for its shape, and to be matched at first; then at least so many of its knots, which are
-/// denser where it turns.
-const EVEN: usize = 128;
+/// The samples of a curve, at equal distances: for its shape, of which a circle's chords deviate by 0.000075 of the radius, and to be matched
+/// at first; then at least so many of its knots, which are denser where it turns.
+pub(super) const EVEN: usize = 256;
 const COARSE: usize = 96;
 const FINE: usize = 180;
 
 /// The starts that are tried, and of these those that are refined.
 const STARTS: usize = 6;
-const PORTION_STARTS: usize = 12;
 const REFINED: usize = 3;
 
 /// Those with a sum of squares so many times as great as that of the nearest are not refined, and none after one that is met to rounding.
@@ -164,13 +163,12 @@ impl CurveFitter {
         let path = CurvePath::new(points, is_closed)?;
         let paths = [path.mirrored(), path];
         let path_of = |start: &Start| &paths[usize::from(!start.is_mirrored)];
-        let [even, every, positions] =
-            [paths[1].spaced_evenly(EVEN), paths[1].spaced_evenly(COARSE), paths[1].knots(FINE)];
+        let even = paths[1].even_points(EVEN);
+        let [every, positions] = [paths[1].spaced_evenly(COARSE), paths[1].knots(FINE)];
         let samples = |positions: &[f64]| {
             paths.each_ref().map(|path| positions.iter().map(|position| path.point(*position)).collect::<Vec<_>>())
         };
         let (coarse, fine) = (samples(&every), samples(&positions));
-        let [_, even] = samples(&even);
         let mut tried: Vec<(f64, Start)> = self
             .starts(&paths[1], &even)
             .iter()
@@ -219,24 +217,16 @@ impl CurveFitter {
                 };
                 found.filter(may_begin).take(STARTS).collect()
             }
-            Some(Query::Portion(stroke)) => {
-                let least = self.options.least_portion * if path.is_open { 0.5 } else { 1.0 };
-                let start = |(window, factor, shift): (Window, Complex, Complex)| Start {
-                    is_mirrored: window.is_mirrored,
-                    is_reversed: window.is_reversed,
-                    is_one_way: path.is_open && window.is_on_half()[0],
-                    factor,
-                    shift,
+            Some(Query::Portion(stroke, close_stroke)) => {
+                let start = |portion: Portion| Start {
+                    is_mirrored: portion.is_mirrored,
+                    is_reversed: portion.is_reversed,
+                    is_one_way: path.is_open && portion.ends[1] <= 0.5,
+                    factor: portion.factor,
+                    shift: portion.shift,
                 };
-                let may_begin = |window: &Window| {
-                    let is_new = match window.is_on_half() {
-                        [false, false] => !window.is_reversed,
-                        [is_there, _] => is_there,
-                    };
-                    (self.options.may_be_mirrored || !window.is_mirrored) && (is_new || !path.is_open)
-                };
-                let found = stroke.placements(samples, (least, PORTION_STARTS), may_begin);
-                found.into_iter().map(start).collect()
+                let curve = (samples, path.is_open);
+                portions((stroke, close_stroke), curve, &self.options, STARTS).into_iter().map(start).collect()
             }
         }
     }

@@ -122,6 +122,11 @@ impl CurvePath {
         (0..count).map(position).collect()
     }
 
+    /// The points at these positions.
+    pub fn even_points(&self, count: usize) -> Vec<Complex> {
+        self.spaced_evenly(count).into_iter().map(|position| self.point(position)).collect()
+    }
+
     /// Positions between which the curve is nearly straight: its knots, or some of them, or some on each piece, from `least` to twice as
     /// many.
     pub fn knots(&self, least: usize) -> Vec<f64> {

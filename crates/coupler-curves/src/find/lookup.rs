@@ -67,7 +67,7 @@ impl Lookup {
                 self.next += CURVES_PER_STEP;
                 index.nearest((spectrum, fitting.polyline_length, full_turn), from..self.next, best, most)
             }
-            Query::Portion(stroke) => {
+            Query::Portion(stroke, _) => {
                 self.next += PORTIONS_PER_STEP;
                 index.nearest_portions((stroke, full_turn), from..self.next, best, most)
             }
@@ -102,7 +102,7 @@ impl Lookup {
                 let (factor, shift) = likeness.similarity((*target_centre, *target_size), (centre, size));
                 Some((likeness.value, mirrored(likeness.is_mirrored).transformed(factor, shift)))
             }
-            Query::Portion(stroke) => {
+            Query::Portion(stroke, _) => {
                 let (window, factor, shift) = stroke.placement(&entry.linkage.curve(&entry.circuit))?;
                 Some((-f64::from(window.residual), mirrored(window.is_mirrored).transformed(factor, shift)))
             }

@@ -23,14 +23,28 @@ fn form_of(mechanism: &Mechanism) -> &'static str {
     }
 }
 
-/// A complete manifest that renders answers, for a path with a name and a size: linkages with their pivots where they are on the
-/// path, and families with a case for each answer, in order of rank.
+/// A complete manifest that renders answers, for a path with a name and a size; of none, one that says so.
 pub fn answers_manifest(name: &str, size: f64, answers: &[Answer]) -> String {
-    let title = quoted(&format!("Linkages for {name}"));
-    let mut out = format!(
-        "# Linkages found by `coupler-atlas find`; `coupler-atlas render` draws them.\n\n[atlas]\ntitle = {title}\n\
-         formats = [\"svg\"]\n\n[page]\npaper = \"a4\"\n"
-    );
+    let rest = match answers {
+        [] => "\n# No linkage meets the constraints.\n".to_owned(),
+        _ => answer_families(name, size, answers),
+    };
+    manifest_head(name) + &rest
+}
+
+/// The beginning of a manifest that renders what has been found for a path with a name, up to the linkages and families.
+pub fn manifest_head(name: &str) -> String {
+    format!(
+        "# Linkages found by `coupler-atlas find`; `coupler-atlas render` draws them.\n\n[atlas]\ntitle = {}\n\
+         formats = [\"svg\"]\n\n[page]\npaper = \"a4\"\n",
+        title_for(name)
+    )
+}
+
+/// The linkages of answers with their pivots where they are on the path, and families with a case for each answer, in order of rank.
+pub fn answer_families(name: &str, size: f64, answers: &[Answer]) -> String {
+    let title = title_for(name);
+    let mut out = String::new();
     for form in FORMS {
         let ranked = (1..).zip(answers).filter(|(_, answer)| form_of(&answer.mechanism) == form);
         let ranked: Vec<(usize, &Answer)> = ranked.collect();
@@ -38,10 +52,12 @@ pub fn answers_manifest(name: &str, size: f64, answers: &[Answer]) -> String {
             append_family((form, &title), &ranked, size, &mut out);
         }
     }
-    if answers.is_empty() {
-        out.push_str("\n# No linkage meets the constraints.\n");
-    }
     out
+}
+
+/// The title of an atlas and of its families, in quotes.
+fn title_for(name: &str) -> String {
+    quoted(&format!("Linkages for {name}"))
 }
 
 fn append_family((form, title): (&str, &str), ranked: &[(usize, &Answer)], size: f64, out: &mut String) {

@@ -57,9 +57,23 @@ impl Condition {
     /// # Errors
     /// It is not an expression of the known names, or not a condition.
     pub fn new(text: &str) -> Result<Condition, expression::Error> {
-        let names: Vec<String> = TEMPLATE.parameters.iter().map(|parameter| parameter.name.clone()).collect();
-        let compiled = Expression::parse(text)?.compile(&Family::scope(&names, false), Kind::Boolean)?;
+        Condition::for_template(&TEMPLATE, text)
+    }
+
+    /// Compiles a condition over the parameters of any linkage and the measures.
+    ///
+    /// # Errors
+    /// As of [`Condition::new`].
+    pub fn for_template(template: &Template, text: &str) -> Result<Condition, expression::Error> {
+        let names: Vec<String> = template.parameters.iter().map(|parameter| parameter.name.clone()).collect();
+        let scope = Family::scope(&names, template.is_driven_by_length());
+        let compiled = Expression::parse(text)?.compile(&scope, Kind::Boolean)?;
         Ok(Condition { text: text.to_owned(), compiled })
+    }
+
+    /// The compiled condition, over [`Family::scope`].
+    pub(super) fn compiled(&self) -> &CompiledExpression {
+        &self.compiled
     }
 
     /// Whether a four-bar meets the condition on the circuit with these positions of its crank pin and its rocker pin.

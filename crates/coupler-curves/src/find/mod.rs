@@ -22,8 +22,14 @@
 //!
 //! Those of an atlas, of any linkages, are looked up by their shapes in a [`CurveIndex`], and placed on the target by a [`CurveFitter`],
 //! with the same metric.
+//!
+//! # Other linkages
+//!
+//! A [`LinkageSearch`] finds the dimensions of any linkage, of the parameters of a [`LinkageSpace`]: the curves of samples are looked up by
+//! their shapes, placed and refined by differences of solved curves, with the same metric.
 
 mod answer;
+mod close_portion;
 mod complex;
 mod constraints;
 mod curve_alignment;
@@ -32,6 +38,7 @@ mod curve_index;
 mod curve_path;
 mod fitting;
 mod index;
+mod linkage;
 mod lookup;
 mod manifest;
 mod matching;
@@ -51,6 +58,7 @@ mod sequence;
 mod shape;
 mod significant;
 mod spectrum;
+mod synthesis;
 mod target;
 mod timing;
 
@@ -58,12 +66,16 @@ pub use answer::{Answer, LENGTH_RATIOS, Quality};
 pub use curve_fit::{CurveFit, CurveFitOptions, CurveFitter, Placement};
 pub use curve_index::{CurveIndex, CurveLookup, CurveShape};
 pub use index::{Index, IndexPart};
-pub use manifest::answers_manifest;
+pub use linkage::{
+    LinkageFit, LinkageRefinement, LinkageSearch, LinkageSpace, LinkageSpaceError, SampleCurve, SampleIndex,
+    SampleShape, is_scalable, longest_link, pivots_of, scaled_values,
+};
+pub use manifest::{answer_families, answers_manifest, manifest_head};
 pub use mechanism::{Condition, Mechanism};
 pub use options::{Effort, Options};
 pub use ranking::Ranking;
 pub use record::{AnswerRecord, FitRecord};
-pub use relaxation::{Constraint, nearest_miss};
+pub use relaxation::{Constraint, nearest_miss, nearest_miss_by};
 pub use search::Search;
 pub use significant::{format_length, format_relative};
 pub use target::{PathKind, Target, TargetError};

@@ -4,9 +4,8 @@
 //! is compared with them by one correlation in all positions, sizes and directions, and by another one in reflection; but only if
 //! the distances of its ends and of its middle are about as long in parts of its length as those of the path.
 
-use super::complex::{Complex, closed_length, length, mean, open_length, unit};
-use super::spectrum::{HARMONICS, resampled};
-use std::f64::consts::TAU;
+use super::complex::{Complex, closed_length, length, mean, open_length};
+use super::spectrum::resampled;
 
 /// The points of a window.
 const POINTS: usize = 9;
@@ -15,12 +14,15 @@ const POINTS: usize = 9;
 const INTERVALS: usize = POINTS - 1;
 
 /// The points of a curve in the index, at equal distances.
-const CURVE_POINTS: usize = 64;
+pub(super) const CURVE_POINTS: usize = 64;
+
+/// The points of a curve between which the windows of [`Stroke::windows`] are.
+const WINDOW_POINTS: usize = 256;
 
 /// The greatest difference of spans in parts of the length, and that where windows are compared more closely afterwards: it allows for
 /// portions between the windows.
-const TOLERANCE: f32 = 0.1;
-const LOOSE_TOLERANCE: f32 = 0.25;
+pub(super) const TOLERANCE: f32 = 0.1;
+pub(super) const LOOSE_TOLERANCE: f32 = 0.25;
 
 /// A path, described for comparison.
 #[derive(Clone, Debug)]
@@ -42,24 +44,23 @@ pub(super) struct Window {
     /// Whether the curve is mirrored in the x-axis before it is placed.
     pub is_mirrored: bool,
     /// Its first point, the distance to the next, in points of the curve, and whether the stroke is reversed.
-    first: usize,
+    pub first: usize,
     stride: usize,
     pub is_reversed: bool,
 }
 
 impl Window {
-    /// Whether the window is on the first or on the second half of the curve.
-    pub fn is_on_half(&self) -> [bool; 2] {
+    /// Where a window of [`Stroke::windows`] begins and ends, in parts of the curve; the second is greater, and may be in the second round.
+    pub fn ends(&self) -> [f64; 2] {
         let ends = [self.first, self.first + INTERVALS * self.stride];
-        // Windows of [`Stroke::placements`], in the points of [`repeated`].
-        [ends[1] <= CURVE_POINTS, CURVE_POINTS <= ends[0] && ends[1] <= 2 * CURVE_POINTS]
+        ends.map(|end| end as f64 / WINDOW_POINTS as f64)
     }
 }
 
 impl Stroke {
     /// The description of an open polyline.
     pub fn new(points: &[Complex]) -> Stroke {
-        let points = spaced_evenly(points);
+        let points: [Complex; POINTS] = spaced_evenly(points);
         let centre = mean(&points);
         let size = points.iter().map(|z| (z - centre).norm_sqr()).sum::<f64>().sqrt();
         let whole = open_length(&points);
@@ -80,7 +81,7 @@ impl Stroke {
     /// The window of a closed curve that is most like the stroke. The curve is given by points at equal distances, repeated once,
     /// and its length; every `step`-th point may be the first, and every multiple of `stride` the distance of its points. `None` if no
     /// window has about the stroke's spans.
-    fn best_window(&self, curve: [&[f32]; 2], curve_length: f32, options: (usize, f64, f32)) -> Option<Window> {
+    pub fn best_window(&self, curve: [&[f32]; 2], curve_length: f32, options: (usize, f64, f32)) -> Option<Window> {
         let mut best: Option<Window> = None;
         self.for_each_window(curve, curve_length, options, |window| {
             if best.is_none_or(|best| window.residual < best.residual) {
@@ -91,7 +92,7 @@ impl Stroke {
     }
 
     /// Calls a function with the windows that have about the stroke's spans, to a tolerance, and are at least a part of the curve.
-    fn for_each_window(
+    pub fn for_each_window(
         &self,
         [xs, ys]: [&[f32]; 2],
         curve_length: f32,
@@ -144,7 +145,7 @@ impl Stroke {
 
     /// The residual of the best portion near a window of a curve of [`CURVE_POINTS`] points that are repeated once: its ends move by less
     /// and less.
-    fn least_residual_near(&self, [xs, ys]: &[[f32; 2 * CURVE_POINTS]; 2], window: &Window, least: f32) -> f32 {
+    pub fn least_residual_near(&self, [xs, ys]: &[[f32; 2 * CURVE_POINTS]; 2], window: &Window, least: f32) -> f32 {
         const STEPS: [f32; 4] = [2.0, 1.0, 0.5, 0.25];
         const WHOLE: f32 = CURVE_POINTS as f32;
         let residual = |[from, to]: [f32; 2]| -> f32 {
@@ -185,26 +186,28 @@ impl Stroke {
     /// The window of a closed curve that is most like the stroke, and the factor and the shift of the similarity that places the curve, after
     /// its reflection, on the stroke.
     pub fn placement(&self, curve: &[Complex]) -> Option<(Window, Complex, Complex)> {
-        let (points, coordinates, whole) = repeated(curve);
+        let (points, coordinates, whole) = repeated(curve, 2 * CURVE_POINTS);
         let window = self.best_window(coordinates.each_ref().map(|values| &values[..]), whole, (1, 0.0, TOLERANCE))?;
         let (factor, shift) = self.placed(&window, &points)?;
         Some((window, factor, shift))
     }
 
     /// Windows of a closed curve that are like the stroke and are at least a part of the curve, the likeliest first, in different places or
-    /// directions, with and without a reflection, as far as `may_begin` allows. With the similarities that place the curve on the stroke.
-    pub fn placements(
+    /// directions, with and without a reflection, as far as `may_begin` allows.
+    pub fn windows(
         &self,
         curve: &[Complex],
         (least, most): (f64, usize),
         may_begin: impl Fn(&Window) -> bool,
-    ) -> Vec<(Window, Complex, Complex)> {
-        /// Of the points of the curve, an end of windows in different places.
-        const APART: f32 = 1.0 / 20.0;
-        let (points, coordinates, whole) = repeated(curve);
+    ) -> Vec<Window> {
+        /// Of the curve, an end of windows in different places.
+        const APART: f64 = 1.0 / 20.0;
+        /// Every so many-th point may be the first.
+        const STEP: usize = 4;
+        let (_, coordinates, whole) = repeated(curve, WINDOW_POINTS);
         let coordinates = coordinates.each_ref().map(|values| &values[..]);
         let mut windows: Vec<Window> = Vec::new();
-        self.for_each_window(coordinates, whole, (1, least, LOOSE_TOLERANCE), |window| {
+        self.for_each_window(coordinates, whole, (STEP, least, LOOSE_TOLERANCE), |window| {
             let [xs, ys] = coordinates.map(|values| &values[window.first..]);
             let residuals = self.residuals([xs, ys], window.stride, usize::from(window.is_reversed));
             let both = [false, true].into_iter().zip(residuals);
@@ -212,17 +215,15 @@ impl Stroke {
             windows.extend(both.filter(&may_begin));
         });
         windows.sort_by(|a, b| a.residual.total_cmp(&b.residual));
-        let count = points.len() as f32;
-        let apart = |a: usize, b: usize| {
-            let difference = (a as f32 - b as f32).rem_euclid(count);
-            difference.min(count - difference) > APART * count
+        let are_apart = |a: f64, b: f64| {
+            let difference = (a - b).rem_euclid(1.0);
+            difference.min(1.0 - difference) > APART
         };
         let mut found: Vec<Window> = Vec::new();
         for window in windows {
             let is_new = |other: &Window| {
                 (window.is_mirrored, window.is_reversed) != (other.is_mirrored, other.is_reversed)
-                    || apart(window.first, other.first)
-                    || apart(window.first + INTERVALS * window.stride, other.first + INTERVALS * other.stride)
+                    || window.ends().iter().zip(other.ends()).any(|(a, b)| are_apart(*a, b))
             };
             if found.iter().all(is_new) {
                 found.push(window);
@@ -231,11 +232,7 @@ impl Stroke {
                 break;
             }
         }
-        let placed = found.into_iter().filter_map(|window| {
-            let (factor, shift) = self.placed(&window, &points)?;
-            Some((window, factor, shift))
-        });
-        placed.collect()
+        found
     }
 
     /// The similarity that places a window of a curve of [`repeated`] points on the stroke.
@@ -256,10 +253,9 @@ impl Stroke {
     }
 }
 
-/// A closed curve at equal distances, its coordinates repeated once, and its length.
-fn repeated(curve: &[Complex]) -> (Vec<Complex>, [Vec<f32>; 2], f32) {
-    const COUNT: usize = 2 * CURVE_POINTS;
-    let points = resampled(curve, COUNT);
+/// Points of a closed curve at equal distances, their coordinates repeated once, and its length.
+fn repeated(curve: &[Complex], count: usize) -> (Vec<Complex>, [Vec<f32>; 2], f32) {
+    let points = resampled(curve, count);
     let twice = |coordinate: fn(&Complex) -> f64| -> Vec<f32> {
         points.iter().chain(&points).map(|z| coordinate(z) as f32).collect()
     };
@@ -269,11 +265,11 @@ fn repeated(curve: &[Complex]) -> (Vec<Complex>, [Vec<f32>; 2], f32) {
 }
 
 /// Points at equal distances along an open polyline, with both ends.
-fn spaced_evenly(points: &[Complex]) -> Vec<Complex> {
+pub(super) fn spaced_evenly<const COUNT: usize>(points: &[Complex]) -> [Complex; COUNT] {
     let lengths: Vec<f64> = points.windows(2).map(|pair| length(pair[1] - pair[0])).collect();
-    let step = lengths.iter().sum::<f64>() / INTERVALS as f64;
+    let step = lengths.iter().sum::<f64>() / (COUNT - 1) as f64;
     let (mut segment, mut before) = (0, 0.0);
-    let point = |k: usize| {
+    std::array::from_fn(|k| {
         let at = step * k as f64;
         while segment + 1 < lengths.len() && before + lengths[segment] < at {
             before += lengths[segment];
@@ -281,82 +277,5 @@ fn spaced_evenly(points: &[Complex]) -> Vec<Complex> {
         }
         let part = if lengths[segment] > 0.0 { ((at - before) / lengths[segment]).min(1.0) } else { 0.0 };
         points[segment] + (points[segment + 1] - points[segment]) * part
-    };
-    (0..POINTS).map(point).collect()
-}
-
-/// Computes the points of curves from their harmonics.
-pub(super) struct Synthesis {
-    /// The cosines and the sines of the multiples of the angles of the first half of the points.
-    cosines: [[f32; CURVE_POINTS / 2]; HARMONICS],
-    sines: [[f32; CURVE_POINTS / 2]; HARMONICS],
-}
-
-impl Synthesis {
-    pub fn new() -> Synthesis {
-        let direction = |k: usize, n: usize| unit(TAU * (((k + 1) * n) % CURVE_POINTS) as f64 / CURVE_POINTS as f64);
-        Synthesis {
-            cosines: std::array::from_fn(|k| std::array::from_fn(|n| direction(k, n).re as f32)),
-            sines: std::array::from_fn(|k| std::array::from_fn(|n| direction(k, n).im as f32)),
-        }
-    }
-
-    /// The window of a curve that is most like a stroke: the curve is given by its harmonics of order 1 to 10 and then of -1 to -10, and by its
-    /// length.
-    pub fn best_window(&self, harmonics: &[[f32; 2]; 2 * HARMONICS], length: f32, stroke: &Stroke) -> Option<Window> {
-        let coordinates = self.coordinates(harmonics);
-        let [xs, ys] = &coordinates;
-        stroke.best_window([xs, ys], length, (2, 0.0, TOLERANCE))
-    }
-
-    /// The coordinates of points of a curve, repeated once.
-    fn coordinates(&self, harmonics: &[[f32; 2]; 2 * HARMONICS]) -> [[f32; 2 * CURVE_POINTS]; 2] {
-        const HALF: usize = CURVE_POINTS / 2;
-        let mut even = [[0.0f32; HALF]; 2];
-        let mut odd = [[0.0f32; HALF]; 2];
-        let mut opposite = [0.0f32; 2];
-        for k in 0..HARMONICS {
-            let ([a, b], [c, d]) = (harmonics[k], harmonics[HARMONICS + k]);
-            let (sum, difference) = ([a + c, b + d], [d - b, a - c]);
-            for axis in 0..2 {
-                for n in 0..HALF {
-                    even[axis][n] += sum[axis] * self.cosines[k][n];
-                    odd[axis][n] += difference[axis] * self.sines[k][n];
-                }
-                opposite[axis] += if k % 2 == 0 { -sum[axis] } else { sum[axis] };
-            }
-        }
-        std::array::from_fn(|axis| {
-            let at = |n: usize| match n {
-                HALF => opposite[axis],
-                n if n < HALF => even[axis][n] + odd[axis][n],
-                n => even[axis][CURVE_POINTS - n] - odd[axis][CURVE_POINTS - n],
-            };
-            std::array::from_fn(|n| at(n % CURVE_POINTS))
-        })
-    }
-
-    /// The part of a stroke's sum of squares that remains for the portion of a curve that is most like it: between the windows of
-    /// [`Synthesis::best_window`], which are eighths of the curve and more.
-    pub fn least_residual(
-        &self,
-        harmonics: &[[f32; 2]; 2 * HARMONICS],
-        length: f32,
-        (stroke, least): (&Stroke, f64),
-    ) -> Option<f32> {
-        let coordinates = self.coordinates(harmonics);
-        let [xs, ys] = &coordinates;
-        // The best window of each quarter, in both directions.
-        let mut best: [Option<Window>; 8] = [None; 8];
-        stroke.for_each_window([xs, ys], length, (2, least, LOOSE_TOLERANCE), |window| {
-            let place = &mut best[2 * (4 * window.first / CURVE_POINTS) + usize::from(window.is_reversed)];
-            if place.is_none_or(|best| window.residual < best.residual) {
-                *place = Some(window);
-            }
-        });
-        let least_residual = best.iter().flatten().map(|window| window.residual).fold(f32::INFINITY, f32::min);
-        let is_near = |window: &&Window| window.residual <= 4.0 * least_residual + 0.01;
-        let near = best.iter().flatten().filter(is_near);
-        near.map(|window| stroke.least_residual_near(&coordinates, window, least as f32)).reduce(f32::min)
-    }
+    })
 }

@@ -1,5 +1,6 @@
 //! What curves are compared with.
 
+use super::close_portion::CloseStroke;
 use super::complex::Complex;
 use super::portion::Stroke;
 use super::spectrum::{Spectrum, Transform};
@@ -9,8 +10,8 @@ use super::target::PathKind;
 pub(super) enum Query {
     /// A closed path: its spectrum, and the centroid and the size of points at equal distances along it.
     Whole(Box<Spectrum>, Complex, f64),
-    /// A path that is like a portion of a curve.
-    Portion(Box<Stroke>),
+    /// A path that is like a portion of a curve, for a first comparison and for a closer one.
+    Portion(Box<Stroke>, Box<CloseStroke>),
 }
 
 impl Query {
@@ -21,7 +22,9 @@ impl Query {
                 let (spectrum, centre, size) = Transform::new().spectrum(points);
                 Query::Whole(Box::new(spectrum), centre, size)
             }
-            PathKind::Open | PathKind::Part => Query::Portion(Box::new(Stroke::new(points))),
+            PathKind::Open | PathKind::Part => {
+                Query::Portion(Box::new(Stroke::new(points)), Box::new(CloseStroke::new(points)))
+            }
         }
     }
 }

@@ -39,18 +39,27 @@ impl Constraint {
 /// The answer that is nearest to a target without one or several of the constraints, and these: of those that suffice alone the
 /// one with the nearest answer, or else all of them. `None` if there is no answer even then. It takes a search for each.
 pub fn nearest_miss(target: &Target, index: &Index, options: &Options) -> Option<(Vec<Constraint>, Answer)> {
+    let search = |options: &Options| Search::new(target, options.clone()).run(index).into_iter().next();
+    nearest_miss_by(options, search, |answer| answer.rms)
+}
+
+/// The same for any search, given by the nearest answer for options, and the deviation of an answer.
+pub fn nearest_miss_by<A>(
+    options: &Options,
+    search: impl Fn(&Options) -> Option<A>,
+    rms: impl Fn(&A) -> f64,
+) -> Option<(Vec<Constraint>, A)> {
     let options = Options { most: 1, ..options.clone() };
-    let first = |options: Options| Search::new(target, options).run(index).into_iter().next();
     let alone = Constraint::ALL.into_iter().filter_map(|constraint| {
-        let answer = first(constraint.relaxed(&options)?)?;
+        let answer = search(&constraint.relaxed(&options)?)?;
         Some((vec![constraint], answer))
     });
-    let nearest = alone.reduce(|best, other| if other.1.rms < best.1.rms { other } else { best });
+    let nearest = alone.reduce(|best, other| if rms(&other.1) < rms(&best.1) { other } else { best });
     nearest.or_else(|| {
         let all = Constraint::ALL.into_iter().filter(|constraint| constraint.relaxed(&options).is_some());
         let all: Vec<Constraint> = all.collect();
         let free =
             all.iter().fold(options.clone(), |options, constraint| constraint.relaxed(&options).unwrap_or(options));
-        Some((all, first(free)?))
+        Some((all, search(&free)?))
     })
 }

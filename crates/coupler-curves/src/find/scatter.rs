@@ -23,7 +23,7 @@ impl Scatter {
     }
 
     /// A number with a nearly normal distribution, as the sum of four even ones, and the standard deviation `spread`.
-    fn normal(&mut self, spread: f64) -> f64 {
+    pub fn normal(&mut self, spread: f64) -> f64 {
         let sum: f64 = std::iter::repeat_with(|| self.even()).take(4).sum();
         spread * 3f64.sqrt() * sum
     }

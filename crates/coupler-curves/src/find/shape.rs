@@ -2,8 +2,9 @@
 
 use std::ops::Range;
 
-use super::portion::{Stroke, Synthesis};
+use super::portion::Stroke;
 use super::spectrum::{HARMONICS, Spectrum};
+use super::synthesis::Synthesis;
 
 /// The harmonics of a curve in canonical phase: those of order 1 and 2, and the others as parts of their greatest, so that the
 /// small differences of curves that are nearly circles are kept.

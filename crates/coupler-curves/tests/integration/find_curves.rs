@@ -292,6 +292,7 @@ fn curves_are_looked_up_in_steps() {
     index.push(&[Point::new(1.0, 1.0); 9], true);
     index.push(&[Point::new(0.0, f64::NAN), Point::new(1.0, 0.0), Point::new(2.0, 0.0)], false);
     assert_eq!(CurveIndex::BYTES_PER_CURVE, 60);
+    let options = CurveFitOptions::default();
     let (mut found_whole, mut found_part) = (0, 0);
     for case in 0..50 {
         let number = 59 * case;
@@ -300,18 +301,58 @@ fn curves_are_looked_up_in_steps() {
         for kind in [PathKind::Closed, PathKind::Part] {
             let points = if kind == PathKind::Closed { &points[..] } else { &points[..50] };
             let target = Target::new(points, kind).unwrap();
-            let mut lookup = CurveLookup::new(&target, 0.15, 200);
+            let mut lookup = CurveLookup::new(&target, options, 20);
             (0..index.len()).step_by(177).for_each(|from| lookup.compare(&index, from..from + 177));
-            let mut at_once = CurveLookup::new(&target, 0.15, 200);
+            let mut at_once = CurveLookup::new(&target, options, 20);
             at_once.compare(&index, 0..usize::MAX);
-            assert_eq!(lookup.numbers(), at_once.numbers());
-            assert!(lookup.numbers().len() <= 200 && lookup.numbers().iter().all(|number| *number < 3000));
-            let is_found = lookup.numbers().contains(&number);
-            *(if kind == PathKind::Closed { &mut found_whole } else { &mut found_part }) += usize::from(is_found);
+            assert!(lookup.found().eq(at_once.found()));
+            assert!(lookup.found().count() <= lookup.most() && lookup.found().all(|(_, number)| number < 3000));
+            // Of many portions that are about as near, those are wanted that are nearest.
+            let closely = |number: usize| Some((lookup.likeness(&curves[number], true)?, number));
+            let mut found: Vec<(f64, usize)> = lookup.found().filter_map(|(_, number)| closely(number)).collect();
+            found.sort_by(|a, b| b.0.total_cmp(&a.0));
+            found.truncate(20);
+            let own = found.iter().find(|(_, other)| *other == number);
+            // The polygon of the target is shorter than its curve where that is bent.
+            let greatest = if kind == PathKind::Closed { 1.0 } else { 0.0 };
+            assert!(own.is_none_or(|(likeness, _)| (greatest - likeness).abs() < 2e-3), "{case}: {own:?}");
+            *(if kind == PathKind::Closed { &mut found_whole } else { &mut found_part }) += usize::from(own.is_some());
         }
     }
     println!("{found_whole} and {found_part} of 50");
     assert!(found_whole == 50 && found_part >= 48, "{found_whole} {found_part}");
+}
+
+/// The likeness of a curve does not depend on its place, size and direction, nor on where its points begin, and that of a mirror image only if
+/// it is excluded.
+#[test]
+fn likeness_is_the_same_for_similar_curves() {
+    /// Of the deviations in sizes: points at equal distances from another first one are others.
+    const TOLERANCE: f64 = 0.002;
+    let mut random = Random(41);
+    for case in 0..20 {
+        let curve = random.coupler_curve(360);
+        let points: Vec<Point> = random.coupler_curve(360)[20..140].to_vec();
+        let target = Target::new(&points, PathKind::Part).unwrap();
+        let lookup = CurveLookup::new(&target, CurveFitOptions::default(), 1);
+        let only_turned = CurveFitOptions { may_be_mirrored: false, ..CurveFitOptions::default() };
+        let unmirrored = CurveLookup::new(&target, only_turned, 1);
+        let deviation =
+            |lookup: &CurveLookup, curve: &[Point]| lookup.likeness(curve, true).map(|value| (-value).sqrt());
+        let first = deviation(&lookup, &curve).unwrap();
+        let mut nearest = f64::INFINITY;
+        for is_mirrored in [false, true] {
+            let placement = random.placement(is_mirrored);
+            let mut other: Vec<Point> = curve.iter().map(|p| placement.apply(*p)).collect();
+            other.rotate_left(45);
+            let second = deviation(&lookup, &other).unwrap();
+            assert!((first - second).abs() < TOLERANCE, "{case}: {first} {second}");
+            let turned = deviation(&unmirrored, &other).unwrap_or(f64::INFINITY);
+            assert!(turned > second - TOLERANCE, "{case}: {turned} {second}");
+            nearest = nearest.min(turned);
+        }
+        assert!((nearest - first).abs() < TOLERANCE, "{case}: {first} {nearest}");
+    }
 }
 
 #[test]

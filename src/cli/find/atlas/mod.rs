@@ -3,13 +3,17 @@
 mod json;
 mod text;
 
+pub(super) use text::placed;
+
 use std::path::{Path, PathBuf};
 
 use coupler_atlas::find::{self, AtlasAnswer, AtlasOptions};
 use coupler_atlas::manifest::Plan;
 use coupler_atlas::record::{FolderRecord, RunRecord};
-use coupler_curves::exchange::{ParameterSet, manifest_fragment};
-use coupler_curves::find::{Answer, Condition, Index, Options, Placement, Search, Target, answers_manifest};
+use coupler_curves::exchange::{ParameterSet, manifest_families};
+use coupler_curves::find::{
+    Answer, Condition, Index, Options, Search, Target, answer_families, answers_manifest, manifest_head, scaled_values,
+};
 use coupler_curves::linkage_format::quoted;
 use coupler_curves::measure;
 use coupler_curves::motion::Sampler;
@@ -18,7 +22,7 @@ use coupler_drawing::page::FoundCurve;
 use rayon::prelude::*;
 
 use super::super::source::ManifestSource;
-use super::{Arguments, InputError, Outcome, drawing, files, print, print_bytes, source, title_of};
+use super::{Arguments, InputError, Outcome, Shown, drawing, show, source, title_of};
 
 /// What has been found in an atlas.
 pub(super) struct AtlasReport {
@@ -40,7 +44,7 @@ pub(super) struct Found {
 
 impl Found {
     fn rms(&self) -> f64 {
-        self.refined.as_ref().map_or(self.curve.fit.rms, |answer| answer.rms)
+        self.refined.as_ref().map_or(self.curve.curve.fit.rms, |answer| answer.rms)
     }
 }
 
@@ -48,7 +52,7 @@ impl Found {
 pub(super) fn check(arguments: &Arguments) -> Result<(), InputError> {
     let error = |message: &str| Err(InputError(message.to_owned()));
     match arguments {
-        Arguments { atlas: None, fixed: true, .. } => {
+        Arguments { atlas: None, linkage: None, fixed: true, .. } => {
             error("--fixed compares the curves of an atlas where they are: name one with --atlas MANIFEST|DIR")
         }
         Arguments { atlas: Some(_), timed: true, .. } => error(
@@ -89,18 +93,7 @@ pub(super) fn run(
         nearest_miss = nearest.map(|nearest| (relax, nearest));
     }
     let report = AtlasReport { name, target, plan: source.plan, curves, answers, nearest_miss };
-    if let Some(path) = &arguments.svg {
-        files::write(path, &report.drawing())?;
-        if is_drawing_printed {
-            return Ok(Outcome::Done);
-        }
-    }
-    match (arguments.json, arguments.toml) {
-        (true, _) => print_bytes(json::json(&report)?.as_bytes())?,
-        (_, true) => print_bytes(report.manifest().as_bytes())?,
-        _ => print(&text::text(&report))?,
-    }
-    Ok(Outcome::Done)
+    show(&report, arguments, is_drawing_printed)
 }
 
 /// The curves that are refined for each answer.
@@ -108,16 +101,7 @@ const STARTS_PER_ANSWER: usize = 8;
 
 /// Refines four-bars, merges curves that are the same to a thousandth of the target's size, and ranks them.
 fn ranked(curves: Vec<AtlasAnswer>, target: &Target, options: &Options, arguments: &Arguments) -> Vec<Found> {
-    let is_same = |a: &Found, b: &Found| find::are_same(&a.curve.outline, &b.curve.outline, 1e-3 * target.size());
-    let distinct = |found: Vec<Found>, most: usize| {
-        let mut kept: Vec<Found> = Vec::new();
-        for found in found {
-            if kept.len() < most && kept.iter().all(|other| !is_same(&found, other)) {
-                kept.push(found);
-            }
-        }
-        kept
-    };
+    let distinct = |found: Vec<Found>, most| find::distinct(found, |found| &found.curve.curve, target, most);
     let placed = curves.into_iter().map(|curve| Found { curve, refined: None });
     // Several are refined to the same curve.
     let mut found = distinct(placed.collect(), STARTS_PER_ANSWER * options.most);
@@ -130,15 +114,15 @@ fn ranked(curves: Vec<AtlasAnswer>, target: &Target, options: &Options, argument
         let options = Options { most: 1, condition, ..options.clone() };
         let index = Index::new();
         let refine = |found: &Found| {
-            let start = found.curve.four_bar?;
+            let start = found.curve.curve.four_bar?;
             let answer = Search::from_four_bar(target, options.clone(), &start).run(&index).into_iter().next()?;
-            let solved = answer.mechanism.solved().filter(|_| answer.rms < found.curve.fit.rms)?;
+            let solved = answer.mechanism.solved().filter(|_| answer.rms < found.curve.curve.fit.rms)?;
             let curve = &solved.curves[0];
             Some((answer, solved.circuit(curve).points(curve.joint).collect()))
         };
         found.par_iter_mut().for_each(|found| {
             if let Some((answer, outline)) = refine(found) {
-                (found.refined, found.curve.outline) = (Some(answer), outline);
+                (found.refined, found.curve.curve.outline) = (Some(answer), outline);
             }
         });
     }
@@ -186,34 +170,40 @@ fn read(atlas: &Path) -> anyhow::Result<ManifestSource> {
     Ok(source)
 }
 
-impl AtlasReport {
+impl Shown for AtlasReport {
     /// A manifest that renders the linkages: refined four-bars where they are on the path, others in the direction that they have in the
     /// atlas, and as large as they are on the path if their dimensions scale.
     fn manifest(&self) -> String {
+        let name = title_of(&self.name);
         let refined: Vec<Answer> = self.answers.iter().filter_map(|found| found.refined.clone()).collect();
-        let mut out = answers_manifest(&title_of(&self.name), self.target.size(), &refined);
         let placed: Vec<(usize, &AtlasAnswer)> = (1..)
             .zip(&self.answers)
             .filter(|(_, found)| found.refined.is_none())
             .map(|(k, found)| (k, &found.curve))
             .collect();
         if placed.is_empty() {
-            return out;
+            return answers_manifest(&name, self.target.size(), &refined);
         }
         let mut sets = Vec::new();
-        out = out.replace("\n# No linkage meets the constraints.\n", "");
-        out.push('\n');
-        for (rank, curve) in placed {
-            let family = &self.plan.families[curve.place[0]].family;
+        let mut out = manifest_head(&name) + &answer_families(&name, self.target.size(), &refined) + "\n";
+        for (rank, AtlasAnswer { place, name, curve }) in placed {
+            let family = &self.plan.families[place[0]].family;
             let scale = curve.fit.placement.scale();
             let factor = if curve.is_scalable { scale } else { 1.0 };
             let size = if curve.is_scalable { "as large as on the path" } else { "in its own size" };
-            out += &format!("# {rank}: {}, {size}; {}\n", curve.name, text::placed(curve, self.target.size()));
-            let values = find::scaled_values(&family.template, &curve.values, factor);
-            sets.push(ParameterSet { family, values, curve_name: format!("{rank}: {}", curve.name) });
+            out += &format!("# {rank}: {}, {size}; {}\n", name, text::placed(curve, self.target.size()));
+            let values = scaled_values(&family.template, &curve.values, factor);
+            sets.push(ParameterSet { family, values, curve_name: format!("{rank}: {name}") });
         }
-        let fragment = manifest_fragment(&sets);
-        out + fragment.split_once('\n').map_or("", |(_, families)| families)
+        out + &manifest_families(&sets, false)
+    }
+
+    fn json(&self) -> anyhow::Result<String> {
+        json::json(self)
+    }
+
+    fn text(&self) -> String {
+        text::text(self)
     }
 
     /// The path and the curves on one page.
@@ -229,17 +219,15 @@ impl AtlasReport {
             found.collect(),
         )
     }
+}
 
-    fn drawn(&self, rank: usize, curve: &AtlasAnswer) -> Option<FoundCurve> {
-        let [place, cell] = curve.place;
+impl AtlasReport {
+    fn drawn(&self, rank: usize, AtlasAnswer { place, name, curve }: &AtlasAnswer) -> Option<FoundCurve> {
+        let [place, cell] = *place;
         let family = &self.plan.families[place].family;
         let needed: Vec<bool> = (0..measure::ALL.len()).map(|k| family.filter_or_sort_uses(k)).collect();
-        let mut solved = solve_measuring(family, &Sampler::new(family.sampling), cell, &needed)?;
-        solved.curves.retain(|other| [other.trace, other.circuit] == curve.numbers[1..]);
-        let circuit = solved.circuit(solved.curves.first()?);
-        let pose = solved.linkage.joint_ids().map(|joint| circuit.positions.point(joint, 0)).collect();
-        let placement: Placement = curve.fit.placement;
-        let label = format!("{rank}: {}, {}", curve.name, text::placed(curve, self.target.size()));
-        Some(FoundCurve { solved, placement, pose, label })
+        let solved = solve_measuring(family, &Sampler::new(family.sampling), cell, &needed)?;
+        let label = format!("{rank}: {name}, {}", text::placed(curve, self.target.size()));
+        drawing::placed(curve, solved, label)
     }
 }

@@ -2,24 +2,18 @@
 
 use std::fmt::Write;
 
-use coupler_atlas::find::AtlasAnswer;
+use coupler_atlas::find::PlacedCurve;
 use coupler_curves::find::{Quality, format_length as number, format_relative as relative};
 
 use super::super::super::format::pluralize;
-use super::super::text::{dimensions, place};
+use super::super::text::{described, dimensions, place};
 use super::{AtlasReport, Found};
 
 /// The answers, each with its cell, where it is placed or what was refined from it.
 pub(super) fn text(report: &AtlasReport) -> String {
     let AtlasReport { name, target, answers, curves, nearest_miss, .. } = report;
     let size = target.size();
-    let points = pluralize(target.points().len(), "point");
-    let mut out = format!(
-        "{name}: {points}, {}, S = {}; {} of the atlas\n",
-        target.kind().name(),
-        number(size, size),
-        pluralize(*curves, "curve")
-    );
+    let mut out = format!("{}; {} of the atlas\n", described(name, target), pluralize(*curves, "curve"));
     for (rank, found) in (1..).zip(answers) {
         out += &entry(&rank.to_string(), found, size);
     }
@@ -39,7 +33,8 @@ pub(super) fn text(report: &AtlasReport) -> String {
     out
 }
 
-fn entry(rank: &str, Found { curve, refined }: &Found, size: f64) -> String {
+fn entry(rank: &str, Found { curve: answer, refined }: &Found, size: f64) -> String {
+    let (curve, name) = (&answer.curve, &answer.name);
     let fit = &curve.fit;
     let line = |relative_rms: f64, rms: f64, greatest: f64| {
         let quality = Quality::of(relative_rms).name();
@@ -54,7 +49,7 @@ fn entry(rank: &str, Found { curve, refined }: &Found, size: f64) -> String {
         Some(answer) => format!(
             "{rank:>3}  {}, refined from {} (E = {} S)\n     {}\n     {}\n",
             line(answer.rms_relative, answer.rms, answer.greatest),
-            curve.name,
+            name,
             relative(fit.rms_relative),
             dimensions(&answer.mechanism, size),
             place(&answer.mechanism, size)
@@ -62,13 +57,13 @@ fn entry(rank: &str, Found { curve, refined }: &Found, size: f64) -> String {
         None => {
             let deviation = line(fit.rms_relative, fit.rms, fit.greatest);
             let class = if curve.class.is_empty() { String::new() } else { format!(", {}", curve.class) };
-            format!("{rank:>3}  {deviation}, {}{class}\n     {}\n", curve.name, placed(curve, size))
+            format!("{rank:>3}  {deviation}, {}{class}\n     {}\n", name, placed(curve, size))
         }
     }
 }
 
 /// Where a curve is placed, in words.
-pub(super) fn placed(curve: &AtlasAnswer, size: f64) -> String {
+pub(in super::super) fn placed(curve: &PlacedCurve, size: f64) -> String {
     let placement = &curve.fit.placement;
     let mirrored = if placement.is_mirrored { "y mirrored, " } else { "" };
     format!(

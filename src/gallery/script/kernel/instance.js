@@ -19,14 +19,31 @@ export class KernelInstance {
   }
 
   /**
-   * The answer to a request, both as objects. Arrays of numbers are Float64Arrays of their own.
+   * The answer to a request, both as objects. Arrays of numbers are Float64Arrays, those of the answer of their own.
    *
    * @throws {KernelError} if the kernel cannot answer it
    * @throws {KernelFailure} if the kernel fails
    */
   call(/** @type {object} */ request) {
-    const text = new TextEncoder().encode(JSON.stringify(request, exactNumbers));
+    /** @type {Float64Array[]} */ const arrays = [];
+    let total = 0;
+    const packed = (key, value) => {
+      if (!(value instanceof Float64Array)) return exactNumbers(key, value);
+      arrays.push(value);
+      total += value.length;
+      return { $: [total - value.length, value.length] };
+    };
+    const text = new TextEncoder().encode(JSON.stringify(request, packed));
     const { json, numbers } = this.#guarded((kernel) => {
+      if (total > 0) {
+        const first = kernel.kernel_numbers(total);
+        const input = new Float64Array(kernel.memory.buffer, first, total);
+        let at = 0;
+        for (const array of arrays) {
+          input.set(array, at);
+          at += array.length;
+        }
+      }
       const place = kernel.kernel_allocate(text.length);
       new Uint8Array(kernel.memory.buffer, place, text.length).set(text);
       const parts = kernel.kernel_call(place, text.length);

@@ -3,13 +3,14 @@
 // After a failure of the kernel, a new instance replaces it, in which families and studies are opened again when
 // they are used.
 
-import { decodeBase64 } from "../data/packed.js";
+import { decodeBase91 } from "../data/packed.js";
+import { FourBarFinder } from "./finder.js";
 import { KernelFailure, KernelInstance } from "./instance.js";
 import { KernelStudy } from "./study.js";
 
 /** What does not work without the kernel, as a sentence. */
 export const NO_KERNEL =
-  "This browser does not run WebAssembly: linkages are not moved, changed, compared in detail or exported.";
+  "This browser does not run WebAssembly: linkages are not moved, changed, compared in detail, found by shape or exported.";
 
 /** The kernel of a document, loaded when it is first needed. */
 export class KernelLoader {
@@ -38,7 +39,7 @@ export class KernelLoader {
 }
 
 async function compileKernel(/** @type {Document} */ document) {
-  const packed = decodeBase64(document.getElementById("kernel")?.textContent);
+  const packed = decodeBase91(document.getElementById("kernel")?.textContent ?? "");
   const unpacked = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
   return WebAssembly.compile(await new Response(unpacked).arrayBuffer());
 }
@@ -49,6 +50,7 @@ export class Kernel {
     this.module = module;
     this.instance = new KernelInstance(module);
     /** @type {Map<string, KernelFamily>} */ this.families = new Map();
+    this.fourBars = new FourBarFinder(this);
   }
 
   /**

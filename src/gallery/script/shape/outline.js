@@ -74,23 +74,6 @@ export function extentOf(/** @type {Points} */ points) {
   return Math.sqrt(greatest);
 }
 
-/** An outline in the opposite direction, with the same first point if it is closed. */
-export function reversedOutline(/** @type {Points} */ points, closed) {
-  const count = points.length / 2;
-  const out = new Float64Array(points.length);
-  for (let k = 0; k < count; k += 1) {
-    const from = closed ? (count - k) % count : count - 1 - k;
-    out[2 * k] = points[2 * from];
-    out[2 * k + 1] = points[2 * from + 1];
-  }
-  return out;
-}
-
-/** An outline's mirror image about the x-axis. */
-export function mirroredOutline(/** @type {Float64Array} */ points) {
-  return points.map((value, k) => (k % 2 ? -value : value));
-}
-
 /**
  * Whether an outline ends so near to its start, within 12 % of its extent, that it is probably meant to be
  * closed.

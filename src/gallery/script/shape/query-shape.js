@@ -1,48 +1,30 @@
-// Prepares the shape to search for.
+// Prepares the shape to search for: a drawn one is smoothed, and has points enough for its form to be seen.
 
 import { withoutDuplicates, extentOf, resampled, lengthOf } from "./outline.js";
 
+// The number of points that are taken as they are, and of those that other shapes get.
+const FEWEST_POINTS = 30;
+const MOST_POINTS = 200;
+const PATH_POINTS = 100;
+
 /**
- * A shape from its points: `outline` is centred, with an extent of 1, `frame` is the similarity from the given
- * points to it, and `isNoisy` whether it was smoothed. Null if there are fewer than two different points.
+ * A shape from its points: `points` without repetitions, and the `path` to search for. Null if there are fewer than
+ * two different points.
  * @param {Float64Array} points @param {boolean} closed
  */
 export function queryShape(/** @type {Float64Array} */ points, closed) {
   const given = withoutDuplicates(points, closed);
-  const extent = given.length >= 4 ? extentOf(given) : 0;
-  if (!(extent > 0)) return null;
-  const [x, y] = middleOf(given);
-  const frame = { mirror: false, re: 1 / extent, im: 0, x: -x / extent, y: -y / extent };
-  const own = given.map((value, k) => (value - (k % 2 ? y : x)) / extent);
-  const outline = smoothed(own, closed);
-  return { closed, points: given, extent, frame, outline, isNoisy: outline !== own };
+  if (given.length < 4 || !(extentOf(given) > 0)) return null;
+  const outline = smoothed(given, closed);
+  const count = given.length / 2;
+  const isPath = outline === given && count >= FEWEST_POINTS && count <= MOST_POINTS;
+  return { closed, points: given, path: isPath ? given : resampled(outline, closed, PATH_POINTS) };
 }
 
-/** Evenly spaced points of a shape; with `open`, a closed one is cut open at its first point. */
-export function resampledShape(/** @type {Shape} */ shape, count, open = false) {
-  if (!(shape.closed && open))
-    return { points: resampled(shape.outline, shape.closed, count), closed: shape.closed };
-  const round = Float64Array.from([...shape.outline, shape.outline[0], shape.outline[1]]);
-  return { points: resampled(round, false, count), closed: false };
-}
-
-/**
- * An open shape traversed forth and back: a closed one, like the curve of a circuit that rocks on one path.
- */
-export function thereAndBack(/** @type {Shape} */ shape) {
-  const { outline } = shape;
-  const back = [];
-  for (let k = outline.length - 4; k >= 2; k -= 2) back.push(outline[k], outline[k + 1]);
-  return { ...shape, closed: true, outline: Float64Array.from([...outline, ...back]) };
-}
-
-function middleOf(/** @type {Float64Array} */ points) {
-  let [x, y] = [0, 0];
-  for (let k = 0; k < points.length; k += 2) {
-    x += (2 * points[k]) / points.length;
-    y += (2 * points[k + 1]) / points.length;
-  }
-  return [x, y];
+/** The path of a shape, whether it is closed; as a part of a curve, it is open and ends where it begins. */
+export function searchedPath(/** @type {Shape} */ { closed, path }, isPart) {
+  if (!isPart || !closed) return { points: path, closed };
+  return { points: Float64Array.of(...path, path[0], path[1]), closed: false };
 }
 
 // The number of even points of a smoothed outline, and the numbers of points on either side to smooth over.

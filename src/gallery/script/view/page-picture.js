@@ -5,7 +5,7 @@ import { curveCaption, curveKey, pageViews, curvePoints } from "../data/family.j
 import { address } from "../data/address.js";
 import { h, s, setAttributes } from "./dom.js";
 import { drawPage, paperTone } from "./page-thumbnail.js";
-import { squaredDistance } from "../shape/deviation.js";
+import { squaredDistance } from "../draw/outline-distance.js";
 import { boxOfPoints } from "../draw/plane-view.js";
 
 // The minimum width of the area of a link, in millimetres of paper.

@@ -2,11 +2,8 @@
 
 import { curvePoints } from "../../data/family.js";
 import { boxOfPoints } from "../../draw/plane-view.js";
-import { queryShape } from "../../shape/query-shape.js";
-import { buildIndex } from "../../shape/shape-index.js";
-import { deviationBetween } from "../../shape/deviation.js";
-import { searchByShape } from "../../shape/search.js";
-import { identity, transformed } from "../../shape/similarity.js";
+import { identity, transformed } from "../../draw/similarity.js";
+import { bestFit, deviationInPlace } from "../../kernel/shape-search.js";
 
 /** The maximum number of curves compared. */
 export const MAX_COMPARED = 12;
@@ -40,43 +37,24 @@ export function formatComparisonQuery(/** @type {ComparisonQuery} */ { view, ali
 }
 
 /**
- * Aligns a curve with the first; deviations are relative to the extent of the first. `align` is a key of
- * ALIGNMENTS; the best fit is that of the search by shape.
- * @param {CurveOfFamily} first @param {CurveOfFamily} one
+ * Aligns a curve with the first; `fit` has the deviation of the first from it, relative to the size of the first, and is
+ * null without the kernel. `align` is a key of ALIGNMENTS; the best fit is that of the search by shape, and without one the
+ * curve is centred.
+ * @param {Kernel | null} kernel @param {CurveOfFamily} first @param {CurveOfFamily} one
  */
-export function alignCurve(/** @type {CurveOfFamily} */ first, /** @type {CurveOfFamily} */ one, align) {
-  const closed = one.family.curves.closed[one.curve] === 1;
-  const own = curvePoints(one.family, one.curve);
-  const base = curvePoints(first.family, first.curve);
-  const baseClosed = first.family.curves.closed[first.curve] === 1;
-  if (align === "similar" || align === "mirrored") {
-    const shape = queryShape(base, baseClosed);
-    const found = shape && compareWithShape(shape, one, align === "mirrored");
-    if (found) {
-      const { similarity, rms, greatest } = found;
-      return { points: transformed(similarity, own), closed, similarity, rms, greatest };
-    }
-  }
-  const similarity = boxAlignment(base, own, align);
-  const points = transformed(similarity, own);
-  const deviation = deviationBetween({ points: base, closed: baseClosed }, { points, closed });
-  return { points, closed, similarity, ...deviation };
+export function alignCurve(kernel, first, one, align) {
+  const [base, own] = [outlineOf(first), outlineOf(one)];
+  const isFitted = kernel && (align === "similar" || align === "mirrored");
+  const found = isFitted ? bestFit(kernel, base, own, align === "mirrored") : null;
+  const similarity = found?.similarity ?? boxAlignment(base.points, own.points, align);
+  const { closed } = own;
+  const points = transformed(similarity, own.points);
+  const fit = found ?? (kernel && deviationInPlace(kernel, base, { points, closed }));
+  return { points, closed, similarity, fit };
 }
 
-/**
- * Compares one curve with a shape, as the search by shape does.
- * @param {Shape} shape @param {CurveOfFamily} _1
- */
-function compareWithShape(shape, { family, curve }, mirror) {
-  const index = runToEnd(buildIndex(family, curve, 1));
-  return runToEnd(searchByShape([index], shape, { mirror }))[0];
-}
-
-function runToEnd(generator) {
-  for (;;) {
-    const { value, done } = generator.next();
-    if (done) return value;
-  }
+function outlineOf(/** @type {CurveOfFamily} */ { family, curve }) {
+  return { points: curvePoints(family, curve), closed: family.curves.closed[curve] === 1 };
 }
 
 /** The similarity that matches the centres of the bounding boxes and, for "size", their diagonals. */

@@ -81,13 +81,15 @@ class CompareView {
     for (const name of names) {
       if (!this.loaded.has(name)) this.loaded.set(name, await loadComparedCurve(app, name));
     }
+    // Without the kernel, curves are shown without their deviations.
+    const kernel = await app.kernel.load().catch(() => null);
     // The pins may have changed meanwhile.
     if (String(names) !== String(app.pins.names)) return;
     const found = names.map((name) => this.loaded.get(name));
     const there = found.filter((one) => one !== undefined && "family" in one);
     const missing = found.filter((one) => one !== undefined && "reason" in one);
     const focused = keepFocus(this.element);
-    this.render(there, missing);
+    this.render(kernel, there, missing);
     focused();
   }
 
@@ -101,7 +103,7 @@ class CompareView {
     this.refresh();
   }
 
-  render(/** @type {ComparedCurve[]} */ all, missing) {
+  render(/** @type {Kernel | null} */ kernel, /** @type {ComparedCurve[]} */ all, missing) {
     const curves = all.slice(0, MAX_COMPARED);
     const { query, app } = this;
     const beyond = all.length - curves.length;
@@ -114,7 +116,7 @@ class CompareView {
     );
     fill(this.exportSlot, all.length ? exportMenu(app, () => all.map(({ name }) => name)) : null);
     fill(this.tools, all.length ? this.controls() : null);
-    const aligned = curves.map((one, k) => alignCurve(curves[0], one, k > 0 ? query.align : "none"));
+    const aligned = curves.map((one, k) => alignCurve(kernel, curves[0], one, k > 0 ? query.align : "none"));
     const labels = curves.map(({ name }, k) => `${letterOf(k)} ${name}`);
     this.stop();
     const isOver = query.view === "over" && curves.length > 1;
@@ -124,7 +126,7 @@ class CompareView {
     this.stop = refinePicture(app, picture, curves, aligned);
     const entries = curves.map((one, k) => {
       const drawn = isOver ? strokeSample(k) : h("div.tile-picture", picture.elements[k]);
-      return this.entry(one, k, curves.length, aligned[k], drawn);
+      return this.entry(one, k, curves.length, aligned[k].fit, drawn);
     });
     const list = h(isOver ? "ol.pinned-list" : "ol.pinned-tiles", entries);
     const facts = curves.length ? factsTable(curves, app.atlas.measures, labels) : null;
@@ -145,20 +147,26 @@ class CompareView {
     ];
   }
 
-  entry(/** @type {ComparedCurve} */ { name, family, curve, key, changes }, k, count, deviation, picture) {
+  entry(
+    /** @type {ComparedCurve} */ { name, family, curve, key, changes },
+    k,
+    count,
+    /** @type {Fit | null} */ fit,
+    picture,
+  ) {
     const { app } = this;
     const letter = letterOf(k);
     const act = (label, words, onclick, disabled = false) =>
       buttonOf(label, onclick, { class: "quiet", "aria-label": words, disabled });
     const percent = (value) => `${(100 * value).toFixed(2)} %`;
-    const away = `${percent(deviation.rms)} rms from A, ${percent(deviation.greatest)} maximum`;
+    const away = fit ? `${percent(fit.rms)} rms from A, ${percent(fit.greatest)} maximum` : null;
     const named = [
       h("b", letter),
       " ",
       h("a", { href: address([family.id, "curve", key], changes) }, `${family.title}, ${key}`),
       h("p.caption", formatCaption(curveCaption(family, curve))),
       changes.size ? h("p.tag", formatCaption(formatChanges(changes))) : null,
-      k > 0 ? h("p.deviation", away) : null,
+      k > 0 && away ? h("p.deviation", away) : null,
     ];
     const acts = [
       act("←", `Move ${letter} forward`, () => this.move(k, -1), k === 0),

@@ -4,7 +4,7 @@ import { placedData } from "../../draw/path-data.js";
 import { boxOfPoints, screenPoint } from "../../draw/plane-view.js";
 import { s } from "../dom.js";
 import { viewOfOutlines } from "../shape/match-item.js";
-import { transformed } from "../../shape/similarity.js";
+import { transformed } from "../../draw/similarity.js";
 import { solveCurve } from "../curve-reading.js";
 
 const OVER_WIDE = 720;

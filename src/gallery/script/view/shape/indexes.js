@@ -1,15 +1,18 @@
-// The shape indexes of families: in parts, so that a family of any size can be searched in bounded memory.
+// The indexes of the curves of families, in the kernel: in parts, so that a family of any size can be searched in bounded
+// memory.
 
-import { buildIndex, addWindows } from "../../shape/shape-index.js";
+import { curvePoints } from "../../data/family.js";
 import { needPieces } from "../../data/needs.js";
 
-// The number of curves of a part: its index takes up to 4 kB a curve.
+// The number of curves of a part, 60 bytes each.
 const PART_CURVES = 20_000;
 // The number of curves whose indexes are kept while the page is open.
 const MAX_KEPT_CURVES = 100_000;
+// The number of curves that are added in a step.
+const CURVES_PER_CALL = 16;
 
-// The kept indexes of each family, by the first curve of their parts.
-const SHAPE_INDEXES = new WeakMap();
+/** The kept indexes of each instance of the kernel, by family and the first curve of their parts. */
+const KEPT_INDEXES = new WeakMap();
 
 /**
  * The parts of families that are searched, up to `limit` bytes of data and at least one, with the pieces of the
@@ -52,59 +55,71 @@ function tableShare(/** @type {Piece[]} */ tables, /** @type {Piece} */ { curves
   return curves / tables.reduce((sum, table) => sum + table.curves, 0);
 }
 
-/** Releases the indexes of families that are not searched as a whole: they would take too much memory. */
-export function releaseIndexes(/** @type {SearchedPart[]} */ parts) {
-  for (const { family } of parts) SHAPE_INDEXES.delete(family);
-}
-
 /** Loads the data of a part; null if they are loaded. @param {SearchedPart} _ */
 export function needPart({ family, pieces }) {
   return needPieces(family, pieces);
 }
 
 /**
- * The shape index of a part, whose data must be loaded, with windows no shorter than `least` of a curve
- * unless that is null. Null if stopped.
- * @param {SearchedPart} _
+ * The index of the curves of a part, whose data must be loaded; null if stopped. One that is not kept is released by
+ * `releaseIndex`.
+ * @param {Kernel} kernel @param {SearchedPart} _ @param {Slices} slices @returns {Promise<ShapeIndex | null>}
  */
-export async function shapeIndex({ family, first, count, isKept }, least, stopped) {
-  if (!SHAPE_INDEXES.has(family)) SHAPE_INDEXES.set(family, new Map());
-  const known = SHAPE_INDEXES.get(family);
-  let index = known.get(first);
-  if (index?.count !== count) {
-    index = await runInSlices(buildIndex(family, first, count), stopped);
-    if (!index) return null;
-    if (isKept) known.set(first, index);
+export async function shapeIndex(kernel, { family, first, count, isKept }, slices) {
+  const known = keptIndexes(kernel, family);
+  const kept = known.get(first);
+  if (kept?.count === count) return kept;
+  if (kept) releaseIndex(kernel, kept);
+  const { instance } = kernel;
+  const index = { family, first, count, curves: kernel.call({ method: "open_curves" }).curves };
+  let isComplete = false;
+  try {
+    for (let from = first; from < first + count; from += CURVES_PER_CALL) {
+      addCurves(kernel, index, from, Math.min(from + CURVES_PER_CALL, first + count));
+      if (!(await slices.goOn())) return null;
+    }
+    isComplete = kernel.instance === instance;
+  } finally {
+    if (!isComplete && kernel.instance === instance) releaseIndex(kernel, index);
   }
-  if (least !== null) await runInSlices(addWindows(index, least), stopped);
-  return stopped() ? null : index;
+  if (isKept) known.set(first, index);
+  return index;
 }
 
-// The length of a slice, in milliseconds.
-const SLICE_MS = 12;
+/** Adds the curves from one to before another to an index. @param {Kernel} kernel @param {ShapeIndex} _ */
+function addCurves(kernel, { family, curves }, from, to) {
+  const outlines = [];
+  for (let curve = from; curve < to; curve += 1) outlines.push(curvePoints(family, curve));
+  const points = new Float64Array(outlines.reduce((sum, { length }) => sum + length, 0));
+  let at = 0;
+  for (const outline of outlines) {
+    points.set(outline, at);
+    at += outline.length;
+  }
+  const counts = Float64Array.from(outlines, ({ length }) => length / 2);
+  const closed = Float64Array.from(family.curves.closed.subarray(from, to));
+  kernel.call({ method: "add_curves", curves, points, counts, closed });
+}
 
-/**
- * Runs a generator to its end in slices and returns its value; null as soon as `stopped()` is true. The page
- * handles input between slices.
- */
-export async function runInSlices(generator, stopped = () => false) {
-  const channel = new MessageChannel();
-  const turn = () =>
-    new Promise((resume) => {
-      channel.port1.onmessage = resume;
-      channel.port2.postMessage(null);
-    });
-  try {
-    for (;;) {
-      const until = performance.now() + SLICE_MS;
-      do {
-        const { value, done } = generator.next();
-        if (done) return value;
-      } while (performance.now() < until);
-      await turn();
-      if (stopped()) return null;
-    }
-  } finally {
-    channel.port1.close();
+/** @returns {Map<number, ShapeIndex>} */
+function keptIndexes(/** @type {Kernel} */ { instance }, /** @type {Family} */ family) {
+  const families = KEPT_INDEXES.get(instance) ?? new Map();
+  KEPT_INDEXES.set(instance, families);
+  const known = families.get(family) ?? new Map();
+  families.set(family, known);
+  return known;
+}
+
+/** Releases an index. @param {Kernel} kernel @param {ShapeIndex} _ */
+export function releaseIndex(kernel, { curves }) {
+  kernel.call({ method: "close_curves", curves });
+}
+
+/** Releases the indexes of families that are not searched as a whole: they would take too much memory. */
+export function releaseIndexes(/** @type {Kernel} */ kernel, /** @type {SearchedPart[]} */ parts) {
+  for (const { family } of parts) {
+    const known = keptIndexes(kernel, family);
+    for (const index of known.values()) releaseIndex(kernel, index);
+    known.clear();
   }
 }

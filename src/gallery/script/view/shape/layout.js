@@ -18,7 +18,8 @@ export function shapeLayout(view) {
   const tools = h("div.toolbar", buttonOf("Clear", clear));
   const { pad, options, families } = view;
   const panel = h("div.panel", pad.element, pad.help, tools, options.element, pasteField(use), families);
-  const split = h("div.shape-split", panel, view.results);
+  const results = h("div.shape-results", view.results, view.fourBars.element);
+  const split = h("div.shape-split", panel, results);
   return h("div.view.wide.shape-view", h("div.head", heading), split);
 }
 

@@ -1,7 +1,7 @@
 // A result of the search by shape: a curve with the best fit of the shape overlaid.
 
 import { curvePoints, curveCaption, curveKey } from "../../data/family.js";
-import { inverted, transformed } from "../../shape/similarity.js";
+import { inverted, transformed } from "../../draw/similarity.js";
 import { portion } from "../../shape/outline.js";
 import { placedData } from "../../draw/path-data.js";
 import { boxOfPoints, fittedView } from "../../draw/plane-view.js";
@@ -11,7 +11,7 @@ import { formatCaption } from "../labels.js";
 import { pinButton } from "../pins.js";
 
 /**
- * The list item of a result of `searchByShape` for a shape with the options of a query (query.js).
+ * The list item of a result of `nearestCurves` for a shape with the options of a query (query.js).
  * @param {App} app @param {Match} one @param {Shape} shape
  */
 export function matchItem(app, one, shape, /** @type {ShapeQuery} */ { by, part }) {
@@ -19,7 +19,7 @@ export function matchItem(app, one, shape, /** @type {ShapeQuery} */ { by, part 
   const caption = curveCaption(family, curve);
   const other = by === "rms" ? "greatest" : "rms";
   const percent = (measure) => `${(100 * one[measure]).toFixed(2)} % ${measure}`;
-  const share = part ? `, ${Math.round(100 * (one.to - one.from))} % of the curve` : "";
+  const share = part ? `, ${Math.round(100 * Math.abs(one.to - one.from))} % of the curve` : "";
   const href = address([family.id, "curve", curveKey(family, curve)]);
   const picture = matchPicture(one, shape, { width: 220, height: 170 });
   const deviations = h("span.label", h("b", percent(by)), ` ${percent(other)}${share}`);
@@ -34,7 +34,7 @@ export function matchItem(app, one, shape, /** @type {ShapeQuery} */ { by, part 
 const MATCH_INSET = 6;
 
 /**
- * The picture of a result of `searchByShape` with the shape overlaid, `width` × `height` pixels.
+ * The picture of a result of `nearestCurves` with the shape overlaid, `width` × `height` pixels.
  * @param {Match} _ @param {Shape} shape @param {Size} _2
  */
 export function matchPicture({ family, curve, similarity, from, to }, shape, { width, height }) {
@@ -43,7 +43,8 @@ export function matchPicture({ family, curve, similarity, from, to }, shape, { w
   const fitted = transformed(inverted(similarity), shape.points);
   const view = viewOfOutlines([points, fitted], width, height);
   const isPart = from !== 0 || to !== 1;
-  const part = isPart ? portion(points, closed, from, to, 96).points : points;
+  const [first, last] = from < to ? [from, to] : [to, from];
+  const part = isPart ? portion(points, closed, first, last, 96).points : points;
   const frame = thumbnailFrame(
     ".match-picture",
     { width, height },

@@ -1,14 +1,17 @@
 // The options of the search by shape: whole or partial curves, mirror images, ranking; and its address,
-// `?d=…` or `?like=evans:12.1.1`, and options.
+// `?d=…` or `?like=evans:12.1.1`, and options; what the four-bars for it must be.
 
 import { choiceBox, h, selectOf } from "../dom.js";
 
 const DEFAULT_MIN_SHARE = 0.15;
+const DEFAULT_MAX_LINK = 10;
 
 /** Parses a query: `d` is a drawn shape, `like` the name of a curve; without `part` it is not known. */
 export function parseShapeQuery(/** @type {Query} */ query) {
   /** @type {SearchOptions["by"]} */ const by = query.get("by") === "greatest" ? "greatest" : "rms";
   const least = Number(query.get("least"));
+  const link = query.get("max-link");
+  const maxLink = link === "inf" ? Infinity : Number(link);
   return {
     d: query.get("d"),
     like: query.get("like"),
@@ -17,11 +20,13 @@ export function parseShapeQuery(/** @type {Query} */ query) {
     mirror: query.get("mirror") !== "no",
     by,
     families: query.get("family")?.split(",").filter(Boolean) ?? null,
+    fullTurn: query.get("input") !== "any",
+    maxLink: maxLink > 0 ? maxLink : DEFAULT_MAX_LINK,
   };
 }
 
 /** The inverse of parseShapeQuery. @param {ShapeQuery} _ */
-export function formatShapeQuery({ d, like, part, least, mirror, by, families }) {
+export function formatShapeQuery({ d, like, part, least, mirror, by, families, fullTurn, maxLink }) {
   return {
     d,
     like,
@@ -30,6 +35,8 @@ export function formatShapeQuery({ d, like, part, least, mirror, by, families })
     mirror: mirror ? null : "no",
     by: by === "rms" ? null : by,
     family: families?.join(","),
+    input: fullTurn ? null : "any",
+    "max-link": maxLink === DEFAULT_MAX_LINK ? null : maxLink === Infinity ? "inf" : maxLink,
   };
 }
 

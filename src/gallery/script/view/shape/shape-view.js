@@ -4,12 +4,14 @@ import { curvePoints } from "../../data/family.js";
 import { needCurveWithKey, needCurves } from "../../data/needs.js";
 import { queryShape } from "../../shape/query-shape.js";
 import { decodeShape, encodeShape } from "../../shape/encode.js";
-import { addCandidates, rankCandidates } from "../../shape/search.js";
 import { fill, h } from "../dom.js";
 import { MAX_AUTOLOAD_BYTES, requestedFamilies, loadAllLine, familyChooser } from "../find/loading.js";
-import { needPart, releaseIndexes, searchedParts, shapeIndex, runInSlices } from "./indexes.js";
+import { Slices } from "../slices.js";
+import { FourBarSection } from "./four-bars.js";
+import { needPart, releaseIndexes, searchedParts } from "./indexes.js";
 import { shapeLayout } from "./layout.js";
 import { matchItem } from "./match-item.js";
+import { nearestCurves } from "./matches.js";
 import { DrawingPad } from "./pad.js";
 import { formatShapeQuery, parseShapeQuery, shapeOptions } from "./query.js";
 import { matchesRoute, routeAddress } from "../../data/address.js";
@@ -17,7 +19,7 @@ import { watchPins } from "../pins.js";
 
 const MAX_RESULTS = 36;
 
-/** The route `#/shape?d=…` or `?like=evans:12.1.1`, with `part`, `least`, `mirror=no`, `by=greatest`, `family`. */
+/** The route `#/shape?d=…` or `?like=evans:12.1.1`, with `part`, `least`, `mirror=no`, `by=greatest`, `family`, `input=any`, `max-link`. */
 export const shapeRoute = {
   name: "shape",
   label: "By shape",
@@ -38,6 +40,7 @@ export class ShapeView {
   /** @type {LoadState} */ state = { done: false, curves: 0, total: 0, bytes: 0 };
   /** A later turn stops what an earlier one does. */
   turn = 0;
+  fourBarTurn = 0;
   limit = MAX_AUTOLOAD_BYTES;
   unwatch = () => {};
 
@@ -53,6 +56,10 @@ export class ShapeView {
     this.families = h("div");
     this.query = parseShapeQuery(query);
     this.options = shapeOptions(this.query, () => this.submit());
+    this.fourBars = new FourBarSection(app, this.query, () => {
+      this.writeAddress();
+      this.findFourBars();
+    });
     this.element = shapeLayout(this);
   }
 
@@ -94,7 +101,7 @@ export class ShapeView {
     else await this.prepare();
   }
 
-  /** Loads what will be searched, before there is a shape. */
+  /** Loads what will be searched, and prepares the search for four-bars, before there is a shape. */
   async prepare() {
     this.showState();
     const turn = this.turn;
@@ -102,6 +109,12 @@ export class ShapeView {
       await needPart(part)?.catch((error) => this.app.announce(error.message));
       if (turn !== this.turn) return;
     }
+    const slices = new Slices(() => turn !== this.turn);
+    // Without the kernel, a search says so.
+    await this.app.kernel.load().then(
+      (kernel) => kernel.fourBars.prepare(slices),
+      () => {},
+    );
   }
 
   /** Says what is not searched, or that there is nothing to search. */
@@ -142,69 +155,59 @@ export class ShapeView {
     this.submit();
   }
 
-  /** Searches all parts, one after another; a later search stops an earlier one. */
-  async search() {
-    const { shape } = this;
-    if (!shape || !this.state.done) return;
+  /** Searches for curves of the atlas, and for four-bars; a later search stops an earlier one. */
+  search() {
+    if (!this.shape || !this.state.done) return;
+    return Promise.all([this.findCurves(this.shape), this.findFourBars()]);
+  }
+
+  /** Searches all parts, one after another. */
+  async findCurves(/** @type {Shape} */ shape) {
     this.turn += 1;
     const turn = this.turn;
-    const stopped = () => turn !== this.turn;
+    const slices = new Slices(() => turn !== this.turn);
     this.showState();
     if (this.state.curves === 0) return;
     const { part, least, mirror, by } = this.query;
-    const options = { part: part === true, least, mirror, by };
     this.results.setAttribute("aria-busy", "true");
     const began = performance.now();
-    const candidates = await this.candidates(shape, options, stopped);
-    const found = candidates && (await runInSlices(rankCandidates(candidates, shape, options), stopped));
-    if (!found) return;
-    this.element.dataset.milliseconds = (performance.now() - began).toFixed(0);
-    const items = [];
-    // Each is drawn as soon as its points are loaded: those of all may be more than are kept.
-    for (const one of found.slice(0, MAX_RESULTS)) {
-      await needCurves(one.family, [one.curve]);
-      if (stopped()) return;
-      items.push(matchItem(this.app, one, shape, this.query));
-    }
-    this.show(items);
-    // Prepares the index for partial curves while idle.
-    if (part) return;
-    for (const one of this.parts.filter(({ isKept }) => isKept)) {
-      await needPart(one);
-      if (!(await shapeIndex(one, least, stopped))) return;
+    const progress = ({ family }, searched) => {
+      const share = `${searched.toLocaleString("en")} of ${this.state.curves.toLocaleString("en")} curves`;
+      fill(this.status, "Searching ", family.title, this.parts.length > 1 ? `: ${share}` : "");
+    };
+    try {
+      const options = { isPart: part === true, least, mirror, by };
+      const found = await nearestCurves(this.app, this.parts, shape, options, slices, progress);
+      if (!found) return;
+      this.element.dataset.milliseconds = (performance.now() - began).toFixed(0);
+      const items = [];
+      // Each is drawn as soon as its points are loaded: those of all may be more than are kept.
+      for (const one of found.slice(0, MAX_RESULTS)) {
+        await needCurves(one.family, [one.curve]);
+        if (slices.stopped()) return;
+        items.push(matchItem(this.app, one, shape, this.query));
+      }
+      this.show(items);
+    } catch (error) {
+      if (slices.stopped()) return;
+      fill(this.status, error.message);
+      fill(this.results);
+      this.results.removeAttribute("aria-busy");
     }
   }
 
-  /** The candidates of all parts; null if stopped. @param {SearchOptions} options */
-  async candidates(/** @type {Shape} */ shape, /** @type {SearchOptions} */ options, stopped) {
-    /** @type {Candidate[]} */ let candidates = [];
-    let searched = 0;
-    // The points of one part may be dropped while another one is searched.
-    const isTransient = this.parts.some(({ isKept }) => !isKept);
-    for (const one of this.parts) {
-      const share = `${searched.toLocaleString("en")} of ${this.state.curves.toLocaleString("en")} curves`;
-      fill(this.status, "Searching ", one.family.title, this.parts.length > 1 ? `: ${share}` : "");
-      try {
-        await needPart(one);
-      } catch (error) {
-        this.app.announce(error.message);
-        continue;
-      }
-      if (stopped()) return null;
-      const index = await shapeIndex(one, options.part ? options.least : null, stopped);
-      if (!index) return null;
-      const search = addCandidates(candidates, index, shape, options, isTransient);
-      candidates = await runInSlices(search, stopped);
-      if (!candidates) return null;
-      searched += one.count;
-    }
-    return candidates;
+  /** Searches for four-bars. */
+  findFourBars() {
+    this.fourBarTurn += 1;
+    const turn = this.fourBarTurn;
+    if (!this.shape) return undefined;
+    return this.fourBars.search(this.shape, new Slices(() => turn !== this.fourBarTurn));
   }
 
   /** Shows list items of results. */
   show(items) {
     const { by } = this.query;
-    const ranked = `ranked by ${by} deviation in % of the shape’s extent`;
+    const ranked = `ranked by ${by} deviation in % of the shape’s size`;
     const nearest = items.length === 1 ? "nearest" : `${items.length} nearest`;
     const sentence = items.length
       ? `The ${nearest} of ${this.state.curves.toLocaleString("en")} curves, ${ranked}`
@@ -228,9 +231,11 @@ export class ShapeView {
 
   leave() {
     this.turn += 1;
+    this.fourBarTurn += 1;
     this.unwatch();
     // The index of a large family is built again when it is searched again.
     const isLarge = this.parts.some(({ isKept }) => !isKept) || this.state.curves < this.state.total;
-    if (isLarge) releaseIndexes(this.parts);
+    const { kernel } = this.app.kernel;
+    if (isLarge && kernel) releaseIndexes(kernel, this.parts);
   }
 }

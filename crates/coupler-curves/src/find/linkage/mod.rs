@@ -1,0 +1,25 @@
+//! The dimensions of any linkage for which its curve is nearest to a target.
+//!
+//! A [`LinkageSpace`] says which parameters vary and samples them. The shapes of the curves of many samples are looked up as
+//! those of given curves are; those most like the target are placed on it and refined by Levenberg and Marquardt's method on
+//! the free parameters and the similarity, with the distances across the curve, as four-bars are. The curves of changed parameters
+//! are compared at equal positions along their circuits, a coordinate in which they are regular at limits of the input;
+//! derivatives are differences of solved curves. Of a circuit, its passes are kept in each step.
+
+mod aim;
+mod circuit;
+mod measured;
+mod refinement;
+mod samples;
+mod scaling;
+mod search;
+mod space;
+mod state;
+mod timed;
+
+pub use aim::{longest_link, pivots_of};
+pub use refinement::LinkageRefinement;
+pub use samples::{SampleCurve, SampleIndex, SampleShape};
+pub use scaling::{is_scalable, scaled_values};
+pub use search::{LinkageFit, LinkageSearch};
+pub use space::{LinkageSpace, LinkageSpaceError};

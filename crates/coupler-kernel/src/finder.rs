@@ -1,0 +1,90 @@
+//! The search for four-bars in steps, and the index of curves that it looks paths up in.
+
+use serde_json::{Value, json};
+
+use coupler_curves::find::{Answer, AnswerRecord, Index, Options, PathKind, Ranking, Search, Target, answers_manifest};
+use coupler_curves::geometry::Point;
+
+use crate::response::Numbers;
+
+/// The most curves that are added to the index in a step, some 5 ms of work.
+const CURVES_PER_STEP: usize = 128;
+
+/// The most points of a path that is searched for: the time of a step grows with them.
+const MAX_POINTS: usize = 400;
+
+/// The path through points with the name of its kind.
+///
+/// # Errors
+/// The points are no path, or too many.
+pub(crate) fn target_of(points: &[Point], kind: &str) -> Result<Target, String> {
+    if points.len() > MAX_POINTS {
+        return Err(format!("the path has {} points, and at most {MAX_POINTS} are searched for", points.len()));
+    }
+    let kinds = [PathKind::Closed, PathKind::Open, PathKind::Part];
+    let kind = kinds.into_iter().find(|known| known.name() == kind);
+    let kind = kind.ok_or("a path is `closed`, `open` or `part`")?;
+    Target::new(points, kind).map_err(|error| error.to_string())
+}
+
+/// Adds the next curves to the index, up to the number that the program searches by default; how many there are, and how many there
+/// will be.
+pub(crate) fn grow_index(index: &mut Index) -> Value {
+    index.extend(CURVES_PER_STEP.min(Index::DEFAULT_COUNT - index.len()));
+    json!({ "count": index.len(), "full_count": Index::DEFAULT_COUNT })
+}
+
+/// A search for the four-bars whose curves are nearest to a path.
+pub(crate) struct FourBarSearch {
+    search: Search,
+    target: Target,
+    /// The answers so far that are being made.
+    ranking: Ranking,
+}
+
+impl FourBarSearch {
+    /// Begins a search.
+    ///
+    /// # Errors
+    /// The points are no path.
+    pub fn new(points: &[Point], kind: &str, options: Options) -> Result<FourBarSearch, String> {
+        let target = target_of(points, kind)?;
+        let search = Search::new(&target, options);
+        Ok(FourBarSearch { search, target, ranking: Ranking::default() })
+    }
+
+    /// Takes a step of bounded work; whether nothing is left to do.
+    pub fn step(&mut self, index: &Index) -> bool {
+        self.ranking = Ranking::default();
+        !self.search.step(index)
+    }
+
+    /// Takes a step towards the answers so far, or has them: those of `find --json` with their curves, and the manifest
+    /// of `find --toml` for a path with a name.
+    pub fn answers_json(&mut self, name: &str, numbers: &mut Numbers) -> Value {
+        if self.ranking.step(&self.search) {
+            return json!({ "is_complete": false });
+        }
+        let answers = std::mem::take(&mut self.ranking).into_answers();
+        let size = self.target.size();
+        let answer = |(rank, answer): (usize, &Answer)| {
+            let curve = answer.mechanism.solved().map(|solved| {
+                let curve = &solved.curves[0];
+                let circuit = solved.circuit(curve);
+                json!({ "closed": circuit.is_closed, "points": numbers.points(circuit.points(curve.joint)) })
+            });
+            json!({
+                "record": AnswerRecord::new(rank, answer),
+                "curve": curve,
+                "pose": numbers.points(answer.mechanism.pose()),
+                "manifest": answers_manifest(name, size, std::slice::from_ref(answer)),
+            })
+        };
+        json!({
+            "is_complete": true,
+            "size": size,
+            "answers": (1..).zip(&answers).map(answer).collect::<Vec<_>>(),
+            "manifest": answers_manifest(name, size, &answers),
+        })
+    }
+}

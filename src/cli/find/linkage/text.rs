@@ -1,0 +1,114 @@
+//! The table of linkages with their dimensions.
+
+use std::fmt::Write;
+
+use coupler_atlas::find::{LinkageAnswer, PlacedCurve};
+use coupler_curves::find::{LinkageSpace, Quality, format_length as number, format_relative as relative};
+use coupler_curves::linkage_format::toml_number;
+use coupler_curves::template::ParameterKind;
+
+use super::super::super::format::pluralize;
+use super::super::atlas::placed;
+use super::super::text::{angle, described, relaxed};
+use super::LinkageReport;
+
+/// The answers, each with its dimensions and its place.
+pub(super) fn text(report: &LinkageReport) -> String {
+    let LinkageReport { name, target, answers, curves, space, nearest_miss, .. } = report;
+    let size = target.size();
+    let id = &space.template().id;
+    let free: Vec<&str> = space.free_names().collect();
+    let mut out = format!(
+        "{}; {id}, {} searched: {}; {}\n",
+        described(name, target),
+        pluralize(free.len(), "parameter"),
+        free.join(", "),
+        pluralize(*curves, "curve")
+    );
+    for (rank, answer) in (1..).zip(answers) {
+        out += &entry(&rank.to_string(), answer, space, size);
+    }
+    if !answers.is_empty() {
+        return out;
+    }
+    let Some((constraints, answer)) = nearest_miss else {
+        return out
+            + "no linkage was found: no curve is about as long as the path and near it; try --effort thorough, or a larger --index\n";
+    };
+    let relax = relaxed(constraints, answer.curve.longest_link / size);
+    let _ = writeln!(out, "no linkage meets the constraints; the nearest miss is an answer with {relax}:");
+    out + &entry("-", answer, space, size)
+}
+
+/// How near a curve is.
+pub(super) fn deviation(PlacedCurve { fit, .. }: &PlacedCurve, size: f64) -> String {
+    let quality = Quality::of(fit.rms_relative).name();
+    format!("E = {} S = {}, {quality}", relative(fit.rms_relative), number(fit.rms, size))
+}
+
+fn entry(rank: &str, answer: &LinkageAnswer, space: &LinkageSpace, size: f64) -> String {
+    let curve = &answer.curve;
+    let fit = &curve.fit;
+    let [trace, circuit] = curve.numbers;
+    let class = if curve.class.is_empty() { String::new() } else { format!(", {}", curve.class) };
+    let mu = if curve.mu_worst_deg.is_finite() {
+        format!(", mu worst {}", angle(curve.mu_worst_deg))
+    } else {
+        String::new()
+    };
+    let order = if fit.is_in_order { "in order" } else { "not in order" };
+    let mut out = format!(
+        "{rank:>3}  {}, greatest {}, {order}, {}{class}{mu}, longest link {} = {:.2} S\n     {}\n",
+        deviation(curve, size),
+        number(fit.greatest, size),
+        if fit.is_reversed { "backward" } else { "forward" },
+        number(curve.longest_link, size),
+        curve.longest_link / size,
+        parameters(space, curve, size)
+    );
+    let pivots: Vec<String> =
+        curve.pivots.iter().map(|(name, p)| format!("{name} ({}, {})", number(p.x, size), number(p.y, size))).collect();
+    let pivots = if pivots.is_empty() { String::new() } else { format!("pivots {}; ", pivots.join(", ")) };
+    let is_length = space.template().is_driven_by_length();
+    let [from, to] = answer.inputs.map(|input| if is_length { number(input, input.abs()) } else { angle(input) });
+    let _ = writeln!(
+        out,
+        "     {} (trace {trace}) on circuit {circuit}, branch {} at first, input from {from} to {to}",
+        curve.joint,
+        branch(answer)
+    );
+    let _ = writeln!(out, "     {pivots}{}", placed(curve, size));
+    out
+}
+
+/// The branch at the first point of the path, as it is numbered: 1 left, 2 right.
+pub(super) fn branch(answer: &LinkageAnswer) -> u8 {
+    if answer.branch > 0 { 1 } else { 2 }
+}
+
+/// The dimensions, in six significant digits.
+pub(super) fn parameters(space: &LinkageSpace, curve: &PlacedCurve, size: f64) -> String {
+    let scale = if curve.is_scalable { size } else { 1.0 };
+    let values = space.template().parameters.iter().zip(&curve.values).map(|(parameter, value)| {
+        let unit = if parameter.kind == ParameterKind::Length { scale } else { 1.0 };
+        format!("{} = {}", parameter.name, number(*value, unit))
+    });
+    values.collect::<Vec<_>>().join(", ")
+}
+
+/// Where an answer is placed, with all digits, for a family that is drawn in its direction.
+pub(super) fn place_comment(answer: &LinkageAnswer, size: f64) -> String {
+    let curve = &answer.curve;
+    let placement = &curve.fit.placement;
+    let [x, y] = [placement.shift.x, placement.shift.y].map(toml_number);
+    let scaled = if curve.is_scalable {
+        String::new()
+    } else {
+        format!("{} times as large and ", toml_number(placement.scale()))
+    };
+    let [trace, circuit] = curve.numbers;
+    format!(
+        "{}; on the path it is {scaled}shifted by ({x}, {y}); trace {trace}, circuit {circuit}",
+        deviation(curve, size)
+    )
+}

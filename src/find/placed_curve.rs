@@ -1,0 +1,117 @@
+//! A curve of any linkage where it is on a path.
+
+use coupler_curves::family::Family;
+use coupler_curves::find::{CurveFit, Placement, Target, longest_link, pivots_of};
+use coupler_curves::geometry::{Point, Vector, distance_to_segment};
+use coupler_curves::linkage::{FourBar, JointId, Linkage, PlacedFourBar};
+use coupler_curves::measure::Value;
+use coupler_curves::solve::{MeasuredCurve, SolvedCell};
+
+/// A curve near a target, and its linkage.
+#[derive(Clone, Debug)]
+pub struct PlacedCurve {
+    /// The numbers of its trace and circuit, from 1.
+    pub numbers: [usize; 2],
+    /// The name of the traced joint.
+    pub joint: String,
+    /// Where it is on the target, and how near.
+    pub fit: CurveFit,
+    /// The values of the template's parameters, in the unit of the linkage's own plane.
+    pub values: Vec<f64>,
+    /// Whether the linkage is as many times greater if all its lengths are.
+    pub is_scalable: bool,
+    /// The joints of the frame on which links turn, where they are on the target.
+    pub pivots: Vec<(String, Point)>,
+    /// The greatest distance of two joints of a link, in the unit of the target.
+    pub longest_link: f64,
+    /// The class; empty if it is no four-bar.
+    pub class: &'static str,
+    /// The worst transmission angle in degrees, NaN if there is none.
+    pub mu_worst_deg: f64,
+    /// Whether the input turns fully.
+    pub is_full_turn: bool,
+    /// The four-bar on the target, if it is one.
+    pub four_bar: Option<PlacedFourBar>,
+    /// Some points of the curve on the target, in their order.
+    pub outline: Vec<Point>,
+}
+
+/// The measures of an answer.
+pub(super) const REPORTED: [&str; 2] = ["class", "mu_worst_deg"];
+
+impl PlacedCurve {
+    /// The curve of a solved cell where it fits the target. It is not yet known whether the linkage is scalable.
+    pub(super) fn new(family: &Family, solved: &SolvedCell, curve: &MeasuredCurve, fit: CurveFit) -> PlacedCurve {
+        /// Of the points that are kept to tell curves from each other.
+        const OUTLINE: usize = 720;
+        let circuit = solved.circuit(curve);
+        let name = |joint: JointId| solved.linkage.joints[joint.index()].name.clone();
+        let pivots = pivots_of(&solved.linkage)
+            .map(|joint| (name(joint), fit.placement.apply(circuit.positions.point(joint, 0))));
+        let step = circuit.len().div_ceil(OUTLINE).max(1);
+        PlacedCurve {
+            numbers: [curve.trace, curve.circuit],
+            joint: name(curve.joint),
+            values: family.parameter_values(&solved.cell).to_vec(),
+            is_scalable: false,
+            pivots: pivots.collect(),
+            longest_link: fit.placement.scale() * longest_link(&solved.linkage),
+            class: if let Value::Word(class) = curve.value("class") { class } else { "" },
+            mu_worst_deg: if let Value::Number(angle) = curve.value("mu_worst_deg") { angle } else { f64::NAN },
+            is_full_turn: circuit.is_full_turn(),
+            four_bar: placed_four_bar(&solved.linkage, curve.joint, &fit.placement),
+            outline: circuit.points(curve.joint).step_by(step).map(|p| fit.placement.apply(p)).collect(),
+            fit,
+        }
+    }
+}
+
+/// The four-bar in a linkage on the target; none if it is seen from a moving link.
+fn placed_four_bar(linkage: &Linkage, joint: JointId, placement: &Placement) -> Option<PlacedFourBar> {
+    let PlacedFourBar { pivots, lengths: FourBar { frame, crank, coupler, rocker }, coupler_point } =
+        PlacedFourBar::from_linkage(linkage, joint).ok().filter(|_| linkage.seen_from.is_none())?;
+    let scale = placement.scale();
+    let across = if placement.is_mirrored { -coupler_point.y } else { coupler_point.y };
+    Some(PlacedFourBar {
+        pivots: pivots.map(|pivot| placement.apply(pivot)),
+        lengths: FourBar {
+            frame: scale * frame,
+            crank: scale * crank,
+            coupler: scale * coupler,
+            rocker: scale * rocker,
+        },
+        coupler_point: Vector::new(scale * coupler_point.x, scale * across),
+    })
+}
+
+/// The first of what has been found whose curves are not the same to a thousandth of the target's size, at most so many; nothing after
+/// these is looked at.
+pub fn distinct<T>(
+    found: impl IntoIterator<Item = T>,
+    curve: impl Fn(&T) -> &PlacedCurve,
+    target: &Target,
+    most: usize,
+) -> Vec<T> {
+    /// In sizes of the target.
+    const SAME: f64 = 1e-3;
+    let are_same = |a: &T, b: &T| are_same(&curve(a).outline, &curve(b).outline, SAME * target.size());
+    let mut kept: Vec<T> = Vec::new();
+    let mut found = found.into_iter();
+    while kept.len() < most
+        && let Some(next) = found.next()
+    {
+        if kept.iter().all(|other| !are_same(&next, other)) {
+            kept.push(next);
+        }
+    }
+    kept
+}
+
+/// Whether two curves, each given by some of its points, are the same to a distance.
+fn are_same(a: &[Point], b: &[Point], distance: f64) -> bool {
+    let is_near = |p: &Point, curve: &[Point]| {
+        let chords = (0..curve.len()).map(|k| [curve[k], curve[(k + 1) % curve.len()]]);
+        chords.into_iter().any(|[from, to]| distance_to_segment(*p, from, to) <= distance)
+    };
+    a.iter().all(|p| is_near(p, b)) && b.iter().all(|p| is_near(p, a))
+}

@@ -1,0 +1,88 @@
+// Finds the curves of the atlas that are nearest to a path.
+
+import { curveKey, curvePoints } from "../../data/family.js";
+import { needCurves } from "../../data/needs.js";
+import { searchedPath } from "../../shape/query-shape.js";
+import { ShapeSearch, WHOLE } from "../../kernel/shape-search.js";
+import { needPart, releaseIndex, shapeIndex } from "./indexes.js";
+
+// The number of curves that are compared exactly.
+const WANTED = 120;
+
+/**
+ * The curves of some parts of families that are most like a shape, the nearest first; null if stopped. A closed shape
+ * has whole curves near it, unless it is a part; an open one has open curves as wholes, and portions of others that are
+ * as long as almost all of them. `progress(part, searched)` is called before each part.
+ * @param {App} app @param {SearchedPart[]} parts @param {Shape} shape @param {SearchOptions} options
+ * @param {Slices} slices @param {(part: SearchedPart, searched: number) => void} progress
+ */
+export async function nearestCurves(app, parts, shape, options, slices, progress) {
+  const { isPart, mirror, least, by } = options;
+  const kernel = await app.kernel.load();
+  const path = searchedPath(shape, isPart);
+  const search = new ShapeSearch(kernel, path, {
+    mirror,
+    least: isPart ? least : WHOLE,
+    wanted: WANTED,
+  });
+  try {
+    const found = await candidatesOf(app, kernel, search, parts, slices, progress);
+    const candidates =
+      found && found.length > WANTED ? await nearestCandidates(search, found, slices) : found;
+    if (!candidates) return null;
+    /** @type {Match[]} */ const matches = [];
+    for (const { family, curve } of candidates) {
+      const fit = search.fit(await outlineOf(family, curve));
+      const name = `${family.id}:${curveKey(family, curve)}`;
+      if (fit) matches.push({ ...fit, family, curve, name });
+      if (!(await slices.goOn())) return null;
+    }
+    return matches.sort((a, b) => a[by] - b[by]);
+  } finally {
+    search.close();
+  }
+}
+
+/** The likeliest curves of all parts; null if stopped. */
+async function candidatesOf(app, kernel, search, parts, slices, progress) {
+  /** @type {Candidate[]} */ let candidates = [];
+  let searched = 0;
+  for (const part of parts) {
+    progress(part, searched);
+    try {
+      await needPart(part);
+    } catch (error) {
+      app.announce(error.message);
+      continue;
+    }
+    if (slices.stopped()) return null;
+    const index = await shapeIndex(kernel, part, slices);
+    const found = index && (await search.candidates(index, slices));
+    if (index && !part.isKept) releaseIndex(kernel, index);
+    if (!found) return null;
+    candidates = likeliest([...candidates, ...found], search.most);
+    searched += part.count;
+  }
+  return candidates;
+}
+
+/** Those that are wanted of the candidates, compared closely; null if stopped. */
+async function nearestCandidates(search, candidates, slices) {
+  /** @type {Candidate[]} */ const compared = [];
+  for (const { family, curve } of candidates) {
+    const likeness = search.likeness(await outlineOf(family, curve));
+    if (likeness !== null) compared.push({ family, curve, likeness });
+    if (!(await slices.goOn())) return null;
+  }
+  return likeliest(compared, WANTED);
+}
+
+function likeliest(/** @type {Candidate[]} */ candidates, most) {
+  return candidates.sort((a, b) => b.likeness - a.likeness).slice(0, most);
+}
+
+/** @returns {Promise<Outline>} */
+async function outlineOf(/** @type {Family} */ family, curve) {
+  await needCurves(family, [curve]);
+  return { points: curvePoints(family, curve), closed: family.curves.closed[curve] === 1 };
+}
