@@ -34,6 +34,10 @@ pub(super) struct CurveRings<'a> {
     max_radius: f64,
     contacts: Vec<Contact>,
     alternating: AlternatingPoints,
+    /// The spokes about a centre, those about the centre before, and groups of them: kept for their memory.
+    spokes: Vec<Spoke>,
+    earlier_spokes: Vec<Spoke>,
+    groups: Vec<Group>,
 }
 
 /// Circles about a centre.
@@ -79,6 +83,9 @@ impl<'a> CurveRings<'a> {
             max_radius,
             contacts: Vec::new(),
             alternating: AlternatingPoints::default(),
+            spokes: Vec::new(),
+            earlier_spokes: Vec::new(),
+            groups: Vec::new(),
         }
     }
 
@@ -103,19 +110,28 @@ impl<'a> CurveRings<'a> {
             radius = self.max_radius;
         }
         self.portion.collect_contacts(&Circles(centre), &[], &mut self.contacts);
-        let mut best: Option<(Group, Vec<Spoke>)> = None;
-        let mut groups: Vec<Group> = Vec::new();
+        let mut best: Option<Group> = None;
+        let CurveRings { contacts, spokes, earlier_spokes, groups, .. } = self;
+        groups.clear();
         for _ in 0..ROUNDS {
-            let spokes = spokes(&self.contacts, centre);
-            if spokes.len() > MOST {
+            if contacts.len() > MOST {
                 break;
             }
-            groups = if is_bounded { groups_of_three(&spokes, radius) } else { groups_of_four(&spokes) };
+            std::mem::swap(spokes, earlier_spokes);
+            collect_spokes(contacts, centre, spokes);
+            groups.clear();
+            if is_bounded {
+                collect_groups_of_three(spokes, radius, groups);
+            } else {
+                collect_groups_of_four(spokes, groups);
+            }
             let Some(group) = groups.iter().copied().max_by(|a, b| a.half.abs().total_cmp(&b.half.abs())) else {
+                // The best group is of the spokes before.
+                std::mem::swap(spokes, earlier_spokes);
                 break;
             };
-            let (motion, change) = correction(&group, &spokes, radius, is_bounded);
-            best = Some((group, spokes));
+            let (motion, change) = correction(&group, spokes, radius, is_bounded);
+            best = Some(group);
             let is_small = motion.norm() <= 0.5 * radius;
             if !is_small {
                 break;
@@ -128,10 +144,10 @@ impl<'a> CurveRings<'a> {
         }
         let velocities = self.portion.end_velocities();
         let last = self.portion.last();
-        let width = best.as_ref().map_or(0.0, |(group, _)| 2.0 * group.half.abs());
+        let width = best.map_or(0.0, |group| 2.0 * group.half.abs());
         let distances = self.portion.points.iter().map(|p| (p - centre).norm());
         let [low, high] = distances.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], d| [l.min(d), h.max(d)]);
-        let Some((group, spokes)) = best.filter(|_| high - low <= width * (1.0 + MOVED)) else {
+        let Some(group) = best.filter(|_| high - low <= width * (1.0 + MOVED)) else {
             return Some(PortionRing {
                 centre: sampled.centre,
                 radius: sampled.radius,
@@ -165,13 +181,15 @@ impl<'a> CurveRings<'a> {
     }
 }
 
-fn spokes(contacts: &[Contact], centre: Point) -> Vec<Spoke> {
+/// Replaces `spokes` with those of contacts.
+fn collect_spokes(contacts: &[Contact], centre: Point, spokes: &mut Vec<Spoke>) {
     let circles = Circles(centre);
     let spoke = |contact: &Contact| {
         let normal = (contact.touching(&circles) - centre).normalize();
         Spoke { normal, distance: contact.height(&circles), index: contact.index }
     };
-    contacts.iter().map(spoke).collect()
+    spokes.clear();
+    spokes.extend(contacts.iter().map(spoke));
 }
 
 /// A group with its multipliers, which need not be normalised; `None` if they vanish.
@@ -182,10 +200,9 @@ fn group(spokes: &[Spoke], members: [usize; 4], multipliers: [f64; 4], radius: f
     half.is_finite().then_some(Group { spokes: members, multipliers, half })
 }
 
-/// All groups of four spokes: their multipliers are those of the affine dependency of the directions.
-fn groups_of_four(spokes: &[Spoke]) -> Vec<Group> {
+/// Adds all groups of four spokes: their multipliers are those of the affine dependency of the directions.
+fn collect_groups_of_four(spokes: &[Spoke], groups: &mut Vec<Group>) {
     let count = spokes.len();
-    let mut out = Vec::new();
     for i in 0..count {
         for j in i + 1..count {
             for k in j + 1..count {
@@ -194,27 +211,24 @@ fn groups_of_four(spokes: &[Spoke]) -> Vec<Group> {
                         cross(spokes[b].normal - spokes[a].normal, spokes[c].normal - spokes[a].normal)
                     };
                     let multipliers = [area(j, k, l), -area(i, k, l), area(i, j, l), -area(i, j, k)];
-                    out.extend(group(spokes, [i, j, k, l], multipliers, spokes[i].distance));
+                    groups.extend(group(spokes, [i, j, k, l], multipliers, spokes[i].distance));
                 }
             }
         }
     }
-    out
 }
 
-/// All groups of three spokes: their multipliers are those of the linear dependency of the directions.
-fn groups_of_three(spokes: &[Spoke], radius: f64) -> Vec<Group> {
+/// Adds all groups of three spokes: their multipliers are those of the linear dependency of the directions.
+fn collect_groups_of_three(spokes: &[Spoke], radius: f64, groups: &mut Vec<Group>) {
     let count = spokes.len();
-    let mut out = Vec::new();
     for i in 0..count {
         for j in i + 1..count {
             for k in j + 1..count {
                 let [a, b, c] = [i, j, k].map(|n| spokes[n].normal);
-                out.extend(group(spokes, [i, j, k, k], [cross(b, c), cross(c, a), cross(a, b), 0.0], radius));
+                groups.extend(group(spokes, [i, j, k, k], [cross(b, c), cross(c, a), cross(a, b), 0.0], radius));
             }
         }
     }
-    out
 }
 
 /// The motion of the centre and the change of the radius with which the spokes of a group are equally far from the

@@ -213,7 +213,7 @@ impl<F: FnMut([f64; 2]) -> Fit> LongestNear<F> {
             let constraints = here.others.iter().flatten().copied().chain([here.excess]).chain(cuts.iter().map(cut));
             let low = [(self.limits.low - ends[0]).max(-reach), -reach];
             let high = [reach, (self.limits.high - ends[1]).min(reach)];
-            let step = linear_step(&constraints.collect::<Vec<_>>(), &here, [low, high]);
+            let step = linear_step(constraints, &here, [low, high]);
             let gain = step[0] * here.size_rates[0] + step[1] * here.size_rates[1];
             let fits = here.excess.value <= ACCURACY;
             if fits && gain <= 1e-12 * here.size && !cuts.is_empty() {
@@ -323,12 +323,17 @@ fn is_same(a: Contacts, b: Contacts) -> bool {
 
 /// The change of both ends between two bounds with the greatest gain in size if all is linear, or if what is permitted
 /// is exceeded anyway, with the least excess.
-fn linear_step(constraints: &[Constraint], fit: &Fit, [low, high]: [[f64; 2]; 2]) -> [f64; 2] {
+fn linear_step(
+    constraints: impl Iterator<Item = Constraint>,
+    fit: &Fit,
+    [low, high]: [[f64; 2]; 2],
+) -> [f64; 2] {
     // What cannot be reached between the bounds does not count.
     let most = |c: &Constraint| (0..2).map(|k| (c.rates[k] * low[k]).max(c.rates[k] * high[k])).sum::<f64>() + c.value;
-    let constraints: Vec<Constraint> = constraints.iter().copied().filter(|c| most(c) > 0.0).collect();
+    let constraints: Vec<Constraint> = constraints.filter(|c| most(c) > 0.0).collect();
     // The greatest is at a corner: where two of the lines that bound the changes cross.
-    let mut lines: Vec<([f64; 2], f64)> = constraints.iter().map(|c| (c.rates, -c.value)).collect();
+    let mut lines: Vec<([f64; 2], f64)> = Vec::with_capacity(constraints.len() + 4);
+    lines.extend(constraints.iter().map(|c| (c.rates, -c.value)));
     for k in 0..2 {
         let mut axis = [0.0; 2];
         axis[k] = 1.0;
