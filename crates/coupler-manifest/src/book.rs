@@ -1,7 +1,7 @@
 //! Reads `[book]`: what the book has in addition to the pages of its families.
 
 use crate::names::{read_filter, uses_text_measure};
-use crate::plan::{BookPlan, ListCriteria, PlannedChapter, PlannedFamily, PlannedList};
+use crate::plan::{BookPlan, FindingCharts, ListCriteria, PlannedChapter, PlannedFamily, PlannedList};
 use coupler_curves::expression::{Caption, CompiledExpression, Expression, Kind, Scope};
 use coupler_curves::family::{Family, MEASURES};
 use coupler_curves::linkage_format::{Fields, KeySchema, TableSchema, TomlParser, TomlValue, ValueSchema};
@@ -52,9 +52,8 @@ pub(crate) static BOOK: TableSchema = TableSchema::new(
         KeySchema::new(
             "finding_charts",
             ValueSchema::Boolean,
-            "Whether charts show the shapes of the curves over the grid of each family.",
-        )
-        .with_default(|| "true".to_owned()),
+            "Whether charts show the shapes of the curves of each family; by default of those with many plates.",
+        ),
         KeySchema::new("thumb_index", ValueSchema::Boolean, "Whether pages have marks at their outer edges.")
             .with_default(|| "true".to_owned()),
         KeySchema::new(
@@ -191,8 +190,8 @@ pub(crate) fn read<'t>(
     };
     let get = |key: &str| fields.as_ref().and_then(|fields| fields.get(key));
     let mut flag = |key: &str| get(key).map_or(Some(true), |value| parser.boolean(value));
-    let [how_to_read, finding_charts, thumb_index, index] =
-        ["how_to_read", "finding_charts", "thumb_index", "index"].map(&mut flag);
+    let [how_to_read, thumb_index, index] = ["how_to_read", "thumb_index", "index"].map(&mut flag);
+    let finding_charts = finding_charts(get("finding_charts"), families, parser);
     let chapters = match (&fields, get("chapter")) {
         (Some(fields), Some(_)) => {
             tables(fields, "chapter", parser)?.iter().map(|value| chapter(value, families, parser)).collect()
@@ -220,12 +219,38 @@ pub(crate) fn read<'t>(
     })
 }
 
+/// For which families there are finding charts; a warning if that is none although they are asked for.
+fn finding_charts<'t>(
+    value: Option<&TomlValue<'t>>,
+    families: Families,
+    parser: &mut TomlParser<'t>,
+) -> Option<FindingCharts> {
+    let Some(value) = value else { return Some(FindingCharts::WherePlatesAreMany) };
+    if !parser.boolean(value)? {
+        return Some(FindingCharts::None);
+    }
+    let can_have_charts = |planned: &PlannedFamily| planned.chart.is_none() && planned.family.cell_count() > 1;
+    if families.have_book() && !families.planned.iter().any(can_have_charts) {
+        let problem =
+            Problem::warning(value.span(), "no family has finding charts: none has pages of two linkages or more");
+        parser.report(problem.with_help("leave `finding_charts` out"));
+    }
+    Some(FindingCharts::Always)
+}
+
 /// The families of a manifest.
 #[derive(Clone, Copy)]
 struct Families<'a> {
     planned: &'a [PlannedFamily],
     /// Whether all of them could be read.
     are_complete: bool,
+}
+
+impl Families<'_> {
+    /// Whether they could be read, and some of them are in a book.
+    fn have_book(&self) -> bool {
+        self.are_complete && self.planned.iter().any(|planned| planned.formats.contains(&Format::Pdf))
+    }
 }
 
 /// The tables of a list of tables, which are not too many.
@@ -366,8 +391,7 @@ fn list<'t>(value: &TomlValue<'t>, families: Families, parser: &mut TomlParser<'
     });
     let criteria: Vec<Option<ListCriteria>> = criteria?.into_iter().map(Option::flatten).collect();
     // An atlas without a book needs no list.
-    let has_book = families.planned.iter().any(|planned| planned.formats.contains(&Format::Pdf));
-    if criteria.iter().all(Option::is_none) && families.are_complete && has_book {
+    if criteria.iter().all(Option::is_none) && families.have_book() {
         let problem = Problem::warning(value.span(), "no family has curves and the measures of this list");
         parser.report(problem.with_help("name them in `measures` of a family, or leave its `measures` out"));
     }

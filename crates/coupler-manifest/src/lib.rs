@@ -59,7 +59,7 @@ pub use document::{
 };
 pub use format_version::FORMAT_VERSION;
 pub use inputs::ManifestInputs;
-pub use plan::{BookPlan, ListCriteria, Plan, PlannedChapter, PlannedFamily, PlannedList};
+pub use plan::{BookPlan, FindingCharts, ListCriteria, Plan, PlannedChapter, PlannedFamily, PlannedList};
 pub use schema::MANIFEST;
 pub use theme::FileReader;
 pub use tolerance::{PartialTolerances, Tolerances};

@@ -40,8 +40,8 @@ pub struct Plan {
 pub struct BookPlan {
     /// Whether it says how its plates are read.
     pub how_to_read: bool,
-    /// Whether it has charts of the shapes of curves over the grids of its families.
-    pub finding_charts: bool,
+    /// For which families it has charts of the shapes of their curves.
+    pub finding_charts: FindingCharts,
     /// Whether it has marks at the outer edges of its pages.
     pub thumb_index: bool,
     /// Whether it has an index of geometries.
@@ -52,6 +52,18 @@ pub struct BookPlan {
     pub lists: Vec<PlannedList>,
     /// What the manifest contributes to the book in addition to its families.
     pub manifest_inputs: String,
+}
+
+/// For which families a book has finding charts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum FindingCharts {
+    /// None.
+    #[default]
+    None,
+    /// Those with so many plates that looking at charts spares looking at plates.
+    WherePlatesAreMany,
+    /// Every family.
+    Always,
 }
 
 /// A chapter of a book: the cells of each family with a curve for which a condition holds.

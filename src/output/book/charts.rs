@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::super::{Error, Options, check_interrupt};
 use super::part::{BookFamily, FamilyPart};
-use crate::manifest::Plan;
+use crate::manifest::{FindingCharts, Plan};
 use crate::pipeline::{curves_by_page, measures_used_on_pages};
 use coupler_curves::expression::round_to_six_digits;
 use coupler_curves::family::{Axis, ParameterSpace};
@@ -31,10 +31,14 @@ const LEAST_PLATES: usize = 5;
 /// Cells by their indices, with their rows and columns.
 type PlacedCells = Vec<(usize, [usize; 2])>;
 
-/// The finding charts of a family with these chapters; none unless one to three parameters of its grid vary.
+/// The drawings of a cell: of each page, with its number.
+type DrawnPages = Vec<(Vec<Miniature>, usize)>;
+
+/// The finding charts of a family with these chapters.
 ///
-/// The first of them varies from row to row, the second from column to column, the third from page to page. The cells of a
-/// grid in which one varies follow one another.
+/// Of the parameters of its grid that vary, up to three, the first varies from row to row, the second from column to column, the
+/// third from page to page. Cells of another grid or of cases follow one another with their captions, and so do the cells of a grid
+/// in which one varies, with its values.
 ///
 /// Titles name the family if `names_family`.
 pub(super) fn finding_charts(
@@ -44,17 +48,20 @@ pub(super) fn finding_charts(
 ) -> Result<Vec<FindingChart>, Error> {
     let Some(family) = parts.first().map(|part| part.family) else { return Ok(Vec::new()) };
     let planned = family.pipeline.composer.planned;
-    let ParameterSpace::Grid(axes) = &planned.family.space else { return Ok(Vec::new()) };
+    let axes: &[Axis] = if let ParameterSpace::Grid(axes) = &planned.family.space { axes } else { &[] };
     let varying: Vec<usize> = (0..axes.len()).filter(|&k| axes[k].values.len() > 1).collect();
+    let varying = if varying.len() <= 3 { varying } else { Vec::new() };
+    let has_captions = varying.is_empty();
     let count: usize = parts.iter().map(|part| part.cells.len()).sum();
-    if !matches!(varying.len(), 1..=3) || planned.chart.is_some() || !(2..=MAX_CELLS).contains(&count) {
+    if planned.chart.is_some() || !(2..=MAX_CELLS).contains(&count) {
         return Ok(Vec::new());
     }
     let per_cell = match planned.layout {
         Layout::CouplerGrid => planned.family.template.curve_count().div_ceil(Layout::POINTS_PER_PAGE),
         _ => 1,
     };
-    let grid = ChartGrid { axes, varying: &varying, count, most: book::max_chart_grid(per_cell, &plan.page) };
+    let grid =
+        ChartGrid { axes, varying: &varying, count, most: book::max_chart_grid(per_cell, has_captions, &plan.page) };
     // In the order of the grid, whatever the order of pages.
     let first_pages = |part: &&FamilyPart| -> Vec<(usize, usize)> {
         part.cells.iter().enumerate().map(|(k, cell)| (cell, part.pages_before + part.first_page(k))).collect()
@@ -67,18 +74,30 @@ pub(super) fn finding_charts(
     }
     // Charts serve to look at fewer pages.
     let plates: usize = parts.iter().map(|part| part.page_count()).sum();
-    if pages.len() > MAX_PAGES || LEAST_PLATES * pages.len() > plates {
+    let is_short = plan.book.finding_charts == FindingCharts::WherePlatesAreMany && LEAST_PLATES * pages.len() > plates;
+    if pages.len() > MAX_PAGES || is_short {
         return Ok(Vec::new());
     }
-    let mut drawn: BTreeMap<usize, Vec<(Miniature, usize)>> = draw_cells(family, &cells, options)?;
+    let [rows, columns] = grid.part_sizes();
+    let curves_per_page = match planned.layout {
+        Layout::CouplerGrid => book::chart_curves_per_page([columns, rows], per_cell, &plan.page),
+        _ => 1,
+    };
+    let mut drawn = draw_cells(family, &cells, curves_per_page, options)?;
     let names = &planned.family.names;
     let label = |axis: usize, k: usize| {
         let value = axes[axis].values.get(k).unwrap_or(f64::NAN);
         assignment(names, axes[axis].slot, value)
     };
-    let shown = match planned.layout {
-        Layout::CouplerGrid => "The curve of the middle point of each page, as large as it fits; below it the page.",
-        _ => "The first curve of each linkage, as large as it fits; below it the page.",
+    let shown = match (planned.layout, curves_per_page) {
+        (Layout::CouplerGrid, 1) => {
+            "The curve of the middle point of each page, as large as it fits; below it the number of the page."
+        }
+        (Layout::CouplerGrid, _) => {
+            "Three curves of each page, each as large as it fits: of a point near the first, of the middle point, of one near the \
+             last; below them the number of the page."
+        }
+        _ => "The first curve of each linkage, as large as it fits; below it the number of its page.",
     };
     let mut previous = None;
     let mut part = 0;
@@ -95,8 +114,12 @@ pub(super) fn finding_charts(
         let (rows, columns) = grid.labels(page, &label);
         let cell = |(cell, place): (usize, [usize; 2])| FindingCell {
             place,
-            label: if let [axis] = varying[..] { label(axis, grid.index(cell, axis)) } else { String::new() },
-            curves: drawn.remove(&cell).unwrap_or_default(),
+            label: match varying[..] {
+                [] => planned.family.format_captions(&planned.family.cell(cell), &[])[0].clone(),
+                [axis] => label(axis, grid.index(cell, axis)),
+                _ => String::new(),
+            },
+            pages: drawn.remove(&cell).unwrap_or_default(),
         };
         let cells = placed.into_iter().map(cell).collect();
         FindingChart { title, note: shown.to_owned(), symbols: names.clone(), columns, rows, cells }
@@ -107,7 +130,7 @@ pub(super) fn finding_charts(
 /// How the cells of a grid are distributed over charts.
 struct ChartGrid<'a> {
     axes: &'a [Axis],
-    /// The axes with several values: one to three.
+    /// The axes with several values, up to three; none if cells follow one another with captions.
     varying: &'a [usize],
     /// The number of cells that are shown.
     count: usize,
@@ -168,12 +191,13 @@ impl ChartGrid<'_> {
     }
 }
 
-/// The drawings of cells, each with its page: of a coupler grid the middle curve of each page, otherwise the first curve.
+/// The drawings of cells: of a coupler grid so many curves of each page, evenly chosen, otherwise the first curve.
 fn draw_cells(
     family: &BookFamily,
     cells: &BTreeMap<usize, usize>,
+    curves_per_page: usize,
     options: &Options,
-) -> Result<BTreeMap<usize, Vec<(Miniature, usize)>>, Error> {
+) -> Result<BTreeMap<usize, DrawnPages>, Error> {
     let planned = family.pipeline.composer.planned;
     let sampler = Sampler::new(planned.family.sampling);
     let measures = measures_used_on_pages(planned);
@@ -184,11 +208,15 @@ fn draw_cells(
             Layout::CouplerGrid => curves_by_page(&solved),
             _ => vec![(0..solved.curves.len()).take(1).collect()],
         };
-        let drawing = |(page, curves): (usize, &Vec<usize>)| {
-            let curve = solved.curves.get(*curves.get(curves.len() / 2)?)?;
-            Some((Miniature::new(&solved, curve, Emphasis::None), page))
+        let drawings = |(page, curves): (usize, &Vec<usize>)| {
+            // Each from the middle of its share; fewer if there are fewer.
+            let count = curves_per_page.min(curves.len());
+            let chosen =
+                (0..count).filter_map(|k| solved.curves.get(*curves.get((2 * k + 1) * curves.len() / (2 * count))?));
+            let drawings: Vec<Miniature> = chosen.map(|curve| Miniature::new(&solved, curve, Emphasis::None)).collect();
+            (!drawings.is_empty()).then_some((drawings, page))
         };
-        Ok((cell, (first_page..).zip(&pages).filter_map(drawing).collect()))
+        Ok((cell, (first_page..).zip(&pages).filter_map(drawings).collect()))
     };
     cells.par_iter().map(draw).collect()
 }

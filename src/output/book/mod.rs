@@ -13,7 +13,7 @@ use super::inputs::Inputs;
 use super::journal::{Journal, JournalFile};
 use super::survey::{CellSurvey, FamilySurvey, Surveyor};
 use super::{Error, Event, Options, check_interrupt, files, previous_run};
-use crate::manifest::{Plan, PlannedFamily};
+use crate::manifest::{FindingCharts, Plan, PlannedFamily};
 use crate::pipeline::{Composer, FamilyPipeline, curves_by_page, measures_used_on_pages};
 use crate::record::{BookRecord, Digest, FileRecord};
 use crate::sweep::{self, CellGroups};
@@ -239,7 +239,7 @@ fn atlas<'a>(
     let mut atlas = Atlas::new(&plan.title, PROGRAM, parts.iter().map(FamilyPart::chapter).collect());
     atlas.names_families = families.len() > 1;
     atlas.lists = lists::curve_lists(plan, families, parts, options)?;
-    for family in families.iter().filter(|_| book.finding_charts) {
+    for family in families.iter().filter(|_| book.finding_charts != FindingCharts::None) {
         let own: Vec<&FamilyPart> = parts.iter().filter(|part| part.family.number == family.number).collect();
         atlas.charts.extend(charts::finding_charts(&own, families.len() > 1, (plan, options))?);
     }

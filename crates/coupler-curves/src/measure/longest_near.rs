@@ -323,11 +323,7 @@ fn is_same(a: Contacts, b: Contacts) -> bool {
 
 /// The change of both ends between two bounds with the greatest gain in size if all is linear, or if what is permitted
 /// is exceeded anyway, with the least excess.
-fn linear_step(
-    constraints: impl Iterator<Item = Constraint>,
-    fit: &Fit,
-    [low, high]: [[f64; 2]; 2],
-) -> [f64; 2] {
+fn linear_step(constraints: impl Iterator<Item = Constraint>, fit: &Fit, [low, high]: [[f64; 2]; 2]) -> [f64; 2] {
     // What cannot be reached between the bounds does not count.
     let most = |c: &Constraint| (0..2).map(|k| (c.rates[k] * low[k]).max(c.rates[k] * high[k])).sum::<f64>() + c.value;
     let constraints: Vec<Constraint> = constraints.filter(|c| most(c) > 0.0).collect();

@@ -34,23 +34,43 @@ pub struct FindingCell {
     pub place: [usize; 2],
     /// What it is, if the columns do not say it; may be empty.
     pub label: String,
-    /// The curves of the cell, each with the number of its page in the atlas, from 1.
-    pub curves: Vec<(Miniature, usize)>,
+    /// Curves of each page of the cell, one below another, with the number of the page in the atlas, from 1.
+    pub pages: Vec<(Vec<Miniature>, usize)>,
 }
 
 /// The title of a chart, before what is the same on the whole page.
 const TITLE: &str = "Finding chart";
 
-/// The least size of a cell with one curve, in ems of a note.
+/// The least size of a cell with one page, in ems of a note.
 const LEAST: [f64; 2] = [3.4, 7.0];
+/// The least width of a cell with a caption, in ems, and the most lines of one.
+const LEAST_CAPTION_WIDTH: f64 = 11.0;
+const CAPTION_LINES: usize = 3;
+/// The height of a line of a caption, and that of the number of a page, in ems.
+const CAPTION_HEIGHT: f64 = 1.2;
+const NUMBER_HEIGHT: f64 = 1.5;
 
-/// The most columns and rows of a chart whose cells have so many curves.
-pub fn max_chart_grid(curves: usize, options: &Options) -> [usize; 2] {
+/// The most columns and rows of a chart whose cells have so many pages, and captions or not.
+pub fn max_chart_grid(pages: usize, has_captions: bool, options: &Options) -> [usize; 2] {
     let theme = &options.theme.for_paper(options.paper);
     let whole = frame(options, theme).size;
     let em = theme.note_size;
     let most = |length: f64, least: f64| (length / least).floor().max(1.0) as usize;
-    [most(whole.x, curves.clamp(1, 6) as f64 * LEAST[0] * em), most(whole.y, LEAST[1] * em)]
+    let [caption_width, caption_height] =
+        if has_captions { [LEAST_CAPTION_WIDTH, CAPTION_LINES as f64 * CAPTION_HEIGHT] } else { [0.0; 2] };
+    let width = (pages.clamp(1, 6) as f64 * LEAST[0]).max(caption_width);
+    [most(whole.x, width * em), most(whole.y, (LEAST[1] + caption_height) * em)]
+}
+
+/// The number of curves of each page for which the cells of a chart with so many columns and rows have space: one or three.
+pub fn chart_curves_per_page([columns, rows]: [usize; 2], pages: usize, options: &Options) -> usize {
+    /// The least height of three drawings, relative to their width.
+    const LEAST_HEIGHT: f64 = 1.8;
+    let theme = &options.theme.for_paper(options.paper);
+    let whole = frame(options, theme).size;
+    let width = whole.x / (columns.max(1) * pages.max(1)) as f64;
+    let height = whole.y / rows.max(1) as f64 - (NUMBER_HEIGHT + 0.6) * theme.note_size;
+    if height >= LEAST_HEIGHT * width { 3 } else { 1 }
 }
 
 /// The frame of the cells.
@@ -97,26 +117,36 @@ pub(super) fn compose(
     draw_lines(&root, whole, [column_count, row_count], theme);
     let mut links = Vec::new();
     let small = &Theme { fine_width: 0.8 * theme.fine_width, ..theme.clone() };
+    let caption_lines = |cell: &FindingCell| -> Vec<String> {
+        let line = theme.text_line(&cell.label, Point::origin(), Anchor::Middle, em, theme.ink);
+        let width = step.x - 0.6 * em;
+        let lines = if line.text.width() <= 1.1 * width { vec![cell.label.clone()] } else { line.wrap(width) };
+        lines.into_iter().filter(|line| !line.is_empty()).take(CAPTION_LINES).collect()
+    };
+    // So that drawings are in rows, captions have the same height.
+    let caption_height =
+        CAPTION_HEIGHT * em * chart.cells.iter().map(|cell| caption_lines(cell).len()).max().unwrap_or(0) as f64;
     for cell in &chart.cells {
         let [row, column] = cell.place;
         let corner = whole.corner + Vector::new(step.x * column as f64, step.y * row as f64);
-        let mut frame = Rect { corner, size: step }.inset(0.3 * em);
-        if !cell.label.is_empty() {
-            let at = frame.corner + Vector::new(0.5 * frame.size.x, 1.0 * em);
-            label(&cell.label, at, frame.size.x, 0);
-            frame = Rect {
-                corner: frame.corner + Vector::new(0.0, 1.2 * em),
-                size: frame.size - Vector::new(0.0, 1.2 * em),
-            };
+        let frame = Rect { corner, size: step }.inset(0.3 * em);
+        for (k, line) in caption_lines(cell).iter().enumerate() {
+            let down = (1.0 + CAPTION_HEIGHT * k as f64) * em;
+            label(line, frame.corner + Vector::new(0.5 * frame.size.x, down), frame.size.x, 0);
         }
-        let width = frame.size.x / cell.curves.len().max(1) as f64;
-        for (k, (drawing, page)) in cell.curves.iter().enumerate() {
+        let below = Vector::new(0.0, caption_height);
+        let frame = Rect { corner: frame.corner + below, size: frame.size - below };
+        let width = frame.size.x / cell.pages.len().max(1) as f64;
+        for (k, (drawings, page)) in cell.pages.iter().enumerate() {
             let part = Rect {
                 corner: frame.corner + Vector::new(width * k as f64, 0.0),
                 size: Vector::new(width, frame.size.y),
             };
-            let picture = Rect { size: part.size - Vector::new(0.0, 1.5 * em), ..part };
-            drawing.draw(&root, picture.inset(0.25 * em), small);
+            let height = (part.size.y - NUMBER_HEIGHT * em) / drawings.len().max(1) as f64;
+            for (k, drawing) in drawings.iter().enumerate() {
+                let corner = part.corner + Vector::new(0.0, height * k as f64);
+                drawing.draw(&root, Rect { corner, size: Vector::new(width, height) }.inset(0.25 * em), small);
+            }
             let at = part.corner + Vector::new(0.5 * width, part.size.y - 0.25 * em);
             let size = (0.9 * em).max(crate::scene::MIN_TEXT_SIZE.min(em));
             let number = theme.text_line(&page.to_string(), at, Anchor::Middle, size, theme.grey);

@@ -19,7 +19,7 @@ mod title;
 
 use std::ops::Range;
 
-pub use finding::{FindingCell, FindingChart, max_chart_grid};
+pub use finding::{FindingCell, FindingChart, chart_curves_per_page, max_chart_grid};
 pub use folio::{Tab, draw_folio};
 pub use how_to_read::HowToRead;
 pub use index::keep_listed;
@@ -225,7 +225,7 @@ fn places(atlas: &Atlas, volume: &Volume, contents: usize) -> Places {
 fn charts_in<'c>(atlas: &'c Atlas, volume: &'c Volume) -> impl Iterator<Item = (usize, &'c FindingChart)> {
     let pages = volume.page_range();
     let is_in_volume = move |(_, chart): &(usize, &FindingChart)| {
-        chart.cells.iter().flat_map(|cell| &cell.curves).any(|(_, page)| pages.contains(page))
+        chart.cells.iter().flat_map(|cell| &cell.pages).any(|(_, page)| pages.contains(page))
     };
     atlas.charts.iter().enumerate().filter(is_in_volume)
 }
