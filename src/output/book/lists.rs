@@ -47,11 +47,14 @@ pub(super) fn curve_lists(
 
 /// What is listed, and how many curves of a linkage.
 fn note(list: &PlannedList) -> String {
+    const WORDS: [&str; 8] = ["two", "three", "four", "five", "six", "seven", "eight", "nine"];
     let most = match list.per_geometry {
         1 if list.emphasis == Emphasis::Limits => "Each linkage once".to_owned(),
         1 => "The best curve of each linkage".to_owned(),
-        2 => "The two best curves of each linkage".to_owned(),
-        most => format!("The {most} best curves of each linkage"),
+        most => {
+            let most = WORDS.get(most - 2).map_or_else(|| most.to_string(), |word| (*word).to_owned());
+            format!("The {most} best curves of each linkage")
+        }
     };
     [list.note.as_str(), &format!("{most}, at most {} in all.", list.count)].join(" ").trim().to_owned()
 }
@@ -76,14 +79,20 @@ fn list_entry(
     let mut lines: Vec<String> = said.split(" · ").map(str::to_owned).collect();
     if let Some(input) = drawing.sharpest_input {
         let unit = solved.linkage.input().unit_sign();
-        // Where the input turns fully, it is less than a turn.
-        let input = if solved.circuit(curve).is_full_turn() { input.rem_euclid(360.0) } else { input };
+        // Where the input turns fully, it is less than a turn, also as it is printed.
+        let input = match solved.circuit(curve).is_full_turn() {
+            true => ((10.0 * input).round() / 10.0).rem_euclid(360.0),
+            false => input,
+        };
         lines.insert(lines.len().min(1), format!("at input {input:.1}{unit}"));
     }
     if let Some(lift) = drawing.dwell_lift {
         lines.insert(lines.len().min(2), format!("lift {lift:.3}"));
     }
-    let noun = if planned.layout == Layout::CouplerGrid { "point" } else { "curve" };
+    let is_grid = planned.layout == Layout::CouplerGrid;
+    let noun = if is_grid { "point" } else { "curve" };
+    // Pages with several figures number them.
+    let figure = (!is_grid && planned.layout.cells_per_page() > 1).then_some(solved.cell.number);
     // The limits of the output are those of the linkage.
     let is_of_linkage = list.emphasis == Emphasis::Limits;
     let has_many = solved.linkage.traced.len() > 1 && !is_of_linkage;
@@ -97,6 +106,7 @@ fn list_entry(
         caption,
         curve: which.join(", "),
         lines,
+        figure,
         page: first_page + if is_of_linkage { 0 } else { candidate.page_offset },
     })
 }

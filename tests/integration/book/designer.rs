@@ -155,6 +155,44 @@ fn every_geometry_is_on_a_finding_chart_with_its_pages() {
     assert_eq!(linked, (1..=2 * cells.len()).collect());
 }
 
+/// Where there is space, three curves of each page of five or ten points; where a family has cases, their captions and figures.
+#[test]
+fn charts_have_several_curves_of_a_page_and_captions_of_cases() {
+    let upright = "[page]\npaper = { width = \"216 mm\", height = \"279 mm\" }\n[book]";
+    for (manifest, drawings) in [(MANIFEST.to_owned(), 1), (MANIFEST.replacen("[book]", upright, 1), 3)] {
+        let atlas = Atlas::new(&manifest);
+        assert_eq!(atlas.run(&[]).0, 0);
+        let pdf = Pdf::read(&fs::read(atlas.out().join("atlas.pdf")).unwrap());
+        let page = pdf.outline().into_iter().find(|(_, name, _)| name == "Finding charts").unwrap().2;
+        let is_number = |text: &String| text.parse::<usize>().is_ok();
+        let links = pdf.links(page);
+        let pages = links.iter().filter(|(corners, _)| texts_in(&pdf, page, *corners).iter().any(is_number)).count();
+        // Curves have many points; lines between cells and the border have few.
+        let is_curve = |lines: &[super::reader::PolylineMm]| lines.iter().any(|line| line.len() > 8);
+        let curves = pdf.contents(page).paths.iter().filter(|(lines, ..)| is_curve(lines)).count();
+        assert_eq!((curves, pages > 4), (drawings * pages, true));
+    }
+    let cases = Atlas::new(
+        "[atlas]\ntitle = \"T\"\noutput = \"out\"\nformats = [\"pdf\"]\n[book]\nfinding_charts = true\n[[book.list]]\ntitle = \"Long\"\n\
+         sort = \"-length\"\n[[family]]\nid = \"evans\"\nlinkage = \"evans\"\nsampling = { samples = 24 }\npanels = [2, 1]\n\
+         cases = [{ p = 2, a = 2.6 }, { p = 3, a = 4 }, { p = 4, a = 5.6 }]\ncaption = \"p = {p}, a = {a}\"",
+    );
+    let (code, _, err) = cases.run(&[]);
+    assert_eq!((code, err.contains("warning")), (0, false), "{err}");
+    let pdf = Pdf::read(&fs::read(cases.out().join("atlas.pdf")).unwrap());
+    let find = |title: &str| pdf.outline().into_iter().find(|(_, name, _)| name == title).unwrap().2;
+    let chart: Vec<String> = pdf.contents(find("Finding charts")).texts.into_iter().map(|(text, ..)| text).collect();
+    let chart = chart.join(" ").replace("  ", " ");
+    for caption in ["p = 2, a = 2.6", "p = 3, a = 4", "p = 4, a = 5.6"] {
+        let squeezed = |text: &str| text.replace(' ', "");
+        assert!(squeezed(&chart).contains(&squeezed(caption)), "{chart}");
+    }
+    let list: Vec<String> = pdf.contents(find("Long")).texts.into_iter().map(|(text, ..)| text).collect();
+    let figures: Vec<&String> = list.iter().filter(|text| text.starts_with("page ")).collect();
+    assert_eq!(figures.len(), 3, "{list:?}");
+    assert!(figures.iter().any(|text| *text == "page 2, figure 3"), "{figures:?}");
+}
+
 #[test]
 fn every_page_has_one_number_at_its_outer_corner_and_marks_of_the_thumb_index() {
     let (_, pdf, parts) = book(&[]);
@@ -234,6 +272,8 @@ fn mistakes_in_the_table_are_reported_at_their_places() {
     };
     let problem = |message: &str, place: &str| (message.to_owned(), place.to_owned());
     assert_eq!(problems("[book]"), []);
+    let quoted = "[book]\nfinding_charts = \"yes\"";
+    assert!(problems(quoted)[0].0.contains("boolean"), "{:?}", problems(quoted));
     let unknown = "[book]\n[[book.list]]\ntitle = \"T\"\nsort = \"-strait_length\"";
     assert_eq!(problems(unknown), [problem("unknown name `strait_length`", "strait_length")]);
     assert_eq!(

@@ -326,13 +326,19 @@ impl Element for TextLine {
 }
 
 /// The words of a text; what is on both sides of an equals sign is one of them, and so are an article or pronoun of one letter and
-/// the word after it.
+/// the word after it, and a letter and a number after it.
 fn equations(text: &str) -> Vec<&str> {
     let mut words = Vec::new();
     let mut start = 0;
     for (at, _) in text.match_indices(' ') {
-        let is_letter = matches!(text[start..at].rsplit(' ').next(), Some("a" | "A" | "I"));
-        if !(is_letter || text[at..].starts_with(" = ") || text[..at].ends_with(" =")) {
+        let last = text[start..at].rsplit(' ').next().unwrap_or_default();
+        let is_letter = last.len() == 1 && last.starts_with(|c: char| c.is_ascii_alphabetic());
+        let is_number = text[at + 1..].starts_with(|c: char| c.is_ascii_digit() || c == '−');
+        if !(matches!(last, "a" | "A" | "I")
+            || is_letter && is_number
+            || text[at..].starts_with(" = ")
+            || text[..at].ends_with(" ="))
+        {
             words.push(&text[start..at]);
             start = at + 1;
         }

@@ -36,6 +36,8 @@ pub struct ListEntry {
     pub lines: Vec<String>,
     /// The number of its page in the atlas, from 1.
     pub page: usize,
+    /// The number of its figure on the page, if it has several.
+    pub figure: Option<usize>,
 }
 
 /// The least size of an entry, in ems of its text.
@@ -65,7 +67,7 @@ fn note_lines(list: &CurveList, width: f64, theme: &Theme) -> Vec<TextLine> {
 }
 
 impl Grid {
-    fn new(list: &CurveList, options: &Options, theme: &Theme) -> Grid {
+    fn new(list: &CurveList, atlas: &Atlas, options: &Options, theme: &Theme) -> Grid {
         let left = theme.border + theme.margin;
         let width = options.paper.width - 2.0 * left;
         let [top, bottom, _] = heading::margins(theme);
@@ -74,7 +76,11 @@ impl Grid {
         let whole = Vector::new(width, options.paper.height - top - bottom);
         let most = |length: f64, least: f64| ((length / least).floor().max(1.0) as usize).min(MOST_ROWS_COLUMNS);
         let em = theme.note_size;
-        let (columns, rows) = (most(whole.x, LEAST[0] * em), most(whole.y, LEAST[1] * em));
+        let columns = most(whole.x, LEAST[0] * em);
+        // The texts of all entries have space.
+        let width = text_width(whole.x / columns as f64, em);
+        let lines = list.entries.iter().map(|entry| entry_lines(entry, atlas, width, theme).len()).max().unwrap_or(0);
+        let rows = most(whole.y, LEAST[1].max(1.3 * lines as f64 + 1.1) * em);
         // The entries are distributed evenly over the pages.
         let pages = list.entries.len().div_ceil(columns * rows).max(1);
         let rows = list.entries.len().div_ceil(pages * columns).clamp(1, rows);
@@ -88,9 +94,9 @@ impl Grid {
 }
 
 /// The number of pages of a list; none without entries.
-pub(super) fn page_count(list: &CurveList, options: &Options) -> usize {
+pub(super) fn page_count(list: &CurveList, atlas: &Atlas, options: &Options) -> usize {
     let theme = options.theme.for_paper(options.paper);
-    list.entries.len().div_ceil(Grid::new(list, options, &theme).per_page())
+    list.entries.len().div_ceil(Grid::new(list, atlas, options, &theme).per_page())
 }
 
 /// Composes the pages of a list. `link` is the index in the file of a page of the atlas, if it is in the file.
@@ -101,7 +107,7 @@ pub(super) fn compose(
     options: &Options,
 ) -> Vec<Scene> {
     let theme = &options.theme.for_paper(options.paper);
-    let grid = Grid::new(list, options, theme);
+    let grid = Grid::new(list, atlas, options, theme);
     let page = |(k, entries): (usize, &[ListEntry])| {
         let mut scene = empty_scene(format!("{}: {}", list.title, atlas.title), options, theme);
         let root = area::whole_page(&mut scene);
@@ -150,31 +156,43 @@ fn draw_entry(root: &impl Area, frame: Rect, (rank, entry): (usize, &ListEntry),
     };
     entry.drawing.draw(root, drawing, theme);
     let left = frame.corner.x + DRAWING_PART * frame.size.x;
-    let width = frame.size.x * (1.0 - DRAWING_PART) - 1.2 * em;
+    let width = text_width(frame.size.x, em);
     let mut y = frame.corner.y + 0.4 * em;
     let bottom = frame.corner.y + frame.size.y - 0.6 * em;
-    let chapter = atlas.chapters.get(entry.chapter);
-    let symbols = chapter.map_or(&[][..], |chapter| chapter.symbols);
     let rank_line =
         theme.text_line(&rank.to_string(), frame.corner + Vector::new(0.0, 1.4 * em), Anchor::Start, em, theme.grey);
     root.record(&rank_line);
-    // The page is always told; other lines as far as there is space.
-    let page = format!("page {}", entry.page);
-    let mut texts = vec![(page, theme.text_ink(theme.curve_ink(0)))];
+    // On paper that is too small for a single entry, the page is told and other lines as far as there is space.
+    for line in entry_lines(entry, atlas, width, theme) {
+        y += 1.3 * em;
+        if y > bottom {
+            return;
+        }
+        root.record(&line.fit_width(width).moved_to(Point::new(left, y)));
+    }
+}
+
+/// The width of the texts of an entry.
+fn text_width(entry_width: f64, em: f64) -> f64 {
+    entry_width * (1.0 - DRAWING_PART) - 1.2 * em
+}
+
+/// The lines of text of an entry, no wider than `width` or nearly.
+fn entry_lines(entry: &ListEntry, atlas: &Atlas, width: f64, theme: &Theme) -> Vec<TextLine> {
+    let chapter = atlas.chapters.get(entry.chapter);
+    let symbols = chapter.map_or(&[][..], |chapter| chapter.symbols);
+    let figure = entry.figure.map_or(String::new(), |figure| format!(", figure {figure}"));
+    let mut texts = vec![(format!("page {}{figure}", entry.page), theme.text_ink(theme.curve_ink(0)))];
     let family = chapter.filter(|_| atlas.chapters.len() > 1 && atlas.names_families);
     texts.extend(family.map(|chapter| (chapter.title.to_owned(), theme.grey)));
     texts.push((entry.caption.clone(), theme.ink));
     texts.push((entry.curve.clone(), theme.ink));
     texts.extend(entry.lines.iter().map(|line| (line.clone(), theme.grey)));
+    let mut lines = Vec::new();
     for (text, ink) in texts.into_iter().filter(|(text, _)| !text.is_empty()) {
-        let line = |text: &str| theme.text_line(text, Point::origin(), Anchor::Start, em, ink);
+        let line = |text: &str| theme.text_line(text, Point::origin(), Anchor::Start, theme.note_size, ink);
         let words = if line(&text).text.width() <= 1.08 * width { vec![text] } else { line(&text).wrap(width) };
-        for words in words {
-            y += 1.3 * em;
-            if y > bottom {
-                return;
-            }
-            root.record(&line(&words).with_italics(symbols).fit_width(width).moved_to(Point::new(left, y)));
-        }
+        lines.extend(words.iter().map(|words| line(words).with_italics(symbols)));
     }
+    lines
 }

@@ -5,6 +5,7 @@ use super::super::element::Drawing;
 use super::super::plot::Plot;
 use super::super::rect::Rect;
 use super::super::theme::Theme;
+use crate::mechanism::Mechanism;
 use crate::scene::{Circle, Curve, Item, Path, Polyline};
 use coupler_curves::geometry::{Bounds, Point, Spline, Vector};
 use coupler_curves::linkage::{JointId, LinkOutline, Linkage};
@@ -46,6 +47,8 @@ pub struct Miniature {
     /// The links in each pose that is drawn, instead of the curve.
     poses: Vec<Vec<Vec<Point>>>,
     pivots: Vec<Point>,
+    /// The guides on the frame, of the poses.
+    guides: Vec<Vec<Point>>,
     bounds: Bounds,
     /// The input at the sharpest point, in degrees or as a length, if that is emphasised.
     pub sharpest_input: Option<f64>,
@@ -73,6 +76,7 @@ impl Miniature {
             axis: None,
             poses: Vec::new(),
             pivots: Vec::new(),
+            guides: Vec::new(),
             bounds,
             sharpest_input: None,
             dwell_lift: None,
@@ -122,7 +126,7 @@ impl Miniature {
     fn add_limits(&mut self, solved: &SolvedCell, curve: &MeasuredCurve) {
         let traced = TracedCurve::new(&solved.linkage, &solved.motion, solved.circuit(curve), curve.joint);
         let Some(poses) = measure::output_limit_poses(&traced) else { return };
-        let outlines = solved.linkage.link_outlines();
+        let mechanism = Mechanism::new(&solved.linkage, solved.circuit(curve));
         self.bounds = Bounds::EMPTY;
         for pose in poses {
             let corners = |outline: &LinkOutline| {
@@ -131,9 +135,12 @@ impl Miniature {
                 corners.extend(first);
                 corners
             };
-            let links: Vec<Vec<Point>> = outlines.iter().map(corners).collect();
-            self.pivots = solved.linkage.pivots().into_iter().map(|joint| pose[joint]).collect();
-            let points = links.iter().flatten().chain(&self.pivots).copied();
+            let mut links: Vec<Vec<Point>> = mechanism.links.iter().map(corners).collect();
+            links.extend(mechanism.slots.iter().map(|slot| slot.ends_in(&pose).to_vec()));
+            links.extend(mechanism.actuators.iter().map(|ends| ends.map(|joint| pose[joint]).to_vec()));
+            self.guides = mechanism.guides.iter().map(|guide| guide.ends.to_vec()).collect();
+            self.pivots = mechanism.pivots.iter().map(|&joint| pose[joint]).collect();
+            let points = links.iter().chain(&self.guides).flatten().chain(&self.pivots).copied();
             self.bounds = self.bounds.union(Bounds::from_points(points));
             self.poses.push(links);
         }
@@ -157,6 +164,9 @@ impl Miniature {
         let ink = theme.curve_ink(0);
         if self.portion.len() > 1 {
             items.push(path(vec![line(&self.portion)], theme.faded(ink), 4.0 * theme.curve_width));
+        }
+        if !self.guides.is_empty() {
+            items.push(path(self.guides.iter().map(|guide| line(guide)).collect(), theme.grey, theme.hair_width));
         }
         for (links, color) in self.poses.iter().zip([theme.ink, ink]).rev() {
             items.push(path(links.iter().map(|link| line(link)).collect(), color, theme.curve_width));

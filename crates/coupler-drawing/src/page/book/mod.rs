@@ -144,7 +144,7 @@ impl<'a> Atlas<'a> {
     /// The lists and the index, as far as they have pages.
     fn back_matter(&self, options: &Options) -> Vec<BackMatter> {
         let theme = options.theme.for_paper(options.paper);
-        let lists = self.lists.iter().map(|list| (list.title.clone(), list::page_count(list, options)));
+        let lists = self.lists.iter().map(|list| (list.title.clone(), list::page_count(list, self, options)));
         let index = columns::page_count(&index::rows(self), options, &theme);
         let mut next = self.page_count() + 1;
         let part = |(title, page_count): (String, usize)| {
