@@ -28,7 +28,7 @@ async function arrayBytes(page) {
   return backingStorageSize;
 }
 
-const counted = (page) => page.locator(".counted").innerText();
+const counted = (page) => page.locator(".counted").first().innerText();
 const isLoaded = async (page) => /\d of [\d,]+ curves$/.test(await counted(page));
 
 const tests = [

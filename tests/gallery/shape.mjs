@@ -270,14 +270,14 @@ async function trial(kernel, parts, families, { label, tries, part, ...disturban
     const found = await searchFor(kernel, parts, shape, { isPart: part < 1 });
     times.push(performance.now() - began);
     const name = `${family.id}:${curveKey(family, curve)}`;
-    // Cognates and overlapping families draw the same curve: results with equal deviations share a rank.
     // Cognates and overlapping families draw the same curve, and many curves have a third that is as near: what is
     // found in the place of the curve must be as near as the curve itself.
     const search = new ShapeSearch(kernel, searchedPath(shape, part < 1), {
       mirror: true,
       least: isWhole ? WHOLE : LEAST,
     });
-    const deviation = search.fit({ points: own, closed }).rms + AS_NEAR;
+    // A curve that does not fit a portion of itself, through a sharp turn between two of its points, is not found.
+    const deviation = (search.fit({ points: own, closed })?.rms ?? -Infinity) + AS_NEAR;
     search.close();
     const at = found.findIndex((one) => one.name === name);
     if (at === 0) alone += 1;

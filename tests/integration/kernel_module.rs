@@ -246,7 +246,10 @@ fn the_module_finds_what_the_kernel_finds_here() {
     let added =
         json!({ "method": "add_curves", "curves": 0, "points": at(0, 54), "counts": at(54, 2), "closed": at(56, 2) });
     assert_eq!(both.answer_with_numbers(&added, &curves)["count"], 2);
-    both.answer_with_numbers(&with_options("open_shape", &json!({ "mirror": true, "least": 0.15 })), &points);
+    both.answer_with_numbers(
+        &with_options("open_shape", &json!({ "mirror": true, "least": 0.15, "wanted": 1 })),
+        &points,
+    );
     let compared = both.answer(&json!({ "method": "compare_shape", "shape": 0, "curves": 0, "from": 0 }));
     assert_eq!(compared["next"], Value::Null);
     let fit = json!({ "method": "fit_shape", "shape": 0, "points": array, "closed": true });

@@ -58,7 +58,10 @@ pub(super) fn portions(
     let may_begin = |window: &Window| (options.may_be_mirrored || !window.is_mirrored) && (!is_open || is_new(window));
     let windows = stroke.windows(curve, (least, WINDOWS), may_begin);
     let near = |window: &Window| {
-        let portion = close_stroke.placed(curve, (window.is_mirrored, window.is_reversed), window.ends());
+        // The distances of a window's points are whole, so that it may be a little shorter than the least portion.
+        let [from, to] = window.ends();
+        let ends = [from, to.max(from + least)];
+        let portion = close_stroke.placed(curve, (window.is_mirrored, window.is_reversed), ends);
         close_stroke.nearest(curve, portion, (FIRST_STEPS, least))
     };
     let mut portions: Vec<Portion> = windows.iter().map(near).collect();

@@ -295,10 +295,12 @@ impl CurveFitter {
         // An open curve is half as long as the closed one.
         let legs = if path.is_open { 2.0 } else { 1.0 };
         let [first, last] = [first, last].map(|at| at * legs / path.length());
+        /// Points on a straight portion are matched with places that differ from those of their lengths by rounding.
+        const ROUNDING: f64 = 1e-6;
         let is_portion = self.target.kind() != PathKind::Closed && !self.options.is_fixed;
         let is_valid = (self.target.kind() == PathKind::Open
             || (LENGTH_RATIOS[0]..=LENGTH_RATIOS[1]).contains(&length_ratio))
-            && !(is_portion && last - first < self.options.least_portion);
+            && !(is_portion && last - first < self.options.least_portion - ROUNDING);
         if !is_valid {
             return None;
         }

@@ -45,12 +45,15 @@ pub(super) fn match_open_places(
 }
 
 /// The indices that do not fall and have the least sum of squares, the first of which is in a range; if that is a single
-/// index, they end at most a round after it. With that sum.
+/// index, they end at most a round after it. With that sum. Where places are as near but for rounding, as on a straight portion that is
+/// passed there and back, they are those that are least apart.
 fn best_path(
     (points, count, rounds): (usize, usize, usize),
     square: impl Fn(usize, usize) -> f64,
     starts: std::ops::Range<usize>,
 ) -> Option<(f64, Vec<usize>)> {
+    /// Sums that differ by less are equal but for rounding: points have a mean square of 1.
+    const ROUNDING: f64 = 1e-14;
     let end = if starts.len() == 1 { starts.start + count } else { rounds.checked_sub(1)? };
     // For each point, the best sum of squares up to it if it is matched with a place, and the place before.
     let mut sums = vec![f64::INFINITY; rounds];
@@ -65,21 +68,23 @@ fn best_path(
         let row = &mut before[k * rounds..(k + 1) * rounds];
         let mut best = (f64::INFINITY, 0);
         for (j, sum) in sums.iter_mut().enumerate() {
-            if *sum < best.0 {
-                best = (*sum, j as u32);
+            if *sum <= best.0 + ROUNDING {
+                best = (sum.min(best.0), j as u32);
             }
             row[j] = best.1;
             *sum = best.0 + squares[if j < count { j } else { j - count }];
         }
     }
-    let reachable = sums.iter().enumerate().take(end + 1);
-    let (mut at, sum) = reachable.min_by(|a, b| a.1.total_cmp(b.1)).filter(|(_, sum)| sum.is_finite())?;
+    let reachable = &sums[..=end];
+    let least = reachable.iter().copied().min_by(f64::total_cmp).filter(|sum| sum.is_finite())?;
+    let mut at = reachable.iter().position(|sum| *sum <= least + ROUNDING)?;
+    let sum = reachable[at];
     let mut path = vec![0; points];
     for k in (0..points).rev() {
         path[k] = at;
         at = before[k * rounds + at] as usize;
     }
-    Some((*sum, path))
+    Some((sum, path))
 }
 
 /// The samples of a circuit that are matched with a target in order, and the sum of the squares of their distances.

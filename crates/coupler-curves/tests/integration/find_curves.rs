@@ -269,6 +269,26 @@ fn an_open_curve_is_passed_there_and_back() {
     assert!(found.ends.iter().all(|end| (0.0..=1.0).contains(end)) && found.ends[0] > found.ends[1], "{found:?}");
 }
 
+/// Every portion of a line that is passed there and back is like every other one; one that is long enough is found.
+#[test]
+fn a_straight_portion_fits_a_line() {
+    let line: Vec<Point> =
+        (0..120).map(|k| Point::new(20.0, 3.0 * trig::cos(trig::radians(3.0 * f64::from(k))))).collect();
+    let mut random = Random(7);
+    for (from, length) in [(-3.0, 1.0), (-2.9, 2.0), (-1.0, 1.3), (0.0, 3.0), (-2.0, 4.9), (2.9, -2.0), (1.2, -4.0)] {
+        let placement = random.placement(length < 1.5);
+        let at = |k: i32| placement.apply(Point::new(20.0, from + length * f64::from(k) / 79.0));
+        let points: Vec<Point> = (0..80).map(at).collect();
+        for kind in [PathKind::Open, PathKind::Part] {
+            for least_portion in [0.05, 0.15, 0.3] {
+                let options = CurveFitOptions { least_portion, ..CurveFitOptions::default() };
+                let found = fit(&Target::new(&points, kind).unwrap(), &line, true, options);
+                assert!(found.rms_relative < 1e-9, "{from} {length} {kind:?} {least_portion}: {found:?}");
+            }
+        }
+    }
+}
+
 #[test]
 fn a_mirror_image_counts_only_if_it_may() {
     let curve = Random(2).coupler_curve(360);

@@ -32,7 +32,7 @@ export async function nearestCurves(app, parts, shape, options, slices, progress
     if (!candidates) return null;
     /** @type {Match[]} */ const matches = [];
     for (const { family, curve } of candidates) {
-      const fit = search.fit(await outlineOf(family, curve));
+      const fit = search.fit(await loadedOutline(family, curve));
       const name = `${family.id}:${curveKey(family, curve)}`;
       if (fit) matches.push({ ...fit, family, curve, name });
       if (!(await slices.goOn())) return null;
@@ -70,7 +70,7 @@ async function candidatesOf(app, kernel, search, parts, slices, progress) {
 async function nearestCandidates(search, candidates, slices) {
   /** @type {Candidate[]} */ const compared = [];
   for (const { family, curve } of candidates) {
-    const likeness = search.likeness(await outlineOf(family, curve));
+    const likeness = search.likeness(await loadedOutline(family, curve));
     if (likeness !== null) compared.push({ family, curve, likeness });
     if (!(await slices.goOn())) return null;
   }
@@ -82,7 +82,7 @@ function likeliest(/** @type {Candidate[]} */ candidates, most) {
 }
 
 /** @returns {Promise<Outline>} */
-async function outlineOf(/** @type {Family} */ family, curve) {
+async function loadedOutline(/** @type {Family} */ family, curve) {
   await needCurves(family, [curve]);
   return { points: curvePoints(family, curve), closed: family.curves.closed[curve] === 1 };
 }
