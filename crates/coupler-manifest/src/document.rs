@@ -16,7 +16,7 @@ use crate::templates::{Templates, id_and_span};
 use crate::theme::FileReader;
 use crate::tolerance::PartialTolerances;
 use crate::undrawable::{names_missing_font, undrawable_texts};
-use crate::{book, family, format_version, settings, tolerance};
+use crate::{family, format_version, settings, tolerance};
 
 /// The result of parsing a manifest.
 #[derive(Clone, Debug)]
@@ -155,7 +155,10 @@ fn read_plan(text: &str, writable: &[Format], files: FileReader, parser: &mut To
             ..read
         }));
     }
-    let book = book::read(root.get("book"), (&families, families.len() == tables.len()), parser);
+    #[cfg(not(feature = "book"))]
+    let book = Some(crate::plan::BookPlan::default());
+    #[cfg(feature = "book")]
+    let book = crate::book::read(root.get("book"), (&families, families.len() == tables.len()), parser);
     let undrawable = typeface.map(|typeface| undrawable_texts(&document, typeface)).unwrap_or_default();
     let needs_fonts = page.as_ref().is_some_and(|page| page.text_mode == TextMode::Outlines)
         || families.iter().flat_map(|family| &family.formats).any(|format| *format != Format::Svg);

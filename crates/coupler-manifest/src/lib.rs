@@ -42,6 +42,7 @@ mod chart;
 
 mod plan;
 
+#[cfg(feature = "book")]
 mod book;
 
 mod schema;

@@ -1,5 +1,6 @@
 //! The keys of a manifest and of its `[[family]]` tables.
 
+#[cfg(feature = "book")]
 use crate::book::BOOK;
 use crate::chart::{CHART, measure_names, numeric_measures};
 use crate::default_value;
@@ -30,6 +31,7 @@ pub static MANIFEST: TableSchema = TableSchema::new(
             "The families: each a linkage over a grid of parameters, or over cases.",
         ),
         LINKAGES_KEY,
+        #[cfg(feature = "book")]
         KeySchema::new(
             "book",
             ValueSchema::Table(&BOOK),
