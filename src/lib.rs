@@ -30,3 +30,5 @@ pub mod gallery;
 
 pub mod check;
 pub mod output;
+
+pub mod shard;

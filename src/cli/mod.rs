@@ -9,6 +9,7 @@ mod export;
 mod files;
 mod find;
 mod format;
+mod gather;
 mod init;
 mod inspect;
 mod linkage;
@@ -19,6 +20,7 @@ mod render;
 mod report;
 mod schema;
 mod source;
+mod sweep;
 mod validate;
 
 use std::ffi::OsString;
@@ -79,6 +81,8 @@ enum Command {
     Find(Box<find::Arguments>),
     Export(export::Arguments),
     List(list::Arguments),
+    Sweep(sweep::Arguments),
+    Gather(gather::Arguments),
     Init(init::Arguments),
     Completions(completions::Arguments),
     Man(manual::Manual),
@@ -107,7 +111,11 @@ impl InputErrors {
     /// Several errors.
     fn from_messages(messages: &[String]) -> InputErrors {
         let prefix = |k: usize| if k == 0 { "" } else { "error: " };
-        InputErrors(messages.iter().enumerate().map(|(k, message)| format!("{}{message}", prefix(k))).collect())
+        // Further lines of a message belong to it.
+        let lines = |(k, message): (usize, &String)| {
+            format!("{}{message}", prefix(k)).lines().map(str::to_owned).collect::<Vec<_>>()
+        };
+        InputErrors(messages.iter().enumerate().flat_map(lines).collect())
     }
 }
 
@@ -138,6 +146,8 @@ pub fn main() -> ExitCode {
         Command::Find(arguments) => find::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
         Command::List(arguments) => list::run(&arguments),
+        Command::Sweep(arguments) => sweep::run(&arguments),
+        Command::Gather(arguments) => gather::run(&arguments),
         Command::Init(arguments) => init::run(&arguments),
         Command::Completions(arguments) => completions::run(&arguments),
         Command::Man(arguments) => manual::print_manual(&arguments),

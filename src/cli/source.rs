@@ -1,5 +1,6 @@
 //! Reads a manifest, and prints the problems in it.
 
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use coupler_atlas::manifest::{self, ParseOutcome, Plan};
@@ -48,8 +49,24 @@ pub fn parse(path: &Path, text: &str) -> ParseOutcome {
 /// # Errors
 /// The file cannot be read, or the manifest has errors.
 pub fn read(path: &Path) -> anyhow::Result<ManifestSource> {
-    let text = read_text(path)?;
-    let loaded = parse(path, &text);
+    read_with(path, |text| parse(path, text))
+}
+
+/// Reads a manifest for tables of some of its cells, see [`manifest::parse_for_tables`], and prints every problem in it to
+/// standard error.
+///
+/// # Errors
+/// The file cannot be read, or the manifest has errors.
+pub fn read_for_tables(path: &Path, cells: &dyn Fn(&str, usize) -> Range<usize>) -> anyhow::Result<ManifestSource> {
+    read_with(path, |text| manifest::parse_for_tables(text, Some(&|name| output::read_font(path, name)), cells))
+}
+
+fn read_with(path: &Path, parse: impl FnOnce(&str) -> ParseOutcome) -> anyhow::Result<ManifestSource> {
+    parse_text(path, read_text(path)?, parse)
+}
+
+fn parse_text(path: &Path, text: String, parse: impl FnOnce(&str) -> ParseOutcome) -> anyhow::Result<ManifestSource> {
+    let loaded = parse(&text);
     report_problems(path, &text, &loaded.problems);
     match loaded.plan {
         Some(plan) => Ok(ManifestSource { path: path.to_owned(), text, plan }),
@@ -58,6 +75,14 @@ pub fn read(path: &Path) -> anyhow::Result<ManifestSource> {
             Err(problems_error(path, errors).into())
         }
     }
+}
+
+/// A manifest with a text that has been read before, of which every problem is printed to standard error.
+///
+/// # Errors
+/// The manifest has errors.
+pub fn with_text(path: &Path, text: String) -> anyhow::Result<ManifestSource> {
+    parse_text(path, text, |text| parse(path, text))
 }
 
 /// The error of a manifest with problems.

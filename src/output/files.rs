@@ -179,9 +179,20 @@ pub(super) fn check_replaceable(path: &Path) -> Result<(), Error> {
     Ok(())
 }
 
+impl Write for AtomicFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
 /// A file that is written under a temporary name and renamed when it is finished. Until then an existing file is
 /// unchanged; the temporary file is removed if it is never finished.
-pub(super) struct AtomicFile {
+#[derive(Debug)]
+pub(crate) struct AtomicFile {
     path: PathBuf,
     file: io::BufWriter<fs::File>,
     /// The temporary name; the file is removed on drop unless it is renamed.
@@ -190,10 +201,15 @@ pub(super) struct AtomicFile {
 
 impl AtomicFile {
     pub fn new(path: PathBuf) -> Result<AtomicFile, Error> {
+        AtomicFile::with_affixes(path, TEMPORARY_AFFIXES)
+    }
+
+    /// A file whose temporary name has this beginning and this end.
+    pub fn with_affixes(path: PathBuf, (begin, end): (&str, &str)) -> Result<AtomicFile, Error> {
         check_replaceable(&path)?;
         let folder = path.parent().unwrap_or(Path::new(""));
         let mut builder = tempfile::Builder::new();
-        builder.prefix(TEMPORARY_AFFIXES.0).suffix(TEMPORARY_AFFIXES.1);
+        builder.prefix(begin).suffix(end);
         // `tempfile` makes files readable by their owner only; results get the permissions that the umask allows.
         match builder.make_in(folder, |path| fs::File::create_new(path)) {
             Ok(file) => {
@@ -212,6 +228,14 @@ impl AtomicFile {
     /// Closes the file and renames it.
     pub fn commit(self) -> Result<(), Error> {
         self.persist_with(TempPath::persist)
+    }
+
+    /// Closes the file, hands its bytes to the disk, so that no failure of the machine leaves a part of it under its name, and
+    /// renames it.
+    pub fn commit_durably(mut self) -> Result<(), Error> {
+        let synced = self.file.flush().and_then(|()| self.file.get_ref().sync_all());
+        synced.map_err(|source| Error::Write { path: self.path.clone(), source })?;
+        self.commit()
     }
 
     fn persist_with(self, rename: fn(TempPath, PathBuf) -> Result<(), PathPersistError>) -> Result<(), Error> {

@@ -54,6 +54,21 @@ pub(super) struct JournalFile {
 }
 
 impl JournalFile {
+    /// Begins a journal with some entries, and opens it for others.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn begin(path: PathBuf, entries: impl Iterator<Item = JournalEntry>) -> Result<JournalFile, Error> {
+        let mut journal = AtomicFile::new(path.clone())?;
+        for entry in entries {
+            journal.write_bytes(&entry.to_line())?;
+        }
+        journal.commit()?;
+        let file = File::options().append(true).open(&path);
+        let file = file.map_err(|source| Error::Write { path: path.clone(), source })?;
+        Ok(JournalFile { path, file: Mutex::new(file) })
+    }
+
     /// Appends an entry.
     ///
     /// # Errors

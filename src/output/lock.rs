@@ -11,11 +11,12 @@ use crate::record::LOCK_FILE_NAME;
 
 /// A lock on a folder: no other run writes to it until this is dropped.
 #[derive(Debug)]
-pub(super) struct Lock {
+pub(crate) struct Lock {
     path: PathBuf,
     /// The lock is on the open file, so it ends with the process, however that ends; a file left behind locks nothing.
     /// `None` if the folder cannot be written: then there is nothing to protect.
     file: Option<File>,
+    is_exclusive: bool,
 }
 
 impl Lock {
@@ -24,22 +25,47 @@ impl Lock {
     /// # Errors
     /// Another run has locked the folder; the lock file cannot be written.
     pub fn acquire(folder: &Path) -> Result<Lock, Error> {
-        let path = folder.join(LOCK_FILE_NAME);
+        Lock::lock_file(folder.join(LOCK_FILE_NAME), false)
+            .and_then(|lock| lock.ok_or_else(|| Error::Busy { folder: folder.to_owned() }))
+    }
+
+    /// Waits until no other run has locked a file, and locks it.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn wait_for(path: PathBuf) -> Result<Lock, Error> {
+        // A run that waits always gets it.
+        let unlocked = Lock { path: path.clone(), file: None, is_exclusive: false };
+        Ok(Lock::lock_file(path, true)?.unwrap_or(unlocked))
+    }
+
+    /// Whether other runs are kept off: not where the file system has no locks, or the folder cannot be written.
+    pub fn is_exclusive(&self) -> bool {
+        self.is_exclusive
+    }
+
+    /// Locks a file; `None` if another run has locked it and this one does not wait.
+    fn lock_file(path: PathBuf, waits: bool) -> Result<Option<Lock>, Error> {
         let failed = |source: io::Error| Error::Write { path: path.clone(), source };
         loop {
-            let Some(file) = open(&path).map_err(failed)? else { return Ok(Lock { path, file: None }) };
-            match file.try_lock() {
+            let Some(file) = open(&path).map_err(failed)? else {
+                return Ok(Some(Lock { path, file: None, is_exclusive: false }));
+            };
+            let locked = if waits { file.lock().map_err(TryLockError::Error) } else { file.try_lock() };
+            match locked {
                 Ok(()) => {}
-                Err(TryLockError::WouldBlock) => return Err(Error::Busy { folder: folder.to_owned() }),
+                Err(TryLockError::WouldBlock) => return Ok(None),
                 // Some file systems have no locks, and say so by different errors; runs there are not protected from
                 // one another.
-                Err(TryLockError::Error(_)) => return Ok(Lock { path, file: Some(file) }),
+                Err(TryLockError::Error(_)) => return Ok(Some(Lock { path, file: Some(file), is_exclusive: false })),
             }
             // Another run may have ended and removed the file between our opening and locking it. The locked file is
             // then not the one that the next run will open.
             let locked = file.try_clone().and_then(Handle::from_file).map_err(failed)?;
             match Handle::from_path(&path) {
-                Ok(current) if current == locked => return Ok(Lock { path, file: Some(file) }),
+                Ok(current) if current == locked => {
+                    return Ok(Some(Lock { path, file: Some(file), is_exclusive: true }));
+                }
                 Ok(_) => {}
                 Err(error) if error.kind() == io::ErrorKind::NotFound => {}
                 Err(error) => return Err(failed(error)),

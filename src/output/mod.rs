@@ -10,6 +10,7 @@ mod inputs;
 mod journal;
 mod lock;
 mod ownership;
+mod page_shard;
 mod pages;
 mod previous_run;
 mod registry;
@@ -17,10 +18,13 @@ mod survey;
 mod table_file;
 
 pub use error::Error;
+pub(crate) use files::AtomicFile;
 pub use files::{create_folder, read_font, read_text, write as write_file, write_new};
+pub(crate) use lock::Lock;
+pub use page_shard::{PageShard, page_shards, write_page_shard};
 
 use std::collections::HashSet;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -30,7 +34,6 @@ use crate::sweep;
 use coupler_curves::problem::Problem;
 use coupler_drawing::render::Format;
 use journal::Journal;
-use lock::Lock;
 use previous_run::PreviousRun;
 use survey::{FamilySurvey, Surveyor};
 
@@ -99,7 +102,8 @@ pub enum Event<'a> {
 /// Writes the atlas of a plan into a folder, and reports progress.
 ///
 /// Files of an earlier run are kept if they are up to date according to its record. Files which that run wrote and
-/// which no longer belong to the atlas are removed; other files never are.
+/// which no longer belong to the atlas are removed; other files never are. So are pages that shards have drawn, see
+/// [`write_page_shard`], whose journals are removed.
 ///
 /// Every file is written under a temporary name and renamed, `run.json` last. Whatever goes wrong, each file in the
 /// folder is complete, old or new, and the record claims nothing that is not true.
@@ -117,14 +121,22 @@ pub fn write_atlas(
     files::create_folder(output)?;
     let _lock = Lock::acquire(output)?;
     // A folder that is not ours is left untouched.
-    let previous = previous_run::read(output, options, report)?;
+    let mut previous = previous_run::read(output, options, report)?;
+    // The pages of shards belong to the atlas as a whole.
+    let shards = if options.only.is_empty() { page_shards(output)? } else { Vec::new() };
+    let journals: Vec<PathBuf> = shards.iter().map(|shard| shard.path.clone()).collect();
+    shards.into_iter().for_each(|shard| previous.add_pages(shard.record.run));
     ownership::check_owner(plan, output, options, &previous)?;
     ownership::check_files(plan, output, options, &previous)?;
     let result = write_families(plan, output, options, previous, report);
     if let Err(error) = &result {
         journal::suspend(output, matches!(error, Error::Interrupted));
     }
-    result
+    let run = result?;
+    for path in journals {
+        std::fs::remove_file(&path).map_err(|source| Error::Write { path: path.clone(), source })?;
+    }
+    Ok(run)
 }
 
 /// Writes the atlas into a folder that may be written to.

@@ -96,6 +96,38 @@ pub(super) fn read(output: &Path, options: &Options, report: &mut dyn FnMut(Even
     }
 }
 
+impl PreviousRun {
+    /// Adds what shards have recorded of pages: the record of a file replaces an earlier one.
+    pub fn add_pages(&mut self, run: RunRecord) {
+        let progress = Vec::new();
+        let added = sanitize(FolderRecord {
+            run,
+            images: ImagesState::Missing,
+            progress,
+            pieces: HashMap::new(),
+            is_unfinished: true,
+        });
+        for family in added.families {
+            match self.families.iter_mut().find(|known| known.id == family.id) {
+                None => self.families.push(FamilyRecord { inputs_sha256: None, ..family }),
+                Some(known) => {
+                    let mut places: HashMap<String, usize> =
+                        known.files.iter().enumerate().map(|(k, file)| (file.name.clone(), k)).collect();
+                    for file in family.files {
+                        match places.get(&file.name) {
+                            Some(place) => known.files[*place] = file,
+                            None => {
+                                places.insert(file.name.clone(), known.files.len());
+                                known.files.push(file);
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
 /// Drops repeated or invalid families from a record, and files whose names this program does not use.
 fn sanitize(record: FolderRecord) -> PreviousRun {
     let FolderRecord { run, images, progress, pieces, .. } = record;

@@ -12,6 +12,7 @@ pub use composer::Composer;
 pub use composer::curves_by_page;
 pub use pagination::{Pagination, measures_used_on_pages};
 
+use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 
 use crate::manifest::{Plan, PlannedFamily};
@@ -114,6 +115,30 @@ pub trait Sink: Sync {
     fn bytes_per_page(&self) -> usize;
 }
 
+/// Passes on some pages only, by their numbers, and no cells.
+struct PageSelection<'s, S> {
+    sink: &'s S,
+    pages: Range<usize>,
+}
+
+impl<S: Sink> Sink for PageSelection<'_, S> {
+    type CellsOutput = ();
+    type PageOutput = Option<S::PageOutput>;
+    type Error = S::Error;
+
+    fn receive_cells(&self, _: &[SolvedCell]) -> Result<(), S::Error> {
+        Ok(())
+    }
+
+    fn receive_page(&self, job: PageJob) -> Result<Option<S::PageOutput>, S::Error> {
+        self.pages.contains(&job.number).then(|| self.sink.receive_page(job)).transpose()
+    }
+
+    fn bytes_per_page(&self) -> usize {
+        self.sink.bytes_per_page()
+    }
+}
+
 /// The results of a [`Sink`].
 #[derive(Debug)]
 pub enum Output<C, P> {
@@ -189,6 +214,40 @@ impl<'a> FamilyPipeline<'a> {
             (Some(chart), Some(builder)) => self.send_charts(chart, builder, sink, &mut receive),
             _ => Ok(()),
         }
+    }
+
+    /// Composes some of the pages, given by their indices from 0, and passes them to `sink` on all threads and the results in
+    /// order to `receive`. Cells that are not on these pages are not solved, unless the pages have charts.
+    ///
+    /// # Errors
+    /// The first error of `sink` or `receive`.
+    pub fn run_pages<S: Sink>(
+        &self,
+        sink: &S,
+        pages: Range<usize>,
+        mut receive: impl FnMut(S::PageOutput) -> Result<(), S::Error>,
+    ) -> Result<(), S::Error> {
+        let pages = pages.start + 1..pages.end.min(self.pagination.page_count) + 1;
+        if pages.is_empty() {
+            return Ok(());
+        }
+        let (first, last) = (pages.start, pages.end - 1);
+        let sink = &PageSelection { sink, pages };
+        let planned = self.composer.planned;
+        if planned.chart.is_some() {
+            return self.run(sink, GroupsDone::default(), |output| match output {
+                Output::Page(page) => page.map_or(Ok(()), &mut receive),
+                Output::Cells(()) | Output::Done(_) => Ok(()),
+            });
+        }
+        let [first, last] = [first, last].map(|page| self.pagination.group_of_page(page));
+        let cells = self.arrangement.page_order().first((last + 1) * self.pagination.group_size);
+        let measures = measures_used_on_pages(planned);
+        let groups = self.cell_groups((&cells, first), sink, Some(&measures));
+        let make = |group: usize, solved: Vec<SolvedCell>| self.send_pages(group, &solved, sink);
+        sweep::process_groups(&planned.family, groups, make, |pages: Result<Vec<Option<S::PageOutput>>, S::Error>| {
+            pages?.into_iter().flatten().try_for_each(&mut receive)
+        })
     }
 
     /// The groups in which cells are processed, from the given one.

@@ -59,6 +59,16 @@ impl Pagination {
     }
 }
 
+impl Pagination {
+    /// The group of cells, from 0, that has a page; pages are counted from 1. Charts are of all cells.
+    pub fn group_of_page(&self, page: usize) -> usize {
+        match self.first_pages.len() {
+            0 => page.saturating_sub(1),
+            _ => self.first_pages.partition_point(|first| *first <= page).saturating_sub(1),
+        }
+    }
+}
+
 /// The first page of each cell of a coupler grid, given the traced points of each, and the page after the last.
 fn first_pages(points: &[u32]) -> Vec<usize> {
     let mut next = 1;

@@ -5,13 +5,17 @@
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
-use std::io::{self, BufRead, Read};
+use std::io::{self, BufRead, BufReader, Read};
+use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::digest::Digest;
+use super::regular_file::open_regular_file;
 use super::run::{BookRecord, FamilyRecord, FileRecord, RunRecord};
+use crate::manifest::MAX_MANIFEST_BYTES;
+use crate::sweep::Division;
 
 /// The name of the journal in the folder of an atlas.
 pub const JOURNAL_FILE_NAME: &str = ".coupler-atlas.journal";
@@ -56,6 +60,61 @@ pub enum JournalEntry {
     },
     /// How far the tables of a family have been written.
     Progress(FamilyProgress),
+    /// That only a shard of the pages is drawn.
+    Shard(PageShardHead),
+    /// A part of the text of the manifest of a shard.
+    Manifest(String),
+    /// The shard is complete.
+    Finished,
+}
+
+/// Which of the pages of an atlas a shard has.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PageShardHead {
+    /// Which of the pages of each family.
+    pub division: Division,
+    /// The formats in place of those of the manifest, by name.
+    pub formats: Option<Vec<String>>,
+}
+
+/// A shard of the pages of an atlas, as its journal records it.
+#[derive(Debug)]
+pub struct PageShardRecord {
+    /// Which pages it has.
+    pub head: PageShardHead,
+    /// The text of its manifest.
+    pub manifest: String,
+    /// Whether all its pages are drawn.
+    pub is_finished: bool,
+    /// The pages that are drawn.
+    pub run: RunRecord,
+}
+
+impl PageShardRecord {
+    /// Reads the journal of a shard; `None` if it is none.
+    ///
+    /// # Errors
+    /// The journal cannot be read.
+    pub fn read(journal: &Path) -> io::Result<Option<PageShardRecord>> {
+        let open = || open_regular_file(journal, u64::MAX).map(BufReader::new).map_err(io::Error::other);
+        let mut lines = Lines { journal: open()?, line: Vec::new() };
+        let (mut head, mut manifest, mut is_finished) = (None, String::new(), false);
+        while let Some(line) = lines.next_line()? {
+            match serde_json::from_slice(line) {
+                Ok(JournalEntry::Shard(found)) => head = Some(found),
+                Ok(JournalEntry::Manifest(text)) if manifest.len() <= MAX_MANIFEST_BYTES => manifest.push_str(&text),
+                Ok(JournalEntry::Finished) => is_finished = true,
+                _ => {}
+            }
+        }
+        let replay = JournalReplay::new(None, open()?)?;
+        Ok(head.zip(replay).map(|(head, replay)| PageShardRecord {
+            head,
+            manifest,
+            is_finished,
+            run: replay.finish().0,
+        }))
+    }
 }
 
 /// How far the tables of a family have been written.
@@ -206,7 +265,7 @@ impl JournalReplay {
 
     fn apply(&mut self, entry: JournalEntry) {
         match entry {
-            JournalEntry::Atlas(_) => {}
+            JournalEntry::Atlas(_) | JournalEntry::Shard(_) | JournalEntry::Manifest(_) | JournalEntry::Finished => {}
             JournalEntry::Family(record) => match self.families.get(&record.id) {
                 Some(place) => {
                     let files = std::mem::take(&mut self.run.families[place.index].files);

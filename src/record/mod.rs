@@ -19,7 +19,9 @@ pub use digest::{Digest, RunningDigest, TextDigests};
 pub use drawn_curve::{DrawnCurve, DrawnCurveError, SolvedCurve, read_drawn_curves};
 pub use folder::{FolderRecord, ImagesState, MAX_RECORDED_FILES, images_of_run};
 pub use images::IMAGES_FILE_NAME;
-pub use journal::{FamilyProgress, JOURNAL_FILE_NAME, JournalEntry, PartialFile, path_in_atlas};
+pub use journal::{
+    FamilyProgress, JOURNAL_FILE_NAME, JournalEntry, PageShardHead, PageShardRecord, PartialFile, path_in_atlas,
+};
 pub use png::is_intact_png;
 pub use regular_file::{FileError, file_digest, open_regular_file, read_regular_file};
 pub use run::{BookRecord, FORMAT_VERSION, FamilyRecord, FileRecord, RUN_FILE_NAME, ReadError, RunRecord};

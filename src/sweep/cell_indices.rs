@@ -1,10 +1,14 @@
 //! Indices of cells, in little memory.
 
+use std::ops::Range;
+
 /// The indices of some cells of a family, in an order.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CellIndices {
     /// The first cells, as many as this number.
     First(usize),
+    /// Consecutive cells.
+    Range(Range<usize>),
     /// These cells.
     Listed(Vec<u32>),
 }
@@ -14,7 +18,17 @@ impl CellIndices {
     pub fn len(&self) -> usize {
         match self {
             CellIndices::First(count) => *count,
+            CellIndices::Range(range) => range.len(),
             CellIndices::Listed(cells) => cells.len(),
+        }
+    }
+
+    /// The first cells of them, at most this number.
+    pub fn first(&self, count: usize) -> CellIndices {
+        match self {
+            CellIndices::First(all) => CellIndices::First(count.min(*all)),
+            CellIndices::Range(range) => CellIndices::Range(range.start..range.start + count.min(range.len())),
+            CellIndices::Listed(cells) => CellIndices::Listed(cells[..count.min(cells.len())].to_vec()),
         }
     }
 
@@ -27,6 +41,7 @@ impl CellIndices {
     pub fn get(&self, k: usize) -> Option<usize> {
         match self {
             CellIndices::First(count) => (k < *count).then_some(k),
+            CellIndices::Range(range) => range.start.checked_add(k).filter(|cell| *cell < range.end),
             CellIndices::Listed(cells) => cells.get(k).map(|&cell| cell as usize),
         }
     }

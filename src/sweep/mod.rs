@@ -2,9 +2,11 @@
 
 mod cell_indices;
 mod diagnosis;
+mod division;
 
 pub use cell_indices::CellIndices;
 pub use diagnosis::{Diagnosis, diagnose};
+pub use division::{Division, MAX_RANGES, MAX_SHARDS, number_ranges};
 
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -13,7 +15,7 @@ use std::sync::mpsc::{self, Receiver, TryRecvError};
 use coupler_curves::family::Family;
 use coupler_curves::measure;
 use coupler_curves::motion::{self, Sampler};
-use coupler_curves::solve::{MeasuredCurve, SolvedCell, solve_measuring};
+use coupler_curves::solve::{MeasuredCurve, Screening, SolvedCell, solve_measuring, solve_screened};
 use rayon::prelude::*;
 
 /// The cells that `where` keeps, by index, see [`CellSelection::kept`].
@@ -77,12 +79,13 @@ pub fn select_cells(family: &Family, counts_points: bool, stop: &AtomicBool) -> 
     let sampler = Sampler::new(family.sampling);
     // Only the measures that `where` and `sort` use are computed.
     let measures: Vec<bool> = (0..measure::ALL.len()).map(|measure| family.filter_or_sort_uses(measure)).collect();
+    let screening = Screening::new(family, &measures);
     // A condition on parameters alone leaves out a cell whether it can be assembled or not.
     let needs_curves = family.filter_uses_measures();
     let unassembled = AtomicUsize::new(0);
     let rank_cell = |cell: usize| {
         let solved =
-            if stop.load(Ordering::Relaxed) { None } else { solve_measuring(family, &sampler, cell, &measures) };
+            if stop.load(Ordering::Relaxed) { None } else { solve_screened(family, &sampler, cell, &screening) };
         let solved = solved?;
         if solved.is_left_out() {
             let is_unassembled = needs_curves && !solved.motion.is_assembled();
@@ -181,11 +184,11 @@ pub fn process_groups<T: Send, E>(
     let max_in_flight = groups.max_in_flight(family);
     let stopped = &AtomicBool::new(false);
     let work = &work;
-    let measures = groups.requested_measures.unwrap_or(&family.is_computed);
+    let screening = &Screening::new(family, groups.requested_measures.unwrap_or(&family.is_computed));
     let known = groups.solve_known;
     let solve = move |cell: usize| {
         let solved = known.and_then(|known| known(sampler, cell));
-        solved.or_else(|| solve_measuring(family, sampler, cell, measures))
+        solved.or_else(|| solve_screened(family, sampler, cell, screening))
     };
     let cells = groups.cells;
     let size = groups.size.max(1);

@@ -9,8 +9,20 @@ use tempfile::TempDir;
 
 use crate::command::{folder_with, printed, program, result, run};
 
-const COMMANDS: [&str; 10] =
-    ["render", "validate", "check", "inspect", "design", "export", "list", "init", "completions", "man"];
+const COMMANDS: [&str; 12] = [
+    "render",
+    "validate",
+    "check",
+    "inspect",
+    "design",
+    "export",
+    "list",
+    "sweep",
+    "gather",
+    "init",
+    "completions",
+    "man",
+];
 
 const MANIFEST: &str = r#"[atlas]
 title = "T"

@@ -42,6 +42,7 @@ mod recorded_images;
 mod reruns;
 mod resuming;
 mod schema;
+mod shards;
 mod surroundings;
 mod themes;
 mod watching;

@@ -1,8 +1,8 @@
 //! Checks the cells of a family.
 
 use std::collections::HashMap;
+use std::ops::Range;
 
-use crate::names::MAX_LIMIT;
 use crate::plan::PlannedFamily;
 use coupler_curves::family::{Cell, CellError, Family};
 use coupler_curves::linkage_format::{Fields, TomlParser, TomlValue};
@@ -13,6 +13,20 @@ use coupler_drawing::render::Format;
 
 /// The most names of all families of an atlas, which are in memory together: a hundred bytes each.
 const MAX_NAMES: usize = 500_000;
+
+/// The most cells of all families of an atlas that is drawn: all of them are checked before any is solved, which takes about
+/// a microsecond each, and the order of their pages takes 16 bytes each.
+const MAX_DRAWN_CELLS: usize = 10_000_000;
+
+/// What the cells of a manifest are for.
+#[derive(Clone, Copy)]
+pub enum Purpose<'a> {
+    /// All of them are solved, and drawn on pages. Their number is limited, and all of them are checked.
+    Pages,
+    /// Some are solved, and written into tables: those of which this function returns the range of indices for the id of a
+    /// family and its number of cells. Only these are checked, and there may be as many as `limit` allows.
+    Tables(&'a dyn Fn(&str, usize) -> Range<usize>),
+}
 
 /// The most values of all cells of an atlas, each computed and checked before any cell is solved, in some ten seconds.
 const MAX_CHECKED_VALUES: usize = 1_000_000_000;
@@ -50,8 +64,8 @@ impl AtlasTotals {
         let values_per_cell = family.names.len() + family.template.joints.len() + family.template.curve_count();
         self.cells = self.cells.saturating_add(cells);
         self.values = self.values.saturating_add(cells.saturating_mul(values_per_cell));
-        let help = "use fewer values, or divide the atlas";
-        is_within((self.cells, MAX_LIMIT), "cells", (space_span(fields), help), parser)
+        let help = "use fewer values, divide the atlas, or solve it without pages: `coupler-atlas sweep`";
+        is_within((self.cells, MAX_DRAWN_CELLS), "cells", (space_span(fields), help), parser)
             && is_within((self.values, MAX_CHECKED_VALUES), "values of cells", (space_span(fields), help), parser)
     }
 
@@ -89,12 +103,13 @@ fn is_within((number, limit): (usize, usize), what: &str, (span, help): (Span, &
     number <= limit
 }
 
-/// Checks that the cells of a page, which are in memory together, are not too large.
-pub(crate) fn check_memory(family: &Family, layout: Layout, fields: &Fields, parser: &mut TomlParser) {
+/// Checks that the cells of a page, which are in memory together, are not too large; without pages, that a single one is not.
+pub(crate) fn check_memory(family: &Family, layout: Option<Layout>, fields: &Fields, parser: &mut TomlParser) {
     let cells = match layout {
+        None => 1,
         // Charts are drawn from the measures of all cells, which are solved a few at a time.
-        Layout::Chart { .. } => 1,
-        _ => layout.cells_per_page().min(family.cell_count()),
+        Some(Layout::Chart { .. }) => 1,
+        Some(layout) => layout.cells_per_page().min(family.cell_count()),
     };
     let bytes = family.estimate_cell_bytes().saturating_mul(cells);
     if bytes > MAX_CIRCUIT_BYTES {
@@ -123,11 +138,12 @@ enum ProblemKind {
     Linkage,
 }
 
-/// Checks every cell's values and linkage; of each kind of problem the first cell is reported, and the others are
+/// Checks the values and the linkages of a range of cells; of each kind of problem the first cell is reported, and the others are
 /// counted. `spans` are the places where the names get their values. If the family `has_problems` already, a name without
 /// a value that is not a parameter is one of them.
 pub(crate) fn check(
     family: &Family,
+    cells: Range<usize>,
     fields: &Fields,
     spans: &[Option<Span>],
     has_problems: bool,
@@ -136,7 +152,7 @@ pub(crate) fn check(
     let is_parameter = |name: &String| family.template.parameters.iter().any(|parameter| parameter.name == *name);
     let mut problems: Vec<CellProblem> = Vec::new();
     let mut problem_indices: HashMap<ProblemKind, usize> = HashMap::new();
-    for k in 0..family.cell_count() {
+    for k in cells {
         let cell = family.cell(k);
         for error in family.cell_errors(&cell) {
             if matches!(&error, CellError::Missing(name) if has_problems && !is_parameter(name)) {
@@ -229,9 +245,11 @@ mod tests {
         };
         assert!(problems(none()).is_empty());
         // The family has two cells on two pages in two formats.
-        assert!(problems(AtlasTotals { cells: MAX_LIMIT - 2, page_files: MAX_PAGE_FILES - 4, ..none() }).is_empty());
-        let cells = AtlasTotals { cells: MAX_LIMIT - 1, ..none() };
-        assert_eq!(problems(cells), message(MAX_LIMIT + 1, "cells", MAX_LIMIT));
+        assert!(
+            problems(AtlasTotals { cells: MAX_DRAWN_CELLS - 2, page_files: MAX_PAGE_FILES - 4, ..none() }).is_empty()
+        );
+        let cells = AtlasTotals { cells: MAX_DRAWN_CELLS - 1, ..none() };
+        assert_eq!(problems(cells), message(MAX_DRAWN_CELLS + 1, "cells", MAX_DRAWN_CELLS));
         let files = AtlasTotals { page_files: MAX_PAGE_FILES - 3, ..none() };
         assert_eq!(problems(files), message(MAX_PAGE_FILES + 1, "files of pages", MAX_PAGE_FILES));
         let names = AtlasTotals { names: MAX_NAMES, ..none() };

@@ -1,6 +1,7 @@
 //! Parses a manifest as a whole.
 
 use std::collections::HashSet;
+use std::ops::Range;
 use std::sync::Arc;
 
 use coupler_curves::linkage_format::{Fields, TomlParser, canonical_toml};
@@ -8,7 +9,7 @@ use coupler_curves::problem::Problem;
 use coupler_curves::template::Template;
 use coupler_drawing::render::{Format, TextMode};
 
-use crate::cells::AtlasTotals;
+use crate::cells::{AtlasTotals, Purpose};
 use crate::inputs::SharedInputs;
 use crate::plan::{Plan, PlannedFamily};
 use crate::schema::MANIFEST;
@@ -61,11 +62,22 @@ pub fn parse_with_files(text: &str, files: FileReader) -> ParseOutcome {
 
 /// Parses a manifest for a program that writes these formats; others are errors.
 pub fn parse_for_formats(text: &str, writable: &[Format], files: FileReader) -> ParseOutcome {
+    parse_for(text, (writable, Purpose::Pages), files)
+}
+
+/// Parses a manifest for tables without pages of some of its cells: those of which `cells` returns the range of indices for
+/// the id of a family and its number of cells. Only these are checked. Of the others nothing is computed, so that there may
+/// be as many as `limit` allows.
+pub fn parse_for_tables(text: &str, files: FileReader, cells: &dyn Fn(&str, usize) -> Range<usize>) -> ParseOutcome {
+    parse_for(text, (&Format::ALL, Purpose::Tables(cells)), files)
+}
+
+fn parse_for(text: &str, (writable, purpose): (&[Format], Purpose), files: FileReader) -> ParseOutcome {
     if let Some(problem) = length_problem(text) {
         return ParseOutcome { plan: None, problems: vec![problem] };
     }
     let mut parser = TomlParser::new(text);
-    let plan = read_plan(text, writable, files, &mut parser);
+    let plan = read_plan(text, (writable, purpose), files, &mut parser);
     let problems = parser.into_problems();
     let plan = plan.filter(|_| !problems.iter().any(Problem::is_error));
     ParseOutcome { plan, problems }
@@ -104,7 +116,12 @@ pub fn linkage_text(text: &str, id: &str) -> Option<String> {
     None
 }
 
-fn read_plan(text: &str, writable: &[Format], files: FileReader, parser: &mut TomlParser) -> Option<Plan> {
+fn read_plan(
+    text: &str,
+    (writable, purpose): (&[Format], Purpose),
+    files: FileReader,
+    parser: &mut TomlParser,
+) -> Option<Plan> {
     let document = parser.parse_document();
     if text.trim_start_matches('\u{feff}').trim().is_empty() {
         let help = "`coupler-atlas init` writes one to start from";
@@ -139,7 +156,7 @@ fn read_plan(text: &str, writable: &[Format], files: FileReader, parser: &mut To
     let shared_inputs = SharedInputs::from_manifest(&root, typeface.and_then(|typeface| typeface.fallback));
     for value in tables {
         let page = page.as_ref().map(|page| &page.options);
-        let context = family::Context { templates: &templates, formats: &formats, writable, page };
+        let context = family::Context { templates: &templates, formats: &formats, writable, page, purpose };
         let read = family::read(value, context, &mut totals, parser);
         if let Some((id, span)) = id_and_span(value) {
             let message = format!("there are two families `{id}`");

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::bounded_number::read_within;
-use crate::cells::{self, AtlasTotals};
+use crate::cells::{self, AtlasTotals, Purpose};
 use crate::inputs::ManifestInputs;
 use crate::names::{check_expression_syntax, read_names, read_space};
 use crate::plan::PlannedFamily;
@@ -31,12 +31,14 @@ pub(crate) struct Context<'a> {
     pub writable: &'a [Format],
     /// The options of pages; `None` if `[page]` could not be parsed.
     pub page: Option<&'a Options>,
+    /// What the cells are for.
+    pub purpose: Purpose<'a>,
 }
 
 /// Reads a family, and adds it to `totals`.
 pub(crate) fn read<'t>(
     value: &TomlValue<'t>,
-    Context { templates, formats, writable, page }: Context,
+    Context { templates, formats, writable, page, purpose }: Context,
     totals: &mut AtlasTotals,
     parser: &mut TomlParser<'t>,
 ) -> Option<PlannedFamily> {
@@ -119,16 +121,20 @@ pub(crate) fn read<'t>(
         let is_charted = quantities.into_iter().any(|quantity| family.expression_uses(&quantity.expression, k));
         family.is_computed[k] |= family.filter_or_sort_uses(k) || family.captions_use(k) || is_charted;
     }
-    if !totals.add_cells(&family, &fields, parser) {
-        return None;
-    }
+    let count = family.cell_count();
+    let checked = match purpose {
+        Purpose::Pages if !totals.add_cells(&family, &fields, parser) => return None,
+        Purpose::Pages => 0..count,
+        Purpose::Tables(range) => range(&family.id, count),
+    };
     if !parser.has_syntax_error() {
-        cells::check(&family, &fields, &names.spans, parser.problem_count() > before, parser);
+        cells::check(&family, checked, &fields, &names.spans, parser.problem_count() > before, parser);
     }
     let source = source.unwrap_or_else(|| family.template.source_line());
     let filter_span = fields.get("where").map(TomlValue::span);
     let (layout, chart, formats) = (layout?, chart?, formats?);
-    cells::check_memory(&family, layout, &fields, parser);
+    let has_pages = matches!(purpose, Purpose::Pages);
+    cells::check_memory(&family, has_pages.then_some(layout), &fields, parser);
     let inputs = ManifestInputs::default();
     let planned = PlannedFamily {
         family,
@@ -144,7 +150,9 @@ pub(crate) fn read<'t>(
         span: value.span(),
         filter_span,
     };
-    totals.add_page_files(&planned, &fields, parser);
+    if has_pages {
+        totals.add_page_files(&planned, &fields, parser);
+    }
     Some(planned)
 }
 

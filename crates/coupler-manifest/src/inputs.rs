@@ -20,6 +20,8 @@ pub struct ManifestInputs {
     family: String,
     /// The same without the parameter sets.
     settings: String,
+    /// The keys of that table that determine its tables of points and measures.
+    tables_of_curves: String,
     /// The keys of that table that determine a page of cells, in addition to the cells' values and curves.
     page: String,
 }
@@ -28,6 +30,11 @@ impl ManifestInputs {
     /// What determines all files of the family, except the formats.
     pub fn family_text(&self) -> String {
         [&*self.tables, &*self.linkage, &self.family].concat()
+    }
+
+    /// What determines the values in the tables of the family.
+    pub fn table_text(&self) -> String {
+        [&*self.linkage, &self.tables_of_curves].concat()
     }
 
     /// A manifest of this family alone, with other keys in place of its own parameter sets.
@@ -51,6 +58,12 @@ const IGNORED_FAMILY_KEYS: [&str; 3] = ["formats", "limit", "check"];
 const IGNORED_SETTINGS: [&str; 5] = ["formats", "limit", "check", "grid", "cases"];
 /// [`IGNORED_FAMILY_KEYS`], and the keys that determine the values of cells, their curves and their order.
 const IGNORED_PAGE_KEYS: [&str; 8] = ["formats", "limit", "check", "grid", "cases", "let", "where", "sort"];
+
+/// The keys of a family that determine neither the cells, nor their curves, nor the columns of tables.
+const IGNORED_TABLE_KEYS: [&str; 13] = [
+    "title", "source", "layout", "panels", "scale", "ghosts", "chart", "sort", "caption", "note", "formats", "limit",
+    "check",
+];
 
 /// The texts that the inputs of several families have in common.
 pub(crate) struct SharedInputs {
@@ -83,6 +96,7 @@ impl SharedInputs {
             linkage: linkage.cloned().unwrap_or_default(),
             family: canonical_toml(family, &IGNORED_FAMILY_KEYS),
             settings: canonical_toml(family, &IGNORED_SETTINGS),
+            tables_of_curves: canonical_toml(family, &IGNORED_TABLE_KEYS),
             page: canonical_toml(family, &IGNORED_PAGE_KEYS),
         }
     }

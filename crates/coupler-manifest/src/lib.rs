@@ -56,7 +56,8 @@ mod document;
 
 pub use cells::MAX_PAGE_FILES;
 pub use document::{
-    MAX_MANIFEST_BYTES, ParseOutcome, linkage_text, parse, parse_for_formats, parse_linkages, parse_with_files,
+    MAX_MANIFEST_BYTES, ParseOutcome, linkage_text, parse, parse_for_formats, parse_for_tables, parse_linkages,
+    parse_with_files,
 };
 pub use format_version::FORMAT_VERSION;
 pub use inputs::ManifestInputs;

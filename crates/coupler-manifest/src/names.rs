@@ -180,9 +180,8 @@ pub(crate) fn read_filter<'t>(
     parser.ok_or_report(value, compiled)
 }
 
-/// The most cells that `limit` may allow, and the most of all families of an atlas: all of them are checked before any
-/// is solved, which takes about a microsecond each, and the order of their pages takes 16 bytes each.
-pub(crate) const MAX_LIMIT: usize = 10_000_000;
+/// The most cells that `limit` may allow; their numbers have 32 bits.
+pub(crate) const MAX_LIMIT: usize = 4_000_000_000;
 
 /// The values of `grid` or `cases`, by name.
 pub(crate) enum NamedSpace {

@@ -13,11 +13,12 @@ use clap::{Args, ValueHint};
 use coupler_atlas::gallery::PAGE_FILE;
 use coupler_atlas::output;
 use coupler_atlas::record::{Digest, IMAGES_FILE_NAME, RUN_FILE_NAME, RunRecord, file_digest};
+use coupler_atlas::sweep::Division;
 use coupler_drawing::render::Format;
 use progress::ProgressReporter;
 
-use super::source::{self, DEFAULT_MANIFEST};
-use super::{EXIT_INTERRUPTED, Outcome, choice, files, print, print_stderr, printable};
+use super::source::{self, DEFAULT_MANIFEST, ManifestSource};
+use super::{EXIT_INTERRUPTED, Outcome, choice, files, pluralize, print, print_stderr, printable, sweep};
 
 /// Solve every family of a manifest, and write its pages and point sets.
 #[derive(Clone, Debug, Args)]
@@ -45,6 +46,10 @@ pub struct Arguments {
     /// The number of threads [default: one for each processor].
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: Option<u16>,
+    /// Draw only the I-th of N equal parts of the pages of each family, I from 0 to N - 1, as in --shard 3/64; gather completes
+    /// the atlas when all are drawn.
+    #[arg(long, value_name = "I/N", value_parser = sweep::parse_shard, conflicts_with_all = ["only", "strict", "open", "watch"])]
+    shard: Option<Division>,
     /// Exit with 1 if a cell that `where` does not leave out cannot be assembled over the whole requested range.
     #[arg(long)]
     strict: bool,
@@ -60,7 +65,7 @@ pub struct Arguments {
     watch: bool,
 }
 
-fn parse_format(name: &str) -> Result<Format, String> {
+pub(super) fn parse_format(name: &str) -> Result<Format, String> {
     let format = choice::parse("format", name, &Format::ALL.map(|format| (format.name(), format)))?;
     match format.is_built_in() {
         true => Ok(format),
@@ -79,6 +84,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     if arguments.watch {
         return watch::run(arguments, &interrupt);
     }
+    if let Some(division) = arguments.shard {
+        return draw_shard(arguments, division, &interrupt);
+    }
     let rendered = render(arguments, &interrupt)?;
     if arguments.open {
         match openable_paths(&rendered).next() {
@@ -87,6 +95,62 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         }
     }
     Ok(if arguments.strict && rendered.not_assembled > 0 { Outcome::Difference } else { Outcome::Done })
+}
+
+/// Draws a part of the pages.
+fn draw_shard(arguments: &Arguments, division: Division, interrupt: &Arc<AtomicBool>) -> anyhow::Result<Outcome> {
+    let source = source::read(&arguments.manifest)?;
+    if arguments.format.iter().flatten().any(|format| *format != Format::Svg) {
+        source.require_drawable()?;
+    }
+    let output = source.output_folder(arguments.output.as_deref())?;
+    let options = output_options(arguments, &source, interrupt);
+    let mut reporter = ProgressReporter::new(arguments.quiet, true);
+    let (pages, drawn) =
+        output::write_page_shard((&source.plan, &source.text), &output, &options, division, &mut |event| {
+            reporter.handle_event(event, &mut String::new());
+        })?;
+    reporter.finish();
+    if !arguments.quiet {
+        let folder = printable(output.display());
+        print(&format!(
+            "{}, {drawn} of them drawn, in {folder}; when all shards are, complete it: coupler-atlas gather {folder}\n",
+            pluralize(pages, "page")
+        ))?;
+    }
+    Ok(Outcome::Done)
+}
+
+/// Completes an atlas whose pages shards have drawn: `manifest` is that of the shards with its path, and `formats` theirs.
+/// Prints what `render` prints, to standard error.
+pub(super) fn complete(
+    source: &ManifestSource,
+    output: &Path,
+    formats: Option<Vec<Format>>,
+    is_quiet: bool,
+) -> anyhow::Result<()> {
+    let options = output::Options { formats, manifest: Some(source.file_name()), ..output::Options::default() };
+    let mut reporter = ProgressReporter::new(is_quiet, true);
+    let mut lines = String::new();
+    let run =
+        output::write_atlas(&source.plan, output, &options, &mut |event| reporter.handle_event(event, &mut lines))?;
+    source.report_problems(&output::empty_family_warnings(&source.plan, Some(&run)));
+    if !is_quiet {
+        let rendered = Rendered { output: output.to_owned(), run, not_assembled: reporter.not_assembled };
+        print_stderr(&format!("{lines}{}", closing_line(&rendered, true)));
+    }
+    Ok(())
+}
+
+fn output_options(arguments: &Arguments, source: &ManifestSource, interrupt: &Arc<AtomicBool>) -> output::Options {
+    output::Options {
+        formats: arguments.format.clone(),
+        only: arguments.only.clone(),
+        force: arguments.force,
+        overwrite: arguments.overwrite,
+        manifest: Some(source.file_name()),
+        interrupt: Arc::clone(interrupt),
+    }
 }
 
 /// An atlas that has been rendered.
@@ -106,14 +170,7 @@ fn render(arguments: &Arguments, interrupt: &Arc<AtomicBool>) -> anyhow::Result<
         source.require_drawable()?;
     }
     let output = source.output_folder(arguments.output.as_deref())?;
-    let options = output::Options {
-        formats: arguments.format.clone(),
-        only: arguments.only.clone(),
-        force: arguments.force,
-        overwrite: arguments.overwrite,
-        manifest: Some(source.file_name()),
-        interrupt: Arc::clone(interrupt),
-    };
+    let options = output_options(arguments, &source, interrupt);
     let mut reporter = ProgressReporter::new(arguments.quiet, !arguments.watch);
     let mut lines = String::new();
     let before = file_digests(&output);
@@ -161,7 +218,7 @@ fn open(path: &Path) {
 const GRACE_PERIOD: Duration = Duration::from_millis(700);
 
 /// A flag that the first Ctrl-C sets; the second ends the program at once.
-fn interrupt_flag() -> anyhow::Result<Arc<AtomicBool>> {
+pub(super) fn interrupt_flag() -> anyhow::Result<Arc<AtomicBool>> {
     let interrupt = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&interrupt);
     ctrlc::set_handler(move || {

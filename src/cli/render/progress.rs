@@ -35,6 +35,11 @@ impl ProgressReporter {
         }
     }
 
+    /// Removes the bar at the end of a run that reports no family's end.
+    pub fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+
     pub fn handle_event(&mut self, event: Event, lines: &mut String) {
         match event {
             Event::Begin { family, pages } if !self.is_quiet => {

@@ -21,7 +21,7 @@ fn texts(places: &[&str]) -> Vec<(PathBuf, String)> {
             Ok(entries) => entries.map(|entry| entry.unwrap().path()).collect(),
             Err(_) => vec![place],
         };
-        let is_text = |path: &PathBuf| path.extension().is_none_or(|extension| extension != "rs");
+        let is_text = |path: &PathBuf| path.is_file() && path.extension().is_none_or(|extension| extension != "rs");
         found.extend(files.into_iter().filter(is_text).map(|path| {
             let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
             (path, text)

@@ -10,11 +10,24 @@ use super::text::{Document, codes};
 use super::{copy, documents, printed, put_manifests};
 use crate::command::run;
 
-const COMMANDS: [&str; 11] =
-    ["render", "validate", "check", "inspect", "design", "find", "export", "list", "init", "completions", "man"];
+const COMMANDS: [&str; 13] = [
+    "render",
+    "validate",
+    "check",
+    "inspect",
+    "design",
+    "find",
+    "export",
+    "list",
+    "sweep",
+    "gather",
+    "init",
+    "completions",
+    "man",
+];
 
 /// Commands with placeholders, shortened or presupposing something else: what is run instead, and with which exit code.
-const SUBSTITUTED: [(&str, &[(&str, i32)]); 12] = [
+const SUBSTITUTED: [(&str, &[(&str, i32)]); 14] = [
     // There is an `atlas.toml`.
     ("coupler-atlas init", &[("coupler-atlas init new/atlas.toml", 0), ("coupler-atlas init", 2)]),
     ("coupler-atlas check [MANIFEST] --against DIR", &[("coupler-atlas check atlas.toml --against output", 0)]),
@@ -29,6 +42,8 @@ const SUBSTITUTED: [(&str, &[(&str, i32)]); 12] = [
             ("coupler-atlas find --help", 0),
             ("coupler-atlas export --help", 0),
             ("coupler-atlas list --help", 0),
+            ("coupler-atlas sweep --help", 0),
+            ("coupler-atlas gather --help", 0),
             ("coupler-atlas init --help", 0),
             ("coupler-atlas completions --help", 0),
             ("coupler-atlas man --help", 0),
@@ -37,6 +52,23 @@ const SUBSTITUTED: [(&str, &[(&str, i32)]); 12] = [
     ("coupler-atlas find PATH", &[("coupler-atlas find examples/sketch.svg", 0)]),
     ("coupler-atlas find --json", &[("coupler-atlas find examples/sketch.svg --json", 0)]),
     ("coupler-atlas list linkages NAME", &[("coupler-atlas list linkages evans", 0)]),
+    // The other shards are to be made, too.
+    (
+        "coupler-atlas gather shards --top 100 --by straight_length --toml best.toml",
+        &[
+            ("coupler-atlas gather shards --top 100 --by straight_length", 2),
+            ("coupler-atlas sweep atlas.toml --no-points -o whole", 0),
+            ("coupler-atlas gather whole --top 100 --by straight_length --toml best.toml", 0),
+        ],
+    ),
+    (
+        "coupler-atlas gather atlas",
+        &[
+            ("coupler-atlas gather atlas", 2),
+            ("coupler-atlas render atlas.toml --shard 0/1 -o one", 0),
+            ("coupler-atlas gather one", 0),
+        ],
+    ),
     ("coupler-atlas inspect --json", &[("coupler-atlas inspect evans p=2.5 a=3 --json", 0)]),
     ("coupler-atlas inspect --svg -", &[("coupler-atlas inspect evans p=2.5 a=3 --svg -", 0)]),
     ("coupler-atlas export", &[("coupler-atlas export evans:3.1.1", 0)]),
@@ -66,7 +98,7 @@ const NOT_RUN: [(&str, &str); 8] = [
 ];
 
 /// Files that the documents say commands have written.
-const WRITTEN: [(&str, &[&str]); 5] = [
+const WRITTEN: [(&str, &[&str]); 6] = [
     (
         "README.md",
         &["output/index.html", "target/hrones-nelson/atlas.pdf", "target/hrones-nelson/hrones-nelson/points.csv"],
@@ -74,6 +106,7 @@ const WRITTEN: [(&str, &[&str]); 5] = [
     ("docs/check.md", &["report.xml"]),
     ("docs/export.md", &["evans.dxf", "curves/evans-3-1-1.svg", "curves/watt-14-1-1.csv"]),
     ("docs/manifest.md", &["coupler-atlas.schema.json"]),
+    ("docs/scale.md", &["shards/evans/cells-00003-of-00064.parquet", "best/index.html", "one/run.json"]),
     (
         "docs/tutorial.md",
         &["target/hrones-nelson/index.html", "curve-94/hrones-nelson-94-49-1.dxf", "feeder/index.html"],

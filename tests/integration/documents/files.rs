@@ -8,7 +8,7 @@ use super::text::Document;
 use super::{documents, root};
 
 /// Files that are named, but not in this repository, and why.
-const ABSENT: [(&str, &str); 18] = [
+const ABSENT: [(&str, &str); 20] = [
     (".github/workflows/atlas.yml", "docs/check.md: to be written by the reader"),
     (".pre-commit-config.yaml", "docs/check.md: to be written by the reader"),
     ("feeder.toml", "docs/tutorial.md: written by the reader"),
@@ -17,6 +17,8 @@ const ABSENT: [(&str, &str); 18] = [
     ("atlas.pdf", "a book, which this atlas does not ask for"),
     (".coupler-atlas.journal", "only there during a run"),
     ("FAMILY/1001-2000/FAMILY-1234.svg", "more pages than any family here has; `ownership.rs` renders such a family"),
+    ("FAMILY/cells-00003-of-00064.parquet", "written by the reader; `shards.rs` sweeps"),
+    ("FAMILY/points-00003-of-00064.parquet", "written by the reader; `shards.rs` sweeps"),
     ("FAMILY/gallery-table-0001.js", "more data than any family here has"),
     ("FAMILY/gallery-curves-0001.js", "more data than any family here has"),
     ("evans-3-1-1.dxf", "the name of an exported file"),

@@ -96,7 +96,7 @@ fn the_example_of_a_page_is_on_it() {
 }
 
 /// Statements with the value of a constant in place of `@`.
-const CONSTANTS: [(&str, &str, &str, &str); 25] = [
+const CONSTANTS: [(&str, &str, &str, &str); 28] = [
     (
         "manifest",
         "| cells of a family | @, or its `limit` |",
@@ -109,7 +109,10 @@ const CONSTANTS: [(&str, &str, &str, &str); 25] = [
         "coupler-curves/src/family/parameter_space.rs",
         "MAX_CELLS",
     ),
-    ("manifest", "| cells of all families | @ |", "coupler-manifest/src/names.rs", "MAX_LIMIT"),
+    ("manifest", "| cells of all families, to be drawn | @ |", "coupler-manifest/src/cells.rs", "MAX_DRAWN_CELLS"),
+    ("manifest", "| cells of a family for [`sweep`](scale.md) | @, if", "coupler-manifest/src/names.rs", "MAX_LIMIT"),
+    ("scale", "draws atlases of up to @ cells", "coupler-manifest/src/cells.rs", "MAX_DRAWN_CELLS"),
+    ("scale", "up to @ in a family (`limit`)", "coupler-manifest/src/names.rs", "MAX_LIMIT"),
     (
         "manifest",
         "| 8 MiB, and @ values, tables and lists |",

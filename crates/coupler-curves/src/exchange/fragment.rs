@@ -1,11 +1,12 @@
 //! A fragment of a manifest, the TOML file that an atlas is made from, that reproduces the cells of some curves: one
 //! family for each combination of linkage and settings.
 
+use std::collections::HashMap;
 use std::fmt::Write;
 
 use super::{ParameterSet, format_number, sampling_fields};
 use crate::catalogue;
-use crate::family::{Family, StraightCriterion};
+use crate::family::{Family, MAX_CELLS, StraightCriterion};
 use crate::linkage_format::quoted;
 use crate::template::{CircuitSelection, CoincidentDyads, Continuation, Orientation, Template};
 
@@ -51,21 +52,26 @@ fn family_id(linkage: &str, number: usize) -> String {
 fn write_family(id: &str, settings: &str, cases: &[&ParameterSet], out: &mut String) {
     let template = &cases[0].family.template;
     let mut rows: Vec<(String, Vec<&str>)> = Vec::new();
+    let mut places: HashMap<String, usize> = HashMap::new();
     for case in cases {
         let value = |(k, value): (usize, &f64)| format!("{} = {}", template.parameters[k].name, format_number(*value));
         let values: Vec<String> = case.values.iter().enumerate().map(value).collect();
         let row = if values.is_empty() { "{}".to_owned() } else { format!("{{ {} }}", values.join(", ")) };
-        match rows.iter_mut().find(|(known, _)| *known == row) {
+        match places.get(&row).and_then(|place| rows.get_mut(*place)) {
             Some((_, names)) => names.push(&case.curve_name),
-            None => rows.push((row, vec![&case.curve_name])),
+            None => {
+                places.insert(row.clone(), rows.len());
+                rows.push((row, vec![&case.curve_name]));
+            }
         }
     }
     let columns = rows.len().min(3);
     let panels = [columns, rows.len().div_ceil(columns.max(1)).min(3)];
+    let limit = if rows.len() > MAX_CELLS { format!("limit = {}\n", rows.len()) } else { String::new() };
     // Writing to a string cannot fail.
     let _ = write!(
         out,
-        "\n[[family]]\nid = \"{id}\"\nlinkage = \"{}\"\ntitle = {}\npanels = [{}, {}]\n{settings}cases = [\n",
+        "\n[[family]]\nid = \"{id}\"\nlinkage = \"{}\"\ntitle = {}\npanels = [{}, {}]\n{limit}{settings}cases = [\n",
         template.id,
         quoted(&cases[0].family.title),
         panels[0],

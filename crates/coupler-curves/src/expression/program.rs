@@ -220,7 +220,7 @@ pub enum PostfixToken {
 #[derive(Clone, Debug, PartialEq)]
 pub struct CompiledExpression {
     pub(super) expression: Expression,
-    slots: Vec<usize>,
+    pub(super) slots: Vec<usize>,
 }
 
 impl CompiledExpression {

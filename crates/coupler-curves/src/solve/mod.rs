@@ -2,9 +2,11 @@
 
 mod changed_cell;
 mod moved_point;
+mod screening;
 
 pub use changed_cell::{ChangeError, ChangedCell, OriginalNumbers};
 pub use moved_point::{MovablePoint, MovedPointError, PointCoordinate};
+pub use screening::Screening;
 
 use crate::family::{Cell, Family};
 use crate::linkage::{JointId, Linkage};
@@ -150,8 +152,13 @@ pub fn solve_measured(
 }
 
 /// Solves the `k`-th cell of a family, from 0, and computes the requested measures, by their indices in
-/// [`measure::ALL`]; those that `where` uses must be among them.
+/// [`measure::ALL`]; those that `where` uses are among them.
 pub fn solve_measuring(family: &Family, sampler: &Sampler, k: usize, requested: &[bool]) -> Option<SolvedCell> {
+    solve_screened(family, sampler, k, &Screening::new(family, requested))
+}
+
+/// Solves the `k`-th cell of a family, from 0, and computes the measures of a screening of this family.
+pub fn solve_screened(family: &Family, sampler: &Sampler, k: usize, screening: &Screening) -> Option<SolvedCell> {
     let cell = family.cell(k);
     // A family is validated cell by cell before it is swept, so every cell has a linkage.
     let linkage = family.linkage(&cell).ok()?;
@@ -164,8 +171,7 @@ pub fn solve_measuring(family: &Family, sampler: &Sampler, k: usize, requested: 
             let curve = TracedCurve::new(&solved.linkage, &solved.motion, circuit, joint)
                 .with_straight_criterion(family.straight)
                 .with_circuit_results(results.clone());
-            let measures = measure::compute_selected(&curve, |measure| requested[measure]);
-            if family.keeps(&solved.cell, &measures) {
+            if let Some(measures) = screening.measure(&solved.cell, &curve) {
                 let (straight, symmetry) = curve.computed_marks();
                 curves.push(MeasuredCurve { trace, circuit: number, joint, values: measures, straight, symmetry });
             } else {

@@ -1,0 +1,94 @@
+//! The conditions that a condition joins by `and`.
+
+use std::ops::Range;
+
+use super::program::{Instruction, Operator};
+use super::{CompiledExpression, Expression};
+
+impl CompiledExpression {
+    /// The conditions that it joins by `and`, in order: it is true if all of them are. Of a condition that joins none, itself.
+    pub fn conjuncts(&self) -> Vec<CompiledExpression> {
+        let program = &self.expression.program;
+        let starts = self.expression.operand_starts();
+        let mut found = Vec::new();
+        let mut remaining: Vec<Range<usize>> = std::iter::once(0..program.len()).collect();
+        while let Some(range) = remaining.pop() {
+            match program[range.clone()].last() {
+                Some((Instruction::Binary(Operator::And), _)) => {
+                    let right = range.end - 1;
+                    let middle = starts[right - 1];
+                    // The left one comes out first.
+                    remaining.extend([middle..right, range.start..middle]);
+                }
+                _ => found.push(self.part(range)),
+            }
+        }
+        found
+    }
+
+    /// The part of it that is written at some places of its program.
+    fn part(&self, range: Range<usize>) -> CompiledExpression {
+        let (mut names, mut slots): (Vec<String>, Vec<usize>) = (Vec::new(), Vec::new());
+        let mut program = self.expression.program[range].to_vec();
+        for (instruction, _) in &mut program {
+            if let Instruction::Load(index) = instruction {
+                let name = &self.expression.names[*index];
+                let known = names.iter().position(|other| other == name);
+                if known.is_none() {
+                    names.push(name.clone());
+                    slots.push(self.slots[*index]);
+                }
+                *index = known.unwrap_or(names.len() - 1);
+            }
+        }
+        CompiledExpression { expression: Expression { program, names }, slots }
+    }
+}
+
+impl Expression {
+    /// For each place of the program, where the operand begins whose value is on top of the stack after it.
+    fn operand_starts(&self) -> Vec<usize> {
+        let mut starts: Vec<usize> = Vec::with_capacity(self.program.len());
+        for (at, (instruction, _)) in self.program.iter().enumerate() {
+            let operands = match instruction {
+                Instruction::Push(_) | Instruction::Load(_) => 0,
+                Instruction::Negate | Instruction::Not => 1,
+                Instruction::Binary(_) => 2,
+                Instruction::Call(_, count) => *count,
+            };
+            // The last operand ends just before this place, and each other one just before the next begins.
+            let start = (0..operands).fold(at, |start, _| starts[start - 1]);
+            starts.push(start);
+        }
+        starts
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Kind, Scope};
+    use super::*;
+
+    /// The names of each conjunct of a condition on a, b, c and d.
+    fn conjuncts(text: &str) -> Vec<Vec<String>> {
+        let scope: Scope = ["a", "b", "c", "d"].into_iter().map(|name| (name, Kind::Number)).collect();
+        let whole = Expression::parse(text).unwrap().compile(&scope, Kind::Boolean).unwrap();
+        let parts = whole.conjuncts();
+        // All conjuncts are true together exactly if the whole is.
+        for k in 0..256usize {
+            let load = |slot: usize| if k >> (2 * slot) & 3 == 3 { f64::NAN } else { (k >> (2 * slot) & 3) as f64 };
+            let all = parts.iter().all(|part| part.evaluate(load) == 1.0);
+            assert_eq!(whole.evaluate(load) == 1.0, all, "{text} with {k}");
+        }
+        parts.iter().map(|part| part.expression.names().to_vec()).collect()
+    }
+
+    #[test]
+    fn conditions_are_divided_at_and() {
+        assert_eq!(conjuncts("a < 2"), [["a"]]);
+        assert_eq!(conjuncts("b > 0 and a < 2 and max(c, d, a) > 1"), [vec!["b"], vec!["a"], vec!["c", "d", "a"]]);
+        assert_eq!(conjuncts("a < 2 and (b > 0 and (c == 1 or d == 1 and a > 0))").len(), 3);
+        assert_eq!(conjuncts("(a < 2 and b > 0) and not (c > 1 and d > 0)"), [vec!["a"], vec!["b"], vec!["c", "d"]]);
+        assert_eq!(conjuncts("a < 2 or b > 0 and c > 1").len(), 1);
+    }
+}

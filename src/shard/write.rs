@@ -1,0 +1,422 @@
+//! Makes a shard.
+
+use std::borrow::Cow;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use coupler_curves::expression::{CompiledExpression, Expression, Kind};
+use coupler_curves::family::Family;
+use coupler_curves::measure::{self, Measure};
+use coupler_curves::solve::{SolvedCell, Status};
+
+use super::best::Best;
+use super::columns::TableColumn;
+use super::record::{Counts, FORMAT, ShardRecord, TableKind, Top};
+use super::table::{self, Chunk, RowMaker, TableWriter, table_path, temporary_affixes};
+use super::{Division, Error, TableFormat, read};
+use crate::manifest::{Plan, PlannedFamily};
+use crate::output::{self, Lock, create_folder};
+use crate::record::{Digest, RunningDigest};
+use crate::sweep::{self, CellGroups, CellIndices};
+
+/// How a shard is made.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// Which cells of each family it has.
+    pub division: Division,
+    /// The format of its tables.
+    pub format: TableFormat,
+    /// Whether it has tables of points.
+    pub has_points: bool,
+    /// Keeps only the best curves of each family of the shard.
+    pub top: Option<Top>,
+    /// The measures of the tables, by name, in place of the manifest's; those that `where` and the expression of `top` use are
+    /// among them in any case.
+    pub measures: Option<Vec<String>>,
+    /// The ids of the families; all if empty.
+    pub only: Vec<String>,
+    /// Whether to replace files of other sweeps, and to make complete ones again.
+    pub force: bool,
+    /// Set to true to end the run soon.
+    pub interrupt: Arc<AtomicBool>,
+}
+
+/// Progress of a run.
+#[derive(Clone, Copy, Debug)]
+pub enum Event<'a> {
+    /// A family is begun.
+    Begin {
+        /// Its id.
+        family: &'a str,
+        /// The number of its cells in the shard.
+        cells: usize,
+    },
+    /// Cells are solved; with `top`, the best of them are solved again.
+    Cells(usize),
+    /// A family is finished.
+    End {
+        /// The record of its table of cells.
+        record: &'a ShardRecord,
+        /// The path of that table.
+        path: &'a Path,
+        /// Whether its files were there already.
+        is_kept: bool,
+    },
+}
+
+/// Makes a shard: solves, measures and filters its cells, and writes their tables into the folders of their families. Files of
+/// a shard that are complete already are kept.
+///
+/// Memory is bounded whatever the number of cells. Of the curves that `top` keeps, each takes some 40 bytes.
+///
+/// # Errors
+/// A file cannot be written, or is of another sweep; the expression of `top` is none in any family; the run is interrupted.
+pub fn write_shard(plan: &Plan, output: &Path, options: &Options, report: &mut dyn FnMut(Event)) -> Result<(), Error> {
+    let is_selected = |id: &String| options.only.is_empty() || options.only.contains(id);
+    let by = options.top.as_ref().map(|top| compile(plan, &is_selected, &top.by)).transpose()?;
+    let manifest_sha256 = manifest_digest(plan);
+    let families: Vec<String> = plan.families.iter().map(|planned| planned.family.id.clone()).collect();
+    for (k, planned) in plan.families.iter().enumerate() {
+        if !is_selected(&planned.family.id) {
+            continue;
+        }
+        let by = by.as_ref().and_then(|by| by[k].clone());
+        let family = swept_family(&planned.family, by.as_ref(), options);
+        let record = initial_record(planned, &family, (manifest_sha256, &families), options);
+        FamilyShard { family: &family, by, record, folder: output.join(&family.id), options }.write(report)?;
+    }
+    Ok(())
+}
+
+/// The digest of what a manifest says of the values in tables.
+fn manifest_digest(plan: &Plan) -> Digest {
+    let mut digest = RunningDigest::default();
+    for PlannedFamily { family, manifest_inputs, .. } in &plan.families {
+        digest.update(format!("{}\n{}\n", family.id, manifest_inputs.table_text()).as_bytes());
+    }
+    digest.finish()
+}
+
+/// The expression in the names of each family of a plan; `None` in one that lacks a name, and in those that are not selected.
+///
+/// # Errors
+/// It is an expression in no selected family.
+pub(super) fn compile(
+    plan: &Plan,
+    is_selected: &dyn Fn(&String) -> bool,
+    text: &str,
+) -> Result<Vec<Option<CompiledExpression>>, Error> {
+    let compile = |planned: &PlannedFamily| -> Result<CompiledExpression, String> {
+        let family = &planned.family;
+        let scope = Family::scope(&family.names, family.template.is_driven_by_length());
+        let compiled = Expression::parse(text).and_then(|parsed| parsed.compile(&scope, Kind::Number));
+        let compiled = compiled.map_err(|error| match error.help.as_str() {
+            "" => error.to_string(),
+            help => format!("{error}; {help}"),
+        })?;
+        let helpers = family.template.parameters.len()..family.names.len();
+        match compiled.slots().iter().find(|slot| helpers.contains(slot)) {
+            Some(slot) => Err(format!(
+                "`{}` is neither a parameter of the linkage nor a measure, and tables do not have it",
+                family.names[*slot]
+            )),
+            None => Ok(compiled),
+        }
+    };
+    let (mut found, mut first_error) = (Vec::new(), None);
+    for planned in &plan.families {
+        let compiled = is_selected(&planned.family.id).then(|| compile(planned)).transpose();
+        found.push(compiled.unwrap_or_else(|message| {
+            first_error.get_or_insert(message);
+            None
+        }));
+    }
+    match first_error.filter(|_| found.iter().all(Option::is_none)) {
+        Some(message) => Err(Error::Expression { text: text.to_owned(), message }),
+        None => Ok(found),
+    }
+}
+
+/// A family with the measures that the tables have.
+fn swept_family<'f>(family: &'f Family, by: Option<&CompiledExpression>, options: &Options) -> Cow<'f, Family> {
+    let is_named =
+        |measure: &Measure, names: &[String]| measure.names().any(|own| names.iter().any(|name| name == own));
+    let is_computed = |(k, measure): (usize, &Measure)| {
+        let is_used = by.iter().copied().chain(&family.filter).any(|expression| family.expression_uses(expression, k));
+        is_used || options.measures.as_ref().map_or(family.is_computed[k], |names| is_named(measure, names))
+    };
+    let is_computed: Vec<bool> = measure::ALL.iter().enumerate().map(is_computed).collect();
+    match is_computed == family.is_computed {
+        true => Cow::Borrowed(family),
+        false => Cow::Owned(Family { is_computed, ..family.clone() }),
+    }
+}
+
+/// The record of the table of cells before any cell is solved.
+fn initial_record(
+    planned: &PlannedFamily,
+    family: &Family,
+    (manifest_sha256, families): (Digest, &[String]),
+    options: &Options,
+) -> ShardRecord {
+    let cell_count = family.cell_count();
+    let range = options.division.range(cell_count);
+    let joint = |traced: &usize| family.template.joints[*traced].name.clone();
+    ShardRecord {
+        format: FORMAT,
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        manifest_sha256,
+        table: TableKind::Cells,
+        family: family.id.clone(),
+        families: families.to_vec(),
+        division: options.division,
+        first_cell: range.start + 1,
+        last_cell: range.end,
+        cell_count,
+        columns: Vec::new(),
+        top: options.top.clone(),
+        has_points: options.has_points,
+        rows: 0,
+        counts: Counts::default(),
+        joints: family.template.traced.iter().map(joint).collect(),
+        units: Default::default(),
+        manifest: planned.excerpt(),
+    }
+    .with_columns(&table::columns(family, TableKind::Cells))
+}
+
+impl ShardRecord {
+    /// The same with the names and units of columns.
+    fn with_columns(self, columns: &[TableColumn]) -> ShardRecord {
+        let named = columns.iter().filter(|column| !column.unit.is_empty());
+        ShardRecord {
+            columns: columns.iter().map(|column| column.name.clone()).collect(),
+            units: named.map(|column| (column.name.clone(), column.unit.to_owned())).collect(),
+            ..self
+        }
+    }
+}
+
+/// The part of a family in a shard.
+struct FamilyShard<'a> {
+    /// With the measures that the tables have.
+    family: &'a Family,
+    /// The expression of `top`; `None` also if the family lacks a name in it, so that it has no best.
+    by: Option<CompiledExpression>,
+    /// What the table of cells will say of itself, without counts.
+    record: ShardRecord,
+    folder: PathBuf,
+    options: &'a Options,
+}
+
+/// What solving some cells has made.
+struct Solved {
+    cells: Chunk,
+    points: Option<Chunk>,
+    counts: Counts,
+    cell_count: usize,
+}
+
+/// A curve of a family by cell, trace and circuit, each from 1.
+type Place = [u32; 3];
+
+impl FamilyShard<'_> {
+    fn write(&self, report: &mut dyn FnMut(Event)) -> Result<(), Error> {
+        let record = &self.record;
+        let path = |table| table_path(&self.folder, table, (record.division, record.cell_count), self.options.format);
+        let cells_path = path(TableKind::Cells);
+        let label = record.division.label(record.cell_count);
+        create_folder(&self.folder)?;
+        // Another run of this shard may be at work: what it writes is kept.
+        let lock = Lock::wait_for(self.folder.join(format!(".coupler-atlas-{label}.lock")))?;
+        if let Some(complete) = self.complete_record(&cells_path, &path(TableKind::Points))? {
+            report(Event::End { record: &complete, path: &cells_path, is_kept: true });
+            return Ok(());
+        }
+        if lock.is_exclusive() {
+            self.remove_temporary_files(&label);
+        }
+        let range = record.first_cell - 1..record.last_cell;
+        report(Event::Begin { family: &self.family.id, cells: range.len() });
+        let counts = match &self.by {
+            None if self.options.top.is_some() => {
+                self.write_tables(&CellIndices::Listed(Vec::new()), None, (&path, &label), report)?
+            }
+            None => self.write_tables(&CellIndices::Range(range), None, (&path, &label), report)?,
+            Some(by) => {
+                let (best, counts) = self.find_best(by, &CellIndices::Range(range), report)?;
+                let mut cells: Vec<u32> = best.iter().map(|place| place[0] - 1).collect();
+                cells.dedup();
+                let cells = CellIndices::Listed(cells);
+                let kept = self.write_tables(&cells, Some((&best, counts)), (&path, &label), &mut |_| {})?;
+                Counts { curves: kept.curves, points: kept.points, ..counts }
+            }
+        };
+        let complete = ShardRecord { counts, ..record.clone() };
+        report(Event::End { record: &complete, path: &cells_path, is_kept: false });
+        Ok(())
+    }
+
+    /// The record of the table of cells if the files are complete.
+    fn complete_record(&self, cells: &Path, points: &Path) -> Result<Option<ShardRecord>, Error> {
+        let mut paths = vec![(TableKind::Cells, cells)];
+        if self.options.has_points {
+            paths.push((TableKind::Points, points));
+        }
+        let mut complete = None;
+        for (table, path) in paths {
+            let expected = match table {
+                TableKind::Cells => self.record.clone(),
+                TableKind::Points => self.points_record(Counts::default()),
+            };
+            // A file that is not whole is replaced.
+            let Some(record) = read::recorded(path).filter(|_| !self.options.force) else { return Ok(None) };
+            if let Some(reason) = record.difference_from(&expected) {
+                return Err(Error::OtherShard { path: path.to_owned(), reason });
+            }
+            complete = complete.or(Some(record));
+        }
+        // A table of cells states whether there are points.
+        Ok(complete.filter(|record| record.has_points || !self.options.has_points))
+    }
+
+    fn points_record(&self, counts: Counts) -> ShardRecord {
+        let columns = table::columns(self.family, TableKind::Points);
+        ShardRecord { table: TableKind::Points, counts, ..self.record.clone() }.with_columns(&columns)
+    }
+
+    /// Removes the unfinished files of killed runs of this shard.
+    fn remove_temporary_files(&self, label: &str) {
+        let (begin, end) = temporary_affixes(label);
+        for entry in fs::read_dir(&self.folder).into_iter().flatten().flatten() {
+            if entry.file_name().to_str().is_some_and(|name| name.starts_with(&begin) && name.ends_with(end)) {
+                // A file that cannot be removed does no harm.
+                let _ = fs::remove_file(entry.path());
+            }
+        }
+    }
+
+    /// The groups in which cells are solved: as many cells as take a few megabytes.
+    fn groups<'g>(&self, cells: &'g CellIndices, measures: Option<&'g [bool]>) -> CellGroups<'g> {
+        const GROUP_BYTES: usize = 1 << 22;
+        const MOST_CELLS: usize = 64;
+        let size = (GROUP_BYTES / self.family.estimate_cell_bytes().max(1)).clamp(1, MOST_CELLS);
+        CellGroups { cells, first_group: 0, size, work_bytes: 0, requested_measures: measures, solve_known: None }
+    }
+
+    /// The best curves in order of cell, trace and circuit, and the counts of all cells. Only the measures that are needed for
+    /// it are computed.
+    fn find_best(
+        &self,
+        by: &CompiledExpression,
+        cells: &CellIndices,
+        report: &mut dyn FnMut(Event),
+    ) -> Result<(Vec<Place>, Counts), Error> {
+        let needed: Vec<bool> = (0..measure::ALL.len()).map(|k| self.family.expression_uses(by, k)).collect();
+        let most = self.options.top.as_ref().map_or(0, |top| top.count);
+        let rank = |_, solved: Vec<SolvedCell>| {
+            let mut ranked: Vec<(f64, Place)> = Vec::new();
+            for solved in &solved {
+                for curve in &solved.curves {
+                    let key = by.evaluate(|slot| Family::scope_value(&solved.cell, &curve.values, slot));
+                    ranked.push((key, [solved.cell.number, curve.trace, curve.circuit].map(|number| number as u32)));
+                }
+            }
+            (ranked, count(&solved), solved.len())
+        };
+        let (mut best, mut counts) = (Best::new(most), Counts::default());
+        sweep::process_groups(self.family, self.groups(cells, Some(&needed)), rank, |(ranked, counted, cells)| {
+            self.check_interrupt()?;
+            ranked.into_iter().for_each(|(key, place)| best.add(key, place));
+            counts.add(&counted);
+            report(Event::Cells(cells));
+            Ok::<(), Error>(())
+        })?;
+        let mut places: Vec<Place> = best.into_sorted().into_iter().map(|ranked| ranked.place).collect();
+        places.sort_unstable();
+        Ok((places, counts))
+    }
+
+    /// Writes the tables of some cells, if `best` is given only those curves, with the counts of all cells.
+    fn write_tables(
+        &self,
+        cells: &CellIndices,
+        best: Option<(&[Place], Counts)>,
+        (path, label): (&dyn Fn(TableKind) -> PathBuf, &str),
+        report: &mut dyn FnMut(Event),
+    ) -> Result<Counts, Error> {
+        let tables = [TableKind::Cells, TableKind::Points].map(|table| (table, table::columns(self.family, table)));
+        let maker = |k: usize| {
+            let (table, columns) = &tables[k];
+            RowMaker { family: self.family, table: *table, format: self.options.format, columns }
+        };
+        let (cell_maker, point_maker) = (maker(0), self.options.has_points.then(|| maker(1)));
+        let mut cell_table = TableWriter::new(path(TableKind::Cells), cell_maker, label)?;
+        let point_table = point_maker.map(|maker| TableWriter::new(path(TableKind::Points), maker, label));
+        let mut point_table = point_table.transpose()?;
+        let make = |_, mut solved: Vec<SolvedCell>| {
+            if let Some((best, _)) = best {
+                for solved in &mut solved {
+                    let cell = solved.cell.number;
+                    solved.curves.retain(|curve| {
+                        let place = [cell, curve.trace, curve.circuit].map(|number| number as u32);
+                        best.binary_search(&place).is_ok()
+                    });
+                }
+            }
+            Solved {
+                cells: cell_maker.rows(&solved),
+                points: point_maker.map(|maker| maker.rows(&solved)),
+                counts: count(&solved),
+                cell_count: solved.len(),
+            }
+        };
+        let mut counts = Counts::default();
+        sweep::process_groups(self.family, self.groups(cells, None), make, |solved| {
+            self.check_interrupt()?;
+            cell_table.append(solved.cells)?;
+            if let (Some(table), Some(points)) = (&mut point_table, solved.points) {
+                table.append(points)?;
+            }
+            counts.add(&solved.counts);
+            report(Event::Cells(solved.cell_count));
+            Ok::<(), Error>(())
+        })?;
+        let counts = match best {
+            Some((_, all)) => Counts { curves: counts.curves, points: counts.points, ..all },
+            None => counts,
+        };
+        // The shard is complete when its table of cells is there.
+        if let Some(table) = point_table {
+            table.commit(&self.points_record(counts))?;
+        }
+        cell_table.commit(&ShardRecord { counts, ..self.record.clone() })?;
+        Ok(counts)
+    }
+
+    fn check_interrupt(&self) -> Result<(), output::Error> {
+        if self.options.interrupt.load(Ordering::Relaxed) { Err(output::Error::Interrupted) } else { Ok(()) }
+    }
+}
+
+/// What cells come to.
+fn count(cells: &[SolvedCell]) -> Counts {
+    let mut counts = Counts::default();
+    for solved in cells {
+        if solved.is_left_out() {
+            counts.cells_left_out += 1;
+            continue;
+        }
+        counts.curves += solved.curves.len();
+        counts.curves_left_out += solved.left_out_count;
+        match solved.status() {
+            Status::Ok => {}
+            Status::Partial => counts.partly_assembled += 1,
+            Status::None => counts.not_assembled += 1,
+        }
+        counts.points += solved.curves.iter().map(|curve| solved.circuit(curve).len()).sum::<usize>();
+    }
+    counts
+}
