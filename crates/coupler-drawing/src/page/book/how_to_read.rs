@@ -223,6 +223,12 @@ fn collect_texts<'s>(items: &'s [Item], found: &mut Vec<&'s Text>) {
     }
 }
 
+/// The upper left and the lower right corner of a text.
+fn text_box(text: &Text) -> [Point; 2] {
+    let start = text.start();
+    [start + Vector::new(0.0, -0.75 * text.size), start + Vector::new(text.width(), 0.25 * text.size)]
+}
+
 /// The middle of the upper edge, and the ends of the baseline.
 fn text_corners(text: &Text) -> Vec<Point> {
     let start = text.start();
@@ -309,24 +315,33 @@ fn compose_plate(how: &HowToRead, atlas: &Atlas, shown: &[(&Part, Point)], optio
     root.record(&Drawing { class: "plate", title: String::new(), items });
     let radius = 1.1 * theme.source_size;
     let ink = theme.text_ink(theme.curve_ink(0));
+    let mut texts = Vec::new();
+    collect_texts(&how.plate.items, &mut texts);
+    // The corners of texts on the page.
+    let texts: Vec<[Point; 2]> =
+        texts.into_iter().map(|text| text_box(text).map(|corner| Point::from(corner.coords * scale + shift))).collect();
+    let covers = |centre: Point, [low, high]: &[Point; 2]| {
+        let nearest = Point::new(centre.x.clamp(low.x, high.x), centre.y.clamp(low.y, high.y));
+        (centre - nearest).norm() < 1.1 * radius
+    };
+    let edge = theme.border + 1.5 * radius;
     let mut placed: Vec<Point> = Vec::new();
     for (k, (part, anchor)) in shown.iter().enumerate() {
         let anchor = Point::from(anchor.coords * scale + shift);
         let direction = part.side.try_normalize(0.0).unwrap_or(Vector::new(0.0, -1.0));
-        // Out of the way of the numbers before it.
-        let mut centre = anchor + direction * (2.4 * radius);
-        for turn in 0..24 {
-            let is_free = |at: &Point| placed.iter().all(|other| (other - at).norm() > 2.3 * radius);
-            let is_inside = centre.x > shift.x + radius
-                && centre.x < shift.x + scale * plate.x - radius
-                && centre.y > shift.y + radius
-                && centre.y < shift.y + scale * plate.y - radius;
-            if is_free(&centre) && is_inside {
-                break;
-            }
-            let (cos, sin) = coupler_curves::geometry::trig::cos_sin_deg(45.0 * f64::from(turn));
-            centre = anchor + Vector::new(cos, sin) * (2.4 + f64::from(turn / 8)) * radius;
-        }
+        let around = |turn: u32| {
+            let (cos, sin) = coupler_curves::geometry::trig::cos_sin_deg(22.5 * f64::from(turn));
+            let turned = Vector::new(direction.x * cos - direction.y * sin, direction.x * sin + direction.y * cos);
+            anchor + turned * (2.4 + f64::from(turn / 16)) * radius
+        };
+        // Out of the way of the numbers before it, and of text.
+        let is_free = |at: &Point| {
+            placed.iter().all(|other| (other - at).norm() > 2.3 * radius)
+                && !texts.iter().any(|text| covers(*at, text))
+                && (edge..page.x - edge).contains(&at.x)
+                && (edge..page.y - edge).contains(&at.y)
+        };
+        let centre = (0..80).map(around).find(is_free).unwrap_or_else(|| around(0));
         placed.push(centre);
         draw_number(&root, (k + 1, anchor, centre), radius, ink, theme);
     }

@@ -116,6 +116,8 @@ impl Miniature {
             Emphasis::Axis => {
                 let axis = curve.symmetry.as_ref().and_then(|symmetry| symmetry.axis);
                 drawing.axis = axis.map(|axis| across(bounds, axis.point, axis.direction));
+                // No end is outside the frame, where text may be.
+                drawing.bounds = bounds.union(Bounds::from_points(drawing.axis.into_iter().flatten()));
             }
             Emphasis::Limits => drawing.add_limits(solved, curve),
         }
@@ -193,14 +195,20 @@ impl Miniature {
     }
 }
 
-/// The part of a line that crosses bounds, and a little more.
+/// The part of a line in bounds, and a little more.
 fn across(bounds: Bounds, through: Point, direction: Vector) -> [Point; 2] {
-    let corners =
-        [bounds.min, bounds.max, Point::new(bounds.min.x, bounds.max.y), Point::new(bounds.max.x, bounds.min.y)];
-    let along = corners.map(|corner| (corner - through).dot(&direction));
-    let [least, most] =
-        [along.into_iter().fold(f64::INFINITY, f64::min), along.into_iter().fold(-f64::INFINITY, f64::max)];
-    [through + direction * least, through + direction * most]
+    /// Of the greater extent of the bounds, how far the line goes beyond them.
+    const BEYOND: f64 = 0.06;
+    let beyond = BEYOND * bounds.size().max();
+    let mut ends = [f64::NEG_INFINITY, f64::INFINITY];
+    for k in 0..2 {
+        let to = [bounds.min[k] - beyond, bounds.max[k] + beyond].map(|side| (side - through[k]) / direction[k]);
+        // Along a side, the line meets none of the two.
+        if direction[k] != 0.0 {
+            ends = [ends[0].max(to[0].min(to[1])), ends[1].min(to[0].max(to[1]))];
+        }
+    }
+    ends.map(|end| through + direction * end)
 }
 
 /// Points of the portion of a curve from an input over a span of it, in degrees; `None` unless the circuit is one pass in
