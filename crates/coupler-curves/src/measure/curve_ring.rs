@@ -3,6 +3,7 @@
 use super::annulus::AlternatingPoints;
 use super::longest_near::{Constraint, Constraints, Contacts};
 use super::row::Row;
+use super::strip::min_max;
 use super::touching::{Contact, Levels, PortionPoints};
 use crate::geometry::{Point, Vector, cross};
 
@@ -145,9 +146,11 @@ impl<'a> CurveRings<'a> {
         let velocities = self.portion.end_velocities();
         let last = self.portion.last();
         let width = best.map_or(0.0, |group| 2.0 * group.half.abs());
-        let distances = self.portion.points.iter().map(|p| (p - centre).norm());
-        let [low, high] = distances.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], d| [l.min(d), h.max(d)]);
-        let Some(group) = best.filter(|_| high - low <= width * (1.0 + MOVED)) else {
+        let is_annulus = |_: &Group| {
+            let [low, high] = min_max(&self.portion.points, |p| (p - centre).norm_squared()).map(f64::sqrt);
+            high - low <= width * (1.0 + MOVED)
+        };
+        let Some(group) = best.filter(is_annulus) else {
             return Some(PortionRing {
                 centre: sampled.centre,
                 radius: sampled.radius,

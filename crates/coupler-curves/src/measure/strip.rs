@@ -159,7 +159,7 @@ pub(super) fn triangle_height([a, b, c]: [Point; 3]) -> f64 {
 }
 
 /// The least and the greatest value of a function of points.
-pub(super) fn min_max(points: &[Point], value_at: impl Fn(&Point) -> f64) -> [f64; 2] {
+pub(super) fn min_max<T>(points: &[T], value_at: impl Fn(&T) -> f64) -> [f64; 2] {
     // Four at a time, so that the compiler vectorizes the loop.
     let (mut low, mut high) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4]);
     let (fours, rest) = points.as_chunks::<4>();

@@ -1,6 +1,7 @@
 //! The points of portions of a curve, and where they touch a line or a circle.
 
 use super::row::Row;
+use super::strip::min_max;
 use crate::geometry::{Point, Vector};
 
 /// A family of parallel lines or concentric circles.
@@ -173,8 +174,7 @@ impl<'a> PortionPoints<'a> {
         self.heights.clear();
         self.heights.extend(points.iter().map(|&p| levels.height(p)));
         let heights = &self.heights;
-        let [low, high] =
-            heights.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &h| [low.min(h), high.max(h)]);
+        let [low, high] = min_max(heights, |height| *height);
         let near = NEAR * (high - low);
         let is_near = |k: usize| heights[k] >= high - near || heights[k] <= low + near;
         let is_extreme = |k: usize| (heights[k] - heights[k - 1]) * (heights[k + 1] - heights[k]) <= 0.0;
