@@ -1,6 +1,5 @@
 //! The page that the program writes, `index.html`.
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::io::Read;
 
@@ -86,32 +85,6 @@ fn the_page_has_the_kernel_and_is_small() {
     let packed = between(&page, "<script type=\"application/octet-stream\" id=\"kernel\">", "</script>");
     assert_eq!(packed, encode_base91(KERNEL));
     assert!(page.len() <= 1_000_000, "the page has {} bytes", page.len());
-}
-
-/// The modules become one script, in which each name is declared once at the top level.
-#[test]
-fn no_two_modules_declare_the_same_name() {
-    let mut declared: BTreeMap<&str, &str> = BTreeMap::new();
-    for script in SCRIPTS {
-        for line in script.text.lines() {
-            let line = line.strip_prefix("export ").unwrap_or(line);
-            let line = line.strip_prefix("async ").unwrap_or(line);
-            let Some((word, rest)) = line.split_once(' ') else { continue };
-            if !["function", "function*", "class", "const", "let"].contains(&word) {
-                continue;
-            }
-            // A pattern declares several names.
-            let is_pattern = rest.starts_with(['[', '{']);
-            let names = if is_pattern { rest.split(" = ").next().unwrap_or(rest) } else { rest };
-            let is_separator = |c: char| !c.is_alphanumeric() && c != '_' && c != '$';
-            let names = names.split(is_separator).filter(|name| !name.is_empty());
-            for name in names.take(if is_pattern { usize::MAX } else { 1 }) {
-                let other = declared.insert(name, script.name);
-                assert_eq!(other, None, "{name} is declared in {}, too", script.name);
-            }
-        }
-    }
-    assert!(declared.len() > 500, "{} names", declared.len());
 }
 
 #[test]
