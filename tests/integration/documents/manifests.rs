@@ -46,6 +46,7 @@ fn places() -> Vec<String> {
     let geared = "[[family]]\nid = \"g\"\nlinkage = \"geared-five-bar\"\n";
     vec![
         format!("{ATLAS}[page]\n@\n{FAMILY}"),
+        format!("{ATLAS}{FAMILY}[book]\n@\n"),
         format!("{ATLAS}{FAMILY}@\n"),
         format!("{ATLAS}{grid}grid = {{ p = @ }}\n"),
         format!("{ATLAS}{grid}grid = {{ k = @, p = 2 }}\n"),

@@ -51,6 +51,11 @@ export function curveCountOf(family, cell) {
   return curve - first;
 }
 
+/** A curve as an outline. @param {Family} family @returns {Outline} */
+export function curveOutline(family, curve) {
+  return { points: curvePoints(family, curve), closed: family.curves.closed[curve] === 1 };
+}
+
 /** The points of a curve, [x0, y0, x1, y1, …], accurate to 1/65535 of its extent. @param {Family} _ */
 export function curvePoints({ outlines }, curve) {
   const piece = outlines.ofCurve(curve);

@@ -1,6 +1,6 @@
 // Thumbnails of curves, from the stored points: SVG in the colours of the theme, for screen and print.
 
-import { curveBox, curvePoints } from "../data/family.js";
+import { curveBox, curveOutline } from "../data/family.js";
 import { placedData } from "../draw/path-data.js";
 import { boxOfPoints, fittedView } from "../draw/plane-view.js";
 import { s, setAttributes, thumbnailFrame } from "./dom.js";
@@ -35,6 +35,6 @@ export function thumbnail(family, curves, { width, height, plain = curves.length
  * @param {Family} family @param {number} curve @param {Pick<PageDrawing, "scale" | "origin">} view
  */
 export function curvePath(family, curve, { scale, origin: [x, y] }, grain) {
-  const [points, closed] = [curvePoints(family, curve), family.curves.closed[curve] === 1];
+  const { points, closed } = curveOutline(family, curve);
   return placedData(points, closed, { scale, x, y }, grain < 0.1 ? 3 : 1, grain);
 }

@@ -18,8 +18,8 @@ pub(super) fn rows<'a>(atlas: &'a Atlas, volume: &'a Volume, back_matter: &'a [B
     };
     let charts: Vec<Row> = (0..)
         .zip(charts_in(atlas, volume))
-        .filter(|(_, (_, chart))| !chart.title.is_empty())
-        .map(|(k, (_, chart))| plain(&chart.title, &chart.symbols, Target::Chart(k)))
+        .filter(|(_, chart)| !chart.title.is_empty())
+        .map(|(k, chart)| plain(&chart.title, &chart.symbols, Target::Chart(k)))
         .collect();
     if charts_in(atlas, volume).next().is_some() {
         rows.push(Row::Heading { text: CHARTS_TITLE.to_owned(), page: Some(Target::Chart(0)) });
@@ -70,10 +70,10 @@ pub(super) fn ways_to_find(atlas: &Atlas, volume: &Volume, back_matter: &[BackMa
     }
     let lists: Vec<String> = back_matter
         .iter()
-        .take(atlas.lists.len())
+        .filter(|part| !part.is_index)
         .map(|part| format!("{}, page {}", part.title, part.first_page))
         .collect();
-    if !lists.is_empty() && !atlas.lists.is_empty() {
+    if !lists.is_empty() {
         ways.push(format!(
             "By its use: the lists have the best curves of the whole book, each with a drawing, what is needed to choose, and its \
              page. {}.",
@@ -94,7 +94,7 @@ pub(super) fn ways_to_find(atlas: &Atlas, volume: &Volume, back_matter: &[BackMa
         ),
     };
     ways.push(by_dimensions);
-    if let Some(index) = back_matter.iter().find(|part| part.title == super::INDEX_TITLE) {
+    if let Some(index) = back_matter.iter().find(|part| part.is_index) {
         ways.push(format!(
             "By a measure: the index, page {}, has the linkages by straightness, transmission angle and symmetry.",
             index.first_page

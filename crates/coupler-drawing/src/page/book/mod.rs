@@ -97,6 +97,8 @@ pub struct Volume {
 /// A part of the back matter.
 struct BackMatter {
     title: String,
+    /// Whether it is the index, or else a list.
+    is_index: bool,
     /// The number of its first page in the atlas.
     first_page: usize,
     page_count: usize,
@@ -144,30 +146,28 @@ impl<'a> Atlas<'a> {
     /// The lists and the index, as far as they have pages.
     fn back_matter(&self, options: &Options) -> Vec<BackMatter> {
         let theme = options.theme.for_paper(options.paper);
-        let lists = self.lists.iter().map(|list| (list.title.clone(), list::page_count(list, self, options)));
-        let index = columns::page_count(&index::rows(self), options, &theme);
+        let lists = self.lists.iter().map(|list| (&*list.title, false, list::page_count(list, self, options)));
+        let index = (INDEX_TITLE, true, columns::page_count(&index::rows(self), options, &theme));
         let mut next = self.page_count() + 1;
-        let part = |(title, page_count): (String, usize)| {
-            let part = BackMatter { title, first_page: next, page_count };
+        let part = |(title, is_index, page_count): (&str, bool, usize)| {
+            let part = BackMatter { title: title.to_owned(), is_index, first_page: next, page_count };
             next += page_count;
             part
         };
-        let parts = lists.chain([(INDEX_TITLE.to_owned(), index)]).map(part);
+        let parts = lists.chain([index]).map(part);
         parts.filter(|part| part.page_count > 0).collect()
     }
 
     /// The marks of the thumb index.
-    fn all_tabs(&self, options: &Options) -> Vec<Tab> {
+    fn all_tabs(&self, back_matter: &[BackMatter]) -> Vec<Tab> {
         let mut tabs = self.tabs.clone();
         if tabs.is_empty() {
             return tabs;
         }
-        let back_matter = self.back_matter(options);
-        let tab = |part: &BackMatter, label: &str| Tab { label: label.to_owned(), first_page: part.first_page };
-        let (index, lists): (Vec<&BackMatter>, Vec<&BackMatter>) =
-            back_matter.iter().partition(|part| part.title == INDEX_TITLE);
-        tabs.extend(lists.first().map(|part| tab(part, "lists")));
-        tabs.extend(index.first().map(|part| tab(part, "index")));
+        for (is_index, label) in [(false, "lists"), (true, "index")] {
+            let first = back_matter.iter().find(|part| part.is_index == is_index);
+            tabs.extend(first.map(|part| Tab { label: label.to_owned(), first_page: part.first_page }));
+        }
         tabs
     }
 
@@ -222,12 +222,12 @@ fn places(atlas: &Atlas, volume: &Volume, contents: usize) -> Places {
 }
 
 /// The finding charts of a volume: those with a page in it.
-fn charts_in<'c>(atlas: &'c Atlas, volume: &'c Volume) -> impl Iterator<Item = (usize, &'c FindingChart)> {
+fn charts_in<'c>(atlas: &'c Atlas, volume: &'c Volume) -> impl Iterator<Item = &'c FindingChart> {
     let pages = volume.page_range();
-    let is_in_volume = move |(_, chart): &(usize, &FindingChart)| {
+    let is_in_volume = move |chart: &&FindingChart| {
         chart.cells.iter().flat_map(|cell| &cell.pages).any(|(_, page)| pages.contains(page))
     };
-    atlas.charts.iter().enumerate().filter(is_in_volume)
+    atlas.charts.iter().filter(is_in_volume)
 }
 
 /// Composes the front matter of a volume: the title page, two pages that say how plates are read, the contents and the
@@ -253,9 +253,9 @@ pub fn compose_front_matter(
     }
     pages.extend(contents);
     let link = |page| volume.page_index(page, places.front);
-    pages.extend(charts_in(atlas, volume).map(|(_, chart)| finding::compose(chart, atlas, link, options)));
+    pages.extend(charts_in(atlas, volume).map(|chart| finding::compose(chart, atlas, link, options)));
     let is_blank = pages.len() < places.front;
-    let tabs = atlas.all_tabs(options);
+    let tabs = atlas.all_tabs(&back_matter);
     for (index, page) in pages.iter_mut().enumerate() {
         draw_folio(page, page_number(volume, places.front, index), index, options);
         if index > 0 {
@@ -298,7 +298,7 @@ pub struct PageFinisher<'a> {
 impl<'a> PageFinisher<'a> {
     /// What is drawn on the pages of a volume, after `front` pages of front matter.
     pub fn new(atlas: &Atlas, volume: &'a Volume, front: usize, options: &'a Options) -> PageFinisher<'a> {
-        PageFinisher { volume, tabs: atlas.all_tabs(options), front, options }
+        PageFinisher { volume, tabs: atlas.all_tabs(&atlas.back_matter(options)), front, options }
     }
 
     /// Draws it on the page at an index of the file, from 0; the result is the label of the page.
@@ -328,7 +328,7 @@ pub fn outline(atlas: &Atlas, volume: &Volume, front: usize, options: &Options) 
         entries.push(entry("Contents", 1 + how_to_read));
     }
     let first_chart = places(atlas, volume, contents).charts;
-    let charts: Vec<&FindingChart> = charts_in(atlas, volume).map(|(_, chart)| chart).collect();
+    let charts: Vec<&FindingChart> = charts_in(atlas, volume).collect();
     if !charts.is_empty() {
         let titled = charts.iter().zip(first_chart..).filter(|(chart, _)| !chart.title.is_empty());
         let children = titled.map(|(chart, index)| entry(&chart.title, index)).collect();

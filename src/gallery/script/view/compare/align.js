@@ -1,6 +1,6 @@
 // Aligns curves with the first of them.
 
-import { curvePoints } from "../../data/family.js";
+import { curveOutline } from "../../data/family.js";
 import { boxOfPoints } from "../../draw/plane-view.js";
 import { identity, transformed } from "../../draw/similarity.js";
 import { bestFit, deviationInPlace } from "../../kernel/shape-search.js";
@@ -43,7 +43,7 @@ export function formatComparisonQuery(/** @type {ComparisonQuery} */ { view, ali
  * @param {Kernel | null} kernel @param {CurveOfFamily} first @param {CurveOfFamily} one
  */
 export function alignCurve(kernel, first, one, align) {
-  const [base, own] = [outlineOf(first), outlineOf(one)];
+  const [base, own] = [first, one].map(({ family, curve }) => curveOutline(family, curve));
   const isFitted = kernel && (align === "similar" || align === "mirrored");
   const found = isFitted ? bestFit(kernel, base, own, align === "mirrored") : null;
   const similarity = found?.similarity ?? boxAlignment(base.points, own.points, align);
@@ -51,10 +51,6 @@ export function alignCurve(kernel, first, one, align) {
   const points = transformed(similarity, own.points);
   const fit = found ?? (kernel && deviationInPlace(kernel, base, { points, closed }));
   return { points, closed, similarity, fit };
-}
-
-function outlineOf(/** @type {CurveOfFamily} */ { family, curve }) {
-  return { points: curvePoints(family, curve), closed: family.curves.closed[curve] === 1 };
 }
 
 /** The similarity that matches the centres of the bounding boxes and, for "size", their diagonals. */

@@ -1,6 +1,6 @@
 // Finds the curves of the atlas that are nearest to a path.
 
-import { curveKey, curvePoints } from "../../data/family.js";
+import { curveKey, curveOutline } from "../../data/family.js";
 import { needCurves } from "../../data/needs.js";
 import { searchedPath } from "../../shape/query-shape.js";
 import { ShapeSearch, WHOLE } from "../../kernel/shape-search.js";
@@ -84,5 +84,5 @@ function likeliest(/** @type {Candidate[]} */ candidates, most) {
 /** @returns {Promise<Outline>} */
 async function loadedOutline(/** @type {Family} */ family, curve) {
   await needCurves(family, [curve]);
-  return { points: curvePoints(family, curve), closed: family.curves.closed[curve] === 1 };
+  return curveOutline(family, curve);
 }

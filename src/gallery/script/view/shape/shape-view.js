@@ -1,6 +1,6 @@
 // The view that finds curves by shape.
 
-import { curvePoints } from "../../data/family.js";
+import { curveOutline } from "../../data/family.js";
 import { needCurveWithKey, needCurves } from "../../data/needs.js";
 import { queryShape } from "../../shape/query-shape.js";
 import { decodeShape, encodeShape } from "../../shape/encode.js";
@@ -137,7 +137,8 @@ export class ShapeView {
     const curve = await needCurveWithKey(family, key ?? "");
     if (curve === undefined) throw new Error(`There is no curve ${key} in the family ${id}.`);
     await needCurves(family, [curve]);
-    this.setShape(curvePoints(family, curve), family.curves.closed[curve] === 1);
+    const { points, closed } = curveOutline(family, curve);
+    this.setShape(points, closed);
   }
 
   setShape(/** @type {Float64Array} */ points, closed) {
