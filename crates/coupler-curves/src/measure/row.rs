@@ -28,6 +28,8 @@ pub(super) struct Row {
     pub cumulative_length: Vec<f64>,
     /// The place of each point of the first round, and the parameter from it to the next.
     places: Vec<(Place, f64)>,
+    /// The points of the first round at which there may be a corner; the ends of an open curve are none.
+    corners: Vec<usize>,
     /// Every point, every second, every fourth and so on, as far as they have been asked for.
     every_nth: [OnceCell<EveryNth>; Row::MAX_POINTS.ilog2() as usize + 1],
 }
@@ -46,8 +48,12 @@ impl Row {
         let parts = |length: f64| (length / spacing).ceil().max(2.0) as usize;
         let count = lengths.iter().map(|length| parts(*length)).sum::<usize>() + 1;
         let (mut places, mut travel) = (Vec::with_capacity(count), Vec::with_capacity(2 * count));
+        let mut corners = Vec::new();
         let mut before = 0.0;
         for (piece, length) in lengths.iter().enumerate() {
+            if curve.corners[piece] && (curve.is_closed || piece > 0) {
+                corners.push(places.len());
+            }
             let parts = parts(*length);
             let step = 2.0 / parts as f64;
             for part in 0..parts {
@@ -85,6 +91,7 @@ impl Row {
             is_closed: curve.is_closed,
             cumulative_length,
             places,
+            corners,
             every_nth: Default::default(),
         })
     }
@@ -134,6 +141,24 @@ impl Row {
     pub fn bounds(&self, [from, to]: [f64; 2]) -> [f64; 2] {
         let Limits { low, high, span } = self.limits();
         [from.max(low), to.min(high).min(from + span)]
+    }
+
+    /// The points strictly between two positions at which there may be a corner, in order; on a closed curve they may be
+    /// negative.
+    pub fn corners_between(&self, [from, to]: [f64; 2]) -> impl Iterator<Item = i64> + '_ {
+        let round = self.start_count as i64;
+        let rounds = if self.is_closed { from as i64 / round - 1..=to as i64 / round } else { 0..=0 };
+        let all = rounds.flat_map(move |k| self.corners.iter().map(move |corner| k * round + *corner as i64));
+        all.filter(move |corner| (*corner as f64) > from && (*corner as f64) < to)
+    }
+
+    /// The derivatives of the point with respect to the position before and after a corner.
+    pub fn velocities_at_corner(&self, corner: i64) -> [Vector; 2] {
+        let index = corner.rem_euclid(self.start_count as i64) as usize;
+        let [(before, before_step), (after, after_step)] =
+            [(index + self.start_count - 1) % self.start_count, index].map(|k| self.places[k]);
+        let arcs = &self.curve.arcs;
+        [arcs[before.piece].velocity(1.0) * before_step, arcs[after.piece].velocity(after.u) * after_step]
     }
 
     /// A point of the row; on a closed curve its index may be negative, on others the last is repeated.

@@ -13,13 +13,13 @@ pub(super) trait Levels {
     fn height_rates(&self, point: Point, velocity: Vector, acceleration: Vector) -> [f64; 2];
 }
 
-/// A point of a portion where the curve touches a line or a circle, or one of its ends.
+/// A point of a portion where the curve touches a line or a circle: an extreme, a corner or an end.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Contact {
     /// The index of the point in the portion.
     pub index: usize,
     point: Point,
-    /// The velocity and the acceleration there; `None` for an end.
+    /// The velocity and the acceleration there; `None` for an end or a corner, which stays where it is.
     rates: Option<[Vector; 2]>,
 }
 
@@ -64,7 +64,7 @@ fn vertex(levels: &impl Levels, point: Point, velocity: Vector, acceleration: Ve
     if step.is_finite() { step } else { 0.0 }
 }
 
-/// The points of portions of a row's curve near each other: the ends, and evenly spaced points between them.
+/// The points of portions of a row's curve near each other: the ends, evenly spaced points between them, and the corners.
 #[derive(Clone, Debug)]
 pub(super) struct PortionPoints<'a> {
     row: &'a Row,
@@ -75,11 +75,12 @@ pub(super) struct PortionPoints<'a> {
     all: Vec<Point>,
     /// The points of the portion.
     pub points: Vec<Point>,
-    /// Its ends, in units of the spacing, and the velocities there in them.
-    positions: [f64; 2],
+    /// Their positions, in units of the spacing.
+    positions: Vec<f64>,
+    /// The velocities at its ends, in these units.
     velocities: [Vector; 2],
-    /// The index of the first point between the ends.
-    begin: i64,
+    /// Those of its points that are corners, with the velocities before and after each.
+    corners: Vec<(usize, [Vector; 2])>,
     heights: Vec<f64>,
 }
 
@@ -95,29 +96,48 @@ impl<'a> PortionPoints<'a> {
             first: 0,
             all: Vec::new(),
             points: Vec::with_capacity(2 * count),
-            positions: [0.0; 2],
+            positions: Vec::with_capacity(2 * count),
             velocities: [Vector::zeros(); 2],
-            begin: 0,
+            corners: Vec::new(),
             heights: Vec::with_capacity(2 * count),
         }
     }
 
     /// Turns to the portion between two positions.
     pub fn turn_to(&mut self, ends: [f64; 2]) {
-        /// A point closer to an end than this part of the spacing says nothing that the end does not.
-        const TOO_CLOSE: f64 = 0.3;
-        self.positions = ends.map(|position| position / self.spacing);
-        let [from, to] = self.positions;
-        self.begin = (from + TOO_CLOSE).ceil() as i64;
-        let end = ((to - TOO_CLOSE).floor() as i64 + 1).max(self.begin);
-        self.prepare([self.begin, end]);
+        let [from, to] = ends.map(|position| position / self.spacing);
+        let begin = (from + TOO_CLOSE).ceil() as i64;
+        let end = ((to - TOO_CLOSE).floor() as i64 + 1).max(begin);
+        self.prepare([begin, end]);
         let [first, last] = ends.map(|position| self.row.point_and_velocity_at(position));
         self.velocities = [first.1, last.1].map(|velocity| velocity * self.spacing);
+        self.positions.clear();
+        self.positions.push(from);
+        self.positions.extend((begin..end).map(|k| k as f64));
+        self.positions.push(to);
         self.points.clear();
         self.points.push(first.0);
-        let [begin, end] = [self.begin, end].map(|k| (k - self.first) as usize);
+        let [begin, end] = [begin, end].map(|k| (k - self.first) as usize);
         self.points.extend_from_slice(&self.all[begin..end]);
         self.points.push(last.0);
+        self.insert_corners(ends);
+    }
+
+    /// Puts the corners between two positions among the points, in place of those that are too close to them.
+    fn insert_corners(&mut self, ends: [f64; 2]) {
+        self.corners.clear();
+        for corner in self.row.corners_between(ends) {
+            let position = corner as f64 / self.spacing;
+            // The ends stay.
+            let last = self.positions.len() - 1;
+            let inner = &self.positions[1..last];
+            let first = 1 + inner.partition_point(|other| *other < position - TOO_CLOSE);
+            let after = 1 + inner.partition_point(|other| *other <= position + TOO_CLOSE);
+            self.positions.splice(first..after, [position]);
+            self.points.splice(first..after, [self.row.nth_point(corner)]);
+            let velocities = self.row.velocities_at_corner(corner).map(|velocity| velocity * self.spacing);
+            self.corners.push((first, velocities));
+        }
     }
 
     /// Makes sure that there are the points from one index to before another.
@@ -160,62 +180,84 @@ impl<'a> PortionPoints<'a> {
         match index {
             0 => i64::MIN,
             k if k == self.last() => i64::MAX,
-            k => self.begin + k as i64,
+            k => self.positions[k] as i64,
         }
     }
 
-    /// Collects the ends and the points near which the curve touches the outer ones of the levels of the portion, or
-    /// nearly does, and those of given indices.
+    /// Collects the ends, the points near which the curve touches the outer ones of the levels of the portion, or nearly
+    /// does, and those of given indices, in the order of their indices.
     pub fn collect_contacts(&mut self, levels: &impl Levels, kept: &[usize], contacts: &mut Vec<Contact>) {
         /// An extreme is higher than the points next to it by less than this part of the range.
         const NEAR: f64 = 0.05;
-        let points = &self.points;
-        let last = points.len() - 1;
         self.heights.clear();
-        self.heights.extend(points.iter().map(|&p| levels.height(p)));
+        self.heights.extend(self.points.iter().map(|&p| levels.height(p)));
         let heights = &self.heights;
+        let last = self.last();
         let [low, high] = min_max(heights, |height| *height);
         let near = NEAR * (high - low);
         let is_near = |k: usize| heights[k] >= high - near || heights[k] <= low + near;
         let is_extreme = |k: usize| (heights[k] - heights[k - 1]) * (heights[k + 1] - heights[k]) <= 0.0;
-        let extreme = |index, at, rates, bounds| self.extreme(levels, index, at, rates, bounds);
-        // The distances of the ends from the points next to them; those of all others are 1.
-        let [from, to] = self.positions;
-        let gaps = [self.begin as f64 - from, to - (self.begin + last as i64 - 2) as f64];
-        // The extreme between an end and the point next to it, if neither is it.
-        let next_to_end = |end: usize, next: usize, at: f64, velocity: Vector, gap: f64| {
-            if last < 2 || !is_near(end) || is_extreme(next) {
-                return None;
-            }
-            let slope = (points[next] - points[end]) / gap;
-            let rate = |point: Point, velocity: Vector| levels.height_rates(point, velocity, Vector::zeros())[0];
-            let is_between = rate(points[end], velocity) * rate(points[next], slope * 2.0 - velocity) < 0.0;
-            let acceleration = (slope - velocity) * (2.0 / gap);
-            is_between.then(|| extreme(next, (at, points[end]), [velocity, acceleration], [gap.min(0.0), gap.max(0.0)]))
+        // The extreme between an end or a corner and the point next to it, if neither is it.
+        let beside = |end: usize, next: usize, velocity: Vector| {
+            let is_searched = next != 0 && next != last && is_near(end) && !is_extreme(next) && !self.is_corner(next);
+            if is_searched { self.extreme_beside(levels, (end, velocity), next) } else { None }
         };
+        let fixed = |index: usize| Contact { index, point: self.points[index], rates: None };
         contacts.clear();
-        contacts.push(Contact { index: 0, point: points[0], rates: None });
-        contacts.extend(next_to_end(0, 1, from, self.velocities[0], gaps[0]));
+        contacts.push(fixed(0));
+        contacts.extend(beside(0, 1, self.velocities[0]));
+        let mut corners = self.corners.iter().peekable();
         for k in 1..last {
-            let may_touch = is_extreme(k) && is_near(k);
+            let corner = corners.next_if(|(corner, _)| *corner == k);
+            let may_touch = is_near(k) && (corner.is_some() || is_extreme(k));
             if !may_touch && !kept.contains(&k) {
                 continue;
             }
-            // The parabola through the point and its neighbours.
-            let before = if k == 1 { gaps[0] } else { 1.0 };
-            let after = if k + 1 == last { gaps[1] } else { 1.0 };
-            let slopes = [(points[k] - points[k - 1]) / before, (points[k + 1] - points[k]) / after];
-            let acceleration = (slopes[1] - slopes[0]) * (2.0 / (before + after));
-            let velocity = (slopes[0] * after + slopes[1] * before) / (before + after);
-            let at = (self.begin + k as i64 - 1) as f64;
-            contacts.push(extreme(k, (at, points[k]), [velocity, acceleration], [-before, after]));
+            match corner {
+                Some((_, [before, after])) => {
+                    contacts.extend(beside(k, k - 1, *before));
+                    contacts.push(fixed(k));
+                    contacts.extend(beside(k, k + 1, *after));
+                }
+                None => contacts.push(self.extreme_near(levels, k)),
+            }
         }
-        contacts.extend(next_to_end(last, last.max(1) - 1, to, self.velocities[1], -gaps[1]));
-        contacts.push(Contact { index: last, point: points[last], rates: None });
+        contacts.extend(beside(last, last.max(1) - 1, self.velocities[1]));
+        contacts.push(fixed(last));
+    }
+
+    fn is_corner(&self, index: usize) -> bool {
+        self.corners.iter().any(|(corner, _)| *corner == index)
+    }
+
+    /// The extreme near a point, which is no corner, that the parabola through the point and its neighbours has.
+    fn extreme_near(&self, levels: &impl Levels, k: usize) -> Contact {
+        let (points, positions) = (&self.points, &self.positions);
+        let [before, after] = [k, k + 1].map(|k| positions[k] - positions[k - 1]);
+        let slopes = [(points[k] - points[k - 1]) / before, (points[k + 1] - points[k]) / after];
+        let acceleration = (slopes[1] - slopes[0]) * (2.0 / (before + after));
+        let velocity = (slopes[0] * after + slopes[1] * before) / (before + after);
+        let (contact, step) =
+            self.extreme(levels, k, (positions[k], points[k]), [velocity, acceleration], [-before, after]);
+        // Beyond a corner the curve is another.
+        let is_beyond = (step <= -before && self.is_corner(k - 1)) || (step >= after && self.is_corner(k + 1));
+        if is_beyond { Contact { index: k, point: points[k], rates: None } } else { contact }
+    }
+
+    /// The extreme between an end or a corner, at which the velocity is given, and the point next to it.
+    fn extreme_beside(&self, levels: &impl Levels, (end, velocity): (usize, Vector), next: usize) -> Option<Contact> {
+        let points = &self.points;
+        let gap = self.positions[next] - self.positions[end];
+        let slope = (points[next] - points[end]) / gap;
+        let rate = |point: Point, velocity: Vector| levels.height_rates(point, velocity, Vector::zeros())[0];
+        let is_between = rate(points[end], velocity) * rate(points[next], slope * 2.0 - velocity) < 0.0;
+        let acceleration = (slope - velocity) * (2.0 / gap);
+        let (at, bounds) = ((self.positions[end], points[end]), [gap.min(0.0), gap.max(0.0)]);
+        is_between.then(|| self.extreme(levels, next, at, [velocity, acceleration], bounds).0)
     }
 
     /// The extreme height near that of the parabola with a velocity and an acceleration at a position, by Newton's
-    /// method, to where the curve is as good as a parabola.
+    /// method, to where the curve is as good as a parabola; and how far from the position it is, between two bounds.
     fn extreme(
         &self,
         levels: &impl Levels,
@@ -223,7 +265,7 @@ impl<'a> PortionPoints<'a> {
         (at, point): (f64, Point),
         [velocity, acceleration]: [Vector; 2],
         [least, most]: [f64; 2],
-    ) -> Contact {
+    ) -> (Contact, f64) {
         const ROUNDS: usize = 6;
         const SMALL: f64 = 1e-3;
         let mut step = vertex(levels, point, velocity, acceleration).clamp(least, most);
@@ -233,10 +275,13 @@ impl<'a> PortionPoints<'a> {
             let rates = [velocity * self.spacing, acceleration * (self.spacing * self.spacing)];
             let next = (step + vertex(levels, point, rates[0], rates[1])).clamp(least, most);
             if (next - step).abs() < SMALL || round == ROUNDS {
-                return Contact { index, point, rates: Some(rates) };
+                return (Contact { index, point, rates: Some(rates) }, step);
             }
             step = next;
             round += 1;
         }
     }
 }
+
+/// A point closer to an end or a corner than this part of the spacing says nothing that these do not.
+const TOO_CLOSE: f64 = 0.3;

@@ -1,6 +1,7 @@
 //! Straight and circular portions against closed forms and brute force.
 
 use coupler_curves::geometry::{Point, trig};
+use coupler_curves::linkage::{Continuation, Linkage};
 use coupler_curves::measure::{StraightCriterion, TracedCurve, Value};
 use coupler_curves::motion::{Motion, Sampler, Sampling};
 
@@ -192,6 +193,39 @@ fn pins_dwell_during_the_whole_turn() {
     }
 }
 
+/// A change-point linkage whose motion keeps its branch, so that the curve has a corner.
+fn with_corner(lengths: [f64; 4], point: (f64, f64)) -> Linkage {
+    let mut linkage = four_bar(lengths, point);
+    linkage.motion_options.continuation = Continuation::Branch;
+    linkage.traced.drain(..2);
+    linkage
+}
+
+/// A corner between two samples bounds a straight portion: one that goes on beyond it must contain it.
+#[test]
+fn a_straight_portion_contains_the_corner_that_it_passes() {
+    let linkage = with_corner([3.5, 1.0, 4.0, 1.5], (0.0, -1.25));
+    let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(72)));
+    let curve = TracedCurve::new(&linkage, &motion, &motion.circuits[0], linkage.traced[0]);
+    let found = curve.straight().expect("a portion");
+    let dense = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(14_400)));
+    let circuit = &dense.circuits[0];
+    let is_passed = |input: f64| (input - found.start_input).rem_euclid(360.0) <= found.input_span;
+    let samples = circuit.inputs.iter().zip(circuit.points(linkage.traced[0]));
+    let passed: Vec<Point> = samples.filter(|(input, _)| is_passed(**input)).map(|(_, point)| point).collect();
+    let along = found.points[found.points.len() - 1] - found.points[0];
+    // The strip is the narrowest of those in nearly the same direction.
+    let width = |turn: i32| {
+        let turned = along + nalgebra::Vector2::new(-along.y, along.x) * (1e-6 * f64::from(turn));
+        let normal = nalgebra::Vector2::new(-turned.y, turned.x).normalize();
+        let heights = passed.iter().map(|point| normal.dot(&point.coords));
+        let [low, high] = heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], x| [l.min(x), h.max(x)]);
+        high - low
+    };
+    let width = (-2000..=2000).map(width).fold(f64::INFINITY, f64::min);
+    assert!(passed.len() > 100 && width <= 0.001 * found.length * 1.001, "{width} {found:?}");
+}
+
 /// The longest circular portion against every portion from sample to sample, by circles whose centres are searched for
 /// the narrowest ring.
 #[test]
@@ -201,8 +235,12 @@ fn no_circular_portion_spans_more_than_the_one_found() {
         let [low, high] = radii.fold([f64::INFINITY, 0.0f64], |[low, high], r| [low.min(r), high.max(r)]);
         high - low
     };
-    for id in ["hoeken", "jansen", "hrones-nelson"] {
-        let linkage = default_linkage(id);
+    let of_catalogue = ["hoeken", "jansen", "hrones-nelson"].map(|id| (id, default_linkage(id)));
+    let with_corner = [
+        ("a corner", with_corner([1.5, 1.0, 4.0, 3.5], (4.0, 0.25))),
+        ("another corner", with_corner([2.0, 1.0, 1.5, 2.5], (0.75, 0.25))),
+    ];
+    for (id, linkage) in of_catalogue.into_iter().chain(with_corner) {
         let samples = 90;
         let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(samples)));
         let curve = TracedCurve::new(&linkage, &motion, &motion.circuits[0], linkage.traced[0]);
