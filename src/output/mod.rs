@@ -81,6 +81,13 @@ pub enum Event<'a> {
         /// Whether it was written, because something in it has changed.
         is_drawn: bool,
     },
+    /// A chapter or a list of the book that the manifest has would be empty, and is left out.
+    EmptyBookPart {
+        /// "chapter" or "list".
+        kind: &'a str,
+        /// Its title.
+        title: &'a str,
+    },
     /// A cell could not be assembled, or not over the whole requested range.
     Shortfall {
         /// The family's id.

@@ -75,7 +75,10 @@ impl Sink for OutputSink<'_> {
             gallery_data: self.script.cells(solved),
             curve_count: solved.iter().map(|s| s.curves.len()).sum(),
             curves_left_out: solved.iter().map(|s| s.left_out_count).sum(),
-            surveyed: self.surveyor.map(|surveyor| surveyor.survey(solved)).unwrap_or_default(),
+            surveyed: self
+                .surveyor
+                .map(|surveyor| surveyor.survey(solved, &self.composer.captions))
+                .unwrap_or_default(),
             shortfalls: solved.iter().filter_map(shortfall).collect(),
             partly_assembled: solved.iter().filter(|s| s.status() == Status::Partial).count(),
         })

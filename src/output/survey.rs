@@ -5,6 +5,7 @@
 use std::collections::HashMap;
 
 use crate::manifest::{BookPlan, ListCriteria, PlannedFamily};
+use crate::pipeline::Captions;
 use coupler_curves::family::{Cell, Family};
 use coupler_curves::measure::Value;
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
@@ -71,18 +72,17 @@ impl<'a> Surveyor<'a> {
         Surveyor { planned, book, number }
     }
 
-    /// Surveys some cells.
-    pub fn survey(&self, solved: &[SolvedCell]) -> Vec<CellSurvey> {
-        solved.iter().map(|solved| self.survey_cell(solved)).collect()
+    /// Surveys some cells, which have these captions.
+    pub fn survey(&self, solved: &[SolvedCell], captions: &Captions) -> Vec<CellSurvey> {
+        solved.iter().map(|solved| self.survey_cell(solved, captions)).collect()
     }
 
-    fn survey_cell(&self, solved: &SolvedCell) -> CellSurvey {
-        let family = &self.planned.family;
+    fn survey_cell(&self, solved: &SolvedCell, captions: &Captions) -> CellSurvey {
         let cell = u32::try_from(solved.cell.number.saturating_sub(1)).unwrap_or(u32::MAX);
         let offsets = self.page_offsets(solved);
         let offset = |k: usize| offsets.get(k).copied().unwrap_or(0);
         let index_entry = self.book.index.then(|| {
-            let [caption, _] = family.format_captions(&solved.cell, solved.first_curve_values());
+            let [caption, _] = captions.of_cell(&solved.cell, solved.first_curve_values());
             IndexEntry::from_solved_cell(solved, &caption, offset)
         });
         let candidates = |list: &crate::manifest::PlannedList| {

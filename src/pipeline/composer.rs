@@ -3,8 +3,9 @@
 use std::cell::LazyCell;
 use std::rc::Rc;
 
+use super::Captions;
 use crate::manifest::{Plan, PlannedFamily};
-use coupler_curves::family::{CaptionParameter, Family};
+use coupler_curves::family::Family;
 use coupler_curves::linkage::FourBar;
 use coupler_curves::motion::Sampler;
 use coupler_curves::solve::{MovablePoint, SolvedCell, solve_cell};
@@ -43,16 +44,30 @@ pub struct Composer<'a> {
     pub page_count: usize,
     /// How the linkages of the family are built.
     key: Key,
-    /// The parameters that captions should show.
-    caption_parameters: Vec<CaptionParameter>,
+    /// The captions of its cells.
+    pub captions: Captions<'a>,
+    /// The title of its pages: that of the family, or of the chapter that they are in.
+    title: &'a str,
 }
 
 impl<'a> Composer<'a> {
     /// A composer of a family's pages.
     pub fn new(plan: &'a Plan, planned: &'a PlannedFamily, page_count: usize) -> Composer<'a> {
         let family = &planned.family;
-        let (key, caption_parameters) = (Key::new(family), family.caption_parameters());
-        Composer { plan, planned, page_count, key, caption_parameters }
+        Composer {
+            plan,
+            planned,
+            page_count,
+            key: Key::new(family),
+            captions: Captions::new(planned),
+            title: &family.title,
+        }
+    }
+
+    /// A composer of the pages of a chapter with its title.
+    #[cfg(feature = "pdf")]
+    pub fn with_title(&self, title: &'a str) -> Composer<'a> {
+        Composer { title, ..self.clone() }
     }
 
     /// What the pages of the family say of all its cells, which depends on all of them.
@@ -60,20 +75,11 @@ impl<'a> Composer<'a> {
         format!("{:?} {:?}", self.key.dimensions, self.planned.family.captions)
     }
 
-    /// The panel of a cell. A caption that the manifest or the linkage gives is completed by the parameters that it does not
-    /// show in full.
+    /// The panel of a cell.
     fn panel<'s>(&self, solved: &'s SolvedCell) -> Panel<'s> {
-        let PlannedFamily { family, automatic_caption, .. } = self.planned;
-        let cell = &solved.cell;
-        let [stated, note] = family.format_captions(cell, solved.first_curve_values());
-        let is_automatic = automatic_caption.is_some();
-        let is_missing = |parameter: &&CaptionParameter| is_automatic || !family.captions_show(cell, **parameter);
-        let missing = self.caption_parameters.iter().filter(is_missing);
-        let missing = missing.map(|parameter| family.caption_dimension(cell, *parameter).to_string());
-        let stated = (!is_automatic && !stated.is_empty()).then_some(stated);
-        let caption = stated.into_iter().chain(missing).collect::<Vec<_>>().join(", ");
+        let [caption, note] = self.captions.of_cell(&solved.cell, solved.first_curve_values());
         let panel = Panel::new(solved).with_caption(caption).with_note(note);
-        panel.with_facts(page::cell_facts(family, solved)).with_ghosts(self.planned.ghosts)
+        panel.with_facts(page::cell_facts(&self.planned.family, solved)).with_ghosts(self.planned.ghosts)
     }
 
     /// Composes a page of panels; pages are counted from 1.
@@ -175,8 +181,8 @@ impl<'a> Composer<'a> {
 
     fn heading(&self, page: usize, source: String) -> Heading<'_> {
         let &Composer { plan, planned, page_count, .. } = self;
-        let Family { id, title, names, .. } = &planned.family;
-        Heading::new(title)
+        let Family { id, names, .. } = &planned.family;
+        Heading::new(self.title)
             .with_family_id(id)
             .with_atlas_title(&plan.title)
             .with_source(source)

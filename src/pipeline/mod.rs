@@ -1,10 +1,12 @@
 //! Produces the tables and pages of a family in order: [`crate::output`] writes them, and [`crate::check`] compares
 //! them with recorded ones.
 
+mod captions;
 mod charts;
 mod composer;
 mod pagination;
 
+pub use captions::Captions;
 #[cfg(feature = "pdf")]
 pub use charts::build_chart;
 pub use composer::Composer;

@@ -127,48 +127,51 @@ static DEFAULT_LISTS: [DefaultList; 5] = [
     DefaultList {
         title: "Straight portions",
         note: "The longest straight portions, relative to the greatest extent of the curve; of curves that are not \
-               nearly circles.",
+               nearly circles, with transmission angles of 15° and more.",
         filter: "straight_share >= 0.2 and 4 * pi * abs(area) < 0.9 * length^2 and mu_worst_deg >= 15",
         sort: "-straight_share",
         caption: "straight over {straight_length:.3} ± {straight_deviation:.4} · {100 * straight_share:.0} % of the \
-                  extent · input {straight_start_deg:.0}° + {straight_input_deg:.0}° · μ ≥ {mu_worst_deg:.0}°",
+                  extent · input {straight_start_deg:.0}° + {straight_input_deg:.0}° · least μ {mu_worst_deg:.1}°",
     },
     DefaultList {
         title: "Dwells",
         note: "The circular portions that span the most input: a link as long as the radius, pivoted on the point, \
                rests with its other end. Of curves that are neither nearly circles nor thin crescents, which would \
-               hardly move it.",
+               hardly move it, with transmission angles of 15° and more.",
         filter: "dwell_input_deg >= 30 and 4 * pi * abs(area) < 0.9 * length^2 and \
                  4 * pi * abs(area) > 0.3 * length^2 and mu_worst_deg >= 15",
         sort: "-dwell_input_deg",
         caption: "dwell {dwell_input_deg:.0}° from {dwell_start_deg:.0}° of input · radius {dwell_radius:.3} ± \
-                  {dwell_deviation:.4} · μ ≥ {mu_worst_deg:.0}°",
+                  {dwell_deviation:.4} · centre {dwell_x:.3}, {dwell_y:.3} · least μ {mu_worst_deg:.1}°",
     },
     DefaultList {
         title: "Cusps",
         note: "Curves with a point so sharp that it is a cusp for all purposes: its radius of curvature is less than \
-               1/5000 of the length of the curve. The greatest transmission angle first; without thin crescents.",
+               1/5000 of the length of the curve. The greatest transmission angle first; without thin crescents, \
+               and angles below 15°.",
         filter: "(cusps > 0 or curvature_max * length > 5000) and \
                  4 * pi * abs(area) > 0.15 * length^2 and mu_worst_deg >= 15",
         sort: "-mu_worst_deg",
-        caption: "radius {1 / curvature_max:.5} · crunodes {crunodes:.0} · μ ≥ {mu_worst_deg:.0}°",
+        caption: "cusps {cusps:.0}, crunodes {crunodes:.0} · least μ {mu_worst_deg:.1}°",
     },
     DefaultList {
         title: "Symmetrical curves",
         note: "The curves that are most nearly symmetrical: the least deviation from the mirror image first. Of curves \
-               with inflections, cusps or crunodes, which excludes ovals, and without thin crescents.",
+               with inflections, cusps or crunodes, which excludes ovals, without thin crescents, and with \
+               transmission angles of 15° and more.",
         filter: "symmetry_residual < 0.01 and inflections + cusps + crunodes > 0 and \
                  4 * pi * abs(area) > 0.15 * length^2 and mu_worst_deg >= 15",
         sort: "symmetry_residual",
         caption: "deviation {100 * symmetry_residual:.3} % of the extent · axis at {symmetry_deg:.1}° · inflections \
-                  {inflections:.0}, crunodes {crunodes:.0} · μ ≥ {mu_worst_deg:.0}°",
+                  {inflections:.0}, crunodes {crunodes:.0} · least μ {mu_worst_deg:.1}°",
     },
     DefaultList {
         title: "Quick returns",
-        note: "The linkages with the greatest time ratios of their outputs, drawn at the limits of the output.",
+        note: "The linkages with the greatest time ratios of their outputs, drawn at the limits of the output, the least in \
+               black, with transmission angles of 15° and more.",
         filter: "time_ratio >= 1.1 and mu_worst_deg >= 15",
         sort: "-time_ratio",
-        caption: "time ratio {time_ratio:.3} · output from {output_min:.2} to {output_max:.2} · μ ≥ {mu_worst_deg:.0}°",
+        caption: "time ratio {time_ratio:.3} · output from {output_min:.2} to {output_max:.2} · least μ {mu_worst_deg:.1}°",
     },
 ];
 
@@ -194,7 +197,9 @@ pub(crate) fn read<'t>(
     let finding_charts = finding_charts(get("finding_charts"), families, parser);
     let chapters = match (&fields, get("chapter")) {
         (Some(fields), Some(_)) => {
-            tables(fields, "chapter", parser)?.iter().map(|value| chapter(value, families, parser)).collect()
+            let read: Vec<_> =
+                tables(fields, "chapter", parser)?.iter().map(|value| chapter(value, families, parser)).collect();
+            read.into_iter().collect()
         }
         _ => Some(vec![change_points(planned)]),
     };
@@ -256,6 +261,7 @@ impl Families<'_> {
 /// The tables of a list of tables, which are not too many.
 fn tables<'v, 't>(fields: &Fields<'v, 't>, key: &str, parser: &mut TomlParser<'t>) -> Option<&'v [TomlValue<'t>]> {
     let tables = fields.tables(key, parser);
+    report_repeated_titles(tables, key, parser);
     match tables.get(MAX_TABLES) {
         None => Some(tables),
         Some(first) => {
@@ -263,6 +269,63 @@ fn tables<'v, 't>(fields: &Fields<'v, 't>, key: &str, parser: &mut TomlParser<'t
             parser.report(Problem::error(first.span(), message).with_help("leave some out"));
             None
         }
+    }
+}
+
+/// The most characters of a title and of a note: more would not fit the contents, or the head of a page.
+const MAX_TITLE: usize = 120;
+const MAX_NOTE: usize = 600;
+
+/// The title of a chapter or a list, which is not blank.
+fn title<'t>(fields: &Fields<'_, 't>, example: &str, parser: &mut TomlParser<'t>) -> Option<String> {
+    let value = fields.required("title", example, parser)?;
+    let title = short_text(value, MAX_TITLE, parser)?;
+    if title.trim().is_empty() {
+        let problem = Problem::error(value.span(), "the title is blank");
+        parser.report(problem.with_help(format!("give one, as in {example}")));
+        return None;
+    }
+    Some(title)
+}
+
+/// A text of at most a number of characters.
+fn short_text<'t>(value: &TomlValue<'t>, most: usize, parser: &mut TomlParser<'t>) -> Option<String> {
+    let text = parser.text(value)?;
+    let count = text.chars().count();
+    if count > most {
+        let message = format!("the text has {count} characters, more than the limit of {most}");
+        parser.report(Problem::error(value.span(), message).with_help("shorten it"));
+        return None;
+    }
+    Some(text)
+}
+
+/// Reports tables with the title of one before them.
+fn report_repeated_titles<'t>(tables: &[TomlValue<'t>], noun: &str, parser: &mut TomlParser<'t>) {
+    let title_of = |table: &TomlValue<'t>| {
+        let title = table.get_ref().as_table()?.get("title")?;
+        Some((title.get_ref().as_str()?.to_owned(), title.span()))
+    };
+    let titles: Vec<_> = tables.iter().filter_map(title_of).collect();
+    for (k, (title, span)) in titles.iter().enumerate() {
+        if titles[..k].iter().any(|(earlier, _)| earlier == title) {
+            let problem = Problem::error(span.clone(), format!("another {noun} has the title `{title}`"));
+            parser.report(problem.with_help("give each a title of its own: contents and outline have no more"));
+        }
+    }
+}
+
+/// Warns of a table that applies to no family. An atlas without a book needs none.
+fn warn_if_none_applies<'t, T>(
+    found: &[Option<T>],
+    noun: &str,
+    value: &TomlValue<'t>,
+    families: Families,
+    parser: &mut TomlParser<'t>,
+) {
+    if found.iter().all(Option::is_none) && families.have_book() {
+        let problem = Problem::warning(value.span(), format!("no family has curves and the measures of this {noun}"));
+        parser.report(problem.with_help("name them in `measures` of a family, or leave its `measures` out"));
     }
 }
 
@@ -275,7 +338,11 @@ fn change_points(families: &[PlannedFamily]) -> PlannedChapter {
         let scope = scope(&planned.family);
         Expression::parse("is_change_point").ok()?.compile(&scope, Kind::Boolean).ok()
     };
-    PlannedChapter { title: CHANGE_POINTS.to_owned(), conditions: families.iter().map(condition).collect() }
+    PlannedChapter {
+        title: CHANGE_POINTS.to_owned(),
+        conditions: families.iter().map(condition).collect(),
+        is_given: false,
+    }
 }
 
 /// The names that expressions about the curves of a family may use.
@@ -310,6 +377,7 @@ fn default_list(default: &DefaultList, families: &[PlannedFamily]) -> Option<Pla
         per_geometry: DEFAULT_PER_GEOMETRY,
         emphasis: emphasis_of(Some(&sort), Some(&filter)),
         criteria,
+        is_given: false,
     })
 }
 
@@ -346,7 +414,7 @@ fn names_in(value: Option<&TomlValue>) -> Vec<String> {
 
 fn chapter<'t>(value: &TomlValue<'t>, families: Families, parser: &mut TomlParser<'t>) -> Option<PlannedChapter> {
     let fields = Fields::from_value(value, &CHAPTER, parser)?;
-    let title = fields.required_text("title", "title = \"change points\"", parser);
+    let title = title(&fields, "title = \"change points\"", parser);
     let condition = fields.required("where", "where = \"is_change_point\"", parser);
     let names = names_in(condition);
     let knows = |scope: &Scope| names.iter().all(|name| scope.index_of(name).is_some());
@@ -356,14 +424,15 @@ fn chapter<'t>(value: &TomlValue<'t>, families: Families, parser: &mut TomlParse
             Some((planned.chart.is_none() && computes(&planned.family, &condition)).then_some(condition))
         })
     });
-    let conditions = conditions?.into_iter().map(Option::flatten).collect();
-    Some(PlannedChapter { title: title?, conditions })
+    let conditions: Vec<Option<CompiledExpression>> = conditions?.into_iter().map(Option::flatten).collect();
+    warn_if_none_applies(&conditions, "chapter", value, families, parser);
+    Some(PlannedChapter { title: title?, conditions, is_given: true })
 }
 
 fn list<'t>(value: &TomlValue<'t>, families: Families, parser: &mut TomlParser<'t>) -> Option<PlannedList> {
     let fields = Fields::from_value(value, &LIST, parser)?;
-    let title = fields.required_text("title", "title = \"Straight portions\"", parser);
-    let note = fields.get("note").map_or(Some(String::new()), |value| parser.text(value));
+    let title = title(&fields, "title = \"Straight portions\"", parser);
+    let note = fields.get("note").map_or(Some(String::new()), |value| short_text(value, MAX_NOTE, parser));
     let mut number =
         |key: &str, default: usize| fields.get(key).map_or(Some(default), |value| parser.integer(value, 1, MAX_COUNT));
     let (count, per_geometry) = (number("count", DEFAULT_COUNT), number("per_geometry", DEFAULT_PER_GEOMETRY));
@@ -390,12 +459,9 @@ fn list<'t>(value: &TomlValue<'t>, families: Families, parser: &mut TomlParser<'
         Some(applies(planned, &criteria).then_some(criteria))
     });
     let criteria: Vec<Option<ListCriteria>> = criteria?.into_iter().map(Option::flatten).collect();
-    // An atlas without a book needs no list.
-    if criteria.iter().all(Option::is_none) && families.have_book() {
-        let problem = Problem::warning(value.span(), "no family has curves and the measures of this list");
-        parser.report(problem.with_help("name them in `measures` of a family, or leave its `measures` out"));
-    }
+    warn_if_none_applies(&criteria, "list", value, families, parser);
     let parsed = |value: &TomlValue| value.get_ref().as_str().and_then(|text| Expression::parse(text).ok());
     let emphasis = emphasis_of(parsed(sort).as_ref(), filter.and_then(parsed).as_ref());
-    Some(PlannedList { title: title?, note: note?, count: count?, per_geometry: per_geometry?, emphasis, criteria })
+    let (title, note, count, per_geometry) = (title?, note?, count?, per_geometry?);
+    Some(PlannedList { title, note, count, per_geometry, emphasis, criteria, is_given: true })
 }

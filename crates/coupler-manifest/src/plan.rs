@@ -73,6 +73,8 @@ pub struct PlannedChapter {
     pub title: String,
     /// The condition for each family, over [`Family::scope`]; `None` for a family that it does not apply to.
     pub conditions: Vec<Option<CompiledExpression>>,
+    /// Whether the manifest has it, so that one without cells is a mistake.
+    pub is_given: bool,
 }
 
 /// A list of the best curves of a book.
@@ -90,6 +92,8 @@ pub struct PlannedList {
     pub emphasis: Emphasis,
     /// The criteria for each family; `None` for a family that it does not apply to.
     pub criteria: Vec<Option<ListCriteria>>,
+    /// Whether the manifest has it, so that one without curves is a mistake.
+    pub is_given: bool,
 }
 
 /// Which curves of a family are in a list.

@@ -87,6 +87,14 @@ impl ProgressReporter {
                 let unchanged = if is_drawn { "" } else { " (unchanged)" };
                 lines.push_str(&format!("{files}: {}{unchanged}\n", pluralize(record.pages, "page")));
             }
+            Event::EmptyBookPart { kind, title } => {
+                let reason = match kind {
+                    "chapter" => "no cell meets its condition that is not in a chapter before it",
+                    _ => "no curve meets its condition and has a value of its sort key",
+                };
+                let message = format!("warning: the {kind} `{}` of the book is left out: {reason}\n", printable(title));
+                self.bar.suspend(|| print_stderr(&message));
+            }
             Event::UnusableRecord { record, error } => {
                 let (record, error) = (printable(record.display()), printable(error));
                 print_stderr(&format!(

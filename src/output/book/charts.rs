@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::super::{Error, Options, check_interrupt};
 use super::part::{BookFamily, FamilyPart};
 use crate::manifest::{FindingCharts, Plan};
-use crate::pipeline::{curves_by_page, measures_used_on_pages};
+use crate::pipeline::{Composer, curves_by_page, measures_used_on_pages};
 use coupler_curves::expression::round_to_six_digits;
 use coupler_curves::family::{Axis, ParameterSpace};
 use coupler_curves::motion::Sampler;
@@ -47,7 +47,7 @@ pub(super) fn finding_charts(
     (plan, options): (&Plan, &Options),
 ) -> Result<Vec<FindingChart>, Error> {
     let Some(family) = parts.first().map(|part| part.family) else { return Ok(Vec::new()) };
-    let planned = family.pipeline.composer.planned;
+    let Composer { planned, captions, .. } = &family.pipeline.composer;
     let axes: &[Axis] = if let ParameterSpace::Grid(axes) = &planned.family.space { axes } else { &[] };
     let varying: Vec<usize> = (0..axes.len()).filter(|&k| axes[k].values.len() > 1).collect();
     let varying = if varying.len() <= 3 { varying } else { Vec::new() };
@@ -115,7 +115,7 @@ pub(super) fn finding_charts(
         let cell = |(cell, place): (usize, [usize; 2])| FindingCell {
             place,
             label: match varying[..] {
-                [] => planned.family.format_captions(&planned.family.cell(cell), &[])[0].clone(),
+                [] => captions.of_cell(&planned.family.cell(cell), &[])[0].clone(),
                 [axis] => label(axis, grid.index(cell, axis)),
                 _ => String::new(),
             },

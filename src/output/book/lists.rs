@@ -48,6 +48,9 @@ pub(super) fn curve_lists(
 /// What is listed, and how many curves of a linkage.
 fn note(list: &PlannedList) -> String {
     const WORDS: [&str; 8] = ["two", "three", "four", "five", "six", "seven", "eight", "nine"];
+    if list.per_geometry >= list.count {
+        return [list.note.as_str(), &format!("At most {} in all.", list.count)].join(" ").trim().to_owned();
+    }
     let most = match list.per_geometry {
         1 if list.emphasis == Emphasis::Limits => "Each linkage once".to_owned(),
         1 => "The best curve of each linkage".to_owned(),
@@ -73,7 +76,7 @@ fn list_entry(
     let measured = (vec![curve.clone()], 0);
     let solved = solve::solve_measured(own, &sampler, candidate.cell as usize, measured)?;
     let drawing = Miniature::new(&solved, curve, list.emphasis);
-    let [caption, _] = own.format_captions(&solved.cell, &curve.values);
+    let [caption, _] = family.pipeline.composer.captions.of_cell(&solved.cell, &curve.values);
     let criteria = list.criteria.get(candidate.family)?.as_ref()?;
     let said = own.format_caption(&criteria.caption, &solved.cell, &curve.values);
     let mut lines: Vec<String> = said.split(" · ").map(str::to_owned).collect();
@@ -90,14 +93,13 @@ fn list_entry(
         lines.insert(lines.len().min(2), format!("lift {lift:.3}"));
     }
     let is_grid = planned.layout == Layout::CouplerGrid;
-    let noun = if is_grid { "point" } else { "curve" };
     // Pages with several figures number them.
     let figure = (!is_grid && planned.layout.cells_per_page() > 1).then_some(solved.cell.number);
     // The limits of the output are those of the linkage.
     let is_of_linkage = list.emphasis == Emphasis::Limits;
     let has_many = solved.linkage.traced.len() > 1 && !is_of_linkage;
     let has_circuits = solved.motion.circuits.len() > 1;
-    let which = has_many.then(|| format!("{noun} {}", curve.trace));
+    let which = has_many.then(|| format!("{} {}", planned.layout.curve_noun(), curve.trace));
     let circuit = has_circuits.then(|| format!("circuit {}", curve.circuit));
     let which: Vec<String> = which.into_iter().chain(circuit).collect();
     Some(ListEntry {

@@ -13,7 +13,7 @@ use super::inputs::Inputs;
 use super::journal::{Journal, JournalFile};
 use super::survey::{CellSurvey, FamilySurvey, Surveyor};
 use super::{Error, Event, Options, check_interrupt, files, previous_run};
-use crate::manifest::{FindingCharts, Plan, PlannedFamily};
+use crate::manifest::{BookPlan, FindingCharts, Plan, PlannedFamily};
 use crate::pipeline::{Composer, FamilyPipeline, curves_by_page, measures_used_on_pages};
 use crate::record::{BookRecord, Digest, FileRecord};
 use crate::sweep::{self, CellGroups};
@@ -173,7 +173,7 @@ fn survey_family(
     };
     let work = |_, solved: Vec<SolvedCell>| {
         check_interrupt(&options.interrupt)?;
-        Ok(surveyor.survey(&solved))
+        Ok(surveyor.survey(&solved, &pipeline.composer.captions))
     };
     sweep::process_groups(&planned.family, groups, work, |surveyed: Result<Vec<CellSurvey>, Error>| {
         survey.add(surveyed?, &plan.book);
@@ -200,6 +200,9 @@ fn write_volumes(
     report(Event::Begin { family: "book", pages: page_count });
     let selected: Vec<&PlannedFamily> = families.iter().map(|family| family.pipeline.composer.planned).collect();
     let atlas = atlas(plan, families, &parts, options)?;
+    if options.only.is_empty() {
+        report_empty_parts(&plan.book, families, &atlas, report);
+    }
     let first = families.iter().find(|family| family.pipeline.composer.planned.chart.is_none()).and_then(first_cell);
     let frontispiece = first.as_ref().map(|(composer, solved)| composer.frontispiece(solved));
     let volumes = atlas.volumes(plan.volume_pages.min(max_volume_pages(&selected)), &plan.page);
@@ -264,6 +267,22 @@ fn atlas<'a>(
         atlas.how_to_read = how_to_read(plan, parts);
     }
     Ok(atlas)
+}
+
+/// Reports the chapters and lists of the manifest that would be empty.
+fn report_empty_parts(book: &BookPlan, families: &[BookFamily], atlas: &Atlas, report: &mut dyn FnMut(Event)) {
+    for (k, chapter) in book.chapters.iter().enumerate().filter(|(_, chapter)| chapter.is_given) {
+        let has_cells = |family: &BookFamily| family.survey.chapters.values().any(|own| *own == k);
+        // That one applies to no family has been reported with the manifest.
+        if chapter.conditions.iter().any(Option::is_some) && !families.iter().any(has_cells) {
+            report(Event::EmptyBookPart { kind: "chapter", title: &chapter.title });
+        }
+    }
+    for list in book.lists.iter().filter(|list| list.is_given && list.criteria.iter().any(Option::is_some)) {
+        if atlas.lists.iter().all(|found| found.title != list.title) {
+            report(Event::EmptyBookPart { kind: "list", title: &list.title });
+        }
+    }
 }
 
 /// The most marks of a thumb index, without lists and index: more are too small to be found.

@@ -71,7 +71,7 @@ pub(super) fn family_parts<'a>(
         let chapter = cell.and_then(|cell| survey.chapters.get(&cell)).map_or(0, |chapter| chapter + 1);
         groups[chapter].push(position);
     }
-    if groups.iter().filter(|group| !group.is_empty()).count() < 2 {
+    if groups[1..].iter().all(Vec::is_empty) {
         return vec![FamilyPart {
             family,
             title: title.clone(),
@@ -131,11 +131,11 @@ impl<'a> FamilyPart<'a> {
 
     /// The chapter as the contents list it.
     pub fn chapter(&self) -> Chapter<'_> {
-        let FamilyPipeline { composer: Composer { planned, .. }, arrangement, .. } = &self.family.pipeline;
+        let FamilyPipeline { composer: Composer { planned, captions, .. }, arrangement, .. } = &self.family.pipeline;
         let family = &planned.family;
         let cell = |(k, cell): (usize, usize)| {
             // The values of measures are not known yet.
-            let [caption, _] = family.format_captions(&family.cell(cell), &[]);
+            let [caption, _] = captions.of_cell(&family.cell(cell), &[]);
             CellEntry { caption, page: self.first_page(k) }
         };
         let cells = if planned.chart.is_none() { self.cells.iter().enumerate().map(cell).collect() } else { vec![] };
@@ -145,6 +145,7 @@ impl<'a> FamilyPart<'a> {
         Chapter {
             title: &self.title,
             symbols: &family.names,
+            curve_noun: planned.layout.curve_noun(),
             curve_count: is_counted.then(|| self.positions.iter().map(count).sum()),
             page_count: self.page_count(),
             cells,
@@ -207,6 +208,7 @@ impl FamilyPart<'_> {
         add_pages: &mut dyn FnMut(Vec<Scene>) -> Result<(), Error>,
     ) -> Result<(), Error> {
         let FamilyPipeline { composer, arrangement, pagination } = &self.family.pipeline;
+        let composer = &composer.with_title(&self.title);
         let family = &composer.planned.family;
         let (interrupt, chart) = (&*options.interrupt, &composer.planned.chart);
         let measures = measures_used_on_pages(composer.planned);

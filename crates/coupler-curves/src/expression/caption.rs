@@ -129,7 +129,8 @@ fn parse_value(text: &str, start: usize, end: usize) -> Result<Piece, Error> {
     let (source, decimals) = match inner.rfind(':') {
         None => (inner, None),
         Some(colon) => {
-            let invalid = || Error::new(start + colon..end, "invalid number format", "write two decimals as `{x:.2}`");
+            let help = "write two decimals as `{x:.2}`; there are at most 17";
+            let invalid = || Error::new(start + colon..end, "invalid number format", help);
             let digits = inner[colon + 1..].strip_prefix('.').ok_or_else(invalid)?;
             // Seventeen decimals distinguish any two numbers near 1.
             let n = digits.parse().ok().filter(|&n: &usize| n <= 17).ok_or_else(invalid)?;

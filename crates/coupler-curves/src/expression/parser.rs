@@ -71,7 +71,11 @@ impl<'a> Parser<'a> {
         let parser =
             Parser { text, tokens: tokenize(text)?, position: 0, depth: 0, expression, name_indices: HashMap::new() };
         match parser.peek() {
-            (Token::End, span) => Err(Error::new(span, "the expression is empty", "give a number or an expression")),
+            (Token::End, span) => Err(Error::new(
+                span,
+                "the expression is empty",
+                "give a number, an expression or, for `where`, a condition",
+            )),
             _ => Ok(parser),
         }
     }

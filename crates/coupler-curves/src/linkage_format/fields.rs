@@ -45,7 +45,11 @@ impl<'v, 't> Fields<'v, 't> {
                 Some(Fields { table, span: value.span(), display_name: display_name.to_owned(), schema: None })
             }
             _ => {
-                parser.report_mismatch(value, "a table", "write it like { key = value }");
+                let help = match display_name.starts_with('[') {
+                    true => format!("write it under {display_name}, once"),
+                    false => "write it like { key = value }".to_owned(),
+                };
+                parser.report_mismatch(value, "a table", &help);
                 None
             }
         }
@@ -92,7 +96,9 @@ impl<'v, 't> Fields<'v, 't> {
             None => &[],
             Some((_, DeValue::Array(tables))) => tables,
             Some((value, _)) => {
-                parser.report_mismatch(value, "a list of tables", &format!("write it as [[{key}]]"));
+                let parent = self.display_name.strip_prefix('[').and_then(|name| name.strip_suffix(']'));
+                let path = parent.map_or(key.to_owned(), |parent| format!("{parent}.{key}"));
+                parser.report_mismatch(value, "a list of tables", &format!("write it as [[{path}]]"));
                 &[]
             }
         }

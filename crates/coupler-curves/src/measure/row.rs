@@ -145,11 +145,21 @@ impl Row {
 
     /// The points strictly between two positions at which there may be a corner, in order; on a closed curve they may be
     /// negative.
-    pub fn corners_between(&self, [from, to]: [f64; 2]) -> impl Iterator<Item = i64> + '_ {
+    pub fn corners_between(&self, [from, to]: [f64; 2]) -> Vec<i64> {
+        let mut found = Vec::new();
+        if self.corners.is_empty() {
+            return found;
+        }
         let round = self.start_count as i64;
         let rounds = if self.is_closed { from as i64 / round - 1..=to as i64 / round } else { 0..=0 };
-        let all = rounds.flat_map(move |k| self.corners.iter().map(move |corner| k * round + *corner as i64));
-        all.filter(move |corner| (*corner as f64) > from && (*corner as f64) < to)
+        for first in rounds.map(|k| k * round) {
+            for corner in self.corners.iter().map(|corner| first + *corner as i64) {
+                if from < corner as f64 && (corner as f64) < to {
+                    found.push(corner);
+                }
+            }
+        }
+        found
     }
 
     /// The derivatives of the point with respect to the position before and after a corner.

@@ -9,6 +9,12 @@ pub(super) trait Levels {
     /// The height of a point: which line or circle it is on.
     fn height(&self, point: Point) -> f64;
 
+    /// Replaces `heights` with those of points.
+    fn collect_heights(&self, points: &[Point], heights: &mut Vec<f64>) {
+        heights.clear();
+        heights.extend(points.iter().map(|point| self.height(*point)));
+    }
+
     /// The first and the second derivative of the height of a moving point, from its velocity and its acceleration.
     fn height_rates(&self, point: Point, velocity: Vector, acceleration: Vector) -> [f64; 2];
 }
@@ -25,14 +31,14 @@ pub(super) struct Contact {
 
 impl Contact {
     /// The point, moved to where the curve touches one of the levels.
-    pub fn touching(&self, levels: &impl Levels) -> Point {
+    pub fn touching(&self, levels: &dyn Levels) -> Point {
         let Some([velocity, acceleration]) = self.rates else { return self.point };
         let step = self.step(levels);
         self.point + velocity * step + acceleration * (step * step / 2.0)
     }
 
     /// The height of the level that the curve touches.
-    pub fn height(&self, levels: &impl Levels) -> f64 {
+    pub fn height(&self, levels: &dyn Levels) -> f64 {
         let height = levels.height(self.point);
         let Some([velocity, acceleration]) = self.rates else { return height };
         // The height of the vertex of a parabola is that of its tangent halfway to it.
@@ -41,13 +47,13 @@ impl Contact {
 
     /// Whether the curve is as good as a parabola up to where it touches one of the levels. It is not where it is so flat
     /// that the place moves far as the levels turn.
-    pub fn is_close(&self, levels: &impl Levels) -> bool {
+    pub fn is_close(&self, levels: &dyn Levels) -> bool {
         let step = |[velocity, acceleration]: [Vector; 2]| vertex(levels, self.point, velocity, acceleration);
         self.rates.is_none_or(|rates| step(rates).abs() < CLOSE)
     }
 
     /// How far it is to where the curve touches one of the levels; 0 if it is not near.
-    fn step(&self, levels: &impl Levels) -> f64 {
+    fn step(&self, levels: &dyn Levels) -> f64 {
         let Some([velocity, acceleration]) = self.rates else { return 0.0 };
         let step = vertex(levels, self.point, velocity, acceleration);
         if step.abs() <= 1.0 { step } else { 0.0 }
@@ -58,7 +64,7 @@ impl Contact {
 const CLOSE: f64 = 0.02;
 
 /// How far it is to where the height of a moving point is stationary.
-fn vertex(levels: &impl Levels, point: Point, velocity: Vector, acceleration: Vector) -> f64 {
+fn vertex(levels: &dyn Levels, point: Point, velocity: Vector, acceleration: Vector) -> f64 {
     let [first, second] = levels.height_rates(point, velocity, acceleration);
     let step = -first / second;
     if step.is_finite() { step } else { 0.0 }
@@ -133,8 +139,10 @@ impl<'a> PortionPoints<'a> {
             let inner = &self.positions[1..last];
             let first = 1 + inner.partition_point(|other| *other < position - TOO_CLOSE);
             let after = 1 + inner.partition_point(|other| *other <= position + TOO_CLOSE);
-            self.positions.splice(first..after, [position]);
-            self.points.splice(first..after, [self.row.nth_point(corner)]);
+            self.positions.drain(first..after);
+            self.positions.insert(first, position);
+            self.points.drain(first..after);
+            self.points.insert(first, self.row.nth_point(corner));
             let velocities = self.row.velocities_at_corner(corner).map(|velocity| velocity * self.spacing);
             self.corners.push((first, velocities));
         }
@@ -186,11 +194,10 @@ impl<'a> PortionPoints<'a> {
 
     /// Collects the ends, the points near which the curve touches the outer ones of the levels of the portion, or nearly
     /// does, and those of given indices, in the order of their indices.
-    pub fn collect_contacts(&mut self, levels: &impl Levels, kept: &[usize], contacts: &mut Vec<Contact>) {
+    pub fn collect_contacts(&mut self, levels: &dyn Levels, kept: &[usize], contacts: &mut Vec<Contact>) {
         /// An extreme is higher than the points next to it by less than this part of the range.
         const NEAR: f64 = 0.05;
-        self.heights.clear();
-        self.heights.extend(self.points.iter().map(|&p| levels.height(p)));
+        levels.collect_heights(&self.points, &mut self.heights);
         let heights = &self.heights;
         let last = self.last();
         let [low, high] = min_max(heights, |height| *height);
@@ -231,7 +238,7 @@ impl<'a> PortionPoints<'a> {
     }
 
     /// The extreme near a point, which is no corner, that the parabola through the point and its neighbours has.
-    fn extreme_near(&self, levels: &impl Levels, k: usize) -> Contact {
+    fn extreme_near(&self, levels: &dyn Levels, k: usize) -> Contact {
         let (points, positions) = (&self.points, &self.positions);
         let [before, after] = [k, k + 1].map(|k| positions[k] - positions[k - 1]);
         let slopes = [(points[k] - points[k - 1]) / before, (points[k + 1] - points[k]) / after];
@@ -245,7 +252,7 @@ impl<'a> PortionPoints<'a> {
     }
 
     /// The extreme between an end or a corner, at which the velocity is given, and the point next to it.
-    fn extreme_beside(&self, levels: &impl Levels, (end, velocity): (usize, Vector), next: usize) -> Option<Contact> {
+    fn extreme_beside(&self, levels: &dyn Levels, (end, velocity): (usize, Vector), next: usize) -> Option<Contact> {
         let points = &self.points;
         let gap = self.positions[next] - self.positions[end];
         let slope = (points[next] - points[end]) / gap;
@@ -260,7 +267,7 @@ impl<'a> PortionPoints<'a> {
     /// method, to where the curve is as good as a parabola; and how far from the position it is, between two bounds.
     fn extreme(
         &self,
-        levels: &impl Levels,
+        levels: &dyn Levels,
         index: usize,
         (at, point): (f64, Point),
         [velocity, acceleration]: [Vector; 2],

@@ -133,6 +133,11 @@ impl Layout {
         PAGE_MEASURES.iter().chain(further).copied()
     }
 
+    /// What pages call the curves of a linkage that have numbers.
+    pub fn curve_noun(self) -> &'static str {
+        if self == Layout::CouplerGrid { "point" } else { "curve" }
+    }
+
     /// The number of panels or charts on a page.
     pub fn cells_per_page(self) -> usize {
         let [columns, rows] = self.grid();

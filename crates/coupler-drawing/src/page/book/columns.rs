@@ -79,8 +79,8 @@ pub(super) struct Entry<'a> {
     pub symbols: &'a [String],
     /// The measured value; may be empty.
     pub value: String,
-    /// The number of the measured curve, if the geometry has several.
-    pub curve: Option<usize>,
+    /// What the measured curve is called, and its number, if the geometry has several.
+    pub curve: Option<(&'static str, usize)>,
     pub page: Target,
 }
 
@@ -98,7 +98,7 @@ impl Entry<'_> {
     }
 
     fn curve_label(&self) -> String {
-        self.curve.map_or(String::new(), |curve| format!("curve {curve}"))
+        self.curve.map_or(String::new(), |(noun, number)| format!("{noun} {number}"))
     }
 }
 

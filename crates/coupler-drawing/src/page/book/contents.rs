@@ -75,8 +75,8 @@ pub(super) fn ways_to_find(atlas: &Atlas, volume: &Volume, back_matter: &[BackMa
         .collect();
     if !lists.is_empty() {
         ways.push(format!(
-            "By its use: the lists have the best curves of the whole book, each with a drawing, what is needed to choose, and its \
-             page. {}.",
+            "By its use: the lists have the best curves of the whole book by one measure, of those that the note under the title of \
+             each admits, with a drawing, what is needed to choose, and their pages. {}.",
             lists.join("; ")
         ));
     }

@@ -101,7 +101,7 @@ impl<'a> Section<'a> {
                 symbols: chapter.map_or(&[], |chapter| chapter.symbols),
                 // Adding 0 removes the sign of a negative zero.
                 value: format!("{:.decimals$}{unit}", (fine * scale * best.value).round() / fine + 0.0),
-                curve: best.curve,
+                curve: chapter.zip(best.curve).map(|(chapter, number)| (chapter.curve_noun, number)),
                 page: Target::Page(best.page),
             })
         }));

@@ -62,6 +62,8 @@ pub struct Chapter<'a> {
     pub title: &'a str,
     /// The names of parameters, set in italics.
     pub symbols: &'a [String],
+    /// What numbered curves are called, "point" or "curve".
+    pub curve_noun: &'static str,
     /// The number of curves, if it is known.
     pub curve_count: Option<usize>,
     /// The number of pages.

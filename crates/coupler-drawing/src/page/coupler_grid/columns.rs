@@ -162,7 +162,11 @@ pub(super) fn column_groups(
         ColumnGroup::new("", [("along", coordinate(0)), ("across", coordinate(1))], theme),
         ColumnGroup::new(
             straight_title(page.straight_criterion),
-            [("length", lengths("straight_length")), ("over", inputs("straight_input_deg"))],
+            [
+                ("length", lengths("straight_length")),
+                ("from", inputs("straight_start_deg")),
+                ("over", inputs("straight_input_deg")),
+            ],
             theme,
         ),
         ColumnGroup::new(
@@ -172,7 +176,11 @@ pub(super) fn column_groups(
         ),
         ColumnGroup::new(
             DWELL_TITLE,
-            [("radius", lengths("dwell_radius")), ("over", inputs("dwell_input_deg"))],
+            [
+                ("radius", lengths("dwell_radius")),
+                ("from", inputs("dwell_start_deg")),
+                ("over", inputs("dwell_input_deg")),
+            ],
             theme,
         ),
         ColumnGroup::new("", [("cusps", counts("cusps"))], theme),

@@ -94,8 +94,11 @@ pub(super) fn compose(scene: &mut Scene, page: &CouplerGridPage, options: &Optio
     match posed_mechanism(&page.panel) {
         Some(mechanism) => {
             let figure_theme = with_legible_notes(theme, MIN_TEXT_SIZE / Theme::SMALL_PART, size.min() / MIN_LINES);
-            draw_figure(&root, figure, page, &mechanism, &shown, options, &figure_theme);
-            let panel = footer::draw_symbols(&root, panel, &page_symbols(page, &shown, options, theme), panel_theme);
+            let plot = draw_figure(&root, figure, page, &mechanism, &shown, options, &figure_theme);
+            // A scale that is common to all pages is stated as it is on this one.
+            let scale = common_scale(page).map(|_| plot.page_from_plane.scale);
+            let symbols = page_symbols(page, &shown, scale, options, theme);
+            let panel = footer::draw_symbols(&root, panel, &symbols, panel_theme);
             draw_panel(&root, panel, page, (&mechanism, &shown), panel_theme);
         }
         None => {
@@ -149,8 +152,14 @@ fn posed_mechanism<'a>(panel: &'a Panel) -> Option<PosedMechanism<'a>> {
     Some(PosedMechanism::new(&solved.linkage, mechanism, pose))
 }
 
-/// The symbols of the figure.
-fn page_symbols(page: &CouplerGridPage, shown: &[ShownCurve], options: &Options, theme: &Theme) -> Vec<Symbol> {
+/// The symbols of the figure, with its scale in millimetres to a unit if it is to be stated.
+fn page_symbols(
+    page: &CouplerGridPage,
+    shown: &[ShownCurve],
+    scale: Option<f64>,
+    options: &Options,
+    theme: &Theme,
+) -> Vec<Symbol> {
     let Some(first) = shown.first() else { return Vec::new() };
     let solved = page.panel.solved_cell;
     let period = figure::dash_period(&solved.linkage, &solved.motion.circuits, options);
@@ -159,7 +168,7 @@ fn page_symbols(page: &CouplerGridPage, shown: &[ShownCurve], options: &Options,
         let meaning = "longest straight portion".to_owned();
         symbols.push(Symbol { mark: Mark::Band(banded.ink(theme)), meaning });
     }
-    symbols.push(symbols::scale_bar(common_scale(page), solved.linkage.crank_length()));
+    symbols.push(symbols::scale_bar(scale, solved.linkage.crank_length()));
     symbols
 }
 
@@ -219,6 +228,7 @@ fn draw_panel(
     notes.draw(area, notes_frame, page, theme);
 }
 
+/// Draws the curves and the linkage; returns where they are.
 fn draw_figure(
     area: &impl Area,
     frame: Rect,
@@ -227,7 +237,7 @@ fn draw_figure(
     shown: &[ShownCurve],
     options: &Options,
     theme: &Theme,
-) {
+) -> Plot {
     let solved = page.panel.solved_cell;
     let grid = grid::PointGrids::from_joints(&solved.linkage, shown.iter().map(|s| s.curve.joint));
     let curves = shown.iter().flat_map(|s| solved.circuit(s.curve).points(s.curve.joint));
@@ -295,6 +305,7 @@ fn draw_figure(
     group("linkage", linkage);
     group("coupler-point", points);
     group("number", numbers);
+    plot
 }
 
 /// The points of a page without repetition, with their positions on it.

@@ -149,8 +149,8 @@ fn rounded_in_full(values: impl Iterator<Item = f64>) -> Vec<String> {
 fn straight_note(criterion: StraightCriterion) -> String {
     match criterion {
         StraightCriterion::Tolerance(tolerance) => format!(
-            "straight to {0} %: the longest portion in a strip no wider than {0} % of its length; over: the input that \
-             a portion takes",
+            "straight to {0} %: the longest portion in a strip no wider than {0} % of its length; from and over: the input at which it begins, and that it \
+             takes",
             percent(tolerance)
         ),
         StraightCriterion::Input(span) => {

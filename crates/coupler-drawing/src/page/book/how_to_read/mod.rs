@@ -58,9 +58,9 @@ static PARTS: [Part; 16] = [
         class: "motion",
         layouts: FIGURES,
         side: Vector::new(0.0, -1.0),
-        title: "Start and ticks:",
-        text: "the arrow marks where the input begins, and the direction; ticks across the curve are at the inputs that the line of \
-               symbols states.",
+        title: "Ticks",
+        text: "across the curve are at the inputs that the line of symbols states. At the input 0, or where its range begins, is an \
+               arrow in the direction of the motion: inputs are counted from it.",
     },
     Part {
         class: "straight",
@@ -79,7 +79,7 @@ static PARTS: [Part; 16] = [
     Part {
         class: "grid",
         layouts: GRID,
-        side: Vector::new(0.6, 1.0),
+        side: Vector::new(-0.6, -1.0),
         title: "The grid",
         text: "joins the points of the page, which are on one link.",
     },
@@ -123,8 +123,8 @@ static PARTS: [Part; 16] = [
         layouts: GRID,
         side: Vector::new(-1.0, 0.0),
         title: "The table",
-        text: "has a row for each curve, in its ink: the coordinates of the point, the straight portions to two tolerances with the \
-               input that they take, the portion that is nearest to an arc, and the cusps. The notes under it define each.",
+        text: "has a row for each curve, in its ink: the coordinates of the point, the straight portions to two tolerances, from \
+               which input and over how much, the portion that is nearest to an arc, and the cusps. The notes under it define each.",
     },
     Part {
         class: "speed",
