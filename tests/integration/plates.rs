@@ -351,6 +351,9 @@ fn coupler_grids_have_the_scale_that_the_manifest_gives_or_say_that_they_are_red
     }
     for svg in pages("100 mm") {
         assert!(texts(&svg).iter().any(|line| line.ends_with(", reduced")));
+        let scale = svg.split_once("data-scale=\"").unwrap().1.split('"').next().unwrap();
+        let stated = format!("crank = {:.1} mm", scale.parse::<f64>().unwrap());
+        assert!(texts(&svg).contains(&stated), "{stated} {:?}", texts(&svg));
     }
 }
 

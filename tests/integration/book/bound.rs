@@ -73,6 +73,7 @@ fn atlas<'p>(plan: &'p Plan, solved: &[Vec<SolvedCell>]) -> Atlas<'p> {
         Chapter {
             title: &planned.family.title,
             symbols: &planned.family.names,
+            curve_noun: "curve",
             curve_count: Some(solved[k].iter().map(|solved| solved.curves.len()).sum()),
             page_count: solved[k].len().div_ceil(cells_per_page),
             cells: solved[k].iter().enumerate().map(cell).collect(),
@@ -228,7 +229,7 @@ fn every_page_of_an_atlas_is_in_one_volume() {
 }
 
 fn chapter(title: &str, pages: usize, cells: Vec<CellEntry>) -> Chapter<'_> {
-    Chapter { title, symbols: &[], curve_count: None, page_count: pages, cells }
+    Chapter { title, symbols: &[], curve_noun: "curve", curve_count: None, page_count: pages, cells }
 }
 
 fn options(paper: Paper) -> Options {

@@ -285,4 +285,86 @@ fn mistakes_in_the_table_are_reported_at_their_places() {
     let caption = "[book]\n[[book.list]]\ntitle = \"T\"\nsort = \"A\"\ncaption = \"{aera:.2}\"\ncount = 0";
     assert_eq!(problems(caption).len(), 2, "{:?}", problems(caption));
     assert!(problems("[book]\n[[book.list]]\nsort = \"A\"")[0].0.contains("has no `title`"));
+    let blank = "[book]\n[[book.list]]\ntitle = \" \"\nsort = \"A\"\n[[book.chapter]]\ntitle = \"\"\nwhere = \"A > 2\"";
+    let reported: Vec<String> = problems(blank).into_iter().map(|(message, _)| message).collect();
+    assert_eq!(reported, ["the title is blank"; 2]);
+    let repeated = "[book]\n[[book.list]]\ntitle = \"Returns\"\nsort = \"A\"";
+    assert_eq!(problems(repeated), [problem("another list has the title `Returns`", "\"Returns\"")]);
+    let long = format!("[book]\n[[book.list]]\ntitle = \"T\"\nsort = \"A\"\nnote = \"{}\"", "word ".repeat(130));
+    assert_eq!(problems(&long)[0].0, "the text has 650 characters, more than the limit of 600");
+}
+
+#[test]
+fn remedies_name_the_table() {
+    let remedy = |book: &str| -> String {
+        let (begin, rest) = MANIFEST.split_once("[book]").unwrap();
+        let text = [begin, book, &rest[rest.find("[[family]]").unwrap()..]].concat();
+        let loaded = coupler_atlas::manifest::parse(&text);
+        loaded.problems.first().map_or(String::new(), |problem| problem.help.clone())
+    };
+    assert_eq!(remedy("[book]\nlist = 3\n"), "write it as [[book.list]]");
+    assert_eq!(remedy("[book.chapter]\ntitle = \"T\"\n"), "write it as [[book.chapter]]");
+    assert_eq!(remedy("[[book]]\nindex = true\n"), "write it under [book], once");
+}
+
+/// A book in whose chapters are all cells, or none.
+#[test]
+fn what_would_be_empty_is_left_out_with_a_warning() {
+    let chapters = r#"[book]
+[[book.chapter]]
+title = "every one"
+where = "A > 0"
+[[book.chapter]]
+title = "the rest"
+where = "B > 0"
+[[book.chapter]]
+title = "very long ones"
+where = "A > 100""#;
+    let atlas = Atlas::new(&MANIFEST.replacen("[book]", chapters, 1));
+    let (code, _, err) = atlas.run(&[]);
+    assert_eq!(code, 0, "{err}");
+    let warnings: Vec<&str> = err.lines().filter_map(|line| line.strip_prefix("warning: the ")).collect();
+    let of_chapter = "of the book is left out: no cell meets its condition that is not in a chapter before it";
+    assert_eq!(
+        warnings,
+        [
+            format!("chapter `the rest` {of_chapter}"),
+            format!("chapter `very long ones` {of_chapter}"),
+            "list `None at all` of the book is left out: no curve meets its condition and has a value of its sort key"
+                .to_owned(),
+        ]
+    );
+    let pdf = Pdf::read(&fs::read(atlas.out().join("atlas.pdf")).unwrap());
+    let (_, _, first) =
+        pdf.outline().into_iter().find(|(level, title, _)| *level == 0 && title == "Points: every one").unwrap();
+    // The pages of a chapter have its title.
+    let plate: String = pdf.contents(first).texts.into_iter().map(|(text, ..)| text + " ").collect();
+    assert!(plate.contains("Points: every one"), "{plate}");
+}
+
+/// Lists and contents state what tells linkages apart, also where the caption of the linkage does not.
+#[test]
+fn captions_are_as_complete_as_on_the_plates() {
+    let manifest = r#"
+[atlas]
+title = "Evans"
+output = "out"
+formats = ["pdf"]
+[[family]]
+id = "evans"
+linkage = "evans"
+grid = { p = [3, 4], k = [1.5, 2] }
+let = { a = "(1 + p)^1.5 / 2" }
+"#;
+    let atlas = Atlas::new(manifest);
+    let (code, _, err) = atlas.run(&[]);
+    assert_eq!(code, 0, "{err}");
+    let pdf = Pdf::read(&fs::read(atlas.out().join("atlas.pdf")).unwrap());
+    let outline = pdf.outline();
+    let linkages: BTreeSet<&String> =
+        outline.iter().filter(|(level, ..)| *level == 1).map(|(_, title, _)| title).collect();
+    assert!(
+        linkages.len() >= 4 && linkages.iter().filter(|title| title.contains("k = 1.5")).count() >= 2,
+        "{linkages:?}"
+    );
 }

@@ -12,11 +12,13 @@ use coupler_curves::measure::{StraightCriterion, Value};
 use coupler_curves::solve::MeasuredCurve;
 
 /// The measures of columns and description, in addition to those of all pages.
-pub const MEASURES: [&str; 9] = [
+pub const MEASURES: [&str; 11] = [
+    "straight_start_deg",
     "straight_input_deg",
     "straight_10_length",
     "straight_10_input_deg",
     "dwell_radius",
+    "dwell_start_deg",
     "dwell_input_deg",
     "cusps",
     "output_swing_deg",
@@ -41,8 +43,8 @@ pub(super) struct Column {
 }
 
 /// The gap between columns, and between groups, in ems.
-const COLUMN_GAP: f64 = 0.9;
-const GROUP_GAP: f64 = 1.5;
+const COLUMN_GAP: f64 = 0.8;
+const GROUP_GAP: f64 = 1.35;
 
 impl ColumnGroup {
     /// A group with the columns that have a text in some row; `None` if there is none.

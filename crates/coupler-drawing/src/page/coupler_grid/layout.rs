@@ -11,7 +11,7 @@ pub(super) struct PageLayout {
 }
 
 /// The width of the panel next to the figure in ems of its notes, with which all columns and graphs fit.
-const PANEL_WIDTH: f64 = 61.0;
+const PANEL_WIDTH: f64 = 57.5;
 
 /// The greatest part of the width that the panel has next to the figure.
 const MAX_PANEL_WIDTH_PART: f64 = 0.455;

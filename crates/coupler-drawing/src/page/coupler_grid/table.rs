@@ -22,7 +22,7 @@ pub(super) struct Table {
 
 /// The length of a swatch, and the least width of the graphs, in ems.
 const SWATCH_LENGTH: f64 = 2.4;
-const MIN_GRAPH_WIDTH: f64 = 9.0;
+const MIN_GRAPH_WIDTH: f64 = 8.0;
 
 impl Table {
     /// The table of a page that fits a width.
