@@ -3,9 +3,9 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use coupler_atlas::manifest::{self, ParseOutcome, Plan};
-use coupler_atlas::output;
-use coupler_atlas::record::RunRecord;
+use crate::manifest::{self, ParseOutcome, Plan};
+use crate::output;
+use crate::record::RunRecord;
 use coupler_curves::problem::{self, Problem, suggestion};
 
 use super::{InputError, color, files, pluralize, print_stderr, print_styled};

@@ -8,10 +8,10 @@ mod table;
 
 use std::path::{Path, PathBuf};
 
+use crate::check::{self, Event, Report};
+use crate::manifest::{PartialTolerances, Tolerances};
+use crate::output;
 use clap::{Args, ValueHint};
-use coupler_atlas::check::{self, Event, Report};
-use coupler_atlas::manifest::{PartialTolerances, Tolerances};
-use coupler_atlas::output;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::report::{self, ReportRequest};
