@@ -124,7 +124,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     }
     let Arguments { atol, rtol, measure_rtol, .. } = *arguments;
     let tolerances = PartialTolerances { atol, rtol, measure_rtol };
-    let options = check::Options { only: arguments.only.clone(), tolerances };
+    let options = check::Options { only: arguments.only.clone(), tolerances, ..check::Options::default() };
     let mut bar = ProgressBar::hidden();
     let report = check::check_atlas(&source.plan, &arguments.against, &options, &mut |event| match event {
         Event::Begin { family, pages } if !arguments.quiet => {
