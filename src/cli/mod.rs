@@ -161,6 +161,11 @@ pub fn run(given: &[OsString]) -> u8 {
     }
 }
 
+/// The report of a check as text, for people.
+pub fn check_report(report: &crate::check::Report) -> String {
+    printable_lines(&check::report_text(report))
+}
+
 /// Parses the command line; an error quotes arguments as they can be printed.
 fn parse_arguments(given: &[OsString]) -> Result<Arguments, clap::Error> {
     let color = Color::from_arguments(given).for_clap();

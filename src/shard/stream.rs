@@ -1,6 +1,7 @@
 //! The rows of a table as they are asked for, without files.
 
 use std::ops::Range;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use coupler_curves::family::Family;
@@ -18,7 +19,7 @@ use crate::sweep::{self, CellIndices};
 #[derive(Clone, Debug)]
 pub struct TableStream {
     /// With the measures that the table has.
-    family: Family,
+    family: Arc<Family>,
     table: TableKind,
     columns: Vec<TableColumn>,
     /// The indices of the cells whose rows are still to come.
@@ -35,7 +36,7 @@ impl TableStream {
     /// The table of the cells of a division; `measures` are by name, in place of the family's own, and those that `where` uses are among them
     /// in any case.
     pub fn new(family: &Family, table: TableKind, division: Division, measures: Option<&[String]>) -> TableStream {
-        let family = swept_family(family, None, measures).into_owned();
+        let family = Arc::new(swept_family(family, None, measures).into_owned());
         let columns = table::columns(&family, table);
         let rest = division.range(family.cell_count());
         TableStream { family, table, columns, rest }

@@ -323,13 +323,18 @@ impl FamilyShard<'_> {
             (ranked, count(&solved), solved.len())
         };
         let (mut best, mut counts) = (Best::new(most), Counts::default());
-        sweep::process_groups(self.family, groups(self.family, cells, Some(&needed)), rank, |(ranked, counted, cells)| {
-            self.check_interrupt()?;
-            ranked.into_iter().for_each(|(key, place)| best.add(key, place));
-            counts.add(&counted);
-            report(Event::Cells(cells));
-            Ok::<(), Error>(())
-        })?;
+        sweep::process_groups(
+            self.family,
+            groups(self.family, cells, Some(&needed)),
+            rank,
+            |(ranked, counted, cells)| {
+                self.check_interrupt()?;
+                ranked.into_iter().for_each(|(key, place)| best.add(key, place));
+                counts.add(&counted);
+                report(Event::Cells(cells));
+                Ok::<(), Error>(())
+            },
+        )?;
         let mut places: Vec<Place> = best.into_sorted().into_iter().map(|ranked| ranked.place).collect();
         places.sort_unstable();
         Ok((places, counts))

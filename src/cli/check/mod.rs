@@ -147,6 +147,11 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     Ok(if report.has_differences() { Outcome::Difference } else { Outcome::Done })
 }
 
+/// The report as a table.
+pub(super) fn report_text(report: &Report) -> String {
+    table::text(report)
+}
+
 /// Writes the requested reports, and prints the table unless a report is printed instead.
 fn write_reports(arguments: &Arguments, source: &ManifestSource, report: &Report) -> anyhow::Result<()> {
     let mut has_table = true;

@@ -1,0 +1,5 @@
+"""The program, as ``python -m coupler_atlas``."""
+
+from ._command import main
+
+raise SystemExit(main())
