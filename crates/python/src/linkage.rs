@@ -1,7 +1,7 @@
 //! Linkages, their circuits and their curves.
 
 use std::path::PathBuf;
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use coupler_atlas::manifest;
 use coupler_curves::catalogue;
@@ -34,6 +34,20 @@ use crate::error::{self, LinkageError};
 /// The number of samples of a circuit where none is given, as in `inspect`.
 const DEFAULT_SAMPLES: usize = 360;
 
+/// A sampler; the last one is kept, for its table of sines takes as long as the samples of a linkage.
+fn sampler(sampling: Sampling) -> Arc<Sampler> {
+    static LAST: Mutex<Option<(Sampling, Arc<Sampler>)>> = Mutex::new(None);
+    let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
+    match &*last {
+        Some((known, sampler)) if *known == sampling => sampler.clone(),
+        _ => {
+            let sampler = Arc::new(Sampler::new(sampling));
+            *last = Some((sampling, sampler.clone()));
+            sampler
+        }
+    }
+}
+
 /// A linkage with what has been computed of it.
 pub struct Solution {
     family: Family,
@@ -47,13 +61,13 @@ pub struct Solution {
 impl Solution {
     /// Its circuits and curves, without measures.
     fn moved(&self) -> PyResult<&SolvedCell> {
-        let solve = || solve_measuring(&self.family, &Sampler::new(self.family.sampling), 0, &[false; MEASURES.len()]);
+        let solve = || solve_measuring(&self.family, &sampler(self.family.sampling), 0, &[false; MEASURES.len()]);
         self.moved.get_or_init(solve).as_ref().ok_or_else(|| self.no_linkage())
     }
 
     /// Its circuits and curves with all measures.
     fn measured(&self, py: Python) -> PyResult<&SolvedCell> {
-        let solve = || solve_cell(&self.family, &Sampler::new(self.family.sampling), 0);
+        let solve = || solve_cell(&self.family, &sampler(self.family.sampling), 0);
         let measured = py.detach(|| self.measured.get_or_init(solve).as_ref());
         measured.ok_or_else(|| self.no_linkage())
     }
@@ -216,21 +230,20 @@ impl Linkage {
         circuit: usize,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let py = this.py();
+        let solution = &this.get().solution;
+        let index = solution.curve_index(trace, circuit)?;
         let Some(samples) = samples else {
-            let solution = &this.get().solution;
-            let index = solution.curve_index(trace, circuit)?;
             let curve = Linkage::curves(this)?.bind(py).get_item(index)?.cast_into::<Curve>()?;
             return Ok(Curve::points(&curve)?.bind(py).clone());
         };
-        let solution = &this.get().solution;
-        let family = Family { sampling: Sampling::Samples(checked_samples(samples)?), ..solution.family.clone() };
-        let solution =
-            Solution { family, source: String::new(), number: None, moved: OnceLock::new(), measured: OnceLock::new() };
-        let index = solution.curve_index(trace, circuit)?;
+        let sampler = sampler(Sampling::Samples(checked_samples(samples)?));
         let solved = solution.moved()?;
         let curve = &solved.curves[index];
-        let circuit = solved.circuit(curve);
-        arrays::points(py, circuit.points(curve.joint), circuit.len())
+        let own = solved.circuit(curve);
+        let (linkage, joint) = solved.linkage.with_one_point(curve.joint);
+        let unsampled = motion::UnsampledCircuit { passes: own.passes.clone(), is_closed: own.is_closed };
+        let sampled = py.detach(|| sampler.sample_circuit(&linkage, unsampled));
+        arrays::points(py, sampled.points(joint), sampled.len())
     }
 
     /// The curves, one for each traced joint and circuit, in this order.
