@@ -12,7 +12,7 @@ use super::record::TableKind;
 use super::write::{groups, swept_family};
 use super::{Division, table};
 use crate::output;
-use crate::sweep::{self, CellIndices};
+use crate::sweep::{self, CellGroups, CellIndices};
 
 /// The rows of a table of a family, with the columns, values and order of the tables that [`super::write_shard`] writes. Cells are solved when
 /// their rows are asked for.
@@ -27,10 +27,11 @@ pub struct TableStream {
 }
 
 /// The number of rows from which no further cells are added to some that are asked for.
-const ENOUGH_ROWS: usize = 1 << 14;
+const ENOUGH_ROWS: usize = 1 << 12;
 
-/// The groups of cells that are solved at once. The number is the same on every machine, so that the rows come in the same parts.
+/// The groups of cells that are solved at once, and the most cells of one: the same on every machine, so that the rows come in the same parts.
 const GROUPS_AT_ONCE: usize = 32;
+const CELLS_OF_GROUP: usize = 16;
 
 impl TableStream {
     /// The table of the cells of a division; `measures` are by name, in place of the family's own, and those that `where` uses are among them
@@ -52,7 +53,7 @@ impl TableStream {
         self.rest.clone()
     }
 
-    /// The next rows, some ten thousand, solved on all threads; `None` at the end. `solved` is called with numbers of cells as they are solved.
+    /// The next rows, some thousands, solved on all threads; `None` at the end. `solved` is called with numbers of cells as they are solved.
     /// Memory is bounded.
     ///
     /// # Errors
@@ -65,7 +66,7 @@ impl TableStream {
         let mut rows = Rows::new(&self.columns);
         let mut rest = self.rest.clone();
         while rows.len < ENOUGH_ROWS && !rest.is_empty() {
-            let size = groups(&self.family, &CellIndices::default(), None).size;
+            let size = groups(&self.family, &CellIndices::default(), None).size.min(CELLS_OF_GROUP);
             let cells = rest.start..rest.end.min(rest.start + size * GROUPS_AT_ONCE);
             rest.start = cells.end;
             let cells = CellIndices::Range(cells);
@@ -79,7 +80,8 @@ impl TableStream {
                 }
                 (rows, group.len())
             };
-            sweep::process_groups(&self.family, groups(&self.family, &cells, None), make, |(group, count)| {
+            let groups = CellGroups { size, ..groups(&self.family, &cells, None) };
+            sweep::process_groups(&self.family, groups, make, |(group, count)| {
                 if interrupt.load(Ordering::Relaxed) {
                     return Err(output::Error::Interrupted);
                 }

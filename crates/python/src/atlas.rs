@@ -13,6 +13,7 @@ use pyo3::types::PyDict;
 
 use crate::error::{self, OutputError};
 use crate::linkage::Linkage;
+use crate::task;
 
 /// A manifest with its path and text.
 #[derive(Clone)]
@@ -63,7 +64,10 @@ pub fn read_text(py: Python, path: &Path) -> PyResult<String> {
 impl Manifest {
     fn read(py: Python, path: &Path) -> PyResult<Manifest> {
         let text: Arc<str> = read_text(py, path)?.into();
-        let outcome = py.detach(|| manifest::parse_with_files(&text, Some(&|name| output::read_font(path, name))));
+        let (own, from) = (text.clone(), path.to_owned());
+        let outcome = task::run_with(py, None, move |_| {
+            manifest::parse_with_files(&own, Some(&|name| output::read_font(&from, name)))
+        })?;
         Manifest::from_outcome(py, path.to_owned(), text, outcome)
     }
 
@@ -72,9 +76,12 @@ impl Manifest {
         py: Python,
         path: PathBuf,
         text: Arc<str>,
-        cells: &dyn Fn(&str, usize) -> Range<usize>,
+        cells: impl Fn(&str, usize) -> Range<usize> + Send + 'static,
     ) -> PyResult<Manifest> {
-        let outcome = manifest::parse_for_tables(&text, Some(&|name| output::read_font(&path, name)), cells);
+        let (own, from) = (text.clone(), path.clone());
+        let outcome = task::run_with(py, None, move |_| {
+            manifest::parse_for_tables(&own, Some(&|name| output::read_font(&from, name)), &cells)
+        })?;
         Manifest::from_outcome(py, path, text, outcome)
     }
 

@@ -10,7 +10,7 @@ use coupler_atlas::output;
 use coupler_atlas::shard::{Division, MAX_SHARDS, Rows, TableKind, TableStream};
 use coupler_curves::family::MEASURES;
 use coupler_curves::problem::suggestion;
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyCapsule;
 
@@ -21,9 +21,10 @@ use crate::task;
 
 /// The cells of a family, or a part of them, as a table that is solved as it is read.
 ///
-/// It is iterated over in batches of some ten thousand rows, and read as a whole by whatever takes an Arrow stream: ``polars.DataFrame(sweep)``,
+/// It is iterated over in batches of some thousands of rows, and read as a whole by whatever takes an Arrow stream: ``polars.DataFrame(sweep)``,
 /// ``pyarrow.table(sweep)``, ``pandas.DataFrame.from_arrow(sweep)``, a query of DuckDB. Each reading begins anew. Memory is that of a batch or
-/// two, however many cells there are.
+/// two, however many cells there are. Ctrl-C ends an iteration with KeyboardInterrupt, and a reading by a library with that library's exception,
+/// "interrupted".
 #[pyclass(frozen, module = "coupler_atlas")]
 pub struct Sweep {
     family: String,
@@ -76,12 +77,9 @@ impl Iterator for Reader {
     fn next(&mut self) -> Option<Self::Item> {
         Python::attach(|py| {
             self.0.next(py).map_err(|error| {
-                let message = error.to_string();
-                if error.is_instance_of::<pyo3::exceptions::PyKeyboardInterrupt>(py) {
-                    // The reader raises an error of its own; Ctrl-C is to come after it.
-                    let _ = py.import("_thread").and_then(|thread| thread.call_method0("interrupt_main"));
-                }
-                ArrowError::ExternalError(message.into())
+                // The reader raises an exception of its own with this message.
+                let is_interrupt = error.is_instance_of::<PyKeyboardInterrupt>(py);
+                ArrowError::ExternalError(if is_interrupt { "interrupted".into() } else { error.to_string().into() })
             })
         })
         .transpose()
@@ -237,7 +235,7 @@ pub fn sweep(
         measures.map(|names| names.into_iter().map(known_measure).collect::<PyResult<Vec<_>>>()).transpose()?;
     let (path, text): (PathBuf, Arc<str>) = manifest.text(py)?;
     let wanted = family.clone();
-    let manifest = Manifest::for_tables(py, path, text, &|id, count| match &wanted {
+    let manifest = Manifest::for_tables(py, path, text, move |id, count| match &wanted {
         Some(wanted) if wanted != id => 0..0,
         _ => division.range(count),
     })?;
