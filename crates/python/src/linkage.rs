@@ -403,7 +403,7 @@ impl FourBar {
 #[pymethods]
 impl FourBar {
     #[new]
-    #[pyo3(signature = (frame, crank, coupler, rocker, along=None, across=None, *, x=None, y=None, turn=None, samples=DEFAULT_SAMPLES))]
+    #[pyo3(signature = (frame, crank, coupler, rocker, along=None, across=None, *, x=None, y=None, turn=None, samples=360))]
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn new(
         frame: f64,
@@ -922,7 +922,7 @@ fn template(name: &str, own: &[Arc<Template>]) -> PyResult<Arc<Template>> {
 /// ValueError
 ///     There is no such linkage.
 #[pyfunction]
-#[pyo3(name = "linkage", signature = (name, /, *, manifest=None, samples=DEFAULT_SAMPLES, circuits=None, **parameters))]
+#[pyo3(name = "linkage", signature = (name, /, *, manifest=None, samples=360, circuits=None, **parameters))]
 pub fn make_linkage(
     py: Python,
     name: &str,

@@ -5,6 +5,7 @@ from typing import Any, Literal, TypeAlias, final
 
 import numpy as np
 import numpy.typing as npt
+from typing_extensions import disjoint_base
 
 __all__ = [
     "Animation",
@@ -54,6 +55,7 @@ class LinkageError(Error): ...
 class OutputError(Error): ...
 class ManifestWarning(UserWarning): ...
 
+@disjoint_base
 class Linkage:
     @property
     def id(self) -> str: ...

@@ -93,7 +93,7 @@ def is_shown() -> bool:
     return sys.stderr is not None and sys.stderr.isatty()
 
 
-def reporter(progress: object) -> Reporter | None:
+def reporter(progress: Any) -> Reporter | None:
     """The reporter for an argument ``progress``: None, True, False or a function."""
     if callable(progress):
         return Called(progress)
@@ -108,7 +108,7 @@ def reporter(progress: object) -> Reporter | None:
     return Bar(tqdm)
 
 
-def lasting_reporter(progress: object) -> Lasting | None:
+def lasting_reporter(progress: Any) -> Lasting | None:
     """The reporter for a reading of several batches."""
     made = reporter(progress)
     return None if made is None else Lasting(made)
