@@ -99,6 +99,13 @@ def test_arguments_of_render_and_check_are_checked(manifest, tmp_path) -> None:
         ca.render(path, tmp_path / "file" / "folder")
 
 
+def test_plates_are_those_of_the_program() -> None:
+    evans = ca.linkage("evans", p=2.5, a=2.6)
+    assert evans.svg() == command("inspect", "evans", "p=2.5", "a=2.6", "--svg", "-")
+    assert evans.animate().svg == command("inspect", "evans", "p=2.5", "a=2.6", "--animate", "--svg", "-")
+    assert evans.curves[0].toml() == command("export", "--linkage", "evans", "p=2.5", "a=2.6", "--format", "toml", "-o", "-")
+
+
 def test_the_command_is_the_program(manifest, tmp_path) -> None:
     assert command("--version").startswith(f"coupler-atlas {ca.__version__}")
     module = subprocess.run([sys.executable, "-m", "coupler_atlas", "list", "linkages"], capture_output=True, text=True)
