@@ -224,7 +224,7 @@ impl Rows {
         Rows { columns: self.columns.iter_mut().map(|column| column.split_off_first(rows)).collect(), len: rows }
     }
 
-    /// Appends the rows of `cells.csv` of a cell; the columns are those of [`cell_columns`].
+    /// Appends the rows of `cells.csv` of a cell; the columns are those of that table.
     pub fn append_cell(&mut self, family: &Family, solved: &SolvedCell) {
         if solved.is_left_out() {
             return;
@@ -258,7 +258,7 @@ impl Rows {
         }
     }
 
-    /// Appends the rows of `points.csv` of a cell; the columns are those of [`point_columns`].
+    /// Appends the rows of `points.csv` of a cell; the columns are those of that table.
     pub fn append_points(&mut self, family: &Family, solved: &SolvedCell) {
         let dyads = solved.linkage.dyad_count().max(1);
         for curve in &solved.curves {

@@ -872,7 +872,10 @@ impl Animation {
 
     /// The animation in a frame of its own, in which no script runs.
     fn _repr_html_(&self) -> String {
-        let page = format!("<!DOCTYPE html><style>body{{margin:0}}svg{{display:block;width:100%;height:auto}}</style>{}", self.svg);
+        let page = format!(
+            "<!DOCTYPE html><style>body{{margin:0}}svg{{display:block;width:100%;height:auto}}</style>{}",
+            self.svg
+        );
         let escaped = page.replace('&', "&amp;").replace('"', "&quot;");
         format!(
             "<iframe sandbox title=\"a linkage in motion\" srcdoc=\"{escaped}\" \
