@@ -32,3 +32,7 @@ pub mod check;
 pub mod output;
 
 pub mod shard;
+
+// For the program, and the command of the Python package.
+#[doc(hidden)]
+pub mod cli;

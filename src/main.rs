@@ -1,7 +1,6 @@
 //! The program: results go to standard output, messages and progress to standard error.
 
-mod cli;
-
 fn main() -> std::process::ExitCode {
-    cli::main()
+    let arguments: Vec<std::ffi::OsString> = std::env::args_os().collect();
+    coupler_atlas::cli::run(&arguments).into()
 }

@@ -1,8 +1,8 @@
 //! Compares the output of a family's pipeline with its record.
 
-use std::convert::Infallible;
 use std::path::Path;
 
+use super::Error;
 use super::cells::CurvePair;
 use super::curve::{CurrentCurve, compare_curves};
 use super::curve_samples::CurveSamples;
@@ -232,9 +232,9 @@ impl<'a> FamilyCheck<'a> {
 impl Sink for FamilyCheck<'_> {
     type CellsOutput = CellFindings;
     type PageOutput = PageFindings;
-    type Error = Infallible;
+    type Error = Error;
 
-    fn receive_cells(&self, solved: &[SolvedCell]) -> Result<CellFindings, Infallible> {
+    fn receive_cells(&self, solved: &[SolvedCell]) -> Result<CellFindings, Error> {
         let mut result = CellFindings { counts: CellCounts::of_cells(solved), ..CellFindings::default() };
         for solved in solved.iter().filter(|solved| !solved.is_left_out()) {
             let before = result.findings.len();
@@ -249,7 +249,7 @@ impl Sink for FamilyCheck<'_> {
         Ok(result)
     }
 
-    fn receive_page(&self, job: PageJob) -> Result<PageFindings, Infallible> {
+    fn receive_page(&self, job: PageJob) -> Result<PageFindings, Error> {
         // Recorded pages show the recorded numbers of cells.
         Ok(self.pages.check_page(job, |cell| self.tables.recorded_curves(cell)))
     }

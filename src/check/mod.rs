@@ -24,10 +24,10 @@ pub use finding::{Change, Displacement, Finding, Location};
 pub use overlays::{Overlay, draw_overlays};
 
 use std::collections::{BTreeMap, HashSet};
-use std::convert::Infallible;
 use std::fs::TryLockError;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::AtomicBool;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use serde::Serialize;
 
@@ -45,6 +45,8 @@ pub struct Options {
     pub only: Vec<String>,
     /// Tolerances that replace those of the manifest.
     pub tolerances: PartialTolerances,
+    /// Set to true to end the check soon.
+    pub interrupt: Arc<AtomicBool>,
 }
 
 /// The progress of a check.
@@ -95,6 +97,9 @@ pub enum Error {
         /// The folder of the atlas.
         folder: PathBuf,
     },
+    /// The check was interrupted.
+    #[error("interrupted")]
+    Interrupted,
 }
 
 impl Report {
@@ -132,7 +137,7 @@ fn sort_worst_first(findings: &mut [Finding]) {
 /// Runs a plan, and compares the result with the atlas recorded in a folder; calls `on_event` with the progress.
 ///
 /// # Errors
-/// The record of the atlas cannot be read, or a run is writing to its folder.
+/// The record of the atlas cannot be read, a run is writing to its folder, or the check is interrupted.
 pub fn check_atlas(
     plan: &Plan,
     recorded: &Path,
@@ -173,7 +178,7 @@ pub fn check_atlas(
         match record.families.iter().find(|family| family.id == planned.family.id) {
             Some(family_record) => {
                 let family = (planned, family_record);
-                check_family(plan, family, (recorded, is_outdated), options, &mut report, on_event);
+                check_family(plan, family, (recorded, is_outdated), options, &mut report, on_event)?;
             }
             None => report.add_findings(vec![Location::in_family(&planned.family.id).finding(Change::FamilyAdded)]),
         }
@@ -193,6 +198,9 @@ fn is_locked(folder: &Path) -> bool {
 }
 
 /// Checks a family, and adds the findings to the report.
+///
+/// # Errors
+/// The check is interrupted.
 fn check_family(
     plan: &Plan,
     (planned, record): (&PlannedFamily, &FamilyRecord),
@@ -200,16 +208,20 @@ fn check_family(
     options: &Options,
     report: &mut Report,
     on_event: &mut dyn FnMut(Event),
-) {
-    // A check is not interrupted.
-    let Some(pipeline) = FamilyPipeline::new(plan, planned, &AtomicBool::new(false)) else { return };
+) -> Result<(), Error> {
+    let Some(pipeline) = FamilyPipeline::new(plan, planned, &options.interrupt) else {
+        return Err(Error::Interrupted);
+    };
     on_event(Event::Begin { family: &planned.family.id, pages: pipeline.pagination.page_count });
     let tolerances = options.tolerances.or(planned.tolerances).or_defaults();
     let mut findings = Vec::new();
     let family_check = FamilyCheck::open(&pipeline, record, recorded, tolerances, &mut findings);
     let (mut changed_cells, mut pages) = (Vec::new(), Vec::new());
     let mut counts = CellCounts::default();
-    let result = pipeline.run(&family_check, GroupsDone::default(), |output| {
+    pipeline.run(&family_check, GroupsDone::default(), |output| {
+        if options.interrupt.load(Ordering::Relaxed) {
+            return Err(Error::Interrupted);
+        }
         match output {
             Output::Cells(cells) => {
                 findings.extend(cells.findings);
@@ -223,9 +235,8 @@ fn check_family(
             }
             Output::Done(_) => {}
         }
-        Ok::<(), Infallible>(())
-    });
-    let Ok(()) = result;
+        Ok(())
+    })?;
     report.families += 1;
     report.pages += pages.len();
     findings.extend(family_check.page_findings(pages, &changed_cells));
@@ -239,6 +250,7 @@ fn check_family(
     }
     report.add_findings(findings);
     on_event(Event::End);
+    Ok(())
 }
 
 /// The finding on the record of a family whose files are as recorded, if it does not say what is in them.

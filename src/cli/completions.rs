@@ -1,10 +1,10 @@
 //! `completions`: completions for a shell, generated from the arguments.
 
+use crate::design::LinkageKind;
+use crate::export;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, CommandFactory};
 use clap_complete::Shell;
-use coupler_atlas::design::LinkageKind;
-use coupler_atlas::export;
 use coupler_curves::catalogue;
 use coupler_drawing::render;
 

@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
+use crate::output;
+use crate::record::RunRecord;
 use clap::builder::{PathBufValueParser, TypedValueParser};
-use coupler_atlas::output;
-use coupler_atlas::record::RunRecord;
 
 use super::{InputError, print_bytes, printable};
 

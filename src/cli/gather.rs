@@ -3,11 +3,11 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+use crate::output::{self, PageShard};
+use crate::record::{PageShardHead, PageShardRecord, RunRecord};
+use crate::shard::{self, Division, GatherOptions, Gathered, MAX_TOP};
+use crate::sweep::number_ranges;
 use clap::{Args, ValueHint};
-use coupler_atlas::output::{self, PageShard};
-use coupler_atlas::record::{PageShardHead, PageShardRecord, RunRecord};
-use coupler_atlas::shard::{self, Division, GatherOptions, Gathered, MAX_TOP};
-use coupler_atlas::sweep::number_ranges;
 use coupler_drawing::render::Format;
 
 use super::sweep::{describe_counts, shard_error};

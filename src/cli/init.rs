@@ -3,8 +3,8 @@
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
+use crate::output;
 use clap::{Args, ValueHint};
-use coupler_atlas::output;
 
 use super::source::DEFAULT_MANIFEST;
 use super::{InputError, Outcome, files, print, print_bytes, printable};

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use coupler_atlas::manifest;
+use crate::manifest;
 use coupler_curves::catalogue;
 use coupler_curves::expression::{Dimension, Error, Expression, Quantity, Scope};
 use coupler_curves::problem::suggestion;

@@ -2,11 +2,11 @@
 
 use std::io;
 
+use crate::gallery::PAGE_FILE;
+use crate::record::{JOURNAL_FILE_NAME, RUN_FILE_NAME};
 use clap::{Args, CommandFactory};
 use clap_mangen::Man;
 use clap_mangen::roff::{Roff, bold, roman};
-use coupler_atlas::gallery::PAGE_FILE;
-use coupler_atlas::record::{JOURNAL_FILE_NAME, RUN_FILE_NAME};
 
 use super::source::DEFAULT_MANIFEST;
 use super::{EXIT_CODES, Outcome, color, print_bytes};

@@ -25,17 +25,17 @@ mod validate;
 
 use std::ffi::OsString;
 use std::io::{self, Write};
-use std::process::ExitCode;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use color::Color;
-use coupler_atlas::output;
 use format::pluralize;
 use printable::{printable, printable_lines};
 
+use crate::output;
+
 /// The exit codes, and what they mean.
 const EXIT_CODES: [(u8, &str); 5] = [
-    (0, "success"),
+    (EXIT_SUCCESS, "success"),
     (EXIT_DIFFERENCE, "check found a difference, or render --strict a cell that is not assembled over the whole range"),
     (EXIT_INPUT_ERROR, "the input was wrong"),
     (EXIT_SYSTEM_ERROR, "the system failed, or another run is writing to the folder"),
@@ -125,14 +125,16 @@ const MAX_HELP_WIDTH: usize = 100;
 /// The place of `--color` in the help: after the options of a command, which are numbered from 0, and before `--help`.
 const COLOR_DISPLAY_ORDER: usize = 900;
 
+const EXIT_SUCCESS: u8 = 0;
 const EXIT_DIFFERENCE: u8 = 1;
 const EXIT_INPUT_ERROR: u8 = 2;
 const EXIT_SYSTEM_ERROR: u8 = 3;
 const EXIT_INTERRUPTED: u8 = 130;
 
-/// Runs the program.
-pub fn main() -> ExitCode {
-    let arguments = match parse_arguments() {
+/// Runs the program with the arguments of a command line, of which the first is the program's name, and returns the exit code.
+/// Arguments that are wrong, and those that ask for help, end the process.
+pub fn run(given: &[OsString]) -> u8 {
+    let arguments = match parse_arguments(given) {
         Ok(arguments) => arguments,
         Err(error) => error.exit(),
     };
@@ -153,22 +155,26 @@ pub fn main() -> ExitCode {
         Command::Man(arguments) => manual::print_manual(&arguments),
     };
     match result {
-        Ok(Outcome::Done) => ExitCode::SUCCESS,
-        Ok(Outcome::Difference) => ExitCode::from(EXIT_DIFFERENCE),
+        Ok(Outcome::Done) => EXIT_SUCCESS,
+        Ok(Outcome::Difference) => EXIT_DIFFERENCE,
         Err(error) => report_failure(&error),
     }
 }
 
+/// The report of a check as text, for people.
+pub fn check_report(report: &crate::check::Report) -> String {
+    printable_lines(&check::report_text(report))
+}
+
 /// Parses the command line; an error quotes arguments as they can be printed.
-fn parse_arguments() -> Result<Arguments, clap::Error> {
-    let given: Vec<OsString> = std::env::args_os().collect();
-    let color = Color::from_arguments(&given).for_clap();
+fn parse_arguments(given: &[OsString]) -> Result<Arguments, clap::Error> {
+    let color = Color::from_arguments(given).for_clap();
     let parse = |arguments: &[OsString]| {
         let mut command = Arguments::command().color(color);
         let matches = command.try_get_matches_from_mut(arguments)?;
         Arguments::from_arg_matches(&matches).map_err(|error| error.format(&mut command))
     };
-    parse(&given).map_err(|error| {
+    parse(given).map_err(|error| {
         let shown: Vec<OsString> = given.iter().map(|argument| printable(argument.to_string_lossy()).into()).collect();
         parse(&shown).err().unwrap_or_else(|| {
             // Only the unprintable characters were wrong.
@@ -178,11 +184,11 @@ fn parse_arguments() -> Result<Arguments, clap::Error> {
 }
 
 /// Prints an error, and returns the exit code for it.
-fn report_failure(error: &anyhow::Error) -> ExitCode {
+fn report_failure(error: &anyhow::Error) -> u8 {
     // A reader that closes the pipe early, as `head` does, is not an error.
     let is_pipe = |e: &io::Error| e.kind() == io::ErrorKind::BrokenPipe;
     if error.downcast_ref::<io::Error>().is_some_and(is_pipe) {
-        return ExitCode::SUCCESS;
+        return EXIT_SUCCESS;
     }
     // The messages of all other errors name what failed.
     let lines = match (error.downcast_ref::<io::Error>(), error.downcast_ref::<InputErrors>()) {
@@ -209,13 +215,13 @@ fn report_failure(error: &anyhow::Error) -> ExitCode {
                     | output::Error::TooManyFiles { .. }
             )
         )
-        || matches!(error.downcast_ref(), Some(coupler_atlas::check::Error::Record { .. }));
+        || matches!(error.downcast_ref(), Some(crate::check::Error::Record { .. }));
     let is_interrupted = matches!(error.downcast_ref(), Some(output::Error::Interrupted));
-    ExitCode::from(match () {
+    match () {
         () if is_interrupted => EXIT_INTERRUPTED,
         () if is_input => EXIT_INPUT_ERROR,
         () => EXIT_SYSTEM_ERROR,
-    })
+    }
 }
 
 /// Writes a text to be read to standard output.

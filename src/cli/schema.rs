@@ -1,6 +1,6 @@
 //! The JSON Schema of a manifest, generated from the tables that its parser uses.
 
-use coupler_atlas::manifest::{KeySchema, MANIFEST, TableSchema, ValueSchema};
+use crate::manifest::{KeySchema, MANIFEST, TableSchema, ValueSchema};
 use coupler_curves::expression::Dimension;
 use serde_json::{Map, Value, json};
 

@@ -3,9 +3,9 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use coupler_atlas::manifest::{self, ParseOutcome, Plan};
-use coupler_atlas::output;
-use coupler_atlas::record::RunRecord;
+use crate::manifest::{self, ParseOutcome, Plan};
+use crate::output;
+use crate::record::RunRecord;
 use coupler_curves::problem::{self, Problem, suggestion};
 
 use super::{InputError, color, files, pluralize, print_stderr, print_styled};
@@ -132,19 +132,7 @@ impl ManifestSource {
                 "a manifest from standard input has no folder: name one to write to with -o".to_owned(),
             ));
         }
-        if let Some(output) = &self.plan.output {
-            return Ok(self.path.parent().unwrap_or(Path::new("")).join(output));
-        }
-        let stem = self.path.with_extension("");
-        if stem == self.path {
-            let message = format!(
-                "{} has no extension, without which it would name the folder to write to: add `output = \"…\"` to [atlas], \
-                 or name a folder with -o",
-                self.path.display()
-            );
-            return Err(InputError(message));
-        }
-        Ok(stem)
+        output::default_folder(&self.plan, &self.path).ok_or_else(|| InputError(output::no_folder_message(&self.path)))
     }
 
     /// The name of the manifest in the record of a run: its file name, without the folder.

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::shard::{self, Division, Event, MAX_SHARDS, MAX_TOP, Options, ShardRecord, TableFormat, Top};
 use clap::{Args, ValueHint};
-use coupler_atlas::shard::{self, Division, Event, MAX_SHARDS, MAX_TOP, Options, ShardRecord, TableFormat, Top};
 use coupler_curves::family::MEASURES;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 

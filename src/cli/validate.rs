@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::manifest::Plan;
+use crate::output;
 use clap::{Args, ValueHint};
-use coupler_atlas::manifest::Plan;
-use coupler_atlas::output;
 use coupler_curves::problem::{self, Problem};
 use serde::Serialize;
 

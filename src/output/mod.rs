@@ -106,6 +106,24 @@ pub enum Event<'a> {
     },
 }
 
+/// The folder of the atlas of a manifest where none is named: that of the manifest, relative to it, or its path without the extension; `None`
+/// if it has neither.
+pub fn default_folder(plan: &Plan, manifest: &Path) -> Option<PathBuf> {
+    match &plan.output {
+        Some(output) => Some(manifest.parent().unwrap_or(Path::new("")).join(output)),
+        None => Some(manifest.with_extension("")).filter(|stem| stem != manifest),
+    }
+}
+
+/// What to do about a manifest that [`default_folder`] finds no folder for.
+pub fn no_folder_message(manifest: &Path) -> String {
+    format!(
+        "{} has no extension, without which it would name the folder to write to: add `output = \"…\"` to [atlas], \
+         or name a folder with -o",
+        manifest.display()
+    )
+}
+
 /// Writes the atlas of a plan into a folder, and reports progress.
 ///
 /// Files of an earlier run are kept if they are up to date according to its record. Files which that run wrote and

@@ -14,7 +14,7 @@ use crate::record::CellTable;
 
 /// The type of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum ColumnKind {
+pub enum ColumnKind {
     /// Numbers of cells: integers of 64 bits.
     Cell,
     /// Other integers, of 32 bits.
@@ -27,7 +27,7 @@ pub(super) enum ColumnKind {
 
 /// A column of a table.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct TableColumn {
+pub struct TableColumn {
     /// Its name, as in `cells.csv` and `points.csv`.
     pub name: String,
     /// Its type.
@@ -104,11 +104,11 @@ pub(super) fn point_columns(family: &Family) -> Vec<TableColumn> {
 }
 
 /// A word of a column; those of measures are many and always the same.
-pub(super) type Word = Cow<'static, str>;
+pub type Word = Cow<'static, str>;
 
 /// The values of a column that are not missing, in order.
 #[derive(Clone, Debug)]
-pub(super) enum Values {
+pub enum Values {
     /// Of [`ColumnKind::Cell`] and [`ColumnKind::Integer`].
     Integers(Vec<i64>),
     /// Of [`ColumnKind::Number`].
@@ -119,7 +119,7 @@ pub(super) enum Values {
 
 /// A column of some rows.
 #[derive(Clone, Debug)]
-pub(super) struct ColumnRows {
+pub struct ColumnRows {
     /// Its values that are not missing.
     pub values: Values,
     /// For each row 1 if it has a value, otherwise 0; empty if none may be missing. Parquet calls these definition levels.
@@ -198,7 +198,7 @@ impl ColumnRows {
 
 /// Some rows of a table, column by column.
 #[derive(Clone, Debug)]
-pub(super) struct Rows {
+pub struct Rows {
     /// The columns.
     pub columns: Vec<ColumnRows>,
     /// The number of rows.
@@ -224,7 +224,7 @@ impl Rows {
         Rows { columns: self.columns.iter_mut().map(|column| column.split_off_first(rows)).collect(), len: rows }
     }
 
-    /// Appends the rows of `cells.csv` of a cell; the columns are those of [`cell_columns`].
+    /// Appends the rows of `cells.csv` of a cell; the columns are those of that table.
     pub fn append_cell(&mut self, family: &Family, solved: &SolvedCell) {
         if solved.is_left_out() {
             return;
@@ -258,7 +258,7 @@ impl Rows {
         }
     }
 
-    /// Appends the rows of `points.csv` of a cell; the columns are those of [`point_columns`].
+    /// Appends the rows of `points.csv` of a cell; the columns are those of that table.
     pub fn append_points(&mut self, family: &Family, solved: &SolvedCell) {
         let dyads = solved.linkage.dyad_count().max(1);
         for curve in &solved.curves {

@@ -11,12 +11,15 @@ mod gather;
 mod parquet_table;
 mod read;
 mod record;
+mod stream;
 mod table;
 mod write;
 
 pub use best_manifest::best_manifest;
+pub use columns::{ColumnKind, ColumnRows, Rows, TableColumn, Values, Word};
 pub use gather::{BestCurve, FamilyTotals, GatherOptions, Gathered, gather};
 pub use record::{Counts, FORMAT, ShardRecord, TableKind, Top};
+pub use stream::TableStream;
 pub use write::{Event, Options, write_shard};
 
 pub use crate::sweep::{Division, MAX_SHARDS};

@@ -83,7 +83,7 @@ pub fn write_shard(plan: &Plan, output: &Path, options: &Options, report: &mut d
             continue;
         }
         let by = by.as_ref().and_then(|by| by[k].clone());
-        let family = swept_family(&planned.family, by.as_ref(), options);
+        let family = swept_family(&planned.family, by.as_ref(), options.measures.as_deref());
         let record = initial_record(planned, &family, (manifest_sha256, &families), options);
         FamilyShard { family: &family, by, record, folder: output.join(&family.id), options }.write(report)?;
     }
@@ -139,13 +139,17 @@ pub(super) fn compile(
     }
 }
 
-/// A family with the measures that the tables have.
-fn swept_family<'f>(family: &'f Family, by: Option<&CompiledExpression>, options: &Options) -> Cow<'f, Family> {
+/// A family with the measures that the tables have: those that `by` and `where` use and, of others, the named ones or the family's own.
+pub(super) fn swept_family<'f>(
+    family: &'f Family,
+    by: Option<&CompiledExpression>,
+    measures: Option<&[String]>,
+) -> Cow<'f, Family> {
     let is_named =
         |measure: &Measure, names: &[String]| measure.names().any(|own| names.iter().any(|name| name == own));
     let is_computed = |(k, measure): (usize, &Measure)| {
         let is_used = by.iter().copied().chain(&family.filter).any(|expression| family.expression_uses(expression, k));
-        is_used || options.measures.as_ref().map_or(family.is_computed[k], |names| is_named(measure, names))
+        is_used || measures.map_or(family.is_computed[k], |names| is_named(measure, names))
     };
     let is_computed: Vec<bool> = measure::ALL.iter().enumerate().map(is_computed).collect();
     match is_computed == family.is_computed {
@@ -298,14 +302,6 @@ impl FamilyShard<'_> {
         }
     }
 
-    /// The groups in which cells are solved: as many cells as take a few megabytes.
-    fn groups<'g>(&self, cells: &'g CellIndices, measures: Option<&'g [bool]>) -> CellGroups<'g> {
-        const GROUP_BYTES: usize = 1 << 22;
-        const MOST_CELLS: usize = 64;
-        let size = (GROUP_BYTES / self.family.estimate_cell_bytes().max(1)).clamp(1, MOST_CELLS);
-        CellGroups { cells, first_group: 0, size, work_bytes: 0, requested_measures: measures, solve_known: None }
-    }
-
     /// The best curves in order of cell, trace and circuit, and the counts of all cells. Only the measures that are needed for
     /// it are computed.
     fn find_best(
@@ -327,13 +323,18 @@ impl FamilyShard<'_> {
             (ranked, count(&solved), solved.len())
         };
         let (mut best, mut counts) = (Best::new(most), Counts::default());
-        sweep::process_groups(self.family, self.groups(cells, Some(&needed)), rank, |(ranked, counted, cells)| {
-            self.check_interrupt()?;
-            ranked.into_iter().for_each(|(key, place)| best.add(key, place));
-            counts.add(&counted);
-            report(Event::Cells(cells));
-            Ok::<(), Error>(())
-        })?;
+        sweep::process_groups(
+            self.family,
+            groups(self.family, cells, Some(&needed)),
+            rank,
+            |(ranked, counted, cells)| {
+                self.check_interrupt()?;
+                ranked.into_iter().for_each(|(key, place)| best.add(key, place));
+                counts.add(&counted);
+                report(Event::Cells(cells));
+                Ok::<(), Error>(())
+            },
+        )?;
         let mut places: Vec<Place> = best.into_sorted().into_iter().map(|ranked| ranked.place).collect();
         places.sort_unstable();
         Ok((places, counts))
@@ -374,7 +375,7 @@ impl FamilyShard<'_> {
             }
         };
         let mut counts = Counts::default();
-        sweep::process_groups(self.family, self.groups(cells, None), make, |solved| {
+        sweep::process_groups(self.family, groups(self.family, cells, None), make, |solved| {
             self.check_interrupt()?;
             cell_table.append(solved.cells)?;
             if let (Some(table), Some(points)) = (&mut point_table, solved.points) {
@@ -399,6 +400,14 @@ impl FamilyShard<'_> {
     fn check_interrupt(&self) -> Result<(), output::Error> {
         if self.options.interrupt.load(Ordering::Relaxed) { Err(output::Error::Interrupted) } else { Ok(()) }
     }
+}
+
+/// The groups in which cells are solved: as many cells as take a few megabytes.
+pub(super) fn groups<'g>(family: &Family, cells: &'g CellIndices, measures: Option<&'g [bool]>) -> CellGroups<'g> {
+    const GROUP_BYTES: usize = 1 << 22;
+    const MOST_CELLS: usize = 64;
+    let size = (GROUP_BYTES / family.estimate_cell_bytes().max(1)).clamp(1, MOST_CELLS);
+    CellGroups { cells, first_group: 0, size, work_bytes: 0, requested_measures: measures, solve_known: None }
 }
 
 /// What cells come to.

@@ -2,9 +2,11 @@
 
 use coupler_curves::CouplerCurve;
 use coupler_curves::exchange::SelectedCurve;
+use coupler_curves::family::Family;
 use coupler_curves::geometry::Point;
 use coupler_curves::linkage::{Input, Linkage};
 use coupler_curves::motion::{Circuit, Motion, Sampler, Sampling};
+use coupler_curves::solve::SolvedCell;
 
 use crate::page::{self, Heading, Key, Layout, Options, Panel, PanelPage, PanelScale, Paper, PoseChoice};
 use crate::render::{self, TextMode};
@@ -25,6 +27,33 @@ pub fn compose(curve: &SelectedCurve, pose: PoseChoice, options: &Options) -> Sc
         &panel_page(curve, &curve.name(), pose, &Key::for_cell(curve.family, &curve.solved.cell)),
         options,
     )
+}
+
+/// Draws a linkage with all its curves, in a pose: the page of a cell by itself.
+pub fn compose_cell(family: &Family, solved: &SolvedCell, pose: PoseChoice, options: &Options) -> Scene {
+    let [caption, note] = family.format_captions(&solved.cell, solved.first_curve_values());
+    let facts = page::cell_facts(family, solved);
+    let panel = Panel::new(solved).with_caption(caption).with_note(note).with_facts(facts).with_pose(pose);
+    compose_panel(family, &family.title, panel, options)
+}
+
+/// Draws a panel of a cell of a family as a page by itself.
+pub fn compose_panel(family: &Family, title: &str, panel: Panel, options: &Options) -> Scene {
+    let key = Key::for_cell(family, &panel.solved_cell.cell);
+    let heading = Heading::new(title)
+        .with_family_id(&family.id)
+        .with_atlas_title("coupler-atlas")
+        .with_source(family.template.source.clone())
+        .with_dimensions(&key.dimensions)
+        .with_symbols(&family.names);
+    let sheet = PanelPage {
+        heading,
+        layout: Layout::Panels { columns: 1, rows: 1 },
+        panels: vec![panel],
+        scale: PanelScale::Panel,
+        key: Some(&key),
+    };
+    page::compose_panels(&sheet, options)
 }
 
 /// The plate as a page of one panel, with its key; `name` is that of the curve.

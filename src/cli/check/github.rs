@@ -1,6 +1,6 @@
 //! The report as annotations of a GitHub workflow.
 
-use coupler_atlas::check::Report;
+use crate::check::Report;
 
 use super::super::printable;
 use super::super::source::ManifestSource;

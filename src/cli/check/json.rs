@@ -1,6 +1,6 @@
 //! The report as JSON.
 
-use coupler_atlas::check::Report;
+use crate::check::Report;
 use serde::Serialize;
 
 use super::super::report;

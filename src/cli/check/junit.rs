@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use coupler_atlas::check::{Finding, Report};
+use crate::check::{Finding, Report};
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
 

@@ -8,10 +8,10 @@ mod table;
 
 use std::path::{Path, PathBuf};
 
+use crate::check::{self, Event, Report};
+use crate::manifest::{PartialTolerances, Tolerances};
+use crate::output;
 use clap::{Args, ValueHint};
-use coupler_atlas::check::{self, Event, Report};
-use coupler_atlas::manifest::{PartialTolerances, Tolerances};
-use coupler_atlas::output;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::report::{self, ReportRequest};
@@ -124,7 +124,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     }
     let Arguments { atol, rtol, measure_rtol, .. } = *arguments;
     let tolerances = PartialTolerances { atol, rtol, measure_rtol };
-    let options = check::Options { only: arguments.only.clone(), tolerances };
+    let options = check::Options { only: arguments.only.clone(), tolerances, ..check::Options::default() };
     let mut bar = ProgressBar::hidden();
     let report = check::check_atlas(&source.plan, &arguments.against, &options, &mut |event| match event {
         Event::Begin { family, pages } if !arguments.quiet => {
@@ -145,6 +145,11 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         return bless(arguments, &source, &report);
     }
     Ok(if report.has_differences() { Outcome::Difference } else { Outcome::Done })
+}
+
+/// The report as a table.
+pub(super) fn report_text(report: &Report) -> String {
+    table::text(report)
 }
 
 /// Writes the requested reports, and prints the table unless a report is printed instead.

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use coupler_atlas::check::{self, Options, Report};
-use coupler_atlas::manifest::Plan;
-use coupler_atlas::output;
-use coupler_atlas::record::RUN_FILE_NAME;
+use crate::check::{self, Options, Report};
+use crate::manifest::Plan;
+use crate::output;
+use crate::record::RUN_FILE_NAME;
 use quick_xml::escape::escape;
 
 use super::super::{InputError, pluralize, print_stderr, printable};

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use coupler_atlas::check::{Change, Finding, Report};
+use crate::check::{Change, Finding, Report};
 
 use super::super::{pluralize, printable};
 

@@ -1,6 +1,6 @@
 //! Numbers and proportions of designs, as text.
 
-use coupler_atlas::design::Design;
+use crate::design::Design;
 
 use super::super::format;
 

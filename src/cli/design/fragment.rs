@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use coupler_atlas::design::Design;
+use crate::design::Design;
 
 use super::Report;
 

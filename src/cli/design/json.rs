@@ -1,6 +1,6 @@
 //! The JSON that `design --json` prints.
 
-use coupler_atlas::design::{Design, DrivenLinkage, Driver, ProportionOrigin};
+use crate::design::{Design, DrivenLinkage, Driver, ProportionOrigin};
 use serde_json::{Map, Value, json};
 
 use super::trade_offs::trade_offs;

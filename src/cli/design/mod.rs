@@ -9,8 +9,8 @@ mod trade_offs;
 
 use std::path::PathBuf;
 
+use crate::design::{self, Driver, LinkageKind, Requirement, Requirements, SynthesisResult};
 use clap::{Args, ValueEnum, ValueHint};
-use coupler_atlas::design::{self, Driver, LinkageKind, Requirement, Requirements, SynthesisResult};
 use coupler_curves::expression::Expression;
 
 use super::linkage::parse_input;

@@ -1,6 +1,6 @@
 //! A drawing of the designs.
 
-use coupler_atlas::design::Design;
+use crate::design::Design;
 use coupler_curves::solve::SolvedCell;
 use coupler_drawing::page::{self, Heading, Layout, Options, Panel, PanelPage, PanelScale, Paper, PoseChoice};
 use coupler_drawing::render::{self, TextMode};

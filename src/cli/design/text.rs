@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use coupler_atlas::design::{
+use crate::design::{
     Design, DrivenLinkage, Driver, LinkageKind, ProportionOrigin, RejectedLinkage, Relaxation, Requirement,
 };
 

@@ -1,6 +1,6 @@
 //! Trade-offs: how a design is better or worse than another, in words.
 
-use coupler_atlas::design::Design;
+use crate::design::Design;
 
 use super::format::{format_ratio, format_significant};
 

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use coupler_atlas::export::Format;
-use coupler_atlas::output;
+use crate::export::Format;
+use crate::output;
 
 use super::super::{InputError, files, print_bytes, printable};
 

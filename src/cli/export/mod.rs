@@ -6,9 +6,9 @@ mod selection;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
+use crate::export::{self, Format, Options};
+use crate::manifest::Plan;
 use clap::{Args, ValueHint};
-use coupler_atlas::export::{self, Format, Options};
-use coupler_atlas::manifest::Plan;
 use coupler_curves::exchange::{CurveName, ParameterSet, SelectedCurve, manifest_fragment};
 use coupler_curves::family::{Family, MAX_SAMPLES, ParameterText, Sampling};
 use coupler_curves::geometry::Point;

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use coupler_atlas::sweep::{self, CellGroups, CellIndices};
+use crate::sweep::{self, CellGroups, CellIndices};
 use coupler_curves::exchange::CurveName;
 use coupler_curves::family::{Family, NoSuchCell};
 use coupler_curves::measure;

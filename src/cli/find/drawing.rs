@@ -1,6 +1,6 @@
 //! A drawing of the path and the curves that have been found for it.
 
-use coupler_atlas::find::PlacedCurve;
+use crate::find::PlacedCurve;
 use coupler_curves::find::{Answer, Placement, Target, format_length as number, format_relative as relative};
 use coupler_curves::solve::SolvedCell;
 use coupler_drawing::page::{self, AnswersPage, FoundCurve, Options, Paper};

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use coupler_atlas::find::PlacedCurve;
+use crate::find::PlacedCurve;
 use coupler_curves::find::{self, AnswerRecord, FitRecord, PathKind, scaled_values};
 use coupler_curves::template::Template;
 use serde::Serialize;

@@ -8,9 +8,9 @@ mod text;
 
 use std::path::{Path, PathBuf};
 
+use crate::find::{self, MAX_CURVES, MAX_POINTS};
+use crate::output;
 use clap::{Args, ValueEnum, ValueHint};
-use coupler_atlas::find::{self, MAX_CURVES, MAX_POINTS};
-use coupler_atlas::output;
 use coupler_curves::expression::Expression;
 use coupler_curves::find::{
     Answer, Constraint, Effort, Index, Options, PathKind, Search, Target, answers_manifest, nearest_miss,

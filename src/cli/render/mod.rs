@@ -9,11 +9,11 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+use crate::gallery::PAGE_FILE;
+use crate::output;
+use crate::record::{Digest, IMAGES_FILE_NAME, RUN_FILE_NAME, RunRecord, file_digest};
+use crate::sweep::Division;
 use clap::{Args, ValueHint};
-use coupler_atlas::gallery::PAGE_FILE;
-use coupler_atlas::output;
-use coupler_atlas::record::{Digest, IMAGES_FILE_NAME, RUN_FILE_NAME, RunRecord, file_digest};
-use coupler_atlas::sweep::Division;
 use coupler_drawing::render::Format;
 use progress::ProgressReporter;
 

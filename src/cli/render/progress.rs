@@ -1,7 +1,7 @@
 //! The progress of a run, and a line for each family at its end.
 
-use coupler_atlas::output::Event;
-use coupler_atlas::record::FamilyRecord;
+use crate::output::Event;
+use crate::record::FamilyRecord;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::super::{pluralize, print_stderr, printable};

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::sleep;
 use std::time::Duration;
 
-use coupler_atlas::output;
+use crate::output;
 
 use super::super::{InputError, Outcome, files, print_stderr, printable, report_failure};
 use super::live_page::LivePage;

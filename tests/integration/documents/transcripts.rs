@@ -66,6 +66,8 @@ fn every_block_is_tested() {
         ("docs/architecture.md", "text", "a figure"),
         ("docs/check.md", "yaml", "readme.rs"),
         ("docs/pages.md", "xml", "numbers.rs"),
+        ("docs/python.md", "python", ".ci/python"),
+        ("docs/python.md", "sh", ".ci/python builds and installs the wheel"),
         ("docs/scale.md", "sql", ".ci/shards"),
         ("docs/scale.md", "python", ".ci/shards"),
     ];

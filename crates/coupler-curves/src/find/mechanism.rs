@@ -110,7 +110,7 @@ impl Mechanism {
 
     /// The parameters of [`Mechanism::template`].
     pub fn parameters(&self) -> [(&'static str, f64); 9] {
-        parameters(&self.four_bar)
+        placed_parameters(&self.four_bar)
     }
 
     /// The direction in which the crank turns as the target is followed: `forward` if the input rises at its first point.
@@ -215,11 +215,12 @@ fn solve_on_circuit(
 
 /// The family of one cell, a four-bar.
 fn family(four_bar: &PlacedFourBar) -> Option<Family> {
-    let values = parameters(four_bar).map(|(name, value)| (name.to_owned(), value));
+    let values = placed_parameters(four_bar).map(|(name, value)| (name.to_owned(), value));
     Family::single_cell(TEMPLATE.clone(), &values, Sampling::Samples(360)).ok()
 }
 
-fn parameters(four_bar: &PlacedFourBar) -> [(&'static str, f64); 9] {
+/// The parameters of [`Mechanism::template`] for a four-bar.
+pub fn placed_parameters(four_bar: &PlacedFourBar) -> [(&'static str, f64); 9] {
     let PlacedFourBar { pivots: [o, c], lengths: FourBar { frame, crank, coupler, rocker }, coupler_point } = four_bar;
     let turn = trig::degrees(trig::atan2(c.y - o.y, c.x - o.x));
     [

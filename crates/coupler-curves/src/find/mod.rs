@@ -71,7 +71,7 @@ pub use linkage::{
     SampleShape, is_scalable, longest_link, pivots_of, scaled_values,
 };
 pub use manifest::{answer_families, answers_manifest, manifest_head};
-pub use mechanism::{Condition, Mechanism};
+pub use mechanism::{Condition, Mechanism, placed_parameters};
 pub use options::{Effort, Options};
 pub use ranking::Ranking;
 pub use record::{AnswerRecord, FitRecord};

@@ -1,6 +1,6 @@
 //! The JSON of an atlas's curves.
 
-use coupler_atlas::find::AtlasAnswer;
+use crate::find::AtlasAnswer;
 use coupler_curves::find::AnswerRecord;
 use serde::Serialize;
 

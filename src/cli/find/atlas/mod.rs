@@ -7,9 +7,9 @@ pub(super) use text::placed;
 
 use std::path::{Path, PathBuf};
 
-use coupler_atlas::find::{self, AtlasAnswer, AtlasOptions};
-use coupler_atlas::manifest::Plan;
-use coupler_atlas::record::{FolderRecord, RunRecord};
+use crate::find::{self, AtlasAnswer, AtlasOptions};
+use crate::manifest::Plan;
+use crate::record::{FolderRecord, RunRecord};
 use coupler_curves::exchange::{ParameterSet, manifest_families};
 use coupler_curves::find::{
     Answer, Condition, Index, Options, Search, Target, answer_families, answers_manifest, manifest_head, scaled_values,

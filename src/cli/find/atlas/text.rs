@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use coupler_atlas::find::PlacedCurve;
+use crate::find::PlacedCurve;
 use coupler_curves::find::{Quality, format_length as number, format_relative as relative};
 
 use super::super::super::format::pluralize;

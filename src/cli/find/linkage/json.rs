@@ -1,6 +1,6 @@
 //! The JSON of linkages with their dimensions.
 
-use coupler_atlas::find::LinkageAnswer;
+use crate::find::LinkageAnswer;
 use serde::Serialize;
 
 use super::super::super::report;

@@ -6,8 +6,8 @@ mod text;
 use std::path::Path;
 use std::sync::Arc;
 
-use coupler_atlas::find::{self, LinkageAnswer, MAX_SAMPLES};
-use coupler_atlas::manifest;
+use crate::find::{self, LinkageAnswer, MAX_SAMPLES};
+use crate::manifest;
 use coupler_curves::exchange::{ParameterSet, manifest_families};
 use coupler_curves::family::Family;
 use coupler_curves::find::{

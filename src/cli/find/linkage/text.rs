@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use coupler_atlas::find::{LinkageAnswer, PlacedCurve};
+use crate::find::{LinkageAnswer, PlacedCurve};
 use coupler_curves::find::{LinkageSpace, Quality, format_length as number, format_relative as relative};
 use coupler_curves::linkage_format::toml_number;
 use coupler_curves::template::ParameterKind;

@@ -1,0 +1,70 @@
+"""Coupler curves of planar linkages.
+
+>>> import coupler_atlas as ca
+>>> bar = ca.FourBar(frame=4, crank=1, coupler=3, rocker=3.5, along=1.5, across=1)
+>>> bar.curve().shape
+(360, 2)
+
+Lengths are in the unit in which they are given, angles in degrees, rates per radian of the input. Circuits, traces and cells are numbered
+from 1, as in tables and names of files; sequences are indexed from 0, as everywhere in Python.
+"""
+
+from ._core import (
+    Animation,
+    Answer,
+    Atlas,
+    Batch,
+    Circuit,
+    Curve,
+    Error,
+    Family,
+    Found,
+    FourBar,
+    Linkage,
+    LinkageError,
+    ManifestError,
+    ManifestWarning,
+    OutputError,
+    Rendering,
+    Report,
+    Sextic,
+    Sweep,
+    __version__,
+    check,
+    find,
+    linkage,
+    linkages,
+    read,
+    render,
+    sweep,
+)
+
+__all__ = [
+    "Animation",
+    "Answer",
+    "Atlas",
+    "Batch",
+    "Circuit",
+    "Curve",
+    "Error",
+    "Family",
+    "Found",
+    "FourBar",
+    "Linkage",
+    "LinkageError",
+    "ManifestError",
+    "ManifestWarning",
+    "OutputError",
+    "Rendering",
+    "Report",
+    "Sextic",
+    "Sweep",
+    "__version__",
+    "check",
+    "find",
+    "linkage",
+    "linkages",
+    "read",
+    "render",
+    "sweep",
+]

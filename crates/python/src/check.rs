@@ -1,0 +1,137 @@
+//! Atlases compared with a fresh run.
+
+use std::path::PathBuf;
+
+use coupler_atlas::check;
+use coupler_atlas::cli;
+use coupler_atlas::manifest::PartialTolerances;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::atlas::{Manifest, ManifestArgument};
+use crate::error::{Error, OutputError};
+use crate::task::{self, Task};
+
+/// The result of a check. It is true if nothing differs; as text it is the report of the program.
+#[pyclass(frozen, module = "coupler_atlas")]
+pub struct Report {
+    report: check::Report,
+}
+
+#[pymethods]
+impl Report {
+    /// Whether anything differs from the record.
+    #[getter]
+    fn has_differences(&self) -> bool {
+        self.report.has_differences()
+    }
+
+    /// The number of families that were compared.
+    #[getter]
+    fn families(&self) -> usize {
+        self.report.families
+    }
+
+    /// The number of curves that were compared.
+    #[getter]
+    fn curves(&self) -> usize {
+        self.report.curves
+    }
+
+    /// The number of pages that were compared.
+    #[getter]
+    fn pages(&self) -> usize {
+        self.report.pages
+    }
+
+    /// The number of findings of each kind.
+    #[getter]
+    fn counts(&self) -> std::collections::BTreeMap<&'static str, usize> {
+        self.report.counts.clone()
+    }
+
+    /// The findings, the worst first, each a dictionary: which curve, where, and by how much it has changed. docs/check.md describes the keys.
+    #[getter]
+    fn findings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let text = serde_json::to_string(&self.report.findings).map_err(|error| Error::new_err(error.to_string()))?;
+        py.import("json")?.call_method1("loads", (text,))
+    }
+
+    fn __bool__(&self) -> bool {
+        !self.report.has_differences()
+    }
+
+    fn __len__(&self) -> usize {
+        self.report.findings.len()
+    }
+
+    fn __str__(&self) -> String {
+        cli::check_report(&self.report)
+    }
+
+    fn __repr__(&self) -> String {
+        let check::Report { families, curves, pages, .. } = self.report;
+        let found = self.report.total();
+        format!("<coupler_atlas.Report: {families} families, {curves} curves, {pages} pages, {found} findings>")
+    }
+}
+
+/// Check an atlas: run its manifest again in memory, and compare the result with what is recorded in a folder.
+///
+/// Parameters
+/// ----------
+/// manifest : path or Atlas
+///     The manifest.
+/// against : path
+///     The folder of the recorded atlas.
+/// only : list of str, optional
+///     The ids of the families to check.
+/// atol, rtol : float, optional
+///     The tolerances of coordinates, in the unit of the lengths and relative to the curve's extent; by default those of the manifest.
+/// measure_rtol : float, optional
+///     The relative tolerance of measures.
+/// progress : bool or callable, optional
+///     None shows a bar in notebooks and terminals, True always, False never; a function is called with (done, total, name).
+///
+/// Returns
+/// -------
+/// Report
+///     True if nothing differs.
+///
+/// Raises
+/// ------
+/// OutputError
+///     The record cannot be read, or a run is writing to the folder.
+#[pyfunction]
+#[pyo3(name = "check", signature = (manifest, against, *, only=None, atol=None, rtol=None, measure_rtol=None, progress=None))]
+#[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
+pub fn check_atlas(
+    py: Python,
+    manifest: ManifestArgument,
+    against: PathBuf,
+    only: Option<Vec<String>>,
+    atol: Option<f64>,
+    rtol: Option<f64>,
+    measure_rtol: Option<f64>,
+    progress: Option<Bound<PyAny>>,
+) -> PyResult<Report> {
+    for (name, value) in [("atol", atol), ("rtol", rtol), ("measure_rtol", measure_rtol)] {
+        if let Some(value) = value.filter(|value| value.is_nan() || *value < 0.0) {
+            return Err(PyValueError::new_err(format!("{name}={value}: a tolerance is 0 or more")));
+        }
+    }
+    let manifest = manifest.read(py)?;
+    let only = only.unwrap_or_default();
+    manifest.require_families(&only)?;
+    let Manifest { plan, .. } = manifest;
+    let result = task::run(py, progress.as_ref(), move |task: &Task| {
+        let tolerances = PartialTolerances { atol, rtol, measure_rtol };
+        let options = check::Options { only, tolerances, interrupt: task.interrupt.clone() };
+        check::check_atlas(&plan, &against, &options, &mut |event| match event {
+            check::Event::Begin { family, pages } => task.begin(family, pages),
+            check::Event::Page => task.advance(1),
+            check::Event::End => {}
+        })
+    })?;
+    Ok(Report { report: result.map_err(|error| OutputError::new_err(error.to_string()))? })
+}

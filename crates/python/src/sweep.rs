@@ -1,0 +1,287 @@
+//! Sweeps: the cells of a family as a stream of batches that are solved as they are asked for.
+
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use arrow_array::ffi_stream::FFI_ArrowArrayStream;
+use arrow_array::{RecordBatch, RecordBatchReader};
+use arrow_schema::{ArrowError, SchemaRef};
+use coupler_atlas::output;
+use coupler_atlas::shard::{Division, MAX_SHARDS, Rows, TableKind, TableStream};
+use coupler_curves::family::MEASURES;
+use coupler_curves::problem::suggestion;
+use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyCapsule;
+
+use crate::arrow::{self, Batch, arrow_error};
+use crate::atlas::{Manifest, ManifestArgument};
+use crate::error::OutputError;
+use crate::task;
+
+/// The cells of a family, or a part of them, as a table that is solved as it is read.
+///
+/// It is iterated over in batches of some thousands of rows, and read as a whole by whatever takes an Arrow stream: ``polars.DataFrame(sweep)``,
+/// ``pyarrow.table(sweep)``, ``pandas.DataFrame.from_arrow(sweep)``, a query of DuckDB. Each reading begins anew. Memory is that of a batch or
+/// two, however many cells there are. Ctrl-C ends an iteration with KeyboardInterrupt, and a reading by a library with that library's exception,
+/// "interrupted".
+#[pyclass(frozen, module = "coupler_atlas")]
+pub struct Sweep {
+    family: String,
+    stream: TableStream,
+    schema: SchemaRef,
+    progress: Option<Py<PyAny>>,
+}
+
+/// Makes the batches of a sweep, one after the other.
+struct Batches {
+    stream: TableStream,
+    family: String,
+    schema: SchemaRef,
+    reporter: Option<Py<PyAny>>,
+    cells: usize,
+}
+
+impl Batches {
+    /// The next batch, solved on other threads.
+    fn next(&mut self, py: Python) -> PyResult<Option<RecordBatch>> {
+        let mut stream = self.stream.clone();
+        let (family, cells) = (self.family.clone(), self.cells);
+        let reporter = self.reporter.as_ref().map(|reporter| reporter.bind(py).clone());
+        let (stream, rows) = task::run_with(py, reporter.as_ref().map(|reporter| reporter.as_any()), move |task| {
+            task.begin(&family, cells);
+            task.advance(cells - stream.rest().len());
+            let rows = stream.next_rows(&task.interrupt, &mut |cells| task.advance(cells));
+            (stream, rows)
+        })?;
+        self.stream = stream;
+        let rows: Option<Rows> = rows.map_err(|error: output::Error| OutputError::new_err(error.to_string()))?;
+        match rows {
+            Some(rows) => Ok(Some(arrow::batch(&self.schema, self.stream.columns(), rows).map_err(arrow_error)?)),
+            None => {
+                if let Some(reporter) = self.reporter.take() {
+                    reporter.bind(py).call_method0("end")?;
+                }
+                Ok(None)
+            }
+        }
+    }
+}
+
+/// Batches for a reader of Arrow data, which may call from any thread.
+struct Reader(Batches);
+
+impl Iterator for Reader {
+    type Item = Result<RecordBatch, ArrowError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        Python::attach(|py| {
+            self.0.next(py).map_err(|error| {
+                // The reader raises an exception of its own with this message.
+                let is_interrupt = error.is_instance_of::<PyKeyboardInterrupt>(py);
+                ArrowError::ExternalError(if is_interrupt { "interrupted".into() } else { error.to_string().into() })
+            })
+        })
+        .transpose()
+    }
+}
+
+impl RecordBatchReader for Reader {
+    fn schema(&self) -> SchemaRef {
+        self.0.schema.clone()
+    }
+}
+
+/// Iterates over the batches of a sweep.
+#[pyclass(frozen, module = "coupler_atlas")]
+pub struct SweepIterator(Mutex<Batches>);
+
+#[pymethods]
+impl SweepIterator {
+    fn __iter__(this: PyRef<Self>) -> PyRef<Self> {
+        this
+    }
+
+    fn __next__(&self, py: Python) -> PyResult<Option<Batch>> {
+        let mut batches = match self.0.try_lock() {
+            Ok(batches) => batches,
+            Err(std::sync::TryLockError::Poisoned(poisoned)) => PoisonError::into_inner(poisoned),
+            Err(std::sync::TryLockError::WouldBlock) => {
+                return Err(PyValueError::new_err(
+                    "another thread is reading these batches: begin again with iter(sweep)",
+                ));
+            }
+        };
+        Ok(batches.next(py)?.map(|inner| Batch { inner }))
+    }
+}
+
+impl Sweep {
+    fn batches(&self, py: Python) -> PyResult<Batches> {
+        let argument = self.progress.as_ref().map(|progress| progress.bind(py).clone());
+        let reporter = py.import("coupler_atlas._progress")?.getattr("lasting_reporter")?.call1((argument,))?;
+        Ok(Batches {
+            stream: self.stream.clone(),
+            family: self.family.clone(),
+            schema: self.schema.clone(),
+            reporter: if reporter.is_none() { None } else { Some(reporter.unbind()) },
+            cells: self.stream.rest().len(),
+        })
+    }
+}
+
+#[pymethods]
+impl Sweep {
+    /// The id of the family.
+    #[getter]
+    fn family(&self) -> &str {
+        &self.family
+    }
+
+    /// The number of cells; rows are more, for each curve of a cell has its own.
+    #[getter]
+    fn cell_count(&self) -> usize {
+        self.stream.rest().len()
+    }
+
+    /// The names of the columns, in order.
+    #[getter]
+    fn columns(&self) -> Vec<&str> {
+        self.stream.columns().iter().map(|column| column.name.as_str()).collect()
+    }
+
+    /// The units of the columns that have one, by name: ``deg``, ``rad``.
+    #[getter]
+    fn units(&self) -> std::collections::BTreeMap<&str, &str> {
+        let columns = self.stream.columns().iter().filter(|column| !column.unit.is_empty());
+        columns.map(|column| (column.name.as_str(), column.unit)).collect()
+    }
+
+    fn __repr__(&self) -> String {
+        let (cells, columns) = (self.cell_count(), self.stream.columns().len());
+        format!("<coupler_atlas.Sweep of {}: {cells} cells, {columns} columns>", self.family)
+    }
+
+    fn __iter__(&self, py: Python) -> PyResult<SweepIterator> {
+        Ok(SweepIterator(Mutex::new(self.batches(py)?)))
+    }
+
+    /// The schema, for readers of Arrow data.
+    fn __arrow_c_schema__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyCapsule>> {
+        arrow::schema_capsule(py, &self.schema)
+    }
+
+    /// The table from its beginning, for readers of Arrow data. Another schema than the own one is not made.
+    #[pyo3(signature = (requested_schema=None))]
+    fn __arrow_c_stream__<'py>(
+        &self,
+        py: Python<'py>,
+        requested_schema: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyCapsule>> {
+        // The protocol leaves it to the producer whether a request is met.
+        drop(requested_schema);
+        let stream = FFI_ArrowArrayStream::new(Box::new(Reader(self.batches(py)?)));
+        PyCapsule::new_with_value(py, stream, c"arrow_array_stream")
+    }
+}
+
+/// Sweep a family of a manifest: a table with a row for each curve, solved as it is read.
+///
+/// The columns, their types and the rows are those of the tables that ``coupler-atlas sweep`` writes as Parquet. docs/output.md describes them.
+///
+/// Parameters
+/// ----------
+/// manifest : path or Atlas
+///     The manifest.
+/// family : str, optional
+///     The id of the family; needed if the manifest has several, for each has columns of its own.
+/// shard : (int, int), optional
+///     Only the i-th of n equal parts of the cells, i from 0 to n - 1, as (3, 64).
+/// cells : (int, int), optional
+///     Only the cells with these numbers and those between, counted from 1, as (1, 1000).
+/// points : bool
+///     The table of points, with a row for each sample of each curve, in place of that of curves.
+/// measures : list of str, optional
+///     The measures of the table in place of the manifest's; those that `where` uses are there in any case.
+/// progress : bool or callable, optional
+///     None shows a bar in notebooks and terminals, True always, False never; a function is called with (done, total, name).
+///
+/// Returns
+/// -------
+/// Sweep
+///     Nothing is solved yet.
+///
+/// Raises
+/// ------
+/// ManifestError
+///     The manifest has errors.
+/// ValueError
+///     There is no such family, part or measure.
+#[pyfunction]
+#[pyo3(signature = (manifest, *, family=None, shard=None, cells=None, points=false, measures=None, progress=None))]
+#[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
+pub fn sweep(
+    py: Python,
+    manifest: ManifestArgument,
+    family: Option<String>,
+    shard: Option<(usize, usize)>,
+    cells: Option<(usize, usize)>,
+    points: bool,
+    measures: Option<Vec<String>>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Sweep> {
+    let division = division(shard, cells)?;
+    let measures =
+        measures.map(|names| names.into_iter().map(known_measure).collect::<PyResult<Vec<_>>>()).transpose()?;
+    let (path, text): (PathBuf, Arc<str>) = manifest.text(py)?;
+    let wanted = family.clone();
+    let manifest = Manifest::for_tables(py, path, text, move |id, count| match &wanted {
+        Some(wanted) if wanted != id => 0..0,
+        _ => division.range(count),
+    })?;
+    let planned = manifest.family(family.as_deref())?;
+    let own = &planned.family;
+    if let Division::Cells { last, .. } = division
+        && last > own.cell_count()
+    {
+        let count = own.cell_count();
+        let message =
+            format!("cells={cells:?}: `{}` has no cell {last}: its cells are numbered from 1 to {count}", own.id);
+        return Err(PyValueError::new_err(message.replace("Some(", "").replace("))", ")")));
+    }
+    let table = if points { TableKind::Points } else { TableKind::Cells };
+    let stream = TableStream::new(own, table, division, measures.as_deref());
+    let schema = arrow::schema(stream.columns());
+    Ok(Sweep { family: own.id.clone(), stream, schema, progress })
+}
+
+fn division(shard: Option<(usize, usize)>, cells: Option<(usize, usize)>) -> PyResult<Division> {
+    match (shard, cells) {
+        (Some(_), Some(_)) => {
+            Err(PyValueError::new_err("shard and cells are two ways to choose cells: give one of them"))
+        }
+        (Some((index, of)), None) if of > 0 && of <= MAX_SHARDS && index < of => Ok(Division::Shard { index, of }),
+        (Some((index, of)), None) if of == 0 || of > MAX_SHARDS => {
+            Err(PyValueError::new_err(format!("shard=({index}, {of}): the number of shards is from 1 to {MAX_SHARDS}")))
+        }
+        (Some((index, of)), None) => Err(PyValueError::new_err(format!(
+            "shard=({index}, {of}): shards are numbered from 0: give (0, {of}) to ({}, {of})",
+            of - 1
+        ))),
+        (None, Some((first, last))) if first > 0 && first <= last => Ok(Division::Cells { first, last }),
+        (None, Some((first, last))) => Err(PyValueError::new_err(format!(
+            "cells=({first}, {last}): give the numbers of the first and the last cell, counted from 1, as in (1, 1000)"
+        ))),
+        (None, None) => Ok(Division::WHOLE),
+    }
+}
+
+fn known_measure(name: String) -> PyResult<String> {
+    let known: Vec<&str> = MEASURES.iter().flat_map(|measure| measure.names()).collect();
+    match known.contains(&name.as_str()) {
+        true => Ok(name),
+        false => {
+            Err(PyValueError::new_err(format!("measures: unknown measure `{name}`: {}", suggestion(&name, &known))))
+        }
+    }
+}

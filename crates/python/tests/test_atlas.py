@@ -1,0 +1,117 @@
+"""Manifests, rendered atlases and their checks."""
+
+import pathlib
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import coupler_atlas as ca
+
+from test_sweep import command
+
+
+def test_a_manifest_is_read(manifest) -> None:
+    atlas = ca.read(manifest())
+    assert atlas.title == "Small" and list(atlas) == atlas.keys() == ["four-bars", "watt"] and len(atlas) == 2
+    family = atlas["watt"]
+    assert len(family) == 12 and family.linkage == "watt" and family.values(0)["p"] == 3 and family.values(-1)["a"] == 2
+    assert family[2].number == 3 == family.cell(3).number and family[2].parameters == family.cell(3).parameters
+    assert len(list(family)) == 12
+    own = ca.linkage("watt", samples=36, **family[0].parameters)
+    assert np.array_equal(own.curve(), family[0].curve())
+    four_bar = atlas["four-bars"][0]
+    assert four_bar.curve().shape == (36, 2) and "four-bars" in repr(four_bar)
+    for wrong in (lambda: family[12], lambda: family.cell(0), lambda: family[-13]):
+        with pytest.raises(IndexError, match="12"):
+            wrong()
+    with pytest.raises(KeyError, match="did you mean `watt`"):
+        atlas["wat"]
+
+
+def test_problems_of_a_manifest_are_reported_with_their_places(manifest) -> None:
+    path = manifest('[atlas]\ntitle = "x"\n[[family]]\nid = "a"\nlinkage = "evan"\ngrid = { p = [1, 2], p2 = 3 }\n')
+    with pytest.raises(ca.ManifestError) as caught:
+        ca.read(path)
+    error = caught.value
+    assert error.file == str(path) and error.problems[0]["line"] == 5 and error.problems[0]["is_error"]
+    assert "did you mean `evans`" in error.problems[0]["help"] + error.problems[0]["message"]
+    assert f"{path}:5:" in str(error) and "\x1b" not in str(error)
+    for call in (ca.sweep, ca.render, lambda path: ca.check(path, against=path.parent)):
+        with pytest.raises(ca.ManifestError):
+            call(path)
+    with pytest.raises(FileNotFoundError, match="nothing.toml"):
+        ca.read(path.parent / "nothing.toml")
+    assert issubclass(ca.ManifestError, ca.Error)
+
+
+def test_warnings_are_warnings(manifest) -> None:
+    path = manifest(
+        '[atlas]\ntitle = "x"\noutput = "out"\n[[family]]\nid = "a"\nlinkage = "evans"\ngrid = { p = [2, 3], a = 2.6 }\nwhere = "p > 5"\n'
+    )
+    with pytest.warns(ca.ManifestWarning, match="`where` keeps none"):
+        ca.render(path)
+
+
+def test_an_atlas_is_rendered_checked_and_found_changed(manifest, tmp_path) -> None:
+    path = manifest()
+    calls = []
+    rendering = ca.render(path, tmp_path / "here", progress=lambda *call: calls.append(call))
+    command("render", path, "-o", tmp_path / "there", "--quiet")
+    # The same files, but for nothing.
+    for file in rendering.files:
+        other = tmp_path / "there" / file.relative_to(tmp_path / "here")
+        assert file.read_bytes() == other.read_bytes()
+    assert rendering.pages == rendering.drawn > 0 and rendering.folder == tmp_path / "here"
+    assert rendering.gallery == tmp_path / "here" / "index.html" and rendering.gallery in rendering.files
+    assert [family["id"] for family in rendering.families] == ["four-bars", "watt"]
+    assert ca.render(path, tmp_path / "here").drawn == 0
+    report = ca.check(path, against=tmp_path / "here")
+    assert report and not report.has_differences and report.findings == [] and report.families == 2
+    assert "nothing has changed" in str(report)
+
+    table = tmp_path / "here" / "watt" / "points.csv"
+    lines = table.read_text().splitlines(keepends=True)
+    cell, *rest, x, y = lines[1].rstrip("\n").split(",")
+    lines[1] = ",".join([cell, *rest, str(float(x) + 0.01), y]) + "\n"
+    table.write_text("".join(lines))
+    report = ca.check(path, against=tmp_path / "here")
+    assert not report and report.has_differences and len(report) >= 1
+    finding = next(finding for finding in report.findings if finding.get("cell") == int(cell))
+    assert finding["family"] == "watt"
+    assert "watt" in str(report) and sum(report.counts.values()) >= 1
+    assert ca.check(path, against=tmp_path / "here", only=["four-bars"])
+
+
+def test_arguments_of_render_and_check_are_checked(manifest, tmp_path) -> None:
+    path = manifest()
+    with pytest.raises(ValueError, match="unknown format \"gif\": give any of svg, png, pdf"):
+        ca.render(path, formats=["gif"])
+    with pytest.raises(ValueError, match="did you mean `watt`"):
+        ca.render(path, only=["wat"])
+    with pytest.raises(ValueError, match="atol=-1"):
+        ca.check(path, against=tmp_path, atol=-1)
+    with pytest.raises(ca.OutputError, match="run.json"):
+        ca.check(path, against=tmp_path / "nothing")
+    (tmp_path / "file").write_text("")
+    with pytest.raises(ca.OutputError, match="cannot write"):
+        ca.render(path, tmp_path / "file" / "folder")
+
+
+def test_plates_are_those_of_the_program() -> None:
+    evans = ca.linkage("evans", p=2.5, a=2.6)
+    assert evans.svg() == command("inspect", "evans", "p=2.5", "a=2.6", "--svg", "-")
+    assert evans.animate().svg == command("inspect", "evans", "p=2.5", "a=2.6", "--animate", "--svg", "-")
+    assert evans.curves[0].toml() == command("export", "--linkage", "evans", "p=2.5", "a=2.6", "--format", "toml", "-o", "-")
+
+
+def test_the_command_is_the_program(manifest, tmp_path) -> None:
+    assert command("--version").startswith(f"coupler-atlas {ca.__version__}")
+    module = subprocess.run([sys.executable, "-m", "coupler_atlas", "list", "linkages"], capture_output=True, text=True)
+    assert module.returncode == 0 and module.stdout == command("list", "linkages")
+    program = pathlib.Path(sys.executable).parent / "coupler-atlas"
+    wrong = subprocess.run([program, "validate", tmp_path / "no.toml"], capture_output=True, text=True)
+    assert wrong.returncode == 2 and "cannot find" in wrong.stderr
+    misspelt = subprocess.run([program, "rendr"], capture_output=True, text=True)
+    assert misspelt.returncode == 2 and "render" in misspelt.stderr
