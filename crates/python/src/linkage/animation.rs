@@ -1,0 +1,43 @@
+//! Linkages in motion.
+
+use std::path::PathBuf;
+
+use coupler_drawing::plate::PAPER;
+use pyo3::prelude::*;
+
+use crate::error;
+
+/// A linkage in motion. A notebook shows it; ``save`` writes it as SVG, which browsers play.
+#[pyclass(frozen, module = "coupler_atlas")]
+pub struct Animation {
+    /// The animated plate, as SVG without scripts.
+    #[pyo3(get)]
+    pub(super) svg: String,
+}
+
+#[pymethods]
+impl Animation {
+    /// Write the animation as SVG.
+    fn save(&self, path: PathBuf) -> PyResult<()> {
+        coupler_atlas::output::write_file(&path, self.svg.as_bytes())
+            .map_err(|error| error::OutputError::new_err(error.to_string()))
+    }
+
+    /// The animation in a frame of its own, in which no script runs.
+    fn _repr_html_(&self) -> String {
+        let page = format!(
+            "<!DOCTYPE html><style>body{{margin:0}}svg{{display:block;width:100%;height:auto}}</style>{}",
+            self.svg
+        );
+        let escaped = page.replace('&', "&amp;").replace('"', "&quot;");
+        format!(
+            "<iframe sandbox title=\"a linkage in motion\" srcdoc=\"{escaped}\" \
+             style=\"border:0;width:100%;max-width:800px;aspect-ratio:{}/{}\"></iframe>",
+            PAPER.width, PAPER.height
+        )
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<coupler_atlas.Animation, {} bytes of SVG>", self.svg.len())
+    }
+}

@@ -1,0 +1,279 @@
+//! Linkages, their circuits and their curves.
+
+mod animation;
+mod catalogue;
+mod circuit;
+mod curve;
+mod four_bar;
+mod sextic;
+mod solution;
+
+pub use animation::Animation;
+pub use catalogue::{linkages, make_linkage};
+pub use circuit::Circuit;
+pub use curve::Curve;
+pub use four_bar::FourBar;
+pub use sextic::Sextic;
+
+use std::sync::Arc;
+
+use coupler_curves::family::{Family, Sampling};
+use coupler_curves::linkage::{self, Cognates};
+use coupler_curves::motion::{self, MAX_SAMPLES};
+use coupler_curves::solve::SolvedCell;
+use coupler_curves::template::Template;
+use coupler_drawing::page::PoseChoice;
+use coupler_drawing::plate::moving_view;
+use numpy::PyArray2;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+use pyo3::types::{PyDict, PyTuple};
+
+use crate::arrays;
+use crate::error::LinkageError;
+use solution::{Solution, measures_of, sampler};
+
+/// The number of samples of a circuit where none is given, as in `inspect`.
+const DEFAULT_SAMPLES: usize = 360;
+
+/// A linkage with numeric dimensions.
+///
+/// Lengths are in the unit in which they were given, inputs in degrees (or that unit, of an actuator), rates per radian (or unit) of the
+/// input. Arrays are computed once, share their memory, and cannot be written to: copy one to change it. Circuits and traces are numbered
+/// from 1, as in tables.
+#[pyclass(frozen, subclass, module = "coupler_atlas")]
+pub struct Linkage {
+    solution: Arc<Solution>,
+    curves: PyOnceLock<Py<PyTuple>>,
+    circuits: PyOnceLock<Py<PyTuple>>,
+}
+
+impl Linkage {
+    /// The linkage of a family with a single cell, which has this number in an atlas.
+    pub fn new(family: Family, source: String, number: Option<usize>) -> Linkage {
+        let solution = Arc::new(Solution::new(family, source, number));
+        Linkage { solution, curves: PyOnceLock::new(), circuits: PyOnceLock::new() }
+    }
+
+    fn of_template(template: Arc<Template>, values: &[(String, f64)], samples: usize) -> PyResult<Linkage> {
+        let samples = checked_samples(samples)?;
+        let source = template.source_line();
+        let id = template.id.clone();
+        let family = Family::single_cell(template, values, Sampling::Samples(samples))
+            .map_err(|errors| LinkageError::new_err(format!("{id}: {}", errors.to_string().replace('\n', "; "))))?;
+        Ok(Linkage::new(family, source, None))
+    }
+
+    fn parameter(&self, name: &str) -> Option<f64> {
+        let family = &self.solution.family;
+        let slot = family.names.iter().position(|known| known == name)?;
+        family.cell(0).values.get(slot).copied()
+    }
+}
+
+fn checked_samples(samples: usize) -> PyResult<usize> {
+    match samples {
+        2..=MAX_SAMPLES => Ok(samples),
+        _ => Err(PyValueError::new_err(format!("samples={samples}: a circuit has from 2 to {MAX_SAMPLES} samples"))),
+    }
+}
+
+#[pymethods]
+impl Linkage {
+    /// The id of the linkage, or of its family.
+    #[getter]
+    fn id(&self) -> &str {
+        &self.solution.family.id
+    }
+
+    /// The number of its cell in its family, from 1; None for a linkage by itself.
+    #[getter]
+    fn number(&self) -> Option<usize> {
+        self.solution.number
+    }
+
+    /// The values of its parameters by name, in the order in which they are declared.
+    #[getter]
+    fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let family = &self.solution.family;
+        let (values, found) = (family.cell(0).values, PyDict::new(py));
+        for (parameter, value) in family.template.parameters.iter().zip(values) {
+            found.set_item(&parameter.name, value)?;
+        }
+        Ok(found)
+    }
+
+    /// The names of the joints.
+    #[getter]
+    fn joints(&self) -> PyResult<Vec<&str>> {
+        Ok(self.solution.moved()?.linkage.joints.iter().map(|joint| joint.name.as_str()).collect())
+    }
+
+    /// What the input is: ``deg``, an angle, or ``length``.
+    #[getter]
+    fn input(&self) -> &'static str {
+        if self.solution.family.template.is_driven_by_length() { "length" } else { "deg" }
+    }
+
+    /// Whether it can be assembled: ``ok``, ``partial`` over a part of the requested range, or ``none``.
+    #[getter]
+    fn status(&self) -> PyResult<&'static str> {
+        Ok(self.solution.moved()?.status().name())
+    }
+
+    /// Why the status is not ``ok``; empty if it is.
+    #[getter]
+    fn reason(&self) -> PyResult<String> {
+        Ok(self.solution.moved()?.reason())
+    }
+
+    /// The points of a curve: an array of shape (n, 2), in the unit of the lengths.
+    ///
+    /// Parameters
+    /// ----------
+    /// samples : int, optional
+    ///     How many points the circuit has, in equal steps of the input; by default those of the linkage, 360 unless it says otherwise.
+    /// trace, circuit : int
+    ///     The numbers of the traced joint and of the circuit, from 1.
+    ///
+    /// Returns
+    /// -------
+    /// numpy.ndarray
+    ///     A closed curve does not repeat its first point. At a point that a joint does not reach its coordinates are NaN.
+    #[pyo3(signature = (samples=None, *, trace=1, circuit=1))]
+    fn curve<'py>(
+        this: &Bound<'py, Linkage>,
+        samples: Option<usize>,
+        trace: usize,
+        circuit: usize,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let py = this.py();
+        let solution = &this.get().solution;
+        let index = solution.curve_index(trace, circuit)?;
+        let Some(samples) = samples else {
+            let curve = Linkage::curves(this)?.bind(py).get_item(index)?.cast_into::<Curve>()?;
+            return Ok(Curve::points(&curve)?.bind(py).clone());
+        };
+        let sampler = sampler(Sampling::Samples(checked_samples(samples)?));
+        let solved = solution.moved()?;
+        let curve = &solved.curves[index];
+        let own = solved.circuit(curve);
+        let (linkage, joint) = solved.linkage.with_one_point(curve.joint);
+        let unsampled = motion::UnsampledCircuit { passes: own.passes.clone(), is_closed: own.is_closed };
+        let sampled = py.detach(|| sampler.sample_circuit(&linkage, unsampled));
+        arrays::points(py, sampled.points(joint), sampled.len())
+    }
+
+    /// The curves, one for each traced joint and circuit, in this order.
+    #[getter]
+    fn curves(this: &Bound<Linkage>) -> PyResult<Py<PyTuple>> {
+        let (py, own) = (this.py(), this.get());
+        let make = || {
+            let count = own.solution.moved()?.curves.len();
+            let curve = |index| Py::new(py, Curve::new(own.solution.clone(), index));
+            Ok::<_, PyErr>(PyTuple::new(py, (0..count).map(curve).collect::<PyResult<Vec<_>>>()?)?.unbind())
+        };
+        Ok(own.curves.get_or_try_init(py, make)?.clone_ref(py))
+    }
+
+    /// The circuits: motions of the whole linkage without disassembly, those that start on branch 1 first, then by least input.
+    #[getter]
+    fn circuits(this: &Bound<Linkage>) -> PyResult<Py<PyTuple>> {
+        let (py, own) = (this.py(), this.get());
+        let make = || {
+            let count = own.solution.moved()?.motion.circuits.len();
+            let circuit =
+                |index| Py::new(py, Circuit { solution: own.solution.clone(), index, inputs: PyOnceLock::new() });
+            Ok::<_, PyErr>(PyTuple::new(py, (0..count).map(circuit).collect::<PyResult<Vec<_>>>()?)?.unbind())
+        };
+        Ok(own.circuits.get_or_try_init(py, make)?.clone_ref(py))
+    }
+
+    /// For each circuit the least and the greatest input, in degrees or units of length, which are its limit positions; None where the input turns
+    /// fully.
+    #[getter]
+    fn limits(&self) -> PyResult<Vec<Option<(f64, f64)>>> {
+        Ok(self.solution.moved()?.motion.circuits.iter().map(limits_of).collect())
+    }
+
+    /// All measures of a curve by name: numbers, words, and None where a measure does not apply.
+    ///
+    /// Angles are in degrees and named so (``_deg``), lengths in the unit of the linkage, rates per radian. docs/measures.md defines them.
+    #[pyo3(signature = (*, trace=1, circuit=1))]
+    fn measures<'py>(&self, py: Python<'py>, trace: usize, circuit: usize) -> PyResult<Bound<'py, PyDict>> {
+        let index = self.solution.curve_index(trace, circuit)?;
+        measures_of(py, &self.solution, index)
+    }
+
+    /// The Roberts-Chebyshev cognates: the two other four-bars that trace the same curve, where they do.
+    ///
+    /// Parameters
+    /// ----------
+    /// trace : int
+    ///     The number of the traced joint that is the coupler point, from 1.
+    #[pyo3(signature = (*, trace=1))]
+    fn cognates(&self, py: Python, trace: usize) -> PyResult<Vec<Py<FourBar>>> {
+        let placed = self.solution.placed(trace)?;
+        let id = &self.solution.family.id;
+        let cognates = Cognates::from_four_bar(placed)
+            .map_err(|error| LinkageError::new_err(format!("{id}: {error}; {}", error.help())))?;
+        cognates.others.iter().map(|cognate| FourBar::placed(py, &cognate.four_bar)).collect()
+    }
+
+    /// The equation of the curve of a coupler point of a four-bar, a polynomial of degree 6.
+    ///
+    /// Parameters
+    /// ----------
+    /// trace : int
+    ///     The number of the traced joint that is the coupler point, from 1.
+    #[pyo3(signature = (*, trace=1))]
+    fn sextic(&self, trace: usize) -> PyResult<Sextic> {
+        let placed = self.solution.placed(trace)?;
+        let found = linkage::Sextic::from_four_bar(placed.lengths, placed.coupler_point);
+        let inner = found.ok_or_else(|| {
+            let message = "the traced joint is a pin, which moves on a circle, and so has no sextic";
+            LinkageError::new_err(format!("{}: {message}", self.solution.family.id))
+        })?;
+        Ok(Sextic { inner })
+    }
+
+    /// A plate of the linkage and its curves, as SVG.
+    fn svg(&self, py: Python) -> PyResult<String> {
+        self.solution.svg(|_| PoseChoice::Clearest, py)
+    }
+
+    /// The linkage in motion through a circuit, for a notebook or a file.
+    #[pyo3(signature = (*, circuit=1))]
+    fn animate(&self, py: Python, circuit: usize) -> PyResult<Animation> {
+        let circuits = self.solution.moved()?.motion.circuits.len();
+        if circuits > 0 && !(1..=circuits).contains(&circuit) {
+            let message = format!("circuit={circuit}: `{}` has circuits 1 to {circuits}", self.solution.family.id);
+            return Err(PyValueError::new_err(message));
+        }
+        let pose = |solved: &SolvedCell| match circuit.checked_sub(1).and_then(|k| solved.motion.circuits.get(k)) {
+            Some(own) => moving_view(&solved.linkage, own, circuit),
+            None => PoseChoice::Clearest,
+        };
+        Ok(Animation { svg: self.solution.svg(pose, py)? })
+    }
+
+    /// The plate that a notebook shows; nothing if the linkage cannot be assembled.
+    fn _repr_svg_(&self, py: Python) -> PyResult<Option<String>> {
+        if self.solution.moved()?.motion.is_assembled() { self.svg(py).map(Some) } else { Ok(None) }
+    }
+
+    fn __repr__(&self) -> String {
+        let family = &self.solution.family;
+        let values = family.template.parameters.iter().zip(family.cell(0).values);
+        let values: Vec<String> = values.map(|(parameter, value)| format!("{}={value}", parameter.name)).collect();
+        format!("<coupler_atlas.Linkage {}: {}>", family.id, values.join(", "))
+    }
+}
+
+fn limits_of(circuit: &motion::Circuit) -> Option<(f64, f64)> {
+    let range = || circuit.passes.iter().map(|pass| pass.input_range());
+    let [least, greatest] =
+        [range().map(|[low, _]| low).reduce(f64::min), range().map(|[_, high]| high).reduce(f64::max)];
+    least.zip(greatest).filter(|_| !circuit.is_full_turn())
+}
