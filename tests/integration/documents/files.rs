@@ -136,3 +136,24 @@ fn links_lead_somewhere() {
         assert!(linked.contains(name) || name == "README.md", "nothing leads to {name}");
     }
 }
+
+/// The contents have every page of docs once, in the order in which each leads to the next.
+#[test]
+fn the_contents_are_in_reading_order() {
+    let contents = fs::read_to_string(root().join("docs/README.md")).unwrap();
+    let items: Vec<(&str, &str)> = contents
+        .lines()
+        .filter_map(|line| line.strip_prefix("- [")?.split_once("]("))
+        .map(|(title, rest)| (title, rest.split(')').next().unwrap()))
+        .collect();
+    let pages = documents().into_iter().filter_map(|document| Some(document.name.strip_prefix("docs/")?.to_owned()));
+    let mut listed: Vec<&str> = items.iter().map(|(_, path)| *path).chain(["README.md"]).collect();
+    listed.sort_unstable();
+    assert_eq!(listed, pages.collect::<Vec<_>>());
+    for (k, (title, path)) in items.iter().enumerate() {
+        let page = fs::read_to_string(root().join("docs").join(path)).unwrap();
+        assert_eq!(page.lines().next(), Some(&*format!("# {title}")), "{path}");
+        let next = items.get(k + 1).map_or(String::new(), |(title, path)| format!(" · next: [{title}]({path})"));
+        assert_eq!(page.lines().last(), Some(&*format!("[Contents](README.md){next}")), "{path}");
+    }
+}
