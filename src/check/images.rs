@@ -6,7 +6,7 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use image::{DynamicImage, ImageFormat, ImageReader};
+use png::{ColorType, Decoder, Limits, Reader, Transformations};
 
 use super::finding::{Change, Finding, Location};
 use crate::record::{
@@ -47,20 +47,38 @@ pub(super) fn image_change(
 }
 
 /// Whether two images have equal pixels, up to the tolerance.
-fn is_same_image<'a>(recorded: &'a [u8], current: &'a [u8]) -> bool {
-    let reader = |bytes| ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png);
+fn is_same_image(recorded: &[u8], current: &[u8]) -> bool {
+    let (Some(recorded), Some(current)) = (open_png(recorded), open_png(current)) else { return false };
     // The sizes are compared before the pixels are decoded, so that these take no more memory than those of a page.
-    let size = |bytes| reader(bytes).into_dimensions().ok();
-    let pixels = |bytes| {
-        let mut reader = reader(bytes);
-        reader.no_limits();
-        reader.decode().ok().map(DynamicImage::into_rgba8)
-    };
-    if size(recorded).is_none() || size(recorded) != size(current) {
+    if recorded.info().size() != current.info().size() {
         return false;
     }
-    let (Some(recorded), Some(current)) = (pixels(recorded), pixels(current)) else { return false };
-    recorded.as_raw().iter().zip(current.as_raw()).all(|(a, b)| a.abs_diff(*b) <= PIXEL_TOLERANCE)
+    let (Some(recorded), Some(current)) = (rgba(recorded), rgba(current)) else { return false };
+    recorded.len() == current.len()
+        && recorded.as_flattened().iter().zip(current.as_flattened()).all(|(a, b)| a.abs_diff(*b) <= PIXEL_TOLERANCE)
+}
+
+/// A PNG image whose header has been read.
+fn open_png(bytes: &[u8]) -> Option<Reader<Cursor<&[u8]>>> {
+    let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), Limits { bytes: usize::MAX });
+    decoder.set_transformations(Transformations::normalize_to_color8() | Transformations::ALPHA);
+    decoder.read_info().ok()
+}
+
+/// The pixels of an image: red, green, blue and opacity.
+fn rgba(mut reader: Reader<Cursor<&[u8]>>) -> Option<Vec<[u8; 4]>> {
+    let mut bytes = vec![0; reader.output_buffer_size()?];
+    let read = reader.next_frame(&mut bytes).ok()?;
+    bytes.truncate(read.buffer_size());
+    match read.color_type {
+        ColorType::Rgba => Some(bytes.as_chunks().0.to_vec()),
+        ColorType::GrayscaleAlpha => {
+            let (pixels, _) = bytes.as_chunks();
+            Some(pixels.iter().map(|[grey, opacity]| [*grey, *grey, *grey, *opacity]).collect())
+        }
+        // Not with these transformations.
+        ColorType::Rgb | ColorType::Grayscale | ColorType::Indexed => None,
+    }
 }
 
 /// The finding on a volume of the book, if it is not the file that was written.

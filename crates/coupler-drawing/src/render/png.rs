@@ -1,7 +1,6 @@
 //! The PNG format.
 
-use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-use image::{ExtendedColorType, ImageEncoder};
+use png::{BitDepth, ColorType, DeflateCompression, Encoder, Filter, PixelDimensions, Unit};
 use tiny_skia::{FillRule, IntSize, LineCap, LineJoin, Paint, PathBuilder, Pixmap, Transform};
 
 use crate::scene::{Circle, Color, Curve, OutlineSegment, Path, Scene, Shape, Stroke, Text};
@@ -205,20 +204,19 @@ fn paint(Color(r, g, b): Color) -> Paint<'static> {
 
 fn encode_rgb(rgb: &[u8], (width, height): (u32, u32), dpi: f64) -> Result<Vec<u8>, Error> {
     let mut out = Vec::new();
+    let mut encoder = Encoder::new(&mut out, width, height);
+    encoder.set_color(ColorType::Rgb);
+    encoder.set_depth(BitDepth::Eight);
     // Most pixels are paper, and the others do not resemble their neighbours, so filters would make the image larger.
     // Level 1 takes little more than half the time of level 3, for files a quarter larger.
-    PngEncoder::new_with_quality(&mut out, CompressionType::Level(1), FilterType::NoFilter)
-        .write_image(rgb, width, height, ExtendedColorType::Rgb8)
-        .map_err(|error| Error::Encoding(error.to_string()))?;
-    insert_resolution(&mut out, dpi);
+    encoder.set_deflate_compression(DeflateCompression::Level(1));
+    encoder.set_filter(Filter::NoFilter);
+    let per_metre = (dpi / 0.0254).round() as u32;
+    encoder.set_pixel_dims(Some(PixelDimensions { xppu: per_metre, yppu: per_metre, unit: Unit::Meter }));
+    let written = encoder.write_header().and_then(|mut writer| {
+        writer.write_image_data(rgb)?;
+        writer.finish()
+    });
+    written.map_err(|error| Error::Encoding(error.to_string()))?;
     Ok(out)
-}
-
-/// Inserts a `pHYs` chunk after the header, which the encoder cannot write: pixels per metre in both directions.
-fn insert_resolution(png: &mut Vec<u8>, dpi: f64) {
-    const SIGNATURE_AND_HEADER: usize = 8 + 25;
-    let per_metre = ((dpi / 0.0254).round() as u32).to_be_bytes();
-    let body = [&b"pHYs"[..], &per_metre, &per_metre, &[1]].concat();
-    let chunk = [&9u32.to_be_bytes()[..], &body, &crc32fast::hash(&body).to_be_bytes()].concat();
-    png.splice(SIGNATURE_AND_HEADER..SIGNATURE_AND_HEADER, chunk);
 }
