@@ -127,7 +127,9 @@ fn the_examples_have_the_stated_sizes() {
 fn the_action_and_the_hooks_in_docs_check_exist() {
     let document = include_str!("../../docs/check.md");
     let version = concat!("v", env!("CARGO_PKG_VERSION"));
-    for statement in ["- uses: coupler-atlas/coupler-atlas@VERSION\n", "coupler-atlas/coupler-atlas\n    rev: VERSION\n"] {
+    for statement in
+        ["- uses: coupler-atlas/coupler-atlas@VERSION\n", "coupler-atlas/coupler-atlas\n    rev: VERSION\n"]
+    {
         assert!(document.contains(&statement.replace("VERSION", version)), "{statement}");
     }
     let inputs = include_str!("../../action.yml").split("inputs:\n").nth(1).unwrap().split("\nruns:").next().unwrap();
@@ -139,16 +141,16 @@ fn the_action_and_the_hooks_in_docs_check_exist() {
     for name in names {
         assert!(inputs.contains(&name), "the action has no input {name}");
     }
-    let ids = |text: &'static str| text.lines().filter_map(|line| line.trim().strip_prefix("- id: ")).collect::<Vec<_>>();
+    let ids =
+        |text: &'static str| text.lines().filter_map(|line| line.trim().strip_prefix("- id: ")).collect::<Vec<_>>();
     assert_eq!(ids(document), ids(include_str!("../../.pre-commit-hooks.yaml")));
 }
 
 /// Runs the commands of the examples for CI and pre-commit on an unchanged atlas, and then on a changed one.
 #[test]
 fn the_commands_in_docs_check_can_be_run() {
-    let after = |text: &'static str, start: &str| {
-        text.lines().filter_map(|line| line.strip_prefix(start)).collect::<Vec<_>>()
-    };
+    let after =
+        |text: &'static str, start: &str| text.lines().filter_map(|line| line.strip_prefix(start)).collect::<Vec<_>>();
     let checks = after(include_str!("../../docs/check.md"), "    coupler-atlas check atlas.toml ");
     let checks: Vec<String> = checks.iter().map(|options| format!("check atlas.toml {options}")).collect();
     let hooks = after(include_str!("../../.pre-commit-hooks.yaml"), "  entry: coupler-atlas ");

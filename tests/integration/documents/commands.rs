@@ -248,8 +248,7 @@ fn usage_lines_have_the_options_of_the_help() {
     for usage in usages {
         let command = usage.split(' ').next().unwrap();
         let help = printed(&[command, "--help"]);
-        let entries =
-            help.lines().map(str::trim_start).filter(|line| line.starts_with('-') && !line.starts_with("- "));
+        let entries = help.lines().map(str::trim_start).filter(|line| line.starts_with('-') && !line.starts_with("- "));
         // Each option as it may be written: `-o` or `--output`.
         let entries: Vec<BTreeSet<String>> = entries.map(|line| options(line.split("  ").next().unwrap())).collect();
         let written = options(&usage);
