@@ -83,9 +83,10 @@ const SUBSTITUTED: [(&str, &[(&str, i32)]); 14] = [
 ];
 
 /// Commands that are not run, each with the reason.
-const NOT_RUN: [(&str, &str); 10] = [
+const NOT_RUN: [(&str, &str); 11] = [
     ("coupler-atlas render --watch --open", "it runs until it is interrupted: watching.rs"),
     ("cargo test", "this is it"),
+    ("cargo build --release", "builds the program, which has been built"),
     ("cargo bench", "takes minutes"),
     ("cargo bench --bench find", "takes minutes"),
     ("cargo install --locked --path .", "builds the program, which has been built"),
