@@ -1,8 +1,11 @@
-//! Generates the list of the gallery's style sheets and scripts; each script comes after those it imports.
+//! Compresses the gallery's style sheets and scripts, with their names; each script comes after those it imports.
 
 use std::fs;
-use std::io;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+
+use flate2::Compression;
+use flate2::write::ZlibEncoder;
 
 const GALLERY: &str = "src/gallery";
 
@@ -16,16 +19,19 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // The base styles come first; the print styles come last, since they override the others.
     let has_name = |path: &Path, name: &str| path.file_name().is_some_and(|file| file == name);
     styles.sort_by_key(|path| (!has_name(path, "base.css"), has_name(path, "print.css"), path.clone()));
-    let list = |name: &str, files: &[PathBuf]| -> Result<String, Box<dyn std::error::Error>> {
-        let mut text = format!("/// The page's {name}, in order.\npub const {}: &[Asset] = &[\n", name.to_uppercase());
+    let out = PathBuf::from(std::env::var("OUT_DIR")?);
+    for (name, files) in [("styles", &styles), ("scripts", &scripts)] {
+        let mut text = String::new();
         for file in files {
             let parts: Vec<_> = file.strip_prefix(&root)?.iter().map(|part| part.to_string_lossy()).collect();
-            text.push_str(&format!("    Asset {{ name: {:?}, text: include_str!({file:?}) }},\n", parts.join("/")));
+            // Neither names nor texts have the character that ends them.
+            text += &format!("{}\0{}\0", parts.join("/"), fs::read_to_string(file)?);
         }
-        Ok(text + "];\n")
-    };
-    let out = Path::new(&std::env::var("OUT_DIR")?).join("gallery_parts.rs");
-    Ok(fs::write(out, list("styles", &styles)? + &list("scripts", &scripts)?)?)
+        let mut encoder = ZlibEncoder::new(Vec::new(), Compression::best());
+        encoder.write_all(text.as_bytes())?;
+        fs::write(out.join(name).with_extension("zlib"), encoder.finish()?)?;
+    }
+    Ok(())
 }
 
 /// Adds a module to `found` after those it imports; `open` are the modules being visited, to detect cycles.

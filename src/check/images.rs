@@ -6,7 +6,8 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use image::{DynamicImage, ImageFormat, ImageReader};
+use image::codecs::png::PngDecoder;
+use image::{ImageDecoder, Limits};
 
 use super::finding::{Change, Finding, Location};
 use crate::record::{
@@ -47,20 +48,41 @@ pub(super) fn image_change(
 }
 
 /// Whether two images have equal pixels, up to the tolerance.
-fn is_same_image<'a>(recorded: &'a [u8], current: &'a [u8]) -> bool {
-    let reader = |bytes| ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png);
+fn is_same_image(recorded: &[u8], current: &[u8]) -> bool {
+    let (Some(recorded), Some(current)) = (open_png(recorded), open_png(current)) else { return false };
     // The sizes are compared before the pixels are decoded, so that these take no more memory than those of a page.
-    let size = |bytes| reader(bytes).into_dimensions().ok();
-    let pixels = |bytes| {
-        let mut reader = reader(bytes);
-        reader.no_limits();
-        reader.decode().ok().map(DynamicImage::into_rgba8)
-    };
-    if size(recorded).is_none() || size(recorded) != size(current) {
+    if recorded.dimensions() != current.dimensions() {
         return false;
     }
-    let (Some(recorded), Some(current)) = (pixels(recorded), pixels(current)) else { return false };
-    recorded.as_raw().iter().zip(current.as_raw()).all(|(a, b)| a.abs_diff(*b) <= PIXEL_TOLERANCE)
+    let (Some(recorded), Some(current)) = (rgba(recorded), rgba(current)) else { return false };
+    recorded.len() == current.len()
+        && recorded.as_flattened().iter().zip(current.as_flattened()).all(|(a, b)| a.abs_diff(*b) <= PIXEL_TOLERANCE)
+}
+
+/// A PNG image whose header has been read.
+fn open_png(bytes: &[u8]) -> Option<PngDecoder<Cursor<&[u8]>>> {
+    PngDecoder::with_limits(Cursor::new(bytes), Limits::no_limits()).ok()
+}
+
+/// The pixels of an image: red, green, blue and opacity.
+fn rgba(decoder: PngDecoder<Cursor<&[u8]>>) -> Option<Vec<[u8; 4]>> {
+    let color = decoder.color_type();
+    let (channels, size) = (usize::from(color.channel_count()), usize::from(color.bytes_per_pixel()));
+    let mut bytes = vec![0; usize::try_from(decoder.total_bytes()).ok()?];
+    decoder.read_image(&mut bytes).ok()?;
+    let pixel = |pixel: &[u8]| {
+        let channel = |k: usize| match size / channels {
+            1 => pixel[k],
+            // The eight higher bits of sixteen, rounded.
+            _ => ((u32::from(u16::from_ne_bytes([pixel[2 * k], pixel[2 * k + 1]])) + 128) / 257) as u8,
+        };
+        let opacity = |k: usize| if channels > k { channel(k) } else { u8::MAX };
+        match channels {
+            1 | 2 => [channel(0), channel(0), channel(0), opacity(1)],
+            _ => [channel(0), channel(1), channel(2), opacity(3)],
+        }
+    };
+    Some(bytes.chunks_exact(size).map(pixel).collect())
 }
 
 /// The finding on a volume of the book, if it is not the file that was written.

@@ -1,5 +1,10 @@
 //! The style sheets and scripts of the page, and its module for WebAssembly.
 
+use std::io::Read;
+use std::sync::LazyLock;
+
+use flate2::read::ZlibDecoder;
+
 /// A style sheet or script of the page.
 #[derive(Clone, Copy, Debug)]
 pub struct Asset {
@@ -9,7 +14,28 @@ pub struct Asset {
     pub text: &'static str,
 }
 
-include!(concat!(env!("OUT_DIR"), "/gallery_parts.rs"));
+/// The page's style sheets, in order.
+pub fn styles() -> &'static [Asset] {
+    static STYLES: LazyLock<Vec<Asset>> =
+        LazyLock::new(|| unpack(include_bytes!(concat!(env!("OUT_DIR"), "/styles.zlib"))));
+    &STYLES
+}
+
+/// The page's scripts, each after those it imports.
+pub fn scripts() -> &'static [Asset] {
+    static SCRIPTS: LazyLock<Vec<Asset>> =
+        LazyLock::new(|| unpack(include_bytes!(concat!(env!("OUT_DIR"), "/scripts.zlib"))));
+    &SCRIPTS
+}
+
+/// Names and texts, each ended by a zero, as the build script compresses them. They stay in memory until the program ends.
+fn unpack(compressed: &[u8]) -> Vec<Asset> {
+    let mut text = String::new();
+    ZlibDecoder::new(compressed).read_to_string(&mut text).expect("the build script has compressed them");
+    let parts: Vec<&'static str> = text.leak().split_terminator('\0').collect();
+    let (pairs, _) = parts.as_chunks();
+    pairs.iter().map(|[name, text]| Asset { name, text }).collect()
+}
 
 /// The kernel, `coupler-kernel` for WebAssembly, compressed with gzip; `.ci/kernel update` writes it.
 pub const KERNEL: &[u8] = include_bytes!("kernel.wasm.gz");

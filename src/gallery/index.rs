@@ -9,7 +9,7 @@ use flate2::write::GzEncoder;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
-use super::assets::{KERNEL, SCRIPTS, STYLES, compact, join_modules};
+use super::assets::{KERNEL, compact, join_modules, scripts, styles};
 use super::base91::encode_base91;
 use super::pieces::{PieceSeries, is_data_file_name, parse_piece_file_name};
 use crate::record::{FamilyRecord, RunRecord};
@@ -63,9 +63,9 @@ const LOADER: &str = include_str!("loader.js");
 /// Never: its style sheet and its script are compressed in memory.
 pub fn index_html(run: &RunRecord, families: &[GalleryFamily]) -> String {
     // Without indentation and empty lines.
-    let lines = STYLES.iter().flat_map(|part| part.text.lines()).map(str::trim_start).filter(|line| !line.is_empty());
+    let lines = styles().iter().flat_map(|part| part.text.lines()).map(str::trim_start).filter(|line| !line.is_empty());
     let style: String = lines.flat_map(|line| [line, "\n"]).collect();
-    let script = join_modules(SCRIPTS);
+    let script = join_modules(scripts());
     let loader = compact(LOADER.lines());
     // Escaped, so that the data cannot end its script element.
     let data = atlas_json(run, families).to_string().replace('<', "\\u003c");

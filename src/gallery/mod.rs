@@ -12,7 +12,7 @@ mod index;
 mod pieces;
 mod typed_array;
 
-pub use assets::{Asset, KERNEL, SCRIPTS, STYLES, join_modules};
+pub use assets::{Asset, KERNEL, join_modules, scripts, styles};
 pub use base91::encode_base91;
 pub use family_script::{FamilyScript, SCRIPT_FILE};
 pub use index::{DataBytes, GalleryFamily, PAGE_FILE, index_html};

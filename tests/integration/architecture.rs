@@ -161,12 +161,12 @@ fn the_core_is_built_from_few_crates() {
 fn plates_need_neither_plotters_nor_font_files_nor_threads() {
     let is_one_of = |name: &'static str| move |one: &String| one.starts_with(&format!("{name} "));
     let [plates, drawing] = [&["--no-default-features"][..], &[]].map(|options| crates("coupler-drawing", options));
-    for name in ["plotters", "plotters-backend", "dejavu", "skrifa"] {
+    for name in ["plotters", "plotters-backend", "flate2", "skrifa"] {
         assert!(!plates.iter().any(is_one_of(name)) && drawing.iter().any(is_one_of(name)), "{name}");
     }
     let kernel = crates("coupler-kernel", &["--target", "wasm32-unknown-unknown"]);
     assert!(kernel.iter().any(is_one_of("coupler-manifest")));
-    for name in ["rayon", "wasm-bindgen", "js-sys", "web-sys", "plotters", "dejavu", "skrifa"] {
+    for name in ["rayon", "wasm-bindgen", "js-sys", "web-sys", "plotters", "flate2", "skrifa"] {
         assert!(![&plates, &kernel].iter().any(|crates| crates.iter().any(is_one_of(name))), "{name}");
     }
 }

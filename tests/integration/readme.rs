@@ -1,4 +1,4 @@
-//! The examples and statements of README.md, docs/manifest.md, docs/tutorial.md and docs/check.md.
+//! The examples and statements of docs/start.md, docs/manifest.md, docs/tutorial.md and docs/check.md, and the READMEs of the crates.
 
 use coupler_curves::solve;
 use std::sync::atomic::AtomicBool;
@@ -69,9 +69,9 @@ fn the_joints_in_docs_manifest_can_be_parsed() {
 
 /// The example of the library is the one that `cargo test` compiles and runs in the documentation of coupler-drawing.
 #[test]
-fn the_library_example_of_the_readme_is_a_tested_one() {
-    let readme = include_str!("../../README.md");
-    let example = readme.split("```rust\n").nth(1).unwrap().split("```").next().unwrap();
+fn the_library_example_is_a_tested_one() {
+    let page = include_str!("../../docs/start.md");
+    let example = page.split("```rust\n").nth(1).unwrap().split("```").next().unwrap();
     let tested: Vec<&str> = include_str!("../../crates/coupler-drawing/src/lib.rs").lines().collect();
     assert!(example.lines().filter(|line| !line.is_empty()).count() <= 6, "an import and at most six lines");
     for line in example.lines() {
@@ -79,15 +79,34 @@ fn the_library_example_of_the_readme_is_a_tested_one() {
     }
 }
 
+/// The examples of the crates' READMEs are parts of those that `cargo test` runs in their documentation.
 #[test]
-fn the_examples_have_the_sizes_that_the_readme_states() {
-    let readme = include_str!("../../README.md");
+fn the_examples_of_the_crates_are_tested_ones() {
+    let crates = [
+        (include_str!("../../crates/coupler-curves/README.md"), include_str!("../../crates/coupler-curves/src/lib.rs")),
+        (
+            include_str!("../../crates/coupler-drawing/README.md"),
+            include_str!("../../crates/coupler-drawing/src/lib.rs"),
+        ),
+    ];
+    for (readme, source) in crates {
+        let tested: Vec<&str> = source.lines().collect();
+        let example = readme.split("```rust\n").nth(1).unwrap().split("```").next().unwrap();
+        for line in example.lines() {
+            assert!(tested.contains(&format!("//! {line}").trim_end()), "not tested: {line}");
+        }
+    }
+}
+
+#[test]
+fn the_examples_have_the_stated_sizes() {
+    let page = include_str!("../../docs/start.md");
     let cases = [
         (include_str!("../../examples/hrones-nelson.toml"), "7,800 curves on 780 pages", 7_800, 780),
         (include_str!("../../examples/hrones-nelson-fine.toml"), "77,680 on 7,768", 77_680, 7_768),
     ];
     for (text, statement, curves, pages) in cases {
-        assert!(readme.contains(statement), "{statement}");
+        assert!(page.contains(statement), "{statement}");
         let loaded = manifest::parse(text);
         let plan = loaded.plan.unwrap_or_else(|| panic!("{}", report(&loaded.problems, "example", text, false)));
         let [planned] = &plan.families[..] else { panic!("one family") };
@@ -103,13 +122,41 @@ fn the_examples_have_the_sizes_that_the_readme_states() {
     }
 }
 
+/// The action and the hooks that docs/check.md uses are those of this repository, in this version.
+#[test]
+fn the_action_and_the_hooks_in_docs_check_exist() {
+    let document = include_str!("../../docs/check.md");
+    let version = concat!("v", env!("CARGO_PKG_VERSION"));
+    for statement in
+        ["- uses: coupler-atlas/coupler-atlas@VERSION\n", "coupler-atlas/coupler-atlas\n    rev: VERSION\n"]
+    {
+        assert!(document.contains(&statement.replace("VERSION", version)), "{statement}");
+    }
+    let inputs = include_str!("../../action.yml").split("inputs:\n").nth(1).unwrap().split("\nruns:").next().unwrap();
+    let inputs: Vec<&str> = inputs.lines().filter_map(|line| line.strip_prefix("  ")?.strip_suffix(':')).collect();
+    let used = document.split("with: { manifest").nth(1).unwrap().split(" }").next().unwrap();
+    let used = format!("manifest{used}, install: source");
+    let names: Vec<&str> = used.split(", ").map(|pair| pair.split(": ").next().unwrap()).collect();
+    assert_eq!(names.len(), inputs.len());
+    for name in names {
+        assert!(inputs.contains(&name), "the action has no input {name}");
+    }
+    let ids =
+        |text: &'static str| text.lines().filter_map(|line| line.trim().strip_prefix("- id: ")).collect::<Vec<_>>();
+    assert_eq!(ids(document), ids(include_str!("../../.pre-commit-hooks.yaml")));
+}
+
 /// Runs the commands of the examples for CI and pre-commit on an unchanged atlas, and then on a changed one.
 #[test]
 fn the_commands_in_docs_check_can_be_run() {
-    let document = include_str!("../../docs/check.md");
-    let after = |start: &str| document.lines().filter_map(|line| line.trim().strip_prefix(start)).collect::<Vec<_>>();
-    let commands = [after("- run: coupler-atlas "), after("entry: coupler-atlas ")].concat();
-    assert_eq!(commands.len(), 2);
+    let after =
+        |text: &'static str, start: &str| text.lines().filter_map(|line| line.strip_prefix(start)).collect::<Vec<_>>();
+    let checks = after(include_str!("../../docs/check.md"), "    coupler-atlas check atlas.toml ");
+    let checks: Vec<String> = checks.iter().map(|options| format!("check atlas.toml {options}")).collect();
+    let hooks = after(include_str!("../../.pre-commit-hooks.yaml"), "  entry: coupler-atlas ");
+    let (validate, check) = (hooks[0], hooks[1]);
+    assert_eq!((checks.len(), hooks.len()), (1, 2));
+    let commands = [&*checks[0], check];
     let manifest = "[atlas]\ntitle = \"T\"\noutput = \"output\"\nformats = [\"svg\"]\n[[family]]\nid = \"e\"\nlinkage = \"evans\"\n\
                     sampling = { samples = 9 }\ncases = [{ p = 2, a = 2 }]\n";
     let folder = tempfile::tempdir().unwrap();
@@ -121,8 +168,11 @@ fn the_commands_in_docs_check_can_be_run() {
     let write = |text: &str| std::fs::write(folder.path().join("atlas.toml"), text).unwrap();
     write(manifest);
     assert_eq!(run("render -q").0, Some(0));
-    for command in &commands {
-        assert_eq!(run(command), (Some(0), String::new()), "{command}");
+    for command in commands.iter().chain([&validate]) {
+        assert_eq!(run(command).0, Some(0), "{command}");
+    }
+    for command in commands {
+        assert_eq!(run(command).1, "", "{command}");
     }
     write(&manifest.replace("a = 2 }", "a = 2.1 }"));
     for command in commands {

@@ -7,7 +7,7 @@ use std::path::Path;
 use tempfile::TempDir;
 
 use super::text::{Document, codes};
-use super::{copy, documents, printed, put_manifests};
+use super::{copy, document, documents, printed, put_manifests};
 use crate::command::run;
 
 const COMMANDS: [&str; 13] = [
@@ -83,9 +83,10 @@ const SUBSTITUTED: [(&str, &[(&str, i32)]); 14] = [
 ];
 
 /// Commands that are not run, each with the reason.
-const NOT_RUN: [(&str, &str); 8] = [
+const NOT_RUN: [(&str, &str); 11] = [
     ("coupler-atlas render --watch --open", "it runs until it is interrupted: watching.rs"),
     ("cargo test", "this is it"),
+    ("cargo build --release", "builds the program, which has been built"),
     ("cargo bench", "takes minutes"),
     ("cargo bench --bench find", "takes minutes"),
     ("cargo install --locked --path .", "builds the program, which has been built"),
@@ -93,19 +94,22 @@ const NOT_RUN: [(&str, &str); 8] = [
         "cargo tree -p PACKAGE -e normal --prefix none | sed 's/ (\\*)$//' | sort -u | wc -l",
         "needs a shell; `architecture.rs` counts the same",
     ),
+    ("cargo publish --workspace --locked", "publishes; `.ci/packages` makes the packages"),
+    (".ci/packages test", "takes minutes; `.github/workflows/ci.yml` does"),
     (".ci/kernel update", "needs the target wasm32-unknown-unknown; `kernel_module.rs` compares the sources"),
     ("node benches/gallery.mjs BEFORE AFTER", "needs Node.js and Chromium"),
 ];
 
 /// Files that the documents say commands have written.
-const WRITTEN: [(&str, &[&str]); 6] = [
-    (
-        "README.md",
-        &["output/index.html", "target/hrones-nelson/atlas.pdf", "target/hrones-nelson/hrones-nelson/points.csv"],
-    ),
+const WRITTEN: [(&str, &[&str]); 7] = [
+    ("README.md", &["output/index.html", "mine/index.html", "mine/mine/mine-001.svg", "found/index.html"]),
     ("docs/check.md", &["report.xml"]),
     ("docs/export.md", &["evans.dxf", "curves/evans-3-1-1.svg", "curves/watt-14-1-1.csv"]),
     ("docs/manifest.md", &["coupler-atlas.schema.json"]),
+    (
+        "docs/start.md",
+        &["output/index.html", "target/hrones-nelson/atlas.pdf", "target/hrones-nelson/hrones-nelson/points.csv"],
+    ),
     ("docs/scale.md", &["shards/evans/cells-00003-of-00064.parquet", "best/index.html", "one/run.json"]),
     (
         "docs/tutorial.md",
@@ -202,6 +206,9 @@ fn every_command_is_run() {
         for block in document.blocks.iter().filter(|block| block.text.contains("title = \"A feeder's slide\"")) {
             fs::write(folder.path().join("feeder.toml"), &block.text).unwrap();
         }
+        for block in document.blocks.iter().filter(|block| block.text.contains("title = \"My four-bars\"")) {
+            fs::write(folder.path().join("mine.toml"), &block.text).unwrap();
+        }
         for (line, command) in commands {
             println!("{}:{line}: {command}", document.name);
             let instead = [(command.as_str(), 0)];
@@ -236,38 +243,28 @@ fn usage_lines_have_the_options_of_the_help() {
     let names = help.lines().filter_map(|line| line.strip_prefix("  ")?.split(' ').next());
     let names: BTreeSet<&str> = names.filter(|name| !name.is_empty()).collect();
     assert_eq!(names, BTreeSet::from(COMMANDS));
-    for document in documents().iter().filter(|document| ["README.md", "docs/commands.md"].contains(&&*document.name)) {
-        let (_, usages) = commands(document);
-        let described: BTreeSet<&str> = usages.iter().map(|usage| usage.split(' ').next().unwrap()).collect();
-        assert_eq!(described, names, "{}", document.name);
-        for usage in usages {
-            let command = usage.split(' ').next().unwrap();
-            let help = printed(&[command, "--help"]);
-            let entries =
-                help.lines().map(str::trim_start).filter(|line| line.starts_with('-') && !line.starts_with("- "));
-            // Each option as it may be written: `-o` or `--output`.
-            let entries: Vec<BTreeSet<String>> =
-                entries.map(|line| options(line.split("  ").next().unwrap())).collect();
-            let written = options(&usage);
-            for option in &written {
-                assert!(entries.iter().any(|entry| entry.contains(option)), "{command} has no option {option}");
-            }
-            if document.name == "docs/commands.md" {
-                let is_general = |entry: &BTreeSet<String>| entry.contains("--help") || entry.contains("--color");
-                for entry in entries.iter().filter(|entry| !is_general(entry)) {
-                    assert!(
-                        entry.intersection(&written).next().is_some(),
-                        "{}: {command} lacks {entry:?}",
-                        document.name
-                    );
-                }
-            }
-            if command == "list" {
-                let topics = help.lines().filter_map(|line| line.trim_start().strip_prefix("- ")?.split(':').next());
-                let documented = usage.split(|c: char| !c.is_ascii_lowercase()).skip(1).filter(|word| !word.is_empty());
-                let documented: BTreeSet<&str> = documented.filter(|word| *word != "manifest").collect();
-                assert_eq!(documented, topics.collect(), "{}: {usage}", document.name);
-            }
+    let (_, usages) = commands(&document("docs/commands.md"));
+    let described: BTreeSet<&str> = usages.iter().map(|usage| usage.split(' ').next().unwrap()).collect();
+    assert_eq!(described, names);
+    for usage in usages {
+        let command = usage.split(' ').next().unwrap();
+        let help = printed(&[command, "--help"]);
+        let entries = help.lines().map(str::trim_start).filter(|line| line.starts_with('-') && !line.starts_with("- "));
+        // Each option as it may be written: `-o` or `--output`.
+        let entries: Vec<BTreeSet<String>> = entries.map(|line| options(line.split("  ").next().unwrap())).collect();
+        let written = options(&usage);
+        for option in &written {
+            assert!(entries.iter().any(|entry| entry.contains(option)), "{command} has no option {option}");
+        }
+        let is_general = |entry: &BTreeSet<String>| entry.contains("--help") || entry.contains("--color");
+        for entry in entries.iter().filter(|entry| !is_general(entry)) {
+            assert!(entry.intersection(&written).next().is_some(), "{command} lacks {entry:?}");
+        }
+        if command == "list" {
+            let topics = help.lines().filter_map(|line| line.trim_start().strip_prefix("- ")?.split(':').next());
+            let documented = usage.split(|c: char| !c.is_ascii_lowercase()).skip(1).filter(|word| !word.is_empty());
+            let documented: BTreeSet<&str> = documented.filter(|word| *word != "manifest").collect();
+            assert_eq!(documented, topics.collect(), "{usage}");
         }
     }
 }

@@ -8,12 +8,17 @@ use super::text::Document;
 use super::{documents, root};
 
 /// Files that are named, but not in this repository, and why.
-const ABSENT: [(&str, &str); 20] = [
+const ABSENT: [(&str, &str); 25] = [
     (".github/workflows/atlas.yml", "docs/check.md: to be written by the reader"),
     (".pre-commit-config.yaml", "docs/check.md: to be written by the reader"),
     ("feeder.toml", "docs/tutorial.md: written by the reader"),
     ("feeder/", "docs/tutorial.md: rendered by the reader"),
     ("target/hrones-nelson/index.html", "docs/tutorial.md: rendered by the reader; `commands.rs` does"),
+    ("mine.toml", "README.md: written by the reader"),
+    ("mine/mine/mine-001.svg", "README.md: rendered by the reader; `commands.rs` does"),
+    ("mine/index.html", "README.md: rendered by the reader; `commands.rs` does"),
+    ("coupler-atlas-VERSION-TARGET.tar.gz", "docs/releases.md: a file of a release; `.ci/workflows` makes one"),
+    ("ghcr.io/coupler-atlas/coupler-atlas", "docs/releases.md: an image"),
     ("atlas.pdf", "a book, which this atlas does not ask for"),
     (".coupler-atlas.journal", "only there during a run"),
     ("FAMILY/1001-2000/FAMILY-1234.svg", "more pages than any family here has; `ownership.rs` renders such a family"),
@@ -134,5 +139,26 @@ fn links_lead_somewhere() {
     for document in &all {
         let name = document.name.rsplit('/').next().unwrap();
         assert!(linked.contains(name) || name == "README.md", "nothing leads to {name}");
+    }
+}
+
+/// The contents have every page of docs once, in the order in which each leads to the next.
+#[test]
+fn the_contents_are_in_reading_order() {
+    let contents = fs::read_to_string(root().join("docs/README.md")).unwrap();
+    let items: Vec<(&str, &str)> = contents
+        .lines()
+        .filter_map(|line| line.strip_prefix("- [")?.split_once("]("))
+        .map(|(title, rest)| (title, rest.split(')').next().unwrap()))
+        .collect();
+    let pages = documents().into_iter().filter_map(|document| Some(document.name.strip_prefix("docs/")?.to_owned()));
+    let mut listed: Vec<&str> = items.iter().map(|(_, path)| *path).chain(["README.md"]).collect();
+    listed.sort_unstable();
+    assert_eq!(listed, pages.collect::<Vec<_>>());
+    for (k, (title, path)) in items.iter().enumerate() {
+        let page = fs::read_to_string(root().join("docs").join(path)).unwrap();
+        assert_eq!(page.lines().next(), Some(&*format!("# {title}")), "{path}");
+        let next = items.get(k + 1).map_or(String::new(), |(title, path)| format!(" · next: [{title}]({path})"));
+        assert_eq!(page.lines().last(), Some(&*format!("[Contents](README.md){next}")), "{path}");
     }
 }

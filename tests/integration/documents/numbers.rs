@@ -32,6 +32,22 @@ fn this_atlas_has_the_stated_size() {
     assert_states("docs/verification.md", &format!("Every sample of the {figures} figures"));
 }
 
+/// The manifest of README.md, and its page.
+#[test]
+fn the_four_bar_of_the_readme_is_a_page() {
+    let readme = document("README.md");
+    let [block] = readme.blocks.iter().filter(|block| block.language == "toml").collect::<Vec<_>>()[..] else {
+        panic!("one manifest")
+    };
+    assert_eq!(block.text.lines().count(), 5);
+    assert_states("README.md", "## A four-bar in five lines");
+    let plan = coupler_atlas::manifest::parse(&block.text).plan.unwrap();
+    assert_eq!(plan.families[0].family.cell_count(), 6);
+    assert_states("README.md", "six of them make a page");
+    let lines = fs::read_to_string(root().join("README.md")).unwrap().lines().count();
+    assert!(lines <= 60, "{lines} lines are more than one screen");
+}
+
 /// The first result of the tutorial's search by numbers.
 #[test]
 fn the_search_of_the_tutorial_finds_the_stated_curve() {

@@ -62,7 +62,7 @@ fn transcripts_are_what_is_printed() {
 #[test]
 fn every_block_is_tested() {
     let tested = [
-        ("README.md", "rust", "readme.rs"),
+        ("docs/start.md", "rust", "readme.rs"),
         ("docs/architecture.md", "text", "a figure"),
         ("docs/check.md", "yaml", "readme.rs"),
         ("docs/pages.md", "xml", "numbers.rs"),

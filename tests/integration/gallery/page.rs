@@ -5,7 +5,7 @@ use std::io::Read;
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
-use coupler_atlas::gallery::{KERNEL, SCRIPTS, encode_base91, join_modules};
+use coupler_atlas::gallery::{KERNEL, encode_base91, join_modules, scripts};
 use flate2::read::GzDecoder;
 use sha2::{Digest, Sha256};
 
@@ -59,7 +59,7 @@ fn the_page_allows_its_own_script_and_style_only() {
         text
     };
     let (script, style) = (unpacked("script"), unpacked("style"));
-    assert_eq!(script, join_modules(SCRIPTS));
+    assert_eq!(script, join_modules(scripts()));
     assert!(policy.starts_with("default-src 'none'; "), "{policy}");
     assert!(
         policy.contains(&format!("script-src 'self' 'wasm-unsafe-eval' {} {};", digest(loader), digest(&script))),

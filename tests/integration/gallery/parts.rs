@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use coupler_atlas::gallery::{Asset, SCRIPTS, STYLES, join_modules};
+use coupler_atlas::gallery::{Asset, join_modules, scripts, styles};
 
 /// The names that a module imports, with the file each comes from.
 fn imports(part: &Asset) -> Vec<(String, String)> {
@@ -60,7 +60,7 @@ fn every_file_of_the_page_is_in_it() {
         }
     }
     found.sort();
-    let mut named: Vec<&str> = SCRIPTS.iter().chain(STYLES).map(|part| part.name).collect();
+    let mut named: Vec<&str> = scripts().iter().chain(styles()).map(|part| part.name).collect();
     named.sort_unstable();
     assert_eq!(named, found);
 }
@@ -68,7 +68,7 @@ fn every_file_of_the_page_is_in_it() {
 #[test]
 fn a_module_comes_after_its_imports_and_they_export_the_names_it_uses() {
     let mut exports: BTreeMap<&str, Vec<String>> = BTreeMap::new();
-    for part in SCRIPTS {
+    for part in scripts() {
         for (name, from) in imports(part) {
             let exported =
                 exports.get(from.as_str()).unwrap_or_else(|| panic!("{}: {from} does not come before it", part.name));
@@ -82,7 +82,7 @@ fn a_module_comes_after_its_imports_and_they_export_the_names_it_uses() {
 #[test]
 fn no_name_is_defined_twice() {
     let mut files: BTreeMap<String, &str> = BTreeMap::new();
-    for part in SCRIPTS {
+    for part in scripts() {
         for (name, _) in definitions(part) {
             assert!(!name.is_empty(), "{}: a definition without a single name", part.name);
             if let Some(other) = files.insert(name.clone(), part.name) {
@@ -99,7 +99,7 @@ fn joined_modules_import_and_export_nothing() {
         Asset { name: "b.js", text: "import {\n  A,\n} from \"./a.js\";\n\nexport function b() {\n  return A;\n}\n" },
     ];
     assert_eq!(join_modules(&parts), "const A = 1;\nfunction b() {\nreturn A;\n}\n");
-    let all = join_modules(SCRIPTS);
+    let all = join_modules(scripts());
     assert!(all.lines().all(|line| !line.starts_with("import ") && !line.starts_with("export ")));
 }
 
@@ -113,7 +113,7 @@ fn joined_modules_have_no_lines_of_comments_and_no_indentation() {
 /// Such a literal would lose its indentation when modules are joined.
 #[test]
 fn no_literal_spans_lines() {
-    for part in SCRIPTS {
+    for part in scripts() {
         let is_comment = |line: &str| ["*", "//", "/*"].iter().any(|start| line.trim_start().starts_with(start));
         for line in part.text.lines().filter(|line| !is_comment(line)) {
             assert!(line.matches('`').count() % 2 == 0 && !line.ends_with('\\'), "{}: {line}", part.name);
@@ -138,7 +138,7 @@ fn text_never_becomes_markup_or_code() {
         "style: `",
         "setAttribute(\"style\"",
     ];
-    for part in SCRIPTS {
+    for part in scripts() {
         for word in banned {
             assert!(!part.text.contains(word), "{} has {word}", part.name);
         }
@@ -148,7 +148,7 @@ fn text_never_becomes_markup_or_code() {
 /// Each file is short enough to be read as a whole.
 #[test]
 fn files_are_small() {
-    for (parts, most) in [(SCRIPTS, 249), (STYLES, 400)] {
+    for (parts, most) in [(scripts(), 249), (styles(), 400)] {
         for part in parts {
             let lines = part.text.lines().count();
             assert!(lines <= most, "{} has {lines} lines", part.name);

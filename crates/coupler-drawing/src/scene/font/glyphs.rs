@@ -1,8 +1,10 @@
 //! The glyphs in the font files: their outlines and indices.
 
 use std::borrow::Cow;
+use std::io::Read;
 use std::sync::{LazyLock, OnceLock};
 
+use flate2::read::ZlibDecoder;
 use skrifa::instance::{LocationRef, Size};
 use skrifa::outline::{DrawSettings, OutlinePen};
 use skrifa::{FontRef, GlyphId, MetadataProvider};
@@ -46,7 +48,11 @@ struct Glyph {
 const CACHED_CHARACTERS: usize = 0x2300;
 
 impl Font {
-    fn new(bytes: &'static [u8]) -> Font {
+    /// The font in a compressed file, whose bytes stay in memory until the program ends.
+    fn new(compressed: &[u8]) -> Font {
+        let mut bytes = Vec::new();
+        ZlibDecoder::new(compressed).read_to_end(&mut bytes).expect("the build script has compressed the fonts");
+        let bytes: &'static [u8] = bytes.leak();
         let font = FontRef::new(bytes).expect("the fonts of the dejavu crate are valid");
         let units_per_em = f64::from(font.metrics(Size::unscaled(), LocationRef::default()).units_per_em);
         Font { bytes, font, units_per_em, glyphs: vec![OnceLock::new(); CACHED_CHARACTERS] }
@@ -66,10 +72,12 @@ impl Font {
     }
 }
 
-/// A font, parsed on first use.
+/// A font, unpacked and parsed on first use.
 macro_rules! font {
     ($module:ident, $face:ident) => {{
-        static FONT: LazyLock<Font> = LazyLock::new(|| Font::new(dejavu::$module::$face()));
+        const COMPRESSED: &[u8] =
+            include_bytes!(concat!(env!("OUT_DIR"), "/", stringify!($module), "-", stringify!($face), ".zlib"));
+        static FONT: LazyLock<Font> = LazyLock::new(|| Font::new(COMPRESSED));
         &FONT
     }};
 }
