@@ -29,7 +29,7 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use color::Color;
-use coupler_atlas::output;
+use coupler_atlas::{output, shard};
 use format::pluralize;
 use printable::{printable, printable_lines};
 
@@ -210,7 +210,8 @@ fn report_failure(error: &anyhow::Error) -> ExitCode {
             )
         )
         || matches!(error.downcast_ref(), Some(coupler_atlas::check::Error::Record { .. }));
-    let is_interrupted = matches!(error.downcast_ref(), Some(output::Error::Interrupted));
+    let is_interrupted = matches!(error.downcast_ref(), Some(output::Error::Interrupted))
+        || matches!(error.downcast_ref(), Some(shard::Error::Interrupted));
     ExitCode::from(match () {
         () if is_interrupted => EXIT_INTERRUPTED,
         () if is_input => EXIT_INPUT_ERROR,

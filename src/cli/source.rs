@@ -133,7 +133,7 @@ impl ManifestSource {
             ));
         }
         if let Some(output) = &self.plan.output {
-            return Ok(self.path.parent().unwrap_or(Path::new("")).join(output));
+            return Ok(self.folder().join(output));
         }
         let stem = self.path.with_extension("");
         if stem == self.path {
@@ -145,6 +145,11 @@ impl ManifestSource {
             return Err(InputError(message));
         }
         Ok(stem)
+    }
+
+    /// The folder of the manifest, in which the files are that it names.
+    pub fn folder(&self) -> &Path {
+        self.path.parent().unwrap_or(Path::new(""))
     }
 
     /// The name of the manifest in the record of a run: its file name, without the folder.
