@@ -18,10 +18,13 @@ PROGRAM = os.environ.get("COUPLER_ATLAS", "coupler-atlas")
 
 
 def make_shard(index, shards, manifest, output, best):
-    """Runs the program for one shard, on one thread."""
+    """Runs the program for one shard, on one thread. Returns the number of the shard and the exit code: 0, or 2 if the input was wrong,
+    which would be wrong again; whatever else fails is tried again."""
     command = [PROGRAM, "sweep", manifest, "--shard", f"{index}/{shards}", "--output", output]
-    subprocess.run([*command, "--no-points", "--jobs", "1", "--quiet", *best], check=True)
-    return index
+    code = subprocess.run([*command, "--no-points", "--jobs", "1", "--quiet", *best]).returncode
+    if code not in (0, 2):
+        raise subprocess.CalledProcessError(code, command)
+    return index, code
 
 
 def main():
@@ -44,12 +47,16 @@ def main():
             make_shard, range(arguments.shards), shards=arguments.shards, manifest=manifest, output=output, best=best, retries=3, pure=False
         )
         for done, task in enumerate(as_completed(tasks), 1):
-            print(f"shard {task.result()}: {done} of {arguments.shards}", flush=True)
+            index, code = task.result()
+            if code != 0:
+                raise SystemExit(f"shard {index}: the input was wrong, see the messages of the workers")
+            print(f"shard {index}: {done} of {arguments.shards}", flush=True)
     if cluster:
         cluster.close()
 
-    with open(f"{output}/best.csv", "wb") as table:
+    with open(f"{output}/best.csv.new", "wb") as table:
         subprocess.run([PROGRAM, "gather", output, *best, "--toml", f"{output}/best.toml"], check=True, stdout=table)
+    os.replace(f"{output}/best.csv.new", f"{output}/best.csv")
 
 
 if __name__ == "__main__":

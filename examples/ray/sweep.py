@@ -17,11 +17,19 @@ import ray
 PROGRAM = os.environ.get("COUPLER_ATLAS", "coupler-atlas")
 
 
+class WrongInput(Exception):
+    """The program ended with exit code 2: another attempt is useless."""
+
+
 @ray.remote(num_cpus=1, max_retries=3, retry_exceptions=[subprocess.CalledProcessError])
 def make_shard(index, shards, manifest, output, best):
     """Runs the program for one shard, on one thread."""
     command = [PROGRAM, "sweep", manifest, "--shard", f"{index}/{shards}", "--output", output]
-    subprocess.run([*command, "--no-points", "--jobs", "1", "--quiet", *best], check=True)
+    code = subprocess.run([*command, "--no-points", "--jobs", "1", "--quiet", *best]).returncode
+    if code == 2:
+        raise WrongInput(f"shard {index}: see the messages of the workers")
+    if code != 0:
+        raise subprocess.CalledProcessError(code, command)
     return index
 
 
@@ -51,8 +59,9 @@ def main():
         print(f"shard {ray.get(finished[0])}: {done} of {arguments.shards}", flush=True)
     ray.shutdown()
 
-    with open(f"{output}/best.csv", "wb") as table:
+    with open(f"{output}/best.csv.new", "wb") as table:
         subprocess.run([PROGRAM, "gather", output, *best, "--toml", f"{output}/best.toml"], check=True, stdout=table)
+    os.replace(f"{output}/best.csv.new", f"{output}/best.csv")
 
 
 if __name__ == "__main__":

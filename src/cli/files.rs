@@ -19,6 +19,11 @@ pub(super) fn input_name(path: &Path) -> String {
     if is_standard(path) { "standard input".to_owned() } else { printable(path.display()) }
 }
 
+/// The name of a file to write, in messages.
+pub(super) fn output_name(path: &Path) -> String {
+    if is_standard(path) { "the manifest".to_owned() } else { printable(path.display()) }
+}
+
 /// The manifests that this run has read, which it must not overwrite.
 static MANIFESTS: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 

@@ -26,12 +26,11 @@ mod validate;
 use std::ffi::OsString;
 use std::io::{self, Write};
 
+use crate::{output, shard};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use color::Color;
 use format::pluralize;
 use printable::{printable, printable_lines};
-
-use crate::output;
 
 /// The exit codes, and what they mean.
 const EXIT_CODES: [(u8, &str); 5] = [
@@ -216,7 +215,8 @@ fn report_failure(error: &anyhow::Error) -> u8 {
             )
         )
         || matches!(error.downcast_ref(), Some(crate::check::Error::Record { .. }));
-    let is_interrupted = matches!(error.downcast_ref(), Some(output::Error::Interrupted));
+    let is_interrupted = matches!(error.downcast_ref(), Some(output::Error::Interrupted))
+        || matches!(error.downcast_ref(), Some(shard::Error::Interrupted));
     match () {
         () if is_interrupted => EXIT_INTERRUPTED,
         () if is_input => EXIT_INPUT_ERROR,

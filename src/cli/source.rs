@@ -135,6 +135,11 @@ impl ManifestSource {
         output::default_folder(&self.plan, &self.path).ok_or_else(|| InputError(output::no_folder_message(&self.path)))
     }
 
+    /// The folder of the manifest, in which the files are that it names.
+    pub fn folder(&self) -> &Path {
+        self.path.parent().unwrap_or(Path::new(""))
+    }
+
     /// The name of the manifest in the record of a run: its file name, without the folder.
     pub fn file_name(&self) -> String {
         match self.path.file_name() {

@@ -103,7 +103,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     source.require_families(&arguments.only)?;
     check_cells(&source, division, &is_selected)?;
     let output = source.output_folder(arguments.output.as_deref())?;
-    let top = arguments.top.zip(arguments.by.clone()).map(|(count, by)| Top { count: count as usize, by });
+    let top = arguments
+        .top
+        .zip(arguments.by.clone())
+        .map(|(count, by)| Top { count: count as usize, by: by.trim().to_owned() });
     let options = Options {
         division,
         format: arguments.format,
@@ -112,7 +115,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         measures,
         only: arguments.only.clone(),
         force: arguments.force,
-        interrupt: render::interrupt_flag()?,
+        interrupt: render::interrupt_flag(shard::Error::Interrupted)?,
     };
     let mut bar = ProgressBar::hidden();
     let mut lines = String::new();
@@ -141,6 +144,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
 pub(super) fn shard_error(error: shard::Error) -> anyhow::Error {
     match error {
         shard::Error::Output(error) => error.into(),
+        shard::Error::Interrupted => error.into(),
         shard::Error::Problems(problems) => super::InputErrors::from_messages(&problems).into(),
         error => InputError(error.to_string()).into(),
     }

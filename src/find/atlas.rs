@@ -105,7 +105,7 @@ pub fn search_atlas(
             };
             kept.map(shape).collect()
         };
-        let cells = CellIndices::First(family.cell_count());
+        let cells = CellIndices::Range(0..family.cell_count());
         solve_cells(family, condition.as_ref(), &cells, shapes, |found| {
             for (curve, shape) in found {
                 curves.push(curve);

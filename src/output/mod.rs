@@ -21,7 +21,7 @@ pub use error::Error;
 pub(crate) use files::AtomicFile;
 pub use files::{create_folder, read_font, read_text, write as write_file, write_new};
 pub(crate) use lock::Lock;
-pub use page_shard::{PageShard, page_shards, write_page_shard};
+pub use page_shard::{DrawnPages, PageShard, PageShardSource, has_atlas_of, page_shards, write_page_shard};
 
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};

@@ -113,16 +113,16 @@ fn find_foreign_pages(
 
 /// Whether an existing path is that of a file that no run wrote: a link, or a regular file that is not known. Folders and
 /// devices are reported when they are to be replaced, which is not possible.
-fn is_foreign(path: &Path, is_known: bool) -> bool {
+pub(super) fn is_foreign(path: &Path, is_known: bool) -> bool {
     is_link(path) || !is_known && fs::symlink_metadata(path).is_ok_and(|metadata| metadata.is_file())
 }
 
-fn is_link(path: &Path) -> bool {
+pub(super) fn is_link(path: &Path) -> bool {
     fs::symlink_metadata(path).is_ok_and(|metadata| metadata.is_symlink())
 }
 
 /// Removes a link, so that a file or folder takes its place and nothing is written through it.
-fn remove_link(path: &Path) -> Result<(), Error> {
+pub(super) fn remove_link(path: &Path) -> Result<(), Error> {
     if !is_link(path) {
         return Ok(());
     }

@@ -3,6 +3,7 @@
 
 use std::collections::HashMap;
 use std::io;
+use std::ops::Range;
 use std::path::Path;
 
 use rayon::prelude::*;
@@ -97,7 +98,8 @@ pub(super) fn read(output: &Path, options: &Options, report: &mut dyn FnMut(Even
 }
 
 impl PreviousRun {
-    /// Adds what shards have recorded of pages: the record of a file replaces an earlier one.
+    /// Adds what shards have recorded of pages: the record of a file replaces an earlier one. A family of which a page has changed
+    /// is no longer made from the inputs of the earlier run as a whole.
     pub fn add_pages(&mut self, run: RunRecord) {
         let progress = Vec::new();
         let added = sanitize(FolderRecord {
@@ -115,12 +117,14 @@ impl PreviousRun {
                         known.files.iter().enumerate().map(|(k, file)| (file.name.clone(), k)).collect();
                     for file in family.files {
                         match places.get(&file.name) {
+                            Some(place) if known.files[*place] == file => continue,
                             Some(place) => known.files[*place] = file,
                             None => {
                                 places.insert(file.name.clone(), known.files.len());
                                 known.files.push(file);
                             }
                         }
+                        known.inputs_sha256 = None;
                     }
                 }
             }
@@ -183,6 +187,22 @@ pub(super) fn sort_files(family: &str, files: &mut [FileRecord]) {
         let table = DATA_FILES.iter().position(|name| *name == file.name).unwrap_or(DATA_FILES.len());
         (page, table, file.name.clone())
     });
+}
+
+/// Whether a family is made from these inputs, and some of its pages, from 0, are intact in these formats.
+pub(super) fn has_pages(
+    record: &FamilyRecord,
+    inputs: Digest,
+    (pages, formats): (Range<usize>, &[PageFormat]),
+    folder: &Path,
+) -> bool {
+    let known: HashMap<&str, &FileRecord> = record.files.iter().map(|file| (file.name.as_str(), file)).collect();
+    let is_intact = |page: usize, format: PageFormat| {
+        let file = known.get(page_file_name(&record.id, (page + 1, record.pages), format).as_str());
+        file.is_some_and(|file| file.inputs_sha256.is_some() && files::is_intact(folder, file))
+    };
+    record.inputs_sha256 == Some(inputs)
+        && pages.into_par_iter().all(|page| formats.iter().all(|&format| is_intact(page, format)))
 }
 
 /// Whether a volume can have this file name.

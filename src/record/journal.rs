@@ -73,8 +73,11 @@ pub enum JournalEntry {
 pub struct PageShardHead {
     /// Which of the pages of each family.
     pub division: Division,
-    /// The formats in place of those of the manifest, by name.
+    /// The formats in place of those of the manifest, by name, in order.
     pub formats: Option<Vec<String>>,
+    /// The folder of the manifest, in which the files are that it names, relative to that of the atlas.
+    #[serde(default)]
+    pub manifest_folder: Option<String>,
 }
 
 /// A shard of the pages of an atlas, as its journal records it.

@@ -6,6 +6,14 @@ use coupler_curves::linkage_format::quoted;
 use super::gather::Gathered;
 use crate::manifest;
 
+/// What the first line of a manifest of the best curves has.
+const ORIGIN: &str = "from shards gathered by `coupler-atlas gather`";
+
+/// Whether the first line of a file is that of a manifest of the best curves.
+pub fn is_best_manifest(first_line: &str) -> bool {
+    first_line.starts_with("# The best ") && first_line.contains(ORIGIN)
+}
+
 /// A manifest that renders the linkages of the best curves: a family for each of theirs, with a case for each linkage, and the
 /// linkages that are their manifest's own.
 pub fn best_manifest(gathered: &Gathered) -> String {
@@ -14,7 +22,7 @@ pub fn best_manifest(gathered: &Gathered) -> String {
     let by = by.as_deref().unwrap_or_default().split_whitespace().collect::<Vec<_>>().join(" ");
     let title = families.first().map_or("", |(plan, _)| plan.title.as_str());
     let mut out = format!(
-        "# The best {} curves by `{by}`, from shards gathered by `coupler-atlas gather`; `coupler-atlas render` draws them.\n\n\
+        "# The best {} curves by `{by}`, {ORIGIN}; `coupler-atlas render` draws them.\n\n\
          [atlas]\ntitle = {}\nformats = [\"svg\"]\n",
         best.len(),
         quoted(&format!("{title}: the best by {by}"))

@@ -6,7 +6,7 @@ use coupler_curves::exchange::PointTable;
 use coupler_curves::expression::Unit;
 use coupler_curves::family::Family;
 use coupler_curves::linkage::DyadId;
-use coupler_curves::measure::{Value, compute_columns};
+use coupler_curves::measure::{Measure, Value, compute_columns};
 use coupler_curves::solve::SolvedCell;
 use coupler_curves::template::ParameterKind;
 
@@ -80,7 +80,10 @@ pub(super) fn cell_columns(family: &Family) -> Vec<TableColumn> {
             let measure = measures.iter().find(|measure| measure.name_for(is_driven_by_length) == name);
             let is_word = measure.is_some_and(|measure| measure.is_word);
             let kind = if is_word { ColumnKind::Word } else { ColumnKind::Number };
-            TableColumn::new(name, kind).optional().in_unit(measure.map_or("", |measure| measure.unit))
+            // Those of inputs are lengths if the input is one.
+            let has_unit = |measure: &&&Measure| measure.name_for(is_driven_by_length) == measure.name;
+            let unit = measure.filter(has_unit).map_or("", |measure| measure.unit);
+            TableColumn::new(name, kind).optional().in_unit(unit)
         }
     };
     header.trim_end().split(',').enumerate().map(column).collect()
@@ -89,13 +92,16 @@ pub(super) fn cell_columns(family: &Family) -> Vec<TableColumn> {
 /// The columns of `points.csv` of a family.
 pub(super) fn point_columns(family: &Family) -> Vec<TableColumn> {
     let header = PointTable::new(family).header();
+    // Derivatives with respect to a length are in the manifest's unit of length.
+    let is_driven_by_length = family.template.is_driven_by_length();
+    let unit = |unit: &'static str| if is_driven_by_length && unit.contains("radian") { "" } else { unit };
     let column = |(k, name): (usize, &str)| match name {
         _ if k == 0 => TableColumn::new(name, ColumnKind::Cell),
         "trace" | "circuit" | "sample" => TableColumn::new(name, ColumnKind::Integer),
         "input_deg" => TableColumn::new(name, ColumnKind::Number).repetitive().in_unit("deg"),
         "input_length" | "x" | "y" => TableColumn::new(name, ColumnKind::Number),
         _ => match family.columns.iter().find(|column| column.name == name) {
-            Some(column) => TableColumn::new(name, ColumnKind::Number).optional().in_unit(column.unit),
+            Some(column) => TableColumn::new(name, ColumnKind::Number).optional().in_unit(unit(column.unit)),
             // `branch`, `branch_2` and so on.
             None => TableColumn::new(name, ColumnKind::Integer),
         },

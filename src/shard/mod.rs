@@ -7,16 +7,21 @@
 mod best;
 mod best_manifest;
 mod columns;
+mod expression;
+mod folder;
 mod gather;
 mod parquet_table;
+mod problem;
 mod read;
 mod record;
 mod stream;
+mod swept;
 mod table;
 mod write;
 
-pub use best_manifest::best_manifest;
+pub use best_manifest::{best_manifest, is_best_manifest};
 pub use columns::{ColumnKind, ColumnRows, Rows, TableColumn, Values, Word};
+pub use folder::has_tables;
 pub use gather::{BestCurve, FamilyTotals, GatherOptions, Gathered, gather};
 pub use record::{Counts, FORMAT, ShardRecord, TableKind, Top};
 pub use stream::TableStream;
@@ -57,9 +62,15 @@ pub const MAX_TOP: usize = 1_000_000;
 /// An error of making or gathering shards.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    /// A file cannot be read or written, or the run was interrupted.
+    /// A file cannot be read or written.
     #[error(transparent)]
     Output(#[from] output::Error),
+    /// The run was interrupted.
+    #[error("interrupted: shards that are complete are kept, and the next run makes this one again")]
+    Interrupted,
+    /// Tables are to be written into what is no folder.
+    #[error("{} is not a folder: name another with -o", .0.display())]
+    NotAFolder(PathBuf),
     /// The expression that orders curves cannot be used.
     #[error("--by: `{text}`: {message}")]
     Expression {

@@ -1,4 +1,4 @@
-//! Writes a table as a Parquet file.
+//! Writes a table as a Parquet file with its own digest.
 
 use std::io::{self, Write};
 use std::sync::Arc;
@@ -12,10 +12,58 @@ use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use parquet::schema::types::{ColumnPath, Type};
 
 use super::columns::{ColumnKind, ColumnRows, Rows, TableColumn, Values};
+use super::record::DIGEST_NAME;
+use crate::record::RunningDigest;
+
+/// What stands for the digest of a file while that is computed.
+pub(super) const NO_DIGEST: [u8; 64] = [b'0'; 64];
+
+/// A file whose end is held back, for it has the digest of the whole file.
+struct DigestedFile<W> {
+    file: W,
+    /// Of what has been written.
+    digest: RunningDigest,
+    /// The end; `None` until that begins.
+    end: Option<Vec<u8>>,
+}
+
+impl<W: Write> Write for DigestedFile<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        if let Some(end) = &mut self.end {
+            return end.write(bytes);
+        }
+        let written = self.file.write(bytes)?;
+        self.digest.update(&bytes[..written]);
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
+impl<W: Write> DigestedFile<W> {
+    /// Writes the end, with the digest in place of [`NO_DIGEST`].
+    fn finish(mut self) -> io::Result<W> {
+        let mut end = self.end.unwrap_or_default();
+        self.digest.update(&end);
+        let digest = self.digest.finish().to_string();
+        if let Some(place) = find_last(&end, &NO_DIGEST) {
+            end[place..place + NO_DIGEST.len()].copy_from_slice(digest.as_bytes());
+        }
+        self.file.write_all(&end)?;
+        Ok(self.file)
+    }
+}
+
+/// The last place of some bytes among others.
+pub(super) fn find_last(bytes: &[u8], wanted: &[u8]) -> Option<usize> {
+    bytes.windows(wanted.len()).rposition(|window| window == wanted)
+}
 
 /// A Parquet file that is being written. Its bytes depend on the rows alone, and not on how they arrive.
 pub(super) struct ParquetTable<W: Write + Send> {
-    writer: SerializedFileWriter<W>,
+    writer: SerializedFileWriter<DigestedFile<W>>,
     /// The rows that are not yet a whole row group.
     pending: Rows,
     /// The types of integer columns with 32 bits.
@@ -30,6 +78,7 @@ impl<W: Write + Send> ParquetTable<W> {
         let fields = columns.iter().map(field_type).collect::<Result<Vec<_>, _>>().map_err(into_io)?;
         let schema = Type::group_type_builder("table").with_fields(fields.into_iter().map(Arc::new).collect());
         let schema = Arc::new(schema.build().map_err(into_io)?);
+        let file = DigestedFile { file, digest: RunningDigest::default(), end: None };
         let writer = SerializedFileWriter::new(file, schema, Arc::new(properties(columns))).map_err(into_io)?;
         let kinds = columns.iter().map(|column| column.kind).collect();
         Ok(ParquetTable { writer, pending: Rows::new(columns), kinds, group_rows })
@@ -45,16 +94,19 @@ impl<W: Write + Send> ParquetTable<W> {
         Ok(())
     }
 
-    /// Writes the remaining rows and the metadata.
+    /// Writes the remaining rows, the metadata and the digest.
     pub fn finish(mut self, metadata: Vec<(String, String)>) -> io::Result<W> {
         let rest = self.pending.split_off_first(self.group_rows);
         if rest.len > 0 {
             self.write_group(rest)?;
         }
-        for (name, value) in metadata {
+        let no_digest = String::from_utf8_lossy(&NO_DIGEST).into_owned();
+        for (name, value) in metadata.into_iter().chain([(DIGEST_NAME.to_owned(), no_digest)]) {
             self.writer.append_key_value_metadata(KeyValue::new(name, value));
         }
-        self.writer.into_inner().map_err(into_io)
+        self.writer.flush()?;
+        self.writer.inner_mut().end = Some(Vec::new());
+        self.writer.into_inner().map_err(into_io)?.finish()
     }
 
     fn write_group(&mut self, rows: Rows) -> io::Result<()> {

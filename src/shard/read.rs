@@ -1,8 +1,8 @@
 //! Reads the tables of cells of shards.
 
 use std::collections::BTreeSet;
-use std::fs::File;
-use std::io;
+use std::fs::{self, File};
+use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use coupler_curves::exchange::append_number;
@@ -13,9 +13,11 @@ use parquet::file::reader::{FileReader, RowGroupReader};
 use parquet::file::serialized_reader::SerializedFileReader;
 
 use super::TableFormat;
-use super::record::ShardRecord;
-use super::table::{TextRecord, parquet_message, parquet_record, record_path};
-use crate::record::{file_digest, open_regular_file, read_regular_file};
+use super::parquet_table::{NO_DIGEST, find_last, into_io};
+use super::problem::FileProblem;
+use super::record::{DIGEST_NAME, ShardRecord, column_difference};
+use super::table::{TextRecord, record_path};
+use crate::record::{Digest, FileError, RunningDigest, file_digest, open_regular_file, read_regular_file};
 
 /// The most bytes of the record beside a table; a record has a manifest, whose length is limited.
 const MAX_RECORD_BYTES: u64 = 1 << 25;
@@ -26,34 +28,38 @@ pub(super) struct ShardFile {
     pub path: PathBuf,
     pub record: ShardRecord,
     format: TableFormat,
-}
-
-/// The record of a file if it is complete.
-pub(super) fn recorded(path: &Path) -> Option<ShardRecord> {
-    ShardFile::open(path).ok().map(|file| file.record)
+    /// The digest that it states.
+    sha256: Digest,
 }
 
 impl ShardFile {
-    /// Opens a table, and reads what it says of itself.
+    /// Opens a table, and reads what it says of itself; whether that is true says [`ShardFile::verify`].
     ///
     /// # Errors
-    /// It is not complete, or no sweep wrote it, as a clause.
-    pub fn open(path: &Path) -> Result<ShardFile, String> {
+    /// It is not whole, or no sweep wrote it.
+    pub fn open(path: &Path) -> Result<ShardFile, FileProblem> {
         let path = path.to_owned();
         if path.extension().is_some_and(|extension| extension == TableFormat::Parquet.name()) {
-            let record = parquet_record(parquet_reader(&path)?.metadata())?;
-            return Ok(ShardFile { path, record, format: TableFormat::Parquet });
+            let (record, sha256) = parquet_record(&path)?;
+            return Ok(ShardFile { path, record, format: TableFormat::Parquet, sha256 });
         }
-        let bytes = read_regular_file(&record_path(&path), MAX_RECORD_BYTES)
-            .map_err(|error| format!("its record, {}, {error}", record_path(&path).display()))?;
-        let value: serde_json::Value =
-            serde_json::from_slice(&bytes).map_err(|error| format!("its record is not JSON: {error}"))?;
-        let record = ShardRecord::from_value(value.clone())?;
-        let TextRecord { sha256, .. } = serde_json::from_value(value).map_err(|error| error.to_string())?;
-        match file_digest(&path) {
-            Ok(digest) if digest == sha256 => Ok(ShardFile { path, record, format: TableFormat::Csv }),
-            Ok(_) => Err("it is not the file that was written".to_owned()),
-            Err(error) => Err(format!("it {error}")),
+        let TextRecord { record, sha256 } = text_record(&path)?;
+        open_regular_file(&path, u64::MAX)?;
+        Ok(ShardFile { path, record, format: TableFormat::Csv, sha256 })
+    }
+
+    /// Reads the whole file, and compares it with its digest.
+    ///
+    /// # Errors
+    /// It is not the file that was written, or cannot be read.
+    pub fn verify(&self) -> Result<(), FileProblem> {
+        let digest = match self.format {
+            TableFormat::Parquet => parquet_digest(&self.path, self.sha256)?,
+            TableFormat::Csv => file_digest(&self.path)?,
+        };
+        match digest == self.sha256 {
+            true => Ok(()),
+            false => Err(FileProblem::Damaged("it is not the file that was written".to_owned())),
         }
     }
 
@@ -147,9 +153,107 @@ impl ShardFile {
     }
 }
 
+/// Reads the record beside a table that is text.
+fn text_record(table: &Path) -> Result<TextRecord, FileProblem> {
+    let path = record_path(table);
+    let its_record = |what: String| format!("its record, {}, {what}", path.display());
+    let bytes = read_regular_file(&path, MAX_RECORD_BYTES).map_err(|error| match error {
+        // The record is written first.
+        FileError::NotFound if fs::symlink_metadata(table).is_err() => FileProblem::Missing,
+        FileError::Unreadable(_) => FileProblem::Unreadable(its_record(error.to_string())),
+        error => FileProblem::Foreign(its_record(error.to_string())),
+    })?;
+    let value: serde_json::Value = serde_json::from_slice(&bytes).map_err(|error| {
+        let message = its_record(format!("is not JSON: {error}"));
+        if error.is_eof() { FileProblem::Damaged(message) } else { FileProblem::Foreign(message) }
+    })?;
+    let record = ShardRecord::from_value(value.clone())?;
+    let sha256 = value.get("sha256").cloned().and_then(|value| serde_json::from_value(value).ok());
+    let sha256 = sha256.ok_or_else(|| FileProblem::Damaged(its_record("states no digest".to_owned())))?;
+    Ok(TextRecord { record, sha256 })
+}
+
+/// Reads the record of a Parquet file, and the digest that it states.
+fn parquet_record(path: &Path) -> Result<(ShardRecord, Digest), FileProblem> {
+    let mut file = open_regular_file(path, u64::MAX)?;
+    let mut beginning = Vec::new();
+    let read = (&mut file).take(PARQUET_MAGIC.len() as u64).read_to_end(&mut beginning);
+    read.map_err(|error| FileProblem::from(FileError::from(error)))?;
+    // What does not begin as a Parquet file is no part of one.
+    if !PARQUET_MAGIC.starts_with(&beginning) {
+        return Err(FileProblem::Foreign("it is not a Parquet file".to_owned()));
+    }
+    let reader = SerializedFileReader::new(file).map_err(parquet_problem)?;
+    let metadata = reader.metadata().file_metadata();
+    let pairs = || metadata.key_value_metadata().into_iter().flatten();
+    let record = ShardRecord::from_metadata(pairs().map(|pair| (pair.key.as_str(), pair.value.as_deref())))?;
+    let rows = metadata.num_rows();
+    if usize::try_from(rows) != Ok(record.rows) {
+        return Err(FileProblem::Damaged(format!("it has {rows} rows, and states {}", record.rows)));
+    }
+    let columns: Vec<String> =
+        metadata.schema_descr().columns().iter().map(|column| column.name().to_owned()).collect();
+    if columns != record.columns {
+        let difference = column_difference(&columns, &record.columns);
+        return Err(FileProblem::Damaged(format!("it has other columns than it states{difference}")));
+    }
+    let stated = pairs().find(|pair| pair.key == DIGEST_NAME).and_then(|pair| pair.value.clone());
+    let sha256 = stated.and_then(|text| serde_json::from_value(serde_json::Value::String(text)).ok());
+    let sha256 = sha256.ok_or_else(|| FileProblem::Damaged("it states no digest".to_owned()))?;
+    Ok((record, sha256))
+}
+
+/// The bytes with which a Parquet file begins and ends.
+const PARQUET_MAGIC: &[u8] = b"PAR1";
+
+/// The bytes after the metadata: their number, and [`PARQUET_MAGIC`].
+const PARQUET_TAIL: u64 = 8;
+
+/// The digest of a Parquet file, in which the one that it states counts as [`NO_DIGEST`].
+fn parquet_digest(path: &Path, stated: Digest) -> Result<Digest, FileProblem> {
+    let mut file = open_regular_file(path, u64::MAX)?;
+    let mut digest = RunningDigest::default();
+    let mut read = || -> io::Result<Vec<u8>> {
+        let length = file.seek(SeekFrom::End(0))?;
+        let mut tail = [0; 4];
+        file.seek(SeekFrom::Start(length.saturating_sub(PARQUET_TAIL)))?;
+        file.read_exact(&mut tail)?;
+        let end = u64::from(u32::from_le_bytes(tail)) + PARQUET_TAIL;
+        file.rewind()?;
+        io::copy(&mut (&mut file).take(length.saturating_sub(end)), &mut digest)?;
+        let mut metadata = Vec::new();
+        (&mut file).take(end.min(length)).read_to_end(&mut metadata)?;
+        Ok(metadata)
+    };
+    let mut metadata = read().map_err(|error| FileProblem::from(FileError::from(error)))?;
+    if let Some(place) = find_last(&metadata, stated.to_string().as_bytes()) {
+        metadata[place..place + NO_DIGEST.len()].copy_from_slice(&NO_DIGEST);
+    }
+    digest.update(&metadata);
+    Ok(digest.finish())
+}
+
+/// Why a Parquet file cannot be used.
+fn parquet_problem(error: ParquetError) -> FileProblem {
+    match into_io(error) {
+        error if matches!(error.kind(), io::ErrorKind::Other | io::ErrorKind::UnexpectedEof) => {
+            FileProblem::Damaged(format!("it is not a whole Parquet file: {error}"))
+        }
+        error => FileProblem::Unreadable(error.to_string()),
+    }
+}
+
 fn parquet_reader(path: &Path) -> Result<SerializedFileReader<File>, String> {
     let file = open_regular_file(path, u64::MAX).map_err(|error| format!("it {error}"))?;
     SerializedFileReader::new(file).map_err(parquet_message)
+}
+
+/// The message of an error of reading a Parquet file, as a clause.
+fn parquet_message(error: ParquetError) -> String {
+    match parquet_problem(error) {
+        FileProblem::Damaged(why) | FileProblem::Foreign(why) | FileProblem::Unreadable(why) => why,
+        FileProblem::Missing => "it does not exist".to_owned(),
+    }
 }
 
 fn row_count(group: &dyn RowGroupReader) -> usize {
@@ -240,30 +344,4 @@ impl ParquetColumn {
             }),
         }
     }
-}
-
-/// The tables of cells in a folder and its folders, in order of their paths.
-///
-/// # Errors
-/// The folder cannot be read.
-pub(super) fn find_tables(folder: &Path) -> io::Result<Vec<PathBuf>> {
-    let mut found = Vec::new();
-    let is_table = |path: &Path| {
-        let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
-        let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
-        name.starts_with("cells-") && TableFormat::ALL.iter().any(|format| format.name() == extension)
-    };
-    for entry in folder.read_dir()? {
-        let entry = entry?;
-        let path = entry.path();
-        if entry.file_type()?.is_dir() {
-            // A folder that cannot be read has no tables.
-            let inner = path.read_dir().into_iter().flatten().flatten().map(|entry| entry.path());
-            found.extend(inner.filter(|path| is_table(path)));
-        } else if is_table(&path) {
-            found.push(path);
-        }
-    }
-    found.sort();
-    Ok(found)
 }

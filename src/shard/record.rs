@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use super::Division;
+use super::problem::FileProblem;
 use crate::record::Digest;
 
 /// The version of the format of the tables and of this record.
@@ -15,7 +16,10 @@ pub const FORMAT: u32 = 1;
 const PREFIX: &str = "coupler_atlas.";
 
 /// The fields whose values are written as they are; those of others are JSON.
-const TEXTS: [&str; 4] = ["version", "manifest_sha256", "family", "manifest"];
+const TEXTS: [&str; 5] = ["version", "manifest_sha256", "family", "manifest", "sha256"];
+
+/// The name in the metadata of a Parquet file of its digest.
+pub(super) const DIGEST_NAME: &str = "coupler_atlas.sha256";
 
 /// Which of the tables of a family.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -136,10 +140,10 @@ impl ShardRecord {
     /// Reads the metadata of a Parquet file.
     ///
     /// # Errors
-    /// They have no record of this format, as a clause.
+    /// They have no record of this format.
     pub(super) fn from_metadata<'a>(
         metadata: impl Iterator<Item = (&'a str, Option<&'a str>)>,
-    ) -> Result<ShardRecord, String> {
+    ) -> Result<ShardRecord, FileProblem> {
         let field = |(name, value): (&str, Option<&str>)| {
             let name = name.strip_prefix(PREFIX)?;
             let value = value?;
@@ -151,7 +155,10 @@ impl ShardRecord {
         };
         let fields: Map<String, Value> = metadata.filter_map(field).collect();
         if fields.is_empty() {
-            return Err("no sweep wrote it".to_owned());
+            return Err(FileProblem::Foreign("no sweep wrote it".to_owned()));
+        }
+        if !fields.contains_key("format") {
+            return Err(FileProblem::Damaged("it does not state its format".to_owned()));
         }
         ShardRecord::from_value(Value::Object(fields))
     }
@@ -159,18 +166,24 @@ impl ShardRecord {
     /// Reads a record as JSON.
     ///
     /// # Errors
-    /// It is not a record of this format, as a clause.
-    pub(super) fn from_value(value: Value) -> Result<ShardRecord, String> {
+    /// It is not a record of this format.
+    pub(super) fn from_value(value: Value) -> Result<ShardRecord, FileProblem> {
         match value.get("format").and_then(Value::as_u64) {
             Some(format) if format == u64::from(FORMAT) => {}
-            Some(format) => return Err(format!("it has the format {format}, and this version reads {FORMAT}")),
-            None => return Err("it does not state its format".to_owned()),
+            Some(format) => {
+                let message = format!("it has the format {format}, and this version reads {FORMAT}");
+                return Err(FileProblem::Foreign(message));
+            }
+            None => return Err(FileProblem::Foreign("it does not state its format".to_owned())),
         }
-        let record: ShardRecord = serde_json::from_value(value).map_err(|error| error.to_string())?;
+        let record: ShardRecord =
+            serde_json::from_value(value).map_err(|error| FileProblem::Damaged(format!("its record: {error}")))?;
         let ShardRecord { first_cell, last_cell, cell_count, .. } = record;
         let is_range = (1..=cell_count.saturating_add(1)).contains(&first_cell) && last_cell <= cell_count;
         if !is_range || last_cell + 1 < first_cell {
-            return Err(format!("it states the cells {first_cell} to {last_cell} of {cell_count}"));
+            return Err(FileProblem::Damaged(format!(
+                "it states the cells {first_cell} to {last_cell} of {cell_count}"
+            )));
         }
         Ok(record)
     }
@@ -190,12 +203,37 @@ impl ShardRecord {
             });
         }
         if self.columns != other.columns {
-            return Some("it has other columns".to_owned());
+            return Some(format!("it has other columns{}", column_difference(&self.columns, &other.columns)));
         }
         let place = |record: &ShardRecord| {
-            (record.family.clone(), record.table, record.division, record.first_cell, record.last_cell)
+            let ShardRecord { family, table, division, first_cell, last_cell, cell_count, .. } = record;
+            (family.clone(), *table, *division, *first_cell, *last_cell, *cell_count)
         };
         (place(self) != place(other)).then(|| format!("it is another shard: {} of `{}`", self.division, self.family))
+    }
+
+    /// Whether the tables with two records have the same rows: the manifests may have different titles and captions.
+    pub(super) fn has_same_rows(&self, other: &ShardRecord) -> bool {
+        let without_manifest = |record: &ShardRecord| ShardRecord { manifest: String::new(), ..record.clone() };
+        without_manifest(self) == without_manifest(other)
+    }
+}
+
+/// ": `length` and not `area`": how columns differ from others; nothing if only their order does.
+pub(super) fn column_difference(columns: &[String], others: &[String]) -> String {
+    let missing = |columns: &[String], others: &[String]| {
+        let names: Vec<String> =
+            columns.iter().filter(|name| !others.contains(name)).map(|name| format!("`{name}`")).collect();
+        match names.len() {
+            0..=3 => names.join(", "),
+            count => format!("{} and {} more", names[..2].join(", "), count - 2),
+        }
+    };
+    match [missing(columns, others), missing(others, columns)].each_ref().map(String::as_str) {
+        ["", ""] => String::new(),
+        [more, ""] => format!(": {more}"),
+        ["", fewer] => format!(": not {fewer}"),
+        [more, fewer] => format!(": {more} and not {fewer}"),
     }
 }
 
@@ -230,7 +268,8 @@ mod tests {
         assert_eq!(ShardRecord::from_metadata(pairs()), Ok(record));
         assert!(pairs().any(|pair| pair == ("coupler_atlas.family", Some("12"))));
         let without = ShardRecord::from_metadata(pairs().filter(|(name, _)| *name != "coupler_atlas.rows"));
-        assert!(without.unwrap_err().contains("rows"));
-        assert_eq!(ShardRecord::from_metadata(std::iter::empty()).unwrap_err(), "no sweep wrote it");
+        assert!(matches!(without, Err(FileProblem::Damaged(why)) if why.contains("rows")));
+        let foreign = FileProblem::Foreign("no sweep wrote it".to_owned());
+        assert_eq!(ShardRecord::from_metadata(std::iter::empty()), Err(foreign));
     }
 }

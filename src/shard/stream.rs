@@ -9,7 +9,7 @@ use coupler_curves::solve::SolvedCell;
 
 use super::columns::{Rows, TableColumn};
 use super::record::TableKind;
-use super::write::{groups, swept_family};
+use super::swept::{groups, swept_family};
 use super::{Division, table};
 use crate::output;
 use crate::sweep::{self, CellGroups, CellIndices};

@@ -1,5 +1,6 @@
 //! Files of tables: written whole or not at all.
 
+use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -8,14 +9,19 @@ use coupler_curves::family::Family;
 use coupler_curves::solve::SolvedCell;
 
 use super::columns::{Rows, TableColumn, cell_columns, point_columns};
-use super::parquet_table::{ParquetTable, into_io};
+use super::parquet_table::ParquetTable;
 use super::record::{ShardRecord, TableKind};
 use super::{Division, TableFormat};
 use crate::output::{self, AtomicFile};
 use crate::record::{CellTable, Digest, RunningDigest};
 
-/// The numbers of rows of a row group of the tables, so that one takes some tens of megabytes in memory.
-const GROUP_ROWS: [(TableKind, usize); 2] = [(TableKind::Cells, 1 << 16), (TableKind::Points, 1 << 18)];
+/// The number of rows of a row group of a table, so that one takes some tens of megabytes in memory.
+fn group_rows(table: TableKind) -> usize {
+    match table {
+        TableKind::Cells => 1 << 16,
+        TableKind::Points => 1 << 18,
+    }
+}
 
 /// The beginning and the end of the names of unfinished files of a shard.
 pub(super) fn temporary_affixes(label: &str) -> (String, &'static str) {
@@ -35,6 +41,23 @@ pub(super) fn table_path(
 /// The path of the record beside a table that is text.
 pub(super) fn record_path(table: &Path) -> PathBuf {
     table.with_extension("json")
+}
+
+/// Removes a table, and the record beside it, if there are.
+///
+/// # Errors
+/// The file cannot be removed.
+pub(super) fn remove(path: &Path) -> Result<(), output::Error> {
+    let is_text = path.extension().is_some_and(|extension| extension == TableFormat::Csv.name());
+    for path in [Some(path.to_owned()), is_text.then(|| record_path(path))].into_iter().flatten() {
+        match fs::remove_file(&path) {
+            Err(source) if source.kind() != io::ErrorKind::NotFound => {
+                return Err(output::Error::Write { path, source });
+            }
+            _ => {}
+        }
+    }
+    Ok(())
 }
 
 /// Rows of a table in the form in which they are written.
@@ -132,9 +155,8 @@ impl TableWriter {
         let failed = |source: io::Error| output::Error::Write { path: path.clone(), source };
         let file = match maker.format {
             TableFormat::Parquet => {
-                let rows =
-                    GROUP_ROWS.into_iter().find(|(table, _)| *table == maker.table).map_or(1 << 16, |(_, rows)| rows);
-                OpenFile::Parquet(Box::new(ParquetTable::new(file, maker.columns, rows).map_err(failed)?))
+                let table = ParquetTable::new(file, maker.columns, group_rows(maker.table));
+                OpenFile::Parquet(Box::new(table.map_err(failed)?))
             }
             TableFormat::Csv => {
                 let header = match maker.table {
@@ -185,11 +207,11 @@ impl TableWriter {
             }
             OpenFile::Csv(table) => {
                 let CsvTable { file, digest, affixes } = *table;
-                file.commit_durably()?;
-                // The table is complete when its record is there.
                 let mut record_file = AtomicFile::with_affixes(record_path(&path), (&affixes.0, affixes.1))?;
                 record_file.write_bytes(&TextRecord { record, sha256: digest.finish() }.to_bytes())?;
-                record_file.commit_durably()
+                record_file.commit_durably()?;
+                // The table comes last, so that one without a record is that of others.
+                file.commit_durably()
             }
         }
     }
@@ -211,27 +233,5 @@ impl TextRecord {
         let mut bytes = serde_json::to_vec_pretty(self).unwrap_or_default();
         bytes.push(b'\n');
         bytes
-    }
-}
-
-/// The record of a Parquet file.
-///
-/// # Errors
-/// It is not complete, or no sweep wrote it, as a clause.
-pub(super) fn parquet_record(metadata: &parquet::file::metadata::ParquetMetaData) -> Result<ShardRecord, String> {
-    let pairs = metadata.file_metadata().key_value_metadata().into_iter().flatten();
-    let record = ShardRecord::from_metadata(pairs.map(|pair| (pair.key.as_str(), pair.value.as_deref())))?;
-    let rows = metadata.file_metadata().num_rows();
-    if usize::try_from(rows) != Ok(record.rows) {
-        return Err(format!("it has {rows} rows, and states {}", record.rows));
-    }
-    Ok(record)
-}
-
-/// The message of an error of reading a Parquet file, as a clause.
-pub(super) fn parquet_message(error: parquet::errors::ParquetError) -> String {
-    match into_io(error) {
-        error if error.kind() == io::ErrorKind::Other => format!("it is not a whole Parquet file: {error}"),
-        error => error.to_string(),
     }
 }

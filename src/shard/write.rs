@@ -1,25 +1,26 @@
 //! Makes a shard.
 
-use std::borrow::Cow;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use coupler_curves::expression::{CompiledExpression, Expression, Kind};
+use coupler_curves::expression::CompiledExpression;
 use coupler_curves::family::Family;
-use coupler_curves::measure::{self, Measure};
+use coupler_curves::measure;
 use coupler_curves::solve::{SolvedCell, Status};
 
 use super::best::Best;
-use super::columns::TableColumn;
-use super::record::{Counts, FORMAT, ShardRecord, TableKind, Top};
+use super::expression::compile;
+use super::problem::FileProblem;
+use super::read::ShardFile;
+use super::record::{Counts, ShardRecord, TableKind, Top};
+use super::swept::{groups, initial_record, manifest_digest, swept_family};
 use super::table::{self, Chunk, RowMaker, TableWriter, table_path, temporary_affixes};
-use super::{Division, Error, TableFormat, read};
-use crate::manifest::{Plan, PlannedFamily};
+use super::{Division, Error, TableFormat};
+use crate::manifest::Plan;
 use crate::output::{self, Lock, create_folder};
-use crate::record::{Digest, RunningDigest};
-use crate::sweep::{self, CellGroups, CellIndices};
+use crate::sweep::{self, CellIndices};
 
 /// How a shard is made.
 #[derive(Clone, Debug)]
@@ -90,119 +91,6 @@ pub fn write_shard(plan: &Plan, output: &Path, options: &Options, report: &mut d
     Ok(())
 }
 
-/// The digest of what a manifest says of the values in tables.
-fn manifest_digest(plan: &Plan) -> Digest {
-    let mut digest = RunningDigest::default();
-    for PlannedFamily { family, manifest_inputs, .. } in &plan.families {
-        digest.update(format!("{}\n{}\n", family.id, manifest_inputs.table_text()).as_bytes());
-    }
-    digest.finish()
-}
-
-/// The expression in the names of each family of a plan; `None` in one that lacks a name, and in those that are not selected.
-///
-/// # Errors
-/// It is an expression in no selected family.
-pub(super) fn compile(
-    plan: &Plan,
-    is_selected: &dyn Fn(&String) -> bool,
-    text: &str,
-) -> Result<Vec<Option<CompiledExpression>>, Error> {
-    let compile = |planned: &PlannedFamily| -> Result<CompiledExpression, String> {
-        let family = &planned.family;
-        let scope = Family::scope(&family.names, family.template.is_driven_by_length());
-        let compiled = Expression::parse(text).and_then(|parsed| parsed.compile(&scope, Kind::Number));
-        let compiled = compiled.map_err(|error| match error.help.as_str() {
-            "" => error.to_string(),
-            help => format!("{error}; {help}"),
-        })?;
-        let helpers = family.template.parameters.len()..family.names.len();
-        match compiled.slots().iter().find(|slot| helpers.contains(slot)) {
-            Some(slot) => Err(format!(
-                "`{}` is neither a parameter of the linkage nor a measure, and tables do not have it",
-                family.names[*slot]
-            )),
-            None => Ok(compiled),
-        }
-    };
-    let (mut found, mut first_error) = (Vec::new(), None);
-    for planned in &plan.families {
-        let compiled = is_selected(&planned.family.id).then(|| compile(planned)).transpose();
-        found.push(compiled.unwrap_or_else(|message| {
-            first_error.get_or_insert(message);
-            None
-        }));
-    }
-    match first_error.filter(|_| found.iter().all(Option::is_none)) {
-        Some(message) => Err(Error::Expression { text: text.to_owned(), message }),
-        None => Ok(found),
-    }
-}
-
-/// A family with the measures that the tables have: those that `by` and `where` use and, of others, the named ones or the family's own.
-pub(super) fn swept_family<'f>(
-    family: &'f Family,
-    by: Option<&CompiledExpression>,
-    measures: Option<&[String]>,
-) -> Cow<'f, Family> {
-    let is_named =
-        |measure: &Measure, names: &[String]| measure.names().any(|own| names.iter().any(|name| name == own));
-    let is_computed = |(k, measure): (usize, &Measure)| {
-        let is_used = by.iter().copied().chain(&family.filter).any(|expression| family.expression_uses(expression, k));
-        is_used || measures.map_or(family.is_computed[k], |names| is_named(measure, names))
-    };
-    let is_computed: Vec<bool> = measure::ALL.iter().enumerate().map(is_computed).collect();
-    match is_computed == family.is_computed {
-        true => Cow::Borrowed(family),
-        false => Cow::Owned(Family { is_computed, ..family.clone() }),
-    }
-}
-
-/// The record of the table of cells before any cell is solved.
-fn initial_record(
-    planned: &PlannedFamily,
-    family: &Family,
-    (manifest_sha256, families): (Digest, &[String]),
-    options: &Options,
-) -> ShardRecord {
-    let cell_count = family.cell_count();
-    let range = options.division.range(cell_count);
-    let joint = |traced: &usize| family.template.joints[*traced].name.clone();
-    ShardRecord {
-        format: FORMAT,
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        manifest_sha256,
-        table: TableKind::Cells,
-        family: family.id.clone(),
-        families: families.to_vec(),
-        division: options.division,
-        first_cell: range.start + 1,
-        last_cell: range.end,
-        cell_count,
-        columns: Vec::new(),
-        top: options.top.clone(),
-        has_points: options.has_points,
-        rows: 0,
-        counts: Counts::default(),
-        joints: family.template.traced.iter().map(joint).collect(),
-        units: Default::default(),
-        manifest: planned.excerpt(),
-    }
-    .with_columns(&table::columns(family, TableKind::Cells))
-}
-
-impl ShardRecord {
-    /// The same with the names and units of columns.
-    fn with_columns(self, columns: &[TableColumn]) -> ShardRecord {
-        let named = columns.iter().filter(|column| !column.unit.is_empty());
-        ShardRecord {
-            columns: columns.iter().map(|column| column.name.clone()).collect(),
-            units: named.map(|column| (column.name.clone(), column.unit.to_owned())).collect(),
-            ..self
-        }
-    }
-}
-
 /// The part of a family in a shard.
 struct FamilyShard<'a> {
     /// With the measures that the tables have.
@@ -232,7 +120,13 @@ impl FamilyShard<'_> {
         let path = |table| table_path(&self.folder, table, (record.division, record.cell_count), self.options.format);
         let cells_path = path(TableKind::Cells);
         let label = record.division.label(record.cell_count);
-        create_folder(&self.folder)?;
+        create_folder(&self.folder).map_err(|error| match error {
+            output::Error::Write { source, .. } if is_no_folder(source.kind()) => {
+                let exists = |path: &&Path| fs::symlink_metadata(path).is_ok();
+                Error::NotAFolder(self.folder.ancestors().find(exists).unwrap_or(&self.folder).to_owned())
+            }
+            error => error.into(),
+        })?;
         // Another run of this shard may be at work: what it writes is kept.
         let lock = Lock::wait_for(self.folder.join(format!(".coupler-atlas-{label}.lock")))?;
         if let Some(complete) = self.complete_record(&cells_path, &path(TableKind::Points))? {
@@ -263,27 +157,42 @@ impl FamilyShard<'_> {
         Ok(())
     }
 
-    /// The record of the table of cells if the files are complete.
+    /// The record of the table of cells if all files of the shard are complete.
+    ///
+    /// # Errors
+    /// A file is not of this shard, and would be replaced; or it cannot be read.
     fn complete_record(&self, cells: &Path, points: &Path) -> Result<Option<ShardRecord>, Error> {
-        let mut paths = vec![(TableKind::Cells, cells)];
-        if self.options.has_points {
-            paths.push((TableKind::Points, points));
+        if self.options.force {
+            return Ok(None);
         }
-        let mut complete = None;
-        for (table, path) in paths {
-            let expected = match table {
-                TableKind::Cells => self.record.clone(),
-                TableKind::Points => self.points_record(Counts::default()),
-            };
-            // A file that is not whole is replaced.
-            let Some(record) = read::recorded(path).filter(|_| !self.options.force) else { return Ok(None) };
-            if let Some(reason) = record.difference_from(&expected) {
-                return Err(Error::OtherShard { path: path.to_owned(), reason });
+        let cells = self.existing_record(cells, &self.record)?;
+        // A shard without tables of points has none of another.
+        if let Some(cells) = cells.as_ref().filter(|cells| !cells.has_points && !self.options.has_points) {
+            return Ok(Some(cells.clone()));
+        }
+        let points = self.existing_record(points, &self.points_record(Counts::default()))?;
+        Ok(cells
+            .zip(points)
+            .filter(|(cells, points)| cells.has_points && cells.counts == points.counts)
+            .map(|(cells, _)| cells))
+    }
+
+    /// The record of a table that has its name already; `None` if there is none, or if it is damaged and made again.
+    fn existing_record(&self, path: &Path, expected: &ShardRecord) -> Result<Option<ShardRecord>, Error> {
+        let verified = ShardFile::open(path).and_then(|file| file.verify().map(|()| file.record));
+        let reason = match verified {
+            Ok(record) => match record.difference_from(expected) {
+                None => return Ok(Some(record)),
+                Some(reason) => reason,
+            },
+            Err(FileProblem::Missing | FileProblem::Damaged(_)) => return Ok(None),
+            Err(FileProblem::Foreign(reason)) => reason,
+            Err(FileProblem::Unreadable(reason)) => {
+                let source = std::io::Error::other(reason);
+                return Err(output::Error::Write { path: path.to_owned(), source }.into());
             }
-            complete = complete.or(Some(record));
-        }
-        // A table of cells states whether there are points.
-        Ok(complete.filter(|record| record.has_points || !self.options.has_points))
+        };
+        Err(Error::OtherShard { path: path.to_owned(), reason })
     }
 
     fn points_record(&self, counts: Counts) -> ShardRecord {
@@ -390,24 +299,22 @@ impl FamilyShard<'_> {
             None => counts,
         };
         // The shard is complete when its table of cells is there.
-        if let Some(table) = point_table {
-            table.commit(&self.points_record(counts))?;
+        match point_table {
+            Some(table) => table.commit(&self.points_record(counts))?,
+            None => table::remove(&path(TableKind::Points))?,
         }
         cell_table.commit(&ShardRecord { counts, ..self.record.clone() })?;
         Ok(counts)
     }
 
-    fn check_interrupt(&self) -> Result<(), output::Error> {
-        if self.options.interrupt.load(Ordering::Relaxed) { Err(output::Error::Interrupted) } else { Ok(()) }
+    fn check_interrupt(&self) -> Result<(), Error> {
+        if self.options.interrupt.load(Ordering::Relaxed) { Err(Error::Interrupted) } else { Ok(()) }
     }
 }
 
-/// The groups in which cells are solved: as many cells as take a few megabytes.
-pub(super) fn groups<'g>(family: &Family, cells: &'g CellIndices, measures: Option<&'g [bool]>) -> CellGroups<'g> {
-    const GROUP_BYTES: usize = 1 << 22;
-    const MOST_CELLS: usize = 64;
-    let size = (GROUP_BYTES / family.estimate_cell_bytes().max(1)).clamp(1, MOST_CELLS);
-    CellGroups { cells, first_group: 0, size, work_bytes: 0, requested_measures: measures, solve_known: None }
+/// Whether a folder cannot be made because something else has its name, or that of a folder above it.
+fn is_no_folder(kind: std::io::ErrorKind) -> bool {
+    matches!(kind, std::io::ErrorKind::AlreadyExists | std::io::ErrorKind::NotADirectory)
 }
 
 /// What cells come to.

@@ -5,8 +5,6 @@ use std::ops::Range;
 /// The indices of some cells of a family, in an order.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CellIndices {
-    /// The first cells, as many as this number.
-    First(usize),
     /// Consecutive cells.
     Range(Range<usize>),
     /// These cells.
@@ -17,7 +15,6 @@ impl CellIndices {
     /// The number of cells.
     pub fn len(&self) -> usize {
         match self {
-            CellIndices::First(count) => *count,
             CellIndices::Range(range) => range.len(),
             CellIndices::Listed(cells) => cells.len(),
         }
@@ -26,7 +23,6 @@ impl CellIndices {
     /// The first cells of them, at most this number.
     pub fn first(&self, count: usize) -> CellIndices {
         match self {
-            CellIndices::First(all) => CellIndices::First(count.min(*all)),
             CellIndices::Range(range) => CellIndices::Range(range.start..range.start + count.min(range.len())),
             CellIndices::Listed(cells) => CellIndices::Listed(cells[..count.min(cells.len())].to_vec()),
         }
@@ -40,7 +36,6 @@ impl CellIndices {
     /// The `k`-th cell, from 0; `None` if there is none.
     pub fn get(&self, k: usize) -> Option<usize> {
         match self {
-            CellIndices::First(count) => (k < *count).then_some(k),
             CellIndices::Range(range) => range.start.checked_add(k).filter(|cell| *cell < range.end),
             CellIndices::Listed(cells) => cells.get(k).map(|&cell| cell as usize),
         }
@@ -54,6 +49,6 @@ impl CellIndices {
 
 impl Default for CellIndices {
     fn default() -> CellIndices {
-        CellIndices::First(0)
+        CellIndices::Range(0..0)
     }
 }

@@ -53,10 +53,14 @@ impl Division {
         }
     }
 
-    /// The end of the names of its files: `00003-of-00064`, or `0001-2000` for cells of a family with this number of cells.
+    /// The end of the names of its files, whose order is that of the cells: `00003-of-00064`, or `0001-2000` for cells of a family
+    /// with this number of cells.
     pub fn label(self, cell_count: usize) -> String {
         match self {
-            Division::Shard { index, of } => format!("{index:05}-of-{of:05}"),
+            Division::Shard { index, of } => {
+                let width = of.saturating_sub(1).to_string().len().max(5);
+                format!("{index:0width$}-of-{of:0width$}")
+            }
             Division::Cells { first, last } => {
                 let width = cell_count.to_string().len();
                 format!("{first:0width$}-{last:0width$}")
@@ -128,5 +132,9 @@ mod tests {
         assert_eq!(Division::Cells { first: 3, last: 50 }.range(10), 2..10);
         assert_eq!(Division::Cells { first: 3, last: 5 }.label(1000), "0003-0005");
         assert_eq!(Division::Shard { index: 3, of: 64 }.label(1000), "00003-of-00064");
+        // Names are in the order of shards.
+        assert_eq!(Division::Shard { index: 99_999, of: 100_000 }.label(1000), "99999-of-100000");
+        assert_eq!(Division::Shard { index: 99_999, of: 150_000 }.label(1000), "099999-of-150000");
+        assert_eq!(Division::Shard { index: 100_000, of: 150_000 }.label(1000), "100000-of-150000");
     }
 }

@@ -69,7 +69,7 @@ const CELLS_PER_BLOCK: usize = 1 << 14;
 pub fn select_cells(family: &Family, counts_points: bool, stop: &AtomicBool) -> Option<CellSelection> {
     let count = family.cell_count();
     if family.filter.is_none() && family.sort.is_none() && !counts_points {
-        return Some(CellSelection { kept: CellIndices::First(count), ..CellSelection::default() });
+        return Some(CellSelection { kept: CellIndices::Range(0..count), ..CellSelection::default() });
     }
     struct RankedCell {
         cell: u32,

@@ -82,6 +82,8 @@ assert job["completionMode"] == "Indexed"
 pod = container("sweep")
 (rule,) = job["podFailurePolicy"]["rules"]
 assert rule["onExitCodes"]["containerName"] == pod["name"]
+(rule_of_gather,) = documents["Job", "gather"]["spec"]["podFailurePolicy"]["rules"]
+assert rule_of_gather["onExitCodes"] == {**rule["onExitCodes"], "containerName": container("gather")["name"]}
 assert f"$(INDEX)/{job['completions']}" in pod["args"]
 kills = 0
 for index in range(shards):

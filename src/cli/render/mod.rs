@@ -4,13 +4,15 @@ mod live_page;
 mod progress;
 mod watch;
 
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use crate::gallery::PAGE_FILE;
-use crate::output;
+use crate::manifest::PlannedFamily;
+use crate::output::{self, DrawnPages, PageShardSource};
 use crate::record::{Digest, IMAGES_FILE_NAME, RUN_FILE_NAME, RunRecord, file_digest};
 use crate::sweep::Division;
 use clap::{Args, ValueHint};
@@ -80,7 +82,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     if let Some(jobs) = arguments.jobs {
         rayon::ThreadPoolBuilder::new().num_threads(jobs.into()).build_global()?;
     }
-    let interrupt = interrupt_flag()?;
+    let interrupt = interrupt_flag(output::Error::Interrupted)?;
     if arguments.watch {
         return watch::run(arguments, &interrupt);
     }
@@ -106,17 +108,23 @@ fn draw_shard(arguments: &Arguments, division: Division, interrupt: &Arc<AtomicB
     let output = source.output_folder(arguments.output.as_deref())?;
     let options = output_options(arguments, &source, interrupt);
     let mut reporter = ProgressReporter::new(arguments.quiet, true);
-    let (pages, drawn) =
-        output::write_page_shard((&source.plan, &source.text), &output, &options, division, &mut |event| {
+    let formats = |planned: &PlannedFamily| options.formats.as_ref().unwrap_or(&planned.formats).clone();
+    if source.plan.families.iter().flat_map(formats).all(|format| format.page_format().is_none()) {
+        print_stderr("note: there are no pages to divide: a book is drawn by gather, or by render without --shard\n");
+    }
+    let manifest = PageShardSource { plan: &source.plan, text: &source.text, folder: source.folder() };
+    let DrawnPages { pages, drawn, is_atlas_complete } =
+        output::write_page_shard(manifest, &output, &options, division, &mut |event| {
             reporter.handle_event(event, &mut String::new());
         })?;
     reporter.finish();
     if !arguments.quiet {
         let folder = printable(output.display());
-        print(&format!(
-            "{}, {drawn} of them drawn, in {folder}; when all shards are, complete it: coupler-atlas gather {folder}\n",
-            pluralize(pages, "page")
-        ))?;
+        let next = match is_atlas_complete {
+            true => format!("in {folder}, where the atlas is complete already"),
+            false => format!("in {folder}; when all shards are, complete it: coupler-atlas gather {folder}"),
+        };
+        print(&format!("{}, {drawn} of them drawn, {next}\n", pluralize(pages, "page")))?;
     }
     Ok(Outcome::Done)
 }
@@ -217,8 +225,10 @@ fn open(path: &Path) {
 /// How long a run may take to end after Ctrl-C before the process ends.
 const GRACE_PERIOD: Duration = Duration::from_millis(700);
 
-/// A flag that the first Ctrl-C sets; the second ends the program at once.
-pub(super) fn interrupt_flag() -> anyhow::Result<Arc<AtomicBool>> {
+/// A flag that the first Ctrl-C sets; the second ends the program at once, and so does a run that does not look at it, with this
+/// error.
+pub(super) fn interrupt_flag(message: impl Display) -> anyhow::Result<Arc<AtomicBool>> {
+    let message = message.to_string();
     let interrupt = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&interrupt);
     ctrlc::set_handler(move || {
@@ -227,9 +237,10 @@ pub(super) fn interrupt_flag() -> anyhow::Result<Arc<AtomicBool>> {
         }
         // A cell of very many samples, or a large page, may not look at the flag soon enough. Whatever the threads are
         // doing, files are complete and in the journal.
-        std::thread::spawn(|| {
+        let message = message.clone();
+        std::thread::spawn(move || {
             std::thread::sleep(GRACE_PERIOD);
-            print_stderr(&format!("error: {}\n", output::Error::Interrupted));
+            print_stderr(&format!("error: {message}\n"));
             std::process::exit(EXIT_INTERRUPTED.into());
         });
     })?;

@@ -77,7 +77,7 @@ pub(super) fn family_parts<'a>(
             title: title.clone(),
             is_main: true,
             cells: order.clone(),
-            positions: CellIndices::First(order.len()),
+            positions: CellIndices::Range(0..order.len()),
             first_pages: Vec::new(),
             pages_before,
         }];

@@ -1,17 +1,17 @@
 //! `gather`: checks that shards are complete, and finds the best of their curves.
 
-use std::collections::BTreeSet;
+mod pages;
+
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use crate::output::{self, PageShard};
-use crate::record::{PageShardHead, PageShardRecord, RunRecord};
-use crate::shard::{self, Division, GatherOptions, Gathered, MAX_TOP};
-use crate::sweep::number_ranges;
+use crate::output;
+use crate::shard::{self, GatherOptions, Gathered, MAX_TOP};
 use clap::{Args, ValueHint};
-use coupler_drawing::render::Format;
 
 use super::sweep::{describe_counts, shard_error};
-use super::{Outcome, files, pluralize, print_bytes, print_stderr, printable, render, source};
+use super::{InputError, Outcome, files, pluralize, print_bytes, print_stderr, printable};
 
 /// Check that the shards of a manifest are complete: print the best of their curves as a table, and complete atlases whose pages
 /// render --shard has drawn.
@@ -34,7 +34,8 @@ pub struct Arguments {
     /// which the shards kept theirs].
     #[arg(long, value_name = "EXPR", allow_hyphen_values = true)]
     by: Option<String>,
-    /// Write a manifest that renders the linkages of the best curves; - for standard output, in place of the table.
+    /// Write a manifest that renders the linkages of the best curves, which replaces none but one of gather; - for standard output,
+    /// in place of the table.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     toml: Option<PathBuf>,
     /// Only this family; may be given more than once.
@@ -52,15 +53,33 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     if let Some(jobs) = arguments.jobs {
         rayon::ThreadPoolBuilder::new().num_threads(jobs.into()).build_global()?;
     }
-    let mut folders = Vec::new();
+    if let Some(path) = &arguments.toml {
+        check_replaceable(path)?;
+    }
+    let (mut tables, mut atlases, mut complete) = (Vec::new(), Vec::new(), Vec::new());
     for folder in &arguments.folders {
         let shards = output::page_shards(folder)?;
-        match shards.is_empty() {
-            true => folders.push(folder.clone()),
-            false => complete_pages(folder, &shards, arguments.quiet)?,
+        let has_tables = shard::has_tables(folder).map_err(shard_error)?;
+        let has_pages = !shards.is_empty();
+        if has_pages {
+            atlases.push((folder, shards));
+        }
+        if has_tables || !has_pages && !pages::has_atlas(folder) {
+            tables.push(folder.clone());
+        } else if !has_pages {
+            complete.push(folder);
         }
     }
-    if folders.is_empty() {
+    if tables.is_empty() {
+        check_options(arguments)?;
+    }
+    for (folder, shards) in atlases {
+        pages::complete(folder, &shards, arguments.quiet)?;
+    }
+    for folder in complete.iter().filter(|_| !arguments.quiet) {
+        print_stderr(&format!("{} has a complete atlas, and no shards to gather\n", printable(folder.display())));
+    }
+    if tables.is_empty() {
         return Ok(Outcome::Done);
     }
     let options = GatherOptions {
@@ -68,10 +87,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         top: arguments.top.map(|top| top as usize),
         by: arguments.by.clone(),
     };
-    let gathered = shard::gather(&folders, &options).map_err(shard_error)?;
+    let gathered = shard::gather(&tables, &options).map_err(shard_error)?;
     if arguments.toml.is_some() && gathered.by.is_none() {
         let message = "--toml is for the best curves: say how many and by what, as in --top 100 --by straight_length";
-        return Err(super::InputError(message.to_owned()).into());
+        return Err(InputError(message.to_owned()).into());
     }
     for note in &gathered.notes {
         print_stderr(&format!("note: {}\n", printable(note)));
@@ -83,61 +102,61 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     if gathered.by.is_some() && !is_table_replaced {
         print_bytes(&table(&gathered)?)?;
     }
-    if let Some(path) = &arguments.toml {
+    let is_empty = gathered.by.is_some() && gathered.best.is_empty();
+    if is_empty {
+        print_stderr(&format!("note: {}\n", printable(nothing_is_best(&gathered, arguments.toml.as_deref()))));
+    }
+    if let Some(path) = arguments.toml.as_ref().filter(|_| !is_empty) {
         files::write(path, shard::best_manifest(&gathered).as_bytes())?;
     }
     Ok(Outcome::Done)
 }
 
-/// Checks that all pages of an atlas are drawn, and writes what they have in common.
-fn complete_pages(folder: &Path, shards: &[PageShard], is_quiet: bool) -> anyhow::Result<()> {
-    let name = printable(folder.display());
-    let PageShardRecord { head: PageShardHead { formats, .. }, manifest, run, .. } = &shards[0].record;
-    let is_same = |shard: &PageShard| {
-        let PageShardRecord { head, manifest: own, run: own_run, .. } = &shard.record;
-        own == manifest
-            && head.formats == *formats
-            && (&own_run.version, &own_run.manifest) == (&run.version, &run.manifest)
-    };
-    let mut problems = Vec::new();
-    if let Some(other) = shards.iter().find(|shard| !is_same(shard)) {
-        let [first, other] = [&shards[0], other].map(|shard| shard.record.head.division);
-        problems.push(format!(
-            "{name}: {first} and {other} are of different manifests, formats or versions of the program: draw them again"
-        ));
-    }
-    let counts: BTreeSet<usize> = shards.iter().filter_map(parts).map(|(_, of)| of).collect();
-    if counts.len() > 1 {
-        let counts: Vec<String> = counts.iter().map(usize::to_string).collect();
-        problems.push(format!("{name}: pages are drawn in {} shards: use one number", counts.join(" and in ")));
-    } else if let Some(&of) = counts.first() {
-        let finished = shards.iter().filter(|shard| shard.record.is_finished).filter_map(parts);
-        let finished: BTreeSet<usize> = finished.map(|(index, _)| index).collect();
-        let missing: Vec<usize> = (0..of).filter(|index| !finished.contains(index)).collect();
-        if let Some(first) = missing.first() {
-            problems.push(format!(
-                "{name}: of {of} shards of pages these are not complete: {}; draw them with `coupler-atlas render MANIFEST --shard \
-                 {first}/{of}` and so on",
-                number_ranges(&missing)
-            ));
-        }
-    }
-    if !problems.is_empty() {
-        return Err(super::InputErrors::from_messages(&problems).into());
-    }
-    let path = PathBuf::from(run.manifest.as_deref().unwrap_or(RunRecord::STANDARD_INPUT));
-    let source = source::with_text(&path, manifest.clone())?;
-    let parse = |names: &Vec<String>| names.iter().map(|name| render::parse_format(name)).collect();
-    let formats: Option<Result<Vec<Format>, String>> = formats.as_ref().map(parse);
-    let formats = formats.transpose().map_err(super::InputError)?;
-    render::complete(&source, folder, formats, is_quiet)
+/// Checks that no option is given that is for tables.
+fn check_options(arguments: &Arguments) -> Result<(), InputError> {
+    let given = [
+        ("--top", arguments.top.is_some()),
+        ("--by", arguments.by.is_some()),
+        ("--toml", arguments.toml.is_some()),
+        ("--only", !arguments.only.is_empty()),
+    ];
+    let Some((option, _)) = given.into_iter().find(|(_, is_given)| *is_given) else { return Ok(()) };
+    let names: Vec<String> = arguments.folders.iter().map(|folder| printable(folder.display())).collect();
+    Err(InputError(format!(
+        "{option} is for tables, and there are none in {}: `coupler-atlas sweep` writes them",
+        names.join(" or in ")
+    )))
 }
 
-/// The index of a shard, and the number of them.
-fn parts(shard: &PageShard) -> Option<(usize, usize)> {
-    match shard.record.head.division {
-        Division::Shard { index, of } => Some((index, of)),
-        Division::Cells { .. } => None,
+/// Checks that a file for the best curves would replace nothing but one of an earlier gather.
+fn check_replaceable(path: &Path) -> Result<(), InputError> {
+    if files::is_standard(path) || !path.is_file() {
+        return Ok(());
+    }
+    let mut beginning = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(1 << 16).read_to_end(&mut beginning));
+    let first_line = beginning.split(|&byte| byte == b'\n').next().unwrap_or_default();
+    match read {
+        Ok(_) if shard::is_best_manifest(&String::from_utf8_lossy(first_line)) => Ok(()),
+        _ => Err(InputError(format!(
+            "{} exists already, and is not what gather writes: name another file, or remove it first",
+            path.display()
+        ))),
+    }
+}
+
+/// Why there is no best curve.
+fn nothing_is_best(gathered: &Gathered, toml: Option<&Path>) -> String {
+    let curves: usize = gathered.families.iter().map(|(_, totals)| totals.counts.curves).sum();
+    let by = gathered.by.as_deref().unwrap_or_default();
+    let why = match (curves, gathered.families.iter().any(|(_, totals)| totals.has_best_only)) {
+        (0, false) => "no cell has a curve".to_owned(),
+        (0, true) => format!("no shard has a curve for which `{by}` has a value"),
+        _ => format!("`{by}` has no value for any of {}", pluralize(curves, "curve")),
+    };
+    match toml {
+        Some(path) => format!("nothing is the best: {why}; {} is not written", files::output_name(path)),
+        None => format!("nothing is the best: {why}"),
     }
 }
 
