@@ -21,7 +21,8 @@ at_exit() {
     for command in "${clean_up[@]}"; do
         eval "$command" || true
     done
-    rm -rf "$folder"
+    # What has just been ended may still write there.
+    rm -rf "$folder" || { sleep 1 && rm -rf "$folder"; }
 }
 trap at_exit EXIT
 
