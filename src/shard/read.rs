@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{self, Read, Seek, SeekFrom};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use coupler_curves::exchange::append_number;
@@ -72,15 +73,12 @@ impl ShardFile {
         let places: Vec<usize> = columns.iter().map(|name| self.place(name)).collect::<Result<_, _>>()?;
         match self.format {
             TableFormat::Parquet => {
-                let reader = parquet_reader(&self.path)?;
-                let mut first = 0;
-                for group in 0..reader.num_row_groups() {
-                    let group = reader.get_row_group(group).map_err(parquet_message)?;
-                    let read = |place: &usize| ParquetColumn::read(&*group, *place).map(|values| values.numbers());
+                for_row_groups(&self.path, |group, rows| {
+                    let read = |place: &usize| ParquetColumn::read(group, *place).map(|values| values.numbers());
                     let numbers = places.iter().map(read).collect::<Result<Vec<_>, _>>();
-                    receive(first, &numbers.map_err(parquet_message)?);
-                    first += row_count(&*group);
-                }
+                    receive(rows.start, &numbers.map_err(parquet_message)?);
+                    Ok(())
+                })?;
             }
             TableFormat::Csv => {
                 /// The rows of a part.
@@ -112,24 +110,22 @@ impl ShardFile {
         let mut found = Vec::new();
         match self.format {
             TableFormat::Parquet => {
-                let reader = parquet_reader(&self.path)?;
-                let mut first = 0;
-                for group in 0..reader.num_row_groups() {
-                    let group = reader.get_row_group(group).map_err(parquet_message)?;
-                    let end = first + row_count(&*group);
-                    let rows: Vec<usize> = wanted.range(first..end).copied().collect();
-                    if !rows.is_empty() {
-                        let mut texts: Vec<(usize, Vec<String>)> = rows.iter().map(|row| (*row, Vec::new())).collect();
-                        for column in 0..group.num_columns() {
-                            let values = ParquetColumn::read(&*group, column).map_err(parquet_message)?.texts();
-                            for (row, fields) in &mut texts {
-                                fields.push(values.get(*row - first).cloned().unwrap_or_default());
-                            }
-                        }
-                        found.extend(texts);
+                for_row_groups(&self.path, |group, rows| {
+                    let first = rows.start;
+                    let mut texts: Vec<(usize, Vec<String>)> =
+                        wanted.range(rows).map(|row| (*row, Vec::new())).collect();
+                    if texts.is_empty() {
+                        return Ok(());
                     }
-                    first = end;
-                }
+                    for column in 0..group.num_columns() {
+                        let values = ParquetColumn::read(group, column).map_err(parquet_message)?.texts();
+                        for (row, fields) in &mut texts {
+                            fields.push(values.get(*row - first).cloned().unwrap_or_default());
+                        }
+                    }
+                    found.extend(texts);
+                    Ok(())
+                })?;
             }
             TableFormat::Csv => {
                 for (row, record) in self.csv_reader()?.records().enumerate().filter(|(row, _)| wanted.contains(row)) {
@@ -243,9 +239,21 @@ fn parquet_problem(error: ParquetError) -> FileProblem {
     }
 }
 
-fn parquet_reader(path: &Path) -> Result<SerializedFileReader<File>, String> {
+/// Passes the row groups of a Parquet file to `visit`, each with the indices of its rows.
+fn for_row_groups(
+    path: &Path,
+    mut visit: impl FnMut(&dyn RowGroupReader, Range<usize>) -> Result<(), String>,
+) -> Result<(), String> {
     let file = open_regular_file(path, u64::MAX).map_err(|error| format!("it {error}"))?;
-    SerializedFileReader::new(file).map_err(parquet_message)
+    let reader = SerializedFileReader::new(file).map_err(parquet_message)?;
+    let mut first = 0;
+    for group in 0..reader.num_row_groups() {
+        let group = reader.get_row_group(group).map_err(parquet_message)?;
+        let rows = first..first + row_count(&*group);
+        first = rows.end;
+        visit(&*group, rows)?;
+    }
+    Ok(())
 }
 
 /// The message of an error of reading a Parquet file, as a clause.

@@ -9,6 +9,23 @@ use tempfile::TempDir;
 /// The program, as a path.
 pub const PROGRAM: &str = env!("CARGO_BIN_EXE_coupler-atlas");
 
+/// The commands of the program; a test of the documents compares them with its help.
+pub const COMMANDS: [&str; 13] = [
+    "render",
+    "validate",
+    "check",
+    "inspect",
+    "design",
+    "find",
+    "export",
+    "list",
+    "sweep",
+    "gather",
+    "init",
+    "completions",
+    "man",
+];
+
 /// The exit code, the standard output and the standard error of a command.
 pub type Ran = (i32, String, String);
 

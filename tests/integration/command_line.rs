@@ -7,22 +7,7 @@ use std::process::{Command, Stdio};
 
 use tempfile::TempDir;
 
-use crate::command::{folder_with, printed, program, result, run};
-
-const COMMANDS: [&str; 12] = [
-    "render",
-    "validate",
-    "check",
-    "inspect",
-    "design",
-    "export",
-    "list",
-    "sweep",
-    "gather",
-    "init",
-    "completions",
-    "man",
-];
+use crate::command::{COMMANDS, folder_with, printed, program, result, run};
 
 const MANIFEST: &str = r#"[atlas]
 title = "T"
