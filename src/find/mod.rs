@@ -1,15 +1,32 @@
-//! What a search for a linkage reads from files, the path it is to trace, the index of curves and the curves of an atlas; and the search
-//! for the dimensions of any linkage on all threads.
+//! The search for linkages whose curves are nearest to a path, on all threads: in an atlas, and for the dimensions of any linkage; and what a
+//! search reads from files, the path and the index of curves.
 
 mod atlas;
+pub mod description;
 mod index_file;
 mod linkage;
 mod placed_curve;
 mod svg_outlines;
 mod target_file;
 
-pub use atlas::{AtlasAnswer, AtlasOptions, ConditionError, search_atlas};
+pub use atlas::{AtlasAnswer, AtlasFindings, AtlasQuery, check_families, find_in_atlas, manifest_of};
 pub use index_file::{MAX_CURVES, load_index};
-pub use linkage::{LinkageAnswer, MAX_SAMPLES, search_linkage};
-pub use placed_curve::{PlacedCurve, distinct};
+pub use linkage::{LinkageAnswer, LinkageFindings, MAX_SAMPLES, find_linkage};
+pub use placed_curve::PlacedCurve;
 pub use target_file::{MAX_POINTS, Outline, parse_outline};
+
+/// Why a search has no result.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The condition has no meaning in any family of the atlas.
+    #[error("`{condition}`: {error}")]
+    Condition {
+        /// Its text.
+        condition: String,
+        /// What is wrong with it in the first family.
+        error: String,
+    },
+    /// The search was told to end.
+    #[error("interrupted")]
+    Interrupted,
+}

@@ -2,8 +2,9 @@
 
 use std::fs;
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
-use coupler_atlas::find::{LinkageAnswer, search_linkage};
+use coupler_atlas::find::{LinkageAnswer, find_linkage};
 use coupler_curves::catalogue;
 use coupler_curves::family::{Family, Sampling};
 use coupler_curves::find::{Effort, LinkageSpace, Options, PathKind, Target};
@@ -90,7 +91,11 @@ fn placed(points: &[Point], random: &mut Random) -> Vec<Point> {
 fn search(template: &Arc<Template>, points: &[Point], options: &Options) -> Vec<LinkageAnswer> {
     let target = Target::new(points, PathKind::Closed).unwrap();
     let space = LinkageSpace::new(template.clone(), &[]).unwrap();
-    search_linkage(&space, &target, options, None).0
+    answers(&space, &target, options)
+}
+
+fn answers(space: &LinkageSpace, target: &Target, options: &Options) -> Vec<LinkageAnswer> {
+    find_linkage(space, target, options, None, &AtomicBool::new(false)).unwrap().answers
 }
 
 /// The least deviations of searches for random curves of a linkage, relative to the size of the path.
@@ -162,17 +167,17 @@ fn a_timed_path_is_met_at_its_inputs_and_a_part_where_it_is() {
     // In the opposite direction, from any zero.
     let angles: Vec<f64> = circuit.inputs.iter().map(|input| 40.0 - input).collect();
     let target = Target::timed(&points, PathKind::Closed, &angles).unwrap();
-    let answer = &search_linkage(&space, &target, &options, None).0[0];
+    let answer = &answers(&space, &target, &options)[0];
     assert!(answer.curve.fit.rms_relative < 1e-6, "{:?}", answer.curve.fit);
     let [from, to] = answer.inputs;
     assert!(((from - to).abs() - 355.0).abs() < 1e-6, "{from} {to}");
     // The same points at other times are no motion of the linkage.
     let angles: Vec<f64> = circuit.inputs.iter().map(|input| input + 25.0 * trig::sin(input.to_radians())).collect();
     let target = Target::timed(&points, PathKind::Closed, &angles).unwrap();
-    let other = search_linkage(&space, &target, &options, None).0;
+    let other = answers(&space, &target, &options);
     assert!(other.first().is_none_or(|answer| answer.curve.fit.rms_relative > 1e-3), "{other:?}");
     let part = Target::new(&points[10..45], PathKind::Part).unwrap();
-    let answer = &search_linkage(&space, &part, &options, None).0[0];
+    let answer = &answers(&space, &part, &options)[0];
     assert!(answer.curve.fit.rms_relative < 1e-3 && (answer.curve.fit.length_ratio - 1.0).abs() < 0.01);
 }
 

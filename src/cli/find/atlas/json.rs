@@ -6,7 +6,8 @@ use serde::Serialize;
 
 use super::super::super::report;
 use super::super::json::{self, Document, FORMAT, NearestMiss, PlacedRecord};
-use super::{AtlasReport, Found};
+use super::super::text::options_of;
+use super::AtlasReport;
 
 #[derive(Serialize)]
 struct Entry {
@@ -26,20 +27,21 @@ enum Linkage {
 
 /// The path and the curves, as indented JSON.
 pub(super) fn json(report: &AtlasReport) -> anyhow::Result<String> {
-    let entry = |(rank, found): (usize, &Found)| entry(report, rank, found);
-    let miss = report.nearest_miss.as_ref();
+    let entry = |(rank, answer): (usize, &AtlasAnswer)| entry(report, rank, answer);
+    let miss = report.findings.nearest_miss.as_ref();
     let document = Document {
         target: json::target(&report.target),
-        curves: Some(report.curves),
+        curves: Some(report.findings.curves),
         searched: None,
-        results: (1..).zip(&report.answers).map(entry).collect(),
-        nearest_miss: miss.map(|(relax, found)| NearestMiss { relax: relax.clone(), result: entry((1, found)) }),
+        results: (1..).zip(&report.findings.answers).map(entry).collect(),
+        nearest_miss: miss
+            .map(|(relax, nearest)| NearestMiss { relax: options_of(relax), result: entry((1, nearest)) }),
     };
     report::json(FORMAT, &document)
 }
 
-fn entry(report: &AtlasReport, rank: usize, Found { curve: answer, refined }: &Found) -> Entry {
-    let AtlasAnswer { place, name, curve } = answer;
+fn entry(report: &AtlasReport, rank: usize, answer: &AtlasAnswer) -> Entry {
+    let AtlasAnswer { place, name, curve, refined } = answer;
     let result = match refined {
         Some(answer) => Linkage::Refined(Box::new(AnswerRecord::new(rank, answer))),
         None => {

@@ -2,20 +2,20 @@
 
 use std::fmt::Write;
 
-use crate::find::PlacedCurve;
+use crate::find::{AtlasAnswer, AtlasFindings, description};
 use coupler_curves::find::{Quality, format_length as number, format_relative as relative};
 
 use super::super::super::format::pluralize;
-use super::super::text::{described, dimensions, place};
-use super::{AtlasReport, Found};
+use super::super::text::{described, dimensions, options_of, place};
+use super::AtlasReport;
 
 /// The answers, each with its cell, where it is placed or what was refined from it.
 pub(super) fn text(report: &AtlasReport) -> String {
-    let AtlasReport { name, target, answers, curves, nearest_miss, .. } = report;
+    let AtlasReport { name, target, findings: AtlasFindings { curves, answers, nearest_miss }, .. } = report;
     let size = target.size();
     let mut out = format!("{}; {} of the atlas\n", described(name, target), pluralize(*curves, "curve"));
-    for (rank, found) in (1..).zip(answers) {
-        out += &entry(&rank.to_string(), found, size);
+    for (rank, answer) in (1..).zip(answers) {
+        out += &entry(&rank.to_string(), answer, size);
     }
     if answers.is_empty() {
         match nearest_miss {
@@ -23,7 +23,7 @@ pub(super) fn text(report: &AtlasReport) -> String {
                 let _ = writeln!(
                     out,
                     "no curve meets the constraints; the nearest miss is an answer without {}:",
-                    relax.join(", ")
+                    options_of(relax).join(", ")
                 );
                 out += &entry("-", nearest, size);
             }
@@ -33,8 +33,7 @@ pub(super) fn text(report: &AtlasReport) -> String {
     out
 }
 
-fn entry(rank: &str, Found { curve: answer, refined }: &Found, size: f64) -> String {
-    let (curve, name) = (&answer.curve, &answer.name);
+fn entry(rank: &str, AtlasAnswer { curve, name, refined, .. }: &AtlasAnswer, size: f64) -> String {
     let fit = &curve.fit;
     let line = |relative_rms: f64, rms: f64, greatest: f64| {
         let quality = Quality::of(relative_rms).name();
@@ -57,20 +56,7 @@ fn entry(rank: &str, Found { curve: answer, refined }: &Found, size: f64) -> Str
         None => {
             let deviation = line(fit.rms_relative, fit.rms, fit.greatest);
             let class = if curve.class.is_empty() { String::new() } else { format!(", {}", curve.class) };
-            format!("{rank:>3}  {deviation}, {}{class}\n     {}\n", name, placed(curve, size))
+            format!("{rank:>3}  {deviation}, {}{class}\n     {}\n", name, description::placement(curve, size))
         }
     }
-}
-
-/// Where a curve is placed, in words.
-pub(in super::super) fn placed(curve: &PlacedCurve, size: f64) -> String {
-    let placement = &curve.fit.placement;
-    let mirrored = if placement.is_mirrored { "y mirrored, " } else { "" };
-    format!(
-        "{mirrored}scale {}, turned by {}°, shifted by ({}, {})",
-        number(placement.scale(), placement.scale()),
-        (1000.0 * placement.rotation_deg()).round() / 1000.0 + 0.0,
-        number(placement.shift.x, size),
-        number(placement.shift.y, size)
-    )
 }

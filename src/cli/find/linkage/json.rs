@@ -24,14 +24,15 @@ struct Entry {
 pub(super) fn json(report: &LinkageReport) -> anyhow::Result<String> {
     let entry = |(rank, answer): (usize, &LinkageAnswer)| entry(report, rank, answer);
     let miss = report
+        .findings
         .nearest_miss
         .as_ref()
         .map(|(constraints, answer)| NearestMiss { relax: options_of(constraints), result: entry((1, answer)) });
     let document = Document {
         target: json::target(&report.target),
-        curves: Some(report.curves),
+        curves: Some(report.findings.curves),
         searched: Some(report.space.free_names().map(str::to_owned).collect()),
-        results: (1..).zip(&report.answers).map(entry).collect(),
+        results: (1..).zip(&report.findings.answers).map(entry).collect(),
         nearest_miss: miss,
     };
     report::json(FORMAT, &document)

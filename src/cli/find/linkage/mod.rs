@@ -5,18 +5,15 @@ mod text;
 
 use std::path::Path;
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
-use crate::find::{self, LinkageAnswer, MAX_SAMPLES};
+use crate::find::{self, LinkageFindings, MAX_SAMPLES, description};
 use crate::manifest;
-use coupler_curves::exchange::{ParameterSet, manifest_families};
-use coupler_curves::family::Family;
-use coupler_curves::find::{
-    Condition, Constraint, LinkageSpace, Mechanism, Options, Target, answers_manifest, manifest_head, nearest_miss_by,
-};
+use coupler_curves::find::{Condition, LinkageSpace, Mechanism, Options, Target};
 use coupler_curves::measure;
 use coupler_curves::motion::Sampler;
 use coupler_curves::solve::solve_measuring;
-use coupler_curves::template::{Orientation, Template};
+use coupler_curves::template::Template;
 
 use super::super::linkage::find_template;
 use super::super::source;
@@ -27,11 +24,7 @@ pub(super) struct LinkageReport {
     name: String,
     target: Target,
     space: LinkageSpace,
-    /// The number of curves in which the path was looked up.
-    curves: usize,
-    answers: Vec<LinkageAnswer>,
-    /// If there is no answer, the constraints to relax, and the answer without them.
-    nearest_miss: Option<(Vec<Constraint>, LinkageAnswer)>,
+    findings: LinkageFindings,
     /// The text of the linkage, if it is none of the catalogue.
     own_linkage: Option<String>,
 }
@@ -113,13 +106,9 @@ pub(super) fn run(
 ) -> anyhow::Result<Outcome> {
     let Sought { space, own_linkage, .. } = sought;
     let samples = arguments.index.map(|count| count as usize);
-    let (answers, curves) = find::search_linkage(&space, &target, options, samples);
-    let nearest = |options: &Options| find::search_linkage(&space, &target, options, samples).0.into_iter().next();
-    let nearest_miss = match answers.is_empty() {
-        true => nearest_miss_by(options, nearest, |answer| answer.curve.fit.rms),
-        false => None,
-    };
-    let report = LinkageReport { name, target, space, curves, answers, nearest_miss, own_linkage };
+    let findings = find::find_linkage(&space, &target, options, samples, &AtomicBool::new(false))
+        .map_err(|error| InputError(error.to_string()))?;
+    let report = LinkageReport { name, target, space, findings, own_linkage };
     show(&report, arguments, is_drawing_printed)
 }
 
@@ -138,25 +127,8 @@ pub(super) fn condition(
 }
 
 impl Shown for LinkageReport {
-    /// A manifest that renders the linkages: in the direction that they have on the path and mirrored as there, and as large if their
-    /// dimensions scale. Families have no shift; comments have it.
     fn manifest(&self) -> String {
-        let name = title_of(&self.name);
-        if self.answers.is_empty() {
-            return answers_manifest(&name, self.target.size(), &[]);
-        }
-        let mut out = manifest_head(&name);
-        out.extend(self.own_linkage.iter().map(|text| format!("\n{text}")));
-        out.push('\n');
-        let families: Vec<Family> =
-            (1..).zip(&self.answers).map(|(rank, answer)| placed_family(&format!("curve {rank}"), answer)).collect();
-        let mut sets = Vec::new();
-        for ((rank, answer), family) in (1..).zip(&self.answers).zip(&families) {
-            out += &format!("# {rank}: {}\n", text::place_comment(answer, self.target.size()));
-            let curve_name = format!("{rank}: {}", text::deviation(&answer.curve, self.target.size()));
-            sets.push(ParameterSet { family, values: answer.curve.values.clone(), curve_name });
-        }
-        out + &manifest_families(&sets, self.own_linkage.is_some())
+        self.findings.manifest(&title_of(&self.name), &self.target, self.own_linkage.as_deref())
     }
 
     fn json(&self) -> anyhow::Result<String> {
@@ -169,13 +141,13 @@ impl Shown for LinkageReport {
 
     /// The path and the curves on one page.
     fn drawing(&self) -> Vec<u8> {
-        let found = (1..).zip(&self.answers).filter_map(|(rank, answer)| {
+        let found = (1..).zip(&self.findings.answers).filter_map(|(rank, answer)| {
             let family = &answer.family;
             let needed = vec![false; measure::ALL.len()];
             let solved = solve_measuring(family, &Sampler::new(family.sampling), 0, &needed)?;
             let label = format!(
                 "{rank}: {}, {}",
-                text::deviation(&answer.curve, self.target.size()),
+                description::deviation(&answer.curve, self.target.size()),
                 text::parameters(&self.space, &answer.curve, self.target.size())
             );
             drawing::placed(&answer.curve, solved, label)
@@ -183,14 +155,4 @@ impl Shown for LinkageReport {
         let title = format!("{}: {}", title_of(&self.name), self.space.template().id);
         drawing::page_of(&title, &self.target, Vec::new(), found.collect())
     }
-}
-
-/// The family of an answer, in its direction on the path.
-fn placed_family(title: &str, answer: &LinkageAnswer) -> Family {
-    let placement = &answer.curve.fit.placement;
-    let mut family = answer.family.clone();
-    family.title = format!("{}: {}", family.title, title);
-    let template = Arc::make_mut(&mut family.template);
-    template.orientation = Orientation::new(placement.is_mirrored, placement.rotation_deg());
-    family
 }

@@ -2,19 +2,18 @@
 
 use std::fmt::Write;
 
-use crate::find::{LinkageAnswer, PlacedCurve};
-use coupler_curves::find::{LinkageSpace, Quality, format_length as number, format_relative as relative};
-use coupler_curves::linkage_format::toml_number;
+use crate::find::description::{deviation, placement};
+use crate::find::{LinkageAnswer, LinkageFindings, PlacedCurve};
+use coupler_curves::find::{LinkageSpace, format_length as number};
 use coupler_curves::template::ParameterKind;
 
 use super::super::super::format::pluralize;
-use super::super::atlas::placed;
 use super::super::text::{angle, described, relaxed};
 use super::LinkageReport;
 
 /// The answers, each with its dimensions and its place.
 pub(super) fn text(report: &LinkageReport) -> String {
-    let LinkageReport { name, target, answers, curves, space, nearest_miss, .. } = report;
+    let LinkageReport { name, target, space, findings: LinkageFindings { curves, answers, nearest_miss }, .. } = report;
     let size = target.size();
     let id = &space.template().id;
     let free: Vec<&str> = space.free_names().collect();
@@ -38,12 +37,6 @@ pub(super) fn text(report: &LinkageReport) -> String {
     let relax = relaxed(constraints, answer.curve.longest_link / size);
     let _ = writeln!(out, "no linkage meets the constraints; the nearest miss is an answer with {relax}:");
     out + &entry("-", answer, space, size)
-}
-
-/// How near a curve is.
-pub(super) fn deviation(PlacedCurve { fit, .. }: &PlacedCurve, size: f64) -> String {
-    let quality = Quality::of(fit.rms_relative).name();
-    format!("E = {} S = {}, {quality}", relative(fit.rms_relative), number(fit.rms, size))
 }
 
 fn entry(rank: &str, answer: &LinkageAnswer, space: &LinkageSpace, size: f64) -> String {
@@ -77,7 +70,7 @@ fn entry(rank: &str, answer: &LinkageAnswer, space: &LinkageSpace, size: f64) ->
         curve.joint,
         branch(answer)
     );
-    let _ = writeln!(out, "     {pivots}{}", placed(curve, size));
+    let _ = writeln!(out, "     {pivots}{}", placement(curve, size));
     out
 }
 
@@ -94,21 +87,4 @@ pub(super) fn parameters(space: &LinkageSpace, curve: &PlacedCurve, size: f64) -
         format!("{} = {}", parameter.name, number(*value, unit))
     });
     values.collect::<Vec<_>>().join(", ")
-}
-
-/// Where an answer is placed, with all digits, for a family that is drawn in its direction.
-pub(super) fn place_comment(answer: &LinkageAnswer, size: f64) -> String {
-    let curve = &answer.curve;
-    let placement = &curve.fit.placement;
-    let [x, y] = [placement.shift.x, placement.shift.y].map(toml_number);
-    let scaled = if curve.is_scalable {
-        String::new()
-    } else {
-        format!("{} times as large and ", toml_number(placement.scale()))
-    };
-    let [trace, circuit] = curve.numbers;
-    format!(
-        "{}; on the path it is {scaled}shifted by ({x}, {y}); trace {trace}, circuit {circuit}",
-        deviation(curve, size)
-    )
 }

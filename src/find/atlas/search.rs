@@ -1,68 +1,51 @@
-//! The curves of an atlas that are nearest to a path.
+//! The curves of an atlas that are nearest to a path, where they are placed on it.
 
-use std::convert::Infallible;
 use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use coupler_curves::expression::{CompiledExpression, Expression, Kind};
 use coupler_curves::family::Family;
-use coupler_curves::find::{
-    CurveFitOptions, CurveFitter, CurveIndex, CurveLookup, CurveShape, Options, Target, is_scalable,
-};
+use coupler_curves::find::{CurveFitOptions, CurveFitter, CurveIndex, CurveLookup, CurveShape, Target, is_scalable};
 use coupler_curves::geometry::{Bounds, Point};
 use coupler_curves::measure;
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 
-use super::placed_curve::{PlacedCurve, REPORTED};
+use super::super::Error;
+use super::super::placed_curve::{PlacedCurve, REPORTED};
+use super::{AtlasAnswer, AtlasQuery};
 use crate::manifest::Plan;
 use crate::sweep::{self, CellGroups, CellIndices};
 
 /// What the curves of an atlas are compared by, and what they must satisfy.
-pub struct AtlasOptions {
-    /// Whether position, size and rotation count.
-    pub is_fixed: bool,
-    /// Whether the input must turn fully.
-    pub full_turn: bool,
-    /// The greatest distance of two joints of a link, in sizes of the target; may be infinite.
-    pub max_link: f64,
-    /// The box of the fixed pivots, in the unit of the target.
-    pub pivots: Option<Bounds>,
-    /// The condition, as in `where` of a manifest.
-    pub condition: Option<String>,
+pub(super) struct AtlasOptions<'a> {
+    is_fixed: bool,
+    full_turn: bool,
+    max_link: f64,
+    pivots: Option<Bounds>,
+    condition: Option<&'a str>,
     /// The number of curves that are compared exactly.
-    pub candidates: usize,
+    candidates: usize,
 }
 
-impl AtlasOptions {
-    /// Those that agree with a search for four-bars.
-    pub fn new(options: &Options, condition: Option<String>, is_fixed: bool) -> AtlasOptions {
+impl<'a> AtlasOptions<'a> {
+    pub(super) fn new(AtlasQuery { options, condition, is_fixed }: &AtlasQuery<'a>) -> AtlasOptions<'a> {
         /// The least number of curves that are compared exactly, and that for each answer.
         const CANDIDATES: [usize; 2] = [300, 20];
         AtlasOptions {
-            is_fixed,
+            is_fixed: *is_fixed,
             full_turn: options.full_turn,
             max_link: options.max_link,
             pivots: options.pivots,
-            condition,
+            condition: *condition,
             candidates: CANDIDATES[0].max(CANDIDATES[1] * options.most),
         }
     }
 
     /// The same without constraints.
-    pub fn relaxed(&self) -> AtlasOptions {
+    pub(super) fn relaxed(&self) -> AtlasOptions<'a> {
         let (candidates, is_fixed) = (self.candidates, self.is_fixed);
         AtlasOptions { is_fixed, full_turn: false, max_link: f64::INFINITY, pivots: None, condition: None, candidates }
     }
-}
-
-/// A curve of an atlas near a target.
-#[derive(Clone, Debug)]
-pub struct AtlasAnswer {
-    /// The index of its family in the plan, and that of its cell in the family.
-    pub place: [usize; 2],
-    /// Its name, as `export` takes it: `evans:3.1.1`.
-    pub name: String,
-    /// The curve and its linkage on the target.
-    pub curve: PlacedCurve,
 }
 
 /// A curve: its cell by index, its trace and its circuit.
@@ -71,25 +54,18 @@ type Curve = [u32; 3];
 /// A family by its index in the plan, and the condition in its names.
 type ConditionedFamily<'p> = (usize, &'p Family, Option<CompiledExpression>);
 
-/// Why an atlas cannot be searched.
-#[derive(Debug, thiserror::Error)]
-#[error("--where: `{condition}`: {error}")]
-pub struct ConditionError {
-    condition: String,
-    error: String,
-}
-
 /// The curves of an atlas that are nearest to a target, the nearest first, and how many curves meet what can be asked of them in their own
 /// place. Cells are solved on all threads, in bounded memory: of each curve 72 bytes are kept.
 ///
 /// # Errors
-/// The condition is none in any of the families.
-pub fn search_atlas(
+/// The condition is none in any of the families, or `interrupt` is true.
+pub(super) fn search_atlas(
     plan: &Plan,
     target: &Target,
     options: &AtlasOptions,
-) -> Result<(Vec<AtlasAnswer>, usize), ConditionError> {
-    let families = compile(plan, options.condition.as_deref())?;
+    interrupt: &AtomicBool,
+) -> Result<(Vec<AtlasAnswer>, usize), Error> {
+    let families = compile(plan, options.condition)?;
     let mut index = CurveIndex::new();
     let mut curves: Vec<Curve> = Vec::new();
     let mut ranges: Vec<Range<usize>> = Vec::new();
@@ -106,12 +82,12 @@ pub fn search_atlas(
             kept.map(shape).collect()
         };
         let cells = CellIndices::Range(0..family.cell_count());
-        solve_cells(family, condition.as_ref(), &cells, shapes, |found| {
+        solve_cells(family, condition.as_ref(), &cells, shapes, interrupt, |found| {
             for (curve, shape) in found {
                 curves.push(curve);
                 index.push_shape(shape);
             }
-        });
+        })?;
         ranges.push(start..curves.len());
     }
     let fit_options = CurveFitOptions { is_fixed: options.is_fixed, ..CurveFitOptions::default() };
@@ -131,7 +107,7 @@ pub fn search_atlas(
             };
             for (family, range) in families.iter().zip(&ranges) {
                 let curves = (&curves[..], range);
-                solve_curves(family, curves, &found, likeness, |likenesses| closely.extend(likenesses));
+                solve_curves(family, curves, &found, likeness, interrupt, |likenesses| closely.extend(likenesses))?;
             }
             closely.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
             closely.truncate(options.candidates);
@@ -145,11 +121,11 @@ pub fn search_atlas(
     for (family, range) in families.iter().zip(&ranges) {
         let (place, of_family, _) = family;
         let fit = |solved: &SolvedCell, curve: &MeasuredCurve, _| answer(*place, of_family, solved, curve, &fitter);
-        solve_curves(family, (&curves, range), &wanted, fit, |found| {
+        solve_curves(family, (&curves, range), &wanted, fit, interrupt, |found| {
             answers.extend(found.into_iter().filter(|answer| is_placed_well(answer, target, options)));
             answers.sort_by(|a, b| a.curve.fit.rms.total_cmp(&b.curve.fit.rms));
             answers.truncate(options.candidates);
-        });
+        })?;
     }
     for answer in &mut answers {
         let family = &plan.families[answer.place[0]].family;
@@ -159,7 +135,7 @@ pub fn search_atlas(
 }
 
 /// The families in which a condition has a meaning, with it.
-fn compile<'p>(plan: &'p Plan, condition: Option<&str>) -> Result<Vec<ConditionedFamily<'p>>, ConditionError> {
+fn compile<'p>(plan: &'p Plan, condition: Option<&str>) -> Result<Vec<ConditionedFamily<'p>>, Error> {
     let mut error = None;
     let mut families = Vec::new();
     for (place, planned) in plan.families.iter().enumerate() {
@@ -175,7 +151,7 @@ fn compile<'p>(plan: &'p Plan, condition: Option<&str>) -> Result<Vec<Conditione
         Some(error) => {
             let help = if error.help.is_empty() { String::new() } else { format!("; {}", error.help) };
             let condition = condition.unwrap_or_default().to_owned();
-            Err(ConditionError { condition, error: format!("{error}{help}") })
+            Err(Error::Condition { condition, error: format!("{error}{help}") })
         }
         None => Ok(families),
     }
@@ -194,13 +170,17 @@ fn is_kept(
 }
 
 /// Solves cells on all threads, and receives the results in order.
+///
+/// # Errors
+/// `interrupt` is true.
 fn solve_cells<T: Send>(
     family: &Family,
     condition: Option<&CompiledExpression>,
     cells: &CellIndices,
     work: impl Fn(SolvedCell) -> Vec<T> + Sync,
+    interrupt: &AtomicBool,
     mut receive: impl FnMut(Vec<T>),
-) {
+) -> Result<(), Error> {
     let is_needed = |k: usize| {
         REPORTED.contains(&measure::ALL[k].name)
             || family.filter_or_sort_uses(k)
@@ -216,21 +196,25 @@ fn solve_cells<T: Send>(
         solve_known: None,
     };
     let works = |_, solved: Vec<SolvedCell>| solved.into_iter().flat_map(&work).collect::<Vec<T>>();
-    let Ok(()) = sweep::process_groups(family, groups, works, |found| {
+    sweep::process_groups(family, groups, works, |found| {
         receive(found);
-        Ok::<(), Infallible>(())
-    });
+        if interrupt.load(Ordering::Relaxed) { Err(Error::Interrupted) } else { Ok(()) }
+    })
 }
 
 /// Solves those curves of a family again that are among some of all curves by number, and receives what is made of them in order. The curves
 /// of the family are those of a range of all.
+///
+/// # Errors
+/// `interrupt` is true.
 fn solve_curves<T: Send>(
     (_, family, condition): &ConditionedFamily,
     (curves, range): (&[Curve], &Range<usize>),
     numbers: &[usize],
     work: impl Fn(&SolvedCell, &MeasuredCurve, usize) -> Option<T> + Sync,
+    interrupt: &AtomicBool,
     receive: impl FnMut(Vec<T>),
-) {
+) -> Result<(), Error> {
     let mut chosen: Vec<usize> = numbers.iter().filter(|number| range.contains(number)).copied().collect();
     chosen.sort_unstable();
     let mut cells: Vec<u32> = chosen.iter().map(|number| curves[*number][0]).collect();
@@ -242,7 +226,7 @@ fn solve_curves<T: Send>(
         };
         solved.curves.iter().filter_map(|curve| work(&solved, curve, number(curve)?)).collect()
     };
-    solve_cells(family, condition.as_ref(), &CellIndices::Listed(cells), works, receive);
+    solve_cells(family, condition.as_ref(), &CellIndices::Listed(cells), works, interrupt, receive)
 }
 
 fn answer(
@@ -260,6 +244,7 @@ fn answer(
         place: [place, cell - 1],
         name: format!("{}:{cell}.{trace}.{number}", family.id),
         curve: PlacedCurve::new(family, solved, curve, fit),
+        refined: None,
     })
 }
 

@@ -1,4 +1,6 @@
-//! The dimensions of a linkage for which its curve is nearest to a path, searched on all threads.
+//! The search for dimensions on all threads.
+
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use coupler_curves::family::{Family, Sampling};
 use coupler_curves::find::{
@@ -10,23 +12,9 @@ use coupler_curves::motion::Sampler;
 use coupler_curves::solve::{SolvedCell, solve_measuring};
 use rayon::prelude::*;
 
-use super::placed_curve::{PlacedCurve, REPORTED, distinct};
-
-/// Dimensions of a linkage near a target.
-#[derive(Clone, Debug)]
-pub struct LinkageAnswer {
-    /// The curve and the linkage on the target.
-    pub curve: PlacedCurve,
-    /// The branch at the first point of the target: the side of the first two-valued joint, 1 left or -1 right.
-    pub branch: i8,
-    /// The input at the first and at the last point of the target: degrees, or a length.
-    pub inputs: [f64; 2],
-    /// A family of this linkage only.
-    pub family: Family,
-}
-
-/// The most parameter sets in which a path is looked up.
-pub const MAX_SAMPLES: usize = 1_000_000;
+use super::super::Error;
+use super::super::placed_curve::{PlacedCurve, REPORTED, distinct};
+use super::LinkageAnswer;
 
 /// The most curves of all parameter sets together.
 const MAX_CURVES: usize = 8_000_000;
@@ -50,17 +38,20 @@ const PLACING_STEPS: usize = 10;
 const SAMPLES: usize = 360;
 
 /// The dimensions of a linkage for which its curves are nearest to a target, the nearest first, and the number of curves in which it
-/// was looked up. Curves that are the same to a thousandth of the target's size are one. The answer does not depend on the number of
-/// threads.
-pub fn search_linkage(
+/// was looked up.
+///
+/// # Errors
+/// `interrupt` is true.
+pub(super) fn search_linkage(
     space: &LinkageSpace,
     target: &Target,
     options: &Options,
     samples: Option<usize>,
-) -> (Vec<LinkageAnswer>, usize) {
+    interrupt: &AtomicBool,
+) -> Result<(Vec<LinkageAnswer>, usize), Error> {
     let search = LinkageSearch::new(space, target, options);
     let samples = samples.unwrap_or_else(|| search.default_samples());
-    let (index, curves) = build_index(&search, samples);
+    let (index, curves) = build_index(&search, samples, interrupt)?;
     // Few parameters have few minima.
     let starts = start_count(target, options).min(samples / 10);
     let starts = if search.is_slow() { starts.div_ceil(SLOWER) } else { starts };
@@ -68,27 +59,41 @@ pub fn search_linkage(
     let most = if options.condition.is_some() { 20 * starts } else { starts };
     let candidates = search.most_alike(&index, most);
     drop(index);
-    let mut refinements = begin(&search, &candidates, starts);
-    refinements.par_iter_mut().for_each(|refinement| search.place(refinement, PLACING_STEPS));
+    let mut refinements = begin(&search, &candidates, starts, interrupt)?;
+    refinements.par_iter_mut().for_each(|refinement| {
+        if !is_interrupted(interrupt) {
+            search.place(refinement, PLACING_STEPS);
+        }
+    });
     let rounds = if options.refine { &ROUNDS[..] } else { &[] };
     for &(part, steps) in rounds {
         keep_nearest(&mut refinements, (starts / part).max(2 * options.most));
-        advance(&search, &mut refinements, steps);
+        advance(&search, &mut refinements, steps, interrupt)?;
     }
     if options.refine {
-        restart(&search, &mut refinements, options, starts / 5, target.points().len());
+        restart(&search, &mut refinements, options, starts / 5, target.points().len(), interrupt)?;
     }
     refinements.sort_by(|a, b| a.sum().total_cmp(&b.sum()));
     let fits: Vec<LinkageFit> = refinements.par_iter().filter_map(|refinement| search.fit(refinement)).collect();
-    (ranked(fits, space, target, options.most), curves)
+    Ok((ranked(fits, space, target, options.most), curves))
 }
 
-fn build_index(search: &LinkageSearch, samples: usize) -> (SampleIndex, usize) {
+fn is_interrupted(interrupt: &AtomicBool) -> bool {
+    interrupt.load(Ordering::Relaxed)
+}
+
+/// Ends a search that is interrupted.
+pub(super) fn proceed(interrupt: &AtomicBool) -> Result<(), Error> {
+    if is_interrupted(interrupt) { Err(Error::Interrupted) } else { Ok(()) }
+}
+
+fn build_index(search: &LinkageSearch, samples: usize, interrupt: &AtomicBool) -> Result<(SampleIndex, usize), Error> {
     let tries = samples * if search.is_slow() { SLOW_TRIES } else { TRIES };
     let piece = (PIECE / search.space().template().curve_count().max(1)).max(1);
     let mut index = SampleIndex::default();
     let mut found = 0;
     for start in (0..tries).step_by(piece) {
+        proceed(interrupt)?;
         let numbers = start..(start + piece).min(tries);
         let curves: Vec<Vec<(SampleCurve, SampleShape)>> =
             numbers.into_par_iter().map(|sample| search.curves(sample)).collect();
@@ -103,7 +108,7 @@ fn build_index(search: &LinkageSearch, samples: usize) -> (SampleIndex, usize) {
         }
     }
     let curves = index.len();
-    (index, curves)
+    Ok((index, curves))
 }
 
 fn start_count(target: &Target, options: &Options) -> usize {
@@ -120,9 +125,15 @@ fn start_count(target: &Target, options: &Options) -> usize {
 }
 
 /// Begins with the likeliest curves that satisfy the condition, as many as are wanted.
-fn begin(search: &LinkageSearch, candidates: &[SampleCurve], starts: usize) -> Vec<LinkageRefinement> {
+fn begin(
+    search: &LinkageSearch,
+    candidates: &[SampleCurve],
+    starts: usize,
+    interrupt: &AtomicBool,
+) -> Result<Vec<LinkageRefinement>, Error> {
     let mut begun: Vec<LinkageRefinement> = Vec::new();
     for piece in candidates.chunks(64) {
+        proceed(interrupt)?;
         let piece: Vec<Option<LinkageRefinement>> = piece.par_iter().map(|curve| search.begin(*curve)).collect();
         begun.extend(piece.into_iter().flatten());
         if begun.len() >= starts {
@@ -130,20 +141,30 @@ fn begin(search: &LinkageSearch, candidates: &[SampleCurve], starts: usize) -> V
         }
     }
     begun.truncate(starts);
-    begun
+    Ok(begun)
 }
 
 /// Takes steps of all refinements, and leaves out those whose curves have not the length of the target.
-fn advance(search: &LinkageSearch, refinements: &mut Vec<LinkageRefinement>, steps: usize) {
+fn advance(
+    search: &LinkageSearch,
+    refinements: &mut Vec<LinkageRefinement>,
+    steps: usize,
+    interrupt: &AtomicBool,
+) -> Result<(), Error> {
     let is_valid: Vec<bool> = refinements
         .par_iter_mut()
         .map(|refinement| {
+            if is_interrupted(interrupt) {
+                return false;
+            }
             search.advance(refinement, steps);
             search.has_valid_length(refinement)
         })
         .collect();
+    proceed(interrupt)?;
     let mut is_valid = is_valid.into_iter();
     refinements.retain(|_| is_valid.next().unwrap_or_default());
+    Ok(())
 }
 
 /// Keeps the nearest that are not alike.
@@ -162,7 +183,8 @@ fn restart(
     options: &Options,
     count: usize,
     points: usize,
-) {
+    interrupt: &AtomicBool,
+) -> Result<(), Error> {
     /// The rounds, the spreads in turn, and the nearest that are begun from.
     const ROUNDS: u64 = 3;
     const SPREADS: [f64; 3] = [0.1, 0.25, 0.5];
@@ -175,12 +197,15 @@ fn restart(
     const EXACT: f64 = 1e-16;
     for round in 0..ROUNDS {
         keep_nearest(refinements, refinements.len());
-        let Some(best) = refinements.first().map(LinkageRefinement::sum) else { return };
+        let Some(best) = refinements.first().map(LinkageRefinement::sum) else { return Ok(()) };
         if best <= EXACT * points as f64 {
-            return;
+            return Ok(());
         }
         let from = &refinements[..NEAREST.min(refinements.len())];
         let begun = |k: usize| {
+            if is_interrupted(interrupt) {
+                return None;
+            }
             let seed =
                 options.seed.wrapping_add((round * count as u64 + k as u64 + 1).wrapping_mul(0x5851_F42D_4C95_7F2D));
             let mut refinement = search.begin_near(&from[k % from.len()], seed, SPREADS[k % SPREADS.len()])?;
@@ -193,7 +218,9 @@ fn restart(
         };
         let found: Vec<Option<LinkageRefinement>> = (0..count).into_par_iter().map(begun).collect();
         refinements.extend(found.into_iter().flatten());
+        proceed(interrupt)?;
     }
+    Ok(())
 }
 
 /// The answers of fits, the nearest first, without those whose curves are the same.

@@ -1,0 +1,161 @@
+//! The linkages of an atlas whose curves are nearest to a path.
+
+mod folder;
+mod search;
+
+pub use folder::{check_families, manifest_of};
+
+use std::sync::atomic::AtomicBool;
+
+use coupler_curves::exchange::{ParameterSet, manifest_families};
+use coupler_curves::find::{
+    Answer, Condition, Constraint, Index, Options, Search, Target, answer_families, answers_manifest, manifest_head,
+    scaled_values,
+};
+use rayon::prelude::*;
+
+use super::placed_curve::{PlacedCurve, distinct};
+use super::{Error, description};
+use crate::manifest::Plan;
+use search::AtlasOptions;
+
+/// A curve of an atlas near a target.
+#[derive(Clone, Debug)]
+pub struct AtlasAnswer {
+    /// The index of its family in the plan, and that of its cell in the family.
+    pub place: [usize; 2],
+    /// Its name, as `export` takes it: `evans:3.1.1`.
+    pub name: String,
+    /// The curve and its linkage on the target.
+    pub curve: PlacedCurve,
+    /// The four-bar that was refined from it, where it is one and comes nearer; the outline of `curve` is then that of the refined one.
+    pub refined: Option<Answer>,
+}
+
+impl AtlasAnswer {
+    /// The root of the mean square of the distances, in the unit of the target.
+    pub fn rms(&self) -> f64 {
+        self.refined.as_ref().map_or(self.curve.fit.rms, |answer| answer.rms)
+    }
+
+    /// The factor of the linkage's lengths that makes it as large as on the target; 1 if its dimensions do not scale.
+    fn factor(&self) -> f64 {
+        if self.curve.is_scalable { self.curve.fit.placement.scale() } else { 1.0 }
+    }
+
+    /// The values of the parameters of its template, as large as on the target if its dimensions scale.
+    pub fn scaled_values(&self, plan: &Plan) -> Vec<f64> {
+        scaled_values(&plan.families[self.place[0]].family.template, &self.curve.values, self.factor())
+    }
+}
+
+/// What has been found in an atlas.
+#[derive(Clone, Debug)]
+pub struct AtlasFindings {
+    /// The number of curves that were compared.
+    pub curves: usize,
+    /// The nearest curves, the nearest first.
+    pub answers: Vec<AtlasAnswer>,
+    /// If there is none, the constraints to relax, and the nearest curve without them.
+    pub nearest_miss: Option<(Vec<Constraint>, AtlasAnswer)>,
+}
+
+/// What the curves of an atlas must satisfy.
+#[derive(Clone, Copy, Debug)]
+pub struct AtlasQuery<'a> {
+    /// The options; their condition is not used.
+    pub options: &'a Options,
+    /// A condition in the names of the families, as in `where` of a manifest.
+    pub condition: Option<&'a str>,
+    /// Whether position, size and rotation count.
+    pub is_fixed: bool,
+}
+
+/// Finds the curves of an atlas that are nearest to a target. Four-bars are refined, others only placed on it; curves that are the same to a
+/// thousandth of the target's size are one. All threads solve cells; memory is bounded.
+///
+/// # Errors
+/// The condition is none in any of the families, or `interrupt` is true.
+pub fn find_in_atlas(
+    plan: &Plan,
+    target: &Target,
+    query: &AtlasQuery,
+    interrupt: &AtomicBool,
+) -> Result<AtlasFindings, Error> {
+    let options = AtlasOptions::new(query);
+    let (found, curves) = search::search_atlas(plan, target, &options, interrupt)?;
+    let answers = ranked(found, target, query);
+    let mut nearest_miss = None;
+    if answers.is_empty() {
+        let (others, _) = search::search_atlas(plan, target, &options.relaxed(), interrupt)?;
+        let set = [
+            (Constraint::Condition, query.condition.is_some()),
+            (Constraint::Pivots, query.options.pivots.is_some()),
+            (Constraint::MaxLink, query.options.max_link.is_finite()),
+            (Constraint::FullTurn, query.options.full_turn),
+        ];
+        let relax = set.into_iter().filter(|(_, is_set)| *is_set).map(|(constraint, _)| constraint).collect();
+        nearest_miss = others.into_iter().next().map(|nearest| (relax, nearest));
+    }
+    Ok(AtlasFindings { curves, answers, nearest_miss })
+}
+
+/// Refines four-bars, merges curves that are the same, and ranks them.
+fn ranked(found: Vec<AtlasAnswer>, target: &Target, query: &AtlasQuery) -> Vec<AtlasAnswer> {
+    /// The curves that are refined for each answer, because several are refined to the same curve.
+    const STARTS_PER_ANSWER: usize = 8;
+    let most = query.options.most;
+    let distinct = |found: Vec<AtlasAnswer>, most| distinct(found, |answer| &answer.curve, target, most);
+    let mut found = distinct(found, STARTS_PER_ANSWER * most);
+    // A condition on names that a four-bar does not have cannot be kept in a refinement.
+    let condition = query.condition.map(Condition::new).transpose();
+    if query.options.refine
+        && !query.is_fixed
+        && let Ok(condition) = condition
+    {
+        let options = Options { most: 1, condition, ..query.options.clone() };
+        let index = Index::new();
+        let refine = |found: &AtlasAnswer| {
+            let start = found.curve.four_bar?;
+            let answer = Search::from_four_bar(target, options.clone(), &start).run(&index).into_iter().next()?;
+            let solved = answer.mechanism.solved().filter(|_| answer.rms < found.curve.fit.rms)?;
+            let curve = &solved.curves[0];
+            Some((answer, solved.circuit(curve).points(curve.joint).collect()))
+        };
+        found.par_iter_mut().for_each(|found| {
+            if let Some((answer, outline)) = refine(found) {
+                (found.refined, found.curve.outline) = (Some(answer), outline);
+            }
+        });
+    }
+    found.sort_by(|a, b| a.rms().total_cmp(&b.rms()));
+    distinct(found, most)
+}
+
+impl AtlasFindings {
+    /// A manifest that renders the linkages: refined four-bars where they are on the path, others in the direction that they have in the
+    /// atlas, and as large as they are on the path if their dimensions scale.
+    pub fn manifest(&self, name: &str, target: &Target, plan: &Plan) -> String {
+        let size = target.size();
+        let refined: Vec<Answer> = self.answers.iter().filter_map(|answer| answer.refined.clone()).collect();
+        let ranked = (1..).zip(&self.answers);
+        let placed: Vec<(usize, &AtlasAnswer)> = ranked.filter(|(_, answer)| answer.refined.is_none()).collect();
+        if placed.is_empty() {
+            return answers_manifest(name, size, &refined);
+        }
+        let mut sets = Vec::new();
+        let mut out = manifest_head(name) + &answer_families(name, size, &refined) + "\n";
+        for (rank, answer) in placed {
+            let AtlasAnswer { place, name, curve, .. } = answer;
+            let as_large = if curve.is_scalable { "as large as on the path" } else { "in its own size" };
+            out += &format!("# {rank}: {name}, {as_large}; {}\n", description::placement(curve, size));
+            let family = &plan.families[place[0]].family;
+            sets.push(ParameterSet {
+                family,
+                values: answer.scaled_values(plan),
+                curve_name: format!("{rank}: {name}"),
+            });
+        }
+        out + &manifest_families(&sets, false)
+    }
+}

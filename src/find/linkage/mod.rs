@@ -1,0 +1,105 @@
+//! The dimensions of a linkage for which its curve is nearest to a path.
+
+mod search;
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use coupler_curves::exchange::{ParameterSet, manifest_families};
+use coupler_curves::family::Family;
+use coupler_curves::find::{
+    Constraint, LinkageSpace, Options, Target, answers_manifest, manifest_head, nearest_miss_by,
+};
+use coupler_curves::template::Orientation;
+
+use super::placed_curve::PlacedCurve;
+use super::{Error, description};
+
+/// The most parameter sets in which a path is looked up.
+pub const MAX_SAMPLES: usize = 1_000_000;
+
+/// Dimensions of a linkage near a target.
+#[derive(Clone, Debug)]
+pub struct LinkageAnswer {
+    /// The curve and the linkage on the target.
+    pub curve: PlacedCurve,
+    /// The branch at the first point of the target: the side of the first two-valued joint, 1 left or -1 right.
+    pub branch: i8,
+    /// The input at the first and at the last point of the target: degrees, or a length.
+    pub inputs: [f64; 2],
+    /// A family of this linkage only.
+    pub family: Family,
+}
+
+impl LinkageAnswer {
+    /// Its family in its direction on the target, and mirrored as there.
+    pub fn placed_family(&self) -> Family {
+        let placement = &self.curve.fit.placement;
+        let mut family = self.family.clone();
+        let template = Arc::make_mut(&mut family.template);
+        template.orientation = Orientation::new(placement.is_mirrored, placement.rotation_deg());
+        family
+    }
+}
+
+/// What has been found for a linkage.
+#[derive(Clone, Debug)]
+pub struct LinkageFindings {
+    /// The number of curves in which the path was looked up.
+    pub curves: usize,
+    /// The nearest linkages, the nearest first.
+    pub answers: Vec<LinkageAnswer>,
+    /// If there is none, the constraints to relax, and the answer without them.
+    pub nearest_miss: Option<(Vec<Constraint>, LinkageAnswer)>,
+}
+
+/// Finds the dimensions of a linkage for which its curves are nearest to a target, looked up in `samples` parameter sets or a number that
+/// depends on the linkage. Curves that are the same to a thousandth of the target's size are one. The answer does not depend on the number of
+/// threads.
+///
+/// # Errors
+/// `interrupt` is true.
+pub fn find_linkage(
+    space: &LinkageSpace,
+    target: &Target,
+    options: &Options,
+    samples: Option<usize>,
+    interrupt: &AtomicBool,
+) -> Result<LinkageFindings, Error> {
+    let (answers, curves) = search::search_linkage(space, target, options, samples, interrupt)?;
+    let mut nearest_miss = None;
+    if answers.is_empty() {
+        let nearest = |options: &Options| {
+            search::search_linkage(space, target, options, samples, interrupt).ok()?.0.into_iter().next()
+        };
+        nearest_miss = nearest_miss_by(options, nearest, |answer| answer.curve.fit.rms);
+        search::proceed(interrupt)?;
+    }
+    Ok(LinkageFindings { curves, answers, nearest_miss })
+}
+
+impl LinkageFindings {
+    /// A manifest that renders the linkages: in the direction that they have on the path and mirrored as there, and as large if their
+    /// dimensions scale. Families have no shift; comments have it. `own_linkage` is the text of the linkage, if it is none of the catalogue.
+    pub fn manifest(&self, name: &str, target: &Target, own_linkage: Option<&str>) -> String {
+        if self.answers.is_empty() {
+            return answers_manifest(name, target.size(), &[]);
+        }
+        let mut out = manifest_head(name);
+        out.extend(own_linkage.map(|text| format!("\n{text}")));
+        out.push('\n');
+        let placed = |(rank, answer): (usize, &LinkageAnswer)| {
+            let mut family = answer.placed_family();
+            family.title = format!("{}: curve {rank}", family.title);
+            family
+        };
+        let families: Vec<Family> = (1..).zip(&self.answers).map(placed).collect();
+        let mut sets = Vec::new();
+        for ((rank, answer), family) in (1..).zip(&self.answers).zip(&families) {
+            out += &format!("# {rank}: {}\n", description::exact_placement(&answer.curve, target.size()));
+            let curve_name = format!("{rank}: {}", description::deviation(&answer.curve, target.size()));
+            sets.push(ParameterSet { family, values: answer.curve.values.clone(), curve_name });
+        }
+        out + &manifest_families(&sets, own_linkage.is_some())
+    }
+}
