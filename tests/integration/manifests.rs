@@ -1,7 +1,11 @@
 //! Problems of a manifest are reported with their place and a remedy, all of them in one run.
 
+use std::fs;
+
 use coupler_atlas::manifest::{self, Plan};
 use coupler_curves::problem::report;
+
+use crate::command::{folder_with, printed};
 
 /// A valid manifest, which tests modify.
 const GOOD: &str = r#"[atlas]
@@ -54,6 +58,9 @@ fn each_mistake_has_its_message() {
         ("p = [2, 3]", "p = { from = 0, to = 1e9, step = 1e-9 }", "the grid has 1000000000000000000 cells", "7:8"),
         ("p = [2, 3]", "p = [2, 3], q = [1]", "`q` is not a parameter of `evans`, and no expression uses it", "7:22"),
         ("p = [2, 3]", "p = [2, 3], a = [1]", "`a` has a value in the grid or a case, and another in `let`", "8:9"),
+        ("sampling", "trace = [\"M\", \"Q\"]\nsampling", "there is no joint `Q`", "6:15"),
+        ("sampling", "trace = [\"M\", \"M\"]\nsampling", "the joint `M` is named twice", "6:15"),
+        ("sampling", "trace = []\nsampling", "no joint is traced", "6:9"),
         ("(1 + p)", "(1 + q)", "unknown name `q`", "8:19"),
         ("(1 + p)", "(1 + a)", "`a` is derived from itself", "8:9"),
         ("(1 + p)", "sine(p)", "unknown function `sine`", "8:14"),
@@ -579,4 +586,40 @@ mod properties {
             report(&loaded.problems, "m", &text, false);
         }
     }
+}
+
+/// A family may trace other joints than its linkage, and an exported curve is traced again by what it is exported as.
+#[test]
+fn a_family_chooses_the_joints_that_are_traced() {
+    let manifest = "atlas.title = \"T\"\n[[family]]\nid = \"sliders\"\nlinkage = \"slider-crank\"\ntrace = [\"M\"]\n\
+                    sampling = { samples = 36 }\ngrid = { coupler = [2, 3], across = 1 }\n";
+    let folder = folder_with(manifest);
+    printed(folder.path(), &["render", "-o", "out", "--format", "svg", "--quiet"]);
+    let cells = fs::read_to_string(folder.path().join("out/sliders/cells.csv")).unwrap();
+    let traces: Vec<&str> = cells.lines().skip(1).map(|line| line.split(',').nth(1).unwrap()).collect();
+    assert!(traces.len() >= 2 && traces.iter().all(|trace| *trace == "1"), "{traces:?}");
+    let exported = printed(folder.path(), &["export", "sliders:2.1.1", "--format", "toml"]);
+    assert!(exported.contains("trace = [\"M\"]"), "{exported}");
+    fs::write(folder.path().join("again.toml"), format!("atlas.title = \"T\"\n{exported}")).unwrap();
+    printed(folder.path(), &["validate", "again.toml"]);
+    // The linkage's own traced joints are not written.
+    fs::write(folder.path().join("atlas.toml"), manifest.replace("trace = [\"M\"]\n", "")).unwrap();
+    let own = printed(folder.path(), &["export", "sliders:2.1.1", "--format", "toml"]);
+    assert!(!own.contains("trace"), "{own}");
+}
+
+/// Without `panels`, the cells are as large as the page allows, and at most fifteen are on one.
+#[test]
+fn the_grid_of_a_page_follows_the_number_of_cells() {
+    let grid = |count: usize, page: &str| {
+        let text = format!(
+            "[atlas]\ntitle = \"T\"\n{page}[[family]]\nid = \"e\"\nlinkage = \"evans\"\n\
+             grid = {{ a = {{ from = 2, to = 3, count = {count} }}, p = 2 }}\n"
+        );
+        plan(&text).families[0].layout.grid()
+    };
+    let tabloid = [1, 2, 3, 4, 6, 8, 9, 15, 16, 400].map(|count| grid(count.max(2), ""));
+    assert_eq!(tabloid, [[2, 1], [2, 1], [3, 1], [2, 2], [3, 2], [4, 2], [3, 3], [5, 3], [5, 3], [5, 3]]);
+    let [columns, rows] = grid(6, "[page]\npaper = { width = \"210 mm\", height = \"297 mm\" }\n");
+    assert!(rows >= columns && columns * rows >= 6, "{columns} x {rows}");
 }

@@ -62,6 +62,23 @@ impl Atlas {
     }
 }
 
+/// A grid of panels that depends on the number of cells changes pages on which the cells are the same.
+#[test]
+fn another_number_of_cells_changes_the_grid_of_a_page() {
+    let with = |values: &str| {
+        format!(
+            "[atlas]\ntitle = \"T\"\noutput = \"out\"\nformats = [\"svg\"]\n[[family]]\nid = \"e\"\nlinkage = \"evans\"\n\
+             sampling = {{ step = \"10 deg\" }}\nwhere = \"p < 4\"\ngrid = {{ a = 2.5, p = [{values}] }}\n"
+        )
+    };
+    let atlas = Atlas::new(&with("2, 3"));
+    atlas.touched(&[]);
+    atlas.edit(&with("2, 3, 5"));
+    let (_, touched) = atlas.touched(&[]);
+    assert!(touched.iter().any(|name| name.ends_with("e-001.svg")), "{touched:?}");
+    assert!(atlas.touched(&[]).1.iter().all(|name| !name.ends_with(".svg")));
+}
+
 #[test]
 fn an_unchanged_atlas_is_left_alone() {
     let atlas = Atlas::new(MANIFEST);

@@ -167,7 +167,7 @@ fn read_plan(
         }
         let tolerances = |family: PartialTolerances| family.or(tolerances);
         families.extend(read.map(|read| PlannedFamily {
-            manifest_inputs: shared_inputs.of_family(value),
+            manifest_inputs: shared_inputs.of_family(value, read.layout),
             tolerances: tolerances(read.tolerances),
             ..read
         }));

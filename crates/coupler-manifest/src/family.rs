@@ -8,8 +8,8 @@ use crate::inputs::ManifestInputs;
 use crate::names::{check_expression_syntax, read_names, read_space};
 use crate::plan::PlannedFamily;
 use crate::schema::{
-    DEFAULT_LAYOUT, DEFAULT_PANELS, DEFAULT_PLACE, FAMILY, MIN_TOLERANCE, PANEL_SCALES, PLACE, SAMPLING, SPACINGS,
-    STRAIGHT, Spacing, default_sampling,
+    DEFAULT_LAYOUT, DEFAULT_PLACE, FAMILY, MIN_TOLERANCE, PANEL_SCALES, PLACE, SAMPLING, SPACINGS, STRAIGHT, Spacing,
+    default_sampling,
 };
 use crate::templates::Templates;
 use crate::{applicability, chart, settings, tolerance};
@@ -94,7 +94,8 @@ pub(crate) fn read<'t>(
         }
     };
     let charts = chart.as_ref().and_then(Option::as_ref).map_or(1, |chart| chart.y.len());
-    let layout = layout(&fields, page, charts, parser);
+    let cells = names.as_ref().map_or(1, |names| names.space.count());
+    let layout = layout(&fields, page, [charts, cells], parser);
     let scale = panel_scale(&fields, layout, parser);
     let ghosts = ghosts(&fields, layout, parser);
     let (id, template, names, sampling, columns, straight) = (id?, template?, names?, sampling?, columns?, straight?);
@@ -162,7 +163,8 @@ fn apply_overrides<'t>(template: Arc<Template>, fields: &Fields<'_, 't>, parser:
     let continuation = fields.get("continuation").and_then(|value| parser.word(value, &linkage_format::CONTINUATIONS));
     let coincident = fields.get("coincident").and_then(|value| parser.word(value, &linkage_format::COINCIDENT_DYADS));
     let placement = fields.get("place").and_then(|value| placement(value, parser));
-    if circuits.is_none() && continuation.is_none() && coincident.is_none() && placement.is_none() {
+    let traced = fields.get("trace").and_then(|value| traced_joints(value, &template, parser));
+    if traced.is_none() && circuits.is_none() && continuation.is_none() && coincident.is_none() && placement.is_none() {
         return template;
     }
     let mut changed = Template::clone(&template);
@@ -170,7 +172,20 @@ fn apply_overrides<'t>(template: Arc<Template>, fields: &Fields<'_, 't>, parser:
     changed.continuation = continuation.unwrap_or(changed.continuation);
     changed.coincident = coincident.unwrap_or(changed.coincident);
     changed.orientation = placement.unwrap_or(changed.orientation);
+    changed.traced = traced.unwrap_or(changed.traced);
     Arc::new(changed)
+}
+
+/// Reads the joints whose curves are traced, as their indices among those of the linkage.
+fn traced_joints<'t>(value: &TomlValue<'t>, template: &Template, parser: &mut TomlParser<'t>) -> Option<Vec<usize>> {
+    let known: Vec<&str> = template.joints.iter().map(|joint| joint.name.as_str()).collect();
+    let traced = name_indices(value, "joint", &known, parser)?;
+    if traced.is_empty() {
+        let problem = Problem::error(value.span(), "no joint is traced");
+        parser.report(problem.with_help("name at least one, as in [\"M\"], or leave `trace` out"));
+        return None;
+    }
+    Some(traced)
 }
 
 /// Reads how the linkages of a family are placed in the plane.
@@ -376,11 +391,11 @@ fn panel_scale<'t>(fields: &Fields<'_, 't>, layout: Option<Layout>, parser: &mut
     read_within(value, parser, read, RANGE, "mm").map(PanelScale::Fixed)
 }
 
-/// Reads the layout. Where `panels` is absent, the grid of charts is chosen for that number of charts.
+/// Reads the layout. Where `panels` is absent, the grid is chosen for the number of charts or cells.
 fn layout<'t>(
     fields: &Fields<'_, 't>,
     page: Option<&Options>,
-    charts: usize,
+    [charts, cells]: [usize; 2],
     parser: &mut TomlParser<'t>,
 ) -> Option<Layout> {
     let words = Layout::ALL.map(|(name, _)| (name, name));
@@ -401,12 +416,10 @@ fn layout<'t>(
         return Some(Layout::CouplerGrid);
     }
     let Some(value) = fields.get("panels") else {
-        return Some(match page.filter(|_| is_chart) {
-            Some(page) => Layout::for_charts(page, charts),
-            None => {
-                Layout::Panels { columns: most_columns.min(DEFAULT_PANELS[0]), rows: most_rows.min(DEFAULT_PANELS[1]) }
-            }
-        });
+        return match page {
+            Some(page) if is_chart => Some(Layout::for_charts(page, charts)),
+            page => page.map(|page| Layout::for_panels(page, cells)),
+        };
     };
     let [columns, rows] = parser.pair(value)?;
     let (columns, rows) = (parser.integer(columns, 1, most_columns), parser.integer(rows, 1, most_rows));

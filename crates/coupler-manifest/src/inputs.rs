@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use coupler_drawing::page::Layout;
 use coupler_drawing::scene::FontFile;
 
 use coupler_curves::linkage_format::{Fields, TomlValue, canonical_toml};
@@ -88,8 +89,8 @@ impl SharedInputs {
         SharedInputs { tables: Arc::from(tables), linkages: linkages.into_iter().flatten().filter_map(by_id).collect() }
     }
 
-    /// The inputs of the family with this table of the manifest.
-    pub fn of_family(&self, family: &TomlValue) -> ManifestInputs {
+    /// The inputs of the family with this table of the manifest, and with a layout that may depend on all its cells.
+    pub fn of_family(&self, family: &TomlValue, layout: Layout) -> ManifestInputs {
         let linkage = string_at("linkage", family).and_then(|id| self.linkages.get(id));
         ManifestInputs {
             tables: Arc::clone(&self.tables),
@@ -97,7 +98,7 @@ impl SharedInputs {
             family: canonical_toml(family, &IGNORED_FAMILY_KEYS),
             settings: canonical_toml(family, &IGNORED_SETTINGS),
             tables_of_curves: canonical_toml(family, &IGNORED_TABLE_KEYS),
-            page: canonical_toml(family, &IGNORED_PAGE_KEYS),
+            page: format!("{}# grid {:?}\n", canonical_toml(family, &IGNORED_PAGE_KEYS), layout.grid()),
         }
     }
 }

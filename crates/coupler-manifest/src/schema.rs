@@ -59,7 +59,7 @@ pub(crate) static FAMILY: TableSchema = TableSchema::new(
         KeySchema::new(
             "panels",
             ValueSchema::List(&ValueSchema::Integer([1, usize::MAX]), [2, 2]),
-            "The columns and rows of a page; by default 5 and 3, or as many as it has room for.",
+            "The columns and rows of a page; by default as many as make the cells large, at most 15 on a page.",
         ),
         KeySchema::new(
             "scale",
@@ -113,6 +113,11 @@ pub(crate) static FAMILY: TableSchema = TableSchema::new(
         CIRCUITS_KEY,
         CONTINUATION_KEY,
         COINCIDENT_KEY,
+        KeySchema::new(
+            "trace",
+            ValueSchema::Set(&ValueSchema::Text, [1, usize::MAX]),
+            "The joints whose curves are traced; those of the linkage by default.",
+        ),
         KeySchema::new("place", ValueSchema::Table(&PLACE), "How its linkages are placed in the plane.")
             .with_default(default_value::empty_table),
         KeySchema::new(
@@ -164,9 +169,6 @@ fn default_straight() -> String {
     };
     format!("{{ \"{key}\": {value} }}")
 }
-
-/// The default columns and rows of a page of panels, if the page has room for them.
-pub(crate) const DEFAULT_PANELS: [usize; 2] = [5, 3];
 
 /// The words for the scale of linkages on pages of panels.
 pub(crate) const PANEL_SCALES: [(&str, PanelScale); 2] = [("panel", PanelScale::Panel), ("page", PanelScale::Page)];

@@ -117,6 +117,11 @@ fn family_settings(family: &Family) -> String {
     if template.coincident != CoincidentDyads::Together || !is_built_in(template) {
         let _ = writeln!(out, "coincident = \"{coincident}\"");
     }
+    // A linkage that is not of the catalogue may trace others in its manifest.
+    if catalogue::find(&template.id).is_none_or(|own| own.traced != template.traced) {
+        let names: Vec<String> = template.traced.iter().map(|joint| quoted(&template.joints[*joint].name)).collect();
+        let _ = writeln!(out, "trace = [{}]", names.join(", "));
+    }
     if template.orientation != Orientation::default() {
         let _ = writeln!(out, "place = {}", placement_to_toml(&template.orientation));
     }

@@ -1,5 +1,6 @@
 //! The frame of every page: border, title, source line and folio.
 
+use super::Paper;
 use super::area::Area;
 use super::element::TextLine;
 use super::theme::Theme;
@@ -195,6 +196,12 @@ pub(super) fn draw_title(root: &impl Area, title: &str, theme: &Theme) -> Point 
         at.y += 1.2 * size;
     }
     Point::new(left, at.y - 1.2 * theme.title_size + 1.85 * theme.source_size)
+}
+
+/// The size of the contents of a page, in millimetres.
+pub(super) fn contents_size(paper: Paper, theme: &Theme) -> Vector {
+    let [top, bottom, _] = margins(theme);
+    Vector::new(paper.width - 2.0 * (theme.border + theme.margin), paper.height - top - bottom)
 }
 
 /// The margins above, below and on both sides of the contents, in millimetres.

@@ -7,6 +7,7 @@
 mod answers;
 mod area;
 mod arrangement;
+mod balanced_grid;
 pub mod book;
 #[cfg(feature = "plotters")]
 mod chart;
@@ -113,9 +114,15 @@ impl Layout {
         chart_grid::max_grid(options.paper, &options.theme.for_paper(options.paper))
     }
 
+    /// The layout for `count` cells: as many on a page as can be read well, and each as large as the paper allows.
+    pub fn for_panels(options: &Options, count: usize) -> Layout {
+        let [columns, rows] = panels::grid_for(options.paper, &options.theme.for_paper(options.paper), count);
+        Layout::Panels { columns, rows }
+    }
+
     /// The layout for `count` charts: as many on a page as can be read well.
     pub fn for_charts(options: &Options, count: usize) -> Layout {
-        let [columns, rows] = chart_grid::balanced_grid(options.paper, &options.theme.for_paper(options.paper), count);
+        let [columns, rows] = chart_grid::for_charts(options.paper, &options.theme.for_paper(options.paper), count);
         Layout::Chart { columns, rows }
     }
 

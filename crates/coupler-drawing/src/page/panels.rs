@@ -2,9 +2,10 @@
 
 use super::area::Area;
 use super::arrangement::{Arrangement, Extents};
+use super::balanced_grid::balanced_grid;
 use super::element::{Drawing, TextLine};
 use super::figure::{self, Figure};
-use super::heading::margins;
+use super::heading::{contents_size, margins};
 use super::key::{self, Key};
 use super::rect::Rect;
 use super::symbols::{self, Mark, Symbol};
@@ -295,6 +296,15 @@ pub(super) fn max_grid(paper: Paper, theme: &Theme) -> [usize; 2] {
         fit(paper.width - 2.0 * side, 5.0 * theme.caption_size),
         fit(paper.height - top - bottom, 10.5 * theme.caption_size),
     ]
+}
+
+/// The columns and rows for `count` cells: at most fifteen on a page, each about as wide as high with its caption. A wide page has its key on the
+/// right.
+pub(super) fn grid_for(paper: Paper, theme: &Theme, count: usize) -> [usize; 2] {
+    const MOST: usize = 15;
+    const ASPECT_RATIO: f64 = 1.0;
+    let (contents, _) = key::divide(Rect { corner: Point::origin(), size: contents_size(paper, theme) }, theme);
+    balanced_grid(contents.size, max_grid(paper, theme), count.min(MOST), ASPECT_RATIO)
 }
 
 /// Draws the lines under a figure from `top`, as many as fit.
