@@ -47,6 +47,9 @@ impl Format {
     }
 }
 
+/// The resolution of images where none is given, in pixels per inch.
+pub const DEFAULT_DPI: u32 = 150;
+
 /// Options for exporting curves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {

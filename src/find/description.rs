@@ -1,7 +1,9 @@
 //! How near a curve is to a path and where it is placed, in words.
 
-use coupler_curves::find::{Quality, format_length as number, format_relative as relative};
+use coupler_curves::find::{LinkageSpace, Mechanism, Quality, format_length as number, format_relative as relative};
+use coupler_curves::linkage::{FourBar, PlacedFourBar};
 use coupler_curves::linkage_format::toml_number;
+use coupler_curves::template::ParameterKind;
 
 use super::PlacedCurve;
 
@@ -9,6 +11,30 @@ use super::PlacedCurve;
 pub fn deviation(PlacedCurve { fit, .. }: &PlacedCurve, size: f64) -> String {
     let quality = Quality::of(fit.rms_relative).name();
     format!("E = {} S = {}, {quality}", relative(fit.rms_relative), number(fit.rms, size))
+}
+
+/// The dimensions of a four-bar, in six significant digits.
+pub fn dimensions(mechanism: &Mechanism, size: f64) -> String {
+    let PlacedFourBar { lengths: FourBar { frame, crank, coupler, rocker }, coupler_point, .. } = mechanism.four_bar;
+    let values = [
+        ("frame", frame),
+        ("crank", crank),
+        ("coupler", coupler),
+        ("rocker", rocker),
+        ("along", coupler_point.x),
+        ("across", coupler_point.y),
+    ];
+    values.map(|(name, value)| format!("{name} = {}", number(value, size))).join(", ")
+}
+
+/// The parameters of a linkage, in six significant digits.
+pub fn parameters(space: &LinkageSpace, curve: &PlacedCurve, size: f64) -> String {
+    let scale = if curve.is_scalable { size } else { 1.0 };
+    let values = space.template().parameters.iter().zip(&curve.values).map(|(parameter, value)| {
+        let unit = if parameter.kind == ParameterKind::Length { scale } else { 1.0 };
+        format!("{} = {}", parameter.name, number(*value, unit))
+    });
+    values.collect::<Vec<_>>().join(", ")
 }
 
 /// Where a curve is placed on a target of a size: "scale 2, turned by 30°, shifted by (1, 2)".

@@ -3,6 +3,7 @@
 
 mod atlas;
 pub mod description;
+mod drawing;
 mod index_file;
 mod linkage;
 mod placed_curve;
@@ -10,8 +11,9 @@ mod svg_outlines;
 mod target_file;
 
 pub use atlas::{AtlasAnswer, AtlasFindings, AtlasQuery, check_families, find_in_atlas, manifest_of};
+pub use drawing::draw_four_bars;
 pub use index_file::{MAX_CURVES, load_index};
-pub use linkage::{LinkageAnswer, LinkageFindings, MAX_SAMPLES, find_linkage};
+pub use linkage::{LinkageAnswer, LinkageFindings, MAX_SAMPLES, find_linkage, is_free_four_bar};
 pub use placed_curve::PlacedCurve;
 pub use target_file::{MAX_POINTS, Outline, parse_outline};
 

@@ -1,5 +1,6 @@
 //! Paths in files: tables, JSON, and drawings.
 
+use coupler_curves::find::PathKind;
 use coupler_curves::geometry::Point;
 use serde_json::Value;
 
@@ -35,6 +36,19 @@ impl Outline {
             count => 0.5 * (steps[count / 2 - 1] + steps[count / 2]),
         };
         (last - first).norm() <= GAP * median
+    }
+
+    /// Takes the angles of the crank at its points, in degrees: its own or, if it has none and is closed, those of equal steps of a turn; `None`
+    /// if it is open and has none. A closing point that repeats the first is then left out.
+    pub fn take_timing(&mut self, kind: PathKind) -> Option<Vec<f64>> {
+        if self.angles_deg.is_none() && kind == PathKind::Closed {
+            while self.points.len() > 1 && self.points.first() == self.points.last() {
+                self.points.pop();
+            }
+            let count = self.points.len();
+            self.angles_deg = Some((0..count).map(|k| 360.0 * k as f64 / count as f64).collect());
+        }
+        self.angles_deg.take()
     }
 }
 

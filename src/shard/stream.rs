@@ -35,8 +35,9 @@ const CELLS_OF_GROUP: usize = 16;
 
 impl TableStream {
     /// The table of the cells of a division; `measures` are by name, in place of the family's own, and those that `where` uses are among them
-    /// in any case.
+    /// in any case. The table of points has no measures, and only those that `where` uses are computed for it.
     pub fn new(family: &Family, table: TableKind, division: Division, measures: Option<&[String]>) -> TableStream {
+        let measures = if table == TableKind::Points { Some(&[][..]) } else { measures };
         let family = Arc::new(swept_family(family, None, measures).into_owned());
         let columns = table::columns(&family, table);
         let rest = division.range(family.cell_count());

@@ -13,6 +13,8 @@ import sys
 import time
 from collections.abc import Callable
 
+# Without numba pylinkage computes the same a hundred times more slowly.
+import numba  # noqa: F401
 import numpy as np
 from pylinkage.actuators import Crank
 from pylinkage.components import Ground

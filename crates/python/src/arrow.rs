@@ -112,7 +112,7 @@ impl Batch {
     }
 
     /// The values of a column: an array of float64, of which missing ones are NaN, of int64 or of int32, or a list of words, of which
-    /// missing ones are None. Integers of which one is missing are floats.
+    /// missing ones are None. Integers of a column in which some may be missing are floats.
     fn __getitem__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let Some(column) = self.inner.column_by_name(name) else {
             return Err(PyKeyError::new_err(format!(
@@ -120,6 +120,7 @@ impl Batch {
                 self.columns().join(", ")
             )));
         };
+        let is_optional = self.inner.schema().field_with_name(name).is_ok_and(|field| field.is_nullable());
         let column = column.as_any();
         fn numbers<'py, T: Copy>(
             py: Python<'py>,
@@ -134,16 +135,17 @@ impl Batch {
         if let Some(column) = column.downcast_ref::<PrimitiveArray<Float64Type>>() {
             return Ok(numbers(py, column.values(), column.nulls(), |value| value));
         }
+        // The type depends on the column, and not on whether there is a gap among these rows.
         if let Some(column) = column.downcast_ref::<PrimitiveArray<Int64Type>>() {
-            return Ok(match column.nulls() {
-                None => arrays::column(py, column.values().to_vec()).into_any(),
-                nulls => numbers(py, column.values(), nulls, |value| value as f64),
+            return Ok(match is_optional {
+                false => arrays::column(py, column.values().to_vec()).into_any(),
+                true => numbers(py, column.values(), column.nulls(), |value| value as f64),
             });
         }
         if let Some(column) = column.downcast_ref::<PrimitiveArray<Int32Type>>() {
-            return Ok(match column.nulls() {
-                None => arrays::column(py, column.values().to_vec()).into_any(),
-                nulls => numbers(py, column.values(), nulls, f64::from),
+            return Ok(match is_optional {
+                false => arrays::column(py, column.values().to_vec()).into_any(),
+                true => numbers(py, column.values(), column.nulls(), f64::from),
             });
         }
         match column.downcast_ref::<StringArray>() {

@@ -1,18 +1,21 @@
 //! Manifests, and the atlases they describe.
 
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use coupler_atlas::manifest::{self, ParseOutcome, Plan, PlannedFamily};
 use coupler_atlas::output;
 use coupler_curves::problem::suggestion;
-use pyo3::exceptions::{PyFileNotFoundError, PyIndexError, PyKeyError, PyValueError};
+use pyo3::exceptions::{PyFileNotFoundError, PyIndexError, PyKeyError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyIterator, PyTuple};
 
+use crate::argument::{Index, position};
 use crate::error::{self, OutputError};
-use crate::linkage::Linkage;
+use crate::linkage::{Linkage, Recipe, into_object};
 use crate::task;
 
 /// A manifest with its path and text.
@@ -24,10 +27,24 @@ pub struct Manifest {
 }
 
 /// A manifest as an argument: its path, or an atlas that has been read.
-#[derive(FromPyObject)]
 pub enum ManifestArgument<'py> {
     Atlas(Bound<'py, Atlas>),
     Path(PathBuf),
+}
+
+impl<'py> FromPyObject<'_, 'py> for ManifestArgument<'py> {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<ManifestArgument<'py>> {
+        if let Ok(atlas) = object.cast::<Atlas>() {
+            return Ok(ManifestArgument::Atlas(atlas.to_owned()));
+        }
+        object.extract().map(ManifestArgument::Path).map_err(|_| {
+            let remedy = if object.cast::<Family>().is_ok() { ", with family=… for one of its families" } else { "" };
+            let kind = object.get_type().name().map_or_else(|_| "this".to_owned(), |name| format!("a {name}"));
+            PyTypeError::new_err(format!("give the path of a manifest or an Atlas{remedy}, and not {kind}"))
+        })
+    }
 }
 
 impl ManifestArgument<'_> {
@@ -44,9 +61,21 @@ impl ManifestArgument<'_> {
 
     /// The manifest, for pages of all its cells.
     pub fn read(&self, py: Python) -> PyResult<Manifest> {
+        let (path, text) = self.text(py)?;
+        let (own, from) = (text.clone(), path.clone());
+        let outcome = task::run_with(py, None, move |_| {
+            manifest::parse_with_files(&own, Some(&|name| output::read_font(&from, name)))
+        })?;
+        Manifest::from_outcome(py, path, text, outcome)
+    }
+
+    /// The manifest, for tables of all its cells.
+    pub fn read_for_tables(&self, py: Python) -> PyResult<Manifest> {
         match self {
             ManifestArgument::Atlas(atlas) => Ok(atlas.get().manifest.clone()),
-            ManifestArgument::Path(path) => Manifest::read(py, path),
+            ManifestArgument::Path(path) => {
+                Manifest::for_tables(py, path.clone(), read_text(py, path)?.into(), |_, count| 0..count)
+            }
         }
     }
 }
@@ -62,15 +91,6 @@ pub fn read_text(py: Python, path: &Path) -> PyResult<String> {
 }
 
 impl Manifest {
-    fn read(py: Python, path: &Path) -> PyResult<Manifest> {
-        let text: Arc<str> = read_text(py, path)?.into();
-        let (own, from) = (text.clone(), path.to_owned());
-        let outcome = task::run_with(py, None, move |_| {
-            manifest::parse_with_files(&own, Some(&|name| output::read_font(&from, name)))
-        })?;
-        Manifest::from_outcome(py, path.to_owned(), text, outcome)
-    }
-
     /// A manifest for tables of some cells, see [`manifest::parse_for_tables`].
     pub fn for_tables(
         py: Python,
@@ -95,6 +115,15 @@ impl Manifest {
         }
     }
 
+    /// The linkage of a cell by the id of its family and its number, from 1.
+    pub fn cell(&self, id: &str, number: usize) -> PyResult<Linkage> {
+        let PlannedFamily { family, source, .. } = self.family(Some(id))?;
+        let index = family.cell_index(number).map_err(|error| PyIndexError::new_err(error.to_string()))?;
+        let (path, text) = (self.path.clone(), self.text.clone());
+        let recipe = Recipe::Cell { path, text, family: id.to_owned(), number };
+        Ok(Linkage::new(family.with_case(family.case(index)), source.clone(), recipe))
+    }
+
     /// The family with an id, or the only one.
     pub fn family(&self, id: Option<&str>) -> PyResult<&PlannedFamily> {
         let families = &self.plan.families;
@@ -112,6 +141,18 @@ impl Manifest {
                 .find(|planned| planned.family.id == id)
                 .ok_or_else(|| PyValueError::new_err(format!("there is no family `{id}`: {}", suggestion(id, &ids)))),
         }
+    }
+
+    /// Whether the other has the same text at the same path.
+    fn is_same(&self, other: &Manifest) -> bool {
+        self.path == other.path && self.text == other.text
+    }
+
+    /// The same of two that are the same.
+    fn hash(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        (&self.path, &self.text).hash(&mut hasher);
+        hasher.finish()
     }
 
     /// Checks that each id is that of a family.
@@ -145,7 +186,7 @@ impl Atlas {
     /// The families, in order.
     #[getter]
     fn families(&self) -> Vec<Family> {
-        (0..self.manifest.plan.families.len()).map(|index| Family { plan: self.manifest.plan.clone(), index }).collect()
+        (0..self.manifest.plan.families.len()).map(|index| self.family(index)).collect()
     }
 
     /// The ids of the families, in order.
@@ -153,8 +194,31 @@ impl Atlas {
         self.manifest.plan.families.iter().map(|planned| planned.family.id.as_str()).collect()
     }
 
-    fn __iter__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        self.keys().into_pyobject(py)?.call_method0("__iter__")
+    /// The families, in order: ``atlas[id]`` for each id.
+    fn values(&self) -> Vec<Family> {
+        self.families()
+    }
+
+    /// The pairs of an id and its family, in order.
+    fn items(&self) -> Vec<(&str, Family)> {
+        self.keys().into_iter().zip(self.families()).collect()
+    }
+
+    /// The family with an id, or `default` if there is none.
+    #[pyo3(signature = (id, default=None, /))]
+    fn get(&self, py: Python, id: &str, default: Option<Py<PyAny>>) -> PyResult<Option<Py<PyAny>>> {
+        match self.keys().iter().position(|key| *key == id) {
+            Some(index) => Ok(Some(Py::new(py, self.family(index))?.into_any())),
+            None => Ok(default),
+        }
+    }
+
+    fn __contains__(&self, id: &Bound<PyAny>) -> bool {
+        id.extract::<String>().is_ok_and(|id| self.keys().contains(&id.as_str()))
+    }
+
+    fn __iter__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyIterator>> {
+        self.keys().into_pyobject(py)?.try_iter()
     }
 
     fn __len__(&self) -> usize {
@@ -164,9 +228,23 @@ impl Atlas {
     fn __getitem__(&self, id: &str) -> PyResult<Family> {
         let keys = self.keys();
         match keys.iter().position(|key| *key == id) {
-            Some(index) => Ok(Family { plan: self.manifest.plan.clone(), index }),
+            Some(index) => Ok(self.family(index)),
             None => Err(PyKeyError::new_err(format!("there is no family `{id}`: {}", suggestion(id, &keys)))),
         }
+    }
+
+    /// Whether the other was read from the same text at the same path.
+    fn __eq__(&self, other: &Bound<PyAny>) -> bool {
+        other.cast::<Atlas>().is_ok_and(|other| self.manifest.is_same(&other.get().manifest))
+    }
+
+    fn __hash__(&self) -> u64 {
+        self.manifest.hash()
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let Manifest { path, text, .. } = &self.manifest;
+        Ok((py.import("coupler_atlas._core")?.getattr("_atlas")?, (path, &**text).into_pyobject(py)?))
     }
 
     fn __repr__(&self) -> String {
@@ -174,16 +252,26 @@ impl Atlas {
     }
 }
 
+impl Atlas {
+    fn family(&self, index: usize) -> Family {
+        Family { manifest: self.manifest.clone(), index }
+    }
+}
+
 /// A family of an atlas: a sequence of linkages, one for each cell.
 #[pyclass(frozen, module = "coupler_atlas")]
 pub struct Family {
-    plan: Arc<Plan>,
+    manifest: Manifest,
     index: usize,
 }
 
 impl Family {
     fn planned(&self) -> &PlannedFamily {
-        &self.plan.families[self.index]
+        &self.manifest.plan.families[self.index]
+    }
+
+    fn linkage_of(&self, py: Python, index: usize) -> PyResult<Py<PyAny>> {
+        into_object(py, self.manifest.cell(&self.planned().family.id, index + 1)?)
     }
 }
 
@@ -217,19 +305,21 @@ impl Family {
     fn values<'py>(&self, py: Python<'py>, index: isize) -> PyResult<Bound<'py, PyDict>> {
         let family = &self.planned().family;
         let values = PyDict::new(py);
-        for (name, value) in family.names.iter().zip(family.cell(self.cell_index(index)?).values) {
+        for (name, value) in family.names.iter().zip(family.cell(position(index, family.cell_count(), "cell")?).values)
+        {
             values.set_item(name, value)?;
         }
         Ok(values)
     }
 
     /// The linkage of a cell by its number, which is counted from 1, as in file names, tables and names of curves.
-    fn cell(&self, number: isize) -> PyResult<Linkage> {
-        match number {
-            1.. => self.__getitem__(number - 1),
+    fn cell(&self, py: Python, number: i64) -> PyResult<Py<PyAny>> {
+        let count = self.__len__();
+        match usize::try_from(number) {
+            Ok(number) if (1..=count).contains(&number) => self.linkage_of(py, number - 1),
             _ => Err(PyIndexError::new_err(format!(
-                "{number} is the number of no cell: they are numbered from 1 to {}",
-                self.__len__()
+                "`{}` has no cell {number}: its cells are numbered from 1 to {count}",
+                self.id()
             ))),
         }
     }
@@ -240,10 +330,32 @@ impl Family {
     }
 
     /// The linkage of a cell by its index, from 0; the number of the cell is one more.
-    fn __getitem__(&self, index: isize) -> PyResult<Linkage> {
-        let PlannedFamily { family, source, .. } = self.planned();
-        let index = self.cell_index(index)?;
-        Ok(Linkage::new(family.with_case(family.case(index)), source.clone(), Some(index + 1)))
+    fn __getitem__<'py>(&self, py: Python<'py>, index: Index<'py>) -> PyResult<Bound<'py, PyAny>> {
+        index.of(py, self.__len__(), "cell", |index| self.linkage_of(py, index))
+    }
+
+    fn __iter__(this: Bound<Family>) -> Cells {
+        let count = this.get().__len__();
+        Cells { family: this.unbind(), count, next: AtomicUsize::new(0), is_reversed: false }
+    }
+
+    fn __reversed__(this: Bound<Family>) -> Cells {
+        Cells { is_reversed: true, ..Family::__iter__(this) }
+    }
+
+    /// Whether the other is the same family of the same manifest.
+    fn __eq__(&self, other: &Bound<PyAny>) -> bool {
+        let other = other.cast::<Family>();
+        other.is_ok_and(|other| self.index == other.get().index && self.manifest.is_same(&other.get().manifest))
+    }
+
+    fn __hash__(&self) -> u64 {
+        self.manifest.hash() ^ self.index as u64
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let atlas = Bound::new(py, Atlas { manifest: self.manifest.clone() })?;
+        Ok((py.import("operator")?.getattr("getitem")?, (atlas, self.id()).into_pyobject(py)?))
     }
 
     fn __repr__(&self) -> String {
@@ -251,13 +363,28 @@ impl Family {
     }
 }
 
-impl Family {
-    fn cell_index(&self, index: isize) -> PyResult<usize> {
-        let count = self.__len__();
-        let from_start = if index < 0 { index + count as isize } else { index };
-        usize::try_from(from_start).ok().filter(|index| *index < count).ok_or_else(|| {
-            PyIndexError::new_err(format!("`{}` has no cell of index {index}: it has {count} cells", self.id()))
-        })
+/// Iterates over the linkages of a family.
+#[pyclass(frozen, module = "coupler_atlas")]
+pub struct Cells {
+    family: Py<Family>,
+    count: usize,
+    next: AtomicUsize,
+    is_reversed: bool,
+}
+
+#[pymethods]
+impl Cells {
+    fn __iter__(this: PyRef<Self>) -> PyRef<Self> {
+        this
+    }
+
+    fn __next__(&self, py: Python) -> PyResult<Option<Py<PyAny>>> {
+        let next = self.next.fetch_add(1, Ordering::Relaxed);
+        if next >= self.count {
+            return Ok(None);
+        }
+        let index = if self.is_reversed { self.count - 1 - next } else { next };
+        self.family.get().linkage_of(py, index).map(Some)
     }
 }
 
@@ -281,5 +408,12 @@ impl Family {
 ///     There is no such file.
 #[pyfunction]
 pub fn read(py: Python, manifest: PathBuf) -> PyResult<Atlas> {
-    Ok(Atlas { manifest: Manifest::read(py, &manifest)? })
+    Ok(Atlas { manifest: ManifestArgument::Path(manifest).read_for_tables(py)? })
+}
+
+/// Reads an atlas again that was pickled.
+#[pyfunction]
+#[pyo3(name = "_atlas")]
+pub fn read_again(py: Python, path: PathBuf, text: String) -> PyResult<Atlas> {
+    Ok(Atlas { manifest: Manifest::for_tables(py, path, text.into(), |_, _| 0..0)? })
 }

@@ -8,6 +8,7 @@ use coupler_atlas::manifest::PartialTolerances;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
+use crate::argument;
 use crate::atlas::{Manifest, ManifestArgument};
 use crate::error::{Error, OutputError};
 use crate::task::{self, Task};
@@ -72,7 +73,7 @@ impl Report {
     fn __repr__(&self) -> String {
         let check::Report { families, curves, pages, .. } = self.report;
         let found = self.report.total();
-        format!("<coupler_atlas.Report: {families} families, {curves} curves, {pages} pages, {found} findings>")
+        format!("<coupler_atlas.Report: families: {families}, curves: {curves}, pages: {pages}, findings: {found}>")
     }
 }
 
@@ -121,7 +122,7 @@ pub fn check_atlas(
         }
     }
     let manifest = manifest.read(py)?;
-    let only = only.unwrap_or_default();
+    let only = argument::only(only)?;
     manifest.require_families(&only)?;
     let Manifest { plan, .. } = manifest;
     let result = task::run(py, progress.as_ref(), move |task: &Task| {

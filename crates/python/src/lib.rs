@@ -3,6 +3,7 @@
 //! A layer over the library: it converts arguments and results, and solves nothing itself. `coupler_atlas/__init__.py` makes one module of
 //! this one and the few lines that are Python; `__init__.pyi` has the types.
 
+mod argument;
 mod error;
 
 mod arrays;
@@ -41,6 +42,7 @@ fn _core(module: &Bound<PyModule>) -> PyResult<()> {
     module.add_class::<linkage::Animation>()?;
     module.add_class::<atlas::Atlas>()?;
     module.add_class::<atlas::Family>()?;
+    module.add_class::<atlas::Cells>()?;
     module.add_class::<sweep::Sweep>()?;
     module.add_class::<arrow::Batch>()?;
     module.add_class::<find::Found>()?;
@@ -54,5 +56,10 @@ fn _core(module: &Bound<PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(find::find_linkages, module)?)?;
     module.add_function(wrap_pyfunction!(render::render, module)?)?;
     module.add_function(wrap_pyfunction!(check::check_atlas, module)?)?;
+    // What pickles call.
+    module.add_function(wrap_pyfunction!(linkage::make_again, module)?)?;
+    module.add_function(wrap_pyfunction!(linkage::curve_again, module)?)?;
+    module.add_function(wrap_pyfunction!(atlas::read_again, module)?)?;
+    module.add_function(wrap_pyfunction!(sweep::sweep_again, module)?)?;
     module.add_function(wrap_pyfunction!(run_command, module)?)
 }

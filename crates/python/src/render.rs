@@ -9,6 +9,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
+use crate::argument;
 use crate::atlas::{Manifest, ManifestArgument};
 use crate::error::{self, OutputError};
 use crate::task::{self, Task};
@@ -70,7 +71,7 @@ impl Rendering {
     fn __repr__(&self) -> String {
         let (families, pages) = (self.run.families.len(), self.pages());
         format!(
-            "<coupler_atlas.Rendering in {}: {families} families, {pages} pages, {} drawn>",
+            "<coupler_atlas.Rendering in {}: families: {families}, pages: {pages}, drawn: {}>",
             self.folder.display(),
             self.drawn
         )
@@ -124,7 +125,7 @@ pub fn render(
 ) -> PyResult<Rendering> {
     let manifest = manifest.read(py)?;
     let Manifest { path, text, plan } = manifest.clone();
-    let only = only.unwrap_or_default();
+    let only = argument::only(only)?;
     manifest.require_families(&only)?;
     let formats =
         formats.map(|names| names.iter().map(|name| format(name)).collect::<PyResult<Vec<_>>>()).transpose()?;

@@ -12,7 +12,7 @@ use coupler_curves::family::MEASURES;
 use coupler_curves::problem::suggestion;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyCapsule;
+use pyo3::types::{PyCapsule, PyTuple};
 
 use crate::arrow::{self, Batch, arrow_error};
 use crate::atlas::{Manifest, ManifestArgument};
@@ -21,8 +21,8 @@ use crate::task;
 
 /// The cells of a family, or a part of them, as a table that is solved as it is read.
 ///
-/// It is iterated over in batches of some thousands of rows, and read as a whole by whatever takes an Arrow stream: ``polars.DataFrame(sweep)``,
-/// ``pyarrow.table(sweep)``, ``pandas.DataFrame.from_arrow(sweep)``, a query of DuckDB. Each reading begins anew. Memory is that of a batch or
+/// It is read in batches of some thousands of rows with ``batches()``, and as a whole by whatever takes an Arrow stream: ``polars.DataFrame(sweep)``
+/// (1.24 or later), ``pyarrow.table(sweep)``, ``pandas.DataFrame.from_arrow(sweep)`` (3.0 or later), a query of DuckDB. Each reading begins anew. Memory is that of a batch or
 /// two, however many cells there are. Ctrl-C ends an iteration with KeyboardInterrupt, and a reading by a library with that library's exception,
 /// "interrupted".
 #[pyclass(frozen, module = "coupler_atlas")]
@@ -31,6 +31,17 @@ pub struct Sweep {
     stream: TableStream,
     schema: SchemaRef,
     progress: Option<Py<PyAny>>,
+    recipe: Recipe,
+}
+
+/// The arguments of `sweep` from which it can be made again, after the path and the text of the manifest; without `progress`.
+type Arguments = (String, Option<[i64; 2]>, Option<[i64; 2]>, bool, Option<Vec<String>>);
+
+/// What a sweep was made from.
+struct Recipe {
+    path: PathBuf,
+    text: Arc<str>,
+    arguments: Arguments,
 }
 
 /// Makes the batches of a sweep, one after the other.
@@ -45,6 +56,7 @@ struct Batches {
 impl Batches {
     /// The next batch, solved on other threads.
     fn next(&mut self, py: Python) -> PyResult<Option<RecordBatch>> {
+        task::require_threads()?;
         let mut stream = self.stream.clone();
         let (family, cells) = (self.family.clone(), self.cells);
         let reporter = self.reporter.as_ref().map(|reporter| reporter.bind(py).clone());
@@ -108,7 +120,7 @@ impl SweepIterator {
             Err(std::sync::TryLockError::Poisoned(poisoned)) => PoisonError::into_inner(poisoned),
             Err(std::sync::TryLockError::WouldBlock) => {
                 return Err(PyValueError::new_err(
-                    "another thread is reading these batches: begin again with iter(sweep)",
+                    "another thread is reading these batches: begin again with sweep.batches()",
                 ));
             }
         };
@@ -162,8 +174,16 @@ impl Sweep {
         format!("<coupler_atlas.Sweep of {}: {cells} cells, {columns} columns>", self.family)
     }
 
-    fn __iter__(&self, py: Python) -> PyResult<SweepIterator> {
+    /// An iterator over the table in batches of some thousands of rows, from its beginning.
+    #[pyo3(name = "batches")]
+    fn python_batches(&self, py: Python) -> PyResult<SweepIterator> {
         Ok(SweepIterator(Mutex::new(self.batches(py)?)))
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let Recipe { path, text, arguments } = &self.recipe;
+        let make = py.import("coupler_atlas._core")?.getattr("_sweep")?;
+        Ok((make, (path, &**text, arguments.clone()).into_pyobject(py)?))
     }
 
     /// The schema, for readers of Arrow data.
@@ -224,55 +244,82 @@ pub fn sweep(
     py: Python,
     manifest: ManifestArgument,
     family: Option<String>,
-    shard: Option<(usize, usize)>,
-    cells: Option<(usize, usize)>,
+    shard: Option<[i64; 2]>,
+    cells: Option<[i64; 2]>,
     points: bool,
     measures: Option<Vec<String>>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Sweep> {
-    let division = division(shard, cells)?;
     let measures =
         measures.map(|names| names.into_iter().map(known_measure).collect::<PyResult<Vec<_>>>()).transpose()?;
-    let (path, text): (PathBuf, Arc<str>) = manifest.text(py)?;
+    // Whether it can be shown is found out when it is read.
+    py.import("coupler_atlas._progress")?.getattr("reporter")?.call1((&progress,))?;
+    let (path, text) = manifest.text(py)?;
+    let sweep = make_sweep(py, (path, text), family, (shard, cells), points, measures)?;
+    Ok(Sweep { progress, ..sweep })
+}
+
+/// Makes a sweep again that was pickled.
+#[pyfunction]
+#[pyo3(name = "_sweep")]
+pub fn sweep_again(py: Python, path: PathBuf, text: String, arguments: Arguments) -> PyResult<Sweep> {
+    let (family, shard, cells, points, measures) = arguments;
+    make_sweep(py, (path, text.into()), Some(family), (shard, cells), points, measures)
+}
+
+fn make_sweep(
+    py: Python,
+    (path, text): (PathBuf, Arc<str>),
+    family: Option<String>,
+    (shard, cells): (Option<[i64; 2]>, Option<[i64; 2]>),
+    points: bool,
+    measures: Option<Vec<String>>,
+) -> PyResult<Sweep> {
+    let division = division(shard, cells)?;
     let wanted = family.clone();
-    let manifest = Manifest::for_tables(py, path, text, move |id, count| match &wanted {
+    let manifest = Manifest::for_tables(py, path.clone(), text.clone(), move |id, count| match &wanted {
         Some(wanted) if wanted != id => 0..0,
         _ => division.range(count),
     })?;
     let planned = manifest.family(family.as_deref())?;
     let own = &planned.family;
-    if let Division::Cells { last, .. } = division
+    if let Division::Cells { first, last } = division
         && last > own.cell_count()
     {
         let count = own.cell_count();
-        let message =
-            format!("cells={cells:?}: `{}` has no cell {last}: its cells are numbered from 1 to {count}", own.id);
-        return Err(PyValueError::new_err(message.replace("Some(", "").replace("))", ")")));
+        let message = format!(
+            "cells=({first}, {last}): `{}` has no cell {last}: its cells are numbered from 1 to {count}",
+            own.id
+        );
+        return Err(PyValueError::new_err(message));
     }
     let table = if points { TableKind::Points } else { TableKind::Cells };
     let stream = TableStream::new(own, table, division, measures.as_deref());
     let schema = arrow::schema(stream.columns());
-    Ok(Sweep { family: own.id.clone(), stream, schema, progress })
+    let recipe = Recipe { path, text, arguments: (own.id.clone(), shard, cells, points, measures) };
+    Ok(Sweep { family: own.id.clone(), stream, schema, progress: None, recipe })
 }
 
-fn division(shard: Option<(usize, usize)>, cells: Option<(usize, usize)>) -> PyResult<Division> {
+fn division(shard: Option<[i64; 2]>, cells: Option<[i64; 2]>) -> PyResult<Division> {
+    let wrong = |message: String| Err(PyValueError::new_err(message));
+    let given = |[a, b]: [i64; 2]| [usize::try_from(a).ok(), usize::try_from(b).ok()];
     match (shard, cells) {
-        (Some(_), Some(_)) => {
-            Err(PyValueError::new_err("shard and cells are two ways to choose cells: give one of them"))
-        }
-        (Some((index, of)), None) if of > 0 && of <= MAX_SHARDS && index < of => Ok(Division::Shard { index, of }),
-        (Some((index, of)), None) if of == 0 || of > MAX_SHARDS => {
-            Err(PyValueError::new_err(format!("shard=({index}, {of}): the number of shards is from 1 to {MAX_SHARDS}")))
-        }
-        (Some((index, of)), None) => Err(PyValueError::new_err(format!(
-            "shard=({index}, {of}): shards are numbered from 0: give (0, {of}) to ({}, {of})",
-            of - 1
-        ))),
-        (None, Some((first, last))) if first > 0 && first <= last => Ok(Division::Cells { first, last }),
-        (None, Some((first, last))) => Err(PyValueError::new_err(format!(
-            "cells=({first}, {last}): give the numbers of the first and the last cell, counted from 1, as in (1, 1000)"
-        ))),
+        (Some(_), Some(_)) => wrong("shard and cells are two ways to choose cells: give one of them".to_owned()),
         (None, None) => Ok(Division::WHOLE),
+        (Some(shard), None) => match (given(shard), shard) {
+            ([Some(index), Some(of)], _) if index < of && of <= MAX_SHARDS => Ok(Division::Shard { index, of }),
+            ([_, Some(of @ 1..=MAX_SHARDS)], [index, _]) => wrong(format!(
+                "shard=({index}, {of}): shards are numbered from 0: give (0, {of}) to ({}, {of})",
+                of - 1
+            )),
+            (_, [index, of]) => wrong(format!("shard=({index}, {of}): the number of shards is from 1 to {MAX_SHARDS}")),
+        },
+        (None, Some(cells)) => match (given(cells), cells) {
+            ([Some(first @ 1..), Some(last)], _) if first <= last => Ok(Division::Cells { first, last }),
+            (_, [first, last]) => wrong(format!(
+                "cells=({first}, {last}): give the numbers of the first and the last cell, counted from 1, as in (1, 1000)"
+            )),
+        },
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, OnceLock};
 use std::time::Duration;
 
 use pyo3::prelude::*;
@@ -51,15 +51,31 @@ impl Task {
     }
 }
 
+/// Checks that this process has the threads on which work is divided: those of a process that was forked are not in the new one, and
+/// what waits for them would never end.
+///
+/// # Errors
+/// They are those of another process.
+pub fn require_threads() -> PyResult<()> {
+    static PROCESS: OnceLock<u32> = OnceLock::new();
+    match *PROCESS.get_or_init(std::process::id) == std::process::id() {
+        true => Ok(()),
+        false => Err(Error::new_err(
+            "this process was forked from one that had computed on several threads, which a fork does not have: start processes with the method              \"spawn\" or \"forkserver\", as in multiprocessing.get_context(\"spawn\")",
+        )),
+    }
+}
+
 /// Runs work on another thread and returns its result. `progress` is the argument of that name, see `coupler_atlas/_progress.py`.
 ///
 /// # Errors
-/// Ctrl-C, or an exception of `progress`; the work is then told to end.
+/// Ctrl-C, or an exception of `progress`; the work is then told to end. A fork has no threads.
 pub fn run<T: Send + 'static>(
     py: Python,
     progress: Option<&Bound<PyAny>>,
     work: impl FnOnce(&Task) -> T + Send + 'static,
 ) -> PyResult<T> {
+    require_threads()?;
     let reporter = py.import("coupler_atlas._progress")?.getattr("reporter")?.call1((progress,))?;
     run_with(py, if reporter.is_none() { None } else { Some(&reporter) }, work)
 }

@@ -1,15 +1,17 @@
 """Manifests, rendered atlases and their checks."""
 
 import pathlib
+import pickle
 import subprocess
 import sys
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import pytest
 
 import coupler_atlas as ca
 
-from test_sweep import command
+from test_sweep import MANY, command
 
 
 def test_a_manifest_is_read(manifest) -> None:
@@ -22,12 +24,35 @@ def test_a_manifest_is_read(manifest) -> None:
     own = ca.linkage("watt", samples=36, **family[0].parameters)
     assert np.array_equal(own.curve(), family[0].curve())
     four_bar = atlas["four-bars"][0]
-    assert four_bar.curve().shape == (36, 2) and "four-bars" in repr(four_bar)
-    for wrong in (lambda: family[12], lambda: family.cell(0), lambda: family[-13]):
+    assert four_bar.curve().shape == (36, 2) and isinstance(four_bar, ca.FourBar) and four_bar.id == "four-bars"
+    assert [cell.number for cell in family[1:8:3]] == [2, 5, 8] and next(reversed(family)).number == 12
+    assert family[0] == family[0] != family[1] and isinstance(family, Sequence) and isinstance(atlas, Mapping)
+    assert dict(atlas.items()) == {family.id: family for family in atlas.values()}
+    assert "watt" in atlas and "wat" not in atlas and atlas.get("wat", 3) == 3 and atlas.get("watt") == family
+    for wrong in (lambda: family[12], lambda: family.cell(0), lambda: family.cell(13), lambda: family[-13]):
         with pytest.raises(IndexError, match="12"):
             wrong()
     with pytest.raises(KeyError, match="did you mean `watt`"):
         atlas["wat"]
+
+
+def test_atlases_and_their_cells_are_pickled_with_the_text(manifest) -> None:
+    path = manifest()
+    atlas = ca.read(path)
+    made = [atlas, atlas["watt"], atlas["watt"].cell(2), atlas["four-bars"].cell(3)]
+    pickles = [pickle.dumps(one) for one in made]
+    path.unlink()
+    again = [pickle.loads(one) for one in pickles]
+    assert again == made and [hash(one) for one in again] == [hash(one) for one in made]
+    assert np.array_equal(again[2].curve(), made[2].curve()) and again[2].number == 2
+
+
+def test_a_manifest_too_large_to_draw_can_be_read_and_swept(manifest) -> None:
+    path = manifest(MANY)
+    atlas = ca.read(path)
+    assert len(atlas["many"]) == 8_000_000 and atlas["many"].cell(7_999_999).curve().shape == (360, 2)
+    with pytest.raises(ca.ManifestError, match="files of pages"):
+        ca.render(atlas, path.parent / "pages")
 
 
 def test_problems_of_a_manifest_are_reported_with_their_places(manifest) -> None:

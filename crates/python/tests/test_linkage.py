@@ -1,6 +1,8 @@
 """Linkages, compared with closed forms and with each other."""
 
+import copy
 import math
+import pickle
 
 import numpy as np
 import pytest
@@ -55,6 +57,64 @@ def test_velocities_are_derivatives_of_points() -> None:
     assert np.allclose(np.hypot(*circuit.velocities("A").T), 1.0)
 
 
+def test_accelerations_are_derivatives_of_velocities() -> None:
+    curve = bar().curves[0]
+    fine = ca.FourBar(**BAR, samples=36000).curves[0].velocities
+    step = math.radians(0.01)
+    differences = (np.roll(fine, -1, axis=0) - np.roll(fine, 1, axis=0)) / (2 * step)
+    assert np.abs(differences[::100] - curve.accelerations).max() < 1e-5
+    circuit = bar().circuits[0]
+    assert np.array_equal(circuit.accelerations("M"), curve.accelerations)
+    # A pin on a circle: towards its centre.
+    assert np.allclose(circuit.accelerations("A"), -circuit.positions("A"))
+
+
+def test_positions_at_chosen_inputs() -> None:
+    circuit = bar().circuits[1]
+    own = circuit.positions("M")
+    assert np.array_equal(circuit.positions("M", at=[0, 30, 359]), own[[0, 30, 359]])
+    assert np.allclose(circuit.positions("M", at=[-330.0, 390]), own[[30, 30]])
+    rocker = ca.FourBar(frame=2, crank=2.59, coupler=1, rocker=2.59)
+    circuit = rocker.circuits[0]
+    low, high = circuit.limits
+    inside, outside = circuit.positions("B", at=[(low + high) / 2, high + 1])
+    assert np.isfinite(inside).all() and np.isnan(outside).all()
+    assert np.hypot(*(inside - [2, 0])) == pytest.approx(2.59)
+
+
+def test_transmission_angles_are_those_of_the_measures() -> None:
+    four_bar = ca.FourBar(**BAR, samples=7200)
+    angles = four_bar.circuits[0].transmission_angles
+    pins = four_bar.circuits[0]
+    # The angle between coupler and rocker.
+    [to_crank, to_pivot] = [pins.positions(name) - pins.positions("B") for name in ("A", "C")]
+    cosine = (to_crank * to_pivot).sum(axis=1) / (3 * 3.5)
+    assert np.allclose(angles, np.degrees(np.arccos(cosine)))
+    measures = four_bar.measures()
+    assert angles.min() == pytest.approx(measures["mu_min_deg"]) and angles.max() == pytest.approx(measures["mu_max_deg"])
+    assert np.isnan(ca.linkage("slider-crank", coupler=3).circuits[0].transmission_angles).all()
+
+
+def test_linkages_are_compared_pickled_and_copied() -> None:
+    four_bar = bar()
+    made = [
+        four_bar,
+        ca.FourBar(**BAR, x=1, turn=30, samples=90),
+        ca.linkage("evans", p=2.5, a=2.6, circuits="all"),
+        ca.linkage("slider-crank", coupler="5 / 2"),
+        *four_bar.cognates(),
+    ]
+    for linkage in made:
+        again = pickle.loads(pickle.dumps(linkage))
+        assert again == linkage and hash(again) == hash(linkage) and type(again) is type(linkage)
+        assert np.array_equal(again.curve(), linkage.curve()) and copy.deepcopy(linkage) == linkage
+        curve = pickle.loads(pickle.dumps(linkage.curves[-1]))
+        assert curve == linkage.curves[-1] and np.array_equal(curve.points, linkage.curves[-1].points)
+    assert len({*made, *made}) == len(made)
+    assert four_bar == bar() == ca.linkage("four-bar", **BAR) and isinstance(ca.linkage("four-bar", **BAR), ca.FourBar)
+    assert four_bar != ca.FourBar(**BAR, samples=90) and four_bar != 3
+
+
 def test_circuits_branches_and_limits() -> None:
     four_bar = bar()
     assert [circuit.full_turn for circuit in four_bar.circuits] == [True, True]
@@ -103,6 +163,7 @@ def test_measures_have_the_types_and_values_of_the_curve() -> None:
     length = np.hypot(np.roll(x, -1) - x, np.roll(y, -1) - y).sum()
     assert measures["class"] == "crank-rocker" and measures["six_bar"] is None
     assert abs(abs(measures["area"]) - abs(area)) < 1e-5 and abs(measures["length"] - length) < 1e-5
+    assert measures["is_full_turn"] is True and ca.FourBar(4, 3, 3, 3.5).measures()["is_full_turn"] is False
     assert bar().curves[0].measures() == measures and bar().curves[1].measures() != measures
 
 
@@ -147,12 +208,28 @@ def test_an_animation_is_saved(tmp_path) -> None:  # type: ignore[no-untyped-def
         animation.save(tmp_path / "no" / "bar.svg")
 
 
+def test_plates_and_curves_are_saved(tmp_path) -> None:  # type: ignore[no-untyped-def]
+    bar().save(tmp_path / "bar.svg")
+    assert (tmp_path / "bar.svg").read_text() == bar().svg()
+    curve = bar().curves[0]
+    begins = {"svg": b"<svg", "png": b"\x89PNG", "dxf": b"999", "csv": b"cell", "json": b"{", "toml": b""}
+    for suffix, begin in begins.items():
+        path = tmp_path / f"curve.{suffix}"
+        curve.save(path)
+        assert path.read_bytes().lstrip().startswith(begin), suffix
+    assert (tmp_path / "curve.csv").read_text() == curve.csv()
+    for save in (bar().save, curve.save):
+        with pytest.raises(ValueError, match="give a name that ends in .svg"):
+            save(tmp_path / "curve.jpg")
+
+
 @pytest.mark.parametrize(
     ("call", "error", "message"),
     [
         (lambda: ca.FourBar(4, -1, 3, 3), ca.LinkageError, "`crank` is -1, and must be more than 0"),
         (lambda: ca.FourBar(4, 1, 3, math.nan), ca.LinkageError, "`rocker` is NaN"),
         (lambda: ca.FourBar(10, 1, 2, 3).curve(), ca.LinkageError, "links of 2 and 3 reach 5"),
+        (lambda: bar().curve(-1), ValueError, "samples=-1: give a whole number that is not negative"),
         (lambda: bar().curve(1), ValueError, "samples=1: a circuit has from 2 to 100000 samples"),
         (lambda: bar().curve(10**9), ValueError, "samples=1000000000"),
         (lambda: bar().curve(circuit=3), ValueError, "circuit=3: `four-bar` has traces 1 to 1 and circuits 1 to 2"),

@@ -2,6 +2,7 @@
 
 import gc
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -74,7 +75,7 @@ def test_batches_are_solved_as_they_are_asked_for(manifest) -> None:
     sweep = ca.sweep(manifest(MANY), shard=(0, 20), measures=[])
     assert sweep.cell_count == 400_000 and len(sweep.columns) < 20
     begin = time.monotonic()
-    batches = iter(sweep)
+    batches = sweep.batches()
     first, second = next(batches), next(batches)
     assert time.monotonic() - begin < 30
     assert first["cell"][0] == 1 and second["cell"][0] == first["cell"][-1] + 1
@@ -122,15 +123,16 @@ def test_progress_is_reported(manifest) -> None:
         raise RuntimeError("enough")
 
     with pytest.raises(RuntimeError, match="enough"):
-        list(ca.sweep(manifest(MANY), shard=(0, 20), progress=fail))
+        list(ca.sweep(manifest(MANY), shard=(0, 20), progress=fail).batches())
     with pytest.raises(TypeError, match="progress='yes'"):
         list(ca.sweep(manifest(), family="watt", progress="yes"))  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize(("read", "code"), [("list(sweep)", 3), ("pa.table(sweep)", 1), ("pl.DataFrame(sweep)", 1)])
+@pytest.mark.parametrize(("read", "code"), [("list(sweep.batches())", 3), ("pa.table(sweep)", 1), ("pl.DataFrame(sweep)", 1)])
 def test_ctrl_c_ends_a_sweep(manifest, read, code) -> None:
     program = (
-        "import coupler_atlas as ca, pyarrow as pa, polars as pl, sys\n"
+        # pyarrow imports pandas when it is first asked for a table.
+        "import coupler_atlas as ca, pandas, pyarrow as pa, polars as pl, sys\n"
         f"sweep = ca.sweep({str(manifest(MANY))!r}, shard=(0, 20))\n"
         "print('begun', flush=True)\n"
         f"try:\n    {read}\n"
@@ -147,6 +149,45 @@ def test_ctrl_c_ends_a_sweep(manifest, read, code) -> None:
     assert process.returncode == code and "interrupted" in errors, errors
 
 
+def test_only_what_the_table_has_is_computed(manifest) -> None:
+    # The points of four thousand curves take less than all their measures by far: this would take a minute.
+    sweep = ca.sweep(manifest(MANY), cells=(1, 4000), points=True)
+    assert sum(len(batch) for batch in sweep.batches()) > 1_000_000
+    assert {"x", "y"} < set(sweep.columns) and "length" not in sweep.columns
+
+
+def test_the_types_of_columns_do_not_depend_on_gaps(manifest) -> None:
+    path = manifest(
+        'atlas.title = "Gaps"\n[[family]]\nid = "e"\nlinkage = "four-bar"\n'
+        "cases = [{ frame = 4, crank = 1, coupler = 3, rocker = 3.5 }, { frame = 9, crank = 1, coupler = 3, rocker = 3.5 }]"
+    )
+    whole = next(ca.sweep(path).batches())
+    first = next(ca.sweep(path, cells=(1, 1)).batches())
+    assert np.isnan(whole["circuit"]).sum() == 1 and first["circuit"].dtype == whole["circuit"].dtype == np.float64
+
+
+def test_sweeps_are_pickled_with_their_manifest(manifest) -> None:
+    path = manifest()
+    sweep = ca.sweep(path, family="watt", shard=(1, 3), measures=["length"])
+    again = pickle.loads(pickle.dumps(sweep))
+    path.unlink()
+    assert pa.table(again).equals(pa.table(sweep)) and again.columns == sweep.columns
+
+
+def test_a_fork_without_threads_is_an_error(manifest) -> None:
+    program = (
+        "import coupler_atlas as ca, multiprocessing\n"
+        f"path = {str(manifest())!r}\n"
+        "def rows(shard):\n    return sum(len(batch) for batch in ca.sweep(path, family='watt', shard=(shard, 2)).batches())\n"
+        "print(rows(0) + rows(1))\n"
+        "context = multiprocessing.get_context('fork')\n"
+        "try:\n    print(context.Pool(2).map(rows, range(2)))\n"
+        "except ca.Error as error:\n    print('Error:', error)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+    assert "Error: this process was forked" in done.stdout and "spawn" in done.stdout, done
+
+
 def test_other_threads_run_meanwhile(manifest) -> None:
     counted = 0
     stop = threading.Event()
@@ -160,7 +201,7 @@ def test_other_threads_run_meanwhile(manifest) -> None:
     thread = threading.Thread(target=count)
     thread.start()
     begin = time.monotonic()
-    next(iter(ca.sweep(manifest(MANY), shard=(0, 20), measures=["length", "area"])))
+    next(ca.sweep(manifest(MANY), shard=(0, 20), measures=["length", "area"]).batches())
     elapsed = time.monotonic() - begin
     stop.set()
     thread.join()
@@ -178,6 +219,7 @@ def test_other_threads_run_meanwhile(manifest) -> None:
         ({"family": "watt", "cells": (0, 3)}, "cells=(0, 3): give the numbers of the first and the last cell, counted from 1"),
         ({"family": "watt", "cells": (3, 13)}, "`watt` has no cell 13: its cells are numbered from 1 to 12"),
         ({"family": "watt", "cells": (1, 2), "shard": (0, 1)}, "two ways to choose cells"),
+        ({"family": "watt", "shard": (-1, 2)}, "shard=(-1, 2): shards are numbered from 0: give (0, 2) to (1, 2)"),
         ({"family": "watt", "measures": ["lenght"]}, "unknown measure `lenght`: did you mean `length`"),
     ],
 )

@@ -6,7 +6,7 @@ mod selection;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
-use crate::export::{self, Format, Options};
+use crate::export::{self, DEFAULT_DPI, Format, Options};
 use crate::manifest::Plan;
 use clap::{Args, ValueHint};
 use coupler_curves::exchange::{CurveName, ParameterSet, SelectedCurve, manifest_fragment};
@@ -74,9 +74,6 @@ pub struct Arguments {
     )]
     dpi: Option<u32>,
 }
-
-/// The resolution of images of a linkage that is in no manifest, in pixels per inch.
-const DEFAULT_DPI: u32 = 150;
 
 /// The chord tolerances that `--chord` accepts.
 const CHORD_RANGE: RangeInclusive<f64> = 1e-9..=0.1;

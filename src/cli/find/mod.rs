@@ -1,14 +1,13 @@
 //! `find`: the linkages whose coupler curves are nearest to a path.
 
 mod atlas;
-mod drawing;
 mod json;
 mod linkage;
 mod text;
 
 use std::path::{Path, PathBuf};
 
-use crate::find::{self, MAX_CURVES, MAX_POINTS};
+use crate::find::{self, MAX_CURVES, MAX_POINTS, Outline};
 use crate::output;
 use clap::{Args, ValueEnum, ValueHint};
 use coupler_curves::expression::Expression;
@@ -168,7 +167,7 @@ impl Report {
 
 impl Shown for Report {
     fn drawing(&self) -> Vec<u8> {
-        drawing::page(self)
+        find::draw_four_bars(&self.title(), &self.target, &self.answers)
     }
 
     fn json(&self) -> anyhow::Result<String> {
@@ -332,26 +331,16 @@ struct TracedPath {
 }
 
 impl TracedPath {
-    /// A path with the angles that it has or, if it is closed and has none, equal steps of a turn.
-    ///
     /// # Errors
-    /// It is open and has none.
-    fn timed(mut self, angles_deg: Option<Vec<f64>>) -> anyhow::Result<TracedPath> {
-        if angles_deg.is_none() && self.kind != PathKind::Closed {
-            let message = format!(
-                "{}: --timed needs an angle of the crank for each point of an open path: write them as a third column, in degrees",
-                self.name
-            );
-            return Err(InputError(message).into());
+    /// It is timed, open, and has no angles.
+    fn new(name: String, mut outline: Outline, kind: PathKind, is_timed: bool) -> Result<TracedPath, InputError> {
+        let angles_deg = if is_timed { outline.take_timing(kind) } else { None };
+        if is_timed && angles_deg.is_none() {
+            return Err(InputError(format!(
+                "{name}: --timed needs an angle of the crank for each point of an open path: write them as a third column, in degrees"
+            )));
         }
-        self.angles_deg = Some(angles_deg.unwrap_or_else(|| {
-            while self.points.len() > 1 && self.points.first() == self.points.last() {
-                self.points.pop();
-            }
-            let count = self.points.len();
-            (0..count).map(|k| 360.0 * k as f64 / count as f64).collect()
-        }));
-        Ok(self)
+        Ok(TracedPath { name, points: outline.points, kind, angles_deg })
     }
 }
 
@@ -374,8 +363,8 @@ fn read_path(arguments: &Arguments) -> anyhow::Result<TracedPath> {
             let message = format!("{name} has {} samples, and at most {MAX_POINTS} can be searched for", points.len());
             return Err(InputError(message).into());
         }
-        let path = TracedPath { name: name.clone(), points, kind: kind(is_closed), angles_deg: None };
-        return if arguments.timed { path.timed(inputs_deg) } else { Ok(path) };
+        let outline = Outline { points, angles_deg: inputs_deg, is_closed: Some(is_closed) };
+        return Ok(TracedPath::new(name.clone(), outline, kind(is_closed), arguments.timed)?);
     }
     let path = arguments.path.as_deref().unwrap_or(Path::new("-"));
     files::protect(path);
@@ -386,6 +375,5 @@ fn read_path(arguments: &Arguments) -> anyhow::Result<TracedPath> {
         InputErrors::from_messages(&problems)
     })?;
     let is_closed = outline.is_closed.unwrap_or_else(|| outline.looks_closed());
-    let path = TracedPath { name, points: outline.points, kind: kind(is_closed), angles_deg: None };
-    if arguments.timed { path.timed(outline.angles_deg) } else { Ok(path) }
+    Ok(TracedPath::new(name, outline, kind(is_closed), arguments.timed)?)
 }

@@ -5,7 +5,8 @@ use std::fmt::Write;
 use coupler_curves::find::{
     Answer, Constraint, Mechanism, Target, format_length as number, format_relative as relative,
 };
-use coupler_curves::linkage::{FourBar, PlacedFourBar};
+
+use crate::find::description::dimensions;
 
 use super::super::format::pluralize;
 use super::Report;
@@ -65,20 +66,6 @@ fn row(answer: &Answer, size: f64) -> [String; 9] {
         if answer.is_in_order { "yes" } else { "no" }.to_owned(),
         mechanism.direction().to_owned(),
     ]
-}
-
-/// The dimensions of a four-bar, in six significant digits.
-pub(super) fn dimensions(mechanism: &Mechanism, size: f64) -> String {
-    let PlacedFourBar { lengths: FourBar { frame, crank, coupler, rocker }, coupler_point, .. } = mechanism.four_bar;
-    let values = [
-        ("frame", frame),
-        ("crank", crank),
-        ("coupler", coupler),
-        ("rocker", rocker),
-        ("along", coupler_point.x),
-        ("across", coupler_point.y),
-    ];
-    values.map(|(name, value)| format!("{name} = {}", number(value, size))).join(", ")
 }
 
 /// Where a four-bar is, and how it moves along the path.

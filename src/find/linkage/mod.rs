@@ -10,7 +10,7 @@ use coupler_curves::family::Family;
 use coupler_curves::find::{
     Constraint, LinkageSpace, Options, Target, answers_manifest, manifest_head, nearest_miss_by,
 };
-use coupler_curves::template::Orientation;
+use coupler_curves::template::{Orientation, Template};
 
 use super::placed_curve::PlacedCurve;
 use super::{Error, description};
@@ -40,6 +40,11 @@ impl LinkageAnswer {
         template.orientation = Orientation::new(placement.is_mirrored, placement.rotation_deg());
         family
     }
+}
+
+/// Whether a linkage is a four-bar with all parameters free, which the search of four-bars finds.
+pub fn is_free_four_bar(template: &Template, kept: &[(String, Option<String>)]) -> bool {
+    template.id == "four-bar" && kept.is_empty()
 }
 
 /// What has been found for a linkage.

@@ -9,6 +9,9 @@ Lengths are in the unit in which they are given, angles in degrees, rates per ra
 from 1, as in tables and names of files; sequences are indexed from 0, as everywhere in Python.
 """
 
+from collections.abc import Mapping as _Mapping
+from collections.abc import Sequence as _Sequence
+
 from ._core import (
     Animation,
     Answer,
@@ -68,3 +71,7 @@ __all__ = [
     "render",
     "sweep",
 ]
+
+_Mapping.register(Atlas)
+_Sequence.register(Family)
+_Sequence.register(Found)

@@ -6,6 +6,8 @@ import sys
 from collections.abc import Callable
 from typing import Any, Protocol
 
+import numpy as np
+
 
 class Reporter(Protocol):
     """Is called with the steps done, those in all (0 if that is not known) and the name of the part; closed at the end."""
@@ -97,9 +99,9 @@ def reporter(progress: Any) -> Reporter | None:
     """The reporter for an argument ``progress``: None, True, False or a function."""
     if callable(progress):
         return Called(progress)
-    if progress is not None and not isinstance(progress, bool):
+    if progress is not None and not isinstance(progress, (bool, np.bool_)):
         raise TypeError(f"progress={progress!r}: give True, False, None or a function of (done, total, name)")
-    if progress is False or (progress is None and not is_shown()):
+    if not (is_shown() if progress is None else progress):
         return None
     try:
         from tqdm.auto import tqdm

@@ -1,20 +1,40 @@
 //! Linkages of the catalogue and of manifests.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use coupler_atlas::manifest;
 use coupler_curves::catalogue;
 use coupler_curves::family::ParameterText;
+use coupler_curves::find::Mechanism;
 use coupler_curves::problem::suggestion;
-use coupler_curves::template::{CircuitSelection, Template};
+use coupler_curves::template::Template;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use super::Linkage;
+use super::four_bar::into_object;
+use crate::argument::natural;
 use crate::atlas::read_text;
 use crate::error::{self, LinkageError};
+
+/// Finds a linkage by its id, of a manifest and of the catalogue; with the text of the manifest if it is of it.
+pub fn named_template(py: Python, name: &str, manifest: Option<&Path>) -> PyResult<(Arc<Template>, Option<Arc<str>>)> {
+    let Some(path) = manifest else { return Ok((template(name, &[])?, None)) };
+    let text = read_text(py, path)?;
+    let (own, problems) = manifest::parse_linkages(&text);
+    if problems.iter().any(|problem| problem.is_error()) {
+        return Err(error::manifest_error(py, path, &text, &problems));
+    }
+    Ok((template(name, &own)?, own.iter().any(|own| own.id == name).then(|| text.into())))
+}
+
+/// The linkage with an id in the text of a manifest that has been read before, or of the catalogue or of answers.
+pub(super) fn template_of_text(name: &str, text: Option<&str>) -> PyResult<Arc<Template>> {
+    let own = text.map_or(Vec::new(), |text| manifest::parse_linkages(text).0);
+    if text.is_none() && name == Mechanism::template().id { Ok(Mechanism::template()) } else { template(name, &own) }
+}
 
 /// Finds a linkage by its id, of `own` and of the catalogue.
 pub(super) fn template(name: &str, own: &[Arc<Template>]) -> PyResult<Arc<Template>> {
@@ -44,6 +64,7 @@ pub(super) fn template(name: &str, own: &[Arc<Template>]) -> PyResult<Arc<Templa
 /// Returns
 /// -------
 /// Linkage
+///     A `FourBar` if it is the four-bar of the catalogue.
 ///
 /// Raises
 /// ------
@@ -57,26 +78,11 @@ pub fn make_linkage(
     py: Python,
     name: &str,
     manifest: Option<PathBuf>,
-    samples: usize,
+    samples: i64,
     circuits: Option<&str>,
     parameters: Option<Bound<PyDict>>,
-) -> PyResult<Linkage> {
-    let mut own = Vec::new();
-    if let Some(path) = manifest {
-        let text = read_text(py, &path)?;
-        let (templates, problems) = manifest::parse_linkages(&text);
-        if problems.iter().any(|problem| problem.is_error()) {
-            return Err(error::manifest_error(py, &path, &text, &problems));
-        }
-        own = templates;
-    }
-    let mut template = template(name, &own)?;
-    match circuits {
-        None => {}
-        Some("start") => Arc::make_mut(&mut template).circuits = CircuitSelection::Start,
-        Some("all") => Arc::make_mut(&mut template).circuits = CircuitSelection::All,
-        Some(other) => return Err(PyValueError::new_err(format!("circuits={other:?}: give \"start\" or \"all\""))),
-    }
+) -> PyResult<Py<PyAny>> {
+    let (template, text) = named_template(py, name, manifest.as_deref())?;
     let mut values = Vec::new();
     for (key, value) in parameters.iter().flatten() {
         let key: String = key.extract()?;
@@ -92,7 +98,7 @@ pub fn make_linkage(
         };
         values.push(given);
     }
-    Linkage::of_template(template, &values, samples)
+    into_object(py, Linkage::of_template(template, text, values, (natural("samples", samples)?, circuits))?)
 }
 
 /// The ids of the linkages of the catalogue, in order.

@@ -2,16 +2,18 @@
 
 use std::sync::Arc;
 
-use coupler_curves::linkage::JointId;
+use coupler_curves::geometry::{Point, Vector};
+use coupler_curves::linkage::{Input, JointId};
+use coupler_curves::measure::transmission_angle;
 use coupler_curves::motion;
 use coupler_curves::problem::suggestion;
 use coupler_curves::solve::SolvedCell;
-use numpy::{PyArray1, PyArray2};
+use numpy::{AllowTypeChange, PyArray1, PyArray2, PyArrayLike1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 
-use super::curve::{branches_of, velocities_of};
+use super::curve::{branches_of, rates_of};
 use super::limits_of;
 use super::solution::Solution;
 use crate::arrays;
@@ -22,6 +24,15 @@ pub struct Circuit {
     pub(super) solution: Arc<Solution>,
     pub(super) index: usize,
     pub(super) inputs: PyOnceLock<Py<PyArray1<f64>>>,
+}
+
+/// The first pass of a circuit over an input, with the input in its range, from which it may differ by periods.
+fn pass_at(circuit: &motion::Circuit, input: f64, period: Option<f64>) -> Option<(&motion::Pass, f64)> {
+    circuit.passes.iter().find_map(|pass| {
+        let [low, high] = pass.input_range();
+        let shifted = period.map_or(input, |period| low + (input - low).rem_euclid(period));
+        (low <= shifted && shifted <= high).then_some((pass, shifted))
+    })
 }
 
 impl Circuit {
@@ -38,6 +49,16 @@ impl Circuit {
             names.dedup();
             PyValueError::new_err(format!("there is no joint `{name}`: {}", suggestion(name, &names)))
         })
+    }
+
+    fn rates<'py>(
+        &self,
+        py: Python<'py>,
+        joint: &str,
+        rate: impl Fn(&motion::JointDerivatives, JointId) -> Vector + Send + Sync,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let (joint, (solved, circuit)) = (self.joint(joint)?, self.parts()?);
+        arrays::rows(py, py.detach(|| rates_of(solved, circuit, joint, rate)), 2)
     }
 }
 
@@ -83,15 +104,59 @@ impl Circuit {
     }
 
     /// The positions of a joint, by its name: an array of shape (n, 2), in the unit of the lengths.
-    fn positions<'py>(&self, py: Python<'py>, joint: &str) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let (joint, (_, circuit)) = (self.joint(joint)?, self.parts()?);
-        arrays::points(py, circuit.points(joint), circuit.len())
+    ///
+    /// Parameters
+    /// ----------
+    /// joint : str
+    ///     Its name, one of `Linkage.joints`.
+    /// at : array, optional
+    ///     The inputs, in degrees or units of length, in place of those of the samples. Between limits the circuit passes an input on several
+    ///     branches: the position is that of the first pass. Beyond the limits it is NaN.
+    #[pyo3(signature = (joint, at=None))]
+    fn positions<'py>(
+        &self,
+        py: Python<'py>,
+        joint: &str,
+        at: Option<PyArrayLike1<f64, AllowTypeChange>>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let (joint, (solved, circuit)) = (self.joint(joint)?, self.parts()?);
+        let Some(at) = at else { return arrays::points(py, circuit.points(joint), circuit.len()) };
+        let period = match solved.linkage.input() {
+            Input::Angle { turns } => Some(360.0 * f64::from(turns)),
+            Input::Length => None,
+        };
+        let inputs: Vec<f64> = at.as_array().iter().copied().collect();
+        let points: Vec<Point> = inputs
+            .iter()
+            .map(|input| match pass_at(circuit, *input, period) {
+                Some((pass, input)) => motion::pose(&solved.linkage, pass, input)[joint],
+                None => Point::new(f64::NAN, f64::NAN),
+            })
+            .collect();
+        arrays::points(py, points.into_iter(), inputs.len())
     }
 
     /// The velocities of a joint, by its name: an array of shape (n, 2), per radian, or unit of length, of the input; infinite at limits.
     fn velocities<'py>(&self, py: Python<'py>, joint: &str) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let (joint, (solved, circuit)) = (self.joint(joint)?, self.parts()?);
-        arrays::rows(py, py.detach(|| velocities_of(solved, circuit, joint)), 2)
+        self.rates(py, joint, motion::JointDerivatives::velocity)
+    }
+
+    /// The accelerations of a joint for a constant rate of the input, by its name: an array of shape (n, 2), per radian squared, or unit of
+    /// length squared, of the input; infinite at limits.
+    fn accelerations<'py>(&self, py: Python<'py>, joint: &str) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        self.rates(py, joint, motion::JointDerivatives::acceleration)
+    }
+
+    /// The transmission angles of a four-bar at the samples: an array of shape (n,), in degrees from 0 to 180; NaN of other linkages.
+    #[getter]
+    fn transmission_angles<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let (solved, circuit) = self.parts()?;
+        let linkage = &solved.linkage;
+        let angle = |sample| {
+            let pose: Vec<Point> = linkage.joint_ids().map(|joint| circuit.positions.point(joint, sample)).collect();
+            transmission_angle(linkage, &pose).unwrap_or(f64::NAN)
+        };
+        Ok(arrays::column(py, (0..circuit.len()).map(angle).collect()))
     }
 
     /// The number of samples.

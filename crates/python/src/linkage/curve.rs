@@ -1,23 +1,29 @@
 //! Curves of traced joints.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
+use coupler_atlas::export::{self, DEFAULT_DPI, Format};
 use coupler_curves::exchange::SelectedCurve;
+use coupler_curves::geometry::Vector;
 use coupler_curves::linkage::{DyadId, JointId};
 use coupler_curves::motion;
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
-use coupler_drawing::curve_file::{self, CurveFormat, FileOptions};
+use coupler_drawing::curve_file::{CurveFormat, FileOptions};
 use coupler_drawing::page::Options;
 use coupler_drawing::plate::PAPER;
 use coupler_drawing::render::TextMode;
 use numpy::{PyArray1, PyArray2};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyTuple};
 
+use super::animation::save;
 use super::limits_of;
 use super::solution::{Solution, into_text, measures_of};
 use crate::arrays;
+use crate::error::Error;
 
 /// The curve of a traced joint on a circuit.
 #[pyclass(frozen, module = "coupler_atlas")]
@@ -28,6 +34,7 @@ pub struct Curve {
     inputs: PyOnceLock<Py<PyArray1<f64>>>,
     branches: PyOnceLock<Py<PyArray2<i8>>>,
     velocities: PyOnceLock<Py<PyArray2<f64>>>,
+    accelerations: PyOnceLock<Py<PyArray2<f64>>>,
 }
 
 impl Curve {
@@ -39,6 +46,7 @@ impl Curve {
             inputs: PyOnceLock::new(),
             branches: PyOnceLock::new(),
             velocities: PyOnceLock::new(),
+            accelerations: PyOnceLock::new(),
         }
     }
 
@@ -55,18 +63,23 @@ impl Curve {
         Ok((circuit.points(curve.joint).collect(), circuit.inputs.clone(), circuit.is_closed))
     }
 
-    fn file(&self, py: Python, format: CurveFormat) -> PyResult<String> {
-        let Solution { family, source, number, .. } = &*self.solution;
+    fn file(&self, py: Python, format: Format) -> PyResult<Vec<u8>> {
+        let Solution { family, source, .. } = &*self.solution;
         let mut solved = self.solution.measured(py)?.clone();
-        solved.cell.number = number.unwrap_or(solved.cell.number);
+        solved.cell.number = self.solution.number().unwrap_or(solved.cell.number);
         let selected = SelectedCurve::all_from_cell(family, source, &[], &solved);
-        let options = FileOptions {
+        let file = FileOptions {
             page: Options::for_paper(PAPER),
             text_mode: TextMode::Text,
             chord_tolerance: FileOptions::DEFAULT_CHORD_TOLERANCE,
         };
         let selected = selected.get(self.index).ok_or_else(|| self.solution.no_linkage())?;
-        Ok(into_text(curve_file::bytes(selected, format, &options)))
+        let bytes = py.detach(|| export::bytes(selected, format, &export::Options { file, dpi: DEFAULT_DPI.into() }));
+        bytes.map_err(|error| Error::new_err(error.to_string()))
+    }
+
+    fn text(&self, py: Python, format: CurveFormat) -> PyResult<String> {
+        self.file(py, Format::Text(format)).map(into_text)
     }
 }
 
@@ -153,10 +166,24 @@ impl Curve {
         let (py, own) = (this.py(), this.get());
         let make = || {
             let (solved, curve, circuit) = own.parts()?;
-            let values = py.detach(|| velocities_of(solved, circuit, curve.joint));
+            let values = py.detach(|| rates_of(solved, circuit, curve.joint, motion::JointDerivatives::velocity));
             Ok::<_, PyErr>(arrays::rows(py, values, 2)?.unbind())
         };
         Ok(own.velocities.get_or_try_init(py, make)?.clone_ref(py))
+    }
+
+    /// The accelerations at the points for a constant rate of the input: an array of shape (n, 2), in units of length per radian squared, or
+    /// unit of length squared, of the input; infinite at limits.
+    #[getter]
+    fn accelerations(this: &Bound<Curve>) -> PyResult<Py<PyArray2<f64>>> {
+        let (py, own) = (this.py(), this.get());
+        let make = || {
+            let (solved, curve, circuit) = own.parts()?;
+            let rate = motion::JointDerivatives::acceleration;
+            let values = py.detach(|| rates_of(solved, circuit, curve.joint, rate));
+            Ok::<_, PyErr>(arrays::rows(py, values, 2)?.unbind())
+        };
+        Ok(own.accelerations.get_or_try_init(py, make)?.clone_ref(py))
     }
 
     /// All measures of the curve by name, as of ``Linkage.measures``.
@@ -166,27 +193,39 @@ impl Curve {
 
     /// A plate of the curve with its linkage, as SVG.
     fn svg(&self, py: Python) -> PyResult<String> {
-        self.file(py, CurveFormat::Svg)
+        self.text(py, CurveFormat::Svg)
     }
 
     /// The manifest of a family with this linkage, as TOML.
     fn toml(&self, py: Python) -> PyResult<String> {
-        self.file(py, CurveFormat::Toml)
+        self.text(py, CurveFormat::Toml)
     }
 
     /// A drawing for CAD, as DXF.
     fn dxf(&self, py: Python) -> PyResult<String> {
-        self.file(py, CurveFormat::Dxf)
+        self.text(py, CurveFormat::Dxf)
     }
 
     /// The rows of ``points.csv``.
     fn csv(&self, py: Python) -> PyResult<String> {
-        self.file(py, CurveFormat::Csv)
+        self.text(py, CurveFormat::Csv)
     }
 
     /// Linkage, parameters, circuits, points and measures, as JSON.
     fn json(&self, py: Python) -> PyResult<String> {
-        self.file(py, CurveFormat::Json)
+        self.text(py, CurveFormat::Json)
+    }
+
+    /// Write the curve to a file, in the format of its name: a plate as ``.svg`` or ``.png``, a drawing for CAD as ``.dxf``, its points as
+    /// ``.csv``, everything as ``.json``, or a manifest as ``.toml``.
+    fn save(&self, py: Python, path: PathBuf) -> PyResult<()> {
+        let suffix = path.extension().map(|suffix| suffix.to_string_lossy().to_lowercase()).unwrap_or_default();
+        let format = Format::ALL.into_iter().find(|format| format.name() == suffix).ok_or_else(|| {
+            let names: Vec<&str> =
+                Format::ALL.iter().map(|format| format.name()).filter(|name| !name.contains('-')).collect();
+            PyValueError::new_err(format!("{}: give a name that ends in .{}", path.display(), names.join(", .")))
+        })?;
+        save(&path, &self.file(py, format)?)
     }
 
     /// The plate that a notebook shows.
@@ -197,6 +236,23 @@ impl Curve {
     /// The number of points.
     fn __len__(&self) -> PyResult<usize> {
         Ok(self.parts()?.2.len())
+    }
+
+    /// Whether the other is the same curve of the same linkage.
+    fn __eq__(&self, other: &Bound<PyAny>) -> bool {
+        let other = other.cast::<Curve>();
+        other.is_ok_and(|other| {
+            self.index == other.get().index && Solution::are_same(&self.solution, &other.get().solution)
+        })
+    }
+
+    fn __hash__(&self) -> u64 {
+        self.solution.hash() ^ self.index as u64
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let make = py.import("coupler_atlas._core")?.getattr("_curve")?;
+        Ok((make, (self.solution.recipe.arguments()?, self.index).into_pyobject(py)?))
     }
 
     fn __repr__(&self) -> PyResult<String> {
@@ -221,15 +277,20 @@ pub(super) fn branches_of<'py>(
     arrays::rows(py, (0..circuit.len()).flat_map(|k| (0..dyads).map(side(k))).collect(), dyads)
 }
 
-/// Components x and y in turn.
-pub(super) fn velocities_of(solved: &SolvedCell, circuit: &motion::Circuit, joint: JointId) -> Vec<f64> {
+/// The derivatives of the positions of a joint with respect to the input that a function takes: components x and y in turn.
+pub(super) fn rates_of(
+    solved: &SolvedCell,
+    circuit: &motion::Circuit,
+    joint: JointId,
+    rate: impl Fn(&motion::JointDerivatives, JointId) -> Vector,
+) -> Vec<f64> {
     let (linkage, joint) = match solved.linkage.traced.contains(&joint) {
         true => solved.linkage.with_one_point(joint),
         false => (solved.linkage.clone(), joint),
     };
-    let velocity = |sample| {
-        let velocity = circuit.derivatives(&linkage, sample).velocity(joint);
-        [velocity.x, velocity.y]
+    let rates = |sample| {
+        let rate = rate(&circuit.derivatives(&linkage, sample), joint);
+        [rate.x, rate.y]
     };
-    (0..circuit.len()).flat_map(velocity).collect()
+    (0..circuit.len()).flat_map(rates).collect()
 }

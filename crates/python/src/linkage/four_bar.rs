@@ -3,11 +3,13 @@
 use coupler_curves::find::{Mechanism, placed_parameters};
 use coupler_curves::geometry::trig;
 use coupler_curves::linkage::{FourBar as Lengths, PlacedFourBar};
+use coupler_curves::template::Template;
 use numpy::PyArray2;
 use pyo3::prelude::*;
 
 use super::catalogue::template;
 use super::{DEFAULT_SAMPLES, Linkage};
+use crate::argument::natural;
 use crate::arrays;
 
 /// A four-bar: a linkage of four links and four pins, with a point on its coupler.
@@ -30,10 +32,27 @@ pub struct FourBar;
 impl FourBar {
     /// A four-bar at its position in the plane.
     pub fn placed(py: Python, four_bar: &PlacedFourBar) -> PyResult<Py<FourBar>> {
-        let values = placed_parameters(four_bar).map(|(name, value)| (name.to_owned(), value));
-        let linkage = Linkage::of_template(Mechanism::template(), &values, DEFAULT_SAMPLES)?;
+        let values = placed_parameters(four_bar).map(|(name, value)| (name.to_owned(), value)).to_vec();
+        let linkage = Linkage::of_template(Mechanism::template(), None, values, (DEFAULT_SAMPLES, None))?;
         Py::new(py, PyClassInitializer::from(linkage).add_subclass(FourBar))
     }
+}
+
+/// The object for a linkage: a `FourBar` if it is the four-bar of the catalogue, or one at its place.
+pub fn into_object(py: Python, linkage: Linkage) -> PyResult<Py<PyAny>> {
+    let template = &linkage.solution.family.template;
+    let four_bars = [Mechanism::template().id.clone(), "four-bar".to_owned()];
+    if four_bars.contains(&template.id) && catalogue_names(template) {
+        let initializer = PyClassInitializer::from(linkage).add_subclass(FourBar);
+        return Ok(Py::new(py, initializer)?.into_any());
+    }
+    Ok(Py::new(py, linkage)?.into_any())
+}
+
+/// Whether a linkage has the parameters of a four-bar: a manifest may have one of its name.
+fn catalogue_names(template: &Template) -> bool {
+    let has = |name: &str| template.parameters.iter().any(|parameter| parameter.name == name);
+    ["frame", "crank", "coupler", "rocker", "along", "across"].into_iter().all(has)
 }
 
 #[pymethods]
@@ -51,7 +70,7 @@ impl FourBar {
         x: Option<f64>,
         y: Option<f64>,
         turn: Option<f64>,
-        samples: usize,
+        samples: i64,
     ) -> PyResult<PyClassInitializer<FourBar>> {
         let mut values = vec![("frame", frame), ("crank", crank), ("coupler", coupler), ("rocker", rocker)];
         let is_placed = x.is_some() || y.is_some() || turn.is_some();
@@ -69,7 +88,7 @@ impl FourBar {
             }
         };
         let values: Vec<(String, f64)> = values.into_iter().map(|(name, value)| (name.to_owned(), value)).collect();
-        let linkage = Linkage::of_template(template, &values, samples)?;
+        let linkage = Linkage::of_template(template, None, values, (natural("samples", samples)?, None))?;
         Ok(PyClassInitializer::from(linkage).add_subclass(FourBar))
     }
 
@@ -131,11 +150,7 @@ impl FourBar {
         Ok((extended, folded))
     }
 
-    fn __repr__(this: &Bound<FourBar>) -> String {
-        let own = this.as_super().get();
-        let family = &own.solution.family;
-        let values = family.template.parameters.iter().zip(family.cell(0).values);
-        let values: Vec<String> = values.map(|(parameter, value)| format!("{}={value}", parameter.name)).collect();
-        format!("FourBar({})", values.join(", "))
+    fn __repr__(this: &Bound<FourBar>) -> PyResult<String> {
+        Ok(format!("FourBar({})", this.as_super().get().described()?))
     }
 }

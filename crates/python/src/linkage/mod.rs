@@ -5,23 +5,28 @@ mod catalogue;
 mod circuit;
 mod curve;
 mod four_bar;
+mod recipe;
 mod sextic;
 mod solution;
 
-pub use animation::Animation;
-pub use catalogue::{linkages, make_linkage};
+pub use animation::{Animation, save_svg};
+pub use catalogue::{linkages, make_linkage, named_template};
 pub use circuit::Circuit;
 pub use curve::Curve;
-pub use four_bar::FourBar;
+pub use four_bar::{FourBar, into_object};
+pub use recipe::{Recipe, curve_again, make_again};
 pub use sextic::Sextic;
+pub use solution::into_text;
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use coupler_curves::family::{Family, Sampling};
+use coupler_curves::find::Mechanism;
 use coupler_curves::linkage::{self, Cognates};
 use coupler_curves::motion::{self, MAX_SAMPLES};
 use coupler_curves::solve::SolvedCell;
-use coupler_curves::template::Template;
+use coupler_curves::template::{CircuitSelection, Template};
 use coupler_drawing::page::PoseChoice;
 use coupler_drawing::plate::moving_view;
 use numpy::PyArray2;
@@ -30,6 +35,7 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyTuple};
 
+use crate::argument::natural;
 use crate::arrays;
 use crate::error::LinkageError;
 use solution::{Solution, measures_of, sampler};
@@ -50,19 +56,45 @@ pub struct Linkage {
 }
 
 impl Linkage {
-    /// The linkage of a family with a single cell, which has this number in an atlas.
-    pub fn new(family: Family, source: String, number: Option<usize>) -> Linkage {
-        let solution = Arc::new(Solution::new(family, source, number));
+    /// The linkage of a family with a single cell.
+    pub fn new(family: Family, source: String, recipe: Recipe) -> Linkage {
+        let solution = Arc::new(Solution::new(family, source, recipe));
         Linkage { solution, curves: PyOnceLock::new(), circuits: PyOnceLock::new() }
     }
 
-    fn of_template(template: Arc<Template>, values: &[(String, f64)], samples: usize) -> PyResult<Linkage> {
+    /// A linkage by its parameters; `manifest` is the text of the manifest that has it, if it is none of the catalogue.
+    pub fn of_template(
+        mut template: Arc<Template>,
+        manifest: Option<Arc<str>>,
+        values: Vec<(String, f64)>,
+        (samples, circuits): (usize, Option<&str>),
+    ) -> PyResult<Linkage> {
         let samples = checked_samples(samples)?;
-        let source = template.source_line();
-        let id = template.id.clone();
-        let family = Family::single_cell(template, values, Sampling::Samples(samples))
+        match circuits {
+            None => {}
+            Some("start") => Arc::make_mut(&mut template).circuits = CircuitSelection::Start,
+            Some("all") => Arc::make_mut(&mut template).circuits = CircuitSelection::All,
+            Some(other) => {
+                return Err(PyValueError::new_err(format!("circuits={other:?}: give \"start\" or \"all\"")));
+            }
+        }
+        let (source, name) = (template.source_line(), template.id.clone());
+        // What messages call a four-bar at its place, which is none of the catalogue.
+        let id = if name == Mechanism::template().id { "four-bar" } else { &name };
+        let family = Family::single_cell(template, &values, Sampling::Samples(samples))
             .map_err(|errors| LinkageError::new_err(format!("{id}: {}", errors.to_string().replace('\n', "; "))))?;
-        Ok(Linkage::new(family, source, None))
+        let recipe = Recipe::Linkage { name, manifest, samples, circuits: circuits.map(str::to_owned), values };
+        Ok(Linkage::new(family, source, recipe))
+    }
+
+    /// Its parameters, and why it cannot be assembled if it cannot.
+    fn described(&self) -> PyResult<String> {
+        let family = &self.solution.family;
+        let values = family.template.parameters.iter().zip(family.cell(0).values);
+        let values: Vec<String> = values.map(|(parameter, value)| format!("{}={value:?}", parameter.name)).collect();
+        // What has not been solved is not solved for this.
+        let reason = self.solution.known_reason().map_or(String::new(), |reason| format!("; {reason}"));
+        Ok(values.join(", ") + &reason)
     }
 
     fn parameter(&self, name: &str) -> Option<f64> {
@@ -90,7 +122,7 @@ impl Linkage {
     /// The number of its cell in its family, from 1; None for a linkage by itself.
     #[getter]
     fn number(&self) -> Option<usize> {
-        self.solution.number
+        self.solution.number()
     }
 
     /// The values of its parameters by name, in the order in which they are declared.
@@ -144,9 +176,9 @@ impl Linkage {
     #[pyo3(signature = (samples=None, *, trace=1, circuit=1))]
     fn curve<'py>(
         this: &Bound<'py, Linkage>,
-        samples: Option<usize>,
-        trace: usize,
-        circuit: usize,
+        samples: Option<i64>,
+        trace: i64,
+        circuit: i64,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let py = this.py();
         let solution = &this.get().solution;
@@ -155,7 +187,7 @@ impl Linkage {
             let curve = Linkage::curves(this)?.bind(py).get_item(index)?.cast_into::<Curve>()?;
             return Ok(Curve::points(&curve)?.bind(py).clone());
         };
-        let sampler = sampler(Sampling::Samples(checked_samples(samples)?));
+        let sampler = sampler(Sampling::Samples(checked_samples(natural("samples", samples)?)?));
         let solved = solution.moved()?;
         let curve = &solved.curves[index];
         let own = solved.circuit(curve);
@@ -201,7 +233,7 @@ impl Linkage {
     ///
     /// Angles are in degrees and named so (``_deg``), lengths in the unit of the linkage, rates per radian. docs/measures.md defines them.
     #[pyo3(signature = (*, trace=1, circuit=1))]
-    fn measures<'py>(&self, py: Python<'py>, trace: usize, circuit: usize) -> PyResult<Bound<'py, PyDict>> {
+    fn measures<'py>(&self, py: Python<'py>, trace: i64, circuit: i64) -> PyResult<Bound<'py, PyDict>> {
         let index = self.solution.curve_index(trace, circuit)?;
         measures_of(py, &self.solution, index)
     }
@@ -213,7 +245,7 @@ impl Linkage {
     /// trace : int
     ///     The number of the traced joint that is the coupler point, from 1.
     #[pyo3(signature = (*, trace=1))]
-    fn cognates(&self, py: Python, trace: usize) -> PyResult<Vec<Py<FourBar>>> {
+    fn cognates(&self, py: Python, trace: i64) -> PyResult<Vec<Py<FourBar>>> {
         let placed = self.solution.placed(trace)?;
         let id = &self.solution.family.id;
         let cognates = Cognates::from_four_bar(placed)
@@ -228,7 +260,7 @@ impl Linkage {
     /// trace : int
     ///     The number of the traced joint that is the coupler point, from 1.
     #[pyo3(signature = (*, trace=1))]
-    fn sextic(&self, trace: usize) -> PyResult<Sextic> {
+    fn sextic(&self, trace: i64) -> PyResult<Sextic> {
         let placed = self.solution.placed(trace)?;
         let found = linkage::Sextic::from_four_bar(placed.lengths, placed.coupler_point);
         let inner = found.ok_or_else(|| {
@@ -243,9 +275,15 @@ impl Linkage {
         self.solution.svg(|_| PoseChoice::Clearest, py)
     }
 
+    /// Write a plate of the linkage and its curves to a file, as SVG.
+    fn save(&self, py: Python, path: PathBuf) -> PyResult<()> {
+        save_svg(&path, &self.svg(py)?)
+    }
+
     /// The linkage in motion through a circuit, for a notebook or a file.
     #[pyo3(signature = (*, circuit=1))]
-    fn animate(&self, py: Python, circuit: usize) -> PyResult<Animation> {
+    fn animate(&self, py: Python, circuit: i64) -> PyResult<Animation> {
+        let circuit = natural("circuit", circuit)?;
         let circuits = self.solution.moved()?.motion.circuits.len();
         if circuits > 0 && !(1..=circuits).contains(&circuit) {
             let message = format!("circuit={circuit}: `{}` has circuits 1 to {circuits}", self.solution.family.id);
@@ -263,11 +301,23 @@ impl Linkage {
         if self.solution.moved()?.motion.is_assembled() { self.svg(py).map(Some) } else { Ok(None) }
     }
 
-    fn __repr__(&self) -> String {
-        let family = &self.solution.family;
-        let values = family.template.parameters.iter().zip(family.cell(0).values);
-        let values: Vec<String> = values.map(|(parameter, value)| format!("{}={value}", parameter.name)).collect();
-        format!("<coupler_atlas.Linkage {}: {}>", family.id, values.join(", "))
+    fn __repr__(&self) -> PyResult<String> {
+        Ok(format!("<coupler_atlas.Linkage {}: {}>", self.solution.family.id, self.described()?))
+    }
+
+    /// Whether the other is the same linkage: made from the same parameters, with the same samples and circuits, or the same cell.
+    fn __eq__(&self, other: &Bound<PyAny>) -> bool {
+        let other = other.cast::<Linkage>();
+        other.is_ok_and(|other| Solution::are_same(&self.solution, &other.get().solution))
+    }
+
+    fn __hash__(&self) -> u64 {
+        self.solution.hash()
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let make = py.import("coupler_atlas._core")?.getattr("_linkage")?;
+        Ok((make, self.solution.recipe.arguments()?.into_pyobject(py)?))
     }
 }
 

@@ -43,6 +43,6 @@ impl Sextic {
     }
 
     fn __repr__(&self) -> String {
-        format!("<coupler_atlas.Sextic with {} real double points>", self.inner.double_points().len())
+        format!("<coupler_atlas.Sextic, real double points: {}>", self.inner.double_points().len())
     }
 }

@@ -1,10 +1,11 @@
 //! What has been computed of a linkage.
 
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use coupler_curves::family::{Family, MEASURES, Sampling};
 use coupler_curves::linkage::{Input, PlacedFourBar};
-use coupler_curves::measure::Value;
+use coupler_curves::measure::{BOOLEANS, Value};
 use coupler_curves::motion::Sampler;
 use coupler_curves::solve::{SolvedCell, solve_cell, solve_measuring};
 use coupler_drawing::page::{Options, PoseChoice};
@@ -14,6 +15,8 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use super::recipe::Recipe;
+use crate::argument::natural;
 use crate::error::LinkageError;
 
 /// A sampler; the last one is kept, for its table of sines takes as long as the samples of a linkage.
@@ -34,15 +37,39 @@ pub(super) fn sampler(sampling: Sampling) -> Arc<Sampler> {
 pub struct Solution {
     pub(super) family: Family,
     pub(super) source: String,
-    pub(super) number: Option<usize>,
+    pub(super) recipe: Recipe,
     /// Without measures, which take most of the time.
     moved: OnceLock<Option<SolvedCell>>,
     measured: OnceLock<Option<SolvedCell>>,
 }
 
 impl Solution {
-    pub(super) fn new(family: Family, source: String, number: Option<usize>) -> Solution {
-        Solution { family, source, number, moved: OnceLock::new(), measured: OnceLock::new() }
+    pub(super) fn new(family: Family, source: String, recipe: Recipe) -> Solution {
+        Solution { family, source, recipe, moved: OnceLock::new(), measured: OnceLock::new() }
+    }
+
+    /// The number of its cell, if it is one of an atlas.
+    pub(super) fn number(&self) -> Option<usize> {
+        if let Recipe::Cell { number, .. } = &self.recipe { Some(*number) } else { None }
+    }
+
+    /// Whether two are the same linkage.
+    pub(super) fn are_same(one: &Arc<Solution>, other: &Arc<Solution>) -> bool {
+        let is_comparable = one.recipe != Recipe::Found;
+        Arc::ptr_eq(one, other) || is_comparable && one.recipe == other.recipe
+    }
+
+    /// The same of two that are the same.
+    pub(super) fn hash(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        format!("{:?}", self.recipe).hash(&mut hasher);
+        hasher.finish()
+    }
+
+    /// Why it cannot be assembled, if that is known already.
+    pub(super) fn known_reason(&self) -> Option<String> {
+        let solved = self.moved.get()?.as_ref()?;
+        (!solved.motion.is_assembled()).then(|| solved.reason())
     }
 
     /// Its circuits and curves, without measures.
@@ -63,7 +90,8 @@ impl Solution {
     }
 
     /// The index of a curve among those of the linkage, by the numbers of its trace and its circuit.
-    pub(super) fn curve_index(&self, trace: usize, circuit: usize) -> PyResult<usize> {
+    pub(super) fn curve_index(&self, trace: i64, circuit: i64) -> PyResult<usize> {
+        let [trace, circuit] = [natural("trace", trace)?, natural("circuit", circuit)?];
         let solved = self.moved()?;
         if !solved.motion.is_assembled() {
             return Err(LinkageError::new_err(format!("{}: {}", self.family.id, solved.reason())));
@@ -78,7 +106,8 @@ impl Solution {
         })
     }
 
-    pub(super) fn placed(&self, trace: usize) -> PyResult<PlacedFourBar> {
+    pub(super) fn placed(&self, trace: i64) -> PyResult<PlacedFourBar> {
+        let trace = natural("trace", trace)?;
         let solved = self.moved()?;
         let id = &self.family.id;
         let Some(&joint) = trace.checked_sub(1).and_then(|k| solved.linkage.traced.get(k)) else {
@@ -100,7 +129,8 @@ impl Solution {
     }
 }
 
-pub(super) fn into_text(bytes: Vec<u8>) -> String {
+/// A text as the program wrote it.
+pub fn into_text(bytes: Vec<u8>) -> String {
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
@@ -112,7 +142,11 @@ pub(super) fn measures_of<'py>(py: Python<'py>, solution: &Solution, index: usiz
         let name = measure.name_for(is_driven_by_length);
         match value {
             Value::Number(number) => found.set_item(name, number)?,
-            Value::Word(word) => found.set_item(name, word)?,
+            // A table has words for a measure that is a boolean in conditions.
+            Value::Word(word) => match BOOLEANS.iter().find(|boolean| boolean.name == measure.name) {
+                Some(boolean) => found.set_item(name, *word == boolean.word)?,
+                None => found.set_item(name, word)?,
+            },
             Value::Missing => found.set_item(name, py.None())?,
         }
     }

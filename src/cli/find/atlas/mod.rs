@@ -6,17 +6,12 @@ mod text;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
-use crate::find::{self, AtlasAnswer, AtlasFindings, AtlasQuery, description};
+use crate::find::{self, AtlasFindings, AtlasQuery};
 use crate::manifest::Plan;
 use coupler_curves::find::{Options, Target};
-use coupler_curves::linkage_format::quoted;
-use coupler_curves::measure;
-use coupler_curves::motion::Sampler;
-use coupler_curves::solve::solve_measuring;
-use coupler_drawing::page::FoundCurve;
 
 use super::super::source::ManifestSource;
-use super::{Arguments, InputError, Outcome, Shown, drawing, show, source, title_of};
+use super::{Arguments, InputError, Outcome, Shown, show, source, title_of};
 
 /// What has been found in an atlas.
 pub(super) struct AtlasReport {
@@ -85,28 +80,7 @@ impl Shown for AtlasReport {
         text::text(self)
     }
 
-    /// The path and the curves on one page.
     fn drawing(&self) -> Vec<u8> {
-        let found = (1..).zip(&self.findings.answers).filter_map(|(rank, found)| match &found.refined {
-            Some(answer) => drawing::found(rank, answer, self.target.size()),
-            None => self.drawn(rank, found),
-        });
-        drawing::page_of(
-            &format!("{} in {}", title_of(&self.name), quoted(&self.plan.title)),
-            &self.target,
-            Vec::new(),
-            found.collect(),
-        )
-    }
-}
-
-impl AtlasReport {
-    fn drawn(&self, rank: usize, AtlasAnswer { place, name, curve, .. }: &AtlasAnswer) -> Option<FoundCurve> {
-        let [place, cell] = *place;
-        let family = &self.plan.families[place].family;
-        let needed: Vec<bool> = (0..measure::ALL.len()).map(|k| family.filter_or_sort_uses(k)).collect();
-        let solved = solve_measuring(family, &Sampler::new(family.sampling), cell, &needed)?;
-        let label = format!("{rank}: {name}, {}", description::placement(curve, self.target.size()));
-        drawing::placed(curve, solved, label)
+        self.findings.drawing(&title_of(&self.name), &self.target, &self.plan)
     }
 }

@@ -2,11 +2,12 @@
 
 use std::fmt::Write;
 
-use crate::find::{AtlasAnswer, AtlasFindings, description};
+use crate::find::description::{self, dimensions};
+use crate::find::{AtlasAnswer, AtlasFindings};
 use coupler_curves::find::{Quality, format_length as number, format_relative as relative};
 
 use super::super::super::format::pluralize;
-use super::super::text::{described, dimensions, options_of, place};
+use super::super::text::{described, options_of, place};
 use super::AtlasReport;
 
 /// The answers, each with its cell, where it is placed or what was refined from it.

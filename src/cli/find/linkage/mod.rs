@@ -7,17 +7,14 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use crate::find::{self, LinkageFindings, MAX_SAMPLES, description};
+use crate::find::{self, LinkageFindings, MAX_SAMPLES};
 use crate::manifest;
 use coupler_curves::find::{Condition, LinkageSpace, Mechanism, Options, Target};
-use coupler_curves::measure;
-use coupler_curves::motion::Sampler;
-use coupler_curves::solve::solve_measuring;
 use coupler_curves::template::Template;
 
 use super::super::linkage::find_template;
 use super::super::source;
-use super::{Arguments, InputError, InputErrors, Outcome, Shown, drawing, show, title_of};
+use super::{Arguments, InputError, InputErrors, Outcome, Shown, show, title_of};
 
 /// What has been found for a linkage.
 pub(super) struct LinkageReport {
@@ -58,19 +55,8 @@ pub(super) fn check(arguments: &Arguments) -> Result<(), InputError> {
 /// # Errors
 /// There is no such linkage, or it cannot be searched.
 pub(super) fn sought(arguments: &Arguments) -> anyhow::Result<Option<Sought>> {
-    /// The linkage of the catalogue that the search of four-bars finds.
-    const FOUR_BAR: &str = "four-bar";
     let Some(name) = &arguments.linkage else { return Ok(None) };
     let template = find_template(name, arguments.manifest.as_deref())?;
-    if template.id == FOUR_BAR && arguments.keep.is_empty() {
-        return Ok(None);
-    }
-    if arguments.timed && template.is_driven_by_length() {
-        let message = format!(
-            "--timed needs an input that is an angle, and that of {name} is a length: leave --timed out, or choose another linkage"
-        );
-        return Err(InputError(message).into());
-    }
     let kept: Vec<(String, Option<String>)> = arguments
         .keep
         .iter()
@@ -79,6 +65,15 @@ pub(super) fn sought(arguments: &Arguments) -> anyhow::Result<Option<Sought>> {
             None => (text.trim().to_owned(), None),
         })
         .collect();
+    if find::is_free_four_bar(&template, &kept) {
+        return Ok(None);
+    }
+    if arguments.timed && template.is_driven_by_length() {
+        let message = format!(
+            "--timed needs an input that is an angle, and that of {name} is a length: leave --timed out, or choose another linkage"
+        );
+        return Err(InputError(message).into());
+    }
     let space = LinkageSpace::new(template.clone(), &kept).map_err(|errors| {
         let prefix = if kept.is_empty() { "--linkage" } else { "--keep" };
         let messages: Vec<String> = errors.iter().map(|error| format!("{prefix}: {error}")).collect();
@@ -139,20 +134,7 @@ impl Shown for LinkageReport {
         text::text(self)
     }
 
-    /// The path and the curves on one page.
     fn drawing(&self) -> Vec<u8> {
-        let found = (1..).zip(&self.findings.answers).filter_map(|(rank, answer)| {
-            let family = &answer.family;
-            let needed = vec![false; measure::ALL.len()];
-            let solved = solve_measuring(family, &Sampler::new(family.sampling), 0, &needed)?;
-            let label = format!(
-                "{rank}: {}, {}",
-                description::deviation(&answer.curve, self.target.size()),
-                text::parameters(&self.space, &answer.curve, self.target.size())
-            );
-            drawing::placed(&answer.curve, solved, label)
-        });
-        let title = format!("{}: {}", title_of(&self.name), self.space.template().id);
-        drawing::page_of(&title, &self.target, Vec::new(), found.collect())
+        self.findings.drawing(&title_of(&self.name), &self.target, &self.space)
     }
 }

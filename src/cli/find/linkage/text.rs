@@ -2,10 +2,9 @@
 
 use std::fmt::Write;
 
-use crate::find::description::{deviation, placement};
-use crate::find::{LinkageAnswer, LinkageFindings, PlacedCurve};
+use crate::find::description::{deviation, parameters, placement};
+use crate::find::{LinkageAnswer, LinkageFindings};
 use coupler_curves::find::{LinkageSpace, format_length as number};
-use coupler_curves::template::ParameterKind;
 
 use super::super::super::format::pluralize;
 use super::super::text::{angle, described, relaxed};
@@ -77,14 +76,4 @@ fn entry(rank: &str, answer: &LinkageAnswer, space: &LinkageSpace, size: f64) ->
 /// The branch at the first point of the path, as it is numbered: 1 left, 2 right.
 pub(super) fn branch(answer: &LinkageAnswer) -> u8 {
     if answer.branch > 0 { 1 } else { 2 }
-}
-
-/// The dimensions, in six significant digits.
-pub(super) fn parameters(space: &LinkageSpace, curve: &PlacedCurve, size: f64) -> String {
-    let scale = if curve.is_scalable { size } else { 1.0 };
-    let values = space.template().parameters.iter().zip(&curve.values).map(|(parameter, value)| {
-        let unit = if parameter.kind == ParameterKind::Length { scale } else { 1.0 };
-        format!("{} = {}", parameter.name, number(*value, unit))
-    });
-    values.collect::<Vec<_>>().join(", ")
 }
