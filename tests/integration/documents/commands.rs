@@ -97,7 +97,12 @@ const WRITTEN: [(&str, &[&str]); 7] = [
     ("docs/scale.md", &["shards/evans/cells-00003-of-00064.parquet", "best/index.html", "one/run.json"]),
     (
         "docs/tutorial.md",
-        &["target/hrones-nelson/index.html", "curve-94/hrones-nelson-94-49-1.dxf", "feeder/index.html"],
+        &[
+            "target/hrones-nelson/index.html",
+            "curve-94/hrones-nelson-94-49-1.dxf",
+            "curve-94/curves.toml",
+            "feeder/index.html",
+        ],
     ),
 ];
 

@@ -3,7 +3,8 @@
 use coupler_atlas::manifest;
 use coupler_curves::problem::report;
 
-use super::documents;
+use super::text::Block;
+use super::{document, documents, root};
 
 /// What the parser finds wrong with a manifest.
 fn problems(text: &str) -> String {
@@ -22,7 +23,8 @@ const JOINTS: &str = "[linkage.joints]\nO = { fixed = [0, 0] }\nC = { fixed = [4
 fn every_block_is_a_manifest_or_a_part_of_one() {
     let mut count = 0;
     for document in documents() {
-        for block in document.blocks.iter().filter(|block| block.language == "toml") {
+        let is_manifest = |block: &&Block| block.language == "toml" && !block.text.starts_with(DEPENDENCIES);
+        for block in document.blocks.iter().filter(is_manifest) {
             let mut text = block.text.clone();
             if !text.contains("[atlas]") && !text.contains("atlas.title") {
                 text = format!("{ATLAS}{text}");
@@ -36,6 +38,23 @@ fn every_block_is_a_manifest_or_a_part_of_one() {
         }
     }
     assert!(count >= 4, "only {count} blocks were found");
+}
+
+/// How a block begins that is of a reader's `Cargo.toml`.
+const DEPENDENCIES: &str = "[dependencies]\n";
+
+/// The libraries that docs/start.md depends on are in the folders of a clone that it names.
+#[test]
+fn the_libraries_are_where_they_are_said_to_be() {
+    let page = document("docs/start.md");
+    let block = page.blocks.iter().find(|block| block.text.starts_with(DEPENDENCIES)).unwrap();
+    for line in block.text.lines().skip(1) {
+        let (name, rest) = line.split_once(" = { path = \"../coupler-atlas/").unwrap();
+        let path = rest.strip_suffix("\" }").unwrap();
+        let package = std::fs::read_to_string(root().join(path).join("Cargo.toml")).unwrap();
+        assert!(package.contains(&format!("name = \"{name}\"\n")), "{path} is not {name}");
+        assert!(page.blocks.iter().any(|block| block.text.contains(&name.replace('-', "_"))), "{name} is not used");
+    }
 }
 
 /// Manifests with a place, marked by `@`, for an example.

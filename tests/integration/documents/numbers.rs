@@ -1,5 +1,6 @@
 //! Numbers in the documents that the program computes.
 
+use std::collections::BTreeSet;
 use std::fs;
 
 use tempfile::TempDir;
@@ -46,6 +47,25 @@ fn the_four_bar_of_the_readme_is_a_page() {
     assert_states("README.md", "six of them make a page");
     let lines = fs::read_to_string(root().join("README.md")).unwrap().lines().count();
     assert!(lines <= 60, "{lines} lines are more than one screen");
+}
+
+/// The order of its cells if they are sorted, and which of them have no straight portion.
+#[test]
+fn the_sorted_panels_are_as_described() {
+    let readme = document("README.md");
+    let block = readme.blocks.iter().find(|block| block.language == "toml").unwrap();
+    let folder = crate::command::folder_with(&format!("{}sort = \"-straight_length\"\n", block.text));
+    crate::command::printed(folder.path(), &["render", "-q", "--format", "svg", "-o", "out"]);
+    let page = fs::read_to_string(folder.path().join("out/mine/mine-001.svg")).unwrap();
+    let mut cells: Vec<&str> =
+        page.split("class=\"curve\" data-cell=\"").skip(1).map(|rest| rest.split('"').next().unwrap()).collect();
+    cells.dedup();
+    assert_states("docs/reading.md", &format!("has the cells {}, of which the last three have no", cells.join(", ")));
+    let table = fs::read_to_string(folder.path().join("out/mine/cells.csv")).unwrap();
+    let mut rows = table.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let column = rows.next().unwrap().iter().position(|name| *name == "straight_length").unwrap();
+    let straight: BTreeSet<String> = rows.filter(|row| !row[column].is_empty()).map(|row| row[0].to_owned()).collect();
+    assert_eq!(straight, cells[..3].iter().map(|cell| (*cell).to_owned()).collect());
 }
 
 /// The first result of the tutorial's search by numbers.
