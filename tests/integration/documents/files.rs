@@ -8,7 +8,7 @@ use super::text::Document;
 use super::{documents, root};
 
 /// Files that are named, but not in this repository, and why.
-const ABSENT: [(&str, &str); 25] = [
+const ABSENT: [(&str, &str); 26] = [
     (".github/workflows/atlas.yml", "docs/check.md: to be written by the reader"),
     (".pre-commit-config.yaml", "docs/check.md: to be written by the reader"),
     ("feeder.toml", "docs/tutorial.md: written by the reader"),
@@ -18,6 +18,7 @@ const ABSENT: [(&str, &str); 25] = [
     ("mine/mine/mine-001.svg", "README.md: rendered by the reader; `commands.rs` does"),
     ("mine/index.html", "README.md: rendered by the reader; `commands.rs` does"),
     ("coupler-atlas-VERSION-TARGET.tar.gz", "docs/releases.md: a file of a release; `.ci/workflows` makes one"),
+    ("coupler_atlas-VERSION.tar.gz", "docs/releases.md: a file of a release; `.ci/sdist` makes one"),
     ("ghcr.io/coupler-atlas/coupler-atlas", "docs/releases.md: an image"),
     ("atlas.pdf", "a book, which this atlas does not ask for"),
     (".coupler-atlas.journal", "only there during a run"),
