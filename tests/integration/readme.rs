@@ -153,10 +153,12 @@ fn the_commands_in_docs_check_can_be_run() {
         |text: &'static str, start: &str| text.lines().filter_map(|line| line.strip_prefix(start)).collect::<Vec<_>>();
     let checks = after(include_str!("../../docs/check.md"), "    coupler-atlas check atlas.toml ");
     let checks: Vec<String> = checks.iter().map(|options| format!("check atlas.toml {options}")).collect();
-    let hooks = after(include_str!("../../.pre-commit-hooks.yaml"), "  entry: coupler-atlas ");
-    let (validate, check) = (hooks[0], hooks[1]);
+    let hooks = include_str!("../../.pre-commit-hooks.yaml");
+    let arguments = after(hooks, "  args: ");
+    let hooks = after(hooks, "  entry: coupler-atlas ");
     assert_eq!((checks.len(), hooks.len()), (1, 2));
-    let commands = [&*checks[0], check];
+    let check = format!("{} {}", hooks[1], arguments[0].trim_matches(['[', ']']).replace(", ", " "));
+    let (validate, commands) = (hooks[0], [&*checks[0], &*check]);
     let manifest = "[atlas]\ntitle = \"T\"\noutput = \"output\"\nformats = [\"svg\"]\n[[family]]\nid = \"e\"\nlinkage = \"evans\"\n\
                     sampling = { samples = 9 }\ncases = [{ p = 2, a = 2 }]\n";
     let folder = tempfile::tempdir().unwrap();

@@ -67,7 +67,7 @@ const SUBSTITUTED: [(&str, &[(&str, i32)]); 14] = [
 ];
 
 /// Commands that are not run, each with the reason.
-const NOT_RUN: [(&str, &str); 11] = [
+const NOT_RUN: [(&str, &str); 18] = [
     ("coupler-atlas render --watch --open", "it runs until it is interrupted: watching.rs"),
     ("cargo test", "this is it"),
     ("cargo build --release", "builds the program, which has been built"),
@@ -78,6 +78,13 @@ const NOT_RUN: [(&str, &str); 11] = [
         "cargo tree -p PACKAGE -e normal --prefix none | sed 's/ (\\*)$//' | sort -u | wc -l",
         "needs a shell; `architecture.rs` counts the same",
     ),
+    ("cargo install", "what pre-commit does"),
+    ("cargo binstall coupler-atlas", "needs a release; `.ci/workflows` compares the address with the archive"),
+    ("cargo check --workspace", "needs Python's crates; `.ci/oldest-compiler` runs it"),
+    ("cargo check", "builds what `.ci/fuzz` builds"),
+    ("cargo deny", "`.ci/run` runs it where it is installed"),
+    ("cargo yank", "withdraws a version"),
+    ("cargo publish", "publishes; `.ci/packages` makes the packages"),
     ("cargo publish --workspace --locked", "publishes; `.ci/packages` makes the packages"),
     (".ci/packages test", "takes minutes; `.github/workflows/ci.yml` does"),
     (".ci/kernel update", "needs the target wasm32-unknown-unknown; `kernel_module.rs` compares the sources"),

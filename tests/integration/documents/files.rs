@@ -19,6 +19,7 @@ const ABSENT: [(&str, &str); 26] = [
     ("mine/mine/mine-001.svg", "README.md: rendered by the reader; `commands.rs` does"),
     ("mine/index.html", "README.md: rendered by the reader; `commands.rs` does"),
     ("coupler-atlas-VERSION-TARGET.tar.gz", "docs/releases.md: a file of a release; `.ci/workflows` makes one"),
+    ("coupler_atlas-VERSION.tar.gz", "docs/releases.md: a file of a release; `.ci/sdist` makes one"),
     ("ghcr.io/coupler-atlas/coupler-atlas", "docs/releases.md: an image"),
     ("atlas.pdf", "a book, which this atlas does not ask for"),
     (".coupler-atlas.journal", "only there during a run"),

@@ -66,6 +66,7 @@ fn every_block_is_tested() {
         ("docs/architecture.md", "text", "a figure"),
         ("docs/check.md", "yaml", "readme.rs"),
         ("docs/pages.md", "xml", "numbers.rs"),
+        ("docs/start.md", "sh", ".ci/workflows"),
         ("docs/python.md", "python", ".ci/python"),
         ("docs/python.md", "sh", ".ci/python builds and installs the wheel"),
         ("docs/scale.md", "sql", ".ci/shards"),
