@@ -184,7 +184,7 @@ impl<'a> Composer<'a> {
         let Family { id, names, .. } = &planned.family;
         Heading::new(self.title)
             .with_family_id(id)
-            .with_atlas_title(&plan.title)
+            .with_atlas_title(if plan.title == self.title { "" } else { &plan.title })
             .with_source(source)
             .with_symbols(names)
             .with_page(page, page_count)

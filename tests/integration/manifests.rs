@@ -623,3 +623,20 @@ fn the_grid_of_a_page_follows_the_number_of_cells() {
     let [columns, rows] = grid(6, "[page]\npaper = { width = \"210 mm\", height = \"297 mm\" }\n");
     assert!(rows >= columns && columns * rows >= 6, "{columns} x {rows}");
 }
+
+/// The pages of an atlas of one family have its title, if the family has none of its own.
+#[test]
+fn the_only_family_has_the_title_of_the_atlas() {
+    let titles =
+        |text: &str| plan(text).families.iter().map(|planned| planned.family.title.clone()).collect::<Vec<_>>();
+    assert_eq!(titles(GOOD), ["T"]);
+    let own = GOOD.replace("id = \"evans\"", "id = \"evans\"\ntitle = \"Own\"");
+    assert_eq!(titles(&own), ["Own"]);
+    let second = GOOD[GOOD.find("[[family]]").unwrap()..].replace("id = \"evans\"", "id = \"other\"");
+    assert_eq!(titles(&format!("{GOOD}{second}")), ["evans", "other"]);
+    // What the program writes of the family alone, for the gallery and for tables, has the title, too.
+    assert!(plan(GOOD).families[0].excerpt().contains("title=\"T\""));
+    // A second family changes the pages of the first.
+    let page_text = |text: &str| plan(text).families[0].manifest_inputs.page_text();
+    assert_ne!(page_text(GOOD), page_text(&format!("{GOOD}{second}")));
+}

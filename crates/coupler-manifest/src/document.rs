@@ -154,9 +154,13 @@ fn read_plan(
     let mut totals = AtlasTotals::default();
     let typeface = page.as_ref().map(|page| page.options.theme.typeface);
     let shared_inputs = SharedInputs::from_manifest(&root, typeface.and_then(|typeface| typeface.fallback));
+    // The pages of an atlas of one family are those of the atlas.
+    let default_title = atlas.as_ref().map(|atlas| atlas.title.clone()).filter(|_| tables.len() == 1);
     for value in tables {
+        let default_title = default_title.as_deref();
         let page = page.as_ref().map(|page| &page.options);
-        let context = family::Context { templates: &templates, formats: &formats, writable, page, purpose };
+        let context =
+            family::Context { templates: &templates, formats: &formats, writable, default_title, page, purpose };
         let read = family::read(value, context, &mut totals, parser);
         if let Some((id, span)) = id_and_span(value) {
             let message = format!("there are two families `{id}`");
@@ -167,7 +171,7 @@ fn read_plan(
         }
         let tolerances = |family: PartialTolerances| family.or(tolerances);
         families.extend(read.map(|read| PlannedFamily {
-            manifest_inputs: shared_inputs.of_family(value, read.layout),
+            manifest_inputs: shared_inputs.of_family(value, read.layout, default_title),
             tolerances: tolerances(read.tolerances),
             ..read
         }));

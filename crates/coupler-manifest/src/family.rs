@@ -29,6 +29,8 @@ pub(crate) struct Context<'a> {
     pub formats: &'a [Format],
     /// The formats that they may name.
     pub writable: &'a [Format],
+    /// The title of a family that has none of its own; its id if there is no such title.
+    pub default_title: Option<&'a str>,
     /// The options of pages; `None` if `[page]` could not be parsed.
     pub page: Option<&'a Options>,
     /// What the cells are for.
@@ -38,7 +40,7 @@ pub(crate) struct Context<'a> {
 /// Reads a family, and adds it to `totals`.
 pub(crate) fn read<'t>(
     value: &TomlValue<'t>,
-    Context { templates, formats, writable, page, purpose }: Context,
+    Context { templates, formats, writable, default_title, page, purpose }: Context,
     totals: &mut AtlasTotals,
     parser: &mut TomlParser<'t>,
 ) -> Option<PlannedFamily> {
@@ -100,7 +102,7 @@ pub(crate) fn read<'t>(
     let ghosts = ghosts(&fields, layout, parser);
     let (id, template, names, sampling, columns, straight) = (id?, template?, names?, sampling?, columns?, straight?);
     let mut family = Family {
-        title: title.unwrap_or_else(|| id.clone()),
+        title: title.unwrap_or_else(|| default_title.unwrap_or(&id).to_owned()),
         id,
         template,
         names: names.all,

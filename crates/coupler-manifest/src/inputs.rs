@@ -6,7 +6,7 @@ use std::sync::Arc;
 use coupler_drawing::page::Layout;
 use coupler_drawing::scene::FontFile;
 
-use coupler_curves::linkage_format::{Fields, TomlValue, canonical_toml};
+use coupler_curves::linkage_format::{Fields, TomlValue, canonical_toml, quoted};
 
 /// The part of a manifest that determines a family's files, in a form that does not depend on how it is written.
 ///
@@ -89,16 +89,22 @@ impl SharedInputs {
         SharedInputs { tables: Arc::from(tables), linkages: linkages.into_iter().flatten().filter_map(by_id).collect() }
     }
 
-    /// The inputs of the family with this table of the manifest, and with a layout that may depend on all its cells.
-    pub fn of_family(&self, family: &TomlValue, layout: Layout) -> ManifestInputs {
+    /// The inputs of the family with this table of the manifest, with what depends on the whole manifest: its layout, and the title of a family
+    /// that has none of its own.
+    pub fn of_family(&self, family: &TomlValue, layout: Layout, default_title: Option<&str>) -> ManifestInputs {
         let linkage = string_at("linkage", family).and_then(|id| self.linkages.get(id));
+        let title = default_title.filter(|_| string_at("title", family).is_none()).map(quoted);
+        let with_title = |ignored: &[&str]| match (canonical_toml(family, ignored), &title) {
+            (table, None) => table,
+            (table, Some(title)) => format!("{},title={title}}}", table.strip_suffix('}').unwrap_or_default()),
+        };
         ManifestInputs {
             tables: Arc::clone(&self.tables),
             linkage: linkage.cloned().unwrap_or_default(),
-            family: canonical_toml(family, &IGNORED_FAMILY_KEYS),
-            settings: canonical_toml(family, &IGNORED_SETTINGS),
+            family: with_title(&IGNORED_FAMILY_KEYS),
+            settings: with_title(&IGNORED_SETTINGS),
             tables_of_curves: canonical_toml(family, &IGNORED_TABLE_KEYS),
-            page: format!("{}# grid {:?}\n", canonical_toml(family, &IGNORED_PAGE_KEYS), layout.grid()),
+            page: format!("{}# grid {:?}\n", with_title(&IGNORED_PAGE_KEYS), layout.grid()),
         }
     }
 }

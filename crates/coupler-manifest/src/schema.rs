@@ -51,7 +51,7 @@ pub(crate) static FAMILY: TableSchema = TableSchema::new(
             ValueSchema::WithExamples(&ValueSchema::Text, linkage_ids),
             "A linkage of the catalogue, or of this file.",
         ),
-        KeySchema::new("title", ValueSchema::Text, "The title of its pages; its id by default."),
+        KeySchema::new("title", ValueSchema::Text, "The title of its pages; by default that of the atlas if it is the only family, and otherwise its id."),
         KeySchema::new("source", ValueSchema::Text, "The line under the title; that of the linkage by default."),
         KeySchema::new("layout", ValueSchema::Word(|| words(&Layout::ALL)), "How its pages are laid out.")
             .with_default(|| default_value::string(DEFAULT_LAYOUT)),

@@ -8,7 +8,7 @@ use super::text::Document;
 use super::{documents, root};
 
 /// Files that are named, but not in this repository, and why.
-const ABSENT: [(&str, &str); 26] = [
+const ABSENT: [(&str, &str); 27] = [
     (".github/workflows/atlas.yml", "docs/check.md: to be written by the reader"),
     (".pre-commit-config.yaml", "docs/check.md: to be written by the reader"),
     ("feeder.toml", "docs/tutorial.md: written by the reader"),

@@ -41,11 +41,14 @@ pub fn cell_facts(family: &Family, solved: &SolvedCell) -> [String; 2] {
         let times = if mirrored_portion(solved, curve, portion).is_some() { "twice " } else { "" };
         let length = format_significant(portion.length, 4);
         let [exactly, deviation] = deviation_texts(family.straight, portion);
-        let which = match path_name(solved, curve) {
-            Some(name) => format!(" ({name})"),
-            None if solved.linkage.traced.len() > 1 => format!(" (curve {})", curve.trace),
-            None => String::new(),
+        let path = match path_name(solved, curve) {
+            None if solved.linkage.traced.len() > 1 => Some(format!("curve {}", curve.trace)),
+            name => name,
         };
+        // The linkage is drawn on the first circuit.
+        let circuit = (curve.circuit > 1).then(|| format!("circuit {}", curve.circuit));
+        let which: Vec<String> = path.into_iter().chain(circuit).collect();
+        let which = if which.is_empty() { String::new() } else { format!(" ({})", which.join(", ")) };
         format!("{exactly}straight {times}{length}{deviation} over {:.1}{unit}{which}", portion.input_span)
     });
     [parts.join(" · "), straight]
