@@ -5,6 +5,7 @@ mod atlas;
 mod index_file;
 mod linkage;
 mod placed_curve;
+mod point_table;
 mod svg_outlines;
 mod target_file;
 
