@@ -4,8 +4,10 @@ mod atlas;
 mod drawing;
 mod json;
 mod linkage;
+mod notes;
 mod text;
 
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use crate::find::{self, MAX_CURVES, MAX_POINTS};
@@ -19,7 +21,8 @@ use coupler_curves::geometry::{Bounds, Point};
 use coupler_curves::template::Template;
 
 use super::export::CurveSamples;
-use super::{InputError, InputErrors, Outcome, export, files, print, print_bytes, source};
+use super::{InputError, InputErrors, Outcome, export, files, print, print_bytes, print_stderr, source};
+use notes::Best;
 
 /// Find the linkages whose coupler curves are nearest to a path, with their cognates.
 ///
@@ -118,7 +121,7 @@ pub struct Arguments {
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: Option<u16>,
     /// Draw the path and the curves on one page, and write it to this file; - for standard output, in place of the text.
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = files::svg_parser())]
     svg: Option<PathBuf>,
     /// Print a manifest that renders the linkages: coupler-atlas find … --toml > found.toml
     #[arg(long, conflicts_with = "json")]
@@ -182,6 +185,11 @@ impl Shown for Report {
     fn text(&self) -> String {
         text::text(self)
     }
+
+    fn best(&self) -> Option<Best> {
+        let best = self.answers.first()?;
+        Some(Best { quality: best.quality(), mu_worst_deg: best.mechanism.mu_worst_deg })
+    }
 }
 
 /// The name of a path without its folder.
@@ -228,21 +236,26 @@ trait Shown {
     /// A manifest that renders the linkages.
     fn manifest(&self) -> String;
     fn text(&self) -> String;
+    /// The best answer, if there is one.
+    fn best(&self) -> Option<Best>;
 }
 
 /// Writes the drawing that the arguments ask for, and prints what they ask for unless that is the drawing.
 fn show(report: &impl Shown, arguments: &Arguments, is_drawing_printed: bool) -> anyhow::Result<Outcome> {
+    let notes = report.best().map_or(String::new(), |best| notes::notes(&best, arguments));
     if let Some(path) = &arguments.svg {
         files::write(path, &report.drawing())?;
         if is_drawing_printed {
+            print_stderr(&notes);
             return Ok(Outcome::Done);
         }
     }
     match (arguments.json, arguments.toml) {
         (true, _) => print_bytes(report.json()?.as_bytes())?,
         (_, true) => print_bytes(report.manifest().as_bytes())?,
-        _ => print(&report.text())?,
+        _ => return print(&(report.text() + &notes)).map(|()| Outcome::Done),
     }
+    print_stderr(&notes);
     Ok(Outcome::Done)
 }
 
@@ -355,6 +368,22 @@ impl TracedPath {
     }
 }
 
+/// Why the file of a path cannot be read, with the remedy.
+fn unreadable(path: &Path, error: &output::Error) -> InputError {
+    const FORMS: &str = "a table of points, JSON or a drawing in SVG";
+    let name = files::input_name(path);
+    let kind = match error {
+        output::Error::Read { source, .. } => source.kind(),
+        _ => ErrorKind::Other,
+    };
+    InputError(match kind {
+        ErrorKind::NotFound => format!("cannot find {name}: name {FORMS}"),
+        ErrorKind::IsADirectory => format!("{name} is a folder: name {FORMS}"),
+        ErrorKind::InvalidData => format!("cannot read {name}: it is no table of points, JSON or SVG"),
+        _ => error.to_string(),
+    })
+}
+
 /// The path that the arguments name.
 ///
 /// # Errors
@@ -380,8 +409,14 @@ fn read_path(arguments: &Arguments) -> anyhow::Result<TracedPath> {
     let path = arguments.path.as_deref().unwrap_or(Path::new("-"));
     files::protect(path);
     let name = files::input_name(path);
-    let text = output::read_text(path).map_err(|error| InputError(error.to_string()))?;
+    let text = output::read_text(path).map_err(|error| unreadable(path, &error))?;
     let outline = find::parse_outline(&text, arguments.timed).map_err(|problems| {
+        if files::extension(path).as_deref() == Some("toml") || text.lines().any(|line| line.trim() == "[[family]]") {
+            return InputErrors::from_messages(&[format!(
+                "{name} is a manifest, not a path: `coupler-atlas render {name}` draws it, and `coupler-atlas find PATH --atlas {name}` \
+                 looks a path up in its curves"
+            )]);
+        }
         let problems: Vec<String> = problems.iter().map(|problem| format!("{name}: {problem}")).collect();
         InputErrors::from_messages(&problems)
     })?;

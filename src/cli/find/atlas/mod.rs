@@ -12,7 +12,8 @@ use crate::manifest::Plan;
 use crate::record::{FolderRecord, RunRecord};
 use coupler_curves::exchange::{ParameterSet, manifest_families};
 use coupler_curves::find::{
-    Answer, Condition, Index, Options, Search, Target, answer_families, answers_manifest, manifest_head, scaled_values,
+    Answer, Condition, Index, Options, Quality, Search, Target, answer_families, answers_manifest, manifest_head,
+    scaled_values,
 };
 use coupler_curves::linkage_format::quoted;
 use coupler_curves::measure;
@@ -22,7 +23,7 @@ use coupler_drawing::page::FoundCurve;
 use rayon::prelude::*;
 
 use super::super::source::ManifestSource;
-use super::{Arguments, InputError, Outcome, Shown, drawing, show, source, title_of};
+use super::{Arguments, Best, InputError, Outcome, Shown, drawing, show, source, title_of};
 
 /// What has been found in an atlas.
 pub(super) struct AtlasReport {
@@ -196,6 +197,14 @@ impl Shown for AtlasReport {
             sets.push(ParameterSet { family, values, curve_name: format!("{rank}: {name}") });
         }
         out + &manifest_families(&sets, false)
+    }
+
+    fn best(&self) -> Option<Best> {
+        let Found { curve: AtlasAnswer { curve, .. }, refined } = self.answers.first()?;
+        Some(match refined {
+            Some(answer) => Best { quality: answer.quality(), mu_worst_deg: answer.mechanism.mu_worst_deg },
+            None => Best { quality: Quality::of(curve.fit.rms_relative), mu_worst_deg: curve.mu_worst_deg },
+        })
     }
 
     fn json(&self) -> anyhow::Result<String> {

@@ -11,7 +11,8 @@ use crate::manifest;
 use coupler_curves::exchange::{ParameterSet, manifest_families};
 use coupler_curves::family::Family;
 use coupler_curves::find::{
-    Condition, Constraint, LinkageSpace, Mechanism, Options, Target, answers_manifest, manifest_head, nearest_miss_by,
+    Condition, Constraint, LinkageSpace, Mechanism, Options, Quality, Target, answers_manifest, manifest_head,
+    nearest_miss_by,
 };
 use coupler_curves::measure;
 use coupler_curves::motion::Sampler;
@@ -20,7 +21,7 @@ use coupler_curves::template::{Orientation, Template};
 
 use super::super::linkage::find_template;
 use super::super::source;
-use super::{Arguments, InputError, InputErrors, Outcome, Shown, drawing, show, title_of};
+use super::{Arguments, Best, InputError, InputErrors, Outcome, Shown, drawing, show, title_of};
 
 /// What has been found for a linkage.
 pub(super) struct LinkageReport {
@@ -157,6 +158,11 @@ impl Shown for LinkageReport {
             sets.push(ParameterSet { family, values: answer.curve.values.clone(), curve_name });
         }
         out + &manifest_families(&sets, self.own_linkage.is_some())
+    }
+
+    fn best(&self) -> Option<Best> {
+        let LinkageAnswer { curve, .. } = self.answers.first()?;
+        Some(Best { quality: Quality::of(curve.fit.rms_relative), mu_worst_deg: curve.mu_worst_deg })
     }
 
     fn json(&self) -> anyhow::Result<String> {
