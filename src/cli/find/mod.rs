@@ -4,10 +4,11 @@ mod atlas;
 mod drawing;
 mod json;
 mod linkage;
+mod not_a_path;
 mod notes;
+mod shown;
 mod text;
 
-use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use crate::find::{self, MAX_CURVES, MAX_POINTS};
@@ -21,8 +22,9 @@ use coupler_curves::geometry::{Bounds, Point};
 use coupler_curves::template::Template;
 
 use super::export::CurveSamples;
-use super::{InputError, InputErrors, Outcome, export, files, print, print_bytes, print_stderr, source};
+use super::{InputError, InputErrors, Outcome, export, files, source};
 use notes::Best;
+use shown::{Shown, show};
 
 /// Find the linkages whose coupler curves are nearest to a path, with their cognates.
 ///
@@ -228,37 +230,6 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     show(&report, arguments, is_drawing_printed)
 }
 
-/// What a search has found, in the forms in which it is shown.
-trait Shown {
-    /// The path and the curves on one page, as SVG.
-    fn drawing(&self) -> Vec<u8>;
-    fn json(&self) -> anyhow::Result<String>;
-    /// A manifest that renders the linkages.
-    fn manifest(&self) -> String;
-    fn text(&self) -> String;
-    /// The best answer, if there is one.
-    fn best(&self) -> Option<Best>;
-}
-
-/// Writes the drawing that the arguments ask for, and prints what they ask for unless that is the drawing.
-fn show(report: &impl Shown, arguments: &Arguments, is_drawing_printed: bool) -> anyhow::Result<Outcome> {
-    let notes = report.best().map_or(String::new(), |best| notes::notes(&best, arguments));
-    if let Some(path) = &arguments.svg {
-        files::write(path, &report.drawing())?;
-        if is_drawing_printed {
-            print_stderr(&notes);
-            return Ok(Outcome::Done);
-        }
-    }
-    match (arguments.json, arguments.toml) {
-        (true, _) => print_bytes(report.json()?.as_bytes())?,
-        (_, true) => print_bytes(report.manifest().as_bytes())?,
-        _ => return print(&(report.text() + &notes)).map(|()| Outcome::Done),
-    }
-    print_stderr(&notes);
-    Ok(Outcome::Done)
-}
-
 /// Reads the options of the search, for a linkage other than the four-bar if there is one.
 ///
 /// # Errors
@@ -368,22 +339,6 @@ impl TracedPath {
     }
 }
 
-/// Why the file of a path cannot be read, with the remedy.
-fn unreadable(path: &Path, error: &output::Error) -> InputError {
-    const FORMS: &str = "a table of points, JSON or a drawing in SVG";
-    let name = files::input_name(path);
-    let kind = match error {
-        output::Error::Read { source, .. } => source.kind(),
-        _ => ErrorKind::Other,
-    };
-    InputError(match kind {
-        ErrorKind::NotFound => format!("cannot find {name}: name {FORMS}"),
-        ErrorKind::IsADirectory => format!("{name} is a folder: name {FORMS}"),
-        ErrorKind::InvalidData => format!("cannot read {name}: it is no table of points, JSON or SVG"),
-        _ => error.to_string(),
-    })
-}
-
 /// The path that the arguments name.
 ///
 /// # Errors
@@ -409,13 +364,10 @@ fn read_path(arguments: &Arguments) -> anyhow::Result<TracedPath> {
     let path = arguments.path.as_deref().unwrap_or(Path::new("-"));
     files::protect(path);
     let name = files::input_name(path);
-    let text = output::read_text(path).map_err(|error| unreadable(path, &error))?;
+    let text = output::read_text(path).map_err(|error| not_a_path::unreadable(path, &error))?;
     let outline = find::parse_outline(&text, arguments.timed).map_err(|problems| {
-        if files::extension(path).as_deref() == Some("toml") || text.lines().any(|line| line.trim() == "[[family]]") {
-            return InputErrors::from_messages(&[format!(
-                "{name} is a manifest, not a path: `coupler-atlas render {name}` draws it, and `coupler-atlas find PATH --atlas {name}` \
-                 looks a path up in its curves"
-            )]);
+        if let Some(message) = not_a_path::manifest_message(path, &text) {
+            return InputErrors::from_messages(&[message]);
         }
         let problems: Vec<String> = problems.iter().map(|problem| format!("{name}: {problem}")).collect();
         InputErrors::from_messages(&problems)
