@@ -44,7 +44,7 @@ fn line_around(text: &str, at: usize) -> (&str, usize) {
 fn number_with_commas(text: &str, at: usize) -> Option<&str> {
     let (line, at) = line_around(text, at);
     let is_of_number = |c: char| c.is_ascii_digit() || matches!(c, '.' | ',' | '-' | '+');
-    let start = line[..at].trim_end_matches(is_of_number).len();
+    let start = line[..at].trim_end().trim_end_matches(is_of_number).len();
     let rest = &line[start..];
     let number = rest[..rest.find(|c| !is_of_number(c)).unwrap_or(rest.len())].trim_end_matches(',');
     let is_value = line[..start].trim_end().ends_with('=');
@@ -100,9 +100,13 @@ mod tests {
     #[test]
     fn a_decimal_comma_is_named() {
         let help = "write a decimal point, 4.5, or a list of values, [4, 5]";
-        for text in
-            ["frame = 4,5", "grid = { frame = 4,5, crank = 1 }", "grid = {frame=4,5}", "a = 1\nframe = 4,5\nb = 2"]
-        {
+        for text in [
+            "frame = 4,5",
+            "grid = { frame = 4,5, crank = 1 }",
+            "grid = {frame=4,5}",
+            "grid = { frame = 4,5 }",
+            "a = 1\nframe = 4,5\nb = 2",
+        ] {
             assert_eq!(problem(text), ["`4,5` has a comma and no brackets", help], "{text}");
         }
         assert_eq!(problem("p = 1,2,-3.5")[1], "put a list of values in brackets, [1, 2, -3.5]");
