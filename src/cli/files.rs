@@ -1,6 +1,6 @@
 //! Files and folders named on the command line; `-` is standard input or output.
 
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::sync::Mutex;
 
 use crate::output;
@@ -14,9 +14,27 @@ pub(super) fn is_standard(path: &Path) -> bool {
     path.as_os_str() == RunRecord::STANDARD_INPUT
 }
 
+/// A path as it is shown: without the folders that a following `..` leaves, if it is the same path without them.
+pub(super) fn without_parents(path: &Path) -> PathBuf {
+    let mut shorter = PathBuf::new();
+    for component in path.components() {
+        match (component, shorter.components().next_back()) {
+            (Component::ParentDir, Some(Component::Normal(_))) => drop(shorter.pop()),
+            _ => shorter.push(component),
+        }
+    }
+    let is_same = || Some(path.canonicalize().ok()? == shorter.canonicalize().ok()?);
+    if is_same() == Some(true) { shorter } else { path.to_owned() }
+}
+
 /// The name of a file to read, in messages.
 pub(super) fn input_name(path: &Path) -> String {
     if is_standard(path) { "standard input".to_owned() } else { printable(path.display()) }
+}
+
+/// The extension of a path, in small letters.
+pub(super) fn extension(path: &Path) -> Option<String> {
+    path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase())
 }
 
 /// The name of a file to write, in messages.
@@ -69,6 +87,26 @@ pub(super) fn is_drawing_printed(drawing: Option<&Path>, printed: &[(&str, bool)
         }
         None => Ok(true),
     }
+}
+
+/// Parses the path of a drawing in SVG; that of another kind of file says what makes it.
+pub(super) fn svg_parser() -> impl TypedValueParser<Value = PathBuf> {
+    PathBufValueParser::new().try_map(|path| {
+        let Some(extension) = extension(&path) else { return Ok(path) };
+        let kind = extension.to_ascii_uppercase();
+        let remedy = match extension.as_str() {
+            "png" => format!(
+                "; `coupler-atlas export … --format png` draws curves as {kind}, and `coupler-atlas render MANIFEST --format png` pages"
+            ),
+            "pdf" => format!("; `coupler-atlas render MANIFEST --format pdf` makes a {kind}"),
+            "dxf" | "csv" | "json" => {
+                format!("; `coupler-atlas export … --format {extension}` writes curves as {kind}")
+            }
+            "jpg" | "jpeg" | "gif" | "webp" | "svgz" | "eps" | "ps" | "html" | "htm" | "txt" | "dwg" | "step" => String::new(),
+            _ => return Ok(path),
+        };
+        Err(format!("the drawing is SVG, not {kind}: name a file that ends in .svg{remedy}"))
+    })
 }
 
 /// Parses the path of a folder; `-` would be the name of one, but means standard output everywhere else.

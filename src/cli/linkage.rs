@@ -6,6 +6,7 @@ use std::sync::Arc;
 use crate::manifest;
 use coupler_curves::catalogue;
 use coupler_curves::expression::{Dimension, Error, Expression, Quantity, Scope};
+use coupler_curves::family::{CellError, ParameterError, ParameterErrors};
 use coupler_curves::problem::suggestion;
 use coupler_curves::template::Template;
 
@@ -32,6 +33,19 @@ pub(super) fn find_template(name: &str, manifest: Option<&Path>) -> anyhow::Resu
         let ids: Vec<&str> = known.iter().map(|template| template.id.as_str()).collect();
         InputError(format!("there is no linkage `{name}`: {}", suggestion(name, &ids))).into()
     })
+}
+
+/// Errors in the parameters of a linkage, each with what to write where a value is missing.
+pub(super) fn parameter_errors(template: &Template, errors: &ParameterErrors) -> Vec<String> {
+    let message = |error: &ParameterError| match error {
+        ParameterError::Cell(CellError::Missing(name)) => {
+            let parameter = template.parameters.iter().find(|parameter| parameter.name == *name);
+            let example = parameter.and_then(|parameter| parameter.example).unwrap_or(1.0);
+            format!("{}: {error}: add it, as in {name}={example}", template.id)
+        }
+        error => format!("{}: {error}", template.id),
+    };
+    errors.iter().map(message).collect()
 }
 
 /// Reads an input: a number or an expression without names, and for an angle a unit, degrees if there is none. `example`

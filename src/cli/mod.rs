@@ -10,11 +10,13 @@ mod files;
 mod find;
 mod format;
 mod gather;
+mod hints;
 mod init;
 mod inspect;
 mod linkage;
 mod list;
 mod manual;
+mod not_a_manifest;
 mod printable;
 mod render;
 mod report;
@@ -175,10 +177,11 @@ fn parse_arguments(given: &[OsString]) -> Result<Arguments, clap::Error> {
     };
     parse(given).map_err(|error| {
         let shown: Vec<OsString> = given.iter().map(|argument| printable(argument.to_string_lossy()).into()).collect();
-        parse(&shown).err().unwrap_or_else(|| {
+        let error = parse(&shown).err().unwrap_or_else(|| {
             // Only the unprintable characters were wrong.
             clap::Error::raw(error.kind(), "an argument has control characters\n")
-        })
+        });
+        hints::with_hint(error, &Arguments::command(), &shown)
     })
 }
 

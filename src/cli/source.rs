@@ -8,7 +8,7 @@ use crate::output;
 use crate::record::RunRecord;
 use coupler_curves::problem::{self, Problem, suggestion};
 
-use super::{InputError, color, files, pluralize, print_stderr, print_styled};
+use super::{InputError, color, files, not_a_manifest, pluralize, print_stderr, print_styled};
 
 /// The manifest that a command reads when none is given.
 pub const DEFAULT_MANIFEST: &str = "atlas.toml";
@@ -26,17 +26,20 @@ pub struct ManifestSource {
 /// The file cannot be read.
 pub fn read_text(path: &Path) -> anyhow::Result<String> {
     files::protect(path);
-    output::read_text(path).map_err(|error| match error {
+    let text = output::read_text(path).map_err(|error| match error {
         output::Error::Read { source, .. } if files::is_standard(path) => {
             InputError(format!("cannot read standard input: {source}")).into()
         }
-        output::Error::Read { source, .. } if source.kind() == std::io::ErrorKind::NotFound => {
-            let path = path.display();
-            InputError(format!("cannot find {path}: `coupler-atlas init {path}` writes a manifest to start from"))
-                .into()
-        }
-        error => error.into(),
-    })
+        output::Error::Read { source, .. } => match not_a_manifest::reason(path, source.kind()) {
+            Some(reason) => InputError(reason).into(),
+            None => output::Error::Read { path: path.to_owned(), source }.into(),
+        },
+        error => anyhow::Error::from(error),
+    })?;
+    match not_a_manifest::form(path, &text) {
+        Some(form) => Err(InputError(form).into()),
+        None => Ok(text),
+    }
 }
 
 /// Parses the text of a manifest, and reads the files that it names.

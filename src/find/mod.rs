@@ -7,6 +7,7 @@ mod drawing;
 mod index_file;
 mod linkage;
 mod placed_curve;
+mod point_table;
 mod svg_outlines;
 mod target_file;
 

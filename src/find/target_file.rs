@@ -4,6 +4,7 @@ use coupler_curves::find::PathKind;
 use coupler_curves::geometry::Point;
 use serde_json::Value;
 
+use super::point_table::parse_table;
 use super::svg_outlines;
 
 /// The most points of a path: the time of a search grows with them.
@@ -71,102 +72,14 @@ pub fn parse_outline(text: &str, is_timed: bool) -> Result<Outline, Vec<String>>
     }
 }
 
-/// The columns of a table.
-#[derive(Clone, Copy)]
-struct Columns {
-    x: usize,
-    y: usize,
-    angle: Option<usize>,
-}
-
-/// Reads a table: a point on each line, x and y and perhaps an angle, divided by commas, semicolons or blanks; empty lines and what
-/// follows `#` are skipped. A first line of names says which columns are x, y and angle.
-fn parse_table(text: &str, is_timed: bool) -> Result<Outline, Vec<String>> {
-    let mut points = Vec::new();
-    let mut angles_deg = Vec::new();
-    let mut problems = Vec::new();
-    let mut columns: Option<Columns> = None;
-    for (number, line) in (1..).zip(text.lines()) {
-        let line = line.split('#').next().unwrap_or_default().trim();
-        if line.is_empty() {
-            continue;
-        }
-        let fields = fields_of(line);
-        let is_name = |field: &String| field.parse::<f64>().is_err() && field.starts_with(char::is_alphabetic);
-        if columns.is_none() && fields.iter().all(is_name) {
-            columns = name_columns(&fields);
-            if columns.is_none() {
-                problems.push(format!("line {number}: no columns `x` and `y` among {}", fields.join(", ")));
-                return Err(problems);
-            }
-            continue;
-        }
-        let angle = (fields.len() > 2).then_some(2);
-        let Columns { x, y, angle } = *columns.get_or_insert(Columns { x: 0, y: 1, angle });
-        if let Some(column) = angle.filter(|_| is_timed) {
-            match fields.get(column).map(|field| parse_number(field, "an angle")) {
-                Some(Ok(angle)) => angles_deg.push(angle),
-                Some(Err(error)) => problems.push(format!("line {number}: {error}")),
-                None => problems.push(format!("line {number}: `{line}` has no angle, as the others have")),
-            }
-        }
-        match [x, y].map(|column| fields.get(column)) {
-            [Some(x), Some(y)] => match [x, y].map(|field| parse_number(field, "a coordinate")) {
-                [Ok(x), Ok(y)] => points.push(Point::new(x, y)),
-                coordinates => {
-                    let errors = coordinates.into_iter().filter_map(Result::err);
-                    problems.extend(errors.map(|error| format!("line {number}: {error}")));
-                }
-            },
-            _ => problems.push(format!("line {number}: `{line}` has no two coordinates: write them like 1.5, 2")),
-        }
-    }
-    if !problems.is_empty() {
-        return Err(limited(problems, "lines"));
-    }
-    let angles_deg = (!angles_deg.is_empty()).then_some(angles_deg);
-    Ok(Outline { points, angles_deg, is_closed: None })
-}
-
 /// The first problems, and the number of the others.
-fn limited(mut problems: Vec<String>, what: &str) -> Vec<String> {
+pub(super) fn limited(mut problems: Vec<String>, what: &str) -> Vec<String> {
     if problems.len() > MAX_PROBLEMS {
         let more = problems.len() - MAX_PROBLEMS;
         problems.truncate(MAX_PROBLEMS);
         problems.push(format!("and {more} further {what} that cannot be read"));
     }
     problems
-}
-
-/// The fields of a line. Where semicolons divide them, commas are decimal.
-fn fields_of(line: &str) -> Vec<String> {
-    let (line, divider) = match line.contains(';') {
-        true => (line.replace(',', "."), ';'),
-        false => (line.to_owned(), ','),
-    };
-    let fields: Vec<String> = match line.contains(divider) {
-        true => line.split(divider).map(|field| field.trim().to_owned()).collect(),
-        false => line.split_whitespace().map(str::to_owned).collect(),
-    };
-    // A divider at the end of the line.
-    match fields.split_last() {
-        Some((last, rest)) if last.is_empty() && rest.len() > 1 => rest.to_vec(),
-        _ => fields,
-    }
-}
-
-/// The columns of x, y and the angle by their names.
-fn name_columns(fields: &[String]) -> Option<Columns> {
-    let column = |name: &str| fields.iter().position(|field| field.trim_matches('"').eq_ignore_ascii_case(name));
-    Some(Columns { x: column("x")?, y: column("y")?, angle: column("angle") })
-}
-
-fn parse_number(text: &str, what: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(value) if value.is_finite() => Ok(value),
-        Ok(value) => Err(format!("`{text}` is {value}: {what} must be finite")),
-        Err(_) => Err(format!("`{text}` is not a number")),
-    }
 }
 
 /// Reads JSON: a list of points, or an object with one as `points`, and perhaps `closed`. A point is a list of x and y and perhaps an
@@ -275,7 +188,10 @@ mod tests {
                 "line 4: `NaN` is NaN: a coordinate must be finite",
             ]
         );
-        assert_eq!(problems("a,b\n1,2"), ["line 1: no columns `x` and `y` among a, b"]);
+        assert_eq!(
+            problems("a,b\n1,2"),
+            ["line 1: no columns `x` and `y` among a, b: name them so, as in x,y or X [mm],Y [mm]"]
+        );
         assert_eq!(problems(&"x\n".repeat(50)).len(), 1);
         assert_eq!(problems(&format!("1,2\n{}", "z,1\n".repeat(50))).len(), MAX_PROBLEMS + 1);
         for json in ["{", "{}", "[1]", "[[1, \"2\"]]", "{\"points\": 3}", "[[1, 1e999]]"] {

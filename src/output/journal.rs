@@ -10,7 +10,7 @@ use serde_json::Value;
 
 use super::files::{self, AtomicFile, write};
 use super::previous_run::PreviousRun;
-use super::{Error, Options};
+use super::{Error, Event, Options};
 use crate::gallery::{self, DataBytes, GalleryFamily};
 use crate::manifest::{MAX_PAGE_FILES, Plan};
 use crate::record::{
@@ -234,11 +234,11 @@ impl<'a> Journal<'a> {
         if files <= MAX_PAGE_FILES { Ok(()) } else { Err(Error::TooManyFiles { family: id.to_owned(), files }) }
     }
 
-    /// Removes the files and records of families that are no longer in the plan.
+    /// Removes the files and records of families that are no longer in the plan, and reports them.
     ///
     /// # Errors
     /// A file cannot be removed.
-    pub fn remove_unplanned_families(&mut self) -> Result<(), Error> {
+    pub fn remove_unplanned_families(&mut self, report: &mut dyn FnMut(Event)) -> Result<(), Error> {
         let planned: HashSet<&str> = self.plan.families.iter().map(|planned| planned.family.id.as_str()).collect();
         let is_planned = |record: &FamilyRecord| planned.contains(record.id.as_str());
         if self.families.iter().all(is_planned) {
@@ -250,6 +250,7 @@ impl<'a> Journal<'a> {
             files::remove_files(&folder, record.files.iter().map(|file| file.name.as_str()))?;
             // A folder with files that this program did not write is kept.
             let _ = fs::remove_dir(&folder);
+            report(Event::Removed { family: &record.id });
         }
         self.families.retain(is_planned);
         self.indices = self.families.iter().enumerate().map(|(k, family)| (family.id.clone(), k)).collect();

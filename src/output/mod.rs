@@ -97,6 +97,11 @@ pub enum Event<'a> {
         /// Why.
         reason: &'a str,
     },
+    /// The files of a family of an earlier run are removed, because it is not in the manifest.
+    Removed {
+        /// Its id.
+        family: &'a str,
+    },
     /// The record of an earlier run cannot be used: everything is drawn, and nothing is removed.
     UnusableRecord {
         /// The file of the record.
@@ -188,7 +193,7 @@ fn write_families(
         *survey = family::write((plan, planned), output, options, (&mut journal, surveyor), report)?;
     }
     if options.only.is_empty() {
-        journal.remove_unplanned_families()?;
+        journal.remove_unplanned_families(report)?;
     }
     // A build without PDF leaves the book of another as it is.
     #[cfg(feature = "pdf")]

@@ -128,7 +128,11 @@ impl Diagnosis {
                 unassembled => format!("{} cannot be assembled; ", count_cells(unassembled)),
             };
             let which = if self.has_nearest() { "the nearest is" } else { "for example" };
-            parts.push(format!("{count}{which} cell {number} ({parameters}): {reason}"));
+            parts.push(match cells {
+                1 if parameters.is_empty() => reason.clone(),
+                1 => format!("with {parameters}, {reason}"),
+                _ => format!("{count}{which} cell {number} ({parameters}): {reason}"),
+            });
         }
         if !self.names.is_empty() {
             parts.push(format!("in {} {}", count_cells(cells), list(&self.names)));

@@ -39,6 +39,7 @@ mod random_linkages;
 mod rates;
 mod readme;
 mod recorded_images;
+mod remedies;
 mod reruns;
 mod resuming;
 mod schema;

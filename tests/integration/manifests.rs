@@ -53,7 +53,7 @@ fn each_mistake_has_its_message() {
         ("p = [2, 3]", "", "the grid is empty", "7:8"),
         ("p = [2, 3]", "p = [2, inf]", "its value is inf", "7:18"),
         ("p = [2, 3]", "p = [2, \"1/0\"]", "its value is inf", "7:18"),
-        ("p = [2, 3]", "p = [2, -3]", "in cell 2 (p = -3, r = 1, k = 2), `p` is -3, and must be more than 0", "7:10"),
+        ("p = [2, 3]", "p = [2, -3]", "in cell 2 (p = -3, r = 1, k = 2), `p` is -3, and must be more than 0", "7:18"),
         ("p = [2, 3]", "p = { from = 1, to = 2, step = 0 }", "`step` must not be 0", "7:41"),
         ("p = [2, 3]", "p = { from = 0, to = 1e9, step = 1e-9 }", "the grid has 1000000000000000000 cells", "7:8"),
         ("p = [2, 3]", "p = [2, 3], q = [1]", "`q` is not a parameter of `evans`, and no expression uses it", "7:22"),
@@ -81,6 +81,50 @@ fn each_mistake_has_its_message() {
         assert!(report.contains(&format!("atlas.toml:{place}\n")), "{message} at {place}:\n{report}");
         assert!(report.contains("help: "), "{report}");
     }
+}
+
+/// Each replacement in the valid manifest has this remedy, and no other problem follows from it.
+#[test]
+fn each_mistake_of_a_beginner_has_its_remedy() {
+    let cases = [
+        ("title = \"T\"", "title = \"T\"\nformats = \"pdf\"", "put it in brackets: [\"pdf\"]"),
+        ("let =", "panels = 3\nlet =", "write them like [1, 2]"),
+        ("let =", "sort = \"straight_length desc\"\nlet =", "write \"-straight_length\""),
+        ("let =", "sort = \"area + length DESC\"\nlet =", "write \"-(area + length)\""),
+        ("let =", "sort = \"area asc\"\nlet =", "leave it out: \"area\""),
+        ("[[family]]", "[[families]]", "did you mean `family`?"),
+        ("[atlas]\ntitle", "title", "did you mean `atlas.title`?"),
+        ("title = \"T\"", "title = T", "write \"T\""),
+        ("title = \"T\"", "title = My curves", "write \"My curves\""),
+        ("p = [2, 3]", "p = 4,5", "write a decimal point, 4.5, or a list of values, [4, 5]"),
+    ];
+    for (from, to, remedy) in cases {
+        let text = GOOD.replacen(from, to, 1);
+        assert_ne!(text, GOOD, "{from}");
+        let report = problems(&text);
+        assert!(report.contains(&format!("help: {remedy}")), "{remedy}:\n{report}");
+        assert_eq!(report.matches("error: ").count(), 1, "{report}");
+    }
+}
+
+#[test]
+fn a_value_out_of_its_bounds_is_named_where_it_is_given() {
+    for (space, place) in [("grid = { p = [2, -3] }", "7:18"), ("cases = [{ p = 2 }, { p = -3 }]", "7:27")] {
+        let report = problems(&GOOD.replace("grid = { p = [2, 3] }", space));
+        assert!(report.contains(&format!("atlas.toml:{place}\n")), "{report}");
+        assert!(report.contains("help: give `p` a value of more than 0 here"), "{report}");
+    }
+}
+
+#[test]
+fn a_misspelt_parameter_is_not_missing_as_well() {
+    let text = "[atlas]\ntitle = \"T\"\n[[family]]\nid = \"f\"\nlinkage = \"four-bar\"\n\
+                grid = { frame = 4, crank = 1, coupler = 3, roker = 3, along = 1, across = 1 }\n";
+    let report = problems(text);
+    assert!(report.contains("did you mean `rocker`?") && !report.contains("has no value"), "{report}");
+    assert_eq!(report.matches("error: ").count(), 1, "{report}");
+    // Others are.
+    assert!(problems(&text.replace("crank = 1, ", "")).contains("`crank` has no value"));
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Reads `[book]`: what the book has in addition to the pages of its families.
 
-use crate::names::{read_filter, uses_text_measure};
+use crate::names::{read_filter, states_direction, uses_text_measure};
 use crate::plan::{BookPlan, FindingCharts, ListCriteria, PlannedChapter, PlannedFamily, PlannedList};
 use coupler_curves::expression::{Caption, CompiledExpression, Expression, Kind, Scope};
 use coupler_curves::family::{Family, MEASURES};
@@ -444,7 +444,7 @@ fn list<'t>(value: &TomlValue<'t>, families: Families, parser: &mut TomlParser<'
     let words: Vec<&str> = Family::word_measure_names().collect();
     let knows =
         |scope: &Scope| names.iter().all(|name| words.contains(&name.as_str()) || scope.index_of(name).is_some());
-    let sort = sort.filter(|value| !uses_text_measure(value, parser))?;
+    let sort = sort.filter(|value| !uses_text_measure(value, parser) && !states_direction(value, parser))?;
     let criteria = for_families(families, parser, knows, |planned, scope, parser| {
         let filter = match filter {
             None => Some(None),

@@ -4,10 +4,11 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use crate::plan::PlannedFamily;
-use coupler_curves::family::{Cell, CellError, Family};
+use coupler_curves::family::{Cell, CellError, Family, ParameterSpace};
 use coupler_curves::linkage_format::{Fields, TomlParser, TomlValue};
 use coupler_curves::motion::MAX_CIRCUIT_BYTES;
 use coupler_curves::problem::{Problem, Span};
+use coupler_curves::template::Parameter;
 use coupler_drawing::page::Layout;
 use coupler_drawing::render::Format;
 
@@ -126,7 +127,7 @@ pub(crate) fn check_memory(family: &Family, layout: Option<Layout>, fields: &Fie
 struct CellProblem {
     span: Span,
     message: String,
-    help: &'static str,
+    help: String,
     cell_count: usize,
 }
 
@@ -138,35 +139,42 @@ enum ProblemKind {
     Linkage,
 }
 
+/// What is known of the names of a family.
+pub(crate) struct GivenNames<'a> {
+    /// The places where they get their values.
+    pub spans: &'a [Option<Span>],
+    /// The parameters of which misspelt names have been reported.
+    pub misspelt: &'a [String],
+}
+
 /// Checks the values and the linkages of a range of cells; of each kind of problem the first cell is reported, and the others are
-/// counted. `spans` are the places where the names get their values. If the family `has_problems` already, a name without
-/// a value that is not a parameter is one of them.
+/// counted. If the family `has_problems` already, a name without a value that is not a parameter, or that is one misspelt, is one
+/// of them.
 pub(crate) fn check(
     family: &Family,
     cells: Range<usize>,
     fields: &Fields,
-    spans: &[Option<Span>],
+    GivenNames { spans, misspelt }: GivenNames,
     has_problems: bool,
     parser: &mut TomlParser,
 ) {
     let is_parameter = |name: &String| family.template.parameters.iter().any(|parameter| parameter.name == *name);
+    let is_reported = |name: &String| has_problems && (!is_parameter(name) || misspelt.contains(name));
     let mut problems: Vec<CellProblem> = Vec::new();
     let mut problem_indices: HashMap<ProblemKind, usize> = HashMap::new();
     for k in cells {
         let cell = family.cell(k);
         for error in family.cell_errors(&cell) {
-            if matches!(&error, CellError::Missing(name) if has_problems && !is_parameter(name)) {
+            if matches!(&error, CellError::Missing(name) if is_reported(name)) {
                 continue;
             }
             let (kind, slot, help) = match &error {
                 CellError::Missing(name) => {
-                    (ProblemKind::Missing(name.clone()), None, "give it in the grid, the cases or `let`")
+                    (ProblemKind::Missing(name.clone()), None, "give it in the grid, the cases or `let`".to_owned())
                 }
-                CellError::Value { slot, .. } => {
-                    (ProblemKind::Value(*slot), Some(*slot), "change the values it comes from")
-                }
+                CellError::Value { slot, .. } => (ProblemKind::Value(*slot), Some(*slot), value_help(family, k, *slot)),
                 CellError::Template(_) => {
-                    (ProblemKind::Linkage, None, "change the values it comes from, or leave the cell out")
+                    (ProblemKind::Linkage, None, "change the values it comes from, or leave the cell out".to_owned())
                 }
             };
             if let Some(&found) = problem_indices.get(&kind) {
@@ -174,7 +182,8 @@ pub(crate) fn check(
                 continue;
             }
             problem_indices.insert(kind, problems.len());
-            let span = case_span(fields, k).or_else(|| spans.get(slot?).cloned().flatten());
+            let value_span = slot.and_then(|slot| value_span(family, fields, (k, slot)));
+            let span = value_span.or_else(|| case_span(fields, k)).or_else(|| spans.get(slot?).cloned().flatten());
             let message = format!("in cell {} ({}), {error}", cell.number, given_values(family, &cell));
             let span = span.unwrap_or_else(|| space_span(fields));
             problems.push(CellProblem { span, message, help, cell_count: 1 });
@@ -182,7 +191,7 @@ pub(crate) fn check(
     }
     for problem in problems {
         let help = match problem.cell_count {
-            1 => problem.help.to_owned(),
+            1 => problem.help,
             2 => format!("{}; one more cell has the same error", problem.help),
             n => format!("{}; {} more cells have the same error", problem.help, n - 1),
         };
@@ -208,6 +217,33 @@ fn given_values(family: &Family, cell: &Cell) -> String {
 fn space_span(fields: &Fields) -> Span {
     let space = ["grid", "cases"].into_iter().find_map(|key| fields.get(key));
     space.map_or_else(|| fields.span.clone(), TomlValue::span)
+}
+
+/// What to do about a value of the k-th cell that is out of its bounds.
+fn value_help(family: &Family, k: usize, slot: usize) -> String {
+    let allowed = family.template.parameters.get(slot).and_then(Parameter::allowed);
+    match allowed.filter(|_| family.space.assigns(k, slot)) {
+        Some(allowed) => format!("give `{}` a value {allowed} here", family.names[slot]),
+        None => "change the values it comes from".to_owned(),
+    }
+}
+
+/// The place of the value that the grid or the k-th case gives a name, if it does.
+fn value_span(family: &Family, fields: &Fields, (k, slot): (usize, usize)) -> Option<Span> {
+    let name = &family.names[slot];
+    let value = match &family.space {
+        ParameterSpace::Cases(_) => {
+            fields.get("cases")?.get_ref().as_array()?.get(k)?.get_ref().as_table()?.get(name.as_str())?
+        }
+        ParameterSpace::Grid(axes) => {
+            let value = fields.get("grid")?.get_ref().as_table()?.get(name.as_str())?;
+            let axis = axes.iter().find(|axis| axis.slot == slot)?;
+            let list = value.get_ref().as_array();
+            let of_cell = family.cell(k).values[slot];
+            list.and_then(|list| list.get(axis.values.iter().position(|value| value == of_cell)?)).unwrap_or(value)
+        }
+    };
+    Some(value.span())
 }
 
 /// The place of the k-th case, if the family has cases.

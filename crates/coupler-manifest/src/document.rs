@@ -134,6 +134,7 @@ fn read_plan(
     let root = Fields::from_value(&document, &MANIFEST, parser)?;
     let atlas = match root.get("atlas") {
         Some(value) => settings::atlas(value, writable, parser),
+        None if root.may_be_misspelt("atlas") => None,
         None => {
             let problem = Problem::error(0..first_line_len(text), "the manifest has no [atlas]");
             parser.report(problem.with_help("add a table [atlas] with title = \"…\""));
@@ -145,7 +146,8 @@ fn read_plan(
     let templates = Templates::read(&root, parser);
     let formats = atlas.as_ref().map_or_else(|| vec![Format::Svg], |atlas| atlas.formats.clone());
     let tables = root.tables("family", parser);
-    if tables.is_empty() && root.get("family").is_none_or(|value| value.get_ref().is_array()) {
+    let has_none = tables.is_empty() && root.get("family").is_none_or(|value| value.get_ref().is_array());
+    if has_none && !root.may_be_misspelt("family") {
         let problem = Problem::error(0..first_line_len(text), "the manifest has no family");
         parser.report(problem.with_help("add a table [[family]] with id, linkage, and grid or cases"));
     }

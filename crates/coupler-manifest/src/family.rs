@@ -131,7 +131,8 @@ pub(crate) fn read<'t>(
         Purpose::Tables(range) => range(&family.id, count),
     };
     if !parser.has_syntax_error() {
-        cells::check(&family, checked, &fields, &names.spans, parser.problem_count() > before, parser);
+        let given = cells::GivenNames { spans: &names.spans, misspelt: &names.misspelt };
+        cells::check(&family, checked, &fields, given, parser.problem_count() > before, parser);
     }
     let source = source.unwrap_or_else(|| family.template.source_line());
     let filter_span = fields.get("where").map(TomlValue::span);

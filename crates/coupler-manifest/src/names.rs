@@ -7,7 +7,7 @@ use crate::unused_names;
 use coupler_curves::expression::{Caption, CompiledExpression, Expression, Kind, Scope};
 use coupler_curves::family::{Axis, AxisValues, Case, Family, MAX_CELLS, ParameterSpace, sort_by_dependency};
 use coupler_curves::linkage_format::{self, Fields, TomlParser, TomlValue};
-use coupler_curves::measure::BOOLEANS;
+use coupler_curves::measure::{BOOLEANS, parse_condition};
 use coupler_curves::problem::{Problem, Span};
 use coupler_curves::template::{ParameterKind, Template};
 use coupler_drawing::chart;
@@ -22,6 +22,8 @@ pub(crate) struct FamilyNames {
     pub captions: [Option<Caption>; 2],
     /// The place where each name is given a value.
     pub spans: Vec<Option<Span>>,
+    /// The parameters of which misspelt names have been reported, and so not that they have no value.
+    pub misspelt: Vec<String>,
 }
 
 /// Reads the names of a family, and the expressions over them: `let`, `where`, `sort`, `caption` and `note`.
@@ -89,7 +91,7 @@ pub(crate) fn read_names<'t>(
     let curve_scope = Family::scope(&all, template.is_driven_by_length());
     let filter = fields.get("where").and_then(|value| read_filter(value, &curve_scope, parser));
     read_all &= filter.is_some() == fields.get("where").is_some();
-    let sort = fields.get("sort").filter(|value| !uses_text_measure(value, parser));
+    let sort = fields.get("sort").filter(|value| !uses_text_measure(value, parser) && !states_direction(value, parser));
     let sort = sort.and_then(|value| parser.numeric_expression(value, &curve_scope));
     read_all &= sort.is_some() == fields.get("sort").is_some();
     let caption = |key: &str, default: &Option<Caption>, parser: &mut TomlParser<'t>| match fields.get(key) {
@@ -97,16 +99,17 @@ pub(crate) fn read_names<'t>(
         Some(value) => parser.caption(value, &curve_scope, &Family::word_measure_names().collect::<Vec<_>>()),
     };
     let captions = [caption("caption", &template.caption, parser), caption("note", &template.note, parser)];
+    let mut misspelt = Vec::new();
     if !parser.has_syntax_error() {
         // If all expressions could be compiled no word is misspelt.
         let known = chart::scope(&all, template.is_driven_by_length());
         let is_known = |word: &str| read_all || known.index_of(word).is_some();
         let names = all.iter().zip(&spans).map(|(name, span)| (name.as_str(), span.clone().unwrap_or_default()));
-        unused_names::report(template, names, is_known, fields, parser);
+        misspelt = unused_names::report(template, names, is_known, fields, parser);
     }
     let derived = in_dependency_order(sources, &all, &scope, parser)?;
     read_all.then_some(())?;
-    Some(FamilyNames { all, space, derived, filter, sort, captions, spans })
+    Some(FamilyNames { all, space, derived, filter, sort, captions, spans, misspelt })
 }
 
 /// The names of a family while they are collected.
@@ -151,7 +154,9 @@ pub(crate) fn uses_text_measure<'t>(value: &TomlValue<'t>, parser: &mut TomlPars
     let Some(expression) = value.get_ref().as_str().and_then(|text| Expression::parse(text).ok()) else { return false };
     let is_boolean = |word: &&str| BOOLEANS.iter().any(|boolean| boolean.name == *word);
     let mut words = Family::word_measure_names().filter(|word| !is_boolean(word));
-    let word = words.find(|word| expression.names().iter().any(|name| name == word));
+    // A comparison with a word has a remedy of its own.
+    let is_compared = value.get_ref().as_str().is_some_and(|text| parse_condition(text).is_err());
+    let word = words.find(|word| !is_compared && expression.names().iter().any(|name| name == word));
     if let Some(word) = word {
         let problem = Problem::error(value.span(), format!("`{word}` is a word, not a number"));
         parser.report(problem.with_help(
@@ -159,6 +164,23 @@ pub(crate) fn uses_text_measure<'t>(value: &TomlValue<'t>, parser: &mut TomlPars
         ));
     }
     word.is_some()
+}
+
+/// Whether a sort key ends with a word for the direction, as in SQL; reports it.
+pub(crate) fn states_direction<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> bool {
+    let Some((key, word)) = value.get_ref().as_str().and_then(|text| text.trim().rsplit_once([' ', '\t'])) else {
+        return false;
+    };
+    let Ok(expression) = Expression::parse(key) else { return false };
+    let help = match word.to_ascii_lowercase().as_str() {
+        "asc" | "ascending" => format!("leave it out: \"{}\"", key.trim()),
+        "desc" | "descending" if expression.as_name().is_some() => format!("write \"-{}\"", key.trim()),
+        "desc" | "descending" => format!("write \"-({})\"", key.trim()),
+        _ => return false,
+    };
+    let problem = Problem::error(value.span(), format!("a sort key is ascending, and `{word}` is no part of it"));
+    parser.report(problem.with_help(help));
+    true
 }
 
 /// Reads `where`.
@@ -175,7 +197,8 @@ pub(crate) fn read_filter<'t>(
     if uses_text_measure(value, parser) {
         return None;
     }
-    let expression = parser.expression(value)?;
+    let parsed = parse_condition(value.get_ref().as_str()?);
+    let expression = parser.ok_or_report(value, parsed)?;
     let compiled = expression.compile(scope, Kind::Boolean);
     parser.ok_or_report(value, compiled)
 }

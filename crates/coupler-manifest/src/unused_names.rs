@@ -11,30 +11,36 @@ use coupler_curves::template::Template;
 /// and that no expression of the family uses. `is_known` says of other words whether expressions may use them.
 ///
 /// Expressions with errors count as well: a name is not reported if one uses a word that may be the name misspelt.
+///
+/// Returns the parameters that the reported names may be, misspelt.
 pub(crate) fn report<'n>(
     template: &Template,
     names: impl Iterator<Item = (&'n str, Span)>,
     is_known: impl Fn(&str) -> bool,
     fields: &Fields,
     parser: &mut TomlParser,
-) {
+) -> Vec<String> {
     /// The most words that names are compared with.
     const MAX_UNKNOWN: usize = 50;
     let used = used_words(fields);
     let unknown: Vec<&str> = used.iter().map(String::as_str).filter(|word| !is_known(word)).take(MAX_UNKNOWN).collect();
     let parameters: Vec<&str> = template.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
+    let mut meant = Vec::new();
     for (name, span) in names.skip(parameters.len()) {
         let may_be_misspelt = || unknown.iter().any(|word| nearest_word(word, [name]).is_some());
         if used.contains(name) || may_be_misspelt() {
             continue;
         }
         let message = format!("`{name}` is not a parameter of `{}`, and no expression uses it", template.id);
-        let help = match nearest_word(name, parameters.iter().copied()) {
+        let near = nearest_word(name, parameters.iter().copied());
+        meant.extend(near.map(str::to_owned));
+        let help = match near {
             Some(near) => format!("did you mean `{near}`?"),
             None => format!("its parameters are {}", list_words(&parameters)),
         };
         parser.report(Problem::error(span, message).with_help(help));
     }
+    meant
 }
 
 /// The words in all expressions of a family: those of `let`, `where`, `sort`, `chart`, `caption` and `note`.

@@ -67,7 +67,7 @@ pub struct Arguments {
     )]
     best: String,
     /// Draw the designs on one plate, and write it to this file; - for standard output, in place of the text.
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = files::svg_parser())]
     svg: Option<PathBuf>,
     /// Print a manifest that renders the designs: coupler-atlas design … --toml > best.toml
     #[arg(long, conflicts_with = "json")]

@@ -5,6 +5,7 @@ mod selection;
 
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use crate::export::{self, DEFAULT_DPI, Format, Options};
 use crate::manifest::Plan;
@@ -171,8 +172,8 @@ fn select_from_linkage(id: &str, arguments: &Arguments) -> anyhow::Result<CurveS
         }
     };
     let source = template.source_line();
-    match Family::single_cell(template, &given, sampling) {
-        Err(errors) => problems.extend(errors.iter().map(|error| format!("{id}: {error}"))),
+    match Family::single_cell(Arc::clone(&template), &given, sampling) {
+        Err(errors) => problems.extend(linkage::parameter_errors(&template, &errors)),
         Ok(family) if problems.is_empty() => {
             let mut selection = CurveSelection::empty(family, source);
             let name = |curve| CurveName { family: id.to_owned(), cell: Some(1), curve, overrides: Vec::new() };

@@ -3,6 +3,9 @@
 mod atlas;
 mod json;
 mod linkage;
+mod not_a_path;
+mod notes;
+mod shown;
 mod text;
 
 use std::path::{Path, PathBuf};
@@ -18,7 +21,9 @@ use coupler_curves::geometry::{Bounds, Point};
 use coupler_curves::template::Template;
 
 use super::export::CurveSamples;
-use super::{InputError, InputErrors, Outcome, export, files, print, print_bytes, source};
+use super::{InputError, InputErrors, Outcome, export, files, source};
+use notes::Best;
+use shown::{Shown, show};
 
 /// Find the linkages whose coupler curves are nearest to a path, with their cognates.
 ///
@@ -117,7 +122,7 @@ pub struct Arguments {
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: Option<u16>,
     /// Draw the path and the curves on one page, and write it to this file; - for standard output, in place of the text.
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = files::svg_parser())]
     svg: Option<PathBuf>,
     /// Print a manifest that renders the linkages: coupler-atlas find … --toml > found.toml
     #[arg(long, conflicts_with = "json")]
@@ -181,6 +186,11 @@ impl Shown for Report {
     fn text(&self) -> String {
         text::text(self)
     }
+
+    fn best(&self) -> Option<Best> {
+        let best = self.answers.first()?;
+        Some(Best { quality: best.quality(), mu_worst_deg: best.mechanism.mu_worst_deg })
+    }
 }
 
 /// The name of a path without its folder.
@@ -217,32 +227,6 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let nearest_miss = if answers.is_empty() { nearest_miss(&target, &index, &options) } else { None };
     let report = Report { name, target, answers, nearest_miss };
     show(&report, arguments, is_drawing_printed)
-}
-
-/// What a search has found, in the forms in which it is shown.
-trait Shown {
-    /// The path and the curves on one page, as SVG.
-    fn drawing(&self) -> Vec<u8>;
-    fn json(&self) -> anyhow::Result<String>;
-    /// A manifest that renders the linkages.
-    fn manifest(&self) -> String;
-    fn text(&self) -> String;
-}
-
-/// Writes the drawing that the arguments ask for, and prints what they ask for unless that is the drawing.
-fn show(report: &impl Shown, arguments: &Arguments, is_drawing_printed: bool) -> anyhow::Result<Outcome> {
-    if let Some(path) = &arguments.svg {
-        files::write(path, &report.drawing())?;
-        if is_drawing_printed {
-            return Ok(Outcome::Done);
-        }
-    }
-    match (arguments.json, arguments.toml) {
-        (true, _) => print_bytes(report.json()?.as_bytes())?,
-        (_, true) => print_bytes(report.manifest().as_bytes())?,
-        _ => print(&report.text())?,
-    }
-    Ok(Outcome::Done)
 }
 
 /// Reads the options of the search, for a linkage other than the four-bar if there is one.
@@ -369,8 +353,11 @@ fn read_path(arguments: &Arguments) -> anyhow::Result<TracedPath> {
     let path = arguments.path.as_deref().unwrap_or(Path::new("-"));
     files::protect(path);
     let name = files::input_name(path);
-    let text = output::read_text(path).map_err(|error| InputError(error.to_string()))?;
+    let text = output::read_text(path).map_err(|error| not_a_path::unreadable(path, &error))?;
     let outline = find::parse_outline(&text, arguments.timed).map_err(|problems| {
+        if let Some(message) = not_a_path::manifest_message(path, &text) {
+            return InputErrors::from_messages(&[message]);
+        }
         let problems: Vec<String> = problems.iter().map(|problem| format!("{name}: {problem}")).collect();
         InputErrors::from_messages(&problems)
     })?;

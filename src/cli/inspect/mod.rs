@@ -20,7 +20,7 @@ use coupler_curves::motion::Sampler;
 use coupler_curves::solve::{self, SolvedCell};
 
 use super::linkage::{self, DEFAULT_SAMPLES};
-use super::{InputError, Outcome, files, print, print_bytes};
+use super::{InputError, InputErrors, Outcome, files, print, print_bytes};
 use pose::Pose;
 
 /// Describe one linkage: its class, limits, transmission angle and straight portion; then its circuits, and the
@@ -64,7 +64,7 @@ pub struct Arguments {
     json: bool,
     /// Draw the linkage on one plate, at the input of --at or in its clearest pose, and write it to this file; - for
     /// standard output, in place of the text.
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = files::svg_parser())]
     svg: Option<PathBuf>,
     /// With --svg, animate the linkage through its first circuit.
     #[arg(long, requires = "svg", conflicts_with = "at")]
@@ -104,8 +104,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         // The other branch may be on another circuit than that of the start.
         Arc::make_mut(&mut template).circuits = CircuitSelection::All;
     }
-    let family = Family::single_cell(template, &given, Sampling::Samples(DEFAULT_SAMPLES as usize))
-        .map_err(|errors| InputError(format!("{}: {}", arguments.linkage, errors.to_string().replace('\n', "; "))))?;
+    let family = Family::single_cell(Arc::clone(&template), &given, Sampling::Samples(DEFAULT_SAMPLES as usize))
+        .map_err(|errors| InputErrors::from_messages(&linkage::parameter_errors(&template, &errors)))?;
     let Some(solved) = solve::solve_cell(&family, &Sampler::new(family.sampling), 0) else {
         return Err(InputError(format!("{}: there is no linkage with these parameters", arguments.linkage)).into());
     };

@@ -209,9 +209,10 @@ fn openable_paths(Rendered { output, run, .. }: &Rendered) -> impl Iterator<Item
 /// "written to output; open output/index.html or output/book.pdf".
 fn closing_line(rendered: &Rendered, is_changed: bool) -> String {
     let what = if is_changed { "written to" } else { "nothing has changed in" };
-    let names: Vec<String> = openable_paths(rendered).map(|path| printable(path.display())).collect();
+    let names: Vec<String> =
+        openable_paths(rendered).map(|path| printable(files::without_parents(&path).display())).collect();
     let open = if names.is_empty() { String::new() } else { format!("; open {}", names.join(" or ")) };
-    format!("{what} {}{open}\n", printable(rendered.output.display()))
+    format!("{what} {}{open}\n", printable(files::without_parents(&rendered.output).display()))
 }
 
 /// Opens a file in the program that the system has for it. A failure is no error: the files are written.

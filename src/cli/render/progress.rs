@@ -1,7 +1,8 @@
 //! The progress of a run, and a line for each family at its end.
 
 use crate::output::Event;
-use crate::record::FamilyRecord;
+use crate::record::{FamilyRecord, FileRecord};
+use coupler_drawing::render::PageFormat;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::super::{pluralize, print_stderr, printable};
@@ -17,6 +18,8 @@ pub(super) struct ProgressReporter {
     bar: ProgressBar,
     /// The cells of the current family that are not assembled.
     warnings: usize,
+    /// The first of them, which is printed with the second, or at the end of the family.
+    first_warning: Option<String>,
     /// The cells of all families that are not assembled.
     pub not_assembled: usize,
     /// Whether anything of a family or of the book was drawn.
@@ -30,6 +33,7 @@ impl ProgressReporter {
             reports_unchanged,
             bar: ProgressBar::hidden(),
             warnings: 0,
+            first_warning: None,
             not_assembled: 0,
             has_drawn: false,
         }
@@ -53,13 +57,22 @@ impl ProgressReporter {
             Event::Shortfall { family, cell, reason } => {
                 self.not_assembled += 1;
                 self.warnings += 1;
-                if self.warnings <= MAX_WARNINGS {
-                    self.bar
-                        .suspend(|| print_stderr(&format!("warning: {family}, cell {cell}: {}\n", printable(reason))));
+                let warning = format!("warning: {family}, cell {cell}: {}\n", printable(reason));
+                match self.warnings {
+                    1 => self.first_warning = Some(warning),
+                    count if count <= MAX_WARNINGS => {
+                        let warnings = self.first_warning.take().unwrap_or_default() + &warning;
+                        self.bar.suspend(|| print_stderr(&warnings));
+                    }
+                    _ => {}
                 }
             }
             Event::End { record, drawn } => {
                 self.bar.finish_and_clear();
+                // The warning of a family without curves says why its only cell has none.
+                if let Some(warning) = self.first_warning.take().filter(|_| record.cells > 1 || record.curves > 0) {
+                    print_stderr(&warning);
+                }
                 if self.warnings > MAX_WARNINGS {
                     print_stderr(&format!(
                         "warning: {}: {} more cells are not assembled; see cells.csv\n",
@@ -95,6 +108,9 @@ impl ProgressReporter {
                 let message = format!("warning: the {kind} `{}` of the book is left out: {reason}\n", printable(title));
                 self.bar.suspend(|| print_stderr(&message));
             }
+            Event::Removed { family } => {
+                lines.push_str(&format!("removed: {}, which is not in the manifest\n", printable(family)));
+            }
             Event::UnusableRecord { record, error } => {
                 let (record, error) = (printable(record.display()), printable(error));
                 print_stderr(&format!(
@@ -123,10 +139,16 @@ fn summary(record: &FamilyRecord, drawn: Option<usize>) -> String {
         line.push_str(&format!(" ({} more left out by `where`)", record.curves_left_out));
     }
     line.push_str(&format!(", {}", pluralize(record.pages, "page")));
+    let extension = |file: &FileRecord| file.name.rsplit_once('.').map(|(_, extension)| extension.to_owned());
+    let is_page = |file: &FileRecord| {
+        let extension = extension(file);
+        PageFormat::ALL.iter().any(|format| extension.as_deref() == Some(format.name()))
+    };
+    // Pages that are only in the book have no files.
+    let has_page_files = record.files.iter().any(is_page);
     match drawn {
         None => line.push_str(" (unchanged)"),
-        // Pages that are only in the book have no files.
-        Some(drawn) if drawn < record.pages && record.files.len() > record.pages => {
+        Some(drawn) if drawn < record.pages && has_page_files => {
             line.push_str(&format!(" ({drawn} of {} drawn)", pluralize(record.pages, "page")));
         }
         Some(_) => {}

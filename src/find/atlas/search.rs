@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use coupler_curves::expression::{CompiledExpression, Expression, Kind};
+use coupler_curves::expression::{CompiledExpression, Kind};
 use coupler_curves::family::Family;
 use coupler_curves::find::{CurveFitOptions, CurveFitter, CurveIndex, CurveLookup, CurveShape, Target, is_scalable};
 use coupler_curves::geometry::{Bounds, Point};
@@ -141,7 +141,7 @@ fn compile<'p>(plan: &'p Plan, condition: Option<&str>) -> Result<Vec<Conditione
     for (place, planned) in plan.families.iter().enumerate() {
         let family = &planned.family;
         let scope = Family::scope(&family.names, family.template.is_driven_by_length());
-        let compiled = condition.map(|text| Expression::parse(text)?.compile(&scope, Kind::Boolean)).transpose();
+        let compiled = condition.map(|text| measure::parse_condition(text)?.compile(&scope, Kind::Boolean)).transpose();
         match compiled {
             Ok(condition) => families.push((place, family, condition)),
             Err(other) => drop(error.get_or_insert(other)),

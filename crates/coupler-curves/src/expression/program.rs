@@ -2,7 +2,7 @@
 
 use super::{Error, Function, Scope};
 use crate::geometry::trig;
-use crate::problem::{Span, suggestion_among};
+use crate::problem::Span;
 
 /// The kind of an expression's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -133,7 +133,7 @@ impl Expression {
                     let unknown = || {
                         let help = match scope.is_empty() {
                             true => "write a number; names cannot be used here".to_owned(),
-                            false => suggestion_among(name, scope.names(), scope.len()),
+                            false => scope.suggestion(name),
                         };
                         let error = Error::new(span.clone(), format!("unknown name `{name}`"), help);
                         Error { is_unknown_name: true, ..error }

@@ -3,18 +3,38 @@
 use std::collections::HashMap;
 
 use super::Kind;
+use crate::problem::{list_words, nearest_word, suggestion_among};
 
 /// Names with their kinds and indices, found by a hash rather than one by one.
 #[derive(Clone, Debug, Default)]
 pub struct Scope<'a> {
     names: Vec<(&'a str, Kind)>,
     indices: HashMap<&'a str, usize>,
+    /// How many of the first names a message lists, and what it says of the others; of all scopes without one all names are listed.
+    others: Option<(usize, &'static str)>,
 }
 
 impl<'a> Scope<'a> {
     /// The names that are numbers.
     pub fn from_numbers(names: impl IntoIterator<Item = &'a str>) -> Scope<'a> {
         names.into_iter().map(|name| (name, Kind::Number)).collect()
+    }
+
+    /// The same, where messages list only so many of the first names, and describe the others in these words.
+    pub fn with_others_described(self, listed: usize, others: &'static str) -> Scope<'a> {
+        Scope { others: Some((listed, others)), ..self }
+    }
+
+    /// The help for an unknown name: the nearest of the names, or else what it can be.
+    pub fn suggestion(&self, name: &str) -> String {
+        match self.others.filter(|_| nearest_word(name, self.names()).is_none()) {
+            None => suggestion_among(name, self.names(), self.len()),
+            Some((0, others)) => format!("it can be {others}"),
+            Some((listed, others)) => {
+                let own: Vec<&str> = self.names().take(listed).collect();
+                format!("it can be one of {}, or {others}", list_words(&own))
+            }
+        }
     }
 
     /// The number of names.
@@ -69,5 +89,16 @@ mod tests {
         let scope: Scope = [("a", Kind::Number), ("b", Kind::Boolean), ("a", Kind::Boolean)].into_iter().collect();
         assert_eq!((scope.index_of("a"), scope.kind_of("a"), scope.len()), (Some(0), Some(Kind::Number), 3));
         assert_eq!((scope.index_of("b"), scope.index_of("c")), (Some(1), None));
+    }
+
+    #[test]
+    fn the_names_that_are_listed_elsewhere_are_described() {
+        let scope = Scope::from_numbers(["frame", "crank", "area"]).with_others_described(2, "a measure");
+        assert_eq!(scope.suggestion("xyz"), "it can be one of frame, crank, or a measure");
+        assert_eq!(scope.suggestion("aera"), "did you mean `area`?");
+        assert_eq!(
+            Scope::from_numbers(["a"]).with_others_described(0, "a measure").suggestion("b"),
+            "it can be a measure"
+        );
     }
 }

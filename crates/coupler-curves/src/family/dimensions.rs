@@ -110,9 +110,14 @@ impl Family {
         self.equation(slot, if is_given { cell.values[slot] } else { round_to_six_digits(cell.values[slot]) })
     }
 
-    /// A name, by its index in [`Family::names`], and a value in full: "p = 2.5", "phase = 30°".
+    /// A name, by its index in [`Family::names`], and a value in full: "p = 2.5", "phase = 30°"; one that takes more digits than anyone
+    /// writes was computed, and has six significant ones.
     pub fn equation(&self, slot: usize, value: f64) -> MathText {
-        MathText::from_name(&self.names[slot]).with_words(format!(" = {}{}", format_in_full(value), self.unit(slot)))
+        const MAX_WRITTEN_DIGITS: usize = 12;
+        let in_full = format_in_full(value);
+        let digits = in_full.chars().filter(char::is_ascii_digit).count();
+        let number = if digits <= MAX_WRITTEN_DIGITS { in_full } else { format_exactly(round_to_six_digits(value)) };
+        MathText::from_name(&self.names[slot]).with_words(format!(" = {number}{}", self.unit(slot)))
     }
 
     /// Whether the captions of a cell show a parameter: in full if it is given.

@@ -231,7 +231,8 @@ impl Family {
         let measures =
             measure::ALL.iter().filter(is_number).map(|measure| (measure.name_for(is_driven_by_length), Kind::Number));
         let booleans = measure::BOOLEANS.iter().map(|boolean| (boolean.name, Kind::Boolean));
-        own.chain(measures).chain(booleans).collect()
+        let scope: Scope = own.chain(measures).chain(booleans).collect();
+        scope.with_others_described(names.len(), "a measure: `coupler-atlas list measures` lists them")
     }
 
     /// Whether `where` or `sort` uses a measure, given by its index in [`measure::ALL`].

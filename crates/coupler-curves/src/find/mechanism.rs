@@ -2,12 +2,12 @@
 
 use std::sync::{Arc, LazyLock};
 
-use crate::expression::{self, CompiledExpression, Expression, Kind};
+use crate::expression::{self, CompiledExpression, Kind};
 use crate::family::{Family, MEASURES, Sampling};
 use crate::geometry::{Point, cross, left_normal, trig};
 use crate::linkage::{FourBar, PlacedFourBar, Side};
 use crate::linkage_format;
-use crate::measure::Value;
+use crate::measure::{Value, parse_condition};
 use crate::motion::{Circuit, Sampler};
 use crate::solve::{SolvedCell, solve_measuring};
 use crate::template::Template;
@@ -67,7 +67,7 @@ impl Condition {
     pub fn for_template(template: &Template, text: &str) -> Result<Condition, expression::Error> {
         let names: Vec<String> = template.parameters.iter().map(|parameter| parameter.name.clone()).collect();
         let scope = Family::scope(&names, template.is_driven_by_length());
-        let compiled = Expression::parse(text)?.compile(&scope, Kind::Boolean)?;
+        let compiled = parse_condition(text)?.compile(&scope, Kind::Boolean)?;
         Ok(Condition { text: text.to_owned(), compiled })
     }
 

@@ -28,7 +28,11 @@ impl<'v, 't> Fields<'v, 't> {
             let name = key.get_ref().as_ref();
             if !known.contains(&name) {
                 let problem = Problem::error(key.span(), format!("{} has no key `{name}`", schema.display_name));
-                parser.report(problem.with_help(suggestion(name, &known)));
+                let help = match schema.table_with(name) {
+                    Some(table) => format!("did you mean `{table}.{name}`?"),
+                    None => suggestion(name, &known),
+                };
+                parser.report(problem.with_help(help));
             }
         }
         Some(fields)
@@ -77,11 +81,12 @@ impl<'v, 't> Fields<'v, 't> {
         value
     }
 
-    /// Whether another key may be this one, misspelt.
-    fn may_be_misspelt(&self, key: &str) -> bool {
+    /// Whether another key may be this one, misspelt, or is one of the table that belongs at this key.
+    pub fn may_be_misspelt(&self, key: &str) -> bool {
         let known = self.schema.map(TableSchema::key_names).unwrap_or_default();
         let mut unknown = self.table.keys().map(|key| key.get_ref().as_ref()).filter(|other| !known.contains(other));
-        unknown.any(|other| nearest_word(other, known.iter().copied()) == Some(key))
+        let is_of_table = |other: &str| self.schema.and_then(|schema| schema.table_with(other)) == Some(key);
+        unknown.any(|other| nearest_word(other, known.iter().copied()) == Some(key) || is_of_table(other))
     }
 
     /// The string at a required key.

@@ -10,6 +10,7 @@ mod linkage;
 mod names;
 mod quantities;
 mod schema;
+mod syntax_errors;
 mod toml_parser;
 
 pub use canonical::{canonical_toml, quoted, toml_number};

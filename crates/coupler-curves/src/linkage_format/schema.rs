@@ -4,6 +4,7 @@
 //! both have the same keys.
 
 use crate::expression::Dimension;
+use crate::problem::nearest_word;
 
 /// A table with a fixed set of keys.
 #[derive(Debug)]
@@ -97,6 +98,16 @@ impl TableSchema {
     /// The names of its keys.
     pub fn key_names(&self) -> Vec<&'static str> {
         self.keys.iter().map(|key| key.name).collect()
+    }
+
+    /// The key of the first table in it that has a key `name`, which this one itself has neither so nor misspelt.
+    pub(super) fn table_with(&self, name: &str) -> Option<&'static str> {
+        let has_name = |key: &&KeySchema| match &key.value {
+            ValueSchema::Table(table) => table.keys.iter().any(|key| key.name == name),
+            _ => false,
+        };
+        let table = self.keys.iter().find(has_name)?;
+        nearest_word(name, self.key_names()).is_none().then_some(table.name)
     }
 }
 

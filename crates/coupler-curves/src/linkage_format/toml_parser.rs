@@ -4,6 +4,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::entries::{entry_around, unclosed_bracket};
+use super::syntax_errors::syntax_problem;
 use crate::expression::{self, Caption, CompiledExpression, Expression, Kind, Scope};
 use crate::problem::{Problem, Span};
 
@@ -49,16 +50,7 @@ impl<'t> TomlParser<'t> {
         for error in errors {
             let span = error.span().unwrap_or(0..0);
             let entry = entry_around(self.text, span.start);
-            // The parser takes values without a comma between them for a string without quotes.
-            let has_blank = self.text.get(span.clone()).is_some_and(|text| text.trim().contains([' ', '\t']));
-            let message = match error.message() {
-                message if has_blank && message.starts_with("string values must be quoted") => {
-                    "there is no comma between values, or a string is not in quotes"
-                }
-                message => message,
-            };
-            let problem = Problem::error(span, format!("invalid TOML: {message}"));
-            self.report(problem.with_help("see https://toml.io for how tables, keys and values are written"));
+            self.report(syntax_problem(self.text, span, error.message()));
             self.broken_entries.push(entry);
         }
         if self.has_syntax_error() {
@@ -153,7 +145,12 @@ impl<'t> TomlParser<'t> {
         match value.get_ref() {
             DeValue::Array(list) => Some(list),
             _ => {
-                self.report_mismatch(value, "a list", "put it in brackets: [1, 2]");
+                /// The most characters of a value that is repeated.
+                const MAX_REPEATED: usize = 60;
+                let written = self.source_text(value);
+                let is_short = written.len() <= MAX_REPEATED && !written.contains(['\n', '\r']);
+                let help = format!("put it in brackets: [{}]", if is_short { written } else { "…" });
+                self.report_mismatch(value, "a list", &help);
                 None
             }
         }
@@ -161,14 +158,16 @@ impl<'t> TomlParser<'t> {
 
     /// A list of two values.
     pub fn pair<'v>(&mut self, value: &'v TomlValue<'t>) -> Option<[&'v TomlValue<'t>; 2]> {
-        match self.list(value)? {
-            [a, b] => Some([a, b]),
-            list => {
+        const HELP: &str = "write them like [1, 2]";
+        match value.get_ref().as_array().map(|list| &list[..]) {
+            Some([a, b]) => return Some([a, b]),
+            Some(list) => {
                 let problem = Problem::error(value.span(), format!("expected two values, found {}", list.len()));
-                self.report(problem.with_help("write them like [1, 2]"));
-                None
+                self.report(problem.with_help(HELP));
             }
+            None => self.report_mismatch(value, "a list of two values", HELP),
         }
+        None
     }
 
     /// A whole number from `least` to `most`.

@@ -32,6 +32,7 @@ mod symmetry;
 mod symmetry_axis;
 mod touching;
 mod transmission;
+mod word_comparison;
 
 pub use column::{COLUMNS, Column, compute_columns, find_column};
 pub use dwell::Dwell;
@@ -43,6 +44,7 @@ pub use subject::Subject;
 pub use symmetry::Symmetry;
 pub use symmetry_axis::SymmetryAxis;
 pub use transmission::transmission_angle;
+pub use word_comparison::parse_condition;
 
 use std::cell::OnceCell;
 use std::rc::Rc;

@@ -36,6 +36,12 @@ pub fn nearest_word<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str
             return Some(only);
         }
     }
+    // A plural: `families` for `family`.
+    if let Some(stem) = word.strip_suffix("ies")
+        && let Some(singular) = candidates.iter().copied().find(|candidate| candidate.strip_suffix('y') == Some(stem))
+    {
+        return Some(singular);
+    }
     let allowed = (length / 3).max(1);
     let letters = lowercase_letters(word);
     // A letter has at most four bytes.
@@ -120,10 +126,14 @@ mod tests {
 
     #[test]
     fn a_misspelt_word_has_a_suggestion_and_an_unrelated_word_has_none() {
-        let keys = ["linkage", "layout", "sampling", "grid"];
-        for (word, meant) in
-            [("linkge", Some("linkage")), ("gird", Some("grid")), ("Grid", Some("grid")), ("xyz", None)]
-        {
+        let keys = ["linkage", "layout", "sampling", "grid", "family"];
+        for (word, meant) in [
+            ("linkge", Some("linkage")),
+            ("gird", Some("grid")),
+            ("Grid", Some("grid")),
+            ("families", Some("family")),
+            ("xyz", None),
+        ] {
             assert_eq!(nearest_word(word, keys), meant, "{word}");
         }
         assert_eq!(suggestion("zzz", &["a1", "b1", "c1"]), "it can be `a1`, `b1` or `c1`");

@@ -37,6 +37,19 @@ impl Parameter {
             _ => None,
         }
     }
+
+    /// The values within its bounds, in words: "of more than 0", "from 1 to 5"; `None` if it has no bounds.
+    pub fn allowed(&self) -> Option<String> {
+        let least = |min: f64| if min == 0.0 { "of more than 0".to_owned() } else { format!("of at least {min}") };
+        let most = |max: f64| if max == 0.0 { "of less than 0".to_owned() } else { format!("of at most {max}") };
+        match (self.min, self.max) {
+            (None, None) => None,
+            (Some(min), None) => Some(least(min)),
+            (None, Some(max)) => Some(most(max)),
+            (Some(min), Some(max)) if min != 0.0 && max != 0.0 => Some(format!("from {min} to {max}")),
+            (Some(min), Some(max)) => Some(format!("{} and {}", least(min), most(max).trim_start_matches("of "))),
+        }
+    }
 }
 
 /// What a parameter is a number of.

@@ -6,12 +6,12 @@ mod text;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
-use crate::find::{self, AtlasFindings, AtlasQuery};
+use crate::find::{self, AtlasAnswer, AtlasFindings, AtlasQuery};
 use crate::manifest::Plan;
-use coupler_curves::find::{Options, Target};
+use coupler_curves::find::{Options, Quality, Target};
 
 use super::super::source::ManifestSource;
-use super::{Arguments, InputError, Outcome, Shown, show, source, title_of};
+use super::{Arguments, Best, InputError, Outcome, Shown, show, source, title_of};
 
 /// What has been found in an atlas.
 pub(super) struct AtlasReport {
@@ -70,6 +70,14 @@ fn read(atlas: &Path) -> anyhow::Result<ManifestSource> {
 impl Shown for AtlasReport {
     fn manifest(&self) -> String {
         self.findings.manifest(&title_of(&self.name), &self.target, &self.plan)
+    }
+
+    fn best(&self) -> Option<Best> {
+        let AtlasAnswer { curve, refined, .. } = self.findings.answers.first()?;
+        Some(match refined {
+            Some(answer) => Best { quality: answer.quality(), mu_worst_deg: answer.mechanism.mu_worst_deg },
+            None => Best { quality: Quality::of(curve.fit.rms_relative), mu_worst_deg: curve.mu_worst_deg },
+        })
     }
 
     fn json(&self) -> anyhow::Result<String> {

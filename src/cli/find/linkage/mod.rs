@@ -9,12 +9,12 @@ use std::sync::atomic::AtomicBool;
 
 use crate::find::{self, LinkageFindings, MAX_SAMPLES};
 use crate::manifest;
-use coupler_curves::find::{Condition, LinkageSpace, Mechanism, Options, Target};
+use coupler_curves::find::{Condition, LinkageSpace, Mechanism, Options, Quality, Target};
 use coupler_curves::template::Template;
 
 use super::super::linkage::find_template;
 use super::super::source;
-use super::{Arguments, InputError, InputErrors, Outcome, Shown, show, title_of};
+use super::{Arguments, Best, InputError, InputErrors, Outcome, Shown, show, title_of};
 
 /// What has been found for a linkage.
 pub(super) struct LinkageReport {
@@ -124,6 +124,11 @@ pub(super) fn condition(
 impl Shown for LinkageReport {
     fn manifest(&self) -> String {
         self.findings.manifest(&title_of(&self.name), &self.target, self.own_linkage.as_deref())
+    }
+
+    fn best(&self) -> Option<Best> {
+        let curve = &self.findings.answers.first()?.curve;
+        Some(Best { quality: Quality::of(curve.fit.rms_relative), mu_worst_deg: curve.mu_worst_deg })
     }
 
     fn json(&self) -> anyhow::Result<String> {

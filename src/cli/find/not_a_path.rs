@@ -1,0 +1,37 @@
+//! What is wrong with a file that is given for a path, and what to give.
+
+use std::io::ErrorKind;
+use std::path::Path;
+
+use crate::output;
+
+use super::{InputError, files};
+
+/// Why the file of a path cannot be read, with the remedy.
+pub(super) fn unreadable(path: &Path, error: &output::Error) -> InputError {
+    const FORMS: &str = "a table of points, JSON or a drawing in SVG";
+    let name = files::input_name(path);
+    let kind = match error {
+        output::Error::Read { source, .. } => source.kind(),
+        _ => ErrorKind::Other,
+    };
+    InputError(match kind {
+        ErrorKind::NotFound => format!("cannot find {name}: name {FORMS}"),
+        ErrorKind::IsADirectory => format!("{name} is a folder: name {FORMS}"),
+        ErrorKind::InvalidData => format!("cannot read {name}: it is no table of points, JSON or SVG"),
+        _ => error.to_string(),
+    })
+}
+
+/// What to do with a manifest in place of a path; `None` if the text is no manifest.
+pub(super) fn manifest_message(path: &Path, text: &str) -> Option<String> {
+    let is_manifest =
+        files::extension(path).as_deref() == Some("toml") || text.lines().any(|line| line.trim() == "[[family]]");
+    let name = files::input_name(path);
+    is_manifest.then(|| {
+        format!(
+            "{name} is a manifest, not a path: `coupler-atlas render {name}` draws it, and `coupler-atlas find PATH --atlas {name}` \
+             looks a path up in its curves"
+        )
+    })
+}

@@ -1,0 +1,55 @@
+//! What to know of the best answer, and what may help.
+
+use coupler_curves::find::{Options, Quality};
+
+use super::super::printable;
+use super::{Arguments, EffortChoice, InputChoice};
+
+/// What a note depends on.
+pub(super) struct Best {
+    pub quality: Quality,
+    /// Its worst transmission angle; not a number if it has none.
+    pub mu_worst_deg: f64,
+}
+
+/// The worst transmission angle below which a linkage is said to jam, in degrees.
+const JAMS_BELOW_DEG: f64 = 10.0;
+
+/// The notes on the best answer, a line each.
+pub(super) fn notes(best: &Best, arguments: &Arguments) -> String {
+    let mut out = String::new();
+    if best.mu_worst_deg < JAMS_BELOW_DEG {
+        let condition = match &arguments.condition {
+            None => "mu_worst_deg >= 30".to_owned(),
+            Some(condition) => format!("({condition}) and mu_worst_deg >= 30"),
+        };
+        out += &format!(
+            "note: the best linkage jams, or nearly so: its worst transmission angle is {}; leave such linkages out: --where \"{}\"\n",
+            super::text::angle(best.mu_worst_deg),
+            printable(condition)
+        );
+    }
+    if best.quality == Quality::Poor {
+        out += &format!("note: the best fit is poor; what may help: {}\n", remedies(arguments).join(", "));
+    }
+    out
+}
+
+/// What may lead to a better fit than with these arguments.
+fn remedies(arguments: &Arguments) -> Vec<&'static str> {
+    let has_link_limit = arguments.max_link.trim() != "inf";
+    let is_short = has_link_limit && arguments.max_link.trim() != Options::default().max_link.to_string();
+    let candidates = [
+        (arguments.condition.is_some(), "a weaker --where"),
+        (arguments.pivots.is_some(), "a larger --pivots"),
+        (is_short, "a greater --max-link"),
+        (arguments.fixed, "no --fixed"),
+        (arguments.no_refine, "no --no-refine"),
+        (arguments.effort != EffortChoice::Thorough, "--effort thorough"),
+        (!arguments.part, "--part, if the path is a part of the curve"),
+        (arguments.input == InputChoice::FullTurn, "--input any, if the crank need not turn fully"),
+        (arguments.atlas.is_some(), "a search of all four-bars, without --atlas"),
+        (arguments.linkage.is_some(), "another --linkage"),
+    ];
+    candidates.into_iter().filter(|(helps, _)| *helps).map(|(_, remedy)| remedy).collect()
+}

@@ -1,0 +1,35 @@
+//! What a search has found, in the form that is asked for.
+
+use super::super::{Outcome, files, print, print_bytes, print_stderr};
+use super::Arguments;
+use super::notes::{self, Best};
+
+/// What a search has found, in the forms in which it is shown.
+pub(super) trait Shown {
+    /// The path and the curves on one page, as SVG.
+    fn drawing(&self) -> Vec<u8>;
+    fn json(&self) -> anyhow::Result<String>;
+    /// A manifest that renders the linkages.
+    fn manifest(&self) -> String;
+    fn text(&self) -> String;
+    /// The best answer, if there is one.
+    fn best(&self) -> Option<Best>;
+}
+
+/// Writes the drawing that the arguments ask for, and prints what they ask for unless that is the drawing.
+pub(super) fn show(report: &impl Shown, arguments: &Arguments, is_drawing_printed: bool) -> anyhow::Result<Outcome> {
+    let notes = report.best().map_or(String::new(), |best| notes::notes(&best, arguments));
+    if let Some(path) = &arguments.svg {
+        files::write(path, &report.drawing())?;
+        if is_drawing_printed {
+            print_stderr(&notes);
+            return Ok(Outcome::Done);
+        }
+    }
+    if !arguments.json && !arguments.toml {
+        return print(&(report.text() + &notes)).map(|()| Outcome::Done);
+    }
+    print_bytes(if arguments.json { report.json()? } else { report.manifest() }.as_bytes())?;
+    print_stderr(&notes);
+    Ok(Outcome::Done)
+}
