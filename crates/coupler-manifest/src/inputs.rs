@@ -98,13 +98,14 @@ impl SharedInputs {
             (table, None) => table,
             (table, Some(title)) => format!("{},title={title}}}", table.strip_suffix('}').unwrap_or_default()),
         };
+        let [columns, rows] = layout.grid();
         ManifestInputs {
             tables: Arc::clone(&self.tables),
             linkage: linkage.cloned().unwrap_or_default(),
             family: with_title(&IGNORED_FAMILY_KEYS),
             settings: with_title(&IGNORED_SETTINGS),
             tables_of_curves: canonical_toml(family, &IGNORED_TABLE_KEYS),
-            page: format!("{}# grid {:?}\n", with_title(&IGNORED_PAGE_KEYS), layout.grid()),
+            page: format!("{}# grid {columns} x {rows}\n", with_title(&IGNORED_PAGE_KEYS)),
         }
     }
 }

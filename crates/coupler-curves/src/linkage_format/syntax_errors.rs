@@ -1,31 +1,37 @@
 //! What is wrong where TOML cannot be parsed, and how it is written.
 
-use crate::problem::{Problem, Span};
+use crate::problem::{HAS_REMEDIES, Problem, Span};
 
 /// The problem for a syntax error at a place with the message of the TOML parser.
 pub(super) fn syntax_problem(text: &str, span: Span, message: &str) -> Problem {
-    let problem = |message: &str| Problem::error(span.clone(), format!("invalid TOML: {message}"));
+    let slip = if HAS_REMEDIES { slip(text, &span, message) } else { None };
+    let [message, help] = slip.unwrap_or_else(|| {
+        [message.to_owned(), "see https://toml.io for how tables, keys and values are written".to_owned()]
+    });
+    Problem::error(span, format!("invalid TOML: {message}")).with_help(help)
+}
+
+/// What is wrong and what to write, where that can be recognized.
+fn slip(text: &str, span: &Span, message: &str) -> Option<[String; 2]> {
     if let Some(number) = number_with_commas(text, span.start) {
         let list = number.replace(',', ", ");
         let help = match number.matches(',').count() {
             1 => format!("write a decimal point, {}, or a list of values, [{list}]", number.replace(',', ".")),
             _ => format!("put a list of values in brackets, [{list}]"),
         };
-        return problem(&format!("`{number}` has a comma and no brackets")).with_help(help);
+        return Some([format!("`{number}` has a comma and no brackets"), help]);
     }
     let is_string = message.starts_with("string values must be quoted");
-    if let Some(value) = unquoted_value(text, &span, is_string) {
-        return match ["true", "false"].into_iter().find(|word| value.eq_ignore_ascii_case(word)) {
-            Some(word) => problem(&format!("`{value}` is not a boolean")).with_help(format!("write `{word}`")),
-            None => problem(&format!("`{value}` is not in quotes")).with_help(format!("write \"{value}\"")),
-        };
+    if let Some(value) = unquoted_value(text, span, is_string) {
+        let word = ["true", "false"].into_iter().find(|word| value.eq_ignore_ascii_case(word));
+        return Some(match word {
+            Some(word) => [format!("`{value}` is not a boolean"), format!("write `{word}`")],
+            None => [format!("`{value}` is not in quotes"), format!("write \"{value}\"")],
+        });
     }
     // The parser takes values without a comma between them for a string without quotes.
     let has_blank = text.get(span.clone()).is_some_and(|text| text.trim().contains([' ', '\t']));
-    match message {
-        _ if has_blank && is_string => problem("there is no comma between values").with_help("write them like [1, 2]"),
-        message => problem(message).with_help("see https://toml.io for how tables, keys and values are written"),
-    }
+    (has_blank && is_string).then(|| ["there is no comma between values", "write them like [1, 2]"].map(str::to_owned))
 }
 
 /// The most bytes on either side of an error that are read: what is longer is no slip in a value.

@@ -2,6 +2,7 @@
 
 use super::{ALL, BOOLEANS};
 use crate::expression::{Error, Expression};
+use crate::problem::HAS_REMEDIES;
 
 /// Parses a condition on curves. One that compares a measure with a word, as in `class == crank-rocker`, is an error that names the
 /// condition to write in its place.
@@ -9,10 +10,10 @@ use crate::expression::{Error, Expression};
 /// # Errors
 /// It is no expression, or makes such a comparison.
 pub fn parse_condition(text: &str) -> Result<Expression, Error> {
-    match word_comparison(text) {
-        Some(error) => Err(error),
-        None => Expression::parse(text),
+    if HAS_REMEDIES && let Some(error) = word_comparison(text) {
+        return Err(error);
     }
+    Expression::parse(text)
 }
 
 /// The error of the first comparison of a measure with a word, if there is one.
