@@ -9,8 +9,9 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::argument;
-use crate::atlas::{Manifest, ManifestArgument};
+use crate::atlas::ManifestArgument;
 use crate::error::{Error, OutputError};
+use crate::manifest::Manifest;
 use crate::task::{self, Task};
 
 /// The result of a check. It is true if nothing differs; as text it is the report of the program.

@@ -5,17 +5,21 @@
 
 mod argument;
 mod error;
+mod file;
 
 mod arrays;
 mod task;
 
 mod linkage;
 
+mod manifest;
+
 mod atlas;
 
 mod arrow;
 mod check;
 mod find;
+mod pickle;
 mod render;
 mod sweep;
 
@@ -57,8 +61,8 @@ fn _core(module: &Bound<PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(render::render, module)?)?;
     module.add_function(wrap_pyfunction!(check::check_atlas, module)?)?;
     // What pickles call.
-    module.add_function(wrap_pyfunction!(linkage::make_again, module)?)?;
-    module.add_function(wrap_pyfunction!(linkage::curve_again, module)?)?;
+    module.add_function(wrap_pyfunction!(pickle::make_linkage_again, module)?)?;
+    module.add_function(wrap_pyfunction!(pickle::make_curve_again, module)?)?;
     module.add_function(wrap_pyfunction!(atlas::read_again, module)?)?;
     module.add_function(wrap_pyfunction!(sweep::sweep_again, module)?)?;
     module.add_function(wrap_pyfunction!(run_command, module)?)

@@ -10,8 +10,9 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
 use crate::argument;
-use crate::atlas::{Manifest, ManifestArgument};
+use crate::atlas::ManifestArgument;
 use crate::error::{self, OutputError};
+use crate::manifest::Manifest;
 use crate::task::{self, Task};
 
 /// An atlas that has been rendered.

@@ -15,8 +15,9 @@ use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyTuple};
 
 use crate::arrow::{self, Batch, arrow_error};
-use crate::atlas::{Manifest, ManifestArgument};
+use crate::atlas::ManifestArgument;
 use crate::error::OutputError;
+use crate::manifest::Manifest;
 use crate::task;
 
 /// The cells of a family, or a part of them, as a table that is solved as it is read.

@@ -17,7 +17,8 @@ use pyo3::types::PyIterator;
 
 use crate::argument::Index;
 use crate::arrays;
-use crate::linkage::{FourBar, Linkage, Recipe, into_object, save_svg};
+use crate::file::save_svg;
+use crate::linkage::{FourBar, Linkage, Recipe, into_object};
 
 /// The linkages found for a path: a sequence of answers, the nearest first.
 #[pyclass(frozen, module = "coupler_atlas")]

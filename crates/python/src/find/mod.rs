@@ -24,9 +24,10 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::argument::natural;
-use crate::atlas::{Manifest, ManifestArgument};
+use crate::atlas::ManifestArgument;
 use crate::error::{LinkageError, OutputError};
 use crate::linkage::{into_text, named_template};
+use crate::manifest::Manifest;
 use crate::task::{self, Task};
 use found::Entry;
 use path::Path;

@@ -10,7 +10,7 @@ use numpy::{AllowTypeChange, PyArrayLike1, PyArrayLike2};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
-use crate::atlas::read_text;
+use crate::file::read_text;
 use crate::linkage::Curve;
 
 /// A path with its name, and with the angles of the crank if it has any.

@@ -1,13 +1,11 @@
 //! Linkages in motion.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use coupler_atlas::output;
 use coupler_drawing::plate::PAPER;
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::error::OutputError;
+use crate::file::save_svg;
 
 /// A linkage in motion. A notebook shows it; ``save`` writes it as SVG, which browsers play.
 #[pyclass(frozen, module = "coupler_atlas")]
@@ -41,21 +39,4 @@ impl Animation {
     fn __repr__(&self) -> String {
         format!("<coupler_atlas.Animation, {} bytes of SVG>", self.svg.len())
     }
-}
-
-/// Writes a file.
-pub(super) fn save(path: &Path, bytes: &[u8]) -> PyResult<()> {
-    output::write_file(path, bytes).map_err(|error| OutputError::new_err(error.to_string()))
-}
-
-/// Writes a drawing.
-///
-/// # Errors
-/// The name is that of another format, or the file cannot be written.
-pub fn save_svg(path: &Path, svg: &str) -> PyResult<()> {
-    if path.extension().is_none_or(|suffix| !suffix.eq_ignore_ascii_case("svg")) {
-        let message = "the drawing is SVG: give a name that ends in .svg; the curves of a linkage have other formats";
-        return Err(PyValueError::new_err(format!("{}: {message}", path.display())));
-    }
-    save(path, svg.as_bytes())
 }

@@ -16,8 +16,8 @@ use pyo3::types::PyDict;
 use super::Linkage;
 use super::four_bar::into_object;
 use crate::argument::natural;
-use crate::atlas::read_text;
 use crate::error::{self, LinkageError};
+use crate::file::read_text;
 
 /// Finds a linkage by its id, of a manifest and of the catalogue; with the text of the manifest if it is of it.
 pub fn named_template(py: Python, name: &str, manifest: Option<&Path>) -> PyResult<(Arc<Template>, Option<Arc<str>>)> {
@@ -31,7 +31,7 @@ pub fn named_template(py: Python, name: &str, manifest: Option<&Path>) -> PyResu
 }
 
 /// The linkage with an id in the text of a manifest that has been read before, or of the catalogue or of answers.
-pub(super) fn template_of_text(name: &str, text: Option<&str>) -> PyResult<Arc<Template>> {
+pub fn template_of_text(name: &str, text: Option<&str>) -> PyResult<Arc<Template>> {
     let own = text.map_or(Vec::new(), |text| manifest::parse_linkages(text).0);
     if text.is_none() && name == Mechanism::template().id { Ok(Mechanism::template()) } else { template(name, &own) }
 }

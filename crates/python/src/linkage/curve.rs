@@ -19,11 +19,11 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyTuple};
 
-use super::animation::save;
 use super::limits_of;
 use super::solution::{Solution, into_text, measures_of};
 use crate::arrays;
 use crate::error::Error;
+use crate::file::save;
 
 /// The curve of a traced joint on a circuit.
 #[pyclass(frozen, module = "coupler_atlas")]

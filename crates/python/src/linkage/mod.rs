@@ -9,12 +9,12 @@ mod recipe;
 mod sextic;
 mod solution;
 
-pub use animation::{Animation, save_svg};
-pub use catalogue::{linkages, make_linkage, named_template};
+pub use animation::Animation;
+pub use catalogue::{linkages, make_linkage, named_template, template_of_text};
 pub use circuit::Circuit;
 pub use curve::Curve;
 pub use four_bar::{FourBar, into_object};
-pub use recipe::{Recipe, curve_again, make_again};
+pub use recipe::Recipe;
 pub use sextic::Sextic;
 pub use solution::into_text;
 
@@ -38,6 +38,7 @@ use pyo3::types::{PyDict, PyTuple};
 use crate::argument::natural;
 use crate::arrays;
 use crate::error::LinkageError;
+use crate::file::save_svg;
 use solution::{Solution, measures_of, sampler};
 
 /// The number of samples of a circuit where none is given, as in `inspect`.

@@ -1,16 +1,10 @@
-//! What a linkage was made from: by that it is compared, and made again from a pickle.
+//! What a linkage was made from: by that it is compared, and made again from a pickle, see [`crate::pickle`].
 
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyAny, PyTuple};
-
-use super::Linkage;
-use super::catalogue::template_of_text;
-use super::four_bar::into_object;
-use crate::atlas::Manifest;
 
 /// What a linkage was made from.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,11 +24,11 @@ pub enum Recipe {
     Found,
 }
 
-/// The arguments of [`make_again`].
+/// The arguments of `make_linkage_again`.
 type Arguments = (Option<PathBuf>, Option<String>, String, usize, Option<String>, Option<Vec<(String, f64)>>);
 
 impl Recipe {
-    /// The arguments from which [`make_again`] makes the same linkage.
+    /// The arguments from which `make_linkage_again` makes the same linkage.
     ///
     /// # Errors
     /// It cannot be made from a few texts.
@@ -52,39 +46,4 @@ impl Recipe {
             )),
         }
     }
-}
-
-/// Makes a linkage again that was pickled.
-#[pyfunction]
-#[pyo3(name = "_linkage")]
-pub fn make_again(
-    py: Python,
-    path: Option<PathBuf>,
-    text: Option<String>,
-    name: String,
-    number: usize,
-    circuits: Option<&str>,
-    values: Option<Vec<(String, f64)>>,
-) -> PyResult<Py<PyAny>> {
-    let linkage: Linkage = match (path, text, values) {
-        (Some(path), Some(text), None) => {
-            let own = name.clone();
-            let cells = move |id: &str, _| if id == own { number.saturating_sub(1)..number } else { 0..0 };
-            let manifest = Manifest::for_tables(py, path, text.into(), cells)?;
-            manifest.cell(&name, number)?
-        }
-        (_, text, values) => {
-            let template = template_of_text(&name, text.as_deref())?;
-            Linkage::of_template(template, text.map(Into::into), values.unwrap_or_default(), (number, circuits))?
-        }
-    };
-    into_object(py, linkage)
-}
-
-/// Makes a curve again that was pickled, by the arguments for its linkage and its index.
-#[pyfunction]
-#[pyo3(name = "_curve")]
-pub fn curve_again<'py>(py: Python<'py>, arguments: Bound<'py, PyTuple>, index: usize) -> PyResult<Bound<'py, PyAny>> {
-    let make = py.import("coupler_atlas._core")?.getattr("_linkage")?;
-    make.call1(arguments)?.getattr("curves")?.get_item(index)
 }

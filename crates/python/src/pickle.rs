@@ -1,0 +1,48 @@
+//! Linkages and curves made again from their pickles.
+
+use std::path::PathBuf;
+
+use pyo3::prelude::*;
+use pyo3::types::{PyAny, PyTuple};
+
+use crate::linkage::{Linkage, into_object, template_of_text};
+use crate::manifest::Manifest;
+
+/// Makes a linkage again that was pickled.
+#[pyfunction]
+#[pyo3(name = "_linkage")]
+pub fn make_linkage_again(
+    py: Python,
+    path: Option<PathBuf>,
+    text: Option<String>,
+    name: String,
+    number: usize,
+    circuits: Option<&str>,
+    values: Option<Vec<(String, f64)>>,
+) -> PyResult<Py<PyAny>> {
+    let linkage: Linkage = match (path, text, values) {
+        (Some(path), Some(text), None) => {
+            let own = name.clone();
+            let cells = move |id: &str, _| if id == own { number.saturating_sub(1)..number } else { 0..0 };
+            let manifest = Manifest::for_tables(py, path, text.into(), cells)?;
+            manifest.cell(&name, number)?
+        }
+        (_, text, values) => {
+            let template = template_of_text(&name, text.as_deref())?;
+            Linkage::of_template(template, text.map(Into::into), values.unwrap_or_default(), (number, circuits))?
+        }
+    };
+    into_object(py, linkage)
+}
+
+/// Makes a curve again that was pickled, by the arguments for its linkage and its index.
+#[pyfunction]
+#[pyo3(name = "_curve")]
+pub fn make_curve_again<'py>(
+    py: Python<'py>,
+    arguments: Bound<'py, PyTuple>,
+    index: usize,
+) -> PyResult<Bound<'py, PyAny>> {
+    let make = py.import("coupler_atlas._core")?.getattr("_linkage")?;
+    make.call1(arguments)?.getattr("curves")?.get_item(index)
+}
