@@ -11,7 +11,7 @@ mod point_table;
 mod svg_outlines;
 mod target_file;
 
-pub use atlas::{AtlasAnswer, AtlasFindings, AtlasQuery, check_families, find_in_atlas, manifest_of};
+pub use atlas::{AtlasAnswer, AtlasFindings, AtlasQuery, find_in_atlas};
 pub use drawing::draw_four_bars;
 pub use index_file::{MAX_CURVES, load_index};
 pub use linkage::{LinkageAnswer, LinkageFindings, MAX_SAMPLES, find_linkage, is_free_four_bar};

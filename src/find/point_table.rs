@@ -25,6 +25,10 @@ pub(super) fn parse_table(text: &str, is_timed: bool) -> Result<Outline, Vec<Str
     let mut problems = Vec::new();
     let mut columns: Option<Columns> = None;
     let has_tabs = lines(text).all(|(_, line)| line.contains('\t'));
+    let is_with_point = |field: &String| field.contains('.') && field.parse::<f64>().is_ok();
+    let has_points = lines(text).any(|(_, line)| fields_of(line, has_tabs).iter().any(is_with_point));
+    // With columns without names there are a point and an angle.
+    let mut most_fields = 3;
     for (number, line) in lines(text) {
         let fields = fields_of(line, has_tabs);
         // A column without a name may be one of numbers of lines.
@@ -40,6 +44,21 @@ pub(super) fn parse_table(text: &str, is_timed: bool) -> Result<Outline, Vec<Str
                 ));
                 return Err(problems);
             }
+            most_fields = fields.len();
+            continue;
+        }
+        if fields.len() > most_fields {
+            let hint = match line.contains(',') && !line.contains(';') && !has_tabs {
+                true => ": write decimals with a point, or divide fields by semicolons",
+                false => "",
+            };
+            problems.push(format!("line {number}: `{line}` has {} fields, and not {most_fields}{hint}", fields.len()));
+            continue;
+        }
+        if let Some(field) = fields.iter().find(|field| has_points && field.contains(',')) {
+            problems.push(format!(
+                "line {number}: `{field}` has a comma where other numbers have a decimal point: write it with a point, or without the comma"
+            ));
             continue;
         }
         let angle = (fields.len() > 2).then_some(2);
@@ -156,9 +175,19 @@ mod tests {
         ] {
             assert_eq!(points(text), [[1.5, 2.0], [-3.0, 0.4]], "{text}");
         }
-        let problems = parse_table("\"1\",\"1,234,5\"\n\"1.5,2", false).unwrap_err();
+        let problems = parse_table("\"1\",\"1,234,5\"\n\"15,2", false).unwrap_err();
         let wrong =
-            ["line 1: `1,234,5` is not a number", "line 2: `\"1.5,2` has no two coordinates: write them like 1.5, 2"];
+            ["line 1: `1,234,5` is not a number", "line 2: `\"15,2` has no two coordinates: write them like 1.5, 2"];
         assert_eq!(problems, wrong);
+    }
+
+    #[test]
+    fn commas_that_may_be_decimal_or_not_are_errors() {
+        let problem = |text: &str| parse_table(text, false).unwrap_err().swap_remove(0);
+        for text in ["x,y\n13,000,20,000\n", "# no names\n\n13,000,20,000\n"] {
+            assert!(problem(text).ends_with("write decimals with a point, or divide fields by semicolons"), "{text}");
+        }
+        assert!(problem("1,130;20.000\n2;3").contains("`1,130` has a comma where other numbers have a decimal point"));
+        assert_eq!(points("x;y\n1,130;20\n2;3"), [[1.13, 20.0], [2.0, 3.0]]);
     }
 }

@@ -11,6 +11,7 @@ mod images;
 mod journal;
 mod png;
 mod regular_file;
+mod rendered_from;
 mod run;
 mod table;
 
@@ -24,5 +25,6 @@ pub use journal::{
 };
 pub use png::is_intact_png;
 pub use regular_file::{FileError, file_digest, open_regular_file, read_regular_file};
+pub use rendered_from::{check_families, manifest_of};
 pub use run::{BookRecord, FORMAT_VERSION, FamilyRecord, FileRecord, RUN_FILE_NAME, ReadError, RunRecord};
 pub use table::{RecordedTable, Row, TableError, parse_rows};

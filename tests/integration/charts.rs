@@ -327,7 +327,7 @@ fn charts_have_ids_titles_and_escaped_names() {
     for part in [
         "<g id=\"evans-chart-1\" class=\"chart\" data-frame=",
         "<title>max(length of the curve, 1) over p</title>",
-        "<g id=\"evans-chart-2-1\" class=\"series\" data-trace=\"1\" data-circuit=\"1\"><title>evans: least transmission angle over p</title>",
+        "<g id=\"evans-chart-2-1\" class=\"series\" data-trace=\"1\" data-circuit=\"1\"><title>A &amp; &lt;B&gt;: least transmission angle over p</title>",
         ">least transmission angle (°)</text>",
         "A &amp; &lt;B&gt;",
     ] {
@@ -684,7 +684,7 @@ fn the_symbols_of_a_chart_leave_the_folio_free() {
     let folder = rendered(&format!(
         "[atlas]\ntitle = \"{title}\"\nformats = [\"svg\"]\noutput = \"out\"\n\
          [page]\npaper = {{ width = \"210 mm\", height = \"148 mm\" }}\n\
-         [[family]]\nid = \"f\"\nlinkage = \"cognates\"\nlayout = \"chart\"\nchart = {{ x = \"u\", y = [\"length\"] }}\n\
+         [[family]]\nid = \"f\"\ntitle = \"F\"\nlinkage = \"cognates\"\nlayout = \"chart\"\nchart = {{ x = \"u\", y = [\"length\"] }}\n\
          sampling = {{ step = \"10 deg\" }}\ngrid = {{ u = [1, 1.5, 2] }}\n"
     ));
     let svg = fs::read_to_string(folder.path().join("out/f/f-001.svg")).unwrap();

@@ -714,6 +714,7 @@ fn graphs_are_the_speeds_of_their_points_on_one_scale() {
 fn change_points_are_a_chapter_after_the_others_in_a_book() {
     let folder = TempDir::new().unwrap();
     let text = GOOD.replace("\"svg\"", "\"pdf\"").replace("[2, 3, 9]", "[3, 2, 2.5]");
+    let text = text.replace("id = \"grid\"", "id = \"grid\"\ntitle = \"grid\"");
     fs::write(folder.path().join("atlas.toml"), text).unwrap();
     let output = Command::new(env!("CARGO_BIN_EXE_coupler-atlas")).current_dir(&folder).arg("render").output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));

@@ -92,6 +92,8 @@ fn each_mistake_of_a_beginner_has_its_remedy() {
         ("let =", "sort = \"straight_length desc\"\nlet =", "write \"-straight_length\""),
         ("let =", "sort = \"area + length DESC\"\nlet =", "write \"-(area + length)\""),
         ("let =", "sort = \"area asc\"\nlet =", "leave it out: \"area\""),
+        ("let =", "where = \"area => 2\"\nlet =", "write `>=`"),
+        ("let =", "where = \"p > 1 AND area > 2\"\nlet =", "write `and`"),
         ("[[family]]", "[[families]]", "did you mean `family`?"),
         ("[atlas]\ntitle", "title", "did you mean `atlas.title`?"),
         ("title = \"T\"", "title = T", "write \"T\""),
@@ -652,7 +654,7 @@ fn a_family_chooses_the_joints_that_are_traced() {
     assert!(!own.contains("trace"), "{own}");
 }
 
-/// Without `panels`, the cells are as large as the page allows, and at most fifteen are on one.
+/// Without `panels`, the cells are as large as the page allows, and some fifteen at most are on one.
 #[test]
 fn the_grid_of_a_page_follows_the_number_of_cells() {
     let grid = |count: usize, page: &str| {

@@ -59,7 +59,7 @@ pub(crate) static FAMILY: TableSchema = TableSchema::new(
         KeySchema::new(
             "panels",
             ValueSchema::List(&ValueSchema::Integer([1, usize::MAX]), [2, 2]),
-            "The columns and rows of a page; by default as many as make the cells large, at most 15 on a page.",
+            "The columns and rows of a page; by default as many as make the cells large, some 15 at most.",
         ),
         KeySchema::new(
             "scale",

@@ -74,8 +74,17 @@ def test_positions_at_chosen_inputs() -> None:
     own = circuit.positions("M")
     assert np.array_equal(circuit.positions("M", at=[0, 30, 359]), own[[0, 30, 359]])
     assert np.allclose(circuit.positions("M", at=[-330.0, 390]), own[[30, 30]])
+    # Through change points a circuit returns after two turns.
+    twice = ca.FourBar(4, 1, 3, 2).circuits[0]
+    assert twice.full_turn and np.ptp(twice.inputs) > 700
+    assert np.allclose(twice.positions("B", at=twice.inputs), twice.positions("B"), atol=1e-9)
+    geared = ca.linkage("geared-five-bar", n=2, m=3).circuits[0]
+    assert np.allclose(geared.positions("B", at=geared.inputs + 1080), geared.positions("B"), atol=1e-9)
+    with pytest.raises(TypeError, match="give a list or an array"):
+        circuit.positions("M", at=30)
     rocker = ca.FourBar(frame=2, crank=2.59, coupler=1, rocker=2.59)
     circuit = rocker.circuits[0]
+    assert np.allclose(circuit.positions("B", at=[360 + sum(circuit.limits) / 2]), circuit.positions("B", at=[sum(circuit.limits) / 2]))
     low, high = circuit.limits
     inside, outside = circuit.positions("B", at=[(low + high) / 2, high + 1])
     assert np.isfinite(inside).all() and np.isnan(outside).all()
@@ -113,6 +122,8 @@ def test_linkages_are_compared_pickled_and_copied() -> None:
     assert len({*made, *made}) == len(made)
     assert four_bar == bar() == ca.linkage("four-bar", **BAR) and isinstance(ca.linkage("four-bar", **BAR), ca.FourBar)
     assert four_bar != ca.FourBar(**BAR, samples=90) and four_bar != 3
+    zero, minus_zero = (ca.FourBar(4, 1, 3, 3.5, 1.5, sign * 0.0) for sign in (1, -1))
+    assert zero == minus_zero and len({zero, minus_zero}) == 1
 
 
 def test_circuits_branches_and_limits() -> None:

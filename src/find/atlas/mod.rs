@@ -1,9 +1,6 @@
 //! The linkages of an atlas whose curves are nearest to a path.
 
-mod folder;
 mod search;
-
-pub use folder::{check_families, manifest_of};
 
 use std::sync::atomic::AtomicBool;
 

@@ -77,6 +77,8 @@ pub(super) fn tokenize(text: &str) -> Result<Vec<(Token<'_>, Span)>, Error> {
             '>' => Token::Greater,
             _ => {
                 let help = match c {
+                    '=' if text[start..].starts_with("=>") => "write `>=`",
+                    '=' if text[start..].starts_with("=<") => "write `<=`",
                     '=' => "compare with `==`",
                     '!' => "write `not` or `!=`",
                     '&' => "write `and`",

@@ -91,11 +91,14 @@ impl<'a> Parser<'a> {
     fn unexpected(&self, span: Span) -> Error {
         match &self.text[span.clone()] {
             "" => Error::new(span, "unexpected end of the expression", "add a value after the last operator"),
-            word => Error::new(
-                span,
-                format!("unexpected `{word}`"),
-                "between two values there must be an operator, as in `2 * a`",
-            ),
+            word => {
+                let operator = ["and", "or", "not"].into_iter().find(|operator| word.eq_ignore_ascii_case(operator));
+                let help = match operator {
+                    Some(operator) => format!("write `{operator}`"),
+                    None => "between two values there must be an operator, as in `2 * a`".to_owned(),
+                };
+                Error::new(span, format!("unexpected `{word}`"), help)
+            }
         }
     }
 

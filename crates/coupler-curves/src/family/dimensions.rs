@@ -113,7 +113,7 @@ impl Family {
     /// A name, by its index in [`Family::names`], and a value in full: "p = 2.5", "phase = 30°"; one that takes more digits than anyone
     /// writes was computed, and has six significant ones.
     pub fn equation(&self, slot: usize, value: f64) -> MathText {
-        const MAX_WRITTEN_DIGITS: usize = 9;
+        const MAX_WRITTEN_DIGITS: usize = 12;
         let in_full = format_in_full(value);
         let digits = in_full.chars().filter(char::is_ascii_digit).count();
         let number = if digits <= MAX_WRITTEN_DIGITS { in_full } else { format_exactly(round_to_six_digits(value)) };

@@ -37,17 +37,21 @@ pub fn manifest_head(name: &str) -> String {
     format!(
         "# Linkages found by `coupler-atlas find`; `coupler-atlas render` draws them.\n\n[atlas]\ntitle = {}\n\
          formats = [\"svg\"]\n\n[page]\npaper = \"a4\"\n",
-        title_for(name)
+        quoted(&title_for(name))
     )
 }
 
 /// The linkages of answers with their pivots where they are on the path, and families with a case for each answer, in order of rank.
 pub fn answer_families(name: &str, size: f64, answers: &[Answer]) -> String {
-    let title = title_for(name);
     let mut out = String::new();
     for form in FORMS {
         let ranked = (1..).zip(answers).filter(|(_, answer)| form_of(&answer.mechanism) == form);
         let ranked: Vec<(usize, &Answer)> = ranked.collect();
+        let title = match form {
+            _ if ranked.len() == answers.len() => title_for(name),
+            ROCKING => format!("{}, the crank does not turn fully", title_for(name)),
+            side => format!("{}, rocker pin on the {side}", title_for(name)),
+        };
         if !ranked.is_empty() {
             append_family((form, &title), &ranked, size, &mut out);
         }
@@ -55,9 +59,9 @@ pub fn answer_families(name: &str, size: f64, answers: &[Answer]) -> String {
     out
 }
 
-/// The title of an atlas and of its families, in quotes.
+/// The title of an atlas and of its families.
 fn title_for(name: &str) -> String {
-    quoted(&format!("Linkages for {name}"))
+    format!("Linkages for {name}")
 }
 
 fn append_family((form, title): (&str, &str), ranked: &[(usize, &Answer)], size: f64, out: &mut String) {
@@ -72,18 +76,20 @@ fn append_family((form, title): (&str, &str), ranked: &[(usize, &Answer)], size:
     // Writing to a string cannot fail.
     let _ = write!(
         out,
-        "\n{linkage}\n[[family]]\nid = \"found-{form}\"\nlinkage = \"{id}-{form}\"\ntitle = {title}\npanels = [{columns}, {rows}]\n\
-         cases = [\n"
+        "\n{linkage}\n[[family]]\nid = \"found-{form}\"\nlinkage = \"{id}-{form}\"\ntitle = {}\npanels = [{columns}, {rows}]\n\
+         caption = \"{{rank:.0}}: E = {{deviation:.4}} S\"\ncases = [\n",
+        quoted(title)
     );
     for (rank, answer) in ranked {
         let values = answer.mechanism.parameters().map(|(name, value)| format!("{name} = {}", rounded(value, size)));
-        let deviation = format!("E = {} = {} S", format_length(answer.rms, size), format_relative(answer.rms_relative));
-        let _ = writeln!(out, "    {{ {} }}, # {rank}: {deviation}", values.join(", "));
+        let [rms, relative] = [format_length(answer.rms, size), format_relative(answer.rms_relative)];
+        let values = values.join(", ");
+        let _ = writeln!(out, "    {{ rank = {rank}, deviation = {relative}, {values} }}, # E = {rms} = {relative} S");
     }
     out.push_str("]\n");
 }
 
-/// A dimension, rounded to what moves no point of the curve by more than a ten-thousandth of a millionth of the path.
+/// A dimension, rounded to a ten-thousandth of a millionth of the path: a linkage near a change point hardly bears more.
 fn rounded(value: f64, size: f64) -> f64 {
     // "2.5e-3" has the exponent -3.
     let exponent: i32 = format!("{size:e}").split('e').nth(1).and_then(|exponent| exponent.parse().ok()).unwrap_or(0);

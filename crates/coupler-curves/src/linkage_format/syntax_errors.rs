@@ -24,7 +24,11 @@ fn slip(text: &str, span: &Span, message: &str) -> Option<[String; 2]> {
     let is_string = message.starts_with("string values must be quoted");
     if let Some(value) = unquoted_value(text, span, is_string) {
         let word = ["true", "false"].into_iter().find(|word| value.eq_ignore_ascii_case(word));
+        let bare = value.trim_matches(['“', '”', '„', '‘', '’', '«', '»']);
         return Some(match word {
+            None if bare.len() < value.len() => {
+                [format!("{value} has other quotes than TOML"), format!("write them straight: \"{bare}\"")]
+            }
             Some(word) => [format!("`{value}` is not a boolean"), format!("write `{word}`")],
             None => [format!("`{value}` is not in quotes"), format!("write \"{value}\"")],
         });
@@ -101,6 +105,7 @@ mod tests {
             assert_eq!(problem(text), [format!("`{value}` is not in quotes"), format!("write \"{value}\"")], "{text}");
         }
         assert_eq!(problem("index = True"), ["`True` is not a boolean", "write `true`"]);
+        assert_eq!(problem("title = “T”"), ["“T” has other quotes than TOML", "write them straight: \"T\""]);
     }
 
     #[test]

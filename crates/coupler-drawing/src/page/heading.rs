@@ -125,6 +125,9 @@ impl<'a> Heading<'a> {
         let line = |text: &str| theme.text_line(text, Point::origin(), Anchor::End, theme.source_size, theme.grey);
         let folio = self.folio();
         let folio = if titles.is_empty() { folio.trim_start_matches(SEPARATOR) } else { &folio };
+        if titles.is_empty() && folio.is_empty() {
+            return Vec::new();
+        }
         let whole = line(&format!("{titles}{folio}"));
         if TextLine::min_part(theme.source_size) * whole.text.width() <= width {
             return vec![whole.fit_width(width)];

@@ -298,7 +298,7 @@ pub(super) fn max_grid(paper: Paper, theme: &Theme) -> [usize; 2] {
     ]
 }
 
-/// The columns and rows for `count` cells: at most fifteen on a page, each about as wide as high with its caption. A wide page has its key on the
+/// The columns and rows for `count` cells: some fifteen at most on a page, each about as wide as high with its caption. A wide page has its key on the
 /// right.
 pub(super) fn grid_for(paper: Paper, theme: &Theme, count: usize) -> [usize; 2] {
     const MOST: usize = 15;

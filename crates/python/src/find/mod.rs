@@ -9,10 +9,10 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use coupler_atlas::find::{
-    self, AtlasQuery, MAX_CURVES, MAX_SAMPLES, check_families, draw_four_bars, find_in_atlas, find_linkage, load_index,
-    manifest_of,
+    self, AtlasQuery, MAX_CURVES, MAX_SAMPLES, draw_four_bars, find_in_atlas, find_linkage, load_index,
 };
 use coupler_atlas::manifest;
+use coupler_atlas::record::{check_families, manifest_of};
 use coupler_curves::expression;
 use coupler_curves::find::{
     Condition, Effort, Index, LinkageSpace, Options, Search, Target, answers_manifest, nearest_miss_by,

@@ -9,7 +9,7 @@ use coupler_curves::motion;
 use coupler_curves::problem::suggestion;
 use coupler_curves::solve::SolvedCell;
 use numpy::{AllowTypeChange, PyArray1, PyArray2, PyArrayLike1};
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 
@@ -26,11 +26,16 @@ pub struct Circuit {
     pub(super) inputs: PyOnceLock<Py<PyArray1<f64>>>,
 }
 
-/// The first pass of a circuit over an input, with the input in its range, from which it may differ by periods.
-fn pass_at(circuit: &motion::Circuit, input: f64, period: Option<f64>) -> Option<(&motion::Pass, f64)> {
+/// The first pass of a circuit over an input, with the input in its range, from which it may differ by whole periods: by those of the circuit
+/// where the input turns fully, and otherwise by those after which every joint is back at its position.
+fn pass_at(circuit: &motion::Circuit, input: f64, turn: Option<f64>) -> Option<(&motion::Pass, f64)> {
+    let ranges = || circuit.passes.iter().map(motion::Pass::input_range);
+    let [least, greatest] =
+        [ranges().map(|[low, _]| low).reduce(f64::min)?, ranges().map(|[_, high]| high).reduce(f64::max)?];
+    let period = turn.map(|turn| if circuit.is_full_turn() { greatest - least } else { turn });
+    let shifted = period.map_or(input, |period| least + (input - least).rem_euclid(period));
     circuit.passes.iter().find_map(|pass| {
         let [low, high] = pass.input_range();
-        let shifted = period.map_or(input, |period| low + (input - low).rem_euclid(period));
         (low <= shifted && shifted <= high).then_some((pass, shifted))
     })
 }
@@ -117,18 +122,21 @@ impl Circuit {
         &self,
         py: Python<'py>,
         joint: &str,
-        at: Option<PyArrayLike1<f64, AllowTypeChange>>,
+        at: Option<Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let (joint, (solved, circuit)) = (self.joint(joint)?, self.parts()?);
         let Some(at) = at else { return arrays::points(py, circuit.points(joint), circuit.len()) };
-        let period = match solved.linkage.input() {
+        let turn = match solved.linkage.input() {
             Input::Angle { turns } => Some(360.0 * f64::from(turns)),
             Input::Length => None,
+        };
+        let Ok(at) = at.extract::<PyArrayLike1<f64, AllowTypeChange>>() else {
+            return Err(PyTypeError::new_err("at: give a list or an array of inputs, as in at=[0, 30]"));
         };
         let inputs: Vec<f64> = at.as_array().iter().copied().collect();
         let points: Vec<Point> = inputs
             .iter()
-            .map(|input| match pass_at(circuit, *input, period) {
+            .map(|input| match pass_at(circuit, *input, turn) {
                 Some((pass, input)) => motion::pose(&solved.linkage, pass, input)[joint],
                 None => Point::new(f64::NAN, f64::NAN),
             })

@@ -71,6 +71,8 @@ impl Linkage {
         (samples, circuits): (usize, Option<&str>),
     ) -> PyResult<Linkage> {
         let samples = checked_samples(samples)?;
+        // A zero without a sign, so that what is equal has the same hash.
+        let values: Vec<(String, f64)> = values.into_iter().map(|(name, value)| (name, value + 0.0)).collect();
         match circuits {
             None => {}
             Some("start") => Arc::make_mut(&mut template).circuits = CircuitSelection::Start,

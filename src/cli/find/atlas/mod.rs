@@ -8,6 +8,7 @@ use std::sync::atomic::AtomicBool;
 
 use crate::find::{self, AtlasAnswer, AtlasFindings, AtlasQuery};
 use crate::manifest::Plan;
+use crate::record;
 use coupler_curves::find::{Options, Quality, Target};
 
 use super::super::source::ManifestSource;
@@ -61,9 +62,9 @@ fn read(atlas: &Path) -> anyhow::Result<ManifestSource> {
         return source::read(atlas);
     }
     let example = |message: String| InputError(format!("{message}, as in --atlas path/to/atlas.toml"));
-    let (path, run) = find::manifest_of(atlas).map_err(example)?;
+    let (path, run) = record::manifest_of(atlas).map_err(example)?;
     let source = source::read(&path)?;
-    find::check_families(atlas, &path, &source.plan, &run).map_err(example)?;
+    record::check_families(atlas, &path, &source.plan, &run).map_err(example)?;
     Ok(source)
 }
 

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use super::{FolderRecord, RunRecord};
 use crate::manifest::Plan;
-use crate::record::{FolderRecord, RunRecord};
 
 /// The manifest beside the folder of an atlas, and the record of the run that rendered it.
 ///
