@@ -104,9 +104,10 @@ impl Description {
     /// A plate of the family to start from.
     fn plate(&self) -> String {
         let plan = manifest::parse(&format!("[atlas]\ntitle = \"T\"\n{}", self.family)).plan.unwrap();
-        let family = &plan.families[0].family;
-        let solved = solve_cell(family, &Sampler::new(family.sampling), 0).unwrap();
-        let scene = plate::compose_cell(family, &solved, PoseChoice::Clearest, &Options::for_paper(PAPER));
+        let mut family = plan.families[0].family.clone();
+        family.title.clone_from(&family.template.id);
+        let solved = solve_cell(&family, &Sampler::new(family.sampling), 0).unwrap();
+        let scene = plate::compose_cell(&family, &solved, PoseChoice::Clearest, &Options::for_paper(PAPER));
         String::from_utf8(render::svg(&scene, TextMode::Text)).unwrap()
     }
 }
