@@ -681,7 +681,11 @@ fn the_only_family_has_the_title_of_the_atlas() {
     let second = GOOD[GOOD.find("[[family]]").unwrap()..].replace("id = \"evans\"", "id = \"other\"");
     assert_eq!(titles(&format!("{GOOD}{second}")), ["evans", "other"]);
     // What the program writes of the family alone, for the gallery and for tables, has the title, too.
-    assert!(plan(GOOD).families[0].excerpt().contains("title=\"T\""));
+    assert_eq!(titles(&plan(GOOD).families[0].excerpt()), ["T"]);
+    let [first, other] = &plan(&format!("{GOOD}{second}")).families[..] else { panic!("two families") };
+    for planned in [first, other] {
+        assert_eq!(titles(&planned.excerpt())[0], planned.family.id);
+    }
     // A second family changes the pages of the first.
     let page_text = |text: &str| plan(text).families[0].manifest_inputs.page_text();
     assert_ne!(page_text(GOOD), page_text(&format!("{GOOD}{second}")));

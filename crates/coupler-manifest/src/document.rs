@@ -173,7 +173,7 @@ fn read_plan(
         }
         let tolerances = |family: PartialTolerances| family.or(tolerances);
         families.extend(read.map(|read| PlannedFamily {
-            manifest_inputs: shared_inputs.of_family(value, read.layout, default_title),
+            manifest_inputs: shared_inputs.of_family(value, read.layout, &read.family.title),
             tolerances: tolerances(read.tolerances),
             ..read
         }));

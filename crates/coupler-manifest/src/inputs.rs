@@ -89,11 +89,11 @@ impl SharedInputs {
         SharedInputs { tables: Arc::from(tables), linkages: linkages.into_iter().flatten().filter_map(by_id).collect() }
     }
 
-    /// The inputs of the family with this table of the manifest, with what depends on the whole manifest: its layout, and the title of a family
-    /// that has none of its own.
-    pub fn of_family(&self, family: &TomlValue, layout: Layout, default_title: Option<&str>) -> ManifestInputs {
+    /// The inputs of the family with this table of the manifest, with what depends on the whole manifest: its layout, and its title if it states
+    /// none, which a manifest of the family alone would not have.
+    pub fn of_family(&self, family: &TomlValue, layout: Layout, title: &str) -> ManifestInputs {
         let linkage = string_at("linkage", family).and_then(|id| self.linkages.get(id));
-        let title = default_title.filter(|_| string_at("title", family).is_none()).map(quoted);
+        let title = string_at("title", family).is_none().then(|| quoted(title));
         let with_title = |ignored: &[&str]| match (canonical_toml(family, ignored), &title) {
             (table, None) => table,
             (table, Some(title)) => format!("{},title={title}}}", table.strip_suffix('}').unwrap_or_default()),
