@@ -3,7 +3,7 @@
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use crate::record::FolderRecord;
+use crate::record;
 
 use super::files;
 use super::source::DEFAULT_MANIFEST;
@@ -40,8 +40,7 @@ fn in_place_of(path: &Path) -> String {
 
 /// The manifest in a folder, or that of a rendered one, which is beside it or named after it; `None` if there is none.
 fn manifest_of(folder: &Path) -> Option<PathBuf> {
-    let recorded = FolderRecord::read(folder).ok().and_then(|record: FolderRecord| record.run.manifest);
-    let beside = recorded.map(|name| folder.with_file_name(name));
+    let beside = record::manifest_of(folder).ok().map(|(path, _)| path);
     let candidates = [Some(folder.join(DEFAULT_MANIFEST)), beside, folder.file_name().map(|_| with_toml(folder))];
     candidates.into_iter().flatten().find(|path| path.is_file())
 }

@@ -15,8 +15,10 @@ pub fn manifest_of(folder: &Path) -> Result<(PathBuf, RunRecord), String> {
         .map_err(|error| format!("{shown} is not the folder of an atlas: run.json: {error}; name its manifest"))?;
     let run: RunRecord = record.run;
     let beside = |name: &String| -> Vec<PathBuf> {
+        // As the folder was named, if that has a name before it.
+        let as_named = folder.file_name().map(|_| folder.with_file_name(name));
         let absolute = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
-        absolute.ancestors().skip(1).take(2).map(|parent| parent.join(name)).collect()
+        as_named.into_iter().chain(absolute.ancestors().skip(1).take(2).map(|parent| parent.join(name))).collect()
     };
     let path = run.manifest.iter().flat_map(beside).find(|path| path.is_file());
     let Some(path) = path else {
