@@ -7,6 +7,7 @@ use super::cells::CurvePair;
 use super::curve::{CurrentCurve, compare_curves};
 use super::curve_samples::CurveSamples;
 use super::finding::{Change, Finding, Location};
+use super::left_out::LeftOut;
 use super::matching::match_curves;
 use super::numbering::{CellNumbering, RecordedNumber};
 use super::pages::{PageFindings, RecordedPages};
@@ -84,7 +85,7 @@ impl<'a> FamilyCheck<'a> {
     pub fn open(
         pipeline: &'a FamilyPipeline<'a>,
         record: &'a FamilyRecord,
-        output: &'a Path,
+        (output, left_out): (&'a Path, LeftOut),
         tolerances: Tolerances,
         findings: &mut Vec<Finding>,
     ) -> FamilyCheck<'a> {
@@ -104,7 +105,7 @@ impl<'a> FamilyCheck<'a> {
         }
         let tables = Tables::open(pipeline, record, output, findings);
         let numbering = CellNumbering::from_tables(pipeline, &tables, findings);
-        let pages = RecordedPages::new(pipeline, record, output);
+        let pages = RecordedPages::new(pipeline, record, (output, left_out));
         FamilyCheck { pipeline, location, tolerances, tables, pages, numbering }
     }
 

@@ -13,6 +13,7 @@ mod finding;
 mod gallery;
 mod hausdorff;
 mod images;
+mod left_out;
 mod matching;
 mod numbering;
 mod outdated;
@@ -21,6 +22,7 @@ mod pages;
 mod tables;
 
 pub use finding::{Change, Displacement, Finding, Location};
+pub use left_out::LeftOut;
 pub use overlays::{Overlay, draw_overlays};
 
 use std::collections::{BTreeMap, HashSet};
@@ -59,7 +61,7 @@ pub enum Event<'a> {
         /// The number of its pages.
         pages: usize,
     },
-    /// A page is family_check.
+    /// A page was checked.
     Page,
     /// The check of a family ends.
     End,
@@ -74,13 +76,15 @@ pub struct Report {
     pub curves: usize,
     /// The number of pages compared with their records.
     pub pages: usize,
+    /// What the folder leaves out, and was not compared.
+    pub left_out: LeftOut,
     /// The number of findings of each kind.
     pub counts: BTreeMap<&'static str, usize>,
     /// The findings, the worst first; at most 20,000 of each family.
     pub findings: Vec<Finding>,
 }
 
-/// Why an atlas cannot be family_check.
+/// Why an atlas cannot be checked.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// The record of the atlas cannot be used.
@@ -151,7 +155,8 @@ pub fn check_atlas(
     let folder_record = FolderRecord::read(recorded).map_err(|source| Error::Record { path, source })?;
     let record = &folder_record.run;
     let is_requested = |id: &str| options.only.is_empty() || options.only.iter().any(|only| only == id);
-    let mut report = Report::default();
+    let left_out = LeftOut::of(&folder_record, recorded);
+    let mut report = Report { left_out, ..Report::default() };
     let outdated = outdated::check_version(record);
     let is_outdated = outdated.is_some();
     report.add_findings(outdated.into_iter().collect());
@@ -161,10 +166,13 @@ pub fn check_atlas(
         }
     }
     if options.only.is_empty() && !is_outdated {
-        let volumes = record.book.iter().flat_map(|book| &book.files);
-        report.add_findings(volumes.filter_map(|file| images::check_volume(recorded, file)).collect());
-        report.add_findings(images::check_images_file(&folder_record).into_iter().collect());
+        if !left_out.has_images() {
+            let volumes = record.book.iter().flat_map(|book| &book.files);
+            report.add_findings(volumes.filter_map(|file| images::check_volume(recorded, file)).collect());
+            report.add_findings(images::check_images_file(&folder_record).into_iter().collect());
+        }
         let page = match &record.gallery {
+            _ if left_out.has_gallery() => None,
             Some(page) if page.name == PAGE_FILE => gallery::check_file(recorded, PAGE_FILE, page),
             None if folder_record.is_unfinished => None,
             _ => {
@@ -215,7 +223,7 @@ fn check_family(
     on_event(Event::Begin { family: &planned.family.id, pages: pipeline.pagination.page_count });
     let tolerances = options.tolerances.or(planned.tolerances).or_defaults();
     let mut findings = Vec::new();
-    let family_check = FamilyCheck::open(&pipeline, record, recorded, tolerances, &mut findings);
+    let family_check = FamilyCheck::open(&pipeline, record, (recorded, report.left_out), tolerances, &mut findings);
     let (mut changed_cells, mut pages) = (Vec::new(), Vec::new());
     let mut counts = CellCounts::default();
     pipeline.run(&family_check, GroupsDone::default(), |output| {
@@ -240,7 +248,8 @@ fn check_family(
     report.families += 1;
     report.pages += pages.len();
     findings.extend(family_check.page_findings(pages, &changed_cells));
-    for file in record.files.iter().filter(|file| is_data_file_name(&file.name)) {
+    let data_files = record.files.iter().filter(|file| is_data_file_name(&file.name) && !report.left_out.has_gallery());
+    for file in data_files {
         findings.extend(gallery::check_file(recorded, &format!("{}/{}", planned.family.id, file.name), file));
     }
     if is_outdated {

@@ -5,6 +5,7 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 use super::family::FamilyCheck;
+use super::left_out::LeftOut;
 use super::{Change, Finding, Options, Report};
 use crate::manifest::Plan;
 use crate::pipeline::FamilyPipeline;
@@ -49,7 +50,8 @@ pub fn draw_overlays<'r>(
         // A check is not interrupted.
         let Some(pipeline) = FamilyPipeline::new(plan, planned, &AtomicBool::new(false)) else { continue };
         let tolerances = options.tolerances.or(planned.tolerances).or_defaults();
-        let family_check = FamilyCheck::open(&pipeline, record, recorded, tolerances, &mut Vec::new());
+        let family_check =
+            FamilyCheck::open(&pipeline, record, (recorded, LeftOut::default()), tolerances, &mut Vec::new());
         for finding in family_findings {
             if let Some(overlay) = draw_overlay(plan, &family_check, finding) {
                 receive(overlay);

@@ -8,6 +8,7 @@ use super::curve_samples::CurveSamples;
 use super::drawn_curves::check_drawn_curves;
 use super::finding::{Change, Finding, Location};
 use super::images::image_change;
+use super::left_out::LeftOut;
 use super::tables::file_change;
 use crate::pipeline::{FamilyPipeline, PageContent, PageJob, page_file_name};
 use crate::record::{FamilyRecord, FileRecord, TextDigests, read_regular_file};
@@ -19,6 +20,7 @@ pub(super) struct RecordedPages<'a> {
     folder: PathBuf,
     location: Location,
     files: HashMap<&'a str, &'a FileRecord>,
+    left_out: LeftOut,
 }
 
 /// The findings on a page.
@@ -35,11 +37,15 @@ pub(super) struct PageFindings {
 const MAX_BYTES: u64 = 1 << 28;
 
 impl<'a> RecordedPages<'a> {
-    /// The recorded pages of a pipeline's family in the folder of an atlas.
-    pub fn new(pipeline: &'a FamilyPipeline<'a>, record: &'a FamilyRecord, output: &Path) -> RecordedPages<'a> {
+    /// The recorded pages of a pipeline's family in the folder of an atlas, which may leave out images.
+    pub fn new(
+        pipeline: &'a FamilyPipeline<'a>,
+        record: &'a FamilyRecord,
+        (output, left_out): (&Path, LeftOut),
+    ) -> RecordedPages<'a> {
         let id = &pipeline.composer.planned.family.id;
         let files = record.files.iter().map(|file| (file.name.as_str(), file)).collect();
-        RecordedPages { pipeline, folder: output.join(id), location: Location::in_family(id), files }
+        RecordedPages { pipeline, folder: output.join(id), location: Location::in_family(id), files, left_out }
     }
 
     /// Compares the files of a page with the current drawing, and with the recorded curves of its cells, which
@@ -75,9 +81,11 @@ impl<'a> RecordedPages<'a> {
             if !is_current {
                 page.differing_files.push(record.name.clone());
             }
-            let draw = || if is_current { render::png(&scene, plan.dpi).ok() } else { None };
-            let change = image_change(&self.folder, record, draw);
-            page.findings.extend(change.map(|change| self.file_location(&record.name).finding(change)));
+            if !self.left_out.has_images() {
+                let draw = || if is_current { render::png(&scene, plan.dpi).ok() } else { None };
+                let change = image_change(&self.folder, record, draw);
+                page.findings.extend(change.map(|change| self.file_location(&record.name).finding(change)));
+            }
         }
         page
     }

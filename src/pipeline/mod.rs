@@ -14,11 +14,14 @@ pub use composer::Composer;
 pub use composer::curves_by_page;
 pub use pagination::{Pagination, measures_used_on_pages};
 
+use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::atomic::AtomicBool;
+use std::sync::{Mutex, PoisonError};
 
 use crate::manifest::{Plan, PlannedFamily};
 use crate::sweep::{self, CellGroups, CellIndices, CellSelection};
+use coupler_curves::motion::Sampler;
 use coupler_curves::solve::SolvedCell;
 use coupler_drawing::chart::{Chart, ChartBuilder, ChartSample};
 use coupler_drawing::page::Layout;
@@ -41,6 +44,9 @@ pub fn page_file_name(family: &str, (page, of): (usize, usize), format: PageForm
     let width = of.to_string().len();
     format!("{first:0width$}-{last:0width$}/{name}")
 }
+
+/// The most memory for cells that are kept from the tables to sorted pages, in bytes; those of a family that would take more are solved again.
+const MAX_KEPT_BYTES: usize = 64_000_000;
 
 /// How much of the output of a family an earlier run has delivered: it is not produced again.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -182,6 +188,9 @@ impl<'a> FamilyPipeline<'a> {
         let chart = planned.chart.as_ref();
         let is_sorted = planned.family.sort.is_some();
         let mut builder = chart.map(|chart| ChartBuilder::new(chart, &planned.family));
+        let sorted_bytes = planned.family.estimate_cell_bytes().saturating_mul(self.arrangement.kept.len());
+        let keeps_cells = is_sorted && chart.is_none() && sorted_bytes <= MAX_KEPT_BYTES;
+        let kept_cells: Mutex<HashMap<usize, SolvedCell>> = Mutex::default();
         let make = |group: usize, solved: Vec<SolvedCell>| -> Result<GroupOutput<S>, S::Error> {
             let cells = sink.receive_cells(&solved)?;
             let has_pages = chart.is_none() && !is_sorted;
@@ -189,7 +198,12 @@ impl<'a> FamilyPipeline<'a> {
             let samples = chart
                 .iter()
                 .flat_map(|chart| solved.iter().flat_map(|solved| chart.sample_cell(&planned.family, solved)));
-            Ok((Some(cells), pages, samples.collect()))
+            let output = (Some(cells), pages, samples.collect());
+            if keeps_cells {
+                let index = |solved: SolvedCell| (solved.cell.number - 1, solved);
+                kept_cells.lock().unwrap_or_else(PoisonError::into_inner).extend(solved.into_iter().map(index));
+            }
+            Ok(output)
         };
         let mut deliver = |output: Result<GroupOutput<S>, S::Error>| {
             let (cells, pages, samples) = output?;
@@ -207,7 +221,10 @@ impl<'a> FamilyPipeline<'a> {
             // Tables are in the order of the cells, but pages are sorted.
             let measures = measures_used_on_pages(planned);
             let sorted = (self.arrangement.page_order(), first_sorted);
-            let groups = self.cell_groups(sorted, sink, Some(&measures));
+            // A run that is continued has solved only some of the cells for the tables.
+            let take =
+                |_: &Sampler, cell: usize| kept_cells.lock().unwrap_or_else(PoisonError::into_inner).remove(&cell);
+            let groups = CellGroups { solve_known: Some(&take), ..self.cell_groups(sorted, sink, Some(&measures)) };
             let make =
                 |group: usize, solved: Vec<SolvedCell>| Ok((None, self.send_pages(group, &solved, sink)?, Vec::new()));
             sweep::process_groups(&planned.family, groups, make, &mut deliver)?;

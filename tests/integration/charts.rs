@@ -406,6 +406,7 @@ fn a_chart_is_the_same_with_any_number_of_jobs() {
 
 /// Ten thousand cells make lines of a hundred points for each of a hundred labels, some of which are on the page.
 #[test]
+#[ignore = "thorough"]
 fn ten_thousand_cells_make_a_chart() {
     let grid = "p = { from = 2, to = 6, count = 100 }, k = { from = 1, to = 3, count = 100 }";
     let text = GOOD.replace("p = [2, 3, 4], k = [1.5, 2]", grid).replace("\"10 deg\"", "\"60 deg\"");

@@ -6,6 +6,8 @@ use std::process::{Command, Output};
 
 use tempfile::TempDir;
 
+use crate::folder::tree;
+
 /// Three families: turning cranks, rockers with both branches and several circuits, and a length as input.
 const MANIFEST: &str = r#"[atlas]
 title = "Atlas <of> \"curves\""
@@ -356,6 +358,59 @@ fn an_atlas_of_images_or_a_book_is_checked_too() {
     fs::remove_file(atlas.path("output/atlas.pdf")).unwrap();
     fs::remove_file(atlas.path("output/evans/evans-001.png")).unwrap();
     assert_eq!(atlas.check(&[]).1.len(), 2);
+}
+
+/// A repository keeps tables and pages, and no images, book or gallery.
+#[test]
+fn what_a_folder_leaves_out_is_said_and_no_difference() {
+    let atlas = RecordedAtlas::new();
+    atlas.write_manifest(&MANIFEST.replace("[\"svg\"]", "[\"svg\", \"png\", \"pdf\"]"));
+    atlas.run(&["render", "-q"]);
+    let output = atlas.path("output");
+    let whole = tree(&output);
+    let restore =
+        |names: &[&String]| names.iter().for_each(|name| fs::write(output.join(name), &whole[*name]).unwrap());
+    let is_gallery = |name: &&String| *name == "index.html" || name.ends_with(".js");
+    let is_image = |name: &&String| name.ends_with(".png") || name.ends_with(".pdf") || *name == "images.json";
+    let gallery: Vec<&String> = whole.keys().filter(is_gallery).collect();
+    let images: Vec<&String> = whole.keys().filter(is_image).collect();
+    let left_out = || {
+        let report = String::from_utf8(atlas.run(&["check", "--against", "output"]).stdout).unwrap();
+        report.lines().find_map(|line| line.strip_prefix("not compared, ")).unwrap_or_default().to_owned()
+    };
+    assert_eq!((atlas.check(&[]), left_out()), ((0, vec![]), String::new()));
+    for name in gallery.iter().chain(&images) {
+        fs::remove_file(output.join(name)).unwrap();
+    }
+    assert_eq!(atlas.check(&[]), (0, vec![]));
+    let words = format!("for the folder has none of them: 3 images, 1 volume, {} files of the gallery", gallery.len());
+    assert_eq!(left_out(), words);
+    // In every report.
+    for format in ["json", "junit", "github"] {
+        let report =
+            String::from_utf8(atlas.run(&["check", "--against", "output", "--report", format]).stdout).unwrap();
+        assert!(report.contains(if format == "json" { "\"volumes\": 1" } else { &words }), "{format}: {report}");
+    }
+    // What is kept must be right, and a run makes the rest again.
+    atlas.edit("evans/points.csv", |lines| lines[3].push('1'));
+    assert!(!atlas.check(&[]).1.is_empty());
+    assert_eq!(atlas.run(&["render", "-q"]).status.code(), Some(0));
+    assert!(tree(&output) == whole);
+    // A part of a kind is damage: of images also their record, which says that they were there.
+    for (kind, is_listed) in [(&gallery, false), (&images, true)] {
+        for name in kind {
+            fs::remove_file(output.join(name)).unwrap();
+            let (code, findings) = atlas.check(&[]);
+            assert!(code == 1 && findings.iter().all(|f| f["file"] == ***name), "{name}: {findings:?}");
+            assert_eq!(left_out(), "", "{name}");
+            restore(&[name]);
+        }
+        for name in kind.iter().filter(|name| **name != "images.json") {
+            fs::remove_file(output.join(name)).unwrap();
+        }
+        assert_eq!(atlas.check(&[]).1.is_empty(), !is_listed);
+        restore(kind);
+    }
 }
 
 #[test]

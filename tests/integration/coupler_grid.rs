@@ -302,6 +302,7 @@ fn overlaps(scene: &Scene) -> Vec<String> {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn everything_is_inside_the_border_and_no_texts_overlap() {
     let plan = example();
     for paper in PAPERS {
@@ -352,6 +353,7 @@ fn touched(scene: &Scene) -> Vec<Option<&'static str>> {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn numbers_touch_nothing_that_is_drawn() {
     let plan = example();
     for paper in [PAPERS[0], PAPERS[2]] {

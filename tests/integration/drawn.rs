@@ -217,6 +217,7 @@ fn segments(curve: &DrawnCurve) -> impl Iterator<Item = (usize, usize)> {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn a_segment_that_is_bent_is_found() {
     let mut moved = 0;
     for (curve, samples) in curves() {
@@ -286,6 +287,7 @@ cases = [{ g = 2, r = 1, e = 0.2 }]
 "#;
 
 #[test]
+#[ignore = "thorough"]
 fn a_detour_between_coarse_samples_is_found() {
     let (mut moved, mut missed) = (0, 0);
     for page in pages(COARSE) {

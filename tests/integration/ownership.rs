@@ -155,6 +155,7 @@ fn nothing_is_written_through_a_link() {
 /// Pipes, devices and files of any size in place of those that a run reads: it neither hangs nor fills memory.
 #[cfg(unix)]
 #[test]
+#[ignore = "thorough"]
 fn only_regular_files_of_bounded_size_are_read() {
     let text = manifest("A", &["evans"]);
     let make = |kind: &str, path: &Path| {

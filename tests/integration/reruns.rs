@@ -386,6 +386,7 @@ fn terminate(child: &Child) {
 
 #[cfg(unix)]
 #[test]
+#[ignore = "thorough"]
 fn an_interrupted_run_is_continued() {
     let manifest = many("10 deg", "T");
     let fresh = Atlas::new(&manifest);
@@ -420,6 +421,7 @@ fn an_interrupted_run_is_continued() {
 
 #[cfg(unix)]
 #[test]
+#[ignore = "thorough"]
 fn an_interrupted_change_leaves_old_and_new_files_whole() {
     let [old, new] = ["10 deg", "12 deg"].map(|step| {
         let atlas = Atlas::new(&many(step, "T"));
@@ -481,6 +483,7 @@ fn a_killed_run_is_continued() {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn a_run_killed_during_a_change_does_not_record_the_old_files() {
     let atlas = Atlas::new(&many("10 deg", "T"));
     atlas.run(&[]);

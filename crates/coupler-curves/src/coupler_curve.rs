@@ -25,8 +25,11 @@ use crate::solve::{MeasuredCurve, SolvedCell, solve_cell};
 /// assert_eq!(curve.points().count(), 360);
 /// assert!(curve.circuit().is_closed);
 ///
-/// let straight = curve.straight_portion().expect("every curve has one");
-/// assert!(straight.length > 1.1 && straight.deviation < 0.001 * straight.length);
+/// let straight = curve.straight_portion();
+/// assert!(straight.is_some_and(|straight| straight.length > 1.1 && straight.deviation < 0.001 * straight.length));
+///
+/// // The crank pin's circle has no straight portion.
+/// assert!(four_bar.coupler_curve(0.0, 0.0)?.straight_portion().is_none());
 /// # Ok::<(), coupler_curves::CurveError>(())
 /// ```
 #[derive(Clone, Debug)]
@@ -116,7 +119,7 @@ impl CouplerCurve {
         &self.solved.linkage
     }
 
-    /// Its longest straight portion: within a strip no wider than 1/1000 of the portion's length.
+    /// Its longest straight portion: within a strip no wider than 1/1000 of the portion's length. `None` if it has none, as a circle.
     pub fn straight_portion(&self) -> Option<&StraightPortion> {
         self.measured().straight.as_ref()
     }

@@ -17,7 +17,7 @@ pub enum Request {
         /// The manifest, as TOML.
         manifest: String,
     },
-    /// Closes a family; its handle is not used again.
+    /// Closes a family; the next family that is opened may have its handle.
     CloseFamily {
         /// The handle.
         family: usize,
@@ -31,7 +31,7 @@ pub enum Request {
         /// Whether only the circuits that the family selects are found.
         is_rough: bool,
     },
-    /// Closes a study; its handle is not used again.
+    /// Closes a study; the next study that is opened may have its handle.
     CloseStudy {
         /// The handle.
         study: usize,
@@ -119,7 +119,7 @@ pub enum Request {
         /// The name of the path, for the manifest.
         name: String,
     },
-    /// Closes a search; its handle is not used again.
+    /// Closes a search; the next search that is opened may have its handle.
     CloseSearch {
         /// The handle.
         search: usize,
@@ -137,7 +137,7 @@ pub enum Request {
         /// For each whether it is closed: not 0.
         closed: Vec<f64>,
     },
-    /// Closes an index; its handle is not used again.
+    /// Closes an index; the next index that is opened may have its handle.
     CloseCurves {
         /// The handle.
         curves: usize,
@@ -182,7 +182,7 @@ pub enum Request {
         /// Whether it is closed.
         closed: bool,
     },
-    /// Closes a path; its handle is not used again.
+    /// Closes a path; the next path that is opened may have its handle.
     CloseShape {
         /// The handle.
         shape: usize,

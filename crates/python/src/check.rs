@@ -46,6 +46,13 @@ impl Report {
         self.report.pages
     }
 
+    /// The numbers of images, volumes of the book and files of the gallery that were not compared, because the folder has none of them.
+    #[getter]
+    fn left_out(&self) -> std::collections::BTreeMap<&'static str, usize> {
+        let check::LeftOut { images, volumes, gallery_files } = self.report.left_out;
+        [("images", images), ("volumes", volumes), ("gallery_files", gallery_files)].into()
+    }
+
     /// The number of findings of each kind.
     #[getter]
     fn counts(&self) -> std::collections::BTreeMap<&'static str, usize> {

@@ -33,6 +33,13 @@ pub fn text(report: &Report, source: &ManifestSource) -> String {
             escape_property(&file)
         ));
     }
+    if let Some(words) = super::not_compared(&report.left_out) {
+        text.push_str(&format!(
+            "::notice file={},line=1,title=check::{}\n",
+            escape_property(&file),
+            escape_data(&words)
+        ));
+    }
     text
 }
 

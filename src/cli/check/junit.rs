@@ -36,6 +36,11 @@ pub fn text(report: &Report) -> anyhow::Result<String> {
     writer.write_event(Event::Start(with_counts(BytesStart::new("testsuite"), "all else", 1, 0)))?;
     let checked = format!("{} curves on {} pages of {} families", report.curves, report.pages, report.families);
     write_case(&mut writer, "all else", &checked, &[])?;
+    if let Some(words) = super::not_compared(&report.left_out) {
+        writer.write_event(Event::Start(BytesStart::new("system-out")))?;
+        writer.write_event(Event::Text(BytesText::new(&words)))?;
+        writer.write_event(Event::End(BytesEnd::new("system-out")))?;
+    }
     writer.write_event(Event::End(BytesEnd::new("testsuite")))?;
     writer.write_event(Event::End(BytesEnd::new("testsuites")))?;
     Ok(String::from_utf8(writer.into_inner())? + "\n")

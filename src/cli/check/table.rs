@@ -43,6 +43,7 @@ pub fn text(report: &Report) -> String {
         n => pluralize(n, "finding"),
     };
     text.push_str(&format!("{checked}: {result}\n"));
+    text.extend(super::not_compared(&report.left_out).map(|words| words + "\n"));
     text
 }
 

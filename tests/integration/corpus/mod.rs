@@ -62,6 +62,7 @@ fn any_expression_is_parsed_or_has_an_error() {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn any_file_of_a_recorded_atlas_can_be_checked() {
     for (corpus, check) in [
         ("fuzz/corpus/points", checks::points as fn(&str)),

@@ -7,7 +7,8 @@ use coupler_drawing::page::{self, Heading, Layout, Options, Panel, PanelPage, Pa
 use coupler_drawing::render::{self, TextMode};
 use coupler_drawing::scene::{Anchor, Item, Path, Polyline, Scene, Shape, Text, TextRun};
 
-use super::{assert_recorded, document};
+use super::document;
+use crate::recorded::assert_recorded;
 
 const PAPER: Paper = Paper { width: 144.0, height: 94.0 };
 const INPUT_DEG: f64 = 60.0;

@@ -12,7 +12,8 @@ use coupler_drawing::page::{Options, Paper, PoseChoice};
 use coupler_drawing::plate;
 use coupler_drawing::render::{self, TextMode};
 
-use super::{assert_recorded, printed, root};
+use super::{printed, root};
+use crate::recorded::assert_recorded;
 
 const PAGE: &str = "docs/linkages.md";
 /// Small enough for its lettering to be read in a column of text.

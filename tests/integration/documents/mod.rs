@@ -41,19 +41,6 @@ fn printed(arguments: &[&str]) -> String {
     crate::command::printed(root(), arguments)
 }
 
-/// Compares a generated file with its contents; `WRITE_DOCUMENTS=1 cargo test --test integration is_recorded`
-/// writes it.
-fn assert_recorded(name: &str, contents: &str) {
-    let path = root().join(name);
-    if std::env::var_os("WRITE_DOCUMENTS").is_some() {
-        fs::create_dir_all(path.parent().unwrap()).unwrap();
-        fs::write(&path, contents).unwrap();
-    }
-    let recorded = fs::read_to_string(&path).unwrap_or_default();
-    let line = (1..).zip(recorded.lines().zip(contents.lines())).find(|(_, (before, now))| before != now);
-    assert!(recorded == contents, "{name} is not what the program makes; set WRITE_DOCUMENTS=1 to write it: {line:?}");
-}
-
 /// Copies what is below a folder.
 fn copy(from: &Path, to: &Path) {
     fs::create_dir_all(to).unwrap();

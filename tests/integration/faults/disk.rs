@@ -13,7 +13,7 @@ struct Disk(PathBuf);
 impl Disk {
     const BLOCK: usize = 4096;
 
-    /// Mounts a disk of 4 MiB; `None` if the test does not have the rights to do so.
+    /// Mounts a disk of 4 MiB; `None` if the test does not have the rights to do so, which `.ci/run` sees to.
     fn mount(folder: PathBuf) -> Option<Disk> {
         fs::create_dir(&folder).unwrap();
         let mut mount = Command::new("mount");
@@ -21,6 +21,8 @@ impl Disk {
         if mount.output().is_ok_and(|output| output.status.success()) {
             return Some(Disk(folder));
         }
+        let is_required = std::env::var_os("MOUNT").is_some();
+        assert!(!is_required, "this user does not have the rights to mount a disk");
         eprintln!("skipped: this user does not have the rights to mount a disk");
         None
     }
@@ -60,6 +62,7 @@ impl Drop for Ballast {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn a_full_disk_loses_nothing() {
     let [mut from, mut to] = old_and_new();
     let [mut before, mut after] = [&from, &to].map(|manifest| undisturbed(manifest));
@@ -99,6 +102,7 @@ fn a_full_disk_loses_nothing() {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn a_starter_manifest_is_complete_or_absent() {
     let folder = tempfile::TempDir::new().unwrap();
     let Some(disk) = Disk::mount(folder.path().join("disk")) else { return };
@@ -116,6 +120,7 @@ fn a_starter_manifest_is_complete_or_absent() {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn a_disk_that_cannot_be_written_is_left_unchanged() {
     let [old, new] = old_and_new();
     let atlas = Atlas::new(&old);

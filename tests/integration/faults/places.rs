@@ -7,6 +7,7 @@ use crate::folder::{Atlas, tree};
 
 /// A folder at the path of a file, or a file at the path of a folder, is reported with a remedy and left alone.
 #[test]
+#[ignore = "thorough"]
 fn an_obstacle_at_the_path_of_a_file_is_reported_and_kept() {
     let [old, new] = old_and_new();
     let [before, after] = [&old, &new].map(|manifest| undisturbed(manifest));
@@ -76,6 +77,7 @@ fn a_folder_without_permission_is_left_unchanged() {
 
 /// Files and whole folders are removed while a run writes them.
 #[test]
+#[ignore = "thorough"]
 fn files_that_vanish_during_a_run_are_written_by_the_next() {
     let [old, new] = old_and_new();
     let [before, after] = [&old, &new].map(|manifest| undisturbed(manifest));

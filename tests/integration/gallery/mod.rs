@@ -5,4 +5,3 @@ mod data;
 mod page;
 mod parts;
 mod pieces;
-mod scripts;

@@ -129,6 +129,7 @@ fn an_index_is_stored_to_the_last_bit() {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn a_large_family_is_written_checked_and_cleaned_up_in_pieces() {
     let atlas = Atlas::new(LARGE);
     let run = |arguments: &[&str]| {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use coupler_atlas::manifest;
+use coupler_manifest as manifest;
 
 /// The linkages of `linkages.toml`.
 const LINKAGES: &str = include_str!("linkages.toml");

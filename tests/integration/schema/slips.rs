@@ -113,6 +113,7 @@ const FORM: [&str; 25] = [
 
 /// Removes each value of the manifest that has every key, and replaces it by others.
 #[test]
+#[ignore = "thorough"]
 fn the_parser_and_the_schema_agree_on_every_changed_value() {
     let whole = json(EVERY_KEY);
     let mut pointers = Vec::new();

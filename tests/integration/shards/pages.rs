@@ -52,6 +52,7 @@ grid = { p = [2, 3, 4], a = [3, 4] }
 "#;
 
 #[test]
+#[ignore = "thorough"]
 fn the_pages_of_shards_are_those_of_one_run() {
     let folder = folder_with(PAGES);
     let path = folder.path();
@@ -147,6 +148,7 @@ fn pages_of_another_manifest_are_drawn_again() {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn completing_pages_can_be_repeated() {
     let folder = folder_with(PAGES);
     let path = folder.path();

@@ -210,6 +210,7 @@ fn hundred_points(placed: &PlacedFourBar, side: Side, random: &mut Random) -> (V
 }
 
 #[test]
+#[ignore = "thorough"]
 fn random_linkages_are_found_again() {
     const COUNT: usize = 40;
     let mut random = Random(17);
@@ -225,6 +226,7 @@ fn random_linkages_are_found_again() {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn with_noise_the_answer_is_as_near_as_the_linkage_that_made_the_path() {
     const COUNT: usize = 15;
     let mut random = Random(4);
@@ -308,6 +310,7 @@ fn open_strokes_are_met_as_well_as_is_known() {
 
 /// Parts of the curves of random four-bars, and nine of their points, as precision points.
 #[test]
+#[ignore = "thorough"]
 fn parts_of_curves_are_found_again() {
     const TRIALS: usize = 8;
     let mut random = Random(77);
@@ -381,6 +384,7 @@ fn timed_targets_are_reached_at_their_inputs() {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn a_timed_answer_with_noise_is_as_near_as_the_linkage_that_made_the_path() {
     const COUNT: usize = 10;
     let mut random = Random(8);

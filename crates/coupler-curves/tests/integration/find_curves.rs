@@ -302,6 +302,7 @@ fn a_mirror_image_counts_only_if_it_may() {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn curves_are_looked_up_in_steps() {
     let mut random = Random(31);
     let curves: Vec<Vec<Point>> = (0..3000).map(|_| random.coupler_curve(90)).collect();

@@ -309,6 +309,7 @@ proptest! {
 
     /// No measure is NaN, whatever the lengths, even if the linkage hardly moves or does not move at all.
     #[test]
+    #[ignore = "thorough"]
     fn no_measure_of_any_four_bar_is_nan(
         lengths in prop::array::uniform4(prop_oneof![0.1f64..4.0, (1u8..9).prop_map(|k| f64::from(k) / 2.0)]),
         (along, across) in (-4.0f64..4.0, prop_oneof![Just(0.0), -4.0f64..4.0]), samples in 2usize..400,

@@ -1,0 +1,65 @@
+//! What a folder may leave out: images and books, and the gallery. All of them are made again from the manifest, so that a
+//! repository need keep only tables and pages.
+//!
+//! A kind is left out if the folder has none of its files. Images and books have their own record, `images.json`, which
+//! says that they were there: with it, none may be missing.
+
+use std::fs;
+use std::path::Path;
+
+use serde::Serialize;
+
+use crate::gallery::is_data_file_name;
+use crate::record::{FileRecord, FolderRecord, ImagesState, RunRecord};
+
+/// The numbers of files that a record lists and that were not compared, because the folder has none of their kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct LeftOut {
+    /// The images of pages.
+    pub images: usize,
+    /// The volumes of the book.
+    pub volumes: usize,
+    /// The files of the gallery: its page, its kernel, and the data of families.
+    pub gallery_files: usize,
+}
+
+impl LeftOut {
+    /// What the folder of a record leaves out; nothing where a run has not ended, whose files are yet to come.
+    pub(super) fn of(record: &FolderRecord, folder: &Path) -> LeftOut {
+        if record.is_unfinished {
+            return LeftOut::default();
+        }
+        let run = &record.run;
+        let is_absent = |name: &String| fs::symlink_metadata(folder.join(name)).is_err();
+        let images = family_files(run, |name| name.ends_with(".png"));
+        let volumes = file_names(run.book.iter().flat_map(|book| &book.files));
+        let has_images = record.images != ImagesState::Missing || !images.iter().chain(&volumes).all(is_absent);
+        let gallery = [file_names(&run.gallery), family_files(run, is_data_file_name)].concat();
+        LeftOut {
+            images: if has_images { 0 } else { images.len() },
+            volumes: if has_images { 0 } else { volumes.len() },
+            gallery_files: if gallery.iter().all(is_absent) { gallery.len() } else { 0 },
+        }
+    }
+
+    /// Whether images and books are left out.
+    pub(super) fn has_images(self) -> bool {
+        self.images + self.volumes > 0
+    }
+
+    /// Whether the gallery is left out.
+    pub(super) fn has_gallery(self) -> bool {
+        self.gallery_files > 0
+    }
+}
+
+/// The names of files in the folder of an atlas.
+fn file_names<'r>(files: impl IntoIterator<Item = &'r FileRecord>) -> Vec<String> {
+    files.into_iter().map(|file| file.name.clone()).collect()
+}
+
+/// The files of families that have certain names, by their paths in the folder of the atlas.
+fn family_files(run: &RunRecord, is_one: fn(&str) -> bool) -> Vec<String> {
+    let files = run.families.iter().flat_map(|family| family.files.iter().map(move |file| (&family.id, &file.name)));
+    files.filter(|(_, name)| is_one(name)).map(|(id, name)| format!("{id}/{name}")).collect()
+}
