@@ -14,8 +14,9 @@ use crate::output;
 use clap::{Args, ValueHint};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use super::files::DEFAULT_MANIFEST;
 use super::report::{self, ReportRequest};
-use super::source::{self, DEFAULT_MANIFEST, ManifestSource};
+use super::source::{self, ManifestSource};
 use super::{InputError, Outcome, files, print, print_bytes, print_stderr, printable};
 
 /// Run a manifest again, and report what has changed since an atlas was recorded: which curve, where and by how much.
