@@ -27,6 +27,7 @@ mod folder;
 mod formats;
 mod gallery;
 mod hostile_text;
+mod import_circles;
 mod inspect_output;
 mod kernel_module;
 mod lettering;
