@@ -2,7 +2,6 @@
 //! `LINKAGE=evans` counts those of one linkage, `COUNT=100` more than twenty of each.
 
 #[path = "../tests/integration/find_linkage/random_curves.rs"]
-#[expect(dead_code, reason = "the tests use more of it")]
 mod random_curves;
 
 use coupler_curves::find::Options;

@@ -8,6 +8,7 @@ mod cells;
 mod curve;
 mod curve_samples;
 mod drawn_curves;
+mod error;
 mod family;
 mod finding;
 mod gallery;
@@ -21,13 +22,14 @@ mod overlays;
 mod pages;
 mod tables;
 
+pub use error::Error;
 pub use finding::{Change, Displacement, Finding, Location};
 pub use left_out::LeftOut;
 pub use overlays::{Overlay, draw_overlays};
 
 use std::collections::{BTreeMap, HashSet};
 use std::fs::TryLockError;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -36,7 +38,7 @@ use serde::Serialize;
 use crate::gallery::{PAGE_FILE, SCRIPT_FILE, is_data_file_name};
 use crate::manifest::{PartialTolerances, Plan, PlannedFamily};
 use crate::pipeline::{FamilyPipeline, GroupsDone, Output, page_file_name};
-use crate::record::{FamilyRecord, FolderRecord, LOCK_FILE_NAME, RUN_FILE_NAME, ReadError, open_regular_file};
+use crate::record::{FamilyRecord, FolderRecord, LOCK_FILE_NAME, RUN_FILE_NAME, open_regular_file};
 use coupler_drawing::render::PageFormat;
 use family::{CellCounts, FamilyCheck};
 
@@ -82,28 +84,6 @@ pub struct Report {
     pub counts: BTreeMap<&'static str, usize>,
     /// The findings, the worst first; at most 20,000 of each family.
     pub findings: Vec<Finding>,
-}
-
-/// Why an atlas cannot be checked.
-#[derive(Debug, thiserror::Error)]
-pub enum Error {
-    /// The record of the atlas cannot be used.
-    #[error("cannot use {}: {source}; {}", path.display(), outdated::record_remedy(source))]
-    Record {
-        /// The path of the record.
-        path: PathBuf,
-        /// Why.
-        source: ReadError,
-    },
-    /// A run is writing to the atlas.
-    #[error("a run is writing to {}: wait for it to end", folder.display())]
-    Busy {
-        /// The folder of the atlas.
-        folder: PathBuf,
-    },
-    /// The check was interrupted.
-    #[error("interrupted")]
-    Interrupted,
 }
 
 impl Report {

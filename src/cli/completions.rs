@@ -2,8 +2,8 @@
 
 use crate::design::LinkageKind;
 use crate::export;
+use clap::Args;
 use clap::builder::PossibleValuesParser;
-use clap::{Args, CommandFactory};
 use clap_complete::Shell;
 use coupler_curves::catalogue;
 use coupler_drawing::render;
@@ -29,8 +29,8 @@ const FAMILY_LISTS: [(Shell, &str, &str); 3] = [
     (Shell::Fish, "\"FAMILIES-OF-THE-MANIFEST\\t''\"", "\"(coupler-atlas list families 2>/dev/null)\""),
 ];
 
-pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
-    let mut command = offered_values().into_iter().fold(super::Arguments::command(), offer);
+pub fn run(arguments: &Arguments, command: clap::Command) -> anyhow::Result<Outcome> {
+    let mut command = offered_values().into_iter().fold(command, offer);
     let name = command.get_name().to_owned();
     let mut script = Vec::new();
     clap_complete::generate(arguments.shell, &mut command, name.as_str(), &mut script);

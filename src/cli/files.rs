@@ -9,6 +9,9 @@ use clap::builder::{PathBufValueParser, TypedValueParser};
 
 use super::{InputError, print_bytes, printable};
 
+/// The manifest that a command reads when none is given.
+pub const DEFAULT_MANIFEST: &str = "atlas.toml";
+
 /// Whether a path is standard input, where a file is read, or standard output, where one is written.
 pub(super) fn is_standard(path: &Path) -> bool {
     path.as_os_str() == RunRecord::STANDARD_INPUT

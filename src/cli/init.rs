@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::output;
 use clap::{Args, ValueHint};
 
-use super::source::DEFAULT_MANIFEST;
+use super::files::DEFAULT_MANIFEST;
 use super::{InputError, Outcome, files, print, print_bytes, printable};
 
 /// Write a commented manifest to start from.

@@ -4,11 +4,11 @@ use std::io;
 
 use crate::gallery::PAGE_FILE;
 use crate::record::{JOURNAL_FILE_NAME, RUN_FILE_NAME};
-use clap::{Args, CommandFactory};
+use clap::Args;
 use clap_mangen::Man;
 use clap_mangen::roff::{Roff, bold, roman};
 
-use super::source::DEFAULT_MANIFEST;
+use super::files::DEFAULT_MANIFEST;
 use super::{EXIT_CODES, Outcome, color, print_bytes};
 
 /// Print the manual page in roff: coupler-atlas man | man -l -
@@ -44,8 +44,7 @@ fn files() -> [(String, &'static str); 7] {
 }
 
 /// Prints one manual page: the program, then a section for each command.
-pub fn print_manual(_: &Manual) -> anyhow::Result<Outcome> {
-    let mut command = super::Arguments::command();
+pub fn print_manual(_: &Manual, mut command: clap::Command) -> anyhow::Result<Outcome> {
     command.build();
     let mut page = Vec::new();
     let program = Man::new(command.clone());

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::record;
 
 use super::files;
-use super::source::DEFAULT_MANIFEST;
+use super::files::DEFAULT_MANIFEST;
 
 /// The extensions of files with paths for `find`.
 const OF_PATHS: [&str; 4] = ["svg", "csv", "tsv", "json"];

@@ -10,9 +10,6 @@ use coupler_curves::problem::{self, Problem, suggestion};
 
 use super::{InputError, color, files, not_a_manifest, pluralize, print_stderr, print_styled};
 
-/// The manifest that a command reads when none is given.
-pub const DEFAULT_MANIFEST: &str = "atlas.toml";
-
 /// A manifest with its path and text, for messages.
 pub struct ManifestSource {
     pub path: PathBuf,

@@ -7,8 +7,9 @@ use clap::{Args, ValueHint};
 use coupler_curves::family::MEASURES;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::source::{self, DEFAULT_MANIFEST, ManifestSource};
-use super::{InputError, Outcome, choice, files, pluralize, print, printable, render};
+use super::files::DEFAULT_MANIFEST;
+use super::source::{self, ManifestSource};
+use super::{InputError, Outcome, choice, files, interrupt, pluralize, print, printable};
 
 /// Solve a part of the cells of a manifest, or all, into tables without pages: cells and points of each family, as Parquet.
 ///
@@ -115,7 +116,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         measures,
         only: arguments.only.clone(),
         force: arguments.force,
-        interrupt: render::interrupt_flag(shard::Error::Interrupted)?,
+        interrupt: interrupt::interrupt_flag(shard::Error::Interrupted)?,
     };
     let mut bar = ProgressBar::hidden();
     let mut lines = String::new();

@@ -8,8 +8,9 @@ use clap::{Args, ValueHint};
 use coupler_curves::problem::{self, Problem};
 use serde::Serialize;
 
+use super::files::DEFAULT_MANIFEST;
 use super::report::{self, ReportRequest};
-use super::source::{self, DEFAULT_MANIFEST};
+use super::source;
 use super::{Outcome, files, pluralize, print, print_bytes};
 
 /// Report every problem of a manifest, and write nothing but the requested reports.

@@ -4,21 +4,12 @@ use rayon::prelude::*;
 
 use super::kind::{DrivenLinkage, LinkageKind, P_RANGE};
 use super::requirements::{Requirement, Requirements};
+use super::result::Relaxation;
+use super::rounding::round_to_four_digits;
 use super::scaled_design::{Design, ProportionOrigin};
 use super::search::{self, Samplers};
+use super::synthesis::{feasible_linkages, new_objective, synthesize_all};
 use super::trial::{Goal, Trial};
-use super::{feasible_linkages, new_objective, synthesize_all};
-
-/// A changed requirement with which all others can be met.
-#[derive(Clone, Debug)]
-pub struct Relaxation {
-    /// The requirement.
-    pub requirement: Requirement,
-    /// The value it would have to have, to four digits; `None` if it would have to be dropped.
-    pub value: Option<f64>,
-    /// The linkage that then meets the requirements.
-    pub design: Design,
-}
 
 /// The factor by which a relaxed value is looser than the result, so that a search with it finds the linkage again.
 const MARGIN: f64 = 1.002;
@@ -149,15 +140,6 @@ fn relax_by_dropping(requirements: &Requirements, samplers: &Samplers) -> Vec<Re
         Some(Relaxation { requirement, value: None, design })
     });
     found.collect()
-}
-
-/// Rounds a number to four significant digits, up or down.
-pub(super) fn round_to_four_digits(value: f64, up: bool) -> f64 {
-    let power: i32 = format!("{value:e}").split('e').nth(1).and_then(|power| power.parse().ok()).unwrap_or(0);
-    let digits = |power: i32| format!("1e{power}").parse::<f64>().unwrap_or(1.0);
-    let units = value / digits(power - 3);
-    let units = if up { units.ceil() } else { units.floor() };
-    format!("{units}e{}", power - 3).parse().unwrap_or(value)
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@ pub mod description;
 mod drawing;
 mod index_file;
 mod linkage;
+mod outline;
 mod placed_curve;
 mod point_table;
 mod svg_outlines;
@@ -15,8 +16,9 @@ pub use atlas::{AtlasAnswer, AtlasFindings, AtlasQuery, find_in_atlas};
 pub use drawing::draw_four_bars;
 pub use index_file::{MAX_CURVES, load_index};
 pub use linkage::{LinkageAnswer, LinkageFindings, MAX_SAMPLES, find_linkage, is_free_four_bar};
+pub use outline::Outline;
 pub use placed_curve::PlacedCurve;
-pub use target_file::{MAX_POINTS, Outline, parse_outline};
+pub use target_file::{MAX_POINTS, parse_outline};
 
 /// Why a search has no result.
 #[derive(Debug, thiserror::Error)]

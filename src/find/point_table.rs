@@ -3,7 +3,7 @@
 use coupler_curves::geometry::Point;
 use csv::{ReaderBuilder, StringRecord, Trim};
 
-use super::target_file::{Outline, limited};
+use super::outline::{Outline, limited};
 
 /// The columns of a table.
 #[derive(Clone, Copy)]

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde_json::{Value, json};
 
-use super::pieces::{CellData, PieceContent, PieceIndex, PieceSeries};
+use super::piece::{CellData, PieceContent, PieceIndex, PieceSeries};
 use super::typed_array::{f64s, u8s, u16s, u32s};
 use crate::manifest::{Plan, PlannedFamily};
 use coupler_curves::family::Sampling;

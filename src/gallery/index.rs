@@ -11,7 +11,8 @@ use sha2::{Digest, Sha256};
 
 use super::assets::{KERNEL, compact, join_modules, scripts, styles};
 use super::base91::encode_base91;
-use super::pieces::{PieceSeries, is_data_file_name, parse_piece_file_name};
+use super::piece::PieceSeries;
+use super::pieces::{is_data_file_name, parse_piece_file_name};
 use crate::record::{FamilyRecord, RunRecord};
 use coupler_curves::measure;
 

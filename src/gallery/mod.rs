@@ -9,6 +9,7 @@ mod assets;
 mod base91;
 mod family_script;
 mod index;
+mod piece;
 mod pieces;
 mod typed_array;
 
@@ -16,7 +17,8 @@ pub use assets::{Asset, KERNEL, join_modules, scripts, styles};
 pub use base91::encode_base91;
 pub use family_script::{FamilyScript, SCRIPT_FILE};
 pub use index::{DataBytes, GalleryFamily, PAGE_FILE, index_html};
+pub use piece::{CellData, PieceContent, PieceIndex, PieceSeries};
 pub use pieces::{
-    CellData, DataFile, MAX_PIECE_BYTES, MAX_SINGLE_FILE_BYTES, OpenPiece, PieceContent, PieceIndex, PieceSeries,
-    PieceWriter, is_data_file_name, parse_piece_file_name, piece_file_name,
+    DataFile, MAX_PIECE_BYTES, MAX_SINGLE_FILE_BYTES, OpenPiece, PieceWriter, is_data_file_name, parse_piece_file_name,
+    piece_file_name,
 };

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use super::family_writer::{FamilyTask, FamilyWriter};
 use super::files;
+use super::initial_record::initial_record;
 use super::inputs::Inputs;
 use super::journal::Journal;
 use super::pages::OutputSink;
@@ -133,24 +134,4 @@ fn pages_in_other_formats(
         Some(FileRecord { inputs_sha256, ..file.clone() })
     };
     earlier.files.iter().filter_map(kept_page).collect()
-}
-
-/// The record of a family before any of its files is written.
-pub(super) fn initial_record(pipeline: &FamilyPipeline) -> FamilyRecord {
-    let family = &pipeline.composer.planned.family;
-    FamilyRecord {
-        id: family.id.clone(),
-        title: family.title.clone(),
-        linkage: family.template.id.clone(),
-        inputs_sha256: None,
-        cells: family.cell_count(),
-        kept: pipeline.arrangement.kept.len(),
-        unassembled_left_out: pipeline.arrangement.unassembled_left_out,
-        not_assembled: 0,
-        partly_assembled: 0,
-        curves_left_out: 0,
-        curves: 0,
-        pages: pipeline.pagination.page_count,
-        files: Vec::new(),
-    }
 }

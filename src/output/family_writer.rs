@@ -6,7 +6,7 @@ use std::path::Path;
 use rayon::prelude::*;
 use serde_json::Value;
 
-use super::family::initial_record;
+use super::initial_record::initial_record;
 use super::journal::JournalFile;
 use super::pages::{OutputSink, PageFiles, TableRows};
 use super::survey::FamilySurvey;

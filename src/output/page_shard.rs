@@ -3,8 +3,8 @@
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
-use super::family::initial_record;
 use super::files;
+use super::initial_record::initial_record;
 use super::inputs::Inputs;
 use super::journal::JournalFile;
 use super::lock::Lock;

@@ -7,15 +7,12 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::images::{IMAGES_FILE_NAME, ImageDigests, images_from_bytes, images_to_bytes};
-use super::journal::{FamilyProgress, JOURNAL_FILE_NAME, JournalReplay, path_in_atlas};
+use super::journal::{FamilyProgress, JournalReplay, path_in_atlas};
 use super::regular_file::{FileError, open_regular_file, read_regular_file};
-use super::run::{FileRecord, RUN_FILE_NAME, ReadError, RunRecord};
+use super::run::{FileRecord, JOURNAL_FILE_NAME, MAX_RECORDED_FILES, RUN_FILE_NAME, ReadError, RunRecord};
 
 /// The most bytes of a record: enough for all the files that a record may list.
 const MAX_BYTES: u64 = 1 << 28;
-
-/// The most files that the record of an atlas may list. A record takes a few hundred bytes of memory for each.
-pub const MAX_RECORDED_FILES: usize = 500_000;
 
 /// What is recorded in the folder of an atlas.
 #[derive(Debug)]

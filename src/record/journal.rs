@@ -17,9 +17,6 @@ use super::run::{BookRecord, FamilyRecord, FileRecord, RunRecord};
 use crate::manifest::MAX_MANIFEST_BYTES;
 use crate::sweep::Division;
 
-/// The name of the journal in the folder of an atlas.
-pub const JOURNAL_FILE_NAME: &str = ".coupler-atlas.journal";
-
 /// The most families and files that a journal may add to a record, twice as many as an atlas may have.
 const MAX_ADDITIONS: usize = 1_000_000;
 

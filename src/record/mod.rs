@@ -18,13 +18,14 @@ mod table;
 pub use cells::{CellTable, read_unassembled_cells};
 pub use digest::{Digest, RunningDigest, TextDigests};
 pub use drawn_curve::{DrawnCurve, DrawnCurveError, SolvedCurve, read_drawn_curves};
-pub use folder::{FolderRecord, ImagesState, MAX_RECORDED_FILES, images_of_run};
+pub use folder::{FolderRecord, ImagesState, images_of_run};
 pub use images::IMAGES_FILE_NAME;
-pub use journal::{
-    FamilyProgress, JOURNAL_FILE_NAME, JournalEntry, PageShardHead, PageShardRecord, PartialFile, path_in_atlas,
-};
+pub use journal::{FamilyProgress, JournalEntry, PageShardHead, PageShardRecord, PartialFile, path_in_atlas};
 pub use png::is_intact_png;
 pub use regular_file::{FileError, file_digest, open_regular_file, read_regular_file};
 pub use rendered_from::{check_families, manifest_of};
-pub use run::{BookRecord, FORMAT_VERSION, FamilyRecord, FileRecord, RUN_FILE_NAME, ReadError, RunRecord};
+pub use run::{
+    BookRecord, FORMAT_VERSION, FamilyRecord, FileRecord, JOURNAL_FILE_NAME, MAX_RECORDED_FILES, RUN_FILE_NAME,
+    ReadError, RunRecord,
+};
 pub use table::{RecordedTable, Row, TableError, parse_rows};

@@ -12,6 +12,12 @@ pub const FORMAT_VERSION: u32 = 1;
 /// The name of the file in the folder of an atlas.
 pub const RUN_FILE_NAME: &str = "run.json";
 
+/// The name of the journal in the folder of an atlas.
+pub const JOURNAL_FILE_NAME: &str = ".coupler-atlas.journal";
+
+/// The most files that the record of an atlas may list. A record takes a few hundred bytes of memory for each.
+pub const MAX_RECORDED_FILES: usize = 500_000;
+
 /// `run.json`: what a run has written. It has no time, host, path or number of threads, so equal runs have equal bytes.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RunRecord {
@@ -111,10 +117,10 @@ pub enum ReadError {
     #[error("it {0}")]
     File(#[from] FileError),
     /// The journal of an unfinished run cannot be read.
-    #[error("its journal, {name}, {0}", name = super::journal::JOURNAL_FILE_NAME)]
+    #[error("its journal, {name}, {0}", name = JOURNAL_FILE_NAME)]
     Journal(#[source] FileError),
     /// It lists more files than this program writes.
-    #[error("it lists {files} files, expected at most {}", super::folder::MAX_RECORDED_FILES)]
+    #[error("it lists {files} files, expected at most {}", MAX_RECORDED_FILES)]
     TooManyFiles {
         /// The number of files, approximately.
         files: usize,

@@ -237,6 +237,9 @@ pub(super) fn column_difference(columns: &[String], others: &[String]) -> String
     }
 }
 
+/// The greatest number of curves that the best may be.
+pub const MAX_TOP: usize = 1_000_000;
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -7,9 +7,9 @@ use coupler_curves::family::Family;
 use coupler_curves::measure::{self, Measure};
 
 use super::columns::TableColumn;
+use super::options::Options;
 use super::record::{Counts, FORMAT, ShardRecord, TableKind};
 use super::table;
-use super::write::Options;
 use crate::manifest::{Plan, PlannedFamily};
 use crate::record::{Digest, RunningDigest};
 use crate::sweep::{CellGroups, CellIndices};

@@ -2,70 +2,25 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 
 use coupler_curves::expression::CompiledExpression;
 use coupler_curves::family::Family;
 use coupler_curves::measure;
 use coupler_curves::solve::{SolvedCell, Status};
 
+use super::Error;
 use super::best::Best;
 use super::expression::compile;
+use super::options::{Event, Options};
 use super::problem::FileProblem;
 use super::read::ShardFile;
-use super::record::{Counts, ShardRecord, TableKind, Top};
+use super::record::{Counts, ShardRecord, TableKind};
 use super::swept::{groups, initial_record, manifest_digest, swept_family};
 use super::table::{self, Chunk, RowMaker, TableWriter, table_path, temporary_affixes};
-use super::{Division, Error, TableFormat};
 use crate::manifest::Plan;
 use crate::output::{self, Lock, create_folder};
 use crate::sweep::{self, CellIndices};
-
-/// How a shard is made.
-#[derive(Clone, Debug)]
-pub struct Options {
-    /// Which cells of each family it has.
-    pub division: Division,
-    /// The format of its tables.
-    pub format: TableFormat,
-    /// Whether it has tables of points.
-    pub has_points: bool,
-    /// Keeps only the best curves of each family of the shard.
-    pub top: Option<Top>,
-    /// The measures of the tables, by name, in place of the manifest's; those that `where` and the expression of `top` use are
-    /// among them in any case.
-    pub measures: Option<Vec<String>>,
-    /// The ids of the families; all if empty.
-    pub only: Vec<String>,
-    /// Whether to replace files of other sweeps, and to make complete ones again.
-    pub force: bool,
-    /// Set to true to end the run soon.
-    pub interrupt: Arc<AtomicBool>,
-}
-
-/// Progress of a run.
-#[derive(Clone, Copy, Debug)]
-pub enum Event<'a> {
-    /// A family is begun.
-    Begin {
-        /// Its id.
-        family: &'a str,
-        /// The number of its cells in the shard.
-        cells: usize,
-    },
-    /// Cells are solved; with `top`, the best of them are solved again.
-    Cells(usize),
-    /// A family is finished.
-    End {
-        /// The record of its table of cells.
-        record: &'a ShardRecord,
-        /// The path of that table.
-        path: &'a Path,
-        /// Whether its files were there already.
-        is_kept: bool,
-    },
-}
 
 /// Makes a shard: solves, measures and filters its cells, and writes their tables into the folders of their families. Files of
 /// a shard that are complete already are kept.

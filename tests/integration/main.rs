@@ -28,6 +28,7 @@ mod formats;
 mod gallery;
 mod golden;
 mod hostile_text;
+mod import_circles;
 mod inspect_output;
 mod lettering;
 mod limits;

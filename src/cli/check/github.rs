@@ -4,6 +4,7 @@ use crate::check::Report;
 
 use super::super::printable;
 use super::super::source::ManifestSource;
+use super::left_out::not_compared;
 
 /// GitHub shows at most this many annotations of one step.
 const MAX_ANNOTATIONS: usize = 10;
@@ -33,7 +34,7 @@ pub fn text(report: &Report, source: &ManifestSource) -> String {
             escape_property(&file)
         ));
     }
-    if let Some(words) = super::not_compared(&report.left_out) {
+    if let Some(words) = not_compared(&report.left_out) {
         text.push_str(&format!(
             "::notice file={},line=1,title=check::{}\n",
             escape_property(&file),

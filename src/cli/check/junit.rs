@@ -7,6 +7,7 @@ use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
 
 use super::super::printable;
+use super::left_out::not_compared;
 
 /// The report as JUnit XML: a suite for each family with findings, with a case for each location, and a passing case
 /// for everything else.
@@ -36,7 +37,7 @@ pub fn text(report: &Report) -> anyhow::Result<String> {
     writer.write_event(Event::Start(with_counts(BytesStart::new("testsuite"), "all else", 1, 0)))?;
     let checked = format!("{} curves on {} pages of {} families", report.curves, report.pages, report.families);
     write_case(&mut writer, "all else", &checked, &[])?;
-    if let Some(words) = super::not_compared(&report.left_out) {
+    if let Some(words) = not_compared(&report.left_out) {
         writer.write_event(Event::Start(BytesStart::new("system-out")))?;
         writer.write_event(Event::Text(BytesText::new(&words)))?;
         writer.write_event(Event::End(BytesEnd::new("system-out")))?;

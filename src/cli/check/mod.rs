@@ -3,20 +3,22 @@
 mod github;
 mod json;
 mod junit;
+mod left_out;
 mod overlays;
 mod table;
 
 use std::path::{Path, PathBuf};
 
-use crate::check::{self, Event, LeftOut, Report};
+use crate::check::{self, Event, Report};
 use crate::manifest::{PartialTolerances, Tolerances};
 use crate::output;
 use clap::{Args, ValueHint};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use super::files::DEFAULT_MANIFEST;
 use super::report::{self, ReportRequest};
-use super::source::{self, DEFAULT_MANIFEST, ManifestSource};
-use super::{InputError, Outcome, files, pluralize, print, print_bytes, print_stderr, printable};
+use super::source::{self, ManifestSource};
+use super::{InputError, Outcome, files, print, print_bytes, print_stderr, printable};
 
 /// Run a manifest again, and report what has changed since an atlas was recorded: which curve, where and by how much.
 ///
@@ -150,19 +152,6 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
 /// The report as a table.
 pub(super) fn report_text(report: &Report) -> String {
     table::text(report)
-}
-
-/// What a folder leaves out, if anything: "not compared, for the folder has none of them: 29 images, 27 files of the gallery".
-fn not_compared(left_out: &LeftOut) -> Option<String> {
-    let LeftOut { images, volumes, gallery_files } = *left_out;
-    let gallery = match gallery_files {
-        1 => "1 file of the gallery".to_owned(),
-        n => format!("{n} files of the gallery"),
-    };
-    let kinds =
-        [(images, pluralize(images, "image")), (volumes, pluralize(volumes, "volume")), (gallery_files, gallery)];
-    let kinds: Vec<String> = kinds.into_iter().filter(|(count, _)| *count > 0).map(|(_, text)| text).collect();
-    (!kinds.is_empty()).then(|| format!("not compared, for the folder has none of them: {}", kinds.join(", ")))
 }
 
 /// Writes the requested reports, and prints the table unless a report is printed instead.

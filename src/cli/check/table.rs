@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use crate::check::{Change, Finding, Report};
 
 use super::super::{pluralize, printable};
+use super::left_out::not_compared;
 
 /// The findings shown one by one: with the other lines of the report they fill a screen.
 const MAX_FINDINGS: usize = 20;
@@ -43,7 +44,7 @@ pub fn text(report: &Report) -> String {
         n => pluralize(n, "finding"),
     };
     text.push_str(&format!("{checked}: {result}\n"));
-    text.extend(super::not_compared(&report.left_out).map(|words| words + "\n"));
+    text.extend(not_compared(&report.left_out).map(|words| words + "\n"));
     text
 }
 

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::design::Design;
 
-use super::Report;
+use super::report::Report;
 
 /// A complete manifest: one family for each linkage and tolerance, with its cases in order of rank.
 pub(super) fn manifest(report: &Report) -> String {

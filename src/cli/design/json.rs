@@ -3,8 +3,8 @@
 use crate::design::{Design, DrivenLinkage, Driver, ProportionOrigin};
 use serde_json::{Map, Value, json};
 
+use super::report::{Report, option_name};
 use super::trade_offs::trade_offs;
-use super::{Report, option_name};
 
 /// The version of the format.
 const FORMAT: u32 = 2;

@@ -4,17 +4,19 @@ mod format;
 mod fragment;
 mod json;
 mod plate;
+mod report;
 mod text;
 mod trade_offs;
 
 use std::path::PathBuf;
 
-use crate::design::{self, Driver, LinkageKind, Requirement, Requirements, SynthesisResult};
+use crate::design::{self, Driver, LinkageKind, Requirement, Requirements};
 use clap::{Args, ValueEnum, ValueHint};
 use coupler_curves::expression::Expression;
 
 use super::linkage::parse_input;
 use super::{InputErrors, Outcome, choice, files, print, print_bytes};
+use report::{Report, option_name};
 
 /// Find the linkages that meet a designer's requirements, ranked, with their trade-offs (Natesan, chapter 10).
 ///
@@ -144,14 +146,6 @@ enum DoublePointChoice {
     Any,
 }
 
-/// The requirements and the result of the search.
-struct Report {
-    requirements: Requirements,
-    /// Whether the straightness was given as `--deviation`, not as `--tolerance`.
-    is_deviation_given: bool,
-    results: SynthesisResult,
-}
-
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let Task::StraightLine = arguments.what;
     let printed = [("--json", arguments.json), ("--toml", arguments.toml)];
@@ -270,20 +264,5 @@ fn parse_angle(text: &str, example: &str) -> Result<f64, String> {
         Ok(value)
     } else {
         Err(format!("`{text}` is {value}: give a finite number, as in {example}"))
-    }
-}
-
-/// The command-line option that sets a requirement.
-fn option_name(requirement: Requirement) -> &'static str {
-    match requirement {
-        Requirement::Input => "--input",
-        Requirement::DoublePoint => "--double-point",
-        Requirement::QuickReturn => "--return",
-        Requirement::P => "--p",
-        Requirement::Length => "--length",
-        Requirement::Tolerance => "--tolerance",
-        Requirement::Size => "--size",
-        Requirement::MuMin => "--mu-min",
-        Requirement::Kinds => "--types",
     }
 }

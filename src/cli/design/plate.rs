@@ -5,8 +5,8 @@ use coupler_curves::solve::SolvedCell;
 use coupler_drawing::page::{self, Heading, Layout, Options, Panel, PanelPage, PanelScale, Paper, PoseChoice};
 use coupler_drawing::render::{self, TextMode};
 
-use super::Report;
 use super::format::{format_significant, proportions};
+use super::report::Report;
 
 /// An SVG with one panel for each design, in order of rank.
 pub(super) fn plate(report: &Report) -> Vec<u8> {

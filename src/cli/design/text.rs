@@ -7,8 +7,8 @@ use crate::design::{
 };
 
 use super::format::{format_ratio, format_significant, proportions};
+use super::report::{Report, option_name};
 use super::trade_offs::trade_offs;
-use super::{Report, option_name};
 
 /// A table of the designs, each row followed by its proportions and trade-offs, then the rejected linkages.
 pub(super) fn text(report: &Report) -> String {

@@ -21,8 +21,9 @@ use coupler_drawing::page;
 use coupler_drawing::plate::PAPER;
 use coupler_drawing::render::TextMode;
 
+use super::files::DEFAULT_MANIFEST;
 use super::linkage::{self, DEFAULT_SAMPLES};
-use super::source::{self, DEFAULT_MANIFEST};
+use super::source;
 use super::{InputError, InputErrors, Outcome, choice, files, pluralize, print, print_stderr, printable};
 use destination::Destination;
 use selection::CurveSelection;

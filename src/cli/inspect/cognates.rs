@@ -4,38 +4,17 @@ use std::fmt::Write;
 
 use coupler_curves::geometry::Point;
 use coupler_curves::linkage::{
-    CircuitSelection, Cognate, CognateError, Cognates, DyadId, FourBar, FourBarClass, JointId, Linkage, MotionOptions,
-    PlacedFourBar,
+    CircuitSelection, Cognate, CognateError, Cognates, DyadId, FourBar, JointId, Linkage, MotionOptions, PlacedFourBar,
 };
 use coupler_curves::motion::{Motion, Sampler, Sampling};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 use coupler_drawing::page::{self, Panel};
 
 use super::super::linkage::DEFAULT_SAMPLES;
+use super::InputError;
+use super::cognate_set::{CognateMember, CognateSet};
 use super::format::{describe_circuit, format_point, format_significant};
-use super::{InputError, Report};
-
-/// The three four-bars that trace the same coupler curve.
-pub(super) struct CognateSet {
-    /// The number of the traced joint, from 1.
-    pub trace: usize,
-    /// The link lengths and the third pivot.
-    pub cognates: Cognates,
-    /// The original as a plain four-bar, and its two cognates.
-    pub linkages: [CognateMember; 3],
-    /// The original and both cognates, assembled as one linkage.
-    pub assembled: SolvedCell,
-}
-
-/// One of the three four-bars, with its motion.
-pub(super) struct CognateMember {
-    /// `original`, `cognate 1` or `cognate 2`.
-    pub name: &'static str,
-    pub cognate: Cognate,
-    pub class: FourBarClass,
-    pub linkage: Linkage,
-    pub motion: Motion,
-}
+use super::report::Report;
 
 /// Finds the cognates of a solved linkage; its coupler point is the `trace`-th traced joint, counted from 1.
 ///

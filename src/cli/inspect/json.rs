@@ -9,11 +9,11 @@ use coupler_curves::solve::MeasuredCurve;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::Report;
-use super::cognates::{CognateMember, CognateSet};
+use super::cognate_set::{CognateMember, CognateSet};
 use super::equation::{self, EquationJson};
 use super::pose::{LinkRotation, Pose, instant_geometries, link_rotations};
 use super::ranges::{ArcJson, Ranges, RockerLimitsJson, SliderJson};
+use super::report::Report;
 
 /// The version of the format; docs/inspect.md describes it.
 const FORMAT: u32 = 1;

@@ -1,5 +1,6 @@
 //! `inspect`: describes one linkage, as text, as JSON or as a drawing.
 
+mod cognate_set;
 mod cognates;
 mod equation;
 mod format;
@@ -7,6 +8,7 @@ mod json;
 mod plate;
 mod pose;
 mod ranges;
+mod report;
 mod summary;
 mod text;
 
@@ -17,11 +19,12 @@ use clap::{Args, ValueHint};
 use coupler_curves::family::{Family, ParameterText, Sampling};
 use coupler_curves::linkage::CircuitSelection;
 use coupler_curves::motion::Sampler;
-use coupler_curves::solve::{self, SolvedCell};
+use coupler_curves::solve::{self};
 
 use super::linkage::{self, DEFAULT_SAMPLES};
 use super::{InputError, InputErrors, Outcome, files, print, print_bytes};
 use pose::Pose;
+use report::Report;
 
 /// Describe one linkage: its class, limits, transmission angle and straight portion; then its circuits, and the
 /// positions and velocities of its joints.
@@ -69,20 +72,6 @@ pub struct Arguments {
     /// With --svg, animate the linkage through its first circuit.
     #[arg(long, requires = "svg", conflicts_with = "at")]
     animate: bool,
-}
-
-/// The description of a linkage.
-struct Report<'a> {
-    family: &'a Family,
-    solved: &'a SolvedCell,
-    /// The requested input.
-    input: Option<f64>,
-    /// The poses at that input.
-    poses: Vec<Pose<'a>>,
-    /// The equations of the coupler curves, and whether to print their coefficients.
-    equations: (Vec<equation::Equation>, bool),
-    /// The cognates, if requested.
-    cognates: Option<cognates::CognateSet>,
 }
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {

@@ -8,8 +8,9 @@ use clap::{Args, ValueEnum, ValueHint};
 use coupler_curves::measure::{self, Subject};
 use coupler_drawing::page::{Layout, Theme};
 
+use super::files::DEFAULT_MANIFEST;
 use super::linkage::find_template;
-use super::source::{self, DEFAULT_MANIFEST};
+use super::source;
 use super::{InputError, Outcome, print, print_bytes, schema};
 
 /// List the built-in linkages, measures, further columns, layouts and themes, or the families of a manifest, or print the

@@ -8,7 +8,7 @@ use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
 use serde::Serialize;
 use tempfile::TempDir;
 
-use super::Rendered;
+use super::rendering::Rendered;
 
 /// A page in a temporary folder, with a script that it reads again and again: a page on disk can read no other files.
 pub(super) struct LivePage {

@@ -10,8 +10,9 @@ use std::time::Duration;
 use crate::output;
 
 use super::super::{InputError, Outcome, files, print_stderr, printable, report_failure};
+use super::arguments::Arguments;
 use super::live_page::LivePage;
-use super::{Arguments, open, render};
+use super::rendering::{open, render};
 
 /// How often the manifest is looked at.
 const INTERVAL: Duration = Duration::from_millis(30);

@@ -12,7 +12,7 @@ use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 
 use super::super::Error;
 use super::super::placed_curve::{PlacedCurve, REPORTED};
-use super::{AtlasAnswer, AtlasQuery};
+use super::answer::{AtlasAnswer, AtlasQuery};
 use crate::manifest::Plan;
 use crate::sweep::{self, CellGroups, CellIndices};
 

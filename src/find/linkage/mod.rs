@@ -1,8 +1,10 @@
 //! The dimensions of a linkage for which its curve is nearest to a path.
 
+mod answer;
 mod search;
 
-use std::sync::Arc;
+pub use answer::LinkageAnswer;
+
 use std::sync::atomic::AtomicBool;
 
 use coupler_curves::exchange::{ParameterSet, manifest_families};
@@ -10,37 +12,12 @@ use coupler_curves::family::Family;
 use coupler_curves::find::{
     Constraint, LinkageSpace, Options, Target, answers_manifest, manifest_head, nearest_miss_by,
 };
-use coupler_curves::template::{Orientation, Template};
+use coupler_curves::template::Template;
 
-use super::placed_curve::PlacedCurve;
 use super::{Error, description};
 
 /// The most parameter sets in which a path is looked up.
 pub const MAX_SAMPLES: usize = 1_000_000;
-
-/// Dimensions of a linkage near a target.
-#[derive(Clone, Debug)]
-pub struct LinkageAnswer {
-    /// The curve and the linkage on the target.
-    pub curve: PlacedCurve,
-    /// The branch at the first point of the target: the side of the first two-valued joint, 1 left or -1 right.
-    pub branch: i8,
-    /// The input at the first and at the last point of the target: degrees, or a length.
-    pub inputs: [f64; 2],
-    /// A family of this linkage only.
-    pub family: Family,
-}
-
-impl LinkageAnswer {
-    /// Its family in its direction on the target, and mirrored as there.
-    pub fn placed_family(&self) -> Family {
-        let placement = &self.curve.fit.placement;
-        let mut family = self.family.clone();
-        let template = Arc::make_mut(&mut family.template);
-        template.orientation = Orientation::new(placement.is_mirrored, placement.rotation_deg());
-        family
-    }
-}
 
 /// Whether a linkage is a four-bar with all parameters free, which the search of four-bars finds.
 pub fn is_free_four_bar(template: &Template, kept: &[(String, Option<String>)]) -> bool {

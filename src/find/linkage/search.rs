@@ -14,7 +14,7 @@ use rayon::prelude::*;
 
 use super::super::Error;
 use super::super::placed_curve::{PlacedCurve, REPORTED, distinct};
-use super::LinkageAnswer;
+use super::answer::LinkageAnswer;
 
 /// The most curves of all parameter sets together.
 const MAX_CURVES: usize = 8_000_000;

@@ -5,19 +5,13 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 
 use super::super::{Error, Options, check_interrupt};
-use super::part::{BookFamily, FamilyPart};
+use super::part::{BookFamily, FamilyPart, assignment};
 use crate::manifest::{FindingCharts, Plan};
 use crate::pipeline::{Composer, curves_by_page, measures_used_on_pages};
-use coupler_curves::expression::round_to_six_digits;
 use coupler_curves::family::{Axis, ParameterSpace};
 use coupler_curves::motion::Sampler;
 use coupler_drawing::page::Layout;
 use coupler_drawing::page::book::{self, Emphasis, FindingCell, FindingChart, Miniature};
-
-/// A name with its value, as in "A = 1.5".
-pub(super) fn assignment(names: &[String], slot: usize, value: f64) -> String {
-    format!("{} = {}", names.get(slot).map_or("", String::as_str), round_to_six_digits(value))
-}
 
 /// The most cells in the charts of a family: a chart of more is not for eyes.
 const MAX_CELLS: usize = 6000;

@@ -7,6 +7,7 @@ use super::super::{Error, Options, check_interrupt};
 use crate::manifest::BookPlan;
 use crate::pipeline::{Composer, FamilyPipeline, build_chart, measures_used_on_pages};
 use crate::sweep::{self, CellGroups, CellIndices};
+use coupler_curves::expression::round_to_six_digits;
 use coupler_curves::family::ParameterSpace;
 use coupler_curves::motion::Sampler;
 use coupler_curves::solve::{self, SolvedCell};
@@ -169,7 +170,7 @@ impl<'a> FamilyPart<'a> {
         for (k, cell) in self.cells.iter().enumerate() {
             let value = family.cell(cell).values.get(axis.slot).copied().unwrap_or(f64::NAN);
             if tabs.last().is_none_or(|(last, _)| *last != value) {
-                let label = super::charts::assignment(&family.names, axis.slot, value);
+                let label = assignment(&family.names, axis.slot, value);
                 tabs.push((value, Tab { label, first_page: self.pages_before + self.first_page(k) }));
             }
             if tabs.len() > MOST_TABS {
@@ -253,4 +254,9 @@ pub(super) fn compose_group(composer: &Composer, solved: &[SolvedCell]) -> Vec<S
         }
         _ => vec![composer.panel_page(1, solved)],
     }
+}
+
+/// A name with its value, as in "A = 1.5".
+pub(super) fn assignment(names: &[String], slot: usize, value: f64) -> String {
+    format!("{} = {}", names.get(slot).map_or("", String::as_str), round_to_six_digits(value))
 }

@@ -11,7 +11,7 @@ use super::super::Error;
 use super::super::best::{Best, Ranked};
 use super::super::expression::compile;
 use super::super::read::ShardFile;
-use super::{BestCurve, GatherOptions};
+use super::gathered::{BestCurve, GatherOptions};
 use crate::manifest::{Plan, PlannedFamily};
 
 /// How many of the best are found, and by which expression.

@@ -159,9 +159,9 @@ const CONSTANTS: [(&str, &str, &str, &str); 28] = [
     ("manifest", "| names of all families | @ |", "coupler-manifest/src/cells.rs", "MAX_NAMES"),
     ("manifest", "| files of pages of all families | @ |", "coupler-manifest/src/cells.rs", "MAX_PAGE_FILES"),
     ("manifest", "| cells in a book | @ |", "coupler-manifest/src/cells.rs", "MAX_BOOK_CELLS"),
-    ("manifest", "samples, joints and curves | @ MB |", "coupler-curves/src/motion/memory.rs", "MAX_CIRCUIT_BYTES"),
-    ("manifest", "would take more than @ MB, because", "coupler-curves/src/motion/memory.rs", "MAX_CIRCUIT_BYTES"),
-    ("manifest", "| samples of a circuit | @ |", "coupler-curves/src/motion/sampling.rs", "MAX_SAMPLES"),
+    ("manifest", "samples, joints and curves | @ MB |", "coupler-curves/src/motion/limits.rs", "MAX_CIRCUIT_BYTES"),
+    ("manifest", "would take more than @ MB, because", "coupler-curves/src/motion/limits.rs", "MAX_CIRCUIT_BYTES"),
+    ("manifest", "| samples of a circuit | @ |", "coupler-curves/src/motion/limits.rs", "MAX_SAMPLES"),
     (
         "manifest",
         "| points in one grid of a joint | @ |",
@@ -169,12 +169,7 @@ const CONSTANTS: [(&str, &str, &str, &str); 28] = [
         "MAX_GRID_POINTS",
     ),
     ("manifest", "| dyads of a linkage | @ |", "coupler-curves/src/linkage/assembly_mode.rs", "MAX_DYADS"),
-    (
-        "manifest",
-        "with `circuits = \"all\"` | @ |",
-        "coupler-curves/src/motion/interval_search.rs",
-        "MAX_ASSEMBLY_MODES",
-    ),
+    ("manifest", "with `circuits = \"all\"` | @ |", "coupler-curves/src/motion/limits.rs", "MAX_ASSEMBLY_MODES"),
     ("manifest", "if its pages would take more than @ MB", "../src/output/book/mod.rs", "MAX_VOLUME_BYTES"),
     (
         "manifest",

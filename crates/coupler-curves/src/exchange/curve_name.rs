@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::format_number;
+use super::number::format_number;
 use crate::family::{ParameterSyntaxError, ParameterText, ParameterUnitError};
 use crate::template::Template;
 

@@ -4,7 +4,9 @@
 use std::collections::HashMap;
 use std::fmt::Write;
 
-use super::{ParameterSet, format_number, sampling_fields};
+use super::SelectedCurve;
+use super::number::format_number;
+use super::sampling_fields::sampling_fields;
 use crate::catalogue;
 use crate::family::{Family, MAX_CELLS, StraightCriterion};
 use crate::linkage_format::quoted;
@@ -144,4 +146,23 @@ fn family_settings(family: &Family) -> String {
 fn placement_to_toml(placement: &Orientation) -> String {
     let is_mirrored = placement.handedness() < 0.0;
     format!("{{ mirror = {is_mirrored}, rotate = \"{} deg\" }}", format_number(placement.rotation_deg()))
+}
+
+/// A parameter set to be exported.
+#[derive(Clone, Debug)]
+pub struct ParameterSet<'a> {
+    /// Its family.
+    pub family: &'a Family,
+    /// The values of its template's parameters.
+    pub values: Vec<f64>,
+    /// The name of the curve it belongs to.
+    pub curve_name: String,
+}
+
+impl<'a> ParameterSet<'a> {
+    /// The parameter set of a curve.
+    pub fn from_curve(selected: &SelectedCurve<'a>) -> ParameterSet<'a> {
+        let values = selected.family.parameter_values(&selected.solved.cell).to_vec();
+        ParameterSet { family: selected.family, values, curve_name: selected.name() }
+    }
 }

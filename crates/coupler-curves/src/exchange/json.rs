@@ -4,7 +4,8 @@ use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 
 use super::pretty_json::to_pretty_string;
-use super::{PointTable, SelectedCurve, sampling_fields};
+use super::sampling_fields::sampling_fields;
+use super::{PointTable, SelectedCurve};
 use crate::linkage::{DyadId, Linkage};
 use crate::measure::{self, Value, compute_columns};
 use crate::motion::{Circuit, Pass, PassEnd};

@@ -35,6 +35,13 @@ pub fn append_integer(value: usize, out: &mut Vec<u8>) {
     out.extend_from_slice(itoa::Buffer::new().format(value).as_bytes());
 }
 
+/// A number in the fewest digits that read back to the same value.
+pub(super) fn format_number(value: f64) -> String {
+    let mut out = Vec::new();
+    append_number(value, &mut out);
+    String::from_utf8(out).unwrap_or_default()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -20,19 +20,23 @@
 mod caption;
 mod conjuncts;
 mod function;
+mod kind;
 mod lexer;
 mod math_text;
 mod parser;
 mod program;
 mod quantity;
 mod scope;
+mod unit;
 
 pub use caption::{Caption, format_fixed, round_to_six_digits};
 pub use function::Function;
+pub use kind::Kind;
 pub use math_text::{MathPiece, MathText, displayed_name, format_exactly, format_in_full, join_names};
-pub use program::{CompiledExpression, Expression, Kind, PostfixToken};
-pub use quantity::{Dimension, Quantity, Unit};
+pub use program::{CompiledExpression, Expression, PostfixToken};
+pub use quantity::Quantity;
 pub use scope::Scope;
+pub use unit::{Dimension, Unit};
 
 use crate::problem::{Problem, Span};
 

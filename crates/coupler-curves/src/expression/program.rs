@@ -1,17 +1,8 @@
 //! Expressions as programs of a stack machine, their kinds and their evaluation.
 
-use super::{Error, Function, Scope};
+use super::{Error, Function, Kind, Scope};
 use crate::geometry::trig;
 use crate::problem::Span;
-
-/// The kind of an expression's value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// A number.
-    Number,
-    /// True or false.
-    Boolean,
-}
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Instruction {
@@ -264,16 +255,6 @@ impl CompiledExpression {
 /// Pops a value. The parser gives every operator its operands, so the stack is never empty here.
 fn pop_or_nan(stack: &mut Vec<f64>) -> f64 {
     stack.pop().unwrap_or(f64::NAN)
-}
-
-impl Kind {
-    /// The message for a value of the other kind where this one is expected.
-    fn mismatch_message(self) -> &'static str {
-        match self {
-            Kind::Number => "expected a number, found a condition",
-            Kind::Boolean => "expected a condition, found a numeric expression",
-        }
-    }
 }
 
 impl Operator {

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::Kind;
+use super::kind::Kind;
 use crate::problem::{HAS_REMEDIES, list_words, nearest_word, suggestion_among};
 
 /// Names with their kinds and indices, found by a hash rather than one by one.

@@ -1,7 +1,7 @@
 //! Portions of a given curve that are like an open path and begin and end anywhere on the curve.
 
 use super::complex::{Complex, dot, mean};
-use super::curve_fit::CurveFitOptions;
+use super::curve_fit_options::CurveFitOptions;
 use super::portion::{Stroke, Window, spaced_evenly};
 use nalgebra::{Matrix2, Vector2};
 

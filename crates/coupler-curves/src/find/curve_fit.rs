@@ -4,6 +4,7 @@ use super::answer::{LENGTH_RATIOS, Quality};
 use super::close_portion::{Portion, portions};
 use super::complex::{Complex, dot, length};
 use super::curve_alignment::Alignment;
+use super::curve_fit_options::CurveFitOptions;
 use super::curve_path::CurvePath;
 use super::matching::{match_open_places, match_places};
 use super::query::Query;
@@ -42,24 +43,6 @@ impl Placement {
     /// The rotation after the reflection, in degrees, counter-clockwise.
     pub fn rotation_deg(&self) -> f64 {
         trig::degrees(trig::atan2(self.factor.y, self.factor.x))
-    }
-}
-
-/// What counts as a fit.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CurveFitOptions {
-    /// Whether the curve stays where it is, in position, size and direction.
-    pub is_fixed: bool,
-    /// Whether the curve may be mirrored, if it is not fixed.
-    pub may_be_mirrored: bool,
-    /// The least part of a curve's length that may be like an open target, if it is not fixed: a short enough portion of any curve
-    /// is an arc of a circle.
-    pub least_portion: f64,
-}
-
-impl Default for CurveFitOptions {
-    fn default() -> CurveFitOptions {
-        CurveFitOptions { is_fixed: false, may_be_mirrored: true, least_portion: 0.15 }
     }
 }
 

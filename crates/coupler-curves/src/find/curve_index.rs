@@ -3,7 +3,8 @@
 use std::ops::Range;
 
 use super::close_portion::portions;
-use super::curve_fit::{CurveFitOptions, EVEN};
+use super::curve_fit::EVEN;
+use super::curve_fit_options::CurveFitOptions;
 use super::curve_path::CurvePath;
 use super::query::Query;
 use super::shape::{Shape, Shapes};

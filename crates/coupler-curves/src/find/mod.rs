@@ -34,6 +34,7 @@ mod complex;
 mod constraints;
 mod curve_alignment;
 mod curve_fit;
+mod curve_fit_options;
 mod curve_index;
 mod curve_path;
 mod fitting;
@@ -43,6 +44,7 @@ mod lookup;
 mod manifest;
 mod matching;
 mod mechanism;
+mod nearest_pose;
 mod options;
 mod parameters;
 mod portion;
@@ -63,7 +65,8 @@ mod target;
 mod timing;
 
 pub use answer::{Answer, LENGTH_RATIOS, Quality};
-pub use curve_fit::{CurveFit, CurveFitOptions, CurveFitter, Placement};
+pub use curve_fit::{CurveFit, CurveFitter, Placement};
+pub use curve_fit_options::CurveFitOptions;
 pub use curve_index::{CurveIndex, CurveLookup, CurveShape};
 pub use index::{Index, IndexPart};
 pub use linkage::{

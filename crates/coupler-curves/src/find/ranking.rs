@@ -3,6 +3,7 @@
 use super::answer::Answer;
 use super::complex::{Complex, length};
 use super::fitting::{Fit, Fitting};
+use super::index::Index;
 use super::mechanism::Mechanism;
 use super::parameters::Parameters;
 use super::search::Search;
@@ -59,6 +60,22 @@ impl Ranking {
     /// The answers.
     pub fn into_answers(self) -> Vec<Answer> {
         self.answers
+    }
+}
+
+impl Search {
+    /// Searches to the end.
+    pub fn run(mut self, index: &Index) -> Vec<Answer> {
+        while self.step(index) {}
+        self.answers()
+    }
+
+    /// The answers that have been found so far, the nearest first. Those whose curves are the same to a thousandth of the
+    /// target's size are one. A [`Ranking`] makes them in steps.
+    pub fn answers(&self) -> Vec<Answer> {
+        let mut ranking = Ranking::default();
+        while ranking.step(self) {}
+        ranking.into_answers()
     }
 }
 

@@ -2,8 +2,9 @@
 
 use super::complex::{Complex, dot, length, times_i};
 use super::constraints::{Limits, Motion, Normal};
+use super::nearest_pose::PoseRates;
 use super::parameters::{COUNT, Parameters};
-use super::pose::{Pose, PoseRates};
+use super::pose::Pose;
 use super::timing::{self, Timing};
 
 /// A linkage on its way to the target.

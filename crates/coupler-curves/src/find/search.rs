@@ -1,13 +1,11 @@
 //! The search: from the curves of an index that are most like the target to the linkages whose curves are nearest to it.
 
-use super::answer::Answer;
 use super::complex::Complex;
 use super::fitting::Fitting;
 use super::index::Index;
 use super::lookup::Lookup;
 use super::options::{Effort, Options};
 use super::parameters::Parameters;
-use super::ranking::Ranking;
 use super::refinement::Refinement;
 use super::scatter::Scatter;
 use super::target::{PathKind, Target};
@@ -119,12 +117,6 @@ impl Search {
         Search { stage: Stage::Begin(vec![start]), has_looked_again: true, ..Search::new(target, options) }
     }
 
-    /// Searches to the end.
-    pub fn run(mut self, index: &Index) -> Vec<Answer> {
-        while self.step(index) {}
-        self.answers()
-    }
-
     /// Takes a step, of a few milliseconds at most for a target of a hundred points; false if nothing is left to do. All steps are
     /// with one index, to which curves may be added at its end.
     pub fn step(&mut self, index: &Index) -> bool {
@@ -139,14 +131,6 @@ impl Search {
             Stage::Done => Stage::Done,
         };
         !matches!(self.stage, Stage::Done)
-    }
-
-    /// The answers that have been found so far, the nearest first. Those whose curves are the same to a thousandth of the
-    /// target's size are one. A [`Ranking`] makes them in steps.
-    pub fn answers(&self) -> Vec<Answer> {
-        let mut ranking = Ranking::default();
-        while ranking.step(self) {}
-        ranking.into_answers()
     }
 
     /// What answers are made of: the refinements, and the most answers.

@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use super::complex::{Complex, dot, length, mean, open_length, turned, unit};
 use super::matching::Matching;
+use super::nearest_pose::PoseRates;
 use super::parameters::Parameters;
-use super::pose::{Pose, PoseRates};
+use super::pose::Pose;
 use crate::geometry::{Point, Vector, cross};
 
 /// The angles from the crank at the first point of a target to that at each.

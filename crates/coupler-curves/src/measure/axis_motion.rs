@@ -1,6 +1,6 @@
 //! The motions of an axis that bring the mirror image of a curve closer to it.
 
-use super::symmetry_axis::SymmetryAxis;
+use super::features::SymmetryAxis;
 use crate::geometry::{Point, Vector, cross};
 
 /// The rates at which the distance of a mirror image from a curve falls as the axis shifts and turns.

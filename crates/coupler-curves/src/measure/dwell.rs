@@ -8,32 +8,15 @@
 use super::annulus::AlternatingPoints;
 use super::curve_ring::{CurveRings, PortionRing};
 use super::every_nth::EveryNth;
+use super::features::Dwell;
 use super::longest_near::{ACCURACY, Constraint, Constraints, Contacts, Fit, LongestNear, Reached};
-use super::portions::{Requirement, longest};
+use super::portions::{EXACT, Requirement, longest};
 use super::row::Row;
-use super::straight::EXACT;
 use super::{Measure, TracedCurve, Value, start_input, without_rounding};
 use crate::geometry::Point;
 
 /// The greatest width of the annulus, relative to the curve's greatest extent.
 const TOLERANCE: f64 = 0.001;
-
-/// A circular portion.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Dwell {
-    /// The centre of its circle.
-    pub centre: Point,
-    /// The radius of its circle.
-    pub radius: f64,
-    /// The greatest distance of its points from that circle.
-    pub deviation: f64,
-    /// The input at which it begins.
-    pub start_input: f64,
-    /// The input it spans, which is counted forward and backward at limits.
-    pub input_span: f64,
-    /// Points of it, evenly spaced, with its ends.
-    pub points: Vec<Point>,
-}
 
 /// The measures of the dwell.
 pub const MEASURES: [Measure; 6] = [
@@ -80,7 +63,7 @@ fn dwell_value(curve: &TracedCurve, value: fn(&Dwell) -> f64) -> Value {
 }
 
 /// The best circular portion of a curve of a given extent and length, from its points; `None` for a point or a straight line.
-pub(super) fn find_dwell(row: &Row, extent: f64, length: f64) -> Option<Dwell> {
+fn find_dwell(row: &Row, extent: f64, length: f64) -> Option<Dwell> {
     let requirement = Circular { row, max_width: TOLERANCE * extent, max_radius: length };
     let [from, to] = *longest(row, &requirement, 0.0).first()?;
     // The whole of a closed curve begins where the curve does.
@@ -93,6 +76,14 @@ pub(super) fn find_dwell(row: &Row, extent: f64, length: f64) -> Option<Dwell> {
     let centre = centre.map(|coordinate| without_rounding(coordinate, ROUNDING * radius));
     let deviation = without_rounding(width / 2.0, EXACT * radius);
     Some(Dwell { centre, radius, deviation, start_input: row.input_at(ends[0]), input_span, points })
+}
+
+impl TracedCurve<'_> {
+    /// The best circular portion.
+    pub fn dwell(&self) -> Option<&Dwell> {
+        let find = || find_dwell(self.row()?, self.extent(), self.arc_length().total());
+        self.dwell.get_or_init(find).as_ref()
+    }
 }
 
 /// The rounding of a centre, relative to the radius.

@@ -1,6 +1,5 @@
 //! Some of the points of a row, with which portions are compared roughly.
 
-use super::row::Row;
 use crate::geometry::Point;
 
 /// Every nth point of a row.
@@ -13,30 +12,13 @@ pub(super) struct EveryNth {
     pub travel: Vec<f64>,
     /// The number of points at which a portion may begin.
     pub start_count: usize,
-    is_closed: bool,
+    pub is_closed: bool,
     /// Their positions in the row.
     pub positions: Vec<usize>,
     pub stride: usize,
 }
 
 impl EveryNth {
-    /// Of a row.
-    pub fn new(row: &Row, stride: usize) -> EveryNth {
-        let first: Vec<usize> = (0..row.start_count).step_by(stride).collect();
-        let start_count = first.len();
-        let second = first.iter().map(|k| k + row.start_count).take(if row.is_closed { start_count } else { 1 });
-        let positions: Vec<usize> = first.iter().copied().chain(second).collect();
-        EveryNth {
-            points: positions.iter().map(|&k| row.points[k]).collect(),
-            lengths: positions.iter().map(|&k| row.cumulative_length[k]).collect(),
-            travel: positions.iter().map(|&k| row.input_travel[k]).collect(),
-            start_count,
-            is_closed: row.is_closed,
-            positions,
-            stride,
-        }
-    }
-
     /// The last point at which a portion that begins at a point may end.
     pub fn last_end(&self, from: usize) -> usize {
         if self.is_closed { from + self.start_count - 1 } else { self.points.len() - 1 }

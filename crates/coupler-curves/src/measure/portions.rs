@@ -8,8 +8,8 @@
 
 use super::every_nth::EveryNth;
 use super::longest_near::Reached;
+use super::rounding::within_period;
 use super::row::Row;
-use super::within_period;
 use crate::geometry::in_rising_order;
 
 /// Two portions whose sizes differ by less than this part are equally long: more than the error of either.
@@ -152,3 +152,14 @@ fn distinct(row: &Row, portions: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     }
     out
 }
+
+/// The part of the curve's greatest extent that a portion to a tolerance is at least as long as: any curve is straight
+/// over a short enough length.
+pub(super) const LEAST_SHARE: f64 = 0.05;
+
+/// The distance of the points in which portions are searched for, relative to the extent: the shortest portion has ten.
+pub(super) const SPACING: f64 = LEAST_SHARE / 10.0;
+
+/// The deviation of a portion that is straight to rounding, relative to its length, or that is circular, relative to its
+/// radius; it is reported as 0.
+pub(super) const EXACT: f64 = 1e-9;

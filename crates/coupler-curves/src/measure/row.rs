@@ -348,3 +348,22 @@ fn bisect([mut low, mut high]: [f64; 2], holds: impl Fn(f64) -> bool) -> Option<
     }
     Some(high)
 }
+
+impl EveryNth {
+    /// Of a row.
+    pub fn new(row: &Row, stride: usize) -> EveryNth {
+        let first: Vec<usize> = (0..row.start_count).step_by(stride).collect();
+        let start_count = first.len();
+        let second = first.iter().map(|k| k + row.start_count).take(if row.is_closed { start_count } else { 1 });
+        let positions: Vec<usize> = first.iter().copied().chain(second).collect();
+        EveryNth {
+            points: positions.iter().map(|&k| row.points[k]).collect(),
+            lengths: positions.iter().map(|&k| row.cumulative_length[k]).collect(),
+            travel: positions.iter().map(|&k| row.input_travel[k]).collect(),
+            start_count,
+            is_closed: row.is_closed,
+            positions,
+            stride,
+        }
+    }
+}

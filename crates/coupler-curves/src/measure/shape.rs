@@ -59,8 +59,15 @@ pub const CURVATURE_MAX: Measure = Measure::number(
     |curve: &TracedCurve| max_curvature(curve).map_or(Value::Missing, Value::Number),
 );
 
+impl TracedCurve<'_> {
+    /// The number of cusps.
+    pub(super) fn cusp_count(&self) -> usize {
+        *self.cusp_count.get_or_init(|| count_cusps(self))
+    }
+}
+
 /// The number of cusps of a path.
-pub(super) fn count_cusps(curve: &TracedCurve) -> usize {
+fn count_cusps(curve: &TracedCurve) -> usize {
     curve.stops().iter().filter(|stop| stop.kind == StopKind::Cusp).count()
 }
 

@@ -9,47 +9,16 @@
 //! curve, and across limits.
 
 use super::curve_strip::{CurveStrips, PortionStrip};
+use super::features::{StraightCriterion, StraightPortion};
 use super::longest_straight::StraightTo;
 use super::maximum::{Bracket, greatest_in};
-use super::portions::longest;
+use super::portions::{EXACT, LEAST_SHARE, SPACING, longest};
 use super::row::Row;
 use super::straightest::{Narrowest, straightest};
 use super::strip::Strip;
 use super::{Measure, Subject, TracedCurve, Value, start_input};
 use crate::geometry::Point;
 use crate::linkage::Input;
-
-/// The criterion by which the straight portion is selected.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum StraightCriterion {
-    /// The longest portion whose strip is no wider than this part of its length.
-    Tolerance(f64),
-    /// The straightest portion that spans this much input, in degrees or as a length.
-    Input(f64),
-    /// The straightest portion of this length.
-    Length(f64),
-}
-
-impl Default for StraightCriterion {
-    fn default() -> StraightCriterion {
-        StraightCriterion::Tolerance(0.001)
-    }
-}
-
-/// A straight portion.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StraightPortion {
-    /// The length of its projection on its line.
-    pub length: f64,
-    /// The greatest distance of its points from that line.
-    pub deviation: f64,
-    /// The input at which it begins.
-    pub start_input: f64,
-    /// The input it spans, which is counted forward and backward at limits.
-    pub input_span: f64,
-    /// Points of it, evenly spaced, with its ends.
-    pub points: Vec<Point>,
-}
 
 /// The measures of the straight portion.
 pub const MEASURES: [Measure; 6] = [
@@ -104,7 +73,7 @@ pub const MEASURES: [Measure; 6] = [
 ];
 
 /// The tolerances of further straight portions, wider than the default.
-pub(super) const WIDER_TOLERANCES: [f64; 2] = [0.005, 0.01];
+const WIDER_TOLERANCES: [f64; 2] = [0.005, 0.01];
 
 /// The five measures of the longest straight portion to one of the wider tolerances.
 macro_rules! wider {
@@ -192,20 +161,33 @@ fn portion_value(curve: &TracedCurve, value: fn(&StraightPortion) -> f64) -> Val
     portion_number(curve.straight(), value)
 }
 
-/// The part of the curve's greatest extent that a portion to a tolerance is at least as long as: any curve is straight
-/// over a short enough length.
-const LEAST_SHARE: f64 = 0.05;
+impl TracedCurve<'_> {
+    /// The straight portion that meets the criterion.
+    pub fn straight(&self) -> Option<&StraightPortion> {
+        self.straight_portions().first()
+    }
 
-/// The distance of the points in which portions are searched for, relative to the extent: the shortest portion has ten.
-pub(super) const SPACING: f64 = LEAST_SHARE / 10.0;
+    /// The straight portions that meet the criterion equally well, such as both of a symmetrical curve.
+    pub fn straight_portions(&self) -> &[StraightPortion] {
+        let find = || find_portions(self, self.straight_criterion);
+        self.straight.get_or_init(find)
+    }
 
-/// The deviation of a portion that is straight to rounding, relative to its length, or that is circular, relative to its
-/// radius; it is reported as 0.
-pub(super) const EXACT: f64 = 1e-9;
+    /// The longest straight portion to one of the [`WIDER_TOLERANCES`].
+    pub(super) fn wider_straight(&self, index: usize) -> Option<&StraightPortion> {
+        let criterion = StraightCriterion::Tolerance(WIDER_TOLERANCES[index]);
+        self.wider_straight[index].get_or_init(|| find_portions(self, criterion)).first()
+    }
+
+    /// The straightest portion over half a turn of the input.
+    pub(super) fn straight_half_turn(&self) -> Option<&StraightPortion> {
+        self.straight_half_turn.get_or_init(|| find_half_turn(self)).as_ref()
+    }
+}
 
 /// The portions of a curve that meet a criterion: the best, and of several equally long ones all; none if the curve is
 /// too short, or nothing on it is straight over a twentieth of its extent.
-pub(super) fn find_portions(curve: &TracedCurve, criterion: StraightCriterion) -> Vec<StraightPortion> {
+fn find_portions(curve: &TracedCurve, criterion: StraightCriterion) -> Vec<StraightPortion> {
     let extent = curve.extent();
     let finer = match criterion {
         StraightCriterion::Length(length) if length < 16.0 * SPACING * extent => {
@@ -230,7 +212,7 @@ pub(super) fn find_portions(curve: &TracedCurve, criterion: StraightCriterion) -
 
 /// The portion that is straightest for its length of those that half a turn of the input traverses, if it is nearly
 /// straight.
-pub(super) fn find_half_turn(curve: &TracedCurve) -> Option<StraightPortion> {
+fn find_half_turn(curve: &TracedCurve) -> Option<StraightPortion> {
     /// The greatest width of its strip relative to its length: what is wider is no straight line to an eye.
     const WIDEST: f64 = 0.02;
     if curve.linkage.input() == Input::Length {

@@ -2,10 +2,10 @@
 
 use super::curve_strip::{CurveStrips, PortionStrip};
 use super::maximum::{Bracket, greatest_in};
+use super::portions::EXACT;
+use super::rounding::within_period;
 use super::row::Row;
-use super::straight::EXACT;
 use super::strip::{Strip, check_width};
-use super::within_period;
 use crate::geometry::{Point, in_rising_order};
 
 /// Of which portion the strip is the narrowest.

@@ -7,33 +7,12 @@
 //! half the angle at the rocker's pin (7.8). The same is true with crank and rocker exchanged. For any other curve the
 //! axis is searched for.
 
+use super::features::{Symmetry, SymmetryAxis};
 use super::row::Row;
-use super::symmetry_axis::{AxisCandidates, MirrorImages, SymmetryAxis};
+use super::symmetry_axis::{AxisCandidates, MirrorImages};
 use super::{Measure, TracedCurve, Value, without_rounding};
 use crate::geometry::{Point, Vector, complex_product, cross, in_rising_order};
 use crate::linkage::{FourBar, FourBarClass, JointId, JointKind, PlacedFourBar, Sextic};
-
-/// The symmetry of a curve.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Symmetry {
-    /// The axis about which it is symmetrical, or most nearly so; `None` for a circle, which has infinitely many.
-    pub axis: Option<SymmetryAxis>,
-    /// The greatest distance of its mirror image from it, relative to its greatest extent.
-    pub residual: f64,
-    /// The theorem by which it is symmetrical, if any.
-    pub theorem: Option<&'static str>,
-}
-
-impl Symmetry {
-    /// The greatest residual of a curve that is reported as symmetrical: much less than is visible on paper, and more
-    /// than the error of its samples.
-    pub const TOLERANCE: f64 = 1e-4;
-
-    /// The axis, if the curve is symmetrical.
-    pub fn axis_if_symmetric(&self) -> Option<SymmetryAxis> {
-        self.axis.filter(|_| self.residual <= Symmetry::TOLERANCE)
-    }
-}
 
 /// The measure `symmetry`.
 pub const SYMMETRY: Measure = Measure::word(
@@ -69,11 +48,18 @@ pub const RESIDUAL: Measure = Measure::number(
     },
 );
 
+impl TracedCurve<'_> {
+    /// The symmetry of the curve; `None` for a point.
+    pub fn symmetry(&self) -> Option<&Symmetry> {
+        self.symmetry.get_or_init(|| find_symmetry(self)).as_ref()
+    }
+}
+
 /// The accuracy of the residual of a symmetrical curve.
 const RESOLVED: f64 = 1e-9;
 
 /// The symmetry of a curve; `None` for a point.
-pub(super) fn find_symmetry(curve: &TracedCurve) -> Option<Symmetry> {
+fn find_symmetry(curve: &TracedCurve) -> Option<Symmetry> {
     /// If the residual for a theorem's axis is greater than this, the mirror image is the curve of another circuit.
     const MAX_ROUGH_RESIDUAL: f64 = 0.1;
     /// As many points show whether an axis is worth refining.

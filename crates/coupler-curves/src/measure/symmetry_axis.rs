@@ -1,45 +1,10 @@
 //! The axis about which a curve is most nearly symmetrical, and the distance of the curve from its mirror image.
 
 use super::axis_motion::{least_squares_motion, minimax_motion};
+use super::features::SymmetryAxis;
 use super::maximum::{Bracket, greatest_in};
 use super::row::Row;
 use crate::geometry::{Point, Vector, complex_product, cross, in_rising_order, trig};
-
-/// A line about which a curve may be symmetrical.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SymmetryAxis {
-    /// A point on it.
-    pub point: Point,
-    /// Its direction, of length 1.
-    pub direction: Vector,
-}
-
-impl SymmetryAxis {
-    /// The line through a point in a direction; `None` if the direction is zero or not finite.
-    pub fn new(through: Point, direction: Vector) -> Option<SymmetryAxis> {
-        let along = direction.try_normalize(0.0).filter(|along| along.x.is_finite() && along.y.is_finite())?;
-        Some(SymmetryAxis { point: through, direction: along })
-    }
-
-    /// The mirror image of a point.
-    pub fn mirror(&self, point: Point) -> Point {
-        let offset = point - self.point;
-        self.point + self.direction * (2.0 * self.direction.dot(&offset)) - offset
-    }
-
-    /// The axis shifted to its left, and rotated by an angle in radians, to the first order.
-    fn moved(&self, shift: f64, turn: f64) -> Option<SymmetryAxis> {
-        let across = Vector::new(-self.direction.y, self.direction.x);
-        SymmetryAxis::new(self.point + across * shift, self.direction + across * turn)
-    }
-
-    /// Its direction from the x-axis, in degrees, from 0 up to 180.
-    pub fn direction_deg(&self) -> f64 {
-        let deg = trig::degrees(trig::atan2(self.direction.y, self.direction.x)).rem_euclid(180.0);
-        // A direction that differs from 0 by rounding is 0.
-        if (1e-9..180.0 - 1e-9).contains(&deg) { deg } else { 0.0 }
-    }
-}
 
 /// The mirror images of a curve, given by a row of points.
 pub(super) struct MirrorImages<'a> {

@@ -33,6 +33,18 @@ pub const MU_WORST: Measure = Measure::number(
     |curve| curve.worst_transmission_angle().map_or(Value::Missing, Value::Number),
 ).of(Subject::WithDyad);
 
+impl TracedCurve<'_> {
+    /// The least and the greatest transmission angle, in degrees.
+    fn transmission_angles(&self) -> Option<[f64; 2]> {
+        *self.transmission_angles.get_or_init(|| transmission_angles(self))
+    }
+
+    /// The worst transmission angle, in degrees.
+    pub(super) fn worst_transmission_angle(&self) -> Option<f64> {
+        *self.circuit_results.0.worst_transmission_angle.get_or_init(|| worst_angle(self))
+    }
+}
+
 /// The angle opposite a side of a triangle, in degrees; exactly 0 or 180 if the triangle is degenerate.
 fn opposite_angle(side: f64, [x, y]: [f64; 2]) -> f64 {
     // Sine and cosine of half the angle, from the factors of Heron's formula. At a limit one of them is zero apart from
@@ -69,7 +81,7 @@ pub(super) fn transmission_angles(curve: &TracedCurve) -> Option<[f64; 2]> {
 
 /// The least distance of a transmission angle from 0 and 180 degrees over the circuit; `None` for a linkage in which
 /// no joint has one, and where a position is undefined.
-pub(super) fn worst_angle(curve: &TracedCurve) -> Option<f64> {
+fn worst_angle(curve: &TracedCurve) -> Option<f64> {
     if let Some([least, greatest]) = curve.transmission_angles() {
         return Some(least.min(180.0 - greatest));
     }
@@ -129,7 +141,11 @@ fn acute_angle(share: f64, length: f64) -> f64 {
 
 /// The least and the greatest value of a quantity over the circuit; `None` where it is undefined.
 fn range_of(curve: &TracedCurve, quantity: impl Quantity) -> Option<[f64; 2]> {
-    Some(CircuitFunction::new(curve, quantity)?.extremes().map(|extreme| extreme.value))
+    Some(
+        CircuitFunction::new(curve.circuit, [curve.linkage, curve.single_point_linkage().0], quantity)?
+            .extremes()
+            .map(|extreme| extreme.value),
+    )
 }
 
 /// The least and the greatest distance of two joints over the circuit.

@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::expression::round_to_six_digits;
 
-use super::{MAX_ASSEMBLY_MODES, MAX_CIRCUIT_BYTES, MAX_SAMPLES};
+use super::limits::{MAX_ASSEMBLY_MODES, MAX_CIRCUIT_BYTES, MAX_SAMPLES};
 
 /// Why a linkage cannot be assembled at all, or not over the whole input range requested.
 ///

@@ -13,11 +13,9 @@ use std::ops::Range;
 use super::AssemblyError;
 use super::dyad_limits;
 use super::interval::{Interval, IntervalEnd, Span};
+use super::limits::MAX_ASSEMBLY_MODES;
 use super::pass::InputPosition;
 use crate::linkage::{AssemblyMode, DyadId, Input, Linkage, Side};
-
-/// The greatest number of assembly modes, of those that can be assembled, that are searched.
-pub const MAX_ASSEMBLY_MODES: usize = 512;
 
 /// Finds the intervals of assembly modes within the requested range.
 pub(super) struct IntervalSearch<'a> {

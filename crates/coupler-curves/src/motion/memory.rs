@@ -2,12 +2,10 @@
 
 use super::AssemblyError;
 use super::circuit::UnsampledCircuit;
+use super::limits::MAX_CIRCUIT_BYTES;
 use super::pieces::estimate_node_count;
 use super::sampling::Sampler;
 use crate::linkage::{Input, Linkage};
-
-/// The most memory that the circuits of a linkage, their curves and the rows of these in tables may take, in bytes.
-pub const MAX_CIRCUIT_BYTES: usize = 240_000_000;
 
 /// The bytes of a position.
 const POSITION_BYTES: usize = 16;

@@ -6,6 +6,7 @@ use std::sync::OnceLock;
 use super::AssemblyError;
 use super::circuit::UnsampledCircuit;
 use super::derivatives::JointDerivatives;
+use super::limits::MAX_SAMPLES;
 use super::pass::{InputPosition, Pass};
 use super::pass_ends::place_at_end;
 use super::pieces::CircuitPieces;
@@ -26,9 +27,6 @@ pub enum Sampling {
     /// A number of samples, evenly spaced along the path of the first traced joint, to a part in ten thousand.
     ArcLength(usize),
 }
-
-/// The most samples a circuit may have.
-pub const MAX_SAMPLES: usize = 100_000;
 
 /// Samples circuits. Contains the sines and cosines of a full turn, computed once for all linkages that it samples.
 #[derive(Clone, Debug)]

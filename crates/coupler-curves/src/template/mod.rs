@@ -1,15 +1,18 @@
 //! A template: a linkage whose dimensions are expressions. A parameter set turns it into a [`Linkage`].
 
 mod construction;
+mod input_value;
 mod joint_kind;
 mod order;
 mod parameter;
+mod parameter_kinds;
 
+pub use input_value::InputValue;
 pub use joint_kind::{Coordinate, JointKindTemplate};
 pub use order::{DependencyCycle, dependency_order};
 pub use parameter::{Parameter, ParameterKind};
 
-use crate::expression::{Caption, CompiledExpression, MathText, Unit};
+use crate::expression::{Caption, CompiledExpression};
 use crate::linkage::{self, BranchArc, JointId, LinkageBuilder, MotionOptions};
 
 pub use crate::linkage::{CircuitSelection, CoincidentDyads, Continuation, Linkage, Orientation, Side};
@@ -62,33 +65,6 @@ pub enum OutputLinkTemplate {
     Link([usize; 2]),
     /// The slider or the yoke of a joint.
     Slider(usize),
-}
-
-/// A value of the input as an expression: an angle, evaluated in degrees, or a length.
-#[derive(Clone, Debug, PartialEq)]
-pub struct InputValue {
-    /// The number of units.
-    pub value: CompiledExpression,
-    /// Degrees or radians; none for a length.
-    pub unit: Option<Unit>,
-}
-
-impl InputValue {
-    fn evaluate(&self, values: &[f64]) -> f64 {
-        let value = self.value.evaluate(|slot| values[slot]);
-        self.unit.map_or(value, |unit| unit.to_base_unit(value))
-    }
-
-    /// The value as it is printed: a number with its unit; that of a parameter is stated with its unit.
-    pub fn to_math_text(&self) -> MathText {
-        let is_number = self.value.slots().is_empty();
-        let unit = match self.unit {
-            Some(Unit::Deg) if is_number => "°",
-            Some(Unit::Rad) if is_number => " rad",
-            _ => "",
-        };
-        self.value.to_math_text().with_words(unit)
-    }
 }
 
 /// A joint whose dimensions are expressions.

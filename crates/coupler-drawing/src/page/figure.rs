@@ -7,7 +7,7 @@ use super::labels::{Obstacles, label_line};
 use super::marks;
 use super::mechanism::PosedMechanism;
 use super::motion_marks::{MotionMarks, TickPoses, TickSteps};
-use super::plot::{Plot, round_number_below};
+use super::plot::{MAX_CURVE_ERROR, Plot, round_number_below};
 use super::pose;
 use super::rect::Rect;
 use super::symbols::{self, Mark, Symbol};
@@ -21,10 +21,6 @@ use coupler_curves::measure::{self, TracedCurve};
 use coupler_curves::motion::{self, Circuit};
 use coupler_curves::path::{self, DashPattern, JointPath};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
-
-/// The greatest distance of a spline from its curve, in millimetres on paper. With the rounding to 1/1000 mm, a page can
-/// be compared with its samples to 0.01 mm.
-pub(super) const MAX_CURVE_ERROR: f64 = 0.009;
 
 /// The least width and height of a frame in which inputs are numbered, in ems of the numbers: in a smaller one they hide the
 /// curve.

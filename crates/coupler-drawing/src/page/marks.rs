@@ -1,7 +1,6 @@
 //! Measured properties that are marked on curves and written under them: straight portions and axes of symmetry.
 
-use super::figure::MAX_CURVE_ERROR;
-use super::plot::Plot;
+use super::plot::{MAX_CURVE_ERROR, Plot};
 use super::theme::Theme;
 use super::typography::{format_fixed, superscript};
 use crate::chart;

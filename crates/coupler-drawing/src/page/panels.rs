@@ -6,7 +6,8 @@ use super::balanced_grid::balanced_grid;
 use super::element::{Drawing, TextLine};
 use super::figure::{self, Figure};
 use super::heading::{contents_size, margins};
-use super::key::{self, Key};
+use super::key::Key;
+use super::key_drawing;
 use super::rect::Rect;
 use super::symbols::{self, Mark, Symbol};
 use super::theme::Theme;
@@ -29,7 +30,7 @@ pub(super) fn compose(root: &impl Area, page: &PanelPage, options: &Options, the
         size: Vector::new(root.size().x - 2.0 * side, (above_foot - top).max(0.1 * root.size().y)),
     };
     let (panels, key) = match page.key {
-        Some(_) => key::divide(contents, theme),
+        Some(_) => key_drawing::divide(contents, theme),
         None => (contents, None),
     };
     let far = panels.corner + panels.size;
@@ -42,7 +43,7 @@ pub(super) fn compose(root: &impl Area, page: &PanelPage, options: &Options, the
         let note = key.note.clone().filter(|_| !drawn.has_notes);
         has_formulas = note.is_some();
         let key = Key { note, ..key.clone() };
-        key::draw(root, rect.inset(0.5 * theme.margin), &key, key::clearest_figure(&figures), theme);
+        key_drawing::draw(root, rect.inset(0.5 * theme.margin), &key, key_drawing::clearest_figure(&figures), theme);
     }
     symbols.retain(|symbol| match symbol.meaning.as_str() {
         TRANSMISSION_ANGLE | LIMITS_OF_TRANSMISSION => drawn.has_facts,
@@ -303,7 +304,7 @@ pub(super) fn max_grid(paper: Paper, theme: &Theme) -> [usize; 2] {
 pub(super) fn grid_for(paper: Paper, theme: &Theme, count: usize) -> [usize; 2] {
     const MOST: usize = 15;
     const ASPECT_RATIO: f64 = 1.0;
-    let (contents, _) = key::divide(Rect { corner: Point::origin(), size: contents_size(paper, theme) }, theme);
+    let (contents, _) = key_drawing::divide(Rect { corner: Point::origin(), size: contents_size(paper, theme) }, theme);
     balanced_grid(contents.size, max_grid(paper, theme), count.min(MOST), ASPECT_RATIO)
 }
 

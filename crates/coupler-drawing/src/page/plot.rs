@@ -111,6 +111,10 @@ pub(super) fn round_number_below(x: f64) -> f64 {
         .fold(1e-12, f64::max)
 }
 
+/// The greatest distance of a spline from its curve, in millimetres on paper. With the rounding to 1/1000 mm, a page can
+/// be compared with its samples to 0.01 mm.
+pub(super) const MAX_CURVE_ERROR: f64 = 0.009;
+
 #[cfg(test)]
 mod tests {
     use super::*;

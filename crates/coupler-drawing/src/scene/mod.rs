@@ -11,6 +11,7 @@ mod canvas;
 mod color;
 mod font;
 pub(crate) mod pixel;
+mod text;
 
 pub use book::{OutlineEntry, PageLink, PageNumber};
 #[cfg(feature = "plotters")]
@@ -20,6 +21,7 @@ pub(crate) use font::has_right_to_left;
 pub use font::{Face, FontFamily, FontFile, FontFileError, Typeface};
 #[cfg(feature = "fonts")]
 pub use font::{GlyphRun, OutlineSegment, PlacedGlyph};
+pub use text::{Anchor, MIN_TEXT_SIZE, Text, TextRun};
 
 use coupler_curves::geometry::{Point, Spline};
 
@@ -148,72 +150,6 @@ pub struct Circle {
     pub stroke: Option<Stroke>,
     /// The colour of the fill, if it is filled.
     pub fill: Option<Color>,
-}
-
-/// A line of text.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Text {
-    /// The position of the anchor, on the baseline.
-    pub position: Point,
-    /// The part of the text that is at `position`.
-    pub anchor: Anchor,
-    /// The font size (em) in millimetres.
-    pub size: f64,
-    /// The colour.
-    pub color: Color,
-    /// The runs of the text, each in one face.
-    pub runs: Vec<TextRun>,
-    /// The rotation about `position` in quarter turns clockwise.
-    pub quarter_turns: u8,
-}
-
-/// The least size of text on paper, in millimetres: 6 points.
-pub const MIN_TEXT_SIZE: f64 = 6.0 * 25.4 / 72.0;
-
-/// A run of text in one face.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TextRun {
-    /// The text.
-    pub text: String,
-    /// The face.
-    pub face: Face,
-    /// Whether it is an exponent: smaller than the text, and raised.
-    pub is_raised: bool,
-}
-
-impl TextRun {
-    /// A run on the baseline.
-    pub fn new(text: impl Into<String>, face: Face) -> TextRun {
-        TextRun { text: text.into(), face, is_raised: false }
-    }
-
-    /// The font size of the run in a text of a size.
-    pub fn size(&self, text_size: f64) -> f64 {
-        /// As large as a lower-case letter of the text.
-        const RAISED: f64 = 0.7;
-        if self.is_raised { (RAISED * text_size).max(MIN_TEXT_SIZE.min(text_size)) } else { text_size }
-    }
-
-    /// The height of the run's baseline above that of a text of a size.
-    pub fn rise(&self, text_size: f64) -> f64 {
-        if self.is_raised { 0.38 * text_size } else { 0.0 }
-    }
-
-    /// The width of the run in a text of a size.
-    pub fn width(&self, text_size: f64) -> f64 {
-        self.face.width(&self.text, self.size(text_size))
-    }
-}
-
-/// The part of a text that is at its position.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Anchor {
-    /// The start.
-    Start,
-    /// The middle.
-    Middle,
-    /// The end.
-    End,
 }
 
 impl Scene {

@@ -14,8 +14,7 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 
 use super::curve::{branches_of, rates_of};
-use super::limits_of;
-use super::solution::Solution;
+use super::solution::{Solution, limits_of};
 use crate::arrays;
 
 /// A circuit: a motion of the whole linkage without disassembly.

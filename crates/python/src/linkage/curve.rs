@@ -19,8 +19,7 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyTuple};
 
-use super::limits_of;
-use super::solution::{Solution, into_text, measures_of};
+use super::solution::{Solution, into_text, limits_of, measures_of};
 use crate::arrays;
 use crate::error::Error;
 use crate::file::save;

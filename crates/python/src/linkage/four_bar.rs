@@ -7,8 +7,8 @@ use coupler_curves::template::Template;
 use numpy::PyArray2;
 use pyo3::prelude::*;
 
-use super::catalogue::template;
-use super::{DEFAULT_SAMPLES, Linkage};
+use super::numeric_linkage::{DEFAULT_SAMPLES, Linkage};
+use super::templates::template;
 use crate::argument::natural;
 use crate::arrays;
 

@@ -5,28 +5,29 @@ mod catalogue;
 mod circuit;
 mod curve;
 mod four_bar;
+mod numeric_linkage;
 mod recipe;
 mod sextic;
 mod solution;
+mod templates;
 
 pub use animation::Animation;
-pub use catalogue::{linkages, make_linkage, named_template, template_of_text};
+pub use catalogue::{linkages, make_linkage};
 pub use circuit::Circuit;
 pub use curve::Curve;
 pub use four_bar::{FourBar, into_object};
+pub use numeric_linkage::Linkage;
 pub use recipe::Recipe;
 pub use sextic::Sextic;
 pub use solution::into_text;
+pub use templates::{named_template, template_of_text};
 
 use std::path::PathBuf;
-use std::sync::Arc;
 
-use coupler_curves::family::{Family, Sampling};
-use coupler_curves::find::Mechanism;
+use coupler_curves::family::Sampling;
 use coupler_curves::linkage::{self, Cognates};
-use coupler_curves::motion::{self, MAX_SAMPLES};
+use coupler_curves::motion::{self};
 use coupler_curves::solve::SolvedCell;
-use coupler_curves::template::{CircuitSelection, Template};
 use coupler_drawing::page::PoseChoice;
 use coupler_drawing::plate::moving_view;
 use numpy::PyArray2;
@@ -39,80 +40,8 @@ use crate::argument::natural;
 use crate::arrays;
 use crate::error::LinkageError;
 use crate::file::save_svg;
-use solution::{Solution, measures_of, sampler};
-
-/// The number of samples of a circuit where none is given, as in `inspect`.
-const DEFAULT_SAMPLES: usize = 360;
-
-/// A linkage with numeric dimensions.
-///
-/// Lengths are in the unit in which they were given, inputs in degrees (or that unit, of an actuator), rates per radian (or unit) of the
-/// input. Arrays are computed once, share their memory, and cannot be written to: copy one to change it. Circuits and traces are numbered
-/// from 1, as in tables.
-#[pyclass(frozen, subclass, module = "coupler_atlas")]
-pub struct Linkage {
-    solution: Arc<Solution>,
-    curves: PyOnceLock<Py<PyTuple>>,
-    circuits: PyOnceLock<Py<PyTuple>>,
-}
-
-impl Linkage {
-    /// The linkage of a family with a single cell.
-    pub fn new(family: Family, source: String, recipe: Recipe) -> Linkage {
-        let solution = Arc::new(Solution::new(family, source, recipe));
-        Linkage { solution, curves: PyOnceLock::new(), circuits: PyOnceLock::new() }
-    }
-
-    /// A linkage by its parameters; `manifest` is the text of the manifest that has it, if it is none of the catalogue.
-    pub fn of_template(
-        mut template: Arc<Template>,
-        manifest: Option<Arc<str>>,
-        values: Vec<(String, f64)>,
-        (samples, circuits): (usize, Option<&str>),
-    ) -> PyResult<Linkage> {
-        let samples = checked_samples(samples)?;
-        // A zero without a sign, so that what is equal has the same hash.
-        let values: Vec<(String, f64)> = values.into_iter().map(|(name, value)| (name, value + 0.0)).collect();
-        match circuits {
-            None => {}
-            Some("start") => Arc::make_mut(&mut template).circuits = CircuitSelection::Start,
-            Some("all") => Arc::make_mut(&mut template).circuits = CircuitSelection::All,
-            Some(other) => {
-                return Err(PyValueError::new_err(format!("circuits={other:?}: give \"start\" or \"all\"")));
-            }
-        }
-        let (source, name) = (template.source_line(), template.id.clone());
-        // What messages call a four-bar at its place, which is none of the catalogue.
-        let id = if name == Mechanism::template().id { "four-bar" } else { &name };
-        let family = Family::single_cell(template, &values, Sampling::Samples(samples))
-            .map_err(|errors| LinkageError::new_err(format!("{id}: {}", errors.to_string().replace('\n', "; "))))?;
-        let recipe = Recipe::Linkage { name, manifest, samples, circuits: circuits.map(str::to_owned), values };
-        Ok(Linkage::new(family, source, recipe))
-    }
-
-    /// Its parameters, and why it cannot be assembled if it cannot.
-    fn described(&self) -> PyResult<String> {
-        let family = &self.solution.family;
-        let values = family.template.parameters.iter().zip(family.cell(0).values);
-        let values: Vec<String> = values.map(|(parameter, value)| format!("{}={value:?}", parameter.name)).collect();
-        // What has not been solved is not solved for this.
-        let reason = self.solution.known_reason().map_or(String::new(), |reason| format!("; {reason}"));
-        Ok(values.join(", ") + &reason)
-    }
-
-    fn parameter(&self, name: &str) -> Option<f64> {
-        let family = &self.solution.family;
-        let slot = family.names.iter().position(|known| known == name)?;
-        family.cell(0).values.get(slot).copied()
-    }
-}
-
-fn checked_samples(samples: usize) -> PyResult<usize> {
-    match samples {
-        2..=MAX_SAMPLES => Ok(samples),
-        _ => Err(PyValueError::new_err(format!("samples={samples}: a circuit has from 2 to {MAX_SAMPLES} samples"))),
-    }
-}
+use numeric_linkage::checked_samples;
+use solution::{Solution, limits_of, measures_of, sampler};
 
 #[pymethods]
 impl Linkage {
@@ -322,11 +251,4 @@ impl Linkage {
         let make = py.import("coupler_atlas._core")?.getattr("_linkage")?;
         Ok((make, self.solution.recipe.arguments()?.into_pyobject(py)?))
     }
-}
-
-fn limits_of(circuit: &motion::Circuit) -> Option<(f64, f64)> {
-    let range = || circuit.passes.iter().map(|pass| pass.input_range());
-    let [least, greatest] =
-        [range().map(|[low, _]| low).reduce(f64::min), range().map(|[_, high]| high).reduce(f64::max)];
-    least.zip(greatest).filter(|_| !circuit.is_full_turn())
 }

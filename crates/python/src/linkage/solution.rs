@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use coupler_curves::family::{Family, MEASURES, Sampling};
 use coupler_curves::linkage::{Input, PlacedFourBar};
 use coupler_curves::measure::{BOOLEANS, Value};
-use coupler_curves::motion::Sampler;
+use coupler_curves::motion::{Circuit, Sampler};
 use coupler_curves::solve::{SolvedCell, solve_cell, solve_measuring};
 use coupler_drawing::page::{Options, PoseChoice};
 use coupler_drawing::plate::{self, PAPER};
@@ -151,4 +151,11 @@ pub(super) fn measures_of<'py>(py: Python<'py>, solution: &Solution, index: usiz
         }
     }
     Ok(found)
+}
+
+pub(super) fn limits_of(circuit: &Circuit) -> Option<(f64, f64)> {
+    let range = || circuit.passes.iter().map(|pass| pass.input_range());
+    let [least, greatest] =
+        [range().map(|[low, _]| low).reduce(f64::min), range().map(|[_, high]| high).reduce(f64::max)];
+    least.zip(greatest).filter(|_| !circuit.is_full_turn())
 }

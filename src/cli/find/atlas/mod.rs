@@ -1,26 +1,19 @@
 //! `find --atlas`: the curves of an atlas that are nearest to a path.
 
 mod json;
+mod report;
 mod text;
 
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
-use crate::find::{self, AtlasAnswer, AtlasFindings, AtlasQuery};
-use crate::manifest::Plan;
+use crate::find::{self, AtlasAnswer, AtlasQuery};
 use crate::record;
 use coupler_curves::find::{Options, Quality, Target};
 
 use super::super::source::ManifestSource;
 use super::{Arguments, Best, InputError, Outcome, Shown, show, source, title_of};
-
-/// What has been found in an atlas.
-pub(super) struct AtlasReport {
-    name: String,
-    target: Target,
-    plan: Plan,
-    findings: AtlasFindings,
-}
+use report::AtlasReport;
 
 /// The error of options that do not go together, if there is one.
 pub(super) fn check(arguments: &Arguments) -> Result<(), InputError> {

@@ -1,13 +1,14 @@
 //! `find --linkage`: the dimensions of any linkage for which its curve is nearest to a path.
 
 mod json;
+mod report;
 mod text;
 
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use crate::find::{self, LinkageFindings, MAX_SAMPLES};
+use crate::find::{self, MAX_SAMPLES};
 use crate::manifest;
 use coupler_curves::find::{Condition, LinkageSpace, Mechanism, Options, Quality, Target};
 use coupler_curves::template::Template;
@@ -15,16 +16,7 @@ use coupler_curves::template::Template;
 use super::super::linkage::find_template;
 use super::super::source;
 use super::{Arguments, Best, InputError, InputErrors, Outcome, Shown, show, title_of};
-
-/// What has been found for a linkage.
-pub(super) struct LinkageReport {
-    name: String,
-    target: Target,
-    space: LinkageSpace,
-    findings: LinkageFindings,
-    /// The text of the linkage, if it is none of the catalogue.
-    own_linkage: Option<String>,
-}
+use report::LinkageReport;
 
 /// The linkage to search, and the text of the manifest that has it.
 pub(super) struct Sought {

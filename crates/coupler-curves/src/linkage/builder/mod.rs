@@ -1,9 +1,11 @@
 //! Building a linkage joint by joint.
 
 mod sliding_body;
+mod sliding_joints;
 
 use sliding_body::SlidingBody;
 
+use super::planar_linkage::gcd;
 use super::{
     AssemblyMode, DyadId, Error, Joint, JointId, JointKind, Link, LinkId, Linkage, MAX_DYADS, MotionOptions,
     OutputLink, Side,
@@ -74,7 +76,7 @@ impl LinkageBuilder {
             return Err(Error::InvalidRatio { joint: name.to_owned(), ratio });
         }
         let [n, d] = ratio.map(|x| x as i64);
-        let common = super::gcd(n.unsigned_abs() as u32, d.unsigned_abs() as u32);
+        let common = gcd(n.unsigned_abs() as u32, d.unsigned_abs() as u32);
         let divisor = i64::from(common) * d.signum();
         let id = self.add_joint(name, JointKind::Gear { pivot, length, ratio: [n / divisor, d / divisor], phase_deg });
         self.add_bar(pivot, id, length);

@@ -1,8 +1,10 @@
 //! Cognates: the three four-bars that trace the same coupler curve.
 
 mod assembly;
+mod error;
 mod placed_four_bar;
 
+pub use error::CognateError;
 pub use placed_four_bar::PlacedFourBar;
 
 use crate::geometry::{Point, Vector, complex_product, cross, trig};
@@ -72,38 +74,6 @@ pub struct Cognates {
     pub third_pivot: Point,
     /// The cognate on the crank's pivot and the third pivot, and that on the rocker's pivot and the third.
     pub others: [Cognate; 2],
-}
-
-/// Why a linkage has no cognates.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum CognateError {
-    /// The linkage is not a four-bar.
-    #[error("the linkage is not a four-bar of a crank and one dyad with points on their links")]
-    NotFourBar,
-    /// The traced joint is on another link.
-    #[error("`{joint}` is not a point of the coupler")]
-    NotOnCoupler {
-        /// The traced joint.
-        joint: String,
-    },
-    /// The coupler point is a pin.
-    #[error("the coupler point is the {pin} pin, which traces a circle: one cognate would have links of length 0")]
-    CouplerPointOnPin {
-        /// The pin: `crank` or `rocker`.
-        pin: &'static str,
-    },
-}
-
-impl CognateError {
-    /// How to fix it, for `help:`.
-    pub fn help(&self) -> &'static str {
-        match self {
-            CognateError::NotFourBar => "name a linkage for which `inspect` prints a class",
-            CognateError::NotOnCoupler { .. } => "trace a point of the link with the crank pin and the rocker pin",
-            CognateError::CouplerPointOnPin { .. } => "choose a coupler point that is not a pin",
-        }
-    }
 }
 
 impl Cognates {

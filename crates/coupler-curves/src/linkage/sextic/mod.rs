@@ -1,5 +1,6 @@
 //! The equation of a coupler curve: a polynomial of degree 6 in the coordinates of the coupler point.
 
+mod change_points;
 mod double_points;
 mod polynomial;
 mod roots;
@@ -9,7 +10,7 @@ pub(super) use roots::bisect;
 
 use crate::geometry::{Point, Vector, cross};
 use crate::linkage::FourBar;
-use double_points::change_points;
+use change_points::change_points;
 use polynomial::{Polynomial, binomial_powers, exponents, has_circular_factor, monomials};
 use roots::real_roots;
 

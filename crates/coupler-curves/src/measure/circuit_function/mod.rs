@@ -13,10 +13,9 @@ pub(super) use places::Extreme;
 
 use std::rc::Rc;
 
-use super::TracedCurve;
 use crate::geometry::{Chebyshev, Point, TERMS, in_rising_order};
 use crate::linkage::{AssemblyMode, JointId, Linkage};
-use crate::motion::{CircuitPiece, JointDerivatives, Pass};
+use crate::motion::{Circuit, CircuitPiece, JointDerivatives, Pass};
 
 /// The last coefficients of a polynomial that has converged, relative to the greatest value of the function.
 const TOLERANCE: f64 = 1e-14;
@@ -105,13 +104,16 @@ pub(super) struct Place {
 type JointSeries = Vec<(JointId, [Chebyshev; 2])>;
 
 impl<Q: Quantity> CircuitFunction<Q> {
-    /// A quantity along the circuit of a curve; `None` if it is undefined somewhere.
-    pub fn new(curve: &TracedCurve, quantity: Q) -> Option<CircuitFunction<Q>> {
-        let circuit = curve.circuit;
-        let pieces = circuit.pieces(curve.linkage);
+    /// A quantity along a circuit of a linkage, which is given also without other traced points; `None` if it is undefined somewhere.
+    pub fn new(
+        circuit: &Circuit,
+        [linkage, single_point_linkage]: [&Linkage; 2],
+        quantity: Q,
+    ) -> Option<CircuitFunction<Q>> {
+        let pieces = circuit.pieces(linkage);
         let joints = quantity.joints();
         let mut function = CircuitFunction {
-            linkage: Rc::new(curve.single_point_linkage().0.clone()),
+            linkage: Rc::new(single_point_linkage.clone()),
             passes: circuit.passes.clone(),
             is_closed: circuit.is_closed,
             spans: Vec::with_capacity(pieces.len()),

@@ -5,7 +5,8 @@
 //! all is searched for among samples of the circuit and where a band touches an extreme of the output, and is then
 //! refined between samples.
 
-use super::{OutputMotion, output_value};
+use super::motion::{OutputMotion, Stretch};
+use super::output_value;
 use crate::measure::circuit_function::{MonotonicPart, Place};
 use crate::measure::{Measure, Subject, start_input};
 
@@ -33,15 +34,6 @@ pub const DWELL_START: Measure = Measure::number(
 )
 .of(Subject::WithOutput)
 .or_length("output_dwell_start_length");
-
-/// A stretch of a circuit.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Stretch {
-    /// The input at which it begins.
-    pub start_input: f64,
-    /// The input it spans, which is counted forward and backward at limits.
-    pub input_span: f64,
-}
 
 impl OutputMotion {
     /// The longest dwell of the output; of equally long ones the first.

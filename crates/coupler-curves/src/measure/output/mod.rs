@@ -2,6 +2,7 @@
 
 mod coordinate;
 mod dwell;
+pub(super) mod motion;
 mod range;
 mod ratio;
 mod time_ratio;
@@ -15,29 +16,17 @@ pub use toggles::TOGGLES;
 
 use std::cell::OnceCell;
 
-use super::circuit_function::{CircuitFunction, Extreme};
+use super::circuit_function::CircuitFunction;
 use super::{TracedCurve, Value};
 use coordinate::OutputCoordinate;
-use dwell::Stretch;
-
-/// The coordinate of the output link along a circuit, in radians or in the manifest's unit. What is computed from it is
-/// computed once for all measures.
-#[derive(Clone, Debug)]
-pub(super) struct OutputMotion {
-    coordinate: CircuitFunction<OutputCoordinate>,
-    /// Whether it turns fully: round a closed circuit it makes whole turns.
-    turns_fully: bool,
-    extremes: [Extreme; 2],
-    dwell: OnceCell<Stretch>,
-    velocity_ratios: OnceCell<ratio::VelocityRatios>,
-    toggle_count: OnceCell<usize>,
-}
+use motion::OutputMotion;
 
 impl OutputMotion {
     /// The motion of the output link; `None` if the linkage has none, or its position is undefined somewhere.
     pub fn new(curve: &TracedCurve) -> Option<OutputMotion> {
         let coordinate = OutputCoordinate { output: curve.linkage.output()?, placement: curve.linkage.placement };
-        let coordinate = CircuitFunction::new(curve, coordinate)?;
+        let coordinate =
+            CircuitFunction::new(curve.circuit, [curve.linkage, curve.single_point_linkage().0], coordinate)?;
         let turns_fully =
             coordinate.is_closed() && coordinate.change().abs() > 1.0 && !coordinate.quantity().is_slider();
         let extremes = coordinate.extremes();
@@ -63,4 +52,11 @@ impl OutputMotion {
 /// A value of a linkage with an output link; missing for others.
 fn output_value(curve: &TracedCurve, value: impl Fn(&OutputMotion) -> Option<f64>) -> Value {
     curve.output().and_then(value).map_or(Value::Missing, Value::Number)
+}
+
+impl TracedCurve<'_> {
+    /// The motion of the output link; `None` if there is none.
+    pub(in crate::measure) fn output(&self) -> Option<&OutputMotion> {
+        self.circuit_results.0.output.get_or_init(|| OutputMotion::new(self)).as_ref()
+    }
 }

@@ -1,6 +1,7 @@
 //! The limits of the output, and the angle or the distance between them.
 
-use super::{OutputMotion, output_value};
+use super::motion::OutputMotion;
+use super::output_value;
 use crate::geometry::{Point, trig};
 use crate::measure::circuit_function::Extreme;
 use crate::measure::{Measure, Subject, TracedCurve, without_rounding};

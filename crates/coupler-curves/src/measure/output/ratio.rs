@@ -1,6 +1,7 @@
 //! Velocity ratio and mechanical advantage.
 
-use super::{OutputMotion, output_value};
+use super::motion::{OutputMotion, VelocityRatios};
+use super::output_value;
 use crate::measure::circuit_function::Place;
 use crate::measure::{Measure, Subject};
 
@@ -41,15 +42,6 @@ pub const MECHANICAL_ADVANTAGE_MAX: Measure = Measure::number(
     |curve| output_value(curve, |output| Some(output.velocity_ratios().magnitudes[0].recip())),
 )
 .of(Subject::WithOutput);
-
-/// The extremes of the velocity ratio over a circuit.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct VelocityRatios {
-    /// The least and the greatest.
-    pub range: [f64; 2],
-    /// The least and the greatest magnitude.
-    pub magnitudes: [f64; 2],
-}
 
 impl OutputMotion {
     /// The extremes of the velocity ratio.

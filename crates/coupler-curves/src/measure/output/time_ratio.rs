@@ -1,6 +1,7 @@
 //! The time ratio of a linkage whose output goes back and forth while its input turns.
 
-use super::{OutputMotion, output_value};
+use super::motion::OutputMotion;
+use super::output_value;
 use crate::measure::circuit_function::Place;
 use crate::measure::{Measure, Subject};
 

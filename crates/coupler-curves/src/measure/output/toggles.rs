@@ -1,6 +1,7 @@
 //! Toggle positions.
 
-use super::{OutputMotion, output_value};
+use super::motion::OutputMotion;
+use super::output_value;
 use crate::measure::{Measure, Subject};
 use crate::motion::JointDerivatives;
 

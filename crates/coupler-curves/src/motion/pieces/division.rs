@@ -1,7 +1,8 @@
 //! Divides the pieces of a circuit until all joints are resolved.
 
+use super::InputMap;
+use super::circuit_pieces::{CircuitPiece, CircuitPieces, MAX_PIECES, nodes_of};
 use super::first_pieces::{first_pieces, junction_after};
-use super::{CircuitPiece, CircuitPieces, InputMap, MAX_PIECES, nodes_of};
 use crate::geometry::{Chebyshev, TERMS, in_rising_order, trig};
 use crate::linkage::{DyadSet, Input, JointId, JointKind, Linkage};
 use crate::motion::circuit::UnsampledCircuit;

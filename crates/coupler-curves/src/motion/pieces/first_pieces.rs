@@ -1,6 +1,7 @@
 //! The pieces that a circuit is divided into at first: at its limits and change points, and evenly between them.
 
-use super::{CircuitPiece, InputMap, MAX_PIECES};
+use super::InputMap;
+use super::circuit_pieces::{CircuitPiece, MAX_PIECES};
 use crate::linkage::{Input, Linkage};
 use crate::motion::circuit::UnsampledCircuit;
 use crate::motion::derivatives::JointDerivatives;

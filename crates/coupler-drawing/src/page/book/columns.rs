@@ -5,7 +5,8 @@ use super::super::area::{self, Area};
 use super::super::element::{Drawing, TextLine};
 use super::super::heading;
 use super::super::theme::Theme;
-use super::{Atlas, Volume, empty_scene};
+use super::atlas::{Atlas, Volume};
+use super::empty_scene::empty_scene;
 use crate::scene::{Anchor, Item, PageLink, PageNumber, Path, Polyline, Scene, Text};
 use coupler_curves::geometry::{Point, Vector};
 

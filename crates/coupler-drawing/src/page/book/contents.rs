@@ -1,8 +1,9 @@
 //! The contents of a volume.
 
+use super::atlas::{Atlas, BackMatter, CHARTS_TITLE, CellEntry, Chapter, Volume, charts_in};
 use super::columns::{Entry, Places, Row, Target};
 use super::folio::are_labelled;
-use super::{Atlas, BackMatter, CHARTS_TITLE, CellEntry, Chapter, Volume, charts_in, how_to_read};
+use super::how_to_read;
 
 /// The most cells of a family that contents and outline list.
 const MAX_CELLS: usize = 1000;

@@ -5,38 +5,10 @@ use super::super::element::Drawing;
 use super::super::rect::Rect;
 use super::super::theme::Theme;
 use super::super::{Options, heading};
-use super::miniature::Miniature;
-use super::{Atlas, empty_scene};
+use super::atlas::{Atlas, FindingCell, FindingChart};
+use super::empty_scene::empty_scene;
 use crate::scene::{Anchor, Item, PageLink, Path, Scene};
 use coupler_curves::geometry::{Point, Vector};
-
-/// A finding chart: a page.
-#[derive(Clone, Debug)]
-pub struct FindingChart {
-    /// What is the same on the whole page, as in "C = 2"; may be empty.
-    pub title: String,
-    /// What is shown; may be empty.
-    pub note: String,
-    /// The names of parameters, set in italics.
-    pub symbols: Vec<String>,
-    /// The values of the columns, as in "B = 2"; empty if they differ from row to row.
-    pub columns: Vec<String>,
-    /// The values of the rows, as in "A = 2".
-    pub rows: Vec<String>,
-    /// The cells.
-    pub cells: Vec<FindingCell>,
-}
-
-/// A cell of a finding chart.
-#[derive(Clone, Debug)]
-pub struct FindingCell {
-    /// Its row and column, from 0.
-    pub place: [usize; 2],
-    /// What it is, if the columns do not say it; may be empty.
-    pub label: String,
-    /// Curves of each page of the cell, one below another, with the number of the page in the atlas, from 1.
-    pub pages: Vec<(Vec<Miniature>, usize)>,
-}
 
 /// The title of a chart, before what is the same on the whole page.
 const TITLE: &str = "Finding chart";

@@ -5,40 +5,10 @@ use super::super::element::{Drawing, TextLine};
 use super::super::rect::Rect;
 use super::super::theme::Theme;
 use super::super::{Options, heading};
-use super::miniature::Miniature;
-use super::{Atlas, empty_scene};
+use super::atlas::{Atlas, CurveList, ListEntry};
+use super::empty_scene::empty_scene;
 use crate::scene::{Anchor, Item, PageLink, Path, Scene};
 use coupler_curves::geometry::{Point, Vector};
-
-/// A list of curves.
-#[derive(Clone, Debug)]
-pub struct CurveList {
-    /// The title.
-    pub title: String,
-    /// What is listed and in what order; may be empty.
-    pub note: String,
-    /// The entries, the best first.
-    pub entries: Vec<ListEntry>,
-}
-
-/// An entry of a list.
-#[derive(Clone, Debug)]
-pub struct ListEntry {
-    /// The drawing of the curve.
-    pub drawing: Miniature,
-    /// The index of its chapter.
-    pub chapter: usize,
-    /// The caption of its cell.
-    pub caption: String,
-    /// Which curve of the cell it is, as in "point 25"; may be empty.
-    pub curve: String,
-    /// What is said of it, a line each.
-    pub lines: Vec<String>,
-    /// The number of its page in the atlas, from 1.
-    pub page: usize,
-    /// The number of its figure on the page, if it has several.
-    pub figure: Option<usize>,
-}
 
 /// The least size of an entry, in ems of its text.
 const LEAST: [f64; 2] = [23.5, 11.5];

@@ -6,8 +6,10 @@
 //! pages but those of the families, and draws what is outside their borders with a
 //! [`PageFinisher`].
 
+mod atlas;
 mod columns;
 mod contents;
+mod empty_scene;
 mod finding;
 mod folio;
 mod how_to_read;
@@ -17,119 +19,23 @@ mod list;
 mod miniature;
 mod title;
 
-use std::ops::Range;
-
-pub use finding::{FindingCell, FindingChart, chart_curves_per_page, max_chart_grid};
+pub use atlas::{Atlas, CellEntry, Chapter, CurveList, FindingCell, FindingChart, HowToRead, ListEntry, Volume};
+pub use finding::{chart_curves_per_page, max_chart_grid};
 pub use folio::{Tab, draw_folio};
-pub use how_to_read::HowToRead;
 pub use index::keep_listed;
 pub use index_entry::IndexEntry;
-pub use list::{CurveList, ListEntry};
 pub use miniature::{Emphasis, Miniature};
 
-use super::theme::Theme;
 use super::{Options, PanelPage};
 use crate::scene::{OutlineEntry, PageNumber, Scene};
+use atlas::{BackMatter, CHARTS_TITLE, charts_in};
 use columns::{ListHeader, Places};
-
-/// An atlas as a book.
-#[derive(Clone, Debug)]
-pub struct Atlas<'a> {
-    /// The title.
-    pub title: &'a str,
-    /// The program that writes the book, and its version.
-    pub program: &'a str,
-    /// The families, in order.
-    pub chapters: Vec<Chapter<'a>>,
-    /// Whether the chapters are of several families, so that entries name theirs.
-    pub names_families: bool,
-    /// How plates are read, if it is said.
-    pub how_to_read: Option<HowToRead>,
-    /// The finding charts.
-    pub charts: Vec<FindingChart>,
-    /// The lists of curves.
-    pub lists: Vec<CurveList>,
-    /// The entries of the index.
-    pub index: Vec<IndexEntry>,
-    /// The parts of the book in the thumb index, without lists and index; empty if it has none.
-    pub tabs: Vec<Tab>,
-}
-
-/// A chapter of a book: a family of an atlas.
-#[derive(Clone, Debug)]
-pub struct Chapter<'a> {
-    /// The title.
-    pub title: &'a str,
-    /// The names of parameters, set in italics.
-    pub symbols: &'a [String],
-    /// What numbered curves are called, "point" or "curve".
-    pub curve_noun: &'static str,
-    /// The number of curves, if it is known.
-    pub curve_count: Option<usize>,
-    /// The number of pages.
-    pub page_count: usize,
-    /// The cells, in the order of the pages.
-    pub cells: Vec<CellEntry>,
-}
-
-/// A cell of a family in the contents.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct CellEntry {
-    /// The caption of the cell.
-    pub caption: String,
-    /// The number of its first page within the family, from 1.
-    pub page: usize,
-}
-
-/// A volume: the part of an atlas that is one file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Volume {
-    /// The number of the volume, from 1.
-    pub number: usize,
-    /// The number of volumes.
-    pub volume_count: usize,
-    /// The number of the first page in the atlas, from 1.
-    pub first_page: usize,
-    /// The number of pages, without front and back matter.
-    pub page_count: usize,
-    /// The number of pages of back matter, which follows in the last volume.
-    pub back_page_count: usize,
-}
-
-/// A part of the back matter.
-struct BackMatter {
-    title: String,
-    /// Whether it is the index, or else a list.
-    is_index: bool,
-    /// The number of its first page in the atlas.
-    first_page: usize,
-    page_count: usize,
-}
+use empty_scene::empty_scene;
 
 /// The title of the index.
 const INDEX_TITLE: &str = "Index of geometries";
 
-impl<'a> Atlas<'a> {
-    /// An atlas of chapters, without anything to find a curve by.
-    pub fn new(title: &'a str, program: &'a str, chapters: Vec<Chapter<'a>>) -> Atlas<'a> {
-        Atlas {
-            title,
-            program,
-            names_families: chapters.len() > 1,
-            chapters,
-            how_to_read: None,
-            charts: Vec::new(),
-            lists: Vec::new(),
-            index: Vec::new(),
-            tabs: Vec::new(),
-        }
-    }
-
-    /// The number of pages, without front and back matter.
-    pub fn page_count(&self) -> usize {
-        self.chapters.iter().map(|chapter| chapter.page_count).sum()
-    }
-
+impl Atlas<'_> {
     /// The volumes, of at most `most` pages each; all but the last are full. There is at least one.
     pub fn volumes(&self, most: usize, options: &Options) -> Vec<Volume> {
         let back_pages = self.back_matter(options).iter().map(|part| part.page_count).sum();
@@ -159,58 +65,6 @@ impl<'a> Atlas<'a> {
         let parts = lists.chain([index]).map(part);
         parts.filter(|part| part.page_count > 0).collect()
     }
-
-    /// The marks of the thumb index.
-    fn all_tabs(&self, back_matter: &[BackMatter]) -> Vec<Tab> {
-        let mut tabs = self.tabs.clone();
-        if tabs.is_empty() {
-            return tabs;
-        }
-        for (is_index, label) in [(false, "lists"), (true, "index")] {
-            let first = back_matter.iter().find(|part| part.is_index == is_index);
-            tabs.extend(first.map(|part| Tab { label: label.to_owned(), first_page: part.first_page }));
-        }
-        tabs
-    }
-
-    /// The chapters, each with the number of pages before it.
-    fn chapters_with_offset(&self) -> impl Iterator<Item = (usize, &Chapter<'_>)> {
-        self.chapters.iter().scan(0, |before, chapter| {
-            *before += chapter.page_count;
-            Some((*before - chapter.page_count, chapter))
-        })
-    }
-}
-
-impl Chapter<'_> {
-    /// The numbers of geometries, curves and pages in words, as far as they are known.
-    fn format_counts(&self, separator: &str) -> String {
-        let cells = (!self.cells.is_empty()).then(|| format_count(self.cells.len(), "geometry", "geometries"));
-        let curves = self.curve_count.map(|curves| format_count(curves, "curve", "curves"));
-        let pages = format_count(self.page_count, "page", "pages");
-        cells.into_iter().chain(curves).chain([pages]).collect::<Vec<_>>().join(separator)
-    }
-}
-
-impl Volume {
-    /// The numbers of its pages in the atlas, from 1.
-    pub fn page_range(&self) -> Range<usize> {
-        self.first_page..self.first_page + self.page_count
-    }
-
-    /// The index of a page of the atlas in the volume's file, after `front` pages of front matter; `None` if the page
-    /// is in another volume. Pages of the atlas are counted from 1, with those of the back matter, and the index from 0.
-    pub fn page_index(&self, page: usize, front: usize) -> Option<usize> {
-        let Range { start, end } = self.page_range();
-        (start..end + self.back_page_count).contains(&page).then(|| page - self.first_page + front)
-    }
-
-    /// The name of the volume, without the title of the atlas; `None` if it is the only one.
-    fn name(&self) -> Option<String> {
-        let Range { start, end } = self.page_range();
-        (self.volume_count > 1)
-            .then(|| format!("volume {} of {}, pages {start}–{}", self.number, self.volume_count, end - 1))
-    }
 }
 
 /// Where the parts of the front matter of a volume are, with so many pages of contents.
@@ -221,15 +75,6 @@ fn places(atlas: &Atlas, volume: &Volume, contents: usize) -> Places {
     // Odd numbers are on right-hand pages: a blank page precedes the first plate if needed.
     let front = front + (front + volume.first_page + 1) % 2;
     Places { how_to_read: 1, charts, front }
-}
-
-/// The finding charts of a volume: those with a page in it.
-fn charts_in<'c>(atlas: &'c Atlas, volume: &'c Volume) -> impl Iterator<Item = &'c FindingChart> {
-    let pages = volume.page_range();
-    let is_in_volume = move |chart: &&FindingChart| {
-        chart.cells.iter().flat_map(|cell| &cell.pages).any(|(_, page)| pages.contains(page))
-    };
-    atlas.charts.iter().filter(is_in_volume)
 }
 
 /// Composes the front matter of a volume: the title page, two pages that say how plates are read, the contents and the
@@ -354,9 +199,6 @@ pub fn outline(atlas: &Atlas, volume: &Volume, front: usize, options: &Options) 
     entries
 }
 
-/// The title of the finding charts in contents and outline.
-const CHARTS_TITLE: &str = "Finding charts";
-
 /// The label of the page at an index of a volume's file, after `front` pages of front matter, which have Roman numerals; the
 /// others have their numbers in the atlas.
 pub fn page_number(volume: &Volume, front: usize, page_index: usize) -> PageNumber {
@@ -365,15 +207,4 @@ pub fn page_number(volume: &Volume, front: usize, page_index: usize) -> PageNumb
         None => PageNumber::Roman(number(page_index + 1)),
         Some(page) => PageNumber::Arabic(number(volume.first_page + page)),
     }
-}
-
-fn empty_scene(title: String, options: &Options, theme: &Theme) -> Scene {
-    let super::Paper { width, height } = options.paper;
-    let (paper, typeface) = (theme.paper, theme.typeface);
-    Scene { width, height, paper, typeface, title, items: Vec::new(), links: Vec::new() }
-}
-
-/// A count with its noun.
-fn format_count(count: usize, one: &str, many: &str) -> String {
-    format!("{count} {}", if count == 1 { one } else { many })
 }

@@ -8,7 +8,7 @@ use super::super::heading;
 use super::super::rect::Rect;
 use super::super::theme::Theme;
 use super::super::{Options, PanelPage};
-use super::{Atlas, Chapter, Volume};
+use super::atlas::{Atlas, Chapter, Volume};
 use crate::scene::{Anchor, Color, Item, Path, Scene};
 use coupler_curves::geometry::{Point, Vector};
 

@@ -12,7 +12,7 @@ mod scale;
 use super::area::{self, Area, PlottersArea};
 use super::figure::Figure;
 use super::heading::margins;
-use super::key;
+use super::key_drawing;
 use super::rect::Rect;
 use super::symbols::{self, Mark, Symbol};
 use super::theme::Theme;
@@ -101,7 +101,7 @@ fn page_symbols(page: &ChartPage, features: LineFeatures, theme: &Theme) -> Vec<
 /// The rectangles of the key and of the charts next to it, if there is a linkage and they do not become too small.
 fn key_rect(contents: Rect, page: &ChartPage, theme: &Theme) -> Option<(Rect, Rect)> {
     let [columns, rows] = page.layout.grid();
-    let (charts, rect) = key::divide(contents, theme);
+    let (charts, rect) = key_drawing::divide(contents, theme);
     let [most_columns, most_rows] = chart_grid::max_in(charts.size, theme);
     let has_figure = page.key.is_some_and(|(_, panel)| Figure::from_panel(panel).is_some());
     (has_figure && columns <= most_columns && rows <= most_rows).then_some((rect?, charts))
@@ -110,6 +110,6 @@ fn key_rect(contents: Rect, page: &ChartPage, theme: &Theme) -> Option<(Rect, Re
 /// Draws the key of the linkages.
 fn draw_key(root: &impl Area, rect: Rect, page: &ChartPage, theme: &Theme) {
     if let Some((key, panel)) = page.key {
-        key::draw(root, rect.inset(0.5 * theme.margin), key, Figure::from_panel(panel).as_ref(), theme);
+        key_drawing::draw(root, rect.inset(0.5 * theme.margin), key, Figure::from_panel(panel).as_ref(), theme);
     }
 }

@@ -3,8 +3,8 @@
 use super::super::CouplerGridPage;
 use super::super::theme::Theme;
 use super::super::typography::format_fixed;
-use super::ShownCurve;
 use super::numbers::{coordinate_decimals, significant_decimals};
+use super::shown_curve::ShownCurve;
 use crate::scene::Anchor;
 use coupler_curves::geometry::Point;
 use coupler_curves::linkage::Input;

@@ -1,7 +1,7 @@
 //! The description of the linkage, next to its key: its class, every length in full, its output.
 
 use super::super::area::Area;
-use super::super::key;
+use super::super::key_drawing;
 use super::super::rect::Rect;
 use super::super::theme::Theme;
 use super::super::{CouplerGridPage, LinkLabel};
@@ -47,7 +47,8 @@ impl Description {
         texts.extend(output_facts(solved));
         let wrapped = |text: &String| theme.text_line(text, Point::origin(), Anchor::Start, em, theme.grey).wrap(width);
         lines.extend(texts.iter().flat_map(wrapped).map(|text| (text, em, theme.grey)));
-        let key_height = page.key.map_or(0.0, |key| 0.5 * em + key::lines_height(width, &key.dimensions, key, theme));
+        let key_height =
+            page.key.map_or(0.0, |key| 0.5 * em + key_drawing::lines_height(width, &key.dimensions, key, theme));
         Description { lines, key_height }
     }
 
@@ -71,7 +72,7 @@ impl Description {
         if let Some(key) = page.key {
             let corner = Point::new(frame.corner.x, y + 0.5 * theme.note_size);
             let rest = Rect { corner, size: frame.corner + frame.size - corner };
-            key::draw_lines(area, rest, &key.dimensions, key, theme);
+            key_drawing::draw_lines(area, rest, &key.dimensions, key, theme);
         }
     }
 }

@@ -9,7 +9,7 @@ use super::super::mechanism::{PosedMechanism, pivot_items};
 use super::super::rect::Rect;
 use super::super::theme::Theme;
 use super::super::{CouplerGridPage, LinkLabel};
-use super::ShownCurve;
+use super::shown_curve::ShownCurve;
 use crate::scene::{Anchor, Circle, Color, Item, Path, Polyline, Text};
 use coupler_curves::geometry::{Bounds, Point, Similarity, Vector, cross, left_normal};
 use coupler_curves::linkage::{JointId, JointKind, Linkage, is_plate};

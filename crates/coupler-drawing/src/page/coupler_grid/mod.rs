@@ -13,6 +13,7 @@ mod key;
 mod layout;
 mod notes;
 mod numbers;
+mod shown_curve;
 mod table;
 mod turn;
 
@@ -20,7 +21,7 @@ use super::area::{self, Area};
 use super::element::{CouplerCurve, Drawing};
 use super::figure;
 use super::heading;
-use super::key as linkage_key;
+use super::key_drawing;
 use super::labels::{LabelPlacer, Obstacles, label_line};
 use super::marks;
 use super::mechanism::PosedMechanism;
@@ -31,7 +32,7 @@ use super::symbols::{self, Mark, Symbol};
 use super::theme::Theme;
 use super::{CouplerGridPage, Layout, Options, Panel, PanelScale, PoseChoice, pose};
 use crate::mechanism::Mechanism;
-use crate::scene::{Anchor, Circle, Color, Item, MIN_TEXT_SIZE, Path, Scene, Stroke};
+use crate::scene::{Anchor, Circle, Item, MIN_TEXT_SIZE, Path, Scene};
 use coupler_curves::geometry::{Bounds, Point, Similarity, Vector};
 use coupler_curves::path::{DashPattern, JointPath};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
@@ -39,42 +40,10 @@ use description::Description;
 use graphs::Graphs;
 use layout::{PageLayout, PanelLayout};
 use notes::Notes;
+use shown_curve::ShownCurve;
 use table::Table;
 
 pub(super) use columns::MEASURES;
-
-/// A curve on the page, which shares its ink with its coupler point and its row in the table.
-struct ShownCurve<'a> {
-    curve: &'a MeasuredCurve,
-    /// The index of its traced point on the page.
-    point_index: usize,
-}
-
-impl ShownCurve<'_> {
-    /// Whether the line under the dashes is in full ink and the point is filled: a page has more points than inks, so
-    /// each ink is used a second time.
-    fn has_underline(&self, theme: &Theme) -> bool {
-        self.point_index / theme.curve_inks.len() % 2 == 1
-    }
-
-    fn ink(&self, theme: &Theme) -> Color {
-        theme.curve_ink(self.point_index)
-    }
-
-    /// The ink of texts that belong to the curve.
-    fn text_ink(&self, theme: &Theme) -> Color {
-        theme.text_ink(self.ink(theme))
-    }
-
-    /// The stroke of the line under the dashes.
-    fn hairline(&self, theme: &Theme) -> Stroke {
-        if self.has_underline(theme) {
-            theme.stroke(self.ink(theme), 0.6 * theme.fine_width)
-        } else {
-            theme.stroke(theme.faded(self.ink(theme)), theme.hair_width)
-        }
-    }
-}
 
 pub(super) fn compose(scene: &mut Scene, page: &CouplerGridPage, options: &Options, theme: &Theme) {
     let size = Vector::new(scene.width, scene.height);
@@ -209,7 +178,7 @@ fn draw_panel(
             let circuit = shown.first().map_or(0, |s| s.curve.circuit - 1);
             let lettering = Theme { caption_size: 1.1 * em, ..theme.clone() };
             let ink = |_| theme.ink;
-            linkage_key::draw_linkage(area, key, (mechanism, &solved.motion.circuits[circuit]), ink, &lettering);
+            key_drawing::draw_linkage(area, key, (mechanism, &solved.motion.circuits[circuit]), ink, &lettering);
         }
     }
     let after_key = Vector::new(key_width + em, 0.0);

@@ -6,9 +6,9 @@ use super::super::area::Area;
 use super::super::element::Drawing;
 use super::super::rect::Rect;
 use super::super::theme::Theme;
-use super::ShownCurve;
 use super::columns::{ColumnGroup, column_groups, fitting_columns};
 use super::layout::HEAD_HEIGHT;
+use super::shown_curve::ShownCurve;
 use crate::scene::{Anchor, Circle, Item, Path, Polyline, Stroke};
 use coupler_curves::geometry::{Point, Vector};
 

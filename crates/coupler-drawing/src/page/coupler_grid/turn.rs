@@ -1,6 +1,6 @@
 //! The motion over the input: the speed of every point on the page, and the transmission angle.
 
-use super::ShownCurve;
+use super::shown_curve::ShownCurve;
 use coupler_curves::linkage::{Input, JointId};
 use coupler_curves::measure::transmission_angle;
 use coupler_curves::motion::{self, JointDerivatives, Pass};

@@ -7,7 +7,8 @@ use harfrust::{Direction, ShapeOptions, ShaperData, UnicodeBuffer};
 use skrifa::instance::{LocationRef, Size};
 use skrifa::{FontRef, GlyphId, MetadataProvider};
 
-use super::{FontFileError, OutlineSegment, glyphs};
+use super::error::FontFileError;
+use super::outline::{OutlineSegment, outline};
 
 /// A font file, in memory until the program ends; two with the same contents are one.
 pub struct FontFile {
@@ -81,7 +82,7 @@ impl FontFile {
 
     /// The outline of a glyph.
     pub(super) fn outline(&self, index: u32) -> Vec<OutlineSegment> {
-        glyphs::outline(&self.font, GlyphId::new(index), self.units_per_em)
+        outline(&self.font, GlyphId::new(index), self.units_per_em)
     }
 
     /// The glyphs of a text in one direction, from left to right.

@@ -5,8 +5,9 @@ use super::super::super::element::TextLine;
 use super::super::super::heading;
 use super::super::super::theme::Theme;
 use super::super::super::{Layout, Options};
-use super::super::{Atlas, empty_scene};
-use super::{HowToRead, Part, TITLE};
+use super::super::atlas::{Atlas, HowToRead};
+use super::super::empty_scene::empty_scene;
+use super::parts::{Part, TITLE};
 use crate::scene::{Anchor, Scene};
 use coupler_curves::geometry::{Point, Vector};
 

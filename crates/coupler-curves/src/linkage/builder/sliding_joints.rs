@@ -1,0 +1,192 @@
+//! Sliding joints: sliders, yokes, slots and actuators, and the links they carry.
+
+use super::sliding_body::{BodyReference, SlidingBody};
+use super::{LinkageBuilder, check_length};
+use crate::geometry::{Vector, trig};
+use crate::linkage::{Error, JointId, JointKind, LineDirection, Link, LinkId, OutputLink, Side};
+
+impl LinkageBuilder {
+    /// Adds the pin of a crank about `base[1]`, driven by a linear actuator that turns about `base[0]`; the
+    /// actuator's line is `offset` from that pivot, and `side` is the pin's side of `base[0] -> base[1]`.
+    ///
+    /// # Errors
+    /// One joint given twice, a length that is not positive, pivots on no common link, more than
+    /// [`MAX_DYADS`](crate::linkage::MAX_DYADS) dyads.
+    pub fn piston(
+        &mut self,
+        name: &str,
+        base: [JointId; 2],
+        (length, offset): (f64, f64),
+        side: Side,
+    ) -> Result<JointId, Error> {
+        self.check_distinct(name, base)?;
+        check_length(name, length)?;
+        self.require_common_link(name, base)?;
+        let dyad = self.add_dyad(name, side)?;
+        let id = self.add_joint(name, JointKind::Piston { base, length, offset, dyad });
+        self.add_bar(base[1], id, length);
+        // McCarthy's foot is to the right of the line from pivot to pin, so the pivot is to the left of his line.
+        let direction = (-offset, LineDirection::Actuator);
+        self.add_sliding_body([base[0], id], [base[0], id], direction);
+        // The rod has the direction of the cylinder, from the other end.
+        self.add_sliding_body([id, base[0]], [base[0], id], direction);
+        self.sliding_bodies.last_mut().into_iter().for_each(|rod| rod.is_backward = true);
+        Ok(id)
+    }
+
+    /// Adds the end of a link from the joint `from`, which slides on the line `offset` to the left of two others;
+    /// `ahead` is [`Side::Left`] where it is ahead of `from` along the line, and [`Side::Right`] where it is behind.
+    ///
+    /// # Errors
+    /// One joint given twice for the line, a length that is not positive, more than
+    /// [`MAX_DYADS`](crate::linkage::MAX_DYADS) dyads.
+    pub fn slide(
+        &mut self,
+        name: &str,
+        (from, length): (JointId, f64),
+        (line, offset): ([JointId; 2], f64),
+        ahead: Side,
+    ) -> Result<JointId, Error> {
+        self.check_line(name, line)?;
+        check_length(name, length)?;
+        let dyad = self.add_dyad(name, ahead)?;
+        let id = self.add_joint(name, JointKind::Slide { from, length, line, offset, dyad });
+        self.add_bar(from, id, length);
+        self.add_slider(id, line);
+        Ok(id)
+    }
+
+    /// Adds the point at which the slot of a yoke meets its guide, the line `offset` to the left of two joints.
+    ///
+    /// The yoke slides along the guide, and `from` slides in its slot, which is at `angle_deg` to the guide.
+    ///
+    /// # Errors
+    /// One joint given twice for the guide, a slot along the guide.
+    pub fn yoke(
+        &mut self,
+        name: &str,
+        from: JointId,
+        (line, offset): ([JointId; 2], f64),
+        angle_deg: f64,
+    ) -> Result<JointId, Error> {
+        self.check_line(name, line)?;
+        let (cos, sin) = trig::cos_sin_deg(angle_deg);
+        if sin == 0.0 {
+            return Err(Error::SlotParallelToGuide { joint: name.to_owned() });
+        }
+        let id = self.add_joint(name, JointKind::Yoke { from, line, offset, slot_direction: Vector::new(cos, sin) });
+        self.add_slider(id, line);
+        Ok(id)
+    }
+
+    /// Adds the block of a slider or a yoke, which its joint and either joint of its line identify.
+    fn add_slider(&mut self, joint: JointId, line: [JointId; 2]) {
+        self.add_sliding_body([joint, line[1]], line, (0.0, LineDirection::Towards));
+        let block = self.sliding_bodies[self.sliding_bodies.len() - 1];
+        self.sliding_bodies.push(SlidingBody { base: [joint, line[0]], is_backward: true, ..block });
+    }
+
+    /// Adds the foot, at a distance `offset` from the pivot `base[0]`, of the line that slides through `base[1]`; on
+    /// a side of `base[0] -> base[1]`. The pivot and the foot are on one link.
+    ///
+    /// With no offset the foot is the pivot, and the side gives the direction of the line. Points of the link that
+    /// carries the line are added by [`LinkageBuilder::point`] on the same two joints: along the line, in its
+    /// direction at the start, and to its left.
+    ///
+    /// # Errors
+    /// One joint given twice, more than [`MAX_DYADS`](crate::linkage::MAX_DYADS) dyads.
+    pub fn slot(&mut self, name: &str, base: [JointId; 2], offset: f64, side: Side) -> Result<JointId, Error> {
+        self.check_distinct(name, base)?;
+        let dyad = self.add_dyad(name, side)?;
+        let id = self.add_joint(name, JointKind::Slot { base, offset, dyad });
+        if offset == 0.0 {
+            self.add_sliding_body(base, base, (0.0, LineDirection::BySide(dyad)));
+            self.links[self.sliding_bodies[self.sliding_bodies.len() - 1].link].joints.push((id, Vector::zeros()));
+            return Ok(id);
+        }
+        // With the foot to the right of pivot -> joint, the line points to the left of pivot -> foot.
+        let signed = if side == Side::Right { offset } else { -offset };
+        self.sliding_bodies.push(SlidingBody {
+            base,
+            reference: BodyReference::Foot { foot: id, offset: signed },
+            link: LinkId::new(self.links.len()),
+            is_backward: false,
+        });
+        self.add_bar(base[0], id, offset.abs());
+        Ok(id)
+    }
+
+    /// Adds a link that keeps the direction of a line.
+    pub(super) fn add_sliding_body(
+        &mut self,
+        base: [JointId; 2],
+        line: [JointId; 2],
+        (offset, direction): (f64, LineDirection),
+    ) {
+        self.sliding_bodies.push(SlidingBody {
+            base,
+            reference: BodyReference::Line { line, offset, direction },
+            link: LinkId::new(self.links.len()),
+            is_backward: false,
+        });
+        self.links.push(Link { joints: vec![(base[0], Vector::zeros())] });
+    }
+
+    /// Adds a point of a sliding body: along its line, in the line's direction at the start, and to the left of it; or in
+    /// the opposite direction.
+    pub(super) fn add_point_on_sliding_body(
+        &mut self,
+        name: &str,
+        body: SlidingBody,
+        [along, across]: [f64; 2],
+    ) -> JointId {
+        let SlidingBody { base, reference, link, is_backward } = body;
+        let turn = if is_backward { -1.0 } else { 1.0 };
+        let [along, across] = [along * turn, across * turn];
+        let (kind, position) = match reference {
+            BodyReference::Line { line, offset, direction } => {
+                // At the start the line points towards the joint, on either side.
+                let sense = match direction {
+                    LineDirection::BySide(dyad) => -f64::from(self.mode.sign(dyad)),
+                    LineDirection::Towards | LineDirection::Actuator => 1.0,
+                };
+                let (from, position) = (base[0], Vector::new(along, across));
+                let [along, across] = [along * sense, across * sense];
+                (JointKind::Aligned { from, line, offset, direction, along, across }, position)
+            }
+            BodyReference::Foot { foot, offset } => {
+                let (along, across) = (-across / offset, along / offset);
+                let kind = JointKind::Rigid { base: [base[0], foot], along, across };
+                (kind, Vector::new(along, across) * offset.abs())
+            }
+        };
+        let id = self.add_joint(name, kind);
+        self.links[link].joints.push((id, position));
+        id
+    }
+
+    /// The output link that is the sliding body of two joints; `None` if there is none, or it is an actuator.
+    pub(super) fn output_of_sliding_body(&self, base: [JointId; 2]) -> Option<OutputLink> {
+        let body = self.sliding_bodies.iter().find(|body| body.base == base)?;
+        match body.reference {
+            BodyReference::Foot { foot, .. } => Some(OutputLink::Link([base[0], foot])),
+            BodyReference::Line { direction: LineDirection::BySide(dyad), .. } => Some(OutputLink::Slot { base, dyad }),
+            BodyReference::Line { line, direction: LineDirection::Towards, .. } => {
+                Some(OutputLink::Slider { joint: base[0], line })
+            }
+            BodyReference::Line { direction: LineDirection::Actuator, .. } => None,
+        }
+    }
+
+    /// Checks that two joints can define a line: they are different, and on one link they do not coincide.
+    fn check_line(&self, name: &str, line: [JointId; 2]) -> Result<(), Error> {
+        self.check_distinct(name, line)?;
+        match self.common_link(line) {
+            Some((_, from, to)) if from == to => {
+                let base = line.map(|j| self.joints[j].name.clone());
+                Err(Error::NoDirection { joint: name.to_owned(), base })
+            }
+            _ => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! A linkage as a list of joints and links.
+
+use super::{DyadId, DyadSet, Input, Joint, JointId, JointKind, Link, MotionOptions, OutputLink};
+use crate::geometry::Orientation;
+
+/// A linkage with numeric dimensions. All lengths are in one unit, which may be any.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Linkage {
+    /// The joints in the order they are placed: each refers to earlier joints only.
+    pub joints: Vec<Joint>,
+    /// The links; the first is the frame, which carries the fixed joints.
+    pub links: Vec<Link>,
+    /// The joints whose curves are traced, in the order of the curves.
+    pub traced: Vec<JointId>,
+    /// Two joints of the link in whose frame everything is reported: the one at its origin and one on its positive
+    /// x-axis; `None` for the fixed frame.
+    pub seen_from: Option<[JointId; 2]>,
+    /// The output link that is stated; where there is none, [`Linkage::output`] is the default.
+    pub output_link: Option<OutputLink>,
+    /// The chains it is composed of in addition to the first, such as the cognates of a four-bar, each by its joints: the
+    /// links between them are a part of the linkage that a figure distinguishes.
+    pub chains: Vec<Vec<JointId>>,
+    /// The orientation applied to everything reported, after `seen_from`.
+    pub placement: Orientation,
+    /// The start of the motion, its input range and its circuits.
+    pub motion_options: MotionOptions,
+}
+
+impl Linkage {
+    /// The kind of input that drives it.
+    pub fn input(&self) -> Input {
+        let mut turns = 1;
+        for joint in &self.joints {
+            match joint.kind {
+                JointKind::Piston { .. } => return Input::Length,
+                JointKind::Gear { ratio: [_, crank_turns], .. } => {
+                    // Several gears repeat together after the least common multiple of their turns.
+                    let crank_turns = crank_turns.unsigned_abs() as u32;
+                    turns = turns / gcd(turns, crank_turns) * crank_turns;
+                }
+                _ => {}
+            }
+        }
+        Input::Angle { turns }
+    }
+
+    /// The turns of its fastest crank for a turn of the driven one, at least 1.
+    pub fn fastest_crank_ratio(&self) -> f64 {
+        let ratio = |joint: &Joint| match joint.kind {
+            JointKind::Gear { ratio: [turns, crank_turns], .. } => (turns as f64 / crank_turns as f64).abs(),
+            _ => 1.0,
+        };
+        self.joints.iter().map(ratio).fold(1.0, f64::max)
+    }
+
+    /// The ids of the joints, in the order of [`Linkage::joints`].
+    pub fn joint_ids(&self) -> impl DoubleEndedIterator<Item = JointId> + Clone + use<> {
+        (0..self.joints.len()).map(JointId::new)
+    }
+
+    /// The ids of the dyads, in the order of their joints.
+    pub fn dyad_ids(&self) -> impl DoubleEndedIterator<Item = DyadId> + Clone + use<> {
+        (0..self.dyad_count()).map(DyadId::new)
+    }
+
+    /// The names of the joints of some dyads.
+    pub fn dyad_names(&self, dyads: DyadSet) -> Vec<&str> {
+        let is_among = |joint: &&Joint| joint.kind.dyad().is_some_and(|dyad| dyads.contains(dyad));
+        self.joints.iter().filter(is_among).map(|joint| joint.name.as_str()).collect()
+    }
+
+    /// The first joint with a name.
+    pub fn find_joint(&self, name: &str) -> Option<JointId> {
+        self.joints.iter().position(|joint| joint.name == name).map(JointId::new)
+    }
+
+    /// The linkage with only one of the rigid points at the end of the list of joints, and that joint's index in it.
+    ///
+    /// Of the trailing rigid points that no other joint refers to, only `joint` is kept, so that a computation for
+    /// one point of a grid does not place the others. All joints before them keep their indices.
+    pub fn with_one_point(&self, joint: JointId) -> (Linkage, JointId) {
+        let mut first = self.joints.len();
+        let output_joints = self.output_link.map(OutputLink::joints).unwrap_or_default();
+        let kept_joints = self.seen_from.into_iter().flatten().chain(output_joints);
+        let mut base_of_all = kept_joints.map(JointId::index).max().unwrap_or(0);
+        while let Some(JointKind::Rigid { base: [p, q], .. }) = first.checked_sub(1).map(|last| self.joints[last].kind)
+        {
+            base_of_all = base_of_all.max(p.index()).max(q.index());
+            if base_of_all >= first - 1 {
+                break;
+            }
+            first -= 1;
+        }
+        let kept: Vec<JointId> =
+            self.joint_ids().take(first).chain((joint.index() >= first).then_some(joint)).collect();
+        let new_id = |old: JointId| kept.iter().position(|&kept| kept == old).map(JointId::new);
+        let link = |link: &Link| Link {
+            joints: link.joints.iter().filter_map(|&(joint, position)| Some((new_id(joint)?, position))).collect(),
+        };
+        let linkage = Linkage {
+            joints: kept.iter().map(|&joint| self.joints[joint].clone()).collect(),
+            links: self.links.iter().map(link).collect(),
+            traced: new_id(joint).into_iter().collect(),
+            seen_from: self.seen_from,
+            output_link: self.output_link,
+            chains: Vec::new(),
+            placement: self.placement,
+            motion_options: self.motion_options.clone(),
+        };
+        (linkage, joint.min(JointId::new(first)))
+    }
+
+    /// The number of dyads.
+    pub fn dyad_count(&self) -> usize {
+        self.joints.iter().filter(|joint| joint.kind.dyad().is_some()).count()
+    }
+
+    /// The pivot and the pin of the crank whose angle is the input; `None` if an actuator drives the linkage.
+    pub fn crank(&self) -> Option<[JointId; 2]> {
+        self.joint_ids().find_map(|pin| match self.joints[pin].kind {
+            JointKind::Crank { pivot, .. } => Some([pivot, pin]),
+            _ => None,
+        })
+    }
+
+    /// The length of that crank.
+    pub fn crank_length(&self) -> Option<f64> {
+        self.joints.iter().find_map(|joint| match joint.kind {
+            JointKind::Crank { length, .. } => Some(length),
+            _ => None,
+        })
+    }
+
+    /// The link that is at rest in the reported frame: that of `seen_from`, or the frame.
+    pub fn ground(&self) -> &Link {
+        let seen =
+            |link: &&Link| self.seen_from.is_some_and(|joints| joints.iter().all(|&j| link.position(j).is_some()));
+        self.links.iter().find(seen).unwrap_or(&self.links[0])
+    }
+}
+
+/// The greatest common divisor of two numbers that are not both zero.
+pub(super) fn gcd(a: u32, b: u32) -> u32 {
+    if b == 0 { a } else { gcd(b, a % b) }
+}

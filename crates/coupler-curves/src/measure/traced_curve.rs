@@ -1,0 +1,154 @@
+//! A curve to be measured, with the results that several measures share.
+
+use std::cell::OnceCell;
+use std::rc::Rc;
+
+use super::curve::{ArcLength, Crossings, SmoothCurve, Stop};
+use super::features::{Dwell, StraightCriterion, StraightPortion, Symmetry};
+use super::output::motion::OutputMotion;
+use super::portions::SPACING;
+use super::rounding::within_period;
+use super::row::Row;
+use crate::linkage::{Input, JointId, Linkage};
+use crate::motion::{Circuit, Motion};
+
+/// The curve of a traced joint on a circuit. Intermediate results are computed once for all measures.
+#[derive(Clone, Debug)]
+pub struct TracedCurve<'a> {
+    /// The linkage.
+    pub linkage: &'a Linkage,
+    /// The linkage's motion.
+    pub motion: &'a Motion,
+    /// The circuit. Measures do not depend on its samples.
+    pub circuit: &'a Circuit,
+    /// The traced joint.
+    pub joint: JointId,
+    /// The criterion for the straight portion.
+    pub straight_criterion: StraightCriterion,
+    single_point_linkage: OnceCell<(Linkage, JointId)>,
+    extent: OnceCell<f64>,
+    pub(super) straight: OnceCell<Vec<StraightPortion>>,
+    pub(super) dwell: OnceCell<Option<Dwell>>,
+    pub(super) symmetry: OnceCell<Option<Symmetry>>,
+    pub(super) transmission_angles: OnceCell<Option<[f64; 2]>>,
+    pub(super) circuit_results: CircuitResults,
+    pub(super) cusp_count: OnceCell<usize>,
+    smooth: OnceCell<Rc<SmoothCurve>>,
+    row: OnceCell<Option<Row>>,
+    pub(super) wider_straight: [OnceCell<Vec<StraightPortion>>; 2],
+    pub(super) straight_half_turn: OnceCell<Option<StraightPortion>>,
+    arc_length: OnceCell<ArcLength>,
+    stops: OnceCell<Vec<Stop>>,
+    inflections: OnceCell<(usize, usize)>,
+    crossings: OnceCell<Crossings>,
+}
+
+impl<'a> TracedCurve<'a> {
+    /// The curve of a traced joint on a circuit of a linkage's motion.
+    pub fn new(linkage: &'a Linkage, motion: &'a Motion, circuit: &'a Circuit, joint: JointId) -> TracedCurve<'a> {
+        TracedCurve {
+            linkage,
+            motion,
+            circuit,
+            joint,
+            straight_criterion: StraightCriterion::default(),
+            single_point_linkage: OnceCell::new(),
+            extent: OnceCell::new(),
+            straight: OnceCell::new(),
+            dwell: OnceCell::new(),
+            symmetry: OnceCell::new(),
+            transmission_angles: OnceCell::new(),
+            circuit_results: CircuitResults::default(),
+            cusp_count: OnceCell::new(),
+            smooth: OnceCell::new(),
+            row: OnceCell::new(),
+            wider_straight: Default::default(),
+            straight_half_turn: OnceCell::new(),
+            arc_length: OnceCell::new(),
+            stops: OnceCell::new(),
+            inflections: OnceCell::new(),
+            crossings: OnceCell::new(),
+        }
+    }
+
+    /// The same curve with another criterion for the straight portion.
+    pub fn with_straight_criterion(self, criterion: StraightCriterion) -> TracedCurve<'a> {
+        TracedCurve { straight_criterion: criterion, straight: OnceCell::new(), ..self }
+    }
+
+    /// The greatest distance of two points of the curve.
+    pub fn extent(&self) -> f64 {
+        *self.extent.get_or_init(|| self.smooth().extent())
+    }
+
+    /// The curve as polynomials.
+    pub(super) fn smooth(&self) -> &Rc<SmoothCurve> {
+        let pieces =
+            || Rc::new(SmoothCurve::new(self.circuit.pieces(self.linkage), self.joint, self.circuit.is_closed));
+        self.smooth.get_or_init(pieces)
+    }
+
+    /// Its points, for the search for portions; `None` for a point, or what is one but for rounding.
+    pub(super) fn row(&self) -> Option<&Row> {
+        /// The extent at which a thousandth of a twentieth of it, the width of the narrowest strip that matters, is ten
+        /// times the rounding.
+        const SHAPELESS: f64 = 2e5;
+        let has_shape = || self.extent() > SHAPELESS * self.smooth().rounding;
+        let row = || has_shape().then(|| Row::new(self.smooth(), SPACING * self.extent())).flatten();
+        self.row.get_or_init(row).as_ref()
+    }
+
+    /// Its length as a function of the place.
+    pub(super) fn arc_length(&self) -> &ArcLength {
+        self.arc_length.get_or_init(|| ArcLength::measure(self.smooth()))
+    }
+
+    /// The places where it stops.
+    pub(super) fn stops(&self) -> &[Stop] {
+        self.stops.get_or_init(|| self.smooth().stops())
+    }
+
+    /// The number of its inflections, and of places where it is not known whether there are two or none.
+    pub(super) fn inflections(&self) -> (usize, usize) {
+        *self.inflections.get_or_init(|| self.smooth().inflections(self.stops()))
+    }
+
+    /// The points where it crosses itself.
+    pub(super) fn crossings(&self) -> &Crossings {
+        self.crossings.get_or_init(|| self.smooth().crossings(self.stops()))
+    }
+
+    /// The same curve with results that the curves of other joints on the circuit share.
+    pub fn with_circuit_results(self, circuit_results: CircuitResults) -> TracedCurve<'a> {
+        TracedCurve { circuit_results, ..self }
+    }
+
+    /// The linkage without other traced points, and the joint in it: poses of it are faster to compute.
+    pub(super) fn single_point_linkage(&self) -> (&Linkage, JointId) {
+        let (linkage, joint) = self.single_point_linkage.get_or_init(|| self.linkage.with_one_point(self.joint));
+        (linkage, *joint)
+    }
+
+    /// The straight portion and the symmetry, if they have been computed, to be marked on pages.
+    pub fn computed_marks(&self) -> (Option<StraightPortion>, Option<Symmetry>) {
+        (self.straight.get().and_then(|all| all.first().cloned()), self.symmetry.get().copied().flatten())
+    }
+}
+
+/// Results that do not depend on the traced joint, computed on first use. The curves of one circuit may share them.
+#[derive(Clone, Debug, Default)]
+pub struct CircuitResults(pub(super) Rc<SharedResults>);
+
+#[derive(Debug, Default)]
+pub(super) struct SharedResults {
+    pub output: OnceCell<Option<OutputMotion>>,
+    pub worst_transmission_angle: OnceCell<Option<f64>>,
+}
+
+/// The input at which a portion of a curve begins: from 0 up to a period where the input turns fully.
+pub(super) fn start_input(curve: &TracedCurve, input: f64) -> f64 {
+    match curve.linkage.input() {
+        Input::Angle { turns } if curve.circuit.is_full_turn() => within_period(input, 360.0 * f64::from(turns)),
+        _ => input,
+    }
+}

@@ -1,0 +1,11 @@
+//! A page of a book before anything is drawn on it.
+
+use super::super::theme::Theme;
+use super::super::{Options, Paper};
+use crate::scene::Scene;
+
+pub(super) fn empty_scene(title: String, options: &Options, theme: &Theme) -> Scene {
+    let Paper { width, height } = options.paper;
+    let (paper, typeface) = (theme.paper, theme.typeface);
+    Scene { width, height, paper, typeface, title, items: Vec::new(), links: Vec::new() }
+}

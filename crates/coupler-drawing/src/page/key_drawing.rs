@@ -1,0 +1,289 @@
+//! The drawing of a key: its lines in a column or a strip, and a linkage with the names of its joints.
+
+use std::borrow::Cow;
+
+use super::area::Area;
+use super::direction::DirectionMarks;
+use super::element::{Drawing, TextLine};
+use super::figure::Figure;
+use super::key::Key;
+use super::labels::{LabelPlacer, Obstacles};
+use super::mechanism::PosedMechanism;
+use super::plot::Plot;
+use super::pose;
+use super::rect::Rect;
+use super::theme::Theme;
+use crate::mechanism::Mechanism;
+use crate::scene::{Anchor, Circle, Color, Item, MIN_TEXT_SIZE, Text};
+use coupler_curves::expression::{MathText, displayed_name};
+use coupler_curves::geometry::{Bounds, Point, Vector};
+use coupler_curves::linkage::{JointId, JointKind, Linkage};
+use coupler_curves::motion::{Circuit, Motion, Sampler, Sampling};
+
+/// The width of a line of text of the key, in ems of a note.
+const COLUMN_WIDTH: f64 = 24.0;
+
+/// Divides the contents of a page into the part for panels and that for the key: a column on the right of a wide page,
+/// a strip at the foot of a high one. `None` for the key if it would leave too little to the panels.
+pub(super) fn divide(contents: Rect, theme: &Theme) -> (Rect, Option<Rect>) {
+    /// The most of the page that the key takes.
+    const MAX_PART: f64 = 0.36;
+    let em = theme.note_size;
+    let is_wide = contents.size.x > 1.1 * contents.size.y;
+    let (whole, needed) =
+        if is_wide { (contents.size.x, COLUMN_WIDTH * em) } else { (contents.size.y, 1.1 * COLUMN_WIDTH * em) };
+    if needed > MAX_PART * whole {
+        return (contents, None);
+    }
+    let along = |length: f64| if is_wide { Vector::new(length, 0.0) } else { Vector::new(0.0, length) };
+    let panels = Rect { size: contents.size - along(needed + em), ..contents };
+    let key = Rect { corner: contents.corner + along(whole - needed), size: contents.size - along(whole - needed) };
+    (panels, Some(key))
+}
+
+/// The figure whose linkage a key shows: the first of those with the most joints, as a joint at an offset of 0 is not drawn, in which no
+/// two are close together, or else the one of them in which they are furthest apart.
+pub(super) fn clearest_figure<'f, 'a>(figures: &[&'f Figure<'a>]) -> Option<&'f Figure<'a>> {
+    /// The least distance of joints, relative to the size of the linkage: some three of their radii in a key.
+    const CLEAR: f64 = 0.06;
+    let mechanism = |figure: &'f Figure<'a>| figure.mechanisms.first();
+    let count = |figure: &'f Figure<'a>| mechanism(figure).map_or(0, |mechanism| mechanism.drawn_joints().len());
+    let most = figures.iter().copied().map(count).max()?;
+    let distance = |figure: &'f Figure<'a>| mechanism(figure).map_or(0.0, least_distance).min(CLEAR);
+    let with_most = figures.iter().copied().filter(|figure| count(figure) == most);
+    with_most.reduce(|best, next| if distance(next) > distance(best) { next } else { best })
+}
+
+/// The least distance of two joints of a linkage that have names in its key, relative to its size.
+fn least_distance(mechanism: &PosedMechanism) -> f64 {
+    let joints = named_joints(mechanism, &fixed_points(mechanism));
+    let pairs = joints.iter().enumerate().flat_map(|(k, a)| joints[..k].iter().map(move |b| (a, b)));
+    let distances = pairs.map(|(a, b)| (mechanism.pose[*a] - mechanism.pose[*b]).norm());
+    distances.fold(f64::INFINITY, f64::min) / mechanism.bounds().size().max()
+}
+
+/// Draws a key in a rectangle, with the linkage of a figure.
+pub(super) fn draw(area: &impl Area, rect: Rect, key: &Key, figure: Option<&Figure>, theme: &Theme) {
+    let em = theme.note_size;
+    let is_column = rect.size.x < 1.4 * rect.size.y;
+    let drawing = match is_column {
+        true => Vector::new(rect.size.x, (0.9 * rect.size.x).min(0.42 * rect.size.y)),
+        false => Vector::new((1.2 * rect.size.y).min(0.4 * rect.size.x), rect.size.y),
+    };
+    let text_corner = match is_column {
+        true => rect.corner + Vector::new(0.0, drawing.y + em),
+        false => rect.corner + Vector::new(drawing.x + em, 0.0),
+    };
+    let mut key = Cow::Borrowed(key);
+    if let Some((figure, mechanism)) = figure.and_then(|figure| Some((figure, figure.mechanisms.first()?))) {
+        let drawing = Rect { corner: rect.corner, size: drawing };
+        let ink = |joint| figure.joint_ink(joint, theme);
+        match with_longer_crank(mechanism) {
+            Some((linkage, circuit)) => {
+                let pose = pose::clearest_pose(&linkage, &circuit);
+                let mechanism = PosedMechanism::new(&linkage, Mechanism::new(&linkage, &circuit), pose);
+                draw_linkage(area, drawing, (&mechanism, &circuit), ink, theme);
+                key.to_mut()
+                    .remarks
+                    .push("shown here with a longer crank, as its own is hidden by its joints".to_owned());
+            }
+            None => draw_linkage(area, drawing, (mechanism, figure.first_circuit()), ink, theme),
+        }
+    }
+    let text = Rect { corner: text_corner, size: rect.corner + rect.size - text_corner };
+    draw_lines(area, text, &[], &key, theme);
+}
+
+/// The linkage with a longer crank, sampled, if its own is so short that its joints hide it.
+fn with_longer_crank(mechanism: &PosedMechanism) -> Option<(Linkage, Circuit)> {
+    /// The length up to which a crank is hidden, and that with which it is shown, relative to the size of the linkage.
+    const LENGTHS: [f64; 2] = [0.02, 0.12];
+    /// Enough to choose a clear pose.
+    const SAMPLES: usize = 120;
+    let size = mechanism.bounds().size().max();
+    let mut linkage = mechanism.linkage.clone();
+    let [_, pin] = linkage.crank()?;
+    match &mut linkage.joints[pin].kind {
+        JointKind::Crank { length, .. } if *length <= LENGTHS[0] * size => *length = LENGTHS[1] * size,
+        _ => return None,
+    }
+    let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(SAMPLES)));
+    let circuit = motion.circuits.into_iter().next()?;
+    Some((linkage, circuit))
+}
+
+/// Writes dimensions, the joints of a key and its remarks in columns, from the upper left. Where they are too many, the text
+/// is smaller, and at last the number of lines that are left out is stated.
+pub(super) fn draw_lines(area: &impl Area, rect: Rect, dimensions: &[MathText], key: &Key, theme: &Theme) {
+    let smallest = MIN_TEXT_SIZE.min(theme.note_size);
+    let sizes = [1.0, 0.9, 0.8, 0.7, 0.0].map(|part| (part * theme.note_size).max(smallest));
+    let lines = |em: f64| KeyLines::new(rect, dimensions, key, em, theme);
+    let fitting = sizes.into_iter().map(lines).find(|lines| lines.rows.len() <= lines.capacity());
+    fitting.unwrap_or_else(|| lines(smallest)).draw(area, rect, theme);
+}
+
+/// The height of the lines of a key in a column of a width, at their full size.
+pub(super) fn lines_height(width: f64, dimensions: &[MathText], key: &Key, theme: &Theme) -> f64 {
+    let em = theme.note_size;
+    let column = Rect { corner: Point::origin(), size: Vector::new(width, em) };
+    KeyLines::LEADING * em * (KeyLines::new(column, dimensions, key, em, theme).rows.len() as f64 + 1.0)
+}
+
+/// The lines of a key at a size of text.
+struct KeyLines {
+    em: f64,
+    columns: usize,
+    per_column: usize,
+    /// The width of a column without the space after it.
+    width: f64,
+    /// The name of the joint that begins here, the text, and its indent.
+    rows: Vec<(Option<TextLine>, TextLine, f64)>,
+    /// The place of the first remark among the rows.
+    first_remark: usize,
+}
+
+impl KeyLines {
+    fn new(rect: Rect, dimensions: &[MathText], key: &Key, em: f64, theme: &Theme) -> KeyLines {
+        let columns = (rect.size.x / (COLUMN_WIDTH * em)).floor().max(1.0);
+        let width = rect.size.x / columns - em;
+        let line = |text: &MathText, color| theme.math_line(text, Point::origin(), Anchor::Start, em, color);
+        let names: Vec<TextLine> =
+            key.joints.iter().map(|(name, _)| line(&MathText::from_words(name.as_str()), theme.ink)).collect();
+        let indent = names.iter().map(|name| name.text.width()).fold(0.0, f64::max).min(0.4 * width) + 0.7 * em;
+        let fits = |text: &MathText| line(text, theme.grey).text.width() <= width - indent;
+        let fits_column = |text: &MathText| line(text, theme.ink).text.width() <= width;
+        let dimensions = MathText::join(dimensions.iter().cloned(), ", ").wrap(fits_column);
+        let dimensions = dimensions.iter().filter(|part| !part.pieces().is_empty());
+        let mut rows: Vec<_> = dimensions.map(|part| (None, line(part, theme.ink), 0.0)).collect();
+        for (name, (_, construction)) in names.into_iter().zip(&key.joints) {
+            let mut name = Some(name);
+            for part in construction.wrap(fits) {
+                rows.push((name.take(), line(&part, theme.grey), indent));
+            }
+        }
+        let formulas = key.note.iter().flat_map(|note| note.wrap(fits_column));
+        rows.extend(formulas.map(|part| (None, line(&part, theme.grey), 0.0)));
+        let first_remark = rows.len();
+        for remark in &key.remarks {
+            let text = theme.text_line(remark, Point::origin(), Anchor::Start, em, theme.grey);
+            let wrapped = text.wrap(width);
+            rows.extend(wrapped.iter().map(|part| (None, line(&MathText::from_words(part.as_str()), theme.grey), 0.0)));
+        }
+        let per_column = ((rect.size.y / (KeyLines::LEADING * em)).floor() as usize).max(1);
+        KeyLines { em, columns: columns as usize, per_column, width, rows, first_remark }
+    }
+
+    /// The distance from a line to the next, in ems.
+    const LEADING: f64 = 1.42;
+
+    /// The number of lines that the rectangle has.
+    fn capacity(&self) -> usize {
+        self.columns * self.per_column
+    }
+
+    fn draw(&self, area: &impl Area, rect: Rect, theme: &Theme) {
+        let (em, step) = (self.em, KeyLines::LEADING * self.em);
+        let left_out = match self.rows.len() > self.capacity() {
+            true => self.rows.len() + 1 - self.capacity(),
+            false => 0,
+        };
+        let text = format!("… and {left_out} more lines, for which this page is too small");
+        let rest = theme.text_line(&text, Point::origin(), Anchor::Start, em, theme.ink);
+        let rest = (left_out > 0).then_some((None, rest, 0.0));
+        let shown = self.rows.len() - left_out;
+        for (k, (name, text, indent)) in self.rows[..shown].iter().chain(&rest).enumerate() {
+            // The remarks are apart from the joints.
+            let is_apart = k >= self.first_remark && k / self.per_column == self.first_remark / self.per_column;
+            let gap = if is_apart { 0.5 * step } else { 0.0 };
+            let column = Vector::new((k / self.per_column) as f64 * (self.width + em), 0.0);
+            let at = rect.corner + column + Vector::new(0.0, em + gap + step * (k % self.per_column) as f64);
+            for (line, x) in name.iter().map(|name| (name, 0.0)).chain([(text, *indent)]) {
+                area.record(&line.clone().moved_to(at + Vector::new(x, 0.0)).fit_width(self.width - x));
+            }
+        }
+    }
+}
+
+/// Draws a linkage in its pose on a circuit with the names of its joints, the direction of the crank and the output; `ink` is the
+/// colour of a joint.
+pub(super) fn draw_linkage(
+    area: &impl Area,
+    rect: Rect,
+    (mechanism, circuit): (&PosedMechanism, &Circuit),
+    ink: impl Fn(JointId) -> Color,
+    theme: &Theme,
+) {
+    let letter = theme.caption_size;
+    let frame = rect.inset(1.6 * letter);
+    let points = fixed_points(mechanism);
+    let named = named_joints(mechanism, &points);
+    let at_points = named.iter().map(|&joint| mechanism.pose[joint]);
+    let plot = Plot::whole(frame).fitted_to(mechanism.bounds().union(Bounds::from_points(at_points)));
+    let underlay = mechanism.underlay_items(&plot, theme);
+    let links = mechanism.linkage_items(&plot, theme, ink);
+    let least_radius = 4.0 * theme.joint_radius / plot.page_from_plane.scale;
+    let directions = DirectionMarks::new(mechanism, circuit, least_radius).map(plot.page_from_plane);
+    let mut marks = directions.items(theme);
+    let dot = |&joint: &JointId| Circle {
+        centre: plot.page_from_plane.apply(mechanism.pose[joint]),
+        radius: 0.35 * theme.joint_radius,
+        stroke: None,
+        fill: Some(theme.grey),
+    };
+    // Fixed points, yokes and the points of grids are no pins.
+    let pins = mechanism.drawn_joints();
+    let is_pin = |joint: &JointId| pins.contains(joint) && !mechanism.is_yoke(*joint);
+    marks.extend(named.iter().filter(|joint| !is_pin(joint)).map(dot).map(Item::Circle));
+    let zero = theme.text_line("0°", Point::origin(), Anchor::Middle, theme.note_size, theme.grey).text;
+    let mut obstacles = Obstacles::default();
+    obstacles.add(&underlay, true);
+    obstacles.add(&links, false);
+    obstacles.add(&marks, false);
+    let mut placer = LabelPlacer::new(&obstacles, rect, theme);
+    let names =
+        joint_names(mechanism, &named, &plot, theme).into_iter().chain(directions.zero_end().map(|at| (at, zero)));
+    let names = names.filter_map(|(at, name)| placer.place_at_point(at, name)).collect();
+    for (class, items) in [("underlay", underlay), ("linkage", links), ("direction", marks), ("name", names)] {
+        area.record(&Drawing { class, title: String::new(), items });
+    }
+}
+
+/// The fixed joints that are no pivots and only define lines, as far as they are near the linkage.
+fn fixed_points(mechanism: &PosedMechanism) -> Vec<JointId> {
+    /// The growth of the drawing up to which a point is shown.
+    const MAX_GROWTH: f64 = 1.3;
+    let (linkage, bounds) = (mechanism.linkage, mechanism.bounds());
+    let drawn = mechanism.drawn_joints();
+    let is_point = |joint: &JointId| {
+        let with = bounds.union(Bounds::from_points([mechanism.pose[*joint]]));
+        matches!(linkage.joints[*joint].kind, JointKind::Fixed(_))
+            && !drawn.contains(joint)
+            && with.size().max() <= MAX_GROWTH * bounds.size().max()
+    };
+    linkage.joint_ids().filter(is_point).collect()
+}
+
+/// The joints that are drawn, those that are traced and the fixed points, each name once: a grid of points has one name for all of
+/// them.
+fn named_joints(mechanism: &PosedMechanism, fixed_points: &[JointId]) -> Vec<JointId> {
+    let linkage = mechanism.linkage;
+    let name = |joint: JointId| linkage.joints[joint].name.as_str();
+    let all = mechanism.drawn_joints().into_iter().chain(fixed_points.iter().chain(&linkage.traced).copied());
+    let mut joints: Vec<JointId> = Vec::new();
+    for joint in all {
+        if joints.iter().all(|known| name(*known) != name(joint)) {
+            joints.push(joint);
+        }
+    }
+    joints
+}
+
+/// The names of joints, with their positions.
+fn joint_names(mechanism: &PosedMechanism, joints: &[JointId], plot: &Plot, theme: &Theme) -> Vec<(Point, Text)> {
+    let label = |&joint: &JointId| {
+        let name = displayed_name(&mechanism.linkage.joints[joint].name);
+        let text = theme.text_line(&name, Point::origin(), Anchor::Middle, theme.caption_size, theme.ink).text;
+        (plot.page_from_plane.apply(mechanism.pose[joint]), text)
+    };
+    joints.iter().map(label).collect()
+}

@@ -1,0 +1,53 @@
+//! How cells are laid out on pages.
+
+/// How a family's cells are laid out on pages.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Layout {
+    /// A grid of panels, each with a cell's linkage and curves.
+    Panels {
+        /// The number of panels in a row.
+        columns: usize,
+        /// The number of rows.
+        rows: usize,
+    },
+    /// A grid of charts, each of one quantity over all curves.
+    Chart {
+        /// The number of charts in a row.
+        columns: usize,
+        /// The number of rows.
+        rows: usize,
+    },
+    /// A page for every ten traced points of a cell, as in the atlas of Hrones and Nelson.
+    CouplerGrid,
+}
+
+impl Layout {
+    /// The number of traced points on a page of a coupler grid.
+    pub const POINTS_PER_PAGE: usize = 10;
+
+    /// The name and a description of every layout.
+    pub const ALL: [(&'static str, &'static str); 3] = [
+        ("panels", "a grid of panels, each with a cell's linkage, its curves and its caption"),
+        ("coupler-grid", "a page for every ten coupler points of a cell, drawn on the grid they lie on"),
+        ("chart", "a grid of charts, each of one quantity over another, as the family's `chart` names them"),
+    ];
+
+    /// The number of columns and rows of a page.
+    pub fn grid(self) -> [usize; 2] {
+        match self {
+            Layout::Panels { columns, rows } | Layout::Chart { columns, rows } => [columns, rows],
+            Layout::CouplerGrid => [1, 1],
+        }
+    }
+
+    /// What pages call the curves of a linkage that have numbers.
+    pub fn curve_noun(self) -> &'static str {
+        if self == Layout::CouplerGrid { "point" } else { "curve" }
+    }
+
+    /// The number of panels or charts on a page.
+    pub fn cells_per_page(self) -> usize {
+        let [columns, rows] = self.grid();
+        columns * rows
+    }
+}

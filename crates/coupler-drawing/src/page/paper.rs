@@ -1,0 +1,23 @@
+//! Papers.
+
+/// The size of the paper, in millimetres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Paper {
+    /// The width.
+    pub width: f64,
+    /// The height.
+    pub height: f64,
+}
+
+impl Paper {
+    /// The papers that have a name, all in landscape format.
+    pub const NAMED: [(&'static str, Paper); 4] = [
+        ("letter", Paper { width: 279.4, height: 215.9 }),
+        ("tabloid", Paper { width: 431.8, height: 279.4 }),
+        ("a4", Paper { width: 297.0, height: 210.0 }),
+        ("a3", Paper { width: 420.0, height: 297.0 }),
+    ];
+
+    /// The least and the greatest side of a page, in millimetres.
+    pub const SIDE_RANGE: [f64; 2] = [50.0, 2000.0];
+}

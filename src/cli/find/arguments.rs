@@ -1,0 +1,137 @@
+//! The arguments of `find`.
+
+use std::path::PathBuf;
+
+use crate::find::MAX_CURVES;
+use clap::{Args, ValueEnum, ValueHint};
+use coupler_curves::find::{Index, Options};
+
+use super::super::files;
+
+/// Find the linkages whose coupler curves are nearest to a path, with their cognates.
+///
+/// The path is a table of points (x, y on each line), JSON or a drawing in SVG, of which the longest outline is read, with y
+/// pointing up; - for standard input. Curves are compared by E, the root of the mean square of the distances of its points from the
+/// continuous curve, in their order along one circuit, relative to the path's size S, the root of the mean square of their
+/// distances from their centroid. docs/find.md describes the search and its limits.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// The file of the path.
+    #[arg(value_name = "PATH", value_hint = ValueHint::FilePath, required_unless_present = "like")]
+    pub(super) path: Option<PathBuf>,
+    /// Take a curve of an atlas as the path, by its name, as in evans:3.1.1 or "evans:3.1.1?p=2.5".
+    #[arg(long, value_name = "CURVE", conflicts_with = "path")]
+    pub(super) like: Option<String>,
+    #[arg(
+        long,
+        value_name = "FILE",
+        value_hint = ValueHint::FilePath,
+        help = format!(
+            "The manifest with the curve of --like, or with the linkage of --linkage; - for standard input [default of --like: {}]",
+            files::DEFAULT_MANIFEST
+        )
+    )]
+    pub(super) manifest: Option<PathBuf>,
+    /// The path is closed; without these three it is if the gap between its ends is at most 1.5 times the median distance of its points,
+    /// and otherwise open.
+    #[arg(long, conflicts_with_all = ["open", "part"])]
+    pub(super) closed: bool,
+    /// The path is open: the curve passes its points in their order, whatever it does between them and elsewhere.
+    #[arg(long, conflicts_with = "part")]
+    pub(super) open: bool,
+    /// The path is a part of the curve, and that part is as long as the path.
+    #[arg(long)]
+    pub(super) part: bool,
+    /// The crank reaches the points at their angles, in degrees from any zero and in either direction: a third column, or one named
+    /// `angle`; without angles a closed path has equal steps of a turn.
+    #[arg(long)]
+    pub(super) timed: bool,
+    /// Whether the crank must turn fully.
+    #[arg(long, value_enum, default_value_t = InputChoice::FullTurn)]
+    pub(super) input: InputChoice,
+    /// A condition on the linkage, as in `where` of a manifest: "is_crank_rocker and mu_worst_deg >= 30". Its names are frame, crank,
+    /// coupler, rocker, along and across, the crank's pivot x and y, turn, the frame's angle, and all measures; with --linkage the
+    /// parameters of that linkage and all measures.
+    #[arg(long = "where", value_name = "EXPR")]
+    pub(super) condition: Option<String>,
+    /// The greatest distance of two joints of a link, in sizes S of the path; inf for any.
+    #[arg(long, value_name = "X", default_value = "10", allow_hyphen_values = true)]
+    pub(super) max_link: String,
+    /// The box in which both fixed pivots must be, in the unit of the path: XMIN,YMIN,XMAX,YMAX.
+    #[arg(long, value_name = "BOX", allow_hyphen_values = true)]
+    pub(super) pivots: Option<String>,
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = Options::default().most as u16,
+        value_parser = clap::value_parser!(u16).range(1..=MAX_TOP),
+        help = format!("How many linkages to show at most, 1 to {MAX_TOP}")
+    )]
+    pub(super) top: u16,
+    #[arg(
+        long,
+        value_name = "N",
+        value_parser = clap::value_parser!(u64).range(1..=MAX_CURVES as u64),
+        help = format!(
+            "How many four-bars to look the path up in, 1 to {MAX_CURVES}; the index of each number is kept in the user's cache folder \
+             [default: {}]. With --linkage, the number of its parameter sets, which are not kept",
+            Index::DEFAULT_COUNT
+        )
+    )]
+    pub(super) index: Option<u64>,
+    /// Look the path up in the curves of an atlas, of any linkages: its manifest, or the folder of a rendered one with the manifest beside it.
+    /// Four-bars are refined, others only placed on the path.
+    #[arg(long, value_name = "MANIFEST|DIR", value_hint = ValueHint::AnyPath)]
+    pub(super) atlas: Option<PathBuf>,
+    /// Search the dimensions of a linkage, a built-in one (coupler-atlas list linkages) or one of --manifest, in place of a four-bar.
+    #[arg(long, value_name = "NAME", conflicts_with = "atlas")]
+    pub(super) linkage: Option<String>,
+    /// With --linkage, keep a parameter at its default or at a value, which may use others; may be repeated: --keep s --keep "k=2".
+    #[arg(long, value_name = "NAME[=EXPR]", requires = "linkage")]
+    pub(super) keep: Vec<String>,
+    /// With --atlas, compare its curves where they are: position, size and rotation count.
+    #[arg(long)]
+    pub(super) fixed: bool,
+    /// Only place the curves of the index on the path, without moving their linkages towards it.
+    #[arg(long)]
+    pub(super) no_refine: bool,
+    /// How many linkages are tried.
+    #[arg(long, value_enum, default_value_t = EffortChoice::Normal)]
+    pub(super) effort: EffortChoice,
+    /// A number that changes which linkages are tried near those that have been found.
+    #[arg(long, value_name = "N", default_value_t = Options::default().seed)]
+    pub(super) seed: u64,
+    /// The number of threads for the index [default: one for each processor].
+    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(super) jobs: Option<u16>,
+    /// Draw the path and the curves on one page, and write it to this file; - for standard output, in place of the text.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = files::svg_parser())]
+    pub(super) svg: Option<PathBuf>,
+    /// Print a manifest that renders the linkages: coupler-atlas find … --toml > found.toml
+    #[arg(long, conflicts_with = "json")]
+    pub(super) toml: bool,
+    /// Print the linkages as JSON.
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+/// The greatest `--top`.
+const MAX_TOP: i64 = 100;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum InputChoice {
+    /// The crank turns fully.
+    FullTurn,
+    /// Any linkage.
+    Any,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum EffortChoice {
+    /// A third of the normal effort.
+    Quick,
+    /// About half a second for a hundred points.
+    Normal,
+    /// Four times the normal effort.
+    Thorough,
+}

@@ -1,0 +1,13 @@
+//! What is shown of a search of an atlas.
+
+use crate::find::AtlasFindings;
+use crate::manifest::Plan;
+use coupler_curves::find::Target;
+
+/// What has been found in an atlas.
+pub(super) struct AtlasReport {
+    pub(super) name: String,
+    pub(super) target: Target,
+    pub(super) plan: Plan,
+    pub(super) findings: AtlasFindings,
+}

@@ -1,0 +1,14 @@
+//! What is shown of a search for the dimensions of a linkage.
+
+use crate::find::LinkageFindings;
+use coupler_curves::find::{LinkageSpace, Target};
+
+/// What has been found for a linkage.
+pub(super) struct LinkageReport {
+    pub(super) name: String,
+    pub(super) target: Target,
+    pub(super) space: LinkageSpace,
+    pub(super) findings: LinkageFindings,
+    /// The text of the linkage, if it is none of the catalogue.
+    pub(super) own_linkage: Option<String>,
+}

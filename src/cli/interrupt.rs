@@ -1,0 +1,34 @@
+//! Ctrl-C.
+
+use std::fmt::Display;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use super::outcome::EXIT_INTERRUPTED;
+use super::printing::print_stderr;
+
+/// How long a run may take to end after Ctrl-C before the process ends.
+const GRACE_PERIOD: Duration = Duration::from_millis(700);
+
+/// A flag that the first Ctrl-C sets; the second ends the program at once, and so does a run that does not look at it, with this
+/// error.
+pub(super) fn interrupt_flag(message: impl Display) -> anyhow::Result<Arc<AtomicBool>> {
+    let message = message.to_string();
+    let interrupt = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&interrupt);
+    ctrlc::set_handler(move || {
+        if flag.swap(true, Ordering::Relaxed) {
+            std::process::exit(EXIT_INTERRUPTED.into());
+        }
+        // A cell of very many samples, or a large page, may not look at the flag soon enough. Whatever the threads are
+        // doing, files are complete and in the journal.
+        let message = message.clone();
+        std::thread::spawn(move || {
+            std::thread::sleep(GRACE_PERIOD);
+            print_stderr(&format!("error: {message}\n"));
+            std::process::exit(EXIT_INTERRUPTED.into());
+        });
+    })?;
+    Ok(interrupt)
+}
