@@ -10,7 +10,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use crate::gallery::PAGE_FILE;
+use crate::gallery::{KERNEL_FILE, PAGE_FILE};
 use crate::manifest::PlannedFamily;
 use crate::output::{self, DrawnPages, PageShardSource};
 use crate::record::{Digest, IMAGES_FILE_NAME, RUN_FILE_NAME, RunRecord, file_digest};
@@ -196,8 +196,8 @@ fn render(arguments: &Arguments, interrupt: &Arc<AtomicBool>) -> anyhow::Result<
 
 /// The digests of the files that describe an atlas as a whole, each `None` if it cannot be read. They change with any
 /// file that a run writes, unless it restores one, of which it reports that something was drawn.
-fn file_digests(output: &Path) -> [Option<Digest>; 3] {
-    [RUN_FILE_NAME, IMAGES_FILE_NAME, PAGE_FILE].map(|name| file_digest(&output.join(name)).ok())
+fn file_digests(output: &Path) -> [Option<Digest>; 4] {
+    [RUN_FILE_NAME, IMAGES_FILE_NAME, PAGE_FILE, KERNEL_FILE].map(|name| file_digest(&output.join(name)).ok())
 }
 
 /// The files that show the whole atlas: the gallery and the book, if there are.
