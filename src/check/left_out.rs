@@ -34,7 +34,8 @@ impl LeftOut {
         let images = family_files(run, |name| name.ends_with(".png"));
         let volumes = file_names(run.book.iter().flat_map(|book| &book.files));
         let has_images = record.images != ImagesState::Missing || !images.iter().chain(&volumes).all(is_absent);
-        let gallery = [file_names(&run.gallery), family_files(run, is_data_file_name)].concat();
+        let gallery =
+            [file_names(run.gallery.iter().chain(&run.kernel)), family_files(run, is_data_file_name)].concat();
         LeftOut {
             images: if has_images { 0 } else { images.len() },
             volumes: if has_images { 0 } else { volumes.len() },

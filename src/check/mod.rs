@@ -35,10 +35,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use serde::Serialize;
 
-use crate::gallery::{PAGE_FILE, SCRIPT_FILE, is_data_file_name};
+use crate::gallery::{KERNEL_FILE, PAGE_FILE, SCRIPT_FILE, is_data_file_name};
 use crate::manifest::{PartialTolerances, Plan, PlannedFamily};
 use crate::pipeline::{FamilyPipeline, GroupsDone, Output, page_file_name};
-use crate::record::{FamilyRecord, FolderRecord, LOCK_FILE_NAME, RUN_FILE_NAME, open_regular_file};
+use crate::record::{FamilyRecord, FileRecord, FolderRecord, LOCK_FILE_NAME, RUN_FILE_NAME, open_regular_file};
 use coupler_drawing::render::PageFormat;
 use family::{CellCounts, FamilyCheck};
 
@@ -151,16 +151,17 @@ pub fn check_atlas(
             report.add_findings(volumes.filter_map(|file| images::check_volume(recorded, file)).collect());
             report.add_findings(images::check_images_file(&folder_record).into_iter().collect());
         }
-        let page = match &record.gallery {
+        let check_file = |(name, file): (&str, Option<&FileRecord>)| match file {
             _ if left_out.has_gallery() => None,
-            Some(page) if page.name == PAGE_FILE => gallery::check_file(recorded, PAGE_FILE, page),
+            Some(file) if file.name == name => gallery::check_file(recorded, name, file),
             None if folder_record.is_unfinished => None,
             _ => {
-                let message = format!("does not list {PAGE_FILE}");
+                let message = format!("does not list {name}");
                 Some(Location::default().with_file(RUN_FILE_NAME).finding(Change::Damaged { message }))
             }
         };
-        report.add_findings(page.into_iter().collect());
+        let files = [(PAGE_FILE, record.gallery.as_ref()), (KERNEL_FILE, record.kernel.as_ref())];
+        report.add_findings(files.into_iter().filter_map(check_file).collect());
     }
     for planned in plan.families.iter().filter(|planned| is_requested(&planned.family.id)) {
         match record.families.iter().find(|family| family.id == planned.family.id) {

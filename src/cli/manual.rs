@@ -2,7 +2,7 @@
 
 use std::io;
 
-use crate::gallery::PAGE_FILE;
+use crate::gallery::{KERNEL_FILE, PAGE_FILE};
 use crate::record::{JOURNAL_FILE_NAME, RUN_FILE_NAME};
 use clap::Args;
 use clap_mangen::Man;
@@ -30,11 +30,12 @@ const EXAMPLES: [(&str, &str); 7] = [
 ];
 
 /// The files of an atlas, and what they are.
-fn files() -> [(String, &'static str); 7] {
+fn files() -> [(String, &'static str); 8] {
     let in_folder = |name: &str| format!("DIR/{name}");
     [
         (DEFAULT_MANIFEST.to_owned(), "The manifest of commands that are given none."),
         (in_folder(PAGE_FILE), "The gallery of the atlas in the folder DIR, for a browser."),
+        (in_folder(KERNEL_FILE), "The script by which the gallery moves, measures and exports linkages."),
         (in_folder("FAMILY/FAMILY-001.svg"), "The first page of a family; also as .png."),
         (in_folder("FAMILY/points.csv"), "The points of the curves of a family."),
         (in_folder("FAMILY/cells.csv"), "The parameters and measures of the cells of a family."),

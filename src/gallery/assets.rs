@@ -1,4 +1,4 @@
-//! The style sheets and scripts of the page, and its module for WebAssembly.
+//! The style sheets and scripts of the page.
 
 use std::io::Read;
 use std::sync::LazyLock;
@@ -36,9 +36,6 @@ fn unpack(compressed: &[u8]) -> Vec<Asset> {
     let (pairs, _) = parts.as_chunks();
     pairs.iter().map(|[name, text]| Asset { name, text }).collect()
 }
-
-/// The kernel, `coupler-kernel` for WebAssembly, compressed with gzip; `.ci/kernel update` writes it.
-pub const KERNEL: &[u8] = include_bytes!("kernel.wasm.gz");
 
 /// Joins modules, each after those it imports, into one script without comments and indentation.
 ///

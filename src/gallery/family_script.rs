@@ -211,7 +211,7 @@ impl<'a> FamilyScript<'a> {
 }
 
 /// A call of a function of the page; its argument is JSON, which escapes any text in it.
-fn statement(name: &str, value: &Value) -> String {
+pub(super) fn statement(name: &str, value: &Value) -> String {
     format!("couplerAtlas.{name}({value});\n")
 }
 

@@ -9,8 +9,8 @@ use flate2::write::GzEncoder;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
-use super::assets::{KERNEL, compact, join_modules, scripts, styles};
-use super::base91::encode_base91;
+use super::assets::{compact, join_modules, scripts, styles};
+use super::kernel_script::{KERNEL_FILE, kernel_digest};
 use super::piece::PieceSeries;
 use super::pieces::{is_data_file_name, parse_piece_file_name};
 use crate::record::{FamilyRecord, RunRecord};
@@ -75,7 +75,6 @@ pub fn index_html(run: &RunRecord, families: &[GalleryFamily]) -> String {
         ("title", escape_html(&run.title)),
         ("policy", content_security_policy(&style, [&loader, &script])),
         ("atlas", data),
-        ("kernel", encode_base91(KERNEL)),
         ("packed_style", packed(&style)),
         ("packed_script", packed(&script)),
         ("loader", loader),
@@ -121,6 +120,7 @@ fn atlas_json(run: &RunRecord, families: &[GalleryFamily]) -> Value {
         "title": run.title,
         "program": format!("{} {}", run.program, run.version),
         "measures": measure::ALL.iter().map(measure).collect::<Vec<_>>(),
+        "kernel": { "script": KERNEL_FILE, "sha256": kernel_digest().to_string() },
         "families": families.iter().map(family_json).collect::<Vec<_>>(),
         "book": run.book.iter().flat_map(|book| &book.files).map(|file| file.name.as_str()).collect::<Vec<_>>(),
     })

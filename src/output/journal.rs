@@ -36,6 +36,8 @@ pub(super) struct Journal<'a> {
     book: Option<BookRecord>,
     /// The record of the gallery's page.
     gallery: Option<FileRecord>,
+    /// The record of the script with its kernel.
+    kernel: Option<FileRecord>,
     /// How far an earlier run that did not end has written the tables of families.
     progress: HashMap<String, FamilyProgress>,
     /// Whether an earlier run has written `images.json`.
@@ -100,7 +102,7 @@ impl JournalFile {
 impl<'a> Journal<'a> {
     /// Opens the journal of a folder with the record of an earlier run.
     pub fn open(plan: &'a Plan, output: &Path, options: &'a Options, earlier: PreviousRun) -> Journal<'a> {
-        let PreviousRun { families, book, gallery, progress, pieces, has_images_file, .. } = earlier;
+        let PreviousRun { families, book, gallery, kernel, progress, pieces, has_images_file, .. } = earlier;
         let indices = families.iter().enumerate().map(|(k, family)| (family.id.clone(), k)).collect();
         let progress = progress.into_iter().map(|progress| (progress.family.clone(), progress)).collect();
         let (output, manifest) = (output.to_owned(), options.manifest.as_deref());
@@ -112,6 +114,7 @@ impl<'a> Journal<'a> {
             indices,
             book,
             gallery,
+            kernel,
             progress,
             has_images_file,
             pieces,
@@ -137,7 +140,7 @@ impl<'a> Journal<'a> {
         let path = self.output.join(JOURNAL_FILE_NAME);
         let mut journal = AtomicFile::new(path.clone())?;
         let mut add = |entry: JournalEntry| journal.write_bytes(&entry.to_line());
-        add(JournalEntry::Atlas(RunRecord::new(self.manifest, &self.plan.title)))?;
+        add(JournalEntry::Atlas(Box::new(RunRecord::new(self.manifest, &self.plan.title))))?;
         for family in &self.families {
             add(JournalEntry::Family(family.without_files()))?;
             for file in family.files.iter().filter(|file| file.makes_claims()) {
@@ -147,7 +150,7 @@ impl<'a> Journal<'a> {
         if let Some(book) = &self.book {
             add(JournalEntry::Book(book.without_files()))?;
         }
-        let others = self.book.iter().flat_map(|book| &book.files).chain(&self.gallery);
+        let others = self.book.iter().flat_map(|book| &book.files).chain(&self.gallery).chain(&self.kernel);
         for file in others.filter(|file| file.makes_claims()) {
             add(JournalEntry::written("", file.clone()))?;
         }
@@ -265,14 +268,15 @@ impl<'a> Journal<'a> {
         run.families = self.families.clone();
         run.book = self.book.clone();
         run.gallery = self.gallery.clone();
+        run.kernel = self.kernel.clone();
         run.families.sort_by_key(|record| positions.get(record.id.as_str()).copied().unwrap_or(usize::MAX));
         run
     }
 
-    /// Writes the gallery's page for the current record.
+    /// Writes the gallery's kernel, and its page for the current record.
     ///
     /// # Errors
-    /// The page cannot be written.
+    /// A file cannot be written.
     pub fn write_gallery(&mut self) -> Result<(), Error> {
         let run = self.to_run();
         let bytes = |record: &FamilyRecord| {
@@ -282,13 +286,20 @@ impl<'a> Journal<'a> {
         let shown: Vec<GalleryFamily> =
             run.families.iter().map(|record| GalleryFamily { record, bytes: bytes(record) }).collect();
         let page = gallery::index_html(&run, &shown);
-        let record = FileRecord::from_bytes(gallery::PAGE_FILE, page.as_bytes());
-        if self.gallery.as_ref() != Some(&record) || !files::is_intact(&self.output, &record) {
-            let path = self.output.join(gallery::PAGE_FILE);
-            let write_page = || write(&path, page.as_bytes()).map(|()| record);
-            self.gallery = Some(self.file()?.replace_file("", gallery::PAGE_FILE, write_page)?);
-        }
+        // The kernel first, so that a page always finds one.
+        self.kernel = Some(self.write_text(gallery::KERNEL_FILE, &gallery::kernel_script(), run.kernel.as_ref())?);
+        self.gallery = Some(self.write_text(gallery::PAGE_FILE, &page, run.gallery.as_ref())?);
         Ok(())
+    }
+
+    /// Writes a file in the folder of the atlas unless it is there as `known`, and returns its record.
+    fn write_text(&mut self, name: &str, text: &str, known: Option<&FileRecord>) -> Result<FileRecord, Error> {
+        let record = FileRecord::from_bytes(name, text.as_bytes());
+        if known == Some(&record) && files::is_intact(&self.output, &record) {
+            return Ok(record);
+        }
+        let path = self.output.join(name);
+        self.file()?.replace_file("", name, || write(&path, text.as_bytes()).map(|()| record))
     }
 
     /// Writes the finished record, removes the journal, and returns the record.

@@ -54,6 +54,7 @@ pub(super) fn check_files(plan: &Plan, output: &Path, options: &Options, previou
         let name = entry.file_name().to_string_lossy().into_owned();
         let is_known = match name.as_str() {
             gallery::PAGE_FILE => previous.gallery.is_some(),
+            gallery::KERNEL_FILE => previous.kernel.is_some(),
             IMAGES_FILE_NAME => previous.has_images_file || !has_images,
             name if is_volume_file_name(name) => known.contains(name) || !formats.contains(Format::Pdf.name()),
             _ => continue,

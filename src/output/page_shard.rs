@@ -218,7 +218,7 @@ fn initial_entries(
     let characters: Vec<char> = manifest.chars().collect();
     let parts: Vec<JournalEntry> =
         characters.chunks(MANIFEST_PART).map(|part| JournalEntry::Manifest(part.iter().collect())).collect();
-    let atlas = JournalEntry::Atlas(RunRecord::new(options.manifest.as_deref(), &plan.title));
+    let atlas = JournalEntry::Atlas(Box::new(RunRecord::new(options.manifest.as_deref(), &plan.title)));
     let families = own.map(|run| run.families).unwrap_or_default().into_iter().flat_map(|family| {
         let files = family.files.clone().into_iter().map({
             let id = family.id.clone();

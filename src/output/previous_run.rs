@@ -64,6 +64,8 @@ pub(super) struct PreviousRun {
     pub book: Option<BookRecord>,
     /// The record of the gallery's page.
     pub gallery: Option<FileRecord>,
+    /// The record of the script with its kernel.
+    pub kernel: Option<FileRecord>,
     /// How far a run that did not end has written the tables of families.
     pub progress: Vec<FamilyProgress>,
     /// The index of the finished pieces of the gallery's data of these families.
@@ -135,7 +137,7 @@ impl PreviousRun {
 /// Drops repeated or invalid families from a record, and files whose names this program does not use.
 fn sanitize(record: FolderRecord) -> PreviousRun {
     let FolderRecord { run, images, progress, pieces, .. } = record;
-    let RunRecord { manifest, title, families, mut book, gallery, .. } = run;
+    let RunRecord { manifest, title, families, mut book, gallery, kernel, .. } = run;
     let is_slug = |id: &str| {
         let is_plain = |b: u8| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'-';
         !id.is_empty() && id.bytes().all(is_plain)
@@ -162,11 +164,12 @@ fn sanitize(record: FolderRecord) -> PreviousRun {
         book.files.retain(|file| is_volume_file_name(&file.name));
     }
     let gallery = gallery.filter(|file| file.name == gallery::PAGE_FILE);
+    let kernel = kernel.filter(|file| file.name == gallery::KERNEL_FILE);
     let has_images = families.iter().flat_map(|family| &family.files).any(|file| file.name.ends_with(".png"))
         || book.as_ref().is_some_and(|book| !book.files.is_empty());
     let has_images_file = images == ImagesState::Intact || manifest.is_some() && has_images;
     let owner = manifest.map(|manifest| (manifest, title));
-    PreviousRun { owner, families, book, gallery, progress, pieces, has_images_file }
+    PreviousRun { owner, families, book, gallery, kernel, progress, pieces, has_images_file }
 }
 
 /// Whether a file of a family can have this name.

@@ -28,7 +28,7 @@ const MAX_VOLUMES: usize = 10_000;
 #[serde(rename_all = "snake_case")]
 pub enum JournalEntry {
     /// The atlas that is written, without its families and files; the first line.
-    Atlas(RunRecord),
+    Atlas(Box<RunRecord>),
     /// The record of a family, without its files. It replaces an earlier one, which keeps its files.
     Family(FamilyRecord),
     /// The record of the book, without its files, which an earlier one keeps.
@@ -229,15 +229,17 @@ impl JournalReplay {
     pub fn new(earlier: Option<RunRecord>, journal: impl BufRead) -> io::Result<Option<JournalReplay>> {
         let mut lines = Lines { journal, line: Vec::new() };
         let header = lines.next_line()?.and_then(|line| match serde_json::from_slice(line) {
-            Ok(JournalEntry::Atlas(header)) => Some(header),
+            Ok(JournalEntry::Atlas(header)) => Some(*header),
             _ => None,
         });
         let is_journal = header.is_some();
         let run = match (header, earlier) {
-            (Some(header), Some(RunRecord { families, book, gallery, .. })) => {
-                RunRecord { families, book, gallery, ..header }
+            (Some(header), Some(RunRecord { families, book, gallery, kernel, .. })) => {
+                RunRecord { families, book, gallery, kernel, ..header }
             }
-            (Some(header), None) => RunRecord { families: Vec::new(), book: None, gallery: None, ..header },
+            (Some(header), None) => {
+                RunRecord { families: Vec::new(), book: None, gallery: None, kernel: None, ..header }
+            }
             (None, Some(earlier)) => earlier,
             (None, None) => return Ok(None),
         };
@@ -316,6 +318,7 @@ impl JournalReplay {
                     None if book.files.len() < MAX_VOLUMES => book.files.push(file),
                     None => {}
                 },
+                _ if path.ends_with(".js") => self.run.kernel = Some(file),
                 _ => self.run.gallery = Some(file),
             }
             return;
@@ -369,7 +372,7 @@ mod tests {
             vec![family("e", Some("old"), vec![page(1, "old"), page(2, "old")]), family("f", None, vec![])];
         let png = FileRecord::from_image("g-001.png", Digest::of(b"svg"), b"png");
         let lines = journal(&[
-            JournalEntry::Atlas(RunRecord::new(Some("a.toml"), "New")),
+            JournalEntry::Atlas(Box::new(RunRecord::new(Some("a.toml"), "New"))),
             JournalEntry::Family(family("e", None, vec![])),
             JournalEntry::Writing("e/e-001.svg".to_owned()),
             JournalEntry::Writing("e/e-002.svg".to_owned()),
@@ -379,6 +382,7 @@ mod tests {
             JournalEntry::Book(BookRecord { inputs_sha256: None, pages: 3, files: vec![] }),
             JournalEntry::written("", FileRecord::from_book("atlas.pdf", b"pdf")),
             JournalEntry::written("", FileRecord::from_bytes("index.html", b"html")),
+            JournalEntry::written("", FileRecord::from_bytes("kernel.js", b"js")),
         ]);
         // A line that was not written to its end is ignored, and so is a line of nonsense.
         for cut in 0..3 {
@@ -392,6 +396,7 @@ mod tests {
             assert_eq!(run.families[2], family("g", None, vec![png.clone()]));
             assert_eq!(run.book.unwrap().files, [FileRecord::from_book("atlas.pdf", b"pdf")]);
             assert_eq!(run.gallery.unwrap(), FileRecord::from_bytes("index.html", b"html"));
+            assert_eq!(run.kernel.unwrap(), FileRecord::from_bytes("kernel.js", b"js"));
         }
         assert_eq!(JournalReplay::new(Some(earlier.clone()), &b""[..]).unwrap().unwrap().finish().0, earlier);
         assert!(JournalReplay::new(None, &lines[..10]).unwrap().is_none());

@@ -40,6 +40,9 @@ pub struct RunRecord {
     /// The gallery's page.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gallery: Option<FileRecord>,
+    /// The script with the kernel of the gallery; records of before it was a file have none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kernel: Option<FileRecord>,
 }
 
 /// The record of the book.
@@ -192,6 +195,7 @@ impl RunRecord {
             families: Vec::new(),
             book: None,
             gallery: None,
+            kernel: None,
         }
     }
 
@@ -225,6 +229,7 @@ impl RunRecord {
                 ..book.without_files()
             }),
             gallery: self.gallery.as_ref().map(|file| FileRecord::from_name(&file.name)),
+            kernel: self.kernel.as_ref().map(|file| FileRecord::from_name(&file.name)),
             ..RunRecord::new(self.manifest.as_deref(), &self.title)
         }
     }

@@ -35,6 +35,7 @@ addTest(
       "it is drawn when seen",
     );
     assert.ok(hasRead("hoeken-chart"));
+    assert.ok(!g.requests.some((url) => url.endsWith("/kernel.js")), "nothing is computed here");
     assert.match(
       await page.locator(".families li:first-child").innerText(),
       /Evans linkage\s+Natesan 1994[\s\S]*10 curves · 1 page/,

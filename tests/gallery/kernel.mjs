@@ -5,11 +5,14 @@ import { join } from "node:path";
 
 import { KernelLoader } from "../../src/gallery/script/kernel/kernel.js";
 
-/** The kernel in the page of an atlas. */
+/** The kernel of an atlas, from its script. */
 export function kernelOf(folder) {
-  const page = readFileSync(join(folder, "index.html"), "utf8");
-  const [, textContent] = page.match(
-    /<script type="application\/octet-stream" id="kernel">([^<]*)<\/script>/,
-  );
-  return new KernelLoader({ getElementById: () => ({ textContent }) }).load();
+  let module = "";
+  const couplerAtlas = {
+    kernel: (file) => {
+      ({ module } = file);
+    },
+  };
+  new Function("couplerAtlas", readFileSync(join(folder, "kernel.js"), "utf8"))(couplerAtlas);
+  return new KernelLoader({ kernelModule: async () => module }).load();
 }

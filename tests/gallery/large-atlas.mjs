@@ -59,7 +59,7 @@ export function largeAtlas(from, copies) {
     join(folder, "index.html"),
     page.replace(pattern, (_, before, __, after) => before + data + after),
   );
-  cpSync(join(from, id, `${id}-001.svg`), join(folder, id, `${id}-001.svg`));
+  for (const file of ["kernel.js", `${id}/${id}-001.svg`]) cpSync(join(from, file), join(folder, file));
   const remove = () => rmSync(folder, { recursive: true });
   return { folder, id, copies, curves: family.curves, pages, cells, remove };
 }

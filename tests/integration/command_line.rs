@@ -261,7 +261,7 @@ fn render_names_what_to_open_and_says_if_nothing_has_changed() {
     assert_eq!(last(&["render", "--only", "evans"]), unchanged);
     assert_eq!(last(&["render", "--force"]), "written to pages; open pages/index.html");
     // Whatever is restored or changed, even if it is in no family.
-    for file in ["index.html", "evans/evans-001.svg", "evans/points.csv", "evans/gallery.js"] {
+    for file in ["index.html", "kernel.js", "evans/evans-001.svg", "evans/points.csv", "evans/gallery.js"] {
         fs::write(folder.path().join("pages").join(file), "damaged").unwrap();
         assert_eq!(last(&["render"]), "written to pages; open pages/index.html", "{file}");
         assert_eq!(last(&["render"]), unchanged, "{file}");

@@ -78,8 +78,9 @@ pub fn check_record(out: &Path) -> usize {
             family["files"].as_array().unwrap().iter().map(move |file| (folder.clone(), file))
         });
         let book_files = record["book"]["files"].as_array().into_iter().flatten().map(|file| (String::new(), file));
-        let gallery = Some(&record["gallery"]).filter(|gallery| gallery.is_object());
-        for (folder, file) in family_files.chain(book_files).chain(gallery.map(|file| (String::new(), file))) {
+        let gallery_files = [&record["gallery"], &record["kernel"]].into_iter().filter(|file| file.is_object());
+        let gallery_files = gallery_files.map(|file| (String::new(), file));
+        for (folder, file) in family_files.chain(book_files).chain(gallery_files) {
             let name = folder + file["name"].as_str().unwrap();
             let is_written = !file["inputs_sha256"].is_null();
             recorded += usize::from(is_written);

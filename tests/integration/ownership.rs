@@ -101,7 +101,8 @@ fn a_manifest_from_standard_input_needs_a_folder() {
 #[test]
 fn files_that_no_run_wrote_are_not_overwritten() {
     let text = manifest("A", &["evans"]);
-    let names = ["index.html", "atlas.pdf", "images.json", "run.json", "evans/points.csv", "evans/evans-001.svg"];
+    let names =
+        ["index.html", "kernel.js", "atlas.pdf", "images.json", "run.json", "evans/points.csv", "evans/evans-001.svg"];
     for name in names {
         let atlas = Atlas::new(&text);
         write(&atlas, &format!("out/{name}"), "mine");
@@ -133,7 +134,8 @@ fn files_that_no_run_wrote_are_not_overwritten() {
 fn nothing_is_written_through_a_link() {
     use std::os::unix::fs::symlink;
     let text = manifest("A", &["evans"]);
-    for (name, is_folder) in [("evans", true), ("index.html", false), ("evans/points.csv", false)] {
+    for (name, is_folder) in [("evans", true), ("index.html", false), ("kernel.js", false), ("evans/points.csv", false)]
+    {
         let atlas = Atlas::new(&text);
         // The file was written by a run, and then replaced by a link.
         assert_eq!(render(&atlas, &["-q", "-o", "out"]).0, 0);

@@ -72,6 +72,7 @@ fn render_writes_pages_points_cells_and_a_record() {
             "far/gallery.js",
             "far/points.csv",
             "index.html",
+            "kernel.js",
             "run.json"
         ]
     );

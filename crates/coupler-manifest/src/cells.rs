@@ -7,7 +7,7 @@ use crate::plan::PlannedFamily;
 use coupler_curves::family::{Cell, CellError, Family, ParameterSpace};
 use coupler_curves::linkage_format::{Fields, TomlParser, TomlValue};
 use coupler_curves::motion::MAX_CIRCUIT_BYTES;
-use coupler_curves::problem::{HAS_REMEDIES, Problem, Span};
+use coupler_curves::problem::{Problem, Span};
 use coupler_curves::template::Parameter;
 use coupler_drawing::page::Layout;
 use coupler_drawing::render::Format;
@@ -182,7 +182,7 @@ pub(crate) fn check(
                 continue;
             }
             problem_indices.insert(kind, problems.len());
-            let value_span = slot.filter(|_| HAS_REMEDIES).and_then(|slot| value_span(family, fields, (k, slot)));
+            let value_span = slot.and_then(|slot| value_span(family, fields, (k, slot)));
             let span = value_span.or_else(|| case_span(fields, k)).or_else(|| spans.get(slot?).cloned().flatten());
             let message = format!("in cell {} ({}), {error}", cell.number, given_values(family, &cell));
             let span = span.unwrap_or_else(|| space_span(fields));
@@ -222,7 +222,7 @@ fn space_span(fields: &Fields) -> Span {
 /// What to do about a value of the k-th cell that is out of its bounds.
 fn value_help(family: &Family, k: usize, slot: usize) -> String {
     let allowed = family.template.parameters.get(slot).and_then(Parameter::allowed);
-    match allowed.filter(|_| HAS_REMEDIES && family.space.assigns(k, slot)) {
+    match allowed.filter(|_| family.space.assigns(k, slot)) {
         Some(allowed) => format!("give `{}` a value {allowed} here", family.names[slot]),
         None => "change the values it comes from".to_owned(),
     }

@@ -178,9 +178,6 @@ fn read_plan(
             ..read
         }));
     }
-    #[cfg(not(feature = "book"))]
-    let book = Some(crate::plan::BookPlan::default());
-    #[cfg(feature = "book")]
     let book = crate::book::read(root.get("book"), (&families, families.len() == tables.len()), parser);
     let undrawable = typeface.map(|typeface| undrawable_texts(&document, typeface)).unwrap_or_default();
     let needs_fonts = page.as_ref().is_some_and(|page| page.text_mode == TextMode::Outlines)

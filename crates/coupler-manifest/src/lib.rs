@@ -42,7 +42,6 @@ mod chart;
 
 mod plan;
 
-#[cfg(feature = "book")]
 mod book;
 
 mod schema;

@@ -8,7 +8,7 @@ use coupler_curves::expression::{Caption, CompiledExpression, Expression, Kind, 
 use coupler_curves::family::{Axis, AxisValues, Case, Family, MAX_CELLS, ParameterSpace, sort_by_dependency};
 use coupler_curves::linkage_format::{self, Fields, TomlParser, TomlValue};
 use coupler_curves::measure::{BOOLEANS, parse_condition};
-use coupler_curves::problem::{HAS_REMEDIES, Problem, Span};
+use coupler_curves::problem::{Problem, Span};
 use coupler_curves::template::{ParameterKind, Template};
 use coupler_drawing::chart;
 
@@ -168,7 +168,7 @@ pub(crate) fn uses_text_measure<'t>(value: &TomlValue<'t>, parser: &mut TomlPars
 
 /// Whether a sort key ends with a word for the direction, as in SQL; reports it.
 pub(crate) fn states_direction<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> bool {
-    let text = value.get_ref().as_str().filter(|_| HAS_REMEDIES);
+    let text = value.get_ref().as_str();
     let Some((key, word)) = text.and_then(|text| text.trim().rsplit_once([' ', '\t'])) else {
         return false;
     };

@@ -1,6 +1,5 @@
 //! The keys of a manifest and of its `[[family]]` tables.
 
-#[cfg(feature = "book")]
 use crate::book::BOOK;
 use crate::chart::{CHART, measure_names, numeric_measures};
 use crate::default_value;
@@ -31,7 +30,6 @@ pub static MANIFEST: TableSchema = TableSchema::new(
             "The families: each a linkage over a grid of parameters, or over cases.",
         ),
         LINKAGES_KEY,
-        #[cfg(feature = "book")]
         KeySchema::new(
             "book",
             ValueSchema::Table(&BOOK),

@@ -43,7 +43,8 @@ impl Rendering {
         let of_families =
             families.flat_map(|family| family.files.iter().map(|file| self.folder.join(&family.id).join(&file.name)));
         let book = self.run.book.iter().flat_map(|book| &book.files).map(|file| own(&file.name));
-        of_families.chain(book).chain(self.run.gallery.iter().map(|file| own(&file.name))).collect()
+        let gallery = self.run.gallery.iter().chain(&self.run.kernel).map(|file| own(&file.name));
+        of_families.chain(book).chain(gallery).collect()
     }
 
     /// The page that shows the whole atlas in a browser, if there is one.

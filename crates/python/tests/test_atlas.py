@@ -90,6 +90,7 @@ def test_an_atlas_is_rendered_checked_and_found_changed(manifest, tmp_path) -> N
         assert file.read_bytes() == other.read_bytes()
     assert rendering.pages == rendering.drawn > 0 and rendering.folder == tmp_path / "here"
     assert rendering.gallery == tmp_path / "here" / "index.html" and rendering.gallery in rendering.files
+    assert tmp_path / "here" / "kernel.js" in rendering.files
     assert [family["id"] for family in rendering.families] == ["four-bars", "watt"]
     assert ca.render(path, tmp_path / "here").drawn == 0
     report = ca.check(path, against=tmp_path / "here")

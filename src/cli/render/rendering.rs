@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use crate::gallery::PAGE_FILE;
+use crate::gallery::{KERNEL_FILE, PAGE_FILE};
 use crate::output;
 use crate::record::{Digest, IMAGES_FILE_NAME, RUN_FILE_NAME, RunRecord, file_digest};
 use coupler_drawing::render::Format;
@@ -64,8 +64,8 @@ pub(super) fn render(arguments: &Arguments, interrupt: &Arc<AtomicBool>) -> anyh
 
 /// The digests of the files that describe an atlas as a whole, each `None` if it cannot be read. They change with any
 /// file that a run writes, unless it restores one, of which it reports that something was drawn.
-fn file_digests(output: &Path) -> [Option<Digest>; 3] {
-    [RUN_FILE_NAME, IMAGES_FILE_NAME, PAGE_FILE].map(|name| file_digest(&output.join(name)).ok())
+fn file_digests(output: &Path) -> [Option<Digest>; 4] {
+    [RUN_FILE_NAME, IMAGES_FILE_NAME, PAGE_FILE, KERNEL_FILE].map(|name| file_digest(&output.join(name)).ok())
 }
 
 /// The files that show the whole atlas: the gallery and the book, if there are.

@@ -13,9 +13,10 @@ import { pageRoute } from "./view/page.js";
 import { plateRoute } from "./view/plate/route.js";
 import { familyRoute } from "./view/family.js";
 
+const atlas = openAtlas(document, window);
 const shared = {
-  atlas: openAtlas(document, window),
-  kernel: new KernelLoader(document),
+  atlas,
+  kernel: new KernelLoader(atlas),
   pins: tabPins(window),
 };
 

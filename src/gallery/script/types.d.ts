@@ -62,7 +62,11 @@ type Measure = { name: string; unit: string; definition: string; word: boolean; 
 type ListedFamily = Record<"id" | "title" | "linkage", string> &
   Record<"cells" | "kept" | "not_assembled" | "curves" | "pages" | "bytes" | "table_bytes", number> &
   Record<"page_format" | "script", string | null>;
-type AtlasSummary = { title: string; program: string; book: string[] } & Listed;
+type AtlasSummary = { title: string; program: string; book: string[] } & Listed & {
+    kernel: { script: string; sha256: string };
+  };
+/** What the script of the kernel says: its module, compressed and in base64, and the digest of what is encoded. */
+type KernelFile = { sha256: string; module: string };
 type Listed = { measures: Measure[]; families: ListedFamily[] };
 type Words = { values: string[]; codes: Uint8Array };
 /**

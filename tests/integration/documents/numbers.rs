@@ -100,7 +100,7 @@ fn the_search_of_the_tutorial_finds_the_stated_curve() {
     assert_states("docs/tutorial.md", &statement);
 }
 
-/// The files of a circuit that the atlas does not contain, and the size of the gallery's page.
+/// The files of a circuit that the atlas does not contain, and the size of the gallery's kernel.
 #[test]
 fn the_gallery_is_as_described() {
     let folder = TempDir::new().unwrap();
@@ -113,8 +113,8 @@ fn the_gallery_is_as_described() {
         "docs/gallery.md",
         &format!("the second is `{name}`, also for the program, and its drawing `{file}`"),
     );
-    let page = fs::metadata(root().join("output/index.html")).unwrap().len();
-    assert_states("docs/gallery.md", &format!("the page {:.1} MB", page as f64 / 1e6));
+    let kernel = coupler_atlas::gallery::kernel_script().len();
+    assert_states("docs/gallery.md", &format!("`kernel.js` {:.1} MB", kernel as f64 / 1e6));
 }
 
 /// The example of docs/pages.md is the group of a curve on the first page, shortened.

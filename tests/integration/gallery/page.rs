@@ -1,12 +1,13 @@
-//! The page that the program writes, `index.html`.
+//! The page that the program writes, `index.html`, and the script with its kernel, `kernel.js`.
 
 use std::fs;
 use std::io::Read;
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
-use coupler_atlas::gallery::{KERNEL, encode_base91, join_modules, scripts};
+use coupler_atlas::gallery::{KERNEL, join_modules, kernel_script, scripts};
 use flate2::read::GzDecoder;
+use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
 use crate::folder::{Atlas, check_record, times};
@@ -76,24 +77,35 @@ fn the_page_allows_its_own_script_and_style_only() {
         !without_namespaces.contains("http://") && !without_namespaces.contains("https://"),
         "the page has a link to another site"
     );
-    assert_eq!(page.matches("<script").count(), 5);
+    assert_eq!(page.matches("<script").count(), 4);
 }
 
 #[test]
-fn the_page_has_the_kernel_and_is_small() {
-    let page = page(&new_atlas());
-    let packed = between(&page, "<script type=\"application/octet-stream\" id=\"kernel\">", "</script>");
-    assert_eq!(packed, encode_base91(KERNEL));
-    assert!(page.len() <= 1_000_000, "the page has {} bytes", page.len());
+fn the_page_is_small_and_names_the_kernel_next_to_it() {
+    let atlas = new_atlas();
+    let page = page(&atlas);
+    assert!(page.len() <= 200_000, "the page has {} bytes", page.len());
+    let script = fs::read_to_string(atlas.out().join("kernel.js")).unwrap();
+    assert_eq!(script, kernel_script());
+    let kernel: Value = serde_json::from_str(between(&script, "couplerAtlas.kernel(", ");\n")).unwrap();
+    assert_eq!(BASE64_STANDARD.decode(kernel["module"].as_str().unwrap()).unwrap(), KERNEL);
+    let sha256 = format!("{:x}", Sha256::digest(KERNEL));
+    assert_eq!(kernel["sha256"], sha256);
+    assert_eq!(data_of(&page)["kernel"], json!({ "script": "kernel.js", "sha256": sha256 }));
+}
+
+/// The summary of the atlas in the page.
+fn data_of(page: &str) -> Value {
+    let data = between(page, "<script type=\"application/json\" id=\"atlas\">", "</script>");
+    assert!(!data.contains('<'));
+    serde_json::from_str(data).unwrap()
 }
 
 #[test]
 fn text_of_the_manifest_is_escaped() {
     let page = page(&new_atlas());
     assert_eq!(between(&page, "<title>", "</title>"), "&lt;/script&gt;&lt;b&gt;T&lt;/b&gt; &amp; &quot;quotes&quot;");
-    let atlas = between(&page, "<script type=\"application/json\" id=\"atlas\">", "</script>");
-    assert!(!atlas.contains('<'));
-    let atlas: serde_json::Value = serde_json::from_str(atlas).unwrap();
+    let atlas = data_of(&page);
     assert_eq!(atlas["title"], "</script><b>T</b> & \"quotes\"");
     assert_eq!(atlas["families"][0]["title"], "<img src=x onerror=alert(1)>");
     assert_eq!(atlas["families"][0]["curves"], 1);
@@ -103,7 +115,7 @@ fn text_of_the_manifest_is_escaped() {
 }
 
 #[test]
-fn a_second_run_keeps_an_unchanged_page_and_restores_an_edited_one() {
+fn a_second_run_keeps_what_is_unchanged_and_restores_what_is_edited_or_missing() {
     let atlas = new_atlas();
     let first = page(&atlas);
     let before = times(&atlas.out());
@@ -112,7 +124,12 @@ fn a_second_run_keeps_an_unchanged_page_and_restores_an_edited_one() {
     check_record(&atlas.out());
     fs::write(atlas.out().join("index.html"), "edited").unwrap();
     fs::remove_file(atlas.out().join("evans/gallery.js")).unwrap();
+    fs::write(atlas.out().join("kernel.js"), "edited").unwrap();
     assert_eq!(page(&atlas), first);
+    check_record(&atlas.out());
+    fs::remove_file(atlas.out().join("kernel.js")).unwrap();
+    assert_eq!(page(&atlas), first);
+    assert!(fs::read_to_string(atlas.out().join("kernel.js")).unwrap() == kernel_script());
     check_record(&atlas.out());
 }
 

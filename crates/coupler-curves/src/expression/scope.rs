@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::kind::Kind;
-use crate::problem::{HAS_REMEDIES, list_words, nearest_word, suggestion_among};
+use crate::problem::{list_words, nearest_word, suggestion_among};
 
 /// Names with their kinds and indices, found by a hash rather than one by one.
 #[derive(Clone, Debug, Default)]
@@ -27,7 +27,7 @@ impl<'a> Scope<'a> {
 
     /// The help for an unknown name: the nearest of the names, or else what it can be.
     pub fn suggestion(&self, name: &str) -> String {
-        match self.others.filter(|_| HAS_REMEDIES && nearest_word(name, self.names()).is_none()) {
+        match self.others.filter(|_| nearest_word(name, self.names()).is_none()) {
             None => suggestion_among(name, self.names(), self.len()),
             Some((0, others)) => format!("it can be {others}"),
             Some((listed, others)) => {

@@ -4,7 +4,7 @@
 //! both have the same keys.
 
 use crate::expression::Dimension;
-use crate::problem::{HAS_REMEDIES, nearest_word};
+use crate::problem::nearest_word;
 
 /// A table with a fixed set of keys.
 #[derive(Debug)]
@@ -106,7 +106,7 @@ impl TableSchema {
             ValueSchema::Table(table) => table.keys.iter().any(|key| key.name == name),
             _ => false,
         };
-        let table = self.keys.iter().filter(|_| HAS_REMEDIES).find(has_name)?;
+        let table = self.keys.iter().find(has_name)?;
         nearest_word(name, self.key_names()).is_none().then_some(table.name)
     }
 }

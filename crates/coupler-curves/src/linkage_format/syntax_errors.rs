@@ -1,11 +1,10 @@
 //! What is wrong where TOML cannot be parsed, and how it is written.
 
-use crate::problem::{HAS_REMEDIES, Problem, Span};
+use crate::problem::{Problem, Span};
 
 /// The problem for a syntax error at a place with the message of the TOML parser.
 pub(super) fn syntax_problem(text: &str, span: Span, message: &str) -> Problem {
-    let slip = if HAS_REMEDIES { slip(text, &span, message) } else { None };
-    let [message, help] = slip.unwrap_or_else(|| {
+    let [message, help] = slip(text, &span, message).unwrap_or_else(|| {
         [message.to_owned(), "see https://toml.io for how tables, keys and values are written".to_owned()]
     });
     Problem::error(span, format!("invalid TOML: {message}")).with_help(help)

@@ -6,7 +6,7 @@ use toml::de::{DeTable, DeValue};
 use super::entries::{entry_around, unclosed_bracket};
 use super::syntax_errors::syntax_problem;
 use crate::expression::{self, Caption, CompiledExpression, Expression, Kind, Scope};
-use crate::problem::{HAS_REMEDIES, Problem, Span};
+use crate::problem::{Problem, Span};
 
 /// A TOML value and its span in the text.
 pub type TomlValue<'t> = Spanned<DeValue<'t>>;
@@ -36,7 +36,7 @@ impl<'t> TomlParser<'t> {
         // A byte order mark is not part of the document, but spans count from it.
         let (table, mut errors) = DeTable::parse_recoverable(self.text);
         errors.sort_by_key(|error| error.span().map_or(0, |span| span.start));
-        if HAS_REMEDIES && let Some(open) = errors.first().and_then(|_| unclosed_bracket(self.text)) {
+        if let Some(open) = errors.first().and_then(|_| unclosed_bracket(self.text)) {
             let bracket = &self.text[open..open + 1];
             let message = format!("invalid TOML: this `{bracket}` is not closed before the next entry");
             let close = if bracket == "[" { "]" } else { "}" };
@@ -148,7 +148,7 @@ impl<'t> TomlParser<'t> {
                 /// The most characters of a value that is repeated.
                 const MAX_REPEATED: usize = 60;
                 let written = self.source_text(value);
-                let is_short = HAS_REMEDIES && written.len() <= MAX_REPEATED && !written.contains(['\n', '\r']);
+                let is_short = written.len() <= MAX_REPEATED && !written.contains(['\n', '\r']);
                 let help = format!("put it in brackets: [{}]", if is_short { written } else { "…" });
                 self.report_mismatch(value, "a list", &help);
                 None

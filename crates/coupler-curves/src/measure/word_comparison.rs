@@ -2,7 +2,6 @@
 
 use super::{ALL, BOOLEANS};
 use crate::expression::{Error, Expression};
-use crate::problem::HAS_REMEDIES;
 
 /// Parses a condition on curves. One that compares a measure with a word, as in `class == crank-rocker`, is an error that names the
 /// condition to write in its place.
@@ -10,10 +9,7 @@ use crate::problem::HAS_REMEDIES;
 /// # Errors
 /// It is no expression, or makes such a comparison.
 pub fn parse_condition(text: &str) -> Result<Expression, Error> {
-    if HAS_REMEDIES && let Some(error) = word_comparison(text) {
-        return Err(error);
-    }
-    Expression::parse(text)
+    word_comparison(text).map_or_else(|| Expression::parse(text), Err)
 }
 
 /// The error of the first comparison of a measure with a word, if there is one.

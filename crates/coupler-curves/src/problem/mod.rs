@@ -23,9 +23,6 @@ pub enum Severity {
     Warning,
 }
 
-/// Whether slips are recognized, and what to write for them is said: the feature `remedies`.
-pub const HAS_REMEDIES: bool = cfg!(feature = "remedies");
-
 /// A problem in a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {

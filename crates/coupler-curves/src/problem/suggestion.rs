@@ -1,5 +1,3 @@
-use super::HAS_REMEDIES;
-
 /// The most characters of a word for which near words are searched; a longer one is a mistake of another kind.
 const MAX_LENGTH: usize = 64;
 
@@ -39,8 +37,7 @@ pub fn nearest_word<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str
         }
     }
     // A plural: `families` for `family`.
-    if HAS_REMEDIES
-        && let Some(stem) = word.strip_suffix("ies")
+    if let Some(stem) = word.strip_suffix("ies")
         && let Some(singular) = candidates.iter().copied().find(|candidate| candidate.strip_suffix('y') == Some(stem))
     {
         return Some(singular);

@@ -1,4 +1,4 @@
-// The atlas: the summary of all families, and the data of each family, loaded on first use.
+// The atlas: the summary of all families, and the data of each family and the kernel, loaded on first use.
 
 import { FamilyReader, PieceReader } from "./reader.js";
 
@@ -6,10 +6,10 @@ import { FamilyReader, PieceReader } from "./reader.js";
 const MAX_KEPT_BYTES = 64e6;
 
 /**
- * Opens the atlas of a document: its summary, and `family(id)`, which resolves to a family (reader.js) when its
- * head is loaded.
+ * Opens the atlas of a document: its summary, `family(id)`, which resolves to a family (reader.js) when its
+ * head is loaded, and `kernelModule()`, to the module of the kernel, compressed and in base64.
  *
- * A page opened from disk cannot fetch files but can load scripts; the scripts of families call
+ * A page opened from disk cannot fetch files but can load scripts; the scripts of families and the kernel call
  * `couplerAtlas`.
  * @param {Document} document @param {Window & { couplerAtlas?: object }} window
  */
@@ -19,7 +19,7 @@ export function openAtlas(document, window) {
   /** @type {Map<string, Family>} */ const families = new Map();
   const cache = outlineCache();
   /** @type {FamilyReader | PieceReader | null} */ let reader = null;
-  /** @type {{ family?: Family, piece?: Piece } | null} */ let finished = null;
+  /** @type {{ family?: Family, piece?: Piece, kernel?: KernelFile } | null} */ let finished = null;
   window.couplerAtlas = {
     begin: (head) => {
       reader = new FamilyReader(head);
@@ -38,6 +38,9 @@ export function openAtlas(document, window) {
         piece: reader instanceof PieceReader ? reader.piece : undefined,
       };
       reader?.finish();
+    },
+    kernel: (kernel) => {
+      finished = { kernel };
     },
   };
   /**
@@ -83,7 +86,14 @@ export function openAtlas(document, window) {
     heads.set(id, head);
     return head;
   };
-  return { ...summary, family };
+  const kernelModule = async () => {
+    const { script, sha256 } = summary.kernel;
+    const file = await run(script, (done) => done.kernel);
+    if (file.sha256 !== sha256)
+      throw new Error(`${script} is of another version than this page: render the atlas again`);
+    return file.module;
+  };
+  return { ...summary, family, kernelModule };
 }
 
 // A family with more pages than this has them in subfolders of as many.

@@ -31,29 +31,6 @@ export function decodeBase64(data) {
   return bytes;
 }
 
-const BASE91_LETTERS =
-  'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789!#$%&()*+,./:;-=>?@[]^_\x60{|}~"';
-
-/** Decodes bytes in basE91 with - in place of < (src/gallery/base91.rs). */
-export function decodeBase91(/** @type {string} */ text) {
-  const digits = new Uint8Array(128);
-  for (let k = 0; k < BASE91_LETTERS.length; k += 1) digits[BASE91_LETTERS.charCodeAt(k)] = k;
-  const bytes = new Uint8Array(Math.ceil((text.length * 7) / 8));
-  let [bits, count, at] = [0, 0, 0];
-  for (let k = 0; k < text.length; k += 2) {
-    const isLast = k + 1 === text.length;
-    const value = digits[text.charCodeAt(k)] + (isLast ? 0 : 91 * digits[text.charCodeAt(k + 1)]);
-    bits |= value << count;
-    count += isLast ? 8 - count : (value & 8191) > 88 ? 13 : 14;
-    for (; count > 7; count -= 8) {
-      bytes[at] = bits;
-      at += 1;
-      bits >>= 8;
-    }
-  }
-  return bytes.subarray(0, at);
-}
-
 /**
  * Concatenates typed arrays of one kind.
  * @template {TypedArray} T @param {T[]} arrays @param {new (count: number) => T} kind

@@ -3,19 +3,18 @@
 // After a failure of the kernel, a new instance replaces it, in which families and studies are opened again when
 // they are used.
 
-import { decodeBase91 } from "../data/packed.js";
+import { decodeBase64 } from "../data/packed.js";
 import { FourBarFinder } from "./finder.js";
 import { KernelFailure, KernelInstance } from "./instance.js";
 import { KernelStudy } from "./study.js";
 
-/** What does not work without the kernel, as a sentence. */
-export const NO_KERNEL =
-  "This browser does not run WebAssembly: linkages are not moved, changed, compared in detail, found by shape or exported.";
+// What does not work without the kernel.
+const WITHOUT_KERNEL = "linkages are not moved, changed, compared in detail, found by shape or exported";
 
-/** The kernel of a document, loaded when it is first needed. */
+/** The kernel of an atlas, loaded when it is first needed. */
 export class KernelLoader {
-  constructor(/** @type {Document} */ document) {
-    this.document = document;
+  constructor(/** @type {Pick<Atlas, "kernelModule">} */ atlas) {
+    this.atlas = atlas;
     /** @type {Kernel | null} */ this.kernel = null;
     /** @type {Promise<Kernel> | null} */ this.loading = null;
   }
@@ -27,20 +26,23 @@ export class KernelLoader {
   }
 
   async #load() {
+    const noWebAssembly = `This browser does not run WebAssembly: ${WITHOUT_KERNEL}.`;
     if (typeof WebAssembly !== "object" || typeof DecompressionStream !== "function")
-      throw new Error(NO_KERNEL);
+      throw new Error(noWebAssembly);
+    const packed = await this.atlas.kernelModule().catch((error) => {
+      throw new Error(`${error.message}. Without it, ${WITHOUT_KERNEL}.`, { cause: error });
+    });
     try {
-      this.kernel = new Kernel(await compileKernel(this.document));
+      this.kernel = new Kernel(await compileKernel(packed));
     } catch (error) {
-      throw new Error(`${NO_KERNEL} (${error.message})`, { cause: error });
+      throw new Error(`${noWebAssembly} (${error.message})`, { cause: error });
     }
     return this.kernel;
   }
 }
 
-async function compileKernel(/** @type {Document} */ document) {
-  const packed = decodeBase91(document.getElementById("kernel")?.textContent ?? "");
-  const unpacked = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
+async function compileKernel(/** @type {string} */ packed) {
+  const unpacked = new Blob([decodeBase64(packed)]).stream().pipeThrough(new DecompressionStream("gzip"));
   return WebAssembly.compile(await new Response(unpacked).arrayBuffer());
 }
 
