@@ -11,8 +11,9 @@ use coupler_curves::measure::{ALL, COLUMNS, Subject};
 use coupler_curves::problem::Problem;
 use coupler_curves::template::ParameterKind;
 
-use crate::command::{printed, run};
-use crate::folder::Atlas;
+use crate::support::command::{printed, run};
+use crate::support::folder::Atlas;
+use crate::support::plan::plan;
 
 /// A manifest with one family of a linkage.
 fn family(linkage: &str, lines: &str) -> String {
@@ -268,7 +269,7 @@ fn angles_may_state_their_unit() {
     let with = |linkage: &str, lines: &str| format!("{}{own}", family(linkage, lines));
     let values = |linkage: &str, lines: &str, name: &str| -> Vec<f64> {
         let text = with(linkage, lines);
-        let plan = manifest::parse(&text).plan.unwrap_or_else(|| panic!("{:?}", messages(&text)));
+        let plan = plan(&text);
         let family: &Family = &plan.families[0].family;
         (0..family.cell_count()).map(|k| family.value(name, &family.cell(k))).collect()
     };

@@ -9,9 +9,9 @@ use std::path::Path;
 use sha2::{Digest, Sha256};
 use tempfile::TempDir;
 
-use crate::command::printed;
-use crate::folder::files;
 use crate::recorded::{are_renewed, renew};
+use crate::support::command::printed;
+use crate::support::folder::files;
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::process::Command;
 use std::time::SystemTime;
 
-use crate::folder::Atlas;
+use crate::support::command::run;
+use crate::support::folder::Atlas;
 
 const MANIFEST: &str = r#"
 [atlas]
@@ -58,7 +58,7 @@ impl Atlas {
     }
 
     fn record(&self) -> serde_json::Value {
-        serde_json::from_str(&fs::read_to_string(self.out().join("run.json")).unwrap()).unwrap()
+        serde_json::from_str(&self.read("run.json")).unwrap()
     }
 }
 
@@ -185,9 +185,7 @@ fn a_book_that_is_no_longer_requested_is_removed_and_other_files_stay() {
 fn a_volume_has_at_least_one_page() {
     for wrong in ["0", "-3", "1.5", "\"many\"", "20000"] {
         let atlas = Atlas::new(&MANIFEST.replace("output =", &format!("volume_pages = {wrong}\noutput =")));
-        let mut command = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
-        let output = command.current_dir(atlas.0.path()).arg("validate").output().unwrap();
-        let errors = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert!(output.status.code() == Some(2) && errors.contains("atlas.toml:5:16"), "{errors}");
+        let (code, _, errors) = run(atlas.0.path(), &["validate"]);
+        assert!(code == 2 && errors.contains("atlas.toml:5:16"), "{errors}");
     }
 }

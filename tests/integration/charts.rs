@@ -1,16 +1,15 @@
 //! Charts: their manifest keys, their lines against the tables, and the positions of their points on the page.
 
-use coupler_curves::solve;
-use std::fs;
-use std::path::Path;
-use std::process::Command;
-
-use coupler_atlas::manifest::{self, Plan};
+use coupler_atlas::manifest;
 use coupler_atlas::sweep;
 use coupler_curves::geometry::trig;
 use coupler_curves::problem::report;
+use coupler_curves::solve;
 use coupler_drawing::chart::{ChartBuilder, ChartData, ForEachInterval, MAX_NUMBERS, PointSource, Series};
-use tempfile::TempDir;
+
+use crate::support::folder::Atlas;
+use crate::support::plan::plan;
+use crate::support::table::rows;
 
 const GOOD: &str = r#"[atlas]
 title = "T"
@@ -25,11 +24,6 @@ sampling = { step = "10 deg" }
 grid = { p = [2, 3, 4], k = [1.5, 2] }
 let = { a = "(1 + p)^1.5 / 2" }
 "#;
-
-fn plan(text: &str) -> Plan {
-    let loaded = manifest::parse(text);
-    loaded.plan.unwrap_or_else(|| panic!("{}", report(&loaded.problems, "m", text, false)))
-}
 
 /// The lines of the first family's chart, which join the points of its cells.
 fn series(text: &str) -> Vec<Series> {
@@ -67,23 +61,12 @@ fn chart_data(text: &str, build: impl FnOnce(ChartBuilder) -> ChartData) -> Char
     build(builder)
 }
 
-/// A folder with a manifest, after `render`.
-fn rendered(text: &str) -> TempDir {
-    let folder = TempDir::new().unwrap();
-    fs::write(folder.path().join("atlas.toml"), text).unwrap();
-    let output = Command::new(env!("CARGO_BIN_EXE_coupler-atlas")).current_dir(&folder).arg("render").output().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    folder
+fn rendered(text: &str) -> Atlas {
+    Atlas::rendered(text, &[])
 }
 
-fn page(folder: &TempDir, number: usize) -> String {
-    fs::read_to_string(folder.path().join(format!("out/evans/evans-{number:03}.svg"))).unwrap()
-}
-
-/// The rows of a table, each by its columns.
-fn rows(path: &Path) -> Vec<std::collections::BTreeMap<String, String>> {
-    let mut reader = csv::Reader::from_path(path).unwrap();
-    reader.deserialize().map(|row| row.unwrap()).collect()
+fn page(atlas: &Atlas, number: usize) -> String {
+    atlas.read(&format!("evans/evans-{number:03}.svg"))
 }
 
 #[test]
@@ -177,8 +160,8 @@ fn lines_over_curves_match_the_rows_of_cells_csv() {
     let text = GOOD.replace("[2, 3, 4]", "[4, 2, 3]").replace("\"length\"", "\"length / area\"");
     let found = series(&text);
     assert_eq!(found.iter().map(|series| series.label.as_str()).collect::<Vec<_>>(), ["k = 1.5", "k = 2"]);
-    let folder = rendered(&text);
-    let rows = rows(&folder.path().join("out/evans/cells.csv"));
+    let atlas = rendered(&text);
+    let rows = rows(&atlas.read("evans/cells.csv"));
     for (series, k) in found.iter().zip(["1.5", "2"]) {
         assert_eq!(series.x, [2.0, 3.0, 4.0]);
         for (point, p) in ["2", "3", "4"].iter().enumerate() {
@@ -199,8 +182,8 @@ fn lines_over_samples_match_the_rows_of_points_csv() {
     let found = series(&text);
     assert_eq!(found.len(), 6);
     assert_eq!(found[1].label, "p = 2, k = 2");
-    let folder = rendered(&text);
-    let rows = rows(&folder.path().join("out/evans/points.csv"));
+    let atlas = rendered(&text);
+    let rows = rows(&atlas.read("evans/points.csv"));
     for series in &found {
         let cell = series.cell.unwrap().to_string();
         let cell_rows: Vec<_> = rows.iter().filter(|row| row["cell"] == cell).collect();
@@ -346,11 +329,11 @@ fn charts_have_ids_titles_and_escaped_names() {
 fn more_charts_than_fit_on_a_page_continue_on_the_next() {
     let text =
         GOOD.replace("\"mu_min_deg\"]", "\"mu_min_deg\", \"area\"]").replace("sampling", "panels = [2, 1]\nsampling");
-    let folder = rendered(&text);
-    assert!(page(&folder, 1).contains("page 1 of 2"));
-    let second = page(&folder, 2);
+    let atlas = rendered(&text);
+    assert!(page(&atlas, 1).contains("page 1 of 2"));
+    let second = page(&atlas, 2);
     assert!(second.contains("id=\"evans-chart-3\"") && !second.contains("id=\"evans-chart-2\""));
-    let record = fs::read_to_string(folder.path().join("out/run.json")).unwrap();
+    let record = atlas.read("run.json");
     assert!(record.contains("\"pages\": 2") && record.contains("evans-002.svg"));
 }
 
@@ -365,8 +348,8 @@ fn an_empty_chart_says_so() {
     // No cell can be assembled, or none is kept.
     let far = GOOD.replace("let = { a = \"(1 + p)^1.5 / 2\" }", "let = { a = 0.1 }");
     assert!(page(&rendered(&far), 1).contains("no finite value"));
-    let folder = rendered(&(GOOD.to_owned() + "where = \"p > 9\"\n"));
-    assert!(!folder.path().join("out/evans/evans-001.svg").exists());
+    let atlas = rendered(&(GOOD.to_owned() + "where = \"p > 9\"\n"));
+    assert!(!atlas.out().join("evans/evans-001.svg").exists());
 }
 
 #[test]
@@ -391,15 +374,10 @@ fn no_values_make_a_chart_panic() {
 #[test]
 fn a_chart_is_the_same_with_any_number_of_jobs() {
     let text = GOOD.replace("[2, 3, 4]", "{ from = 2, to = 6, count = 60 }");
-    let folder = rendered(&text);
+    let atlas = rendered(&text);
     let run = |jobs: &str| {
-        let status = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"))
-            .current_dir(&folder)
-            .args(["render", "-q", "--jobs", jobs])
-            .status()
-            .unwrap();
-        assert!(status.success());
-        page(&folder, 1)
+        assert_eq!(atlas.run(&["-q", "--jobs", jobs]).0, 0);
+        page(&atlas, 1)
     };
     assert!(run("1") == run("8"));
 }
@@ -643,13 +621,13 @@ fn placed_texts(svg: &str) -> Vec<(String, [f64; 3])> {
 
 #[test]
 fn labels_in_several_lines_do_not_overprint_the_number_of_those_left_out() {
-    let folder = rendered(
+    let atlas = rendered(
         "[atlas]\ntitle = \"T\"\nformats = [\"svg\"]\noutput = \"out\"\n[[family]]\nid = \"f\"\nlinkage = \"four-bar\"\n\
          layout = \"chart\"\nchart = { x = \"crank\", y = [\"mu_min_deg\", \"length\", \"bbox_x_max\", \"output_swing_deg\"], \
          by = [\"coupler\", \"rocker\"] }\nsampling = { step = \"10 deg\" }\n\
          grid = { crank = [0.25, 0.5, 1], coupler = [2.5, 3, 3.5, 4], rocker = [2.5, 3, 3.5, 4, 4.5] }\nlet = { frame = 4 }\n",
     );
-    let svg = fs::read_to_string(folder.path().join("out/f/f-001.svg")).unwrap();
+    let svg = atlas.read("f/f-001.svg");
     let texts = placed_texts(&svg);
     let rests: Vec<_> = texts.iter().filter(|(text, _)| text.starts_with("and ") && text.ends_with(" more")).collect();
     assert!(!rests.is_empty() && texts.iter().any(|(text, _)| text.ends_with("lines)")), "{texts:?}");
@@ -663,12 +641,12 @@ fn labels_in_several_lines_do_not_overprint_the_number_of_those_left_out() {
 
 #[test]
 fn a_chart_shows_its_lines_as_far_as_they_have_values_and_explains_the_inks_of_its_key() {
-    let folder = rendered(
+    let atlas = rendered(
         "[atlas]\ntitle = \"T\"\nformats = [\"svg\"]\noutput = \"out\"\n[[family]]\nid = \"f\"\nlinkage = \"cognates\"\n\
          layout = \"chart\"\nchart = { x = \"u\", y = [\"straight_length\"] }\nsampling = { step = \"5 deg\" }\n\
          grid = { u = { from = 0.5, to = 2, step = 0.25 } }\nlet = { p = 4, r = 1.5, a = 3, s = 3.5, v = 0.5 }\n",
     );
-    let svg = fs::read_to_string(folder.path().join("out/f/f-001.svg")).unwrap();
+    let svg = atlas.read("f/f-001.svg");
     let range = svg.split("data-x-range=\"").nth(1).unwrap().split('"').next().unwrap();
     let low: f64 = range.split(' ').next().unwrap().parse().unwrap();
     // There is a straight portion from u = 1.41 on, and the first cell that has one is 1.5.
@@ -682,13 +660,13 @@ fn a_chart_shows_its_lines_as_far_as_they_have_values_and_explains_the_inks_of_i
 #[test]
 fn the_symbols_of_a_chart_leave_the_folio_free() {
     let title = "A long title of an atlas that is printed in full at the foot of each of its pages, on the right";
-    let folder = rendered(&format!(
+    let atlas = rendered(&format!(
         "[atlas]\ntitle = \"{title}\"\nformats = [\"svg\"]\noutput = \"out\"\n\
          [page]\npaper = {{ width = \"210 mm\", height = \"148 mm\" }}\n\
          [[family]]\nid = \"f\"\ntitle = \"F\"\nlinkage = \"cognates\"\nlayout = \"chart\"\nchart = {{ x = \"u\", y = [\"length\"] }}\n\
          sampling = {{ step = \"10 deg\" }}\ngrid = {{ u = [1, 1.5, 2] }}\n"
     ));
-    let svg = fs::read_to_string(folder.path().join("out/f/f-001.svg")).unwrap();
+    let svg = atlas.read("f/f-001.svg");
     let texts = placed_texts(&svg);
     let find = |start: &str| {
         texts.iter().find(|(text, _)| text.starts_with(start)).unwrap_or_else(|| panic!("{start}: {texts:?}"))

@@ -3,11 +3,11 @@
 use std::fs;
 use std::io::Write;
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::Stdio;
 
 use tempfile::TempDir;
 
-use crate::command::{COMMANDS, folder_with, printed, program, result, run};
+use crate::support::command::{COMMANDS, folder_with, printed, program, result, run};
 
 const MANIFEST: &str = r#"[atlas]
 title = "T"
@@ -139,9 +139,8 @@ fn the_examples_of_the_manual_can_be_run() {
     assert!(examples.len() > 5);
     for (example, description) in examples {
         assert!(description.len() > 10, "{example}");
-        let line = example.replace("coupler-atlas ", &format!("{} ", env!("CARGO_BIN_EXE_coupler-atlas")));
-        let output = Command::new("sh").current_dir(folder.path()).args(["-c", &line]).output().unwrap();
-        let (code, _, err) = result(output);
+        let line = example.replace("coupler-atlas ", "\"$0\" ");
+        let (code, _, err) = result(crate::support::command::shell(folder.path(), &line).output().unwrap());
         assert_eq!(code, 0, "{example}: {err}");
     }
     for file in ["output/index.html", "curve.dxf", "best/index.html"] {

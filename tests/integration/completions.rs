@@ -6,7 +6,7 @@ use std::process::Command;
 
 use tempfile::TempDir;
 
-use crate::command::{PROGRAM, folder_with, run};
+use crate::support::command::{PROGRAM, folder_with, run};
 
 fn folder_with_manifest() -> TempDir {
     let family = |id: &str| {

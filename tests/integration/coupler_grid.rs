@@ -2,21 +2,21 @@
 
 use coupler_curves::solve;
 use std::fs;
-use std::process::Command;
 
-use coupler_atlas::manifest::{self, Plan};
+use coupler_atlas::manifest::Plan;
 use coupler_atlas::sweep;
 use coupler_curves::catalogue;
 use coupler_curves::family::{Family, Sampling};
 use coupler_curves::geometry::{Point, Vector, distance_to_segment};
 use coupler_curves::motion::{self, Sampler};
-use coupler_curves::problem::report;
 use coupler_curves::solve::{MovablePoint, SolvedCell};
 use coupler_drawing::page::{
     self, CouplerGridPage, Heading, Layout, LinkLabel, Options, Panel, PanelScale, Paper, PoseChoice, Theme,
 };
 use coupler_drawing::scene::{Circle, Color, Curve, Group, Item, Path, Scene, Stroke, Text};
-use tempfile::TempDir;
+
+use crate::support::folder::Atlas;
+use crate::support::plan::{plan, problems};
 
 /// A crank-rocker, a change point and a case that cannot be assembled, with twelve points.
 const GOOD: &str = r#"[atlas]
@@ -55,11 +55,6 @@ const PAPERS: [(f64, f64); 9] = [
     (60.0, 400.0),
     (400.0, 60.0),
 ];
-
-fn plan(text: &str) -> Plan {
-    let loaded = manifest::parse(text);
-    loaded.plan.unwrap_or_else(|| panic!("{}", report(&loaded.problems, "m", text, false)))
-}
 
 fn example() -> Plan {
     plan(include_str!("../../examples/hrones-nelson.toml"))
@@ -597,21 +592,14 @@ fn every_linkage_of_the_catalogue_has_a_page() {
 #[test]
 fn a_coupler_grid_has_no_panels() {
     let text = format!("{GOOD}panels = [2, 2]\n");
-    let loaded = manifest::parse(&text);
-    let printed = report(&loaded.problems, "m", &text, false);
-    assert!(
-        loaded.plan.is_none() && printed.contains("a page of a coupler grid has one cell and no panels"),
-        "{printed}"
-    );
+    let printed = problems(&text);
+    assert!(printed.contains("a page of a coupler grid has one cell and no panels"), "{printed}");
 }
 
 /// The pages of a manifest as the program writes them, in order.
 fn rendered(text: &str) -> Vec<String> {
-    let folder = TempDir::new().unwrap();
-    fs::write(folder.path().join("atlas.toml"), text).unwrap();
-    let output = Command::new(env!("CARGO_BIN_EXE_coupler-atlas")).current_dir(&folder).arg("render").output().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let page = |k: usize| fs::read_to_string(folder.path().join(format!("out/grid/grid-{k:03}.svg"))).ok();
+    let atlas = Atlas::rendered(text, &[]);
+    let page = |k: usize| fs::read_to_string(atlas.out().join(format!("grid/grid-{k:03}.svg"))).ok();
     (1..).map_while(page).collect()
 }
 
@@ -714,13 +702,10 @@ fn graphs_are_the_speeds_of_their_points_on_one_scale() {
 
 #[test]
 fn change_points_are_a_chapter_after_the_others_in_a_book() {
-    let folder = TempDir::new().unwrap();
     let text = GOOD.replace("\"svg\"", "\"pdf\"").replace("[2, 3, 9]", "[3, 2, 2.5]");
     let text = text.replace("id = \"grid\"", "id = \"grid\"\ntitle = \"grid\"");
-    fs::write(folder.path().join("atlas.toml"), text).unwrap();
-    let output = Command::new(env!("CARGO_BIN_EXE_coupler-atlas")).current_dir(&folder).arg("render").output().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let pdf = crate::book::reader::Pdf::read(&fs::read(folder.path().join("out/atlas.pdf")).unwrap());
+    let atlas = Atlas::rendered(&text, &[]);
+    let pdf = crate::book::reader::Pdf::read(&fs::read(atlas.out().join("atlas.pdf")).unwrap());
     let outline = pdf.outline();
     let page_of = |title: &str| outline.iter().find(|entry| entry.0 == 0 && entry.1 == title).unwrap().2;
     let front = page_of("grid");
@@ -743,15 +728,7 @@ fn change_points_are_a_chapter_after_the_others_in_a_book() {
 
 /// The texts of a page of a manifest that is rendered as SVG, in its order.
 fn page_texts(manifest: &str, page: &str) -> Vec<String> {
-    let folder = TempDir::new().unwrap();
-    fs::write(folder.path().join("atlas.toml"), manifest).unwrap();
-    let output = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"))
-        .current_dir(&folder)
-        .args(["render", "-q", "--format", "svg", "-o", "out"])
-        .output()
-        .unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let svg = fs::read_to_string(folder.path().join("out").join(page)).unwrap();
+    let svg = Atlas::rendered(manifest, &["-q", "--format", "svg", "-o", "out"]).read(page);
     let content = |element: &str| -> String {
         let content = element.split_once('>').unwrap().1.split("</text>").next().unwrap();
         content.split('<').map(|part| part.rsplit('>').next().unwrap()).collect()

@@ -2,20 +2,22 @@
 
 use coupler_curves::linkage::JointId;
 use std::path::Path;
-use std::process::Command;
 
 use coupler_atlas::design::{
     self, Design, Driver, LinkageKind, ProportionOrigin, Requirement, Requirements, SynthesisResult,
 };
-use coupler_atlas::manifest;
 use coupler_curves::family::{Sampling, StraightCriterion};
 use coupler_curves::geometry::{Point, trig};
 use coupler_curves::measure::{self, TracedCurve, Value};
 use coupler_curves::motion::{Motion, Sampler};
-use coupler_curves::problem::report;
 use proptest::prelude::*;
 use serde_json::Value as Json;
 use tempfile::TempDir;
+
+use crate::support::command::{Ran, program};
+use crate::support::folder::Atlas;
+use crate::support::plan::faultless_plan;
+use crate::support::table;
 
 fn number(curve: &TracedCurve, name: &str) -> f64 {
     let measure = measure::ALL.iter().find(|measure| measure.name == name).unwrap();
@@ -283,8 +285,8 @@ proptest! {
     }
 }
 
-fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    crate::command::run(folder, &[&["design", "straight-line"], arguments].concat())
+fn run(folder: &Path, arguments: &[&str]) -> Ran {
+    crate::support::command::run(folder, &[&["design", "straight-line"], arguments].concat())
 }
 
 #[test]
@@ -304,9 +306,8 @@ fn the_program_prints_a_table_trade_offs_and_rejections() {
 #[test]
 fn designs_are_the_same_with_any_number_of_threads() {
     let output = |threads: &str| {
-        let mut program = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
         let arguments = ["design", "straight-line", "--types", "hoeken,watt", "--p", "2.5", "--json"];
-        program.env("RAYON_NUM_THREADS", threads).args(arguments).output().unwrap().stdout
+        program(Path::new(".")).env("RAYON_NUM_THREADS", threads).args(arguments).output().unwrap().stdout
     };
     let one = output("1");
     assert!(!one.is_empty() && one == output("3"));
@@ -314,28 +315,22 @@ fn designs_are_the_same_with_any_number_of_threads() {
 
 #[test]
 fn the_printed_manifest_renders_the_same_numbers() {
-    let folder = TempDir::new().unwrap();
     let requirements = ["--types", "hoeken,chebyshev", "--p", "2", "--length", "80", "--mu-min", "0"];
-    let (code, text, err) = run(folder.path(), &[&requirements[..], &["--toml"]].concat());
+    let (code, text, err) = run(Path::new("."), &[&requirements[..], &["--toml"]].concat());
     assert_eq!(code, 0, "{err}");
-    let loaded = manifest::parse(&text);
-    assert!(loaded.problems.is_empty(), "{}", report(&loaded.problems, "best.toml", &text, false));
-    std::fs::write(folder.path().join("atlas.toml"), &text).unwrap();
-    let mut program = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
-    assert!(program.current_dir(folder.path()).args(["render", "-q"]).status().unwrap().success());
-    let (_, json, _) = run(folder.path(), &[&requirements[..], &["--json"]].concat());
+    faultless_plan(&text);
+    let atlas = Atlas::rendered(&text, &["-q", "-o", "out"]);
+    let (_, json, _) = run(Path::new("."), &[&requirements[..], &["--json"]].concat());
     let json: Json = serde_json::from_str(&json).unwrap();
     let designs = json["designs"].as_array().unwrap();
     let mut rows = 0;
     for linkage in ["hoeken", "chebyshev"] {
-        let mut cells = csv::Reader::from_path(folder.path().join(format!("atlas/{linkage}/cells.csv"))).unwrap();
-        let head = cells.headers().unwrap().clone();
+        let read = table::rows(&atlas.read(&format!("{linkage}/cells.csv")));
         let of_kind: Vec<&Json> = designs.iter().filter(|design| design["linkage"] == linkage).collect();
-        let read: Vec<csv::StringRecord> = cells.records().map(Result::unwrap).collect();
         assert_eq!(read.len(), of_kind.len(), "{linkage}");
         for (row, design) in read.iter().zip(of_kind) {
             for name in ["straight_length", "straight_deviation", "straight_start_deg", "straight_input_deg"] {
-                let cell: f64 = row[head.iter().position(|n| n == name).unwrap()].parse().unwrap();
+                let [cell] = table::numbers(row, [name]);
                 // The manifest's numbers are those of the design, up to the rounding of the measures.
                 let designed = design[name].as_f64().unwrap();
                 assert!((cell - designed).abs() <= 1e-9 * cell.abs(), "{linkage} {name}: {cell} {designed}");

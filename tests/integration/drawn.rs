@@ -6,14 +6,14 @@ use std::fs;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
-use coupler_atlas::manifest;
 use coupler_atlas::record::{DrawnCurve, DrawnCurveError, SolvedCurve, read_drawn_curves};
 use coupler_curves::family::Family;
 use coupler_curves::geometry::{Point, Spline, SplineSegment, Vector, left_normal};
 use coupler_curves::linkage::Linkage;
 use coupler_curves::motion::{Circuit, Motion, Sampler};
 
-use super::folder::Atlas;
+use crate::support::folder::Atlas;
+use crate::support::plan::plan;
 
 /// The samples of a curve: its inputs and its positions in the plane.
 #[derive(Default)]
@@ -88,10 +88,8 @@ fn solve(family: &Family, samples: &mut BTreeMap<[usize; 3], Samples>) {
 
 /// All pages with curves that a manifest makes. Every curve of `points.csv` is on one of them.
 fn pages(manifest: &str) -> Vec<Page> {
-    let plan = manifest::parse(manifest).plan.unwrap();
-    let atlas = Atlas::new(manifest);
-    let (code, _, errors) = atlas.run(&["-q", "--format", "svg", "-o", "out"]);
-    assert_eq!(code, 0, "{errors}");
+    let plan = plan(manifest);
+    let atlas = Atlas::rendered(manifest, &["-q", "--format", "svg", "-o", "out"]);
     let mut pages = Vec::new();
     for family in fs::read_dir(atlas.out()).unwrap().map(|entry| entry.unwrap().path()) {
         if !family.join("points.csv").exists() {

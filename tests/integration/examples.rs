@@ -6,17 +6,18 @@ use std::fs;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
-use coupler_atlas::manifest::{self, Plan};
+use coupler_atlas::manifest::Plan;
 use coupler_atlas::sweep;
 use coupler_curves::family::Family;
 use coupler_curves::geometry::trig;
 use coupler_curves::measure::Value;
 use coupler_curves::motion::Sampler;
-use coupler_curves::problem::report;
 use coupler_curves::solve::{self, SolvedCell};
 use tempfile::TempDir;
 
-use super::command::run;
+use crate::support;
+use crate::support::command::run;
+use crate::support::plan::faultless_plan;
 
 fn folder() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/examples"))
@@ -31,9 +32,7 @@ fn examples() -> BTreeMap<String, String> {
 }
 
 fn plan(name: &str) -> Plan {
-    let text = fs::read_to_string(folder().join(format!("{name}.toml"))).unwrap();
-    let loaded = manifest::parse(&text);
-    loaded.plan.unwrap_or_else(|| panic!("{}", report(&loaded.problems, name, &text, false)))
+    support::plan::plan(&fs::read_to_string(folder().join(format!("{name}.toml"))).unwrap())
 }
 
 fn family<'p>(plan: &'p Plan, id: &str) -> &'p Family {
@@ -67,8 +66,7 @@ fn every_example_is_valid_and_documented() {
     let examples = examples();
     assert!(examples.len() >= 7);
     for (name, text) in &examples {
-        let loaded = manifest::parse(text);
-        assert!(loaded.problems.is_empty(), "{}", report(&loaded.problems, name, text, false));
+        faultless_plan(text);
         assert!(text.contains(&format!("#     coupler-atlas render examples/{name}.toml\n")), "{name}: no command");
         assert!(text.contains(&format!("output = \"../target/{name}\"\n")), "{name} is rendered among the sources");
         assert!(document.contains(&format!("`examples/{name}.toml`")), "{name} is not in docs/examples.md");
@@ -100,7 +98,7 @@ fn a_part_of_every_example_is_rendered() {
         let arguments = ["render", manifest.to_str().unwrap(), "-o", "out", "--only", id, "--format", "svg", "-q"];
         let (code, _, err) = run(folder.path(), &arguments);
         assert_eq!((code, err.as_str()), (0, ""), "{name}");
-        let pages = crate::folder::files(&folder.path().join("out").join(id));
+        let pages = crate::support::folder::files(&folder.path().join("out").join(id));
         let pages: Vec<&String> = pages.iter().filter(|page| page.ends_with(".svg")).collect();
         assert_eq!(pages.len(), page_count, "{name}: {pages:?}");
         for page in pages {

@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 
 use coupler_curves::geometry::trig;
 use tempfile::TempDir;
 
-use crate::folder::files;
+use crate::support::command::{folder_with, printed, run};
+use crate::support::folder::files;
 
 /// Crank pins that trace circles, a rocker pin on an arc, every kind of sampling, a mirrored and rotated family, a
 /// length as input, and a title with markup characters.
@@ -65,24 +65,11 @@ sampling = { step = "10 deg" }
 cases = [{ A = 3, B = 3.5, C = 3 }]
 "#;
 
-fn run(folder: &Path, arguments: &[&str]) -> (i32, Vec<u8>, String) {
-    let mut program = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
-    let output = program.current_dir(folder).args(arguments).output().unwrap();
-    (output.status.code().unwrap_or(-1), output.stdout, String::from_utf8(output.stderr).unwrap())
-}
-
-fn text(folder: &Path, arguments: &[&str]) -> String {
-    let (code, out, err) = run(folder, arguments);
-    assert_eq!(code, 0, "{arguments:?}: {err}");
-    String::from_utf8(out).unwrap()
-}
-
 /// A folder with the rendered manifest, and all its curves exported in the given formats to `exported`.
 fn export(formats: &str) -> TempDir {
-    let folder = TempDir::new().unwrap();
-    fs::write(folder.path().join("atlas.toml"), MANIFEST).unwrap();
-    text(folder.path(), &["render", "-q"]);
-    text(folder.path(), &["export", "--format", formats, "-o", "exported"]);
+    let folder = folder_with(MANIFEST);
+    printed(folder.path(), &["render", "-q"]);
+    printed(folder.path(), &["export", "--format", formats, "-o", "exported"]);
     folder
 }
 
@@ -324,7 +311,7 @@ fn dxf_curves_are_within_the_chord_tolerance() {
 #[test]
 fn lines_are_the_links_in_one_pose_and_the_chord_tolerance_can_be_set() {
     let folder = export("csv");
-    let text = text(folder.path(), &["export", "evans:1.1.1", "--format", "dxf", "--chord", "1e-7"]);
+    let text = printed(folder.path(), &["export", "evans:1.1.1", "--format", "dxf", "--chord", "1e-7"]);
     let drawing = drawing(&text);
     let length =
         |entity: &Entity| trig::hypot(entity.number(11) - entity.number(10), entity.number(21) - entity.number(20));
@@ -403,11 +390,10 @@ fn a_fragment_of_a_manifest_draws_the_same_curves() {
     // The fragment needs the linkage that the atlas defines.
     let linkage = &MANIFEST[MANIFEST.find("[[linkage]]").unwrap()..MANIFEST.find("[[family]]").unwrap()];
     assert!(fragment.contains("# The [[linkage]] `mine` is the atlas's own"), "{fragment}");
-    let again = TempDir::new().unwrap();
     let manifest = format!("[atlas]\ntitle = \"T\"\noutput = \"out\"\nformats = [\"svg\"]\n{linkage}\n{fragment}");
-    fs::write(again.path().join("atlas.toml"), &manifest).unwrap();
-    text(again.path(), &["validate"]);
-    text(again.path(), &["render", "-q"]);
+    let again = folder_with(&manifest);
+    printed(again.path(), &["validate"]);
+    printed(again.path(), &["render", "-q"]);
     for (family, linkage) in
         FAMILIES.into_iter().zip(["evans", "watt", "mine", "hoeken", "linear-actuator", "hrones-nelson"])
     {
@@ -418,7 +404,7 @@ fn a_fragment_of_a_manifest_draws_the_same_curves() {
         assert_eq!(curves, new, "{family}");
     }
     // Curves of one linkage with the same settings are in one family.
-    let merged = text(folder.path(), &["export", "evans:2", "evans:1.1.1", "evans:2.1.1", "--format", "toml"]);
+    let merged = printed(folder.path(), &["export", "evans:2", "evans:1.1.1", "evans:2.1.1", "--format", "toml"]);
     assert_eq!(merged.matches("[[family]]").count(), 1);
     assert_eq!(merged.matches("    { p = ").count(), 2, "a cell is written once: {merged}");
     assert!(merged.contains("title = \"Evans <linkage> & \\\"co\\\"\""), "{merged}");
@@ -454,14 +440,14 @@ fn a_linkage_is_exported_like_a_cell_of_a_family() {
     let folder = export("csv");
     let from_family = file(folder.path(), "watt", [1, 1, 1], ".csv");
     let arguments = ["export", "--linkage", "watt", "p=4", "r=1+1", "a=1", "--samples", "100", "--format", "csv"];
-    assert_eq!(text(folder.path(), &arguments), from_family);
+    assert_eq!(printed(folder.path(), &arguments), from_family);
     let from_manifest =
         ["export", "--linkage", "mine", "--manifest", "atlas.toml", "g=4", "2.1", "--format", "csv", "-o", "one.csv"];
-    assert_eq!(text(folder.path(), &from_manifest), "");
+    assert_eq!(printed(folder.path(), &from_manifest), "");
     assert!(fs::read_to_string(folder.path().join("one.csv")).unwrap().contains("\n1,2,1,1,0,"));
     // Sampled by steps of the input.
     let step = ["export", "--linkage", "evans", "p=2", "a=2.59", "--step", "2", "--format", "csv"];
-    let stepped = text(folder.path(), &step);
+    let stepped = printed(folder.path(), &step);
     assert_eq!(stepped.lines().count(), 181);
     assert!(stepped.lines().nth(1).unwrap().starts_with("1,1,1,1,0,0,2,5.08"), "{stepped}");
 }
@@ -469,7 +455,7 @@ fn a_linkage_is_exported_like_a_cell_of_a_family() {
 #[test]
 fn parameters_and_coupler_points_can_be_changed() {
     let folder = export("csv");
-    let csv = |name: &str| text(folder.path(), &["export", name, "--format", "csv"]);
+    let csv = |name: &str| printed(folder.path(), &["export", name, "--format", "csv"]);
     let rows = |text: &str| -> Vec<String> {
         text.lines().skip(1).map(|row| row.splitn(4, ',').nth(3).unwrap().to_owned()).collect()
     };
@@ -480,20 +466,20 @@ fn parameters_and_coupler_points_can_be_changed() {
     assert_eq!(rows(&derived), rows(&csv("placed:1.1.1?a=3")));
     // A coupler point at the crank pin traces the crank's circle; so does a point of a grid.
     for name in ["evans:1.1.1?M.along=0", "grid:1.7.1?M.along=0&M.across=0"] {
-        let drawing = drawing(&text(folder.path(), &["export", name, "--format", "dxf"]));
+        let drawing = drawing(&printed(folder.path(), &["export", name, "--format", "dxf"]));
         let curve = drawing.entities.iter().find(|entity| entity.groups[&8] == "CURVE").unwrap();
         assert_eq!((curve.kind.as_str(), curve.number(40)), ("CIRCLE", 1.0), "{name}");
     }
     assert!(csv("grid:1.7.1?M.along=0").contains("\n1,7,1,1,0,"));
-    text(folder.path(), &["export", "evans:1?p=2.5", "evans:1", "--format", "dxf", "-o", "both"]);
+    printed(folder.path(), &["export", "evans:1?p=2.5", "evans:1", "--format", "dxf", "-o", "both"]);
     assert_eq!(files(&folder.path().join("both")), ["evans-1-1-1-p-2.5.dxf", "evans-1-1-1.dxf"]);
 }
 
 #[test]
 fn a_circuit_beside_those_of_the_family_can_be_named() {
     let folder = export("csv");
-    let named = text(folder.path(), &["export", "evans:1.1.1?circuit=2", "--format", "csv"]);
-    let own = text(folder.path(), &["export", "evans:1.1.1?circuit=1", "--format", "csv"]);
+    let named = printed(folder.path(), &["export", "evans:1.1.1?circuit=2", "--format", "csv"]);
+    let own = printed(folder.path(), &["export", "evans:1.1.1?circuit=1", "--format", "csv"]);
     assert_eq!(own, file(folder.path(), "evans", [1, 1, 1], ".csv"));
     // The second circuit of a crank-rocker is the first in the other assembly mode.
     assert!(named.contains("\n1,1,2,-1,0,"), "{named}");
@@ -502,8 +488,7 @@ fn a_circuit_beside_those_of_the_family_can_be_named() {
 
 #[test]
 fn all_wrong_arguments_are_reported_and_nothing_is_written() {
-    let folder = TempDir::new().unwrap();
-    fs::write(folder.path().join("atlas.toml"), MANIFEST).unwrap();
+    let folder = folder_with(MANIFEST);
     fs::write(folder.path().join("a-file"), "mine").unwrap();
     let before = files(folder.path());
     let cases: [(&[&str], &[&str]); 21] = [
@@ -561,16 +546,16 @@ fn all_wrong_arguments_are_reported_and_nothing_is_written() {
 #[test]
 fn a_single_result_is_written_to_standard_output_a_file_or_a_folder() {
     let folder = export("csv");
-    let table = text(folder.path(), &["export", "atlas.toml", "evans:1", "--format", "csv"]);
+    let table = printed(folder.path(), &["export", "atlas.toml", "evans:1", "--format", "csv"]);
     assert_eq!(table, file(folder.path(), "evans", [1, 1, 1], ".csv"));
-    text(folder.path(), &["export", "evans:1.1.1", "--format", "csv,csv", "-o", "one"]);
+    printed(folder.path(), &["export", "evans:1.1.1", "--format", "csv,csv", "-o", "one"]);
     assert_eq!(fs::read_to_string(folder.path().join("one")).unwrap(), table);
-    let summary = text(folder.path(), &["export", "evans:1.1.1", "--format", "csv", "-o", "new/"]);
+    let summary = printed(folder.path(), &["export", "evans:1.1.1", "--format", "csv", "-o", "new/"]);
     assert_eq!(summary, "1 file written to new/\n");
     assert_eq!(files(&folder.path().join("new")), ["evans-1-1-1.csv"]);
     // A folder may be named like a file, if it exists or its name ends in a slash.
     for path in ["z.csv/", "z.csv"] {
-        text(folder.path(), &["export", "evans", "--format", "csv", "-o", path]);
+        printed(folder.path(), &["export", "evans", "--format", "csv", "-o", path]);
         assert_eq!(files(&folder.path().join("z.csv")), ["evans-1-1-1.csv", "evans-2-1-1.csv"]);
     }
     let (code, _, err) = run(folder.path(), &["export", "--only", "watt", "--format", "csv", "-o", "watts/"]);

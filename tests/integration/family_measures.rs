@@ -10,7 +10,7 @@ fn a_family_computes_the_measures_it_names_and_those_its_expressions_use() {
         )
     };
     let run = |measures: &str| {
-        let atlas = crate::folder::Atlas::new(&text(measures));
+        let atlas = crate::support::folder::Atlas::new(&text(measures));
         let (code, _, err) = atlas.run(&[]);
         assert_eq!(code, 0, "{err}");
         let cells = std::fs::read_to_string(atlas.out().join("e/cells.csv")).unwrap();

@@ -9,7 +9,8 @@ use coupler_curves::geometry::trig;
 use serde_json::Value as Json;
 use tempfile::TempDir;
 
-use crate::command::{folder_with, printed, program, result, run};
+use crate::support::command::{folder_with, printed, program, result, run};
+use crate::support::table::{numbers, rows};
 
 type Point = [f64; 2];
 
@@ -132,14 +133,11 @@ fn the_manifest_reproduces_the_deviation() {
         let Ok(table) = fs::read_to_string(folder.path().join(format!("found/found-{form}/points.csv"))) else {
             continue;
         };
-        let mut rows = csv::Reader::from_reader(table.as_bytes());
-        let head: Vec<String> = rows.headers().unwrap().iter().map(str::to_owned).collect();
-        let column = |name: &str| head.iter().position(|other| other == name).unwrap();
         let mut cells: Vec<Vec<Point>> = Vec::new();
-        for row in rows.records().map(Result::unwrap) {
-            let cell: usize = row[column("cell")].parse().unwrap();
+        for row in rows(&table) {
+            let cell: usize = row["cell"].parse().unwrap();
             cells.resize(cells.len().max(cell), Vec::new());
-            cells[cell - 1].push([column("x"), column("y")].map(|column| row[column].parse().unwrap()));
+            cells[cell - 1].push(numbers(&row, ["x", "y"]));
         }
         deviations.extend(cells.iter().map(|cell| rms(&bean(), cell)));
     }

@@ -5,7 +5,8 @@ use std::fs;
 use serde_json::Value as Json;
 use tempfile::TempDir;
 
-use crate::command::{folder_with, printed, run};
+use crate::support::command::{folder_with, printed, run};
+use crate::support::table::{numbers, rows};
 
 const MANIFEST: &str = r#"
 [atlas]
@@ -29,14 +30,10 @@ sampling = { samples = 180 }
 fn folder() -> (TempDir, Vec<[f64; 2]>) {
     let folder = folder_with(MANIFEST);
     let csv = printed(folder.path(), &["export", "sliders:4.1.1", "--format", "csv"]);
-    let mut lines = csv.lines();
-    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
-    let column = |name: &str| names.iter().position(|other| *other == name).unwrap();
-    let (x, y) = (column("x"), column("y"));
-    let points: Vec<[f64; 2]> = lines
+    let points: Vec<[f64; 2]> = rows(&csv)
+        .iter()
         .step_by(3)
-        .map(|line| line.split(',').collect::<Vec<_>>())
-        .map(|row| [x, y].map(|k| row[k].parse::<f64>().unwrap()))
+        .map(|row| numbers(row, ["x", "y"]))
         .map(|[x, y]| [100.0 + 7.0 * y, 7.0 * x - 30.0])
         .collect();
     let rows: String = points.iter().map(|[x, y]| format!("{x},{y}\n")).collect();

@@ -1,14 +1,14 @@
 //! Manifests and records with other format versions, and files with the line ends and paths of Windows.
 
-use std::collections::BTreeMap;
 use std::fs;
-use std::path::Path;
 
 use coupler_atlas::manifest;
 use coupler_atlas::record::{self, ReadError, RunRecord};
 use tempfile::TempDir;
 
-use crate::folder::Atlas;
+use crate::support::command::{printed, run};
+use crate::support::folder::{Atlas, tree};
+use crate::support::plan::plan;
 
 const MANIFEST: &str = r#"[atlas]
 title = "T"
@@ -22,19 +22,6 @@ grid = { p = [2, 3] }
 let = { a = "(1 + p)^1.5 / 2" }
 "#;
 
-/// The bytes of every file below a folder, by path.
-fn tree(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let mut found = BTreeMap::new();
-    for path in fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
-        let name = path.file_name().unwrap().to_str().unwrap().to_owned();
-        match path.is_dir() {
-            true => found.extend(tree(&path).into_iter().map(|(inner, bytes)| (format!("{name}/{inner}"), bytes))),
-            false => drop(found.insert(name, fs::read(&path).unwrap())),
-        }
-    }
-    found
-}
-
 fn with_format(format: &str) -> String {
     MANIFEST.replacen("[atlas]\n", &format!("[atlas]\nformat = {format}\n"), 1)
 }
@@ -45,10 +32,8 @@ fn a_manifest_of_another_format_is_rejected_with_one_error() {
     let newer = with_format("2").replace("[[family]]", "[[brood]]").replace("title", "name");
     let atlas = Atlas::new(&newer);
     for command in [&["validate"][..], &["inspect", "mine", "--manifest", "atlas.toml"]] {
-        let mut program = std::process::Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
-        let output = program.current_dir(atlas.0.path()).args(command).output().unwrap();
-        let err = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(2), "{command:?}: {err}");
+        let (code, _, err) = run(atlas.0.path(), command);
+        assert_eq!(code, 2, "{command:?}: {err}");
         let version = env!("CARGO_PKG_VERSION");
         let message = format!("the manifest has format 2, but this is version {version}, which reads format 1");
         assert!(err.contains(&message) && err.contains("atlas.toml:2:10\n"), "{err}");
@@ -67,7 +52,7 @@ fn a_manifest_of_another_format_is_rejected_with_one_error() {
 
 #[test]
 fn writing_out_the_format_changes_nothing() {
-    let inputs = |text: &str| manifest::parse(text).plan.unwrap().families[0].manifest_inputs.clone();
+    let inputs = |text: &str| plan(text).families[0].manifest_inputs.clone();
     let without = inputs(MANIFEST);
     for one in ["1", "1.0"] {
         assert_eq!(inputs(&with_format(one)), without, "nothing is drawn again");
@@ -142,9 +127,7 @@ fn reports_are_the_same_with_windows_line_ends() {
     let folder = TempDir::new().unwrap();
     let validate = |text: &str| {
         fs::write(folder.path().join("m.toml"), text).unwrap();
-        let mut program = std::process::Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
-        let output = program.current_dir(folder.path()).args(["validate", "m.toml"]).output().unwrap();
-        String::from_utf8(output.stderr).unwrap()
+        run(folder.path(), &["validate", "m.toml"]).2
     };
     let plain = validate(&broken);
     for place in ["m.toml:2:9", "m.toml:6:1", "m.toml:10:14", "m.toml:13:19", "m.toml:14:8", "m.toml:18:6"] {
@@ -169,8 +152,7 @@ fn the_output_folder_may_be_written_with_backslashes() {
         let here = folder.path().join("here");
         fs::create_dir(&here).unwrap();
         fs::write(here.join("atlas.toml"), MANIFEST.replace("\"out\"", output).replace('\n', "\r\n")).unwrap();
-        let mut program = std::process::Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
-        assert!(program.current_dir(&here).args(["render", "-q"]).status().unwrap().success());
+        printed(&here, &["render", "-q"]);
         assert!(folder.path().join("there/pages/evans/evans-001.svg").exists(), "{output}");
         assert_eq!(fs::read_dir(&here).unwrap().count(), 1, "{output}");
     }

@@ -4,9 +4,11 @@
 use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Output;
 
 use tempfile::TempDir;
+
+use crate::support::command::{folder_with, program, result};
 
 const MANIFEST: &str = r#"[atlas]
 title = "Atlas"
@@ -36,8 +38,7 @@ struct Atlas {
 
 impl Atlas {
     fn new() -> Atlas {
-        let atlas = Atlas { folder: tempfile::tempdir().unwrap() };
-        fs::write(atlas.path("atlas.toml"), MANIFEST).unwrap();
+        let atlas = Atlas { folder: folder_with(MANIFEST) };
         assert!(atlas.run(&["render", "-q"]).status.success());
         atlas
     }
@@ -47,20 +48,18 @@ impl Atlas {
     }
 
     fn run<A: AsRef<OsStr>>(&self, arguments: &[A]) -> Output {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
-        command.current_dir(self.folder.path()).args(arguments).output().unwrap()
+        program(self.folder.path()).args(arguments).output().unwrap()
     }
 
     /// Runs the program; what it prints must be printable and have no workflow command.
     fn run_printable<A: AsRef<OsStr>>(&self, arguments: &[A]) -> (i32, String) {
-        let output = self.run(arguments);
-        let (out, errors) = (String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap());
+        let (code, out, errors) = result(self.run(arguments));
         let printed = out + &errors;
         assert_printable(&printed);
         for line in printed.lines() {
             assert!(!line.trim_start().starts_with("::") && !line.contains("##["), "{line}\n{printed}");
         }
-        (output.status.code().unwrap(), printed)
+        (code, printed)
     }
 
     fn edit_record(&self, change: impl FnOnce(&mut serde_json::Value)) {
@@ -145,7 +144,8 @@ fn a_hostile_record_is_checked_in_every_report_format() {
     assert_printable(&annotations);
     assert!(annotations.contains("\\u{1b}"), "{annotations}");
     for line in annotations.lines() {
-        let rest = line.strip_prefix("::error file=atlas.toml,line=").unwrap();
+        let rest = line.strip_prefix("::error ").or(line.strip_prefix("::notice ")).unwrap();
+        let rest = rest.strip_prefix("file=atlas.toml,line=").unwrap();
         let (properties, message) = rest.split_once("::").unwrap();
         assert!(properties.contains(",title=") && properties.matches([':', ',']).count() == 1, "{line}");
         assert!(!message.contains(['\n', '\r']), "{line}");

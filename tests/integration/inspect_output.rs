@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 
-use crate::command::printed;
+use crate::support::command::printed;
 
 fn inspect(arguments: &[&str]) -> String {
     printed(Path::new("."), &[&["inspect"], arguments].concat())

@@ -10,7 +10,7 @@ use coupler_drawing::scene::{FontFamily, Group, Item, Scene, Typeface};
 use roxmltree::{Document, Node};
 
 use crate::book::reader::Pdf;
-use crate::folder::{Atlas, tree};
+use crate::support::folder::{Atlas, tree};
 
 /// Texts that are easily written wrongly: markup, quotes and escapes; right-to-left text and direction overrides; long
 /// words; characters without a glyph in the typefaces; combining characters.

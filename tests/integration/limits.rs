@@ -9,6 +9,8 @@ use coupler_atlas::sweep::{self, CellIndices};
 use coupler_curves::linkage_format::MAX_PROBLEMS;
 use coupler_curves::problem::report;
 
+use crate::support::plan::plan;
+
 /// A manifest with a family over a grid, its further keys, and a four-bar with further joints.
 struct Manifest {
     title: String,
@@ -76,7 +78,7 @@ fn too_many_cells_are_refused_without_being_counted_one_by_one() {
 #[test]
 fn cells_that_are_not_selected_one_by_one_take_no_memory() {
     let grid = "{ r = { from = 1, to = 2, count = 100_000 } }".to_owned();
-    let plan = manifest::parse(&Manifest { grid, ..Manifest::default() }.text()).plan.unwrap();
+    let plan = plan(&Manifest { grid, ..Manifest::default() }.text());
     let kept = sweep::kept_cells(&plan.families[0].family);
     assert_eq!(kept, CellIndices::Range(0..100_000));
     assert_eq!((kept.get(99_999), kept.get(100_000)), (Some(99_999), None));

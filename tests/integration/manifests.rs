@@ -2,10 +2,12 @@
 
 use std::fs;
 
-use coupler_atlas::manifest::{self, Plan};
+use coupler_atlas::manifest;
 use coupler_curves::problem::report;
 
-use crate::command::{folder_with, printed};
+use crate::support::command::{folder_with, printed};
+use crate::support::plan::{plan, problems};
+use crate::support::table::rows;
 
 /// A valid manifest, which tests modify.
 const GOOD: &str = r#"[atlas]
@@ -17,20 +19,6 @@ sampling = { step = "2 deg" }
 grid = { p = [2, 3] }
 let = { a = "(1 + p)^1.5 / 2" }
 "#;
-
-fn plan(text: &str) -> Plan {
-    let loaded = manifest::parse(text);
-    loaded.plan.unwrap_or_else(|| panic!("{}", report(&loaded.problems, "m", text, false)))
-}
-
-fn problems(text: &str) -> String {
-    let loaded = manifest::parse(text);
-    assert!(loaded.plan.is_none(), "the manifest is accepted:\n{text}");
-    for problem in &loaded.problems {
-        assert!(!problem.help.is_empty(), "no help: {}", problem.message);
-    }
-    report(&loaded.problems, "atlas.toml", text, false)
-}
 
 /// Each replacement in the valid manifest is reported with this message at this line and column.
 #[test]
@@ -642,8 +630,8 @@ fn a_family_chooses_the_joints_that_are_traced() {
     let folder = folder_with(manifest);
     printed(folder.path(), &["render", "-o", "out", "--format", "svg", "--quiet"]);
     let cells = fs::read_to_string(folder.path().join("out/sliders/cells.csv")).unwrap();
-    let traces: Vec<&str> = cells.lines().skip(1).map(|line| line.split(',').nth(1).unwrap()).collect();
-    assert!(traces.len() >= 2 && traces.iter().all(|trace| *trace == "1"), "{traces:?}");
+    let rows = rows(&cells);
+    assert!(rows.len() >= 2 && rows.iter().all(|row| row["trace"] == "1"), "{cells}");
     let exported = printed(folder.path(), &["export", "sliders:2.1.1", "--format", "toml"]);
     assert!(exported.contains("trace = [\"M\"]"), "{exported}");
     fs::write(folder.path().join("again.toml"), format!("atlas.title = \"T\"\n{exported}")).unwrap();

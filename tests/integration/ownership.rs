@@ -5,7 +5,7 @@ use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
-use crate::folder::{Atlas, check_record, files, tree};
+use crate::support::folder::{Atlas, check_record, files, tree};
 
 /// A manifest of one family, without an output folder.
 fn manifest(title: &str, families: &[&str]) -> String {
@@ -175,9 +175,8 @@ fn only_regular_files_of_bounded_size_are_read() {
             make(kind, &atlas.out().join(name));
             // A limit on memory instead of a clock: whatever is read whole does not fit.
             let limited = |arguments: &str| {
-                let program = env!("CARGO_BIN_EXE_coupler-atlas");
-                let script = format!("ulimit -v 2500000; exec timeout 60 '{program}' {arguments}");
-                let output = Command::new("sh").current_dir(atlas.0.path()).args(["-c", &script]).output().unwrap();
+                let script = format!("ulimit -v 2500000; exec timeout 60 \"$0\" {arguments}");
+                let output = crate::support::command::shell(atlas.0.path(), &script).output().unwrap();
                 (output.status.code().unwrap_or(-1), String::from_utf8_lossy(&output.stderr).into_owned())
             };
             let (check, err) = limited("check --jobs 2 --against out -q");
@@ -213,12 +212,9 @@ fn many_pages_are_in_subfolders() {
     assert!(found.contains(&"evans/0001-1000/evans-007.svg".to_owned()));
     assert!(found.contains(&"evans/1001-1002/evans-1002.svg".to_owned()));
     assert_eq!(found.iter().filter(|name| name.ends_with(".svg")).count(), 1002);
-    let check = || {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
-        let output = command.current_dir(atlas.0.path()).args(["check", "-q", "--against", "out"]).output().unwrap();
-        (output.status.code().unwrap(), String::from_utf8(output.stdout).unwrap())
-    };
-    assert_eq!(check(), (0, String::new()));
+    let check = || atlas.check(&["-q"]);
+    let (code, out, err) = check();
+    assert_eq!((code, out.as_str()), (0, ""), "{err}");
     let page = atlas.out().join("evans/1001-1002/evans-1001.svg");
     let drawn = fs::read(&page).unwrap();
     fs::write(&page, "edited").unwrap();

@@ -4,21 +4,17 @@
 use std::collections::HashSet;
 use std::fs;
 
-use coupler_atlas::manifest::{self, Plan, PlannedFamily};
+use coupler_atlas::manifest::{Plan, PlannedFamily};
 use coupler_curves::family::Cell;
 use coupler_curves::geometry::{Vector, trig};
 use coupler_drawing::page::{Layout, PanelScale};
 
-use crate::command::{folder_with, printed};
+use crate::support::command::{folder_with, printed};
+use crate::support::plan::plan;
 
 /// A manifest of one family without errors.
 fn family(text: &str) -> String {
     format!("[atlas]\ntitle = \"T\"\n[[family]]\n{text}")
-}
-
-fn plan(text: &str) -> Plan {
-    let outcome = manifest::parse(text);
-    outcome.plan.unwrap_or_else(|| panic!("{:?}", outcome.problems))
 }
 
 /// A page of panels as SVG, with its family and its cells.

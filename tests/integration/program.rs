@@ -1,13 +1,14 @@
 //! The command-line program: commands, exit codes and files.
 
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::path::Path;
 
 use coupler_curves::geometry::trig;
 use tempfile::TempDir;
 
-use crate::command::{folder_with, run};
+use crate::support::command::{folder_with, run};
+use crate::support::folder::{files, tree};
+use crate::support::table::{numbers, rows};
 
 const MANIFEST: &str = r#"[atlas]
 title = "T"
@@ -28,28 +29,6 @@ sampling = { samples = 20 }
 cases = [{ p = 4, r = 2, a = 1 }, { p = 90, r = 2, a = 1 }]
 "#;
 
-/// Every file below a folder with its bytes.
-fn tree(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
-    let mut found = Vec::new();
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            found.extend(tree(&path));
-        } else {
-            found.push((path.clone(), fs::read(&path).unwrap()));
-        }
-    }
-    found.sort();
-    found
-}
-
-fn names(folder: &Path) -> Vec<String> {
-    tree(folder)
-        .iter()
-        .map(|(path, _)| path.strip_prefix(folder).unwrap().to_string_lossy().replace('\\', "/"))
-        .collect()
-}
-
 #[test]
 fn render_writes_pages_points_cells_and_a_record() {
     let folder = folder_with(MANIFEST);
@@ -60,7 +39,7 @@ fn render_writes_pages_points_cells_and_a_record() {
     assert!(err.contains("warning: far, cell 2: B cannot be placed: A and C are 88 or more apart"), "{err}");
     let pages = folder.path().join("pages");
     assert_eq!(
-        names(&pages),
+        files(&pages),
         [
             "evans/cells.csv",
             "evans/evans-001.svg",
@@ -167,7 +146,7 @@ fn validate_writes_nothing_and_names_every_problem() {
     assert_eq!((code, out.as_str()), (2, ""));
     assert!(err.contains("`step` must not be 0") && err.contains("did you mean `watt`?"), "{err}");
     assert!(err.contains("atlas.toml:10:21"), "{err}");
-    assert_eq!(names(folder.path()), ["atlas.toml"]);
+    assert_eq!(files(folder.path()), ["atlas.toml"]);
 }
 
 #[test]
@@ -181,8 +160,8 @@ fn a_where_that_keeps_no_cell_is_a_warning() {
     let (_, out, _) = run(some.path(), &["render"]);
     assert!(out.contains("evans: 3 cells (1 left out by `where`), 2 curves, 1 page"), "{out}");
     let cells = fs::read_to_string(some.path().join("pages/evans/cells.csv")).unwrap();
-    let numbers: Vec<&str> = cells.lines().skip(1).map(|line| line.split(',').next().unwrap()).collect();
-    assert_eq!(numbers, ["2", "3"], "cells that are kept keep their numbers");
+    let cells: Vec<String> = rows(&cells).iter().map(|row| row["cell"].clone()).collect();
+    assert_eq!(cells, ["2", "3"], "cells that are kept keep their numbers");
 }
 
 #[test]
@@ -221,20 +200,15 @@ fn a_full_disk_leaves_every_file_whole() {
     let before = tree(&pages);
     fs::write(folder.path().join("atlas.toml"), MANIFEST.replace("10 deg", "1 deg")).unwrap();
     let script = "trap '' XFSZ; ulimit -f 16; exec \"$0\" render -q";
-    let output = Command::new("sh")
-        .current_dir(folder.path())
-        .args(["-c", script, env!("CARGO_BIN_EXE_coupler-atlas")])
-        .output()
-        .unwrap();
-    assert_eq!(output.status.code(), Some(3));
-    let err = String::from_utf8(output.stderr).unwrap();
+    use crate::support::command::{result, shell};
+    let (code, _, err) = result(shell(folder.path(), script).output().unwrap());
+    assert_eq!(code, 3);
     assert!(err.contains("cannot write") && err.contains("File too large"), "{err}");
     // Pages may be new or old, but each is complete, and no temporary file remains.
     let after = tree(&pages);
-    let paths = |tree: &[(PathBuf, Vec<u8>)]| tree.iter().map(|(path, _)| path.clone()).collect::<Vec<_>>();
-    assert_eq!(paths(&after), paths(&before));
-    for (path, bytes) in after.iter().filter(|(path, _)| path.extension().is_some_and(|e| e == "svg")) {
-        assert!(bytes.ends_with(b"</svg>\n"), "{}", path.display());
+    assert!(!after.is_empty() && after.keys().eq(before.keys()));
+    for (name, bytes) in after.iter().filter(|(name, _)| name.ends_with(".svg")) {
+        assert!(bytes.ends_with(b"</svg>\n"), "{name}");
     }
     // The record distinguishes them: another run into the same folder makes all of them new.
     let (code, out, err) = run(folder.path(), &["render"]);
@@ -242,8 +216,7 @@ fn a_full_disk_leaves_every_file_whole() {
     assert!(out.contains("far: 2 cells (1 not assembled), 1 curve, 1 page (unchanged)"), "{out}");
     let fresh = folder_with(&MANIFEST.replace("10 deg", "1 deg"));
     run(fresh.path(), &["render", "-q"]);
-    let bytes = |folder: &TempDir| tree(&folder.path().join("pages")).into_iter().map(|f| f.1).collect::<Vec<_>>();
-    assert_eq!(bytes(&folder), bytes(&fresh));
+    assert_eq!(tree(&pages), tree(&fresh.path().join("pages")));
 }
 
 #[test]
@@ -509,8 +482,7 @@ fn cognates_make_a_manifest_that_draws_one_curve() {
         let points = |name: &str| -> Vec<[f64; 2]> {
             let path = format!("three/{}-{name}/points.csv", arguments[0]);
             let table = fs::read_to_string(folder.path().join(path)).unwrap();
-            let rows = table.lines().skip(1).map(|row| row.split(',').collect::<Vec<_>>());
-            rows.map(|row| [row[6].parse().unwrap(), row[7].parse().unwrap()]).collect()
+            rows(&table).iter().map(|row| numbers(row, ["x", "y"])).collect()
         };
         let original = points("original");
         for name in ["cognate-1", "cognate-2"] {
@@ -614,22 +586,17 @@ fn pages_are_sorted_and_tables_are_not() {
     let (code, _, err) = run(folder.path(), &["render", "--only", "evans"]);
     assert_eq!(code, 0, "{err}");
     let read = |name: &str| fs::read_to_string(folder.path().join("pages/evans").join(name)).unwrap();
-    let mut cells = csv::Reader::from_reader(read("cells.csv").into_bytes().leak() as &[u8]);
-    let head = cells.headers().unwrap().clone();
-    let rows: Vec<csv::StringRecord> = cells.records().map(Result::unwrap).collect();
-    let value = |row: &csv::StringRecord, name: &str| -> f64 {
-        row[head.iter().position(|n| n == name).unwrap()].parse().unwrap()
-    };
-    assert_eq!(rows.iter().map(|row| &row[0]).collect::<Vec<_>>(), ["1", "2", "3"]);
+    let rows = rows(&read("cells.csv"));
+    assert_eq!(rows.iter().map(|row| &row["cell"]).collect::<Vec<_>>(), ["1", "2", "3"]);
     let (first, second) = (read("evans-001.svg"), read("evans-002.svg"));
     for (page, cells) in [(&first, &[3, 2][..]), (&second, &[1][..])] {
         let positions: Vec<usize> =
             cells.iter().map(|k| page.find(&format!("id=\"evans-{k}-1-1\"")).unwrap()).collect();
         assert!(positions.is_sorted(), "{cells:?}");
         for k in cells {
-            let row = &rows[k - 1];
-            assert!((value(row, "straight_input_deg") - 60.0).abs() < 1e-6);
-            let line = format!("crank-rocker –: straight {:.3}", value(row, "straight_length"));
+            let [input, length] = numbers(&rows[k - 1], ["straight_input_deg", "straight_length"]);
+            assert!((input - 60.0).abs() < 1e-6);
+            let line = format!("crank-rocker –: straight {length:.3}");
             assert!(page.contains(&line), "cell {k}: {line}");
         }
         assert_eq!(page.matches("class=\"straight\"").count(), cells.len());

@@ -6,7 +6,7 @@ use coupler_curves::motion::{Motion, Sampler};
 /// that of the pass the sample is on, compared with a backward difference of positions along that pass.
 #[test]
 fn velocities_at_a_sample_are_those_of_its_own_pass() {
-    let plan = coupler_atlas::manifest::parse(include_str!("../../atlas.toml")).plan.unwrap();
+    let plan = crate::support::plan::plan(include_str!("../../atlas.toml"));
     let roberts = plan.families.iter().find(|planned| planned.family.id == "roberts").unwrap();
     let family = &roberts.family;
     let (mut checked, mut most_passes) = (0, 0);

@@ -8,13 +8,15 @@ use coupler_atlas::sweep;
 use coupler_curves::problem::report;
 use coupler_drawing::page::Layout;
 
+use crate::support::command::run;
+use crate::support::folder::Atlas;
+use crate::support::plan::plan;
+
 #[test]
 fn the_manifest_in_docs_manifest_is_valid() {
     let document = include_str!("../../docs/manifest.md");
     let text = document.split("```toml\n").nth(1).unwrap().split("```").next().unwrap();
-    let loaded = manifest::parse(text);
-    let plan = loaded.plan.unwrap_or_else(|| panic!("{}", report(&loaded.problems, "docs/manifest.md", text, false)));
-    assert_eq!(plan.families[0].family.cell_count(), 18);
+    assert_eq!(plan(text).families[0].family.cell_count(), 18);
 }
 
 /// The tutorial's search for a feeder, and the cell that it keeps.
@@ -23,7 +25,7 @@ fn the_feeder_in_docs_tutorial_is_found() {
     let tutorial = include_str!("../../docs/tutorial.md");
     let text = tutorial.split("```toml\n").find(|part| part.contains("id = \"feeder\"")).unwrap();
     let text = text.split("```").next().unwrap();
-    let family = &manifest::parse(text).plan.expect("a valid manifest").families[0].family;
+    let family = &plan(text).families[0].family;
     let kept = sweep::kept_cells(family);
     assert_eq!((family.cell_count(), kept.iter().collect::<Vec<_>>()), (1125, vec![899]));
     let solved = solve::solve_cell(family, &coupler_curves::motion::Sampler::new(family.sampling), 899).unwrap();
@@ -107,9 +109,7 @@ fn the_examples_have_the_stated_sizes() {
     ];
     for (text, statement, curves, pages) in cases {
         assert!(page.contains(statement), "{statement}");
-        let loaded = manifest::parse(text);
-        let plan = loaded.plan.unwrap_or_else(|| panic!("{}", report(&loaded.problems, "example", text, false)));
-        let [planned] = &plan.families[..] else { panic!("one family") };
+        let [planned] = &plan(text).families[..] else { panic!("one family") };
         assert_eq!(planned.layout, Layout::CouplerGrid);
         // Whether a linkage is a crank-rocker or has a change point follows from its lengths, without any curves.
         let kept = sweep::select_cells(&planned.family, true, &AtomicBool::new(false)).unwrap();
@@ -161,27 +161,22 @@ fn the_commands_in_docs_check_can_be_run() {
     let (validate, commands) = (hooks[0], [&*checks[0], &*check]);
     let manifest = "[atlas]\ntitle = \"T\"\noutput = \"output\"\nformats = [\"svg\"]\n[[family]]\nid = \"e\"\nlinkage = \"evans\"\n\
                     sampling = { samples = 9 }\ncases = [{ p = 2, a = 2 }]\n";
-    let folder = tempfile::tempdir().unwrap();
-    let run = |arguments: &str| {
-        let mut program = std::process::Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
-        let output = program.current_dir(folder.path()).args(arguments.split(' ')).output().unwrap();
-        (output.status.code(), String::from_utf8_lossy(&output.stdout).into_owned())
-    };
-    let write = |text: &str| std::fs::write(folder.path().join("atlas.toml"), text).unwrap();
-    write(manifest);
-    assert_eq!(run("render -q").0, Some(0));
+    let atlas = Atlas::new(manifest);
+    let folder = atlas.0.path();
+    let run = |arguments: &str| run(folder, &arguments.split(' ').collect::<Vec<_>>());
+    assert_eq!(run("render -q").0, 0);
     for command in commands.iter().chain([&validate]) {
-        assert_eq!(run(command).0, Some(0), "{command}");
+        assert_eq!(run(command).0, 0, "{command}");
     }
     for command in commands {
         assert_eq!(run(command).1, "", "{command}");
     }
-    write(&manifest.replace("a = 2 }", "a = 2.1 }"));
+    atlas.edit(&manifest.replace("a = 2 }", "a = 2.1 }"));
     for command in commands {
-        let (code, report) = run(command);
-        assert!(code == Some(1) && report.contains("moved"), "{command}: {report}");
+        let (code, report, _) = run(command);
+        assert!(code == 1 && report.contains("moved"), "{command}: {report}");
     }
     for file in ["report.xml", "moved/index.html", "moved/e-1-1-1.svg"] {
-        assert!(folder.path().join(file).is_file(), "{file}");
+        assert!(folder.join(file).is_file(), "{file}");
     }
 }

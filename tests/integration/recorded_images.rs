@@ -1,9 +1,8 @@
 //! Damage to any file of an atlas is found, and images are compared by their pixels where their bytes differ.
 
 use std::fs;
-use std::process::Command;
 
-use crate::folder::{Atlas, files, tree};
+use crate::support::folder::{Atlas, files, tree};
 
 const MANIFEST: &str = r#"[atlas]
 title = "T"
@@ -21,17 +20,13 @@ cases = [{ p = 2, a = 2.5 }, { p = 3, a = 4.0 }]
 "#;
 
 fn rendered() -> Atlas {
-    let atlas = Atlas::new(MANIFEST);
-    let (code, _, err) = atlas.run(&[]);
-    assert_eq!(code, 0, "{err}");
-    atlas
+    Atlas::rendered(MANIFEST, &[])
 }
 
 /// The exit code and output of a check.
 fn check(atlas: &Atlas) -> (i32, String) {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
-    let output = command.current_dir(atlas.0.path()).args(["check", "-q", "--against", "out"]).output().unwrap();
-    (output.status.code().unwrap(), String::from_utf8(output.stdout).unwrap())
+    let (code, out, _) = atlas.check(&["-q"]);
+    (code, out)
 }
 
 #[test]
@@ -171,11 +166,6 @@ fn an_atlas_of_another_version_is_reported_in_one_line() {
     assert!(check(&atlas).1.contains("moved"));
     // A record of an older format says the same.
     fs::write(&record, "{\"format\": 0, \"program\": \"coupler-atlas\", \"version\": \"0.0.1\"}").unwrap();
-    let mut command = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
-    let output = command.current_dir(atlas.0.path()).args(["check", "--against", "out"]).output().unwrap();
-    let err = String::from_utf8(output.stderr).unwrap();
-    assert!(
-        output.status.code() == Some(2) && err.lines().count() == 1 && err.contains("render the atlas again"),
-        "{err}"
-    );
+    let (code, _, err) = atlas.check(&[]);
+    assert!(code == 2 && err.lines().count() == 1 && err.contains("render the atlas again"), "{err}");
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use tempfile::TempDir;
 
-use crate::command::{folder_with, printed, run};
+use crate::support::command::{folder_with, printed, run};
 
 /// A manifest of a four-bar.
 const FOUR_BAR: &str = r#"[atlas]

@@ -4,7 +4,7 @@ use std::fs;
 use std::process::{Child, Command, Output, Stdio};
 use std::time::SystemTime;
 
-use crate::folder::{Atlas, check_record, files, times, tree};
+use crate::support::folder::{Atlas, check_record, files, times, tree};
 
 /// Three pages of panels, one of charts, one with a cell that is not assembled.
 const MANIFEST: &str = r#"[atlas]

@@ -4,11 +4,12 @@ use std::fs;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use coupler_atlas::manifest::{self, Plan};
+use coupler_atlas::manifest::Plan;
 use coupler_atlas::output::{Error, Event, Options, write_atlas};
 use tempfile::TempDir;
 
-use crate::folder::tree;
+use crate::support;
+use crate::support::folder::tree;
 
 /// A family of this many pages; sorted pages come after all tables.
 fn plan(pages: usize, is_sorted: bool, formats: &str) -> Plan {
@@ -19,7 +20,7 @@ fn plan(pages: usize, is_sorted: bool, formats: &str) -> Plan {
          sampling = {{ samples = 12 }}\ngrid = {{ k = {{ from = 1, to = 9, count = {pages} }} }}\n\
          let = {{ p = 2, a = 2.6 }}\n"
     );
-    manifest::parse(&text).plan.unwrap()
+    support::plan::plan(&text)
 }
 
 /// Writes an atlas, and interrupts the run after this many pages; the number of pages drawn if it ended.
@@ -68,7 +69,7 @@ fn a_run_continues_the_pieces_of_the_gallery() {
     let text = "[atlas]\ntitle = \"T\"\nformats = [\"svg\"]\n[[family]]\nid = \"evans\"\nlinkage = \"evans\"\n\
                 panels = [32, 8]\nmeasures = []\nsampling = { samples = 128 }\n\
                 grid = { k = { from = 1, to = 9, count = 10000 } }\nlet = { p = 2, a = 2.6 }\n";
-    let plan = manifest::parse(text).plan.unwrap();
+    let plan = support::plan::plan(text);
     let fresh = TempDir::new().unwrap();
     write(&plan, &fresh, usize::MAX);
     let expected = tree(fresh.path());

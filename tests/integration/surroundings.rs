@@ -7,7 +7,8 @@ use std::process::Command;
 
 use tempfile::TempDir;
 
-use crate::folder::tree;
+use crate::support::command::PROGRAM;
+use crate::support::folder::tree;
 
 /// Every format and layout, with numbers that some languages write differently and a cell that is not assembled.
 const MANIFEST: &str = r#"[atlas]
@@ -56,13 +57,13 @@ fn render(subfolder: &str, mask: &str, jobs: &str, variables: &[(&str, &str)]) -
 #[cfg(unix)]
 fn program(mask: &str) -> Command {
     let mut command = Command::new("sh");
-    command.args(["-c", &format!("umask {mask}; exec \"$0\" render \"$@\""), env!("CARGO_BIN_EXE_coupler-atlas")]);
+    command.args(["-c", &format!("umask {mask}; exec \"$0\" render \"$@\""), PROGRAM]);
     command
 }
 
 #[cfg(not(unix))]
 fn program(_mask: &str) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
+    let mut command = Command::new(PROGRAM);
     command.arg("render");
     command
 }

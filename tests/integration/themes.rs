@@ -1,14 +1,15 @@
 //! Themes: their keys in a manifest, their effect on pages, and whether readers can distinguish their inks.
 
 use std::fs;
-use std::process::Command;
 
-use coupler_atlas::manifest::{self, Plan};
+use coupler_atlas::manifest;
 use coupler_curves::geometry::trig;
 use coupler_curves::problem::report;
 use coupler_drawing::page::{Layout, Options, Paper, Theme};
 use coupler_drawing::scene::{Color, FontFamily};
-use tempfile::TempDir;
+
+use crate::support::folder::Atlas;
+use crate::support::plan::plan;
 
 /// Panels with five curves each, plates, a case that cannot be assembled, and a chart with several lines.
 const GOOD: &str = r#"[atlas]
@@ -53,14 +54,8 @@ fn with(theme: &str) -> String {
     GOOD.replace("\"paper\"", theme)
 }
 
-fn plan(theme: &str) -> Plan {
-    let text = with(theme);
-    let loaded = manifest::parse(&text);
-    loaded.plan.unwrap_or_else(|| panic!("{}", report(&loaded.problems, "m", &text, false)))
-}
-
 fn theme(text: &str) -> Theme {
-    plan(text).page.theme
+    plan(&with(text)).page.theme
 }
 
 fn named(name: &str) -> Theme {
@@ -175,7 +170,7 @@ fn a_table_changes_only_the_keys_it_gives() {
 fn sizes_follow_the_paper() {
     let options = |theme: &str, paper: &str| {
         let text = with(theme).replace("[page]\n", &format!("[page]\npaper = \"{paper}\"\n"));
-        let page = manifest::parse(&text).plan.unwrap().page;
+        let page = plan(&text).page;
         page.theme.for_paper(page.paper)
     };
     for (paper, scale) in [("tabloid", 1.0), ("a4", f64::min(297.0 / 431.8, 210.0 / 279.4))] {
@@ -200,12 +195,9 @@ fn sizes_follow_the_paper() {
 
 /// The first page of each family with a theme: the family, the SVG and the image.
 fn pages(theme: &str) -> Vec<(String, String, image::RgbImage)> {
-    let folder = TempDir::new().unwrap();
-    fs::write(folder.path().join("atlas.toml"), with(theme)).unwrap();
-    let output = Command::new(env!("CARGO_BIN_EXE_coupler-atlas")).current_dir(&folder).arg("render").output().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let atlas = Atlas::rendered(&with(theme), &[]);
     let page = |family: &str| {
-        let path = folder.path().join(format!("out/{family}/{family}-001"));
+        let path = atlas.out().join(format!("{family}/{family}-001"));
         let image = image::open(path.with_extension("png")).unwrap().to_rgb8();
         (family.to_owned(), fs::read_to_string(path.with_extension("svg")).unwrap(), image)
     };

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
 
-use crate::command::{folder_with, program, run};
+use crate::support::command::{folder_with, program, run};
 
 fn manifest(p: f64) -> String {
     format!(

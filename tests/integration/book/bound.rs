@@ -12,6 +12,8 @@ use coupler_drawing::scene::{Item, Scene};
 
 use super::reader::{Contents, Pdf};
 
+use crate::support::plan::faultless_plan;
+
 const MANIFEST: &str = r#"
 [atlas]
 title = "Curves"
@@ -33,9 +35,7 @@ cases = [ { p = 2.00, s = 2.50, a = 2.50 }, { p = 3.00, s = 4.00, a = 4.00 } ]
 "#;
 
 fn plan() -> Plan {
-    let loaded = manifest::parse(MANIFEST);
-    assert!(loaded.problems.is_empty(), "{:?}", loaded.problems);
-    loaded.plan.unwrap()
+    faultless_plan(MANIFEST)
 }
 
 /// The solved cells of every family of a plan.

@@ -4,7 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
 use super::reader::Pdf;
-use crate::folder::Atlas;
+use crate::support::folder::Atlas;
+use crate::support::table::{self, Row};
 
 const MANIFEST: &str = r#"
 [atlas]
@@ -61,23 +62,18 @@ fn texts_in(pdf: &Pdf, page: usize, [left, bottom, right, top]: [f64; 4]) -> Vec
 
 /// The book of the manifest, and its index of parts: titles with the indices of their pages.
 fn book(arguments: &[&str]) -> (Atlas, Pdf, BTreeMap<String, usize>) {
-    let atlas = Atlas::new(MANIFEST);
-    let (code, _, err) = atlas.run(arguments);
-    assert_eq!(code, 0, "{err}");
+    let atlas = Atlas::rendered(MANIFEST, arguments);
     let pdf = Pdf::read(&fs::read(atlas.out().join("atlas.pdf")).unwrap());
     let parts = pdf.outline().into_iter().filter(|entry| entry.0 == 0).map(|(_, title, page)| (title, page)).collect();
     (atlas, pdf, parts)
 }
 
-/// The rows of `cells.csv` as names with values.
-fn rows(atlas: &Atlas) -> Vec<BTreeMap<String, String>> {
-    let text = fs::read_to_string(atlas.out().join("grid/cells.csv")).unwrap();
-    let mut lines = text.lines().map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>());
-    let header = lines.next().unwrap();
-    lines.map(|line| header.iter().cloned().zip(line).collect()).collect()
+/// The rows of `cells.csv`.
+fn rows(atlas: &Atlas) -> Vec<Row> {
+    table::rows(&atlas.read("grid/cells.csv"))
 }
 
-fn number(row: &BTreeMap<String, String>, name: &str) -> f64 {
+fn number(row: &Row, name: &str) -> f64 {
     row[name].parse().unwrap_or(f64::NAN)
 }
 

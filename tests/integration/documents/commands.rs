@@ -8,7 +8,7 @@ use tempfile::TempDir;
 
 use super::text::{Document, codes};
 use super::{copy, document, documents, printed, put_manifests};
-use crate::command::{COMMANDS, run};
+use crate::support::command::{COMMANDS, run};
 
 /// Commands with placeholders, shortened or presupposing something else: what is run instead, and with which exit code.
 const SUBSTITUTED: [(&str, &[(&str, i32)]); 14] = [

@@ -4,7 +4,6 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::fs;
 
-use coupler_atlas::manifest;
 use coupler_curves::catalogue;
 use coupler_curves::motion::Sampler;
 use coupler_curves::solve::solve_cell;
@@ -14,6 +13,7 @@ use coupler_drawing::render::{self, TextMode};
 
 use super::{printed, root};
 use crate::recorded::assert_recorded;
+use crate::support::plan::plan;
 
 const PAGE: &str = "docs/linkages.md";
 /// Small enough for its lettering to be read in a column of text.
@@ -104,7 +104,7 @@ impl Description {
 
     /// A plate of the family to start from.
     fn plate(&self) -> String {
-        let plan = manifest::parse(&format!("[atlas]\ntitle = \"T\"\n{}", self.family)).plan.unwrap();
+        let plan = plan(&format!("[atlas]\ntitle = \"T\"\n{}", self.family));
         let mut family = plan.families[0].family.clone();
         family.title.clone_from(&family.template.id);
         let solved = solve_cell(&family, &Sampler::new(family.sampling), 0).unwrap();

@@ -38,7 +38,7 @@ fn document(name: &str) -> Document {
 
 /// What a command that succeeds prints.
 fn printed(arguments: &[&str]) -> String {
-    crate::command::printed(root(), arguments)
+    crate::support::command::printed(root(), arguments)
 }
 
 /// Copies what is below a folder.

@@ -7,7 +7,9 @@ use tempfile::TempDir;
 
 use super::commands::run_line;
 use super::{document, root};
-use crate::command::run;
+use crate::support::command::run;
+use crate::support::plan::plan;
+use crate::support::table::{Row, rows};
 
 fn text(name: &str) -> String {
     let text = fs::read_to_string(root().join(name)).unwrap();
@@ -22,7 +24,7 @@ fn assert_states(name: &str, statement: &str) {
 /// The figures of the thesis are four families of atlas.toml; the others are rounded down.
 #[test]
 fn this_atlas_has_the_stated_size() {
-    let plan = coupler_atlas::manifest::parse(&fs::read_to_string(root().join("atlas.toml")).unwrap()).plan.unwrap();
+    let plan = plan(&fs::read_to_string(root().join("atlas.toml")).unwrap());
     let count = |is_counted: &dyn Fn(&str) -> bool| -> usize {
         plan.families.iter().map(|planned| &planned.family).filter(|f| is_counted(&f.id)).map(|f| f.cell_count()).sum()
     };
@@ -42,7 +44,7 @@ fn the_four_bar_of_the_readme_is_a_page() {
     };
     assert_eq!(block.text.lines().count(), 5);
     assert_states("README.md", "## A four-bar in five lines");
-    let plan = coupler_atlas::manifest::parse(&block.text).plan.unwrap();
+    let plan = plan(&block.text);
     assert_eq!(plan.families[0].family.cell_count(), 6);
     assert_states("README.md", "six of them make a page");
     let lines = fs::read_to_string(root().join("README.md")).unwrap().lines().count();
@@ -54,17 +56,17 @@ fn the_four_bar_of_the_readme_is_a_page() {
 fn the_sorted_panels_are_as_described() {
     let readme = document("README.md");
     let block = readme.blocks.iter().find(|block| block.language == "toml").unwrap();
-    let folder = crate::command::folder_with(&format!("{}sort = \"-straight_length\"\n", block.text));
-    crate::command::printed(folder.path(), &["render", "-q", "--format", "svg", "-o", "out"]);
+    let folder = crate::support::command::folder_with(&format!("{}sort = \"-straight_length\"\n", block.text));
+    crate::support::command::printed(folder.path(), &["render", "-q", "--format", "svg", "-o", "out"]);
     let page = fs::read_to_string(folder.path().join("out/mine/mine-001.svg")).unwrap();
     let mut cells: Vec<&str> =
         page.split("class=\"curve\" data-cell=\"").skip(1).map(|rest| rest.split('"').next().unwrap()).collect();
     cells.dedup();
     assert_states("docs/reading.md", &format!("has the cells {}, of which the last three have no", cells.join(", ")));
     let table = fs::read_to_string(folder.path().join("out/mine/cells.csv")).unwrap();
-    let mut rows = table.lines().map(|line| line.split(',').collect::<Vec<_>>());
-    let column = rows.next().unwrap().iter().position(|name| *name == "straight_length").unwrap();
-    let straight: BTreeSet<String> = rows.filter(|row| !row[column].is_empty()).map(|row| row[0].to_owned()).collect();
+    let rows = rows(&table);
+    let straight = rows.iter().filter(|row| !row["straight_length"].is_empty());
+    let straight: BTreeSet<String> = straight.map(|row| row["cell"].clone()).collect();
     assert_eq!(straight, cells[..3].iter().map(|cell| (*cell).to_owned()).collect());
 }
 
@@ -82,20 +84,19 @@ fn the_search_of_the_tutorial_finds_the_stated_curve() {
     fs::write(folder.path().join("search.toml"), search).unwrap();
     assert_eq!(run(folder.path(), &["render", "search.toml", "-q"]).0, 0);
     let cells = fs::read_to_string(folder.path().join("found/hrones-nelson/cells.csv")).unwrap();
-    let mut rows = cells.lines().map(|line| line.split(',').collect::<Vec<_>>());
-    let header = rows.next().unwrap();
-    let at = |name: &str| header.iter().position(|column| *column == name).unwrap();
-    let number = |row: &[&str], name: &str| row[at(name)].parse::<f64>().unwrap_or(0.0);
-    let best = rows.max_by(|a, b| number(a, "straight_length").total_cmp(&number(b, "straight_length"))).unwrap();
+    let rows = rows(&cells);
+    let number = |row: &Row, name: &str| row[name].parse::<f64>().unwrap_or(0.0);
+    let length = |row: &Row| number(row, "straight_length");
+    let best = rows.iter().max_by(|a, b| length(a).total_cmp(&length(b))).unwrap();
     let statement = format!(
         "The first result is cell {}, trace {}: A = {}, B = {}, C = {}, straight over {:.3} crank lengths and {:.1}°",
-        best[at("cell")],
-        best[at("trace")],
-        best[at("A")],
-        best[at("B")],
-        best[at("C")],
-        number(&best, "straight_length"),
-        number(&best, "straight_input_deg")
+        best["cell"],
+        best["trace"],
+        best["A"],
+        best["B"],
+        best["C"],
+        length(best),
+        number(best, "straight_input_deg")
     );
     assert_states("docs/tutorial.md", &statement);
 }

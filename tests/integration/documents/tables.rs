@@ -8,7 +8,7 @@ use tempfile::TempDir;
 
 use super::text::codes;
 use super::{document, documents, printed};
-use crate::command::run;
+use crate::support::command::run;
 
 fn keys(value: &Value) -> BTreeSet<String> {
     value.as_object().unwrap().keys().cloned().collect()

@@ -2,7 +2,7 @@ use std::fs::{self, File};
 use std::time::{Duration, SystemTime};
 
 use super::{complete, old_and_new, undisturbed};
-use crate::folder::{Atlas, files, times, tree};
+use crate::support::folder::{Atlas, files, times, tree};
 
 /// Sets the time of every file of an atlas, and of its manifest.
 fn set_times(atlas: &Atlas, time: SystemTime) {

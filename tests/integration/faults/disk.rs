@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use std::process::Command;
 
 use super::{Tree, check_files, complete, old_and_new, undisturbed};
-use crate::folder::{Atlas, tree};
+use crate::support::command::{run, shell};
+use crate::support::folder::{Atlas, tree};
 
 /// A small disk in memory, mounted at the folder of an atlas.
 struct Disk(PathBuf);
@@ -106,17 +107,13 @@ fn a_full_disk_loses_nothing() {
 fn a_starter_manifest_is_complete_or_absent() {
     let folder = tempfile::TempDir::new().unwrap();
     let Some(disk) = Disk::mount(folder.path().join("disk")) else { return };
-    let init = || {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
-        let output = command.current_dir(&disk.0).args(["init", "my.toml"]).output().unwrap();
-        (output.status.code(), String::from_utf8(output.stderr).unwrap())
-    };
+    let init = || run(&disk.0, &["init", "my.toml"]);
     let ballast = disk.fill(0);
-    let (code, err) = init();
-    assert!(code == Some(3) && err.starts_with("error: cannot write my.toml: No space left"), "{err}");
+    let (code, _, err) = init();
+    assert!(code == 3 && err.starts_with("error: cannot write my.toml: No space left"), "{err}");
     drop(ballast);
     assert!(tree(&disk.0).is_empty());
-    assert_eq!(init().0, Some(0));
+    assert_eq!(init().0, 0);
 }
 
 #[test]
@@ -155,9 +152,7 @@ fn a_limit_on_the_size_of_files_leaves_no_incomplete_file() {
     for blocks in [1, 8, 30, 60] {
         atlas.edit(&new);
         let script = format!("ulimit -c 0; ulimit -f {blocks}; exec \"$0\" render -q");
-        let mut command = Command::new("sh");
-        command.current_dir(atlas.0.path()).args(["-c", &script, env!("CARGO_BIN_EXE_coupler-atlas")]);
-        let status = command.output().unwrap().status;
+        let status = shell(atlas.0.path(), &script).output().unwrap().status;
         assert_eq!(status.signal(), Some(25), "SIGXFSZ: {status}");
         check_files(&atlas.out(), &before, &after);
         complete(&atlas);

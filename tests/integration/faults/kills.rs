@@ -3,7 +3,7 @@ use std::process::Stdio;
 use std::time::{Duration, Instant};
 
 use super::{check_files, complete, is_unfinished, old_and_new, undisturbed};
-use crate::folder::{Atlas, files, tree};
+use crate::support::folder::{Atlas, files, tree};
 
 /// The number of runs that are killed.
 const KILLS: usize = 30;

@@ -13,7 +13,7 @@ mod places;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use crate::folder::{Atlas, check_record, tree};
+use crate::support::folder::{Atlas, check_record, tree};
 
 /// A manifest with panels, a chart and a book, sampled with this step.
 fn manifest(step: &str) -> String {

@@ -3,7 +3,7 @@ use std::process::Stdio;
 use std::time::Duration;
 
 use super::{check_files, complete, old_and_new, undisturbed};
-use crate::folder::{Atlas, tree};
+use crate::support::folder::{Atlas, tree};
 
 /// A folder at the path of a file, or a file at the path of a folder, is reported with a remedy and left alone.
 #[test]

@@ -16,7 +16,8 @@ mod random_curves;
 
 use random_curves::{Random, answers, deviations, placed, random_curve, search};
 
-use crate::command::{folder_with, printed, run};
+use crate::support::command::{folder_with, printed, run};
+use crate::support::table::{numbers, rows};
 
 #[test]
 #[ignore = "thorough"]
@@ -154,18 +155,11 @@ fn the_manifest_renders_the_linkages_and_reproduces_the_deviation() {
             let result = &json["results"][k];
             let name = format!("{linkage}-exported{suffix}:1.1.1");
             let csv = printed(folder.path(), &["export", "found.toml", &name, "--format", "csv"]);
-            let header: Vec<&str> = csv.lines().next().unwrap().split(',').collect();
-            let column = |name: &str| header.iter().position(|other| *other == name).unwrap();
-            let [x, y] = ["x", "y"].map(column);
             let shift = [0, 1].map(|axis| result["placement"]["shift"][axis].as_f64().unwrap());
             // The comments of the manifest have it with all digits.
             assert!(manifest.contains(&format!("shifted by ({}, {})", shift[0], shift[1])), "{manifest}");
-            let curve: Vec<[f64; 2]> = csv
-                .lines()
-                .skip(1)
-                .map(|line| line.split(',').collect::<Vec<_>>())
-                .map(|row| [(x, 0), (y, 1)].map(|(k, axis)| row[k].parse::<f64>().unwrap() + shift[axis]))
-                .collect();
+            let points = rows(&csv).into_iter().map(|row| numbers(&row, ["x", "y"]));
+            let curve: Vec<[f64; 2]> = points.map(|[x, y]| [x + shift[0], y + shift[1]]).collect();
             let points: Vec<[f64; 2]> = json["target"]["points"]
                 .as_array()
                 .unwrap()

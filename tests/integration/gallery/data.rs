@@ -8,7 +8,8 @@ use base64::prelude::BASE64_STANDARD;
 use coupler_atlas::record::read_drawn_curves;
 use serde_json::Value;
 
-use crate::folder::Atlas;
+use crate::support::folder::Atlas;
+use crate::support::table::{Row, numbers, rows};
 
 /// Panels that need two pages, a cell that is not assembled, a rocker, a coupler grid, and charts.
 const MANIFEST: &str = r#"[atlas]
@@ -112,29 +113,22 @@ fn text<'v>(chunk: &'v Value, name: &str, k: usize) -> &'v str {
     chunk[name].get(k).map_or("", |text| text.as_str().unwrap())
 }
 
-/// The rows of a table, keyed by the names of its columns.
-fn rows(text: &str) -> Vec<BTreeMap<String, String>> {
-    csv::Reader::from_reader(text.as_bytes()).deserialize().collect::<Result<_, _>>().unwrap()
-}
-
 /// A rendered family: the statements of its script, its rows of `cells.csv`, and the points of each curve.
 struct Rendered {
     atlas: Atlas,
     id: &'static str,
     statements: Vec<(String, Value)>,
-    cells: Vec<BTreeMap<String, String>>,
+    cells: Vec<Row>,
     points: BTreeMap<[usize; 3], Vec<[f64; 2]>>,
 }
 
 fn rendered(id: &'static str) -> Rendered {
-    let atlas = Atlas::new(MANIFEST);
-    let (code, _, err) = atlas.run(&["--only", id]);
-    assert_eq!(code, 0, "{err}");
-    let read = |name: &str| fs::read_to_string(atlas.out().join(id).join(name)).unwrap();
+    let atlas = Atlas::rendered(MANIFEST, &["--only", id]);
+    let read = |name: &str| atlas.read(&format!("{id}/{name}"));
     let mut points: BTreeMap<[usize; 3], Vec<[f64; 2]>> = BTreeMap::new();
     for row in rows(&read("points.csv")) {
         let key = ["cell", "trace", "circuit"].map(|name| row[name].parse().unwrap());
-        points.entry(key).or_default().push(["x", "y"].map(|name| row[name].parse().unwrap()));
+        points.entry(key).or_default().push(numbers(&row, ["x", "y"]));
     }
     Rendered { id, statements: statements(&read("gallery.js")), cells: rows(&read("cells.csv")), points, atlas }
 }

@@ -10,7 +10,8 @@ use flate2::read::GzDecoder;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
-use crate::folder::{Atlas, check_record, times};
+use crate::support::command::run;
+use crate::support::folder::{Atlas, check_record, times};
 
 const MANIFEST: &str = r#"[atlas]
 title = "</script><b>T</b> & \"quotes\""
@@ -131,6 +132,32 @@ fn a_second_run_keeps_what_is_unchanged_and_restores_what_is_edited_or_missing()
     assert_eq!(page(&atlas), first);
     assert!(fs::read_to_string(atlas.out().join("kernel.js")).unwrap() == kernel_script());
     check_record(&atlas.out());
+}
+
+#[test]
+fn a_check_finds_a_page_or_a_kernel_that_is_edited_missing_or_not_recorded() {
+    let atlas = new_atlas();
+    assert_eq!(atlas.run(&[]).0, 0);
+    let check = || run(atlas.0.path(), &["check", "--against", "out"]);
+    assert_eq!(check().0, 0);
+    for (name, key) in [("index.html", "gallery"), ("kernel.js", "kernel")] {
+        let (path, record) = (atlas.out().join(name), atlas.out().join("run.json"));
+        let [text, recorded] = [&path, &record].map(|path| fs::read(path).unwrap());
+        let is_found = |change: &str| {
+            let (code, out, err) = check();
+            assert!(code == 1 && out.contains(name), "{change}: {out}{err}");
+        };
+        fs::write(&path, "edited").unwrap();
+        is_found("edited");
+        fs::remove_file(&path).unwrap();
+        is_found("missing");
+        fs::write(&path, text).unwrap();
+        let mut run: Value = serde_json::from_slice(&recorded).unwrap();
+        run.as_object_mut().unwrap().remove(key);
+        fs::write(&record, run.to_string()).unwrap();
+        is_found("not recorded");
+        fs::write(&record, recorded).unwrap();
+    }
 }
 
 #[test]

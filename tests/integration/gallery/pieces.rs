@@ -6,9 +6,9 @@ use coupler_atlas::gallery::{
     CellData, DataFile, FamilyScript, MAX_PIECE_BYTES, MAX_SINGLE_FILE_BYTES, OpenPiece, PieceContent, PieceIndex,
     PieceSeries, PieceWriter, is_data_file_name, parse_piece_file_name, piece_file_name,
 };
-use coupler_atlas::manifest;
 
-use crate::folder::{Atlas, check_record, files, times};
+use crate::support::folder::{Atlas, check_record, files, times};
+use crate::support::plan::plan;
 
 /// A family whose data are larger than a single file: 2,000 curves of 128 points.
 const LARGE: &str = r#"[atlas]
@@ -82,7 +82,7 @@ fn names_of_pieces_are_read_as_they_are_written() {
 
 #[test]
 fn pieces_are_bounded_and_the_head_has_their_index() {
-    let plan = manifest::parse(LARGE).plan.unwrap();
+    let plan = plan(LARGE);
     let script = FamilyScript::new(&plan, &plan.families[0]);
     let files = written(script, usize::MAX);
     let names: Vec<&str> = files.iter().map(|file| file.name.as_str()).collect();
@@ -108,7 +108,7 @@ fn pieces_are_bounded_and_the_head_has_their_index() {
 
 #[test]
 fn a_writer_that_is_resumed_writes_the_same_files() {
-    let plan = manifest::parse(LARGE).plan.unwrap();
+    let plan = plan(LARGE);
     let script = FamilyScript::new(&plan, &plan.families[0]);
     let whole = written(script, usize::MAX);
     for stop in 0..10 {
@@ -152,17 +152,11 @@ fn a_large_family_is_written_checked_and_cleaned_up_in_pieces() {
     let piece = atlas.out().join("large/gallery-table-0001.js");
     let text = fs::read(&piece).unwrap();
     fs::write(&piece, "edited").unwrap();
-    let check = || {
-        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
-        command.current_dir(atlas.0.path()).args(["check", "--against", "out"]);
-        command.output().unwrap()
-    };
-    let found = check();
-    assert_eq!(found.status.code(), Some(1));
-    assert!(String::from_utf8_lossy(&found.stdout).contains("gallery-table-0001.js"));
+    let (code, found, err) = atlas.check(&[]);
+    assert!(code == 1 && found.contains("gallery-table-0001.js"), "{found}{err}");
     run(&[]);
     assert_eq!(fs::read(&piece).unwrap(), text);
-    assert_eq!(check().status.code(), Some(0));
+    assert_eq!(atlas.check(&[]).0, 0);
 
     // A family that has become small has a single file.
     atlas.edit(&LARGE.replace("count = 50", "count = 5"));

@@ -1,9 +1,9 @@
 //! Golden pages: a page of each layout and the tables of a family, byte for byte. The plates of the catalogue, in docs/images/linkages, are compared
 //! in the same way by the tests of documents, and the whole atlas by its digests in `atlas.rs`.
 
-use crate::command::{folder_with, printed};
-use crate::folder::files;
 use crate::recorded::assert_recorded;
+use crate::support::command::{folder_with, printed};
+use crate::support::folder::files;
 
 #[test]
 fn every_golden_page_is_recorded() {

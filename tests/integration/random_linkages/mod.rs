@@ -3,37 +3,29 @@
 pub mod generator;
 
 use std::fs;
-use std::process::Command;
 
-use coupler_atlas::manifest;
 use coupler_curves::geometry::{Bounds, Capsule, CapsuleTree, Point, Spline};
 use coupler_curves::linkage::{JointId, Linkage};
 use coupler_curves::motion::{self, Circuit, Motion, Pass, Sampler, Sampling, eased_input};
 use coupler_curves::path::{DashPattern, joint_path};
 use sha2::{Digest, Sha256};
 
-use super::folder::Atlas;
+use crate::support::folder::Atlas;
+use crate::support::plan::plan;
 use generator::{KIND_COUNT, Random};
 
 /// The findings of a check right after the render, and of one after each page was given a comment: pages with other bytes
 /// than those of a fresh drawing are read back, and their curves compared with the linkages.
 fn findings(text: &str) -> [Vec<serde_json::Value>; 2] {
-    let atlas = Atlas::new(text);
-    let (code, _, errors) = atlas.run(&["-q", "-o", "out"]);
-    assert_eq!(code, 0, "{errors}\n{text}");
+    let atlas = Atlas::rendered(text, &["-q", "-o", "out"]);
     let first = check(&atlas, text);
     add_comments(&atlas);
     [first, check(&atlas, text)]
 }
 
 fn check(atlas: &Atlas, text: &str) -> Vec<serde_json::Value> {
-    let output = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"))
-        .current_dir(atlas.0.path())
-        .args(["check", "--against", "out", "--report", "json", "-q"])
-        .output()
-        .unwrap();
-    let report: serde_json::Value = serde_json::from_slice(&output.stdout)
-        .unwrap_or_else(|_| panic!("{}\n{text}", String::from_utf8_lossy(&output.stderr)));
+    let (_, out, err) = atlas.check(&["--report", "json", "-q"]);
+    let report: serde_json::Value = serde_json::from_str(&out).unwrap_or_else(|_| panic!("{err}\n{text}"));
     assert!(report["curves"].as_u64().is_some_and(|curves| curves > 50), "{report}\n{text}");
     report["findings"].as_array().unwrap().clone()
 }
@@ -94,7 +86,7 @@ fn a_check_of_many_linkages_right_after_the_render_finds_nothing() {
 fn splines_are_within_their_tolerance() {
     const CELLS: usize = 2;
     const DASHES: f64 = 60.0;
-    let plan = manifest::parse(&generator::manifest(&mut Random(1952), 0..KIND_COUNT, CELLS)).plan.unwrap();
+    let plan = plan(&generator::manifest(&mut Random(1952), 0..KIND_COUNT, CELLS));
     let mut count = 0;
     for planned in &plan.families {
         let family = &planned.family;

@@ -2,12 +2,13 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use coupler_atlas::manifest;
 use serde_json::{Value, json};
 
 use super::{json, schema_errors};
+
+use crate::support::command::run;
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -91,8 +92,7 @@ fn the_catalogue_and_what_the_program_writes_satisfy_the_schema() {
         &["design", "straight-line", "--input", "motor", "--p", "2.5", "--toml"][..],
         &["inspect", "four-bar", "frame=4", "crank=1", "coupler=3", "rocker=3.5", "--cognates", "--toml"],
     ] {
-        let output = Command::new(env!("CARGO_BIN_EXE_coupler-atlas")).args(arguments).output().unwrap();
-        let text = String::from_utf8(output.stdout).unwrap();
-        assert!(is_manifest(&text, arguments[0]), "{arguments:?}: {text}{}", String::from_utf8_lossy(&output.stderr));
+        let (_, text, err) = run(root(), arguments);
+        assert!(is_manifest(&text, arguments[0]), "{arguments:?}: {text}{err}");
     }
 }

@@ -2,11 +2,13 @@
 
 use std::collections::BTreeSet;
 
-use coupler_atlas::manifest::{self, MANIFEST, PlannedFamily, TableSchema, ValueSchema};
+use coupler_atlas::manifest::{MANIFEST, PlannedFamily, TableSchema, ValueSchema};
 use coupler_curves::template::Template;
 use serde_json::Value;
 
 use super::{EVERY_KEY, SCHEMA, collect_pointers, is_valid, json, parser_errors, toml};
+
+use crate::support::plan::plan;
 
 /// The table schemas of a schema: itself, or those among its alternatives.
 fn tables(schema: &Value) -> Vec<&Value> {
@@ -161,7 +163,7 @@ fn writing_out_a_default_changes_nothing() {
                  N = { dyad = [\"G\", \"M\"], lengths = [9, 9], side = \"left\" }\n";
     let minimal = minimal.replace("trace = [\"M\"]", "trace = [\"M\", \"N\"]");
     let plan = |manifest: &Value| {
-        let plan = manifest::parse(&toml(manifest)).plan.unwrap_or_else(|| panic!("{}", toml(manifest)));
+        let plan = plan(&toml(manifest));
         let PlannedFamily { family, layout, chart, formats, source, .. } = &plan.families[0];
         let Template { circuits, continuation, coincident, orientation: placement, .. } = &*family.template;
         let linkage = family.linkage(&family.cell(0)).unwrap();

@@ -5,7 +5,7 @@ mod keys;
 mod slips;
 
 use std::fmt::Write;
-use std::process::Command;
+use std::path::Path;
 use std::sync::LazyLock;
 
 use coupler_atlas::manifest;
@@ -13,14 +13,16 @@ use jsonschema::Validator;
 use serde_json::{Map, Number, Value};
 use toml::de::{DeTable, DeValue};
 
+use crate::support::command::run;
+
 /// A manifest with every key.
 const EVERY_KEY: &str = include_str!("every-key.toml");
 
 /// What `list schema` prints.
 static SCHEMA: LazyLock<Value> = LazyLock::new(|| {
-    let output = Command::new(env!("CARGO_BIN_EXE_coupler-atlas")).args(["list", "schema"]).output().unwrap();
-    assert!(output.status.success() && output.stderr.is_empty());
-    serde_json::from_slice(&output.stdout).unwrap()
+    let (code, out, err) = run(Path::new("."), &["list", "schema"]);
+    assert!(code == 0 && err.is_empty(), "{err}");
+    serde_json::from_str(&out).unwrap()
 });
 
 static VALIDATOR: LazyLock<Validator> = LazyLock::new(|| jsonschema::draft202012::new(&SCHEMA).unwrap());

@@ -3,7 +3,7 @@
 use std::fs;
 
 use super::{MANIFEST, csv_rows, gather_problems, parquet_rows, shard, sweep_all};
-use crate::command::{folder_with, printed, run};
+use crate::support::command::{folder_with, printed, run};
 
 /// The rows of all cells of a family as render writes them, as values of some columns.
 fn values(rows: &[Vec<String>], columns: &[&str]) -> Vec<Vec<f64>> {

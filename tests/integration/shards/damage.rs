@@ -12,8 +12,9 @@ use parquet::file::serialized_reader::SerializedFileReader;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
 
-use super::{MANIFEST, gather_problems, shard, sweep_all, tree};
-use crate::command::{folder_with, printed, run};
+use super::{MANIFEST, gather_problems, shard, sweep_all};
+use crate::support::command::{folder_with, printed, run};
+use crate::support::folder::tree;
 
 /// A family of two cells.
 const FAMILY: [&str; 2] = ["--only", "actuator"];

@@ -8,14 +8,14 @@ mod problems;
 mod tables;
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use coupler_curves::exchange::append_number;
 use parquet::file::reader::FileReader;
 use parquet::file::serialized_reader::SerializedFileReader;
 use parquet::record::Field;
 
-use crate::command::{printed, run};
+use crate::support::command::{printed, run};
 
 /// Families with unassembled cells, several circuits and traces, missing measures, further columns, an actuator, and `where`.
 const MANIFEST: &str = r#"[atlas]
@@ -106,23 +106,6 @@ fn sweep_all(folder: &Path, output: &str, of: usize, options: &[&str]) {
         let shard = format!("{index}/{of}");
         printed(folder, &[&["sweep", "-o", output, "--shard", &shard][..], options].concat());
     }
-}
-
-/// Every file below a folder by its name there, with its bytes.
-fn tree(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
-    let mut found = Vec::new();
-    let mut folders = vec![folder.to_owned()];
-    while let Some(next) = folders.pop() {
-        for entry in fs::read_dir(next).unwrap().map(|entry| entry.unwrap().path()) {
-            if entry.is_dir() {
-                folders.push(entry);
-            } else {
-                found.push((entry.strip_prefix(folder).unwrap().to_owned(), fs::read(&entry).unwrap()));
-            }
-        }
-    }
-    found.sort();
-    found
 }
 
 /// The messages of a gather that fails.

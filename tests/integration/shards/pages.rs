@@ -1,13 +1,14 @@
 //! Shards of pages.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Stdio;
 
 use coupler_drawing::scene::{FontFamily, Typeface};
 
-use super::{gather_problems, shard, tree};
-use crate::command::{folder_with, printed, program, run};
+use super::{gather_problems, shard};
+use crate::support::command::{folder_with, printed, program, run};
+use crate::support::folder::tree;
 
 /// Pages of panels, sorted and filtered, of a coupler grid, with charts, and of many cells without curves.
 const PAGES: &str = r#"[atlas]
@@ -71,7 +72,7 @@ fn the_pages_of_shards_are_those_of_one_run() {
             // All at once, in no order, but for one.
             let running: Vec<_> = (1..of).rev().map(draw).collect();
             let drawn = |child: std::process::Child| -> usize {
-                let (code, out, err) = crate::command::result(child.wait_with_output().unwrap());
+                let (code, out, err) = crate::support::command::result(child.wait_with_output().unwrap());
                 assert_eq!(code, 0, "{err}");
                 out.split(", ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap()
             };
@@ -82,16 +83,14 @@ fn the_pages_of_shards_are_those_of_one_run() {
                 assert!(message.contains(&expected), "{message}");
             }
             let of_first = drawn(draw(0));
-            let is_page = |name: &Path| name.extension().is_some_and(|extension| extension == "svg");
-            assert_eq!(of_others + of_first, whole.iter().filter(|(name, _)| is_page(name)).count());
+            assert_eq!(of_others + of_first, whole.keys().filter(|name| name.ends_with(".svg")).count());
             assert_eq!(drawn(draw(0)), 0, "a shard that is drawn again keeps its pages");
             let (code, out, err) = run(path, &["gather", &output]);
             assert!(code == 0 && out.is_empty() && err.contains(&format!("written to {output}; open ")), "{err}");
             let found = tree(&path.join(&output));
-            let names = |files: &[(PathBuf, Vec<u8>)]| files.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>();
-            assert_eq!(names(&found), names(&whole), "{format} in {of}");
+            assert!(found.keys().eq(whole.keys()), "{format} in {of}");
             for ((name, bytes), (_, expected)) in found.iter().zip(&whole) {
-                assert!(bytes == expected, "{format} in {of} shards: {} differs", name.display());
+                assert!(bytes == expected, "{format} in {of} shards: {} differs", name);
             }
             assert!(printed(path, &["render", "-o", &output, "--format", format]).contains("nothing has changed"));
         }

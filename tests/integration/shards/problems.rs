@@ -3,7 +3,7 @@
 use std::fs;
 
 use super::{MANIFEST, gather_problems, shard, sweep_all};
-use crate::command::{folder_with, printed, run};
+use crate::support::command::{folder_with, printed, run};
 
 #[test]
 fn what_is_missing_or_mixed_is_named() {

@@ -6,10 +6,10 @@ use std::time::Duration;
 
 use parquet::file::reader::FileReader;
 use parquet::file::serialized_reader::SerializedFileReader;
-use tempfile::TempDir;
 
-use super::{FAMILIES, MANIFEST, csv_rows, parquet_rows, shard, sweep_all, table_rows, tree};
-use crate::command::{folder_with, printed, program, run};
+use super::{FAMILIES, MANIFEST, csv_rows, parquet_rows, shard, sweep_all, table_rows};
+use crate::support::command::{folder_with, printed, program, run};
+use crate::support::folder::{files, tree};
 
 #[test]
 fn the_union_of_shards_is_what_render_writes() {
@@ -32,7 +32,7 @@ fn the_union_of_shards_is_what_render_writes() {
         }
     }
     let one = tree(&folder.path().join("1-parquet"));
-    assert_eq!(one.len(), 8, "no other files are left: {:?}", one.iter().map(|(name, _)| name).collect::<Vec<_>>());
+    assert_eq!(one.len(), 8, "no other files are left: {:?}", one.keys());
     // Bytes do not depend on the number of threads.
     for jobs in ["1", "3"] {
         sweep_all(folder.path(), jobs, 1, &["-j", jobs]);
@@ -114,7 +114,7 @@ fn complete_shards_are_kept_and_others_replaced() {
     fs::remove_file(output.join("far").join(shard("points", 0, 2, "parquet"))).unwrap();
     assert_eq!(printed(folder.path(), &arguments).matches("written to").count(), 1);
     fs::write(&manifest, MANIFEST).unwrap();
-    assert!(tree(&output).iter().map(|(name, _)| name).eq(files.iter().map(|(name, _)| name)));
+    assert!(tree(&output).keys().eq(files.keys()));
     printed(folder.path(), &["sweep", "-o", "out", "--shard", "0/2", "--force"]);
     assert!(tree(&output) == files);
     // Another sweep is not replaced unasked.
@@ -153,7 +153,7 @@ fn a_killed_run_leaves_no_file_under_its_name() {
     }
     child.kill().unwrap();
     child.wait().unwrap();
-    let names: Vec<String> = tree(&family).iter().map(|(name, _)| name.display().to_string()).collect();
+    let names = files(&family);
     assert!(!names.is_empty() && names.iter().all(|name| name.starts_with('.')), "{names:?}");
     printed(folder.path(), &[&arguments[..], &["--measures", "none", "-o", "out"]].concat());
     assert!(tree(&folder.path().join("out")) == tree(&folder.path().join("undisturbed")));
@@ -183,7 +183,6 @@ fn a_huge_grid_takes_no_memory() {
     let (code, _, err) = run(path, &["render"]);
     assert!(code == 2 && err.contains("4000000000 cells, more than the limit of 10000000"), "{err}");
     assert!(err.contains("solve it without pages: `coupler-atlas sweep`"), "{err}");
-    let folder = TempDir::new().unwrap();
-    fs::write(folder.path().join("atlas.toml"), text.replace("4000000000", "4000000001")).unwrap();
+    let folder = folder_with(&text.replace("4000000000", "4000000001"));
     assert_eq!(run(folder.path(), &["sweep", "--cells", "1..1"]).0, 2);
 }

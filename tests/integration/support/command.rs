@@ -6,7 +6,7 @@ use std::process::{Command, Output, Stdio};
 
 use tempfile::TempDir;
 
-/// The program, as a path.
+/// The program, as a path, for tests of its environment.
 pub const PROGRAM: &str = env!("CARGO_BIN_EXE_coupler-atlas");
 
 /// The commands of the program; a test of the documents compares them with its help.
@@ -31,13 +31,25 @@ pub type Ran = (i32, String, String);
 
 /// The program in a folder, without standard input and without the variables that its output depends on.
 pub fn program(folder: &Path) -> Command {
-    let mut program = Command::new(PROGRAM);
-    program.current_dir(folder).stdin(Stdio::null());
+    command(PROGRAM, folder)
+}
+
+/// A script of the shell in a folder, like [`program`], which is its `$0`.
+#[cfg(unix)]
+pub fn shell(folder: &Path, script: &str) -> Command {
+    let mut shell = command("sh", folder);
+    shell.args(["-c", script, PROGRAM]);
+    shell
+}
+
+fn command(name: &str, folder: &Path) -> Command {
+    let mut command = Command::new(name);
+    command.current_dir(folder).stdin(Stdio::null());
     for name in ["NO_COLOR", "CLICOLOR_FORCE", "COLUMNS"] {
-        program.env_remove(name);
+        command.env_remove(name);
     }
-    program.env("XDG_CACHE_HOME", env!("CARGO_TARGET_TMPDIR"));
-    program
+    command.env("XDG_CACHE_HOME", env!("CARGO_TARGET_TMPDIR"));
+    command
 }
 
 /// What a command has returned.

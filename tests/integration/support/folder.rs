@@ -9,13 +9,22 @@ use std::time::SystemTime;
 use sha2::{Digest, Sha256};
 use tempfile::TempDir;
 
+use super::command::{self, Ran};
+
 /// A manifest in a temporary folder; its atlas is written to `out` in the same folder.
 pub struct Atlas(pub TempDir);
 
 impl Atlas {
     pub fn new(manifest: &str) -> Atlas {
-        let atlas = Atlas(TempDir::new().unwrap());
-        atlas.edit(manifest);
+        Atlas(command::folder_with(manifest))
+    }
+
+    /// The atlas of a manifest after a run with arguments, which must succeed.
+    #[track_caller]
+    pub fn rendered(manifest: &str, arguments: &[&str]) -> Atlas {
+        let atlas = Atlas::new(manifest);
+        let (code, _, err) = atlas.run(arguments);
+        assert_eq!(code, 0, "{err}\n{manifest}");
         atlas
     }
 
@@ -28,14 +37,25 @@ impl Atlas {
     }
 
     pub fn command(&self, arguments: &[&str]) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_coupler-atlas"));
-        command.current_dir(self.0.path()).arg("render").args(arguments);
+        let mut command = command::program(self.0.path());
+        command.arg("render").args(arguments);
         command
     }
 
-    /// The exit code, standard output and standard error of a run.
-    pub fn run(&self, arguments: &[&str]) -> (i32, String, String) {
-        crate::command::result(self.command(arguments).output().unwrap())
+    /// What a run returns.
+    pub fn run(&self, arguments: &[&str]) -> Ran {
+        command::result(self.command(arguments).output().unwrap())
+    }
+
+    /// What `check` of the atlas with more arguments returns.
+    pub fn check(&self, arguments: &[&str]) -> Ran {
+        command::run(self.0.path(), &[&["check", "--against", "out"], arguments].concat())
+    }
+
+    /// A file of the atlas, as text.
+    #[track_caller]
+    pub fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.out().join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
     }
 }
 
