@@ -191,6 +191,7 @@ fn lines(count: usize, line: impl Fn(usize) -> String) -> String {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn the_time_to_parse_names_grows_with_their_number() {
     assert_time_grows_with_length("parameters with defaults", 2000, |count| {
         let default = |k: usize| format!("p{k} = {{ default = \"p{} + 1\" }}, ", k + 1);
@@ -228,6 +229,7 @@ fn the_time_to_parse_names_grows_with_their_number() {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn the_time_to_parse_tables_grows_with_their_number() {
     assert_time_grows_with_length("joints", 1000, |count| {
         let point = |k: usize| format!("M{k} = {{ point = [\"A\", \"B\"], along = {k}, across = 1 }}");
@@ -262,6 +264,7 @@ fn the_time_to_parse_tables_grows_with_their_number() {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn the_time_to_parse_texts_grows_with_their_length() {
     assert_time_grows_with_length("an expression", 200_000, |count| {
         let keys = format!("let = {{ r = \"{}1\" }}", "1 + ".repeat(count / 4));

@@ -197,6 +197,7 @@ fn only_regular_files_of_bounded_size_are_read() {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn many_pages_are_in_subfolders() {
     let pages = |count: usize| {
         format!(

@@ -135,6 +135,7 @@ fn every_given_value_can_be_read_in_full_on_its_page() {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn no_two_panels_of_a_page_share_a_caption() {
     for text in manifests() {
         let plan = plan(&text);
@@ -243,6 +244,7 @@ fn forty_panels(paper: &str) -> String {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn enlarged_curves_are_at_least_twice_as_large_and_no_text_is_below_six_points() {
     let mut factors = 0;
     for text in manifests().into_iter().chain(["a4", "tabloid"].map(forty_panels)) {

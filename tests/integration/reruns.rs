@@ -160,6 +160,7 @@ fn pages_not_drawn_in_one_format_are_drawn_by_the_next_run() {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn every_input_of_a_page_redraws_it() {
     let atlas = Atlas::new(MANIFEST);
     atlas.run(&[]);
@@ -499,6 +500,7 @@ fn a_run_killed_during_a_change_does_not_record_the_old_files() {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn two_runs_do_not_write_to_one_folder() {
     let atlas = Atlas::new(&many("10 deg", "T"));
     fs::create_dir(atlas.out()).unwrap();

@@ -13,6 +13,7 @@ fn set_times(atlas: &Atlas, time: SystemTime) {
 
 /// After the clock is set, files may have times in the past or the future; what is drawn depends on their contents.
 #[test]
+#[ignore = "thorough"]
 fn the_times_of_files_do_not_matter() {
     let [old, new] = old_and_new();
     let [before, after] = [&old, &new].map(|manifest| undisturbed(manifest));

@@ -142,6 +142,7 @@ fn rms_from(points: &[[f64; 2]], curve: &[[f64; 2]]) -> f64 {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn the_manifest_renders_the_linkages_and_reproduces_the_deviation() {
     let folder = folder();
     for (linkage, more) in [("slider-crank", &[][..]), ("my-slider", &["--manifest", "atlas.toml"][..])] {

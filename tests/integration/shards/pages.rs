@@ -98,6 +98,7 @@ fn the_pages_of_shards_are_those_of_one_run() {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn shards_of_pages_of_different_manifests_are_not_completed() {
     let folder = folder_with(PAGES);
     let path = folder.path();
@@ -127,6 +128,7 @@ fn draw_all(folder: &Path, manifest: &str, output: &str, of: usize) {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn pages_of_another_manifest_are_drawn_again() {
     let folder = folder_with(PAGES);
     let path = folder.path();
@@ -212,6 +214,7 @@ fn tables_beside_pages_are_gathered_too() {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn a_font_file_is_beside_the_manifest() {
     let text =
         PAGES.replace("dpi = 40", "dpi = 40\ntheme = { fallback_face = \"fonts/my.ttf\" }").replace("\"T\"", "\"ש\"");
