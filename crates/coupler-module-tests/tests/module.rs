@@ -19,9 +19,9 @@ use wasmi::{Engine, Instance, Linker, Module, Store, TypedFunc};
 
 use generator::{KIND_COUNT, Random, manifest as random_manifest};
 
-#[path = "../integration/random_linkages/generator.rs"]
+#[path = "../../../tests/integration/random_linkages/generator.rs"]
 mod generator;
-#[path = "../../crates/coupler-kernel/build/sources.rs"]
+#[path = "../../coupler-kernel/build/sources.rs"]
 mod sources;
 
 /// The root of the repository.
