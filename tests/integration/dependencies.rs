@@ -42,7 +42,7 @@ fn documented() -> BTreeMap<&'static str, Vec<&'static str>> {
     found
 }
 
-/// The crates that are built on this machine for what plain `cargo test` tests or, with `--workspace`, for all members, each with its licence.
+/// The crates that are built on this machine for what plain `cargo test` tests or, with further options, for more, each with its licence.
 fn licences(more: &[&str]) -> BTreeMap<String, String> {
     // Unlike its metadata, cargo's tree needs no crates of other platforms and members, which may not have been fetched.
     let tree = Command::new(env!("CARGO"))
@@ -139,7 +139,7 @@ fn every_licence_is_one_of_those_allowed() {
 #[test]
 #[ignore = "thorough"]
 fn the_licences_of_all_members_are_documented_and_allowed() {
-    let (policy, licences) = (Policy::read(), licences(&["--workspace"]));
+    let (policy, licences) = (Policy::read(), licences(&["--workspace", "--all-features"]));
     policy.check(&licences);
     for (name, cells) in documented() {
         assert_eq!(cells[2], licences[name], "the licence of {name}");

@@ -21,7 +21,7 @@ use generator::{KIND_COUNT, Random, manifest as random_manifest};
 
 #[path = "../../../tests/integration/random_linkages/generator.rs"]
 mod generator;
-#[path = "../../coupler-kernel/build/sources.rs"]
+#[path = "../build/sources.rs"]
 mod sources;
 
 /// The root of the repository.
