@@ -10,7 +10,7 @@ use std::path::Path;
 use serde::Serialize;
 
 use crate::gallery::is_data_file_name;
-use crate::record::{FileRecord, FolderRecord, ImagesState, RunRecord};
+use crate::record::{FileRecord, FolderRecord, ImagesState, RunRecord, path_in_atlas};
 
 /// The numbers of files that a record lists and that were not compared, because the folder has none of their kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
@@ -62,5 +62,5 @@ fn file_names<'r>(files: impl IntoIterator<Item = &'r FileRecord>) -> Vec<String
 /// The files of families that have certain names, by their paths in the folder of the atlas.
 fn family_files(run: &RunRecord, is_one: fn(&str) -> bool) -> Vec<String> {
     let files = run.families.iter().flat_map(|family| family.files.iter().map(move |file| (&family.id, &file.name)));
-    files.filter(|(_, name)| is_one(name)).map(|(id, name)| format!("{id}/{name}")).collect()
+    files.filter(|(_, name)| is_one(name)).map(|(id, name)| path_in_atlas(id, name)).collect()
 }

@@ -189,7 +189,8 @@ impl<'a> FamilyPipeline<'a> {
         let is_sorted = planned.family.sort.is_some();
         let mut builder = chart.map(|chart| ChartBuilder::new(chart, &planned.family));
         let sorted_bytes = planned.family.estimate_cell_bytes().saturating_mul(self.arrangement.kept.len());
-        let keeps_cells = is_sorted && chart.is_none() && sorted_bytes <= MAX_KEPT_BYTES;
+        let has_sorted_pages = chart.is_none() && is_sorted;
+        let keeps_cells = has_sorted_pages && sorted_bytes <= MAX_KEPT_BYTES;
         let kept_cells: Mutex<HashMap<usize, SolvedCell>> = Mutex::default();
         let make = |group: usize, solved: Vec<SolvedCell>| -> Result<GroupOutput<S>, S::Error> {
             let cells = sink.receive_cells(&solved)?;
@@ -217,7 +218,7 @@ impl<'a> FamilyPipeline<'a> {
         };
         let groups = self.cell_groups((&self.arrangement.kept, first), sink, None);
         sweep::process_groups(&planned.family, groups, make, &mut deliver)?;
-        if chart.is_none() && is_sorted {
+        if has_sorted_pages {
             // Tables are in the order of the cells, but pages are sorted.
             let measures = measures_used_on_pages(planned);
             let sorted = (self.arrangement.page_order(), first_sorted);
