@@ -11,7 +11,7 @@ use image::{ImageDecoder, Limits};
 
 use super::finding::{Change, Finding, Location};
 use crate::record::{
-    Digest, FileError, FileRecord, FolderRecord, IMAGES_FILE_NAME, ImagesState, file_digest, is_intact_png,
+    Digest, FileError, FileRecord, FolderRecord, IMAGES_FILE_NAME, ImagesState, file_digest, has_images, is_intact_png,
     read_regular_file,
 };
 
@@ -105,9 +105,7 @@ pub(super) fn check_images_file(record: &FolderRecord) -> Option<Finding> {
         ImagesState::Intact => return None,
         ImagesState::Damaged(message) => message.clone(),
         ImagesState::Missing => {
-            let mut families = record.run.families.iter().flat_map(|family| &family.files);
-            let has_images = families.any(|file| file.drawn_from_sha256.is_some()) || record.run.book.is_some();
-            if !has_images || record.is_unfinished {
+            if record.is_unfinished || !has_images(&record.run.families, record.run.book.as_ref()) {
                 return None;
             }
             FileError::NotFound.to_string()

@@ -31,11 +31,14 @@ impl LeftOut {
         }
         let run = &record.run;
         let is_absent = |name: &String| fs::symlink_metadata(folder.join(name)).is_err();
-        let images = family_files(run, |name| name.ends_with(".png"));
+        let images = family_files(run, FileRecord::is_image);
         let volumes = file_names(run.book.iter().flat_map(|book| &book.files));
         let has_images = record.images != ImagesState::Missing || !images.iter().chain(&volumes).all(is_absent);
-        let gallery =
-            [file_names(run.gallery.iter().chain(&run.kernel)), family_files(run, is_data_file_name)].concat();
+        let gallery = [
+            file_names(run.gallery.iter().chain(&run.kernel)),
+            family_files(run, |file| is_data_file_name(&file.name)),
+        ]
+        .concat();
         LeftOut {
             images: if has_images { 0 } else { images.len() },
             volumes: if has_images { 0 } else { volumes.len() },
@@ -59,8 +62,8 @@ fn file_names<'r>(files: impl IntoIterator<Item = &'r FileRecord>) -> Vec<String
     files.into_iter().map(|file| file.name.clone()).collect()
 }
 
-/// The files of families that have certain names, by their paths in the folder of the atlas.
-fn family_files(run: &RunRecord, is_one: fn(&str) -> bool) -> Vec<String> {
-    let files = run.families.iter().flat_map(|family| family.files.iter().map(move |file| (&family.id, &file.name)));
-    files.filter(|(_, name)| is_one(name)).map(|(id, name)| path_in_atlas(id, name)).collect()
+/// Certain files of families, by their paths in the folder of the atlas.
+fn family_files(run: &RunRecord, is_one: fn(&FileRecord) -> bool) -> Vec<String> {
+    let files = run.families.iter().flat_map(|family| family.files.iter().map(move |file| (&family.id, file)));
+    files.filter(|(_, file)| is_one(file)).map(|(id, file)| path_in_atlas(id, &file.name)).collect()
 }

@@ -14,7 +14,7 @@ use crate::gallery;
 use crate::pipeline::page_file_name;
 use crate::record::{
     BookRecord, Digest, FamilyProgress, FamilyRecord, FileError, FileRecord, FolderRecord, ImagesState, RUN_FILE_NAME,
-    ReadError, RunRecord,
+    ReadError, RunRecord, has_images,
 };
 #[cfg(feature = "pdf")]
 use coupler_drawing::page::book::Volume;
@@ -165,9 +165,7 @@ fn sanitize(record: FolderRecord) -> PreviousRun {
     }
     let gallery = gallery.filter(|file| file.name == gallery::PAGE_FILE);
     let kernel = kernel.filter(|file| file.name == gallery::KERNEL_FILE);
-    let has_images = families.iter().flat_map(|family| &family.files).any(|file| file.name.ends_with(".png"))
-        || book.as_ref().is_some_and(|book| !book.files.is_empty());
-    let has_images_file = images == ImagesState::Intact || manifest.is_some() && has_images;
+    let has_images_file = images == ImagesState::Intact || manifest.is_some() && has_images(&families, book.as_ref());
     let owner = manifest.map(|manifest| (manifest, title));
     PreviousRun { owner, families, book, gallery, kernel, progress, pieces, has_images_file }
 }

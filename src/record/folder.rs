@@ -105,7 +105,7 @@ pub fn images_of_run(run: &mut RunRecord) -> Option<Vec<u8>> {
 /// Calls a function with each image and book of a record, and its path in the folder of the atlas.
 fn for_each_image(run: &mut RunRecord, mut receive: impl FnMut(&str, &mut FileRecord)) {
     for family in &mut run.families {
-        for file in family.files.iter_mut().filter(|file| file.name.ends_with(".png")) {
+        for file in family.files.iter_mut().filter(|file| file.is_image()) {
             receive(&path_in_atlas(&family.id, &file.name), file);
         }
     }

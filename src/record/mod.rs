@@ -26,6 +26,6 @@ pub use regular_file::{FileError, file_digest, open_regular_file, read_regular_f
 pub use rendered_from::{check_families, manifest_of};
 pub use run::{
     BookRecord, FORMAT_VERSION, FamilyRecord, FileRecord, JOURNAL_FILE_NAME, MAX_RECORDED_FILES, RUN_FILE_NAME,
-    ReadError, RunRecord,
+    ReadError, RunRecord, has_images,
 };
 pub use table::{RecordedTable, Row, TableError, parse_rows};

@@ -113,6 +113,19 @@ pub struct FileRecord {
     pub image_sha256: Option<Digest>,
 }
 
+impl FileRecord {
+    /// Whether it is the image of a page: of these and of books `images.json` has the digests.
+    pub fn is_image(&self) -> bool {
+        self.name.ends_with(".png")
+    }
+}
+
+/// Whether there are images or books, for which there is an `images.json`.
+pub fn has_images(families: &[FamilyRecord], book: Option<&BookRecord>) -> bool {
+    families.iter().flat_map(|family| &family.files).any(FileRecord::is_image)
+        || book.is_some_and(|book| !book.files.is_empty())
+}
+
 /// An error of reading a `run.json`.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadError {

@@ -31,7 +31,8 @@ export async function launchBrowser() {
  * Options are those of a browser's context: viewport, colorScheme, reducedMotion, hasTouch, isMobile,
  * deviceScaleFactor; `before(page)` is called before anything is loaded. Returns { page, folder, troubles,
  * requests (their addresses), go(fragment), fragment(), settled(), close() }: `close` asserts that there were
- * no console errors, no warnings of the policy, and no request but for files of the atlas.
+ * no console errors, no warnings of the policy, and no request but for files of the atlas. With SLOW=5 in the
+ * environment, scripts run five times slower than this machine runs them, as on one that is busy.
  */
 export async function openGallery(browser, folder, fragment = "/", { before, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1400, height: 900 }, ...options });
@@ -52,6 +53,10 @@ export async function openGallery(browser, folder, fragment = "/", { before, ...
     // A picture that was removed before it was loaded is not an error.
     if (request.failure()?.errorText !== "net::ERR_ABORTED") troubles.push(`failed: ${request.url()}`);
   });
+  if (process.env.SLOW) {
+    const session = await context.newCDPSession(page);
+    await session.send("Emulation.setCPUThrottlingRate", { rate: Number(process.env.SLOW) });
+  }
   await before?.(page);
   await page.goto(`${home}index.html#${fragment}`);
   await page.waitForSelector("main > *");

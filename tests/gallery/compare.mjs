@@ -25,11 +25,12 @@ export const COMPARING = [
       const gallery = await openGallery(browser, small, "/compare?c=evans:1.1.1,evans:9.1.1&align=none");
       const { page } = gallery;
       // Solved curves have three decimals of a pixel, those from the data one.
-      const isFine = () =>
+      const fine = () =>
         page
           .locator(".pinned-tiles path")
-          .evaluateAll((paths) => paths.every((path) => /\.\d{3}L/.test(path.getAttribute("d"))));
-      await eventually(isFine, "curves are solved finely");
+          .evaluateAll((paths) => paths.map((path) => /\.\d{3}L/.test(path.getAttribute("d"))).join());
+      // There is none until the kernel is loaded.
+      await eventually(async () => (await fine()) === "true,true", "curves are solved finely");
       const facts = await page
         .locator(".compared-facts tr")
         .evaluateAll((rows) =>

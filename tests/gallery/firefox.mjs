@@ -82,7 +82,7 @@ const TESTS = [
         ),
       );
       assert.ok(
-        boxes.every((width) => width > 0),
+        boxes.length > 0 && boxes.every((width) => width > 0),
         boxes.join(", "),
       );
     },

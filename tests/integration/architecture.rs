@@ -1,8 +1,4 @@
-//! The direction of imports inside each crate, and the features that the crates without files, threads and clocks must
-//! not use.
-//!
-//! Between crates the compiler enforces the direction; inside a crate, the modules of its `lib.rs` are in the order in
-//! which data flows, and none imports one that comes after it.
+//! What the crates without files, threads and clocks must not use, and the crates that each is built from.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -37,57 +33,6 @@ fn code_files(folder: &Path) -> Vec<(PathBuf, String)> {
         }
     }
     found
-}
-
-/// The modules that a crate's `lib.rs` declares, in its order.
-fn modules(source: &Path) -> Vec<String> {
-    let text = fs::read_to_string(source.join("lib.rs")).unwrap();
-    let name = |line: &str| {
-        let name = line.strip_prefix("pub mod ").or_else(|| line.strip_prefix("mod "))?;
-        name.strip_suffix(';').map(str::to_owned)
-    };
-    text.lines().filter_map(name).collect()
-}
-
-/// The modules of the crate that some code imports: the names after `crate::`, alone or in braces.
-fn imports(code: &str) -> Vec<&str> {
-    let word = |text: &str| text.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(text.len());
-    let mut found = Vec::new();
-    for (at, prefix) in code.match_indices("crate::") {
-        let rest = &code[at + prefix.len()..];
-        match rest.strip_prefix('{') {
-            Some(list) => {
-                found.extend(list.split('}').next().unwrap().split(',').map(str::trim).map(|n| &n[..word(n)]))
-            }
-            None => found.push(&rest[..word(rest)]),
-        }
-    }
-    found
-}
-
-#[test]
-fn no_module_imports_one_that_comes_after_it() {
-    let mut seen = 0;
-    for source in CRATES.map(|source| root().join(source)) {
-        let order = modules(&source);
-        for (at, module) in order.iter().enumerate() {
-            let folder = source.join(module);
-            let files = if folder.is_dir() {
-                code_files(&folder)
-            } else {
-                let path = source.join(format!("{module}.rs"));
-                vec![(path.clone(), fs::read_to_string(path).unwrap())]
-            };
-            for (path, code) in files {
-                for import in imports(&code) {
-                    let Some(imported) = order.iter().position(|other| other == import) else { continue };
-                    seen += 1;
-                    assert!(imported <= at, "{} imports {import}, which comes after {module}", path.display());
-                }
-            }
-        }
-    }
-    assert!(seen > 100, "only {seen} imports were found");
 }
 
 #[test]

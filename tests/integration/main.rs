@@ -26,7 +26,7 @@ mod formats;
 mod gallery;
 mod golden;
 mod hostile_text;
-mod import_circles;
+mod imports;
 mod inspect_output;
 mod lettering;
 mod limits;

@@ -71,7 +71,7 @@ impl LivePage {
             let is_page = |name: &str| name.ends_with(".svg");
             let has_svg = family.files.iter().any(|file| is_page(&file.name));
             for file in &family.files {
-                if !(is_page(&file.name) || (!has_svg && file.name.ends_with(".png"))) {
+                if !(is_page(&file.name) || (!has_svg && file.is_image())) {
                     continue;
                 }
                 let path = output.join(&family.id).join(&file.name).to_string_lossy().replace('\\', "/");

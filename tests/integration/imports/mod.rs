@@ -1,4 +1,7 @@
-//! No files of a crate import each other in a circle: neither two of them, nor several in turn.
+//! The direction of imports inside each crate; between crates the compiler enforces it.
+//!
+//! The modules of a `lib.rs` are in the order in which data flows, and none imports one that comes after it. No files import each
+//! other in a circle: neither two of them, nor several in turn.
 
 mod names;
 
@@ -64,8 +67,26 @@ fn circles(imports: &Imports) -> Vec<String> {
     circles.into_iter().filter(|circle| !circle.is_empty()).map(text).collect()
 }
 
+/// The modules that a `lib.rs` declares, in its order.
+fn modules<'a>(lib: &'a str) -> Vec<&'a str> {
+    let name = |line: &'a str| line.trim_start_matches("pub ").strip_prefix("mod ")?.strip_suffix(';');
+    lib.lines().filter_map(name).collect()
+}
+
+/// The imports of a module that comes after the one that takes it, each in a line.
+fn backward(imports: &Imports, modules: &[&str]) -> Vec<String> {
+    let place = |file: &str| {
+        let module = file.split('/').next().unwrap().trim_end_matches(".rs");
+        modules.iter().position(|name| *name == module)
+    };
+    let is_backward =
+        |(from, to): &(String, String)| matches!((place(from), place(to)), (Some(from), Some(to)) if from < to);
+    let backward = imports.keys().filter(|pair| is_backward(pair));
+    backward.map(|(from, to)| format!("{from} imports {to}, which comes after it")).collect()
+}
+
 #[test]
-fn no_files_import_each_other() {
+fn no_files_import_each_other_and_no_module_one_that_comes_after_it() {
     let mut seen = 0;
     let mut found = Vec::new();
     for source in CRATES {
@@ -78,9 +99,10 @@ fn no_files_import_each_other() {
         assert!(unread.is_empty(), "{source}: no module declares {unread:?}");
         let imports = names.imports();
         seen += imports.len();
-        found.extend(circles(&imports).into_iter().map(|circle| format!("{source}: {circle}")));
+        let wrong = [circles(&imports), backward(&imports, &modules(&files["lib.rs"]))].concat();
+        found.extend(wrong.into_iter().map(|one| format!("{source}: {one}")));
     }
-    assert!(found.is_empty(), "{} circles\n{}", found.len(), found.join("\n"));
+    assert!(found.is_empty(), "{}", found.join("\n"));
     assert!(seen > 1000, "only {seen} imports were found");
 }
 
@@ -119,6 +141,14 @@ fn circles_are_found_and_described() {
     // Neither declarations, nor what is exported again, nor tests, nor comments.
     assert_eq!(with_cart(&format!("{cart}pub use wheel::Wheel;\n// wheel::Wheel\n")), [""; 0]);
     assert_eq!(with_cart(&format!("{cart}#[cfg(test)]\nmod tests {{\nuse super::wheel::Wheel;\n}}")), [""; 0]);
+}
+
+#[test]
+fn a_module_that_imports_a_later_one_is_named() {
+    let files = |wheel| [("lib.rs", "pub mod axle;\nmod wheel;"), ("axle.rs", "pub struct Axle;"), ("wheel.rs", wheel)];
+    let in_order = |lib| backward(&invented(&files("pub struct Wheel(crate::axle::Axle);")), &modules(lib));
+    assert_eq!(in_order("pub mod axle;\nmod wheel;"), [""; 0]);
+    assert_eq!(in_order("mod wheel;\npub mod axle;"), ["wheel.rs imports axle.rs, which comes after it"]);
 }
 
 #[test]
