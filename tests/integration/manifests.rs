@@ -551,6 +551,7 @@ mod properties {
 
         /// The order of keys matters only in a grid.
         #[test]
+        #[ignore = "thorough"]
         fn the_order_of_keys_changes_no_plan(
             keys in Just(KEYS.to_vec()).prop_shuffle(),
             joints in Just(JOINTS.to_vec()).prop_shuffle(),

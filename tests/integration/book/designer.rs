@@ -78,6 +78,7 @@ fn number(row: &Row, name: &str) -> f64 {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn lists_have_the_best_curves_of_the_tables() {
     let (atlas, pdf, parts) = book(&[]);
     assert!(!parts.contains_key("None at all"), "a list without entries has no pages");
@@ -310,6 +311,7 @@ fn remedies_name_the_table() {
 
 /// A book in whose chapters are all cells, or none.
 #[test]
+#[ignore = "thorough"]
 fn what_would_be_empty_is_left_out_with_a_warning() {
     let chapters = r#"[book]
 [[book.chapter]]
