@@ -9,7 +9,7 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use crate::gallery::is_data_file_name;
+use crate::gallery::{KERNEL_FILE, PAGE_FILE, is_data_file_name};
 use crate::record::{FileRecord, FolderRecord, ImagesState, RunRecord, path_in_atlas};
 
 /// The numbers of files that a record lists and that were not compared, because the folder has none of their kind.
@@ -34,11 +34,9 @@ impl LeftOut {
         let images = family_files(run, FileRecord::is_image);
         let volumes = file_names(run.book.iter().flat_map(|book| &book.files));
         let has_images = record.images != ImagesState::Missing || !images.iter().chain(&volumes).all(is_absent);
-        let gallery = [
-            file_names(run.gallery.iter().chain(&run.kernel)),
-            family_files(run, |file| is_data_file_name(&file.name)),
-        ]
-        .concat();
+        // The page and its kernel have these names, whatever the record says.
+        let page = [PAGE_FILE, KERNEL_FILE].map(str::to_owned);
+        let gallery = [&page[..], &family_files(run, |file| is_data_file_name(&file.name))].concat();
         LeftOut {
             images: if has_images { 0 } else { images.len() },
             volumes: if has_images { 0 } else { volumes.len() },

@@ -152,7 +152,7 @@ pub fn check_atlas(
             report.add_findings(images::check_images_file(&folder_record).into_iter().collect());
         }
         let check_file = |(name, file): (&str, Option<&FileRecord>)| match file {
-            _ if left_out.has_gallery() => None,
+            Some(file) if file.name == name && left_out.has_gallery() => None,
             Some(file) if file.name == name => gallery::check_file(recorded, name, file),
             None if folder_record.is_unfinished => None,
             _ => {

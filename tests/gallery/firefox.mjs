@@ -81,10 +81,7 @@ const TESTS = [
           (spot) => spot.getBoundingClientRect().width,
         ),
       );
-      assert.ok(
-        boxes.length > 0 && boxes.every((width) => width > 0),
-        boxes.join(", "),
-      );
+      assert.ok(boxes.length > 0 && boxes.every((width) => width > 0), boxes.join(", "));
     },
   ],
   [

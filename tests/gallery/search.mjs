@@ -33,12 +33,10 @@ const ranked = (page, within = 30000) =>
   );
 
 const leastPlaces = (page) =>
-  page
-    .locator(".over path")
-    .evaluateAll((paths) => {
-      const places = paths.map((path) => path.getAttribute("d").split("L").length);
-      return places.length ? Math.min(...places) : 0;
-    });
+  page.locator(".over path").evaluateAll((paths) => {
+    const places = paths.map((path) => path.getAttribute("d").split("L").length);
+    return places.length ? Math.min(...places) : 0;
+  });
 
 const tests = [
   [

@@ -387,6 +387,20 @@ fn what_a_folder_leaves_out_is_said_and_no_difference() {
             String::from_utf8(atlas.run(&["check", "--against", "output", "--report", format]).stdout).unwrap();
         assert!(report.contains(if format == "json" { "\"volumes\": 1" } else { &words }), "{format}: {report}");
     }
+    // A page is compared, also if its record no longer lists it.
+    let (_, record) = whole.get_key_value("run.json").unwrap();
+    let without = |key: &str| {
+        let mut record: serde_json::Value = serde_json::from_slice(record).unwrap();
+        record.as_object_mut().unwrap().remove(key).unwrap();
+        serde_json::to_vec_pretty(&record).unwrap()
+    };
+    for (name, key) in [("index.html", "gallery"), ("kernel.js", "kernel")] {
+        fs::write(output.join(name), "edited").unwrap();
+        fs::write(output.join("run.json"), without(key)).unwrap();
+        assert_eq!((atlas.check(&[]).0, left_out().contains("gallery")), (1, false), "{name}");
+        fs::remove_file(output.join(name)).unwrap();
+        fs::write(output.join("run.json"), record).unwrap();
+    }
     // What is kept must be right, and a run makes the rest again.
     atlas.edit("evans/points.csv", |lines| lines[3].push('1'));
     assert!(!atlas.check(&[]).1.is_empty());
