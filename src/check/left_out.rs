@@ -34,7 +34,7 @@ impl LeftOut {
         let images = family_files(run, FileRecord::is_image);
         let volumes = file_names(run.book.iter().flat_map(|book| &book.files));
         let has_images = record.images != ImagesState::Missing || !images.iter().chain(&volumes).all(is_absent);
-        // The page and its kernel have these names, whatever the record says.
+        // The page and its kernel have these names, also where the record has others or none.
         let page = [PAGE_FILE, KERNEL_FILE].map(str::to_owned);
         let gallery = [&page[..], &family_files(run, |file| is_data_file_name(&file.name))].concat();
         LeftOut {
