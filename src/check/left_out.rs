@@ -24,23 +24,28 @@ pub struct LeftOut {
 }
 
 impl LeftOut {
-    /// What the folder of a record leaves out; nothing where a run has not ended, whose files are yet to come.
-    pub(super) fn of(record: &FolderRecord, folder: &Path) -> LeftOut {
+    /// What the folder of a record leaves out, counted in the families `only`, or in the whole atlas if there are none;
+    /// nothing where a run has not ended, whose files are yet to come.
+    pub(super) fn of(record: &FolderRecord, folder: &Path, only: &[String]) -> LeftOut {
         if record.is_unfinished {
             return LeftOut::default();
         }
         let run = &record.run;
+        let is_data_file = |file: &FileRecord| is_data_file_name(&file.name);
         let is_absent = |name: &String| fs::symlink_metadata(folder.join(name)).is_err();
-        let images = family_files(run, FileRecord::is_image);
         let volumes = file_names(run.book.iter().flat_map(|book| &book.files));
-        let has_images = record.images != ImagesState::Missing || !images.iter().chain(&volumes).all(is_absent);
         // The page and its kernel have these names, also where the record has others or none.
         let page = [PAGE_FILE, KERNEL_FILE].map(str::to_owned);
-        let gallery = [&page[..], &family_files(run, |file| is_data_file_name(&file.name))].concat();
+        let has_images = record.images != ImagesState::Missing
+            || !family_files(run, &[], FileRecord::is_image).iter().chain(&volumes).all(is_absent);
+        let has_gallery = !page.iter().chain(&family_files(run, &[], is_data_file)).all(is_absent);
+        // Of single families, neither the book nor the page is compared.
+        let if_all = |files: usize| if only.is_empty() { files } else { 0 };
+        let left_out = |is_left_out: bool, files: usize| if is_left_out { files } else { 0 };
         LeftOut {
-            images: if has_images { 0 } else { images.len() },
-            volumes: if has_images { 0 } else { volumes.len() },
-            gallery_files: if gallery.iter().all(is_absent) { gallery.len() } else { 0 },
+            images: left_out(!has_images, family_files(run, only, FileRecord::is_image).len()),
+            volumes: left_out(!has_images, if_all(volumes.len())),
+            gallery_files: left_out(!has_gallery, if_all(page.len()) + family_files(run, only, is_data_file).len()),
         }
     }
 
@@ -60,8 +65,9 @@ fn file_names<'r>(files: impl IntoIterator<Item = &'r FileRecord>) -> Vec<String
     files.into_iter().map(|file| file.name.clone()).collect()
 }
 
-/// Certain files of families, by their paths in the folder of the atlas.
-fn family_files(run: &RunRecord, is_one: fn(&FileRecord) -> bool) -> Vec<String> {
-    let files = run.families.iter().flat_map(|family| family.files.iter().map(move |file| (&family.id, file)));
+/// Certain files of the families `only`, or of all if there are none, by their paths in the folder of the atlas.
+fn family_files(run: &RunRecord, only: &[String], is_one: fn(&FileRecord) -> bool) -> Vec<String> {
+    let families = run.families.iter().filter(|family| only.is_empty() || only.contains(&family.id));
+    let files = families.flat_map(|family| family.files.iter().map(move |file| (&family.id, file)));
     files.filter(|(_, file)| is_one(file)).map(|(id, file)| path_in_atlas(id, &file.name)).collect()
 }

@@ -135,7 +135,7 @@ pub fn check_atlas(
     let folder_record = FolderRecord::read(recorded).map_err(|source| Error::Record { path, source })?;
     let record = &folder_record.run;
     let is_requested = |id: &str| options.only.is_empty() || options.only.iter().any(|only| only == id);
-    let left_out = LeftOut::of(&folder_record, recorded);
+    let left_out = LeftOut::of(&folder_record, recorded, &options.only);
     let mut report = Report { left_out, ..Report::default() };
     let outdated = outdated::check_version(record);
     let is_outdated = outdated.is_some();

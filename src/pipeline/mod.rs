@@ -4,6 +4,7 @@
 mod captions;
 mod charts;
 mod composer;
+mod kept_cells;
 mod pagination;
 
 pub use captions::Captions;
@@ -14,11 +15,11 @@ pub use composer::Composer;
 pub use composer::curves_by_page;
 pub use pagination::{Pagination, measures_used_on_pages};
 
-use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Mutex, PoisonError};
 
+use self::kept_cells::KeptCells;
 use crate::manifest::{Plan, PlannedFamily};
 use crate::sweep::{self, CellGroups, CellIndices, CellSelection};
 use coupler_curves::motion::Sampler;
@@ -44,9 +45,6 @@ pub fn page_file_name(family: &str, (page, of): (usize, usize), format: PageForm
     let width = of.to_string().len();
     format!("{first:0width$}-{last:0width$}/{name}")
 }
-
-/// The most memory for cells that are kept from the tables to sorted pages, in bytes; those of a family that would take more are solved again.
-const MAX_KEPT_BYTES: usize = 64_000_000;
 
 /// How much of the output of a family an earlier run has delivered: it is not produced again.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -188,10 +186,8 @@ impl<'a> FamilyPipeline<'a> {
         let chart = planned.chart.as_ref();
         let is_sorted = planned.family.sort.is_some();
         let mut builder = chart.map(|chart| ChartBuilder::new(chart, &planned.family));
-        let sorted_bytes = planned.family.estimate_cell_bytes().saturating_mul(self.arrangement.kept.len());
         let has_sorted_pages = chart.is_none() && is_sorted;
-        let keeps_cells = has_sorted_pages && sorted_bytes <= MAX_KEPT_BYTES;
-        let kept_cells: Mutex<HashMap<usize, SolvedCell>> = Mutex::default();
+        let kept_cells: Mutex<KeptCells> = Mutex::default();
         let make = |group: usize, solved: Vec<SolvedCell>| -> Result<GroupOutput<S>, S::Error> {
             let cells = sink.receive_cells(&solved)?;
             let has_pages = chart.is_none() && !is_sorted;
@@ -200,9 +196,8 @@ impl<'a> FamilyPipeline<'a> {
                 .iter()
                 .flat_map(|chart| solved.iter().flat_map(|solved| chart.sample_cell(&planned.family, solved)));
             let output = (Some(cells), pages, samples.collect());
-            if keeps_cells {
-                let index = |solved: SolvedCell| (solved.cell.number - 1, solved);
-                kept_cells.lock().unwrap_or_else(PoisonError::into_inner).extend(solved.into_iter().map(index));
+            if has_sorted_pages {
+                kept_cells.lock().unwrap_or_else(PoisonError::into_inner).extend(solved);
             }
             Ok(output)
         };
@@ -222,9 +217,7 @@ impl<'a> FamilyPipeline<'a> {
             // Tables are in the order of the cells, but pages are sorted.
             let measures = measures_used_on_pages(planned);
             let sorted = (self.arrangement.page_order(), first_sorted);
-            // A run that is continued has solved only some of the cells for the tables.
-            let take =
-                |_: &Sampler, cell: usize| kept_cells.lock().unwrap_or_else(PoisonError::into_inner).remove(&cell);
+            let take = |_: &Sampler, cell: usize| kept_cells.lock().unwrap_or_else(PoisonError::into_inner).take(cell);
             let groups = CellGroups { solve_known: Some(&take), ..self.cell_groups(sorted, sink, Some(&measures)) };
             let make =
                 |group: usize, solved: Vec<SolvedCell>| Ok((None, self.send_pages(group, &solved, sink)?, Vec::new()));

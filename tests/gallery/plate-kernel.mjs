@@ -104,14 +104,17 @@ export const KERNEL = [
   ],
   [
     "3.19",
-    "a script of the kernel that is missing, or of another version, is named where it is needed",
+    "a script of the kernel that is missing, damaged or of another version is named where it is needed",
     async ({ browser, folder }) => {
       const digest = /"sha256":"[0-9a-f]{64}"/;
       const another = (script) => script.replace(digest, `"sha256":"${"0".repeat(64)}"`);
+      // The letters of base64 in the middle of the module.
+      const damaged = (script) => script.replace(/(?<=.{50000})[A-Za-z]{8}/s, "AAAAAAAA");
       const cases = [
         [() => null, "kernel.js cannot be read"],
         [() => "", "kernel.js cannot be read"],
         [another, "kernel.js is of another version than this page"],
+        [damaged, "kernel.js is damaged"],
       ];
       for (const [change, what] of cases) {
         const copy = atlasWithKernel(folder, change);

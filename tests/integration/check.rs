@@ -381,6 +381,9 @@ fn what_a_folder_leaves_out_is_said_and_no_difference() {
     assert_eq!(atlas.check(&[]), (0, vec![]));
     let words = format!("for the folder has none of them: 3 images, 1 volume, {} files of the gallery", gallery.len());
     assert_eq!(left_out(), words);
+    // Of a family, neither the book nor the page.
+    let report = atlas.run(&["check", "--against", "output", "--only", "evans"]).stdout;
+    assert!(String::from_utf8(report).unwrap().contains("has none of them: 1 image, 1 file of the gallery\n"));
     // In every report.
     for format in ["json", "junit", "github"] {
         let report =

@@ -1,5 +1,6 @@
 // The atlas: the summary of all families, and the data of each family and the kernel, loaded on first use.
 
+import { unpackGzip } from "./packed.js";
 import { FamilyReader, PieceReader } from "./reader.js";
 
 // The size of the files whose points are kept, in bytes: more than a search loads without a request.
@@ -7,7 +8,7 @@ const MAX_KEPT_BYTES = 64e6;
 
 /**
  * Opens the atlas of a document: its summary, `family(id)`, which resolves to a family (reader.js) when its
- * head is loaded, and `kernelModule()`, to the module of the kernel, compressed and in base64.
+ * head is loaded, and `kernelModule()`, to the module of the kernel, unpacked.
  *
  * A page opened from disk cannot fetch files but can load scripts; the scripts of families and the kernel call
  * `couplerAtlas`.
@@ -91,7 +92,9 @@ export function openAtlas(document, window) {
     const file = await run(script, (done) => done.kernel);
     if (file.sha256 !== sha256)
       throw new Error(`${script} is of another version than this page: render the atlas again`);
-    return file.module;
+    return unpackGzip(file.module).catch((error) => {
+      throw new Error(`${script} is damaged: render the atlas again`, { cause: error });
+    });
   };
   return { ...summary, family, kernelModule };
 }

@@ -31,6 +31,12 @@ export function decodeBase64(data) {
   return bytes;
 }
 
+/** Unpacks what gzip packed, which has a checksum, from base64. */
+export async function unpackGzip(/** @type {string} */ packed) {
+  const unpacked = new Blob([decodeBase64(packed)]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return new Response(unpacked).arrayBuffer();
+}
+
 /**
  * Concatenates typed arrays of one kind.
  * @template {TypedArray} T @param {T[]} arrays @param {new (count: number) => T} kind

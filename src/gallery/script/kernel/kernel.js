@@ -3,7 +3,6 @@
 // After a failure of the kernel, a new instance replaces it, in which families and studies are opened again when
 // they are used.
 
-import { decodeBase64 } from "../data/packed.js";
 import { FourBarFinder } from "./finder.js";
 import { KernelFailure, KernelInstance } from "./instance.js";
 import { KernelStudy } from "./study.js";
@@ -29,21 +28,16 @@ export class KernelLoader {
     const noWebAssembly = `This browser does not run WebAssembly: ${WITHOUT_KERNEL}.`;
     if (typeof WebAssembly !== "object" || typeof DecompressionStream !== "function")
       throw new Error(noWebAssembly);
-    const packed = await this.atlas.kernelModule().catch((error) => {
+    const code = await this.atlas.kernelModule().catch((error) => {
       throw new Error(`${error.message}. Without it, ${WITHOUT_KERNEL}.`, { cause: error });
     });
     try {
-      this.kernel = new Kernel(await compileKernel(packed));
+      this.kernel = new Kernel(await WebAssembly.compile(code));
     } catch (error) {
       throw new Error(`${noWebAssembly} (${error.message})`, { cause: error });
     }
     return this.kernel;
   }
-}
-
-async function compileKernel(/** @type {string} */ packed) {
-  const unpacked = new Blob([decodeBase64(packed)]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return WebAssembly.compile(await new Response(unpacked).arrayBuffer());
 }
 
 /** A kernel with its open families. */
