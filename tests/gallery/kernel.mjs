@@ -3,6 +3,7 @@
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 
+import { unpackGzip } from "../../src/gallery/script/data/packed.js";
 import { KernelLoader } from "../../src/gallery/script/kernel/kernel.js";
 
 /** The kernel of an atlas, from its script. */
@@ -14,5 +15,5 @@ export function kernelOf(folder) {
     },
   };
   new Function("couplerAtlas", readFileSync(join(folder, "kernel.js"), "utf8"))(couplerAtlas);
-  return new KernelLoader({ kernelModule: async () => module }).load();
+  return new KernelLoader({ kernelModule: () => unpackGzip(module) }).load();
 }
