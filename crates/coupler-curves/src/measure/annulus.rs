@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::remez::exchange_point;
 use super::strip::min_max;
-use crate::geometry::{Point, cross, in_rising_order, left_normal};
+use crate::geometry::{Point, Vector, cross, in_rising_order, left_normal};
 
 /// The ring between two concentric circles.
 #[derive(Clone, Copy, Debug)]
@@ -21,11 +21,18 @@ pub(super) struct Annulus {
 /// They are a good initial guess for a similar row of points.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct AlternatingPoints {
+    /// Whether rows may go back along themselves, so that their order is not that around the centre.
+    is_folded: bool,
     free: Option<[usize; 4]>,
     bounded: Option<[usize; 3]>,
 }
 
 impl AlternatingPoints {
+    /// For rows of points that may go back along themselves.
+    pub fn folded(is_folded: bool) -> AlternatingPoints {
+        AlternatingPoints { is_folded, ..AlternatingPoints::default() }
+    }
+
     /// The narrowest annulus that contains a row of at least four points near an arc of a circle.
     ///
     /// Its circles pass through four of the points, alternating between outer and inner circle (de la Vallée Poussin).
@@ -53,6 +60,7 @@ impl AlternatingPoints {
     /// The narrowest annulus with a radius of at most `largest` that contains a row of points; otherwise like
     /// [`AlternatingPoints::narrowest_annulus`].
     pub fn narrowest_annulus_within(&mut self, points: &[Point], most: f64, largest: f64) -> Option<Annulus> {
+        let points = &*if self.is_folded { sorted_around(points) } else { points.into() };
         let free = self.narrowest_annulus(points, most)?;
         if free.radius <= largest {
             return Some(free);
@@ -74,6 +82,35 @@ impl AlternatingPoints {
         let guess = self.bounded.filter(|three| three[2] <= last).unwrap_or([0, last / 2, last]);
         narrowest_by_exchange(points, self.bounded.insert(guess), most, through)
     }
+}
+
+/// The points of a row near an arc, sorted around it in case it goes back along itself.
+fn sorted_around(points: &[Point]) -> Cow<'_, [Point]> {
+    let furthest = |distance: &dyn Fn(&Point) -> f64| {
+        points.iter().copied().reduce(|far, p| if distance(&p) > distance(&far) { p } else { far }).unwrap_or_default()
+    };
+    let a = points[0];
+    let b = furthest(&|p| (p - a).norm_squared());
+    let c = furthest(&|p| cross(b - a, p - a).abs());
+    let (u, v) = (b - a, c - a);
+    let twice_area = 2.0 * cross(u, v);
+    let centre = a + (left_normal(v) * -u.norm_squared() + left_normal(u) * v.norm_squared()) / twice_area;
+    if !(centre.x.is_finite() && centre.y.is_finite()) {
+        return points.into();
+    }
+    let turns = points.windows(2).map(|pair| cross(pair[0] - centre, pair[1] - centre));
+    let [least, most] = turns.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], turn| [l.min(turn), h.max(turn)]);
+    if least >= 0.0 || most <= 0.0 {
+        return points.into();
+    }
+    // From opposite the middle of the row, so that the gap of an arc is not within it.
+    let middle = points.iter().map(|p| (p - centre).normalize()).sum::<Vector>();
+    let around = |p: &Point| {
+        let offset = p - centre;
+        let cosine = middle.dot(&offset) / (middle.norm() * offset.norm());
+        if cross(middle, offset) < 0.0 { cosine - 1.0 } else { 1.0 - cosine }
+    };
+    in_rising_order(points.to_vec(), around).into()
 }
 
 /// The points of a nearly straight row, sorted along it in case it reverses.

@@ -83,7 +83,7 @@ impl<'a> CurveRings<'a> {
             portion: PortionPoints::new(row, ends, count),
             max_radius,
             contacts: Vec::new(),
-            alternating: AlternatingPoints::default(),
+            alternating: AlternatingPoints::folded(!row.corners().is_empty()),
             spokes: Vec::new(),
             earlier_spokes: Vec::new(),
             groups: Vec::new(),
@@ -96,7 +96,7 @@ impl<'a> CurveRings<'a> {
         /// A motion of the centre, relative to the radius, whose square is less than rounding.
         const SMALL: f64 = 1e-8;
         /// The annulus of the points that touch contains all others to this part of its width.
-        const MOVED: f64 = 1e-4;
+        const MOVED: f64 = 1e-6;
         /// No more points than this touch, or nearly do.
         const MOST: usize = 9;
         self.portion.turn_to(ends);

@@ -64,18 +64,64 @@ fn dwell_value(curve: &TracedCurve, value: fn(&Dwell) -> f64) -> Value {
 
 /// The best circular portion of a curve of a given extent and length, from its points; `None` for a point or a straight line.
 fn find_dwell(row: &Row, extent: f64, length: f64) -> Option<Dwell> {
-    let requirement = Circular { row, max_width: TOLERANCE * extent, max_radius: length };
+    /// What of the width is more than allowed is taken off as often.
+    const ROUNDS: usize = 4;
+    /// The accuracy of the widths compared, relative to what is allowed.
+    const EXCESS: f64 = 1e-6;
+    let max_width = TOLERANCE * extent;
+    let mut requirement = Circular { row, max_width, max_radius: length };
     let [from, to] = *longest(row, &requirement, 0.0).first()?;
     // The whole of a closed curve begins where the curve does.
     let is_whole = row.is_closed && to - from >= row.start_count as f64 * (1.0 - 1e-9);
-    let ends = if is_whole { [0.0, row.start_count as f64] } else { [from, to] };
-    let PortionRing { centre, radius, width, .. } = CurveRings::new(row, ends, INTERVALS, length).ring(ends)?;
+    let mut ends = if is_whole { [0.0, row.start_count as f64] } else { [from, to] };
+    let all = |[from, to]: [f64; 2]| INTERVALS.max((to - from).ceil() as usize);
+    let mut ring = CurveRings::new(row, ends, all(ends), length).ring(ends)?;
+    let mut width = width_about(row, ends, ring.centre);
+    for _ in 0..ROUNDS {
+        if is_whole || width <= max_width * (1.0 + EXCESS) {
+            break;
+        }
+        // Next to a sharp bend the points that touch are known less exactly than elsewhere.
+        requirement.max_width -= 1.5 * (width - max_width);
+        let reach = 0.1 * (ends[1] - ends[0]);
+        let Reached::Longest { ends: shorter, .. } = requirement.longest_near_by(all(ends), (ends, reach), 0.0) else {
+            break;
+        };
+        ends = shorter;
+        ring = CurveRings::new(row, ends, all(ends), length).ring(ends)?;
+        width = width_about(row, ends, ring.centre);
+    }
+    let PortionRing { centre, radius, .. } = ring;
     let input_span = row.input_travel_at(ends[1]) - row.input_travel_at(ends[0]);
     let points = row.points_between(ends, INTERVALS);
     // The rounding of the circle is that of the positions; a deviation is as accurate as that of a straight portion.
     let centre = centre.map(|coordinate| without_rounding(coordinate, ROUNDING * radius));
     let deviation = without_rounding(width / 2.0, EXACT * radius);
     Some(Dwell { centre, radius, deviation, start_input: row.input_at(ends[0]), input_span, points })
+}
+
+/// The difference of the greatest and the least distance of a portion from a point.
+fn width_about(row: &Row, [from, to]: [f64; 2], centre: Point) -> f64 {
+    /// Points between two of the row: the vertex of a parabola through three neighbours is then that of the curve.
+    const FINER: f64 = 4.0;
+    let parts = ((to - from) * FINER).ceil().max(2.0) as usize;
+    let distances: Vec<f64> = row.points_between([from, to], parts).iter().map(|p| (p - centre).norm()).collect();
+    let vertex = |three: &[f64]| {
+        let (slope, bend) = ((three[2] - three[0]) / 2.0, three[2] - 2.0 * three[1] + three[0]);
+        let step = -slope / bend;
+        if step.abs() <= 1.0 { three[1] + slope * step / 2.0 } else { three[1] }
+    };
+    // Around a bend that points do not show, ever closer.
+    let around = |bend: i64| {
+        let offsets = (0..16).map(|k| 0.5f64.powi(k)).chain([0.0]);
+        offsets.flat_map(move |offset| [bend as f64 - offset, bend as f64 + offset])
+    };
+    let beside: Vec<f64> = row.corners_between([from, to]).into_iter().flat_map(around).collect();
+    let beside = row.points_at(&beside.into_iter().filter(|at| (from..=to).contains(at)).collect::<Vec<f64>>());
+    let beside = beside.iter().map(|point| (point - centre).norm());
+    let all = distances.iter().copied().chain(distances.windows(3).map(vertex)).chain(beside);
+    let [least, most] = all.fold([f64::INFINITY, 0.0f64], |[least, most], r| [least.min(r), most.max(r)]);
+    most - least
 }
 
 impl TracedCurve<'_> {
@@ -125,7 +171,8 @@ impl Requirement for Circular<'_> {
             } else {
                 portion
             };
-            AlternatingPoints::default().narrowest_annulus_within(portion, self.max_width, self.max_radius).is_some()
+            let mut alternating = AlternatingPoints::folded(!self.row.corners().is_empty());
+            alternating.narrowest_annulus_within(portion, self.max_width, self.max_radius).is_some()
         };
         // Any part of a portion that fits fits too.
         let first = points.first_reaching(travel, start + least, from + 1, last);
@@ -140,8 +187,23 @@ impl Requirement for Circular<'_> {
     fn longest_near(&self, ends: [f64; 2], reach: f64, least: f64) -> Reached {
         /// Points of the portion in which those that touch its annulus are found.
         const POINTS: usize = 32;
+        let reached = self.longest_near_by(POINTS, (ends, reach), least);
+        let Reached::Longest { ends: found, .. } = reached else { return reached };
+        // Between so few points the curve may leave the annulus: then by all points of the row.
+        let all = (found[1] - found[0]).ceil() as usize;
+        let is_wider = |ring: PortionRing| ring.width > self.max_width;
+        if all > POINTS && CurveRings::new(self.row, found, all, self.max_radius).ring(found).is_some_and(is_wider) {
+            return self.longest_near_by(all, (found, reach), least);
+        }
+        reached
+    }
+}
+
+impl Circular<'_> {
+    /// The longest portion near one between two positions, by about so many points of it.
+    fn longest_near_by(&self, count: usize, (ends, reach): ([f64; 2], f64), least: f64) -> Reached {
         let permitted = self.max_width * (1.0 - ACCURACY);
-        let mut rings = CurveRings::new(self.row, ends, POINTS, self.max_radius);
+        let mut rings = CurveRings::new(self.row, ends, count, self.max_radius);
         let fit = |ends: [f64; 2]| {
             let size = self.row.input_travel_at(ends[1]) - self.row.input_travel_at(ends[0]);
             let rates = ends.map(|position| self.row.input_travel_rate_at(position));

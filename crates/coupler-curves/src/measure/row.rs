@@ -28,7 +28,8 @@ pub(super) struct Row {
     pub cumulative_length: Vec<f64>,
     /// The place of each point of the first round, and the parameter from it to the next.
     places: Vec<(Place, f64)>,
-    /// The points of the first round at which there may be a corner; the ends of an open curve are none.
+    /// The points of the first round that are points of every portion, in order: where there may be a corner, where the curve
+    /// stops, and where it bends sharply. The ends of an open curve are none.
     corners: Vec<usize>,
     /// Every point, every second, every fourth and so on, as far as they have been asked for.
     every_nth: [OnceCell<EveryNth>; Row::MAX_POINTS.ilog2() as usize + 1],
@@ -38,28 +39,35 @@ impl Row {
     /// No more points than about this, for a curve that is very long compared with the spacing.
     const MAX_POINTS: usize = 50_000;
 
-    /// Points of a whole curve, no further apart than `spacing`; `None` if the curve has no length.
-    pub fn new(curve: &Rc<SmoothCurve>, spacing: f64) -> Option<Row> {
+    /// Points of a whole curve, no further apart than `spacing`; `None` if the curve has no length. `bends` are places that are
+    /// points of every portion, in order.
+    pub fn new(curve: &Rc<SmoothCurve>, bends: &[Place], spacing: f64) -> Option<Row> {
         let lengths: Vec<f64> = curve.arcs.iter().map(|arc| 2.0 * arc.greatest_speed()).collect();
         let spacing = spacing.max(lengths.iter().sum::<f64>() / Row::MAX_POINTS as f64);
         if !(spacing > 0.0 && spacing.is_finite()) {
             return None;
         }
         let parts = |length: f64| (length / spacing).ceil().max(2.0) as usize;
-        let count = lengths.iter().map(|length| parts(*length)).sum::<usize>() + 1;
+        let count = lengths.iter().map(|length| parts(*length)).sum::<usize>() + 2 * bends.len() + 1;
         let (mut places, mut travel) = (Vec::with_capacity(count), Vec::with_capacity(2 * count));
         let mut corners = Vec::new();
         let mut before = 0.0;
         for (piece, length) in lengths.iter().enumerate() {
-            if curve.corners[piece] && (curve.is_closed || piece > 0) {
-                corners.push(places.len());
-            }
-            let parts = parts(*length);
-            let step = 2.0 / parts as f64;
-            for part in 0..parts {
-                let u = -1.0 + step * part as f64;
-                places.push((Place { piece, u }, step));
-                travel.push(before + curve.pieces[piece].input_travel_to(u));
+            let bends = || bends.iter().filter(|bend| bend.piece == piece).map(|bend| bend.u);
+            let is_corner = curve.corners[piece] || bends().any(|u| u == -1.0);
+            let cuts: Vec<f64> = [-1.0].into_iter().chain(bends().filter(|u| *u > -1.0)).chain([1.0]).collect();
+            for (k, ends) in cuts.windows(2).enumerate() {
+                if k > 0 || (is_corner && (curve.is_closed || piece > 0)) {
+                    corners.push(places.len());
+                }
+                let width = ends[1] - ends[0];
+                let parts = parts(*length * width / 2.0);
+                let step = width / parts as f64;
+                for part in 0..parts {
+                    let u = ends[0] + step * part as f64;
+                    places.push((Place { piece, u }, step));
+                    travel.push(before + curve.pieces[piece].input_travel_to(u));
+                }
             }
             before += curve.pieces[piece].input_travel();
         }
@@ -143,6 +151,11 @@ impl Row {
         [from.max(low), to.min(high).min(from + span)]
     }
 
+    /// The points of the first round that are points of every portion: corners, stops and sharp bends.
+    pub fn corners(&self) -> &[usize] {
+        &self.corners
+    }
+
     /// The points strictly between two positions at which there may be a corner, in order; on a closed curve they may be
     /// negative.
     pub fn corners_between(&self, [from, to]: [f64; 2]) -> Vec<i64> {
@@ -168,7 +181,8 @@ impl Row {
         let [(before, before_step), (after, after_step)] =
             [(index + self.start_count - 1) % self.start_count, index].map(|k| self.places[k]);
         let arcs = &self.curve.arcs;
-        [arcs[before.piece].velocity(1.0) * before_step, arcs[after.piece].velocity(after.u) * after_step]
+        let end = (before.u + before_step).min(1.0);
+        [arcs[before.piece].velocity(end) * before_step, arcs[after.piece].velocity(after.u) * after_step]
     }
 
     /// A point of the row; on a closed curve its index may be negative, on others the last is repeated.
@@ -300,7 +314,8 @@ impl Row {
         bisect([(to as f64 - 1.0).max(from), to as f64], |to| (self.point_at(to) - start).norm() < length)
     }
 
-    /// The signed distance of a point from the curve near a position, positive to the left, and the curve's normal.
+    /// The signed distance of a point from the curve near a position, positive to the left and beyond an end, and the direction
+    /// in which it grows: the curve's normal, but beyond an end.
     pub fn signed_distance(&self, point: Point, mut position: f64) -> Option<(f64, Vector)> {
         /// Most feet are found in three rounds; at a sharp bend, where the curve is slow, more are needed.
         const ROUNDS: usize = 16;
@@ -324,9 +339,10 @@ impl Row {
         }
         let (distance, offset, velocity) = nearest?;
         let normal = Vector::new(-velocity.y, velocity.x).try_normalize(0.0)?;
-        // Beyond the end of an open curve, and at a cusp, the nearest point is not at the foot of a perpendicular.
+        // Beyond the end of a path, and at a cusp, the nearest point is not at the foot of a perpendicular: the distance
+        // grows away from that point.
         let across = normal.dot(&offset);
-        Some((if distance > 1.001 * across.abs() { distance.copysign(across) } else { across }, normal))
+        Some(if distance > 1.001 * across.abs() { (distance, offset / distance) } else { (across, normal) })
     }
 
     /// The points at some positions.

@@ -2,7 +2,7 @@
 
 use super::curve::{Place, StopKind};
 use super::{Measure, TracedCurve, Value};
-use crate::geometry::cross;
+use crate::geometry::{Chebyshev, cross};
 use crate::linkage::DyadSet;
 use crate::motion::{InputMap, InputPosition, JointDerivatives};
 
@@ -55,7 +55,7 @@ pub const CURVATURE_MAX: Measure = Measure::number(
     "curvature_max",
     "greatest curvature",
     "",
-    "greatest curvature of the path except at corners at change points, in 1 over the manifest's unit; inf if there is a cusp, or if the path reverses at a limit",
+    "greatest curvature of the path except at corners at change points, in 1 over the manifest's unit; inf if there is a cusp",
     |curve: &TracedCurve| max_curvature(curve).map_or(Value::Missing, Value::Number),
 );
 
@@ -71,32 +71,59 @@ fn count_cusps(curve: &TracedCurve) -> usize {
     curve.stops().iter().filter(|stop| stop.kind == StopKind::Cusp).count()
 }
 
-/// The greatest curvature of a path; infinite if it stops, at a cusp or where it returns on itself at a limit.
+/// The greatest curvature of a path; infinite if it has a cusp.
 fn max_curvature(curve: &TracedCurve) -> Option<f64> {
-    if !curve.stops().is_empty() {
-        return Some(f64::INFINITY);
-    }
-    let (curvature, place) = curve.smooth().sharpest()?;
-    Some(exact_curvature(curve, place).unwrap_or(curvature))
-}
-
-/// The curvature from the derivatives of the motion, which are more exact than those of the series; `None` near a limit,
-/// where they are unbounded.
-fn exact_curvature(curve: &TracedCurve, place: Place) -> Option<f64> {
     /// The part of the root of the input's range next to a limit in which the terms of the curvature cancel.
     const NEAR_LIMIT: f64 = 0.1;
+    if curve.cusp_count() > 0 {
+        return Some(f64::INFINITY);
+    }
+    let smooth = curve.smooth();
+    let away_from_stops = smooth.sharpest(curve.stops()).map(|(curvature, place)| {
+        let piece = &smooth.pieces[place.piece];
+        let pass = &curve.circuit.passes[piece.pass_at(place.u)];
+        let is_near_limit = match piece.map {
+            InputMap::Root { middle, half, .. } => {
+                (middle + half * place.u).abs() < NEAR_LIMIT * pass.input_length().sqrt()
+            }
+            InputMap::Linear { .. } => false,
+        };
+        let exact = curvature_at(curve, place).abs();
+        if is_near_limit || !exact.is_finite() { curvature } else { exact }
+    });
+    let returning = curve.stops().iter().map(|stop| curvature_where_returning(curve, stop.place));
+    away_from_stops.into_iter().chain(returning).reduce(f64::max)
+}
+
+/// The curvature at a place, from the derivatives of the motion, which are more exact than those of the series.
+fn curvature_at(curve: &TracedCurve, place: Place) -> f64 {
     let piece = &curve.smooth().pieces[place.piece];
     let pass = &curve.circuit.passes[piece.pass_at(place.u)];
-    if let InputMap::Root { middle, half, .. } = piece.map
-        && (middle + half * place.u).abs() < NEAR_LIMIT * pass.input_length().sqrt()
-    {
-        return None;
-    }
     let (linkage, joint) = curve.single_point_linkage();
     let input = InputPosition::new(linkage.input(), piece.map.input(place.u));
     let derivatives = JointDerivatives::new(linkage, input, pass.mode, DyadSet::EMPTY);
     let (v, a) = (derivatives.velocity(joint), derivatives.acceleration(joint));
     let speed = v.norm();
-    let curvature = (cross(v, a) / (speed * speed * speed)).abs();
-    curvature.is_finite().then_some(curvature)
+    cross(v, a) / (speed * speed * speed)
+}
+
+/// The greatest curvature of the path next to a place where it returns on itself.
+///
+/// There the velocity is zero, and the curvature of the path a smooth function of the square of the difference t of the
+/// parameter. It is interpolated where the velocity has enough digits, and continued to t = 0: to about 1e-9 of it.
+fn curvature_where_returning(curve: &TracedCurve, place: Place) -> f64 {
+    /// The squares at which the curvature is known.
+    const SQUARES: [f64; 2] = [0.1, 1.0];
+    /// More terms would magnify the rounding of the curvatures.
+    const KEPT: usize = 6;
+    let [least, most] = SQUARES;
+    let (middle, half) = ((least + most) / 2.0, (most - least) / 2.0);
+    // Towards the further end of the piece.
+    let sign = if place.u > 0.0 { -1.0 } else { 1.0 };
+    let at = |square: f64| curvature_at(curve, Place { u: place.u + sign * square.sqrt(), ..place });
+    let mut series = Chebyshev::from_values(&Chebyshev::nodes().map(|node| at(middle + half * node)));
+    series.0[KEPT..].fill(0.0);
+    let extremes = series.derivative().zeros(0.0, 1e-3).places;
+    let places = [-middle / half, 1.0].into_iter().chain(extremes);
+    places.map(|place| series.at(place).abs()).fold(0.0, f64::max)
 }

@@ -190,9 +190,7 @@ impl TracedCurve<'_> {
 fn find_portions(curve: &TracedCurve, criterion: StraightCriterion) -> Vec<StraightPortion> {
     let extent = curve.extent();
     let finer = match criterion {
-        StraightCriterion::Length(length) if length < 16.0 * SPACING * extent => {
-            Row::new(curve.smooth(), length / 16.0)
-        }
+        StraightCriterion::Length(length) if length < 16.0 * SPACING * extent => curve.row_of_spacing(length / 16.0),
         _ => None,
     };
     let Some(row) = finer.as_ref().or(curve.row()) else { return Vec::new() };

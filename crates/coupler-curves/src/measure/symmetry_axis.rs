@@ -116,10 +116,11 @@ impl<'a> MirrorImages<'a> {
         AxisCandidates::Lines(lines)
     }
 
-    /// The indices of every nth point, and of the end of an open curve, whose image is often furthest away.
+    /// The indices of every nth point, and of those whose images are often furthest away: the end of an open curve, and where
+    /// the curve stops or bends sharply.
     fn every_nth(&self, n: usize) -> impl Iterator<Item = usize> {
         let end = (!self.row.is_closed).then(|| self.points.len() - 1);
-        (0..self.points.len()).step_by(n).chain(end)
+        (0..self.points.len()).step_by(n).chain(end).chain(self.row.corners().iter().copied())
     }
 
     /// The greatest distance of the mirror images of about `count` points of the row from the curve.

@@ -94,8 +94,15 @@ impl<'a> TracedCurve<'a> {
         /// times the rounding.
         const SHAPELESS: f64 = 2e5;
         let has_shape = || self.extent() > SHAPELESS * self.smooth().rounding;
-        let row = || has_shape().then(|| Row::new(self.smooth(), SPACING * self.extent())).flatten();
+        let row = || has_shape().then(|| self.row_of_spacing(SPACING * self.extent())).flatten();
         self.row.get_or_init(row).as_ref()
+    }
+
+    /// Points of it, no further apart than `spacing`.
+    pub(super) fn row_of_spacing(&self, spacing: f64) -> Option<Row> {
+        /// The radius, in spacings, of a bend that points show as what it is.
+        const RESOLVED: f64 = 4.0;
+        Row::new(self.smooth(), &self.smooth().bends(1.0 / (RESOLVED * spacing), self.stops()), spacing)
     }
 
     /// Its length as a function of the place.

@@ -10,6 +10,7 @@ mod find;
 mod find_curves;
 mod grids;
 mod instant;
+mod invariance;
 mod linkages;
 mod mccarthy;
 mod measures;

@@ -1,5 +1,5 @@
 use super::{Place, SmoothCurve};
-use crate::geometry::Chebyshev;
+use crate::geometry::{Chebyshev, TERMS};
 
 /// The length of a curve as a function of the place on it.
 #[derive(Clone, Debug)]
@@ -40,9 +40,17 @@ impl ArcLength {
         let [x, y] = velocity.each_ref().map(Chebyshev::values);
         let speeds = std::array::from_fn(|j| (x[j] * x[j] + y[j] * y[j]).sqrt());
         let half = (to - from) / 2.0;
-        let is_smooth = Chebyshev::tail_of(&speeds) * half <= accuracy;
+        let speed = Chebyshev::from_values(&speeds);
+        // A point between an end and the node next to it at which the curve stops is seen by no node.
+        let missed = [
+            (speed.at_start(), velocity.each_ref().map(Chebyshev::at_start)),
+            (speed.at_end(), velocity.each_ref().map(Chebyshev::at_end)),
+        ]
+        .map(|(speed, [x, y])| (speed - (x * x + y * y).sqrt()).abs());
+        let beyond_nodes = 1.0 - Chebyshev::nodes()[TERMS - 1];
+        let lacking = Chebyshev::tail_of(&speeds).max(beyond_nodes * missed[0].max(missed[1]));
+        let is_smooth = lacking * half <= accuracy;
         if is_smooth || half * (velocity[0].bound() + velocity[1].bound()) <= accuracy {
-            let speed = Chebyshev::from_values(&speeds);
             let mut length = speed.integral();
             length.0.iter_mut().for_each(|c| *c *= half);
             self.spans.push(LengthSpan { piece, from, to, before: self.total, length });

@@ -39,14 +39,34 @@ impl SmoothCurve {
                 }
             }
         }
+        let mut furthest: Option<[Place; 2]> = None;
         for (_, i, j) in in_rising_order(pairs, |pair| -pair.0).into_iter().take(MAX_PAIRS) {
-            best = best.max(self.furthest_pair_near([hull[i].1, hull[j].1]));
+            let (places, distance) = self.furthest_pair_near([hull[i].1, hull[j].1]);
+            if furthest.is_none() || distance > best {
+                (furthest, best) = (Some(places), best.max(distance));
+            }
+        }
+        // A tip between two of the few points, or from where Newton's method leads elsewhere: the points that are furthest along the
+        // line of both are no closer.
+        for _ in 0..MAX_PAIRS {
+            let Some(direction) = furthest.and_then(|places| {
+                let [p, q] = places.map(|place| self.point(place));
+                (p - q).try_normalize(0.0)
+            }) else {
+                break;
+            };
+            let (Some((_, p)), Some((_, q))) = (self.furthest(direction), self.furthest(-direction)) else { break };
+            let (places, distance) = self.furthest_pair_near([p, q]);
+            if distance <= best * (1.0 + 1e-15) {
+                break;
+            }
+            (furthest, best) = (Some(places), distance);
         }
         best
     }
 
-    /// The distance of the furthest pair of points near one, by Newton's method for both.
-    fn furthest_pair_near(&self, mut places: [Place; 2]) -> f64 {
+    /// The furthest pair of points near one, and their distance, by Newton's method for both.
+    fn furthest_pair_near(&self, mut places: [Place; 2]) -> ([Place; 2], f64) {
         const ROUNDS: usize = 12;
         let distance = |places: [Place; 2]| (self.point(places[0]) - self.point(places[1])).norm();
         let mut most = distance(places);
@@ -64,11 +84,11 @@ impl SmoothCurve {
             let next = [0, 1].map(|k| self.moved(places[k], steps[k]));
             let further = distance(next);
             if further <= most * (1.0 + 1e-15) {
-                return most.max(further);
+                return if further > most { (next, further) } else { (places, most) };
             }
             (places, most) = (next, further);
         }
-        most
+        (places, most)
     }
 
     /// The place at a parameter further along, on a neighbouring piece if it is beyond the end.

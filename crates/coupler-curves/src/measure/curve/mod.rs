@@ -7,6 +7,7 @@
 mod arc_length;
 mod crossings;
 mod extent;
+mod sharpest;
 mod stops;
 
 pub use arc_length::ArcLength;
@@ -97,6 +98,11 @@ impl Arc {
         x.iter().zip(&y).map(|(x, y)| (x * x + y * y).sqrt()).fold(0.0, f64::max)
     }
 
+    /// The part between two parameters, on [-1, 1].
+    fn restricted(&self, ends: [f64; 2]) -> Arc {
+        Arc::new(self.position.each_ref().map(|series| series.restricted(ends)))
+    }
+
     /// Both halves, each on [-1, 1].
     pub fn halves(&self) -> [Arc; 2] {
         let [[x0, x1], [y0, y1]] = self.position.each_ref().map(Chebyshev::halves);
@@ -165,6 +171,14 @@ impl SmoothCurve {
             curve.corners.push(circuit.corners[k] || std::mem::take(&mut has_gap));
         }
         curve
+    }
+
+    /// Whether two places are one, up to a difference of the parameter; those of a closed curve also across its start.
+    pub fn are_near(&self, a: Place, b: Place, difference: f64) -> bool {
+        let [a, b] = [a, b].map(|place| place.piece as f64 * 2.0 + place.u);
+        let apart = (a - b).abs();
+        let round = 2.0 * self.arcs.len() as f64;
+        apart <= difference || (self.is_closed && round - apart <= difference)
     }
 
     /// The place at an input of a pass, searched for from a piece on.

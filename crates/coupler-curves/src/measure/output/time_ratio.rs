@@ -2,6 +2,7 @@
 
 use super::motion::OutputMotion;
 use super::output_value;
+use crate::geometry::in_rising_order;
 use crate::measure::circuit_function::Place;
 use crate::measure::{Measure, Subject};
 
@@ -10,7 +11,7 @@ pub const TIME_RATIO: Measure = Measure::number(
     "time_ratio",
     "time ratio",
     "",
-    "time ratio of an output that rocks or slides while the input turns fully: input angle of its slower stroke divided by that of its faster one; 1 or more",
+    "time ratio of an output that rocks or slides while the input turns fully: input angle of its slowest stroke from limit to limit divided by that of its fastest; 1 or more",
     |curve| {
         /// Strokes that differ by less are equally long.
         const EQUAL: f64 = 1e-11;
@@ -31,12 +32,18 @@ fn ratio(output: &OutputMotion) -> Option<f64> {
         let refined = coordinate.refined_input(place, |derivatives| coordinate.quantity().rate(derivatives));
         coordinate.covered_input(place) + (refined - coordinate.input(place))
     };
+    // Where the output is at a limit, in the order of the circuit. A stroke is from the last place at one limit to the next
+    // at the other: an output may reach a limit several times before it goes back, and go back and forth several times.
     let [least, greatest] = &output.extremes;
-    let (starts, turns) = (&least.places, &greatest.places);
-    // From the first place at the upper limit back to the last one before it at the lower limit, and forward to the
-    // next: with these, an output that goes back and forth several times is measured on one of its strokes.
-    let turn = covered(*turns.first()?);
-    let distances = |sign: f64| starts.iter().map(move |&start| (sign * (covered(start) - turn)).rem_euclid(total));
-    let [back, forth] = [-1.0, 1.0].map(|sign| distances(sign).fold(f64::INFINITY, f64::min));
-    Some(back.max(forth) / back.min(forth))
+    let visits = [(least, false), (greatest, true)]
+        .into_iter()
+        .flat_map(|(limit, is_greatest)| limit.places.iter().map(move |&place| (place, is_greatest)))
+        .map(|(place, is_greatest)| (covered(place), is_greatest));
+    let visits = in_rising_order(visits.collect(), |visit| visit.0);
+    let next = visits.iter().cycle().skip(1);
+    let strokes = visits.iter().zip(next).filter(|(from, to)| from.1 != to.1);
+    let [shortest, longest] = strokes
+        .map(|(from, to)| (to.0 - from.0).rem_euclid(total))
+        .fold([f64::INFINITY, 0.0f64], |[least, most], stroke| [least.min(stroke), most.max(stroke)]);
+    (shortest.is_finite()).then(|| longest / shortest)
 }
