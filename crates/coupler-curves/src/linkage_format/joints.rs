@@ -4,6 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::fields::Fields;
 use super::joint::{parse_joint, parse_joint_pair, parse_joint_ref};
+use super::joint_id::check_joint_id;
 use super::names::JointNames;
 use super::toml_parser::{TomlParser, TomlValue};
 use crate::expression::Scope;
@@ -32,6 +33,8 @@ pub(super) fn parse_joints<'t>(
     let table = Fields::with_any_keys(value, "`joints`", parser)?;
     let names = JointNames::new(table.keys());
     let entries: Vec<(&str, Span, &TomlValue<'t>)> = table.entries().collect();
+    let wrong_ids: Vec<Problem> = entries.iter().filter_map(|(name, span, _)| check_joint_id(name, span)).collect();
+    wrong_ids.into_iter().for_each(|problem| parser.report(problem));
     let parsed: Vec<Option<JointKindTemplate>> =
         entries.iter().map(|(name, _, value)| parse_joint(name, value, &names, scope, parser)).collect();
     let traced = parse_traced(linkage, &names, parser);

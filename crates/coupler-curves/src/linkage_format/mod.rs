@@ -4,6 +4,7 @@ mod canonical;
 mod entries;
 mod fields;
 mod joint;
+mod joint_id;
 mod joint_kinds;
 mod joints;
 mod linkage;
