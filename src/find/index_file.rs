@@ -63,7 +63,19 @@ fn read(path: &Path, count: usize) -> Option<Index> {
     let file = fs::read(path).ok()?;
     let (checksum, bytes) = file.strip_prefix(MAGIC)?.split_first_chunk()?;
     let is_whole = u32::from_le_bytes(*checksum) == crc32fast::hash(bytes);
-    Index::from_bytes(bytes).filter(|index| is_whole && index.len() == count)
+    (is_whole && has_right_curves(bytes, count)).then(|| Index::from_bytes(bytes)).flatten()
+}
+
+/// Whether some curves of an index, evenly spread, are those that are computed now: a file may be whole and have other
+/// contents, such as those of another program.
+fn has_right_curves(bytes: &[u8], count: usize) -> bool {
+    /// The number of curves, which take about a millisecond.
+    const MOST: usize = 200;
+    let numbers: Vec<usize> = (0..MOST.min(count)).map(|k| k * count / MOST.min(count)).collect();
+    numbers.into_par_iter().all(|number| {
+        let [begin, end] = [number, number + 1].map(|number| number * Index::BYTES_PER_CURVE);
+        bytes.get(begin..end) == Some(&Index::from_parts([Index::part(number..number + 1)]).to_bytes()[..])
+    })
 }
 
 #[cfg(test)]
@@ -88,5 +100,13 @@ mod tests {
         changed[1000] ^= 1;
         fs::write(&path, changed).unwrap();
         assert!(read(&path, 2345).is_none());
+        // Whole files with other curves: of another sequence, in another order, or none.
+        let bytes = index.to_bytes();
+        let shifted: Vec<u8> = bytes.iter().map(|byte| byte.wrapping_add(1)).collect();
+        let reversed: Vec<u8> = bytes.chunks(Index::BYTES_PER_CURVE).rev().flatten().copied().collect();
+        for other in [shifted, reversed, vec![0; bytes.len()]] {
+            fs::write(&path, [MAGIC, &crc32fast::hash(&other).to_le_bytes()[..], &other[..]].concat()).unwrap();
+            assert!(read(&path, 2345).is_none());
+        }
     }
 }
