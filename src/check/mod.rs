@@ -38,7 +38,9 @@ use serde::Serialize;
 use crate::gallery::{KERNEL_FILE, PAGE_FILE, SCRIPT_FILE, is_data_file_name};
 use crate::manifest::{PartialTolerances, Plan, PlannedFamily};
 use crate::pipeline::{FamilyPipeline, GroupsDone, Output, page_file_name};
-use crate::record::{FamilyRecord, FileRecord, FolderRecord, LOCK_FILE_NAME, RUN_FILE_NAME, open_regular_file};
+use crate::record::{
+    FamilyRecord, FileRecord, FolderRecord, LOCK_FILE_NAME, RUN_FILE_NAME, ReadError, open_regular_file,
+};
 use coupler_drawing::render::PageFormat;
 use family::{CellCounts, FamilyCheck};
 
@@ -132,7 +134,7 @@ pub fn check_atlas(
         return Err(Error::Busy { folder: recorded.to_owned() });
     }
     let path = recorded.join(RUN_FILE_NAME);
-    let folder_record = FolderRecord::read(recorded).map_err(|source| Error::Record { path, source })?;
+    let folder_record = FolderRecord::read_altered(recorded).map_err(|source| Error::Record { path, source })?;
     let record = &folder_record.run;
     let is_requested = |id: &str| options.only.is_empty() || options.only.iter().any(|only| only == id);
     let left_out = LeftOut::of(&folder_record, recorded, &options.only);
@@ -140,6 +142,7 @@ pub fn check_atlas(
     let outdated = outdated::check_version(record);
     let is_outdated = outdated.is_some();
     report.add_findings(outdated.into_iter().collect());
+    report.add_findings(check_origin(&folder_record).into_iter().collect());
     for family in record.families.iter().filter(|family| is_requested(&family.id)) {
         if plan.families.iter().all(|planned| planned.family.id != family.id) {
             report.add_findings(vec![Location::in_family(&family.id).finding(Change::FamilyRemoved)]);
@@ -178,6 +181,22 @@ pub fn check_atlas(
     }
     sort_worst_first(&mut report.findings);
     Ok(report)
+}
+
+/// The finding on a record that is not as this program has written it.
+fn check_origin(FolderRecord { run, is_as_written, .. }: &FolderRecord) -> Option<Finding> {
+    let message = if !is_as_written {
+        format!("{}: `render --repair` rebuilds it", ReadError::Altered)
+    } else if run.program != env!("CARGO_PKG_NAME") {
+        format!(
+            "it was written by {}, not by {}: `render` records the atlas again",
+            run.program,
+            env!("CARGO_PKG_NAME")
+        )
+    } else {
+        return None;
+    };
+    Some(Location::default().with_file(RUN_FILE_NAME).finding(Change::Damaged { message }))
 }
 
 /// Whether a run has locked a folder; the lock file of a run that was killed is not locked.

@@ -33,6 +33,10 @@ pub(super) fn record_remedy(error: &ReadError) -> &'static str {
         }
         ReadError::UnsupportedFormat { .. } => "check the atlas with the version that recorded it",
         ReadError::File(FileError::NotFound) => "name the folder of an atlas, or render one there",
+        error if error.is_damage() => {
+            "`coupler-atlas render --repair` rebuilds it from the files of the atlas, or restore it"
+        }
+        error if error.is_system_failure() => "run it again",
         _ => "render the atlas again, or restore the file",
     }
 }

@@ -28,18 +28,8 @@ pub(super) fn report_failure(error: &anyhow::Error) -> u8 {
     }
     let is_input = error.downcast_ref::<InputError>().is_some()
         || error.downcast_ref::<InputErrors>().is_some()
-        || matches!(
-            error.downcast_ref(),
-            Some(
-                output::Error::Read { .. }
-                    | output::Error::Record { .. }
-                    | output::Error::ForeignRecord { .. }
-                    | output::Error::OtherManifest { .. }
-                    | output::Error::ForeignFile { .. }
-                    | output::Error::TooManyFiles { .. }
-            )
-        )
-        || matches!(error.downcast_ref(), Some(crate::check::Error::Record { .. }));
+        || error.downcast_ref().is_some_and(output::Error::is_input)
+        || matches!(error.downcast_ref(), Some(crate::check::Error::Record { source, .. }) if !source.is_system_failure());
     let is_interrupted = matches!(error.downcast_ref(), Some(output::Error::Interrupted))
         || matches!(error.downcast_ref(), Some(shard::Error::Interrupted));
     match () {

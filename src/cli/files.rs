@@ -1,5 +1,6 @@
 //! Files and folders named on the command line; `-` is standard input or output.
 
+use std::io;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Mutex;
 
@@ -33,6 +34,15 @@ pub(super) fn without_parents(path: &Path) -> PathBuf {
 /// The name of a file to read, in messages.
 pub(super) fn input_name(path: &Path) -> String {
     if is_standard(path) { "standard input".to_owned() } else { printable(path.display()) }
+}
+
+/// Why standard input cannot be read.
+pub(super) fn standard_input_error(error: &io::Error) -> anyhow::Error {
+    let message = format!("cannot read standard input: {error}");
+    match output::is_wrong_input(error) {
+        true => InputError(message).into(),
+        false => anyhow::Error::msg(message),
+    }
 }
 
 /// The extension of a path, in small letters.

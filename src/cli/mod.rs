@@ -31,6 +31,7 @@ mod validate;
 
 use std::ffi::OsString;
 
+use crate::output;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use color::Color;
 use failure::report_failure;
@@ -114,11 +115,16 @@ pub fn run(given: &[OsString]) -> u8 {
         Command::Completions(arguments) => completions::run(&arguments, Arguments::command()),
         Command::Man(arguments) => manual::print_manual(&arguments, Arguments::command()),
     };
-    match result {
+    let code = match result {
         Ok(Outcome::Done) => EXIT_SUCCESS,
         Ok(Outcome::Difference) => EXIT_DIFFERENCE,
         Err(error) => report_failure(&error),
+    };
+    for (path, error) in output::take_leftovers() {
+        let (path, error) = (printable(path.display()), printable(error));
+        print_stderr(&format!("warning: cannot remove {path}, a temporary file, which does no harm: {error}\n"));
     }
+    code
 }
 
 /// The report of a check as text, for people.

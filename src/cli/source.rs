@@ -1,5 +1,6 @@
 //! Reads a manifest, and prints the problems in it.
 
+use std::cell::RefCell;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -24,9 +25,7 @@ pub struct ManifestSource {
 pub fn read_text(path: &Path) -> anyhow::Result<String> {
     files::protect(path);
     let text = output::read_text(path).map_err(|error| match error {
-        output::Error::Read { source, .. } if files::is_standard(path) => {
-            InputError(format!("cannot read standard input: {source}")).into()
-        }
+        output::Error::Read { source, .. } if files::is_standard(path) => files::standard_input_error(&source),
         output::Error::Read { source, .. } => match not_a_manifest::reason(path, source.kind()) {
             Some(reason) => InputError(reason).into(),
             None => output::Error::Read { path: path.to_owned(), source }.into(),
@@ -40,8 +39,30 @@ pub fn read_text(path: &Path) -> anyhow::Result<String> {
 }
 
 /// Parses the text of a manifest, and reads the files that it names.
-pub fn parse(path: &Path, text: &str) -> ParseOutcome {
-    manifest::parse_with_files(text, Some(&|name| output::read_font(path, name)))
+///
+/// # Errors
+/// The system failed to read one of them, so that nothing is known about it.
+pub fn parse(path: &Path, text: &str) -> Result<ParseOutcome, output::Error> {
+    with_files(path, |files| manifest::parse_with_files(text, Some(files)))
+}
+
+/// Reads the files that a manifest names while it is parsed. That one is missing or wrong is a problem of the manifest.
+fn with_files(
+    path: &Path,
+    parse: impl FnOnce(&dyn Fn(&str) -> Result<Vec<u8>, String>) -> ParseOutcome,
+) -> Result<ParseOutcome, output::Error> {
+    let failure = RefCell::new(None);
+    let outcome = parse(&|name| {
+        output::read_font(path, name).map_err(|source| {
+            let message = source.to_string();
+            if !output::is_wrong_input(&source) {
+                let path = path.parent().unwrap_or(Path::new("")).join(name);
+                failure.replace(Some(output::Error::Read { path, source }));
+            }
+            message
+        })
+    });
+    failure.into_inner().map_or(Ok(outcome), Err)
 }
 
 /// Reads a manifest, and prints every problem in it to standard error.
@@ -58,15 +79,22 @@ pub fn read(path: &Path) -> anyhow::Result<ManifestSource> {
 /// # Errors
 /// The file cannot be read, or the manifest has errors.
 pub fn read_for_tables(path: &Path, cells: &dyn Fn(&str, usize) -> Range<usize>) -> anyhow::Result<ManifestSource> {
-    read_with(path, |text| manifest::parse_for_tables(text, Some(&|name| output::read_font(path, name)), cells))
+    read_with(path, |text| with_files(path, |files| manifest::parse_for_tables(text, Some(files), cells)))
 }
 
-fn read_with(path: &Path, parse: impl FnOnce(&str) -> ParseOutcome) -> anyhow::Result<ManifestSource> {
+fn read_with(
+    path: &Path,
+    parse: impl FnOnce(&str) -> Result<ParseOutcome, output::Error>,
+) -> anyhow::Result<ManifestSource> {
     parse_text(path, read_text(path)?, parse)
 }
 
-fn parse_text(path: &Path, text: String, parse: impl FnOnce(&str) -> ParseOutcome) -> anyhow::Result<ManifestSource> {
-    let loaded = parse(&text);
+fn parse_text(
+    path: &Path,
+    text: String,
+    parse: impl FnOnce(&str) -> Result<ParseOutcome, output::Error>,
+) -> anyhow::Result<ManifestSource> {
+    let loaded = parse(&text)?;
     report_problems(path, &text, &loaded.problems);
     match loaded.plan {
         Some(plan) => Ok(ManifestSource { path: path.to_owned(), text, plan }),

@@ -146,6 +146,7 @@ pub(super) fn shard_error(error: shard::Error) -> anyhow::Error {
     match error {
         shard::Error::Output(error) => error.into(),
         shard::Error::Interrupted => error.into(),
+        shard::Error::Unreadable(problems) => anyhow::Error::msg(problems.join("\nerror: ")),
         shard::Error::Problems(problems) => super::InputErrors::from_messages(&problems).into(),
         error => InputError(error.to_string()).into(),
     }

@@ -42,7 +42,7 @@ fn parse_report(text: &str) -> Result<ReportRequest<ReportFormat>, String> {
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let path = &arguments.manifest;
     let text = source::read_text(path)?;
-    let loaded = source::parse(path, &text);
+    let loaded = source::parse(path, &text)?;
     let mut problems = loaded.problems;
     problems.extend(loaded.plan.iter().flat_map(|plan| output::empty_family_warnings(plan, None)));
     let is_printed = |format| arguments.report.iter().any(|given| given.format == format && given.file.is_none());

@@ -25,7 +25,7 @@ pub enum Error {
         source: io::Error,
     },
     /// The record of an earlier run cannot be used.
-    #[error("cannot use {}, which records the other families: {source}; render all of them with --overwrite", path.display())]
+    #[error("cannot use {}, which records the other families: {source}; {}", path.display(), other_families_remedy(source))]
     Record {
         /// The record.
         path: PathBuf,
@@ -38,6 +38,18 @@ pub enum Error {
         /// The record.
         path: PathBuf,
         /// Why it cannot be read.
+        source: ReadError,
+    },
+    /// The record is lost or damaged, and there is nothing to rebuild it from.
+    #[error(
+        "cannot rebuild {}: {source}, and no file of the folder is what this manifest makes; write to another folder with -o, \
+         or replace what is there with --overwrite",
+        path.display()
+    )]
+    NothingToRepair {
+        /// The record.
+        path: PathBuf,
+        /// What is wrong with it.
         source: ReadError,
     },
     /// The folder has the atlas of another manifest.
@@ -103,11 +115,49 @@ pub enum Error {
     Interrupted,
 }
 
+impl Error {
+    /// Whether the input is wrong, so that another attempt is useless: it was read whole, or its name is that of no file.
+    pub fn is_input(&self) -> bool {
+        match self {
+            Error::Read { source, .. } => is_wrong_input(source),
+            Error::Record { source, .. } | Error::ForeignRecord { source, .. } => !source.is_system_failure(),
+            Error::NothingToRepair { .. }
+            | Error::OtherManifest { .. }
+            | Error::ForeignFile { .. }
+            | Error::TooManyFiles { .. } => true,
+            _ => false,
+        }
+    }
+}
+
+/// Whether a file that cannot be read is wrong or not there, and the system has not failed.
+pub fn is_wrong_input(error: &io::Error) -> bool {
+    // What was found in a file has no number of the system.
+    let is_name = |kind| {
+        use ErrorKind::{InvalidFilename, IsADirectory, NotADirectory, NotFound};
+        matches!(kind, NotFound | NotADirectory | IsADirectory | InvalidFilename)
+    };
+    error.raw_os_error().is_none() || is_name(error.kind())
+}
+
+/// What to do about a record that cannot be read, and of which a part is needed.
+fn other_families_remedy(error: &ReadError) -> &'static str {
+    match error.is_system_failure() {
+        true => "correct that and run it again",
+        false => "rebuild it with --repair, without --only, or render all of them with --overwrite",
+    }
+}
+
 /// What to do about a record that cannot be read.
 fn record_remedy(error: &ReadError) -> &'static str {
     match error {
         ReadError::UnsupportedFormat { .. } => {
             "render with the version that wrote it, or into another folder with -o, or replace it with --overwrite"
+        }
+        error if error.is_system_failure() => "correct that and run it again",
+        error if error.is_damage() => {
+            "rebuild it from the files of the atlas with --repair, or write to another folder with -o, or replace what is \
+             there with --overwrite"
         }
         _ => "write to another folder with -o, or replace what is there with --overwrite",
     }

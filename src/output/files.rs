@@ -5,9 +5,11 @@ use std::fs;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
+use rayon::prelude::*;
 use tempfile::{PathPersistError, TempPath};
 
 use super::Error;
+use super::temporary::{self, Temporary};
 use crate::manifest::MAX_MANIFEST_BYTES;
 use crate::record::{FileRecord, JOURNAL_FILE_NAME, LOCK_FILE_NAME, RUN_FILE_NAME, RunRecord, file_digest};
 
@@ -31,16 +33,16 @@ const MAX_FONT_BYTES: u64 = 1 << 26;
 /// Reads a font file that a manifest names, relative to the folder of the manifest.
 ///
 /// # Errors
-/// Why it cannot be read, as a clause.
-pub fn read_font(manifest: &Path, name: &str) -> Result<Vec<u8>, String> {
+/// It cannot be read, is not a regular file, or is too large.
+pub fn read_font(manifest: &Path, name: &str) -> io::Result<Vec<u8>> {
     let path = manifest.parent().unwrap_or(Path::new("")).join(name);
     let mut bytes = Vec::new();
-    let read = open_regular(&path).and_then(|file| file.take(MAX_FONT_BYTES + 1).read_to_end(&mut bytes));
-    match read {
-        Err(error) => Err(error.to_string()),
-        Ok(_) if bytes.len() as u64 > MAX_FONT_BYTES => Err(format!("it has more than {MAX_FONT_BYTES} bytes")),
-        Ok(_) => Ok(bytes),
+    open_regular(&path)?.take(MAX_FONT_BYTES + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > MAX_FONT_BYTES {
+        let message = format!("it has more than {MAX_FONT_BYTES} bytes");
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
     }
+    Ok(bytes)
 }
 
 /// Opens a file, which may be a link to one. Opening a pipe would wait for another program.
@@ -90,6 +92,48 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     let mut file = AtomicFile::new(path.to_owned())?;
     file.write_bytes(bytes)?;
     file.commit()
+}
+
+/// Writes a file atomically, so that it outlives a failure of the machine.
+///
+/// # Errors
+/// The file cannot be written; an existing file is then unchanged, or replaced by the whole new one.
+pub(super) fn write_durably(path: &Path, bytes: &[u8]) -> Result<(), Error> {
+    let mut file = AtomicFile::new(path.to_owned())?;
+    file.write_bytes(bytes)?;
+    file.commit_durably()
+}
+
+/// Hands the bytes of finished files to the disk, each once, and then their names. A file that is not there any more is left out.
+///
+/// # Errors
+/// The disk does not take them.
+pub(super) fn sync(paths: &BTreeSet<PathBuf>) -> Result<(), Error> {
+    let sync_file = |path: &PathBuf| {
+        // Windows hands on only what may be written.
+        let synced = match fs::File::options().read(true).write(cfg!(windows)).open(path) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
+            opened => opened.and_then(|file| file.sync_all()),
+        };
+        synced.map_err(|source| Error::Write { path: path.clone(), source })
+    };
+    paths.par_iter().try_for_each(sync_file)?;
+    let folders: BTreeSet<&Path> = paths.iter().filter_map(|path| path.parent()).collect();
+    folders.into_par_iter().try_for_each(sync_folder)
+}
+
+/// Hands the names of the files in a folder to the disk; on Windows they are with the files.
+fn sync_folder(folder: &Path) -> Result<(), Error> {
+    if cfg!(not(unix)) {
+        return Ok(());
+    }
+    // An empty path is that of the current folder.
+    let opened = fs::File::open(if folder.as_os_str().is_empty() { Path::new(".") } else { folder });
+    match opened.and_then(|folder| folder.sync_all()) {
+        // Some file systems do it by themselves, and refuse this.
+        Err(error) if matches!(error.kind(), io::ErrorKind::InvalidInput | io::ErrorKind::Unsupported) => Ok(()),
+        result => result.map_err(|source| Error::Write { path: folder.to_owned(), source }),
+    }
 }
 
 /// Whether a file has the digest in its record; a record without a digest makes no claim.
@@ -150,10 +194,13 @@ fn remove_temporary_in(folder: &Path, keeps_partial: bool) {
     let is_temporary =
         |name: &str| has_affixes(name, TEMPORARY_AFFIXES) || has_affixes(name, PARTIAL_AFFIXES) && !keeps_partial;
     for entry in entries(folder) {
-        let is_file = entry.file_type().is_ok_and(|kind| kind.is_file());
-        if is_file && entry.file_name().to_str().is_some_and(is_temporary) {
-            // A file that cannot be removed does no harm.
-            let _ = fs::remove_file(entry.path());
+        let Ok(kind) = entry.file_type() else { continue };
+        let is_named = |is_named: &dyn Fn(&str) -> bool| entry.file_name().to_str().is_some_and(is_named);
+        if kind.is_file() && is_named(&is_temporary) {
+            temporary::remove(&entry.path());
+        } else if kind.is_dir() && is_named(&|name| has_affixes(name, TEMPORARY_AFFIXES)) {
+            // That of a repair.
+            temporary::remove_folder(&entry.path());
         }
     }
 }
@@ -164,7 +211,7 @@ pub(super) fn is_folder(path: &Path) -> bool {
 }
 
 /// The beginning and the end of the names of temporary files.
-const TEMPORARY_AFFIXES: (&str, &str) = (".coupler-atlas-", ".tmp");
+pub(super) const TEMPORARY_AFFIXES: (&str, &str) = (".coupler-atlas-", ".tmp");
 
 /// The beginning and the end of the names of unfinished files that a later run may continue.
 pub(super) const PARTIAL_AFFIXES: (&str, &str) = (".coupler-atlas-", ".partial");
@@ -196,7 +243,7 @@ pub(crate) struct AtomicFile {
     path: PathBuf,
     file: io::BufWriter<fs::File>,
     /// The temporary name; the file is removed on drop unless it is renamed.
-    temporary_path: TempPath,
+    temporary: Temporary,
 }
 
 impl AtomicFile {
@@ -214,7 +261,7 @@ impl AtomicFile {
         match builder.make_in(folder, |path| fs::File::create_new(path)) {
             Ok(file) => {
                 let (file, temporary_path) = file.into_parts();
-                Ok(AtomicFile { path, file: io::BufWriter::new(file), temporary_path })
+                Ok(AtomicFile { path, file: io::BufWriter::new(file), temporary: Temporary::new(temporary_path) })
             }
             Err(source) => Err(Error::Write { path, source }),
         }
@@ -230,19 +277,21 @@ impl AtomicFile {
         self.persist_with(TempPath::persist)
     }
 
-    /// Closes the file, hands its bytes to the disk, so that no failure of the machine leaves a part of it under its name, and
-    /// renames it.
+    /// Closes the file, hands its bytes to the disk, so that no failure of the machine leaves a part of it under its name,
+    /// renames it, and hands the new name to the disk.
     pub fn commit_durably(mut self) -> Result<(), Error> {
         let synced = self.file.flush().and_then(|()| self.file.get_ref().sync_all());
         synced.map_err(|source| Error::Write { path: self.path.clone(), source })?;
-        self.commit()
+        let folder = self.path.parent().unwrap_or(Path::new("")).to_owned();
+        self.commit()?;
+        sync_folder(&folder)
     }
 
     fn persist_with(self, rename: fn(TempPath, PathBuf) -> Result<(), PathPersistError>) -> Result<(), Error> {
-        let AtomicFile { path, file, temporary_path } = self;
+        let AtomicFile { path, file, temporary } = self;
         let result = file.into_inner().map_err(io::IntoInnerError::into_error).and_then(|file| {
             drop(file);
-            rename(temporary_path, path.clone()).map_err(|error| error.error)
+            temporary.rename(&path, rename)
         });
         result.map_err(|source| Error::Write { path, source })
     }

@@ -1,8 +1,8 @@
 //! The record of a run while it is in progress.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 use std::fs::{self, File};
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -44,6 +44,8 @@ pub(super) struct Journal<'a> {
     has_images_file: bool,
     /// The index of the finished pieces of the gallery's data of these families.
     pieces: HashMap<String, Vec<Value>>,
+    /// Whether an earlier run did not end, whose files the disk may not have yet.
+    is_unfinished: bool,
     /// The file, once this run has changed anything.
     file: Option<Arc<JournalFile>>,
 }
@@ -53,6 +55,8 @@ pub(super) struct Journal<'a> {
 pub(super) struct JournalFile {
     path: PathBuf,
     file: Mutex<File>,
+    /// The files of the atlas that are complete.
+    written: Mutex<BTreeSet<PathBuf>>,
 }
 
 impl JournalFile {
@@ -66,9 +70,14 @@ impl JournalFile {
             journal.write_bytes(&entry.to_line())?;
         }
         journal.commit()?;
+        JournalFile::open(path)
+    }
+
+    /// Opens a journal that has been begun.
+    fn open(path: PathBuf) -> Result<JournalFile, Error> {
         let file = File::options().append(true).open(&path);
         let file = file.map_err(|source| Error::Write { path: path.clone(), source })?;
-        Ok(JournalFile { path, file: Mutex::new(file) })
+        Ok(JournalFile { path, file: Mutex::new(file), written: Mutex::default() })
     }
 
     /// Appends an entry.
@@ -94,6 +103,8 @@ impl JournalFile {
     ) -> Result<FileRecord, Error> {
         self.append(&JournalEntry::Writing(path_in_atlas(folder, name)))?;
         let record = write()?;
+        let path = self.path.with_file_name(folder).join(name);
+        self.written.lock().unwrap_or_else(PoisonError::into_inner).insert(path);
         self.append(&JournalEntry::written(folder, record.clone()))?;
         Ok(record)
     }
@@ -102,7 +113,8 @@ impl JournalFile {
 impl<'a> Journal<'a> {
     /// Opens the journal of a folder with the record of an earlier run.
     pub fn open(plan: &'a Plan, output: &Path, options: &'a Options, earlier: PreviousRun) -> Journal<'a> {
-        let PreviousRun { families, book, gallery, kernel, progress, pieces, has_images_file, .. } = earlier;
+        let PreviousRun { families, book, gallery, kernel, progress, pieces, has_images_file, is_unfinished, .. } =
+            earlier;
         let indices = families.iter().enumerate().map(|(k, family)| (family.id.clone(), k)).collect();
         let progress = progress.into_iter().map(|progress| (progress.family.clone(), progress)).collect();
         let (output, manifest) = (output.to_owned(), options.manifest.as_deref());
@@ -118,6 +130,7 @@ impl<'a> Journal<'a> {
             progress,
             has_images_file,
             pieces,
+            is_unfinished,
             file: None,
         }
     }
@@ -162,13 +175,11 @@ impl<'a> Journal<'a> {
         for progress in self.progress.values() {
             add(JournalEntry::Progress(progress.clone()))?;
         }
-        journal.commit()?;
+        journal.commit_durably()?;
         if self.output.join(RUN_FILE_NAME).exists() {
-            write(&self.output.join(RUN_FILE_NAME), &self.to_run().without_claims().to_bytes())?;
+            files::write_durably(&self.output.join(RUN_FILE_NAME), &self.to_run().without_claims().to_bytes())?;
         }
-        let file = File::options().append(true).open(&path);
-        let file = file.map_err(|source| Error::Write { path: path.clone(), source })?;
-        Ok(JournalFile { path, file: Mutex::new(file) })
+        JournalFile::open(path)
     }
 
     /// The record of the book.
@@ -302,12 +313,22 @@ impl<'a> Journal<'a> {
         self.file()?.replace_file("", name, || write(&path, text.as_bytes()).map(|()| record))
     }
 
-    /// Writes the finished record, removes the journal, and returns the record.
+    /// The files that the disk may not have yet: those of this run, and of one that did not end.
+    fn files_to_sync(&self, run: &RunRecord) -> BTreeSet<PathBuf> {
+        match &self.file {
+            _ if self.is_unfinished => claimed_files(&self.output, run),
+            Some(file) => std::mem::take(&mut *file.written.lock().unwrap_or_else(PoisonError::into_inner)),
+            None => BTreeSet::new(),
+        }
+    }
+
+    /// Hands all files to the disk, so that the record stays true if the machine fails, writes the finished record, removes the journal, and returns the record.
     ///
     /// # Errors
-    /// The record cannot be written.
+    /// The disk does not take the files, or the record cannot be written.
     pub fn close(self) -> Result<RunRecord, Error> {
         let mut run = self.to_run();
+        files::sync(&self.files_to_sync(&run))?;
         write_record(&self.output, &mut run, self.has_images_file)?;
         drop(self.file);
         remove_journal(&self.output)?;
@@ -315,7 +336,18 @@ impl<'a> Journal<'a> {
     }
 }
 
-/// Writes `images.json`, and then `run.json`. Without images and books, an `images.json` of an earlier run is removed.
+/// The files of a record that it says something about.
+fn claimed_files(output: &Path, run: &RunRecord) -> BTreeSet<PathBuf> {
+    let of_family = |family: &FamilyRecord| {
+        let folder = output.join(&family.id);
+        family.files.iter().filter(|file| file.makes_claims()).map(|file| folder.join(&file.name)).collect::<Vec<_>>()
+    };
+    let others = run.book.iter().flat_map(|book| &book.files).chain(&run.gallery).chain(&run.kernel);
+    let others = others.filter(|file| file.makes_claims()).map(|file| output.join(&file.name));
+    run.families.iter().flat_map(of_family).chain(others).collect()
+}
+
+/// Writes `images.json`, and then `run.json`, so that they outlive a failure of the machine. Without images and books, an `images.json` of an earlier run is removed.
 fn write_record(output: &Path, run: &mut RunRecord, has_images_file: bool) -> Result<(), Error> {
     match images_of_run(run) {
         Some(images) => write_if_different(&output.join(IMAGES_FILE_NAME), &images)?,
@@ -328,7 +360,7 @@ fn write_record(output: &Path, run: &mut RunRecord, has_images_file: bool) -> Re
 /// Removes the journal, if there is one; a folder without it need not be writable.
 fn remove_journal(output: &Path) -> Result<(), Error> {
     let path = output.join(JOURNAL_FILE_NAME);
-    if fs::symlink_metadata(&path).is_err() {
+    if fs::symlink_metadata(&path).is_err_and(|error| error.kind() == io::ErrorKind::NotFound) {
         return Ok(());
     }
     fs::remove_file(&path).map_err(|source| Error::Write { path, source })
@@ -339,7 +371,7 @@ fn write_if_different(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     if read_regular_file(path, bytes.len() as u64).is_ok_and(|found| found == bytes) {
         Ok(())
     } else {
-        write(path, bytes)
+        files::write_durably(path, bytes)
     }
 }
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use same_file::Handle;
 
-use super::Error;
+use super::{Error, temporary};
 use crate::record::LOCK_FILE_NAME;
 
 /// A lock on a folder: no other run writes to it until this is dropped.
@@ -95,10 +95,9 @@ fn open(path: &Path) -> io::Result<Option<File>> {
 
 impl Drop for Lock {
     fn drop(&mut self) {
-        // The file is removed while it is still locked, so a run that opened it before notices that it is gone. A file
-        // that cannot be removed does no harm.
+        // The file is removed while it is still locked, so a run that opened it before notices that it is gone.
         if self.file.is_some() {
-            let _ = fs::remove_file(&self.path);
+            temporary::remove(&self.path);
         }
     }
 }

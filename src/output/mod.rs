@@ -16,15 +16,19 @@ mod page_shard;
 mod pages;
 mod previous_run;
 mod registry;
+mod repair;
 mod survey;
 mod table_file;
+mod temporary;
 
-pub use error::Error;
+pub use error::{Error, is_wrong_input};
 pub(crate) use files::AtomicFile;
 pub use files::{create_folder, read_font, read_text, write as write_file, write_new};
 pub(crate) use lock::Lock;
 pub use options::{Event, Options};
 pub use page_shard::{DrawnPages, PageShard, PageShardSource, has_atlas_of, page_shards, write_page_shard};
+pub(crate) use temporary::remove as remove_temporary;
+pub use temporary::take_leftovers;
 
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -62,8 +66,10 @@ pub fn no_folder_message(manifest: &Path) -> String {
 /// which no longer belong to the atlas are removed; other files never are. So are pages that shards have drawn, see
 /// [`write_page_shard`], whose journals are removed.
 ///
-/// Every file is written under a temporary name and renamed, `run.json` last. Whatever goes wrong, each file in the
-/// folder is complete, old or new, and the record claims nothing that is not true.
+/// Every file is written under a temporary name and renamed. When the disk has all of them, `run.json` is. Whatever goes
+/// wrong, each file in the folder is complete, old or new, and the record claims nothing that is not true.
+///
+/// With [`Options::repair`], a record that is lost or damaged is rebuilt first.
 ///
 /// # Errors
 /// A file cannot be written; the record of an earlier run is needed and cannot be read, or has another format; the folder
@@ -78,13 +84,29 @@ pub fn write_atlas(
     files::create_folder(output)?;
     let _lock = Lock::acquire(output)?;
     // A folder that is not ours is left untouched.
-    let mut previous = previous_run::read(output, options, report)?;
+    let recovered = match options.repair {
+        true => repair::recover(output, options, report, |folder, options, report| {
+            write_atlas(plan, folder, options, report)
+        })?,
+        false => None,
+    };
+    let is_recovered = recovered.is_some();
+    let mut previous = match recovered {
+        Some(recovered) => recovered,
+        None => previous_run::read(output, options, report)?,
+    };
     // The pages of shards belong to the atlas as a whole.
     let shards = if options.only.is_empty() { page_shards(output)? } else { Vec::new() };
     let journals: Vec<PathBuf> = shards.iter().map(|shard| shard.path.clone()).collect();
     shards.into_iter().for_each(|shard| previous.add_pages(shard.record.run));
     ownership::check_owner(plan, output, options, &previous)?;
-    ownership::check_files(plan, output, options, &previous)?;
+    if let Err(error) = ownership::check_files(plan, output, options, &previous) {
+        if is_recovered {
+            // What is known is recorded, so that the next run needs no repair.
+            Journal::open(plan, output, options, previous).close()?;
+        }
+        return Err(error);
+    }
     let result = write_families(plan, output, options, previous, report);
     if let Err(error) = &result {
         journal::suspend(output, matches!(error, Error::Interrupted));

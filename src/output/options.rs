@@ -1,6 +1,6 @@
 //! How an atlas is written, and what a run reports.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -19,6 +19,8 @@ pub struct Options {
     pub force: bool,
     /// Whether to replace the atlas of another manifest, and files that no earlier run wrote.
     pub overwrite: bool,
+    /// Whether to rebuild a record that is lost or damaged, from the files that are known to be those of the atlas.
+    pub repair: bool,
     /// The file name of the manifest, without its folder, or [`RunRecord::STANDARD_INPUT`](crate::record::RunRecord::STANDARD_INPUT). It is recorded; only the
     /// same manifest may write to the folder again. `None` writes to the folder of any manifest.
     pub manifest: Option<String>,
@@ -72,6 +74,15 @@ pub enum Event<'a> {
     Removed {
         /// Its id.
         family: &'a str,
+    },
+    /// The record of the folder was lost or damaged, and is rebuilt.
+    Rebuilt {
+        /// The file of the record.
+        record: &'a Path,
+        /// The number of files that are known to be those of the atlas.
+        files: usize,
+        /// The files that are not, which are left as they are.
+        others: &'a [PathBuf],
     },
     /// The record of an earlier run cannot be used: everything is drawn, and nothing is removed.
     UnusableRecord {

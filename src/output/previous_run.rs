@@ -72,6 +72,8 @@ pub(super) struct PreviousRun {
     pub pieces: HashMap<String, Vec<Value>>,
     /// Whether it has written `images.json`.
     pub has_images_file: bool,
+    /// Whether it did not end, so that the disk may not have its files yet.
+    pub is_unfinished: bool,
 }
 
 /// Reads the record of an earlier run, if there is one. It is needed if the run leaves some families as they are.
@@ -110,7 +112,9 @@ impl PreviousRun {
             progress,
             pieces: HashMap::new(),
             is_unfinished: true,
+            is_as_written: true,
         });
+        self.is_unfinished = true;
         for family in added.families {
             match self.families.iter_mut().find(|known| known.id == family.id) {
                 None => self.families.push(FamilyRecord { inputs_sha256: None, ..family }),
@@ -135,8 +139,8 @@ impl PreviousRun {
 }
 
 /// Drops repeated or invalid families from a record, and files whose names this program does not use.
-fn sanitize(record: FolderRecord) -> PreviousRun {
-    let FolderRecord { run, images, progress, pieces, .. } = record;
+pub(super) fn sanitize(record: FolderRecord) -> PreviousRun {
+    let FolderRecord { run, images, progress, pieces, is_unfinished, .. } = record;
     let RunRecord { manifest, title, families, mut book, gallery, kernel, .. } = run;
     let is_slug = |id: &str| {
         let is_plain = |b: u8| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'-';
@@ -167,7 +171,7 @@ fn sanitize(record: FolderRecord) -> PreviousRun {
     let kernel = kernel.filter(|file| file.name == gallery::KERNEL_FILE);
     let has_images_file = images == ImagesState::Intact || manifest.is_some() && has_images(&families, book.as_ref());
     let owner = manifest.map(|manifest| (manifest, title));
-    PreviousRun { owner, families, book, gallery, kernel, progress, pieces, has_images_file }
+    PreviousRun { owner, families, book, gallery, kernel, progress, pieces, has_images_file, is_unfinished }
 }
 
 /// Whether a file of a family can have this name.

@@ -4,8 +4,8 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 
-use super::Error;
 use super::files::{PARTIAL_AFFIXES, check_replaceable};
+use super::{Error, temporary};
 use crate::record::{FileRecord, PartialFile, RunningDigest, open_regular_file};
 
 /// A file that is written under another name and renamed when it is finished. Until then an existing file of its final
@@ -96,8 +96,7 @@ impl TableFile {
 impl Drop for TableFile {
     fn drop(&mut self) {
         if !self.is_kept {
-            // A file that cannot be removed does no harm.
-            let _ = fs::remove_file(&self.partial_path);
+            temporary::remove(&self.partial_path);
         }
     }
 }

@@ -27,6 +27,8 @@ pub struct FolderRecord {
     pub pieces: HashMap<String, Vec<Value>>,
     /// Whether the last run did not end.
     pub is_unfinished: bool,
+    /// Whether `run.json` is as it was written.
+    pub is_as_written: bool,
 }
 
 /// The state of `images.json`.
@@ -44,25 +46,38 @@ impl FolderRecord {
     /// Reads the record of a folder.
     ///
     /// # Errors
-    /// There is no record ([`FileError::NotFound`]), it cannot be read, or it is not a record of this format.
+    /// There is no record ([`FileError::NotFound`]), it cannot be read, is not a record of this format, or not as it was written.
     pub fn read(folder: &Path) -> Result<FolderRecord, ReadError> {
-        let read = |name: &str| read_regular_file(&folder.join(name), MAX_BYTES);
-        let mut earlier = match read(RUN_FILE_NAME) {
-            Ok(bytes) => Some(RunRecord::from_bytes(check_size(&bytes)?)?),
-            Err(FileError::NotFound) => None,
-            Err(error) => return Err(error.into()),
-        };
-        let (mut digests, mut images) = match read(IMAGES_FILE_NAME) {
-            Ok(bytes) => match images_from_bytes(&bytes) {
-                Some(digests) => (digests, ImagesState::Intact),
-                None => {
-                    let message = "is not what a run has written";
-                    (ImageDigests::new(), ImagesState::Damaged(message.to_owned()))
-                }
-            },
-            Err(FileError::NotFound) => (ImageDigests::new(), ImagesState::Missing),
-            Err(error) => (ImageDigests::new(), ImagesState::Damaged(error.to_string())),
-        };
+        let record = FolderRecord::read_altered(folder)?;
+        if record.is_as_written { Ok(record) } else { Err(ReadError::Altered) }
+    }
+
+    /// Reads the record of a folder, to compare with it: nothing that it says may be relied on unless it
+    /// [is as it was written](FolderRecord::is_as_written).
+    ///
+    /// # Errors
+    /// There is no record ([`FileError::NotFound`]), it cannot be read, or it is not a record of this format.
+    pub fn read_altered(folder: &Path) -> Result<FolderRecord, ReadError> {
+        match read_regular_file(&folder.join(RUN_FILE_NAME), MAX_BYTES) {
+            Ok(bytes) => {
+                let (run, is_as_written) = RunRecord::from_bytes(check_size(&bytes)?)?;
+                FolderRecord::with_run(folder, Some(run), is_as_written)
+            }
+            Err(FileError::NotFound) => FolderRecord::read_without_run(folder),
+            Err(error) => Err(error.into()),
+        }
+    }
+
+    /// Reads what a folder records besides `run.json`: the journal of an unfinished run.
+    ///
+    /// # Errors
+    /// There is none ([`FileError::NotFound`]), or it cannot be read.
+    pub fn read_without_run(folder: &Path) -> Result<FolderRecord, ReadError> {
+        FolderRecord::with_run(folder, None, true)
+    }
+
+    fn with_run(folder: &Path, mut earlier: Option<RunRecord>, is_as_written: bool) -> Result<FolderRecord, ReadError> {
+        let (mut digests, mut images) = read_images(folder);
         if let Some(run) = &mut earlier {
             for_each_image(run, |path, file| file.image_sha256 = digests.remove(path));
         }
@@ -81,7 +96,19 @@ impl FolderRecord {
         };
         let replay = replay.map_err(|error| ReadError::Journal(error.into()))?;
         let (run, progress, pieces) = replay.ok_or(FileError::NotFound)?.finish();
-        Ok(FolderRecord { run, images, progress, pieces, is_unfinished })
+        Ok(FolderRecord { run, images, progress, pieces, is_unfinished, is_as_written })
+    }
+}
+
+/// Reads `images.json`: the digests in it, and its state.
+pub fn read_images(folder: &Path) -> (ImageDigests, ImagesState) {
+    match read_regular_file(&folder.join(IMAGES_FILE_NAME), MAX_BYTES) {
+        Ok(bytes) => match images_from_bytes(&bytes) {
+            Some(digests) => (digests, ImagesState::Intact),
+            None => (ImageDigests::new(), ImagesState::Damaged("is not what a run has written".to_owned())),
+        },
+        Err(FileError::NotFound) => (ImageDigests::new(), ImagesState::Missing),
+        Err(error) => (ImageDigests::new(), ImagesState::Damaged(error.to_string())),
     }
 }
 

@@ -18,7 +18,7 @@ mod table;
 pub use cells::{CellTable, read_unassembled_cells};
 pub use digest::{Digest, RunningDigest, TextDigests};
 pub use drawn_curve::{DrawnCurve, DrawnCurveError, SolvedCurve, read_drawn_curves};
-pub use folder::{FolderRecord, ImagesState, images_of_run};
+pub use folder::{FolderRecord, ImagesState, images_of_run, read_images};
 pub use images::IMAGES_FILE_NAME;
 pub use journal::{FamilyProgress, JournalEntry, PageShardHead, PageShardRecord, PartialFile, path_in_atlas};
 pub use png::is_intact_png;

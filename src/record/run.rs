@@ -1,5 +1,8 @@
 //! The record of a run, `run.json`.
 
+use std::collections::BTreeMap;
+
+use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -19,6 +22,9 @@ pub const JOURNAL_FILE_NAME: &str = ".coupler-atlas.journal";
 pub const MAX_RECORDED_FILES: usize = 500_000;
 
 /// `run.json`: what a run has written. It has no time, host, path or number of threads, so equal runs have equal bytes.
+///
+/// Its third line is the SHA-256 of the other lines: a damaged record is recognized as such. Records of before there was one
+/// have none.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RunRecord {
     /// The version of the format.
@@ -141,6 +147,9 @@ pub enum ReadError {
         /// The number of files, approximately.
         files: usize,
     },
+    /// It is not as it was written.
+    #[error("it is not what a run has written: it has another SHA-256 than the one in it")]
+    Altered,
     /// It is not JSON as this program writes it.
     #[error("it is not the record of a run: {0}")]
     Syntax(#[from] serde_json::Error),
@@ -169,6 +178,35 @@ struct FormatHeader {
     program: Value,
     #[serde(default)]
     version: Value,
+    #[serde(default)]
+    sha256: Value,
+}
+
+/// What the line of a record with its own digest begins with: no other line is indented so little and has this key.
+const DIGEST_LINE: &str = "  \"sha256\": ";
+
+/// The line of a record with the digest of its other lines.
+fn digest_line(others: Digest) -> String {
+    format!("{DIGEST_LINE}\"{others}\",\n")
+}
+
+/// Whether a record is as it was written, except for line ends, which an editor or a version control system may have changed.
+/// One of before there were digests has only the keys of then, so that a digest whose key is damaged is missed.
+fn is_as_written(bytes: &[u8], header: &FormatHeader) -> Result<bool, serde_json::Error> {
+    const KEYS: [&str; 9] =
+        ["format", "program", "version", "manifest", "title", "families", "book", "gallery", "kernel"];
+    if header.sha256.is_null() {
+        let keys: BTreeMap<String, IgnoredAny> = serde_json::from_slice(bytes)?;
+        return Ok(keys.keys().all(|key| KEYS.contains(&key.as_str())));
+    }
+    let (mut others, mut own) = (RunningDigest::default(), Vec::new());
+    for line in bytes.split_inclusive(|&byte| byte == b'\n') {
+        match line.starts_with(DIGEST_LINE.as_bytes()) {
+            true => own.extend(line.iter().copied().filter(|&byte| byte != b'\r')),
+            false => line.split(|&byte| byte == b'\r').for_each(|part| others.update(part)),
+        }
+    }
+    Ok(own == digest_line(others.finish()).as_bytes())
 }
 
 /// A type without values: deserializing it always fails.
@@ -180,6 +218,22 @@ enum Never {}
 struct FormatLocator {
     #[serde(rename = "format")]
     _format: Never,
+}
+
+impl ReadError {
+    /// Whether the system failed to read it, so that nothing is known about it and another attempt may succeed.
+    pub fn is_system_failure(&self) -> bool {
+        matches!(self, ReadError::File(FileError::Unreadable(_)) | ReadError::Journal(FileError::Unreadable(_)))
+    }
+
+    /// Whether the record is lost or damaged, so that it can be rebuilt from the files of the atlas.
+    pub fn is_damage(&self) -> bool {
+        match self {
+            ReadError::Altered | ReadError::Syntax(_) | ReadError::TooManyFiles { .. } => true,
+            ReadError::File(error) => matches!(error, FileError::NotFound | FileError::TooLarge { .. }),
+            ReadError::Journal(_) | ReadError::UnsupportedFormat { .. } => false,
+        }
+    }
 }
 
 impl FormatHeader {
@@ -212,18 +266,19 @@ impl RunRecord {
         }
     }
 
-    /// Reads the bytes of a record.
+    /// Reads the bytes of a record, and whether they are as they were written.
     ///
     /// # Errors
     /// They are not a record of this format.
-    pub fn from_bytes(bytes: &[u8]) -> Result<RunRecord, ReadError> {
+    pub fn from_bytes(bytes: &[u8]) -> Result<(RunRecord, bool), ReadError> {
         // An editor may have added a byte order mark.
         let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         let header: FormatHeader = serde_json::from_slice(bytes)?;
         if header.format != FORMAT_VERSION {
             return Err(header.format_error(bytes));
         }
-        Ok(serde_json::from_slice(bytes)?)
+        let is_as_written = is_as_written(bytes, &header)?;
+        Ok((serde_json::from_slice(bytes)?, is_as_written))
     }
 
     /// The record that makes no claims: what is known of each family and file is only that an earlier run wrote it.
@@ -252,6 +307,10 @@ impl RunRecord {
         // Serializing a record cannot fail.
         let mut bytes = serde_json::to_vec_pretty(self).unwrap_or_default();
         bytes.push(b'\n');
+        // After the brace and the format, which tells how to read the rest.
+        let place = bytes.split_inclusive(|&byte| byte == b'\n').take(2).map(<[u8]>::len).sum::<usize>();
+        let line = digest_line(Digest::of(&bytes));
+        bytes.splice(place..place, line.into_bytes());
         bytes
     }
 }
@@ -328,5 +387,34 @@ impl FileRecord {
     /// Sets the digest of what the file was made from.
     pub fn with_inputs(self, inputs_sha256: Digest) -> FileRecord {
         FileRecord { inputs_sha256: Some(inputs_sha256), ..self }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_damaged_byte_is_noticed() {
+        let mut run = RunRecord::new(Some("a.toml"), "T");
+        run.gallery = Some(FileRecord::from_bytes("index.html", b"html"));
+        let bytes = run.to_bytes();
+        assert_eq!(RunRecord::from_bytes(&bytes).unwrap(), (run.clone(), true));
+        let windows = String::from_utf8(bytes.clone()).unwrap().replace('\n', "\r\n");
+        assert_eq!(RunRecord::from_bytes(format!("\u{feff}{windows}").as_bytes()).unwrap(), (run.clone(), true));
+        let is_intact = |bytes: &[u8]| RunRecord::from_bytes(bytes).is_ok_and(|(_, is_as_written)| is_as_written);
+        for k in 0..bytes.len() {
+            for change in [1, 2, 16, 32, 128] {
+                let mut damaged = bytes.clone();
+                damaged[k] ^= change;
+                assert!(!is_intact(&damaged), "byte {k}");
+            }
+            assert!(!is_intact(&bytes[..k]), "{k} bytes");
+        }
+        // A record of before there were digests.
+        let is_digest = |line: &&str| line.starts_with(DIGEST_LINE);
+        let older: String =
+            std::str::from_utf8(&bytes).unwrap().split_inclusive('\n').filter(|line| !is_digest(line)).collect();
+        assert_eq!(RunRecord::from_bytes(older.as_bytes()).unwrap(), (run, true));
     }
 }

@@ -32,6 +32,9 @@ pub enum Error {
         /// What it is, as a clause.
         reason: String,
     },
+    /// The system failed to read some of the shards.
+    #[error("{}", .0.join("\n"))]
+    Unreadable(Vec<String>),
     /// The shards cannot be gathered.
     #[error("{}", .0.join("\n"))]
     Problems(Vec<String>),

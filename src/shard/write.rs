@@ -160,8 +160,7 @@ impl FamilyShard<'_> {
         let (begin, end) = temporary_affixes(label);
         for entry in fs::read_dir(&self.folder).into_iter().flatten().flatten() {
             if entry.file_name().to_str().is_some_and(|name| name.starts_with(&begin) && name.ends_with(end)) {
-                // A file that cannot be removed does no harm.
-                let _ = fs::remove_file(entry.path());
+                output::remove_temporary(&entry.path());
             }
         }
     }

@@ -5,7 +5,7 @@ use std::fs;
 use std::time::SystemTime;
 
 use crate::support::command::run;
-use crate::support::folder::Atlas;
+use crate::support::folder::{Atlas, edit_record};
 
 const MANIFEST: &str = r#"
 [atlas]
@@ -174,8 +174,7 @@ fn a_book_that_is_no_longer_requested_is_removed_and_other_files_stay() {
     // A record that names a file that is not a book removes nothing.
     atlas.edit(MANIFEST);
     atlas.render(&[]);
-    let path = atlas.out().join("run.json");
-    fs::write(&path, fs::read_to_string(&path).unwrap().replace("\"atlas.pdf\"", "\"notes.pdf\"")).unwrap();
+    edit_record(&atlas.out(), |run| run["book"]["files"][0]["name"] = "notes.pdf".into());
     atlas.edit(&MANIFEST.replace("[\"svg\", \"pdf\"]", "[\"svg\"]"));
     atlas.render(&[]);
     assert_eq!(atlas.names(), ["atlas.pdf", "notes.pdf"]);

@@ -7,7 +7,7 @@ use std::process::Output;
 use tempfile::TempDir;
 
 use crate::support::command::{folder_with, program};
-use crate::support::folder::tree;
+use crate::support::folder::{edit_record, tree};
 
 /// Three families: turning cranks, rockers with both branches and several circuits, and a length as input.
 const MANIFEST: &str = r#"[atlas]
@@ -101,13 +101,12 @@ impl RecordedAtlas {
         use sha2::Digest;
         let bytes = fs::read(self.path("output").join(family).join(table)).unwrap();
         let digest = format!("{:x}", sha2::Sha256::digest(&bytes));
-        let path = self.path("output/run.json");
-        let mut run: serde_json::Value = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
-        let families = run["families"].as_array_mut().unwrap();
-        let entry = families.iter_mut().find(|f| f["id"] == family).unwrap();
-        let file = entry["files"].as_array_mut().unwrap().iter_mut().find(|f| f["name"] == table).unwrap();
-        file["sha256"] = digest.into();
-        fs::write(path, serde_json::to_vec_pretty(&run).unwrap()).unwrap();
+        edit_record(&self.path("output"), |run| {
+            let families = run["families"].as_array_mut().unwrap();
+            let entry = families.iter_mut().find(|f| f["id"] == family).unwrap();
+            let file = entry["files"].as_array_mut().unwrap().iter_mut().find(|f| f["name"] == table).unwrap();
+            file["sha256"] = digest.into();
+        });
     }
 }
 
@@ -392,14 +391,9 @@ fn what_a_folder_leaves_out_is_said_and_no_difference() {
     }
     // A page is compared, also if its record no longer lists it.
     let (_, record) = whole.get_key_value("run.json").unwrap();
-    let without = |key: &str| {
-        let mut record: serde_json::Value = serde_json::from_slice(record).unwrap();
-        record.as_object_mut().unwrap().remove(key).unwrap();
-        serde_json::to_vec_pretty(&record).unwrap()
-    };
     for (name, key) in [("index.html", "gallery"), ("kernel.js", "kernel")] {
         fs::write(output.join(name), "edited").unwrap();
-        fs::write(output.join("run.json"), without(key)).unwrap();
+        edit_record(&output, |run| drop(run.as_object_mut().unwrap().remove(key).unwrap()));
         assert_eq!((atlas.check(&[]).0, left_out().contains("gallery")), (1, false), "{name}");
         fs::remove_file(output.join(name)).unwrap();
         fs::write(output.join("run.json"), record).unwrap();

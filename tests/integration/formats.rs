@@ -104,7 +104,7 @@ fn a_record_with_other_line_ends_is_read() {
     let text = fs::read_to_string(&path).unwrap();
     let as_on_windows = format!("\u{feff}{}", text.replace('\n', "\r\n"));
     fs::write(&path, &as_on_windows).unwrap();
-    assert_eq!(RunRecord::from_bytes(&fs::read(&path).unwrap()).unwrap(), serde_json::from_str(&text).unwrap());
+    assert_eq!(RunRecord::from_bytes(&fs::read(&path).unwrap()).unwrap(), (serde_json::from_str(&text).unwrap(), true));
     let (code, out, err) = atlas.run(&[]);
     assert!(code == 0 && err.is_empty() && out.contains("(unchanged)"), "{out}{err}");
     assert_eq!(fs::read_to_string(&path).unwrap(), text, "it is rewritten with the usual line ends");

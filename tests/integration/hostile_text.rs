@@ -9,6 +9,7 @@ use std::process::Output;
 use tempfile::TempDir;
 
 use crate::support::command::{folder_with, program, result};
+use crate::support::folder::edit_record;
 
 const MANIFEST: &str = r#"[atlas]
 title = "Atlas"
@@ -63,10 +64,7 @@ impl Atlas {
     }
 
     fn edit_record(&self, change: impl FnOnce(&mut serde_json::Value)) {
-        let path = self.path("output/run.json");
-        let mut run: serde_json::Value = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
-        change(&mut run);
-        fs::write(path, serde_json::to_vec(&run).unwrap()).unwrap();
+        edit_record(&self.path("output"), change);
     }
 
     fn edit_table(&self, name: &str, change: impl FnOnce(&str) -> String) {

@@ -40,6 +40,7 @@ mod readme;
 mod recorded;
 mod recorded_images;
 mod remedies;
+mod repair;
 mod reruns;
 mod resuming;
 mod schema;

@@ -55,7 +55,10 @@ impl ManifestArgument<'_> {
         let (path, text) = self.text(py)?;
         let (own, from) = (text.clone(), path.clone());
         let outcome = task::run_with(py, None, move |_| {
-            manifest::parse_with_files(&own, Some(&|name| output::read_font(&from, name)))
+            manifest::parse_with_files(
+                &own,
+                Some(&|name| output::read_font(&from, name).map_err(|error| error.to_string())),
+            )
         })?;
         Manifest::from_outcome(py, path, text, outcome)
     }

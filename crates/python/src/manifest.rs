@@ -33,7 +33,11 @@ impl Manifest {
     ) -> PyResult<Manifest> {
         let (own, from) = (text.clone(), path.clone());
         let outcome = task::run_with(py, None, move |_| {
-            manifest::parse_for_tables(&own, Some(&|name| output::read_font(&from, name)), &cells)
+            manifest::parse_for_tables(
+                &own,
+                Some(&|name| output::read_font(&from, name).map_err(|error| error.to_string())),
+                &cells,
+            )
         })?;
         Manifest::from_outcome(py, path, text, outcome)
     }

@@ -98,6 +98,8 @@ impl Rendering {
 ///     Draw every page, including those that are up to date.
 /// overwrite : bool
 ///     Replace the atlas of another manifest, and files that no earlier run wrote.
+/// repair : bool
+///     Rebuild a record that is lost or damaged from the files that are as the manifest makes them; no other file is changed.
 /// progress : bool or callable, optional
 ///     None shows a bar in notebooks and terminals, True always, False never; a function is called with (done, total, name).
 ///
@@ -113,7 +115,7 @@ impl Rendering {
 /// OutputError
 ///     The folder cannot be written, or belongs to another manifest.
 #[pyfunction]
-#[pyo3(signature = (manifest, output=None, *, formats=None, only=None, force=false, overwrite=false, progress=None))]
+#[pyo3(signature = (manifest, output=None, *, formats=None, only=None, force=false, overwrite=false, repair=false, progress=None))]
 #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
 pub fn render(
     py: Python,
@@ -123,11 +125,15 @@ pub fn render(
     only: Option<Vec<String>>,
     force: bool,
     overwrite: bool,
+    repair: bool,
     progress: Option<Bound<PyAny>>,
 ) -> PyResult<Rendering> {
     let manifest = manifest.read(py)?;
     let Manifest { path, text, plan } = manifest.clone();
     let only = argument::only(only)?;
+    if repair && !only.is_empty() {
+        return Err(PyValueError::new_err("repair is of the whole atlas: leave out only"));
+    }
     manifest.require_families(&only)?;
     let formats =
         formats.map(|names| names.iter().map(|name| format(name)).collect::<PyResult<Vec<_>>>()).transpose()?;
@@ -143,8 +149,8 @@ pub fn render(
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned());
     let to = folder.clone();
     let rendered = task::run(py, progress.as_ref(), move |task: &Task| {
-        let options =
-            output::Options { formats, only, force, overwrite, manifest: name, interrupt: task.interrupt.clone() };
+        let interrupt = task.interrupt.clone();
+        let options = output::Options { formats, only, force, overwrite, repair, manifest: name, interrupt };
         let mut pages_drawn = 0;
         let run = output::write_atlas(&plan, &to, &options, &mut |event| match event {
             output::Event::Begin { family, pages } => task.begin(family, pages),

@@ -205,7 +205,7 @@ fn read_path(arguments: &Arguments) -> anyhow::Result<TracedPath> {
     let path = arguments.path.as_deref().unwrap_or(Path::new("-"));
     files::protect(path);
     let name = files::input_name(path);
-    let text = output::read_text(path).map_err(|error| not_a_path::unreadable(path, &error))?;
+    let text = output::read_text(path).map_err(|error| not_a_path::unreadable(path, error))?;
     let outline = find::parse_outline(&text, arguments.timed).map_err(|problems| {
         if let Some(message) = not_a_path::manifest_message(path, &text) {
             return InputErrors::from_messages(&[message]);

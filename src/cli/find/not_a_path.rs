@@ -8,19 +8,20 @@ use crate::output;
 use super::{InputError, files};
 
 /// Why the file of a path cannot be read, with the remedy.
-pub(super) fn unreadable(path: &Path, error: &output::Error) -> InputError {
+pub(super) fn unreadable(path: &Path, error: output::Error) -> anyhow::Error {
     const FORMS: &str = "a table of points, JSON or a drawing in SVG";
     let name = files::input_name(path);
-    let kind = match error {
+    let kind = match &error {
         output::Error::Read { source, .. } => source.kind(),
         _ => ErrorKind::Other,
     };
-    InputError(match kind {
+    let message = match kind {
         ErrorKind::NotFound => format!("cannot find {name}: name {FORMS}"),
         ErrorKind::IsADirectory => format!("{name} is a folder: name {FORMS}"),
         ErrorKind::InvalidData => format!("cannot read {name}: it is no table of points, JSON or SVG"),
-        _ => error.to_string(),
-    })
+        _ => return error.into(),
+    };
+    InputError(message).into()
 }
 
 /// What to do with a manifest in place of a path; `None` if the text is no manifest.

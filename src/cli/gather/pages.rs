@@ -25,12 +25,14 @@ pub(super) fn complete(folder: &Path, shards: &[PageShard], is_quiet: bool) -> a
     check_origin(&name, shards)?;
     let PageShardRecord { head: PageShardHead { formats, .. }, manifest, .. } = &shards[0].record;
     let path = manifest_path(folder, shards);
-    let source = source::with_text(&path, manifest.clone()).map_err(|error| {
-        InputError(format!(
+    let source = source::with_text(&path, manifest.clone()).map_err(|error| match error.downcast_ref() {
+        Some(failure) if !output::Error::is_input(failure) => error,
+        _ => InputError(format!(
             "{error}: the text is that of the manifest of the shards, and the files that it names are looked for beside {}; complete \
              the atlas with `coupler-atlas render MANIFEST -o {name}`, wherever the manifest is now",
             printable(path.display())
         ))
+        .into(),
     })?;
     // Shards of a complete atlas that were drawn again need no others.
     if !output::has_atlas_of(&source.plan, folder) {

@@ -32,6 +32,10 @@ pub struct Arguments {
     /// Replace the atlas of another manifest, and files that no earlier run wrote.
     #[arg(long)]
     pub(super) overwrite: bool,
+    /// Rebuild a run.json that is lost or damaged from the files that are as the manifest makes them, and complete the atlas;
+    /// no other file is changed.
+    #[arg(long, conflicts_with_all = ["only", "overwrite", "shard", "watch"])]
+    pub(super) repair: bool,
     /// The number of threads [default: one for each processor].
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(super) jobs: Option<u16>,

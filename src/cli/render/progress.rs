@@ -111,6 +111,22 @@ impl ProgressReporter {
             Event::Removed { family } => {
                 lines.push_str(&format!("removed: {}, which is not in the manifest\n", printable(family)));
             }
+            Event::Rebuilt { record, files, others } => {
+                /// The files that are named.
+                const MOST: usize = 5;
+                let (record, files) = (printable(record.display()), pluralize(files, "file"));
+                let mut message = format!("note: {record} is rebuilt from {files} of the atlas\n");
+                if !others.is_empty() {
+                    let mut names: Vec<String> =
+                        others.iter().take(MOST).map(|path| printable(path.display())).collect();
+                    if others.len() > MOST {
+                        names.push(format!("{} more", others.len() - MOST));
+                    }
+                    let names = names.join(", ");
+                    message.push_str(&format!("note: not known to be of the atlas, and left as they are: {names}\n"));
+                }
+                self.bar.suspend(|| print_stderr(&message));
+            }
             Event::UnusableRecord { record, error } => {
                 let (record, error) = (printable(record.display()), printable(error));
                 print_stderr(&format!(

@@ -24,6 +24,7 @@ pub(super) fn output_options(
         only: arguments.only.clone(),
         force: arguments.force,
         overwrite: arguments.overwrite,
+        repair: arguments.repair,
         manifest: Some(source.file_name()),
         interrupt: Arc::clone(interrupt),
     }

@@ -84,7 +84,7 @@ impl Contents {
 /// The problems of a manifest, or else the error, as text.
 fn problem_text(path: &Path, error: &anyhow::Error) -> String {
     let Ok(text) = super::source::read_text(path) else { return error.to_string() };
-    let problems = super::source::parse(path, &text).problems;
+    let problems = super::source::parse(path, &text).map(|loaded| loaded.problems).unwrap_or_default();
     if problems.is_empty() {
         return error.to_string();
     }

@@ -63,6 +63,9 @@ pub fn gather(folders: &[PathBuf], options: &GatherOptions) -> Result<Gathered, 
             names.join(" or in ")
         ));
     }
+    if failed.iter().any(|(_, problem)| matches!(problem, FileProblem::Unreadable(_))) {
+        return Err(Error::Unreadable(problems));
+    }
     check_origin(&files, &mut problems);
     if !problems.is_empty() {
         return Err(Error::Problems(problems));

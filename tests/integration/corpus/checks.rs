@@ -112,8 +112,10 @@ fn check_with_replaced_file(name: &str, text: &str) {
             .iter()
             .all(|finding| !finding.location.to_string().is_empty() && !finding.change.to_string().is_empty())
     );
-    // A check does not look at what a record says about itself, such as its program.
-    assert!(text.as_bytes() == original || name == "run.json" || !findings.is_empty(), "{name} has been changed");
+    // Of a record, line ends and a byte order mark may be changed.
+    let plain = text.trim_start_matches('\u{feff}').replace('\r', "");
+    let is_same = text.as_bytes() == original || name == "run.json" && plain.as_bytes() == original;
+    assert!(is_same || !findings.is_empty(), "{name} has been changed");
     assert!(text.as_bytes() != original || findings.is_empty(), "{findings:?}");
 }
 

@@ -3,6 +3,7 @@
 pub mod generator;
 
 use std::fs;
+use std::path::Path;
 
 use coupler_curves::geometry::{Bounds, Capsule, CapsuleTree, Point, Spline};
 use coupler_curves::linkage::{JointId, Linkage};
@@ -10,7 +11,7 @@ use coupler_curves::motion::{self, Circuit, Motion, Pass, Sampler, Sampling, eas
 use coupler_curves::path::{DashPattern, joint_path};
 use sha2::{Digest, Sha256};
 
-use crate::support::folder::Atlas;
+use crate::support::folder::{Atlas, edit_record};
 use crate::support::plan::plan;
 use generator::{KIND_COUNT, Random};
 
@@ -32,20 +33,20 @@ fn check(atlas: &Atlas, text: &str) -> Vec<serde_json::Value> {
 
 /// Adds a comment to each page, and records its digest as if a run had written it so.
 fn add_comments(atlas: &Atlas) {
-    let path = atlas.out().join("run.json");
-    let mut run: serde_json::Value = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
-    for family in run["families"].as_array_mut().unwrap() {
-        let folder = atlas.out().join(family["id"].as_str().unwrap());
-        for file in family["files"].as_array_mut().unwrap() {
-            let name = file["name"].as_str().unwrap().to_owned();
-            if name.ends_with(".svg") {
-                let page = fs::read_to_string(folder.join(&name)).unwrap().replace("</svg>", "<!-- --></svg>");
-                file["sha256"] = format!("{:x}", Sha256::digest(&page)).into();
-                fs::write(folder.join(&name), page).unwrap();
-            }
+    let add_comment = |folder: &Path, file: &mut serde_json::Value| {
+        let path = folder.join(file["name"].as_str().unwrap());
+        if path.extension().is_some_and(|extension| extension == "svg") {
+            let page = fs::read_to_string(&path).unwrap().replace("</svg>", "<!-- --></svg>");
+            file["sha256"] = format!("{:x}", Sha256::digest(&page)).into();
+            fs::write(path, page).unwrap();
         }
-    }
-    fs::write(path, run.to_string()).unwrap();
+    };
+    edit_record(&atlas.out(), |run| {
+        for family in run["families"].as_array_mut().unwrap() {
+            let folder = atlas.out().join(family["id"].as_str().unwrap());
+            family["files"].as_array_mut().unwrap().iter_mut().for_each(|file| add_comment(&folder, file));
+        }
+    });
 }
 
 /// A number from the environment.

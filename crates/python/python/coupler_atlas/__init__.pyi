@@ -423,6 +423,7 @@ def render(
     only: Sequence[str] | None = None,
     force: bool = False,
     overwrite: bool = False,
+    repair: bool = False,
     progress: _Progress = None,
 ) -> Rendering: ...
 def check(
