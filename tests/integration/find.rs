@@ -279,7 +279,7 @@ fn every_mistake_is_named() {
     }
     for (text, expected) in [
         ("", "needs at least 5 distinct points, and has 0"),
-        ("1,2\n3,4\n", "has 2"),
+        ("1,2\n3,4\n", "has 2: through fewer pass the curves of infinitely many four-bars"),
         ("1,2\nx,4\n1,NaN\n", "line 2: `x` is not a number"),
         ("1,2\nx,4\n1,NaN\n", "line 3: `NaN` is NaN"),
         ("<svg><text/></svg>", "the drawing has no path"),
@@ -289,6 +289,12 @@ fn every_mistake_is_named() {
         let (code, out, error) = run(folder.path(), &["find", "path"]);
         assert!(code == 2 && out.is_empty() && error.contains(expected), "{text}: {error}");
     }
+    fs::write(folder.path().join("path"), "x,y,angle\n0,0,0\n2,0,40\n3,1,80\n2,3,120\n0,2,170\n").unwrap();
+    let quick = ["find", "path", "--index", "200", "--effort", "quick"];
+    let (code, _, error) = run(folder.path(), &quick);
+    assert!(code == 0 && error.contains("the angles in path are not used"), "{error}");
+    let (code, _, error) = run(folder.path(), &[&quick[..], &["--timed"]].concat());
+    assert!(code == 0 && !error.contains("are not used"), "{error}");
     let (code, _, error) = run(folder.path(), &["find", "missing.csv"]);
     assert!(code == 2 && error.contains("missing.csv"), "{error}");
     // The path is not overwritten.

@@ -20,7 +20,7 @@ use coupler_curves::geometry::{Bounds, Point};
 use coupler_curves::template::Template;
 
 use super::export::CurveSamples;
-use super::{InputError, InputErrors, Outcome, export, files, source};
+use super::{InputError, InputErrors, Outcome, export, files, print_stderr, source};
 pub use arguments::Arguments;
 use arguments::{EffortChoice, InputChoice};
 use notes::Best;
@@ -213,6 +213,11 @@ fn read_path(arguments: &Arguments) -> anyhow::Result<TracedPath> {
         let problems: Vec<String> = problems.iter().map(|problem| format!("{name}: {problem}")).collect();
         InputErrors::from_messages(&problems)
     })?;
+    if !arguments.timed && find::parse_outline(&text, true).is_ok_and(|timed| timed.angles_deg.is_some()) {
+        print_stderr(&format!(
+            "note: the angles in {name} are not used: with --timed each point is reached at its own\n"
+        ));
+    }
     let is_closed = outline.is_closed.unwrap_or_else(|| outline.looks_closed());
     Ok(TracedPath::new(name, outline, kind(is_closed), arguments.timed)?)
 }

@@ -113,6 +113,7 @@ pub(super) fn relaxed(constraints: &[Constraint], longest_link: f64) -> String {
     match constraints {
         [Constraint::MaxLink] => format!("a greater --max-link ({longest_link:.2} or more)"),
         [Constraint::FullTurn] => "--input any".to_owned(),
+        [Constraint::Detours] => "--open, which allows detours between the points".to_owned(),
         [_] => format!("another {}", options[0]),
         _ => format!("{} together", options.join(", ")),
     }
@@ -125,6 +126,7 @@ pub(super) fn options_of(constraints: &[Constraint]) -> Vec<&'static str> {
         Constraint::Pivots => "--pivots",
         Constraint::MaxLink => "--max-link",
         Constraint::FullTurn => "--input",
+        Constraint::Detours => "--open",
     };
     constraints.iter().map(option).collect()
 }

@@ -45,14 +45,19 @@ pub fn find_in_atlas(
     let answers = ranked(found, target, query);
     let mut nearest_miss = None;
     if answers.is_empty() {
-        let (others, _) = search::search_atlas(plan, target, &options.relaxed(), interrupt)?;
         let set = [
             (Constraint::Condition, query.condition.is_some()),
             (Constraint::Pivots, query.options.pivots.is_some()),
             (Constraint::MaxLink, query.options.max_link.is_finite()),
             (Constraint::FullTurn, query.options.full_turn),
         ];
-        let relax = set.into_iter().filter(|(_, is_set)| *is_set).map(|(constraint, _)| constraint).collect();
+        let mut relax: Vec<_> =
+            set.into_iter().filter(|(_, is_set)| *is_set).map(|(constraint, _)| constraint).collect();
+        let (mut others, _) = search::search_atlas(plan, target, &options.relaxed(), interrupt)?;
+        if others.is_empty() && Constraint::Detours.is_set(target, query.options) {
+            relax.push(Constraint::Detours);
+            (others, _) = search::search_atlas(plan, &target.opened(), &options.relaxed(), interrupt)?;
+        }
         nearest_miss = others.into_iter().next().map(|nearest| (relax, nearest));
     }
     Ok(AtlasFindings { curves, answers, nearest_miss })

@@ -51,10 +51,10 @@ pub fn find_linkage(
     let (answers, curves) = search::search_linkage(space, target, options, samples, interrupt)?;
     let mut nearest_miss = None;
     if answers.is_empty() {
-        let nearest = |options: &Options| {
+        let nearest = |target: &Target, options: &Options| {
             search::search_linkage(space, target, options, samples, interrupt).ok()?.0.into_iter().next()
         };
-        nearest_miss = nearest_miss_by(options, nearest, |answer| answer.curve.fit.rms);
+        nearest_miss = nearest_miss_by(target, options, nearest, |answer| answer.curve.fit.rms);
         search::proceed(interrupt)?;
     }
     Ok(LinkageFindings { curves, answers, nearest_miss })

@@ -69,6 +69,6 @@ impl Answer {
     }
 }
 
-/// The lengths that the curve of an answer, or its portion, may have relative to that of the target: others have excursions between
-/// its points, or cut them off.
-pub const LENGTH_RATIOS: [f64; 2] = [0.87, 1.15];
+/// The greatest length that the curve of an answer, or its portion, may have relative to that of the target without its noise: longer ones
+/// have detours between its points. One that is shorter cuts corners, which its deviation tells.
+pub const MAX_LENGTH_RATIO: f64 = 1.15;

@@ -1,6 +1,6 @@
 //! How a given curve fits a target: where it is placed on it, and its deviation.
 
-use super::answer::{LENGTH_RATIOS, Quality};
+use super::answer::Quality;
 use super::close_portion::{Portion, portions};
 use super::complex::{Complex, dot, length};
 use super::curve_alignment::Alignment;
@@ -140,7 +140,7 @@ impl CurveFitter {
         }
     }
 
-    /// How the curve through points fits the target; `None` if it does not in any place: its length is not that of the target, no
+    /// How the curve through points fits the target; `None` if it does not in any place: it has long detours, no
     /// portion of it is like the target, or it has no extent. An open curve is passed there and back.
     pub fn fit(&self, points: &[Point], is_closed: bool) -> Option<CurveFit> {
         let path = CurvePath::new(points, is_closed)?;
@@ -270,7 +270,7 @@ impl CurveFitter {
         let (size, centre) = self.target.placement();
         let scale = length(start.factor);
         let [first, last] = alignment.ends().map(|position| path.length_at(position));
-        let length_ratio = scale / self.target.polyline_length()
+        let own_length = scale
             * match self.target.kind() {
                 PathKind::Closed => path.length(),
                 PathKind::Open | PathKind::Part => last - first,
@@ -281,8 +281,7 @@ impl CurveFitter {
         /// Points on a straight portion are matched with places that differ from those of their lengths by rounding.
         const ROUNDING: f64 = 1e-6;
         let is_portion = self.target.kind() != PathKind::Closed && !self.options.is_fixed;
-        let is_valid = (self.target.kind() == PathKind::Open
-            || (LENGTH_RATIOS[0]..=LENGTH_RATIOS[1]).contains(&length_ratio))
+        let is_valid = own_length <= self.target.greatest_length()
             && !(is_portion && last - first < self.options.least_portion - ROUNDING);
         if !is_valid {
             return None;
@@ -312,7 +311,7 @@ impl CurveFitter {
             rms_relative,
             greatest: size * alignment.greatest(),
             is_in_order: alignment.is_in_order(),
-            length_ratio,
+            length_ratio: own_length / self.target.polyline_length(),
             ends,
             is_reversed,
         })

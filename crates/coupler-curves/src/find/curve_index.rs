@@ -95,7 +95,7 @@ impl CurveLookup {
         let query = Query::new(target.kind(), &target.normalized());
         let per_wanted = if matches!(query, Query::Whole(..)) { 1 } else { CurveLookup::FOUND_PER_WANTED };
         let most = wanted.max(1).saturating_mul(per_wanted);
-        CurveLookup { query, options, length: target.polyline_length(), most, best: Vec::new() }
+        CurveLookup { query, options, length: target.smooth_length(), most, best: Vec::new() }
     }
 
     /// The most curves that are found. If these are more than are wanted, they are to be compared more closely.

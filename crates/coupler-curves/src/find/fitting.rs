@@ -1,6 +1,5 @@
 //! What a search fits linkages to: the target with centroid 0 and size 1, and the constraints.
 
-use super::answer::LENGTH_RATIOS;
 use super::complex::{Complex, closed_length};
 use super::constraints::Limits;
 use super::index::SAMPLES;
@@ -17,9 +16,12 @@ use super::timing::Timing;
 pub(super) struct Fitting {
     pub target: Target,
     pub limits: Limits,
-    /// The points of the target with centroid 0 and size 1, and the length of their polyline.
+    /// The points of the target with centroid 0 and size 1, the length of their polyline, and that without noise.
     pub points: Vec<Complex>,
-    pub polyline_length: f64,
+    polyline_length: f64,
+    pub smooth_length: f64,
+    /// The greatest length of a curve or of its portion.
+    greatest_length: f64,
     /// The inputs of the points, forward and backward, if they are timed.
     pub timing: Option<[Timing; 2]>,
     /// The directions of the cranks of sampled circuits.
@@ -48,6 +50,8 @@ impl Fitting {
         Fitting {
             points: target.normalized(),
             polyline_length: target.polyline_length(),
+            smooth_length: target.smooth_length(),
+            greatest_length: target.greatest_length(),
             timing: target.angles_deg().map(Timing::both),
             directions: directions(SAMPLES),
             target: target.clone(),
@@ -109,11 +113,11 @@ impl Fitting {
 
     pub fn has_valid_length(&self, refinement: &Refinement) -> bool {
         match self.target.kind() {
-            PathKind::Closed => is_valid_ratio(self.whole_length_ratio(refinement)),
+            PathKind::Closed => self.whole_length(refinement) <= self.greatest_length,
             PathKind::Open => true,
             PathKind::Part => {
                 let matching = self.matching(refinement);
-                matching.is_some_and(|matching| is_valid_ratio(matching.portion_length / self.polyline_length))
+                matching.is_some_and(|matching| matching.portion_length <= self.greatest_length)
             }
         }
     }
@@ -129,9 +133,9 @@ impl Fitting {
         circuits.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or_default()
     }
 
-    /// The length of the whole curve relative to that of the target's polyline.
-    fn whole_length_ratio(&self, Refinement { linkage, poses, .. }: &Refinement) -> f64 {
-        closed_length(&linkage.curve(&self.circuit_of(linkage, &poses[0]))) / self.polyline_length
+    /// The length of the whole curve.
+    fn whole_length(&self, Refinement { linkage, poses, .. }: &Refinement) -> f64 {
+        closed_length(&linkage.curve(&self.circuit_of(linkage, &poses[0])))
     }
 
     /// How a refined linkage fits the target; `None` if it is not valid.
@@ -141,15 +145,11 @@ impl Fitting {
             return None;
         }
         let matching = self.matching(refinement)?;
-        let length_ratio = match self.target.kind() {
-            PathKind::Closed => self.whole_length_ratio(refinement),
-            PathKind::Open | PathKind::Part => matching.portion_length / self.polyline_length,
+        let length = match self.target.kind() {
+            PathKind::Closed => self.whole_length(refinement),
+            PathKind::Open | PathKind::Part => matching.portion_length,
         };
-        let is_valid = self.target.kind() == PathKind::Open || is_valid_ratio(length_ratio);
-        is_valid.then_some(Fit { linkage, matching, length_ratio })
+        let length_ratio = length / self.polyline_length;
+        (length <= self.greatest_length).then_some(Fit { linkage, matching, length_ratio })
     }
-}
-
-fn is_valid_ratio(length_ratio: f64) -> bool {
-    (LENGTH_RATIOS[0]..=LENGTH_RATIOS[1]).contains(&length_ratio)
 }

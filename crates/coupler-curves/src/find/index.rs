@@ -103,7 +103,7 @@ impl Index {
         let found = match target.kind() {
             PathKind::Closed => {
                 let (spectrum, ..) = self.transform.spectrum(&points);
-                let query = (&spectrum, target.polyline_length(), full_turn);
+                let query = (&spectrum, target.smooth_length(), full_turn);
                 self.nearest(query, 0..self.len(), Vec::new(), most)
             }
             PathKind::Open | PathKind::Part => {

@@ -65,7 +65,7 @@ impl Lookup {
         self.best = match &self.query {
             Query::Whole(spectrum, ..) => {
                 self.next += CURVES_PER_STEP;
-                index.nearest((spectrum, fitting.polyline_length, full_turn), from..self.next, best, most)
+                index.nearest((spectrum, fitting.smooth_length, full_turn), from..self.next, best, most)
             }
             Query::Portion(stroke, _) => {
                 self.next += PORTIONS_PER_STEP;

@@ -4,9 +4,9 @@
 //!
 //! The size of a target with points p is S = sqrt(mean |p - p̄|²). The deviation of a curve C from it is
 //! E = sqrt(mean d(p, C(t))²), the distances of the points from the continuous curve, where the t of the points are in their order
-//! along one circuit within one turn, in either direction. An answer for a closed target is valid only if the length of its curve
-//! is 0.87 to 1.15 of that of the target's polygon, and one for a part if that of its portion is; otherwise curves with excursions
-//! between the points would win.
+//! along one circuit within one turn, in either direction. An answer for a closed target is valid only if its curve is at most 1.15 times
+//! as long as the target, and one for a part if its portion is; otherwise curves with detours between the points would win. The
+//! length of a target is that of its lowest harmonics: its noise has none.
 //!
 //! A timed target has an angle for each point: the curve's point is that at which the crank has turned by it since the first, in
 //! either direction, and the t are not free but for a common offset.
@@ -64,7 +64,7 @@ mod synthesis;
 mod target;
 mod timing;
 
-pub use answer::{Answer, LENGTH_RATIOS, Quality};
+pub use answer::{Answer, MAX_LENGTH_RATIO, Quality};
 pub use curve_fit::{CurveFit, CurveFitter, Placement};
 pub use curve_fit_options::CurveFitOptions;
 pub use curve_index::{CurveIndex, CurveLookup, CurveShape};

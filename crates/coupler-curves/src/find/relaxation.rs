@@ -4,7 +4,7 @@ use super::answer::Answer;
 use super::index::Index;
 use super::options::Options;
 use super::search::Search;
-use super::target::Target;
+use super::target::{PathKind, Target};
 
 /// A constraint that can be relaxed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,49 +17,66 @@ pub enum Constraint {
     MaxLink,
     /// [`Options::full_turn`].
     FullTurn,
+    /// That curves have no long detours from a target that is not open.
+    Detours,
 }
 
-impl Constraint {
-    const ALL: [Constraint; 4] = [Constraint::Condition, Constraint::Pivots, Constraint::MaxLink, Constraint::FullTurn];
+/// What is searched for.
+type Sought = (Target, Options);
 
-    /// The options without the constraint; `None` if they do not have it.
-    fn relaxed(self, options: &Options) -> Option<Options> {
-        let (has_it, options) = match self {
-            Constraint::Condition => (options.condition.is_some(), Options { condition: None, ..options.clone() }),
-            Constraint::Pivots => (options.pivots.is_some(), Options { pivots: None, ..options.clone() }),
-            Constraint::MaxLink => {
-                (options.max_link.is_finite(), Options { max_link: f64::INFINITY, ..options.clone() })
-            }
-            Constraint::FullTurn => (options.full_turn, Options { full_turn: false, ..options.clone() }),
-        };
-        has_it.then_some(options)
+impl Constraint {
+    const ALL: [Constraint; 5] =
+        [Constraint::Condition, Constraint::Pivots, Constraint::MaxLink, Constraint::FullTurn, Constraint::Detours];
+
+    /// Whether a search has the constraint.
+    pub fn is_set(self, target: &Target, options: &Options) -> bool {
+        match self {
+            Constraint::Condition => options.condition.is_some(),
+            Constraint::Pivots => options.pivots.is_some(),
+            Constraint::MaxLink => options.max_link.is_finite(),
+            Constraint::FullTurn => options.full_turn,
+            Constraint::Detours => target.kind() != PathKind::Open,
+        }
+    }
+
+    /// The search without the constraint.
+    fn relaxed(self, (mut target, mut options): Sought) -> Sought {
+        match self {
+            Constraint::Condition => options.condition = None,
+            Constraint::Pivots => options.pivots = None,
+            Constraint::MaxLink => options.max_link = f64::INFINITY,
+            Constraint::FullTurn => options.full_turn = false,
+            Constraint::Detours => target = target.opened(),
+        }
+        (target, options)
     }
 }
 
 /// The answer that is nearest to a target without one or several of the constraints, and these: of those that suffice alone the
 /// one with the nearest answer, or else all of them. `None` if there is no answer even then. It takes a search for each.
 pub fn nearest_miss(target: &Target, index: &Index, options: &Options) -> Option<(Vec<Constraint>, Answer)> {
-    let search = |options: &Options| Search::new(target, options.clone()).run(index).into_iter().next();
-    nearest_miss_by(options, search, |answer| answer.rms)
+    let search =
+        |target: &Target, options: &Options| Search::new(target, options.clone()).run(index).into_iter().next();
+    nearest_miss_by(target, options, search, |answer| answer.rms)
 }
 
-/// The same for any search, given by the nearest answer for options, and the deviation of an answer.
+/// The same for any search, given by the nearest answer for a target with options, and the deviation of an answer.
 pub fn nearest_miss_by<A>(
+    target: &Target,
     options: &Options,
-    search: impl Fn(&Options) -> Option<A>,
+    search: impl Fn(&Target, &Options) -> Option<A>,
     rms: impl Fn(&A) -> f64,
 ) -> Option<(Vec<Constraint>, A)> {
-    let options = Options { most: 1, ..options.clone() };
-    let alone = Constraint::ALL.into_iter().filter_map(|constraint| {
-        let answer = search(&constraint.relaxed(&options)?)?;
-        Some((vec![constraint], answer))
+    let is_set = |constraint: &Constraint| constraint.is_set(target, options);
+    let set: Vec<Constraint> = Constraint::ALL.into_iter().filter(is_set).collect();
+    let sought = || (target.clone(), Options { most: 1, ..options.clone() });
+    let alone = set.iter().filter_map(|constraint| {
+        let (target, options) = constraint.relaxed(sought());
+        Some((vec![*constraint], search(&target, &options)?))
     });
     let nearest = alone.reduce(|best, other| if rms(&other.1) < rms(&best.1) { other } else { best });
     nearest.or_else(|| {
-        let all = Constraint::ALL.into_iter().filter(|constraint| constraint.relaxed(&options).is_some());
-        let all: Vec<Constraint> = all.collect();
-        let free =
-            all.iter().fold(options.clone(), |options, constraint| constraint.relaxed(&options).unwrap_or(options));
-        Some((all, search(&free)?))
+        let (target, options) = set.iter().fold(sought(), |sought, constraint| constraint.relaxed(sought));
+        Some((set, search(&target, &options)?))
     })
 }

@@ -6,7 +6,7 @@
 //! conjugate c(k). So one correlation compares two curves in all positions, sizes, directions, reflections and starts.
 
 use super::complex::{Complex, length, mean, unit};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// The number of harmonics of either sign.
 pub(super) const HARMONICS: usize = 10;
@@ -25,13 +25,47 @@ pub(super) fn directions(count: usize) -> Vec<Complex> {
 
 /// Points at equal distances along a closed polyline, from its first point on.
 pub(super) fn resampled(points: &[Complex], count: usize) -> Vec<Complex> {
+    resampled_segments(points, points.len(), count)
+}
+
+/// The length of an open polyline without what it has in addition to the chord from its first point to its last and ten harmonics, which are 0 at
+/// both.
+pub(super) fn smooth_open_length(points: &[Complex]) -> f64 {
+    let (first, chord) = (points[0], points[points.len() - 1] - points[0]);
+    let part = |n: usize| n as f64 / POINTS as f64;
+    let beside: Vec<Complex> = resampled_segments(points, points.len() - 1, POINTS)
+        .iter()
+        .enumerate()
+        .map(|(n, point)| point - first - chord * part(n))
+        .collect();
+    // In half turns.
+    let direction = |k: usize, n: usize| unit(PI * k as f64 * part(n));
+    let harmonic = |k: usize| {
+        let sum: Complex = beside.iter().enumerate().map(|(n, point)| point * direction(k, n).im).sum();
+        sum * (2.0 / POINTS as f64)
+    };
+    let harmonics: [Complex; HARMONICS] = std::array::from_fn(|k| harmonic(k + 1));
+    let velocity = |n: usize| -> Complex {
+        chord
+            + (1..)
+                .zip(&harmonics)
+                .map(|(k, harmonic)| harmonic * (PI * k as f64 * direction(k, n).re))
+                .sum::<Complex>()
+    };
+    // The trapezoidal rule.
+    let ends = 0.5 * (length(velocity(0)) + length(velocity(POINTS)));
+    (ends + (1..POINTS).map(|n| length(velocity(n))).sum::<f64>()) / POINTS as f64
+}
+
+/// Points at equal distances along the first segments of a closed polyline.
+fn resampled_segments(points: &[Complex], segments: usize, count: usize) -> Vec<Complex> {
     let next = |k: usize| points[(k + 1) % points.len()];
-    let lengths: Vec<f64> = (0..points.len()).map(|k| length(next(k) - points[k])).collect();
+    let lengths: Vec<f64> = (0..segments).map(|k| length(next(k) - points[k])).collect();
     let step = lengths.iter().sum::<f64>() / count as f64;
     let (mut segment, mut before) = (0, 0.0);
     let point = |k: usize| {
         let at = step * k as f64;
-        while segment + 1 < points.len() && before + lengths[segment] <= at {
+        while segment + 1 < segments && before + lengths[segment] <= at {
             before += lengths[segment];
             segment += 1;
         }
@@ -95,6 +129,19 @@ impl Transform {
         let size = (squares / points.len() as f64).sqrt();
         let scale = 1.0 / (points.len() as f64 * size.max(f64::MIN_POSITIVE));
         (Spectrum(harmonics.map(|harmonic| harmonic * scale)), centre, size)
+    }
+
+    /// The length of the curve of the harmonics ±1 to ±10 of a closed polyline.
+    pub fn length(&self, polyline: &[Complex]) -> f64 {
+        let (Spectrum(harmonics), _, size) = self.spectrum(polyline);
+        let velocity = |n: usize| -> Complex {
+            let of_order = |k: usize| {
+                let turn = self.directions[(n * k) % POINTS];
+                (harmonics[k - 1] * turn - harmonics[HARMONICS + k - 1] * turn.conj()) * (TAU * k as f64)
+            };
+            (1..=HARMONICS).map(of_order).sum()
+        };
+        size * (0..POINTS).map(|n| length(velocity(n))).sum::<f64>() / POINTS as f64
     }
 
     /// How a curve of a spectrum is most like another one, over all starts, directions and reflections.

@@ -1,16 +1,18 @@
 //! The path that a linkage is searched for.
 
+use super::answer::MAX_LENGTH_RATIO;
 use super::complex::{Complex, closed_length, mean, open_length};
+use super::spectrum::{Transform, smooth_open_length};
 use crate::geometry::Point;
 
 /// What a curve has in common with a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PathKind {
-    /// The curve is as long as the closed path.
+    /// The curve passes the closed path without long detours.
     Closed,
     /// The curve passes the points in their order, whatever it does between them and elsewhere.
     Open,
-    /// A part of the curve is as long as the open path.
+    /// A part of the curve passes the open path without long detours.
     Part,
 }
 
@@ -51,7 +53,10 @@ pub enum TargetError {
         y: f64,
     },
     /// There are too few points.
-    #[error("the path needs at least {} distinct points, and has {distinct}", Target::MIN_POINTS)]
+    #[error(
+        "the path needs at least {} distinct points, and has {distinct}: through fewer pass the curves of infinitely many four-bars; add points between them, in their order",
+        Target::MIN_POINTS
+    )]
     TooFew {
         /// The number of distinct points.
         distinct: usize,
@@ -154,6 +159,11 @@ impl Target {
         self.kind
     }
 
+    /// The same points in the same order, of which the curve is to pass only these.
+    pub fn opened(&self) -> Target {
+        Target { kind: PathKind::Open, ..self.clone() }
+    }
+
     /// The points.
     pub fn points(&self) -> &[Point] {
         &self.points
@@ -179,6 +189,20 @@ impl Target {
         match self.kind {
             PathKind::Closed => closed_length(&self.normalized()),
             PathKind::Open | PathKind::Part => open_length(&self.normalized()),
+        }
+    }
+
+    /// The greatest length of a curve, or of its portion, that has no long detours from the path, in sizes of the target; infinite if
+    /// only the points count.
+    pub(super) fn greatest_length(&self) -> f64 {
+        if self.kind == PathKind::Open { f64::INFINITY } else { MAX_LENGTH_RATIO * self.smooth_length() }
+    }
+
+    /// The length of the path without its noise, in sizes of the target: that of the lowest harmonics of the polyline through its points. Noise is spread over all harmonics, of which the higher ones are most of the length of a noisy polyline.
+    pub(super) fn smooth_length(&self) -> f64 {
+        match self.kind {
+            PathKind::Closed => Transform::new().length(&self.normalized()),
+            PathKind::Open | PathKind::Part => smooth_open_length(&self.normalized()),
         }
     }
 }

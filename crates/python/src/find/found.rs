@@ -66,6 +66,7 @@ impl Found {
             Constraint::Pivots => "pivots",
             Constraint::MaxLink => "max_link",
             Constraint::FullTurn => "full_turn",
+            Constraint::Detours => "closed",
         };
         self.nearest_miss.iter().flat_map(|(constraints, _)| constraints.iter().map(argument)).collect()
     }

@@ -269,17 +269,18 @@ fn search_four_bars(
         task.begin("index", 0);
         let index = load_index(index.unwrap_or(Index::DEFAULT_COUNT));
         task.begin("find", 0);
-        let search = |options: &Options| {
-            let mut search = Search::new(&sought, options.clone());
+        let search = |target: &Target, options: &Options| {
+            let mut search = Search::new(target, options.clone());
             while !task.is_interrupted() && search.step(&index) {
                 task.advance(1);
             }
             // Nobody waits for the answers of an interrupted search.
             if task.is_interrupted() { Vec::new() } else { search.answers() }
         };
-        let answers = search(&options);
-        let nearest = |options: &Options| search(options).into_iter().next();
-        let miss = answers.is_empty().then(|| nearest_miss_by(&options, nearest, |answer| answer.rms)).flatten();
+        let answers = search(&sought, &options);
+        let nearest = |target: &Target, options: &Options| search(target, options).into_iter().next();
+        let miss =
+            answers.is_empty().then(|| nearest_miss_by(&sought, &options, nearest, |answer| answer.rms)).flatten();
         (answers, miss)
     })?;
     let manifest = answers_manifest(&name, target.size(), &answers);

@@ -19,6 +19,8 @@ pub(super) struct Aim {
     /// The points of the target with centroid 0 and size 1, forward and backward.
     points: [Vec<Complex>; 2],
     pub polyline_length: f64,
+    /// The greatest length of a curve or of its portion.
+    pub greatest_length: f64,
     /// The input at the points of a timed target, from that at the first.
     pub angles_deg: Option<Vec<f64>>,
     pub full_turn: bool,
@@ -67,6 +69,7 @@ impl Aim {
         Aim {
             points: [forward, backward],
             polyline_length: target.polyline_length(),
+            greatest_length: target.greatest_length(),
             angles_deg: target.angles_deg().map(|angles| angles.iter().map(|angle| angle - angles[0]).collect()),
             full_turn: options.full_turn,
             max_link: options.max_link,

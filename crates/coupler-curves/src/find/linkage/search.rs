@@ -8,7 +8,6 @@ use super::samples::{SampleCurve, SampleIndex, SampleShape};
 use super::space::LinkageSpace;
 use super::state::squares;
 use super::timed;
-use crate::find::answer::LENGTH_RATIOS;
 use crate::find::complex::{Complex, length};
 use crate::find::curve_fit::{CurveFit, Placement};
 use crate::find::curve_fit_options::CurveFitOptions;
@@ -202,10 +201,10 @@ impl LinkageSearch {
         refinement.match_again(&self.aim, 2 * FINAL_ROUNDS / 3);
     }
 
-    /// Whether the length of the curve is that of a closed target, and that of the portion that of a part.
+    /// Whether the curve has no long detours from a closed target, and the portion none from a part.
     pub fn has_valid_length(&self, refinement: &LinkageRefinement) -> bool {
         let measured = Measured::new(&refinement.state.traced);
-        measured.is_some_and(|measured| self.is_valid(self.length_ratio(&measured, refinement)))
+        measured.is_some_and(|measured| self.length(&measured, refinement) <= self.aim.greatest_length)
     }
 
     /// How the curve of a refinement fits the target, with its size in the dimensions if it is scalable. `None` if it does not satisfy
@@ -238,11 +237,11 @@ impl LinkageSearch {
         let state = &refinement.state;
         let traced = &state.traced;
         let measured = Measured::new(traced)?;
-        let length_ratio = self.length_ratio(&measured, &refinement);
+        let own_length = self.length(&measured, &refinement);
         let is_valid = self.aim.is_within(traced, &placed)
             && (!full_turn || traced.is_full_turn())
             && self.aim.meets_condition(values, traced)
-            && self.is_valid(length_ratio);
+            && own_length <= self.aim.greatest_length;
         if !is_valid {
             return None;
         }
@@ -271,7 +270,7 @@ impl LinkageSearch {
             rms_relative,
             greatest: size * self.greatest(&refinement)?,
             is_in_order: state.blocks.len() == self.aim.points_of(false).len(),
-            length_ratio,
+            length_ratio: own_length / self.aim.polyline_length,
             ends,
             is_reversed: refinement.is_reversed,
         };
@@ -345,8 +344,8 @@ impl LinkageSearch {
         (factor.norm_sqr().is_normal() && shift.norm_sqr().is_finite()).then_some(Placed { is_mirrored, factor, shift })
     }
 
-    /// The length of the placed curve, or of the portion from the first point to the last, relative to that of the target.
-    fn length_ratio(&self, measured: &Measured, refinement: &LinkageRefinement) -> f64 {
+    /// The length of the placed curve, or of the portion from the first point to the last.
+    fn length(&self, measured: &Measured, refinement: &LinkageRefinement) -> f64 {
         let state = &refinement.state;
         let own = match self.aim.target.kind() {
             PathKind::Closed => measured.whole(),
@@ -359,10 +358,6 @@ impl LinkageSearch {
                 lengths.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum()
             }
         };
-        length(state.placed.factor) * own / self.aim.polyline_length
-    }
-
-    fn is_valid(&self, length_ratio: f64) -> bool {
-        self.aim.target.kind() == PathKind::Open || (LENGTH_RATIOS[0]..=LENGTH_RATIOS[1]).contains(&length_ratio)
+        length(state.placed.factor) * own
     }
 }
