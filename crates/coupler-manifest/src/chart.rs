@@ -278,7 +278,7 @@ fn read_ranges<'t>(
     let Some(value) = fields.get("range") else { return Some(()) };
     let before = parser.problem_count();
     for (text, span, value) in Fields::with_any_keys(value, "`range`", parser)?.entries() {
-        let range = parser.pair(value).map(|pair| pair.map(|end| parser.constant(end)));
+        let range = parser.pair(value, "[1, 2]").map(|pair| pair.map(|end| parser.constant(end)));
         let (Some(quantity), Some([Some(low), Some(high)])) = (find_quantity(text, span, (x, y), parser), range) else {
             continue;
         };

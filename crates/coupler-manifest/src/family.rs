@@ -424,7 +424,7 @@ fn layout<'t>(
             page => page.map(|page| Layout::for_panels(page, cells)),
         };
     };
-    let [columns, rows] = parser.pair(value)?;
+    let [columns, rows] = parser.pair(value, "[1, 2]")?;
     let (columns, rows) = (parser.integer(columns, 1, most_columns), parser.integer(rows, 1, most_rows));
     let (columns, rows) = (columns?, rows?);
     Some(if is_chart { Layout::Chart { columns, rows } } else { Layout::Panels { columns, rows } })

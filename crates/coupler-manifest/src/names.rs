@@ -316,6 +316,11 @@ fn read_cases<'t>(
     template: Option<&Template>,
     parser: &mut TomlParser<'t>,
 ) -> Option<NamedSpace> {
+    if value.get_ref().is_str() {
+        let help = "write them in the manifest, they are not read from a file: cases = [{ p = 2 }, { p = 3 }]";
+        parser.report(Problem::error(value.span(), "expected a list of cases, found a string").with_help(help));
+        return None;
+    }
     let list = parser.list(value)?;
     if list.is_empty() {
         parser.report(

@@ -71,6 +71,15 @@ impl Function {
         }
     }
 
+    /// The unit of its argument, if that is an angle.
+    pub(super) fn argument_unit(self) -> Option<Unit> {
+        match self {
+            Function::Sin | Function::Cos | Function::Tan | Function::Deg => Some(Unit::Rad),
+            Function::Rad => Some(Unit::Deg),
+            _ => None,
+        }
+    }
+
     /// The least and the greatest number of arguments.
     pub fn arity(self) -> (usize, usize) {
         match self {

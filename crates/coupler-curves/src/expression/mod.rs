@@ -17,6 +17,7 @@
 //! radians. A missing value is NaN: it propagates through arithmetic, and every comparison with it is false. Booleans
 //! are 1 and 0. No text makes the parser panic, and nesting beyond [`MAX_DEPTH`] is an error.
 
+mod angle_units;
 mod caption;
 mod conjuncts;
 mod function;

@@ -11,12 +11,12 @@ impl Expression {
     /// Parses an expression.
     ///
     /// # Errors
-    /// A syntax error, with its place in the text. Whether the names exist is checked by [`Expression::check`].
+    /// A syntax error, with its place in the text, or degrees in the place of radians. Whether the names exist is checked by [`Expression::check`].
     pub fn parse(text: &str) -> Result<Expression, Error> {
         let mut parser = Parser::new(text)?;
         parser.parse_binary(0)?;
         match parser.peek() {
-            (Token::End, _) => Ok(parser.expression),
+            (Token::End, _) => parser.finish(),
             (_, span) => Err(parser.unexpected(span)),
         }
     }
@@ -50,7 +50,7 @@ pub(super) fn parse_expression_and_word(text: &str) -> Result<(Expression, Optio
         _ => None,
     };
     match parser.peek() {
-        (Token::End, _) => Ok((parser.expression, word)),
+        (Token::End, _) => Ok((parser.finish()?, word)),
         (_, span) => Err(parser.unexpected(span)),
     }
 }
@@ -78,6 +78,12 @@ impl<'a> Parser<'a> {
             )),
             _ => Ok(parser),
         }
+    }
+
+    /// The expression, whose angles are in the units that they are used in.
+    fn finish(self) -> Result<Expression, Error> {
+        self.expression.check_angle_units(self.text)?;
+        Ok(self.expression)
     }
 
     fn peek(&self) -> (Token<'a>, Span) {

@@ -61,7 +61,7 @@ pub enum Error {
         joint: String,
     },
     /// A gear ratio is not of whole numbers from 1 to [`Error::MAX_GEAR_RATIO`] or their negatives.
-    #[error("`{joint}` has the gear ratio {} to {}, but both must be whole numbers from 1 to {} or their negatives", ratio[0], ratio[1], Error::MAX_GEAR_RATIO)]
+    #[error("`{joint}` has the gear ratio {} to {}, but both must be whole numbers, from 1 to {} or their negatives in lowest terms", ratio[0], ratio[1], Error::MAX_GEAR_RATIO)]
     InvalidRatio {
         /// The joint to place.
         joint: String,

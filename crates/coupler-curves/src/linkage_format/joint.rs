@@ -28,7 +28,7 @@ pub(super) fn parse_joint<'t>(
     let fields = Fields::from_value(value, schema, parser)?;
     let two = |key: &str, parser: &mut TomlParser<'t>| {
         let value = fields.required(key, &format!("{key} = [2, 3]"), parser)?;
-        let [a, b] = parser.pair(value)?;
+        let [a, b] = parser.pair(value, "[1, 2]")?;
         let (a, b) = (parser.numeric_expression(a, scope), parser.numeric_expression(b, scope));
         Some([a?, b?])
     };
@@ -149,21 +149,24 @@ fn parse_coordinate<'t>(value: &TomlValue<'t>, scope: &Scope, parser: &mut TomlP
     Some(Coordinate::Range { from: from?, to: to?, count: count? })
 }
 
-/// Parses two whole numbers from 1 to 100 or their negatives; those that depend on parameters are checked in each cell.
+/// Parses two whole numbers other than 0; how great they are in lowest terms is checked in each cell.
 fn parse_ratio<'t>(
     value: &TomlValue<'t>,
     scope: &Scope,
     parser: &mut TomlParser<'t>,
 ) -> Option<[CompiledExpression; 2]> {
-    let [a, b] = parser.pair(value)?;
+    let [a, b] = parser.pair(value, "[1, 2]")?;
     let mut whole = |value: &TomlValue<'t>| {
         let compiled = parser.numeric_expression(value, scope)?;
         let number = compiled.evaluate(|_| f64::NAN);
-        if number.is_nan() || number.fract() == 0.0 && (1.0..=100.0).contains(&number.abs()) {
+        if number.is_nan() || number.fract() == 0.0 && number != 0.0 {
             return Some(compiled);
         }
         let problem = Problem::error(value.span(), format!("a gear ratio cannot contain {number}"));
-        parser.report(problem.with_help("give whole numbers from 1 to 100; a negative one reverses the direction"));
+        parser.report(
+            problem
+                .with_help("give whole numbers, from 1 to 100 in lowest terms; a negative one reverses the direction"),
+        );
         None
     };
     let (a, b) = (whole(a), whole(b));
@@ -243,7 +246,7 @@ pub(super) fn parse_joint_pair<'t>(
     names: &JointNames,
     parser: &mut TomlParser<'t>,
 ) -> Option<[usize; 2]> {
-    let [a, b] = parser.pair(value)?;
+    let [a, b] = parser.pair(value, "[\"A\", \"B\"]")?;
     let (a, b) = (parse_joint_ref(a, names, parser), parse_joint_ref(b, names, parser));
     let (a, b) = (a?, b?);
     if a == b {

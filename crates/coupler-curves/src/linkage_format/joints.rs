@@ -2,6 +2,8 @@
 
 use std::collections::{HashMap, HashSet};
 
+use toml::de::DeValue;
+
 use super::fields::Fields;
 use super::joint::{parse_joint, parse_joint_pair, parse_joint_ref};
 use super::joint_id::check_joint_id;
@@ -114,9 +116,21 @@ fn parse_output_link<'t>(
     names: &JointNames,
     parser: &mut TomlParser<'t>,
 ) -> Option<OutputLinkTemplate> {
-    match value.get_ref().as_str() {
-        Some(_) => parse_joint_ref(value, names, parser).map(OutputLinkTemplate::Slider),
-        None => parse_joint_pair(value, names, parser).map(OutputLinkTemplate::Link),
+    match value.get_ref() {
+        DeValue::String(_) => parse_joint_ref(value, names, parser).map(OutputLinkTemplate::Slider),
+        DeValue::Array(joints) if joints.len() == 1 => {
+            let name = parser.source_text(&joints[0]).to_owned();
+            let problem = Problem::error(
+                value.span(),
+                "an output link is named by two of its joints, and a slider by one without brackets",
+            );
+            let help = format!(
+                "write output_link = {name} for a slider, or name two joints, as in output_link = [\"C\", \"B\"]"
+            );
+            parser.report(problem.with_help(help));
+            None
+        }
+        _ => parse_joint_pair(value, names, parser).map(OutputLinkTemplate::Link),
     }
 }
 

@@ -156,16 +156,16 @@ impl<'t> TomlParser<'t> {
         }
     }
 
-    /// A list of two values.
-    pub fn pair<'v>(&mut self, value: &'v TomlValue<'t>) -> Option<[&'v TomlValue<'t>; 2]> {
-        const HELP: &str = "write them like [1, 2]";
+    /// A list of two values, of which the help for other lists has an example.
+    pub fn pair<'v>(&mut self, value: &'v TomlValue<'t>, example: &str) -> Option<[&'v TomlValue<'t>; 2]> {
+        let help = format!("write them like {example}");
         match value.get_ref().as_array().map(|list| &list[..]) {
             Some([a, b]) => return Some([a, b]),
             Some(list) => {
                 let problem = Problem::error(value.span(), format!("expected two values, found {}", list.len()));
-                self.report(problem.with_help(HELP));
+                self.report(problem.with_help(help));
             }
-            None => self.report_mismatch(value, "a list of two values", HELP),
+            None => self.report_mismatch(value, "a list of two values", &help),
         }
         None
     }

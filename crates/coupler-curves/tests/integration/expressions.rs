@@ -15,8 +15,8 @@ enum Tree {
     Call(&'static str, Vec<Tree>),
 }
 
-/// The names that expressions use, with their values; the last has none.
-const NAMES: [(&str, f64); 4] = [("p", 2.0), ("mu_min_deg", -0.75), ("_k1", 1e-3), ("missing", f64::NAN)];
+/// The names that expressions use, with their values; the last has none. None is in degrees, which do not go everywhere.
+const NAMES: [(&str, f64); 4] = [("p", 2.0), ("mu_min", -0.75), ("_k1", 1e-3), ("missing", f64::NAN)];
 
 const ARITHMETIC: [&str; 5] = ["+", "-", "*", "/", "^"];
 const COMPARISONS: [&str; 6] = ["==", "!=", "<", "<=", ">", ">="];

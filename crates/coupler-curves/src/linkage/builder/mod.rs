@@ -62,7 +62,7 @@ impl LinkageBuilder {
     /// turns `ratio[1]` times, both whole, and its angle is `phase_deg` when the first crank's is 0.
     ///
     /// # Errors
-    /// A length that is not positive, a ratio with a 0 in it or above [`Error::MAX_GEAR_RATIO`].
+    /// A length that is not positive, a ratio with a 0 in it, or above [`Error::MAX_GEAR_RATIO`] in lowest terms.
     pub fn gear(
         &mut self,
         name: &str,
@@ -71,14 +71,18 @@ impl LinkageBuilder {
         phase_deg: f64,
     ) -> Result<JointId, Error> {
         check_length(name, length)?;
-        let is_valid = |x: &f64| x.fract() == 0.0 && (1.0..=Error::MAX_GEAR_RATIO as f64).contains(&x.abs());
-        if !ratio.iter().all(is_valid) {
-            return Err(Error::InvalidRatio { joint: name.to_owned(), ratio });
+        let invalid = || Error::InvalidRatio { joint: name.to_owned(), ratio };
+        if !ratio.iter().all(|x| x.fract() == 0.0 && (1.0..=f64::from(u32::MAX)).contains(&x.abs())) {
+            return Err(invalid());
         }
         let [n, d] = ratio.map(|x| x as i64);
         let common = gcd(n.unsigned_abs() as u32, d.unsigned_abs() as u32);
         let divisor = i64::from(common) * d.signum();
-        let id = self.add_joint(name, JointKind::Gear { pivot, length, ratio: [n / divisor, d / divisor], phase_deg });
+        let ratio = [n / divisor, d / divisor];
+        if ratio.iter().any(|turns| turns.unsigned_abs() > Error::MAX_GEAR_RATIO) {
+            return Err(invalid());
+        }
+        let id = self.add_joint(name, JointKind::Gear { pivot, length, ratio, phase_deg });
         self.add_bar(pivot, id, length);
         Ok(id)
     }
