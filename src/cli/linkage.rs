@@ -21,15 +21,21 @@ pub(super) const DEFAULT_SAMPLES: u32 = 360;
 /// The manifest cannot be read, or no linkage has this name.
 pub(super) fn find_template(name: &str, manifest: Option<&Path>) -> anyhow::Result<Arc<Template>> {
     let mut known: Vec<Arc<Template>> = Vec::new();
+    let mut error_count = 0;
     if let Some(path) = manifest {
         let text = source::read_text(path)?;
         let (templates, problems) = manifest::parse_linkages(&text);
         source::report_problems(path, &text, &problems);
+        error_count = problems.iter().filter(|problem| problem.is_error()).count();
         known.extend(templates);
     }
     known.extend(catalogue::all().iter().cloned());
     let template = known.iter().find(|template| template.id == name).cloned();
     template.ok_or_else(|| {
+        // The linkage may be in what could not be read.
+        if let (Some(path), true) = (manifest, error_count > 0) {
+            return source::problems_error(path, error_count).into();
+        }
         let ids: Vec<&str> = known.iter().map(|template| template.id.as_str()).collect();
         InputError(format!("there is no linkage `{name}`: {}", suggestion(name, &ids))).into()
     })

@@ -1,6 +1,6 @@
 //! Why no curve of a family is shown: how near its cells come to being assembled, and its curves to what `where` asks for.
 
-use coupler_curves::expression::round_to_six_digits;
+use coupler_curves::expression::{CompiledExpression, round_to_six_digits};
 use coupler_curves::family::Family;
 use coupler_curves::measure::{self, Measure, Value};
 use coupler_curves::motion::Sampler;
@@ -21,6 +21,19 @@ pub struct Diagnosis {
     pub names: Vec<NamedValues>,
     /// The measures that `where` uses, and their values on these curves.
     pub measures: Vec<NamedValues>,
+    /// The conditions that `where` joins by `and`, if there are several.
+    pub conditions: Vec<FailedCondition>,
+}
+
+/// One of several conditions of a family, and how often it is not met.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FailedCondition {
+    /// The condition.
+    pub text: String,
+    /// Whether it uses a measure, and so is one on curves; or else on cells.
+    pub is_on_curves: bool,
+    /// The number of curves or cells that do not meet it.
+    pub failed: usize,
 }
 
 /// A cell that cannot be assembled.
@@ -56,12 +69,25 @@ pub fn diagnose(family: &Family) -> Diagnosis {
     };
     let used: Vec<(usize, &Measure)> = measure::ALL.iter().enumerate().filter(is_used).collect();
     let requested: Vec<bool> = (0..measure::ALL.len()).map(|k| used.iter().any(|(used, _)| *used == k)).collect();
+    let mut conjuncts = family.filter.as_ref().map(|filter| filter.conjuncts()).unwrap_or_default();
+    if conjuncts.len() == 1 {
+        conjuncts.clear();
+    }
+    let is_on_curves = |conjunct: &CompiledExpression| conjunct.slots().iter().any(|slot| *slot >= family.names.len());
     let unfiltered = Family { filter: None, sort: None, ..family.clone() };
     let sampler = Sampler::new(family.sampling);
     let is_driven_by_length = family.template.is_driven_by_length();
     let nothing = || Diagnosis {
         names: names.iter().map(|&slot| NamedValues::none_of(&family.names[slot])).collect(),
         measures: used.iter().map(|(_, m)| NamedValues::none_of(m.name_for(is_driven_by_length))).collect(),
+        conditions: conjuncts
+            .iter()
+            .map(|conjunct| FailedCondition {
+                text: conjunct.condition_text(),
+                is_on_curves: is_on_curves(conjunct),
+                failed: 0,
+            })
+            .collect(),
         ..Diagnosis::default()
     };
     let diagnose_cell = |cell: usize| {
@@ -81,6 +107,16 @@ pub fn diagnose(family: &Family) -> Diagnosis {
                 shortfall: error.relative_shortfall().unwrap_or(f64::INFINITY),
             });
         }
+        let mut count_failed = |values: Option<&[Value]>| {
+            for (condition, conjunct) in found.conditions.iter_mut().zip(&conjuncts) {
+                if condition.is_on_curves == values.is_some() {
+                    let value = |slot| Family::scope_value(&solved.cell, values.unwrap_or_default(), slot);
+                    condition.failed += usize::from(conjunct.evaluate(value) != 1.0);
+                }
+            }
+        };
+        count_failed(None);
+        solved.curves.iter().for_each(|curve| count_failed(Some(&curve.values)));
         for curve in &solved.curves {
             found.curves += 1;
             for (values, (k, _)) in found.measures.iter_mut().zip(&used) {
@@ -102,6 +138,9 @@ impl Diagnosis {
         for (values, others) in own.zip(others) {
             others.range.iter().flatten().for_each(|&number| values.add(Value::Number(number)));
             others.words.iter().for_each(|word| values.add(Value::Word(word)));
+        }
+        for (condition, other) in self.conditions.iter_mut().zip(other.conditions) {
+            condition.failed += other.failed;
         }
         self.nearest = match (self.nearest, other.nearest) {
             (Some(a), Some(b)) => Some(if b.shortfall < a.shortfall { b } else { a }),
@@ -141,6 +180,12 @@ impl Diagnosis {
             let curves = if self.curves == 1 { "the curve".to_owned() } else { format!("the {} curves", self.curves) };
             parts.push(format!("on {curves} {}", list(&self.measures)));
         }
+        let failed = |condition: &FailedCondition| {
+            let (count, what) = if condition.is_on_curves { (self.curves, "curves") } else { (cells, "cells") };
+            (condition.failed > 0)
+                .then(|| format!("`{}` fails for {} of {count} {what}", condition.text, condition.failed))
+        };
+        parts.extend(self.conditions.iter().filter_map(failed));
         parts.join("; ")
     }
 }

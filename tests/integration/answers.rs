@@ -11,7 +11,7 @@ use coupler_curves::measure::{ALL, COLUMNS, Subject};
 use coupler_curves::problem::Problem;
 use coupler_curves::template::ParameterKind;
 
-use crate::support::command::{printed, run};
+use crate::support::command::{folder_with, printed, run};
 use crate::support::folder::Atlas;
 use crate::support::plan::plan;
 
@@ -120,6 +120,10 @@ fn cells_that_cannot_be_assembled_are_not_left_out_by_where() {
         "{err}"
     );
     assert!(err.contains("on the 2 curves `mu_min_deg` is 19.1881 to 28.955"), "{err}");
+    // Of several conditions it is said which of them fails how often.
+    atlas.edit(&family("evans", &lines.replace("mu_min_deg > 40", "mu_min_deg > 40 and p < 15 and length > 0")));
+    let (_, _, err) = atlas.run(&[]);
+    assert!(err.contains("`mu_min_deg > 40` fails for 2 of 2 curves; `p < 15` fails for 2 of 6 cells\n"), "{err}");
     // A condition on parameters alone leaves out a cell whether it can be assembled or not.
     atlas.edit(&family("evans", &lines.replace("mu_min_deg > 40", "p < 1")));
     let (_, out, err) = atlas.run(&[]);
@@ -362,4 +366,46 @@ fn a_family_needs_neither_sampling_nor_parameters() {
         assert_eq!(found.len(), 1, "{found:?}");
         assert!(found[0].help.starts_with("write cases = [{}]"), "{found:?}");
     }
+}
+
+/// After an error in a file it is not said of a linkage that it does not exist, which may be in what could not be read.
+#[test]
+fn a_linkage_in_a_damaged_file_is_not_called_unknown() {
+    let folder = folder_with("");
+    let damaged = "[[linkage]]\nid = \"mine\"\ntrace = [\"M\"]\noutput_link = [\"R\"]\n";
+    fs::write(folder.path().join("mine.toml"), damaged).unwrap();
+    for arguments in [&["inspect", "mine"][..], &["export", "--linkage", "mine", "--format", "csv"]] {
+        let (code, _, error) = run(folder.path(), &[arguments, &["--manifest", "mine.toml"]].concat());
+        assert!(code == 2 && error.contains("error: mine.toml: ") && !error.contains("there is no linkage"), "{error}");
+    }
+    let slider = "[[linkage]]\nid = \"mine\"\ntrace = [\"R\"]\noutput_link = [\"R\"]\n[linkage.joints]\n\
+        O = { fixed = [0, 0] }\nX = { fixed = [1, 0] }\nA = { crank = \"O\", length = 1 }\n\
+        R = { slide = \"A\", length = 3, line = [\"O\", \"X\"], side = \"ahead\" }\n";
+    fs::write(folder.path().join("mine.toml"), slider).unwrap();
+    let (code, _, error) = run(folder.path(), &["inspect", "mine", "--manifest", "mine.toml"]);
+    assert!(code == 2 && error.contains("write output_link = \"R\" for a slider"), "{error}");
+}
+
+/// At a change point, where all joints are on one line, the coupler turns or does not, and only one of the two is printed; angles at which
+/// joints are on one line are exact though the lengths are not.
+#[test]
+fn what_is_on_one_line_is_said_as_it_is() {
+    let folder = folder_with("");
+    let change_point = ["inspect", "four-bar", "frame=4", "crank=2", "coupler=3", "rocker=5", "along=1.5", "--at", "0"];
+    let out = printed(folder.path(), &change_point);
+    assert!(out.contains("M: instant centre") && !out.contains("does not rotate"), "{out}");
+    // The coupler of a parallelogram translates, and on the other branch it turns.
+    let parallelogram = |branch| {
+        let lengths = ["frame=4", "crank=2", "coupler=4", "rocker=2", "--at", "50", "--branch", branch];
+        printed(folder.path(), &[&["inspect", "four-bar"][..], &lengths].concat())
+    };
+    let [translating, turning]: [Vec<String>; 2] = {
+        let (still, moving) =
+            ["1", "-1"].map(parallelogram).into_iter().partition(|out| out.contains("does not rotate"));
+        [still, moving]
+    };
+    assert!(translating.len() == 1 && translating[0].contains("angular velocity 0,"), "{translating:?}");
+    assert!(turning[0].contains("M: instant centre") && !turning[0].contains("angular velocity 0,"), "{turning:?}");
+    let lemniscate = ["inspect", "four-bar", "frame=sqrt(2)", "crank=1", "coupler=sqrt(2)", "rocker=1", "--json"];
+    assert!(printed(folder.path(), &lemniscate).contains("\"folded\": 180.0"));
 }

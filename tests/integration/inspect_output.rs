@@ -21,7 +21,7 @@ fn the_text_begins_with_class_limits_transmission_angle_and_straight_portion() {
     let text = inspect(&["roberts", "p=2", "r=2", "a=1", "b=2"]);
     let first = ["roberts", "class", "limits of the input", "transmission angle", "straight portion"];
     assert_eq!(titles(&text)[..5], first, "{text}");
-    assert!(text.contains("\nlimits of the input: 28.95502437° to 97.18075578°\n"), "{text}");
+    assert!(text.contains("\nlimits of the input: 28.95502437° to 97.18075578°, where it jams\n"), "{text}");
     assert!(text.contains("\ntransmission angle: worst 0°, from 0° to 180°\n"), "{text}");
     let text = inspect(&["klann"]);
     assert_eq!(titles(&text)[1..5], ["six-bar", "limits of the input", "transmission angle", "straight portion"]);
@@ -31,7 +31,7 @@ fn the_text_begins_with_class_limits_transmission_angle_and_straight_portion() {
     assert!(text.contains(" (trace 2, circuit 1, the longest of 10 curves)\n"), "{text}");
     // An actuator has lengths, and its point moves on a circle.
     let text = inspect(&["linear-actuator"]);
-    assert!(text.contains("\nlimits of the input: 1 to 3\n") && text.contains("\nstraight portion: none\n"), "{text}");
+    assert!(text.contains("\nlimits of the input: 1 to 3, where it jams\n") && text.contains("\nstraight portion: none\n"), "{text}");
     // A linkage that cannot be assembled has none of them.
     let text = inspect(&["evans", "p=9", "a=1"]);
     assert_eq!(

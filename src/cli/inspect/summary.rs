@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use coupler_curves::measure::Value;
+use coupler_curves::motion::Circuit;
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 
 use super::format::{format_significant, input_unit};
@@ -15,7 +16,7 @@ pub(super) fn append_text(solved: &SolvedCell, out: &mut String) {
     let circuits = &solved.motion.circuits;
     let unit = input_unit(&solved.linkage);
     let curve = |k: usize| solved.curves.iter().find(|curve| curve.circuit == k + 1);
-    let limits = per_circuit(circuits.len(), |k| Some(describe_limits(curve(k)?, unit)));
+    let limits = per_circuit(circuits.len(), |k| Some(describe_limits(curve(k)?, &circuits[k], unit)));
     let angles = per_circuit(circuits.len(), |k| describe_transmission(curve(k)?));
     let straight = (!solved.curves.is_empty()).then(|| describe_straight(solved, unit));
     let lines = [("limits of the input", limits), ("transmission angle", angles), ("straight portion", straight)];
@@ -44,11 +45,13 @@ fn per_circuit(count: usize, describe: impl Fn(usize) -> Option<String>) -> Opti
     Some(named.join("; "))
 }
 
-/// "none, it turns fully", or "28.95502437° to 97.18075578°".
-fn describe_limits(curve: &MeasuredCurve, unit: &str) -> String {
+/// "none, it turns fully", "28.95502437° to 97.18075578°, where it jams", or without that where only the range ends.
+fn describe_limits(curve: &MeasuredCurve, circuit: &Circuit, unit: &str) -> String {
+    let ends = || circuit.passes.iter().flat_map(|pass| [&pass.from, &pass.to]);
+    let jams = if ends().any(|end| !end.flat_dyads.is_empty()) { ", where it jams" } else { "" };
     match number(curve, "input_min_deg").zip(number(curve, "input_max_deg")) {
         Some((least, most)) => {
-            format!("{}{unit} to {}{unit}", format_significant(least, 10), format_significant(most, 10))
+            format!("{}{unit} to {}{unit}{jams}", format_significant(least, 10), format_significant(most, 10))
         }
         None => "none, it turns fully".to_owned(),
     }

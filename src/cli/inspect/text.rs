@@ -107,7 +107,10 @@ fn describe_pose(solved: &SolvedCell, pose: &Pose, out: &mut String) {
     for (joint, instant) in instant_geometries(solved, pose) {
         let name = &solved.linkage.joints[joint].name;
         let Some(instant) = instant else {
-            let _ = writeln!(out, "{name}: its link does not rotate, or is at a limit");
+            let velocity = pose.jets.velocity(joint);
+            let is_moving = velocity.x.is_finite() && velocity.y.is_finite();
+            let reason = if is_moving { "its link does not rotate" } else { "it is at a limit" };
+            let _ = writeln!(out, "{name}: no instant centre: {reason}");
             continue;
         };
         let position = pose.jets.position(joint);

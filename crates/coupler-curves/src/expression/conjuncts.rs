@@ -26,6 +26,11 @@ impl CompiledExpression {
         found
     }
 
+    /// The condition as it is set in a message, with the names that it is written with.
+    pub fn condition_text(&self) -> String {
+        self.to_math_text_with_names().to_string()
+    }
+
     /// The part of it that is written at some places of its program.
     fn part(&self, range: Range<usize>) -> CompiledExpression {
         let (mut names, mut slots): (Vec<String>, Vec<usize>) = (Vec::new(), Vec::new());

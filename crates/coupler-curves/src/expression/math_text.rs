@@ -262,6 +262,11 @@ impl CompiledExpression {
         self.expression.to_math_text()
     }
 
+    /// The same, with the names as they are written.
+    pub(super) fn to_math_text_with_names(&self) -> MathText {
+        self.expression.to_math_text_with(|name| MathText::from_words(self.expression.names[name].as_str()))
+    }
+
     /// The same, with the text `word(slot)` for the name at an index of the scope.
     pub fn to_math_text_with(&self, word: impl Fn(usize) -> MathText) -> MathText {
         self.expression.to_math_text_with(|name| word(self.slots()[name]))

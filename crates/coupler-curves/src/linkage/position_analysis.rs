@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::{FourBar, JointKind, Linkage};
-use crate::geometry::trig::{acos, atan2, cos, sin};
+use crate::geometry::trig::{atan2, cos, sin};
 
 /// The inverted slider-crank of McCarthy 2.2: a crank about O whose pin A slides on a line that turns about C.
 ///
@@ -74,8 +74,8 @@ impl InvertedSliderCrank {
             return None;
         }
         let nearest = (g - r).abs();
-        let least = if nearest >= e { 0.0 } else { acos((g * g + r * r - e * e) / (2.0 * r * g)) };
-        Some([least, PI])
+        let least = clamped_acos(g * g + r * r - e * e, g * g + r * r + e * e, 2.0 * r * g);
+        Some([if nearest >= e { 0.0 } else { least.unwrap_or(PI) }, PI])
     }
 
     /// The least and the greatest output angle psi on a circuit, continuous; `None` where the linkage cannot be
@@ -92,7 +92,10 @@ impl InvertedSliderCrank {
         let InvertedSliderCrank { g, r, e } = *self;
         let e = e.abs();
         self.crank_range()?;
-        let direction = |distance: f64| acos(((distance - e) / g).clamp(-1.0, 1.0));
+        let direction = |distance: f64| {
+            let beyond = if distance > e { 0.0 } else { PI };
+            clamped_acos(distance - e, distance.abs() + e + g, g).unwrap_or(beyond)
+        };
         Some(match () {
             () if (g - r).abs() < e => [direction(r), 2.0 * PI - direction(r)],
             () if r > g => [-PI, PI],
@@ -172,11 +175,14 @@ impl FourBar {
     }
 }
 
-/// The angle in [0, pi] whose cosine is a quotient; `None` where the quotient exceeds 1 in magnitude by more than the
-/// rounding of its dividend, a sum of terms of total magnitude `magnitude`.
+/// The angle in [0, pi] whose cosine is a quotient: 0 or pi where the quotient is 1 or -1 within the rounding of its dividend, a sum of terms
+/// of total magnitude `magnitude`, which would be some 1e-8 in the angle; `None` where it exceeds that.
 fn clamped_acos(dividend: f64, magnitude: f64, divisor: f64) -> Option<f64> {
     let excess = dividend.abs() - divisor;
-    (excess <= 4.0 * f64::EPSILON * magnitude).then(|| acos((dividend / divisor).clamp(-1.0, 1.0)))
+    if excess.abs() <= 4.0 * f64::EPSILON * magnitude {
+        return Some(if dividend < 0.0 { PI } else { 0.0 });
+    }
+    (excess < 0.0).then(|| atan2(((divisor - dividend) * (divisor + dividend)).sqrt(), dividend))
 }
 
 /// The solutions of A cos x + B sin x = C, McCarthy (A.1): the direction of (A, B) less and plus the arc cosine.

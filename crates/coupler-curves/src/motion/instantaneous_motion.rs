@@ -180,7 +180,9 @@ impl InstantaneousMotion {
             let arm = derivatives.position(b) - derivatives.position(a);
             let turning = cross(arm, derivatives.velocity(b) - derivatives.velocity(a));
             let sense = if turning < 0.0 { -1.0 } else { 1.0 };
-            return InstantaneousMotion::from_coupler(pins.map(|pin| derivatives.position(pin)), sense);
+            let motion = InstantaneousMotion::from_coupler(pins.map(|pin| derivatives.position(pin)), sense);
+            // With all joints on one line the coupler's motion does not follow from their positions alone.
+            return motion.or_else(|| InstantaneousMotion::from_link(derivatives, [a, b]));
         }
         let ground = linkage.ground();
         let link = linkage.links.iter().find(|link| !std::ptr::eq(*link, ground) && link.position(joint).is_some())?;
