@@ -31,7 +31,10 @@ fn the_text_begins_with_class_limits_transmission_angle_and_straight_portion() {
     assert!(text.contains(" (trace 2, circuit 1, the longest of 10 curves)\n"), "{text}");
     // An actuator has lengths, and its point moves on a circle.
     let text = inspect(&["linear-actuator"]);
-    assert!(text.contains("\nlimits of the input: 1 to 3, where it jams\n") && text.contains("\nstraight portion: none\n"), "{text}");
+    assert!(
+        text.contains("\nlimits of the input: 1 to 3, where it jams\n") && text.contains("\nstraight portion: none\n"),
+        "{text}"
+    );
     // A linkage that cannot be assembled has none of them.
     let text = inspect(&["evans", "p=9", "a=1"]);
     assert_eq!(
