@@ -130,7 +130,7 @@ impl<'a> FamilyScript<'a> {
         let status = |s: &&SolvedCell| match s.status() {
             Status::Ok => 0,
             Status::Partial => 1,
-            Status::None => 2,
+            Status::None | Status::Failed => 2,
         };
         let numbers: Vec<usize> = kept.iter().map(|s| s.cell.number).collect();
         let is_run = numbers.windows(2).all(|pair| pair[0] + 1 == pair[1]);

@@ -284,7 +284,7 @@ fn count(cells: &[SolvedCell]) -> Counts {
         match solved.status() {
             Status::Ok => {}
             Status::Partial => counts.partly_assembled += 1,
-            Status::None => counts.not_assembled += 1,
+            Status::None | Status::Failed => counts.not_assembled += 1,
         }
         counts.points += solved.curves.iter().map(|curve| solved.circuit(curve).len()).sum::<usize>();
     }

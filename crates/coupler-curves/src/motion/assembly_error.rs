@@ -13,9 +13,15 @@ use super::limits::{MAX_ASSEMBLY_MODES, MAX_CIRCUIT_BYTES, MAX_SAMPLES};
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum AssemblyError {
-    /// Positions, or their squares, overflow or underflow.
+    /// Positions, or powers of them that its measures are composed of, overflow or underflow.
     #[error("its lengths are too large or too small for double precision")]
     BeyondDoublePrecision,
+    /// The program failed where it solved or measured the linkage, which is an error of the program.
+    #[error("the program failed, which is an error of the program, please report it: {message}")]
+    Failed {
+        /// The message of the panic.
+        message: String,
+    },
     /// The sampling step is too short for the travel from one limit to the other.
     #[error("a step of {step} makes more than {MAX_SAMPLES} samples from one end to the other")]
     TooManySamples {

@@ -8,10 +8,12 @@ pub use changed_cell::{ChangeError, ChangedCell, OriginalNumbers};
 pub use moved_point::{MovablePoint, MovedPointError, PointCoordinate};
 pub use screening::Screening;
 
+use std::panic::{self, AssertUnwindSafe};
+
 use crate::family::{Cell, Family};
 use crate::linkage::{JointId, Linkage};
 use crate::measure::{self, CircuitResults, StraightPortion, Symmetry, TracedCurve, Value};
-use crate::motion::{Circuit, Motion, Sampler};
+use crate::motion::{AssemblyError, Circuit, Motion, Sampler};
 
 /// A solved and measured cell.
 #[derive(Clone, Debug)]
@@ -62,6 +64,8 @@ pub enum Status {
     Partial,
     /// At no input.
     None,
+    /// Not known: the program failed where it solved the cell.
+    Failed,
 }
 
 impl Status {
@@ -71,6 +75,7 @@ impl Status {
             Status::Ok => "ok",
             Status::Partial => "partial",
             Status::None => "none",
+            Status::Failed => "failed",
         }
     }
 }
@@ -79,6 +84,7 @@ impl SolvedCell {
     /// Whether the cell could be assembled.
     pub fn status(&self) -> Status {
         match (&self.motion.assembly_error, self.motion.is_assembled()) {
+            (Some(AssemblyError::Failed { .. }), _) => Status::Failed,
             (_, false) => Status::None,
             (Some(_), true) => Status::Partial,
             (None, true) => Status::Ok,
@@ -138,13 +144,17 @@ pub fn solve_cell(family: &Family, sampler: &Sampler, k: usize) -> Option<Solved
 }
 
 /// Solves the `k`-th cell of a family, from 0, whose curves have been measured before: `measured` is the curves and the number of
-/// those that `where` excludes, as of [`solve_measuring`] for the same cell.
+/// those that `where` excludes, as of [`solve_measuring`] for the same cell. `None` if there are neither: why there are none is not
+/// known from it.
 pub fn solve_measured(
     family: &Family,
     sampler: &Sampler,
     k: usize,
     (curves, left_out_count): (Vec<MeasuredCurve>, usize),
 ) -> Option<SolvedCell> {
+    if curves.is_empty() && left_out_count == 0 {
+        return None;
+    }
     let cell = family.cell(k);
     let linkage = family.linkage(&cell).ok()?;
     let motion = Motion::solve(&linkage, sampler);
@@ -158,31 +168,75 @@ pub fn solve_measuring(family: &Family, sampler: &Sampler, k: usize, requested: 
 }
 
 /// Solves the `k`-th cell of a family, from 0, and computes the measures of a screening of this family.
+///
+/// A panic in it is an error of the program, but it ends neither the program nor the solving of other cells: it is the reason of a
+/// cell with the status [`Status::Failed`].
 pub fn solve_screened(family: &Family, sampler: &Sampler, k: usize, screening: &Screening) -> Option<SolvedCell> {
     let cell = family.cell(k);
     // A family is validated cell by cell before it is swept, so every cell has a linkage.
     let linkage = family.linkage(&cell).ok()?;
-    let motion = Motion::solve(&linkage, sampler);
-    let mut solved = SolvedCell { cell, linkage, motion, curves: Vec::new(), left_out_count: 0 };
-    let mut curves = Vec::new();
-    let circuits: Vec<CircuitResults> = solved.motion.circuits.iter().map(|_| CircuitResults::default()).collect();
-    for (trace, &joint) in (1..).zip(&solved.linkage.traced) {
-        for ((number, circuit), results) in (1..).zip(&solved.motion.circuits).zip(&circuits) {
-            let curve = TracedCurve::new(&solved.linkage, &solved.motion, circuit, joint)
+    let solved = catch_panic(|| solve_linkage(family, sampler, (&cell, &linkage), screening));
+    let (motion, curves, left_out_count) = solved.unwrap_or_else(|message| {
+        let motion = Motion { circuits: Vec::new(), assembly_error: Some(AssemblyError::Failed { message }) };
+        (motion, Vec::new(), usize::from(!family.keeps(&cell, &[])))
+    });
+    Some(SolvedCell { cell, linkage, motion, curves, left_out_count })
+}
+
+/// The result of a function, or the message of a panic in it, in one line that is not too long for a table.
+fn catch_panic<T>(function: impl FnOnce() -> T) -> Result<T, String> {
+    const MAX_CHARS: usize = 1000;
+    // What it has changed is dropped with it.
+    panic::catch_unwind(AssertUnwindSafe(function)).map_err(|payload| {
+        let text = payload.downcast_ref::<&str>().map(|text| (*text).to_owned());
+        let text = text.or_else(|| payload.downcast_ref::<String>().cloned());
+        let words = text.as_deref().unwrap_or("without a message").split_whitespace().collect::<Vec<_>>().join(" ");
+        words.chars().take(MAX_CHARS).collect()
+    })
+}
+
+/// The motion of a cell's linkage, the curves that `where` keeps, and the number of those that it excludes.
+fn solve_linkage(
+    family: &Family,
+    sampler: &Sampler,
+    (cell, linkage): (&Cell, &Linkage),
+    screening: &Screening,
+) -> (Motion, Vec<MeasuredCurve>, usize) {
+    let motion = Motion::solve(linkage, sampler);
+    let (mut curves, mut left_out_count) = (Vec::new(), 0);
+    let circuits: Vec<CircuitResults> = motion.circuits.iter().map(|_| CircuitResults::default()).collect();
+    for (trace, &joint) in (1..).zip(&linkage.traced) {
+        for ((number, circuit), results) in (1..).zip(&motion.circuits).zip(&circuits) {
+            let curve = TracedCurve::new(linkage, &motion, circuit, joint)
                 .with_straight_criterion(family.straight)
                 .with_circuit_results(results.clone());
-            if let Some(measures) = screening.measure(&solved.cell, &curve) {
+            if let Some(measures) = screening.measure(cell, &curve) {
                 let (straight, symmetry) = curve.computed_marks();
                 curves.push(MeasuredCurve { trace, circuit: number, joint, values: measures, straight, symmetry });
             } else {
-                solved.left_out_count += 1;
+                left_out_count += 1;
             }
         }
     }
     // A cell without motion is one row, and `where` sees only its parameter values.
-    if !solved.motion.is_assembled() && !family.keeps(&solved.cell, &[]) {
-        solved.left_out_count += 1;
+    if !motion.is_assembled() && !family.keeps(cell, &[]) {
+        left_out_count += 1;
     }
-    solved.curves = curves;
-    Some(solved)
+    (motion, curves, left_out_count)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_is_its_message() {
+        assert_eq!(catch_panic(|| 3), Ok(3));
+        let numbers: Vec<i32> = Vec::new();
+        let index = numbers.len() + 2;
+        let message = catch_panic(|| numbers[index]).unwrap_err();
+        assert_eq!(message, "index out of bounds: the len is 0 but the index is 2");
+        assert_eq!(catch_panic(|| panic!("no pieces\n  left: {}", 1)).unwrap_err(), "no pieces left: 1");
+        assert_eq!(catch_panic(|| std::panic::panic_any(3)).unwrap_err(), "without a message");
+    }
 }
