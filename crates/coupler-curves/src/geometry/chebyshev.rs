@@ -258,16 +258,27 @@ impl Chebyshev {
     pub fn zeros(&self, rounding: f64, narrow: f64) -> Zeros {
         let mut out = Zeros::default();
         let radius = self.radius();
-        if self.0[0].abs() <= radius && self.0[0].abs() + radius > rounding {
+        if radius.is_finite() && self.0[0].abs() <= radius && self.0[0].abs() + radius > rounding {
             let ends = [(-1.0, self.at(-1.0) < 0.0), (1.0, self.at(1.0) < 0.0)];
-            self.find_zeros(self, ends, (rounding, narrow), &mut out);
+            self.find_zeros(self, ends, (rounding, narrow), (&mut out, &mut 0));
         }
         out
     }
 
     /// Finds the zeros of the `whole` on a part on which this is the polynomial, from the ends of the part and whether the
     /// whole is negative there: neighbouring parts agree about the sign at the end they share.
-    fn find_zeros(&self, whole: &Chebyshev, ends: [(f64, bool); 2], limits: (f64, f64), out: &mut Zeros) {
+    ///
+    /// `parts` is the number of parts so far; after [`MAX_PARTS`] of them none is halved.
+    fn find_zeros(
+        &self,
+        whole: &Chebyshev,
+        ends: [(f64, bool); 2],
+        limits: (f64, f64),
+        (out, parts): (&mut Zeros, &mut usize),
+    ) {
+        /// Simple zeros take a few hundred; a zero of a high order, which is flat around, would take millions.
+        const MAX_PARTS: usize = 20_000;
+        *parts += 1;
         let (rounding, narrow) = limits;
         let radius = self.radius();
         let [(from, starts_negative), (to, ends_negative)] = ends;
@@ -277,7 +288,7 @@ impl Chebyshev {
         }
         let slope = self.derivative();
         let is_monotonic = slope.0[0].abs() > slope.radius();
-        if is_monotonic || to - from <= narrow {
+        if is_monotonic || to - from <= narrow || *parts >= MAX_PARTS {
             if changes {
                 out.places.push(whole.zero_between([from, to]));
             } else if !is_monotonic {
@@ -288,8 +299,8 @@ impl Chebyshev {
         let middle = (from + to) / 2.0;
         let cut = (middle, whole.at(middle) < 0.0);
         let [left, right] = self.halves();
-        left.find_zeros(whole, [ends[0], cut], limits, out);
-        right.find_zeros(whole, [cut, ends[1]], limits, out);
+        left.find_zeros(whole, [ends[0], cut], limits, (out, parts));
+        right.find_zeros(whole, [cut, ends[1]], limits, (out, parts));
     }
 
     /// The zero between two places with values of different signs, where the polynomial is monotonic: by Newton's

@@ -2,6 +2,7 @@
 
 mod annulus;
 mod axis_motion;
+mod budget;
 mod circuit_function;
 mod class;
 mod column;

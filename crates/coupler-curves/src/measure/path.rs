@@ -12,7 +12,10 @@ pub const LENGTH: Measure = Measure::number(
     "length of the curve",
     "",
     "length of the path over the circuit, in the manifest's unit",
-    |curve: &TracedCurve| Value::Number(curve.arc_length().total()),
+    |curve: &TracedCurve| {
+        let length = Some(curve.arc_length()).filter(|length| length.is_known());
+        length.map_or(Value::Missing, |length| Value::Number(length.total()))
+    },
 );
 
 /// The measure `area`.
@@ -54,12 +57,15 @@ fn extent_measure(curve: &TracedCurve, direction: Vector) -> Value {
 }
 
 /// The length of a joint's path from its first sample to each sample and, if the path is closed, back to the first; NaN
-/// where the joint's position is undefined. The last value is the measure `length`.
+/// where the joint's position is undefined, and everywhere if the length is too close to tell. The last value is the measure `length`.
 pub fn cumulative_lengths(linkage: &Linkage, circuit: &Circuit, joint: JointId) -> Vec<f64> {
     let pieces = circuit.pieces(linkage);
     let curve = SmoothCurve::new(pieces, joint, circuit.is_closed);
     let lengths = ArcLength::measure(&curve);
     let mut out = vec![f64::NAN; circuit.len() + usize::from(circuit.is_closed)];
+    if !lengths.is_known() {
+        return out;
+    }
     let mut from = 0;
     for (sample, point) in circuit.points(joint).enumerate() {
         if !(point.x.is_finite() && point.y.is_finite()) {

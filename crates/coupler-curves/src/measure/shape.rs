@@ -12,7 +12,10 @@ pub const CRUNODES: Measure = Measure::number(
     "number of crunodes",
     "",
     "points at which the path crosses itself",
-    |curve: &TracedCurve| Value::Number(curve.crossings().points.len() as f64),
+    |curve: &TracedCurve| {
+        let crossings = Some(curve.crossings()).filter(|crossings| !crossings.is_cut_short);
+        crossings.map_or(Value::Missing, |crossings| Value::Number(crossings.points.len() as f64))
+    },
 );
 
 /// The measure `inflections`.
@@ -37,9 +40,10 @@ pub const CUSPS: Measure = Measure::number(
 pub const TOO_CLOSE: Measure = Measure::word(
     "too_close",
     "counts in doubt",
-    "counts of the curve of which it is not known whether they are two more, because two crunodes or inflections would be within 1e-9 of a turn; positions if the linkage is so near a change point that the curve is not known to 1e-9 of its extent; empty if nothing is in doubt",
+    "counts of the curve of which it is not known whether they are two more, because two crunodes or inflections would be within 1e-9 of a turn; positions if the linkage is so near a change point that the curve is not known to 1e-9 of its extent; measures if some have no value because they are known to no more than rounding, or would take too many steps; empty if nothing is in doubt",
     |curve: &TracedCurve| match (curve.crossings().doubtful > 0, curve.inflections().1 > 0) {
         _ if curve.smooth().rounding > RESOLVED * curve.extent() => Value::Word("positions"),
+        _ if curve.has_measures_too_close() => Value::Word("measures"),
         (true, true) => Value::Word("crunodes and inflections"),
         (true, false) => Value::Word("crunodes"),
         (false, true) => Value::Word("inflections"),

@@ -1,8 +1,9 @@
 //! A curve to be measured, with the results that several measures share.
 
-use std::cell::OnceCell;
+use std::cell::{Cell, OnceCell};
 use std::rc::Rc;
 
+use super::circuit_function::{CircuitFunction, NoFunction, Quantity};
 use super::curve::{ArcLength, Crossings, SmoothCurve, Stop};
 use super::features::{Dwell, StraightCriterion, StraightPortion, Symmetry};
 use super::output::motion::OutputMotion;
@@ -125,6 +126,27 @@ impl<'a> TracedCurve<'a> {
         self.crossings.get_or_init(|| self.smooth().crossings(self.stops()))
     }
 
+    /// A quantity along the circuit; `None` if it is undefined somewhere, or too close to tell.
+    pub(super) fn circuit_function<Q: Quantity>(&self, quantity: Q) -> Option<CircuitFunction<Q>> {
+        let linkages = [self.linkage, self.single_point_linkage().0];
+        let function = CircuitFunction::new(self.circuit, linkages, quantity);
+        if let Err(NoFunction::TooCloseToTell) = function {
+            self.circuit_results.0.has_function_too_close.set(true);
+        }
+        function.ok()
+    }
+
+    /// Whether measures have no value because they are too close to tell.
+    pub(super) fn has_measures_too_close(&self) -> bool {
+        // All functions along the circuit are those of these two.
+        let has_dwell_too_close = self.output().is_some_and(|output| output.dwell().is_none());
+        self.worst_transmission_angle();
+        has_dwell_too_close
+            || self.circuit_results.0.has_function_too_close.get()
+            || !self.arc_length().is_known()
+            || self.crossings().is_cut_short
+    }
+
     /// The same curve with results that the curves of other joints on the circuit share.
     pub fn with_circuit_results(self, circuit_results: CircuitResults) -> TracedCurve<'a> {
         TracedCurve { circuit_results, ..self }
@@ -150,6 +172,8 @@ pub struct CircuitResults(pub(super) Rc<SharedResults>);
 pub(super) struct SharedResults {
     pub output: OnceCell<Option<OutputMotion>>,
     pub worst_transmission_angle: OnceCell<Option<f64>>,
+    /// Whether a function along the circuit that has been asked for is too close to tell.
+    pub has_function_too_close: Cell<bool>,
 }
 
 /// The input at which a portion of a curve begins: from 0 up to a period where the input turns fully.

@@ -1,6 +1,6 @@
 //! Transmission angles.
 
-use super::circuit_function::{CircuitFunction, Pose, Quantity};
+use super::circuit_function::{Pose, Quantity};
 use super::{Measure, Subject, TracedCurve, Value};
 use crate::geometry::{Point, Vector, cross, trig};
 use crate::linkage::{DyadId, FourBar, JointId, JointKind, Linkage, length_tolerance};
@@ -141,11 +141,7 @@ fn acute_angle(share: f64, length: f64) -> f64 {
 
 /// The least and the greatest value of a quantity over the circuit; `None` where it is undefined.
 fn range_of(curve: &TracedCurve, quantity: impl Quantity) -> Option<[f64; 2]> {
-    Some(
-        CircuitFunction::new(curve.circuit, [curve.linkage, curve.single_point_linkage().0], quantity)?
-            .extremes()
-            .map(|extreme| extreme.value),
-    )
+    Some(curve.circuit_function(quantity)?.extremes().map(|extreme| extreme.value))
 }
 
 /// The least and the greatest distance of two joints over the circuit.
@@ -164,6 +160,11 @@ impl Quantity for SquaredDistance {
     fn value(&self, pose: &Pose) -> f64 {
         let [from, to] = self.0;
         (pose.at(to) - pose.at(from)).norm_squared()
+    }
+
+    fn sensitivity(&self, pose: &Pose) -> f64 {
+        let [from, to] = self.0;
+        4.0 * (pose.at(to) - pose.at(from)).norm()
     }
 }
 
@@ -185,6 +186,11 @@ impl Quantity for DistanceFromLine {
         let [p, q] = self.line.map(|joint| pose.at(joint));
         self.offset - self.handedness * cross((q - p).normalize(), pose.at(self.from) - p)
     }
+
+    fn sensitivity(&self, pose: &Pose) -> f64 {
+        let [p, q] = self.line.map(|joint| pose.at(joint));
+        2.0 + 2.0 * (pose.at(self.from) - p).norm() / (q - p).norm()
+    }
 }
 
 /// The angle at the second of three joints from the first to the third, in radians.
@@ -199,6 +205,11 @@ impl Quantity for AngleAt {
         let [from, pin, to] = self.0.map(|joint| pose.at(joint));
         let [from, to]: [Vector; 2] = [from - pin, to - pin];
         trig::atan2(cross(from, to), from.dot(&to))
+    }
+
+    fn sensitivity(&self, pose: &Pose) -> f64 {
+        let [from, pin, to] = self.0.map(|joint| pose.at(joint));
+        2.0 / (from - pin).norm() + 2.0 / (to - pin).norm()
     }
 
     fn period(&self) -> Option<f64> {

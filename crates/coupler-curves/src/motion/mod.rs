@@ -43,7 +43,7 @@ pub use assembly_error::AssemblyError;
 pub use circuit::{CircuitSet, UnsampledCircuit, find_circuits};
 pub use derivatives::JointDerivatives;
 pub use instantaneous_motion::InstantaneousMotion;
-pub use limits::{MAX_ASSEMBLY_MODES, MAX_CIRCUIT_BYTES, MAX_SAMPLES};
+pub use limits::{MAX_ASSEMBLY_MODES, MAX_CIRCUIT_BYTES, MAX_SAMPLES, SIZES};
 pub use memory::estimate_bytes;
 pub use pass::{InputPosition, Pass, PassEnd};
 pub use pieces::{CircuitPiece, CircuitPieces, InputMap};
@@ -79,7 +79,9 @@ impl Motion {
         let is_undefined = |circuit: &Circuit| {
             linkage.traced.iter().any(|&joint| circuit.points(joint).all(|p| !p.x.is_finite() || !p.y.is_finite()))
         };
-        if circuits.iter().any(is_undefined) {
+        let size = circuits.iter().map(|circuit| circuit.positions.greatest_coordinate()).fold(0.0, f64::max);
+        let is_beyond = !circuits.is_empty() && !SIZES.contains(&size);
+        if is_beyond || circuits.iter().any(is_undefined) {
             return Motion { circuits: Vec::new(), assembly_error: Some(AssemblyError::BeyondDoublePrecision) };
         }
         Motion { circuits, assembly_error: found.assembly_error }

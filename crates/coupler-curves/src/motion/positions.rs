@@ -46,6 +46,11 @@ impl JointPositions {
         Point::new(self.x(joint)[sample], self.y(joint)[sample])
     }
 
+    /// The greatest magnitude of a coordinate of any joint at any sample, apart from undefined ones; 0 if there is none.
+    pub fn greatest_coordinate(&self) -> f64 {
+        self.x.iter().chain(&self.y).fold(0.0, |most: f64, value| most.max(value.abs()))
+    }
+
     pub(super) fn set_point(&mut self, joint: JointId, sample: usize, at: Point) {
         self.x[joint.index() * self.len + sample] = at.x;
         self.y[joint.index() * self.len + sample] = at.y;

@@ -14,7 +14,7 @@ pub fn joint_polyline(linkage: &Linkage, circuit: &Circuit, joint: JointId, tole
     let mut out: Vec<Point> = Vec::new();
     for pass in &circuit.passes {
         let ends = [pass.from.input.value, pass.to.input.value];
-        let points = refined_lines(linkage, pass, ends, joint, tolerance).concat();
+        let points = refined_lines(linkage, pass, ends, joint, (tolerance, MAX_NODES)).concat();
         let meets = |end: &Point| points.first().is_some_and(|start| (end - start).norm() <= tolerance);
         let seam = usize::from(out.last().is_some_and(meets));
         out.extend(points.into_iter().skip(seam));
@@ -22,16 +22,19 @@ pub fn joint_polyline(linkage: &Linkage, circuit: &Circuit, joint: JointId, tole
     out
 }
 
+/// The most nodes of a path: with more it is not refined further, even if the tolerance is not met.
+pub(super) const MAX_NODES: usize = 100_000;
+
 /// The path of a joint between two inputs of a pass, in lines without undefined positions and jumps; see
-/// [`joint_polyline`].
+/// [`joint_polyline`]. From more than `most` nodes it is not refined further.
 pub(super) fn refined_lines(
     linkage: &Linkage,
     pass: &Pass,
     [from, to]: [f64; 2],
     joint: JointId,
-    tolerance: f64,
+    (tolerance, most): (f64, usize),
 ) -> Vec<Vec<Point>> {
-    let nodes = PathNodes::between(linkage, pass, [from, to], joint, tolerance / 2.0);
+    let nodes = PathNodes::between(linkage, pass, [from, to], joint, (tolerance / 2.0, most));
     nodes.unbroken_lines(tolerance).into_iter().map(|line| simplify_polyline(line, tolerance / 2.0)).collect()
 }
 
@@ -45,7 +48,13 @@ struct PathNodes {
 
 impl PathNodes {
     /// Enough nodes for the joint to be no further than `tolerance` from its chords, at the middles of their inputs.
-    fn between(linkage: &Linkage, pass: &Pass, [from, to]: [f64; 2], joint: JointId, tolerance: f64) -> PathNodes {
+    fn between(
+        linkage: &Linkage,
+        pass: &Pass,
+        [from, to]: [f64; 2],
+        joint: JointId,
+        (tolerance, most): (f64, usize),
+    ) -> PathNodes {
         /// The most input that a chord spans, in degrees of the fastest crank: a longer one may cross its curve at its
         /// middle.
         const MAX_CHORD_DEG: f64 = 3.0;
@@ -54,20 +63,18 @@ impl PathNodes {
         /// Each round halves the input between neighbours. After this many they are neighbouring numbers: near a
         /// singular position a joint may go as far as its links reach while the input changes by no more.
         const MAX_ROUNDS: usize = 60;
-        /// A path of more nodes than this is not refined further, even if the tolerance is not met.
-        const MAX_NODES: usize = 100_000;
         let share = pass.input_length() / MIN_CHORDS;
         let longest = match linkage.input() {
             Input::Angle { .. } => share.min(MAX_CHORD_DEG / linkage.fastest_crank_ratio()),
             Input::Length => share,
         };
-        let chords = ((to - from).abs() / longest).ceil().clamp(1.0, MAX_NODES as f64);
+        let chords = ((to - from).abs() / longest).ceil().clamp(1.0, most as f64);
         let inner = (0..chords as usize).map(|k| from + (to - from) * (k as f64 / chords));
         let mut nodes = PathNodes::at_inputs(linkage, pass, inner.chain([to]).collect(), joint);
         for _ in 0..MAX_ROUNDS {
             let pairs = |k: &usize| nodes.needs_refinement[k - 1];
             let pairs: Vec<usize> = (1..nodes.inputs.len()).filter(pairs).collect();
-            if pairs.is_empty() || nodes.inputs.len() > MAX_NODES {
+            if pairs.is_empty() || nodes.inputs.len() > most {
                 break;
             }
             let at = |share: &dyn Fn(f64, f64) -> f64| {

@@ -1,7 +1,7 @@
 //! The curve of a joint by one parameter.
 
 use super::fit::{AT_POINTS, fit_cubic};
-use super::polyline::refined_lines;
+use super::polyline::{MAX_NODES, refined_lines};
 use crate::geometry::{Point, Spline, SplineSegment, TERMS, Vector, distance_to_segment};
 use crate::linkage::{JointId, Linkage};
 use crate::measure::curve::{Arc, Place, SmoothCurve};
@@ -214,6 +214,11 @@ impl<'a> Trajectory<'a> {
 
     /// The curve between two parameters in lines through positions, where it is not resolved.
     fn refined(&self, [from, to]: [f64; 2]) -> Vec<Spline> {
+        /// The fewest nodes that a piece may have.
+        const LEAST: usize = 64;
+        // Where many pieces are not resolved, they are rounding.
+        let unresolved = self.is_resolved.iter().filter(|is_resolved| !**is_resolved).count();
+        let most = (MAX_NODES / unresolved.max(1)).max(LEAST);
         let mut out = Vec::new();
         for k in from.floor() as usize..to.ceil() as usize {
             let piece = &self.curve.pieces[k];
@@ -221,7 +226,8 @@ impl<'a> Trajectory<'a> {
             let split = piece.split.clamp(a, b);
             for (pass, [a, b]) in piece.passes.into_iter().zip([[a, split], [split, b]]).filter(|(_, [a, b])| a < b) {
                 let ends = [a, b].map(|u| piece.map.input(u));
-                for line in refined_lines(self.linkage, &self.circuit.passes[pass], ends, self.joint, self.tolerance) {
+                let pass = &self.circuit.passes[pass];
+                for line in refined_lines(self.linkage, pass, ends, self.joint, (self.tolerance, most)) {
                     let segments = line[1..].iter().map(|point| SplineSegment::Line(*point)).collect();
                     self.append(&mut out, Spline { start: line[0], segments });
                 }

@@ -6,6 +6,7 @@ mod circuits;
 mod cognates;
 mod dyad_chains;
 mod expressions;
+mod extreme_lengths;
 mod find;
 mod find_curves;
 mod grids;

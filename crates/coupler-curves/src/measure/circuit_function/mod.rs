@@ -13,6 +13,7 @@ pub(super) use places::Extreme;
 
 use std::rc::Rc;
 
+use super::budget::MAX_PARTS;
 use crate::geometry::{Chebyshev, Point, TERMS, in_rising_order};
 use crate::linkage::{AssemblyMode, JointId, Linkage};
 use crate::motion::{Circuit, CircuitPiece, JointDerivatives, Pass};
@@ -30,6 +31,13 @@ const MAX_DEPTH: usize = 40;
 /// Zeros closer than this part of a piece are one.
 const NARROW: f64 = 8e-9;
 
+/// The rounding of coordinates relative to the greatest of all joints.
+const POSITION_ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// The error of a function's values, relative to the greatest, above which it is not told from rounding: an angle is known to
+/// a thousandth of a degree, or not at all.
+const GREATEST_ERROR: f64 = 1e-5;
+
 /// A function of the pose that is smooth along every pass.
 pub(super) trait Quantity {
     /// The joints that the value is computed from.
@@ -37,6 +45,10 @@ pub(super) trait Quantity {
 
     /// The value in a pose.
     fn value(&self, pose: &Pose) -> f64;
+
+    /// How much the value changes at most where one of its joints moves, per unit of length: how rounding of positions is
+    /// magnified.
+    fn sensitivity(&self, pose: &Pose) -> f64;
 
     /// The difference of values that are the same pose, 2 pi for an angle; `None` if there is none.
     fn period(&self) -> Option<f64> {
@@ -62,6 +74,15 @@ impl Pose<'_> {
     }
 }
 
+/// Why there is no function along a circuit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum NoFunction {
+    /// It is undefined somewhere.
+    Undefined,
+    /// It is too close to tell: its values are rounding, or it has more than [`MAX_PARTS`] parts.
+    TooCloseToTell,
+}
+
 /// A function along a circuit.
 #[derive(Clone, Debug)]
 pub(super) struct CircuitFunction<Q> {
@@ -70,6 +91,8 @@ pub(super) struct CircuitFunction<Q> {
     quantity: Q,
     passes: Vec<Pass>,
     is_closed: bool,
+    /// A bound of the rounding of coordinates.
+    position_rounding: f64,
     /// In the order of the circuit; each continues the one before it.
     spans: Vec<FunctionSpan>,
 }
@@ -104,18 +127,22 @@ pub(super) struct Place {
 type JointSeries = Vec<(JointId, [Chebyshev; 2])>;
 
 impl<Q: Quantity> CircuitFunction<Q> {
-    /// A quantity along a circuit of a linkage, which is given also without other traced points; `None` if it is undefined somewhere.
+    /// A quantity along a circuit of a linkage, which is given also without other traced points.
+    ///
+    /// # Errors
+    /// It is undefined somewhere, or too close to tell.
     pub fn new(
         circuit: &Circuit,
         [linkage, single_point_linkage]: [&Linkage; 2],
         quantity: Q,
-    ) -> Option<CircuitFunction<Q>> {
+    ) -> Result<CircuitFunction<Q>, NoFunction> {
         let pieces = circuit.pieces(linkage);
         let joints = quantity.joints();
         let mut function = CircuitFunction {
             linkage: Rc::new(single_point_linkage.clone()),
             passes: circuit.passes.clone(),
             is_closed: circuit.is_closed,
+            position_rounding: POSITION_ROUNDING * pieces.positions().greatest_coordinate(),
             spans: Vec::with_capacity(pieces.len()),
             quantity,
         };
@@ -131,6 +158,10 @@ impl<Q: Quantity> CircuitFunction<Q> {
                 input_before += span.piece.input_travel();
             }
         }
+        if function.spans.is_empty() {
+            // The input moves by less than a rounding from one limit to the other.
+            return Err(NoFunction::TooCloseToTell);
+        }
         for span in &mut function.spans {
             // A derivative of a polynomial amplifies the error of its values by up to the square of its degree.
             let zeros = span.slope.zeros(span.noise * (TERMS * TERMS) as f64, NARROW);
@@ -140,7 +171,7 @@ impl<Q: Quantity> CircuitFunction<Q> {
             span.roots = in_rising_order(roots, |u| *u);
             span.roots.dedup_by(|b, a| *b - *a <= 4.0 * NARROW);
         }
-        Some(function)
+        Ok(function)
     }
 
     /// Appends the spans of a piece.
@@ -150,10 +181,10 @@ impl<Q: Quantity> CircuitFunction<Q> {
         joints: &JointSeries,
         (tail_before, depth): (f64, usize),
         greatest: &mut f64,
-    ) -> Option<()> {
-        let mut values = self.values_at_nodes(&piece, joints);
+    ) -> Result<(), NoFunction> {
+        let (mut values, sensitivity) = self.values_at_nodes(&piece, joints);
         if values.iter().any(|value| !value.is_finite()) {
-            return None;
+            return Err(NoFunction::Undefined);
         }
         if let Some(period) = self.quantity.period() {
             let before = self.spans.last().map(|span| span.series.at_end());
@@ -166,7 +197,11 @@ impl<Q: Quantity> CircuitFunction<Q> {
         let series = Chebyshev::from_values(&values);
         *greatest = greatest.max(series.bound());
         let tail = series.0[TERMS - 3..].iter().fold(0.0f64, |tail, c| tail.max(c.abs()));
-        let is_rounding = tail <= GREATEST_ROUNDING * *greatest && tail > tail_before / 8.0;
+        let error = self.position_rounding * sensitivity;
+        let is_rounding = tail <= (GREATEST_ROUNDING * *greatest).max(error) && tail > tail_before / 8.0;
+        if is_rounding && tail > GREATEST_ERROR * *greatest || self.spans.len() >= MAX_PARTS {
+            return Err(NoFunction::TooCloseToTell);
+        }
         if tail <= TOLERANCE * *greatest || is_rounding || depth == 0 {
             self.spans.push(FunctionSpan {
                 piece,
@@ -177,7 +212,7 @@ impl<Q: Quantity> CircuitFunction<Q> {
                 input_before: 0.0,
                 is_corner: false,
             });
-            return Some(());
+            return Ok(());
         }
         let halves: Vec<(JointId, [[Chebyshev; 2]; 2])> =
             joints.iter().map(|(joint, series)| (*joint, series.each_ref().map(Chebyshev::halves))).collect();
@@ -185,20 +220,25 @@ impl<Q: Quantity> CircuitFunction<Q> {
             let of_half = halves.iter().map(|(joint, [x, y])| (*joint, [x[half], y[half]])).collect();
             self.append(piece.restricted(part), &of_half, (tail, depth - 1), greatest)?;
         }
-        Some(())
+        Ok(())
     }
 
-    fn values_at_nodes(&self, piece: &CircuitPiece, joints: &JointSeries) -> [f64; TERMS] {
+    /// The values at the nodes of a piece, and the greatest sensitivity there.
+    fn values_at_nodes(&self, piece: &CircuitPiece, joints: &JointSeries) -> ([f64; TERMS], f64) {
         let columns: Vec<(JointId, [[f64; TERMS]; 2])> =
             joints.iter().map(|(joint, series)| (*joint, series.each_ref().map(Chebyshev::values))).collect();
         let mut positions: Vec<(JointId, Point)> = joints.iter().map(|(joint, _)| (*joint, Point::origin())).collect();
-        std::array::from_fn(|node| {
+        let mut sensitivity = 0.0f64;
+        let values = std::array::from_fn(|node| {
             for ((_, point), (_, [x, y])) in positions.iter_mut().zip(&columns) {
                 *point = Point::new(x[node], y[node]);
             }
             let mode = self.passes[piece.pass_at(Chebyshev::nodes()[node])].mode;
-            self.quantity.value(&Pose { positions: &positions, mode })
-        })
+            let pose = Pose { positions: &positions, mode };
+            sensitivity = sensitivity.max(self.quantity.sensitivity(&pose));
+            self.quantity.value(&pose)
+        });
+        (values, sensitivity)
     }
 
     /// The value at a place.

@@ -1,11 +1,14 @@
 use super::{Place, SmoothCurve};
 use crate::geometry::{Chebyshev, TERMS};
+use crate::measure::budget::MAX_PARTS;
 
 /// The length of a curve as a function of the place on it.
 #[derive(Clone, Debug)]
 pub struct ArcLength {
     spans: Vec<LengthSpan>,
     total: f64,
+    /// Whether it would need more spans than it may have.
+    is_cut_short: bool,
 }
 
 /// A part of a piece on which the speed is a polynomial, to rounding.
@@ -28,7 +31,7 @@ impl ArcLength {
     /// Integrates the speed of a curve. Where it is not smooth, near a point at which the curve nearly stops, a piece is
     /// halved until the rest is too short to matter.
     pub fn measure(curve: &SmoothCurve) -> ArcLength {
-        let mut out = ArcLength { spans: Vec::with_capacity(curve.arcs.len()), total: 0.0 };
+        let mut out = ArcLength { spans: Vec::with_capacity(curve.arcs.len()), total: 0.0, is_cut_short: false };
         let scale: f64 = curve.arcs.iter().map(|arc| 2.0 * (arc.velocity[0].bound() + arc.velocity[1].bound())).sum();
         for (piece, arc) in curve.arcs.iter().enumerate() {
             out.integrate(&arc.velocity, (piece, -1.0, 1.0), ACCURACY * scale);
@@ -50,7 +53,10 @@ impl ArcLength {
         let beyond_nodes = 1.0 - Chebyshev::nodes()[TERMS - 1];
         let lacking = Chebyshev::tail_of(&speeds).max(beyond_nodes * missed[0].max(missed[1]));
         let is_smooth = lacking * half <= accuracy;
-        if is_smooth || half * (velocity[0].bound() + velocity[1].bound()) <= accuracy {
+        let is_short = half * (velocity[0].bound() + velocity[1].bound()) <= accuracy;
+        let is_cut_short = !is_smooth && !is_short && self.spans.len() >= MAX_PARTS;
+        self.is_cut_short |= is_cut_short;
+        if is_smooth || is_short || is_cut_short {
             let mut length = speed.integral();
             length.0.iter_mut().for_each(|c| *c *= half);
             self.spans.push(LengthSpan { piece, from, to, before: self.total, length });
@@ -61,6 +67,12 @@ impl ArcLength {
         let middle = (from + to) / 2.0;
         self.integrate(&[x0, y0], (piece, from, middle), accuracy);
         self.integrate(&[x1, y1], (piece, middle, to), accuracy);
+    }
+
+    /// Whether it is known. A curve that would have to be divided into more than [`MAX_PARTS`] parts has no length, and its
+    /// places have lengths that are not exact.
+    pub fn is_known(&self) -> bool {
+        !self.is_cut_short
     }
 
     /// The length of the whole curve.

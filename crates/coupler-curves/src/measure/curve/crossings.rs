@@ -2,6 +2,7 @@
 
 use super::{Arc, Place, SmoothCurve, Stop, StopKind};
 use crate::geometry::{Chebyshev, Point, Vector, cross, in_rising_order, rising_order};
+use crate::measure::budget::MAX_PAIRS;
 
 /// The points at which a curve crosses itself.
 #[derive(Clone, Debug, Default)]
@@ -11,6 +12,8 @@ pub struct Crossings {
     /// The number of places where two parts of the curve come so close, or touch at so small an angle, that it is not
     /// known whether they cross twice or not at all.
     pub doubtful: usize,
+    /// Whether more than [`MAX_PAIRS`] pairs of parts would have to be examined, and not all crossings are known.
+    pub is_cut_short: bool,
 }
 
 /// A part of a curve that turns by less than 60 degrees, and so does not cross itself.
@@ -72,10 +75,6 @@ const MAX_SPREAD: f64 = 0.5;
 /// Spans narrower than this part of a piece are not divided: 1e-9 of a turn.
 const NARROWEST: f64 = 1.6e-8;
 
-/// The most pairs of spans that are examined. A curve that comes close to itself along all its length, without being
-/// twice the same, would need more.
-const MAX_PAIRS: usize = 100_000;
-
 impl SmoothCurve {
     /// The points at which the curve crosses itself, apart from the places where it `stops`.
     pub fn crossings(&self, stops: &[Stop]) -> Crossings {
@@ -118,7 +117,7 @@ impl SmoothCurve {
             stops.iter().any(|stop| (self.point(stop.place) - p).norm() <= near(stop))
         };
         let doubtful = search.doubtful.iter().filter(|place| !is_at_stop(self.point(**place))).count();
-        let mut crossings = Crossings { points: Vec::new(), doubtful };
+        let mut crossings = Crossings { points: Vec::new(), doubtful, is_cut_short: search.pairs > MAX_PAIRS };
         for place in in_rising_order(search.found, |place| 4.0 * place.piece as f64 + place.u) {
             let point = self.point(place);
             if !is_at_stop(point) && crossings.points.iter().all(|other| (other - point).norm() > 1e-9 * size) {

@@ -153,8 +153,13 @@ pub struct SmoothCurve {
 impl SmoothCurve {
     /// The curve of a joint on a circuit in pieces.
     pub fn new(circuit: &CircuitPieces, joint: JointId, is_closed: bool) -> SmoothCurve {
-        let mut curve =
-            SmoothCurve { arcs: Vec::new(), pieces: Vec::new(), corners: Vec::new(), is_closed, rounding: 0.0 };
+        let mut curve = SmoothCurve {
+            arcs: Vec::new(),
+            pieces: Vec::new(),
+            corners: Vec::new(),
+            is_closed,
+            rounding: LEAST_ROUNDING,
+        };
         let mut has_gap = false;
         for (k, piece) in circuit.pieces.iter().enumerate() {
             let position = circuit.series(k, joint);
@@ -269,6 +274,9 @@ impl SmoothCurve {
         [self.rounding * n2, self.rounding * n2 * n2 / 3.0, self.rounding * n2 * n2 * n2 / 15.0]
     }
 }
+
+/// Less than the rounding of the smallest linkages. A curve of this size is a point: fourth powers of lengths on it would underflow.
+const LEAST_ROUNDING: f64 = 1e-77;
 
 /// Zeros closer than this part of a piece are not told from a double one: 1e-9 of a turn in pieces of an eighth.
 const NARROW: f64 = 8e-9;

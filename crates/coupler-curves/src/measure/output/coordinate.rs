@@ -64,6 +64,14 @@ impl Quantity for OutputCoordinate {
         }
     }
 
+    fn sensitivity(&self, pose: &Pose) -> f64 {
+        let length = |from: JointId, to: JointId| (pose.at(to) - pose.at(from)).norm();
+        match self.output {
+            OutputLink::Link([from, to]) | OutputLink::Slot { base: [from, to], .. } => 2.0 / length(from, to),
+            OutputLink::Slider { joint, line: [from, to] } => 2.0 + 2.0 * length(from, joint) / length(from, to),
+        }
+    }
+
     fn period(&self) -> Option<f64> {
         (!self.is_slider()).then_some(TAU)
     }

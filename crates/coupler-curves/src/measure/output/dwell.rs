@@ -5,8 +5,11 @@
 //! all is searched for among samples of the circuit and where a band touches an extreme of the output, and is then
 //! refined between samples.
 
+use std::cell::Cell;
+
 use super::motion::{OutputMotion, Stretch};
 use super::output_value;
+use crate::measure::budget::MAX_DWELL_STEPS;
 use crate::measure::circuit_function::{MonotonicPart, Place};
 use crate::measure::{Measure, Subject, start_input};
 
@@ -19,7 +22,7 @@ pub const DWELL: Measure = Measure::number(
     "input span of the output's dwell",
     "deg",
     "greatest input span over which the output stays within a band of 0.01 of its swing or stroke, or of a turn",
-    |curve| output_value(curve, |output| Some(output.dwell().input_span)),
+    |curve| output_value(curve, |output| Some(output.dwell()?.input_span)),
 )
 .of(Subject::WithOutput)
 .or_length("output_dwell_length");
@@ -30,24 +33,28 @@ pub const DWELL_START: Measure = Measure::number(
     "input at the start of the output's dwell",
     "deg",
     "input at which that dwell of the output begins",
-    |curve| output_value(curve, |output| Some(start_input(curve, output.dwell().start_input))),
+    |curve| output_value(curve, |output| Some(start_input(curve, output.dwell()?.start_input))),
 )
 .of(Subject::WithOutput)
 .or_length("output_dwell_start_length");
 
 impl OutputMotion {
-    /// The longest dwell of the output; of equally long ones the first.
-    fn dwell(&self) -> Stretch {
+    /// The longest dwell of the output; of equally long ones the first. `None` if the search takes more steps than it may.
+    pub(in crate::measure) fn dwell(&self) -> Option<Stretch> {
         *self.dwell.get_or_init(|| self.find_dwell())
     }
 
-    fn find_dwell(&self) -> Stretch {
+    fn find_dwell(&self) -> Option<Stretch> {
         let coordinate = &self.coordinate;
-        let search =
-            DwellSearch { output: self, parts: coordinate.monotonic_parts(), width: TOLERANCE * self.travel() };
+        let search = DwellSearch {
+            output: self,
+            parts: coordinate.monotonic_parts(),
+            width: TOLERANCE * self.travel(),
+            steps: Cell::new(0),
+        };
         let begin = search.place(0.0);
         if self.is_at_rest() {
-            return Stretch { start_input: coordinate.input(begin), input_span: coordinate.total_input() };
+            return Some(Stretch { start_input: coordinate.input(begin), input_span: coordinate.total_input() });
         }
         let mut starts = search.sampled_starts();
         starts.extend((0..search.parts.len()).filter_map(|part| search.start_at_extreme(part)));
@@ -59,7 +66,8 @@ impl OutputMotion {
             .filter(|(_, span)| *span >= longest * (1.0 - 1e-9))
             .min_by(|a, b| search.covered(a.0).total_cmp(&search.covered(b.0)));
         let (start, span) = first.copied().unwrap_or((0.0, 0.0));
-        Stretch { start_input: coordinate.input(search.place(start)), input_span: span }
+        let found = Stretch { start_input: coordinate.input(search.place(start)), input_span: span };
+        (search.steps.get() <= MAX_DWELL_STEPS).then_some(found)
     }
 }
 
@@ -69,6 +77,8 @@ struct DwellSearch<'a> {
     output: &'a OutputMotion,
     parts: Vec<MonotonicPart>,
     width: f64,
+    /// The parts that have been passed so far.
+    steps: Cell<usize>,
 }
 
 impl DwellSearch<'_> {
@@ -107,6 +117,10 @@ impl DwellSearch<'_> {
         let mut part = (position as usize).min(self.parts.len() - 1);
         let (mut change, mut input) = (0.0, 0.0);
         for _ in 0..=self.parts.len() {
+            self.steps.set(self.steps.get() + 1);
+            if self.steps.get() > MAX_DWELL_STEPS {
+                break;
+            }
             let end = self.parts[part].values[1] + change;
             let limit = if end > least + width {
                 Some(least + width)

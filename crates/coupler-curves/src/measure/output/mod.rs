@@ -16,7 +16,6 @@ pub use toggles::TOGGLES;
 
 use std::cell::OnceCell;
 
-use super::circuit_function::CircuitFunction;
 use super::{TracedCurve, Value};
 use coordinate::OutputCoordinate;
 use motion::OutputMotion;
@@ -25,8 +24,7 @@ impl OutputMotion {
     /// The motion of the output link; `None` if the linkage has none, or its position is undefined somewhere.
     pub fn new(curve: &TracedCurve) -> Option<OutputMotion> {
         let coordinate = OutputCoordinate { output: curve.linkage.output()?, placement: curve.linkage.placement };
-        let coordinate =
-            CircuitFunction::new(curve.circuit, [curve.linkage, curve.single_point_linkage().0], coordinate)?;
+        let coordinate = curve.circuit_function(coordinate)?;
         let turns_fully =
             coordinate.is_closed() && coordinate.change().abs() > 1.0 && !coordinate.quantity().is_slider();
         let extremes = coordinate.extremes();

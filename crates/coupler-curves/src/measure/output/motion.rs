@@ -13,7 +13,7 @@ pub(in crate::measure) struct OutputMotion {
     /// Whether it turns fully: round a closed circuit it makes whole turns.
     pub(super) turns_fully: bool,
     pub(super) extremes: [Extreme; 2],
-    pub(super) dwell: OnceCell<Stretch>,
+    pub(super) dwell: OnceCell<Option<Stretch>>,
     pub(super) velocity_ratios: OnceCell<VelocityRatios>,
     pub(super) toggle_count: OnceCell<usize>,
 }

@@ -47,6 +47,10 @@ const RESOLVED: f64 = 2e-15;
 /// not decrease are taken to be rounding.
 const ROUNDING: f64 = 1e-10;
 
+/// The same relative to the coordinates: more than the former where joints move little and are far from the origin, as those of a
+/// linkage with a very short link.
+const ROUNDING_OF_COORDINATES: f64 = 16.0 * f64::EPSILON;
+
 /// Each division halves a piece. After this many its ends are nearly neighbouring numbers.
 const MAX_DEPTH: usize = 44;
 
@@ -68,17 +72,18 @@ pub(super) fn divide_circuit(linkage: &Linkage, circuit: &UnsampledCircuit) -> C
     };
     let mut pending: Vec<PendingPiece> = first.iter().enumerate().map(pending).collect();
     let checked = joints_to_resolve(linkage);
-    let mut size = 0.0f64;
+    let (mut size, mut rounding) = (0.0f64, ROUNDING);
     let (mut rounds, mut resolved) = (Vec::new(), Vec::new());
     while !pending.is_empty() {
         let positions = node_positions(linkage, circuit, &pending);
         if rounds.is_empty() {
             size = extent(&positions, &checked);
+            rounding = ROUNDING.max(ROUNDING_OF_COORDINATES * greatest_coordinate(linkage, &positions) / size);
         }
         let mut next = Vec::new();
         for (index, piece) in pending.iter().enumerate() {
             let tail = tail(&positions, index, &checked) / size;
-            let is_rounding = tail <= ROUNDING && tail >= 0.5 * piece.parent_tail;
+            let is_rounding = tail <= rounding && tail >= 0.5 * piece.parent_tail;
             // Where nothing moves the tail is 0 / 0.
             let is_full = resolved.len() + next.len() + (pending.len() - index) > MAX_PIECES;
             if tail <= RESOLVED || is_rounding || piece.depth >= MAX_DEPTH || size == 0.0 || is_full {
@@ -103,6 +108,14 @@ fn joints_to_resolve(linkage: &Linkage) -> Vec<JointId> {
         ) || linkage.seen_from.is_some_and(|_| matches!(linkage.joints[*joint].kind, JointKind::Fixed(_)))
     };
     linkage.joint_ids().filter(is_nonlinear).collect()
+}
+
+/// The greatest coordinate of joints from which others are computed.
+fn greatest_coordinate(linkage: &Linkage, positions: &JointPositions) -> f64 {
+    let is_point = |joint: &JointId| matches!(linkage.joints[*joint].kind, JointKind::Rigid { .. });
+    let joints = linkage.joint_ids().filter(|joint| !is_point(joint));
+    let coordinates = joints.flat_map(|joint| positions.x(joint).iter().chain(positions.y(joint)));
+    coordinates.fold(0.0, |most: f64, value| most.max(value.abs()))
 }
 
 /// The greatest extent of the paths of joints along x or y.
