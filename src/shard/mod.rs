@@ -12,6 +12,7 @@ mod expression;
 mod folder;
 mod gather;
 mod options;
+mod parquet_column;
 mod parquet_table;
 mod problem;
 mod read;

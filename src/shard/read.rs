@@ -6,14 +6,12 @@ use std::io::{self, Read, Seek, SeekFrom};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use coupler_curves::exchange::append_number;
-use parquet::column::reader::ColumnReader;
-use parquet::data_type::ByteArray;
 use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, RowGroupReader};
 use parquet::file::serialized_reader::SerializedFileReader;
 
 use super::TableFormat;
+use super::parquet_column::ParquetColumn;
 use super::parquet_table::{NO_DIGEST, find_last, into_io};
 use super::problem::FileProblem;
 use super::record::{DIGEST_NAME, ShardRecord, column_difference};
@@ -74,15 +72,17 @@ impl ShardFile {
         match self.format {
             TableFormat::Parquet => {
                 for_row_groups(&self.path, |group, rows| {
-                    let read = |place: &usize| ParquetColumn::read(group, *place).map(|values| values.numbers());
-                    let numbers = places.iter().map(read).collect::<Result<Vec<_>, _>>();
-                    receive(rows.start, &numbers.map_err(parquet_message)?);
+                    let columns = places.iter().map(|place| ParquetColumn::open(group, *place));
+                    let mut columns = columns.collect::<Result<Vec<_>, _>>().map_err(parquet_message)?;
+                    for part in parts(rows) {
+                        let read = |column: &mut ParquetColumn| column.read(part.len()).map(|values| values.numbers());
+                        let numbers = columns.iter_mut().map(read).collect::<Result<Vec<_>, _>>();
+                        receive(part.start, &numbers.map_err(parquet_message)?);
+                    }
                     Ok(())
                 })?;
             }
             TableFormat::Csv => {
-                /// The rows of a part.
-                const ROWS: usize = 1 << 14;
                 let (mut first, mut parts) = (0, vec![Vec::new(); columns.len()]);
                 for record in self.csv_reader()?.records() {
                     let record = record.map_err(|error| error.to_string())?;
@@ -90,9 +90,9 @@ impl ShardFile {
                         // An empty field is no number.
                         part.push(record.get(*place).and_then(|text| text.parse().ok()).unwrap_or(f64::NAN));
                     }
-                    if parts[0].len() == ROWS {
+                    if parts[0].len() == PART_ROWS {
                         receive(first, &parts);
-                        first += ROWS;
+                        first += PART_ROWS;
                         parts.iter_mut().for_each(Vec::clear);
                     }
                 }
@@ -111,16 +111,22 @@ impl ShardFile {
         match self.format {
             TableFormat::Parquet => {
                 for_row_groups(&self.path, |group, rows| {
-                    let first = rows.start;
                     let mut texts: Vec<(usize, Vec<String>)> =
-                        wanted.range(rows).map(|row| (*row, Vec::new())).collect();
+                        wanted.range(rows.clone()).map(|row| (*row, Vec::new())).collect();
                     if texts.is_empty() {
                         return Ok(());
                     }
                     for column in 0..group.num_columns() {
-                        let values = ParquetColumn::read(group, column).map_err(parquet_message)?.texts();
-                        for (row, fields) in &mut texts {
-                            fields.push(values.get(*row - first).cloned().unwrap_or_default());
+                        let mut column = ParquetColumn::open(group, column).map_err(parquet_message)?;
+                        let mut fields = texts.iter_mut().map(|(row, fields)| (*row, fields)).peekable();
+                        for part in parts(rows.clone()) {
+                            let values = column.read(part.len()).map_err(parquet_message)?;
+                            let wanted = std::iter::from_fn(|| fields.next_if(|(row, _)| part.contains(row)));
+                            let (wanted, fields): (Vec<usize>, Vec<&mut Vec<String>>) = wanted.unzip();
+                            let wanted: Vec<usize> = wanted.into_iter().map(|row| row - part.start).collect();
+                            for (fields, text) in fields.into_iter().zip(values.texts(&wanted)?) {
+                                fields.push(text);
+                            }
                         }
                     }
                     found.extend(texts);
@@ -268,88 +274,10 @@ fn row_count(group: &dyn RowGroupReader) -> usize {
     usize::try_from(group.metadata().num_rows()).unwrap_or(0)
 }
 
-/// A column of a row group.
-struct ParquetColumn {
-    /// For each row whether it has a value, 1 or 0; empty if all have one.
-    levels: Vec<i16>,
-    values: ParquetValues,
-}
+/// The rows of a table that are read at once.
+const PART_ROWS: usize = 1 << 12;
 
-enum ParquetValues {
-    Integers(Vec<i64>),
-    Numbers(Vec<f64>),
-    Words(Vec<ByteArray>),
-}
-
-impl ParquetColumn {
-    fn read(group: &dyn RowGroupReader, column: usize) -> Result<ParquetColumn, ParquetError> {
-        let rows = row_count(group);
-        let mut levels = Vec::new();
-        macro_rules! values {
-            ($reader:expr) => {{
-                let mut values = Vec::new();
-                let (read, ..) = $reader.read_records(rows, Some(&mut levels), None, &mut values)?;
-                (read, values)
-            }};
-        }
-        let (read, values) = match group.get_column_reader(column)? {
-            ColumnReader::Int32ColumnReader(mut reader) => {
-                let (read, values): (usize, Vec<i32>) = values!(reader);
-                (read, ParquetValues::Integers(values.into_iter().map(i64::from).collect()))
-            }
-            ColumnReader::Int64ColumnReader(mut reader) => {
-                let (read, values) = values!(reader);
-                (read, ParquetValues::Integers(values))
-            }
-            ColumnReader::DoubleColumnReader(mut reader) => {
-                let (read, values) = values!(reader);
-                (read, ParquetValues::Numbers(values))
-            }
-            ColumnReader::ByteArrayColumnReader(mut reader) => {
-                let (read, values) = values!(reader);
-                (read, ParquetValues::Words(values))
-            }
-            _ => return Err(ParquetError::General("a column has another type".to_owned())),
-        };
-        if read != rows {
-            return Err(ParquetError::General(format!("a column has {read} rows of {rows}")));
-        }
-        Ok(ParquetColumn { levels, values })
-    }
-
-    /// The values of all rows: `convert` of those that are not missing.
-    fn rows<T: Clone, V>(levels: &[i16], values: &[V], missing: T, convert: impl Fn(&V) -> T) -> Vec<T> {
-        let mut values = values.iter().map(convert);
-        if levels.is_empty() {
-            return values.collect();
-        }
-        let value = |level: &i16| if *level == 0 { None } else { values.next() };
-        levels.iter().map(value).map(|value| value.unwrap_or_else(|| missing.clone())).collect()
-    }
-
-    /// The numbers of all rows; NaN where there is none.
-    fn numbers(&self) -> Vec<f64> {
-        let levels = &self.levels;
-        match &self.values {
-            ParquetValues::Integers(values) => ParquetColumn::rows(levels, values, f64::NAN, |value| *value as f64),
-            ParquetValues::Numbers(values) => ParquetColumn::rows(levels, values, f64::NAN, |value| *value),
-            ParquetValues::Words(values) => ParquetColumn::rows(levels, values, f64::NAN, |_| f64::NAN),
-        }
-    }
-
-    /// The texts of all rows; empty where there is no value.
-    fn texts(&self) -> Vec<String> {
-        let levels = &self.levels;
-        match &self.values {
-            ParquetValues::Integers(values) => ParquetColumn::rows(levels, values, String::new(), i64::to_string),
-            ParquetValues::Numbers(values) => ParquetColumn::rows(levels, values, String::new(), |value| {
-                let mut digits = Vec::new();
-                append_number(*value, &mut digits);
-                String::from_utf8(digits).unwrap_or_default()
-            }),
-            ParquetValues::Words(values) => ParquetColumn::rows(levels, values, String::new(), |value| {
-                String::from_utf8_lossy(value.data()).into_owned()
-            }),
-        }
-    }
+/// Rows in parts of [`PART_ROWS`].
+fn parts(rows: Range<usize>) -> impl Iterator<Item = Range<usize>> {
+    rows.clone().step_by(PART_ROWS).map(move |first| first..rows.end.min(first + PART_ROWS))
 }
