@@ -1,10 +1,12 @@
 //! The checks of the fuzz targets on the corpora in `fuzz/`: on each text, and on some changes of it.
 
+mod any_linkage;
 mod checks;
 mod mutator;
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use mutator::Mutator;
 
@@ -59,6 +61,52 @@ fn any_expression_is_parsed_or_has_an_error() {
     let texts = texts(&["fuzz/corpus/expression"]);
     assert!(texts.len() > 10);
     run_check(&texts, change_count(), checks::expression);
+}
+
+/// Bytes that choose linkages, the same in every run.
+fn random_bytes(count: usize) -> impl Iterator<Item = Vec<u8>> {
+    (1..=count as u64).map(|seed| {
+        let mut mutator = Mutator::new(seed);
+        (0..96).map(|_| mutator.below(256) as u8).collect()
+    })
+}
+
+/// Measures a number of linkages, and names the one that fails.
+fn measure_linkages(count: usize) {
+    let mut curves = 0;
+    for bytes in random_bytes(count) {
+        match std::panic::catch_unwind(|| any_linkage::measures(&bytes)) {
+            Ok(has_curve) => curves += usize::from(has_curve),
+            Err(_) => panic!("{}", any_linkage::command(&bytes)),
+        }
+    }
+    assert!(curves > count / 10, "{curves} have curves");
+}
+
+#[test]
+fn any_linkage_is_refused_or_measured() {
+    measure_linkages(100);
+}
+
+/// In a process of its own, whose greatest memory is that of the linkages. `CORPUS_CHANGES=2000` measures 20,000.
+#[test]
+#[ignore = "thorough"]
+fn any_linkage_is_measured_in_bounded_memory() {
+    const CHILD: &str = "CORPUS_MEASURES_LINKAGES";
+    const MAX_KILOBYTES: u64 = 150_000;
+    if std::env::var_os(CHILD).is_none() {
+        let name = "corpus::any_linkage_is_measured_in_bounded_memory";
+        let mut child = Command::new(std::env::current_exe().unwrap());
+        let output = child.args([name, "--exact", "--ignored", "--nocapture"]).env(CHILD, "1").output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        return;
+    }
+    measure_linkages(10 * change_count());
+    // Elsewhere it is only measured that none fails.
+    let Ok(status) = fs::read_to_string("/proc/self/status") else { return };
+    let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).expect("the peak of memory");
+    let kilobytes: u64 = peak.split_whitespace().next().expect("a number").parse().unwrap();
+    assert!(kilobytes <= MAX_KILOBYTES, "{kilobytes} kB");
 }
 
 #[test]
