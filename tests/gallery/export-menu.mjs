@@ -69,7 +69,9 @@ const tests = [
         assert.ok(png.bytes.length > 20000, "it is not blank");
         const csv = await saved(page, "CSV points");
         const { header, rows } = pointsOf(atlas, "evans");
-        assert.equal(csv.text, `${header}\n${rows.get("1.1.1").join("\n")}\n`);
+        // The curve is closed.
+        const closed = rows.get("1.1.1").map((row) => `${row},1\n`);
+        assert.equal(csv.text, `${header},closed\n${closed.join("")}`);
         const dxf = await saved(page, "DXF CAD, AutoCAD R12");
         assert.match(dxf.text, /\$ACADVER\n {2}1\nAC1009\n/);
         assert.equal(entitiesOf(dxf.text).filter(({ kind }) => kind === "POLYLINE").length, 1);
@@ -94,7 +96,7 @@ const tests = [
       onPlate(browser, "/evans/curve/1.1.1?p=2.5", async (page) => {
         const csv = await saved(page, "CSV points");
         assert.equal(csv.name, "evans-1-1-1-p-2.5.csv");
-        assert.notEqual(csv.text.split("\n")[5], pointsOf(atlas, "evans").rows.get("1.1.1")[4]);
+        assert.notEqual(csv.text.split("\n")[5], `${pointsOf(atlas, "evans").rows.get("1.1.1")[4]},1`);
         const json = JSON.parse((await saved(page, "JSON all data")).text);
         assert.equal(json.parameters.p, 2.5);
         assert.match((await saved(page, "Manifest fragment .toml")).text, /p = 2\.5, /);
@@ -115,7 +117,7 @@ const tests = [
         const rows = csv.text.trimEnd().split("\n").slice(1);
         assert.equal(rows.length, own.length);
         // The branches of Evans's linkage are mirror images in the frame: at the opposite crank angle, y is.
-        const place = (row) => row.split(",").slice(-2).map(Number);
+        const place = (row) => row.split(",").slice(6, 8).map(Number);
         rows.forEach((row, k) => {
           assert.match(row, /^1,1,2,-1,/);
           const [[x, y], [u, v]] = [place(row), place(own[(own.length - k) % own.length])];

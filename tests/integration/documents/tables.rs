@@ -153,7 +153,7 @@ fn the_json_of_export_has_the_described_keys() {
     let header = csv.lines().next().unwrap();
     let columns: Vec<&str> =
         value["columns"].as_array().unwrap().iter().map(|column| column.as_str().unwrap()).collect();
-    assert_eq!(header[header.find("branch").unwrap()..], columns.join(","));
+    assert_eq!(header[header.find("branch").unwrap()..], columns.join(",") + ",closed");
     let measures: BTreeSet<String> = first_words(&printed(&["list", "measures"]));
     // Conditions, except the one that is also a column, are no measures.
     let is_measure = |name: &String| !name.starts_with("is_") || name == "is_full_turn";
