@@ -12,11 +12,32 @@ pub struct Outline {
     pub angles_deg: Option<Vec<f64>>,
     /// Whether it is closed, where the file says so.
     pub is_closed: Option<bool>,
+    /// What of the file was taken, as a clause: which columns, or which outline of how many, in what unit; empty if there is nothing to say.
+    pub reading: String,
+}
+
+/// What is to be read of a file.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ReadOptions<'a> {
+    /// Whether the angles of the crank are read.
+    pub is_timed: bool,
+    /// The outline to take of several: its id, or its number from 1.
+    pub outline: Option<&'a str>,
 }
 
 impl Outline {
+    /// A path of which there is nothing to say.
+    pub fn new(points: Vec<Point>, angles_deg: Option<Vec<f64>>, is_closed: Option<bool>) -> Outline {
+        Outline { points, angles_deg, is_closed, reading: String::new() }
+    }
+
+    /// Whether it is closed: as the file says or, if it does not, as its ends look.
+    pub fn is_closed(&self) -> bool {
+        self.is_closed.unwrap_or_else(|| self.looks_closed())
+    }
+
     /// Whether the gap from its last point to its first is at most one and a half times the median distance of neighbours.
-    pub fn looks_closed(&self) -> bool {
+    fn looks_closed(&self) -> bool {
         const GAP: f64 = 1.5;
         let (Some(first), Some(last)) = (self.points.first(), self.points.last()) else { return false };
         let mut steps: Vec<f64> = self.points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).collect();
@@ -54,4 +75,26 @@ pub(super) fn limited(mut problems: Vec<String>, what: &str) -> Vec<String> {
         problems.push(format!("and {more} further {what} that cannot be read"));
     }
     problems
+}
+
+/// The index of what `--outline` names: that with its id, or with its number from 1; `what` is what it chooses from.
+///
+/// # Errors
+/// There is none, or its id is that of several.
+pub(super) fn choose(wanted: &str, ids: &[Option<&str>], what: &str) -> Result<usize, String> {
+    let with_id: Vec<usize> = (0..ids.len()).filter(|k| ids[*k] == Some(wanted)).collect();
+    let number = wanted.parse::<usize>().ok().filter(|number| (1..=ids.len()).contains(number));
+    match (&with_id[..], number) {
+        ([only], _) => Ok(*only),
+        ([], Some(number)) => Ok(number - 1),
+        ([], None) => {
+            const SHOWN: usize = 8;
+            let names: Vec<&str> = ids.iter().filter_map(|id| *id).take(SHOWN).collect();
+            let names = if names.is_empty() { String::new() } else { format!(", or {}", names.join(", ")) };
+            Err(format!("--outline {wanted}: there is no such {what}: give a number from 1 to {}{names}", ids.len()))
+        }
+        (several, _) => {
+            Err(format!("--outline {wanted}: {} have this name: give a number from 1 to {}", several.len(), ids.len()))
+        }
+    }
 }

@@ -13,18 +13,31 @@ use super::temporary::{self, Temporary};
 use crate::manifest::MAX_MANIFEST_BYTES;
 use crate::record::{FileRecord, JOURNAL_FILE_NAME, LOCK_FILE_NAME, RUN_FILE_NAME, RunRecord, file_digest};
 
-/// Reads the text of a manifest or of a path: of a file, or of standard input if the name is `-`.
+/// What is said of bytes that are no UTF-8.
+const NO_TEXT: &str = "stream did not contain valid UTF-8";
+
+/// Reads the text of a manifest: of a file, or of standard input if the name is `-`.
 ///
 /// # Errors
 /// The file cannot be read, is not a regular file, is too large, or is not UTF-8 text.
 pub fn read_text(path: &Path) -> Result<String, Error> {
-    let text = match path.as_os_str() == RunRecord::STANDARD_INPUT {
+    let no_text =
+        |_| Error::Read { path: path.to_owned(), source: io::Error::new(io::ErrorKind::InvalidData, NO_TEXT) };
+    let text = String::from_utf8(read_bytes(path)?).map_err(no_text)?;
+    // The byte order mark is not part of the text: columns are counted without it.
+    Ok(text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text))
+}
+
+/// Reads a manifest or a path, which may be in any encoding: a file, or standard input if the name is `-`.
+///
+/// # Errors
+/// The file cannot be read, is not a regular file, or is too large.
+pub fn read_bytes(path: &Path) -> Result<Vec<u8>, Error> {
+    let bytes = match path.as_os_str() == RunRecord::STANDARD_INPUT {
         true => read_limited(io::stdin().lock()),
         false => open_regular(path).and_then(read_limited),
     };
-    let text = text.map_err(|source| Error::Read { path: path.to_owned(), source })?;
-    // The byte order mark is not part of the text: columns are counted without it.
-    Ok(text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text))
+    bytes.map_err(|source| Error::Read { path: path.to_owned(), source })
 }
 
 /// The most bytes of a font file: those for Chinese, Japanese and Korean have some 20 MB.
@@ -55,15 +68,15 @@ fn open_regular(path: &Path) -> io::Result<fs::File> {
     fs::File::open(path)
 }
 
-/// Reads a text of at most [`MAX_MANIFEST_BYTES`].
-fn read_limited(source: impl Read) -> io::Result<String> {
-    let mut text = String::new();
-    source.take(MAX_MANIFEST_BYTES as u64 + 1).read_to_string(&mut text)?;
-    if text.len() > MAX_MANIFEST_BYTES {
+/// Reads at most [`MAX_MANIFEST_BYTES`].
+fn read_limited(source: impl Read) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    source.take(MAX_MANIFEST_BYTES as u64 + 1).read_to_end(&mut bytes)?;
+    if bytes.len() > MAX_MANIFEST_BYTES {
         let message = format!("it has more than {MAX_MANIFEST_BYTES} bytes, the most that are read; divide it");
         return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
     }
-    Ok(text)
+    Ok(bytes)
 }
 
 /// Writes a file that must not exist yet.

@@ -21,6 +21,7 @@ mod family_measures;
 mod faults;
 mod find;
 mod find_atlas;
+mod find_files;
 mod find_linkage;
 mod formats;
 mod gallery;

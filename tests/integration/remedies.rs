@@ -90,8 +90,8 @@ fn a_file_that_is_no_path_has_what_to_name() {
     all_refused(
         folder.path(),
         &[
-            (&["find", "nope.svg"], "cannot find nope.svg: name a table of points, JSON or a drawing in SVG\n"),
-            (&["find", "picture.png"], "cannot read picture.png: it is no table of points, JSON or SVG\n"),
+            (&["find", "nope.svg"], "cannot find nope.svg: name a table of points, JSON or a drawing in SVG or DXF\n"),
+            (&["find", "picture.png"], "picture.png: it is no table of points, JSON, SVG or DXF\n"),
             (&["find", "."], ". is a folder: name a table of points"),
             (&["find", "atlas.toml"], "atlas.toml is a manifest, not a path: `coupler-atlas render atlas.toml`"),
         ],
@@ -153,7 +153,8 @@ fn a_linkage_that_jams_and_a_poor_fit_are_said_to_be_so() {
     let find =
         |more: &[&str]| run(folder.path(), &[&["find", "path.csv", "--index", "300", "--input", "any"], more].concat());
     let (code, out, err) = find(&["--where", "mu_worst_deg < 5"]);
-    assert!(code == 0 && err.is_empty(), "{err}");
+    let read = "note: path.csv: x is column 1, y column 2; open, for its ends are apart\n";
+    assert_eq!((code, err.as_str()), (0, read));
     let note = "note: the best linkage jams, or nearly so: its worst transmission angle is";
     let remedy = "--where \"(mu_worst_deg < 5) and mu_worst_deg >= 30\"\n";
     assert!(out.contains(note) && out.contains(remedy), "{out}");

@@ -10,12 +10,21 @@ use crate::error::OutputError;
 
 /// Reads the text of a file.
 pub fn read_text(py: Python, path: &Path) -> PyResult<String> {
-    py.detach(|| output::read_text(path)).map_err(|error| match &error {
+    py.detach(|| output::read_text(path)).map_err(|error| unreadable(&error))
+}
+
+/// Reads a file in any encoding.
+pub fn read_bytes(py: Python, path: &Path) -> PyResult<Vec<u8>> {
+    py.detach(|| output::read_bytes(path)).map_err(|error| unreadable(&error))
+}
+
+fn unreadable(error: &output::Error) -> PyErr {
+    match error {
         output::Error::Read { source, .. } if source.kind() == std::io::ErrorKind::NotFound => {
             PyFileNotFoundError::new_err(error.to_string())
         }
         _ => OutputError::new_err(error.to_string()),
-    })
+    }
 }
 
 /// Writes a file.

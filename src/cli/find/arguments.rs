@@ -10,8 +10,8 @@ use super::super::files;
 
 /// Find the linkages whose coupler curves are nearest to a path, with their cognates.
 ///
-/// The path is a table of points (x, y on each line), JSON or a drawing in SVG, of which the longest outline is read, with y
-/// pointing up; - for standard input. Curves are compared by E, the root of the mean square of the distances of its points from the
+/// The path is a table of points (x, y on each line), JSON or a drawing in SVG or DXF, of which the longest line is read, with y
+/// pointing up; - for standard input. What was read is said on standard error. Curves are compared by E, the root of the mean square of the distances of its points from the
 /// continuous curve, in their order along one circuit, relative to the path's size S, the root of the mean square of their
 /// distances from their centroid. docs/find.md describes the search and its limits.
 #[derive(Debug, Args)]
@@ -22,6 +22,9 @@ pub struct Arguments {
     /// Take a curve of an atlas as the path, by its name, as in evans:3.1.1 or "evans:3.1.1?p=2.5".
     #[arg(long, value_name = "CURVE", conflicts_with = "path")]
     pub(super) like: Option<String>,
+    /// The outline of a drawing to take, or the path of a table with several: its id, layer or name, or its number from 1.
+    #[arg(long, value_name = "ID|N", conflicts_with = "like")]
+    pub(super) outline: Option<String>,
     #[arg(
         long,
         value_name = "FILE",

@@ -37,6 +37,9 @@ pub(super) struct NearestMiss<E> {
 
 #[derive(Serialize)]
 pub(super) struct Target {
+    /// What of the file was taken.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    read: Option<String>,
     points: Vec<[f64; 2]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     angles_deg: Option<Vec<f64>>,
@@ -106,8 +109,9 @@ impl PlacedRecord {
     }
 }
 
-pub(super) fn target(target: &find::Target) -> Target {
+pub(super) fn target(target: &find::Target, reading: &str) -> Target {
     Target {
+        read: Some(reading.to_owned()).filter(|reading| !reading.is_empty()),
         points: target.points().iter().map(|p| [p.x, p.y]).collect(),
         angles_deg: target.angles_deg().map(<[f64]>::to_vec),
         closed: target.kind() == PathKind::Closed,
@@ -118,13 +122,13 @@ pub(super) fn target(target: &find::Target) -> Target {
 
 /// The path, the linkages and their cognates, as indented JSON.
 pub(super) fn json(report: &Report) -> anyhow::Result<String> {
-    let Report { target, answers, nearest_miss, .. } = report;
+    let Report { reading, target, answers, nearest_miss, .. } = report;
     let miss = nearest_miss.as_ref().map(|(constraints, answer)| NearestMiss {
         relax: options_of(constraints),
         result: AnswerRecord::new(1, answer),
     });
     let document = Document {
-        target: self::target(target),
+        target: self::target(target, reading),
         curves: None,
         searched: None,
         results: (1..).zip(answers).map(|(rank, answer)| AnswerRecord::new(rank, answer)).collect(),

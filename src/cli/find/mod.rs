@@ -12,7 +12,7 @@ mod text;
 
 use std::path::Path;
 
-use crate::find::{self, MAX_POINTS, Outline};
+use crate::find::{self, MAX_POINTS, Outline, ReadOptions};
 use crate::output;
 use coupler_curves::expression::Expression;
 use coupler_curves::find::{Effort, Index, Options, PathKind, Search, Target, answers_manifest, nearest_miss};
@@ -62,22 +62,25 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     if let Some(jobs) = arguments.jobs {
         rayon::ThreadPoolBuilder::new().num_threads(jobs.into()).build_global()?;
     }
-    let TracedPath { name, points, kind, angles_deg } = read_path(arguments)?;
+    let TracedPath { name, points, kind, angles_deg, reading } = read_path(arguments)?;
+    if !reading.is_empty() {
+        print_stderr(&format!("note: {name}: {reading}\n"));
+    }
     let target = match &angles_deg {
         Some(angles_deg) => Target::timed(&points, kind, angles_deg),
         None => Target::new(&points, kind),
     };
     let target = target.map_err(|error| InputError(format!("{name}: {error}")))?;
     if let Some(atlas) = &arguments.atlas {
-        return atlas::run((arguments, atlas), &options, (name, target), is_drawing_printed);
+        return atlas::run((arguments, atlas), &options, (name, reading, target), is_drawing_printed);
     }
     if let Some(sought) = sought {
-        return linkage::run(arguments, sought, &options, (name, target), is_drawing_printed);
+        return linkage::run(arguments, sought, &options, (name, reading, target), is_drawing_printed);
     }
     let index = find::load_index(arguments.index.map_or(Index::DEFAULT_COUNT, |count| count as usize));
     let answers = Search::new(&target, options.clone()).run(&index);
     let nearest_miss = if answers.is_empty() { nearest_miss(&target, &index, &options) } else { None };
-    let report = Report { name, target, answers, nearest_miss };
+    let report = Report { name, reading, target, answers, nearest_miss };
     show(&report, arguments, is_drawing_printed)
 }
 
@@ -164,19 +167,35 @@ struct TracedPath {
     kind: PathKind,
     /// The angles of the crank at the points, if it is timed.
     angles_deg: Option<Vec<f64>>,
+    /// What of the file was taken.
+    reading: String,
 }
 
 impl TracedPath {
     /// # Errors
     /// It is timed, open, and has no angles.
-    fn new(name: String, mut outline: Outline, kind: PathKind, is_timed: bool) -> Result<TracedPath, InputError> {
-        let angles_deg = if is_timed { outline.take_timing(kind) } else { None };
-        if is_timed && angles_deg.is_none() {
+    fn new(name: String, mut outline: Outline, arguments: &Arguments) -> Result<TracedPath, InputError> {
+        let is_closed = outline.is_closed();
+        let mut reading = std::mem::take(&mut outline.reading);
+        let kind = match arguments {
+            Arguments { closed: true, .. } => PathKind::Closed,
+            Arguments { open: true, .. } => PathKind::Open,
+            Arguments { part: true, .. } => PathKind::Part,
+            _ => {
+                if outline.is_closed.is_none() && !reading.is_empty() {
+                    reading +=
+                        if is_closed { "; closed, for its ends are near" } else { "; open, for its ends are apart" };
+                }
+                if is_closed { PathKind::Closed } else { PathKind::Open }
+            }
+        };
+        let angles_deg = if arguments.timed { outline.take_timing(kind) } else { None };
+        if arguments.timed && angles_deg.is_none() {
             return Err(InputError(format!(
                 "{name}: --timed needs an angle of the crank for each point of an open path: write them as a third column, in degrees"
             )));
         }
-        Ok(TracedPath { name, points: outline.points, kind, angles_deg })
+        Ok(TracedPath { name, points: outline.points, kind, angles_deg, reading })
     }
 }
 
@@ -185,13 +204,6 @@ impl TracedPath {
 /// # Errors
 /// It cannot be read.
 fn read_path(arguments: &Arguments) -> anyhow::Result<TracedPath> {
-    let kind = |is_closed: bool| match arguments {
-        Arguments { closed: true, .. } => PathKind::Closed,
-        Arguments { open: true, .. } => PathKind::Open,
-        Arguments { part: true, .. } => PathKind::Part,
-        _ if is_closed => PathKind::Closed,
-        _ => PathKind::Open,
-    };
     if let Some(name) = &arguments.like {
         let manifest = arguments.manifest.as_deref().unwrap_or(Path::new(files::DEFAULT_MANIFEST));
         let CurveSamples { points, inputs_deg, is_closed } = export::curve_points(manifest, name)?;
@@ -199,25 +211,26 @@ fn read_path(arguments: &Arguments) -> anyhow::Result<TracedPath> {
             let message = format!("{name} has {} samples, and at most {MAX_POINTS} can be searched for", points.len());
             return Err(InputError(message).into());
         }
-        let outline = Outline { points, angles_deg: inputs_deg, is_closed: Some(is_closed) };
-        return Ok(TracedPath::new(name.clone(), outline, kind(is_closed), arguments.timed)?);
+        return Ok(TracedPath::new(name.clone(), Outline::new(points, inputs_deg, Some(is_closed)), arguments)?);
     }
     let path = arguments.path.as_deref().unwrap_or(Path::new("-"));
     files::protect(path);
     let name = files::input_name(path);
-    let text = output::read_text(path).map_err(|error| not_a_path::unreadable(path, error))?;
-    let outline = find::parse_outline(&text, arguments.timed).map_err(|problems| {
-        if let Some(message) = not_a_path::manifest_message(path, &text) {
+    let bytes = output::read_bytes(path).map_err(|error| not_a_path::unreadable(path, error))?;
+    let read = |is_timed: bool| {
+        find::parse_outline(&bytes, &ReadOptions { is_timed, outline: arguments.outline.as_deref() })
+    };
+    let outline = read(arguments.timed).map_err(|problems| {
+        if let Some(message) = not_a_path::manifest_message(path, &bytes) {
             return InputErrors::from_messages(&[message]);
         }
         let problems: Vec<String> = problems.iter().map(|problem| format!("{name}: {problem}")).collect();
         InputErrors::from_messages(&problems)
     })?;
-    if !arguments.timed && find::parse_outline(&text, true).is_ok_and(|timed| timed.angles_deg.is_some()) {
+    if !arguments.timed && read(true).is_ok_and(|timed| timed.angles_deg.is_some()) {
         print_stderr(&format!(
             "note: the angles in {name} are not used: with --timed each point is reached at its own\n"
         ));
     }
-    let is_closed = outline.is_closed.unwrap_or_else(|| outline.looks_closed());
-    Ok(TracedPath::new(name, outline, kind(is_closed), arguments.timed)?)
+    Ok(TracedPath::new(name, outline, arguments)?)
 }

@@ -9,7 +9,7 @@ use super::{InputError, files};
 
 /// Why the file of a path cannot be read, with the remedy.
 pub(super) fn unreadable(path: &Path, error: output::Error) -> anyhow::Error {
-    const FORMS: &str = "a table of points, JSON or a drawing in SVG";
+    const FORMS: &str = "a table of points, JSON or a drawing in SVG or DXF";
     let name = files::input_name(path);
     let kind = match &error {
         output::Error::Read { source, .. } => source.kind(),
@@ -18,16 +18,15 @@ pub(super) fn unreadable(path: &Path, error: output::Error) -> anyhow::Error {
     let message = match kind {
         ErrorKind::NotFound => format!("cannot find {name}: name {FORMS}"),
         ErrorKind::IsADirectory => format!("{name} is a folder: name {FORMS}"),
-        ErrorKind::InvalidData => format!("cannot read {name}: it is no table of points, JSON or SVG"),
         _ => return error.into(),
     };
     InputError(message).into()
 }
 
 /// What to do with a manifest in place of a path; `None` if the text is no manifest.
-pub(super) fn manifest_message(path: &Path, text: &str) -> Option<String> {
-    let is_manifest =
-        files::extension(path).as_deref() == Some("toml") || text.lines().any(|line| line.trim() == "[[family]]");
+pub(super) fn manifest_message(path: &Path, bytes: &[u8]) -> Option<String> {
+    let is_manifest = files::extension(path).as_deref() == Some("toml")
+        || bytes.split(|byte| *byte == b'\n').any(|line| line.trim_ascii() == b"[[family]]");
     let name = files::input_name(path);
     is_manifest.then(|| {
         format!(

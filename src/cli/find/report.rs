@@ -8,6 +8,8 @@ use coupler_curves::find::{Answer, Constraint, Target};
 pub(super) struct Report {
     /// The name of the path, for titles.
     pub(super) name: String,
+    /// What of its file was taken.
+    pub(super) reading: String,
     pub(super) target: Target,
     pub(super) answers: Vec<Answer>,
     /// If there is no answer, the constraints to relax, and the answer without them.

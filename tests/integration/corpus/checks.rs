@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use coupler_atlas::check::{self, Report};
+use coupler_atlas::find::{self, Outline, ReadOptions};
 use coupler_atlas::manifest;
 use coupler_atlas::output;
 use coupler_curves::expression::{Caption, Dimension, Error, Expression, Quantity, Scope};
@@ -81,6 +82,21 @@ pub fn page(text: &str) {
 /// The same for the record of the run, without which there may be no check at all.
 pub fn record(text: &str) {
     check_with_replaced_file("run.json", text);
+}
+
+/// Asserts that bytes are read as a path, of which it is said what was taken, or have problems.
+pub fn path(bytes: &[u8]) {
+    for (is_timed, outline) in [(false, None), (true, None), (false, Some("1"))] {
+        match find::parse_outline(bytes, &ReadOptions { is_timed, outline }) {
+            Ok(Outline { points, angles_deg, reading, .. }) => {
+                assert!(points.len() <= find::MAX_POINTS);
+                assert!(points.iter().all(|p| p.x.is_finite() && p.y.is_finite()), "{points:?}");
+                assert!(angles_deg.is_none_or(|angles| is_timed && angles.len() == points.len()));
+                assert!(points.is_empty() || !reading.is_empty());
+            }
+            Err(problems) => assert!(!problems.is_empty() && problems.iter().all(|problem| !problem.is_empty())),
+        }
+    }
 }
 
 /// A manifest of two cells, one of which is not assembled.

@@ -123,3 +123,42 @@ fn any_file_of_a_recorded_atlas_can_be_checked() {
         run_check(&texts, change_count(), check);
     }
 }
+
+/// The files of paths with changes of their text and of their numbers, also in the encodings of spreadsheets.
+fn check_paths(changes: usize) -> usize {
+    let texts = texts(&["fuzz/corpus/path", "examples/sketch.svg"]);
+    assert!(texts.len() > 15);
+    let mut count = 0;
+    for (seed, (path, text)) in (1..).zip(&texts) {
+        let mut mutator = Mutator::new(seed);
+        for k in 0..changes {
+            let text = match k % 3 {
+                0 => mutator.change(text),
+                1 => mutator.change_numbers(text),
+                _ => {
+                    let changed = mutator.change(text);
+                    mutator.change_numbers(&changed)
+                }
+            };
+            let bytes = match k % 7 {
+                3 => text.encode_utf16().flat_map(u16::to_le_bytes).collect(),
+                _ => text.clone().into_bytes(),
+            };
+            let passes = std::panic::catch_unwind(|| checks::path(&bytes));
+            assert!(passes.is_ok(), "{}, change {k}:\n{text}", path.display());
+            count += 1;
+        }
+    }
+    count
+}
+
+#[test]
+fn any_file_is_a_path_or_has_problems() {
+    assert!(check_paths(40) > 600);
+}
+
+#[test]
+#[ignore = "thorough"]
+fn any_of_many_files_is_a_path_or_has_problems() {
+    assert!(check_paths(1200) >= 20_000);
+}

@@ -91,4 +91,24 @@ impl Mutator {
         }
         out
     }
+
+    /// A text in which a few numbers are of any size, from 10^-300 to 10^300 and of either sign, or are those that are special.
+    pub fn change_numbers(&mut self, text: &str) -> String {
+        let is_part = |c: char| c.is_ascii_digit() || c == '.';
+        let mut out = text.to_owned();
+        for _ in 0..1 + self.below(3) {
+            let at = self.position(&out);
+            let Some(from) = out[at..].find(|c: char| c.is_ascii_digit()).map(|digit| at + digit) else { continue };
+            let to = out[from..].find(|c| !is_part(c)).map_or(out.len(), |end| from + end);
+            let sign = ["", "-"][self.below(2)];
+            let number = match self.below(8) {
+                0 => "0".to_owned(),
+                1 => "1e-320".to_owned(),
+                2 => "9007199254740993".to_owned(),
+                _ => format!("{sign}{}e{}", 1 + self.below(9), self.below(601) as i32 - 300),
+            };
+            out.replace_range(from..to, &number);
+        }
+        out
+    }
 }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use coupler_atlas::find::{MAX_POINTS, Outline, parse_outline};
+use coupler_atlas::find::{MAX_POINTS, Outline, ReadOptions, parse_outline};
 use coupler_curves::find::PathKind;
 use coupler_curves::geometry::Point;
 use numpy::ndarray::ArrayView2;
@@ -10,7 +10,7 @@ use numpy::{AllowTypeChange, PyArrayLike1, PyArrayLike2};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
-use crate::file::read_text;
+use crate::file::read_bytes;
 use crate::linkage::Curve;
 
 /// A path with its name, and with the angles of the crank if it has any.
@@ -27,7 +27,7 @@ impl Path {
     pub(super) fn read(py: Python, path: &Bound<PyAny>, is_timed: bool) -> PyResult<Path> {
         if let Ok(curve) = path.cast::<Curve>() {
             let (points, inputs, is_closed) = curve.get().path()?;
-            let outline = Outline { points, angles_deg: Some(inputs), is_closed: Some(is_closed) };
+            let outline = Outline::new(points, Some(inputs), Some(is_closed));
             return Ok(Path { name: "curve".to_owned(), outline });
         }
         // NumPy would leave out the imaginary parts.
@@ -46,8 +46,8 @@ impl Path {
             return Err(PyTypeError::new_err(message));
         };
         let shown = file.display().to_string();
-        let text = read_text(py, &file)?;
-        let outline = parse_outline(&text, is_timed).map_err(|problems| {
+        let bytes = read_bytes(py, &file)?;
+        let outline = parse_outline(&bytes, &ReadOptions { is_timed, outline: None }).map_err(|problems| {
             let problems: Vec<String> = problems.iter().map(|problem| format!("{shown}: {problem}")).collect();
             PyValueError::new_err(problems.join("\n"))
         })?;
@@ -74,7 +74,7 @@ impl Path {
             _ if part => Ok(PathKind::Part),
             Some(true) => Ok(PathKind::Closed),
             Some(false) => Ok(PathKind::Open),
-            None if outline.is_closed.unwrap_or_else(|| outline.looks_closed()) => Ok(PathKind::Closed),
+            None if outline.is_closed() => Ok(PathKind::Closed),
             None => Ok(PathKind::Open),
         }
     }
@@ -112,5 +112,5 @@ fn outline_of(array: ArrayView2<f64>, is_timed: bool) -> PyResult<Outline> {
     }
     let points: Vec<Point> = array.rows().into_iter().map(|row| Point::new(row[0], row[1])).collect();
     let angles_deg = (columns == 3).then(|| array.column(2).to_vec());
-    Ok(Outline { points, angles_deg, is_closed: None })
+    Ok(Outline::new(points, angles_deg, None))
 }

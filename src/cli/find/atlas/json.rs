@@ -30,7 +30,7 @@ pub(super) fn json(report: &AtlasReport) -> anyhow::Result<String> {
     let entry = |(rank, answer): (usize, &AtlasAnswer)| entry(report, rank, answer);
     let miss = report.findings.nearest_miss.as_ref();
     let document = Document {
-        target: json::target(&report.target),
+        target: json::target(&report.target, &report.reading),
         curves: Some(report.findings.curves),
         searched: None,
         results: (1..).zip(&report.findings.answers).map(entry).collect(),

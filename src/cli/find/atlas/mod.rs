@@ -35,14 +35,14 @@ pub(super) fn check(arguments: &Arguments) -> Result<(), InputError> {
 pub(super) fn run(
     (arguments, atlas): (&Arguments, &Path),
     options: &Options,
-    (name, target): (String, Target),
+    (name, reading, target): (String, String, Target),
     is_drawing_printed: bool,
 ) -> anyhow::Result<Outcome> {
     let source = read(atlas)?;
     let query = AtlasQuery { options, condition: arguments.condition.as_deref(), is_fixed: arguments.fixed };
     let findings = find::find_in_atlas(&source.plan, &target, &query, &AtomicBool::new(false))
         .map_err(|error| InputError(format!("--where: {error}")))?;
-    let report = AtlasReport { name, target, plan: source.plan, findings };
+    let report = AtlasReport { name, reading, target, plan: source.plan, findings };
     show(&report, arguments, is_drawing_printed)
 }
 

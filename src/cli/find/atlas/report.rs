@@ -7,6 +7,8 @@ use coupler_curves::find::Target;
 /// What has been found in an atlas.
 pub(super) struct AtlasReport {
     pub(super) name: String,
+    /// What of its file was taken.
+    pub(super) reading: String,
     pub(super) target: Target,
     pub(super) plan: Plan,
     pub(super) findings: AtlasFindings,

@@ -29,7 +29,7 @@ pub(super) fn json(report: &LinkageReport) -> anyhow::Result<String> {
         .as_ref()
         .map(|(constraints, answer)| NearestMiss { relax: options_of(constraints), result: entry((1, answer)) });
     let document = Document {
-        target: json::target(&report.target),
+        target: json::target(&report.target, &report.reading),
         curves: Some(report.findings.curves),
         searched: Some(report.space.free_names().map(str::to_owned).collect()),
         results: (1..).zip(&report.findings.answers).map(entry).collect(),

@@ -88,14 +88,14 @@ pub(super) fn run(
     arguments: &Arguments,
     sought: Sought,
     options: &Options,
-    (name, target): (String, Target),
+    (name, reading, target): (String, String, Target),
     is_drawing_printed: bool,
 ) -> anyhow::Result<Outcome> {
     let Sought { space, own_linkage, .. } = sought;
     let samples = arguments.index.map(|count| count as usize);
     let findings = find::find_linkage(&space, &target, options, samples, &AtomicBool::new(false))
         .map_err(|error| InputError(error.to_string()))?;
-    let report = LinkageReport { name, target, space, findings, own_linkage };
+    let report = LinkageReport { name, reading, target, space, findings, own_linkage };
     show(&report, arguments, is_drawing_printed)
 }
 

@@ -6,6 +6,8 @@ use coupler_curves::find::{LinkageSpace, Target};
 /// What has been found for a linkage.
 pub(super) struct LinkageReport {
     pub(super) name: String,
+    /// What of its file was taken.
+    pub(super) reading: String,
     pub(super) target: Target,
     pub(super) space: LinkageSpace,
     pub(super) findings: LinkageFindings,
