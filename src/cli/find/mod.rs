@@ -217,9 +217,8 @@ fn read_path(arguments: &Arguments) -> anyhow::Result<TracedPath> {
     files::protect(path);
     let name = files::input_name(path);
     let bytes = output::read_bytes(path).map_err(|error| not_a_path::unreadable(path, error))?;
-    let read = |is_timed: bool| {
-        find::parse_outline(&bytes, &ReadOptions { is_timed, outline: arguments.outline.as_deref() })
-    };
+    let read =
+        |is_timed: bool| find::parse_outline(&bytes, &ReadOptions { is_timed, outline: arguments.outline.as_deref() });
     let outline = read(arguments.timed).map_err(|problems| {
         if let Some(message) = not_a_path::manifest_message(path, &bytes) {
             return InputErrors::from_messages(&[message]);
