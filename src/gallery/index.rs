@@ -36,15 +36,15 @@ pub struct DataBytes {
 
 impl DataBytes {
     /// The sizes of the data among the files of a family, given the size of a file by its name.
-    pub fn new(record: &FamilyRecord, size_of: impl Fn(&str) -> u64) -> DataBytes {
+    pub fn new<E>(record: &FamilyRecord, size_of: impl Fn(&str) -> Result<u64, E>) -> Result<DataBytes, E> {
         let mut bytes = DataBytes::default();
         for file in record.files.iter().filter(|file| is_data_file_name(&file.name)) {
-            let size = size_of(&file.name);
+            let size = size_of(&file.name)?;
             bytes.all += size;
             let has_points = parse_piece_file_name(&file.name).is_some_and(|(series, _)| series == PieceSeries::Curves);
             bytes.table += if has_points { 0 } else { size };
         }
-        bytes
+        Ok(bytes)
     }
 }
 

@@ -49,7 +49,7 @@ pub(super) fn write(
         report(Event::End { record: &record, drawn: None });
         // A change is recorded before a file is removed.
         journal.set_family(record.clone())?;
-        remove_stale_files(earlier, &record, &folder)?;
+        remove_stale_files(earlier, &record, journal)?;
         return Ok(None);
     }
     let pipeline = FamilyPipeline::new(plan, planned, &options.interrupt).ok_or(Error::Interrupted)?;
@@ -90,7 +90,7 @@ pub(super) fn write(
     previous_run::sort_files(&family.id, &mut record.files);
     report(Event::End { record: &record, drawn: Some(drawn) });
     journal.set_family(record.clone())?;
-    remove_stale_files(earlier, &record, &folder)?;
+    remove_stale_files(earlier, &record, journal)?;
     Ok(is_surveyed.then_some(survey))
 }
 
@@ -103,10 +103,15 @@ fn recorded_shortfalls(record: &FamilyRecord, folder: &Path) -> Option<Vec<(usiz
 }
 
 /// Removes the files of an earlier run that are not among those of a record.
-fn remove_stale_files(earlier: Option<FamilyRecord>, record: &FamilyRecord, folder: &Path) -> Result<(), Error> {
+fn remove_stale_files(
+    earlier: Option<FamilyRecord>,
+    record: &FamilyRecord,
+    journal: &mut Journal,
+) -> Result<(), Error> {
     let current: std::collections::HashSet<&str> = record.files.iter().map(|file| file.name.as_str()).collect();
     let known = earlier.map(|earlier| earlier.files).unwrap_or_default();
-    files::remove_files(folder, known.iter().map(|file| file.name.as_str()).filter(|name| !current.contains(name)))
+    let mut stale = known.iter().map(|file| file.name.as_str()).filter(|name| !current.contains(name)).peekable();
+    if stale.peek().is_some() { journal.file()?.remove_files(&record.id, stale) } else { Ok(()) }
 }
 
 /// The pages of an earlier run in formats that this command line leaves out. They stay; a page that is not up to date

@@ -161,8 +161,9 @@ pub(super) fn remove_files<'n>(folder: &Path, names: impl Iterator<Item = &'n st
     let mut subfolders = BTreeSet::new();
     for name in names {
         let path = folder.join(name);
-        let Some(parent) = path.parent().filter(|parent| is_folder(parent)) else { continue };
-        if fs::symlink_metadata(&path).is_ok_and(|metadata| metadata.is_file()) {
+        let Some(parent) = path.parent() else { continue };
+        let is_in_folder = file_type(parent)?.is_some_and(|kind| kind.is_dir());
+        if is_in_folder && file_type(&path)?.is_some_and(|kind| kind.is_file()) {
             fs::remove_file(&path).map_err(|source| Error::Write { path: path.clone(), source })?;
             if parent != folder {
                 subfolders.insert(parent.to_owned());
@@ -218,9 +219,22 @@ fn remove_temporary_in(folder: &Path, keeps_partial: bool) {
     }
 }
 
-/// Whether a path is a folder, and not a symbolic link to one.
-pub(super) fn is_folder(path: &Path) -> bool {
-    fs::symlink_metadata(path).is_ok_and(|metadata| metadata.is_dir())
+/// The size of a file in bytes; 0 if there is none.
+pub(super) fn size(path: &Path) -> Result<u64, Error> {
+    match fs::metadata(path) {
+        Ok(metadata) => Ok(metadata.len()),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(0),
+        Err(source) => Err(Error::Read { path: path.to_owned(), source }),
+    }
+}
+
+/// What has a path, where a link is not followed; `None` if nothing has.
+fn file_type(path: &Path) -> Result<Option<fs::FileType>, Error> {
+    match fs::symlink_metadata(path) {
+        Ok(metadata) => Ok(Some(metadata.file_type())),
+        Err(error) if matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory) => Ok(None),
+        Err(source) => Err(Error::Write { path: path.to_owned(), source }),
+    }
 }
 
 /// The beginning and the end of the names of temporary files.

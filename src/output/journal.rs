@@ -110,6 +110,21 @@ impl JournalFile {
     }
 }
 
+impl JournalFile {
+    /// Removes those of some files that exist; `folder` is empty, or the id of the family. Entries before it say that nothing is
+    /// known about them.
+    ///
+    /// # Errors
+    /// The journal cannot be written, or a file not be removed.
+    pub fn remove_files<'n>(&self, folder: &str, names: impl Iterator<Item = &'n str>) -> Result<(), Error> {
+        let names: Vec<&str> = names.collect();
+        for name in &names {
+            self.append(&JournalEntry::Writing(path_in_atlas(folder, name)))?;
+        }
+        files::remove_files(&self.path.with_file_name(folder), names.into_iter())
+    }
+}
+
 impl<'a> Journal<'a> {
     /// Opens the journal of a folder with the record of an earlier run.
     pub fn open(plan: &'a Plan, output: &Path, options: &'a Options, earlier: PreviousRun) -> Journal<'a> {
@@ -258,12 +273,11 @@ impl<'a> Journal<'a> {
         if self.families.iter().all(is_planned) {
             return Ok(());
         }
-        self.file()?;
+        let file = self.file()?;
         for record in self.families.iter().filter(|record| !is_planned(record)) {
-            let folder = self.output.join(&record.id);
-            files::remove_files(&folder, record.files.iter().map(|file| file.name.as_str()))?;
+            file.remove_files(&record.id, record.files.iter().map(|file| file.name.as_str()))?;
             // A folder with files that this program did not write is kept.
-            let _ = fs::remove_dir(&folder);
+            let _ = fs::remove_dir(self.output.join(&record.id));
             report(Event::Removed { family: &record.id });
         }
         self.families.retain(is_planned);
@@ -290,12 +304,11 @@ impl<'a> Journal<'a> {
     /// A file cannot be written.
     pub fn write_gallery(&mut self) -> Result<(), Error> {
         let run = self.to_run();
-        let bytes = |record: &FamilyRecord| {
-            let folder = self.output.join(&record.id);
-            DataBytes::new(record, |name| fs::metadata(folder.join(name)).map_or(0, |metadata| metadata.len()))
+        let show = |record| {
+            let bytes = DataBytes::new(record, |name| files::size(&self.output.join(&record.id).join(name)))?;
+            Ok(GalleryFamily { record, bytes })
         };
-        let shown: Vec<GalleryFamily> =
-            run.families.iter().map(|record| GalleryFamily { record, bytes: bytes(record) }).collect();
+        let shown: Vec<GalleryFamily> = run.families.iter().map(show).collect::<Result<_, Error>>()?;
         let page = gallery::index_html(&run, &shown);
         // The kernel first, so that a page always finds one.
         self.kernel = Some(self.write_text(gallery::KERNEL_FILE, &gallery::kernel_script(), run.kernel.as_ref())?);

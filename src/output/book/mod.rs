@@ -83,9 +83,8 @@ pub(super) fn write(
     let earlier = journal.book().cloned();
     if selected.is_empty() {
         if earlier.is_some() {
-            journal.file()?;
+            remove_stale_volumes(earlier.as_ref(), &[], &*journal.file()?)?;
         }
-        remove_stale_volumes(earlier.as_ref(), &[], output)?;
         return journal.set_book(None);
     }
     let inputs_sha256 = inputs_digest(plan, &selected);
@@ -100,15 +99,19 @@ pub(super) fn write(
     let files = write_volumes(plan, &families, (output, inputs_sha256, &*journal.file()?), options, report)?;
     let pages = files.iter().map(|(_, pages)| pages).sum();
     let files: Vec<FileRecord> = files.into_iter().map(|(file, _)| file).collect();
-    remove_stale_volumes(earlier.as_ref(), &files, output)?;
+    remove_stale_volumes(earlier.as_ref(), &files, &*journal.file()?)?;
     let record = BookRecord { inputs_sha256: Some(inputs_sha256), pages, files };
     report(Event::Book { record: &record, is_drawn: true });
     journal.set_book(Some(record))
 }
 
-fn remove_stale_volumes(earlier: Option<&BookRecord>, current: &[FileRecord], output: &Path) -> Result<(), Error> {
+fn remove_stale_volumes(
+    earlier: Option<&BookRecord>,
+    current: &[FileRecord],
+    journal: &JournalFile,
+) -> Result<(), Error> {
     let known = earlier.iter().flat_map(|record| &record.files).map(|file| file.name.as_str());
-    files::remove_files(output, known.filter(|name| current.iter().all(|file| file.name != **name)))
+    journal.remove_files("", known.filter(|name| current.iter().all(|file| file.name != **name)))
 }
 
 /// The approximate memory of the pages of a volume, which is written when it is complete, in bytes.

@@ -9,6 +9,8 @@ mod clock;
 mod disk;
 mod kills;
 mod places;
+#[cfg(target_os = "linux")]
+mod unreadable;
 
 use std::collections::BTreeMap;
 use std::path::Path;

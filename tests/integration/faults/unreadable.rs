@@ -1,0 +1,48 @@
+use std::fs;
+use std::os::unix::fs::symlink;
+
+use super::old_and_new;
+use crate::support::command::{folder_with, run};
+
+/// Files of which the system says that they exist, and whose bytes it fails to read: a process has nothing at address 0.
+const UNREADABLE: &str = "/proc/self/mem";
+
+/// Another attempt may succeed, unlike one with a file that is wrong, so that the exit code is another one.
+#[test]
+fn an_input_that_the_system_fails_to_read_is_not_wrong() {
+    let [manifest, _] = old_and_new();
+    let folder = folder_with(&manifest);
+    for name in ["broken.toml", "broken.csv", "broken.ttf"] {
+        symlink(UNREADABLE, folder.path().join(name)).unwrap();
+    }
+    let with_font = manifest.replacen("[page]", "[page]\nfallback_face = \"broken.ttf\"", 1);
+    fs::write(folder.path().join("font.toml"), with_font).unwrap();
+    for (arguments, name) in [
+        (&["validate", "broken.toml"][..], "broken.toml"),
+        (&["render", "broken.toml"], "broken.toml"),
+        (&["render", "broken.toml", "--shard", "0/2"], "broken.toml"),
+        (&["sweep", "broken.toml"], "broken.toml"),
+        (&["check", "broken.toml", "--against", "out"], "broken.toml"),
+        (&["export", "broken.toml", "evans:1.1.1"], "broken.toml"),
+        (&["list", "linkages", "evans", "--manifest", "broken.toml"], "broken.toml"),
+        (&["inspect", "evans", "--manifest", "broken.toml"], "broken.toml"),
+        (&["find", "broken.csv"], "broken.csv"),
+        (&["find", "broken.csv", "--atlas", "broken.toml"], "broken."),
+        (&["validate", "font.toml"], "broken.ttf"),
+        (&["render", "font.toml"], "broken.ttf"),
+        (&["sweep", "font.toml"], "broken.ttf"),
+    ] {
+        let (code, out, err) = run(folder.path(), arguments);
+        assert_eq!((code, out.as_str()), (3, ""), "{arguments:?}: {err}");
+        assert!(err.starts_with("error: cannot read ") && err.contains(name), "{arguments:?}: {err}");
+        assert!(err.ends_with("Input/output error (os error 5)\n"), "{arguments:?}: {err}");
+    }
+    // What is not there, or has been read and is none, is wrong.
+    fs::write(folder.path().join("bytes.toml"), [0xff; 9]).unwrap();
+    for name in ["nowhere.toml", "bytes.toml", "nowhere/atlas.toml", "atlas.toml/atlas.toml"] {
+        assert_eq!(run(folder.path(), &["sweep", name]).0, 2, "{name}");
+    }
+    fs::write(folder.path().join("font.toml"), manifest.replacen("[page]", "[page]\nfallback_face = \"no.ttf\"", 1))
+        .unwrap();
+    assert_eq!(run(folder.path(), &["sweep", "font.toml"]).0, 2);
+}
