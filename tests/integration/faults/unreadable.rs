@@ -15,7 +15,7 @@ fn an_input_that_the_system_fails_to_read_is_not_wrong() {
     for name in ["broken.toml", "broken.csv", "broken.ttf"] {
         symlink(UNREADABLE, folder.path().join(name)).unwrap();
     }
-    let with_font = manifest.replacen("[page]", "[page]\nfallback_face = \"broken.ttf\"", 1);
+    let with_font = manifest.replacen("[page]", "[page]\ntheme = { fallback_face = \"broken.ttf\" }", 1);
     fs::write(folder.path().join("font.toml"), with_font).unwrap();
     for (arguments, name) in [
         (&["validate", "broken.toml"][..], "broken.toml"),
@@ -42,7 +42,10 @@ fn an_input_that_the_system_fails_to_read_is_not_wrong() {
     for name in ["nowhere.toml", "bytes.toml", "nowhere/atlas.toml", "atlas.toml/atlas.toml"] {
         assert_eq!(run(folder.path(), &["sweep", name]).0, 2, "{name}");
     }
-    fs::write(folder.path().join("font.toml"), manifest.replacen("[page]", "[page]\nfallback_face = \"no.ttf\"", 1))
-        .unwrap();
+    fs::write(
+        folder.path().join("font.toml"),
+        manifest.replacen("[page]", "[page]\ntheme = { fallback_face = \"no.ttf\" }", 1),
+    )
+    .unwrap();
     assert_eq!(run(folder.path(), &["sweep", "font.toml"]).0, 2);
 }

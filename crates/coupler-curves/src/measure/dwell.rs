@@ -113,7 +113,7 @@ fn width_about(row: &Row, [from, to]: [f64; 2], centre: Point) -> f64 {
     };
     // Around a bend that points do not show, ever closer.
     let around = |bend: i64| {
-        let offsets = (0..16).map(|k| 0.5f64.powi(k)).chain([0.0]);
+        let offsets = (0..16).map(|k| 1.0 / f64::from(1u32 << k)).chain([0.0]);
         offsets.flat_map(move |offset| [bend as f64 - offset, bend as f64 + offset])
     };
     let beside: Vec<f64> = row.corners_between([from, to]).into_iter().flat_map(around).collect();

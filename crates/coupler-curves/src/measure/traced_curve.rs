@@ -8,7 +8,7 @@ use super::curve::{ArcLength, Crossings, SmoothCurve, Stop};
 use super::features::{Dwell, StraightCriterion, StraightPortion, Symmetry};
 use super::output::motion::OutputMotion;
 use super::portions::SPACING;
-use super::rounding::within_period;
+use super::rounding::{within_period, without_rounding};
 use super::row::Row;
 use crate::linkage::{Input, JointId, Linkage};
 use crate::motion::{Circuit, Motion};
@@ -178,8 +178,10 @@ pub(super) struct SharedResults {
 
 /// The input at which a portion of a curve begins: from 0 up to a period where the input turns fully.
 pub(super) fn start_input(curve: &TracedCurve, input: f64) -> f64 {
+    /// The accuracy of inputs, in degrees or units of length.
+    const ROUNDING: f64 = 1e-12;
     match curve.linkage.input() {
         Input::Angle { turns } if curve.circuit.is_full_turn() => within_period(input, 360.0 * f64::from(turns)),
-        _ => input,
+        _ => without_rounding(input, ROUNDING),
     }
 }
