@@ -48,7 +48,10 @@ addTest(
     assert.match(panelText, /least transmission angle[\s\S]*14\.36°/);
     assert.match(panelText, /greatest transmission angle[\s\S]*77\.36°/);
     const term = page.locator(".page-measures dt", { hasText: "time ratio" });
-    assert.match(await term.getAttribute("title"), /slowest stroke from limit to limit divided by that of its fastest/);
+    assert.match(
+      await term.getAttribute("title"),
+      /slowest stroke from limit to limit divided by that of its fastest/,
+    );
     await page.locator(".page-panel").getByRole("button", { name: "Pin" }).click();
     assert.equal(
       await page.locator(".page-panel").getByRole("button", { name: "Pinned" }).getAttribute("aria-pressed"),
