@@ -84,6 +84,9 @@ impl CurveFit {
 /// steps of the crank give E to 7e-5, 3e-5 and 6e-6 of the size in the worst case, a curve with a cusp nearly.
 pub struct CurveFitter {
     target: Target,
+    /// The greatest length of a curve or of its portion, and that of the target's polyline, in sizes of the target.
+    greatest_length: f64,
+    polyline_length: f64,
     options: CurveFitOptions,
     /// None if the curves stay where they are.
     query: Option<Query>,
@@ -132,6 +135,8 @@ impl CurveFitter {
         let some = points.iter().step_by(points.len().div_ceil(SOME)).copied().collect();
         CurveFitter {
             target: target.clone(),
+            greatest_length: target.greatest_length(),
+            polyline_length: target.polyline_length(),
             options,
             query,
             some_points: both(some),
@@ -281,8 +286,8 @@ impl CurveFitter {
         /// Points on a straight portion are matched with places that differ from those of their lengths by rounding.
         const ROUNDING: f64 = 1e-6;
         let is_portion = self.target.kind() != PathKind::Closed && !self.options.is_fixed;
-        let is_valid = own_length <= self.target.greatest_length()
-            && !(is_portion && last - first < self.options.least_portion - ROUNDING);
+        let is_valid =
+            own_length <= self.greatest_length && !(is_portion && last - first < self.options.least_portion - ROUNDING);
         if !is_valid {
             return None;
         }
@@ -311,7 +316,7 @@ impl CurveFitter {
             rms_relative,
             greatest: size * alignment.greatest(),
             is_in_order: alignment.is_in_order(),
-            length_ratio: own_length / self.target.polyline_length(),
+            length_ratio: own_length / self.polyline_length,
             ends,
             is_reversed,
         })
