@@ -108,9 +108,7 @@ impl JournalFile {
         self.append(&JournalEntry::written(folder, record.clone()))?;
         Ok(record)
     }
-}
 
-impl JournalFile {
     /// Removes those of some files that exist; `folder` is empty, or the id of the family. Entries before it say that nothing is
     /// known about them.
     ///

@@ -35,6 +35,14 @@ pub fn left_normal(v: Vector) -> Vector {
     Vector::new(-v.y, v.x)
 }
 
+/// The curvature of the path of a point with a velocity and an acceleration, positive to the left; not finite where the velocity
+/// is zero.
+#[inline]
+pub fn curvature(velocity: Vector, acceleration: Vector) -> f64 {
+    let speed = velocity.norm();
+    cross(velocity, acceleration) / (speed * speed * speed)
+}
+
 /// The product of two vectors as complex numbers: `b` rotated by the angle of `a` and scaled by its length.
 #[inline]
 pub fn complex_product(a: Vector, b: Vector) -> Vector {

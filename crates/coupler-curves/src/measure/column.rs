@@ -1,7 +1,7 @@
 //! Quantities of a single sample: the optional columns of `points.csv`.
 
 use super::Subject;
-use crate::geometry::{Vector, cross, trig};
+use crate::geometry::{Vector, cross, curvature, trig};
 use crate::linkage::{AssemblyMode, FourBar, JointId, JointKind, Linkage};
 use crate::motion::{Circuit, InstantaneousMotion, JointDerivatives};
 
@@ -178,9 +178,7 @@ impl Sample<'_> {
     }
 
     fn curvature(&self) -> f64 {
-        let v = self.velocity();
-        let speed = v.norm();
-        cross(v, self.acceleration()) / (speed * speed * speed)
+        curvature(self.velocity(), self.acceleration())
     }
 
     fn curvature_rate(&self) -> f64 {

@@ -83,7 +83,7 @@ impl<'a> CurveRings<'a> {
             portion: PortionPoints::new(row, ends, count),
             max_radius,
             contacts: Vec::new(),
-            alternating: AlternatingPoints::folded(!row.corners().is_empty()),
+            alternating: AlternatingPoints::folded(row.is_folded()),
             spokes: Vec::new(),
             earlier_spokes: Vec::new(),
             groups: Vec::new(),

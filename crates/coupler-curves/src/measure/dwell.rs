@@ -12,6 +12,7 @@ use super::features::Dwell;
 use super::longest_near::{ACCURACY, Constraint, Constraints, Contacts, Fit, LongestNear, Reached};
 use super::portions::{EXACT, Requirement, longest};
 use super::row::Row;
+use super::strip::min_max;
 use super::{Measure, TracedCurve, Value, start_input, without_rounding};
 use crate::geometry::Point;
 
@@ -119,8 +120,8 @@ fn width_about(row: &Row, [from, to]: [f64; 2], centre: Point) -> f64 {
     let beside: Vec<f64> = row.corners_between([from, to]).into_iter().flat_map(around).collect();
     let beside = row.points_at(&beside.into_iter().filter(|at| (from..=to).contains(at)).collect::<Vec<f64>>());
     let beside = beside.iter().map(|point| (point - centre).norm());
-    let all = distances.iter().copied().chain(distances.windows(3).map(vertex)).chain(beside);
-    let [least, most] = all.fold([f64::INFINITY, 0.0f64], |[least, most], r| [least.min(r), most.max(r)]);
+    let all: Vec<f64> = distances.iter().copied().chain(distances.windows(3).map(vertex)).chain(beside).collect();
+    let [least, most] = min_max(&all, |distance| *distance);
     most - least
 }
 
@@ -171,7 +172,7 @@ impl Requirement for Circular<'_> {
             } else {
                 portion
             };
-            let mut alternating = AlternatingPoints::folded(!self.row.corners().is_empty());
+            let mut alternating = AlternatingPoints::folded(self.row.is_folded());
             alternating.narrowest_annulus_within(portion, self.max_width, self.max_radius).is_some()
         };
         // Any part of a portion that fits fits too.

@@ -151,6 +151,11 @@ impl Row {
         [from.max(low), to.min(high).min(from + span)]
     }
 
+    /// Whether the curve may go back along itself, so that the points of a portion are not in their order around a centre.
+    pub fn is_folded(&self) -> bool {
+        !self.corners.is_empty()
+    }
+
     /// The points of the first round that are points of every portion: corners, stops and sharp bends.
     pub fn corners(&self) -> &[usize] {
         &self.corners

@@ -2,7 +2,7 @@
 
 use super::curve::{Place, StopKind};
 use super::{Measure, TracedCurve, Value};
-use crate::geometry::{Chebyshev, cross};
+use crate::geometry::{Chebyshev, curvature};
 use crate::linkage::DyadSet;
 use crate::motion::{InputMap, InputPosition, JointDerivatives};
 
@@ -83,7 +83,7 @@ fn max_curvature(curve: &TracedCurve) -> Option<f64> {
         return Some(f64::INFINITY);
     }
     let smooth = curve.smooth();
-    let away_from_stops = smooth.sharpest(curve.stops()).map(|(curvature, place)| {
+    let away_from_stops = smooth.sharpest(curve.stops()).map(|(of_series, place)| {
         let piece = &smooth.pieces[place.piece];
         let pass = &curve.circuit.passes[piece.pass_at(place.u)];
         let is_near_limit = match piece.map {
@@ -93,7 +93,7 @@ fn max_curvature(curve: &TracedCurve) -> Option<f64> {
             InputMap::Linear { .. } => false,
         };
         let exact = curvature_at(curve, place).abs();
-        if is_near_limit || !exact.is_finite() { curvature } else { exact }
+        if is_near_limit || !exact.is_finite() { of_series } else { exact }
     });
     let returning = curve.stops().iter().map(|stop| curvature_where_returning(curve, stop.place));
     away_from_stops.into_iter().chain(returning).reduce(f64::max)
@@ -106,9 +106,7 @@ fn curvature_at(curve: &TracedCurve, place: Place) -> f64 {
     let (linkage, joint) = curve.single_point_linkage();
     let input = InputPosition::new(linkage.input(), piece.map.input(place.u));
     let derivatives = JointDerivatives::new(linkage, input, pass.mode, DyadSet::EMPTY);
-    let (v, a) = (derivatives.velocity(joint), derivatives.acceleration(joint));
-    let speed = v.norm();
-    cross(v, a) / (speed * speed * speed)
+    curvature(derivatives.velocity(joint), derivatives.acceleration(joint))
 }
 
 /// The greatest curvature of the path next to a place where it returns on itself.

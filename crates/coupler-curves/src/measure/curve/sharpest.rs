@@ -2,16 +2,16 @@
 
 use super::stops::{STOP_WIDTH, greatest};
 use super::{Arc, NARROW, Place, SmoothCurve, Stop};
-use crate::geometry::{Chebyshev, TERMS, Vector, cross, in_rising_order};
+use crate::geometry::{Chebyshev, TERMS, Vector, cross, curvature, in_rising_order};
 
 impl SmoothCurve {
     /// The greatest curvature and its place; `None` for a curve without pieces, or that does not move. `stops` are no cusps,
     /// at which it is infinite; next to where the path returns on itself it is not looked for.
     pub fn sharpest(&self, stops: &[Stop]) -> Option<(f64, Place)> {
         let mut best: Option<(f64, Place)> = None;
-        let mut offer = |curvature: f64, place: Place| {
-            if curvature.is_finite() && best.is_none_or(|(most, _)| curvature > most) {
-                best = Some((curvature, place));
+        let mut offer = |value: f64, place: Place| {
+            if value.is_finite() && best.is_none_or(|(most, _)| value > most) {
+                best = Some((value, place));
             }
             best.map_or(0.0, |(most, _)| most)
         };
@@ -27,10 +27,10 @@ impl SmoothCurve {
             let [v, a, _] = arc.derivatives_at_nodes();
             for (j, u) in Chebyshev::nodes().iter().enumerate() {
                 let place = Place { piece: *piece, u: (from + to + (to - from) * u) / 2.0 };
-                most = offer(curvature(v[j], a[j]), place);
+                most = offer(curvature(v[j], a[j]).abs(), place);
             }
         }
-        self.visit_bends(parts, most, |curvature, place, _| offer(curvature, place));
+        self.visit_bends(parts, most, |value, place, _| offer(value, place));
         best
     }
 
@@ -39,9 +39,9 @@ impl SmoothCurve {
     pub fn bends(&self, least: f64, stops: &[Stop]) -> Vec<Place> {
         let mut places: Vec<Place> = stops.iter().map(|stop| stop.place).collect();
         let whole = self.arcs.iter().cloned().enumerate().map(|(piece, arc)| (piece, [-1.0, 1.0], arc));
-        self.visit_bends(whole.collect(), least, |curvature, place, is_extreme| {
+        self.visit_bends(whole.collect(), least, |value, place, is_extreme| {
             if is_extreme
-                && curvature >= least
+                && value >= least
                 && places.iter().all(|other| !self.are_near(*other, place, 4.0 * STOP_WIDTH))
             {
                 places.push(place);
@@ -89,7 +89,7 @@ impl SmoothCurve {
             if is_same || rate.bound() <= rounding {
                 for (k, u) in Chebyshev::nodes().iter().enumerate() {
                     let place = Place { piece, u: (from + to + (to - from) * u) / 2.0 };
-                    least = visit(curvature(v[k], a[k]), place, false);
+                    least = visit(curvature(v[k], a[k]).abs(), place, false);
                 }
                 continue;
             }
@@ -102,7 +102,7 @@ impl SmoothCurve {
                 for (u, is_extreme) in extremes.chain([(-1.0, false), (1.0, false)]) {
                     let place = Place { piece, u: middle + half * u };
                     let a = Vector::new(acceleration[0].at(place.u), acceleration[1].at(place.u));
-                    least = visit(curvature(whole.velocity(place.u), a), place, is_extreme);
+                    least = visit(curvature(whole.velocity(place.u), a).abs(), place, is_extreme);
                 }
                 continue;
             }
@@ -118,11 +118,12 @@ impl SmoothCurve {
         if stops.is_empty() {
             return parts;
         }
-        let [first, round] = [0, 2 * self.arcs.len()].map(|k| k as f64);
+        let round = 2.0 * self.arcs.len() as f64;
+        let rounds: &[f64] = if self.is_closed { &[0.0, round, -round] } else { &[0.0] };
         for stop in stops {
-            // As a parameter of this piece, from the start of the curve, or across it.
+            // As a parameter of this piece; on a closed curve also across its start.
             let at = 2.0 * stop.place.piece as f64 + stop.place.u - 2.0 * piece as f64;
-            for at in [first, round, -round].map(|turn| at + if self.is_closed { turn } else { 0.0 }) {
+            for at in rounds.iter().map(|round| at + round) {
                 let cut = |[from, to]: [f64; 2]| [[from, to.min(at - RETURNING)], [from.max(at + RETURNING), to]];
                 parts = parts.into_iter().flat_map(cut).filter(|[from, to]| to - from > STOP_WIDTH).collect();
             }
@@ -134,9 +135,3 @@ impl SmoothCurve {
 /// The difference of the parameter from where the path returns on itself within which the curve is too slow for its curvature to
 /// be told from its series.
 const RETURNING: f64 = 0.25;
-
-/// The magnitude of the curvature from the velocity and the acceleration; not finite where the velocity is zero.
-fn curvature(v: Vector, a: Vector) -> f64 {
-    let speed = v.norm();
-    (cross(v, a) / (speed * speed * speed)).abs()
-}
