@@ -2,7 +2,7 @@
 
 use coupler_curves::geometry::{Point, Vector};
 use coupler_curves::linkage::{
-    CircuitSelection, DoublePointKind, FourBar, Linkage, LinkageBuilder, MotionOptions, Sextic, Side,
+    CircuitSelection, DoublePoint, DoublePointKind, FourBar, Linkage, LinkageBuilder, MotionOptions, Sextic, Side,
 };
 use coupler_curves::motion::{Motion, Sampler, Sampling};
 use proptest::prelude::*;
@@ -288,6 +288,82 @@ fn a_lemniscate_crosses_itself_at_its_centre() {
         let on_lemniscate = q.norm_squared() * q.norm_squared() - 2.0 * c * c * (q.x * q.x - q.y * q.y);
         let on_circle = q.norm_squared() - 2.0 * c * c;
         assert!((on_lemniscate * on_circle).abs() < 1e-9, "{p}");
+    }
+}
+
+/// A point on the coupler's line moves across it in both ways in which a linkage goes on from a change point: its branches touch.
+#[test]
+fn a_point_on_the_line_of_a_change_point_linkage_has_a_tacnode_at_any_scale() {
+    for scale in [1.0, 0.1, 1e3, 1.0 / 3.0] {
+        for (bar, along) in [([4.0, 2.0, 3.0, 5.0], 1.5), ([4.0, 1.5, 2.5, 3.0], -1.0), ([3.0, 2.0, 3.0, 2.0], 1.1)] {
+            let [frame, crank, coupler, rocker] = bar.map(|length| scale * length);
+            let bar = FourBar { frame, crank, coupler, rocker };
+            let signs = (0..8).map(|k| [1, 2, 4].map(|bit| if k & bit == 0 { 1.0 } else { -1.0 }));
+            let flat = signs.filter(|[a, b, c]| (a * crank + b * coupler - c * rocker - frame).abs() < 1e-9 * frame);
+            let flat: Vec<[f64; 3]> = flat.collect();
+            assert!(!flat.is_empty());
+            let kinds = |across: f64| -> Vec<DoublePointKind> {
+                let doubles =
+                    Sextic::from_four_bar(bar, Vector::new(scale * along, scale * across)).unwrap().double_points();
+                let kind = |[a, b, _]: &[f64; 3]| {
+                    let at = Point::new(a * crank + b * scale * along, b * scale * across);
+                    doubles
+                        .iter()
+                        .find(|double| (double.point - at).norm() < 1e-9 * frame)
+                        .expect("a double point")
+                        .kind
+                };
+                flat.iter().map(kind).collect()
+            };
+            assert!(kinds(0.0).iter().all(|kind| *kind == DoublePointKind::Tacnode), "{bar:?}: {:?}", kinds(0.0));
+            assert!(kinds(0.3).iter().all(|kind| *kind == DoublePointKind::Crunode), "{bar:?}: {:?}", kinds(0.3));
+        }
+    }
+}
+
+/// A coupler point that passes a pivot of the frame, and a curve with a cusp.
+#[test]
+fn double_points_on_pivots_and_cusps_have_their_kinds() {
+    let bar = FourBar { frame: 4.0, crank: 1.5, coupler: 3.0, rocker: 3.5 };
+    // The coupler point is on the circle of the instant centre: a cusp where it is at it.
+    let cusp = Sextic::from_four_bar(bar, Vector::new(0.5, -2.5 * 0.96f64.sqrt())).unwrap().double_points();
+    assert!(cusp.iter().any(|double| double.kind == DoublePointKind::Cusp), "{cusp:?}");
+    for (from, point) in [(0.0, Vector::new(0.9, 1.2)), (4.0, Vector::new(3.0 - 2.1, 2.8))] {
+        let sextic = Sextic::from_four_bar(bar, point).unwrap();
+        let pivot = sextic.double_points().into_iter().find(|double| (double.point.x - from).abs() < 1e-9);
+        assert_eq!(pivot.map(|double| double.kind), Some(DoublePointKind::Crunode), "{from}");
+    }
+}
+
+proptest! {
+    #![proptest_config(crate::random())]
+
+    /// A double point is isolated if no circuit comes near it, and of the same kind on mirrored and scaled copies.
+    #[test]
+    fn only_points_that_no_circuit_passes_are_isolated(bar in lengths(), along in -2.0f64..3.0, across in 0.1f64..3.0) {
+        let doubles = |scale: f64, mirror: f64| {
+            let FourBar { frame, crank, coupler, rocker } = bar;
+            let [frame, crank, coupler, rocker] = [frame, crank, coupler, rocker].map(|length| scale * length);
+            let bar = FourBar { frame, crank, coupler, rocker };
+            let point = Vector::new(along, mirror * across) * scale;
+            let mut doubles = Sextic::from_four_bar(bar, point).unwrap().double_points();
+            doubles.sort_by(|a, b| a.point.x.total_cmp(&b.point.x));
+            doubles
+        };
+        let points = curve(bar, Vector::new(along, across), 4000);
+        let given = doubles(1.0, 1.0);
+        for double in &given {
+            let nearest = points.iter().map(|p| (p - double.point).norm()).fold(f64::INFINITY, f64::min);
+            // Half of a step of the crank moves the point by less than this, but near the limits of a rocking input.
+            let is_passed = nearest < 0.01;
+            prop_assert!(double.kind != DoublePointKind::Acnode || nearest > 1e-5, "{double:?}, {nearest}");
+            prop_assert!(double.kind == DoublePointKind::Acnode || is_passed, "{double:?}, {nearest}");
+        }
+        for (scale, mirror) in [(0.1, 1.0), (1e3, -1.0), (1.0, -1.0)] {
+            let copy = doubles(scale, mirror);
+            let kinds = |doubles: &[DoublePoint]| doubles.iter().map(|double| double.kind).collect::<Vec<_>>();
+            prop_assert_eq!(kinds(&copy), kinds(&given), "scale {}, mirror {}", scale, mirror);
+        }
     }
 }
 

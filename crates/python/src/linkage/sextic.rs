@@ -29,7 +29,7 @@ impl Sextic {
         arrays::rows(py, centred.iter().flatten().map(|coefficient| coefficient + 0.0).collect(), 7)
     }
 
-    /// The real double points, each as (x, y, kind): ``crunode``, ``cusp`` or ``acnode``.
+    /// The real double points, each as (x, y, kind): ``crunode``, ``tacnode``, ``cusp`` or ``acnode``.
     #[getter]
     fn double_points(&self) -> Vec<(f64, f64, &'static str)> {
         let points = self.inner.double_points().into_iter();

@@ -2,7 +2,8 @@
 
 use super::roots::periodic_zeros;
 use super::{EquationTerms, Sextic};
-use crate::geometry::{Point, left_normal, trig};
+use crate::geometry::{Point, Vector, cross, left_normal, trig};
+use crate::linkage::FourBar;
 
 /// A double point of a coupler curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,7 +20,9 @@ pub struct DoublePoint {
 pub enum DoublePointKind {
     /// Two branches of the curve cross.
     Crunode,
-    /// The branches touch, or form a cusp.
+    /// Two branches of the curve touch.
+    Tacnode,
+    /// A branch ends and goes on in the direction it came from.
     Cusp,
     /// An isolated point, which satisfies the equation but which the coupler point does not reach.
     Acnode,
@@ -30,6 +33,7 @@ impl DoublePointKind {
     pub fn name(self) -> &'static str {
         match self {
             DoublePointKind::Crunode => "crunode",
+            DoublePointKind::Tacnode => "tacnode",
             DoublePointKind::Cusp => "cusp",
             DoublePointKind::Acnode => "acnode",
         }
@@ -44,8 +48,10 @@ impl Sextic {
     ///
     /// # Source
     /// At a double point the two equations for the coupler's direction coincide (Natesan 6.4): the right side of (6.5)
-    /// vanishes.
+    /// vanishes. Its kind is that of the poses in which the coupler point is there.
     pub fn double_points(&self) -> Vec<DoublePoint> {
+        /// Of a difference of two squares of lengths.
+        const ROUNDING: f64 = 1e-12;
         let EquationTerms { frame, dot, cross: sine, u, v } = self.terms;
         // Zero where the lines of both equations coincide: on the circle their normals are parallel, and this is the
         // difference of their distances.
@@ -74,16 +80,16 @@ impl Sextic {
             }
         };
         let mut found: Vec<DoublePoint> = Vec::new();
-        for point in periodic_zeros(|t| agreement(at(t))).into_iter().map(at).chain(self.change_points.iter().copied())
-        {
-            let [determinant, size] = self.hessian_determinant(point);
-            let kind = match determinant / size {
-                d if d.abs() < 1e-7 => DoublePointKind::Cusp,
-                d if d < 0.0 => DoublePointKind::Crunode,
-                _ => DoublePointKind::Acnode,
-            };
+        let flat = self.change_points.iter().map(|flat| (flat.point, flat.kind));
+        // The pivots are on the circle too, and agree for any linkage; double points are those that the coupler point can be at.
+        let pivots = [(Point::origin(), u), (Point::new(frame, 0.0), v)];
+        let passed =
+            pivots.iter().filter(|(_, [square, excess])| excess.abs() <= ROUNDING * square).map(|(pivot, _)| *pivot);
+        let is_pivot = |p: Point| pivots.iter().any(|(pivot, _)| (p - pivot).norm() <= 1e-9 * frame);
+        let zeros = periodic_zeros(|t| agreement(at(t))).into_iter().map(at).filter(|p| !is_pivot(*p));
+        let in_poses = passed.chain(zeros).map(|p| (p, poses_kind(self.four_bar, self.point, p)));
+        for (point, kind) in flat.chain(in_poses) {
             let is_new = found.iter().all(|other| (other.point - point).norm() > 1e-6 * (frame + point.coords.norm()));
-            // The pivots are on the circle too, but are double points only if the curve passes through them.
             let [value, terms] = self.evaluate(point);
             if is_new && point.x.is_finite() && value.abs() <= 1e-9 * terms {
                 found.push(DoublePoint { point, kind });
@@ -91,10 +97,53 @@ impl Sextic {
         }
         found
     }
+}
 
-    /// The determinant of its second derivatives at a point, and the sum of the magnitudes of its terms.
-    fn hessian_determinant(&self, point: Point) -> [f64; 2] {
-        let [xx, xy, yy] = self.second_derivatives(point);
-        [xx * yy - xy * xy, (xx * yy).abs() + xy * xy]
+/// The kind of a double point, by the poses in which the coupler point is there: a pin is on two circles, about its pivot and about the
+/// coupler point, which meet in two points, or touch at a cusp.
+fn poses_kind(four_bar: FourBar, coupler_point: Vector, at: Point) -> DoublePointKind {
+    /// The square of half the distance of the two places of the pin at a cusp, relative to that of its link: the rounding of the
+    /// double point.
+    const ROUNDING: f64 = 1e-9;
+    let FourBar { frame, crank, coupler, rocker } = four_bar;
+    let pivots = [Point::origin(), Point::new(frame, 0.0)];
+    // Each link with its pivot and, along the coupler, its pin; of the two the one whose pivot is further away, for the coupler point
+    // may pass a pivot.
+    let dyads = [(pivots[0], crank, 0.0), (pivots[1], rocker, coupler)];
+    let (pivot, link, pin_along) = dyads[usize::from(at.x < frame / 2.0)];
+    let from_pin = coupler_point - Vector::new(pin_along, 0.0);
+    let away = at - pivot;
+    let along = (away.norm_squared() + link * link - from_pin.norm_squared()) / (2.0 * away.norm());
+    let square = link * link - along * along;
+    if square < -ROUNDING * link * link {
+        return DoublePointKind::Acnode;
+    }
+    if square <= ROUNDING * link * link {
+        return DoublePointKind::Cusp;
+    }
+    let unit = away / away.norm();
+    branches_kind([-1.0, 1.0].map(|side: f64| {
+        let pin = pivot + unit * along + left_normal(unit) * (side * square.sqrt());
+        // The direction of the coupler, from that of the line from the pin to the point.
+        let offset = at - pin;
+        let direction = Vector::new(offset.dot(&from_pin), cross(from_pin, offset)) / from_pin.norm_squared();
+        let pins = [0.0, coupler].map(|other| pin + direction * (other - pin_along));
+        // The angular velocities of crank and coupler, in a ratio by which the rocker pin moves across the rocker.
+        let arms = [pins[0] - pivots[0], pins[1] - pivots[1]];
+        let rates = [arms[1].dot(&left_normal(direction * coupler)), -arms[1].dot(&left_normal(arms[0]))];
+        left_normal(arms[0]) * rates[0] + left_normal(at - pins[0]) * rates[1]
+    }))
+}
+
+/// The kind of a point through which the curve passes twice, in two directions.
+pub(super) fn branches_kind([a, b]: [Vector; 2]) -> DoublePointKind {
+    /// The sine of the angle of two tangents that are the same but for rounding.
+    const ROUNDING: f64 = 1e-9;
+    let sine = cross(a, b).abs() / (a.norm() * b.norm());
+    match sine {
+        // The coupler point is an instant centre.
+        sine if sine.is_nan() => DoublePointKind::Cusp,
+        sine if sine <= ROUNDING => DoublePointKind::Tacnode,
+        _ => DoublePointKind::Crunode,
     }
 }

@@ -24,8 +24,11 @@ use roots::real_roots;
 pub struct Sextic {
     equation: Polynomial,
     terms: EquationTerms,
+    four_bar: FourBar,
+    /// The coupler point, along the coupler and across it.
+    point: Vector,
     /// The positions of the coupler point when all links lie on one line.
-    change_points: Vec<Point>,
+    change_points: Vec<DoublePoint>,
 }
 
 /// The terms of the equation: with u and v from the crank pin and the rocker pin to the coupler point, `|u|^2` and
@@ -107,7 +110,7 @@ impl Sextic {
             v: [v2, difference(v2, rocker)],
         };
         let equation = parts.equation(0.0);
-        Some(Sextic { equation, terms: parts, change_points: change_points(four_bar, point) })
+        Some(Sextic { equation, terms: parts, four_bar, point, change_points: change_points(four_bar, point) })
     }
 
     /// The coefficient of `x^i y^j`; that of `x^6` is 1.
