@@ -6,6 +6,10 @@ use super::longest_near::{ACCURACY, Constraint, Fit, LongestNear, Reached};
 use super::portions::Requirement;
 use super::row::Row;
 use super::strip::{Band, check_width};
+use super::strokes::shortest_stroke;
+
+/// Points of a portion in which those that touch its strip are found.
+const POINTS: usize = 32;
 
 /// The requirement of lying in a strip no wider than `tolerance` times its length. The size is the length.
 ///
@@ -64,8 +68,6 @@ impl Requirement for StraightTo<'_> {
     }
 
     fn longest_near(&self, ends: [f64; 2], reach: f64, least: f64) -> Reached {
-        /// Points of the portion in which those that touch its strip are found.
-        const POINTS: usize = 32;
         let mut strips = CurveStrips::new(self.row, ends, POINTS);
         let fit = |ends: [f64; 2]| {
             let PortionStrip { width, length, width_rates, length_rates, contacts, others } = strips.strip(ends);
@@ -84,5 +86,11 @@ impl Requirement for StraightTo<'_> {
             }
         };
         LongestNear { limits: self.row.limits(), fit, reach }.search(ends, least)
+    }
+
+    fn without_excess(&self, ends: [f64; 2]) -> [f64; 2] {
+        // Most often a portion goes on at its ends.
+        let strip = CurveStrips::new(self.row, ends, POINTS).strip(ends);
+        if strip.length_rates.contains(&0.0) { shortest_stroke(self.row, ends) } else { ends }
     }
 }

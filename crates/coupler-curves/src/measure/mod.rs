@@ -31,6 +31,7 @@ mod speed_ratio;
 mod straight;
 mod straightest;
 mod strip;
+mod strokes;
 mod subject;
 mod symmetry;
 mod symmetry_axis;

@@ -34,6 +34,11 @@ pub(super) trait Requirement {
     /// The longest portion near one between two positions of the row, unless it is certainly shorter than `least`; no
     /// further away than `reach`.
     fn longest_near(&self, ends: [f64; 2], reach: f64, least: f64) -> Reached;
+
+    /// The ends of a portion without what may be cut off at them while its size remains.
+    fn without_excess(&self, ends: [f64; 2]) -> [f64; 2] {
+        ends
+    }
 }
 
 /// The ends of the longest portions that are longer than `least`: of several equally long ones, which do not overlap,
@@ -71,7 +76,7 @@ pub(super) fn longest<R: Requirement>(row: &Row, requirement: &R, least: f64) ->
     }
     let Search { best, mut found, .. } = search;
     found.retain(|(size, _)| *size >= best * (1.0 - EQUAL));
-    distinct(row, found.into_iter().map(|(_, ends)| ends).collect())
+    distinct(row, found.into_iter().map(|(_, ends)| requirement.without_excess(ends)).collect())
 }
 
 struct Search<'a, R> {

@@ -11,13 +11,10 @@
 use super::curve_strip::{CurveStrips, PortionStrip};
 use super::features::{StraightCriterion, StraightPortion};
 use super::longest_straight::StraightTo;
-use super::maximum::{Bracket, greatest_in};
 use super::portions::{EXACT, LEAST_SHARE, SPACING, longest};
 use super::row::Row;
 use super::straightest::{Narrowest, straightest};
-use super::strip::Strip;
 use super::{Measure, Subject, TracedCurve, Value, start_input};
-use crate::geometry::Point;
 use crate::linkage::Input;
 
 /// The measures of the straight portion.
@@ -185,8 +182,8 @@ impl TracedCurve<'_> {
     }
 }
 
-/// The portions of a curve that meet a criterion: the best, and of several equally long ones all; none if the curve is
-/// too short, or nothing on it is straight over a twentieth of its extent.
+/// The portions of a curve that meet a criterion: the best, and of several equally long ones all, that of the least input span
+/// first; none if the curve is too short, or nothing on it is straight over a twentieth of its extent.
 fn find_portions(curve: &TracedCurve, criterion: StraightCriterion) -> Vec<StraightPortion> {
     let extent = curve.extent();
     let finer = match criterion {
@@ -201,11 +198,11 @@ fn find_portions(curve: &TracedCurve, criterion: StraightCriterion) -> Vec<Strai
         StraightCriterion::Input(span) => narrowest(&|from| row.end_after_input(from, span)),
         StraightCriterion::Length(length) => narrowest(&|from| row.end_after_length(from, length)),
     };
-    let portions = ends.into_iter().map(|ends| match criterion {
-        StraightCriterion::Tolerance(_) => portion_between_extremes(row, ends),
-        _ => portion(row, ends),
-    });
-    portions.collect()
+    let mut portions: Vec<StraightPortion> = ends.into_iter().map(|ends| portion(row, ends)).collect();
+    // Of a line that is passed to and fro the quicker stroke comes first; spans that differ by rounding are equal.
+    let shortest = portions.iter().map(|portion| portion.input_span).fold(f64::INFINITY, f64::min);
+    portions.sort_by_key(|portion| portion.input_span > shortest * (1.0 + 1e-6));
+    portions
 }
 
 /// The portion that is straightest for its length of those that half a turn of the input traverses, if it is nearly
@@ -222,46 +219,12 @@ fn find_half_turn(curve: &TracedCurve) -> Option<StraightPortion> {
     Some(portion(row, ends)).filter(|portion| 2.0 * portion.deviation <= WIDEST * portion.length)
 }
 
-/// Intervals between the points of a portion: enough to draw it, and for its direction.
+/// Intervals between the points of a portion: enough to draw it.
 const INTERVALS: usize = 96;
-
-/// A portion without what goes back along its line beyond its furthest points, as next to a limit.
-fn portion_between_extremes(row: &Row, [from, to]: [f64; 2]) -> StraightPortion {
-    // Most often it goes on at its ends.
-    let strip = strip(row, [from, to]);
-    if strip.length_rates.iter().all(|rate| *rate != 0.0) {
-        return portion_in_strip(row, [from, to], strip);
-    }
-    let points = row.points_between([from, to], INTERVALS);
-    let direction = Strip::enclosing(&points).direction;
-    let step = (to - from) / INTERVALS as f64;
-    let mut extremes = [1.0, -1.0].map(|sign| {
-        let reach = |p: Point| sign * direction.dot(&p.coords);
-        let furthest = (0..=INTERVALS).max_by(|&a, &b| reach(points[a]).total_cmp(&reach(points[b]))).unwrap_or(0);
-        if furthest == 0 || furthest == INTERVALS {
-            return from + (to - from) * (furthest as f64 / INTERVALS as f64);
-        }
-        let at = from + step * furthest as f64;
-        let bracket = Bracket { from: at - step, to: at + step, first_parts: 2, accuracy: 1e-8 * (to - from) };
-        greatest_in(bracket, |at, _| Some((at, reach(row.point_at(at))))).map_or(at, |(at, _)| at)
-    });
-    if extremes[0] > extremes[1] {
-        extremes.reverse();
-    }
-    portion(row, extremes)
-}
-
-/// The strip of the portion between two positions.
-fn strip(row: &Row, ends: [f64; 2]) -> PortionStrip {
-    CurveStrips::new(row, ends, INTERVALS).strip(ends)
-}
 
 /// The portion between two positions.
 fn portion(row: &Row, ends: [f64; 2]) -> StraightPortion {
-    portion_in_strip(row, ends, strip(row, ends))
-}
-
-fn portion_in_strip(row: &Row, ends: [f64; 2], PortionStrip { width, length, .. }: PortionStrip) -> StraightPortion {
+    let PortionStrip { width, length, .. } = CurveStrips::new(row, ends, INTERVALS).strip(ends);
     let input_span = row.input_travel_at(ends[1]) - row.input_travel_at(ends[0]);
     let deviation = if width / 2.0 < EXACT * length { 0.0 } else { width / 2.0 };
     let points = row.points_between(ends, INTERVALS);

@@ -223,6 +223,35 @@ fn a_pin_that_rocks_has_the_length_and_the_curvature_of_its_arc() {
     }
 }
 
+/// The pin of a piston goes to and fro on its line: the straight portion is one stroke, that for which the crank turns least.
+#[test]
+fn a_line_that_is_passed_to_and_fro_is_one_stroke() {
+    for (crank, rod, offset) in [(1.0, 3.0, 0.0), (1.0, 3.0, 0.7), (1.0, 1.9, -0.8), (2.0, 2.6, 0.25)] {
+        // The crank and the rod are in line at the ends of the stroke.
+        let limits = [rod + crank, rod - crank].map(|length: f64| trig::asin(offset / length).to_degrees());
+        let reach = |length: f64| (length * length - offset * offset).sqrt();
+        let stroke = reach(rod + crank) - reach(rod - crank);
+        let span = 180.0 - (limits[0] - limits[1]).abs();
+        for turn_deg in TURNS {
+            for is_mirrored in [false, true] {
+                let layout = Layout { turn_deg, is_mirrored, scale: 1.0 };
+                let mut builder = LinkageBuilder::default();
+                let o = builder.fixed("O", Point::origin());
+                let guide = [0.0, 1.0].map(|x| layout.point(x, offset));
+                let guide = [builder.fixed("G", guide[0]), builder.fixed("H", guide[1])];
+                let a = builder.crank("A", o, crank).unwrap();
+                let p = builder.slide("P", (a, rod), (guide, 0.0), Side::Left).unwrap();
+                let linkage = finish(builder, p);
+                for values in measures(&linkage) {
+                    let found = ["straight_length", "straight_input_deg"].map(|name| number(value(&values, name)));
+                    assert!((found[0] / stroke - 1.0).abs() < 1e-12, "{layout:?}: {found:?} {stroke}");
+                    assert!((found[1] / span - 1.0).abs() < 1e-6, "{layout:?}: {found:?} {span}");
+                }
+            }
+        }
+    }
+}
+
 /// The rocker of a Watt II linkage passes the limit of its second loop twice in a turn.
 #[test]
 fn the_time_ratio_is_that_of_the_strokes_from_limit_to_limit() {
