@@ -11,7 +11,7 @@ use super::features::{Symmetry, SymmetryAxis};
 use super::row::Row;
 use super::symmetry_axis::{AxisCandidates, MirrorImages};
 use super::{Measure, TracedCurve, Value, without_rounding};
-use crate::geometry::{Point, Vector, complex_product, cross, in_rising_order};
+use crate::geometry::{Point, Vector, complex_product, cross, in_rising_order, trig};
 use crate::linkage::{FourBar, FourBarClass, JointId, JointKind, PlacedFourBar, Sextic};
 
 /// The measure `symmetry`.
@@ -64,6 +64,8 @@ fn find_symmetry(curve: &TracedCurve) -> Option<Symmetry> {
     const MAX_ROUGH_RESIDUAL: f64 = 0.1;
     /// As many points show whether an axis is worth refining.
     const FEW_POINTS: usize = 32;
+    /// The residual below which a curve may be symmetrical about an axis that is not yet exact.
+    const NEARLY: f64 = 1e-3;
     /// The residual of a few points about an axis of symmetry, relative to the extent.
     const EXACT: f64 = 1e-8;
     let extent = curve.extent();
@@ -95,8 +97,40 @@ fn find_symmetry(curve: &TracedCurve) -> Option<Symmetry> {
     // Refining an axis rarely improves it by more than a third.
     let refined =
         rough.into_iter().filter(|(rough, _)| *rough <= 1.5 * least).map(|(rough, axis)| images.refine(axis, rough));
-    let (axis, most) = refined.min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let refined = refined.min_by(|a, b| a.1.total_cmp(&b.1))?;
+    // Where a curve bends sharply the mirror image of points next to the bend has no nearest point that moves with the axis.
+    let (axis, most) = Some(refined)
+        .filter(|(_, most)| *most <= NEARLY * extent)
+        .and_then(|(axis, _)| axis_by_moments(curve, axis))
+        .map(|axis| (axis, images.exact_residual(axis)))
+        .filter(|(_, most)| *most < refined.1)
+        .unwrap_or(refined);
     Some(Symmetry { axis: Some(axis), residual: most / extent, theorem: None })
+}
+
+/// The axis near another that a curve has, if it is symmetrical: through its centroid, in the direction of the moment of the least order
+/// that is not small.
+///
+/// With z from the centroid to a point of the curve, as a complex number, the mean m of z^n over the length is that of the mirror
+/// image: for an axis at the angle a, `m = e^(2ina) conj m`, so that n a is the angle of m, or differs from it by a multiple of pi.
+fn axis_by_moments(curve: &TracedCurve, near: SymmetryAxis) -> Option<SymmetryAxis> {
+    /// What a moment must be, relative to that of a circle of the curve's extent.
+    const SMALL: f64 = 1e-5;
+    /// A curve that is turned into itself by a part of a turn has no moments of lower orders than the number of these parts.
+    const HIGHEST: u32 = 12;
+    let (smooth, length) = (curve.smooth(), curve.arc_length());
+    let centre = Point::from(length.mean(smooth, |p| p.coords));
+    let scale = curve.extent() / 2.0;
+    let moment = |order: u32| {
+        let power = |z: Vector| (1..order).fold(z, |power, _| complex_product(power, z));
+        (order, length.mean(smooth, |p| power((p - centre) / scale)))
+    };
+    let (order, moment) = (2..=HIGHEST).map(moment).find(|(_, moment)| moment.norm() > SMALL)?;
+    let part = 180.0 / f64::from(order);
+    let first = trig::degrees(trig::atan2(moment.y, moment.x)) / f64::from(order);
+    let nearest = first + ((near.direction_deg() - first) / part).round() * part;
+    let (cos, sin) = trig::cos_sin_deg(nearest);
+    SymmetryAxis::new(centre, Vector::new(cos, sin))
 }
 
 /// The line through the first two fixed joints apart.

@@ -240,9 +240,19 @@ impl<'a> MirrorImages<'a> {
     /// The signed distance of a point from the curve and its normal there, of all parts of the curve that may be nearest;
     /// `near` is the nearest point of the row.
     fn signed_distance(&self, point: Point, near: usize) -> Option<(f64, Vector)> {
-        let mut found = self.row.signed_distance(point, near as f64)?;
-        // Between two points of the row the curve may be nearer than at both by half their distance.
         let count = self.points.len();
+        let nearer =
+            |found: (f64, Vector), other: (f64, Vector)| if other.0.abs() < found.0.abs() { other } else { found };
+        let mut found = self.row.signed_distance(point, near as f64)?;
+        // Next to a cusp, which is between two corners, the curve is near on both its sides.
+        let reach = found.0.abs() + self.spacing;
+        let is_near = |corner: &&usize| (self.points[**corner] - point).norm() <= reach;
+        for corner in self.row.corners().iter().filter(is_near) {
+            for beside in [corner + count - 1, corner + 1] {
+                found = nearer(found, self.row.signed_distance(point, (beside % count) as f64)?);
+            }
+        }
+        // Between two points of the row the curve may be nearer than at both by half their distance.
         for (k, [low, high]) in self.boxes.iter().enumerate() {
             let reach = found.0.abs() + self.spacing;
             let outside = |low: f64, at: f64, high: f64| (low - at).max(at - high).max(0.0);
@@ -254,8 +264,7 @@ impl<'a> MirrorImages<'a> {
                 let square = |j: usize| (self.points[j % count] - point).norm_squared();
                 let is_near = square(j) < reach * reach && j.abs_diff(near) > 1;
                 if is_near && square(j) <= square(j + 1) && square(j) <= square(j + count - 1) {
-                    let other = self.row.signed_distance(point, j as f64)?;
-                    found = if other.0.abs() < found.0.abs() { other } else { found };
+                    found = nearer(found, self.row.signed_distance(point, j as f64)?);
                 }
             }
         }

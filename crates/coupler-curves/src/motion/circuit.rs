@@ -156,8 +156,7 @@ fn trace_circuit(
         before.pop();
         passes = before.iter().map(Pass::reversed).chain(passes).collect();
     }
-    let has_range = search.linkage.motion_options.range.is_some();
-    Ok(UnsampledCircuit { passes: normalize_passes(passes, closed, has_range, period), is_closed: closed })
+    Ok(UnsampledCircuit { passes: normalize_passes(search.linkage, passes, closed), is_closed: closed })
 }
 
 /// Appends the passes that follow `start`, an interval and whether the input rises on it. Returns whether they lead
@@ -200,11 +199,17 @@ fn next_interval(
 
 /// Rotates, and if necessary reverses, a chain of passes so that the circuit starts at its normal start, and makes the
 /// input continuous.
-fn normalize_passes(passes: Vec<Pass>, closed: bool, has_range: bool, period: f64) -> Vec<Pass> {
+fn normalize_passes(linkage: &Linkage, passes: Vec<Pass>, closed: bool) -> Vec<Pass> {
+    let (period, has_range) = (linkage.input().period(), linkage.motion_options.range.is_some());
     let backward: Vec<Pass> = passes.iter().rev().map(Pass::reversed).collect();
     let reverses = passes.iter().any(|pass| pass.input_direction() != passes[0].input_direction());
     let mut best: Option<Vec<Pass>> = None;
-    for direction in [passes, backward] {
+    let directions = match gain(linkage, &passes) {
+        gain if closed && reverses && gain > 0.0 => vec![passes],
+        gain if closed && reverses && gain < 0.0 => vec![backward],
+        _ => vec![passes, backward],
+    };
+    for direction in directions {
         let direction = if closed && !reverses { cut_at_zero(direction, period) } else { direction };
         let starts = if closed { direction.len() } else { 1 };
         for start in 0..starts {
@@ -223,6 +228,21 @@ fn normalize_passes(passes: Vec<Pass>, closed: bool, has_range: bool, period: f6
         }
     }
     best.unwrap_or_default()
+}
+
+/// What tells the two ways round a closed circuit apart wherever it begins, positive for the way in which it is traced: what the input
+/// gains; where it gains nothing, how much further it rises with the first dyad on the left and falls with it on the right than the
+/// other way round; and so on for the other dyads. 0 if nothing does.
+fn gain(linkage: &Linkage, passes: &[Pass]) -> f64 {
+    /// Of a sum of differences, relative to that of their sizes.
+    const ROUNDING: f64 = 1e-9;
+    let gained = |sign: &dyn Fn(&Pass) -> f64| -> f64 {
+        passes.iter().map(|pass| sign(pass) * pass.input_direction() * pass.input_length()).sum()
+    };
+    let length: f64 = passes.iter().map(Pass::input_length).sum();
+    let of_dyads = linkage.dyad_ids().map(|dyad| gained(&|pass| f64::from(pass.mode.sign(dyad))));
+    let gains = std::iter::once(gained(&|_| 1.0)).chain(of_dyads);
+    gains.into_iter().find(|gain: &f64| gain.abs() > ROUNDING * length).unwrap_or(0.0)
 }
 
 /// Whether the start of `a` is preferred to that of `b`: rising, from a lower input, on branch 1.

@@ -167,6 +167,25 @@ fn cycloids_have_their_cusps_wherever_the_circuit_begins() {
     }
 }
 
+/// Cycloids are symmetrical about the lines through their cusps, whichever way they are turned.
+#[test]
+fn cycloids_are_symmetrical_about_the_lines_through_their_cusps() {
+    for (radius, arm, ratio, cusps) in
+        [(2.0, 1.0, -2.0, 3.0), (3.0, 1.0, -3.0, 4.0), (2.0, 1.0, 2.0, 1.0), (3.0, 1.0, 3.0, 2.0)]
+    {
+        for turn_deg in (0..60).map(|k| 7.3 * f64::from(k)).chain([147.0]) {
+            let layout = Layout { turn_deg, is_mirrored: false, scale: 1.0 };
+            let values = &measures(&epicycle(layout, (radius, arm), ratio, 180.0))[0];
+            let residual = number(value(values, "symmetry_residual"));
+            assert!(residual < 1e-9, "{radius} {ratio} {turn_deg}: {residual}");
+            // Between the lines through the cusps are others.
+            let part = 180.0 / cusps;
+            let off = number(value(values, "symmetry_deg")) - turn_deg;
+            assert!((off - (off / part).round() * part).abs() < 1e-7, "{radius} {ratio} {turn_deg}: {off}");
+        }
+    }
+}
+
 /// A point of the coupler that is the instant centre at crank angle 0 has a cusp there, and one only.
 #[test]
 fn a_coupler_curve_has_its_cusp_wherever_the_circuit_begins() {
@@ -402,6 +421,37 @@ fn circular_portions_of_watt_linkages_are_no_wider_than_allowed() {
 
 proptest! {
     #![proptest_config(crate::random())]
+
+    /// The sign of an area is that of the way round: upward with the input where it gains, and otherwise, as for every circuit with an
+    /// even number of passes that rises and falls as much, upward on branch 1. So it changes in a mirror image, and not with a turn.
+    #[test]
+    fn areas_have_the_sign_of_the_motion(watt in watt(), is_first in any::<bool>()) {
+        let areas = |layout: Layout| {
+            let linkage = if is_first { watt.first(layout) } else { watt.second(layout) };
+            let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(36)));
+            let area = |circuit| {
+                let curve = TracedCurve::new(&linkage, &motion, circuit, linkage.traced[0]);
+                let passes = &curve.circuit.passes;
+                let gain: f64 = passes.iter().map(|pass| pass.input_direction() * pass.input_length()).sum();
+                let sign = if layout.is_mirrored && gain.abs() < 1.0 { -1.0 } else { 1.0 };
+                match (measure::Measure::find("area").unwrap().compute)(&curve) {
+                    Value::Number(area) => Some(sign * area / (curve.extent() * curve.extent())),
+                    _ => None,
+                }
+            };
+            let mut areas: Vec<f64> = motion.circuits.iter().filter_map(area).collect();
+            areas.sort_by(f64::total_cmp);
+            areas
+        };
+        let plain = areas(Layout::PLAIN);
+        for layout in [Layout::MIRRORED, Layout::turned(123.4), Layout { turn_deg: 301.0, ..Layout::MIRRORED }] {
+            let found = areas(layout);
+            prop_assert_eq!(found.len(), plain.len());
+            for (found, plain) in found.iter().zip(&plain) {
+                prop_assert!((found - plain).abs() < 1e-6, "{:?}: {} {}", layout, found, plain);
+            }
+        }
+    }
 
     /// Half of them are driven by a rocker, whose curves go back along themselves.
     #[test]

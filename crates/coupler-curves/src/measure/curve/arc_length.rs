@@ -1,5 +1,5 @@
 use super::{Place, SmoothCurve};
-use crate::geometry::{Chebyshev, TERMS};
+use crate::geometry::{Chebyshev, Point, TERMS, Vector};
 use crate::measure::budget::MAX_PARTS;
 
 /// The length of a curve as a function of the place on it.
@@ -78,6 +78,19 @@ impl ArcLength {
     /// The length of the whole curve.
     pub fn total(&self) -> f64 {
         self.total
+    }
+
+    /// The mean over the length of a curve, of which this is the length, of a function of its points.
+    pub fn mean(&self, curve: &SmoothCurve, function: impl Fn(Point) -> Vector) -> Vector {
+        let nodes = Chebyshev::nodes();
+        let integral = |span: &LengthSpan| {
+            let place = |u: f64| Place { piece: span.piece, u: span.from + (span.to - span.from) * (u + 1.0) / 2.0 };
+            let speeds = span.length.derivative().values();
+            let values: [Vector; TERMS] = std::array::from_fn(|j| function(curve.point(place(nodes[j]))) * speeds[j]);
+            let total = |axis: usize| Chebyshev::from_values(&values.map(|value| value[axis])).total();
+            Vector::new(total(0), total(1))
+        };
+        self.spans.iter().map(integral).sum::<Vector>() / self.total
     }
 
     /// The length from the beginning to a place.
