@@ -1,6 +1,6 @@
 //! Annuli of portions of a curve, between any two positions of it.
 
-use super::annulus::AlternatingPoints;
+use super::annulus::{AlternatingPoints, Annulus};
 use super::longest_near::{Constraint, Constraints, Contacts};
 use super::row::Row;
 use super::strip::min_max;
@@ -92,13 +92,8 @@ impl<'a> CurveRings<'a> {
 
     /// The annulus of the portion between two positions; `None` if it is straight.
     pub fn ring(&mut self, ends: [f64; 2]) -> Option<PortionRing> {
-        const ROUNDS: usize = 3;
-        /// A motion of the centre, relative to the radius, whose square is less than rounding.
-        const SMALL: f64 = 1e-8;
-        /// The annulus of the points that touch contains all others to this part of its width.
-        const MOVED: f64 = 1e-6;
-        /// No more points than this touch, or nearly do.
-        const MOST: usize = 9;
+        /// So often are points that touch found anew, where others stick out of the annulus of those found.
+        const ROUNDS: usize = 4;
         self.portion.turn_to(ends);
         let points = &self.portion.points;
         if points.len() < 4 {
@@ -106,18 +101,50 @@ impl<'a> CurveRings<'a> {
         }
         let sampled = self.alternating.narrowest_annulus_within(points, f64::INFINITY, self.max_radius)?;
         let is_bounded = sampled.radius >= self.max_radius - sampled.width;
-        let (mut centre, mut radius) = (sampled.centre, sampled.radius);
-        if is_bounded {
-            radius = self.max_radius;
+        let mut about = sampled;
+        let mut found = self.touching_annulus(about, is_bounded);
+        for _ in 1..ROUNDS {
+            let Some((annulus, _, false)) = found else { break };
+            about = annulus;
+            found = self.touching_annulus(about, is_bounded);
         }
+        let (annulus, group) = match found {
+            Some((annulus, group, true)) => (annulus, Some(group)),
+            // The points alone show how wide it is.
+            other => (sampled, other.map(|(_, group, _)| group)),
+        };
+        let mut others = Constraints::default();
+        let near = self.groups.iter().filter(|other| 2.0 * other.half.abs() >= 0.8 * annulus.width);
+        for (other, group) in others.iter_mut().zip(near) {
+            *other = Some(Constraint { value: 2.0 * group.half.abs(), rates: self.width_rates(group) });
+        }
+        let Annulus { centre, radius, width } = annulus;
+        let label = |k: usize| self.portion.label(self.spokes[k].index);
+        Some(PortionRing {
+            centre,
+            radius,
+            width,
+            width_rates: group.map_or([0.0; 2], |group| self.width_rates(&group)),
+            contacts: group.map_or(Contacts::default(), |group| group.spokes.map(label)),
+            others,
+        })
+    }
+
+    /// The annulus of the points that touch one about which they are found or nearly do, the group of them that decides, and
+    /// whether all other points are in it; `None` if no group decides.
+    fn touching_annulus(&mut self, about: Annulus, is_bounded: bool) -> Option<(Annulus, Group, bool)> {
+        const ROUNDS: usize = 3;
+        /// A motion of the centre, relative to the radius, whose square is less than rounding.
+        const SMALL: f64 = 1e-8;
+        /// The annulus of the points that touch contains all others to this part of its width.
+        const MOVED: f64 = 1e-6;
+        let (mut centre, mut radius) = (about.centre, if is_bounded { self.max_radius } else { about.radius });
         self.portion.collect_contacts(&Circles(centre), &[], &mut self.contacts);
-        let mut best: Option<Group> = None;
+        select_contacts(&mut self.contacts, &about, self.portion.last());
         let CurveRings { contacts, spokes, earlier_spokes, groups, .. } = self;
+        let mut best: Option<Group> = None;
         groups.clear();
         for _ in 0..ROUNDS {
-            if contacts.len() > MOST {
-                break;
-            }
             std::mem::swap(spokes, earlier_spokes);
             collect_spokes(contacts, centre, spokes);
             groups.clear();
@@ -143,44 +170,51 @@ impl<'a> CurveRings<'a> {
                 break;
             }
         }
+        let group = best?;
+        let width = 2.0 * group.half.abs();
+        let [low, high] = min_max(&self.portion.points, |p| (p - centre).norm_squared()).map(f64::sqrt);
+        Some((Annulus { centre, radius, width }, group, high - low <= width * (1.0 + MOVED)))
+    }
+
+    /// The derivatives of the width that a group of the spokes needs with respect to the ends.
+    fn width_rates(&self, group: &Group) -> [f64; 2] {
         let velocities = self.portion.end_velocities();
-        let last = self.portion.last();
-        let width = best.map_or(0.0, |group| 2.0 * group.half.abs());
-        let is_annulus = |_: &Group| {
-            let [low, high] = min_max(&self.portion.points, |p| (p - centre).norm_squared()).map(f64::sqrt);
-            high - low <= width * (1.0 + MOVED)
-        };
-        let Some(group) = best.filter(is_annulus) else {
-            return Some(PortionRing {
-                centre: sampled.centre,
-                radius: sampled.radius,
-                width: sampled.width,
-                width_rates: [0.0; 2],
-                contacts: [0; 4],
-                others: Constraints::default(),
-            });
-        };
-        let rates = |group: &Group| {
-            [(0, velocities[0]), (last, velocities[1])].map(|(end, velocity)| {
-                let at_end = (0..4).filter(|&i| group.multipliers[i] != 0.0 && spokes[group.spokes[i]].index == end);
-                let rate: f64 =
-                    at_end.map(|i| group.multipliers[i] * spokes[group.spokes[i]].normal.dot(&velocity)).sum();
-                2.0 * rate * group.half.signum()
-            })
-        };
-        let mut others = Constraints::default();
-        let near = groups.iter().filter(|other| 2.0 * other.half.abs() >= 0.8 * width);
-        for (other, group) in others.iter_mut().zip(near) {
-            *other = Some(Constraint { value: 2.0 * group.half.abs(), rates: rates(group) });
-        }
-        Some(PortionRing {
-            centre,
-            radius,
-            width,
-            width_rates: rates(&group),
-            contacts: group.spokes.map(|k| self.portion.label(spokes[k].index)),
-            others,
+        [(0, velocities[0]), (self.portion.last(), velocities[1])].map(|(end, velocity)| {
+            let spoke = |i: usize| self.spokes[group.spokes[i]];
+            let at_end = (0..4).filter(|&i| group.multipliers[i] != 0.0 && spoke(i).index == end);
+            let rate: f64 = at_end.map(|i| group.multipliers[i] * spoke(i).normal.dot(&velocity)).sum();
+            2.0 * rate * group.half.signum()
         })
+    }
+}
+
+/// Drops contacts at one place, as of a path that goes back along itself, and of too many those that are furthest from touching the
+/// annulus of the points; never the ends, which move.
+fn select_contacts(contacts: &mut Vec<Contact>, annulus: &Annulus, last: usize) {
+    /// No more points than this touch, or nearly do.
+    const MOST: usize = 9;
+    /// The distance of contacts at one place, relative to the radius.
+    const SAME: f64 = 1e-6;
+    if contacts.len() <= MOST {
+        return;
+    }
+    let circles = Circles(annulus.centre);
+    let is_end = |contact: &Contact| contact.index == 0 || contact.index == last;
+    let mut places: Vec<Point> = Vec::new();
+    contacts.retain(|contact| {
+        let place = contact.touching(&circles);
+        let is_new = places.iter().all(|other| (place - other).norm() > SAME * annulus.radius);
+        places.extend((is_new && !is_end(contact)).then_some(place));
+        is_new || is_end(contact)
+    });
+    let inside = |contact: &Contact| match is_end(contact) {
+        true => f64::NEG_INFINITY,
+        false => annulus.width / 2.0 - (contact.height(&circles) - annulus.radius).abs(),
+    };
+    while contacts.len() > MOST {
+        let depths = contacts.iter().map(inside).enumerate();
+        let Some((deepest, _)) = depths.max_by(|a, b| a.1.total_cmp(&b.1)) else { break };
+        contacts.remove(deepest);
     }
 }
 

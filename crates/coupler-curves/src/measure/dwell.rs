@@ -9,7 +9,7 @@ use super::annulus::AlternatingPoints;
 use super::curve_ring::{CurveRings, PortionRing};
 use super::every_nth::EveryNth;
 use super::features::Dwell;
-use super::longest_near::{ACCURACY, Constraint, Constraints, Contacts, Fit, LongestNear, Reached};
+use super::longest_near::{ACCURACY, Constraint, Constraints, Contacts, Fit, Limits, LongestNear, Reached};
 use super::portions::{EXACT, Requirement, longest};
 use super::row::Row;
 use super::strip::min_max;
@@ -71,7 +71,7 @@ fn find_dwell(row: &Row, extent: f64, length: f64) -> Option<Dwell> {
     const EXCESS: f64 = 1e-6;
     let max_width = TOLERANCE * extent;
     let mut requirement = Circular { row, max_width, max_radius: length };
-    let [from, to] = *longest(row, &requirement, 0.0).first()?;
+    let [from, to] = requirement.longest_beside(*longest(row, &requirement, 0.0).first()?);
     // The whole of a closed curve begins where the curve does.
     let is_whole = row.is_closed && to - from >= row.start_count as f64 * (1.0 - 1e-9);
     let mut ends = if is_whole { [0.0, row.start_count as f64] } else { [from, to] };
@@ -82,8 +82,8 @@ fn find_dwell(row: &Row, extent: f64, length: f64) -> Option<Dwell> {
         if is_whole || width <= max_width * (1.0 + EXCESS) {
             break;
         }
-        // Next to a sharp bend the points that touch are known less exactly than elsewhere.
-        requirement.max_width -= 1.5 * (width - max_width);
+        // Next to a sharp bend the points that touch are known less exactly than elsewhere: by as much less is allowed of them.
+        requirement.max_width = max_width - 1.01 * (width - ring.width);
         let reach = 0.1 * (ends[1] - ends[0]);
         let Reached::Longest { ends: shorter, .. } = requirement.longest_near_by(all(ends), (ends, reach), 0.0) else {
             break;
@@ -189,6 +189,12 @@ impl Requirement for Circular<'_> {
         /// Points of the portion in which those that touch its annulus are found.
         const POINTS: usize = 32;
         let reached = self.longest_near_by(POINTS, (ends, reach), least);
+        if reached == Reached::Nothing {
+            // Where no rate shows the way, the portion itself is the longest that is known, if it fits.
+            let ring = CurveRings::new(self.row, ends, POINTS, self.max_radius).ring(ends);
+            let fits = ring.is_some_and(|ring| ring.width <= self.max_width);
+            return if fits { Reached::Longest { size: self.size(ends), ends, is_certain: false } } else { reached };
+        }
         let Reached::Longest { ends: found, .. } = reached else { return reached };
         // Between so few points the curve may leave the annulus: then by all points of the row.
         let all = (found[1] - found[0]).ceil() as usize;
@@ -201,12 +207,42 @@ impl Requirement for Circular<'_> {
 }
 
 impl Circular<'_> {
+    /// The input that the portion between two positions spans.
+    fn size(&self, ends: [f64; 2]) -> f64 {
+        self.row.input_travel_at(ends[1]) - self.row.input_travel_at(ends[0])
+    }
+
+    /// A portion, or a longer one that is reached when it is moved a little along the curve: where other points begin to touch, the
+    /// longest near one need not be the longest beside it.
+    fn longest_beside(&self, mut ends: [f64; 2]) -> [f64; 2] {
+        /// How far it is moved, relative to its span.
+        const SHIFTS: [f64; 4] = [-0.01, 0.01, -0.04, 0.04];
+        /// So often, at most, another is found.
+        const ROUNDS: usize = 8;
+        /// What is not longer by more is the same.
+        const SAME: f64 = 1e-7;
+        let Limits { low, high, .. } = self.row.limits();
+        let reached = |ends: [f64; 2], shift: f64| {
+            let span = ends[1] - ends[0];
+            let moved = ends.map(|end| (end + shift * span).clamp(low, high));
+            match self.longest_near(moved, 0.1 * span, 0.0) {
+                Reached::Longest { size, ends: next, .. } if size > self.size(ends) * (1.0 + SAME) => Some(next),
+                _ => None,
+            }
+        };
+        for _ in 0..ROUNDS {
+            let Some(next) = SHIFTS.into_iter().find_map(|shift| reached(ends, shift)) else { break };
+            ends = next;
+        }
+        ends
+    }
+
     /// The longest portion near one between two positions, by about so many points of it.
     fn longest_near_by(&self, count: usize, (ends, reach): ([f64; 2], f64), least: f64) -> Reached {
         let permitted = self.max_width * (1.0 - ACCURACY);
         let mut rings = CurveRings::new(self.row, ends, count, self.max_radius);
         let fit = |ends: [f64; 2]| {
-            let size = self.row.input_travel_at(ends[1]) - self.row.input_travel_at(ends[0]);
+            let size = self.size(ends);
             let rates = ends.map(|position| self.row.input_travel_rate_at(position));
             let compare = |Constraint { value, rates }| Constraint {
                 value: value / permitted - 1.0,

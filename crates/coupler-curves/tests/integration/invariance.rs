@@ -419,6 +419,26 @@ fn circular_portions_of_watt_linkages_are_no_wider_than_allowed() {
     check_layouts(|layout| watt.first(layout), &"Watt I");
 }
 
+/// Dimensions of Watt linkages: O A; A B and C B; D; D E and G E; G; M.
+type WattDimensions = (f64, [f64; 2], [f64; 2], [f64; 2], [f64; 2], [f64; 2]);
+
+/// Of Watt I and of Watt II, among them some whose curves go back along themselves, so that the points that touch a circle do so twice,
+/// and some with points of contact that move far as the circle moves a little.
+#[test]
+fn circular_portions_of_watt_linkages_are_the_same_in_all_layouts() {
+    let dimensions: [(bool, WattDimensions); 5] = [
+        (false, (0.4212, [3.1499, 3.8765], [2.0703, 1.3143], [4.7443, 2.6959], [-2.5336, 2.1257], [-1.8199, -0.4299])),
+        (false, (0.5607, [3.7088, 2.9952], [-2.9296, 0.696], [1.4757, 1.1983], [0.9983, 1.8631], [2.5187, -0.6588])),
+        (false, (3.5504, [1.0897, 3.9588], [-1.697, 0.802], [4.6205, 3.5682], [0.5697, 0.2886], [1.8401, 1.8903])),
+        (true, (4.1889, [2.1057, 4.1223], [2.3959, 2.5633], [3.9288, 1.6368], [-2.774, 1.9197], [2.0948, 1.2019])),
+        (true, (4.0689, [3.4016, 0.8191], [2.6001, -2.3356], [3.3453, 2.6955], [0.9, 0.5385], [0.7131, -1.059])),
+    ];
+    for (is_first, (crank, loop_lengths, d, second, g, m)) in dimensions {
+        let watt = Watt { frame: 1.0, crank, loop_lengths, d, second, g, m };
+        check_layouts(|layout| if is_first { watt.first(layout) } else { watt.second(layout) }, &watt);
+    }
+}
+
 proptest! {
     #![proptest_config(crate::random())]
 
