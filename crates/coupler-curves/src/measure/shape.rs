@@ -111,21 +111,45 @@ fn curvature_at(curve: &TracedCurve, place: Place) -> f64 {
 
 /// The greatest curvature of the path next to a place where it returns on itself.
 ///
-/// There the velocity is zero, and the curvature of the path a smooth function of the square of the difference t of the
-/// parameter. It is interpolated where the velocity has enough digits, and continued to t = 0: to about 1e-9 of it.
+/// There the velocity is zero, and the curvature of the path a smooth function of the difference t of the parameter. It is
+/// interpolated between both sides, at least 0.05 from t = 0 and so where the velocity has enough digits; at a limit of the
+/// input, where both sides are the same, as a function of the square of t, and continued to t = 0: to about 1e-8 of it.
 fn curvature_where_returning(curve: &TracedCurve, place: Place) -> f64 {
-    /// The squares at which the curvature is known.
+    /// The differences on both sides.
+    const REACH: f64 = 0.5;
+    /// A part of a piece that is rounding.
+    const AT_LIMIT: f64 = 1e-6;
+    /// The squares at a limit.
     const SQUARES: [f64; 2] = [0.1, 1.0];
-    /// More terms would magnify the rounding of the curvatures.
-    const KEPT: usize = 6;
-    let [least, most] = SQUARES;
-    let (middle, half) = ((least + most) / 2.0, (most - least) / 2.0);
-    // Towards the further end of the piece.
-    let sign = if place.u > 0.0 { -1.0 } else { 1.0 };
-    let at = |square: f64| curvature_at(curve, Place { u: place.u + sign * square.sqrt(), ..place });
-    let mut series = Chebyshev::from_values(&Chebyshev::nodes().map(|node| at(middle + half * node)));
-    series.0[KEPT..].fill(0.0);
+    /// More terms would magnify the rounding of the curvatures: on both sides, and at a limit.
+    const KEPT: [usize; 2] = [10, 6];
+    let piece = &curve.smooth().pieces[place.piece];
+    let at = |u: f64| curvature_at(curve, Place { u, ..place });
+    let is_reached = |u: f64| {
+        let [least, most] = curve.circuit.passes[piece.pass_at(u)].input_range();
+        (least..=most).contains(&piece.map.input(u))
+    };
+    let is_at_limit = match piece.map {
+        InputMap::Root { middle, half, .. } => (middle + half * place.u).abs() < AT_LIMIT * half,
+        InputMap::Linear { .. } => false,
+    };
+    let (series, centre) = if !is_at_limit && [-REACH, REACH].iter().all(|t| is_reached(place.u + t)) {
+        // On its way back the path bends to the other side.
+        let values = Chebyshev::nodes().map(|node| node.signum() * at(place.u + REACH * node));
+        let mut series = Chebyshev::from_values(&values);
+        series.0[KEPT[0]..].fill(0.0);
+        (series, 0.0)
+    } else {
+        let [least, most] = SQUARES;
+        let (middle, half) = ((least + most) / 2.0, (most - least) / 2.0);
+        // Towards the further end of the piece.
+        let sign = if place.u > 0.0 { -1.0 } else { 1.0 };
+        let values = Chebyshev::nodes().map(|node| at(place.u + sign * (middle + half * node).sqrt()));
+        let mut series = Chebyshev::from_values(&values);
+        series.0[KEPT[1]..].fill(0.0);
+        (series, -middle / half)
+    };
     let extremes = series.derivative().zeros(0.0, 1e-3).places;
-    let places = [-middle / half, 1.0].into_iter().chain(extremes);
+    let places = [centre, -1.0, 1.0].into_iter().chain(extremes);
     places.map(|place| series.at(place).abs()).fold(0.0, f64::max)
 }

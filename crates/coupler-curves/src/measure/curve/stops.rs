@@ -84,7 +84,8 @@ impl SmoothCurve {
         }
         let (a, j) = (vector(&acceleration, u), vector(&jerk, u));
         // At a cusp the next derivative leaves the tangent; where the path returns, positions are even in the parameter.
-        let turns = cross(a, j).abs();
+        let [_, of_a, of_j] = self.derivative_rounding();
+        let turns = cross(a, j).abs() - (of_j * a.norm() + of_a * j.norm());
         let is_cusp = turns > 1e-6 * a.norm_squared() && j.norm() > 1e-6 * a.norm();
         let kind = if is_cusp { StopKind::Cusp } else { StopKind::Reversal };
         // Between two pieces it is on both.
@@ -123,7 +124,12 @@ impl SmoothCurve {
             }
             let turning = Chebyshev::from_values(&values);
             let zeros = turning.zeros(rounding, NARROW);
-            let stop_at = |u: f64| stop_near(Place { piece, u });
+            // Also where it is rounding from the stop to there.
+            let is_spread = |stop: &Stop, u: f64| {
+                stop.place.piece == piece && turning.at((u + stop.place.u) / 2.0).abs() <= rounding
+            };
+            let stop_at =
+                |u: f64| stop_near(Place { piece, u }).or_else(|| stops.iter().position(|stop| is_spread(stop, u)));
             doubtful += zeros.doubtful.iter().filter(|u| stop_at(**u).is_none()).count();
             // The signs between the zeros; next to the ends of the piece a value may be rounding.
             let cuts: Vec<f64> = [-1.0].into_iter().chain(zeros.places).chain([1.0]).collect();
