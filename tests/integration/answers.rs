@@ -383,7 +383,7 @@ fn a_linkage_in_a_damaged_file_is_not_called_unknown() {
         R = { slide = \"A\", length = 3, line = [\"O\", \"X\"], side = \"ahead\" }\n";
     fs::write(folder.path().join("mine.toml"), slider).unwrap();
     let (code, _, error) = run(folder.path(), &["inspect", "mine", "--manifest", "mine.toml"]);
-    assert!(code == 2 && error.contains("write output_link = \"R\" for a slider"), "{error}");
+    assert!(code == 2 && error.contains("write output_link = \"R\" for the slider"), "{error}");
 }
 
 /// At a change point, where all joints are on one line, the coupler turns or does not, and only one of the two is printed; angles at which

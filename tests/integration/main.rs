@@ -28,6 +28,7 @@ mod gallery;
 mod golden;
 mod hostile_text;
 mod imports;
+mod inputs;
 mod inspect_output;
 mod lettering;
 mod limits;

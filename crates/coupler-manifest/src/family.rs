@@ -13,7 +13,7 @@ use crate::schema::{
 };
 use crate::templates::Templates;
 use crate::{applicability, chart, settings, tolerance};
-use coupler_curves::expression::{Caption, Dimension, Scope};
+use coupler_curves::expression::{Caption, Dimension, Expression, Scope};
 use coupler_curves::family::{COLUMNS, Column, Family, MAX_SAMPLES, MEASURES, Sampling, StraightCriterion};
 use coupler_curves::linkage_format::{self, Fields, TomlParser, TomlValue};
 use coupler_curves::problem::{Problem, suggestion};
@@ -213,7 +213,12 @@ fn sampling<'t>(value: &TomlValue<'t>, template: Option<&Template>, parser: &mut
     }
     match (fields.get("step"), fields.get("samples")) {
         // If the linkage could not be parsed, its input may be an angle or a length.
-        (Some(value), None) if template.is_none() && value.get_ref().as_str().is_none() => None,
+        (Some(value), None)
+            if template.is_none()
+                && value.get_ref().as_str().is_none_or(|text| Expression::evaluate_constant(text).is_ok()) =>
+        {
+            None
+        }
         (Some(value), None) if template.is_some_and(Template::is_driven_by_length) => {
             let step = parser.input_length(value, &Scope::default())?.evaluate(|_| f64::NAN);
             let step = parser.require_finite(value, step)?;
@@ -248,9 +253,9 @@ fn sampling<'t>(value: &TomlValue<'t>, template: Option<&Template>, parser: &mut
             } else {
                 "sampling needs a step or a number of samples"
             };
-            parser.report(
-                Problem::error(value.span(), message).with_help("write { step = \"2 deg\" } or { samples = 180 }"),
-            );
+            let step = if template.is_some_and(Template::is_driven_by_length) { "0.05" } else { "\"2 deg\"" };
+            let help = format!("write {{ step = {step} }} or {{ samples = 180 }}");
+            parser.report(Problem::error(value.span(), message).with_help(help));
             None
         }
     }
@@ -263,14 +268,16 @@ fn straight<'t>(
     parser: &mut TomlParser<'t>,
 ) -> Option<StraightCriterion> {
     let fields = Fields::from_value(value, &STRAIGHT, parser)?;
+    let is_driven_by_length = template.is_some_and(Template::is_driven_by_length);
     let given: Vec<&str> = STRAIGHT.key_names().into_iter().filter(|key| fields.get(key).is_some()).collect();
     let [key] = given[..] else {
         let problem = Problem::error(value.span(), "`straight` takes exactly one of `tolerance`, `input` and `length`");
-        parser.report(problem.with_help("write { tolerance = 0.001 }, { input = \"120 deg\" } or { length = 2 }"));
+        let input = if is_driven_by_length { "0.5" } else { "\"120 deg\"" };
+        let help = format!("write {{ tolerance = 0.001 }}, {{ input = {input} }} or {{ length = 2 }}");
+        parser.report(problem.with_help(help));
         return None;
     };
     let value = fields.get(key)?;
-    let is_driven_by_length = template.is_some_and(Template::is_driven_by_length);
     let number = match key {
         // If the linkage could not be parsed, its input may be an angle or a length.
         "input" if template.is_none() => return None,
@@ -294,7 +301,7 @@ fn straight<'t>(
     let problem = Problem::error(value.span(), format!("`{key}` is {number}, which is out of range"));
     let range = match most {
         _ if least > 0.0 => format!("give {least} to {most}"),
-        most if most.is_finite() => format!("give a number greater than 0, at most {most}"),
+        most if most.is_finite() => format!("give an angle greater than 0, at most {most} deg"),
         _ => "give a number greater than 0".to_owned(),
     };
     parser.report(problem.with_help(range));

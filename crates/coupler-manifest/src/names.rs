@@ -316,9 +316,12 @@ fn read_cases<'t>(
     template: Option<&Template>,
     parser: &mut TomlParser<'t>,
 ) -> Option<NamedSpace> {
-    if value.get_ref().is_str() {
+    // The name of a file, by itself or in a list.
+    let is_text = |value: &&TomlValue| value.get_ref().is_str();
+    let items = value.get_ref().as_array().into_iter().flatten();
+    if let Some(text) = std::iter::once(value).chain(items).find(is_text) {
         let help = "write them in the manifest, they are not read from a file: cases = [{ p = 2 }, { p = 3 }]";
-        parser.report(Problem::error(value.span(), "expected a list of cases, found a string").with_help(help));
+        parser.report(Problem::error(text.span(), "expected a list of cases, found a string").with_help(help));
         return None;
     }
     let list = parser.list(value)?;

@@ -13,7 +13,7 @@ pub(super) fn check_joint_id(id: &str, span: &Span) -> Option<Problem> {
     } else if let Some(c) = id.chars().find(|&c| is_invisible(c)) {
         let message = format!("the id `{shown}` of a joint has the invisible character U+{:04X}", c as u32);
         (message, "leave it out: the id would look like another, or change the order of what is around it")
-    } else if id.starts_with(['=', '+', '-', '@']) {
+    } else if id.starts_with(FORMULA_MARKS) {
         let message = format!("the id `{shown}` of a joint begins like a formula, which a spreadsheet would compute");
         (message, "begin it with a letter, a digit or a quotation mark")
     } else {
@@ -22,11 +22,19 @@ pub(super) fn check_joint_id(id: &str, span: &Span) -> Option<Problem> {
     Some(Problem::error(span.clone(), message).with_help(help))
 }
 
+/// What a formula begins with, also in the wide forms that spreadsheets take for the same.
+const FORMULA_MARKS: [char; 8] = ['=', '+', '-', '@', '\u{ff1d}', '\u{ff0b}', '\u{ff0d}', '\u{ff20}'];
+
 /// Whether a character shows nothing itself, and may turn the direction of text.
 fn is_invisible(c: char) -> bool {
-    // Marks, embeddings, overrides and isolates of direction; joiners and blanks without width.
+    // Marks, embeddings, overrides and isolates of direction; joiners and blanks without width; fillers, selectors of variants, and tags.
     c.is_control()
-        || matches!(c, '\u{61c}' | '\u{ad}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{2069}' | '\u{feff}')
+        || matches!(c, '\u{61c}' | '\u{ad}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}')
+        || matches!(
+            c,
+            '\u{34f}' | '\u{115f}' | '\u{1160}' | '\u{180b}'..='\u{180f}' | '\u{2800}' | '\u{3164}' | '\u{ffa0}'
+        )
+        || matches!(c, '\u{fe00}'..='\u{fe0f}' | '\u{e0000}'..='\u{e0fff}')
 }
 
 #[cfg(test)]
@@ -48,10 +56,14 @@ mod tests {
             ("A\u{200f}", "U+200F"),
             ("A\u{200b}", "U+200B"),
             ("A\u{7}", "U+0007"),
+            ("A\u{3164}", "U+3164"),
+            ("A\u{fe0f}", "U+FE0F"),
+            ("A\u{e0041}", "U+E0041"),
             ("=HYPERLINK(\"http://a.b\")", "begins like a formula"),
             ("+1", "begins like a formula"),
             ("-1", "begins like a formula"),
             ("@SUM(A1)", "begins like a formula"),
+            ("\u{ff1d}1+1", "begins like a formula"),
         ] {
             assert!(problem(id).is_some_and(|message| message.contains(word)), "{id:?}: {:?}", problem(id));
         }

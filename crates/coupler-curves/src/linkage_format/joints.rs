@@ -8,6 +8,7 @@ use super::fields::Fields;
 use super::joint::{parse_joint, parse_joint_pair, parse_joint_ref};
 use super::joint_id::check_joint_id;
 use super::names::JointNames;
+use super::quantities::InputKind;
 use super::toml_parser::{TomlParser, TomlValue};
 use crate::expression::Scope;
 use crate::problem::{Problem, Span};
@@ -41,7 +42,7 @@ pub(super) fn parse_joints<'t>(
         entries.iter().map(|(name, _, value)| parse_joint(name, value, &names, scope, parser)).collect();
     let traced = parse_traced(linkage, &names, parser);
     let seen_from = linkage.get("seen_from").map(|value| parse_joint_pair(value, &names, parser));
-    let output_link = linkage.get("output_link").map(|value| parse_output_link(value, &names, parser));
+    let output_link = linkage.get("output_link").map(|value| parse_output_link(value, (&names, &parsed), parser));
     let chains = linkage.get("chains").map_or(Some(Vec::new()), |value| parse_chains(value, &names, parser));
     check_inputs(&entries, &parsed, &table, parser);
     let placings: Vec<JointKindTemplate> = parsed.into_iter().collect::<Option<_>>()?;
@@ -84,11 +85,18 @@ pub(super) fn parse_joints<'t>(
     })
 }
 
-/// Whether a linkage has a piston among its joints, which makes its input a length.
-pub(super) fn has_piston(linkage: &Fields) -> bool {
+/// What the input of a linkage is: a length if it has a piston.
+pub(super) fn input_kind(linkage: &Fields) -> InputKind {
     let joints = linkage.get("joints").and_then(|value| value.get_ref().as_table());
-    let is_piston = |joint: &TomlValue| joint.get_ref().as_table().is_some_and(|joint| joint.contains_key("piston"));
-    joints.is_some_and(|joints| joints.values().any(is_piston))
+    let has = |key: &str| {
+        let is_so = |joint: &TomlValue| joint.get_ref().as_table().is_some_and(|joint| joint.contains_key(key));
+        joints.is_some_and(|joints| joints.values().any(is_so))
+    };
+    match (has("piston"), has("crank")) {
+        (true, _) => InputKind::Length,
+        (false, true) => InputKind::Angle { has_slider: has("slide") || has("yoke") },
+        (false, false) => InputKind::Unknown,
+    }
 }
 
 fn parse_traced<'t>(linkage: &Fields<'_, 't>, names: &JointNames, parser: &mut TomlParser<'t>) -> Option<Vec<usize>> {
@@ -110,23 +118,27 @@ fn parse_traced<'t>(linkage: &Fields<'_, 't>, names: &JointNames, parser: &mut T
     Some(traced)
 }
 
-/// Parses an output link: two joints of a link, or the joint of a slider.
+/// Parses an output link: two joints of a link, or the joint of a slider; `parsed` are the joints that can be read.
 fn parse_output_link<'t>(
     value: &TomlValue<'t>,
-    names: &JointNames,
+    (names, parsed): (&JointNames, &[Option<JointKindTemplate>]),
     parser: &mut TomlParser<'t>,
 ) -> Option<OutputLinkTemplate> {
     match value.get_ref() {
         DeValue::String(_) => parse_joint_ref(value, names, parser).map(OutputLinkTemplate::Slider),
-        DeValue::Array(joints) if joints.len() == 1 => {
-            let name = parser.source_text(&joints[0]).to_owned();
+        DeValue::Array(joints) if joints.len() != 2 => {
             let problem = Problem::error(
                 value.span(),
                 "an output link is named by two of its joints, and a slider by one without brackets",
             );
-            let help = format!(
-                "write output_link = {name} for a slider, or name two joints, as in output_link = [\"C\", \"B\"]"
-            );
+            let is_slider = |name: &&str| {
+                let joint = names.index_of(name).and_then(|joint| parsed[joint].as_ref());
+                joint.is_some_and(is_sliding)
+            };
+            let help = match joints.iter().filter_map(|joint| joint.get_ref().as_str()).find(is_slider) {
+                Some(slider) => format!("write output_link = \"{slider}\" for the slider"),
+                None => "name two joints of a link, as in output_link = [\"C\", \"B\"]".to_owned(),
+            };
             parser.report(problem.with_help(help));
             None
         }
@@ -163,6 +175,16 @@ fn output_joints(output: Option<OutputLinkTemplate>) -> Vec<usize> {
     }
 }
 
+/// Whether a joint is that of a slider or a yoke.
+fn is_sliding(kind: &JointKindTemplate) -> bool {
+    matches!(kind, JointKindTemplate::Slide { .. } | JointKindTemplate::Yoke { .. })
+}
+
+/// Whether a joint is that of the input.
+fn is_input(kind: &JointKindTemplate) -> bool {
+    matches!(kind, JointKindTemplate::Crank { .. } | JointKindTemplate::Piston { .. })
+}
+
 /// Checks that a linkage has one input, and that its gears are geared to it.
 fn check_inputs(
     entries: &[(&str, Span, &TomlValue)],
@@ -170,13 +192,18 @@ fn check_inputs(
     table: &Fields,
     parser: &mut TomlParser,
 ) {
-    let is_input =
-        |k: &usize| matches!(parsed[*k], Some(JointKindTemplate::Crank { .. } | JointKindTemplate::Piston { .. }));
-    let inputs: Vec<usize> = (0..parsed.len()).filter(is_input).collect();
+    let inputs: Vec<usize> = (0..parsed.len()).filter(|&k| parsed[k].as_ref().is_some_and(is_input)).collect();
     // A joint that could not be parsed may be the input.
     if inputs.is_empty() && parsed.iter().all(Option::is_some) {
         let problem = Problem::error(table.span.clone(), "the linkage has no input");
-        parser.report(problem.with_help("add a crank, as in { crank = \"O\", length = 1 }"));
+        let help = match parsed.iter().flatten().any(is_sliding) {
+            true => {
+                "a slider cannot be the input: add a crank, as in { crank = \"O\", length = 1 }, or an actuator, as in \
+                 { piston = [\"C\", \"O\"], length = 1 }"
+            }
+            false => "add a crank, as in { crank = \"O\", length = 1 }",
+        };
+        parser.report(problem.with_help(help));
     }
     for &k in inputs.iter().skip(1) {
         let (first, second) = (entries[inputs[0]].0, entries[k].0);
@@ -288,7 +315,7 @@ fn check_unused(
     }
 }
 
-/// Checks that the traced joints depend on the driven one, without which they do not move. With `seen_from` this does
+/// Checks that the traced joints depend on the driven one, if there is one, without which they do not move. With `seen_from` this does
 /// not apply: relative to a moving link, fixed joints move.
 fn check_traced_joints_move(
     entries: &[(&str, Span, &TomlValue)],
@@ -297,12 +324,12 @@ fn check_traced_joints_move(
     traced: &[usize],
     parser: &mut TomlParser,
 ) {
+    if !placings.iter().any(is_input) {
+        return;
+    }
     let mut moves = vec![false; placings.len()];
     for &k in order {
-        let is_driven = matches!(
-            placings[k],
-            JointKindTemplate::Crank { .. } | JointKindTemplate::Gear { .. } | JointKindTemplate::Piston { .. }
-        );
+        let is_driven = is_input(&placings[k]) || matches!(placings[k], JointKindTemplate::Gear { .. });
         moves[k] = is_driven || needs[k].iter().any(|&need| moves[need]);
     }
     for &k in traced.iter().filter(|&&k| !moves[k]) {

@@ -3,6 +3,7 @@
 use super::fields::Fields;
 use super::joint_kinds::JOINT_KINDS;
 use super::joints;
+use super::quantities::InputKind;
 use super::schema::{KeySchema, TableSchema, ValueSchema, default_word, words};
 use super::toml_parser::{TomlParser, TomlValue};
 use crate::expression::{Dimension, Kind, Scope, Unit};
@@ -168,10 +169,10 @@ pub fn parse_template<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) ->
         fields.get("continuation").and_then(|value| parser.word(value, &CONTINUATIONS)).unwrap_or_default();
     let coincident =
         fields.get("coincident").and_then(|value| parser.word(value, &COINCIDENT_DYADS)).unwrap_or_default();
-    let is_length = joints::has_piston(&fields);
-    let start = fields.get("start").and_then(|value| parser.input(value, is_length, &scope));
-    let input = fields.get("input").and_then(|value| parse_input_range(value, &INPUT, (is_length, &scope), parser));
-    let arc = fields.get("arc").and_then(|value| parse_arc(value, (is_length, &scope), parser));
+    let input_kind = joints::input_kind(&fields);
+    let start = fields.get("start").and_then(|value| parser.input(value, input_kind, &scope));
+    let input = fields.get("input").and_then(|value| parse_input_range(value, &INPUT, (input_kind, &scope), parser));
+    let arc = fields.get("arc").and_then(|value| parse_arc(value, (input_kind, &scope), parser));
     let joints = fields
         .required("joints", "a table [linkage.joints]", parser)
         .and_then(|value| joints::parse_joints(value, &fields, &scope, parser));
@@ -303,13 +304,16 @@ pub fn check_identifier(name: &str, span: Span, parser: &mut TomlParser) {
 fn parse_input_range<'t>(
     value: &TomlValue<'t>,
     schema: &'static TableSchema,
-    (is_length, scope): (bool, &Scope),
+    (kind, scope): (InputKind, &Scope),
     parser: &mut TomlParser<'t>,
 ) -> Option<[InputValue; 2]> {
     let fields = Fields::from_value(value, schema, parser)?;
+    if let InputKind::Unknown = kind {
+        return None;
+    }
     let mut end = |key| {
-        let value = fields.required(key, &format!("{key} = \"90 deg\""), parser)?;
-        parser.input(value, is_length, scope)
+        let value = fields.required(key, &format!("{key} = {}", kind.example()), parser)?;
+        parser.input(value, kind, scope)
     };
     let (from, to) = (end("from"), end("to"));
     Some([from?, to?])
@@ -318,10 +322,10 @@ fn parse_input_range<'t>(
 /// Parses an `arc` table: the input range and the branch.
 fn parse_arc<'t>(
     value: &TomlValue<'t>,
-    scope: (bool, &Scope),
+    input: (InputKind, &Scope),
     parser: &mut TomlParser<'t>,
 ) -> Option<([InputValue; 2], i8)> {
-    let range = parse_input_range(value, &ARC, scope, parser)?;
+    let range = parse_input_range(value, &ARC, input, parser)?;
     let fields = Fields::with_any_keys(value, "an arc", parser)?;
     let branch = match fields.get("branch") {
         None => 1,

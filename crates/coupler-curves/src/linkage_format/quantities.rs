@@ -7,6 +7,31 @@ use crate::expression::{CompiledExpression, Dimension, Expression, Kind, Quantit
 use crate::problem::Problem;
 use crate::template::{InputValue, ParameterKind};
 
+/// What the input of a linkage is, as far as its joints can be read.
+#[derive(Clone, Copy, Debug)]
+pub enum InputKind {
+    /// The angle of a crank, and whether a link slides, whose displacement might be taken for the input.
+    Angle {
+        /// Whether one does.
+        has_slider: bool,
+    },
+    /// The length of an actuator.
+    Length,
+    /// There is none, which is reported where joints are read.
+    Unknown,
+}
+
+impl InputKind {
+    /// A value of this kind, as it is written.
+    pub fn example(self) -> &'static str {
+        if matches!(self, InputKind::Length) { "2.5" } else { "\"90 deg\"" }
+    }
+}
+
+fn is_number(value: &TomlValue) -> bool {
+    matches!(value.get_ref(), DeValue::Integer(_) | DeValue::Float(_))
+}
+
 impl<'t> TomlParser<'t> {
     /// A value of a parameter: a number, or an expression in quotes, which for an angle may have a unit. Of a name that
     /// is not a parameter the kind is [`ParameterKind::Number`].
@@ -33,11 +58,20 @@ impl<'t> TomlParser<'t> {
     }
 
     /// A value of the input over the names of `scope`: an angle with its unit, or a length without a unit.
-    pub fn input(&mut self, value: &TomlValue<'t>, is_length: bool, scope: &Scope) -> Option<InputValue> {
-        if is_length {
-            return Some(InputValue { value: self.input_length(value, scope)?, unit: None });
+    pub fn input(&mut self, value: &TomlValue<'t>, kind: InputKind, scope: &Scope) -> Option<InputValue> {
+        match kind {
+            InputKind::Length => Some(InputValue { value: self.input_length(value, scope)?, unit: None }),
+            InputKind::Angle { has_slider: true } if is_number(value) => {
+                let number = self.source_text(value);
+                let problem = Problem::error(value.span(), "the unit is missing: the input is the angle of the crank");
+                self.report(problem.with_help(format!(
+                    "write \"{number} deg\" with the quotes; a slider cannot be the input, but the length of a `piston` can"
+                )));
+                None
+            }
+            InputKind::Angle { .. } => self.angle(value, scope),
+            InputKind::Unknown => None,
         }
-        self.angle(value, scope)
     }
 
     /// An input that is a length, in the manifest's unit: a number, or an expression without a unit.
@@ -67,6 +101,7 @@ impl<'t> TomlParser<'t> {
     }
 
     fn quantity(&mut self, value: &TomlValue<'t>, dimension: Dimension) -> Option<Quantity> {
+        let unit = if dimension == Dimension::Angle { "deg" } else { "mm" };
         match value.get_ref() {
             DeValue::String(text) => {
                 let parsed = Quantity::parse(text, dimension);
@@ -74,13 +109,13 @@ impl<'t> TomlParser<'t> {
             }
             DeValue::Integer(_) | DeValue::Float(_) => {
                 let number = self.source_text(value);
-                let unit = if dimension == Dimension::Angle { "deg" } else { "mm" };
                 let help = format!("write \"{number} {unit}\" with the quotes");
                 self.report(Problem::error(value.span(), "the unit is missing").with_help(help));
                 None
             }
             _ => {
-                self.report_mismatch(value, "a quantity", "write a number and a unit in quotes: \"5 deg\"");
+                let help = format!("write a number and a unit in quotes: \"5 {unit}\"");
+                self.report_mismatch(value, "a quantity", &help);
                 None
             }
         }
