@@ -23,7 +23,7 @@ pub use images::IMAGES_FILE_NAME;
 pub use journal::{FamilyProgress, JournalEntry, PageShardHead, PageShardRecord, PartialFile, path_in_atlas};
 pub use png::is_intact_png;
 pub use regular_file::{FileError, file_digest, open_regular_file, read_regular_file};
-pub use rendered_from::{check_families, manifest_of};
+pub use rendered_from::{UnknownManifest, check_families, manifest_of};
 pub use run::{
     BookRecord, FORMAT_VERSION, FamilyRecord, FileRecord, JOURNAL_FILE_NAME, MAX_RECORDED_FILES, RUN_FILE_NAME,
     ReadError, RunRecord, has_images,

@@ -26,9 +26,17 @@ impl FoundTables {
         let mut found = Vec::new();
         for entry in folder.read_dir().map_err(failed)? {
             let path = entry.map_err(failed)?.path();
-            if !path.is_dir() {
-                found.push(path);
-                continue;
+            match path.metadata() {
+                Ok(metadata) if metadata.is_dir() => {}
+                // A link to nothing is no folder.
+                Err(error) if error.kind() != io::ErrorKind::NotFound => {
+                    self.unreadable.push((path, error));
+                    continue;
+                }
+                _ => {
+                    found.push(path);
+                    continue;
+                }
             }
             match path.read_dir().and_then(|entries| entries.map(|entry| Ok(entry?.path())).collect()) {
                 Ok::<Vec<PathBuf>, _>(inner) => found.extend(inner),

@@ -28,6 +28,14 @@ impl FileProblem {
             FileProblem::Unreadable(why) => format!("{path}: {why}"),
         }
     }
+
+    /// What is wrong, as a clause.
+    pub fn into_message(self) -> String {
+        match self {
+            FileProblem::Damaged(why) | FileProblem::Foreign(why) | FileProblem::Unreadable(why) => why,
+            FileProblem::Missing => "it does not exist".to_owned(),
+        }
+    }
 }
 
 impl From<FileError> for FileProblem {

@@ -175,6 +175,15 @@ fn text_record(table: &Path) -> Result<TextRecord, FileProblem> {
     Ok(TextRecord { record, sha256 })
 }
 
+/// Opens a Parquet file. `parquet` takes the length of a file for 0 where the system fails to say it.
+fn open_parquet(file: File) -> Result<SerializedFileReader<File>, FileProblem> {
+    let same = file.try_clone().map_err(FileError::from)?;
+    SerializedFileReader::new(file).map_err(|error| match same.metadata() {
+        Ok(_) => parquet_problem(error),
+        Err(error) => FileError::from(error).into(),
+    })
+}
+
 /// Reads the record of a Parquet file, and the digest that it states.
 fn parquet_record(path: &Path) -> Result<(ShardRecord, Digest), FileProblem> {
     let mut file = open_regular_file(path, u64::MAX)?;
@@ -185,7 +194,7 @@ fn parquet_record(path: &Path) -> Result<(ShardRecord, Digest), FileProblem> {
     if !PARQUET_MAGIC.starts_with(&beginning) {
         return Err(FileProblem::Foreign("it is not a Parquet file".to_owned()));
     }
-    let reader = SerializedFileReader::new(file).map_err(parquet_problem)?;
+    let reader = open_parquet(file)?;
     let metadata = reader.metadata().file_metadata();
     let pairs = || metadata.key_value_metadata().into_iter().flatten();
     let record = ShardRecord::from_metadata(pairs().map(|pair| (pair.key.as_str(), pair.value.as_deref())))?;
@@ -251,7 +260,7 @@ fn for_row_groups(
     mut visit: impl FnMut(&dyn RowGroupReader, Range<usize>) -> Result<(), String>,
 ) -> Result<(), String> {
     let file = open_regular_file(path, u64::MAX).map_err(|error| format!("it {error}"))?;
-    let reader = SerializedFileReader::new(file).map_err(parquet_message)?;
+    let reader = open_parquet(file).map_err(FileProblem::into_message)?;
     let mut first = 0;
     for group in 0..reader.num_row_groups() {
         let group = reader.get_row_group(group).map_err(parquet_message)?;
@@ -264,10 +273,7 @@ fn for_row_groups(
 
 /// The message of an error of reading a Parquet file, as a clause.
 fn parquet_message(error: ParquetError) -> String {
-    match parquet_problem(error) {
-        FileProblem::Damaged(why) | FileProblem::Foreign(why) | FileProblem::Unreadable(why) => why,
-        FileProblem::Missing => "it does not exist".to_owned(),
-    }
+    parquet_problem(error).into_message()
 }
 
 fn row_count(group: &dyn RowGroupReader) -> usize {

@@ -13,7 +13,8 @@ from pathlib import Path
 
 PROGRAM, FOLDER = os.path.abspath(sys.argv[1]), Path(sys.argv[2]) / "faults"
 
-# What has to do with files; calls that a machine does not have are left out.
+# What has to do with files; calls that a machine does not have are left out. Files are handed to the disk before they are closed, so that
+# nothing depends on `close`.
 CALLS = (
     "openat read pread64 write pwrite64 lseek ftruncate fsync fdatasync rename renameat renameat2 unlink unlinkat mkdir rmdir "
     "statx newfstatat fstat getdents64 flock fcntl readlink link linkat chmod fchmod copy_file_range sendfile"

@@ -329,7 +329,7 @@ fn read_atlas(py: Python, atlas: ManifestArgument) -> PyResult<Manifest> {
         ManifestArgument::Path(path) if path.is_dir() => path.clone(),
         _ => return atlas.read_for_tables(py),
     };
-    let (path, run) = manifest_of(&folder).map_err(OutputError::new_err)?;
+    let (path, run) = manifest_of(&folder).map_err(|error| OutputError::new_err(error.to_string()))?;
     let manifest = ManifestArgument::Path(path).read_for_tables(py)?;
     check_families(&folder, &manifest.path, &manifest.plan, &run).map_err(OutputError::new_err)?;
     Ok(manifest)

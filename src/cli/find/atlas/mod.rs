@@ -8,7 +8,8 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 use crate::find::{self, AtlasAnswer, AtlasQuery};
-use crate::record;
+use crate::output;
+use crate::record::{self, UnknownManifest};
 use coupler_curves::find::{Options, Quality, Target};
 
 use super::super::source::ManifestSource;
@@ -51,11 +52,21 @@ pub(super) fn run(
 /// # Errors
 /// There is none, it has errors, or it is not that of the folder.
 fn read(atlas: &Path) -> anyhow::Result<ManifestSource> {
-    if !atlas.is_dir() {
+    let is_folder = match atlas.metadata() {
+        Ok(metadata) => metadata.is_dir(),
+        Err(source) if !output::is_wrong_input(&source) => {
+            return Err(output::Error::Read { path: atlas.to_owned(), source }.into());
+        }
+        Err(_) => false,
+    };
+    if !is_folder {
         return source::read(atlas);
     }
     let example = |message: String| InputError(format!("{message}, as in --atlas path/to/atlas.toml"));
-    let (path, run) = record::manifest_of(atlas).map_err(example)?;
+    let (path, run) = record::manifest_of(atlas).map_err(|error| match error {
+        UnknownManifest::Unreadable { .. } => anyhow::Error::from(error),
+        error => example(error.to_string()).into(),
+    })?;
     let source = source::read(&path)?;
     record::check_families(atlas, &path, &source.plan, &run).map_err(example)?;
     Ok(source)
