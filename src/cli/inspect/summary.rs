@@ -47,8 +47,7 @@ fn per_circuit(count: usize, describe: impl Fn(usize) -> Option<String>) -> Opti
 
 /// "none, it turns fully", "28.95502437° to 97.18075578°, where it jams", or without that where only the range ends.
 fn describe_limits(curve: &MeasuredCurve, circuit: &Circuit, unit: &str) -> String {
-    let ends = || circuit.passes.iter().flat_map(|pass| [&pass.from, &pass.to]);
-    let jams = if ends().any(|end| !end.flat_dyads.is_empty()) { ", where it jams" } else { "" };
+    let jams = if circuit.limit_count() > 0 { ", where it jams" } else { "" };
     match number(curve, "input_min_deg").zip(number(curve, "input_max_deg")) {
         Some((least, most)) => {
             format!("{}{unit} to {}{unit}{jams}", format_significant(least, 10), format_significant(most, 10))

@@ -31,6 +31,15 @@ pub const INPUT_MAX: Measure = Measure::number(
 )
 .or_length("input_max_length");
 
+/// The measure `limit_positions`.
+pub const LIMIT_POSITIONS: Measure = Measure::number(
+    "limit_positions",
+    "number of limit positions",
+    "",
+    "limit positions of the circuit, in which the drive jams: the input can go no further and turns back; 0 on a full turn, and where only a range of the input ends",
+    |curve: &TracedCurve| Value::Number(curve.circuit.limit_count() as f64),
+);
+
 fn extreme_input(curve: &TracedCurve, start: f64, pick: fn(f64, f64) -> f64) -> Value {
     if curve.circuit.is_full_turn() {
         return Value::Missing;

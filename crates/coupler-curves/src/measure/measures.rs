@@ -14,7 +14,7 @@ impl Measure {
 }
 
 /// All measures, in the order of the columns.
-pub static ALL: [Measure; 62] = [
+pub static ALL: [Measure; 63] = [
     class::CLASS,
     four_bar_type::TYPE,
     four_bar_type::SHORTEST,
@@ -22,6 +22,7 @@ pub static ALL: [Measure; 62] = [
     input_range::IS_FULL_TURN,
     input_range::INPUT_MIN,
     input_range::INPUT_MAX,
+    input_range::LIMIT_POSITIONS,
     output::MIN,
     output::MAX,
     output::SWING,

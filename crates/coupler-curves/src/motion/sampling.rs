@@ -83,7 +83,12 @@ impl Circuit {
     /// Whether the input turns fully: the circuit is closed and the input never reverses, also through change points.
     /// The length of an actuator never turns.
     pub fn is_full_turn(&self) -> bool {
-        self.is_closed && (0..self.passes.len()).all(|pass| !self.reverses_after(pass))
+        self.is_closed && self.limit_count() == 0
+    }
+
+    /// The number of limit positions: where the input reverses, because it can go no further.
+    pub fn limit_count(&self) -> usize {
+        (0..self.passes.len()).filter(|&pass| self.reverses_after(pass)).count()
     }
 
     /// Whether the input reverses at the end of a pass, because a dyad is flat there.

@@ -42,7 +42,7 @@ fn a_crank_rocker_turns_fully_on_each_branch() {
     assert_eq!(passes([4.0, 1.0, 3.0, 3.5], MotionOptions::default()), [vec![(0, 360_000, 1)]]);
 }
 
-/// The measure `is_full_turn` and its boolean, for linkages of every kind.
+/// The measures `is_full_turn`, with its boolean, and `limit_positions`, for linkages of every kind.
 #[test]
 fn the_input_turns_fully_or_rocks() {
     use coupler_curves::measure::{ALL, BOOLEANS, TracedCurve, Value, compute_all};
@@ -54,19 +54,24 @@ fn the_input_turns_fully_or_rocks() {
     let change_point = four_bar([3.0, 1.0, 2.0, 2.0], all());
     let mut limited = four_bar([4.0, 1.0, 3.0, 3.5], all());
     limited.motion_options.range = Some([0.0, 90.0]);
-    let of_catalogue = |id: &str, turns: bool| (id.to_owned(), crate::catalogue::default_linkage(id), turns);
-    for (name, linkage, turns) in [
-        ("driven by its coupler".to_owned(), driven_by_coupler, true),
-        ("through a change point".to_owned(), change_point, true),
-        ("over a quarter turn".to_owned(), limited, false),
-        ("rocker-crank".to_owned(), four_bar([4.0, 3.5, 3.0, 1.0], all()), false),
-        of_catalogue("hoeken", true),
-        of_catalogue("klann", true),
-        of_catalogue("geared-five-bar", true),
-        of_catalogue("scotch-yoke", true),
-        of_catalogue("inverted-slider-crank", true),
-        of_catalogue("hart-inversor", false),
-        of_catalogue("linear-actuator", false),
+    // Its input is from 28.96 to 97.18 degrees.
+    let mut jamming = four_bar([4.0, 3.0, 1.0, 3.0], MotionOptions { start: Some(45.0), ..MotionOptions::default() });
+    jamming.motion_options.range = Some([0.0, 60.0]);
+    let of_catalogue =
+        |id: &str, turns: bool, limits: usize| (id.to_owned(), crate::catalogue::default_linkage(id), turns, limits);
+    for (name, linkage, turns, limits) in [
+        ("driven by its coupler".to_owned(), driven_by_coupler, true, 0),
+        ("through a change point".to_owned(), change_point, true, 0),
+        ("over a quarter turn".to_owned(), limited, false, 0),
+        ("over a range in which it jams".to_owned(), jamming, false, 1),
+        ("rocker-crank".to_owned(), four_bar([4.0, 3.5, 3.0, 1.0], all()), false, 2),
+        of_catalogue("hoeken", true, 0),
+        of_catalogue("klann", true, 0),
+        of_catalogue("geared-five-bar", true, 0),
+        of_catalogue("scotch-yoke", true, 0),
+        of_catalogue("inverted-slider-crank", true, 0),
+        of_catalogue("hart-inversor", false, 2),
+        of_catalogue("linear-actuator", false, 2),
     ] {
         let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(12)));
         assert!(!motion.circuits.is_empty(), "{name}");
@@ -76,6 +81,15 @@ fn the_input_turns_fully_or_rocks() {
             assert_eq!(*word, Value::Word(if turns { "yes" } else { "no" }), "{name}");
             let boolean = BOOLEANS.iter().find(|boolean| boolean.name == "is_full_turn").unwrap();
             assert_eq!(boolean.value(&values), f64::from(u8::from(turns)), "{name}");
+            let number = ALL.iter().zip(&values).find(|(measure, _)| measure.name == "limit_positions").unwrap().1;
+            assert_eq!(*number, Value::Number(limits as f64), "{name}");
+            // Where the samples turn back; those of a closed circuit after the last one, too.
+            let after = circuit.inputs.first().filter(|_| circuit.is_closed && !turns);
+            let inputs: Vec<f64> = circuit.inputs.iter().chain(after).copied().collect();
+            let steps: Vec<f64> = inputs.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step != 0.0).collect();
+            let first = steps.first().filter(|_| circuit.is_closed);
+            let signs: Vec<f64> = steps.iter().chain(first).map(|step| step.signum()).collect();
+            assert_eq!(signs.windows(2).filter(|pair| pair[0] != pair[1]).count(), limits, "{name}");
         }
     }
 }

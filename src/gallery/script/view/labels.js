@@ -10,6 +10,7 @@ const MEASURE_LABELS = {
   is_full_turn: "full turn of the input",
   input_min_deg: "least input",
   input_max_deg: "greatest input",
+  limit_positions: "limit positions",
   mu_min_deg: "least transmission angle",
   mu_max_deg: "greatest transmission angle",
   mu_worst_deg: "worst transmission angle",
