@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::output;
 use crate::shard::{self, Division, Event, MAX_SHARDS, MAX_TOP, Options, ShardRecord, TableFormat, Top};
 use clap::{Args, ValueHint};
 use coupler_curves::family::MEASURES;
@@ -120,6 +121,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     };
     let mut bar = ProgressBar::hidden();
     let mut lines = String::new();
+    let mut empty: Vec<String> = Vec::new();
     shard::write_shard(&source.plan, &output, &options, &mut |event| match event {
         Event::Begin { .. } if arguments.quiet => {}
         Event::Begin { family, cells } => {
@@ -132,13 +134,27 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         Event::End { record, path, is_kept } => {
             bar.finish_and_clear();
             lines.push_str(&summary(record, path, is_kept));
+            // Of a part of the cells another may have curves.
+            if record.counts.curves == 0 && (1..=MAX_DIAGNOSED_CELLS).contains(&record.cell_count) && is_whole(record) {
+                empty.push(record.family.clone());
+            }
         }
     })
     .map_err(shard_error)?;
+    let empty = source.plan.families.iter().filter(|planned| empty.contains(&planned.family.id));
+    source.report_problems(&empty.map(output::empty_family_warning).collect::<Vec<_>>());
     if !arguments.quiet {
         print(&lines)?;
     }
     Ok(Outcome::Done)
+}
+
+/// The most cells of a family of which it is said why none is kept; for that they are solved again.
+const MAX_DIAGNOSED_CELLS: usize = 100_000;
+
+/// Whether a table is of all cells of its family.
+fn is_whole(record: &ShardRecord) -> bool {
+    record.last_cell + 1 - record.first_cell == record.cell_count
 }
 
 /// An error of shards; those of the input have the exit code for it.

@@ -163,22 +163,23 @@ pub fn empty_family_warnings(plan: &Plan, record: Option<&RunRecord>) -> Vec<Pro
         None => !sweep::has_curve(&planned.family),
         Some(run) => run.families.iter().any(|record| record.id == planned.family.id && record.curves == 0),
     };
-    let warning = |planned: &PlannedFamily| {
-        let span = planned.filter_span.clone().unwrap_or_else(|| planned.span.clone());
-        let cells = planned.family.cell_count();
-        let diagnosis = is_empty(planned).then(|| sweep::diagnose(&planned.family))?;
-        let family = &planned.family;
-        let is_unassembled =
-            diagnosis.unassembled == cells && (family.filter.is_none() || family.filter_uses_measures());
-        let (message, remedy) = match (is_unassembled, cells) {
-            (true, 1) => ("the only cell cannot be assembled".to_owned(), "change the lengths"),
-            (true, _) => (format!("none of the {cells} cells can be assembled"), "change the lengths"),
-            (false, 1) => ("`where` does not keep the only cell".to_owned(), "relax the condition"),
-            (false, _) => (format!("`where` keeps none of the {cells} cells"), "relax the condition"),
-        };
-        let found = diagnosis.describe(cells);
-        let help = if found.is_empty() { remedy.to_owned() } else { format!("{remedy}: {found}") };
-        Some(Problem::warning(span, message).with_help(help))
+    plan.families.iter().filter(|planned| is_empty(planned)).map(empty_family_warning).collect()
+}
+
+/// Warns of a family of which no curve is shown, and states how near its cells come.
+pub fn empty_family_warning(planned: &PlannedFamily) -> Problem {
+    let family = &planned.family;
+    let span = planned.filter_span.clone().unwrap_or_else(|| planned.span.clone());
+    let cells = family.cell_count();
+    let diagnosis = sweep::diagnose(family, 0..cells);
+    let is_unassembled = diagnosis.unassembled == cells && (family.filter.is_none() || family.filter_uses_measures());
+    let (message, remedy) = match (is_unassembled, cells) {
+        (true, 1) => ("the only cell cannot be assembled".to_owned(), "change the lengths"),
+        (true, _) => (format!("none of the {cells} cells can be assembled"), "change the lengths"),
+        (false, 1) => ("`where` does not keep the only cell".to_owned(), "relax the condition"),
+        (false, _) => (format!("`where` keeps none of the {cells} cells"), "relax the condition"),
     };
-    plan.families.iter().filter_map(warning).collect()
+    let found = diagnosis.describe(cells);
+    let help = if found.is_empty() { remedy.to_owned() } else { format!("{remedy}: {found}") };
+    Problem::warning(span, message).with_help(help)
 }

@@ -6,6 +6,7 @@ use coupler_curves::measure::{self, Measure, Value};
 use coupler_curves::motion::Sampler;
 use coupler_curves::solve::solve_measuring;
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// What the cells of a family come to without its `where`.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -17,9 +18,9 @@ pub struct Diagnosis {
     pub nearest: Option<NearestCell>,
     /// The number of curves of the other cells.
     pub curves: usize,
-    /// The names of the family that `where` uses, and their values in all cells.
+    /// The names of the family that `where` uses and what its comparisons compute of them, and the values in all cells.
     pub names: Vec<NamedValues>,
-    /// The measures that `where` uses, and their values on these curves.
+    /// The measures that `where` uses and what its comparisons compute of them, and the values on these curves.
     pub measures: Vec<NamedValues>,
     /// The conditions that `where` joins by `and`, if there are several.
     pub conditions: Vec<FailedCondition>,
@@ -60,8 +61,8 @@ pub struct NamedValues {
     pub words: Vec<&'static str>,
 }
 
-/// Solves the cells of a family without its `where`.
-pub fn diagnose(family: &Family) -> Diagnosis {
+/// Solves cells of a family, given by their indices, without its `where`.
+pub fn diagnose(family: &Family, cells: Range<usize>) -> Diagnosis {
     let slots = family.filter.iter().flat_map(|filter| filter.slots()).copied();
     let names: Vec<usize> = slots.filter(|slot| *slot < family.names.len()).collect();
     let is_used = |(k, _): &(usize, &'static Measure)| {
@@ -70,20 +71,34 @@ pub fn diagnose(family: &Family) -> Diagnosis {
     let used: Vec<(usize, &Measure)> = measure::ALL.iter().enumerate().filter(is_used).collect();
     let requested: Vec<bool> = (0..measure::ALL.len()).map(|k| used.iter().any(|(used, _)| *used == k)).collect();
     let mut conjuncts = family.filter.as_ref().map(|filter| filter.conjuncts()).unwrap_or_default();
+    let is_on_curves = |conjunct: &CompiledExpression| conjunct.slots().iter().any(|slot| *slot >= family.names.len());
+    let (sides_on_curves, sides_on_cells): (Vec<CompiledExpression>, Vec<CompiledExpression>) =
+        conjuncts.iter().flat_map(CompiledExpression::computed_sides).partition(is_on_curves);
     if conjuncts.len() == 1 {
         conjuncts.clear();
     }
-    let is_on_curves = |conjunct: &CompiledExpression| conjunct.slots().iter().any(|slot| *slot >= family.names.len());
     let unfiltered = Family { filter: None, sort: None, ..family.clone() };
     let sampler = Sampler::new(family.sampling);
     let is_driven_by_length = family.template.is_driven_by_length();
+    let texts = |sides: &[CompiledExpression]| sides.iter().map(CompiledExpression::message_text).collect::<Vec<_>>();
+    let none_of = |name| NamedValues { name, range: None, words: Vec::new() };
     let nothing = || Diagnosis {
-        names: names.iter().map(|&slot| NamedValues::none_of(&family.names[slot])).collect(),
-        measures: used.iter().map(|(_, m)| NamedValues::none_of(m.name_for(is_driven_by_length))).collect(),
+        names: names
+            .iter()
+            .map(|&slot| family.names[slot].clone())
+            .chain(texts(&sides_on_cells))
+            .map(none_of)
+            .collect(),
+        measures: used
+            .iter()
+            .map(|(_, m)| m.name_for(is_driven_by_length).to_owned())
+            .chain(texts(&sides_on_curves))
+            .map(none_of)
+            .collect(),
         conditions: conjuncts
             .iter()
             .map(|conjunct| FailedCondition {
-                text: conjunct.condition_text(),
+                text: conjunct.message_text(),
                 is_on_curves: is_on_curves(conjunct),
                 failed: 0,
             })
@@ -93,9 +108,12 @@ pub fn diagnose(family: &Family) -> Diagnosis {
     let diagnose_cell = |cell: usize| {
         let mut found = nothing();
         let Some(solved) = solve_measuring(&unfiltered, &sampler, cell, &requested) else { return found };
-        for (values, &slot) in found.names.iter_mut().zip(&names) {
-            values.add(Value::Number(solved.cell.values[slot]));
-        }
+        let evaluate = |expression: &CompiledExpression, values: &[Value]| {
+            expression.evaluate(|slot| Family::scope_value(&solved.cell, values, slot))
+        };
+        let numbers = names.iter().map(|&slot| solved.cell.values[slot]);
+        let numbers = numbers.chain(sides_on_cells.iter().map(|side| evaluate(side, &[])));
+        found.names.iter_mut().zip(numbers).for_each(|(values, number)| values.add(Value::Number(number)));
         if let (false, Some(error)) = (solved.motion.is_assembled(), &solved.motion.assembly_error) {
             let parameters = family.template.parameters.iter().zip(family.parameter_values(&solved.cell));
             let parameters: Vec<String> = parameters.map(|(p, value)| format!("{} = {value}", p.name)).collect();
@@ -110,8 +128,7 @@ pub fn diagnose(family: &Family) -> Diagnosis {
         let mut count_failed = |values: Option<&[Value]>| {
             for (condition, conjunct) in found.conditions.iter_mut().zip(&conjuncts) {
                 if condition.is_on_curves == values.is_some() {
-                    let value = |slot| Family::scope_value(&solved.cell, values.unwrap_or_default(), slot);
-                    condition.failed += usize::from(conjunct.evaluate(value) != 1.0);
+                    condition.failed += usize::from(evaluate(conjunct, values.unwrap_or_default()) != 1.0);
                 }
             }
         };
@@ -119,13 +136,13 @@ pub fn diagnose(family: &Family) -> Diagnosis {
         solved.curves.iter().for_each(|curve| count_failed(Some(&curve.values)));
         for curve in &solved.curves {
             found.curves += 1;
-            for (values, (k, _)) in found.measures.iter_mut().zip(&used) {
-                values.add(curve.values[*k]);
-            }
+            let computed = sides_on_curves.iter().map(|side| Value::Number(evaluate(side, &curve.values)));
+            let all = used.iter().map(|(k, _)| curve.values[*k]).chain(computed);
+            found.measures.iter_mut().zip(all).for_each(|(values, value)| values.add(value));
         }
         found
     };
-    (0..family.cell_count()).into_par_iter().map(diagnose_cell).reduce(nothing, Diagnosis::with)
+    cells.into_par_iter().map(diagnose_cell).reduce(nothing, Diagnosis::with)
 }
 
 impl Diagnosis {
@@ -174,7 +191,8 @@ impl Diagnosis {
             });
         }
         if !self.names.is_empty() {
-            parts.push(format!("in {} {}", count_cells(cells), list(&self.names)));
+            let place = if cells == 1 { String::new() } else { format!("in {} ", count_cells(cells)) };
+            parts.push(place + &list(&self.names));
         }
         if self.curves > 0 && !self.measures.is_empty() {
             let curves = if self.curves == 1 { "the curve".to_owned() } else { format!("the {} curves", self.curves) };
@@ -182,8 +200,10 @@ impl Diagnosis {
         }
         let failed = |condition: &FailedCondition| {
             let (count, what) = if condition.is_on_curves { (self.curves, "curves") } else { (cells, "cells") };
-            (condition.failed > 0)
-                .then(|| format!("`{}` fails for {} of {count} {what}", condition.text, condition.failed))
+            (condition.failed > 0).then(|| match count {
+                1 => format!("`{}` fails", condition.text),
+                _ => format!("`{}` fails for {} of {count} {what}", condition.text, condition.failed),
+            })
         };
         parts.extend(self.conditions.iter().filter_map(failed));
         parts.join("; ")
@@ -195,10 +215,6 @@ fn count_cells(count: usize) -> String {
 }
 
 impl NamedValues {
-    fn none_of(name: &str) -> NamedValues {
-        NamedValues { name: name.to_owned(), range: None, words: Vec::new() }
-    }
-
     fn add(&mut self, value: Value) {
         match value {
             Value::Number(number) if !number.is_nan() => {

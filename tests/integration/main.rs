@@ -9,6 +9,7 @@ mod charts;
 mod check;
 mod command_line;
 mod completions;
+mod conditions;
 mod corpus;
 mod coupler_grid;
 mod dependencies;

@@ -120,9 +120,13 @@ impl CurveSelection {
         }
     }
 
+    /// The index of a cell in the family.
+    fn cell_index(&self, solved: &SolvedCell) -> usize {
+        if self.original_numbers.is_some() { 0 } else { solved.cell.number - 1 }
+    }
+
     fn cell_selection(&self, solved: &SolvedCell) -> Option<&CellSelection> {
-        let cell = if self.original_numbers.is_some() { 0 } else { solved.cell.number - 1 };
-        self.cells.get(&cell)
+        self.cells.get(&self.cell_index(solved))
     }
 
     /// Removes the curves of a cell that are not selected.
@@ -137,7 +141,10 @@ impl CurveSelection {
     pub fn missing_curves(&self, solved: &SolvedCell) -> Vec<String> {
         let name = format!("{}:{}", self.family.id, solved.cell.number);
         let reason = || match &solved.motion.assembly_error {
-            _ if solved.left_out_count > 0 => "`where` leaves it out".to_owned(),
+            _ if solved.left_out_count > 0 => {
+                let index = self.cell_index(solved);
+                format!("`where` leaves it out: {}", sweep::diagnose(&self.family, index..index + 1).describe(1))
+            }
             Some(reason) if !solved.motion.is_assembled() => format!("it is not assembled: {reason}"),
             _ => "it has no curve".to_owned(),
         };

@@ -15,11 +15,17 @@ use std::path::Path;
 use crate::find::{self, MAX_POINTS, Outline, ReadOptions};
 use crate::output;
 use coupler_curves::expression::Expression;
-use coupler_curves::find::{Effort, Index, Options, PathKind, Search, Target, answers_manifest, nearest_miss};
+use coupler_curves::family::Family;
+use coupler_curves::find::{
+    Constraint, Effort, Index, Mechanism, Options, PathKind, Search, Target, answers_manifest, nearest_miss,
+    placed_parameters,
+};
 use coupler_curves::geometry::{Bounds, Point};
+use coupler_curves::motion::Sampling;
 use coupler_curves::template::Template;
 
 use super::export::CurveSamples;
+use super::linkage::DEFAULT_SAMPLES;
 use super::{InputError, InputErrors, Outcome, export, files, print_stderr, source};
 pub use arguments::Arguments;
 use arguments::{EffortChoice, InputChoice};
@@ -30,6 +36,15 @@ use shown::{Shown, show};
 impl Shown for Report {
     fn drawing(&self) -> Vec<u8> {
         find::draw_four_bars(&self.title(), &self.target, &self.answers)
+    }
+
+    fn miss(&self) -> Option<Family> {
+        let (constraints, answer) = self.nearest_miss.as_ref()?;
+        let parameters = placed_parameters(&answer.mechanism.four_bar).map(|(name, value)| (name.to_owned(), value));
+        let family =
+            Family::single_cell(Mechanism::template(), &parameters, Sampling::Samples(DEFAULT_SAMPLES as usize))
+                .ok()?;
+        constraints.contains(&Constraint::Condition).then_some(family)
     }
 
     fn json(&self) -> anyhow::Result<String> {

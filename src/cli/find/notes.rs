@@ -1,6 +1,10 @@
 //! What to know of the best answer, and what may help.
 
+use crate::sweep;
+use coupler_curves::expression::Kind;
+use coupler_curves::family::Family;
 use coupler_curves::find::{Options, Quality};
+use coupler_curves::measure::parse_condition;
 
 use super::super::printable;
 use super::{Arguments, EffortChoice, InputChoice};
@@ -33,6 +37,14 @@ pub(super) fn notes(best: &Best, arguments: &Arguments) -> String {
         out += &format!("note: the best fit is poor; what may help: {}\n", remedies(arguments).join(", "));
     }
     out
+}
+
+/// Which conditions a linkage does not meet, and its values.
+pub(super) fn unmet(family: Family, condition: &str) -> String {
+    let scope = Family::scope(&family.names, family.template.is_driven_by_length());
+    let filter = parse_condition(condition).and_then(|parsed| parsed.compile(&scope, Kind::Boolean)).ok();
+    let found = sweep::diagnose(&Family { filter, sort: None, ..family }, 0..1).describe(1);
+    format!("note: the nearest miss does not meet --where: {}\n", printable(found))
 }
 
 /// What may lead to a better fit than with these arguments.

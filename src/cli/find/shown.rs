@@ -1,5 +1,7 @@
 //! What a search has found, in the form that is asked for.
 
+use coupler_curves::family::Family;
+
 use super::super::{Outcome, files, print, print_bytes, print_stderr};
 use super::Arguments;
 use super::notes::{self, Best};
@@ -14,11 +16,16 @@ pub(super) trait Shown {
     fn text(&self) -> String;
     /// The best answer, if there is one.
     fn best(&self) -> Option<Best>;
+    /// The family of the nearest miss alone, if there is one that does not meet the condition.
+    fn miss(&self) -> Option<Family>;
 }
 
 /// Writes the drawing that the arguments ask for, and prints what they ask for unless that is the drawing.
 pub(super) fn show(report: &impl Shown, arguments: &Arguments, is_drawing_printed: bool) -> anyhow::Result<Outcome> {
-    let notes = report.best().map_or(String::new(), |best| notes::notes(&best, arguments));
+    let mut notes = report.best().map_or(String::new(), |best| notes::notes(&best, arguments));
+    if let Some((miss, condition)) = report.miss().zip(arguments.condition.as_deref()) {
+        notes += &notes::unmet(miss, condition);
+    }
     if let Some(path) = &arguments.svg {
         files::write(path, &report.drawing())?;
         if is_drawing_printed {

@@ -26,8 +26,27 @@ impl CompiledExpression {
         found
     }
 
-    /// The condition as it is set in a message, with the names that it is written with.
-    pub fn condition_text(&self) -> String {
+    /// The sides of a comparison that compute something of names; none of another condition.
+    pub fn computed_sides(&self) -> Vec<CompiledExpression> {
+        use Operator::{Equal, Greater, GreaterOrEqual, Less, LessOrEqual, NotEqual};
+        let program = &self.expression.program;
+        let Some((
+            (Instruction::Binary(Equal | NotEqual | Less | LessOrEqual | Greater | GreaterOrEqual), _),
+            operands,
+        )) = program.split_last()
+        else {
+            return Vec::new();
+        };
+        let starts = self.expression.operand_starts();
+        let middle = starts[operands.len() - 1];
+        let is_computed = |range: &Range<usize>| {
+            range.len() > 1 && program[range.clone()].iter().any(|(part, _)| matches!(part, Instruction::Load(_)))
+        };
+        [0..middle, middle..operands.len()].into_iter().filter(is_computed).map(|range| self.part(range)).collect()
+    }
+
+    /// The expression as it is set in a message, with the names that it is written with.
+    pub fn message_text(&self) -> String {
         self.to_math_text_with_names().to_string()
     }
 
@@ -86,6 +105,20 @@ mod tests {
             assert_eq!(whole.evaluate(load) == 1.0, all, "{text} with {k}");
         }
         parts.iter().map(|part| part.expression.names().to_vec()).collect()
+    }
+
+    #[test]
+    fn sides_of_comparisons_that_compute_something_are_found() {
+        let sides = |text: &str| -> Vec<String> {
+            let scope: Scope = ["a", "b"].into_iter().map(|name| (name, Kind::Number)).collect();
+            let whole = Expression::parse(text).unwrap().compile(&scope, Kind::Boolean).unwrap();
+            whole.computed_sides().iter().map(CompiledExpression::message_text).collect()
+        };
+        assert_eq!(sides("a / b > 0.5"), ["a / b"]);
+        assert_eq!(sides("a + 1 <= max(a, b) * 2").len(), 2);
+        for text in ["a > 2", "-1 < b", "sqrt(2) / 2 != a", "not (a + b > 2)", "a + b > 2 or a > 1"] {
+            assert_eq!(sides(text), [""; 0], "{text}");
+        }
     }
 
     #[test]

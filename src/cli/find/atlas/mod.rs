@@ -10,6 +10,7 @@ use std::sync::atomic::AtomicBool;
 use crate::find::{self, AtlasAnswer, AtlasQuery};
 use crate::output;
 use crate::record::{self, UnknownManifest};
+use coupler_curves::family::Family;
 use coupler_curves::find::{Options, Quality, Target};
 
 use super::super::source::ManifestSource;
@@ -43,6 +44,9 @@ pub(super) fn run(
     let query = AtlasQuery { options, condition: arguments.condition.as_deref(), is_fixed: arguments.fixed };
     let findings = find::find_in_atlas(&source.plan, &target, &query, &AtomicBool::new(false))
         .map_err(|error| InputError(format!("--where: {error}")))?;
+    if findings.curves == 0 {
+        source.report_problems(&output::empty_family_warnings(&source.plan, None));
+    }
     let report = AtlasReport { name, reading, target, plan: source.plan, findings };
     show(&report, arguments, is_drawing_printed)
 }
@@ -83,6 +87,11 @@ impl Shown for AtlasReport {
             Some(answer) => Best { quality: answer.quality(), mu_worst_deg: answer.mechanism.mu_worst_deg },
             None => Best { quality: Quality::of(curve.fit.rms_relative), mu_worst_deg: curve.mu_worst_deg },
         })
+    }
+
+    fn miss(&self) -> Option<Family> {
+        // It has another size than its cell.
+        None
     }
 
     fn json(&self) -> anyhow::Result<String> {

@@ -10,7 +10,8 @@ use std::sync::atomic::AtomicBool;
 
 use crate::find::{self, MAX_SAMPLES};
 use crate::manifest;
-use coupler_curves::find::{Condition, LinkageSpace, Mechanism, Options, Quality, Target};
+use coupler_curves::family::Family;
+use coupler_curves::find::{Condition, Constraint, LinkageSpace, Mechanism, Options, Quality, Target};
 use coupler_curves::template::Template;
 
 use super::super::linkage::find_template;
@@ -121,6 +122,11 @@ impl Shown for LinkageReport {
     fn best(&self) -> Option<Best> {
         let curve = &self.findings.answers.first()?.curve;
         Some(Best { quality: Quality::of(curve.fit.rms_relative), mu_worst_deg: curve.mu_worst_deg })
+    }
+
+    fn miss(&self) -> Option<Family> {
+        let (constraints, answer) = self.findings.nearest_miss.as_ref()?;
+        constraints.contains(&Constraint::Condition).then(|| answer.family.clone())
     }
 
     fn json(&self) -> anyhow::Result<String> {
