@@ -1,5 +1,7 @@
 //! Integration tests of the library and the program, one file per topic.
 
+#[cfg(unix)]
+mod action;
 mod answers;
 mod architecture;
 mod atlas;
