@@ -6,6 +6,7 @@
 //! portions. The best one spans the most input.
 
 use super::annulus::AlternatingPoints;
+use super::budget::{MAX_PORTION_POINTS, Steps, TooManySteps};
 use super::curve_ring::{CurveRings, PortionRing};
 use super::every_nth::EveryNth;
 use super::features::Dwell;
@@ -64,19 +65,25 @@ fn dwell_value(curve: &TracedCurve, value: fn(&Dwell) -> f64) -> Value {
 }
 
 /// The best circular portion of a curve of a given extent and length, from its points; `None` for a point or a straight line.
-fn find_dwell(row: &Row, extent: f64, length: f64) -> Option<Dwell> {
+///
+/// # Errors
+/// The search takes too many steps.
+fn find_dwell(row: &Row, extent: f64, length: f64) -> Result<Option<Dwell>, TooManySteps> {
     /// What of the width is more than allowed is taken off as often.
     const ROUNDS: usize = 4;
     /// The accuracy of the widths compared, relative to what is allowed.
     const EXCESS: f64 = 1e-6;
     let max_width = TOLERANCE * extent;
-    let mut requirement = Circular { row, max_width, max_radius: length };
-    let [from, to] = requirement.longest_beside(*longest(row, &requirement, 0.0).first()?);
+    let steps = &Steps::new(MAX_PORTION_POINTS);
+    let mut requirement = Circular { row, max_width, max_radius: length, steps };
+    let Some(&longest) = longest(row, &requirement, 0.0, steps)?.first() else { return Ok(None) };
+    let [from, to] = requirement.longest_beside(longest);
+    steps.check()?;
     // The whole of a closed curve begins where the curve does.
     let is_whole = row.is_closed && to - from >= row.start_count as f64 * (1.0 - 1e-9);
     let mut ends = if is_whole { [0.0, row.start_count as f64] } else { [from, to] };
     let all = |[from, to]: [f64; 2]| INTERVALS.max((to - from).ceil() as usize);
-    let mut ring = CurveRings::new(row, ends, all(ends), length).ring(ends)?;
+    let Some(mut ring) = CurveRings::new(row, ends, all(ends), length).ring(ends) else { return Ok(None) };
     let mut width = width_about(row, ends, ring.centre);
     for _ in 0..ROUNDS {
         if is_whole || width <= max_width * (1.0 + EXCESS) {
@@ -85,11 +92,11 @@ fn find_dwell(row: &Row, extent: f64, length: f64) -> Option<Dwell> {
         // Next to a sharp bend the points that touch are known less exactly than elsewhere: by as much less is allowed of them.
         requirement.max_width = max_width - 1.01 * (width - ring.width);
         let reach = 0.1 * (ends[1] - ends[0]);
-        let Reached::Longest { ends: shorter, .. } = requirement.longest_near_by(all(ends), (ends, reach), 0.0) else {
-            break;
-        };
-        ends = shorter;
-        ring = CurveRings::new(row, ends, all(ends), length).ring(ends)?;
+        let reached = requirement.longest_near_by(all(ends), (ends, reach), 0.0);
+        steps.check()?;
+        let Reached::Longest { ends: shorter, .. } = reached else { break };
+        let Some(next) = CurveRings::new(row, shorter, all(shorter), length).ring(shorter) else { return Ok(None) };
+        (ends, ring) = (shorter, next);
         width = width_about(row, ends, ring.centre);
     }
     let PortionRing { centre, radius, .. } = ring;
@@ -98,7 +105,7 @@ fn find_dwell(row: &Row, extent: f64, length: f64) -> Option<Dwell> {
     // The rounding of the circle is that of the positions; a deviation is as accurate as that of a straight portion.
     let centre = centre.map(|coordinate| without_rounding(coordinate, ROUNDING * radius));
     let deviation = without_rounding(width / 2.0, EXACT * radius);
-    Some(Dwell { centre, radius, deviation, start_input: row.input_at(ends[0]), input_span, points })
+    Ok(Some(Dwell { centre, radius, deviation, start_input: row.input_at(ends[0]), input_span, points }))
 }
 
 /// The difference of the greatest and the least distance of a portion from a point.
@@ -128,8 +135,13 @@ fn width_about(row: &Row, [from, to]: [f64; 2], centre: Point) -> f64 {
 impl TracedCurve<'_> {
     /// The best circular portion.
     pub fn dwell(&self) -> Option<&Dwell> {
-        let find = || find_dwell(self.row()?, self.extent(), self.arc_length().total());
-        self.dwell.get_or_init(find).as_ref()
+        self.counted_dwell().as_ref().ok()?.as_ref()
+    }
+
+    /// The same, unless the search takes too many steps.
+    pub(super) fn counted_dwell(&self) -> &Result<Option<Dwell>, TooManySteps> {
+        let of_row = |row: &Row| find_dwell(row, self.extent(), self.arc_length().total());
+        self.dwell.get_or_init(|| self.row().map_or(Ok(None), of_row))
     }
 }
 
@@ -144,6 +156,7 @@ struct Circular<'a> {
     row: &'a Row,
     max_width: f64,
     max_radius: f64,
+    steps: &'a Steps,
 }
 
 impl Requirement for Circular<'_> {
@@ -172,6 +185,9 @@ impl Requirement for Circular<'_> {
             } else {
                 portion
             };
+            if self.steps.take(portion.len()).is_err() {
+                return false;
+            }
             let mut alternating = AlternatingPoints::folded(self.row.is_folded());
             alternating.narrowest_annulus_within(portion, self.max_width, self.max_radius).is_some()
         };
@@ -242,6 +258,7 @@ impl Circular<'_> {
         let permitted = self.max_width * (1.0 - ACCURACY);
         let mut rings = CurveRings::new(self.row, ends, count, self.max_radius);
         let fit = |ends: [f64; 2]| {
+            self.steps.take(count)?;
             let size = self.size(ends);
             let rates = ends.map(|position| self.row.input_travel_rate_at(position));
             let compare = |Constraint { value, rates }| Constraint {
@@ -253,13 +270,13 @@ impl Circular<'_> {
                 value: ring.width,
                 rates: ring.width_rates,
             });
-            Fit {
+            Ok(Fit {
                 excess: compare(excess),
                 size,
                 size_rates: [-rates[0], rates[1]],
                 contacts: ring.map_or(Contacts::default(), |ring| ring.contacts),
                 others: ring.map_or(Constraints::default(), |ring| ring.others.map(|other| other.map(compare))),
-            }
+            })
         };
         LongestNear { limits: self.row.limits(), fit, reach }.search(ends, least)
     }

@@ -5,6 +5,8 @@
 //! middle is then moved to where the size is greatest: where its rate is zero, or, where the points change that bound
 //! the portion, where the rate jumps from positive to negative.
 
+use super::budget::TooManySteps;
+
 /// The excess that is as good as none. What is permitted is less by as much than what is promised.
 pub(super) const ACCURACY: f64 = 1e-9;
 
@@ -76,14 +78,14 @@ pub(super) enum Reached {
 pub(super) struct LongestNear<F> {
     /// Where portions may be.
     pub limits: Limits,
-    /// Compares the portion between two positions with what is permitted.
+    /// Compares the portion between two positions with what is permitted; fails if that would be one step too many.
     pub fit: F,
     /// How far the ends need be moved: what is further away is reached from elsewhere.
     pub reach: f64,
 }
 
-impl<F: FnMut([f64; 2]) -> Fit> LongestNear<F> {
-    /// The longest portion that fits and is reached from a given one along ever longer ones.
+impl<F: FnMut([f64; 2]) -> Result<Fit, TooManySteps>> LongestNear<F> {
+    /// The longest portion that fits and is reached from a given one along ever longer ones; nothing after too many steps.
     pub fn search(&mut self, ends: [f64; 2], least: f64) -> Reached {
         const ROUNDS: usize = 4;
         let (mut ends, mut reached) = (ends, Reached::Nothing);
@@ -201,7 +203,7 @@ impl<F: FnMut([f64; 2]) -> Fit> LongestNear<F> {
         const LINEAR: f64 = 0.1;
         let span = ends[1] - ends[0];
         let mut reach = (0.1 * span).min(self.reach);
-        let mut here = (self.fit)(ends);
+        let Ok(mut here) = (self.fit)(ends) else { return Err(Reached::Nothing) };
         let value = |fit: &Fit| fit.size * (1.0 - PENALTY * fit.excess.value.max(0.0));
         // What bounded portions that were tried in vain: more than can be told from one point.
         let mut cuts: Vec<([f64; 2], Constraint)> = Vec::new();
@@ -237,7 +239,7 @@ impl<F: FnMut([f64; 2]) -> Fit> LongestNear<F> {
             if !(0.0..=self.limits.span).contains(&(next_ends[1] - next_ends[0])) {
                 break;
             }
-            let next = (self.fit)(next_ends);
+            let Ok(next) = (self.fit)(next_ends) else { return Err(Reached::Nothing) };
             if value(&next) > value(&here) {
                 (ends, here) = (next_ends, next);
                 reach = (2.0 * reach).min(0.1 * (ends[1] - ends[0]));
@@ -270,7 +272,7 @@ impl<F: FnMut([f64; 2]) -> Fit> LongestNear<F> {
         let (mut fits, mut exceeds): (Option<f64>, Option<f64>) = (None, None);
         for _ in 0..ROUNDS {
             let ends = self.ends(middle, half);
-            let fit = (self.fit)(ends);
+            let fit = (self.fit)(ends).ok()?;
             // An end at a limit does not move.
             let moves = [middle - half > low, middle + half < high].map(|moves| if moves { 1.0 } else { 0.0 });
             let rates = |[start, end]: [f64; 2]| {
@@ -357,4 +359,29 @@ fn linear_step(constraints: impl Iterator<Item = Constraint>, fit: &Fit, [low, h
         }
     }
     best.map_or([0.0; 2], |(_, step)| step)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::budget::Steps;
+    use super::*;
+
+    /// A portion of a span of 2 that is the larger the further on it begins, without an end.
+    #[test]
+    fn a_search_without_an_end_takes_no_more_steps_than_it_may() {
+        for most in [0, 10, 1000] {
+            let (steps, mut count) = (Steps::new(most), 0);
+            let fit = |ends: [f64; 2]| {
+                steps.take(1)?;
+                count += 1;
+                let excess = Constraint { value: ends[1] - ends[0] - 2.0, rates: [-1.0, 1.0] };
+                let (contacts, others) = (Contacts::default(), Constraints::default());
+                Ok(Fit { excess, size: ends[0] + ends[1], size_rates: [1.0, 1.0], contacts, others })
+            };
+            let limits = Limits { low: f64::NEG_INFINITY, high: f64::INFINITY, span: 100.0 };
+            let reached = LongestNear { limits, fit, reach: 1.0 }.search([0.0, 2.0], 0.0);
+            assert_eq!((reached, count), (Reached::Nothing, most));
+            assert_eq!(steps.check(), Err(TooManySteps));
+        }
+    }
 }

@@ -1,5 +1,6 @@
 //! Portions of a curve that are straight to a tolerance.
 
+use super::budget::Steps;
 use super::curve_strip::{CurveStrips, PortionStrip};
 use super::every_nth::EveryNth;
 use super::longest_near::{ACCURACY, Constraint, Fit, LongestNear, Reached};
@@ -18,6 +19,7 @@ const POINTS: usize = 32;
 pub(super) struct StraightTo<'a> {
     pub row: &'a Row,
     pub tolerance: f64,
+    pub steps: &'a Steps,
 }
 
 impl Requirement for StraightTo<'_> {
@@ -47,6 +49,7 @@ impl Requirement for StraightTo<'_> {
             // Most often the next point is in the band of those before it.
             let is_in_band = band.as_mut().is_some_and(|band| band.extend(points.points[to]) <= permitted);
             if !is_in_band {
+                self.steps.take(to - from).ok()?;
                 match check_width(&points.points[from..=to], permitted) {
                     Ok(narrow) => band = Some(narrow),
                     // A longer portion is at least as wide, and needs the length that this width requires.
@@ -70,6 +73,7 @@ impl Requirement for StraightTo<'_> {
     fn longest_near(&self, ends: [f64; 2], reach: f64, least: f64) -> Reached {
         let mut strips = CurveStrips::new(self.row, ends, POINTS);
         let fit = |ends: [f64; 2]| {
+            self.steps.take(POINTS)?;
             let PortionStrip { width, length, width_rates, length_rates, contacts, others } = strips.strip(ends);
             let permitted = self.tolerance * (1.0 - ACCURACY) * length;
             // What is permitted changes with the length.
@@ -77,13 +81,13 @@ impl Requirement for StraightTo<'_> {
                 value: value / permitted - 1.0,
                 rates: std::array::from_fn(|k| (rates[k] - value / length * length_rates[k]) / permitted),
             };
-            Fit {
+            Ok(Fit {
                 excess: compare(Constraint { value: width, rates: width_rates }),
                 size: length,
                 size_rates: length_rates,
                 contacts,
                 others: others.map(|other| other.map(compare)),
-            }
+            })
         };
         LongestNear { limits: self.row.limits(), fit, reach }.search(ends, least)
     }

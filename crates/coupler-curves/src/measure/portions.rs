@@ -6,6 +6,7 @@
 //! to where the portion is longest, until no bound is greater than what has been found. The points are as far apart as
 //! the portion found allows.
 
+use super::budget::{Steps, TooManySteps};
 use super::every_nth::EveryNth;
 use super::longest_near::Reached;
 use super::rounding::within_period;
@@ -42,8 +43,16 @@ pub(super) trait Requirement {
 }
 
 /// The ends of the longest portions that are longer than `least`: of several equally long ones, which do not overlap,
-/// all, in the order of the input at which they begin.
-pub(super) fn longest<R: Requirement>(row: &Row, requirement: &R, least: f64) -> Vec<[f64; 2]> {
+/// all, in the order of the input at which they begin. `steps` are those that the requirement takes.
+///
+/// # Errors
+/// It has taken too many.
+pub(super) fn longest<R: Requirement>(
+    row: &Row,
+    requirement: &R,
+    least: f64,
+    steps: &Steps,
+) -> Result<Vec<[f64; 2]>, TooManySteps> {
     /// Every so many points are enough for a first guess, or as many as leave [`MOST`] of them.
     const COARSE: usize = 8;
     /// The most candidates. Only of a curve that is mostly rounding are there more.
@@ -59,6 +68,7 @@ pub(super) fn longest<R: Requirement>(row: &Row, requirement: &R, least: f64) ->
         let is_last = points.stride <= fewest;
         let candidates = search.candidates(points, &starts);
         search.extend_candidates(points, &candidates, if is_last { MOST } else { 1 });
+        steps.check()?;
         if is_last {
             break;
         }
@@ -76,7 +86,7 @@ pub(super) fn longest<R: Requirement>(row: &Row, requirement: &R, least: f64) ->
     }
     let Search { best, mut found, .. } = search;
     found.retain(|(size, _)| *size >= best * (1.0 - EQUAL));
-    distinct(row, found.into_iter().map(|(_, ends)| requirement.without_excess(ends)).collect())
+    Ok(distinct(row, found.into_iter().map(|(_, ends)| requirement.without_excess(ends)).collect()))
 }
 
 struct Search<'a, R> {

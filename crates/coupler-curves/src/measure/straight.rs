@@ -8,6 +8,7 @@
 //! input span or a length, it is the portion with the narrowest strip. A portion may extend across the start of a closed
 //! curve, and across limits.
 
+use super::budget::{MAX_PORTION_POINTS, Steps, TooManySteps};
 use super::curve_strip::{CurveStrips, PortionStrip};
 use super::features::{StraightCriterion, StraightPortion};
 use super::longest_straight::StraightTo;
@@ -166,57 +167,80 @@ impl TracedCurve<'_> {
 
     /// The straight portions that meet the criterion equally well, such as both of a symmetrical curve.
     pub fn straight_portions(&self) -> &[StraightPortion] {
-        let find = || find_portions(self, self.straight_criterion);
-        self.straight.get_or_init(find)
+        self.counted_straight().as_deref().unwrap_or_default()
+    }
+
+    /// The same, unless the search takes too many steps.
+    pub(super) fn counted_straight(&self) -> &Result<Vec<StraightPortion>, TooManySteps> {
+        self.straight.get_or_init(|| find_portions(self, self.straight_criterion))
     }
 
     /// The longest straight portion to one of the [`WIDER_TOLERANCES`].
-    pub(super) fn wider_straight(&self, index: usize) -> Option<&StraightPortion> {
+    fn wider_straight(&self, index: usize) -> Option<&StraightPortion> {
+        self.counted_wider_straight(index).as_ref().ok()?.first()
+    }
+
+    /// The longest straight portions to one of these tolerances, unless the search takes too many steps.
+    pub(super) fn counted_wider_straight(&self, index: usize) -> &Result<Vec<StraightPortion>, TooManySteps> {
         let criterion = StraightCriterion::Tolerance(WIDER_TOLERANCES[index]);
-        self.wider_straight[index].get_or_init(|| find_portions(self, criterion)).first()
+        self.wider_straight[index].get_or_init(|| find_portions(self, criterion))
     }
 
     /// The straightest portion over half a turn of the input.
-    pub(super) fn straight_half_turn(&self) -> Option<&StraightPortion> {
-        self.straight_half_turn.get_or_init(|| find_half_turn(self)).as_ref()
+    fn straight_half_turn(&self) -> Option<&StraightPortion> {
+        self.counted_half_turn().as_ref().ok()?.as_ref()
+    }
+
+    /// The same, unless the search takes too many steps.
+    pub(super) fn counted_half_turn(&self) -> &Result<Option<StraightPortion>, TooManySteps> {
+        self.straight_half_turn.get_or_init(|| find_half_turn(self))
     }
 }
 
 /// The portions of a curve that meet a criterion: the best, and of several equally long ones all, that of the least input span
 /// first; none if the curve is too short, or nothing on it is straight over a twentieth of its extent.
-fn find_portions(curve: &TracedCurve, criterion: StraightCriterion) -> Vec<StraightPortion> {
+///
+/// # Errors
+/// The search takes too many steps.
+fn find_portions(curve: &TracedCurve, criterion: StraightCriterion) -> Result<Vec<StraightPortion>, TooManySteps> {
     let extent = curve.extent();
     let finer = match criterion {
         StraightCriterion::Length(length) if length < 16.0 * SPACING * extent => curve.row_of_spacing(length / 16.0),
         _ => None,
     };
-    let Some(row) = finer.as_ref().or(curve.row()) else { return Vec::new() };
-    let narrowest =
-        |end: &dyn Fn(f64) -> Option<f64>| Vec::from_iter(straightest(row, end, Narrowest::Absolutely, f64::INFINITY));
+    let Some(row) = finer.as_ref().or(curve.row()) else { return Ok(Vec::new()) };
+    let narrowest = |end: &dyn Fn(f64) -> Option<f64>| {
+        straightest(row, end, Narrowest::Absolutely, f64::INFINITY).map(Vec::from_iter)
+    };
     let ends = match criterion {
-        StraightCriterion::Tolerance(tolerance) => longest(row, &StraightTo { row, tolerance }, LEAST_SHARE * extent),
+        StraightCriterion::Tolerance(tolerance) => {
+            let steps = &Steps::new(MAX_PORTION_POINTS);
+            longest(row, &StraightTo { row, tolerance, steps }, LEAST_SHARE * extent, steps)
+        }
         StraightCriterion::Input(span) => narrowest(&|from| row.end_after_input(from, span)),
         StraightCriterion::Length(length) => narrowest(&|from| row.end_after_length(from, length)),
     };
-    let mut portions: Vec<StraightPortion> = ends.into_iter().map(|ends| portion(row, ends)).collect();
+    let mut portions: Vec<StraightPortion> = ends?.into_iter().map(|ends| portion(row, ends)).collect();
     // Of a line that is passed to and fro the quicker stroke comes first; spans that differ by rounding are equal.
     let shortest = portions.iter().map(|portion| portion.input_span).fold(f64::INFINITY, f64::min);
     portions.sort_by_key(|portion| portion.input_span > shortest * (1.0 + 1e-6));
-    portions
+    Ok(portions)
 }
 
 /// The portion that is straightest for its length of those that half a turn of the input traverses, if it is nearly
 /// straight.
-fn find_half_turn(curve: &TracedCurve) -> Option<StraightPortion> {
+///
+/// # Errors
+/// The search takes too many steps.
+fn find_half_turn(curve: &TracedCurve) -> Result<Option<StraightPortion>, TooManySteps> {
     /// The greatest width of its strip relative to its length: what is wider is no straight line to an eye.
     const WIDEST: f64 = 0.02;
-    if curve.linkage.input() == Input::Length {
-        return None;
-    }
-    let row = curve.row()?;
+    let row = curve.row().filter(|_| curve.linkage.input() != Input::Length);
+    let Some(row) = row else { return Ok(None) };
     let ends =
         straightest(row, |from| row.end_after_input(from, 180.0), Narrowest::Relatively, WIDEST * curve.extent())?;
-    Some(portion(row, ends)).filter(|portion| 2.0 * portion.deviation <= WIDEST * portion.length)
+    let is_straight = |portion: &StraightPortion| 2.0 * portion.deviation <= WIDEST * portion.length;
+    Ok(ends.map(|ends| portion(row, ends)).filter(is_straight))
 }
 
 /// Intervals between the points of a portion: enough to draw it.

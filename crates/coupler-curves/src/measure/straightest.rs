@@ -1,5 +1,6 @@
 //! The straightest portion of a given input or length.
 
+use super::budget::{MAX_PORTION_POINTS, Steps, TooManySteps};
 use super::curve_strip::{CurveStrips, PortionStrip};
 use super::maximum::{Bracket, greatest_in};
 use super::portions::EXACT;
@@ -34,12 +35,15 @@ impl Narrowest {
 ///
 /// A portion contains the one from the next point to the end of the one from the previous point, and is at least as
 /// wide as that: only between points where that is narrower than the narrowest found can there be a narrower one.
+///
+/// # Errors
+/// The search takes too many steps.
 pub(super) fn straightest(
     row: &Row,
     end: impl Fn(f64) -> Option<f64>,
     narrowest: Narrowest,
     most: f64,
-) -> Option<[f64; 2]> {
+) -> Result<Option<[f64; 2]>, TooManySteps> {
     /// The number of parts of the curve in one of which the portion begins.
     const PARTS: usize = 128;
     /// Points of a portion in which those that touch its strip are found.
@@ -49,6 +53,7 @@ pub(super) fn straightest(
     /// Widths and lengths that differ by less, relatively, are equal: as a symmetrical curve's are, to the accuracy with
     /// which starts are found.
     const EQUAL: f64 = 1e-7;
+    let steps = Steps::new(MAX_PORTION_POINTS);
     let stride = (row.start_count / PARTS).max(1);
     let last = row.points.len() - 1;
     let length_between = |from: usize, to: usize| row.cumulative_length[to.min(last)] - row.cumulative_length[from];
@@ -57,6 +62,7 @@ pub(super) fn straightest(
         let Some(to) = end(from as f64) else { continue };
         let inner = row.points.get(from + stride..=(to.floor() as usize).min(last)).unwrap_or_default();
         // Any of its points need a strip no wider.
+        steps.take(inner.len() + 1)?;
         let thinned: Vec<Point> = inner.iter().step_by((inner.len() / POINTS).max(1)).copied().collect();
         if check_width(&thinned, most).is_err() {
             continue;
@@ -74,6 +80,7 @@ pub(super) fn straightest(
         let to = from + stride as f64;
         let bracket = Bracket { from, to, first_parts: 2, accuracy: ACCURACY * stride as f64 };
         let ranked = |at: f64, _: f64| {
+            steps.take(POINTS).ok()?;
             let to = end(at)?;
             let PortionStrip { width, length, .. } = strips.strip([at, to]);
             let candidate = Candidate { size: narrowest.size(width, length), length, ends: [at, to] };
@@ -95,6 +102,7 @@ pub(super) fn straightest(
             least = least.min(candidate.size);
             found.push((from, candidate));
         }
+        steps.check()?;
     }
     let is_least = |candidate: &Candidate| candidate.size <= least * (1.0 + EQUAL);
     found.retain(|(_, candidate)| is_least(candidate));
@@ -104,10 +112,11 @@ pub(super) fn straightest(
         best_from(from, &rank).filter(|other| rank(*other) > candidate.length).unwrap_or(candidate)
     };
     let mut found: Vec<Candidate> = found.into_iter().map(longest_from).collect();
+    steps.check()?;
     let longest = found.iter().map(|candidate| candidate.length).fold(0.0, f64::max);
     found.retain(|candidate| candidate.length >= longest * (1.0 - EQUAL));
     let start_input = |ends: &[f64; 2]| within_period(row.input_at(ends[0]), 360.0);
-    found.into_iter().map(|candidate| candidate.ends).min_by(|a, b| start_input(a).total_cmp(&start_input(b)))
+    Ok(found.into_iter().map(|candidate| candidate.ends).min_by(|a, b| start_input(a).total_cmp(&start_input(b))))
 }
 
 /// The narrowest portion that begins in one part of the curve.

@@ -3,6 +3,7 @@
 use std::cell::{Cell, OnceCell};
 use std::rc::Rc;
 
+use super::budget::TooManySteps;
 use super::circuit_function::{CircuitFunction, NoFunction, Quantity};
 use super::curve::{ArcLength, Crossings, SmoothCurve, Stop};
 use super::features::{Dwell, StraightCriterion, StraightPortion, Symmetry};
@@ -28,16 +29,16 @@ pub struct TracedCurve<'a> {
     pub straight_criterion: StraightCriterion,
     single_point_linkage: OnceCell<(Linkage, JointId)>,
     extent: OnceCell<f64>,
-    pub(super) straight: OnceCell<Vec<StraightPortion>>,
-    pub(super) dwell: OnceCell<Option<Dwell>>,
+    pub(super) straight: OnceCell<Result<Vec<StraightPortion>, TooManySteps>>,
+    pub(super) dwell: OnceCell<Result<Option<Dwell>, TooManySteps>>,
     pub(super) symmetry: OnceCell<Option<Symmetry>>,
     pub(super) transmission_angles: OnceCell<Option<[f64; 2]>>,
     pub(super) circuit_results: CircuitResults,
     pub(super) cusp_count: OnceCell<usize>,
     smooth: OnceCell<Rc<SmoothCurve>>,
     row: OnceCell<Option<Row>>,
-    pub(super) wider_straight: [OnceCell<Vec<StraightPortion>>; 2],
-    pub(super) straight_half_turn: OnceCell<Option<StraightPortion>>,
+    pub(super) wider_straight: [OnceCell<Result<Vec<StraightPortion>, TooManySteps>>; 2],
+    pub(super) straight_half_turn: OnceCell<Result<Option<StraightPortion>, TooManySteps>>,
     arc_length: OnceCell<ArcLength>,
     stops: OnceCell<Vec<Stop>>,
     inflections: OnceCell<(usize, usize)>,
@@ -141,10 +142,17 @@ impl<'a> TracedCurve<'a> {
         // All functions along the circuit are those of these two.
         let has_dwell_too_close = self.output().is_some_and(|output| output.dwell().is_none());
         self.worst_transmission_angle();
+        let has_portion_too_close = || {
+            self.counted_straight().is_err()
+                || (0..self.wider_straight.len()).any(|index| self.counted_wider_straight(index).is_err())
+                || self.counted_half_turn().is_err()
+                || self.counted_dwell().is_err()
+        };
         has_dwell_too_close
             || self.circuit_results.0.has_function_too_close.get()
             || !self.arc_length().is_known()
             || self.crossings().is_cut_short
+            || has_portion_too_close()
     }
 
     /// The same curve with results that the curves of other joints on the circuit share.
@@ -160,7 +168,8 @@ impl<'a> TracedCurve<'a> {
 
     /// The straight portion and the symmetry, if they have been computed, to be marked on pages.
     pub fn computed_marks(&self) -> (Option<StraightPortion>, Option<Symmetry>) {
-        (self.straight.get().and_then(|all| all.first().cloned()), self.symmetry.get().copied().flatten())
+        let straight = self.straight.get().and_then(|all| all.as_ref().ok()?.first().cloned());
+        (straight, self.symmetry.get().copied().flatten())
     }
 }
 

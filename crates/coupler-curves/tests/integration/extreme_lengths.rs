@@ -99,3 +99,20 @@ fn measures_are_the_same_at_any_scale() {
         }
     }
 }
+
+/// Next to a change point the output or the curve is rounding at many places, of which each is compared with each: what is not known
+/// has no value, and that is said.
+#[test]
+fn searches_that_find_no_end_are_given_up() {
+    let evans = [("p", 3.5), ("r", 2.5), ("a", 2.5), ("s", 1.499_999_999_999_85), ("k", 2.5)];
+    let cells =
+        [("evans", &evans[..], "output_dwell_deg"), ("peaucellier-lipkin", &[("arm", 1e-8)], "dwell_input_deg")];
+    for (linkage, values, measure) in cells {
+        let solved = solved(linkage, values);
+        assert_eq!(solved.status(), Status::Ok, "{linkage}");
+        for curve in &solved.curves {
+            assert_eq!(curve.value(measure), Value::Missing, "{linkage}");
+            assert!(matches!(curve.value("too_close"), Value::Word("positions" | "measures")), "{linkage}");
+        }
+    }
+}

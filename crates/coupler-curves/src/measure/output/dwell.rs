@@ -5,11 +5,9 @@
 //! all is searched for among samples of the circuit and where a band touches an extreme of the output, and is then
 //! refined between samples.
 
-use std::cell::Cell;
-
 use super::motion::{OutputMotion, Stretch};
 use super::output_value;
-use crate::measure::budget::MAX_DWELL_STEPS;
+use crate::measure::budget::{MAX_DWELL_STEPS, Steps};
 use crate::measure::circuit_function::{MonotonicPart, Place};
 use crate::measure::{Measure, Subject, start_input};
 
@@ -50,7 +48,7 @@ impl OutputMotion {
             output: self,
             parts: coordinate.monotonic_parts(),
             width: TOLERANCE * self.travel(),
-            steps: Cell::new(0),
+            steps: Steps::new(MAX_DWELL_STEPS),
         };
         let begin = search.place(0.0);
         if self.is_at_rest() {
@@ -67,7 +65,7 @@ impl OutputMotion {
             .min_by(|a, b| search.covered(a.0).total_cmp(&search.covered(b.0)));
         let (start, span) = first.copied().unwrap_or((0.0, 0.0));
         let found = Stretch { start_input: coordinate.input(search.place(start)), input_span: span };
-        (search.steps.get() <= MAX_DWELL_STEPS).then_some(found)
+        search.steps.check().ok().map(|()| found)
     }
 }
 
@@ -77,8 +75,8 @@ struct DwellSearch<'a> {
     output: &'a OutputMotion,
     parts: Vec<MonotonicPart>,
     width: f64,
-    /// The parts that have been passed so far.
-    steps: Cell<usize>,
+    /// The parts that may still be passed.
+    steps: Steps,
 }
 
 impl DwellSearch<'_> {
@@ -117,8 +115,7 @@ impl DwellSearch<'_> {
         let mut part = (position as usize).min(self.parts.len() - 1);
         let (mut change, mut input) = (0.0, 0.0);
         for _ in 0..=self.parts.len() {
-            self.steps.set(self.steps.get() + 1);
-            if self.steps.get() > MAX_DWELL_STEPS {
+            if self.steps.take(1).is_err() {
                 break;
             }
             let end = self.parts[part].values[1] + change;
@@ -157,6 +154,7 @@ impl DwellSearch<'_> {
         let band = if is_greatest { [extreme - self.width, extreme] } else { [extreme, extreme + self.width] };
         let (mut part, mut change) = (part, 0.0);
         for _ in 0..=self.parts.len() {
+            self.steps.take(1).ok()?;
             let begin = self.parts[part].values[0] + change;
             let limit = [(begin < band[0]).then_some(band[0]), (begin > band[1]).then_some(band[1])];
             if let Some(limit) = limit.into_iter().flatten().next() {
