@@ -230,6 +230,15 @@ impl Rows {
         Rows { columns: self.columns.iter_mut().map(|column| column.split_off_first(rows)).collect(), len: rows }
     }
 
+    /// The bytes of all words.
+    pub(super) fn text_bytes(&self) -> usize {
+        let bytes = |column: &ColumnRows| match &column.values {
+            Values::Words(words) => words.iter().map(|word| word.len()).sum(),
+            _ => 0,
+        };
+        self.columns.iter().map(bytes).sum()
+    }
+
     /// Appends the rows of `cells.csv` of a cell; the columns are those of that table.
     pub fn append_cell(&mut self, family: &Family, solved: &SolvedCell) {
         if solved.is_left_out() {

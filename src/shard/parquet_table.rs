@@ -15,6 +15,9 @@ use super::columns::{ColumnKind, ColumnRows, Rows, TableColumn, Values};
 use super::record::DIGEST_NAME;
 use crate::record::RunningDigest;
 
+/// The most bytes of words of a row group, unless it is a single row: what a reader may have in memory at once.
+pub(super) const MAX_GROUP_TEXT: usize = 1 << 24;
+
 /// What stands for the digest of a file while that is computed.
 pub(super) const NO_DIGEST: [u8; 64] = [b'0'; 64];
 
@@ -109,7 +112,12 @@ impl<W: Write + Send> ParquetTable<W> {
         self.writer.into_inner().map_err(into_io)?.finish()
     }
 
-    fn write_group(&mut self, rows: Rows) -> io::Result<()> {
+    fn write_group(&mut self, mut rows: Rows) -> io::Result<()> {
+        if rows.len > 1 && rows.text_bytes() > MAX_GROUP_TEXT {
+            let first = rows.split_off_first(rows.len / 2);
+            self.write_group(first)?;
+            return self.write_group(rows);
+        }
         let mut group = self.writer.next_row_group().map_err(into_io)?;
         for (column, kind) in rows.columns.into_iter().zip(&self.kinds) {
             if let Some(writer) = group.next_column().map_err(into_io)? {

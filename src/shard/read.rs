@@ -6,6 +6,7 @@ use std::io::{self, Read, Seek, SeekFrom};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use csv::StringRecord;
 use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, RowGroupReader};
 use parquet::file::serialized_reader::SerializedFileReader;
@@ -20,6 +21,12 @@ use crate::record::{Digest, FileError, RunningDigest, file_digest, open_regular_
 
 /// The most bytes of the record beside a table; a record has a manifest, whose length is limited.
 const MAX_RECORD_BYTES: u64 = 1 << 25;
+
+/// The most bytes of text of the rows that are kept in memory: for each so many in each column, the length of the longest number, and so
+/// many for words, whose longest are reasons; and so many more in all, for a few rows with long names.
+const NUMBER_BYTES: usize = 24;
+const TEXT_BYTES: usize = 1 << 10;
+const SPARE_BYTES: usize = 1 << 20;
 
 /// A complete table of a shard.
 #[derive(Clone, Debug)]
@@ -105,38 +112,47 @@ impl ShardFile {
     /// Some rows by their indices: the texts of all columns, as in `cells.csv`.
     ///
     /// # Errors
-    /// The file cannot be read, or lacks a row, as a clause.
-    pub fn read_rows(&self, wanted: &BTreeSet<usize>) -> Result<Vec<(usize, Vec<String>)>, String> {
+    /// The file cannot be read, lacks a row, or has more text than a sweep writes, as a clause.
+    pub fn read_rows(&self, wanted: &BTreeSet<usize>) -> Result<Vec<(usize, StringRecord)>, String> {
         let mut found = Vec::new();
+        let most = SPARE_BYTES + wanted.len() * (self.record.columns.len() * NUMBER_BYTES + TEXT_BYTES);
+        let mut rest = most;
+        let mut count = |bytes: usize| -> Result<(), String> {
+            let counted = rest.checked_sub(bytes).map(|fewer| rest = fewer);
+            counted.ok_or_else(|| format!("{} of its rows have more text than the limit of {most} bytes", wanted.len()))
+        };
         match self.format {
             TableFormat::Parquet => {
                 for_row_groups(&self.path, |group, rows| {
-                    let mut texts: Vec<(usize, Vec<String>)> =
-                        wanted.range(rows.clone()).map(|row| (*row, Vec::new())).collect();
-                    if texts.is_empty() {
+                    let mut records: Vec<(usize, StringRecord)> =
+                        wanted.range(rows.clone()).map(|row| (*row, StringRecord::new())).collect();
+                    if records.is_empty() {
                         return Ok(());
                     }
                     for column in 0..group.num_columns() {
                         let mut column = ParquetColumn::open(group, column).map_err(parquet_message)?;
-                        let mut fields = texts.iter_mut().map(|(row, fields)| (*row, fields)).peekable();
+                        let mut records = records.iter_mut().peekable();
                         for part in parts(rows.clone()) {
                             let values = column.read(part.len()).map_err(parquet_message)?;
-                            let wanted = std::iter::from_fn(|| fields.next_if(|(row, _)| part.contains(row)));
-                            let (wanted, fields): (Vec<usize>, Vec<&mut Vec<String>>) = wanted.unzip();
-                            let wanted: Vec<usize> = wanted.into_iter().map(|row| row - part.start).collect();
-                            for (fields, text) in fields.into_iter().zip(values.texts(&wanted)?) {
-                                fields.push(text);
+                            let own = std::iter::from_fn(|| records.next_if(|(row, _)| part.contains(row)));
+                            let (wanted, own): (Vec<usize>, Vec<&mut StringRecord>) =
+                                own.map(|(row, record)| (*row - part.start, record)).unzip();
+                            for (record, text) in own.into_iter().zip(values.texts(&wanted)) {
+                                let text = text?;
+                                count(text.len())?;
+                                record.push_field(&text);
                             }
                         }
                     }
-                    found.extend(texts);
+                    found.extend(records);
                     Ok(())
                 })?;
             }
             TableFormat::Csv => {
                 for (row, record) in self.csv_reader()?.records().enumerate().filter(|(row, _)| wanted.contains(row)) {
                     let record = record.map_err(|error| error.to_string())?;
-                    found.push((row, record.iter().map(str::to_owned).collect()));
+                    count(record.as_slice().len())?;
+                    found.push((row, record));
                 }
             }
         }

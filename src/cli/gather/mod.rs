@@ -100,7 +100,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     }
     let is_table_replaced = arguments.toml.as_deref().is_some_and(files::is_standard);
     if gathered.by.is_some() && !is_table_replaced {
-        print_bytes(&table(&gathered)?)?;
+        print_table(&gathered)?;
     }
     let is_empty = gathered.by.is_some() && gathered.best.is_empty();
     if is_empty {
@@ -177,14 +177,21 @@ fn totals(gathered: &Gathered) -> String {
     gathered.families.iter().map(|(_, totals)| line(totals)).collect()
 }
 
-/// The rows of the best, as in `cells.csv`, and by what they are the best in a last column.
-fn table(gathered: &Gathered) -> anyhow::Result<Vec<u8>> {
+/// Prints the rows of the best, as in `cells.csv`, and by what they are the best in a last column.
+fn print_table(gathered: &Gathered) -> anyhow::Result<()> {
+    /// The rows that are printed at once.
+    const ROWS: usize = 1 << 10;
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(gathered.columns.iter().map(String::as_str).chain(["by"]))?;
-    for curve in &gathered.best {
-        let mut key = Vec::new();
-        coupler_curves::exchange::append_number(curve.key, &mut key);
-        writer.write_record(curve.fields.iter().map(String::as_bytes).chain([&key[..]]))?;
+    print_bytes(&writer.into_inner()?)?;
+    for curves in gathered.best.chunks(ROWS) {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        for curve in curves {
+            let mut key = Vec::new();
+            coupler_curves::exchange::append_number(curve.key, &mut key);
+            writer.write_record(curve.fields.iter().map(str::as_bytes).chain([&key[..]]))?;
+        }
+        print_bytes(&writer.into_inner()?)?;
     }
-    Ok(writer.into_inner()?)
+    Ok(())
 }

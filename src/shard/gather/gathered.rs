@@ -1,5 +1,7 @@
 //! What is gathered, and what complete shards have.
 
+use csv::StringRecord;
+
 use super::super::record::Counts;
 use crate::manifest::Plan;
 
@@ -63,5 +65,5 @@ pub struct BestCurve {
     /// The values of the parameters of its linkage.
     pub parameters: Vec<f64>,
     /// The texts of its row in the order of [`Gathered::columns`]; empty where its family lacks a column.
-    pub fields: Vec<String>,
+    pub fields: StringRecord,
 }

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use coupler_curves::expression::CompiledExpression;
 use coupler_curves::family::Family;
 use coupler_curves::measure;
+use csv::StringRecord;
 use rayon::prelude::*;
 
 use super::super::Error;
@@ -164,14 +165,14 @@ fn read_best(
     };
     let rows: Result<Vec<_>, String> = wanted.par_iter().map(read).collect();
     let rows = rows.map_err(|message| Error::Problems(vec![message]))?;
-    let mut rows: BTreeMap<(usize, usize, usize), Vec<String>> = rows.into_iter().flatten().collect();
+    let mut rows: BTreeMap<(usize, usize, usize), StringRecord> = rows.into_iter().flatten().collect();
     let curve = |Ranked { key, place: ([family, place @ ..], n, row) }: Ranked<Row>| {
         let texts = rows.remove(&(family, n, row)).unwrap_or_default();
         let (plan, files) = &gathered[family];
         let own = &files[n].record.columns;
         let field = |name: &String| {
             let at = own.iter().position(|column| column == name);
-            at.and_then(|at| texts.get(at)).cloned().unwrap_or_default()
+            at.and_then(|at| texts.get(at)).unwrap_or_default()
         };
         let template = &plan.families[0].family.template;
         let parameters = template.parameters.iter().map(|parameter| field(&parameter.name));

@@ -4,6 +4,7 @@ use std::fs::{self, File};
 use std::path::Path;
 use std::sync::Arc;
 
+use coupler_atlas::record::Digest;
 use parquet::basic::Compression;
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
@@ -81,6 +82,36 @@ fn other_columns_than_a_file_states_are_refused() {
         write_with_columns(&file, &original, change);
         let message = gather_problems(path, &["out", "--only", "actuator"]);
         assert!(message.contains(expected), "{message}");
+    }
+}
+
+/// What is kept in memory of the best is no more than a sweep writes of them, also of a whole file.
+#[test]
+fn rows_with_more_text_than_a_sweep_writes_are_refused() {
+    let folder = folder_with(MANIFEST);
+    let path = folder.path();
+    printed(path, &["sweep", "-o", "out", "--no-points", "--only", "evans", "--format", "csv"]);
+    let table = path.join("out/evans").join(shard("cells", 0, 1, "csv"));
+    let (text, record) = (fs::read_to_string(&table).unwrap(), table.with_extension("json"));
+    let stated = fs::read_to_string(&record).unwrap();
+    let best =
+        |top: usize| run(path, &["gather", "out", "--only", "evans", "--top", &top.to_string(), "--by", "length"]);
+    let (code, whole, _) = best(5);
+    assert!(code == 0 && whole.lines().count() == 6);
+    // The last field of each row is the name of the joint.
+    for (length, is_refused) in [(100_000, false), (300_000, true)] {
+        let long = text.lines().enumerate().map(|(k, line)| match k {
+            0 => format!("{line}\n"),
+            _ => format!("{line}{}\n", "x".repeat(length)),
+        });
+        let long: String = long.collect();
+        let [before, after] = [&text, &long].map(|text| Digest::of(text.as_bytes()).to_string());
+        fs::write(&table, &long).unwrap();
+        fs::write(&record, stated.replace(&before, &after)).unwrap();
+        let (code, out, err) = best(5);
+        assert_eq!((code == 2, out.is_empty()), (is_refused, is_refused), "{err}");
+        assert_eq!(err.contains("5 of its rows have more text than the limit of 10"), is_refused, "{err}");
+        assert_eq!(best(3).0, 0);
     }
 }
 
