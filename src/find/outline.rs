@@ -12,8 +12,24 @@ pub struct Outline {
     pub angles_deg: Option<Vec<f64>>,
     /// Whether it is closed, where the file says so.
     pub is_closed: Option<bool>,
-    /// What of the file was taken, as a clause: which columns, or which outline of how many, in what unit; empty if there is nothing to say.
-    pub reading: String,
+    /// What of the file was taken.
+    pub reading: Reading,
+}
+
+/// What of a file was taken for a path, and what was not.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Reading {
+    /// What was taken, as a clause: which columns, or which outline of how many, in what unit; empty if there is nothing to say.
+    pub taken: String,
+    /// Whether it has angles, which are not taken because they are not asked for.
+    pub has_unused_angles: bool,
+}
+
+impl Reading {
+    /// All of what it has was taken.
+    pub fn of(taken: String) -> Reading {
+        Reading { taken, has_unused_angles: false }
+    }
 }
 
 /// What is to be read of a file.
@@ -28,7 +44,17 @@ pub struct ReadOptions<'a> {
 impl Outline {
     /// A path of which there is nothing to say.
     pub fn new(points: Vec<Point>, angles_deg: Option<Vec<f64>>, is_closed: Option<bool>) -> Outline {
-        Outline { points, angles_deg, is_closed, reading: String::new() }
+        Outline { points, angles_deg, is_closed, reading: Reading::default() }
+    }
+
+    /// Whether it is closed, if it is not the user who says so, and adds to what was taken why, where the file does not say it.
+    pub fn decide_closed(&mut self) -> bool {
+        let is_closed = self.is_closed();
+        if self.is_closed.is_none() && !self.reading.taken.is_empty() {
+            self.reading.taken +=
+                if is_closed { "; closed, for its ends are near" } else { "; open, for its ends are apart" };
+        }
+        is_closed
     }
 
     /// Whether it is closed: as the file says or, if it does not, as its ends look.

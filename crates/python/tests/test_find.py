@@ -41,6 +41,28 @@ def test_paths_come_as_arrays_lists_curves_and_files(tmp_path) -> None:
     assert np.allclose(sizes, sizes[0], rtol=1e-6)
 
 
+def test_what_was_taken_of_a_file_is_said(tmp_path) -> None:
+    points = curve()
+    options = {"index": 2000, "effort": "quick", "top": 1}
+    file = tmp_path / "two.csv"
+    names = "a x,a y,b x,b y"
+    np.savetxt(file, np.hstack([points, 3 * points]), delimiter=",", header=names, comments="")
+    found = [ca.find(file, outline=outline, **options) for outline in (1, "2", "b")]
+    assert np.allclose([each.size / found[0].size for each in found], [1, 3, 3])
+    assert found[0].read.startswith("path 1 `a` of 2; x is column 1 `a x`") and found[0].read.endswith("closed, for its ends are near")
+    for outline in (None, 3, "c"):
+        with pytest.raises(ValueError, match="two.csv: .*outline"):
+            ca.find(file, outline=outline, **options)
+    with pytest.raises(ValueError, match="outline='a' chooses from the paths in a file"):
+        ca.find(points, outline="a", **options)
+    assert ca.find(points, **options).read is None
+    timed = tmp_path / "timed.csv"
+    np.savetxt(timed, np.column_stack([points, np.arange(60) * 6]), delimiter=",", header="x,y,angle", comments="")
+    with pytest.warns(UserWarning, match="the angles in .*timed.csv are not used: with timed=True"):
+        assert "column 3 `angle` is not used" in ca.find(timed, **options).read
+    assert "angle of the crank column 3" in ca.find(timed, timed=True, **options).read
+
+
 def test_constraints_are_kept_and_named_where_they_cannot_be() -> None:
     found = ca.find(curve(), closed=True, index=5000, effort="quick", where="mu_worst_deg >= 30")
     assert all(answer.mu_worst_deg >= 30 - 1e-6 for answer in found)

@@ -182,7 +182,7 @@ struct TracedPath {
     kind: PathKind,
     /// The angles of the crank at the points, if it is timed.
     angles_deg: Option<Vec<f64>>,
-    /// What of the file was taken.
+    /// What of the file was taken, and why it is closed or open.
     reading: String,
 }
 
@@ -190,19 +190,12 @@ impl TracedPath {
     /// # Errors
     /// It is timed, open, and has no angles.
     fn new(name: String, mut outline: Outline, arguments: &Arguments) -> Result<TracedPath, InputError> {
-        let is_closed = outline.is_closed();
-        let mut reading = std::mem::take(&mut outline.reading);
         let kind = match arguments {
             Arguments { closed: true, .. } => PathKind::Closed,
             Arguments { open: true, .. } => PathKind::Open,
             Arguments { part: true, .. } => PathKind::Part,
-            _ => {
-                if outline.is_closed.is_none() && !reading.is_empty() {
-                    reading +=
-                        if is_closed { "; closed, for its ends are near" } else { "; open, for its ends are apart" };
-                }
-                if is_closed { PathKind::Closed } else { PathKind::Open }
-            }
+            _ if outline.decide_closed() => PathKind::Closed,
+            _ => PathKind::Open,
         };
         let angles_deg = if arguments.timed { outline.take_timing(kind) } else { None };
         if arguments.timed && angles_deg.is_none() {
@@ -210,7 +203,7 @@ impl TracedPath {
                 "{name}: --timed needs an angle of the crank for each point of an open path: write them as a third column, in degrees"
             )));
         }
-        Ok(TracedPath { name, points: outline.points, kind, angles_deg, reading })
+        Ok(TracedPath { name, points: outline.points, kind, angles_deg, reading: outline.reading.taken })
     }
 }
 
@@ -232,16 +225,15 @@ fn read_path(arguments: &Arguments) -> anyhow::Result<TracedPath> {
     files::protect(path);
     let name = files::input_name(path);
     let bytes = output::read_bytes(path).map_err(|error| not_a_path::unreadable(path, error))?;
-    let read =
-        |is_timed: bool| find::parse_outline(&bytes, &ReadOptions { is_timed, outline: arguments.outline.as_deref() });
-    let outline = read(arguments.timed).map_err(|problems| {
+    let options = ReadOptions { is_timed: arguments.timed, outline: arguments.outline.as_deref() };
+    let outline = find::parse_outline(&bytes, &options).map_err(|problems| {
         if let Some(message) = not_a_path::manifest_message(path, &bytes) {
             return InputErrors::from_messages(&[message]);
         }
         let problems: Vec<String> = problems.iter().map(|problem| format!("{name}: {problem}")).collect();
         InputErrors::from_messages(&problems)
     })?;
-    if !arguments.timed && read(true).is_ok_and(|timed| timed.angles_deg.is_some()) {
+    if outline.reading.has_unused_angles {
         print_stderr(&format!(
             "note: the angles in {name} are not used: with --timed each point is reached at its own\n"
         ));

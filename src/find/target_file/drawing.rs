@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use coupler_curves::geometry::{Bounds, Point, cross};
 use kurbo::{Affine, BezPath, PathEl};
 
-use super::super::outline::{Outline, choose};
+use super::super::outline::{Outline, Reading, choose};
 
 /// Points at equal distances along an outline: as many as are needed to see its shape.
 const POINTS: usize = 100;
@@ -180,12 +180,12 @@ pub(super) fn outline_of(pieces: Vec<Piece>, wanted: Option<&str>) -> Result<Out
     let is_closed = piece.is_closed();
     let points = spaced_evenly(&piece.points, piece.length(), is_closed);
     let mut outline = Outline::new(points, None, is_closed.then_some(true));
-    outline.reading = reading(&pieces, index, wanted.is_some());
+    outline.reading = Reading::of(taken(&pieces, index, wanted.is_some()));
     Ok(outline)
 }
 
 /// Which outline was taken.
-fn reading(pieces: &[Piece], index: usize, is_chosen: bool) -> String {
+fn taken(pieces: &[Piece], index: usize, is_chosen: bool) -> String {
     let piece = &pieces[index];
     let id = piece.id.as_ref().map_or(String::new(), |id| format!(" `{id}`"));
     let kind = match piece.kind {
@@ -195,7 +195,7 @@ fn reading(pieces: &[Piece], index: usize, is_chosen: bool) -> String {
         Kind::Fill => "the border of an area",
     };
     let size = Bounds::from_points(piece.points.iter().copied()).size();
-    let mut reading = format!(
+    let mut taken = format!(
         "outline {} of {}{id}, {kind} of {:.6} by {:.6}",
         index + 1,
         pieces.len(),
@@ -206,9 +206,9 @@ fn reading(pieces: &[Piece], index: usize, is_chosen: bool) -> String {
         let alike =
             pieces.iter().filter(|other| (other.is_frame(), other.kind) == (piece.is_frame(), piece.kind)).count();
         let why = if alike > 1 { format!(", the longest of {alike} such") } else { String::new() };
-        reading += &format!("{why}; --outline N or ID takes another");
+        taken += &format!("{why}; --outline N or ID takes another");
     }
-    reading
+    taken
 }
 
 /// A number in at most six significant digits.

@@ -3,7 +3,7 @@
 use coupler_curves::geometry::Point;
 use serde_json::Value;
 
-use super::super::outline::{Outline, ReadOptions, limited};
+use super::super::outline::{Outline, ReadOptions, Reading, limited};
 
 /// Reads JSON: a list of points, or an object with one as `points`, and perhaps `closed`. A point is a list of x and y and perhaps an
 /// angle, or an object with `x`, `y` and perhaps `angle`. Also read are what `find --json` and `export --format json` print, and an object
@@ -36,7 +36,8 @@ pub(super) fn parse_json(text: &str, options: &ReadOptions) -> Result<Outline, V
         None if value.is_array() => columns.angle.and_then(|column| value.get(column)).cloned(),
         None => value.get("angle").cloned(),
     };
-    let has_angles = options.is_timed && list.iter().enumerate().any(|value| angle_of(value).is_some());
+    let is_timed = list.iter().enumerate().any(|value| angle_of(value).is_some());
+    let has_angles = options.is_timed && is_timed;
     let (mut points, mut angles_deg) = (Vec::new(), Vec::new());
     for (k, value) in list.iter().enumerate() {
         let number = k + 1;
@@ -51,7 +52,7 @@ pub(super) fn parse_json(text: &str, options: &ReadOptions) -> Result<Outline, V
                 continue;
             }
         }
-        match coordinate(angle_of((k, value)).as_ref()) {
+        match coordinate(angle_of((k, value)).as_ref()).filter(|_| has_angles) {
             Some(angle) => angles_deg.push(angle),
             None if has_angles => {
                 let example = "write [x, y, angle] or {\"x\": …, \"y\": …, \"angle\": …}";
@@ -66,7 +67,8 @@ pub(super) fn parse_json(text: &str, options: &ReadOptions) -> Result<Outline, V
     let angles_deg = has_angles.then_some(angles_deg);
     let mut outline = Outline::new(points, angles_deg, closed.and_then(Value::as_bool));
     let angle = if has_angles { ", and angles of the crank, in degrees" } else { "" };
-    outline.reading = format!("the points of JSON, x and y{angle}");
+    let taken = format!("the points of JSON, x and y{angle}");
+    outline.reading = Reading { taken, has_unused_angles: is_timed && !options.is_timed };
     Ok(outline)
 }
 

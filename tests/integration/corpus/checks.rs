@@ -92,7 +92,8 @@ pub fn path(bytes: &[u8]) {
                 assert!(points.len() <= find::MAX_POINTS);
                 assert!(points.iter().all(|p| p.x.is_finite() && p.y.is_finite()), "{points:?}");
                 assert!(angles_deg.is_none_or(|angles| is_timed && angles.len() == points.len()));
-                assert!(points.is_empty() || !reading.is_empty());
+                assert!(points.is_empty() || !reading.taken.is_empty());
+                assert!(!(is_timed && reading.has_unused_angles));
             }
             Err(problems) => assert!(!problems.is_empty() && problems.iter().all(|problem| !problem.is_empty())),
         }

@@ -20,9 +20,9 @@ fn off_circle(outline: &Outline, centre: [f64; 2], radius: f64) -> f64 {
 /// Asserts that the path of a drawing is a circle.
 fn is_circle(content: &str, centre: [f64; 2], radius: f64) {
     let outline = read(svg(content)).unwrap_or_else(|error| panic!("{content}: {error}"));
-    assert_eq!(outline.is_closed, Some(true), "{content}: {}", outline.reading);
+    assert_eq!(outline.is_closed, Some(true), "{content}: {}", outline.reading.taken);
     let off = off_circle(&outline, centre, radius);
-    assert!(off < 2e-5 * radius, "{content}: {off}, {}", outline.reading);
+    assert!(off < 2e-5 * radius, "{content}: {off}, {}", outline.reading.taken);
 }
 
 #[test]
@@ -40,6 +40,9 @@ fn what_is_not_shown_is_no_path() {
         "<path d='M0 0L900 900 0 900z' stroke='black' opacity='0'/>",
         "<path d='M0 0L900 900 0 900z' fill='none' stroke='black' stroke-opacity='0'/>",
         "<path d='M0 0L900 900 0 900z' fill='none' stroke='black' style='stroke-width:0'/>",
+        "<path d='M0 0L900 900 0 900z' fill='none' stroke='rgba(0, 0, 0, 0)'/>",
+        "<path d='M0 0L900 900 0 900z' fill='#fff0' style='stroke: #00000000'/>",
+        "<switch><path systemLanguage='de, fr' d='M0 0L900 900 0 900z' stroke='black'/><g/></switch>",
         "<defs><path d='M0 0L900 900 0 900z' stroke='black'/></defs>",
         "<symbol id='s'><path d='M0 0L900 900 0 900z' stroke='black'/></symbol>",
         "<clipPath id='c'><path d='M0 0L900 900 0 900z' stroke='black'/></clipPath>",
@@ -112,6 +115,11 @@ fn shapes_are_read_where_they_are_shown() {
         // Shown in spite of what it is in.
         ("<g visibility='hidden'><circle cx='3' cy='4' r='2' visibility='visible'/></g>", [3.0, -4.0], 2.0),
         (
+            "<switch><g systemLanguage='de'/><circle cx='3' cy='4' r='2' systemLanguage='fr, en-GB'/></switch>",
+            [3.0, -4.0],
+            2.0,
+        ),
+        (
             "<style>.a{fill:none}.a.b{stroke:#123 !important}</style><circle class='a b' cx='3' cy='4' r='2' style='stroke:none'/>",
             [3.0, -4.0],
             2.0,
@@ -159,7 +167,7 @@ fn strokes_that_share_ends_are_one_outline() {
             "<path d='M0 0Q5 0 10 5' {line}/><path d='M20 0Q15 0 10 5' fill='none' stroke='{colour}'/>{other}"
         ));
         let count = if other.is_empty() { "of 2" } else { "of 3" };
-        assert!(read(&text).unwrap().reading.contains(count));
+        assert!(read(&text).unwrap().reading.taken.contains(count));
     }
 }
 
@@ -171,11 +179,11 @@ fn an_outline_is_chosen_by_its_id_or_number() {
     );
     let taken = read(&text).unwrap();
     assert!(
-        taken.reading.starts_with(
+        taken.reading.taken.starts_with(
             "outline 2 of 4 `one`, a line of 40 by 40, the longest of 2 such; --outline N or ID takes another"
         ),
         "{}",
-        taken.reading
+        taken.reading.taken
     );
     for (wanted, centre, radius) in [
         ("one", [30.0, -40.0], 20.0),
@@ -186,7 +194,7 @@ fn an_outline_is_chosen_by_its_id_or_number() {
         let outline = choose(&text, wanted).unwrap();
         assert!(off_circle(&outline, centre, radius) < 1e-4 * radius, "{wanted}");
     }
-    assert!(choose(&text, "axes").unwrap().reading.contains("a rectangle"));
+    assert!(choose(&text, "axes").unwrap().reading.taken.contains("a rectangle"));
     let error = choose(&text, "5").unwrap_err();
     assert!(error.contains("a number from 1 to 4, or axes, one, layer2, area"), "{error}");
 }
@@ -196,7 +204,7 @@ fn the_unit_is_that_of_the_view_box() {
     let unit = |attributes: &str| {
         let outline = read(format!("<svg {attributes}><circle cx='3' cy='4' r='2'/></svg>")).unwrap();
         let is_circle = off_circle(&outline, [3.0, -4.0], 2.0) < 1e-4;
-        let reading = outline.reading;
+        let reading = outline.reading.taken;
         let Some((_, unit)) = reading.split_once("; ") else { panic!("{reading}") };
         (unit.to_owned(), is_circle)
     };

@@ -139,7 +139,7 @@ fn drawings_are_read_back() {
             let bytes = fs::read(folder.path().join(format!("exported/{name}{ending}"))).unwrap();
             let outline = read(&bytes).unwrap_or_else(|error| panic!("{name}{ending}: {error}"));
             let Outline { points, is_closed: closed, reading, .. } = outline;
-            assert!(reading.contains("a curve of this program"), "{name}{ending}: {reading}");
+            assert!(reading.taken.contains("a curve of this program"), "{name}{ending}: {reading:?}");
             // A path along which the point goes to and fro is drawn once.
             let is_retraced =
                 distance(&samples[..samples.len() / 2], &samples[samples.len() / 2..], false) < 1e-6 * extent;

@@ -31,8 +31,8 @@ fn minus(value: f64) -> String {
 fn is_ellipse(name: &str, bytes: impl AsRef<[u8]>) {
     let outline = read(bytes).unwrap_or_else(|error| panic!("{name}: {error}"));
     let points: Vec<[f64; 2]> = outline.points.iter().map(|p| [p.x, p.y]).collect();
-    assert_eq!(points, ellipse(), "{name}: {}", outline.reading);
-    assert!(outline.reading.contains("x is column"), "{name}: {}", outline.reading);
+    assert_eq!(points, ellipse(), "{name}: {}", outline.reading.taken);
+    assert!(outline.reading.taken.contains("x is column"), "{name}: {}", outline.reading.taken);
 }
 
 #[test]
@@ -152,12 +152,12 @@ fn angles_have_units() {
         let outline = read_timed(&text).unwrap();
         let angles = outline.angles_deg.unwrap();
         assert!(angles.iter().zip(&degrees).all(|(angle, expected)| (angle - expected).abs() < 1e-9), "{text}");
-        assert!(outline.reading.contains(&format!("in {unit}")), "{}", outline.reading);
+        assert!(outline.reading.taken.contains(&format!("in {unit}")), "{}", outline.reading.taken);
         let untimed = read(&text).unwrap();
         assert!(
-            untimed.angles_deg.is_none() && untimed.reading.contains("not used without --timed"),
+            untimed.angles_deg.is_none() && untimed.reading.taken.contains("not used without --timed"),
             "{}",
-            untimed.reading
+            untimed.reading.taken
         );
     }
     assert!(read_timed(table("angle [gon],x,y", 1.0)).unwrap_err().contains("`gon`"));
@@ -171,6 +171,10 @@ fn angles_have_units() {
 #[test]
 fn what_may_be_misread_is_refused() {
     for (text, expected) in [
+        (lines(|k, x, y| format!("{},{x},{y}", 100 - k)), "rises or falls throughout"),
+        (lines(|k, x, y| format!("{},{x},{y}", k / 3)), "rises or falls throughout"),
+        (format!("x;y\n{}", lines(|_, x, y| format!("{x}mm;{y}mm"))), "line 2: `"),
+        (lines(|k, x, y| format!("{k},0,{x},{y}")), "of more than three columns write their names in a first line"),
         (
             lines(|k, x, y| format!("{},{x},{y}", 0.04 * k as f64)),
             "name them in a first line, as in t,x,y or x,y,angle",
@@ -225,9 +229,10 @@ fn one_of_several_paths_is_chosen() {
                     outline.points.iter().map(|p| if k == 0 { [p.x, p.y] } else { [p.y, p.x] }).collect();
                 assert_eq!(points, ellipse());
                 assert!(
-                    outline.reading.starts_with(&format!("path {}", k + 1)) && outline.reading.contains("of 2"),
+                    outline.reading.taken.starts_with(&format!("path {}", k + 1))
+                        && outline.reading.taken.contains("of 2"),
                     "{}",
-                    outline.reading
+                    outline.reading.taken
                 );
             }
         }

@@ -285,6 +285,8 @@ class Found:
     @property
     def kind(self) -> Literal["closed", "open", "part"]: ...
     @property
+    def read(self) -> str | None: ...
+    @property
     def nearest_miss(self) -> Answer | None: ...
     @property
     def relax(self) -> list[str]: ...
@@ -385,6 +387,7 @@ def read(manifest: _Path) -> Atlas: ...
 def find(
     path: npt.ArrayLike | Curve | _Path,
     *,
+    outline: str | int | None = None,
     closed: bool | None = None,
     part: bool = False,
     angles: npt.ArrayLike | None = None,

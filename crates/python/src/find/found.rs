@@ -30,6 +30,8 @@ pub struct Found {
     pub(super) manifest: String,
     /// A page with the path and the best curves, as SVG.
     pub(super) drawing: String,
+    /// What of a file was taken.
+    pub(super) read: Option<String>,
 }
 
 #[pymethods]
@@ -50,6 +52,13 @@ impl Found {
     #[getter]
     fn kind(&self) -> &'static str {
         self.target.kind().name()
+    }
+
+    /// What was taken of a file, which columns, or which outline of how many, in what unit, and why the path is closed or open; None of an
+    /// array or a curve.
+    #[getter]
+    fn read(&self) -> Option<&str> {
+        self.read.as_deref()
     }
 
     /// Where no linkage meets the constraints, the nearest one without those in `relax`; otherwise None.

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use coupler_atlas::find::{
-    self, AtlasQuery, MAX_CURVES, MAX_SAMPLES, draw_four_bars, find_in_atlas, find_linkage, load_index,
+    self, AtlasQuery, MAX_CURVES, MAX_SAMPLES, ReadOptions, draw_four_bars, find_in_atlas, find_linkage, load_index,
 };
 use coupler_atlas::manifest;
 use coupler_atlas::record::{check_families, manifest_of};
@@ -39,6 +39,24 @@ fn wrong<T>(message: String) -> PyResult<T> {
     Err(PyValueError::new_err(message))
 }
 
+/// What `outline` names.
+#[derive(FromPyObject)]
+pub enum OutlineName {
+    /// A number, from 1.
+    Number(i64),
+    /// An id.
+    Id(String),
+}
+
+impl OutlineName {
+    fn into_text(self) -> String {
+        match self {
+            OutlineName::Number(number) => number.to_string(),
+            OutlineName::Id(id) => id,
+        }
+    }
+}
+
 /// A linkage whose dimensions are searched.
 struct Sought {
     space: LinkageSpace,
@@ -51,7 +69,9 @@ struct Sought {
 /// Parameters
 /// ----------
 /// path : array, Curve or path
-///     The points of the path, an array of shape (n, 2) in any unit; a curve; or a file with a table of points, JSON or a drawing in SVG.
+///     The points of the path, an array of shape (n, 2) in any unit; a curve; or a file with a table of points, JSON or a drawing in SVG or DXF.
+/// outline : str or int, optional
+///     The path to take of a file that has several: its id or, from 1, its number.
 /// closed : bool, optional
 ///     Whether the path is closed; by default it is if the gap between its ends is at most 1.5 times the median distance of its points.
 /// part : bool
@@ -106,13 +126,14 @@ struct Sought {
 ///     The manifest of `atlas` or `linkage` has errors.
 #[pyfunction]
 #[pyo3(name = "find", signature = (
-    path, *, closed=None, part=false, angles=None, timed=false, r#where=None, full_turn=true, max_link=10.0, pivots=None, top=10, index=None,
+    path, *, outline=None, closed=None, part=false, angles=None, timed=false, r#where=None, full_turn=true, max_link=10.0, pivots=None, top=10, index=None,
     refine=true, effort="normal", atlas=None, fixed=false, linkage=None, manifest=None, keep=None, seed=1, progress=None
 ))]
 #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
 pub fn find_linkages(
     py: Python,
     path: Bound<PyAny>,
+    outline: Option<OutlineName>,
     closed: Option<bool>,
     part: bool,
     angles: Option<PyArrayLike1<f64, AllowTypeChange>>,
@@ -186,18 +207,21 @@ pub fn find_linkages(
     let condition = own_condition.map(|text| condition(text, sought.as_ref())).transpose()?;
     let options = Options { full_turn, max_link, pivots, condition, effort, refine, seed: seed as u64, most: top };
 
-    let mut path = Path::read(py, &path, timed)?;
+    let outline = outline.map(OutlineName::into_text);
+    let mut path = Path::read(py, &path, &ReadOptions { is_timed: timed, outline: outline.as_deref() })?;
     let kind = path.kind(closed, part)?;
     let target = match path.angles(kind, angles, timed)? {
         Some(angles) => Target::timed(&path.outline.points, kind, &angles),
         None => Target::new(&path.outline.points, kind),
     };
     let target = target.map_err(|error| PyValueError::new_err(error.to_string()))?;
-    match (atlas, sought) {
+    let read = Some(path.outline.reading.taken).filter(|taken| !taken.is_empty());
+    let found = match (atlas, sought) {
         (Some(atlas), _) => search_atlas(py, atlas, (path.name, target), (options, r#where, fixed), progress.as_ref()),
         (None, Some(sought)) => search_linkage(py, sought, (path.name, target), options, index, progress.as_ref()),
         (None, None) => search_four_bars(py, (path.name, target), options, index, progress.as_ref()),
-    }
+    };
+    found.map(|found| Found { read, ..found })
 }
 
 /// The condition of `where`, on a four-bar or another linkage.
@@ -292,6 +316,7 @@ fn search_four_bars(
         target,
         manifest,
         drawing,
+        read: None,
     })
 }
 
@@ -320,6 +345,7 @@ fn search_atlas(
         target,
         manifest,
         drawing,
+        read: None,
     })
 }
 
@@ -358,5 +384,6 @@ fn search_linkage(
         target,
         manifest,
         drawing,
+        read: None,
     })
 }

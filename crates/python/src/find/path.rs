@@ -1,5 +1,6 @@
 //! The path of a search.
 
+use std::ffi::CString;
 use std::path::PathBuf;
 
 use coupler_atlas::find::{MAX_POINTS, Outline, ReadOptions, parse_outline};
@@ -7,7 +8,7 @@ use coupler_curves::find::PathKind;
 use coupler_curves::geometry::Point;
 use numpy::ndarray::ArrayView2;
 use numpy::{AllowTypeChange, PyArrayLike1, PyArrayLike2};
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::exceptions::{PyTypeError, PyUserWarning, PyValueError};
 use pyo3::prelude::*;
 
 use crate::file::read_bytes;
@@ -24,7 +25,11 @@ impl Path {
     ///
     /// # Errors
     /// It is none of these, or a file that cannot be read.
-    pub(super) fn read(py: Python, path: &Bound<PyAny>, is_timed: bool) -> PyResult<Path> {
+    pub(super) fn read(py: Python, path: &Bound<PyAny>, options: &ReadOptions) -> PyResult<Path> {
+        if let Some(outline) = options.outline.filter(|_| path.extract::<PathBuf>().is_err()) {
+            let message = format!("outline={outline:?} chooses from the paths in a file: give the path of a file");
+            return Err(PyValueError::new_err(message));
+        }
         if let Ok(curve) = path.cast::<Curve>() {
             let (points, inputs, is_closed) = curve.get().path()?;
             let outline = Outline::new(points, Some(inputs), Some(is_closed));
@@ -33,7 +38,7 @@ impl Path {
         // NumPy would leave out the imaginary parts.
         let is_complex = path.getattr("dtype").and_then(|dtype| dtype.getattr("kind")?.eq("c")).unwrap_or(false);
         if !is_complex && let Ok(array) = path.extract::<PyArrayLike2<f64, AllowTypeChange>>() {
-            return Ok(Path { name: "path".to_owned(), outline: outline_of(array.as_array(), is_timed)? });
+            return Ok(Path { name: "path".to_owned(), outline: outline_of(array.as_array(), options.is_timed)? });
         }
         let Ok(file) = path.extract::<PathBuf>() else {
             let kind = match path.getattr("shape") {
@@ -47,10 +52,18 @@ impl Path {
         };
         let shown = file.display().to_string();
         let bytes = read_bytes(py, &file)?;
-        let outline = parse_outline(&bytes, &ReadOptions { is_timed, outline: None }).map_err(|problems| {
-            let problems: Vec<String> = problems.iter().map(|problem| format!("{shown}: {problem}")).collect();
+        let outline = parse_outline(&bytes, options).map_err(|problems| {
+            // The command and the argument are called differently.
+            let own = |problem: &String| problem.replace("--outline ", "outline=");
+            let problems: Vec<String> = problems.iter().map(|problem| format!("{shown}: {}", own(problem))).collect();
             PyValueError::new_err(problems.join("\n"))
         })?;
+        if outline.reading.has_unused_angles {
+            let message =
+                format!("the angles in {shown} are not used: with timed=True each point is reached at its own");
+            let message = CString::new(message.replace('\0', " ")).unwrap_or_default();
+            PyErr::warn(py, &py.get_type::<PyUserWarning>(), &message, 1)?;
+        }
         let name = file.file_name().map_or(shown, |name| name.to_string_lossy().into_owned());
         Ok(Path { name, outline })
     }
@@ -59,8 +72,8 @@ impl Path {
     ///
     /// # Errors
     /// They contradict each other, or it has too many points.
-    pub(super) fn kind(&self, closed: Option<bool>, part: bool) -> PyResult<PathKind> {
-        let outline = &self.outline;
+    pub(super) fn kind(&mut self, closed: Option<bool>, part: bool) -> PyResult<PathKind> {
+        let outline = &mut self.outline;
         let count = outline.points.len();
         if count > MAX_POINTS {
             let message = format!("the path has {count} points, and at most {MAX_POINTS} can be searched for");
@@ -74,7 +87,7 @@ impl Path {
             _ if part => Ok(PathKind::Part),
             Some(true) => Ok(PathKind::Closed),
             Some(false) => Ok(PathKind::Open),
-            None if outline.is_closed() => Ok(PathKind::Closed),
+            None if outline.decide_closed() => Ok(PathKind::Closed),
             None => Ok(PathKind::Open),
         }
     }

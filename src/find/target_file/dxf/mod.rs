@@ -63,7 +63,10 @@ pub(super) fn parse_dxf(text: &str, wanted: Option<&str>) -> Result<Outline, Str
     not_read.dedup();
     let without = match &not_read[..] {
         [] => String::new(),
-        kinds => format!("; not read: {}", kinds.join(", ")),
+        kinds => {
+            let remedy = if kinds.contains(&"INSERT") { ", which places a block: explode it" } else { "" };
+            format!("; not read: {}{remedy}", kinds.join(", "))
+        }
     };
     if pieces.is_empty() {
         return Err(format!(
@@ -71,7 +74,7 @@ pub(super) fn parse_dxf(text: &str, wanted: Option<&str>) -> Result<Outline, Str
         ));
     }
     let mut outline = outline_of(pieces, wanted).map_err(|error| format!("the drawing: {error}"))?;
-    outline.reading += &format!("; in {}{without}", unit(&groups));
+    outline.reading.taken += &format!("; in {}{without}", unit(&groups));
     Ok(outline)
 }
 
@@ -261,7 +264,7 @@ mod tests {
                     0\nARC\n8\na\n10\n4\n20\n0\n40\n1\n50\n-90\n51\n90\n0\nARC\n8\na\n10\n0\n20\n0\n40\n1\n50\n90\n51\n270\n";
         let outline = read(slot);
         assert_eq!((outline.is_closed, outline.points.len()), (Some(true), 100));
-        assert!(outline.reading.starts_with("outline 1 of 1 `a`"), "{}", outline.reading);
+        assert!(outline.reading.taken.starts_with("outline 1 of 1 `a`"), "{:?}", outline.reading);
         let distance = |p: &Point| trig::hypot(p.x - p.x.clamp(0.0, 4.0), p.y);
         assert!(outline.points.iter().all(|p| (distance(p) - 1.0).abs() < 1e-4));
     }

@@ -44,9 +44,9 @@ pub(super) fn parse_svg(text: &str, wanted: Option<&str>) -> Result<Outline, Str
     }
     let is_plate = pieces.iter().any(|piece| piece.kind == Kind::Curve);
     let mut outline = outline_of(pieces, wanted).map_err(|error| format!("the drawing: {error}"))?;
-    outline.reading += "; ";
-    outline.reading +=
-        if is_plate && outline.reading.contains("of this program") { "in the unit of its linkage" } else { &unit };
+    let taken = &mut outline.reading.taken;
+    *taken += "; ";
+    *taken += if is_plate && taken.contains("of this program") { "in the unit of its linkage" } else { &unit };
     Ok(outline)
 }
 
@@ -54,7 +54,10 @@ pub(super) fn parse_svg(text: &str, wanted: Option<&str>) -> Result<Outline, Str
 fn root_viewport(root: &Element) -> Result<(Affine, Viewport, String), String> {
     // What a browser takes where nothing is said.
     let unknown = Viewport { width: 300.0, height: 150.0, font_size: 16.0 };
-    let is_absolute = |name: &str| root.attribute(name).is_some_and(|text| !text.contains('%'));
+    // Of the window that shows it nothing is known.
+    let is_of_window =
+        |text: &str| ["%", "vw", "vh", "vmin", "vmax"].iter().any(|unit| text.trim_end().ends_with(unit));
+    let is_absolute = |name: &str| root.attribute(name).is_some_and(|text| !is_of_window(text));
     let [width, height] = [("width", Side::Width), ("height", Side::Height)]
         .map(|(name, side)| if is_absolute(name) { length(root, name, unknown, side) } else { Ok(None) });
     let (width, height) = (width?.filter(|width| *width > 0.0), height?.filter(|height| *height > 0.0));
@@ -151,9 +154,15 @@ impl Walk<'_> {
             "use" => self.link(index, &context),
             "svg" => self.viewport(index, index, &context),
             "switch" => {
-                let has_conditions =
-                    |child: &&usize| self.tree.elements[**child].attribute("requiredExtensions").is_none();
-                let first = element.children.iter().find(has_conditions).copied();
+                // A reader without extensions, of English.
+                let is_for_all = |child: &&usize| {
+                    let child = &self.tree.elements[**child];
+                    let is_english =
+                        |text: &str| text.split(',').any(|language| language.trim_start().starts_with("en"));
+                    child.attribute("requiredExtensions").is_none()
+                        && child.attribute("systemLanguage").is_none_or(is_english)
+                };
+                let first = element.children.iter().find(is_for_all).copied();
                 first.map_or(Ok(()), |child| self.element(child, &context))
             }
             _ if is_shape => self.shape(index, &context),

@@ -1,6 +1,9 @@
 //! What of a drawing in SVG is shown, and how.
 
+use std::str::FromStr;
+
 use simplecss::{AttributeOperator, Declaration, DeclarationTokenizer, PseudoClass, StyleSheet};
+use svgtypes::Color;
 
 use super::tree::Tree;
 
@@ -77,8 +80,9 @@ impl Style {
     }
 }
 
+/// Whether a value of `fill` or `stroke` is seen.
 fn is_paint(value: &str) -> bool {
-    !matches!(value, "none" | "transparent" | "")
+    !matches!(value, "none" | "") && !Color::from_str(value).is_ok_and(|color| color.alpha == 0)
 }
 
 fn is_zero(value: &str) -> bool {

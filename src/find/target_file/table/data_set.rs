@@ -2,7 +2,7 @@
 
 use coupler_curves::geometry::Point;
 
-use super::super::super::outline::{Outline, ReadOptions, limited};
+use super::super::super::outline::{Outline, ReadOptions, Reading, limited};
 use super::block::{Block, Row};
 use super::columns::{Columns, Header};
 use super::dialect::Dialect;
@@ -84,7 +84,8 @@ impl DataSet<'_, '_> {
             return Err(limited(problems, "lines"));
         }
         outline.angles_deg = (!angles_deg.is_empty()).then_some(angles_deg);
-        outline.reading = self.reading(dialect, columns, options.is_timed, unit.as_deref(), left_out);
+        let taken = self.taken(dialect, columns, options.is_timed, unit.as_deref(), left_out);
+        outline.reading = Reading { taken, has_unused_angles: !options.is_timed && self.has_angles(columns) };
         Ok(outline)
     }
 
@@ -101,7 +102,7 @@ impl DataSet<'_, '_> {
         let Some(header) = self.header else {
             let has_third = self.rows.first().is_some_and(|row| row.cells.len() == 3);
             if has_third {
-                self.check_third(dialect, is_timed)?;
+                self.check_three(dialect, is_timed)?;
             }
             return Ok(Columns { x, y, angle: has_third.then_some(2) });
         };
@@ -118,8 +119,14 @@ impl DataSet<'_, '_> {
         }
     }
 
-    /// Checks that the first of three columns without names is not time or an index.
-    fn check_third(&self, dialect: Dialect, is_timed: bool) -> Result<(), String> {
+    /// Whether there are columns of angles, which of them ever is that of the crank.
+    fn has_angles(&self, columns: Columns) -> bool {
+        columns.angle.is_some() || self.header.is_some_and(|header| !header.angles().is_empty())
+    }
+
+    /// Checks that the first of three columns without names is not time or an index, and that the third may be the angle, if it is asked for.
+    fn check_three(&self, dialect: Dialect, is_timed: bool) -> Result<(), String> {
+        const HALF_TURN: f64 = 180.0;
         let column = |k: usize| -> Option<Vec<f64>> {
             let value = |row: &&Row| row.cells.get(k).and_then(|cell| parse_number(cell, dialect.style));
             self.rows.iter().map(value).collect()
@@ -129,7 +136,12 @@ impl DataSet<'_, '_> {
             return Ok(());
         }
         let steps = |values: &[f64]| values.windows(2).map(|pair| pair[1] - pair[0]).collect::<Vec<f64>>();
-        let rises = steps(&first).iter().all(|step| *step > 0.0);
+        // Time, an index or an angle goes one way, whatever it counts, and an angle may begin again after a turn.
+        let goes_one_way = |values: &[f64], least_turn: f64| {
+            let steps: Vec<f64> = steps(values).into_iter().filter(|step| step.abs() < least_turn).collect();
+            let [rises, falls] = [1.0, -1.0].map(|sign| steps.iter().any(|step| sign * step > 0.0));
+            rises != falls
+        };
         let is_even = |values: &[f64]| {
             let steps = steps(values);
             let [least, greatest] = [
@@ -138,8 +150,9 @@ impl DataSet<'_, '_> {
             ];
             greatest - least <= 0.02 * greatest.abs().max(least.abs())
         };
-        if rises && (!is_timed || is_even(&first)) && !(is_timed && is_even(&third)) {
-            return Err("the table has three columns without names, the first of which rises as time, an index or x may: name them in a first line, as in t,x,y or x,y,angle".to_owned());
+        let may_be_angle = is_even(&third) || !is_even(&first) && goes_one_way(&third, HALF_TURN);
+        if goes_one_way(&first, f64::INFINITY) && !(is_timed && may_be_angle) {
+            return Err("the table has three columns without names, the first of which rises or falls throughout as time, an index or x may: name them in a first line, as in t,x,y or x,y,angle".to_owned());
         }
         Ok(())
     }
@@ -154,14 +167,7 @@ impl DataSet<'_, '_> {
     }
 
     /// What was taken, as a clause.
-    fn reading(
-        &self,
-        dialect: Dialect,
-        columns: Columns,
-        is_timed: bool,
-        unit: Option<&str>,
-        left_out: usize,
-    ) -> String {
+    fn taken(&self, dialect: Dialect, columns: Columns, is_timed: bool, unit: Option<&str>, left_out: usize) -> String {
         let name = |k: usize| match self.header {
             Some(header) => format!("{} `{}`", k + 1 + self.shift, header.names[k].text),
             None => (k + 1).to_string(),
@@ -239,6 +245,9 @@ impl<'t, 'a> RowReader<'_, 't, 'a> {
                 return problem(format!("`{text}` has no angle, as the others have"));
             }
             let hint = match self.dialect.divider {
+                Divider::Char(',') if count > most && self.set.header.is_none() => {
+                    ": write decimals with a point, or divide fields by semicolons; of more than three columns write their names in a first line"
+                }
                 Divider::Char(',') if count > most => ": write decimals with a point, or divide fields by semicolons",
                 _ => "",
             };

@@ -1,6 +1,7 @@
 //! What divides the cells of a table, and how its numbers are written.
 
 use super::line::{Divider, Line, cells};
+use super::name::ColumnName;
 use super::number::{NumberStyle, is_missing, parse_number};
 
 /// The form of a table.
@@ -25,7 +26,16 @@ pub(super) fn detect(lines: &[Line], declared: Option<char>) -> Dialect {
             dividers
         }
     };
-    let mut best = (Dialect { divider: dividers[0], style: NumberStyle::POINT }, [0, 0, 0]);
+    // Without numbers the names tell what divides them.
+    let names_coordinates = |divider: &&Divider| {
+        let names: Vec<ColumnName> = sample
+            .first()
+            .map_or(Vec::new(), |line| cells(line, **divider).iter().map(|cell| ColumnName::new(cell)).collect());
+        ['x', 'y'].iter().all(|letter| names.iter().any(|name| name.coordinate_rank(*letter).is_some()))
+            && names.len() > 1
+    };
+    let divider = *dividers.iter().find(names_coordinates).unwrap_or(&dividers[0]);
+    let mut best = (Dialect { divider, style: NumberStyle::POINT }, [0, 0, 0]);
     for divider in dividers {
         let rows: Vec<Vec<String>> = sample.iter().map(|line| cells(line, divider)).collect();
         for style in styles(&rows) {

@@ -66,7 +66,8 @@ pub(super) fn parse_table(text: &str, options: &ReadOptions) -> Result<Outline, 
     let mut outline = sets[index].outline(dialect, options)?;
     if sets.len() > 1 {
         let id = ids[index].map_or(String::new(), |id| format!(" `{id}`"));
-        outline.reading = format!("path {}{id} of {}; {}", index + 1, sets.len(), outline.reading);
+        let taken = &mut outline.reading.taken;
+        *taken = format!("path {}{id} of {}; {taken}", index + 1, sets.len());
     }
     Ok(outline)
 }
