@@ -3,6 +3,7 @@
 use super::complex::{Complex, dot, mean};
 use super::curve_fit_options::CurveFitOptions;
 use super::portion::{Stroke, Window, spaced_evenly};
+use super::spectrum::without_noise;
 use nalgebra::{Matrix2, Vector2};
 
 /// The points of the path and of a portion, at equal distances.
@@ -75,7 +76,7 @@ pub(super) fn portions(
 impl CloseStroke {
     /// The description of an open polyline.
     pub fn new(points: &[Complex]) -> CloseStroke {
-        let points: [Complex; POINTS] = spaced_evenly(points);
+        let points: [Complex; POINTS] = spaced_evenly(&without_noise(points));
         let centre = mean(&points);
         let size = points.iter().map(|z| (z - centre).norm_sqr()).sum::<f64>().sqrt();
         let forward = points.map(|z| (z - centre) / size.max(f64::MIN_POSITIVE));

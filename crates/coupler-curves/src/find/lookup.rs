@@ -46,6 +46,14 @@ impl Lookup {
             self.compare(index, fitting);
             return true;
         }
+        // Few points in a zigzag may have spans that no curve has.
+        if let Query::Portion(stroke, _) = &mut self.query
+            && self.best.is_empty()
+            && stroke.ignore_spans()
+        {
+            self.next = 0;
+            return true;
+        }
         self.place_next(index, fitting)
     }
 

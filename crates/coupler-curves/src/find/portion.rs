@@ -5,7 +5,7 @@
 //! the distances of its ends and of its middle are about as long in parts of its length as those of the path.
 
 use super::complex::{Complex, closed_length, length, mean, open_length};
-use super::spectrum::resampled;
+use super::spectrum::{resampled, without_noise};
 
 /// The points of a window.
 const POINTS: usize = 9;
@@ -31,6 +31,8 @@ pub(super) struct Stroke {
     directions: [[[f32; POINTS]; 2]; 2],
     /// The distances of the ends, of the start from the middle, and of the middle from the end, in parts of the length.
     spans: [[f32; 3]; 2],
+    /// What differences of spans are divided by before they are compared with a tolerance: 1, or infinite if spans do not count.
+    slack: f32,
     /// The centroid of the points at equal distances, and the root of the sum of their squares from it.
     centre: Complex,
     size: f64,
@@ -60,7 +62,7 @@ impl Window {
 impl Stroke {
     /// The description of an open polyline.
     pub fn new(points: &[Complex]) -> Stroke {
-        let points: [Complex; POINTS] = spaced_evenly(points);
+        let points: [Complex; POINTS] = spaced_evenly(&without_noise(points));
         let centre = mean(&points);
         let size = points.iter().map(|z| (z - centre).norm_sqr()).sum::<f64>().sqrt();
         let whole = open_length(&points);
@@ -73,9 +75,15 @@ impl Stroke {
         Stroke {
             directions: [coordinates(&|k| k), coordinates(&|k| INTERVALS - k)],
             spans: [[ends, first, second], [ends, second, first]],
+            slack: 1.0,
             centre,
             size,
         }
+    }
+
+    /// Compares windows whatever their spans are from now on; false if it has done so before.
+    pub fn ignore_spans(&mut self) -> bool {
+        std::mem::replace(&mut self.slack, f32::INFINITY).is_finite()
     }
 
     /// The window of a closed curve that is most like the stroke. The curve is given by points at equal distances, repeated once,
@@ -101,6 +109,7 @@ impl Stroke {
     ) {
         let count = xs.len() / 2;
         let least = (least * count as f64 / INTERVALS as f64) as usize;
+        let tolerance = tolerance * self.slack;
         for stride in least.max(1)..=count / INTERVALS {
             let whole = curve_length * (INTERVALS * stride) as f32 / count as f32;
             // Bounds of the squares of distances, in the unit of the curve.

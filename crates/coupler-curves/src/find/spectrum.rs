@@ -5,8 +5,10 @@
 //! c(k) by e^(i(α + kτ)); the opposite direction exchanges c(k) and c(-k); a reflection and the opposite direction together
 //! conjugate c(k). So one correlation compares two curves in all positions, sizes, directions, reflections and starts.
 
-use super::complex::{Complex, length, mean, unit};
+use std::borrow::Cow;
 use std::f64::consts::{PI, TAU};
+
+use super::complex::{Complex, length, mean, open_length, unit};
 
 /// The number of harmonics of either sign.
 pub(super) const HARMONICS: usize = 10;
@@ -28,33 +30,70 @@ pub(super) fn resampled(points: &[Complex], count: usize) -> Vec<Complex> {
     resampled_segments(points, points.len(), count)
 }
 
-/// The length of an open polyline without what it has in addition to the chord from its first point to its last and ten harmonics, which are 0 at
-/// both.
+/// An open polyline as the chord from its first point to its last and ten harmonics, which are 0 at both. Noise is spread over all
+/// harmonics, of which these have next to none.
+struct OpenHarmonics {
+    first: Complex,
+    chord: Complex,
+    harmonics: [Complex; HARMONICS],
+}
+
+impl OpenHarmonics {
+    /// Of points at equal steps of the parameter, which goes from 0 to 1.
+    fn of(points: &[Complex]) -> OpenHarmonics {
+        let intervals = points.len() - 1;
+        let part = |n: usize| n as f64 / intervals as f64;
+        let (first, chord) = (points[0], points[intervals] - points[0]);
+        let beside: Vec<Complex> =
+            points[..intervals].iter().enumerate().map(|(n, point)| point - first - chord * part(n)).collect();
+        let harmonic = |k: usize| {
+            let sum: Complex = beside.iter().enumerate().map(|(n, point)| point * half_turns(k, part(n)).im).sum();
+            sum * (2.0 / intervals as f64)
+        };
+        OpenHarmonics { first, chord, harmonics: std::array::from_fn(|k| harmonic(k + 1)) }
+    }
+
+    fn point(&self, at: f64) -> Complex {
+        let terms = (1..).zip(&self.harmonics).map(|(k, harmonic)| harmonic * half_turns(k, at).im);
+        self.first + self.chord * at + terms.sum::<Complex>()
+    }
+
+    fn velocity(&self, at: f64) -> Complex {
+        let terms = (1..).zip(&self.harmonics).map(|(k, harmonic)| harmonic * (PI * k as f64 * half_turns(k, at).re));
+        self.chord + terms.sum::<Complex>()
+    }
+}
+
+/// The direction after a part of a number of half turns.
+fn half_turns(count: usize, part: f64) -> Complex {
+    unit(PI * count as f64 * part)
+}
+
+/// The length of an open polyline without what it has in addition to its [`OpenHarmonics`].
 pub(super) fn smooth_open_length(points: &[Complex]) -> f64 {
-    let (first, chord) = (points[0], points[points.len() - 1] - points[0]);
-    let part = |n: usize| n as f64 / POINTS as f64;
-    let beside: Vec<Complex> = resampled_segments(points, points.len() - 1, POINTS)
-        .iter()
-        .enumerate()
-        .map(|(n, point)| point - first - chord * part(n))
-        .collect();
-    // In half turns.
-    let direction = |k: usize, n: usize| unit(PI * k as f64 * part(n));
-    let harmonic = |k: usize| {
-        let sum: Complex = beside.iter().enumerate().map(|(n, point)| point * direction(k, n).im).sum();
-        sum * (2.0 / POINTS as f64)
-    };
-    let harmonics: [Complex; HARMONICS] = std::array::from_fn(|k| harmonic(k + 1));
-    let velocity = |n: usize| -> Complex {
-        chord
-            + (1..)
-                .zip(&harmonics)
-                .map(|(k, harmonic)| harmonic * (PI * k as f64 * direction(k, n).re))
-                .sum::<Complex>()
-    };
+    let last = points.len() - 1;
+    let mut even = resampled_segments(points, last, POINTS);
+    even.push(points[last]);
+    let harmonics = OpenHarmonics::of(&even);
+    let speed = |n: usize| length(harmonics.velocity(n as f64 / POINTS as f64));
     // The trapezoidal rule.
-    let ends = 0.5 * (length(velocity(0)) + length(velocity(POINTS)));
-    (ends + (1..POINTS).map(|n| length(velocity(n))).sum::<f64>()) / POINTS as f64
+    let ends = 0.5 * (speed(0) + speed(POINTS));
+    (ends + (1..POINTS).map(speed).sum::<f64>()) / POINTS as f64
+}
+
+/// An open polyline without its noise: its [`OpenHarmonics`], or itself if it has next to no noise. The length of a noisy polyline says how
+/// many points there are up to a place, and not how far along the path that is.
+pub(super) fn without_noise(points: &[Complex]) -> Cow<'_, [Complex]> {
+    /// A polyline that is longer than its harmonics by more is mostly noise.
+    const NOISY: f64 = 1.15;
+    /// Through fewer points noise cannot be told from the path.
+    const FEW: usize = 4 * HARMONICS;
+    if points.len() < FEW || open_length(points) <= NOISY * smooth_open_length(points) {
+        return points.into();
+    }
+    let harmonics = OpenHarmonics::of(points);
+    let last = points.len() - 1;
+    (0..=last).map(|n| harmonics.point(n as f64 / last as f64)).collect()
 }
 
 /// Points at equal distances along the first segments of a closed polyline.

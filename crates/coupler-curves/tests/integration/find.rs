@@ -5,7 +5,8 @@ use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
 use coupler_curves::find::{
-    Answer, Constraint, Index, MAX_LENGTH_RATIO, Options, PathKind, Search, Target, TargetError, nearest_miss_by,
+    Answer, Constraint, Effort, Index, MAX_LENGTH_RATIO, Options, PathKind, Search, Target, TargetError,
+    nearest_miss_by,
 };
 use coupler_curves::geometry::{Bounds, Point, Vector, distance_to_segment, trig};
 use coupler_curves::linkage::{FourBar, PlacedFourBar, Side};
@@ -285,6 +286,59 @@ fn noise_is_no_detour_and_a_detour_is_no_noise() {
         }
     }
     assert!(detours > 40, "{detours}");
+}
+
+/// The length of a noisy polyline is that of its noise, which says nothing of how far along the path a point is: here the crank turns
+/// evenly, and the point does not. Every such path has answers, the best as near as the linkage that made it.
+#[test]
+#[ignore = "thorough"]
+fn noisy_strokes_have_answers() {
+    const COUNT: usize = 360;
+    let mut random = Random(11);
+    for kind in [PathKind::Open, PathKind::Part] {
+        for turn in [108.0, 216.0] {
+            let mut near = 0;
+            for _ in 0..6 {
+                let (placed, side) = random_four_bar(&mut random);
+                let start = random.between(0.0, 360.0);
+                let at = |k: usize| trig::radians(start + turn * k as f64 / (COUNT - 1) as f64);
+                let clean: Vec<Point> = (0..COUNT).map(|k| coupler_point(&placed, side, at(k)).unwrap()).collect();
+                let size = Target::new(&clean, kind).unwrap().size();
+                let mut shift = || 0.02 * size * random.normal();
+                let points: Vec<Point> = clean.iter().map(|p| p + Vector::new(shift(), shift())).collect();
+                let target = Target::new(&points, kind).unwrap();
+                let options = Options { max_link: f64::INFINITY, ..Options::default() };
+                let answers = Search::new(&target, options).run(&INDEX);
+                let best = answers.first().unwrap_or_else(|| panic!("{placed:?} from {start} by {turn}, {kind:?}"));
+                // Across the path the noise is 0.02.
+                near += usize::from(best.rms_relative <= 0.025);
+            }
+            assert!(near >= 5, "{near} of 6 by {turn}, {kind:?}");
+        }
+    }
+}
+
+/// Points in a zigzag, whose halves are longer than half of what a curve through them is, have an answer, if a poor one.
+#[test]
+fn any_open_path_has_an_answer() {
+    let index = Index::with_count(2000);
+    for turns in [0.5, 7.0, 40.0] {
+        // A straight half, and one to and fro.
+        let point = |k: usize| match k {
+            0..20 => Point::new(k as f64, 0.1 * (k % 2) as f64),
+            _ => Point::new(20.0 + 0.1 * trig::sin(turns * k as f64), 0.1 * trig::cos(turns * k as f64)),
+        };
+        let points: Vec<Point> = (0..40).map(point).collect();
+        for kind in [PathKind::Open, PathKind::Part] {
+            let target = Target::new(&points, kind).unwrap();
+            let options = Options { max_link: f64::INFINITY, full_turn: false, ..Options::default() };
+            let search = |target: &Target, options: &Options| {
+                Search::new(target, Options { effort: Effort::Quick, ..options.clone() }).run(&index).into_iter().next()
+            };
+            let miss = || nearest_miss_by(&target, &options, search, |answer| answer.rms);
+            assert!(search(&target, &options).is_some() || miss().is_some(), "{turns} {kind:?}");
+        }
+    }
 }
 
 /// Where there is no answer, the nearest miss says what to relax: what suffices alone, at last that curves have no long detours, or else all.
