@@ -39,6 +39,10 @@ impl Header {
         for rank in 0..3 {
             let [xs, ys] = ['x', 'y'].map(|letter| self.with_letter(letter, rank));
             if xs.len() == ys.len() && !xs.is_empty() {
+                // What may be velocities is a path among others, of which one is chosen.
+                if xs.iter().all(|x| self.names[*x].may_be_derived()) {
+                    return Vec::new();
+                }
                 return xs.into_iter().zip(ys).map(|(x, y)| [x, y]).collect();
             }
             if let ([x], [_, ..]) = (&xs[..], &ys[..]) {
@@ -106,6 +110,10 @@ mod tests {
             ("Time (ms),Trajectory 1 X,Trajectory 1 Y", vec![[1, 2]]),
             ("X,Y,X,Y", vec![[0, 1], [2, 3]]),
             ("x1,y1,x2,y2", vec![[0, 1], [2, 3]]),
+            ("A_x,A_y,B_x,B_y", vec![[0, 1], [2, 3]]),
+            ("pos_x,pos_y,v_x,v_y", vec![[0, 1], [2, 3]]),
+            ("x,y,a_x,a_y", vec![[0, 1]]),
+            ("v_x,v_y", vec![]),
             ("x,y1,y2", vec![]),
             ("x,Curve1", vec![[0, 1]]),
             ("x,Curve1,Curve2", vec![[0, 1], [0, 2]]),

@@ -18,10 +18,7 @@ const UNITS: [&str; 20] = [
 ];
 
 /// First words of columns that are no coordinates, as in `v_x`.
-const DERIVED: [&str; 16] = [
-    "v",
-    "a",
-    "d",
+const DERIVED: [&str; 13] = [
     "vel",
     "velocity",
     "speed",
@@ -36,6 +33,9 @@ const DERIVED: [&str; 16] = [
     "force",
     "momentum",
 ];
+
+/// Letters that are first words of columns that are no coordinates, or are joints, as in `a_x`.
+const DERIVED_OR_JOINTS: [&str; 3] = ["v", "a", "d"];
 
 /// First words of the names of the angle of a crank.
 const CRANKS: [&str; 4] = ["input", "crank", "kurbel", "kurbelwinkel"];
@@ -81,6 +81,11 @@ impl ColumnName {
             [first, .., last] if is_letter(last) && !DERIVED.contains(&&**first) => Some(2),
             _ => None,
         }
+    }
+
+    /// Whether it may be that of a velocity or an acceleration as well as that of a coordinate of a joint.
+    pub fn may_be_derived(&self) -> bool {
+        self.words.len() > 1 && DERIVED_OR_JOINTS.contains(&&*self.words[0])
     }
 
     /// How surely it is the name of the angle of the crank: 0 for `angle`, 1 for one of a crank or input, or with the word angle, 2 for a letter
@@ -145,8 +150,9 @@ mod tests {
             ("Trajectory 1/0 X", None, [Some(2), None]),
             ("pos_y", None, [None, Some(2)]),
             ("xpos", None, [Some(1), None]),
-            ("v_x", None, [None, None]),
-            ("v_{x}", None, [None, None]),
+            ("v_x", None, [Some(2), None]),
+            ("v_{x}", None, [Some(2), None]),
+            ("vel_x", None, [None, None]),
             ("max", None, [None, None]),
             ("sax", None, [None, None]),
         ] {
