@@ -55,6 +55,11 @@ impl AssemblyMode {
         if dyads < MAX_DYADS { AssemblyMode(self.0 & !(u64::MAX << dyads)) } else { self }
     }
 
+    /// Whether all dyads but those in a set are on the same sides in another mode.
+    pub fn is_same_apart_from(self, dyads: DyadSet, other: AssemblyMode) -> bool {
+        (self.0 ^ other.0) & !dyads.0 == 0
+    }
+
     /// This mode with some dyads on their other sides.
     #[must_use]
     pub fn flipped(self, dyads: DyadSet) -> AssemblyMode {
@@ -95,6 +100,12 @@ impl DyadSet {
     #[must_use]
     pub fn last(self) -> DyadSet {
         DyadSet(self.0.checked_ilog2().map_or(0, |bit| 1 << bit))
+    }
+
+    /// The dyads that are not in the other set.
+    #[must_use]
+    pub fn without(self, other: DyadSet) -> DyadSet {
+        DyadSet(self.0 & !other.0)
     }
 
     /// The dyads in either set.

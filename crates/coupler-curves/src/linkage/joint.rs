@@ -138,6 +138,22 @@ pub enum LineDirection {
 }
 
 impl JointKind {
+    /// The two joints whose direction, that of a base or a line, the joint is placed in; `None` if it needs none or, as
+    /// joints of one link, they always have one.
+    pub(crate) fn base(&self) -> Option<[JointId; 2]> {
+        match *self {
+            JointKind::Dyad { base, .. } | JointKind::Slot { base, .. } | JointKind::Piston { base, .. } => Some(base),
+            JointKind::Slide { line, .. } | JointKind::Yoke { line, .. } | JointKind::Aligned { line, .. } => {
+                Some(line)
+            }
+            JointKind::Fixed(_)
+            | JointKind::Crank { .. }
+            | JointKind::Gear { .. }
+            | JointKind::Parallelogram { .. }
+            | JointKind::Rigid { .. } => None,
+        }
+    }
+
     /// The joint's dyad; `None` for a joint with only one position for each input.
     pub fn dyad(&self) -> Option<DyadId> {
         match *self {

@@ -3,7 +3,6 @@
 use super::curve::{Place, StopKind};
 use super::{Measure, TracedCurve, Value};
 use crate::geometry::{Chebyshev, curvature};
-use crate::linkage::DyadSet;
 use crate::motion::{InputMap, InputPosition, JointDerivatives};
 
 /// The measure `crunodes`.
@@ -105,7 +104,7 @@ fn curvature_at(curve: &TracedCurve, place: Place) -> f64 {
     let pass = &curve.circuit.passes[piece.pass_at(place.u)];
     let (linkage, joint) = curve.single_point_linkage();
     let input = InputPosition::new(linkage.input(), piece.map.input(place.u));
-    let derivatives = JointDerivatives::new(linkage, input, pass.mode, DyadSet::EMPTY);
+    let derivatives = JointDerivatives::new(linkage, input, pass.mode);
     curvature(derivatives.velocity(joint), derivatives.acceleration(joint))
 }
 

@@ -4,6 +4,7 @@ use super::circuit_function::{Pose, Quantity};
 use super::{Measure, Subject, TracedCurve, Value};
 use crate::geometry::{Point, Vector, cross, trig};
 use crate::linkage::{DyadId, FourBar, JointId, JointKind, Linkage, length_tolerance};
+use crate::motion::PassEnd;
 
 /// The measure `mu_min_deg`.
 pub const MU_MIN: Measure = Measure::number(
@@ -104,7 +105,11 @@ fn worst_angle(curve: &TracedCurve) -> Option<f64> {
 fn worst_angle_of_joint(curve: &TracedCurve, id: JointId, kind: JointKind) -> Option<f64> {
     let is_flat = |dyad: DyadId| {
         let ends = curve.circuit.passes.iter().flat_map(|pass| [pass.from, pass.to]);
-        ends.into_iter().any(|end| end.flat_dyads.contains(dyad))
+        // A slider on a line whose joints coincide is flat for its direction only.
+        let is_slider = matches!(kind, JointKind::Slide { .. });
+        let is_flat =
+            |end: PassEnd| end.flat_dyads.contains(dyad) && !(is_slider && end.vanishing_dyads.contains(dyad));
+        ends.into_iter().any(is_flat)
     };
     match kind {
         JointKind::Slot { offset: 0.0, .. } => Some(90.0),

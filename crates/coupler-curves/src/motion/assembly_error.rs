@@ -90,6 +90,25 @@ pub enum AssemblyError {
         /// The joints its links are on.
         base: [String; 2],
     },
+    /// At one input two joints coincide, and a joint that is placed from them would be elsewhere before and after.
+    #[error("the motion ends at an input of {input}: {} and {} coincide there, and {joint} would jump", base[0], base[1])]
+    Jump {
+        /// The joint.
+        joint: String,
+        /// The joints that coincide.
+        base: [String; 2],
+        /// The input, in degrees or as a length.
+        input: f64,
+    },
+    /// At one input the position of a joint is undefined: joints from which it is placed coincide there, and come apart in no
+    /// direction.
+    #[error("{joint} has no position at an input of {input}, where joints that it is placed from coincide")]
+    NoLimit {
+        /// The joint.
+        joint: String,
+        /// The input, in degrees or as a length.
+        input: f64,
+    },
     /// The line of a slide stays out of reach of its link.
     #[error(
         "{joint} cannot be placed: its line stays {} or more from {base}, and the link of {} is too short",

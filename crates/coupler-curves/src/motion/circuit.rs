@@ -4,10 +4,11 @@ use std::collections::HashSet;
 use std::ops::Range;
 
 use super::AssemblyError;
+use super::end_series::continuous_mode;
 use super::interval::{Interval, Span};
 use super::interval_search::IntervalSearch;
 use super::pass::{InputPosition, Pass, PassEnd};
-use crate::linkage::{CircuitSelection, DyadId, DyadSet, Input, Linkage};
+use crate::linkage::{CircuitSelection, DyadId, Input, Linkage};
 
 /// A circuit that is not yet sampled; see [`super::Sampler::sample_circuit`].
 #[derive(Clone, Debug)]
@@ -60,6 +61,7 @@ pub fn find_circuits(linkage: &Linkage) -> CircuitSet {
         assembly_error =
             circuits.iter().find_map(|circuit: &UnsampledCircuit| circuit.missing_range(range, linkage.input()));
     }
+    let assembly_error = assembly_error.or_else(|| search.motion_end().cloned());
     circuits.sort_by(|a, b| {
         let key = |circuit: &UnsampledCircuit| {
             (circuit.passes[0].mode.sign(DyadId::FIRST) < 0, circuit.passes[0].from.input.value)
@@ -191,6 +193,13 @@ fn next_interval(
     let from = search.intervals()[interval];
     let Some(end) = from.end(rising) else { return Ok(None) };
     let Some((mode, rises)) = end.next_mode(from.mode, rising, &search.linkage.motion_options) else { return Ok(None) };
+    let mode = match continuous_mode(search.linkage, &end.to_pass_end(), (from.mode, rising), (mode, rises)) {
+        Ok(mode) => mode,
+        Err(error) => {
+            search.end_motion(error);
+            return Ok(None);
+        }
+    };
     let mut of_mode = search.intervals_of(mode)?;
     // The next interval begins at this end: falling from the same upper end, or rising from the same lower one.
     let begins = |&k: &usize| search.intervals()[k].end(!rises).is_some_and(|e| e.id == end.id);
@@ -259,7 +268,7 @@ fn cut_at_zero(passes: Vec<Pass>, period: f64) -> Vec<Pass> {
         let [low, high] = pass.input_range();
         let zero = (high / period).ceil() * period - period;
         if zero > low {
-            let end = PassEnd { input: InputPosition::from_degrees(zero), flat_dyads: DyadSet::EMPTY };
+            let end = PassEnd::regular(InputPosition::from_degrees(zero));
             cut.push(Pass { to: end, ..pass });
             cut.push(Pass { from: end, ..pass });
         } else {

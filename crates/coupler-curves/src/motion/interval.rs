@@ -4,6 +4,9 @@
 use super::pass::{InputPosition, Pass, PassEnd};
 use crate::linkage::{AssemblyMode, CoincidentDyads, Continuation, DyadId, DyadSet, MotionOptions};
 
+/// Ends closer than this, in degrees or relative to a length, are at one input: the rounding of an angle near 360.
+pub(super) const COINCIDENCE_TOLERANCE: f64 = 1e-12;
+
 /// Why an interval ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum EndCause {
@@ -24,7 +27,7 @@ pub(super) struct IntervalEnd {
     pub flat_dyads: DyadSet,
     /// The flat dyads that change their sides when the motion continues smoothly.
     pub flipping_dyads: DyadSet,
-    /// The flat dyads that must change their sides because their bases vanish.
+    /// The flat dyads whose bases vanish: continuity alone decides their sides.
     pub vanishing_dyads: DyadSet,
     /// The same for the ends of all intervals that meet here.
     pub id: usize,
@@ -83,21 +86,25 @@ impl IntervalEnd {
     }
 
     /// The assembly mode in which a motion continues that arrives here with a rising or falling input, and whether the
-    /// input then rises; `None` if the motion ends.
+    /// input then rises; `None` if the motion ends. The sides of dyads whose bases vanish are not yet decided.
     pub fn next_mode(&self, mode: AssemblyMode, rising: bool, options: &MotionOptions) -> Option<(AssemblyMode, bool)> {
         let flips = match options.coincident {
             CoincidentDyads::Together => self.flipping_dyads,
-            CoincidentDyads::First => self.flipping_dyads.first().union(self.vanishing_dyads),
-            CoincidentDyads::Last => self.flipping_dyads.last().union(self.vanishing_dyads),
+            CoincidentDyads::First => self.flipping_dyads.first(),
+            CoincidentDyads::Last => self.flipping_dyads.last(),
         };
         match self.cause {
             EndCause::RangeEnd => None,
             EndCause::Limit => Some((mode.flipped(flips), !rising)),
-            EndCause::ChangePoint if options.continuation == Continuation::Branch => {
-                Some((mode.flipped(self.vanishing_dyads), rising))
-            }
+            EndCause::ChangePoint if options.continuation == Continuation::Branch => Some((mode, rising)),
             EndCause::ChangePoint => Some((mode.flipped(flips), rising)),
         }
+    }
+
+    /// The end of the passes that lie next to it.
+    pub fn to_pass_end(self) -> PassEnd {
+        let IntervalEnd { input, flat_dyads, vanishing_dyads, .. } = self;
+        PassEnd { input, flat_dyads, vanishing_dyads }
     }
 
     /// The same end with an angle that many degrees greater, a whole number of turns.
@@ -145,13 +152,12 @@ impl Interval {
 
     /// The interval traversed with a rising or falling input; a full turn from 0 to its period.
     pub fn to_pass(self, rising: bool, period: f64) -> Pass {
-        let end = |end: IntervalEnd| PassEnd { input: end.input, flat_dyads: end.flat_dyads };
         let (from, to) = match self.span {
             Span::FullTurn => {
-                let period_end = |at| PassEnd { input: InputPosition::from_degrees(at), flat_dyads: DyadSet::EMPTY };
+                let period_end = |at| PassEnd::regular(InputPosition::from_degrees(at));
                 (period_end(0.0), period_end(period))
             }
-            Span::Range { lower, upper } => (end(lower), end(upper)),
+            Span::Range { lower, upper } => (lower.to_pass_end(), upper.to_pass_end()),
         };
         if rising { Pass { from, to, mode: self.mode } } else { Pass { from: to, to: from, mode: self.mode } }
     }

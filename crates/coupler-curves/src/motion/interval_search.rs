@@ -29,6 +29,8 @@ pub(super) struct IntervalSearch<'a> {
     next_id: usize,
     /// Why there are no intervals of the mode at the start, if one of its dyads closes at no input.
     assembly_error: Option<AssemblyError>,
+    /// Why the motion ends where the input could continue.
+    motion_end: Option<AssemblyError>,
 }
 
 impl<'a> IntervalSearch<'a> {
@@ -40,6 +42,7 @@ impl<'a> IntervalSearch<'a> {
             spans_by_mode: HashMap::new(),
             next_id: 2,
             assembly_error: None,
+            motion_end: None,
         }
     }
 
@@ -52,6 +55,16 @@ impl<'a> IntervalSearch<'a> {
     /// at no input.
     pub fn assembly_error(&self) -> Option<&AssemblyError> {
         self.assembly_error.as_ref()
+    }
+
+    /// Why the motion ends where the input could continue, the first time that it does.
+    pub fn motion_end(&self) -> Option<&AssemblyError> {
+        self.motion_end.as_ref()
+    }
+
+    /// Notes why the motion ends where the input could continue.
+    pub fn end_motion(&mut self, error: AssemblyError) {
+        self.motion_end.get_or_insert(error);
     }
 
     /// The indices of the intervals of an assembly mode; none if it cannot be assembled.

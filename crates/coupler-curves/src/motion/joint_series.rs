@@ -15,8 +15,7 @@ pub(super) struct SeriesInput<T> {
 /// Places the first `joints` joints as series in the input, each from those before it, in the frame of the fixed
 /// joints.
 ///
-/// The series are in radians of an angle, or in units of a length. `sign` is the factor of a dyad's height; if it is 0,
-/// the height and its derivatives are left out. `adjust` is called with each joint's series and those of the joints
+/// The series are in radians of an angle, or in units of a length. `sign` is the factor of a dyad's height. `adjust` is called with each joint's series and those of the joints
 /// before it, and returns the series that later joints are placed from.
 ///
 /// # Source
@@ -54,7 +53,7 @@ pub(super) fn place_as_series<T: Scalar, const N: usize>(
                 let unit = at[q].minus(at[p]).unit();
                 let h = constant(offset) - unit.cross(at[from].minus(at[p]));
                 let along = (constant(length) - h) * (constant(length) + h);
-                let along = if sign(dyad) == 0.0 { zero } else { along.sqrt().scaled(sign(dyad)) };
+                let along = along.sqrt().scaled(sign(dyad));
                 at[from].moved(unit, along, h)
             }
             JointKind::Slot { base: [p, _], offset: 0.0, .. } => at[p],
@@ -63,7 +62,7 @@ pub(super) fn place_as_series<T: Scalar, const N: usize>(
                 let d2 = base.norm_squared();
                 let along = constant(offset * offset) / d2;
                 let across = d2 - constant(offset * offset);
-                let across = if sign(dyad) == 0.0 { zero } else { across.sqrt().scaled(offset * sign(dyad)) / d2 };
+                let across = across.sqrt().scaled(offset * sign(dyad)) / d2;
                 at[p].moved(base, along, across)
             }
             JointKind::Rigid { base: [p, q], along, across } => {
@@ -109,6 +108,6 @@ fn dyad_position<T: Scalar, const N: usize>(
     let (sum, difference) = (l0 + l1, l0 - l1);
     let discriminant = (sum - d) * (sum + d) * ((d - difference) * (d + difference));
     let along = Series::constant(0.5) + (sum * difference).scaled(0.5) / d2;
-    let across = if sign == 0.0 { Series::constant(0.0) } else { discriminant.sqrt().scaled(0.5 * sign) / d2 };
+    let across = discriminant.sqrt().scaled(0.5 * sign) / d2;
     p.moved(base, along, across)
 }

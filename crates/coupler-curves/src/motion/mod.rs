@@ -7,8 +7,8 @@
 //! direction; at the end of the requested range; or, on a full turn, at input 0.
 //!
 //! Of several dyads that are flat at one input, all change their sides or only one, as the linkage's
-//! [`crate::linkage::CoincidentDyads`] says. The joint of a dyad whose base vanishes is placed by continuity; where
-//! that gives no direction, its position is undefined, and its coordinates are NaN.
+//! [`crate::linkage::CoincidentDyads`] says. The joint of a dyad whose base vanishes is placed in the limit along the
+//! motion, and is afterwards on the side on which it does not jump; where it would jump on either, the motion ends.
 //!
 //! Limits of dyads on crank and frame are computed in closed form. All others are searched for with enclosures of the
 //! dyad's extent and of its derivative, so that none is missed down to 1e-12 of a turn, or of an actuator's stroke; a
@@ -24,6 +24,7 @@ mod circuit;
 mod derivatives;
 mod dyad_limits;
 mod enclosure;
+mod end_series;
 mod instantaneous_motion;
 mod interval;
 mod interval_search;
@@ -52,7 +53,7 @@ pub use sampling::{Circuit, Sampler, Sampling};
 pub use spacing::eased_input;
 
 use crate::geometry::Point;
-use crate::linkage::Linkage;
+use crate::linkage::{Joint, JointId, JointKind, Linkage};
 
 /// The circuits of a linkage, sampled.
 #[derive(Clone, Debug)]
@@ -84,13 +85,31 @@ impl Motion {
         if is_beyond || circuits.iter().any(is_undefined) {
             return Motion { circuits: Vec::new(), assembly_error: Some(AssemblyError::BeyondDoublePrecision) };
         }
-        Motion { circuits, assembly_error: found.assembly_error }
+        let assembly_error = found.assembly_error.or_else(|| circuits.iter().find_map(|c| undefined_error(linkage, c)));
+        Motion { circuits, assembly_error }
     }
 
     /// Whether there is at least one circuit.
     pub fn is_assembled(&self) -> bool {
         !self.circuits.is_empty()
     }
+}
+
+/// Why a joint has no position at a sample, the first of these.
+fn undefined_error(linkage: &Linkage, circuit: &Circuit) -> Option<AssemblyError> {
+    let has_line = |joint: &Joint| {
+        matches!(joint.kind, JointKind::Slide { .. } | JointKind::Yoke { .. } | JointKind::Aligned { .. })
+    };
+    let has_vanishing_base = |pass: &Pass| !pass.from.vanishing_dyads.union(pass.to.vanishing_dyads).is_empty();
+    if !linkage.joints.iter().any(has_line) && !circuit.passes.iter().any(has_vanishing_base) {
+        return None;
+    }
+    let find = |joint: JointId| {
+        let is_undefined = |p: Point| !p.x.is_finite() || !p.y.is_finite();
+        circuit.points(joint).position(is_undefined).map(|sample| (joint, sample))
+    };
+    let (joint, sample) = linkage.joint_ids().find_map(find)?;
+    Some(AssemblyError::NoLimit { joint: linkage.joints[joint].name.clone(), input: circuit.inputs[sample] })
 }
 
 /// The positions of all joints at inputs of a pass, in the frame the linkage is seen from.

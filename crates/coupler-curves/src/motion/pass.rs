@@ -38,6 +38,8 @@ pub struct PassEnd {
     pub input: InputPosition,
     /// The dyads that are flat there, at a limit or a change point; none at the end of a range or a period.
     pub flat_dyads: DyadSet,
+    /// Those of them whose bases vanish there: their joints are placed by continuity along the pass.
+    pub vanishing_dyads: DyadSet,
 }
 
 /// A part of a circuit on which the input is monotonic and the assembly mode is constant.
@@ -51,7 +53,19 @@ pub struct Pass {
     pub mode: AssemblyMode,
 }
 
+impl PassEnd {
+    /// An end at which no dyad is flat.
+    pub fn regular(input: InputPosition) -> PassEnd {
+        PassEnd { input, flat_dyads: DyadSet::EMPTY, vanishing_dyads: DyadSet::EMPTY }
+    }
+}
+
 impl Pass {
+    /// Its ends: each with 1 where the pass lies at greater inputs, -1 where it lies at smaller ones.
+    pub(super) fn ends(&self) -> [(PassEnd, f64); 2] {
+        [(self.from, self.input_direction()), (self.to, -self.input_direction())]
+    }
+
     /// 1 where the input rises, -1 where it falls.
     pub fn input_direction(&self) -> f64 {
         if self.to.input.value >= self.from.input.value { 1.0 } else { -1.0 }

@@ -1,7 +1,7 @@
 //! Positions of all joints at given inputs of a pass.
 
 use super::pass::{InputPosition, Pass};
-use super::pass_ends::place_at_end;
+use super::pass_ends::{place_at_end, place_near_ends};
 use super::positions::{DyadSigns, InputColumns, JointPositions, convert_to_view_frame, place_leading_joints};
 use crate::linkage::{DyadSet, Linkage};
 
@@ -12,6 +12,7 @@ pub(super) fn positions_at_inputs(linkage: &Linkage, pass: &Pass, values: &[f64]
     let mut out = JointPositions::new(linkage.joints.len(), values.len());
     let signs = DyadSigns::new(pass.mode, DyadSet::EMPTY);
     place_leading_joints(linkage, linkage.joints.len(), inputs.as_slices(), &signs, &mut out, 0..values.len());
+    place_near_ends(linkage, pass, inputs.as_slices(), &mut out, 0..values.len());
     for (i, &value) in values.iter().enumerate() {
         for (end, begins) in [(pass.from, true), (pass.to, false)] {
             if value == end.input.value && !end.flat_dyads.is_empty() {

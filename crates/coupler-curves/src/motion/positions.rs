@@ -83,6 +83,14 @@ pub struct InputSlices<'a> {
     pub sin: &'a [f64],
 }
 
+impl InputSlices<'_> {
+    /// The value at one index.
+    pub(super) fn at(&self, i: usize) -> InputSlices<'_> {
+        let one = i..i + 1;
+        InputSlices { values: &self.values[one.clone()], cos: &self.cos[one.clone()], sin: &self.sin[one] }
+    }
+}
+
 /// Values of the input, in owned columns.
 #[derive(Clone, Debug, Default)]
 pub(super) struct InputColumns {

@@ -7,8 +7,8 @@ use super::AssemblyError;
 use super::circuit::UnsampledCircuit;
 use super::derivatives::JointDerivatives;
 use super::limits::MAX_SAMPLES;
-use super::pass::{InputPosition, Pass};
-use super::pass_ends::place_at_end;
+use super::pass::{InputPosition, Pass, PassEnd};
+use super::pass_ends::{place_at_end, place_near_ends};
 use super::pieces::CircuitPieces;
 use super::positions::{DyadSigns, InputColumns, JointPositions, convert_to_view_frame, place_leading_joints};
 use super::spacing::{self, CumulativeLength};
@@ -104,7 +104,10 @@ impl Circuit {
         let k = self.sample_passes[sample];
         let (pass, next) = (&self.passes[k], &self.passes[(k + 1) % self.passes.len()]);
         let is_end = self.inputs[sample] == pass.to.input.value || (sample == 0 && self.is_closed);
-        is_end && !pass.to.flat_dyads.is_empty() && !self.reverses_after(k) && pass.mode == next.mode
+        // Continuity decides the sides of dyads whose bases vanish, at a corner or not.
+        let PassEnd { flat_dyads: flat, vanishing_dyads: vanishing, .. } = pass.to;
+        let keep_sides = pass.mode.is_same_apart_from(vanishing, next.mode);
+        is_end && !flat.without(vanishing).is_empty() && !self.reverses_after(k) && keep_sides
     }
 
     /// The positions and derivatives of all joints at a sample.
@@ -176,7 +179,9 @@ impl Sampler {
         let all = linkage.joints.len();
         for (range, pass) in plan.pass_ranges.iter().zip(&circuit.passes) {
             let signs = DyadSigns::new(pass.mode, DyadSet::EMPTY);
-            place_leading_joints(linkage, all, inputs.slice(range.clone()), &signs, &mut positions, range.clone());
+            let inputs = inputs.slice(range.clone());
+            place_leading_joints(linkage, all, inputs, &signs, &mut positions, range.clone());
+            place_near_ends(linkage, pass, inputs, &mut positions, range.clone());
         }
         for &(sample, pass, is_first) in &plan.pass_ends {
             place_at_end(linkage, &circuit.passes[pass], is_first, &mut positions, sample);

@@ -131,19 +131,6 @@ impl<T: Scalar, const N: usize> Div for Series<T, N> {
     }
 }
 
-impl<const N: usize> Series<f64, N> {
-    /// The root of a square that touches zero at the origin of the series, positive beyond it; `None` if the square
-    /// crosses zero. Its last term is not known and is NaN.
-    pub fn sqrt_at_touch(self, magnitude: f64) -> Option<Self> {
-        // At a touch the linear term is only rounding; at a limit that misses a touch by 1e-12 it is 1e-6.
-        if !(self.0[1].abs() <= 1e-9 * magnitude && self.0[2] > 0.0) {
-            return None;
-        }
-        let root: Series<f64, N> = Series(from_fn(|n| self.0.get(n + 2).copied().unwrap_or(f64::NAN))).sqrt();
-        Some(Series(from_fn(|n| if n == 0 { 0.0 } else { root.0[n - 1] })))
-    }
-}
-
 /// A position, or a difference of positions, as a series in the input.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct VectorSeries<T, const N: usize> {

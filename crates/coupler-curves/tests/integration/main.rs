@@ -4,6 +4,7 @@
 mod catalogue;
 mod circuits;
 mod cognates;
+mod coincident_joints;
 mod dyad_chains;
 mod expressions;
 mod extreme_lengths;

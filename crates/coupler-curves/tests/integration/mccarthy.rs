@@ -2,8 +2,7 @@
 
 use coupler_curves::geometry::{Point, Vector, trig};
 use coupler_curves::linkage::{
-    CircuitSelection, DyadId, DyadSet, FourBar, InvertedSliderCrank, JointId, Linkage, LinkageBuilder, MotionOptions,
-    Side,
+    CircuitSelection, DyadId, FourBar, InvertedSliderCrank, JointId, Linkage, LinkageBuilder, MotionOptions, Side,
 };
 use coupler_curves::motion::{Circuit, InputPosition, JointDerivatives, Motion, Sampler, Sampling};
 use proptest::prelude::*;
@@ -207,7 +206,7 @@ proptest! {
         let inside = |i: usize| (0..=8).all(|k| i + k < circuit.len() && circuit.mode_at(i + k) == circuit.mode_at(i));
         prop_assume!(circuit.passes[0].from.flat_dyads.is_empty() && inside(at % circuit.len()));
         let i = at % circuit.len() + 4;
-        let jets = JointDerivatives::new(&linkage, InputPosition::from_degrees(circuit.inputs[i]), circuit.mode_at(i), DyadSet::EMPTY);
+        let jets = JointDerivatives::new(&linkage, InputPosition::from_degrees(circuit.inputs[i]), circuit.mode_at(i));
         let h = trig::radians(0.5);
         for &joint in &linkage.traced {
             prop_assert!((jets.position(joint) - circuit.positions.point(joint, i)).norm() < 1e-12);
@@ -263,8 +262,8 @@ fn the_inverted_slider_cranks_output_rocks_or_turns() {
 fn rates_at_a_limit_are_unbounded() {
     let linkage = four_bar(FourBar { frame: 4.0, crank: 2.0, coupler: 2.0, rocker: 2.0 });
     let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(60)));
-    let end = motion.circuits[0].passes[0].to;
-    let jets = JointDerivatives::new(&linkage, end.input, motion.circuits[0].passes[0].mode, end.flat_dyads);
+    let pass = motion.circuits[0].passes[0];
+    let jets = JointDerivatives::on_pass(&linkage, &pass, pass.to.input.value);
     assert!(jets.velocity(JointId::new(2)).norm().is_finite(), "the crank keeps turning");
     assert_eq!(jets.velocity(JointId::new(3)), Vector::new(f64::INFINITY, f64::INFINITY));
 }

@@ -6,7 +6,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use coupler_curves::geometry::{Point, Vector, left_normal, trig};
 use coupler_curves::linkage::{
-    AssemblyMode, CircuitSelection, DyadSet, JointId, JointKind, LineDirection, Linkage, LinkageBuilder, MotionOptions,
+    AssemblyMode, CircuitSelection, JointId, JointKind, LineDirection, Linkage, LinkageBuilder, MotionOptions,
     Orientation, Side,
 };
 use coupler_curves::motion::{InputPosition, JointDerivatives, Motion, Sampler, Sampling};
@@ -203,7 +203,7 @@ fn actuator(offset: f64) -> Linkage {
 
 /// Compares the derivatives at an input with dual numbers, relative to the greatest derivative of each joint.
 fn compare(linkage: &Linkage, input: InputPosition, variable: Third, mode: AssemblyMode) -> Result<(), TestCaseError> {
-    let jets = JointDerivatives::new(linkage, input, mode, DyadSet::EMPTY);
+    let jets = JointDerivatives::new(linkage, input, mode);
     let expected = positions(linkage, variable, mode);
     for joint in linkage.joint_ids() {
         let found = [jets.position(joint).coords, jets.velocity(joint), jets.acceleration(joint), jets.jerk(joint)];

@@ -1,7 +1,7 @@
 //! The curve of a traced joint on a circuit, by a coordinate in which it is regular at limits of the input.
 
 use crate::find::complex::Complex;
-use crate::linkage::{DyadSet, Input, JointId, Linkage};
+use crate::linkage::{Input, JointId, Linkage};
 use crate::motion::{InputPosition, Pass, PassEnd, UnsampledCircuit, eased_input, find_circuits, poses};
 
 /// A traced joint of a linkage on one of its circuits.
@@ -21,7 +21,7 @@ impl Traced {
     pub fn on_full_turn(linkage: &Linkage, joint: JointId) -> Option<Traced> {
         /// The inputs of a turn.
         const CHECKED: usize = 64;
-        let end = |value| PassEnd { input: InputPosition::from_degrees(value), flat_dyads: DyadSet::EMPTY };
+        let end = |value| PassEnd::regular(InputPosition::from_degrees(value));
         let Input::Angle { .. } = linkage.input() else { return None };
         let mode = linkage.motion_options.mode.truncated(linkage.dyad_count());
         let pass = Pass { from: end(0.0), to: end(linkage.input().period()), mode };

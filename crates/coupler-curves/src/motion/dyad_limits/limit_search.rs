@@ -2,8 +2,9 @@
 
 use super::dyad::Dyad;
 use super::monotone_pieces::{Piece, cut_into_pieces};
+use crate::geometry::{Vector, trig};
 use crate::linkage::{AssemblyMode, DyadId, DyadSet, Input, Linkage};
-use crate::motion::interval::{EndCause, Interval, IntervalEnd, Span};
+use crate::motion::interval::{COINCIDENCE_TOLERANCE, EndCause, Interval, IntervalEnd, Span};
 use crate::motion::joint_series::{SeriesInput, place_as_series};
 use crate::motion::pass::InputPosition;
 use crate::motion::pass_ends::place_at_end;
@@ -29,15 +30,21 @@ impl LimitSearch<'_> {
         let inputs = InputColumns::new(&inputs);
         place_leading_joints(self.linkage, joints, inputs.as_slices(), &signs, &mut out, 0..values.len());
         let pass = Interval { span: self.span, mode: self.mode }.to_pass(true, input.period());
+        let mut is_unknown = vec![false; values.len()];
         for (i, value) in values.iter().enumerate() {
             for (end, begins) in [(pass.from, true), (pass.to, false)] {
                 if end.input.value == *value && self.span != Span::FullTurn {
                     // Where the base of an earlier dyad vanishes, this dyad depends on a joint placed by continuity.
                     place_at_end(self.linkage, &pass, begins, &mut out, i);
+                    // So does the distance from a line whose joints coincide there.
+                    is_unknown[i] |= end.vanishing_dyads.contains(self.dyad.id);
                 }
             }
         }
         let extent = |i: usize| {
+            if is_unknown[i] {
+                return f64::NAN;
+            }
             let Series([extent]) =
                 self.dyad.extent(|joint| VectorSeries::<f64, 1>::constant(out.point(joint, i).coords));
             extent
@@ -131,8 +138,9 @@ impl LimitSearch<'_> {
         let pieces = cut_into_pieces(self.linkage, self.dyad, self.mode, self.ends(), is_flat);
         let mut inputs: Vec<f64> = pieces.iter().map(|piece| piece.from).chain(pieces.last().map(|p| p.to)).collect();
         let mut touched = Vec::new();
-        for run in pieces.chunk_by(|a, b| !a.is_certain && !b.is_certain).filter(|run| !run[0].is_certain) {
-            match self.inspect_run(run, tolerance) {
+        for run in self.uncertain_runs(&pieces) {
+            match self.inspect_run(&run, tolerance) {
+                Some(Extremum::Crossing(at)) if self.span == Span::FullTurn => inputs.push(at.rem_euclid(360.0)),
                 Some(Extremum::Crossing(at)) => inputs.push(at),
                 Some(Extremum::Touching(at)) => touched.push(at),
                 None => {}
@@ -140,6 +148,22 @@ impl LimitSearch<'_> {
         }
         inputs.sort_by(f64::total_cmp);
         (inputs, touched)
+    }
+
+    /// The runs of uncertain pieces, one after the other; on a full turn, a run through input 0 is one.
+    fn uncertain_runs(&self, pieces: &[Piece]) -> Vec<Vec<Piece>> {
+        let runs = pieces.chunk_by(|a, b| !a.is_certain && !b.is_certain).filter(|run| !run[0].is_certain);
+        let mut runs: Vec<Vec<Piece>> = runs.map(<[Piece]>::to_vec).collect();
+        let [from, to] = self.ends();
+        let is_through_zero = self.span == Span::FullTurn
+            && runs.len() > 1
+            && runs[0][0].from == from
+            && runs.last().and_then(|run| run.last()).is_some_and(|piece| piece.to == to);
+        if let Some(last) = runs.pop_if(|_| is_through_zero) {
+            let before = last.iter().map(|piece| Piece { from: piece.from - to, to: piece.to - to, ..*piece });
+            runs[0].splice(0..0, before);
+        }
+        runs
     }
 
     /// Searches a run of uncertain pieces for an extremum of the extent that crosses or touches a bound.
@@ -163,9 +187,12 @@ impl LimitSearch<'_> {
         // On both sides of a touch the margin grows; if it does not, the extent stays at the bound.
         let [start, end] = self.ends();
         let step = 1e-5 * (end - start);
-        let grows = |at: f64| (start..=end).contains(&at) && self.margin(at) > 1e2 * tolerance;
-        (is_open && stationary.is_some() && margin <= tolerance && grows(at - step) && grows(at + step))
-            .then_some(Extremum::Touching(at))
+        let is_inside = |at: f64| self.span == Span::FullTurn || (start..=end).contains(&at);
+        let grows = |at: f64| is_inside(at) && self.margin(at) > 1e2 * tolerance;
+        let is_touched = is_open && stationary.is_some() && margin <= tolerance && grows(at - step) && grows(at + step);
+        // The start of a turn is exact.
+        let at = if at.abs() <= COINCIDENCE_TOLERANCE && self.span == Span::FullTurn { 0.0 } else { at };
+        is_touched.then_some(Extremum::Touching(at))
     }
 
     /// The rounding of the extent: an extreme within this distance of a bound touches it.
@@ -179,7 +206,7 @@ impl LimitSearch<'_> {
     /// An end of the span, with this dyad flat too if its extent is at a bound there.
     fn end_with_dyad(&self, end: IntervalEnd, tolerance: f64) -> IntervalEnd {
         let extent = self.extents(&[end.input.value])[0];
-        if end.cause == EndCause::RangeEnd || self.extent_margin(extent).abs() > tolerance {
+        if self.extent_margin(extent).abs() > tolerance {
             return end;
         }
         end.with_flat_dyad(self.dyad.id, self.dyad.base_can_vanish() && extent <= tolerance)
@@ -213,27 +240,59 @@ impl LimitSearch<'_> {
     }
 
     /// The input between two inputs at which the extent is least or greatest, by bisection of its derivative.
-    fn stationary_input(&self, mut a: f64, mut b: f64) -> Option<f64> {
+    fn stationary_input(&self, a: f64, b: f64) -> Option<f64> {
         let rate = |at: f64| {
-            let InputPosition { value, cos, sin } = InputPosition::new(self.linkage.input(), at);
-            let sign = |dyad: DyadId| f64::from(self.mode.sign(dyad));
-            let input = SeriesInput { value, direction: [cos, sin] };
-            let positions: Vec<VectorSeries<f64, 2>> =
-                place_as_series(self.linkage, self.dyad.joint.index(), input, sign, |_, position, _| position);
-            let Series([_, rate]) = self.dyad.extent(|joint| positions[joint]);
+            let Series([_, rate]) = self.dyad.extent(|joint| self.joint_series::<2>(at)[joint]);
             rate
         };
         let rises = rate(b) > 0.0;
         if (rate(a) > 0.0) == rises {
             return None;
         }
-        loop {
-            let middle = a + (b - a) / 2.0;
-            if middle == a || middle == b {
-                return Some(middle);
+        // The last input at which the extent falls, or rises, going from one where it does.
+        let edge = |mut from: f64, mut to: f64, is_rising: bool| loop {
+            let middle = from + (to - from) / 2.0;
+            if middle == from || middle == to {
+                return from;
             }
-            if (rate(middle) > 0.0) == rises { b = middle } else { a = middle }
+            let rate = rate(middle);
+            if if is_rising { rate > 0.0 } else { rate < 0.0 } { from = middle } else { to = middle }
+        };
+        // Where a base vanishes with its derivative, rounding leaves neither sign nearby.
+        let [low, high] = [edge(a, b, !rises), edge(b, a, rises)];
+        let at = low + (high - low) / 2.0;
+        Some(if self.dyad.base_can_vanish() { self.twice_vanishing_input(at) } else { at })
+    }
+
+    /// An input at which a base vanishes with its derivative, from one nearby; that itself where there is none. It is where the
+    /// derivative of the base is least.
+    fn twice_vanishing_input(&self, mut at: f64) -> f64 {
+        /// The rounding of such an input, in radians or relative to a length.
+        const NEAR: f64 = 1e-6;
+        let Some(base) = self.dyad.kind.base() else { return at };
+        let is_length = self.linkage.input() == Input::Length;
+        for _ in 0..3 {
+            let series = self.joint_series::<3>(at);
+            let [p, q] = base.map(|joint| series[joint]);
+            let VectorSeries { x, y } = q.minus(p);
+            let [first, second] = [1, 2].map(|n| Vector::new(x.0[n], y.0[n]) * n as f64);
+            let near = if is_length { NEAR * at.abs() } else { NEAR };
+            let is_least_nearby = first.norm() < near * second.norm();
+            if !is_least_nearby {
+                return at;
+            }
+            let distance = -first.dot(&second) / second.norm_squared();
+            at += if is_length { distance } else { trig::degrees(distance) };
         }
+        at
+    }
+
+    /// The joints that the dyad depends on as series in the input.
+    fn joint_series<const N: usize>(&self, at: f64) -> Vec<VectorSeries<f64, N>> {
+        let InputPosition { value, cos, sin } = InputPosition::new(self.linkage.input(), at);
+        let sign = |dyad: DyadId| f64::from(self.mode.sign(dyad));
+        let input = SeriesInput { value, direction: [cos, sin] };
+        place_as_series(self.linkage, self.dyad.joint.index(), input, sign, |_, position, _| position)
     }
 
     /// The last input, going from `inside` towards `outside`, at which the dyad still closes.

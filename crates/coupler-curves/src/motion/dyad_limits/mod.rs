@@ -16,7 +16,7 @@ mod limit_search;
 mod monotone_pieces;
 
 use super::AssemblyError;
-use super::interval::{IntervalEnd, Span};
+use super::interval::{COINCIDENCE_TOLERANCE, IntervalEnd, Span};
 use crate::linkage::{AssemblyMode, DyadId, Input, JointId, JointKind, Linkage, length_tolerance};
 use distance_bounds::distance_bounds;
 use dyad::Dyad;
@@ -38,6 +38,11 @@ pub(super) fn closing_spans(
         let spans = intersect_spans(span, dyad.stroke(linkage, next_id).into_iter().collect(), 0, Input::Length);
         return if spans.is_empty() { Err(dyad.assembly_error(linkage, span, mode)) } else { Ok(spans) };
     }
+    if let JointKind::Slide { line, .. } = dyad.kind
+        && !linkage.links.iter().any(|link| line.iter().all(|&joint| link.position(joint).is_some()))
+    {
+        return dyad.closing_spans_on_moving_line(linkage, line, (span, mode), next_id);
+    }
     let spans = match dyad.sinusoidal_extent(linkage) {
         Some(extent) => intersect_spans(span, extent.closing_spans(dyad.id, next_id), 3, linkage.input()),
         None if dyad.always_closes(linkage) => vec![span],
@@ -47,6 +52,31 @@ pub(super) fn closing_spans(
 }
 
 impl Dyad {
+    /// The parts of `span` on which a slider closes whose line is that through joints of two links: it has no direction where
+    /// they coincide, and a span ends there.
+    fn closing_spans_on_moving_line(
+        &self,
+        linkage: &Linkage,
+        line: [JointId; 2],
+        (span, mode): (Span, AssemblyMode),
+        next_id: &mut usize,
+    ) -> Result<Vec<Span>, AssemblyError> {
+        // The direction of the line is that of a slot without offset.
+        let direction = Dyad { kind: JointKind::Slot { base: line, offset: 0.0, dyad: self.id }, ..*self };
+        let parts = if direction.always_closes(linkage) {
+            vec![span]
+        } else {
+            LimitSearch { linkage, dyad: &direction, span, mode }.closing_spans(next_id)
+        };
+        let name = |joint: JointId| linkage.joints[joint].name.clone();
+        if parts.is_empty() {
+            return Err(AssemblyError::CoincidentBase { joint: name(self.joint), base: line.map(name) });
+        }
+        let closing = |span| LimitSearch { linkage, dyad: self, span, mode }.closing_spans(next_id);
+        let spans: Vec<Span> = parts.into_iter().flat_map(closing).collect();
+        if spans.is_empty() { Err(self.assembly_error(linkage, span, mode)) } else { Ok(spans) }
+    }
+
     /// Whether the links between the joints of its base keep it certainly, and by far more than rounding, from being
     /// flat.
     fn always_closes(&self, linkage: &Linkage) -> bool {
@@ -98,9 +128,6 @@ impl Dyad {
         }
     }
 }
-
-/// Ends closer than this, in degrees or relative to a length, are at one input: the rounding of an angle near 360.
-const COINCIDENCE_TOLERANCE: f64 = 1e-12;
 
 /// Whether two inputs are equal within rounding, which is relative for lengths.
 fn is_same_input(a: f64, b: f64, input: Input) -> bool {

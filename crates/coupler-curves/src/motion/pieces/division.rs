@@ -7,6 +7,7 @@ use crate::geometry::{Chebyshev, TERMS, in_rising_order, trig};
 use crate::linkage::{DyadSet, Input, JointId, JointKind, Linkage};
 use crate::motion::circuit::UnsampledCircuit;
 use crate::motion::pass::{InputPosition, Pass};
+use crate::motion::pass_ends::place_near_ends;
 use crate::motion::positions::{DyadSigns, InputColumns, JointPositions, convert_to_view_frame, place_leading_joints};
 
 /// A piece that is not yet known to be short enough.
@@ -157,7 +158,9 @@ fn node_positions(linkage: &Linkage, circuit: &UnsampledCircuit, pieces: &[Pendi
         let range = from..from + run.len();
         let signs = DyadSigns::new(circuit.passes[run[0]].mode, DyadSet::EMPTY);
         let all = linkage.joints.len();
-        place_leading_joints(linkage, all, columns.slice(range.clone()), &signs, &mut positions, range.clone());
+        let inputs = columns.slice(range.clone());
+        place_leading_joints(linkage, all, inputs, &signs, &mut positions, range.clone());
+        place_near_ends(linkage, &circuit.passes[run[0]], inputs, &mut positions, range.clone());
         from = range.end;
     }
     convert_to_view_frame(linkage, &mut positions);

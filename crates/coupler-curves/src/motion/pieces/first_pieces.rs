@@ -34,9 +34,8 @@ pub(super) fn junction_after(linkage: &Linkage, circuit: &UnsampledCircuit, k: u
     }
     let next = &circuit.passes[(k + 1) % circuit.passes.len()];
     let is_limit = pass.input_direction() != next.input_direction();
-    let is_analytic = linkage
-        .dyad_ids()
-        .all(|dyad| pass.to.flat_dyads.contains(dyad) == (pass.mode.sign(dyad) != next.mode.sign(dyad)));
+    // Dyads whose bases vanish are on the sides that continuity requires.
+    let is_analytic = pass.mode.flipped(pass.to.flat_dyads).is_same_apart_from(pass.to.vanishing_dyads, next.mode);
     Junction { is_limit, is_analytic, is_plain: false }
 }
 
