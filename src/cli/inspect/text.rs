@@ -117,13 +117,19 @@ fn describe_pose(solved: &SolvedCell, pose: &Pose, out: &mut String) {
         let cubic = instant
             .cubic_parameters()
             .map(|[m, n]| format!("M = {}, N = {}", format_significant(m, 7), format_significant(n, 7)));
+        let [curvature, rate] = [instant.curvature(position), instant.curvature_rate(position)];
+        let curvatures = if curvature.is_finite() && rate.is_finite() {
+            let [curvature, rate] =
+                [format_cleared(curvature, size.recip()), format_cleared(rate, size.recip() * size.recip())];
+            format!("curvature of its path {curvature}, rate of curvature {rate}")
+        } else {
+            "no curvature of its path, for it is at rest".to_owned()
+        };
         let _ = writeln!(
             out,
-            "{name}: instant centre {}, inflection pole {}, curvature of its path {}, rate of curvature {}",
+            "{name}: instant centre {}, inflection pole {}, {curvatures}",
             format_point(instant.pole),
             format_point(instant.inflection_pole()),
-            format_cleared(instant.curvature(position), size.recip()),
-            format_cleared(instant.curvature_rate(position), size.recip() * size.recip())
         );
         let ball = instant.ball_point().map_or("none".to_owned(), format_point);
         let cubic = cubic.unwrap_or("none".to_owned());

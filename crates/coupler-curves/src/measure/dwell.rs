@@ -77,11 +77,10 @@ fn find_dwell(row: &Row, extent: f64, length: f64) -> Result<Option<Dwell>, TooM
     let steps = &Steps::new(MAX_PORTION_POINTS);
     let mut requirement = Circular { row, max_width, max_radius: length, steps };
     let Some(&longest) = longest(row, &requirement, 0.0, steps)?.first() else { return Ok(None) };
-    let [from, to] = requirement.longest_beside(longest);
-    steps.check()?;
     // The whole of a closed curve begins where the curve does.
-    let is_whole = row.is_closed && to - from >= row.start_count as f64 * (1.0 - 1e-9);
-    let mut ends = if is_whole { [0.0, row.start_count as f64] } else { [from, to] };
+    let is_whole = row.is_closed && longest[1] - longest[0] >= row.start_count as f64 * (1.0 - 1e-9);
+    let mut ends = if is_whole { [0.0, row.start_count as f64] } else { requirement.longest_beside(longest) };
+    steps.check()?;
     let all = |[from, to]: [f64; 2]| INTERVALS.max((to - from).ceil() as usize);
     let Some(mut ring) = CurveRings::new(row, ends, all(ends), length).ring(ends) else { return Ok(None) };
     let mut width = width_about(row, ends, ring.centre);
