@@ -1,6 +1,6 @@
 //! The points of a coupler curve at which all links lie on one line.
 
-use super::double_points::{DoublePoint, DoublePointKind, branches_kind};
+use super::double_point::{DoublePoint, DoublePointKind, branches_kind};
 use crate::geometry::{Point, Vector, left_normal};
 use crate::linkage::{FourBar, length_tolerance};
 

@@ -1,11 +1,12 @@
 //! The equation of a coupler curve: a polynomial of degree 6 in the coordinates of the coupler point.
 
 mod change_points;
+mod double_point;
 mod double_points;
 mod polynomial;
 mod roots;
 
-pub use double_points::{DoublePoint, DoublePointKind};
+pub use double_point::{DoublePoint, DoublePointKind};
 pub(super) use roots::bisect;
 
 use crate::geometry::{Point, Vector, cross};
