@@ -61,16 +61,19 @@ impl AlternatingPoints {
     /// [`AlternatingPoints::narrowest_annulus`].
     pub fn narrowest_annulus_within(&mut self, points: &[Point], most: f64, largest: f64) -> Option<Annulus> {
         let points = &*if self.is_folded { sorted_around(points) } else { points.into() };
-        let free = self.narrowest_annulus(points, most)?;
-        if free.radius <= largest {
-            return Some(free);
-        }
+        let free = match self.narrowest_annulus(points, most) {
+            Some(free) if free.radius <= largest => return Some(free),
+            Some(free) => Some(free),
+            // Either it is too wide, or the points are on a line to the last digit.
+            None if initial_points(points).is_some() => return None,
+            None => None,
+        };
         // The row is flatter than the largest circle. With the radius fixed, the centre is rotated about a point in the
         // middle of the row to where the ring is narrowest: three points determine it.
         let middle = points[points.len() / 2];
         let points = &*sorted_along(points);
         let last = points.len() - 1;
-        let is_left = cross(points[last] - points[0], free.centre - middle) >= 0.0;
+        let is_left = free.is_none_or(|free| cross(points[last] - points[0], free.centre - middle) >= 0.0);
         let through = |[a, b, c]: [Point; 3]| {
             // The centre is at the largest radius from the middle, and equally far from the first and the third point.
             let along = (c - a).try_normalize(0.0)?;

@@ -271,6 +271,24 @@ fn a_line_that_is_passed_to_and_fro_is_one_stroke() {
     }
 }
 
+/// A path that is straight to the last digit has the circular portion that it has to rounding: of the greatest radius, its length.
+#[test]
+fn a_line_has_the_same_circular_portion_on_an_axis_and_off_it() {
+    let spans = [0.0, 17.0, 30.0].map(|turn_deg| {
+        let layout = Layout::turned(turn_deg);
+        let mut builder = LinkageBuilder::default();
+        let o = builder.fixed("O", Point::origin());
+        let x = builder.fixed("X", layout.point(1.0, 0.0));
+        let a = builder.crank("A", o, 1.0).unwrap();
+        let y = builder.yoke("Y", a, ([o, x], 0.0), 90.0).unwrap();
+        number(value(&measures(&finish(builder, y))[0], "dwell_input_deg"))
+    });
+    // The chord between circles of radius 4.001, through its ends, and 3.999, which it touches; it ends where the path returns.
+    let chord = 2.0 * (4.001f64 * 4.001 - 3.999 * 3.999).sqrt();
+    let expected = 2.0 * trig::acos(1.0 - chord).to_degrees();
+    assert!(spans.iter().all(|span| (span / expected - 1.0).abs() < 1e-4), "{spans:?} {expected}");
+}
+
 /// The rocker of a Watt II linkage passes the limit of its second loop twice in a turn.
 #[test]
 fn the_time_ratio_is_that_of_the_strokes_from_limit_to_limit() {
@@ -480,6 +498,10 @@ proptest! {
         let linkage = if is_first { watt.first(Layout::PLAIN) } else { watt.second(Layout::MIRRORED) };
         check_widths(&circular_portions(&linkage), &(watt, is_first));
     }
+}
+
+proptest! {
+    #![proptest_config(proptest::test_runner::Config { cases: 64, ..crate::random() })]
 
     #[test]
     #[ignore = "thorough"]
