@@ -298,7 +298,7 @@ fn noisy_strokes_have_answers() {
     for kind in [PathKind::Open, PathKind::Part] {
         for turn in [108.0, 216.0] {
             let mut near = 0;
-            for _ in 0..6 {
+            for _ in 0..3 {
                 let (placed, side) = random_four_bar(&mut random);
                 let start = random.between(0.0, 360.0);
                 let at = |k: usize| trig::radians(start + turn * k as f64 / (COUNT - 1) as f64);
@@ -313,7 +313,7 @@ fn noisy_strokes_have_answers() {
                 // Across the path the noise is 0.02.
                 near += usize::from(best.rms_relative <= 0.025);
             }
-            assert!(near >= 5, "{near} of 6 by {turn}, {kind:?}");
+            assert!(near >= 2, "{near} of 3 by {turn}, {kind:?}");
         }
     }
 }
