@@ -54,7 +54,7 @@ def test_what_was_taken_of_a_file_is_said(tmp_path) -> None:
     for outline in (None, 3, "c"):
         with pytest.raises(ValueError, match="two.csv: .*outline"):
             ca.find(file, outline=outline, **options)
-    with pytest.raises(ValueError, match="outline='a' chooses from the paths in a file"):
+    with pytest.raises(ValueError, match='outline="a" chooses from the paths in a file'):
         ca.find(points, outline="a", **options)
     assert ca.find(points, **options).read is None
     timed = tmp_path / "timed.csv"
