@@ -99,7 +99,7 @@ fn find_dwell(row: &Row, extent: f64, length: f64) -> Result<Option<Dwell>, TooM
         width = width_about(row, ends, ring.centre);
     }
     let PortionRing { centre, radius, .. } = ring;
-    let input_span = row.input_travel_at(ends[1]) - row.input_travel_at(ends[0]);
+    let input_span = row.input_span(ends);
     let points = row.points_between(ends, INTERVALS);
     // The rounding of the circle is that of the positions; a deviation is as accurate as that of a straight portion.
     let centre = centre.map(|coordinate| without_rounding(coordinate, ROUNDING * radius));
@@ -208,7 +208,11 @@ impl Requirement for Circular<'_> {
             // Where no rate shows the way, the portion itself is the longest that is known, if it fits.
             let ring = CurveRings::new(self.row, ends, POINTS, self.max_radius).ring(ends);
             let fits = ring.is_some_and(|ring| ring.width <= self.max_width);
-            return if fits { Reached::Longest { size: self.size(ends), ends, is_certain: false } } else { reached };
+            return if fits {
+                Reached::Longest { size: self.row.input_span(ends), ends, is_certain: false }
+            } else {
+                reached
+            };
         }
         let Reached::Longest { ends: found, .. } = reached else { return reached };
         // Between so few points the curve may leave the annulus: then by all points of the row.
@@ -222,11 +226,6 @@ impl Requirement for Circular<'_> {
 }
 
 impl Circular<'_> {
-    /// The input that the portion between two positions spans.
-    fn size(&self, ends: [f64; 2]) -> f64 {
-        self.row.input_travel_at(ends[1]) - self.row.input_travel_at(ends[0])
-    }
-
     /// A portion, or a longer one that is reached when it is moved a little along the curve: where other points begin to touch, the
     /// longest near one need not be the longest beside it.
     fn longest_beside(&self, mut ends: [f64; 2]) -> [f64; 2] {
@@ -241,7 +240,9 @@ impl Circular<'_> {
             let span = ends[1] - ends[0];
             let moved = ends.map(|end| (end + shift * span).clamp(low, high));
             match self.longest_near(moved, 0.1 * span, 0.0) {
-                Reached::Longest { size, ends: next, .. } if size > self.size(ends) * (1.0 + SAME) => Some(next),
+                Reached::Longest { size, ends: next, .. } if size > self.row.input_span(ends) * (1.0 + SAME) => {
+                    Some(next)
+                }
                 _ => None,
             }
         };
@@ -258,7 +259,7 @@ impl Circular<'_> {
         let mut rings = CurveRings::new(self.row, ends, count, self.max_radius);
         let fit = |ends: [f64; 2]| {
             self.steps.take(count)?;
-            let size = self.size(ends);
+            let size = self.row.input_span(ends);
             let rates = ends.map(|position| self.row.input_travel_rate_at(position));
             let compare = |Constraint { value, rates }| Constraint {
                 value: value / permitted - 1.0,

@@ -246,6 +246,11 @@ impl Row {
         self.curve.input(self.place(position))
     }
 
+    /// The input that the portion between two positions spans.
+    pub fn input_span(&self, [from, to]: [f64; 2]) -> f64 {
+        self.input_travel_at(to) - self.input_travel_at(from)
+    }
+
     /// The travel of the input, forward and backward, from position 0 to another.
     pub fn input_travel_at(&self, position: f64) -> f64 {
         let round = self.start_count as f64;

@@ -132,22 +132,19 @@ fn curvature_where_returning(curve: &TracedCurve, place: Place) -> f64 {
         InputMap::Root { middle, half, .. } => (middle + half * place.u).abs() < AT_LIMIT * half,
         InputMap::Linear { .. } => false,
     };
-    let (series, centre) = if !is_at_limit && [-REACH, REACH].iter().all(|t| is_reached(place.u + t)) {
+    let (values, kept, centre) = if !is_at_limit && [-REACH, REACH].iter().all(|t| is_reached(place.u + t)) {
         // On its way back the path bends to the other side.
-        let values = Chebyshev::nodes().map(|node| node.signum() * at(place.u + REACH * node));
-        let mut series = Chebyshev::from_values(&values);
-        series.0[KEPT[0]..].fill(0.0);
-        (series, 0.0)
+        (Chebyshev::nodes().map(|node| node.signum() * at(place.u + REACH * node)), KEPT[0], 0.0)
     } else {
         let [least, most] = SQUARES;
         let (middle, half) = ((least + most) / 2.0, (most - least) / 2.0);
         // Towards the further end of the piece.
         let sign = if place.u > 0.0 { -1.0 } else { 1.0 };
-        let values = Chebyshev::nodes().map(|node| at(place.u + sign * (middle + half * node).sqrt()));
-        let mut series = Chebyshev::from_values(&values);
-        series.0[KEPT[1]..].fill(0.0);
-        (series, -middle / half)
+        let of_square = |node: f64| at(place.u + sign * (middle + half * node).sqrt());
+        (Chebyshev::nodes().map(of_square), KEPT[1], -middle / half)
     };
+    let mut series = Chebyshev::from_values(&values);
+    series.0[kept..].fill(0.0);
     let extremes = series.derivative().zeros(0.0, 1e-3).places;
     let places = [centre, -1.0, 1.0].into_iter().chain(extremes);
     places.map(|place| series.at(place).abs()).fold(0.0, f64::max)

@@ -249,7 +249,7 @@ const INTERVALS: usize = 96;
 /// The portion between two positions.
 fn portion(row: &Row, ends: [f64; 2]) -> StraightPortion {
     let PortionStrip { width, length, .. } = CurveStrips::new(row, ends, INTERVALS).strip(ends);
-    let input_span = row.input_travel_at(ends[1]) - row.input_travel_at(ends[0]);
+    let input_span = row.input_span(ends);
     let deviation = if width / 2.0 < EXACT * length { 0.0 } else { width / 2.0 };
     let points = row.points_between(ends, INTERVALS);
     StraightPortion { length, deviation, start_input: row.input_at(ends[0]), input_span, points }

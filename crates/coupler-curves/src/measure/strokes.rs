@@ -17,9 +17,8 @@ pub(super) fn shortest_stroke(row: &Row, ends: [f64; 2]) -> [f64; 2] {
     let extremes = turns.into_iter().filter(|(_, reach)| is_at(least, *reach) || is_at(most, *reach));
     let extremes: Vec<(f64, f64)> = extremes.collect();
     let strokes = extremes.windows(2).filter(|pair| !is_at(pair[0].1, pair[1].1)).map(|pair| [pair[0].0, pair[1].0]);
-    let input_travel = |[from, to]: [f64; 2]| row.input_travel_at(to) - row.input_travel_at(from);
     // The first of those that differ by rounding.
-    let shortest = strokes.reduce(|a, b| if input_travel(b) < input_travel(a) * (1.0 - 1e-6) { b } else { a });
+    let shortest = strokes.reduce(|a, b| if row.input_span(b) < row.input_span(a) * (1.0 - 1e-6) { b } else { a });
     shortest.unwrap_or(ends)
 }
 

@@ -250,8 +250,8 @@ fn gain(linkage: &Linkage, passes: &[Pass]) -> f64 {
     };
     let length: f64 = passes.iter().map(Pass::input_length).sum();
     let of_dyads = linkage.dyad_ids().map(|dyad| gained(&|pass| f64::from(pass.mode.sign(dyad))));
-    let gains = std::iter::once(gained(&|_| 1.0)).chain(of_dyads);
-    gains.into_iter().find(|gain: &f64| gain.abs() > ROUNDING * length).unwrap_or(0.0)
+    let mut gains = std::iter::once(gained(&|_| 1.0)).chain(of_dyads);
+    gains.find(|gain| gain.abs() > ROUNDING * length).unwrap_or(0.0)
 }
 
 /// Whether the start of `a` is preferred to that of `b`: rising, from a lower input, on branch 1.
