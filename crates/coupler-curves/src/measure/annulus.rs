@@ -60,14 +60,15 @@ impl AlternatingPoints {
     /// The narrowest annulus with a radius of at most `largest` that contains a row of points; otherwise like
     /// [`AlternatingPoints::narrowest_annulus`].
     pub fn narrowest_annulus_within(&mut self, points: &[Point], most: f64, largest: f64) -> Option<Annulus> {
-        let points = &*if self.is_folded { sorted_around(points) } else { points.into() };
-        let free = match self.narrowest_annulus(points, most) {
-            Some(free) if free.radius <= largest => return Some(free),
-            Some(free) => Some(free),
-            // Either it is too wide, or the points are on a line to the last digit.
-            None if initial_points(points).is_some() => return None,
-            None => None,
-        };
+        let around = if self.is_folded { sorted_around(points) } else { Some(points.into()) };
+        let free = around.as_deref().and_then(|points| self.narrowest_annulus(points, most));
+        if let Some(free) = free.filter(|free| free.radius <= largest) {
+            return Some(free);
+        }
+        let is_too_wide = |points| free.is_none() && most.is_finite() && initial_points(points).is_some();
+        if around.as_deref().is_some_and(is_too_wide) {
+            return None;
+        }
         // The row is flatter than the largest circle. With the radius fixed, the centre is rotated about a point in the
         // middle of the row to where the ring is narrowest: three points determine it.
         let middle = points[points.len() / 2];
@@ -87,8 +88,10 @@ impl AlternatingPoints {
     }
 }
 
-/// The points of a row near an arc, sorted around it in case it goes back along itself.
-fn sorted_around(points: &[Point]) -> Cow<'_, [Point]> {
+/// The points of a row near an arc, sorted around it in case it goes back along itself; `None` if it is on a line.
+fn sorted_around(points: &[Point]) -> Option<Cow<'_, [Point]>> {
+    /// What is no further from a line, relative to its length, is on it but for rounding.
+    const LINE: f64 = 1e-12;
     let furthest = |distance: &dyn Fn(&Point) -> f64| {
         points.iter().copied().reduce(|far, p| if distance(&p) > distance(&far) { p } else { far }).unwrap_or_default()
     };
@@ -97,14 +100,14 @@ fn sorted_around(points: &[Point]) -> Cow<'_, [Point]> {
     let c = furthest(&|p| cross(b - a, p - a).abs());
     let (u, v) = (b - a, c - a);
     let twice_area = 2.0 * cross(u, v);
-    let centre = a + (left_normal(v) * -u.norm_squared() + left_normal(u) * v.norm_squared()) / twice_area;
-    if !(centre.x.is_finite() && centre.y.is_finite()) {
-        return points.into();
+    if twice_area.abs() <= LINE * u.norm_squared() {
+        return None;
     }
+    let centre = a + (left_normal(v) * -u.norm_squared() + left_normal(u) * v.norm_squared()) / twice_area;
     let turns = points.windows(2).map(|pair| cross(pair[0] - centre, pair[1] - centre));
     let [least, most] = turns.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], turn| [l.min(turn), h.max(turn)]);
     if least >= 0.0 || most <= 0.0 {
-        return points.into();
+        return Some(points.into());
     }
     // From opposite the middle of the row, so that the gap of an arc is not within it.
     let middle = points.iter().map(|p| (p - centre).normalize()).sum::<Vector>();
@@ -113,20 +116,23 @@ fn sorted_around(points: &[Point]) -> Cow<'_, [Point]> {
         let cosine = middle.dot(&offset) / (middle.norm() * offset.norm());
         if cross(middle, offset) < 0.0 { cosine - 1.0 } else { 1.0 - cosine }
     };
-    in_rising_order(points.to_vec(), around).into()
+    Some(in_rising_order(points.to_vec(), around).into())
 }
 
 /// The points of a nearly straight row, sorted along it in case it reverses.
 fn sorted_along(points: &[Point]) -> Cow<'_, [Point]> {
-    let along = points[points.len() - 1] - points[0];
-    let reach = along.norm_squared();
-    let [low, high] = min_max(points, |p| along.dot(&(p - points[0])));
-    if low >= -1e-3 * reach && high <= 1.001 * reach {
+    let furthest_from = |from: Point| {
+        let square = |p: &Point| (p - from).norm_squared();
+        points.iter().copied().reduce(|far, p| if square(&p) > square(&far) { p } else { far }).unwrap_or(from)
+    };
+    // The ends of the row need not be those of the line: they are one point if it goes to and fro.
+    let end = furthest_from(points[0]);
+    let along = furthest_from(end) - end;
+    let rises = points.windows(2).map(|pair| along.dot(&(pair[1] - pair[0])));
+    let [least, most] = rises.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], rise| [l.min(rise), h.max(rise)]);
+    if least >= 0.0 || most <= 0.0 {
         return points.into();
     }
-    let square = |p: &Point| (p - points[0]).norm_squared();
-    let furthest = points.iter().copied().reduce(|far, p| if square(&p) > square(&far) { p } else { far });
-    let along = furthest.unwrap_or(points[0]) - points[0];
     in_rising_order(points.to_vec(), |p| along.dot(&p.coords)).into()
 }
 
@@ -257,5 +263,30 @@ mod tests {
         assert!((ring.centre - Point::new(5.0, 1.0)).norm() < 1e-9, "{ring:?}");
         assert!(AlternatingPoints::default().narrowest_annulus(&points, 0.019).is_none());
         assert!(AlternatingPoints::default().narrowest_annulus(&points, 0.021).is_some_and(|ring| ring.width <= 0.021));
+    }
+
+    /// From one end of a chord to the other and back: as narrow as the sagitta, whichever way round and wherever the row starts.
+    #[test]
+    fn the_annulus_of_a_line_passed_to_and_fro_is_that_of_its_chord() {
+        let radius: f64 = 4.0;
+        for (direction, noise) in [(Vector::x(), 0.0), (Vector::y(), 0.0), (Vector::new(0.6, -0.8), 4e-16)] {
+            let point = |k: i32| {
+                let along = trig::cos(std::f64::consts::PI * f64::from(k) / 32.0) / 4.0;
+                Point::new(2.75, -1.5) + direction * along + left_normal(direction) * noise * f64::from(k % 3 - 1)
+            };
+            // That of the circle halfway, which is as large to within the width.
+            let sagitta = radius - (radius * radius - 1.0 / 16.0).sqrt();
+            for first in [0, 5, 16, 32, 40] {
+                let points: Vec<Point> = (first..=first + 64).map(point).collect();
+                for most in [f64::INFINITY, 1.01 * sagitta] {
+                    let ring = AlternatingPoints::folded(true).narrowest_annulus_within(&points, most, radius);
+                    let ring = ring.unwrap_or_else(|| panic!("no ring of {direction:?} from {first}"));
+                    assert!((ring.width / sagitta - 1.0).abs() < sagitta / radius, "{ring:?}");
+                }
+                let narrower =
+                    AlternatingPoints::folded(true).narrowest_annulus_within(&points, 0.99 * sagitta, radius);
+                assert!(narrower.is_none(), "{narrower:?}");
+            }
+        }
     }
 }
