@@ -33,8 +33,26 @@ export class KernelInstance {
       total += value.length;
       return { $: [total - value.length, value.length] };
     };
-    const text = new TextEncoder().encode(JSON.stringify(request, packed));
-    const { json, numbers } = this.#guarded((kernel) => {
+    const { json, numbers } = this.exchange(JSON.stringify(request, packed), arrays);
+    const answer = JSON.parse(json, (_, value) => {
+      if (!value?.$) return value;
+      const [start, length] = value.$;
+      return numbers.slice(start, start + length);
+    });
+    if (answer?.error !== undefined) throw new KernelError(answer.error);
+    return answer;
+  }
+
+  /**
+   * The answer to a request in JSON with arrays of numbers, one after another, to which it refers.
+   *
+   * @param {string} request @param {Float64Array[]} arrays @returns {{ json: string, numbers: Float64Array }}
+   * @throws {KernelFailure} if the kernel fails
+   */
+  exchange(request, arrays) {
+    const text = new TextEncoder().encode(request);
+    return this.#guarded((kernel) => {
+      const total = arrays.reduce((sum, array) => sum + array.length, 0);
       if (total > 0) {
         const first = kernel.kernel_numbers(total);
         const input = new Float64Array(kernel.memory.buffer, first, total);
@@ -55,13 +73,6 @@ export class KernelInstance {
         numbers: count ? new Float64Array(buffer, first, count) : new Float64Array(),
       };
     });
-    const answer = JSON.parse(json, (_, value) => {
-      if (!value?.$) return value;
-      const [start, length] = value.$;
-      return numbers.slice(start, start + length);
-    });
-    if (answer?.error !== undefined) throw new KernelError(answer.error);
-    return answer;
   }
 
   /**
