@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::cell::LazyCell;
 use std::collections::HashMap;
 
+use super::Error;
 use super::curve_samples::{CurveSamples, point_distance};
 use super::finding::{Change, Finding, Location};
 use crate::record::{DrawnCurve, SolvedCurve, read_drawn_curves};
@@ -31,15 +32,18 @@ struct PageCell<'a> {
 ///
 /// A curve that is drawn in the same way on the current page needs no comparison: it is the present one. If its recorded
 /// points are others, that is a finding on the points.
+///
+/// # Errors
+/// The recorded points cannot be read.
 pub(super) fn check_drawn_curves(
     page: &Location,
     [bytes, current_page]: [&[u8]; 2],
     (family, cells): (&Family, &[SolvedCell]),
-    recorded: impl Fn(usize) -> Option<Vec<CurveSamples>>,
-) -> Vec<Finding> {
+    recorded: impl Fn(usize) -> Result<Option<Vec<CurveSamples>>, Error>,
+) -> Result<Vec<Finding>, Error> {
     let curves = match read_drawn_curves(bytes) {
         Ok(curves) => curves,
-        Err(error) => return vec![page.finding(Change::Damaged { message: error.to_string() })],
+        Err(error) => return Ok(vec![page.finding(Change::Damaged { message: error.to_string() })]),
     };
     let drawn_now = read_drawn_curves(current_page).unwrap_or_default();
     let drawn_now: HashMap<&str, &DrawnCurve> = drawn_now.iter().map(|curve| (curve.id.as_str(), curve)).collect();
@@ -52,7 +56,7 @@ pub(super) fn check_drawn_curves(
             Some(cell) if cell.number == curve.cell => cell,
             _ => PageCell {
                 number: curve.cell,
-                recorded: recorded(curve.cell).unwrap_or_default(),
+                recorded: recorded(curve.cell)?.unwrap_or_default(),
                 solved: find_or_solve(family, cells, curve.cell),
             },
         };
@@ -62,7 +66,7 @@ pub(super) fn check_drawn_curves(
         }
         current = Some(cell);
     }
-    findings
+    Ok(findings)
 }
 
 /// A cell by its number: it may be on another page now, if the order of the cells has changed.

@@ -82,13 +82,16 @@ impl std::ops::AddAssign for CellCounts {
 
 impl<'a> FamilyCheck<'a> {
     /// Opens the record of a family, and appends the findings on the family as a whole.
+    ///
+    /// # Errors
+    /// The system fails to read a table.
     pub fn open(
         pipeline: &'a FamilyPipeline<'a>,
         record: &'a FamilyRecord,
         (output, left_out): (&'a Path, LeftOut),
         tolerances: Tolerances,
         findings: &mut Vec<Finding>,
-    ) -> FamilyCheck<'a> {
+    ) -> Result<FamilyCheck<'a>, Error> {
         let family = &pipeline.composer.planned.family;
         let location = Location::in_family(&family.id);
         if record.linkage != family.template.id {
@@ -103,10 +106,10 @@ impl<'a> FamilyCheck<'a> {
         if record.pages != page_count {
             findings.push(location.finding(Change::Pages { recorded: record.pages, current: page_count }));
         }
-        let tables = Tables::open(pipeline, record, output, findings);
-        let numbering = CellNumbering::from_tables(pipeline, &tables, findings);
+        let tables = Tables::open(pipeline, record, output, findings)?;
+        let numbering = CellNumbering::from_tables(pipeline, &tables, findings)?;
         let pages = RecordedPages::new(pipeline, record, (output, left_out));
-        FamilyCheck { pipeline, location, tolerances, tables, pages, numbering }
+        Ok(FamilyCheck { pipeline, location, tolerances, tables, pages, numbering })
     }
 
     /// Compares a cell with its recorded rows.
@@ -125,7 +128,7 @@ impl<'a> FamilyCheck<'a> {
             RecordedNumber::Known(recorded) => recorded,
         };
         let [points, cells] = self.tables.current_rows(solved);
-        let is_same = self.tables.rows_match(recorded, [&points, &cells]);
+        let is_same = self.tables.rows_match(recorded, [&points, &cells])?;
         if is_same == [true, true] {
             result.curve_count += solved.curves.len();
             return Ok(());
@@ -216,12 +219,16 @@ impl<'a> FamilyCheck<'a> {
     }
 
     /// The recorded curves of a cell, given by its current number, and the cell solved again; `None` if there are none
-    /// that can be read.
-    pub fn recorded_and_current(&self, number: usize) -> Option<(Vec<CurveSamples>, SolvedCell)> {
-        let RecordedNumber::Known(recorded) = self.numbering.recorded_number(number) else { return None };
+    /// that are right.
+    ///
+    /// # Errors
+    /// The system fails to read them.
+    pub fn recorded_and_current(&self, number: usize) -> Result<Option<(Vec<CurveSamples>, SolvedCell)>, Error> {
+        let RecordedNumber::Known(recorded) = self.numbering.recorded_number(number) else { return Ok(None) };
         let family = &self.pipeline.composer.planned.family;
-        let solved = solve::solve_cell(family, &Sampler::new(family.sampling), number.checked_sub(1)?)?;
-        Some((self.tables.recorded_curves(recorded)?, solved))
+        let solve = |k: usize| solve::solve_cell(family, &Sampler::new(family.sampling), k);
+        let solved = number.checked_sub(1).and_then(solve);
+        Ok(self.tables.recorded_curves(recorded)?.zip(solved))
     }
 
     /// The findings on pages that are not explained by the changed cells.
@@ -241,7 +248,7 @@ impl Sink for FamilyCheck<'_> {
             let before = result.findings.len();
             if let Err(error) = self.check_cell(solved, &mut result) {
                 let location = self.location.with_cell(solved.cell.number);
-                result.findings.push(location.finding(Change::Damaged { message: error.to_string() }));
+                result.findings.push(location.finding(Error::or_damage(error)?));
             }
             if result.findings.len() > before {
                 result.changed_cells.push(solved.cell.number);
@@ -252,7 +259,7 @@ impl Sink for FamilyCheck<'_> {
 
     fn receive_page(&self, job: PageJob) -> Result<PageFindings, Error> {
         // Recorded pages show the recorded numbers of cells.
-        Ok(self.pages.check_page(job, |cell| self.tables.recorded_curves(cell)))
+        self.pages.check_page(job, |cell| self.tables.recorded_curves(cell))
     }
 
     /// The recorded and the current page, and the rows of the cells on them.

@@ -9,6 +9,7 @@ use std::path::Path;
 use image::codecs::png::PngDecoder;
 use image::{ImageDecoder, Limits};
 
+use super::Error;
 use super::finding::{Change, Finding, Location};
 use crate::record::{
     Digest, FileError, FileRecord, FolderRecord, IMAGES_FILE_NAME, ImagesState, file_digest, has_images, is_intact_png,
@@ -23,28 +24,30 @@ const PIXEL_TOLERANCE: u8 = 1;
 
 /// What has happened to a recorded image; `draw` returns the current one as a PNG, or `None` if what the image was drawn
 /// from has changed, so that there is nothing to compare its pixels with.
+///
+/// # Errors
+/// The system fails to read it.
 pub(super) fn image_change(
     folder: &Path,
     record: &FileRecord,
     draw: impl FnOnce() -> Option<Vec<u8>>,
-) -> Option<Change> {
-    let damaged = |message: &str| Some(Change::Damaged { message: message.to_owned() });
+) -> Result<Option<Change>, Error> {
     let bytes = match read_regular_file(&folder.join(&record.name), MAX_IMAGE_BYTES) {
         Ok(bytes) => bytes,
-        Err(error) => return damaged(&error.to_string()),
+        Err(error) => return Error::or_damage(error).map(Some),
     };
     if record.image_sha256 == Some(Digest::of(&bytes)) {
-        return None;
+        return Ok(None);
     }
     if !is_intact_png(&bytes) {
-        return damaged("is not a complete PNG image");
+        return Ok(Some(Change::Damaged { message: "is not a complete PNG image".to_owned() }));
     }
-    match draw() {
+    Ok(match draw() {
         Some(current) if is_same_image(&bytes, &current) => None,
         // Without a digest nothing is known about the image as it was.
         None if record.image_sha256.is_none() => None,
         _ => Some(Change::Altered),
-    }
+    })
 }
 
 /// Whether two images have equal pixels, up to the tolerance.
@@ -86,17 +89,20 @@ fn rgba(decoder: PngDecoder<Cursor<&[u8]>>) -> Option<Vec<[u8; 4]>> {
 }
 
 /// The finding on a volume of the book, if it is not the file that was written.
-pub(super) fn check_volume(output: &Path, record: &FileRecord) -> Option<Finding> {
+///
+/// # Errors
+/// The system fails to read it.
+pub(super) fn check_volume(output: &Path, record: &FileRecord) -> Result<Option<Finding>, Error> {
     // A record is not trusted: a name with a folder would lead out of the atlas.
     let is_file_name = Path::new(&record.name).components().count() == 1;
     let digest = if is_file_name { file_digest(&output.join(&record.name)) } else { Err(FileError::NotFound) };
     let change = match (digest, record.image_sha256) {
-        (Err(error), _) => Change::Damaged { message: error.to_string() },
+        (Err(error), _) => Error::or_damage(error)?,
         (Ok(_), None) => Change::Damaged { message: format!("is not in {IMAGES_FILE_NAME}") },
-        (Ok(found), Some(recorded)) if found == recorded => return None,
+        (Ok(found), Some(recorded)) if found == recorded => return Ok(None),
         (Ok(_), Some(_)) => Change::Altered,
     };
-    Some(Location::default().with_file(&record.name).finding(change))
+    Ok(Some(Location::default().with_file(&record.name).finding(change)))
 }
 
 /// The finding on `images.json`, if the atlas has images or books and it cannot be used.

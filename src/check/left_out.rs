@@ -10,7 +10,7 @@ use std::path::Path;
 use serde::Serialize;
 
 use crate::gallery::{KERNEL_FILE, PAGE_FILE, is_data_file_name};
-use crate::record::{FileRecord, FolderRecord, ImagesState, RunRecord, path_in_atlas};
+use crate::record::{FileError, FileRecord, FolderRecord, ImagesState, RunRecord, path_in_atlas};
 
 /// The numbers of files that a record lists and that were not compared, because the folder has none of their kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
@@ -32,7 +32,9 @@ impl LeftOut {
         }
         let run = &record.run;
         let is_data_file = |file: &FileRecord| is_data_file_name(&file.name);
-        let is_absent = |name: &String| fs::symlink_metadata(folder.join(name)).is_err();
+        // What the system fails to find is there: it fails to read it, too.
+        let is_missing = |error| FileError::at(folder)(error) == FileError::NotFound;
+        let is_absent = |name: &String| fs::symlink_metadata(folder.join(name)).is_err_and(is_missing);
         let volumes = file_names(run.book.iter().flat_map(|book| &book.files));
         // The page and its kernel have these names, also where the record has others or none.
         let page = [PAGE_FILE, KERNEL_FILE].map(str::to_owned);

@@ -20,6 +20,7 @@ mod numbering;
 mod outdated;
 mod overlays;
 mod pages;
+mod run_record;
 mod tables;
 
 pub use error::Error;
@@ -27,7 +28,7 @@ pub use finding::{Change, Displacement, Finding, Location};
 pub use left_out::LeftOut;
 pub use overlays::{Overlay, draw_overlays};
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::BTreeMap;
 use std::fs::TryLockError;
 use std::path::Path;
 use std::sync::Arc;
@@ -35,13 +36,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use serde::Serialize;
 
-use crate::gallery::{KERNEL_FILE, PAGE_FILE, SCRIPT_FILE, is_data_file_name};
+use crate::gallery::{KERNEL_FILE, PAGE_FILE, is_data_file_name};
 use crate::manifest::{PartialTolerances, Plan, PlannedFamily};
-use crate::pipeline::{FamilyPipeline, GroupsDone, Output, page_file_name};
-use crate::record::{
-    FamilyRecord, FileRecord, FolderRecord, LOCK_FILE_NAME, RUN_FILE_NAME, ReadError, open_regular_file,
-};
-use coupler_drawing::render::PageFormat;
+use crate::pipeline::{FamilyPipeline, GroupsDone, Output};
+use crate::record::{FamilyRecord, FileRecord, FolderRecord, LOCK_FILE_NAME, RUN_FILE_NAME, open_regular_file};
 use family::{CellCounts, FamilyCheck};
 
 /// The families to check, and the tolerances.
@@ -123,7 +121,7 @@ fn sort_worst_first(findings: &mut [Finding]) {
 /// Runs a plan, and compares the result with the atlas recorded in a folder; calls `on_event` with the progress.
 ///
 /// # Errors
-/// The record of the atlas cannot be read, a run is writing to its folder, or the check is interrupted.
+/// The record of the atlas cannot be read, the system fails to read another of its files, a run is writing to its folder, or the check is interrupted.
 pub fn check_atlas(
     plan: &Plan,
     recorded: &Path,
@@ -142,7 +140,7 @@ pub fn check_atlas(
     let outdated = outdated::check_version(record);
     let is_outdated = outdated.is_some();
     report.add_findings(outdated.into_iter().collect());
-    report.add_findings(check_origin(&folder_record).into_iter().collect());
+    report.add_findings(run_record::check_origin(&folder_record).into_iter().collect());
     for family in record.families.iter().filter(|family| is_requested(&family.id)) {
         if plan.families.iter().all(|planned| planned.family.id != family.id) {
             report.add_findings(vec![Location::in_family(&family.id).finding(Change::FamilyRemoved)]);
@@ -151,52 +149,42 @@ pub fn check_atlas(
     if options.only.is_empty() && !is_outdated {
         if !left_out.has_images() {
             let volumes = record.book.iter().flat_map(|book| &book.files);
-            report.add_findings(volumes.filter_map(|file| images::check_volume(recorded, file)).collect());
+            for file in volumes {
+                report.add_findings(images::check_volume(recorded, file)?.into_iter().collect());
+            }
             report.add_findings(images::check_images_file(&folder_record).into_iter().collect());
         }
         let check_file = |(name, file): (&str, Option<&FileRecord>)| match file {
-            Some(file) if file.name == name && left_out.has_gallery() => None,
+            Some(file) if file.name == name && left_out.has_gallery() => Ok(None),
             Some(file) if file.name == name => gallery::check_file(recorded, name, file),
-            None if folder_record.is_unfinished => None,
+            None if folder_record.is_unfinished => Ok(None),
             _ => {
                 let message = format!("does not list {name}");
-                Some(Location::default().with_file(RUN_FILE_NAME).finding(Change::Damaged { message }))
+                Ok(Some(Location::default().with_file(RUN_FILE_NAME).finding(Change::Damaged { message })))
             }
         };
         let files = [(PAGE_FILE, record.gallery.as_ref()), (KERNEL_FILE, record.kernel.as_ref())];
-        report.add_findings(files.into_iter().filter_map(check_file).collect());
+        for file in files {
+            report.add_findings(check_file(file)?.into_iter().collect());
+        }
     }
+    let mut other_inputs = Vec::new();
     for planned in plan.families.iter().filter(|planned| is_requested(&planned.family.id)) {
         match record.families.iter().find(|family| family.id == planned.family.id) {
             Some(family_record) => {
                 let family = (planned, family_record);
-                check_family(plan, family, (recorded, is_outdated), options, &mut report, on_event)?;
+                let finding = check_family(plan, family, (recorded, is_outdated), options, &mut report, on_event)?;
+                other_inputs.extend(finding);
             }
             None => report.add_findings(vec![Location::in_family(&planned.family.id).finding(Change::FamilyAdded)]),
         }
     }
-    if report.findings.is_empty() && record.title != plan.title {
-        let message = format!("has the title {:?}, expected {:?}", record.title, plan.title);
-        report.add_findings(vec![Location::default().with_file(RUN_FILE_NAME).finding(Change::Damaged { message })]);
+    if report.findings.is_empty() {
+        report.add_findings(other_inputs);
+        report.add_findings(run_record::check_atlas(plan, record).into_iter().collect());
     }
     sort_worst_first(&mut report.findings);
     Ok(report)
-}
-
-/// The finding on a record that is not as this program has written it.
-fn check_origin(FolderRecord { run, is_as_written, .. }: &FolderRecord) -> Option<Finding> {
-    let message = if !is_as_written {
-        format!("{}: `render --repair` rebuilds it", ReadError::Altered)
-    } else if run.program != env!("CARGO_PKG_NAME") {
-        format!(
-            "it was written by {}, not by {}: `render` records the atlas again",
-            run.program,
-            env!("CARGO_PKG_NAME")
-        )
-    } else {
-        return None;
-    };
-    Some(Location::default().with_file(RUN_FILE_NAME).finding(Change::Damaged { message }))
 }
 
 /// Whether a run has locked a folder; the lock file of a run that was killed is not locked.
@@ -205,10 +193,10 @@ fn is_locked(folder: &Path) -> bool {
     lock.is_ok_and(|lock| matches!(lock.try_lock_shared(), Err(TryLockError::WouldBlock)))
 }
 
-/// Checks a family, and adds the findings to the report.
+/// Checks a family, adds the findings to the report, and returns the one on its inputs, which counts if there is no other.
 ///
 /// # Errors
-/// The check is interrupted.
+/// The check is interrupted, or the system fails to read a file.
 fn check_family(
     plan: &Plan,
     (planned, record): (&PlannedFamily, &FamilyRecord),
@@ -216,14 +204,14 @@ fn check_family(
     options: &Options,
     report: &mut Report,
     on_event: &mut dyn FnMut(Event),
-) -> Result<(), Error> {
+) -> Result<Option<Finding>, Error> {
     let Some(pipeline) = FamilyPipeline::new(plan, planned, &options.interrupt) else {
         return Err(Error::Interrupted);
     };
     on_event(Event::Begin { family: &planned.family.id, pages: pipeline.pagination.page_count });
     let tolerances = options.tolerances.or(planned.tolerances).or_defaults();
     let mut findings = Vec::new();
-    let family_check = FamilyCheck::open(&pipeline, record, (recorded, report.left_out), tolerances, &mut findings);
+    let family_check = FamilyCheck::open(&pipeline, record, (recorded, report.left_out), tolerances, &mut findings)?;
     let (mut changed_cells, mut pages) = (Vec::new(), Vec::new());
     let mut counts = CellCounts::default();
     pipeline.run(&family_check, GroupsDone::default(), |output| {
@@ -247,57 +235,18 @@ fn check_family(
     })?;
     report.families += 1;
     report.pages += pages.len();
+    let other_inputs: Vec<String> = pages.iter_mut().flat_map(|page| std::mem::take(&mut page.other_inputs)).collect();
     findings.extend(family_check.page_findings(pages, &changed_cells));
     let data_files = record.files.iter().filter(|file| is_data_file_name(&file.name) && !report.left_out.has_gallery());
     for file in data_files {
-        findings.extend(gallery::check_file(recorded, &format!("{}/{}", planned.family.id, file.name), file));
+        findings.extend(gallery::check_file(recorded, &format!("{}/{}", planned.family.id, file.name), file)?);
     }
     if is_outdated {
         findings.retain(outdated::is_comparable);
     } else if findings.is_empty() {
-        findings.extend(check_counts(&pipeline, record, counts));
+        findings.extend(run_record::check_family(&pipeline, record, counts));
     }
     report.add_findings(findings);
     on_event(Event::End);
-    Ok(())
-}
-
-/// The finding on the record of a family whose files are as recorded, if it does not say what is in them.
-fn check_counts(pipeline: &FamilyPipeline, record: &FamilyRecord, counts: CellCounts) -> Option<Finding> {
-    let (family, arrangement) = (&pipeline.composer.planned.family, &pipeline.arrangement);
-    let location = Location::in_family(&family.id).with_file(RUN_FILE_NAME);
-    let message = if record.inputs_sha256.is_none() {
-        "does not say that the family is complete"
-    } else if [record.cells, record.kept, record.unassembled_left_out]
-        != [family.cell_count(), arrangement.kept.len(), arrangement.unassembled_left_out]
-    {
-        "has another number of cells"
-    } else if CellCounts::of_record(record) != counts {
-        "has another number of curves, or of cells that are not assembled"
-    } else if record.title != family.title {
-        "has another title of the family"
-    } else if !lists_all_pages(pipeline, record) {
-        "does not list all pages of the family"
-    } else {
-        return None;
-    };
-    Some(location.finding(Change::Damaged { message: message.to_owned() }))
-}
-
-/// Whether the record of a family lists each of its pages in the same formats, and no other pages.
-fn lists_all_pages(pipeline: &FamilyPipeline, record: &FamilyRecord) -> bool {
-    let page_count = pipeline.pagination.page_count;
-    let listed: HashSet<&str> = record.files.iter().map(|file| file.name.as_str()).collect();
-    let has_tables = ["cells.csv", "points.csv", SCRIPT_FILE].iter().all(|name| listed.contains(name));
-    let data_files = 2 + listed.iter().filter(|name| is_data_file_name(name)).count();
-    let page_files: usize = PageFormat::ALL
-        .into_iter()
-        .map(|format| {
-            let is_listed =
-                |page: &usize| listed.contains(page_file_name(&record.id, (*page, page_count), format).as_str());
-            (1..=page_count).filter(is_listed).count()
-        })
-        .filter(|&count| count == page_count)
-        .sum();
-    has_tables && data_files + page_files == record.files.len()
+    Ok(run_record::check_inputs(planned, record, &other_inputs))
 }

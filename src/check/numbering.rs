@@ -2,6 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
+use super::Error;
 use super::finding::{Change, Finding, Location};
 use super::tables::Tables;
 use crate::pipeline::FamilyPipeline;
@@ -32,14 +33,25 @@ impl CellNumbering {
     ///
     /// A cell recorded under its number with other parameters counts as the same cell, unless those parameters are now
     /// those of another cell.
-    pub fn from_tables(pipeline: &FamilyPipeline, tables: &Tables, findings: &mut Vec<Finding>) -> CellNumbering {
+    ///
+    /// # Errors
+    /// The system fails to read a table.
+    pub fn from_tables(
+        pipeline: &FamilyPipeline,
+        tables: &Tables,
+        findings: &mut Vec<Finding>,
+    ) -> Result<CellNumbering, Error> {
         let mut numbering = CellNumbering { renumbered: HashMap::new(), recorded: None, added: HashSet::new() };
-        let Some(numbers) = tables.cell_numbers() else { return numbering };
+        let Some(numbers) = tables.cell_numbers() else { return Ok(numbering) };
         let family = &pipeline.composer.planned.family;
-        let recorded_values = |number: usize| -> Option<Vec<u64>> {
-            let (columns, rows) = tables.cell_rows(number).ok()??;
-            let values = columns.recorded_parameters(rows.first()?).ok()?;
-            Some(values.into_iter().map(f64::to_bits).collect())
+        let recorded_values = |number: usize| -> Result<Option<Vec<u64>>, Error> {
+            let (columns, rows) = match tables.cell_rows(number) {
+                Ok(Some(found)) => found,
+                Ok(None) => return Ok(None),
+                Err(error) => return Error::or_damage(error).map(|_| None),
+            };
+            let values = rows.first().and_then(|row| columns.recorded_parameters(row).ok());
+            Ok(values.map(|values| values.into_iter().map(f64::to_bits).collect()))
         };
         let names = tables.cell_columns().map(|columns| &columns.parameters);
         let slots: Vec<usize> = family
@@ -59,20 +71,18 @@ impl CellNumbering {
         let recorded: HashSet<usize> = numbers.iter().copied().collect();
         let current: Vec<usize> = pipeline.arrangement.kept.iter().map(|cell| cell + 1).collect();
         // The cells recorded under their number with other values.
-        let differing: HashSet<usize> = current
-            .iter()
-            .copied()
-            .filter(|&number| {
-                recorded.contains(&number)
-                    && recorded_values(number).is_some_and(|values| values != current_values(number))
-            })
-            .collect();
+        let mut differing: HashSet<usize> = HashSet::new();
+        for &number in current.iter().filter(|number| recorded.contains(number)) {
+            if recorded_values(number)?.is_some_and(|values| values != current_values(number)) {
+                differing.insert(number);
+            }
+        }
         let kept: HashSet<usize> = current.iter().copied().collect();
         // The recorded cells that may have another number now, by their values. Several may have the same values: they
         // are assigned in order of their numbers.
         let mut unmatched: HashMap<Vec<u64>, Vec<usize>> = HashMap::new();
         for &number in numbers.iter().rev().filter(|number| !kept.contains(number) || differing.contains(number)) {
-            if let Some(values) = recorded_values(number) {
+            if let Some(values) = recorded_values(number)? {
                 unmatched.entry(values).or_default().push(number);
             }
         }
@@ -99,7 +109,7 @@ impl CellNumbering {
         let removed = numbers.iter().filter(is_removed);
         findings.extend(removed.map(|&number| location.with_cell(number).finding(Change::CellRemoved)));
         numbering.recorded = Some(recorded);
-        numbering
+        Ok(numbering)
     }
 
     /// The number under which the cell with the current `number` is recorded.

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use super::Error;
 use super::curve_samples::CurveSamples;
 use super::drawn_curves::check_drawn_curves;
 use super::finding::{Change, Finding, Location};
@@ -30,6 +31,8 @@ pub(super) struct PageFindings {
     cells: Vec<usize>,
     /// The files that have not been edited, but would be drawn differently now.
     differing_files: Vec<String>,
+    /// The files that are recorded as made from something else than now.
+    pub other_inputs: Vec<String>,
     findings: Vec<Finding>,
 }
 
@@ -50,7 +53,14 @@ impl<'a> RecordedPages<'a> {
 
     /// Compares the files of a page with the current drawing, and with the recorded curves of its cells, which
     /// `recorded` returns by the number of the cell.
-    pub fn check_page(&self, job: PageJob, recorded: impl Fn(usize) -> Option<Vec<CurveSamples>>) -> PageFindings {
+    ///
+    /// # Errors
+    /// The system fails to read a file.
+    pub fn check_page(
+        &self,
+        job: PageJob,
+        recorded: impl Fn(usize) -> Result<Option<Vec<CurveSamples>>, Error>,
+    ) -> Result<PageFindings, Error> {
         let cells = match job.content {
             PageContent::Cells { cells, .. } => cells.iter().map(|solved| solved.cell.number).collect(),
             PageContent::Charts => Vec::new(),
@@ -62,18 +72,22 @@ impl<'a> RecordedPages<'a> {
         let [svg_name, png_name] = PageFormat::ALL.map(name);
         let (svg_record, png_record) = (self.files.get(svg_name.as_str()), self.files.get(png_name.as_str()));
         if svg_record.is_none() && png_record.is_none() {
-            return page;
+            return Ok(page);
         }
+        let inputs = Some(job.inputs_digest(&self.pipeline.composer));
+        let records = svg_record.into_iter().chain(png_record);
+        page.other_inputs
+            .extend(records.filter(|record| record.inputs_sha256 != inputs).map(|record| record.name.clone()));
         let content = job.content;
         let scene = job.compose();
         let svg = render::svg(&scene, plan.text_mode);
         if let Some(record) = svg_record {
-            let recorded_svg = self.check_svg(record, &svg, &mut page);
+            let recorded_svg = self.check_svg(record, &svg, &mut page)?;
             let differing_svg = recorded_svg.filter(|bytes| *bytes != svg);
             if let (Some(bytes), PageContent::Cells { cells, .. }) = (differing_svg, content) {
                 let family = &self.pipeline.composer.planned.family;
                 let location = self.file_location(&record.name);
-                page.findings.extend(check_drawn_curves(&location, [&bytes, &svg], (family, cells), recorded));
+                page.findings.extend(check_drawn_curves(&location, [&bytes, &svg], (family, cells), recorded)?);
             }
         }
         if let Some(record) = png_record {
@@ -83,21 +97,29 @@ impl<'a> RecordedPages<'a> {
             }
             if !self.left_out.has_images() {
                 let draw = || if is_current { render::png(&scene, plan.dpi).ok() } else { None };
-                let change = image_change(&self.folder, record, draw);
+                let change = image_change(&self.folder, record, draw)?;
                 page.findings.extend(change.map(|change| self.file_location(&record.name).finding(change)));
             }
         }
-        page
+        Ok(page)
     }
 
-    /// Compares the bytes of a recorded page with the current drawing, and returns them; `None` if they cannot be read.
-    fn check_svg(&self, record: &FileRecord, current: &[u8], page: &mut PageFindings) -> Option<Vec<u8>> {
+    /// Compares the bytes of a recorded page with the current drawing, and returns them; `None` if there is no such file.
+    ///
+    /// # Errors
+    /// The system fails to read it.
+    fn check_svg(
+        &self,
+        record: &FileRecord,
+        current: &[u8],
+        page: &mut PageFindings,
+    ) -> Result<Option<Vec<u8>>, Error> {
         let location = self.file_location(&record.name);
         let bytes = match read_regular_file(&self.folder.join(&record.name), MAX_BYTES) {
             Ok(bytes) => bytes,
             Err(error) => {
-                page.findings.push(location.finding(Change::Damaged { message: error.to_string() }));
-                return None;
+                page.findings.push(location.finding(Error::or_damage(error)?));
+                return Ok(None);
             }
         };
         let mut digests = TextDigests::default();
@@ -108,7 +130,7 @@ impl<'a> RecordedPages<'a> {
             page.differing_files.push(record.name.clone());
         }
         page.findings.extend(change.map(|change| location.finding(change)));
-        Some(bytes)
+        Ok(Some(bytes))
     }
 
     /// The findings on all pages that are not explained by the cells that have changed.

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::Error;
 use super::cells::CellColumns;
 use super::curve_samples::{CurveSamples, PointColumns};
 use super::finding::{Change, Finding, Location};
@@ -25,12 +26,15 @@ pub(super) struct Tables<'a> {
 
 impl<'a> Tables<'a> {
     /// Opens the tables of a family in the folder of an atlas, and appends the findings on them as files.
+    ///
+    /// # Errors
+    /// The system fails to read one.
     pub fn open(
         pipeline: &'a FamilyPipeline<'a>,
         record: &FamilyRecord,
         output: &Path,
         findings: &mut Vec<Finding>,
-    ) -> Tables<'a> {
+    ) -> Result<Tables<'a>, Error> {
         let family = &pipeline.composer.planned.family;
         let writers = (PointTable::new(family), CellTable::new(family));
         let headers = [writers.0.header(), writers.1.header()].map(|header| column_names(&header));
@@ -41,7 +45,7 @@ impl<'a> Tables<'a> {
             * family.template.curve_count().max(1)
             * family.cell_count();
         let max_bytes = (1 << 26) + (MAX_RATIO * BYTES_PER_ROW * rows.max(record.curves)) as u64;
-        let mut open = |name: &str, header: &[String]| -> Option<RecordedTable> {
+        let mut open = |name: &str, header: &[String]| -> Result<Option<RecordedTable>, Error> {
             let location = Location::in_family(&family.id).with_file(&format!("{}/{name}", family.id));
             let table = RecordedTable::open(
                 &output.join(&family.id).join(name),
@@ -52,8 +56,8 @@ impl<'a> Tables<'a> {
             let table = match table {
                 Ok(table) => table,
                 Err(error) => {
-                    report(Change::Damaged { message: error.to_string() });
-                    return None;
+                    report(Error::or_damage(error)?);
+                    return Ok(None);
                 }
             };
             table.errors.iter().for_each(|error| report(Change::Damaged { message: error.to_string() }));
@@ -67,10 +71,10 @@ impl<'a> Tables<'a> {
                 let (recorded, current) = (list(removed), list(added));
                 report(Change::FamilyChanged { what: "columns".to_owned(), recorded, current });
             }
-            Some(table)
+            Ok(Some(table))
         };
-        let points = open("points.csv", &headers[0]);
-        let cells = open("cells.csv", &headers[1]);
+        let points = open("points.csv", &headers[0])?;
+        let cells = open("cells.csv", &headers[1])?;
         let point_columns = points.as_ref().and_then(|table| {
             let common: Vec<String> = headers[0].iter().filter(|name| table.header.contains(name)).cloned().collect();
             let both = PointColumns::from_header(&table.header, &common)
@@ -85,7 +89,7 @@ impl<'a> Tables<'a> {
         let parameters: Vec<String> = family.template.parameters.iter().map(|p| p.name.clone()).collect();
         let cell_columns =
             cells.as_ref().map(|table| CellColumns::from_headers(&table.header, &headers[1], &parameters));
-        Tables { writers, headers, points, cells, point_columns, cell_columns }
+        Ok(Tables { writers, headers, points, cells, point_columns, cell_columns })
     }
 
     /// The current rows of a cell, in `points.csv` and in `cells.csv`.
@@ -98,14 +102,18 @@ impl<'a> Tables<'a> {
 
     /// Whether the recorded rows of a cell and their headers equal the current ones byte by byte, for points and for
     /// cells; true for a table that cannot be read.
-    pub fn rows_match(&self, cell: usize, current: [&[u8]; 2]) -> [bool; 2] {
-        let is_same = |(table, header, current): (&Option<RecordedTable>, &Vec<String>, &[u8])| {
-            let Some(table) = table else { return true };
-            let text = table.cell_text(cell).and_then(Result::ok).map(|(text, _)| text);
-            table.header == *header && text.as_deref().unwrap_or_default() == current
-        };
+    ///
+    /// # Errors
+    /// The recorded rows cannot be read.
+    pub fn rows_match(&self, cell: usize, current: [&[u8]; 2]) -> Result<[bool; 2], TableError> {
+        let is_same =
+            |table: &Option<RecordedTable>, header: &Vec<String>, current: &[u8]| -> Result<bool, TableError> {
+                let Some(table) = table else { return Ok(true) };
+                let text = table.cell_text(cell).transpose()?.map(|(text, _)| text);
+                Ok(table.header == *header && text.as_deref().unwrap_or_default() == current)
+            };
         let [points, cells] = &self.headers;
-        [(&self.points, points, current[0]), (&self.cells, cells, current[1])].map(is_same)
+        Ok([is_same(&self.points, points, current[0])?, is_same(&self.cells, cells, current[1])?])
     }
 
     /// The recorded curves of a cell, and the curves of its current rows of points; `None` if there is no recorded
@@ -121,7 +129,7 @@ impl<'a> Tables<'a> {
         const MAX_RATIO: usize = 16;
         let text = table.cell_text(cell).transpose()?;
         let (text, line) = text.unwrap_or_default();
-        if text.is_empty() && !current.is_empty() && self.has_curves(cell) {
+        if text.is_empty() && !current.is_empty() && self.has_curves(cell)? {
             return Err(TableError::MissingRows("points.csv"));
         }
         if text.len() > MAX_RATIO * current.len() + (1 << 20) {
@@ -141,19 +149,32 @@ impl<'a> Tables<'a> {
     }
 
     /// Whether a cell has curves according to its recorded row: a cell that is not assembled has none.
-    fn has_curves(&self, cell: usize) -> bool {
-        let Some(table) = &self.cells else { return true };
+    ///
+    /// # Errors
+    /// The system fails to read the row.
+    fn has_curves(&self, cell: usize) -> Result<bool, TableError> {
+        let Some(table) = &self.cells else { return Ok(true) };
         let trace = table.column_index("trace");
-        let rows = table.cell_rows(cell).unwrap_or_default();
-        rows.first().zip(trace).is_none_or(|(row, trace)| !row.field(trace).is_empty())
+        let rows = match table.cell_rows(cell) {
+            Err(error @ TableError::File(_)) => return Err(error),
+            rows => rows.unwrap_or_default(),
+        };
+        Ok(rows.first().zip(trace).is_none_or(|(row, trace)| !row.field(trace).is_empty()))
     }
 
-    /// The recorded curves of a cell, with their samples in order; `None` if they cannot be read.
-    pub fn recorded_curves(&self, cell: usize) -> Option<Vec<CurveSamples>> {
-        let (table, [recorded_columns, _]) = (self.points.as_ref()?, self.point_columns.as_ref()?);
-        let mut curves = recorded_columns.curves(&table.cell_rows(cell).ok()?).ok()?;
+    /// The recorded curves of a cell, with their samples in order; `None` if there are none that are right.
+    ///
+    /// # Errors
+    /// The system fails to read them.
+    pub fn recorded_curves(&self, cell: usize) -> Result<Option<Vec<CurveSamples>>, Error> {
+        let (Some(table), Some([recorded_columns, _])) = (&self.points, &self.point_columns) else { return Ok(None) };
+        let curves = table.cell_rows(cell).and_then(|rows| recorded_columns.curves(&rows));
+        let mut curves = match curves {
+            Ok(curves) => curves,
+            Err(error) => return Error::or_damage(error).map(|_| None),
+        };
         curves.iter_mut().for_each(|curve| drop(curve.sort_samples()));
-        Some(curves)
+        Ok(Some(curves))
     }
 
     /// The columns of `cells.csv`, and the recorded rows of a cell; `None` if there is no recorded table.

@@ -6,7 +6,6 @@ use std::path::Path;
 use super::family_writer::{FamilyTask, FamilyWriter};
 use super::files;
 use super::initial_record::initial_record;
-use super::inputs::Inputs;
 use super::journal::Journal;
 use super::pages::OutputSink;
 use super::registry::FileRegistry;
@@ -14,7 +13,7 @@ use super::survey::{FamilySurvey, Surveyor};
 use super::{Error, Event, Options, previous_run};
 use crate::gallery::FamilyScript;
 use crate::manifest::{Plan, PlannedFamily};
-use crate::pipeline::FamilyPipeline;
+use crate::pipeline::{FamilyPipeline, Inputs};
 use crate::record::{CellTable, FamilyRecord, FileRecord, open_regular_file, read_unassembled_cells};
 use coupler_curves::exchange::PointTable;
 use coupler_drawing::render::{Format, PageFormat};
@@ -32,8 +31,7 @@ pub(super) fn write(
     let folder = output.join(&family.id);
     let formats = options.formats.as_ref().unwrap_or(&planned.formats);
     let formats: Vec<PageFormat> = formats.iter().copied().filter_map(Format::page_format).collect();
-    let inputs = Inputs::new(planned);
-    let inputs_sha256 = inputs.family_digest();
+    let inputs_sha256 = Inputs::new(planned).family_digest();
     let earlier = journal.family(&family.id).cloned();
     let unchanged = |record: &FamilyRecord| {
         let record = previous_run::unchanged_record(record, inputs_sha256, &formats, &folder)?;
@@ -75,8 +73,7 @@ pub(super) fn write(
     let (composer, interrupt) = (&pipeline.composer, &*options.interrupt);
     let tables = (PointTable::new(family), CellTable::new(family));
     let script = FamilyScript::new(plan, planned);
-    let sink =
-        OutputSink { composer, formats: &formats, inputs, tables, script, registry: &registry, interrupt, surveyor };
+    let sink = OutputSink { composer, formats: &formats, tables, script, registry: &registry, interrupt, surveyor };
     let task = FamilyTask { pipeline: &pipeline, sink, folder: &folder, journal: &journal_file, inputs_sha256 };
     let resumed = progress.and_then(|(progress, pieces)| FamilyWriter::resume(task, (&progress, &pieces), report));
     let is_surveyed = resumed.is_none() && surveyor.is_some();

@@ -7,7 +7,6 @@ mod family;
 mod family_writer;
 mod files;
 mod initial_record;
-mod inputs;
 mod journal;
 mod lock;
 mod options;

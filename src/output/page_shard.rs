@@ -5,7 +5,6 @@ use std::path::{Component, Path, PathBuf};
 
 use super::files;
 use super::initial_record::initial_record;
-use super::inputs::Inputs;
 use super::journal::JournalFile;
 use super::lock::Lock;
 use super::pages::OutputSink;
@@ -14,7 +13,7 @@ use super::registry::FileRegistry;
 use super::{Error, Event, Options, check_interrupt, ownership};
 use crate::gallery::FamilyScript;
 use crate::manifest::{Plan, PlannedFamily};
-use crate::pipeline::{FamilyPipeline, page_file_name};
+use crate::pipeline::{FamilyPipeline, Inputs, page_file_name};
 use crate::record::{CellTable, FileRecord, FolderRecord, JournalEntry, PageShardHead, PageShardRecord, RunRecord};
 use crate::sweep::Division;
 use coupler_curves::exchange::PointTable;
@@ -271,7 +270,6 @@ impl FamilyPages<'_> {
         let sink = OutputSink {
             composer: &pipeline.composer,
             formats: &formats,
-            inputs: Inputs::new(planned),
             tables: (PointTable::new(family), CellTable::new(family)),
             script: FamilyScript::new(plan, planned),
             registry: &registry,

@@ -2,13 +2,12 @@
 
 use std::sync::atomic::AtomicBool;
 
-use super::inputs::Inputs;
 use super::registry::FileRegistry;
 use super::survey::{CellSurvey, Surveyor};
 use super::{Error, check_interrupt};
 use crate::gallery::{CellData, FamilyScript};
-use crate::pipeline::{Composer, PageContent, PageJob, Sink, page_file_name};
-use crate::record::{CellTable, Digest, FileRecord};
+use crate::pipeline::{Composer, PageJob, Sink, page_file_name};
+use crate::record::{CellTable, FileRecord};
 use coupler_curves::exchange::PointTable;
 use coupler_curves::solve::{SolvedCell, Status};
 use coupler_drawing::render::{self, PageFormat};
@@ -43,7 +42,6 @@ pub(super) struct TableRows {
 pub(super) struct OutputSink<'a> {
     pub composer: &'a Composer<'a>,
     pub formats: &'a [PageFormat],
-    pub inputs: Inputs<'a>,
     pub tables: (PointTable<'a>, CellTable<'a>),
     pub script: FamilyScript<'a>,
     /// The records of the files.
@@ -88,13 +86,7 @@ impl Sink for OutputSink<'_> {
     fn receive_page(&self, job: PageJob) -> Result<PageFiles, Error> {
         check_interrupt(self.interrupt)?;
         let &Composer { plan, planned, page_count, .. } = self.composer;
-        let inputs: Digest = match job.content {
-            PageContent::Cells { cells, curves } => {
-                let common = self.composer.common_text();
-                self.inputs.page_digest((job.number, page_count), &common, cells, curves)
-            }
-            PageContent::Charts => self.inputs.chart_page_digest(job.number),
-        };
+        let inputs = job.inputs_digest(self.composer);
         let with_name =
             |&format: &PageFormat| (format, page_file_name(&planned.family.id, (job.number, page_count), format));
         let names: Vec<(PageFormat, String)> = self.formats.iter().map(with_name).collect();

@@ -49,7 +49,9 @@ pub(super) fn recover(
         }
     });
     temporary::remove_folder(&folder);
-    let (previous, files) = Evidence::of(output).recover(fresh?);
+    let evidence =
+        Evidence::of(output).map_err(|source| Error::ForeignRecord { path: output.join(RUN_FILE_NAME), source })?;
+    let (previous, files) = evidence.recover(fresh?);
     if files.is_empty() {
         return match source {
             ReadError::File(FileError::NotFound) => Ok(None),
@@ -71,9 +73,15 @@ struct Evidence<'a> {
 }
 
 impl Evidence<'_> {
-    fn of(output: &Path) -> Evidence<'_> {
-        let journal = FolderRecord::read_without_run(output).map(sanitize).unwrap_or_default();
-        Evidence { output, journal, images: read_images(output).0.into_iter().collect() }
+    /// # Errors
+    /// The system fails to read the journal or the digests of images.
+    fn of(output: &Path) -> Result<Evidence<'_>, ReadError> {
+        let journal = match FolderRecord::read_without_run(output) {
+            Ok(record) => sanitize(record),
+            Err(error) if error.is_system_failure() => return Err(error),
+            Err(_) => PreviousRun::default(),
+        };
+        Ok(Evidence { output, journal, images: read_images(output)?.0.into_iter().collect() })
     }
 
     /// What an earlier run has left, given the record of the same atlas in another folder, and the paths of its files.

@@ -4,6 +4,7 @@
 mod captions;
 mod charts;
 mod composer;
+mod inputs;
 mod kept_cells;
 mod pagination;
 
@@ -13,6 +14,7 @@ pub use charts::build_chart;
 pub use composer::Composer;
 #[cfg(feature = "pdf")]
 pub use composer::curves_by_page;
+pub use inputs::Inputs;
 pub use pagination::{Pagination, measures_used_on_pages};
 
 use std::ops::Range;
@@ -21,6 +23,7 @@ use std::sync::{Mutex, PoisonError};
 
 use self::kept_cells::KeptCells;
 use crate::manifest::{Plan, PlannedFamily};
+use crate::record::Digest;
 use crate::sweep::{self, CellGroups, CellIndices, CellSelection};
 use coupler_curves::motion::Sampler;
 use coupler_curves::solve::SolvedCell;
@@ -90,6 +93,17 @@ pub enum PageContent<'a> {
 }
 
 impl PageJob<'_> {
+    /// The digest of what the page is made from; `composer` is that of its family.
+    pub fn inputs_digest(&self, composer: &Composer) -> Digest {
+        let inputs = Inputs::new(composer.planned);
+        match self.content {
+            PageContent::Cells { cells, curves } => {
+                inputs.page_digest((self.number, composer.page_count), &composer.common_text(), cells, curves)
+            }
+            PageContent::Charts => inputs.chart_page_digest(self.number),
+        }
+    }
+
     /// Composes the page.
     pub fn compose(self) -> Scene {
         (self.compose)()

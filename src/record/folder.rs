@@ -77,14 +77,15 @@ impl FolderRecord {
     }
 
     fn with_run(folder: &Path, mut earlier: Option<RunRecord>, is_as_written: bool) -> Result<FolderRecord, ReadError> {
-        let (mut digests, mut images) = read_images(folder);
+        let (mut digests, mut images) = read_images(folder)?;
         if let Some(run) = &mut earlier {
             for_each_image(run, |path, file| file.image_sha256 = digests.remove(path));
         }
         if !digests.is_empty() && earlier.is_some() {
             images = ImagesState::Damaged(format!("lists files that {RUN_FILE_NAME} does not"));
         }
-        let journal = match open_regular_file(&folder.join(JOURNAL_FILE_NAME), u64::MAX) {
+        let journal_path = folder.join(JOURNAL_FILE_NAME);
+        let journal = match open_regular_file(&journal_path, u64::MAX) {
             Ok(file) => Some(file),
             Err(FileError::NotFound) => None,
             Err(error) => return Err(ReadError::Journal(error)),
@@ -94,22 +95,26 @@ impl FolderRecord {
             Some(file) => JournalReplay::new(earlier, BufReader::new(file)),
             None => JournalReplay::new(earlier, io::empty()),
         };
-        let replay = replay.map_err(|error| ReadError::Journal(error.into()))?;
+        let replay = replay.map_err(|error| ReadError::Journal(FileError::at(&journal_path)(error)))?;
         let (run, progress, pieces) = replay.ok_or(FileError::NotFound)?.finish();
         Ok(FolderRecord { run, images, progress, pieces, is_unfinished, is_as_written })
     }
 }
 
 /// Reads `images.json`: the digests in it, and its state.
-pub fn read_images(folder: &Path) -> (ImageDigests, ImagesState) {
-    match read_regular_file(&folder.join(IMAGES_FILE_NAME), MAX_BYTES) {
+///
+/// # Errors
+/// The system fails to read it.
+pub fn read_images(folder: &Path) -> Result<(ImageDigests, ImagesState), ReadError> {
+    Ok(match read_regular_file(&folder.join(IMAGES_FILE_NAME), MAX_BYTES) {
         Ok(bytes) => match images_from_bytes(&bytes) {
             Some(digests) => (digests, ImagesState::Intact),
             None => (ImageDigests::new(), ImagesState::Damaged("is not what a run has written".to_owned())),
         },
         Err(FileError::NotFound) => (ImageDigests::new(), ImagesState::Missing),
+        Err(error @ FileError::Unreadable { .. }) => return Err(ReadError::Images(error)),
         Err(error) => (ImageDigests::new(), ImagesState::Damaged(error.to_string())),
-    }
+    })
 }
 
 /// Checks that a record does not list more files than memory is meant for.

@@ -3,7 +3,7 @@
 
 use std::fs::{self, File};
 use std::io::{self, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::digest::{Digest, RunningDigest};
 
@@ -16,9 +16,14 @@ pub enum FileError {
     /// Something other than a file has its name.
     #[error("is {0}, not a file")]
     NotAFile(&'static str),
-    /// It cannot be read.
-    #[error("cannot be read: {0}")]
-    Unreadable(String),
+    /// The system fails to read it, so that nothing is known about it and another attempt may succeed.
+    #[error("cannot be read: {reason}")]
+    Unreadable {
+        /// Its path.
+        path: PathBuf,
+        /// What the system says.
+        reason: String,
+    },
     /// It is far larger than this program could have written.
     #[error("has {bytes} bytes, expected at most {max}")]
     TooLarge {
@@ -29,11 +34,13 @@ pub enum FileError {
     },
 }
 
-impl From<io::Error> for FileError {
-    fn from(error: io::Error) -> FileError {
-        match error.kind() {
-            io::ErrorKind::NotFound => FileError::NotFound,
-            _ => FileError::Unreadable(error.to_string()),
+impl FileError {
+    /// What an error of the system says about the file at a path.
+    pub fn at(path: &Path) -> impl Fn(io::Error) -> FileError {
+        |error| match error.kind() {
+            // There is no file in a file.
+            io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => FileError::NotFound,
+            _ => FileError::Unreadable { path: path.to_owned(), reason: error.to_string() },
         }
     }
 }
@@ -43,7 +50,7 @@ impl From<io::Error> for FileError {
 /// # Errors
 /// The file cannot be read, is larger, or is not a regular file.
 pub fn open_regular_file(path: &Path, max_bytes: u64) -> Result<File, FileError> {
-    let metadata = fs::symlink_metadata(path)?;
+    let metadata = fs::symlink_metadata(path).map_err(FileError::at(path))?;
     let kind = metadata.file_type();
     if !kind.is_file() {
         return Err(FileError::NotAFile(match () {
@@ -55,7 +62,7 @@ pub fn open_regular_file(path: &Path, max_bytes: u64) -> Result<File, FileError>
     if metadata.len() > max_bytes {
         return Err(FileError::TooLarge { bytes: metadata.len(), max: max_bytes });
     }
-    Ok(File::open(path)?)
+    File::open(path).map_err(FileError::at(path))
 }
 
 /// The digest of a regular file, read in parts.
@@ -64,7 +71,7 @@ pub fn open_regular_file(path: &Path, max_bytes: u64) -> Result<File, FileError>
 /// The file cannot be read, or is not a regular file.
 pub fn file_digest(path: &Path) -> Result<Digest, FileError> {
     let mut digest = RunningDigest::default();
-    io::copy(&mut open_regular_file(path, u64::MAX)?, &mut digest)?;
+    io::copy(&mut open_regular_file(path, u64::MAX)?, &mut digest).map_err(FileError::at(path))?;
     Ok(digest.finish())
 }
 
@@ -75,6 +82,7 @@ pub fn file_digest(path: &Path) -> Result<Digest, FileError> {
 pub fn read_regular_file(path: &Path, max_bytes: u64) -> Result<Vec<u8>, FileError> {
     let mut bytes = Vec::new();
     // The limit holds even if the file grows while it is read.
-    open_regular_file(path, max_bytes)?.take(max_bytes).read_to_end(&mut bytes)?;
+    let mut file = open_regular_file(path, max_bytes)?.take(max_bytes);
+    file.read_to_end(&mut bytes).map_err(FileError::at(path))?;
     Ok(bytes)
 }

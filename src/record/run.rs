@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::digest::{Digest, RunningDigest};
+use super::images::IMAGES_FILE_NAME;
 use super::regular_file::FileError;
 
 /// The version of the format of `run.json`.
@@ -141,6 +142,9 @@ pub enum ReadError {
     /// The journal of an unfinished run cannot be read.
     #[error("its journal, {name}, {0}", name = JOURNAL_FILE_NAME)]
     Journal(#[source] FileError),
+    /// The system fails to read the digests of its images and books.
+    #[error("{name} beside it {0}", name = IMAGES_FILE_NAME)]
+    Images(#[source] FileError),
     /// It lists more files than this program writes.
     #[error("it lists {files} files, expected at most {}", MAX_RECORDED_FILES)]
     TooManyFiles {
@@ -223,7 +227,10 @@ struct FormatLocator {
 impl ReadError {
     /// Whether the system failed to read it, so that nothing is known about it and another attempt may succeed.
     pub fn is_system_failure(&self) -> bool {
-        matches!(self, ReadError::File(FileError::Unreadable(_)) | ReadError::Journal(FileError::Unreadable(_)))
+        let (ReadError::File(error) | ReadError::Journal(error) | ReadError::Images(error)) = self else {
+            return false;
+        };
+        matches!(error, FileError::Unreadable { .. })
     }
 
     /// Whether the record is lost or damaged, so that it can be rebuilt from the files of the atlas.
@@ -231,7 +238,7 @@ impl ReadError {
         match self {
             ReadError::Altered | ReadError::Syntax(_) | ReadError::TooManyFiles { .. } => true,
             ReadError::File(error) => matches!(error, FileError::NotFound | FileError::TooLarge { .. }),
-            ReadError::Journal(_) | ReadError::UnsupportedFormat { .. } => false,
+            ReadError::Journal(_) | ReadError::Images(_) | ReadError::UnsupportedFormat { .. } => false,
         }
     }
 }

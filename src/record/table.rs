@@ -4,7 +4,7 @@
 use std::collections::HashMap;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use super::digest::{Digest, RunningDigest};
@@ -13,6 +13,7 @@ use super::regular_file::{FileError, open_regular_file};
 /// A table whose rows begin with the number of a cell.
 #[derive(Debug)]
 pub struct RecordedTable {
+    path: PathBuf,
     file: Mutex<File>,
     /// The names of its columns.
     pub header: Vec<String>,
@@ -88,10 +89,11 @@ impl RecordedTable {
     /// The table cannot be read at all.
     pub fn open(path: &Path, max_bytes: u64, cell_count: usize) -> Result<RecordedTable, TableError> {
         let file = open_regular_file(path, max_bytes)?;
-        let scan = Scan::from_file(&file, max_bytes, cell_count).map_err(FileError::from)?;
+        let scan = Scan::from_file(&file, max_bytes, cell_count).map_err(FileError::at(path))?;
         let header = scan.header.ok_or(TableError::Empty)?;
         let digests = scan.digests.map(RunningDigest::finish);
-        Ok(RecordedTable { file: Mutex::new(file), header, digests, row_ranges: scan.row_ranges, errors: scan.errors })
+        let Scan { row_ranges, errors, .. } = scan;
+        Ok(RecordedTable { path: path.to_owned(), file: Mutex::new(file), header, digests, row_ranges, errors })
     }
 
     /// The index of a column.
@@ -120,7 +122,7 @@ impl RecordedTable {
             Ok(text)
         };
         let line = ranges.first().map_or(0, |range| range.first_line);
-        Some(read().map(|text| (text, line)).map_err(|error| FileError::from(error).into()))
+        Some(read().map(|text| (text, line)).map_err(|error| FileError::at(&self.path)(error).into()))
     }
 
     /// The rows of a cell.

@@ -44,7 +44,7 @@ impl From<FileError> for FileProblem {
             FileError::NotFound => FileProblem::Missing,
             FileError::NotAFile(_) => FileProblem::Foreign(format!("it {error}")),
             FileError::TooLarge { .. } => FileProblem::Damaged(format!("it {error}")),
-            FileError::Unreadable(_) => FileProblem::Unreadable(format!("it {error}")),
+            FileError::Unreadable { .. } => FileProblem::Unreadable(format!("it {error}")),
         }
     }
 }

@@ -178,7 +178,7 @@ fn text_record(table: &Path) -> Result<TextRecord, FileProblem> {
     let bytes = read_regular_file(&path, MAX_RECORD_BYTES).map_err(|error| match error {
         // The record is written first.
         FileError::NotFound if fs::symlink_metadata(table).is_err() => FileProblem::Missing,
-        FileError::Unreadable(_) => FileProblem::Unreadable(its_record(error.to_string())),
+        FileError::Unreadable { .. } => FileProblem::Unreadable(its_record(error.to_string())),
         error => FileProblem::Foreign(its_record(error.to_string())),
     })?;
     let value: serde_json::Value = serde_json::from_slice(&bytes).map_err(|error| {
@@ -192,11 +192,11 @@ fn text_record(table: &Path) -> Result<TextRecord, FileProblem> {
 }
 
 /// Opens a Parquet file. `parquet` takes the length of a file for 0 where the system fails to say it.
-fn open_parquet(file: File) -> Result<SerializedFileReader<File>, FileProblem> {
-    let same = file.try_clone().map_err(FileError::from)?;
+fn open_parquet(path: &Path, file: File) -> Result<SerializedFileReader<File>, FileProblem> {
+    let same = file.try_clone().map_err(FileError::at(path))?;
     SerializedFileReader::new(file).map_err(|error| match same.metadata() {
         Ok(_) => parquet_problem(error),
-        Err(error) => FileError::from(error).into(),
+        Err(error) => FileError::at(path)(error).into(),
     })
 }
 
@@ -205,12 +205,12 @@ fn parquet_record(path: &Path) -> Result<(ShardRecord, Digest), FileProblem> {
     let mut file = open_regular_file(path, u64::MAX)?;
     let mut beginning = Vec::new();
     let read = (&mut file).take(PARQUET_MAGIC.len() as u64).read_to_end(&mut beginning);
-    read.map_err(|error| FileProblem::from(FileError::from(error)))?;
+    read.map_err(FileError::at(path))?;
     // What does not begin as a Parquet file is no part of one.
     if !PARQUET_MAGIC.starts_with(&beginning) {
         return Err(FileProblem::Foreign("it is not a Parquet file".to_owned()));
     }
-    let reader = open_parquet(file)?;
+    let reader = open_parquet(path, file)?;
     let metadata = reader.metadata().file_metadata();
     let pairs = || metadata.key_value_metadata().into_iter().flatten();
     let record = ShardRecord::from_metadata(pairs().map(|pair| (pair.key.as_str(), pair.value.as_deref())))?;
@@ -252,7 +252,7 @@ fn parquet_digest(path: &Path, stated: Digest) -> Result<Digest, FileProblem> {
         (&mut file).take(end.min(length)).read_to_end(&mut metadata)?;
         Ok(metadata)
     };
-    let mut metadata = read().map_err(|error| FileProblem::from(FileError::from(error)))?;
+    let mut metadata = read().map_err(FileError::at(path))?;
     if let Some(place) = find_last(&metadata, stated.to_string().as_bytes()) {
         metadata[place..place + NO_DIGEST.len()].copy_from_slice(&NO_DIGEST);
     }
@@ -276,7 +276,7 @@ fn for_row_groups(
     mut visit: impl FnMut(&dyn RowGroupReader, Range<usize>) -> Result<(), String>,
 ) -> Result<(), String> {
     let file = open_regular_file(path, u64::MAX).map_err(|error| format!("it {error}"))?;
-    let reader = open_parquet(file).map_err(FileProblem::into_message)?;
+    let reader = open_parquet(path, file).map_err(FileProblem::into_message)?;
     let mut first = 0;
     for group in 0..reader.num_row_groups() {
         let group = reader.get_row_group(group).map_err(parquet_message)?;

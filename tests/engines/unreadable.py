@@ -25,8 +25,10 @@ ERRORS = {
 MANIFEST = """[atlas]
 title = "T"
 output = "out"
-formats = ["svg"]
+formats = ["svg", "png", "pdf"]
 [page]
+paper = { width = "110 mm", height = "90 mm" }
+dpi = 30
 theme = { fallback_face = "face.ttf" }
 [[linkage]]
 id = "own"
@@ -56,6 +58,8 @@ OWN = ["own", "--manifest", "atlas.toml"]
 FIND = ["--no-refine", "--index", "1000", "--top", "1"]
 SHARD = "tables/evans/cells-00000-of-00001"
 READ = ["atlas.toml", "face.ttf"]
+RECORDED = ["run.json", "images.json", "atlas.pdf", "index.html", "kernel.js"]
+RECORDED += [f"evans/{name}" for name in ("points.csv", "cells.csv", "evans-001.svg", "evans-001.png", "gallery.js")]
 
 # Commands, what they read from standard input, and the files and folders that they read.
 COMMANDS = [
@@ -65,7 +69,7 @@ COMMANDS = [
     (["render", "--quiet", "--shard", "0/1", "-o", "part"], None, READ),
     (["sweep", "--quiet", "-o", "swept"], None, READ),
     (["sweep", "--quiet", "-o", "swept-again", "-"], "atlas.toml", ["atlas.toml"]),
-    (["check", "--against", "out"], None, [*READ, "out/run.json"]),
+    (["check", "--against", "out"], None, [*READ, *(f"out/{name}" for name in RECORDED)]),
     (["export", "atlas.toml", "evans:1.1.1", "-o", "-", "--format", "csv"], None, READ),
     (["export", "--linkage", *OWN, "-o", "-", "--format", "csv"], None, ["atlas.toml"]),
     (["list", "families", "atlas.toml"], None, READ),

@@ -72,6 +72,46 @@ fn damage_to_every_region_of_every_recorded_file_is_found() {
     assert_eq!(check(&atlas), (0, String::new()));
 }
 
+/// A record may be edited so that it has a right digest of itself: what it says of inputs is compared with the manifest.
+#[test]
+fn inputs_that_are_not_those_of_the_manifest_are_found() {
+    let atlas = rendered();
+    let original = fs::read(atlas.out().join("run.json")).unwrap();
+    let other = "0".repeat(64);
+    let with_pointer = |pointer: &str, value: serde_json::Value| {
+        edit_record(&atlas.out(), |run| *run.pointer_mut(pointer).unwrap() = value);
+        let found = check(&atlas);
+        fs::write(atlas.out().join("run.json"), &original).unwrap();
+        found
+    };
+    let run: serde_json::Value = serde_json::from_slice(&original).unwrap();
+    let mut pointers = vec!["/book/inputs_sha256".to_owned(), "/book/files/0/inputs_sha256".to_owned()];
+    for (k, family) in run["families"].as_array().unwrap().iter().enumerate() {
+        pointers.push(format!("/families/{k}/inputs_sha256"));
+        let files = family["files"].as_array().unwrap().iter().enumerate();
+        let pages = files.filter(|(_, file)| !file["inputs_sha256"].is_null());
+        pointers.extend(pages.map(|(file, _)| format!("/families/{k}/files/{file}/inputs_sha256")));
+    }
+    assert!(pointers.len() > 4, "{pointers:?}");
+    for pointer in &pointers {
+        let (code, out) = with_pointer(pointer, other.as_str().into());
+        assert!(code == 1 && out.contains("run.json") && out.contains("inputs_sha256"), "{pointer}: {out}");
+    }
+    let (code, out) = with_pointer("/program", "another-atlas".into());
+    assert!(code == 1 && out.contains("another-atlas"), "{out}");
+    assert_eq!(check(&atlas), (0, String::new()));
+    // `render` records them again.
+    edit_record(&atlas.out(), |run| *run.pointer_mut(&pointers[2]).unwrap() = other.as_str().into());
+    assert_eq!(atlas.run(&[]).0, 0);
+    assert!(fs::read(atlas.out().join("run.json")).unwrap() == original);
+    // How a manifest is written does not matter, nor do keys that change no file.
+    atlas.edit(&format!(
+        "# A comment.\n{}",
+        MANIFEST.replace(" = ", "  =  ").replace("\"svg\", \"png\"", "\"png\", \"svg\"")
+    ));
+    assert_eq!(check(&atlas), (0, String::new()));
+}
+
 #[test]
 fn swapped_images_and_a_damaged_book_are_found_and_renewed() {
     let atlas = rendered();

@@ -54,7 +54,7 @@ pub fn write(folder: &Path, plan: &Plan, recorded: &Path, report: (&Options, &Re
             Ok(()) => written += 1,
             Err(error) => failed = failed.take().or(Some(error)),
         }
-    });
+    })?;
     if let Some(error) = failed {
         return Err(error.into());
     }

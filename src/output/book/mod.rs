@@ -9,12 +9,11 @@ mod part;
 
 use std::path::Path;
 
-use super::inputs::Inputs;
 use super::journal::{Journal, JournalFile};
 use super::survey::{CellSurvey, FamilySurvey, Surveyor};
 use super::{Error, Event, Options, check_interrupt, files, previous_run};
 use crate::manifest::{BookPlan, FindingCharts, Plan, PlannedFamily};
-use crate::pipeline::{Composer, FamilyPipeline, curves_by_page, measures_used_on_pages};
+use crate::pipeline::{Composer, FamilyPipeline, Inputs, curves_by_page, measures_used_on_pages};
 use crate::record::{BookRecord, Digest, FileRecord};
 use crate::sweep::{self, CellGroups};
 use coupler_curves::motion::Sampler;
@@ -47,7 +46,7 @@ fn is_left_alone(selected: &[(usize, &PlannedFamily)], options: &Options) -> boo
 
 fn inputs_digest(plan: &Plan, selected: &[(usize, &PlannedFamily)]) -> Digest {
     let families: Vec<&PlannedFamily> = selected.iter().map(|(_, planned)| *planned).collect();
-    Inputs::book_digest(&families, plan.volume_pages, &plan.book.manifest_inputs)
+    Inputs::of_book(plan, &families)
 }
 
 /// Whether a recorded book is up to date.

@@ -3,6 +3,7 @@ use std::os::unix::fs::symlink;
 
 use super::old_and_new;
 use crate::support::command::{folder_with, run};
+use crate::support::folder::Atlas;
 
 /// Files of which the system says that they exist, and whose bytes it fails to read: a process has nothing at address 0.
 const UNREADABLE: &str = "/proc/self/mem";
@@ -48,4 +49,28 @@ fn an_input_that_the_system_fails_to_read_is_not_wrong() {
     )
     .unwrap();
     assert_eq!(run(folder.path(), &["sweep", "font.toml"]).0, 2);
+}
+
+/// Nothing is known about it: that is no difference. Here a folder leads to itself.
+#[test]
+fn a_recorded_file_that_the_system_fails_to_read_is_not_damaged() {
+    let [manifest, _] = old_and_new();
+    let atlas = Atlas::rendered(&manifest, &[]);
+    let folder = atlas.out().join("over");
+    fs::rename(&folder, atlas.0.path().join("over")).unwrap();
+    symlink("over", &folder).unwrap();
+    let (code, out, err) = atlas.check(&[]);
+    assert_eq!((code, out.as_str()), (3, ""), "{err}");
+    let file = "out/over/points.csv";
+    assert!(err.starts_with(&format!("error: cannot use {file}: it cannot be read: ")), "{err}");
+    assert!(err.ends_with("(os error 40); run it again\n"), "{err}");
+    // Other families can be checked, and a file in the place of the folder is read, and wrong.
+    assert_eq!(atlas.check(&["--only", "evans"]).0, 0);
+    fs::remove_file(&folder).unwrap();
+    fs::write(&folder, "").unwrap();
+    let (code, out, err) = atlas.check(&[]);
+    assert!(code == 1 && out.contains("damaged  over/points.csv    does not exist\n"), "{err}{out}");
+    fs::remove_file(&folder).unwrap();
+    fs::rename(atlas.0.path().join("over"), &folder).unwrap();
+    assert_eq!(atlas.check(&[]).0, 0);
 }

@@ -1,12 +1,12 @@
 //! Digests of what files are made from: a file is up to date if its digest is that of the earlier run.
 
-use crate::manifest::PlannedFamily;
+use crate::manifest::{Plan, PlannedFamily};
 use crate::record::{Digest, RunningDigest};
 use coupler_curves::solve::SolvedCell;
 
 /// What the files of a family are made from.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Inputs<'a> {
+pub struct Inputs<'a> {
     planned: &'a PlannedFamily,
     /// The program's version. A developer who changes the source under the same version has to render with `--force`.
     version: &'a str,
@@ -56,8 +56,8 @@ impl<'a> Inputs<'a> {
     }
 
     /// The digest of what a book is made from: its families, the most pages of a volume, and the table `[book]`.
-    #[cfg(feature = "pdf")]
-    pub fn book_digest(families: &[&PlannedFamily], volume_pages: usize, book: &str) -> Digest {
+    pub fn of_book(plan: &Plan, families: &[&PlannedFamily]) -> Digest {
+        let (volume_pages, book) = (plan.volume_pages, &plan.book.manifest_inputs);
         let mut digest = RunningDigest::default();
         digest.update(format!("book in volumes of {volume_pages}\n{book}\n").as_bytes());
         families
