@@ -88,6 +88,30 @@ fn which_condition_the_nearest_miss_fails_is_said() {
         let (code, out, err) = run(folder.path(), &[&search[..], linkage, &["--json"]].concat());
         assert!(code == 0 && !out.contains("note: ") && err.ends_with("; `crank > 1000000` fails\n"), "{err}");
     }
+    // In an atlas it is a cell, of which those conditions hold that are not named.
+    let kept = MANIFEST.split("where").next().unwrap();
+    fs::write(folder.path().join("atlas.toml"), kept).unwrap();
+    for (condition, ends) in [
+        ("mu_min_deg > 89 and crank < 2", &["; `mu_min_deg > 89` fails for 2 of 2 curves\n"][..]),
+        ("mu_min_deg > 40 and crank * 2 > 9", &["; `crank · 2 > 9` fails\n"]),
+        // A single condition has its value, as elsewhere.
+        ("mu_min_deg > 89", &["`mu_min_deg` is 60\n", "`mu_min_deg` is 49.2486\n"]),
+    ] {
+        let search = ["find", "path.csv", "--atlas", "atlas.toml", "--no-refine", "--where", condition];
+        let (code, out, err) = run(folder.path(), &search);
+        assert!(code == 0 && out.contains("the nearest miss is an answer without --where, --open:\n"), "{err}{out}");
+        assert!(out.contains("\nnote: the nearest miss does not meet --where: "), "{out}");
+        assert!(ends.iter().any(|end| out.ends_with(end)), "{out}");
+        let (code, out, err) = run(folder.path(), &[&search[..], &["--json"]].concat());
+        assert!(code == 0 && !out.contains("note: ") && ends.iter().any(|end| err.ends_with(end)), "{err}");
+    }
+    // What the nearest miss meets is not blamed.
+    let search = ["find", "path.csv", "--atlas", "atlas.toml", "--no-refine", "--max-link", "1e-3"];
+    let (code, out, err) = run(folder.path(), &[&search[..], &["--where", "crank < 2"]].concat());
+    assert!(
+        code == 0 && out.contains("is an answer without --max-link, --open:\n") && !out.contains("note: "),
+        "{err}{out}"
+    );
 }
 
 /// A single condition needs no count of failures, and one that joins others by `or` is one.

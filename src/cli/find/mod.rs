@@ -38,13 +38,13 @@ impl Shown for Report {
         find::draw_four_bars(&self.title(), &self.target, &self.answers)
     }
 
-    fn miss(&self) -> Option<Family> {
+    fn miss(&self) -> Option<(Family, usize)> {
         let (constraints, answer) = self.nearest_miss.as_ref()?;
         let parameters = placed_parameters(&answer.mechanism.four_bar).map(|(name, value)| (name.to_owned(), value));
         let family =
             Family::single_cell(Mechanism::template(), &parameters, Sampling::Samples(DEFAULT_SAMPLES as usize))
                 .ok()?;
-        constraints.contains(&Constraint::Condition).then_some(family)
+        constraints.contains(&Constraint::Condition).then_some((family, 0))
     }
 
     fn json(&self) -> anyhow::Result<String> {

@@ -39,11 +39,16 @@ pub(super) fn notes(best: &Best, arguments: &Arguments) -> String {
     out
 }
 
-/// Which conditions a linkage does not meet, and its values.
-pub(super) fn unmet(family: Family, condition: &str) -> String {
+/// Which conditions a cell of a family does not meet, and its values, or why the condition has no meaning there.
+pub(super) fn unmet((family, cell): (Family, usize), condition: &str) -> String {
     let scope = Family::scope(&family.names, family.template.is_driven_by_length());
-    let filter = parse_condition(condition).and_then(|parsed| parsed.compile(&scope, Kind::Boolean)).ok();
-    let found = sweep::diagnose(&Family { filter, sort: None, ..family }, 0..1).describe(1);
+    let found = match parse_condition(condition).and_then(|parsed| parsed.compile(&scope, Kind::Boolean)) {
+        Ok(filter) => {
+            let family = Family { filter: Some(filter), sort: None, ..family };
+            sweep::diagnose(&family, cell..cell + 1).describe(1)
+        }
+        Err(error) => error.to_string(),
+    };
     format!("note: the nearest miss does not meet --where: {}\n", printable(found))
 }
 

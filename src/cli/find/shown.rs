@@ -16,8 +16,8 @@ pub(super) trait Shown {
     fn text(&self) -> String;
     /// The best answer, if there is one.
     fn best(&self) -> Option<Best>;
-    /// The family of the nearest miss alone, if there is one that does not meet the condition.
-    fn miss(&self) -> Option<Family>;
+    /// The family of the nearest miss and the index of its cell, if there is one that does not meet the condition.
+    fn miss(&self) -> Option<(Family, usize)>;
 }
 
 /// Writes the drawing that the arguments ask for, and prints what they ask for unless that is the drawing.

@@ -25,7 +25,7 @@ pub struct AtlasFindings {
     pub curves: usize,
     /// The nearest curves, the nearest first.
     pub answers: Vec<AtlasAnswer>,
-    /// If there is none, the constraints to relax, and the nearest curve without them.
+    /// If there is none, the nearest curve without constraints, and those that it does not meet.
     pub nearest_miss: Option<(Vec<Constraint>, AtlasAnswer)>,
 }
 
@@ -45,20 +45,17 @@ pub fn find_in_atlas(
     let answers = ranked(found, target, query);
     let mut nearest_miss = None;
     if answers.is_empty() {
-        let set = [
-            (Constraint::Condition, query.condition.is_some()),
-            (Constraint::Pivots, query.options.pivots.is_some()),
-            (Constraint::MaxLink, query.options.max_link.is_finite()),
-            (Constraint::FullTurn, query.options.full_turn),
-        ];
-        let mut relax: Vec<_> =
-            set.into_iter().filter(|(_, is_set)| *is_set).map(|(constraint, _)| constraint).collect();
+        let mut detours = None;
         let (mut others, _) = search::search_atlas(plan, target, &options.relaxed(), interrupt)?;
         if others.is_empty() && Constraint::Detours.is_set(target, query.options) {
-            relax.push(Constraint::Detours);
+            detours = Some(Constraint::Detours);
             (others, _) = search::search_atlas(plan, &target.opened(), &options.relaxed(), interrupt)?;
         }
-        nearest_miss = others.into_iter().next().map(|nearest| (relax, nearest));
+        if let Some(nearest) = others.into_iter().next() {
+            let mut relax = search::unmet_constraints(plan, target, &options, &nearest)?;
+            relax.extend(detours);
+            nearest_miss = Some((relax, nearest));
+        }
     }
     Ok(AtlasFindings { curves, answers, nearest_miss })
 }

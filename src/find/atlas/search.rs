@@ -5,10 +5,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use coupler_curves::expression::{CompiledExpression, Kind};
 use coupler_curves::family::Family;
-use coupler_curves::find::{CurveFitOptions, CurveFitter, CurveIndex, CurveLookup, CurveShape, Target, is_scalable};
+use coupler_curves::find::{
+    Constraint, CurveFitOptions, CurveFitter, CurveIndex, CurveLookup, CurveShape, Target, is_scalable,
+};
 use coupler_curves::geometry::{Bounds, Point};
 use coupler_curves::measure;
-use coupler_curves::solve::{MeasuredCurve, SolvedCell};
+use coupler_curves::motion::Sampler;
+use coupler_curves::solve::{self, MeasuredCurve, SolvedCell};
 
 use super::super::Error;
 use super::super::placed_curve::{PlacedCurve, REPORTED};
@@ -169,6 +172,16 @@ fn is_kept(
         && condition.is_none_or(|condition| condition.evaluate(value) == 1.0)
 }
 
+/// Which measures are needed of the curves of a family.
+fn requested_measures(family: &Family, condition: Option<&CompiledExpression>) -> Vec<bool> {
+    let is_needed = |k: usize| {
+        REPORTED.contains(&measure::ALL[k].name)
+            || family.filter_or_sort_uses(k)
+            || condition.is_some_and(|condition| family.expression_uses(condition, k))
+    };
+    (0..measure::ALL.len()).map(is_needed).collect()
+}
+
 /// Solves cells on all threads, and receives the results in order.
 ///
 /// # Errors
@@ -181,12 +194,7 @@ fn solve_cells<T: Send>(
     interrupt: &AtomicBool,
     mut receive: impl FnMut(Vec<T>),
 ) -> Result<(), Error> {
-    let is_needed = |k: usize| {
-        REPORTED.contains(&measure::ALL[k].name)
-            || family.filter_or_sort_uses(k)
-            || condition.is_some_and(|condition| family.expression_uses(condition, k))
-    };
-    let requested: Vec<bool> = (0..measure::ALL.len()).map(is_needed).collect();
+    let requested = requested_measures(family, condition);
     let groups = CellGroups {
         cells,
         first_group: 0,
@@ -250,7 +258,49 @@ fn answer(
 
 /// Whether an answer satisfies the constraints on its place.
 fn is_placed_well(answer: &AtlasAnswer, target: &Target, options: &AtlasOptions) -> bool {
+    is_short_enough(answer, target, options) && is_inside(answer, options)
+}
+
+fn is_short_enough(answer: &AtlasAnswer, target: &Target, options: &AtlasOptions) -> bool {
+    answer.curve.longest_link <= options.max_link * target.size()
+}
+
+fn is_inside(answer: &AtlasAnswer, options: &AtlasOptions) -> bool {
     let is_inside = |b: &Bounds, p: &Point| b.min.x <= p.x && p.x <= b.max.x && b.min.y <= p.y && p.y <= b.max.y;
     let are_inside = |b: &Bounds| answer.curve.pivots.iter().all(|(_, pivot)| is_inside(b, pivot));
-    answer.curve.longest_link <= options.max_link * target.size() && options.pivots.as_ref().is_none_or(are_inside)
+    options.pivots.as_ref().is_none_or(are_inside)
+}
+
+/// The constraints that a curve of the atlas does not meet where it is placed on the target.
+///
+/// # Errors
+/// The condition is none in any of the families.
+pub(super) fn unmet_constraints(
+    plan: &Plan,
+    target: &Target,
+    options: &AtlasOptions,
+    answer: &AtlasAnswer,
+) -> Result<Vec<Constraint>, Error> {
+    let met = [
+        (Constraint::Condition, meets_condition(plan, options.condition, answer)?),
+        (Constraint::Pivots, is_inside(answer, options)),
+        (Constraint::MaxLink, is_short_enough(answer, target, options)),
+        (Constraint::FullTurn, !options.full_turn || answer.curve.is_full_turn),
+    ];
+    Ok(met.into_iter().filter(|(_, is_met)| !is_met).map(|(constraint, _)| constraint).collect())
+}
+
+/// Whether a curve of the atlas satisfies a condition; not if that has no meaning in its family.
+fn meets_condition(plan: &Plan, condition: Option<&str>, answer: &AtlasAnswer) -> Result<bool, Error> {
+    let ([place, cell], [trace, circuit]) = (answer.place, answer.curve.numbers);
+    let families = compile(plan, condition)?;
+    let Some((_, family, condition)) = families.iter().find(|(other, ..)| *other == place) else { return Ok(false) };
+    let Some(condition) = condition else { return Ok(true) };
+    let requested = requested_measures(family, Some(condition));
+    let solved = solve::solve_measuring(family, &Sampler::new(family.sampling), cell, &requested);
+    Ok(solved.is_some_and(|solved| {
+        let mut curves = solved.curves.iter().filter(|curve| (curve.trace, curve.circuit) == (trace, circuit));
+        let value = |curve: &MeasuredCurve, slot| Family::scope_value(&solved.cell, &curve.values, slot);
+        curves.any(|curve| condition.evaluate(|slot| value(curve, slot)) == 1.0)
+    }))
 }

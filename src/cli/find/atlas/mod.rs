@@ -11,7 +11,7 @@ use crate::find::{self, AtlasAnswer, AtlasQuery};
 use crate::output;
 use crate::record::{self, UnknownManifest};
 use coupler_curves::family::Family;
-use coupler_curves::find::{Options, Quality, Target};
+use coupler_curves::find::{Constraint, Options, Quality, Target};
 
 use super::super::source::ManifestSource;
 use super::{Arguments, Best, InputError, Outcome, Shown, show, source, title_of};
@@ -89,9 +89,10 @@ impl Shown for AtlasReport {
         })
     }
 
-    fn miss(&self) -> Option<Family> {
-        // It has another size than its cell.
-        None
+    fn miss(&self) -> Option<(Family, usize)> {
+        let (constraints, AtlasAnswer { place: [family, cell], .. }) = self.findings.nearest_miss.as_ref()?;
+        // The condition is on the cell as it is in the atlas.
+        constraints.contains(&Constraint::Condition).then(|| (self.plan.families[*family].family.clone(), *cell))
     }
 
     fn json(&self) -> anyhow::Result<String> {

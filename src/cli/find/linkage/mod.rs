@@ -124,9 +124,9 @@ impl Shown for LinkageReport {
         Some(Best { quality: Quality::of(curve.fit.rms_relative), mu_worst_deg: curve.mu_worst_deg })
     }
 
-    fn miss(&self) -> Option<Family> {
+    fn miss(&self) -> Option<(Family, usize)> {
         let (constraints, answer) = self.findings.nearest_miss.as_ref()?;
-        constraints.contains(&Constraint::Condition).then(|| answer.family.clone())
+        constraints.contains(&Constraint::Condition).then(|| (answer.family.clone(), 0))
     }
 
     fn json(&self) -> anyhow::Result<String> {
