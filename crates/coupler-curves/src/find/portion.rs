@@ -31,8 +31,8 @@ pub(super) struct Stroke {
     directions: [[[f32; POINTS]; 2]; 2],
     /// The distances of the ends, of the start from the middle, and of the middle from the end, in parts of the length.
     spans: [[f32; 3]; 2],
-    /// What differences of spans are divided by before they are compared with a tolerance: 1, or infinite if spans do not count.
-    slack: f32,
+    /// Whether windows of other spans are left out.
+    has_spans: bool,
     /// The centroid of the points at equal distances, and the root of the sum of their squares from it.
     centre: Complex,
     size: f64,
@@ -75,7 +75,7 @@ impl Stroke {
         Stroke {
             directions: [coordinates(&|k| k), coordinates(&|k| INTERVALS - k)],
             spans: [[ends, first, second], [ends, second, first]],
-            slack: 1.0,
+            has_spans: true,
             centre,
             size,
         }
@@ -83,7 +83,7 @@ impl Stroke {
 
     /// Compares windows whatever their spans are from now on; false if it has done so before.
     pub fn ignore_spans(&mut self) -> bool {
-        std::mem::replace(&mut self.slack, f32::INFINITY).is_finite()
+        std::mem::replace(&mut self.has_spans, false)
     }
 
     /// The window of a closed curve that is most like the stroke. The curve is given by points at equal distances, repeated once,
@@ -109,7 +109,7 @@ impl Stroke {
     ) {
         let count = xs.len() / 2;
         let least = (least * count as f64 / INTERVALS as f64) as usize;
-        let tolerance = tolerance * self.slack;
+        let tolerance = if self.has_spans { tolerance } else { f32::INFINITY };
         for stride in least.max(1)..=count / INTERVALS {
             let whole = curve_length * (INTERVALS * stride) as f32 / count as f32;
             // Bounds of the squares of distances, in the unit of the curve.

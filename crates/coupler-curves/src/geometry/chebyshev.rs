@@ -268,17 +268,17 @@ impl Chebyshev {
     /// Finds the zeros of the `whole` on a part on which this is the polynomial, from the ends of the part and whether the
     /// whole is negative there: neighbouring parts agree about the sign at the end they share.
     ///
-    /// `parts` is the number of parts so far; after [`MAX_PARTS`] of them none is halved.
+    /// `examined` is the number of parts so far; after `MAX_EXAMINED` of them none is halved.
     fn find_zeros(
         &self,
         whole: &Chebyshev,
         ends: [(f64, bool); 2],
         limits: (f64, f64),
-        (out, parts): (&mut Zeros, &mut usize),
+        (out, examined): (&mut Zeros, &mut usize),
     ) {
         /// Simple zeros take a few hundred; a zero of a high order, which is flat around, would take millions.
-        const MAX_PARTS: usize = 20_000;
-        *parts += 1;
+        const MAX_EXAMINED: usize = 20_000;
+        *examined += 1;
         let (rounding, narrow) = limits;
         let radius = self.radius();
         let [(from, starts_negative), (to, ends_negative)] = ends;
@@ -288,7 +288,7 @@ impl Chebyshev {
         }
         let slope = self.derivative();
         let is_monotonic = slope.0[0].abs() > slope.radius();
-        if is_monotonic || to - from <= narrow || *parts >= MAX_PARTS {
+        if is_monotonic || to - from <= narrow || *examined >= MAX_EXAMINED {
             if changes {
                 out.places.push(whole.zero_between([from, to]));
             } else if !is_monotonic {
@@ -299,8 +299,8 @@ impl Chebyshev {
         let middle = (from + to) / 2.0;
         let cut = (middle, whole.at(middle) < 0.0);
         let [left, right] = self.halves();
-        left.find_zeros(whole, [ends[0], cut], limits, (out, parts));
-        right.find_zeros(whole, [cut, ends[1]], limits, (out, parts));
+        left.find_zeros(whole, [ends[0], cut], limits, (out, examined));
+        right.find_zeros(whole, [cut, ends[1]], limits, (out, examined));
     }
 
     /// The zero between two places with values of different signs, where the polynomial is monotonic: by Newton's
