@@ -133,6 +133,7 @@ fn the_manual_states_files_exit_codes_and_variables_as_help_and_documentation_do
 /// Runs the examples one after another in a folder that is empty at first.
 #[cfg(unix)]
 #[test]
+#[ignore = "thorough"]
 fn the_examples_of_the_manual_can_be_run() {
     let folder = TempDir::new().unwrap();
     let examples = section(&printed(folder.path(), &["man"]), "EXAMPLES");

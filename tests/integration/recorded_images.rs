@@ -30,6 +30,7 @@ fn check(atlas: &Atlas) -> (i32, String) {
 }
 
 #[test]
+#[ignore = "thorough"]
 fn damage_to_every_region_of_every_recorded_file_is_found() {
     /// The number of regions of a file, each of which is overwritten in turn.
     const REGIONS: usize = 7;

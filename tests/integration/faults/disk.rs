@@ -144,6 +144,7 @@ fn a_disk_that_cannot_be_written_is_left_unchanged() {
 
 /// The limit ends the program during a write, by a signal that it does not handle.
 #[test]
+#[ignore = "thorough"]
 fn a_limit_on_the_size_of_files_leaves_no_incomplete_file() {
     let [old, new] = old_and_new();
     let [before, after] = [&old, &new].map(|manifest| undisturbed(manifest));
