@@ -44,7 +44,7 @@ pub(super) fn describe_circuit(linkage: &Linkage, circuit: &Circuit) -> String {
         let length = if turns == 1.0 { "a full turn".to_owned() } else { format!("{turns} turns") };
         return format!("{length} on branch {}", pass.mode.sign(DyadId::FIRST));
     }
-    let flat = |pass: &Pass| match &linkage.dyad_names(pass.to.flat_dyads)[..] {
+    let flat = |pass: &Pass| match &pass.to.flat_joints(linkage)[..] {
         [] => String::new(),
         joints => format!(" ({} flat)", joints.join(", ")),
     };

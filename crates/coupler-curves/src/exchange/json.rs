@@ -133,7 +133,7 @@ fn sampling(selected: &SelectedCurve) -> Members<'static, SamplingField> {
 impl<'a> PassDocument<'a> {
     /// The passes of a circuit, in order.
     pub fn of_circuit(linkage: &'a Linkage, circuit: &Circuit) -> Vec<PassDocument<'a>> {
-        let end = |end: PassEnd| EndDocument { input: end.input.value, flat: linkage.dyad_names(end.flat_dyads) };
+        let end = |end: PassEnd| EndDocument { input: end.input.value, flat: end.flat_joints(linkage) };
         let pass = |(k, pass): (usize, &Pass)| PassDocument {
             from: end(pass.from),
             to: end(pass.to),

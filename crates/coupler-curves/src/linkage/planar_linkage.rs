@@ -1,6 +1,6 @@
 //! A linkage as a list of joints and links.
 
-use super::{DyadId, DyadSet, Input, Joint, JointId, JointKind, Link, MotionOptions, OutputLink};
+use super::{DyadId, Input, Joint, JointId, JointKind, Link, MotionOptions, OutputLink};
 use crate::geometry::Orientation;
 
 /// A linkage with numeric dimensions. All lengths are in one unit, which may be any.
@@ -61,12 +61,6 @@ impl Linkage {
     /// The ids of the dyads, in the order of their joints.
     pub fn dyad_ids(&self) -> impl DoubleEndedIterator<Item = DyadId> + Clone + use<> {
         (0..self.dyad_count()).map(DyadId::new)
-    }
-
-    /// The names of the joints of some dyads.
-    pub fn dyad_names(&self, dyads: DyadSet) -> Vec<&str> {
-        let is_among = |joint: &&Joint| joint.kind.dyad().is_some_and(|dyad| dyads.contains(dyad));
-        self.joints.iter().filter(is_among).map(|joint| joint.name.as_str()).collect()
     }
 
     /// The first joint with a name.

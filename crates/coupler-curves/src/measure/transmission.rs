@@ -3,8 +3,7 @@
 use super::circuit_function::{Pose, Quantity};
 use super::{Measure, Subject, TracedCurve, Value};
 use crate::geometry::{Point, Vector, cross, trig};
-use crate::linkage::{DyadId, FourBar, JointId, JointKind, Linkage, length_tolerance};
-use crate::motion::PassEnd;
+use crate::linkage::{FourBar, JointId, JointKind, Linkage, length_tolerance};
 
 /// The measure `mu_min_deg`.
 pub const MU_MIN: Measure = Measure::number(
@@ -103,17 +102,13 @@ fn worst_angle(curve: &TracedCurve) -> Option<f64> {
 /// # Source
 /// Balli and Chand, Transmission angle in mechanisms, *Mechanism and Machine Theory* 37 (2002), 175-195.
 fn worst_angle_of_joint(curve: &TracedCurve, id: JointId, kind: JointKind) -> Option<f64> {
-    let is_flat = |dyad: DyadId| {
-        let ends = curve.circuit.passes.iter().flat_map(|pass| [pass.from, pass.to]);
-        // A slider on a line whose joints coincide is flat for its direction only.
-        let is_slider = matches!(kind, JointKind::Slide { .. });
-        let is_flat =
-            |end: PassEnd| end.flat_dyads.contains(dyad) && !(is_slider && end.vanishing_dyads.contains(dyad));
-        ends.into_iter().any(is_flat)
+    let is_flat = || {
+        let passes = &curve.circuit.passes;
+        passes.iter().any(|pass| [pass.from, pass.to].iter().any(|end| end.is_extended_or_folded(kind)))
     };
     match kind {
         JointKind::Slot { offset: 0.0, .. } => Some(90.0),
-        _ if kind.dyad().is_some_and(is_flat) => Some(0.0),
+        _ if is_flat() => Some(0.0),
         JointKind::Dyad { base, lengths, .. } => {
             let [least, greatest] = distance_range(curve, base)?;
             Some(opposite_angle(least, lengths).min(180.0 - opposite_angle(greatest, lengths)))

@@ -1,7 +1,7 @@
 //! Passes, and the values of the input at which they begin and end.
 
 use crate::geometry::trig;
-use crate::linkage::{AssemblyMode, DyadSet, Input};
+use crate::linkage::{AssemblyMode, DyadSet, Input, JointKind, Linkage};
 
 /// A value of the input: an angle with its cosine and sine, which are more exact than the angle at a limit, or a
 /// length.
@@ -36,7 +36,8 @@ impl InputPosition {
 pub struct PassEnd {
     /// The input there.
     pub input: InputPosition,
-    /// The dyads that are flat there, at a limit or a change point; none at the end of a range or a period.
+    /// The dyads that are flat there, at a limit or a change point, and those whose bases vanish; none at the end of a range or a
+    /// period.
     pub flat_dyads: DyadSet,
     /// Those of them whose bases vanish there: their joints are placed by continuity along the pass.
     pub vanishing_dyads: DyadSet,
@@ -57,6 +58,20 @@ impl PassEnd {
     /// An end at which no dyad is flat.
     pub fn regular(input: InputPosition) -> PassEnd {
         PassEnd { input, flat_dyads: DyadSet::EMPTY, vanishing_dyads: DyadSet::EMPTY }
+    }
+
+    /// Whether the dyad of a joint is extended or folded there. A slider or a slot on a line whose joints coincide is among the
+    /// `flat_dyads` for the direction of its line only.
+    pub fn is_extended_or_folded(&self, kind: JointKind) -> bool {
+        let is_on_line = matches!(kind, JointKind::Slide { .. } | JointKind::Slot { .. });
+        let flat = if is_on_line { self.flat_dyads.without(self.vanishing_dyads) } else { self.flat_dyads };
+        kind.dyad().is_some_and(|dyad| flat.contains(dyad))
+    }
+
+    /// The names of the joints whose dyads are extended or folded there.
+    pub fn flat_joints<'a>(&self, linkage: &'a Linkage) -> Vec<&'a str> {
+        let flat = linkage.joints.iter().filter(|joint| self.is_extended_or_folded(joint.kind));
+        flat.map(|joint| joint.name.as_str()).collect()
     }
 }
 

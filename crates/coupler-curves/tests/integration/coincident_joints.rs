@@ -219,6 +219,9 @@ fn a_slider_moves_on_where_the_joints_of_its_line_coincide() {
         });
         assert!(sides.iter().all(|side| *side == sides[0]), "{phase_deg}: {sides:?}");
         assert_eq!(circuit.passes.iter().map(|pass| pass.input_length()).sum::<f64>().round(), 720.0);
+        // Its link is never at right angles to the line.
+        assert!(circuit.passes.iter().any(|pass| !pass.to.flat_dyads.is_empty()));
+        assert!(circuit.passes.iter().all(|pass| pass.to.flat_joints(&centred).is_empty()));
         // A line beside the two joints would be on their other side afterwards.
         let motion = Motion::solve(&linkage(0.5), &Sampler::new(Sampling::Step(2.0)));
         let message = motion.assembly_error.unwrap().to_string();
