@@ -74,7 +74,8 @@ fn count_cusps(curve: &TracedCurve) -> usize {
     curve.stops().iter().filter(|stop| stop.kind == StopKind::Cusp).count()
 }
 
-/// The greatest curvature of a path; infinite if it has a cusp.
+/// The greatest curvature of a path; infinite if it has a cusp, and 0 if it is a line to rounding: where such a path returns on
+/// itself, what is left of its curvature is rounding divided by the square of the speed.
 fn max_curvature(curve: &TracedCurve) -> Option<f64> {
     /// The part of the root of the input's range next to a limit in which the terms of the curvature cancel.
     const NEAR_LIMIT: f64 = 0.1;
@@ -82,6 +83,9 @@ fn max_curvature(curve: &TracedCurve) -> Option<f64> {
         return Some(f64::INFINITY);
     }
     let smooth = curve.smooth();
+    if smooth.is_line() {
+        return Some(0.0);
+    }
     let away_from_stops = smooth.sharpest(curve.stops()).map(|(of_series, place)| {
         let piece = &smooth.pieces[place.piece];
         let pass = &curve.circuit.passes[piece.pass_at(place.u)];

@@ -266,6 +266,24 @@ impl SmoothCurve {
         Some(self.arcs.iter().map(part).sum())
     }
 
+    /// Whether the curve is a straight line to the accuracy of positions, 1e-12 of the size of the linkage, and to 1e-9 of its own
+    /// extent; a point is none.
+    pub fn is_line(&self) -> bool {
+        const ROUNDING: f64 = 1e-12;
+        const STRAIGHT: f64 = 1e-9;
+        let Some(from) = self.arcs.first().map(|arc| arc.point(-1.0)) else { return false };
+        let ends = self.arcs.iter().flat_map(|arc| [arc.point(-1.0), arc.point(0.0), arc.point(1.0)]);
+        let far = ends.map(|p| p - from).reduce(|far, p| if p.norm_squared() > far.norm_squared() { p } else { far });
+        let Some(along) = far.and_then(|far| far.try_normalize(0.0)) else { return false };
+        let coordinates = self.arcs.iter().flat_map(|arc| &arc.position);
+        let size = coordinates.map(Chebyshev::bound).fold(0.0, f64::max);
+        let wide = (ROUNDING * size).min(STRAIGHT * far.map_or(0.0, |far| far.norm()));
+        self.arcs.iter().all(|arc| {
+            let [x, y] = arc.position.each_ref().map(Chebyshev::values);
+            x.iter().zip(&y).all(|(x, y)| cross(along, Point::new(*x, *y) - from).abs() <= wide)
+        })
+    }
+
     /// Rounding of the first three derivatives on an arc, for the signs of functions of them.
     fn derivative_rounding(&self) -> [f64; 3] {
         // Differentiation of a series of n terms magnifies the rounding of its values by up to n^2 at the ends, twice by
