@@ -109,14 +109,38 @@ fn find_dwell(row: &Row, extent: f64, length: f64) -> Result<Option<Dwell>, TooM
 
 /// The difference of the greatest and the least distance of a portion from a point.
 fn width_about(row: &Row, [from, to]: [f64; 2], centre: Point) -> f64 {
-    /// Points between two of the row: the vertex of a parabola through three neighbours is then that of the curve.
+    /// Points between two of the row.
     const FINER: f64 = 4.0;
+    /// An extreme that sticks out further than the points, by the parabola through three of them, is searched for among so many
+    /// points around it, as often, ever closer: where they are not evenly spaced on the curve the parabola errs.
+    const AROUND: usize = 8;
+    const ROUNDS: usize = 4;
     let parts = ((to - from) * FINER).ceil().max(2.0) as usize;
-    let distances: Vec<f64> = row.points_between([from, to], parts).iter().map(|p| (p - centre).norm()).collect();
-    let vertex = |three: &[f64]| {
+    let distances_between = |ends: [f64; 2], parts: usize| -> Vec<f64> {
+        row.points_between(ends, parts).iter().map(|p| (p - centre).norm()).collect()
+    };
+    let distances = distances_between([from, to], parts);
+    let [least, most] = min_max(&distances, |distance| *distance);
+    let extreme_near = |k: usize| {
+        let three = &distances[k - 1..=k + 1];
         let (slope, bend) = ((three[2] - three[0]) / 2.0, three[2] - 2.0 * three[1] + three[0]);
-        let step = -slope / bend;
-        if step.abs() <= 1.0 { three[1] + slope * step / 2.0 } else { three[1] }
+        let vertex = three[1] - slope * slope / (2.0 * bend);
+        let is_extreme = (three[0] - three[1]) * (three[2] - three[1]) >= 0.0;
+        if !is_extreme || !(vertex < least || vertex > most) {
+            return None;
+        }
+        let sign = -bend.signum();
+        let (mut best, mut half) = (three[1], (to - from) / parts as f64);
+        let mut middle = from + (to - from) * k as f64 / parts as f64;
+        for _ in 0..ROUNDS {
+            let ends = [(middle - half).max(from), (middle + half).min(to)];
+            let around = distances_between(ends, AROUND);
+            let part = (0..=AROUND).max_by(|a, b| (sign * around[*a]).total_cmp(&(sign * around[*b])))?;
+            best = around[part];
+            middle = ends[0] + (ends[1] - ends[0]) * part as f64 / AROUND as f64;
+            half *= 2.0 / AROUND as f64;
+        }
+        Some(best)
     };
     // Around a bend that points do not show, ever closer.
     let around = |bend: i64| {
@@ -126,7 +150,7 @@ fn width_about(row: &Row, [from, to]: [f64; 2], centre: Point) -> f64 {
     let beside: Vec<f64> = row.corners_between([from, to]).into_iter().flat_map(around).collect();
     let beside = row.points_at(&beside.into_iter().filter(|at| (from..=to).contains(at)).collect::<Vec<f64>>());
     let beside = beside.iter().map(|point| (point - centre).norm());
-    let all: Vec<f64> = distances.iter().copied().chain(distances.windows(3).map(vertex)).chain(beside).collect();
+    let all: Vec<f64> = distances.iter().copied().chain((1..parts).filter_map(extreme_near)).chain(beside).collect();
     let [least, most] = min_max(&all, |distance| *distance);
     most - least
 }

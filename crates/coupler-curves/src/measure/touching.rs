@@ -253,14 +253,24 @@ impl<'a> PortionPoints<'a> {
 
     /// The extreme between an end or a corner, at which the velocity is given, and the point next to it.
     fn extreme_beside(&self, levels: &dyn Levels, (end, velocity): (usize, Vector), next: usize) -> Option<Contact> {
+        /// A velocity that is less than this part of the mean is none: the curve stops there.
+        const STOPPED: f64 = 1e-3;
         let points = &self.points;
         let gap = self.positions[next] - self.positions[end];
         let slope = (points[next] - points[end]) / gap;
         let rate = |point: Point, velocity: Vector| levels.height_rates(point, velocity, Vector::zeros())[0];
-        let is_between = rate(points[end], velocity) * rate(points[next], slope * 2.0 - velocity) < 0.0;
-        let acceleration = (slope - velocity) * (2.0 / gap);
-        let (at, bounds) = ((self.positions[end], points[end]), [gap.min(0.0), gap.max(0.0)]);
-        is_between.then(|| self.extreme(levels, next, at, [velocity, acceleration], bounds).0)
+        let is_stopped = velocity.norm() < STOPPED * slope.norm();
+        // From where it stops the curve goes in the direction of its acceleration.
+        let leaving = if is_stopped { slope } else { velocity };
+        if rate(points[end], leaving) * rate(points[next], slope * 2.0 - velocity) >= 0.0 {
+            return None;
+        }
+        let (from, velocity) = if is_stopped { (gap / 2.0, slope) } else { (0.0, velocity) };
+        let at = self.positions[end] + from;
+        let point = if is_stopped { self.row.point_at(at * self.spacing) } else { points[end] };
+        let acceleration = if is_stopped { slope * (2.0 / gap) } else { (slope - velocity) * (2.0 / gap) };
+        let bounds = [gap.min(0.0) - from, gap.max(0.0) - from];
+        Some(self.extreme(levels, next, (at, point), [velocity, acceleration], bounds).0)
     }
 
     /// The extreme height near that of the parabola with a velocity and an acceleration at a position, by Newton's

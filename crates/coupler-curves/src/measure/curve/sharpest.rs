@@ -40,16 +40,18 @@ impl SmoothCurve {
         let mut places: Vec<Place> = stops.iter().map(|stop| stop.place).collect();
         let whole = self.arcs.iter().cloned().enumerate().map(|(piece, arc)| (piece, [-1.0, 1.0], arc));
         self.visit_bends(whole.collect(), least, |value, place, is_extreme| {
-            if is_extreme
-                && value >= least
-                && places.iter().all(|other| !self.are_near(*other, place, 4.0 * STOP_WIDTH))
-            {
+            // Next to where the curve stops its curvature is rounding.
+            let is_at_stop = || stops.iter().any(|stop| self.are_near(stop.place, place, stop.width()));
+            let is_new = || places.iter().all(|other| !self.are_near(*other, place, 4.0 * STOP_WIDTH));
+            if is_extreme && value >= least && !is_at_stop() && is_new() {
                 places.push(place);
             }
             least
         });
+        // What is so close to an end of a piece is there: the rest of the piece would be rounding.
         let at_start = |Place { piece, u }: Place| match u {
-            _ if u < 1.0 => Some(Place { piece, u }),
+            _ if u < STOP_WIDTH - 1.0 => Some(Place { piece, u: -1.0 }),
+            _ if u < 1.0 - STOP_WIDTH => Some(Place { piece, u }),
             _ if piece + 1 < self.arcs.len() => Some(Place { piece: piece + 1, u: -1.0 }),
             _ => self.is_closed.then_some(Place { piece: 0, u: -1.0 }),
         };

@@ -25,7 +25,7 @@ impl Stop {
     /// The difference of the parameter within which the side that the curve bends to is not known: at a cusp the turning
     /// has a double zero, where the path returns a triple one, whose places rounding spreads further. There the curve is so
     /// slow that it moves by the square of it.
-    fn width(&self) -> f64 {
+    pub(super) fn width(&self) -> f64 {
         match self.kind {
             StopKind::Cusp => 1e-4,
             StopKind::Reversal => 1e-2,
