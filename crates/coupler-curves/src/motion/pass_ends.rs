@@ -3,8 +3,9 @@
 use std::ops::Range;
 
 use super::end_series::EndSeries;
+use super::input_columns::{InputColumns, InputSlices};
 use super::pass::{Pass, PassEnd};
-use super::positions::{DyadSigns, InputColumns, InputSlices, JointPositions, place_joints, place_leading_joints};
+use super::positions::{DyadSigns, JointPositions, place_joints, place_leading_joints};
 use crate::geometry::trig;
 use crate::linkage::{DyadSet, Input, JointKind, Linkage};
 

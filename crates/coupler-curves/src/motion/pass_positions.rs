@@ -1,8 +1,9 @@
 //! Positions of all joints at given inputs of a pass.
 
+use super::input_columns::InputColumns;
 use super::pass::{InputPosition, Pass};
 use super::pass_ends::{place_at_end, place_near_ends};
-use super::positions::{DyadSigns, InputColumns, JointPositions, convert_to_view_frame, place_leading_joints};
+use super::positions::{DyadSigns, JointPositions, convert_to_view_frame, place_leading_joints};
 use crate::linkage::{DyadSet, Linkage};
 
 /// The positions of all joints at inputs of a pass; at its ends exactly those of the sampled circuit.

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::pass::InputPosition;
+use super::input_columns::InputSlices;
 use crate::geometry::{Orientation, Point, cross, trig};
 use crate::linkage::{AssemblyMode, DyadId, DyadSet, JointId, JointKind, LineDirection, Linkage, MAX_DYADS};
 
@@ -69,51 +69,6 @@ impl DyadSigns {
             *sign = if flat.contains(dyad) { 0.0 } else { f64::from(mode.sign(dyad)) };
         }
         DyadSigns(signs)
-    }
-}
-
-/// Values of the input, in borrowed columns.
-#[derive(Clone, Copy, Debug)]
-pub struct InputSlices<'a> {
-    /// The angles in degrees, or the lengths.
-    pub values: &'a [f64],
-    /// The cosines of the angles; not used for lengths.
-    pub cos: &'a [f64],
-    /// The sines of the angles; not used for lengths.
-    pub sin: &'a [f64],
-}
-
-impl InputSlices<'_> {
-    /// The value at one index.
-    pub(super) fn at(&self, i: usize) -> InputSlices<'_> {
-        let one = i..i + 1;
-        InputSlices { values: &self.values[one.clone()], cos: &self.cos[one.clone()], sin: &self.sin[one] }
-    }
-}
-
-/// Values of the input, in owned columns.
-#[derive(Clone, Debug, Default)]
-pub(super) struct InputColumns {
-    values: Vec<f64>,
-    cos: Vec<f64>,
-    sin: Vec<f64>,
-}
-
-impl InputColumns {
-    pub fn new(inputs: &[InputPosition]) -> InputColumns {
-        InputColumns {
-            values: inputs.iter().map(|input| input.value).collect(),
-            cos: inputs.iter().map(|input| input.cos).collect(),
-            sin: inputs.iter().map(|input| input.sin).collect(),
-        }
-    }
-
-    pub fn slice(&self, range: Range<usize>) -> InputSlices<'_> {
-        InputSlices { values: &self.values[range.clone()], cos: &self.cos[range.clone()], sin: &self.sin[range] }
-    }
-
-    pub fn as_slices(&self) -> InputSlices<'_> {
-        self.slice(0..self.values.len())
     }
 }
 

@@ -3,130 +3,14 @@
 //!
 //! A linkage turned by an angle has its input counted from elsewhere, and so its circuit cut elsewhere.
 
-use coupler_curves::geometry::{Point, trig};
-use coupler_curves::linkage::{CircuitSelection, JointId, Linkage, LinkageBuilder, MotionOptions, Side};
+use coupler_curves::geometry::trig;
+use coupler_curves::linkage::{JointId, Linkage};
 use coupler_curves::measure::{self, TracedCurve, Value};
 use coupler_curves::motion::{Motion, Sampler, Sampling};
 use proptest::prelude::*;
 
+use crate::layouts::{LAYOUTS, Layout, Watt, epicycle, four_bar, piston, scotch_yoke, watt};
 use crate::measures::number;
-
-/// How a linkage is laid on the plane.
-#[derive(Clone, Copy, Debug)]
-pub struct Layout {
-    turn_deg: f64,
-    is_mirrored: bool,
-    scale: f64,
-}
-
-impl Layout {
-    pub const PLAIN: Layout = Layout { turn_deg: 0.0, is_mirrored: false, scale: 1.0 };
-
-    fn turned(turn_deg: f64) -> Layout {
-        Layout { turn_deg, ..Layout::PLAIN }
-    }
-
-    const MIRRORED: Layout = Layout { is_mirrored: true, ..Layout::PLAIN };
-
-    fn sign(self) -> f64 {
-        if self.is_mirrored { -1.0 } else { 1.0 }
-    }
-
-    fn point(self, x: f64, y: f64) -> Point {
-        let (cos, sin) = trig::cos_sin_deg(self.turn_deg);
-        let (x, y) = (self.scale * x, self.scale * self.sign() * y);
-        Point::new(cos * x - sin * y, sin * x + cos * y)
-    }
-
-    fn length(self, length: f64) -> f64 {
-        self.scale * length
-    }
-
-    fn across(self, across: f64) -> f64 {
-        self.scale * self.sign() * across
-    }
-
-    fn side(self) -> Side {
-        if self.is_mirrored { Side::Right } else { Side::Left }
-    }
-}
-
-/// A linkage with one traced point, in a layout.
-fn finish(builder: LinkageBuilder, traced: JointId) -> Linkage {
-    let options = MotionOptions { circuits: CircuitSelection::All, ..MotionOptions::default() };
-    builder.build(vec![traced], None, options).unwrap()
-}
-
-/// A four-bar and a point of its coupler.
-fn four_bar(layout: Layout, [frame, crank, coupler, rocker]: [f64; 4], (along, across): (f64, f64)) -> Linkage {
-    let mut builder = LinkageBuilder::default();
-    let o = builder.fixed("O", Point::origin());
-    let c = builder.fixed("C", layout.point(frame, 0.0));
-    let a = builder.crank("A", o, layout.length(crank)).unwrap();
-    let lengths = [coupler, rocker].map(|length| layout.length(length));
-    let b = builder.dyad("B", [a, c], lengths, layout.side()).unwrap();
-    let m = builder.point("M", [a, b], layout.length(along), layout.across(across)).unwrap();
-    finish(builder, m)
-}
-
-/// A point of a planet gear: the sum of a circle and one that is passed `ratio` times in a turn.
-fn epicycle(layout: Layout, (radius, arm): (f64, f64), ratio: f64, phase_deg: f64) -> Linkage {
-    let mut builder = LinkageBuilder::default();
-    let o = builder.fixed("O", Point::origin());
-    let a = builder.crank("A", o, layout.length(radius)).unwrap();
-    let phase = layout.sign() * phase_deg + (1.0 - ratio) * layout.turn_deg;
-    let m = builder.gear("M", (a, layout.length(arm)), [ratio, 1.0], phase).unwrap();
-    finish(builder, m)
-}
-
-/// Dimensions of a Watt linkage: C, O A, A B, C B, D on the first link of the loop, G on the second, D E, G E, and M on D E.
-#[derive(Clone, Copy, Debug)]
-pub struct Watt {
-    frame: f64,
-    crank: f64,
-    loop_lengths: [f64; 2],
-    d: [f64; 2],
-    second: [f64; 2],
-    g: [f64; 2],
-    m: [f64; 2],
-}
-
-impl Watt {
-    /// Watt I: D on the crank's link, G on the coupler.
-    fn first(self, layout: Layout) -> Linkage {
-        let (mut builder, [o, _, a, b]) = self.first_loop(layout);
-        let d = builder.point("D", [o, a], layout.length(self.d[0]), layout.across(self.d[1])).unwrap();
-        let g = builder.point("G", [a, b], layout.length(self.g[0]), layout.across(self.g[1])).unwrap();
-        self.second_loop(layout, builder, d, g)
-    }
-
-    /// Watt II: D on the rocker, and a second pivot for G.
-    fn second(self, layout: Layout) -> Linkage {
-        let (mut builder, [_, c, _, b]) = self.first_loop(layout);
-        let d = builder.point("D", [c, b], layout.length(self.d[0]), layout.across(self.d[1])).unwrap();
-        let q = builder.fixed("Q", layout.point(self.g[0], self.g[1]));
-        self.second_loop(layout, builder, d, q)
-    }
-
-    fn first_loop(self, layout: Layout) -> (LinkageBuilder, [JointId; 4]) {
-        let mut builder = LinkageBuilder::default();
-        let o = builder.fixed("O", Point::origin());
-        let c = builder.fixed("C", layout.point(self.frame, 0.0));
-        let a = builder.crank("A", o, layout.length(self.crank)).unwrap();
-        let lengths = self.loop_lengths.map(|length| layout.length(length));
-        let b = builder.dyad("B", [a, c], lengths, layout.side()).unwrap();
-        (builder, [o, c, a, b])
-    }
-
-    fn second_loop(self, layout: Layout, mut builder: LinkageBuilder, d: JointId, g: JointId) -> Linkage {
-        let e = builder.dyad("E", [d, g], self.second.map(|length| layout.length(length)), layout.side()).unwrap();
-        let m = builder.point("M", [d, e], layout.length(self.m[0]), layout.across(self.m[1])).unwrap();
-        if builder.set_output_link([g, e]).is_err() {
-            builder.set_output_link([d, e]).unwrap();
-        }
-        finish(builder, m)
-    }
-}
 
 /// The measures of the curves of all circuits, in the order of the circuits.
 fn measures(linkage: &Linkage) -> Vec<Vec<Value>> {
@@ -254,14 +138,9 @@ fn a_line_that_is_passed_to_and_fro_is_one_stroke() {
         for turn_deg in [0.0, 1e-7, 17.0, 180.0] {
             for is_mirrored in [false, true] {
                 let layout = Layout { turn_deg, is_mirrored, scale: 1.0 };
-                let mut builder = LinkageBuilder::default();
-                let o = builder.fixed("O", Point::origin());
-                let guide = [0.0, 1.0].map(|x| layout.point(x, offset));
-                let guide = [builder.fixed("G", guide[0]), builder.fixed("H", guide[1])];
-                let a = builder.crank("A", o, crank).unwrap();
-                let p = builder.slide("P", (a, rod), (guide, 0.0), Side::Left).unwrap();
-                let linkage = finish(builder, p);
+                let linkage = piston(layout, [crank, rod, offset]);
                 for values in measures(&linkage) {
+                    assert_eq!(value(&values, "curvature_max"), Value::Number(0.0), "{layout:?}");
                     let found = ["straight_length", "straight_input_deg"].map(|name| number(value(&values, name)));
                     assert!((found[0] / stroke - 1.0).abs() < 1e-12, "{layout:?}: {found:?} {stroke}");
                     assert!((found[1] / span - 1.0).abs() < 1e-6, "{layout:?}: {found:?} {span}");
@@ -276,12 +155,7 @@ fn a_line_that_is_passed_to_and_fro_is_one_stroke() {
 fn a_line_has_the_same_circular_portion_on_an_axis_and_off_it() {
     let spans = [0.0, 17.0, 30.0].map(|turn_deg| {
         let layout = Layout::turned(turn_deg);
-        let mut builder = LinkageBuilder::default();
-        let o = builder.fixed("O", Point::origin());
-        let x = builder.fixed("X", layout.point(1.0, 0.0));
-        let a = builder.crank("A", o, 1.0).unwrap();
-        let y = builder.yoke("Y", a, ([o, x], 0.0), 90.0).unwrap();
-        number(value(&measures(&finish(builder, y))[0], "dwell_input_deg"))
+        number(value(&measures(&scotch_yoke(layout))[0], "dwell_input_deg"))
     });
     // The chord between circles of radius 4.001, through its ends, and 3.999, which it touches; it ends where the path returns.
     let chord = 2.0 * (4.001f64 * 4.001 - 3.999 * 3.999).sqrt();
@@ -318,145 +192,6 @@ fn the_time_ratio_is_that_of_the_strokes_from_limit_to_limit() {
     }
 }
 
-/// A random Watt linkage, of lengths between 0.2 and 5 frames.
-fn watt() -> impl Strategy<Value = Watt> {
-    let length = || 0.2..5.0;
-    let offset = || -3.0..3.0;
-    let lengths = (length(), [length(), length()], [length(), length()]);
-    (lengths, [offset(), offset()], [offset(), offset()], [offset(), offset()])
-        .prop_map(|((crank, loop_lengths, second), d, g, m)| Watt { frame: 1.0, crank, loop_lengths, d, second, g, m })
-}
-
-/// The circular portion of a curve, and its greatest and least distance from its centre, by many points.
-#[derive(Clone, Copy, Debug)]
-struct Portion {
-    span: f64,
-    allowed: f64,
-    width: f64,
-}
-
-fn circular_portions(linkage: &Linkage) -> Vec<Portion> {
-    const POINTS: usize = 40_000;
-    let motion = Motion::solve(linkage, &Sampler::new(Sampling::Samples(90)));
-    let portion = |circuit| {
-        let curve = TracedCurve::new(linkage, &motion, circuit, linkage.traced[0]);
-        let dwell = curve.dwell()?;
-        let dense = dwell_points(&curve, dwell, POINTS);
-        let [least, most] = dense
-            .iter()
-            .map(|point| (point - dwell.centre).norm())
-            .fold([f64::INFINITY, 0.0f64], |[least, most], r| [least.min(r), most.max(r)]);
-        Some(Portion { span: dwell.input_span, allowed: 0.001 * curve.extent(), width: most - least })
-    };
-    motion.circuits.iter().filter_map(portion).collect()
-}
-
-/// Points of a circular portion: of each pass as many, closer towards its ends.
-fn dwell_points(curve: &TracedCurve, dwell: &measure::Dwell, count: usize) -> Vec<Point> {
-    let mut travelled = 0.0;
-    let mut all: Vec<(f64, Point)> = Vec::new();
-    for pass in &curve.circuit.passes {
-        let [from, to] = [pass.from.input.value, pass.to.input.value];
-        let part = |k: usize| (1.0 - trig::cos(std::f64::consts::PI * k as f64 / count as f64)) / 2.0;
-        let inputs: Vec<f64> = (0..count).map(|k| from + (to - from) * part(k)).collect();
-        let positions = coupler_curves::motion::poses(curve.linkage, pass, &inputs);
-        let points = inputs
-            .iter()
-            .enumerate()
-            .map(|(k, input)| (travelled + (input - from).abs(), positions.point(curve.joint, k)));
-        all.extend(points);
-        travelled += (to - from).abs();
-    }
-    // Where it begins: of the poses at the first point, the one at the start input.
-    let passes = &curve.circuit.passes;
-    let off_input = |travel: f64| {
-        let mut before = 0.0;
-        let pass = passes.iter().find(|pass| {
-            before += pass.input_length();
-            travel < before
-        });
-        let pass = pass.unwrap_or(&passes[passes.len() - 1]);
-        let input = pass.to.input.value - pass.input_direction() * (before - travel);
-        ((input - dwell.start_input + 180.0).rem_euclid(360.0) - 180.0).abs()
-    };
-    let off = |travel: f64, point: &Point| 0.01 * off_input(travel) + (point - dwell.points[0]).norm() / curve.extent();
-    let start = all.iter().min_by(|a, b| off(a.0, &a.1).total_cmp(&off(b.0, &b.1))).expect("a start").0;
-    let on =
-        |travel: f64| if curve.circuit.is_closed { (travel - start).rem_euclid(travelled) } else { travel - start };
-    // The start is known to the distance of two points.
-    let inside = 0.1..=dwell.input_span - 0.1;
-    all.iter().filter(|(travel, _)| inside.contains(&on(*travel))).map(|(_, point)| *point).collect()
-}
-
-/// The layouts in which a linkage has the same portions.
-const LAYOUTS: [Layout; 5] = [
-    Layout::PLAIN,
-    Layout::MIRRORED,
-    Layout { turn_deg: 77.0, is_mirrored: false, scale: 1.0 },
-    Layout { turn_deg: 213.0, is_mirrored: true, scale: 1.0 },
-    Layout { turn_deg: 0.0, is_mirrored: false, scale: 8.0 },
-];
-
-fn check_widths(portions: &[Portion], name: &dyn std::fmt::Debug) {
-    for portion in portions {
-        // Next to a limit poses are as exact as the root of rounding.
-        assert!(portion.width <= portion.allowed * (1.0 + 2e-4), "{name:?}: {portion:?}");
-    }
-}
-
-/// The portions of all circuits in a layout, the shortest first: their spans are those of the plain layout.
-fn check_layouts(linkage: impl Fn(Layout) -> Linkage, name: &dyn std::fmt::Debug) {
-    let sorted = |layout: Layout| {
-        let portions = circular_portions(&linkage(layout));
-        check_widths(&portions, &(name, layout));
-        let mut spans: Vec<f64> = portions.iter().map(|portion| portion.span).collect();
-        spans.sort_by(f64::total_cmp);
-        spans
-    };
-    let plain = sorted(Layout::PLAIN);
-    for layout in LAYOUTS {
-        let found = sorted(layout);
-        assert_eq!(found.len(), plain.len());
-        for (found, plain) in found.iter().zip(&plain) {
-            assert!((found / plain - 1.0).abs() < 1e-4, "{name:?} {layout:?}: {found} {plain}");
-        }
-    }
-}
-
-#[test]
-fn circular_portions_of_watt_linkages_are_no_wider_than_allowed() {
-    let watt = Watt {
-        frame: 1.0089,
-        crank: 3.4104,
-        loop_lengths: [2.4556, 1.0878],
-        d: [2.0615, 1.7023],
-        g: [0.2279, 0.8308],
-        second: [3.9876, 4.9827],
-        m: [2.8442, -0.5708],
-    };
-    check_layouts(|layout| watt.first(layout), &"Watt I");
-}
-
-/// Dimensions of Watt linkages: O A; A B and C B; D; D E and G E; G; M.
-type WattDimensions = (f64, [f64; 2], [f64; 2], [f64; 2], [f64; 2], [f64; 2]);
-
-/// Of Watt I and of Watt II, among them some whose curves go back along themselves, so that the points that touch a circle do so twice,
-/// and some with points of contact that move far as the circle moves a little.
-#[test]
-fn circular_portions_of_watt_linkages_are_the_same_in_all_layouts() {
-    let dimensions: [(bool, WattDimensions); 5] = [
-        (false, (0.4212, [3.1499, 3.8765], [2.0703, 1.3143], [4.7443, 2.6959], [-2.5336, 2.1257], [-1.8199, -0.4299])),
-        (false, (0.5607, [3.7088, 2.9952], [-2.9296, 0.696], [1.4757, 1.1983], [0.9983, 1.8631], [2.5187, -0.6588])),
-        (false, (3.5504, [1.0897, 3.9588], [-1.697, 0.802], [4.6205, 3.5682], [0.5697, 0.2886], [1.8401, 1.8903])),
-        (true, (4.1889, [2.1057, 4.1223], [2.3959, 2.5633], [3.9288, 1.6368], [-2.774, 1.9197], [2.0948, 1.2019])),
-        (true, (4.0689, [3.4016, 0.8191], [2.6001, -2.3356], [3.3453, 2.6955], [0.9, 0.5385], [0.7131, -1.059])),
-    ];
-    for (is_first, (crank, loop_lengths, d, second, g, m)) in dimensions {
-        let watt = Watt { frame: 1.0, crank, loop_lengths, d, second, g, m };
-        check_layouts(|layout| if is_first { watt.first(layout) } else { watt.second(layout) }, &watt);
-    }
-}
-
 proptest! {
     #![proptest_config(crate::random())]
 
@@ -489,14 +224,6 @@ proptest! {
                 prop_assert!((found - plain).abs() < 1e-6, "{:?}: {} {}", layout, found, plain);
             }
         }
-    }
-
-    /// Half of them are driven by a rocker, whose curves go back along themselves.
-    #[test]
-    #[ignore = "thorough"]
-    fn circular_portions_of_random_watt_linkages_are_no_wider_than_allowed(watt in watt(), is_first in any::<bool>()) {
-        let linkage = if is_first { watt.first(Layout::PLAIN) } else { watt.second(Layout::MIRRORED) };
-        check_widths(&circular_portions(&linkage), &(watt, is_first));
     }
 }
 

@@ -3,8 +3,10 @@
 
 mod catalogue;
 mod circuits;
+mod circular_portions;
 mod cognates;
 mod coincident_joints;
+mod dual;
 mod dyad_chains;
 mod expressions;
 mod extreme_lengths;
@@ -13,6 +15,7 @@ mod find_curves;
 mod grids;
 mod instant;
 mod invariance;
+mod layouts;
 mod linkages;
 mod mccarthy;
 mod measures;

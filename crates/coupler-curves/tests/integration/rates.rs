@@ -2,8 +2,6 @@
 //! derivative, here through independent formulas (circles intersected by the law of cosines, exact rules for sine and
 //! cosine).
 
-use std::ops::{Add, Div, Mul, Neg, Sub};
-
 use coupler_curves::geometry::{Point, Vector, left_normal, trig};
 use coupler_curves::linkage::{
     AssemblyMode, CircuitSelection, JointId, JointKind, LineDirection, Linkage, LinkageBuilder, MotionOptions,
@@ -12,86 +10,7 @@ use coupler_curves::linkage::{
 use coupler_curves::motion::{InputPosition, JointDerivatives, Motion, Sampler, Sampling};
 use proptest::prelude::*;
 
-/// A number and its derivative; nested, its second derivative too, and so on.
-#[derive(Clone, Copy, Debug)]
-struct Dual<T>(T, T);
-
-/// The arithmetic that the components of dual numbers need, and dual numbers have in turn.
-trait Real:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
-{
-    fn from_f64(x: f64) -> Self;
-    fn sqrt(self) -> Self;
-    fn cos_sin(self) -> [Self; 2];
-}
-
-impl Real for f64 {
-    fn from_f64(x: f64) -> f64 {
-        x
-    }
-    fn sqrt(self) -> f64 {
-        f64::sqrt(self)
-    }
-    fn cos_sin(self) -> [f64; 2] {
-        [trig::cos(self), trig::sin(self)]
-    }
-}
-
-impl<T: Real> Add for Dual<T> {
-    type Output = Self;
-    fn add(self, o: Self) -> Self {
-        Dual(self.0 + o.0, self.1 + o.1)
-    }
-}
-impl<T: Real> Sub for Dual<T> {
-    type Output = Self;
-    fn sub(self, o: Self) -> Self {
-        Dual(self.0 - o.0, self.1 - o.1)
-    }
-}
-impl<T: Real> Neg for Dual<T> {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Dual(-self.0, -self.1)
-    }
-}
-impl<T: Real> Mul for Dual<T> {
-    type Output = Self;
-    fn mul(self, o: Self) -> Self {
-        Dual(self.0 * o.0, self.0 * o.1 + self.1 * o.0)
-    }
-}
-impl<T: Real> Div for Dual<T> {
-    type Output = Self;
-    fn div(self, o: Self) -> Self {
-        Dual(self.0 / o.0, (self.1 * o.0 - self.0 * o.1) / (o.0 * o.0))
-    }
-}
-impl<T: Real> Real for Dual<T> {
-    fn from_f64(x: f64) -> Self {
-        Dual(T::from_f64(x), T::from_f64(0.0))
-    }
-    fn sqrt(self) -> Self {
-        let root = self.0.sqrt();
-        Dual(root, self.1 / (T::from_f64(2.0) * root))
-    }
-    fn cos_sin(self) -> [Self; 2] {
-        let [cos, sin] = self.0.cos_sin();
-        [Dual(cos, -(self.1 * sin)), Dual(sin, self.1 * cos)]
-    }
-}
-
-type Third = Dual<Dual<Dual<f64>>>;
-
-/// The variable by which everything is differentiated, three times.
-fn variable(x: f64) -> Third {
-    Dual(Dual(Dual(x, 1.0), Dual(1.0, 0.0)), Dual(Dual(1.0, 0.0), Dual(0.0, 0.0)))
-}
-
-/// The value and the three derivatives.
-fn orders(x: Third) -> [f64; 4] {
-    [x.0.0.0, x.1.0.0, x.1.1.0, x.1.1.1]
-}
+use crate::dual::{Real, Third, orders, variable};
 
 /// The position of every joint by its kind, with the input in radians or as a length.
 fn positions(linkage: &Linkage, input: Third, mode: AssemblyMode) -> Vec<[Third; 2]> {

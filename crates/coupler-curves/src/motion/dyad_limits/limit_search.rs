@@ -4,11 +4,12 @@ use super::dyad::Dyad;
 use super::monotone_pieces::{Piece, cut_into_pieces};
 use crate::geometry::{Vector, trig};
 use crate::linkage::{AssemblyMode, DyadId, DyadSet, Input, Linkage};
+use crate::motion::input_columns::InputColumns;
 use crate::motion::interval::{COINCIDENCE_TOLERANCE, EndCause, Interval, IntervalEnd, Span};
 use crate::motion::joint_series::{SeriesInput, place_as_series};
 use crate::motion::pass::InputPosition;
 use crate::motion::pass_ends::place_at_end;
-use crate::motion::positions::{DyadSigns, InputColumns, JointPositions, place_leading_joints};
+use crate::motion::positions::{DyadSigns, JointPositions, place_leading_joints};
 use crate::motion::series::{Series, VectorSeries};
 
 /// The search for the limits of a dyad on a span.

@@ -6,9 +6,10 @@ use super::first_pieces::{first_pieces, junction_after};
 use crate::geometry::{Chebyshev, TERMS, in_rising_order, trig};
 use crate::linkage::{DyadSet, Input, JointId, JointKind, Linkage};
 use crate::motion::circuit::UnsampledCircuit;
+use crate::motion::input_columns::InputColumns;
 use crate::motion::pass::{InputPosition, Pass};
 use crate::motion::pass_ends::place_near_ends;
-use crate::motion::positions::{DyadSigns, InputColumns, JointPositions, convert_to_view_frame, place_leading_joints};
+use crate::motion::positions::{DyadSigns, JointPositions, convert_to_view_frame, place_leading_joints};
 
 /// A piece that is not yet known to be short enough.
 #[derive(Clone, Copy)]
