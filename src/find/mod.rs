@@ -2,6 +2,7 @@
 //! search reads from files, the path and the index of curves.
 
 mod atlas;
+mod closing;
 pub mod description;
 mod drawing;
 mod index_file;

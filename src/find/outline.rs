@@ -3,6 +3,8 @@
 use coupler_curves::find::PathKind;
 use coupler_curves::geometry::Point;
 
+use super::closing::Gap;
+
 /// A path.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outline {
@@ -47,33 +49,26 @@ impl Outline {
         Outline { points, angles_deg, is_closed, reading: Reading::default() }
     }
 
-    /// Whether it is closed, if it is not the user who says so, and adds to what was taken why, where the file does not say it.
+    /// Whether it is closed: as the file says or, if it does not, if the gap from its last point to its first is like the steps beside it. Adds to
+    /// what was taken why, where the file does not say it.
     pub fn decide_closed(&mut self) -> bool {
-        let is_closed = self.is_closed();
-        if self.is_closed.is_none() && !self.reading.taken.is_empty() {
+        if let Some(is_closed) = self.is_closed {
+            return is_closed;
+        }
+        let gap = Gap::of(&self.points);
+        let is_closed = gap.is_some_and(Gap::is_step);
+        if !self.reading.taken.is_empty() {
             self.reading.taken +=
                 if is_closed { "; closed, for its ends are near" } else { "; open, for its ends are apart" };
+            if gap.is_some_and(|gap| !gap.is_certain()) {
+                self.reading.taken += if is_closed {
+                    ", which is not certain: it may be open"
+                } else {
+                    ", which is not certain: it may be closed and lack the last step"
+                };
+            }
         }
         is_closed
-    }
-
-    /// Whether it is closed: as the file says or, if it does not, as its ends look.
-    pub fn is_closed(&self) -> bool {
-        self.is_closed.unwrap_or_else(|| self.looks_closed())
-    }
-
-    /// Whether the gap from its last point to its first is at most one and a half times the median distance of neighbours.
-    fn looks_closed(&self) -> bool {
-        const GAP: f64 = 1.5;
-        let (Some(first), Some(last)) = (self.points.first(), self.points.last()) else { return false };
-        let mut steps: Vec<f64> = self.points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).collect();
-        steps.sort_by(f64::total_cmp);
-        let median = match steps.len() {
-            0 => 0.0,
-            count if count % 2 == 1 => steps[count / 2],
-            count => 0.5 * (steps[count / 2 - 1] + steps[count / 2]),
-        };
-        (last - first).norm() <= GAP * median
     }
 
     /// Takes the angles of the crank at its points, in degrees: its own or, if it has none and is closed, those of equal steps of a turn; `None`

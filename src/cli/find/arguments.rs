@@ -35,8 +35,7 @@ pub struct Arguments {
         )
     )]
     pub(super) manifest: Option<PathBuf>,
-    /// The path is closed; without these three it is if the gap between its ends is at most 1.5 times the median distance of its points,
-    /// and otherwise open.
+    /// The path is closed; without these three it is if the gap between its ends is like the steps beside it, and otherwise open.
     #[arg(long, conflicts_with_all = ["open", "part"])]
     pub(super) closed: bool,
     /// The path is open: the curve passes its points in their order, whatever it does between them and elsewhere.

@@ -37,7 +37,6 @@ pub fn parse_outline(bytes: &[u8], options: &ReadOptions) -> Result<Outline, Vec
 mod tests {
     use super::super::outline::MAX_PROBLEMS;
     use super::*;
-    use coupler_curves::geometry::{Point, trig};
 
     fn parse(text: &str, is_timed: bool) -> Result<Outline, Vec<String>> {
         parse_outline(text.as_bytes(), &ReadOptions { is_timed, outline: None })
@@ -113,17 +112,5 @@ mod tests {
         let many = "1,2\n".repeat(MAX_POINTS + 1);
         assert!(problems(&many)[0].contains(&MAX_POINTS.to_string()));
         assert!(problems(&"1,2\n".repeat(2_000_000))[0].contains("more than 100000 lines"));
-    }
-
-    #[test]
-    fn a_path_is_closed_if_its_ends_are_near() {
-        let outline = |count: usize| {
-            let angle = |k: usize| std::f64::consts::TAU * k as f64 / 20.0;
-            let point = |k| Point::new(trig::cos(angle(k)), trig::sin(angle(k)));
-            Outline::new((0..count).map(point).collect(), None, None)
-        };
-        assert!(outline(20).is_closed() && outline(21).is_closed());
-        assert!(!outline(18).is_closed());
-        assert!(!Outline::new(Vec::new(), None, None).is_closed());
     }
 }

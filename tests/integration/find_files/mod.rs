@@ -1,5 +1,6 @@
 //! The files of paths for `find`: what programs write is read right, or refused with what is wrong.
 
+mod closing;
 mod drawings;
 mod hostile;
 mod own_formats;

@@ -12,7 +12,7 @@ use coupler_curves::solve::solve_measuring;
 use serde_json::Value as Json;
 use tempfile::TempDir;
 
-mod random_curves;
+pub mod random_curves;
 
 use random_curves::{Random, answers, deviations, placed, random_curve, search};
 

@@ -73,7 +73,7 @@ struct Sought {
 /// outline : str or int, optional
 ///     The path to take of a file that has several: its id or, from 1, its number.
 /// closed : bool, optional
-///     Whether the path is closed; by default it is if the gap between its ends is at most 1.5 times the median distance of its points.
+///     Whether the path is closed; by default it is if the gap between its ends is like the steps beside it.
 /// part : bool
 ///     The path is a part of the curve, and that part is as long as the path.
 /// angles : array, optional
