@@ -48,9 +48,9 @@ def test_what_was_taken_of_a_file_is_said(tmp_path) -> None:
     names = "a x,a y,b x,b y"
     round = np.vstack([points, points[:1]])
     np.savetxt(file, np.hstack([round, 3 * round]), delimiter=",", header=names, comments="")
-    found = [ca.find(file, outline=outline, **options) for outline in (1, "2", "b y")]
+    found = [ca.find(file, outline=outline, **options) for outline in (1, "2", "b")]
     assert np.allclose([each.size / found[0].size for each in found], [1, 3, 3])
-    assert found[0].read.startswith("path 1 `a y` of 2; x is column 1 `a x`") and found[0].read.endswith("closed, for its ends are near")
+    assert found[0].read.startswith("path 1 `a` of 2; x is column 1 `a x`") and found[0].read.endswith("closed, for its ends are near")
     for outline in (None, 3, "c"):
         with pytest.raises(ValueError, match="two.csv: .*outline"):
             ca.find(file, outline=outline, **options)

@@ -90,10 +90,14 @@ impl Header {
         self.titles = cells.to_vec();
     }
 
-    /// What the path of two columns is called: the title above them, or the name of y with what it has besides its letter.
+    /// What the path of two columns is called: the title above them, or what the names of both have besides their letters, or the name of y.
     pub fn id(&self, [x, y]: [usize; 2]) -> String {
         let title = [x, y].into_iter().find_map(|k| self.titles.get(k).filter(|title| !title.is_empty()));
-        title.cloned().unwrap_or_else(|| self.names[y].text.clone())
+        let common = || {
+            let [of_x, of_y] = [(x, 'x'), (y, 'y')].map(|(k, letter)| self.names[k].without_coordinate(letter));
+            of_y.filter(|name| of_x == Some(name))
+        };
+        title.map(String::as_str).or_else(common).unwrap_or(&self.names[y].text).to_owned()
     }
 }
 
@@ -124,6 +128,27 @@ mod tests {
             let cells: Vec<String> = line.split(',').map(str::to_owned).collect();
             let found = Header::parse(&cells).map_or(Vec::new(), |header| header.coordinates());
             assert_eq!(found, pairs, "{line}");
+        }
+    }
+
+    #[test]
+    fn a_path_has_the_name_that_its_columns_share() {
+        for (line, ids) in [
+            ("a x,a y,b x,b y", vec!["a", "b"]),
+            ("A_x,A_y,B_x,B_y", vec!["A", "B"]),
+            ("A.x,A.y,B.x,B.y", vec!["A", "B"]),
+            ("x a,y a,x b,y b", vec!["a", "b"]),
+            ("a (x),a (y),b (x),b (y)", vec!["a", "b"]),
+            ("A_x [mm],A_y [mm],B_x [mm],B_y [mm]", vec!["A", "B"]),
+            ("x1,y1,x2,y2", vec!["y1", "y2"]),
+            ("x_1,y_1,x_2,y_2", vec!["y_1", "y_2"]),
+            ("X,Y,X,Y", vec!["Y", "Y"]),
+            ("x,Curve1,Curve2", vec!["Curve1", "Curve2"]),
+        ] {
+            let cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+            let header = Header::parse(&cells).unwrap();
+            let found: Vec<String> = header.coordinates().into_iter().map(|pair| header.id(pair)).collect();
+            assert_eq!(found, ids, "{line}");
         }
     }
 }

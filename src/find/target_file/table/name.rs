@@ -58,6 +58,10 @@ impl ColumnName {
         };
         let words = base.split(|c: char| !c.is_alphanumeric() && c != '°').filter(|word| !word.is_empty());
         let mut words: Vec<String> = words.map(str::to_owned).collect();
+        // As in `a (x)`.
+        if words.len() == 1 && unit.as_deref().is_some_and(|unit| ["x", "y"].contains(&unit)) {
+            words.extend(unit.take());
+        }
         if unit.is_none() && words.len() > 1 && words.last().is_some_and(|word| UNITS.contains(&&**word) || word == "°")
         {
             unit = words.pop();
@@ -81,6 +85,32 @@ impl ColumnName {
             [first, .., last] if is_letter(last) && !DERIVED.contains(&&**first) => Some(2),
             _ => None,
         }
+    }
+
+    /// What it has besides the letter of a coordinate and the unit, as `A` of `A_x [mm]`; `None` if that is nothing or a number, which would be
+    /// taken for that of a path.
+    pub fn without_coordinate(&self, letter: char) -> Option<&str> {
+        const DIVIDERS: [char; 10] = [' ', '\t', '_', '.', '-', ':', '/', '{', '(', '['];
+        let rank = self.coordinate_rank(letter)?;
+        let text = self.text.as_str();
+        let is_letter = |at: &(usize, char)| at.1.eq_ignore_ascii_case(&letter);
+        let rest = match rank {
+            0 => return None,
+            1 => {
+                let word = text.find(|c: char| c.is_alphanumeric())?;
+                let end = text[word..].find(|c: char| !c.is_alphanumeric())?;
+                let rest = text[word + end..].trim_start_matches(DIVIDERS);
+                rest.find(['[', '(']).map_or(rest, |unit| &rest[..unit])
+            }
+            // Before the last letter that begins a word.
+            _ => {
+                let begins_word = |at: usize| !text[..at].ends_with(char::is_alphanumeric);
+                let (at, _) = text.char_indices().filter(is_letter).filter(|(at, _)| begins_word(*at)).last()?;
+                &text[..at]
+            }
+        };
+        let rest = rest.trim_matches(DIVIDERS);
+        (!rest.is_empty() && !rest.chars().all(char::is_numeric)).then_some(rest)
     }
 
     /// Whether it may be that of a velocity or an acceleration as well as that of a coordinate of a joint.
@@ -165,6 +195,26 @@ mod tests {
         }
         for text in ["input_length", "x", "θ_{r}", "theta_v"] {
             assert_eq!(ColumnName::new(text).angle_rank(), None, "{text}");
+        }
+        for (text, rest) in [
+            ("a x", Some("a")),
+            ("A_x", Some("A")),
+            ("A.X [mm]", Some("A")),
+            ("A_x_mm", Some("A")),
+            ("a (x)", Some("a")),
+            ("a[x]", Some("a")),
+            ("x a", Some("a")),
+            ("x_a (mm)", Some("a")),
+            ("v_{x}", Some("v")),
+            ("Trajectory 1/0 X", Some("Trajectory 1/0")),
+            ("pos_x", Some("pos")),
+            ("x", None),
+            ("X [mm]", None),
+            ("x1", None),
+            ("x_1", None),
+            ("Kurbel Ä x", Some("Kurbel Ä")),
+        ] {
+            assert_eq!(ColumnName::new(text).without_coordinate('x'), rest, "{text}");
         }
         assert_eq!(degrees_in(ColumnName::new("theta_rad").unit.as_deref()), Ok(180.0 / std::f64::consts::PI));
         assert_eq!(degrees_in(ColumnName::new("angle/°").unit.as_deref()), Ok(1.0));
