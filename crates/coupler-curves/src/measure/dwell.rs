@@ -164,7 +164,7 @@ impl TracedCurve<'_> {
     /// The same, unless the search takes too many steps.
     pub(super) fn counted_dwell(&self) -> &Result<Option<Dwell>, TooManySteps> {
         let of_row = |row: &Row| find_dwell(row, self.extent(), self.arc_length().total());
-        self.dwell.get_or_init(|| self.row().map_or(Ok(None), of_row))
+        self.dwell.get_or_init(|| self.row()?.map_or(Ok(None), of_row))
     }
 }
 

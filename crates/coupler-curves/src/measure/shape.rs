@@ -1,5 +1,6 @@
 //! Crunodes, inflections, cusps and the greatest curvature of the path.
 
+use super::budget::TooManySteps;
 use super::curve::{Place, StopKind};
 use super::{Measure, TracedCurve, Value};
 use crate::geometry::{Chebyshev, curvature};
@@ -59,13 +60,18 @@ pub const CURVATURE_MAX: Measure = Measure::number(
     "greatest curvature",
     "",
     "greatest curvature of the path except at corners at change points, in 1 over the manifest's unit; inf if there is a cusp",
-    |curve: &TracedCurve| max_curvature(curve).map_or(Value::Missing, Value::Number),
+    |curve: &TracedCurve| curve.counted_max_curvature().unwrap_or_default().map_or(Value::Missing, Value::Number),
 );
 
 impl TracedCurve<'_> {
     /// The number of cusps.
     pub(super) fn cusp_count(&self) -> usize {
         *self.cusp_count.get_or_init(|| count_cusps(self))
+    }
+
+    /// The greatest curvature, unless the search takes too many steps.
+    pub(super) fn counted_max_curvature(&self) -> Result<Option<f64>, TooManySteps> {
+        *self.max_curvature.get_or_init(|| max_curvature(self))
     }
 }
 
@@ -76,17 +82,20 @@ fn count_cusps(curve: &TracedCurve) -> usize {
 
 /// The greatest curvature of a path; infinite if it has a cusp, and 0 if it is a line to rounding: where such a path returns on
 /// itself, what is left of its curvature is rounding divided by the square of the speed.
-fn max_curvature(curve: &TracedCurve) -> Option<f64> {
+///
+/// # Errors
+/// The search takes too many steps.
+fn max_curvature(curve: &TracedCurve) -> Result<Option<f64>, TooManySteps> {
     /// The part of the root of the input's range next to a limit in which the terms of the curvature cancel.
     const NEAR_LIMIT: f64 = 0.1;
     if curve.cusp_count() > 0 {
-        return Some(f64::INFINITY);
+        return Ok(Some(f64::INFINITY));
     }
     let smooth = curve.smooth();
     if smooth.is_line() {
-        return Some(0.0);
+        return Ok(Some(0.0));
     }
-    let away_from_stops = smooth.sharpest(curve.stops()).map(|(of_series, place)| {
+    let away_from_stops = smooth.sharpest(curve.stops())?.map(|(of_series, place)| {
         let piece = &smooth.pieces[place.piece];
         let pass = &curve.circuit.passes[piece.pass_at(place.u)];
         let is_near_limit = match piece.map {
@@ -99,7 +108,7 @@ fn max_curvature(curve: &TracedCurve) -> Option<f64> {
         if is_near_limit || !exact.is_finite() { of_series } else { exact }
     });
     let returning = curve.stops().iter().map(|stop| curvature_where_returning(curve, stop.place));
-    away_from_stops.into_iter().chain(returning).reduce(f64::max)
+    Ok(away_from_stops.into_iter().chain(returning).reduce(f64::max))
 }
 
 /// The curvature at a place, from the derivatives of the motion, which are more exact than those of the series.

@@ -205,10 +205,11 @@ impl TracedCurve<'_> {
 fn find_portions(curve: &TracedCurve, criterion: StraightCriterion) -> Result<Vec<StraightPortion>, TooManySteps> {
     let extent = curve.extent();
     let finer = match criterion {
-        StraightCriterion::Length(length) if length < 16.0 * SPACING * extent => curve.row_of_spacing(length / 16.0),
+        StraightCriterion::Length(length) if length < 16.0 * SPACING * extent => curve.row_of_spacing(length / 16.0)?,
         _ => None,
     };
-    let Some(row) = finer.as_ref().or(curve.row()) else { return Ok(Vec::new()) };
+    let row = finer.as_ref().map_or_else(|| curve.row(), |row| Ok(Some(row)))?;
+    let Some(row) = row else { return Ok(Vec::new()) };
     let narrowest = |end: &dyn Fn(f64) -> Option<f64>| {
         straightest(row, end, Narrowest::Absolutely, f64::INFINITY).map(Vec::from_iter)
     };
@@ -235,7 +236,7 @@ fn find_portions(curve: &TracedCurve, criterion: StraightCriterion) -> Result<Ve
 fn find_half_turn(curve: &TracedCurve) -> Result<Option<StraightPortion>, TooManySteps> {
     /// The greatest width of its strip relative to its length: what is wider is no straight line to an eye.
     const WIDEST: f64 = 0.02;
-    let row = curve.row().filter(|_| curve.linkage.input() != Input::Length);
+    let row = curve.row()?.filter(|_| curve.linkage.input() != Input::Length);
     let Some(row) = row else { return Ok(None) };
     let ends =
         straightest(row, |from| row.end_after_input(from, 180.0), Narrowest::Relatively, WIDEST * curve.extent())?;

@@ -69,7 +69,7 @@ fn find_symmetry(curve: &TracedCurve) -> Option<Symmetry> {
     /// The residual of a few points about an axis of symmetry, relative to the extent.
     const EXACT: f64 = 1e-8;
     let extent = curve.extent();
-    let row = curve.row()?;
+    let row = curve.row().ok()??;
     let images = MirrorImages::new(row);
     // If a linkage has two circuits, their curves may be mirror images of each other, and not of themselves. A part of a
     // curve does not have the axis of the whole.

@@ -36,7 +36,8 @@ pub struct TracedCurve<'a> {
     pub(super) circuit_results: CircuitResults,
     pub(super) cusp_count: OnceCell<usize>,
     smooth: OnceCell<Rc<SmoothCurve>>,
-    row: OnceCell<Option<Row>>,
+    row: OnceCell<Result<Option<Row>, TooManySteps>>,
+    pub(super) max_curvature: OnceCell<Result<Option<f64>, TooManySteps>>,
     pub(super) wider_straight: [OnceCell<Result<Vec<StraightPortion>, TooManySteps>>; 2],
     pub(super) straight_half_turn: OnceCell<Result<Option<StraightPortion>, TooManySteps>>,
     arc_length: OnceCell<ArcLength>,
@@ -64,6 +65,7 @@ impl<'a> TracedCurve<'a> {
             cusp_count: OnceCell::new(),
             smooth: OnceCell::new(),
             row: OnceCell::new(),
+            max_curvature: OnceCell::new(),
             wider_straight: Default::default(),
             straight_half_turn: OnceCell::new(),
             arc_length: OnceCell::new(),
@@ -91,20 +93,27 @@ impl<'a> TracedCurve<'a> {
     }
 
     /// Its points, for the search for portions; `None` for a point, or what is one but for rounding.
-    pub(super) fn row(&self) -> Option<&Row> {
+    ///
+    /// # Errors
+    /// The search for its bends takes too many steps.
+    pub(super) fn row(&self) -> Result<Option<&Row>, TooManySteps> {
         /// The extent at which a thousandth of a twentieth of it, the width of the narrowest strip that matters, is ten
         /// times the rounding.
         const SHAPELESS: f64 = 2e5;
         let has_shape = || self.extent() > SHAPELESS * self.smooth().rounding;
-        let row = || has_shape().then(|| self.row_of_spacing(SPACING * self.extent())).flatten();
-        self.row.get_or_init(row).as_ref()
+        let row = || if has_shape() { self.row_of_spacing(SPACING * self.extent()) } else { Ok(None) };
+        self.row.get_or_init(row).as_ref().map(Option::as_ref).map_err(|error| *error)
     }
 
     /// Points of it, no further apart than `spacing`.
-    pub(super) fn row_of_spacing(&self, spacing: f64) -> Option<Row> {
+    ///
+    /// # Errors
+    /// The search for its bends takes too many steps.
+    pub(super) fn row_of_spacing(&self, spacing: f64) -> Result<Option<Row>, TooManySteps> {
         /// The radius, in spacings, of a bend that points show as what it is.
         const RESOLVED: f64 = 4.0;
-        Row::new(self.smooth(), &self.smooth().bends(1.0 / (RESOLVED * spacing), self.stops()), spacing)
+        let bends = self.smooth().bends(1.0 / (RESOLVED * spacing), self.stops())?;
+        Ok(Row::new(self.smooth(), &bends, spacing))
     }
 
     /// Its length as a function of the place.
@@ -152,6 +161,7 @@ impl<'a> TracedCurve<'a> {
             || self.circuit_results.0.has_function_too_close.get()
             || !self.arc_length().is_known()
             || self.crossings().is_cut_short
+            || self.counted_max_curvature().is_err()
             || has_portion_too_close()
     }
 

@@ -105,7 +105,7 @@ impl ColumnName {
             // Before the last letter that begins a word.
             _ => {
                 let begins_word = |at: usize| !text[..at].ends_with(char::is_alphanumeric);
-                let (at, _) = text.char_indices().filter(is_letter).filter(|(at, _)| begins_word(*at)).last()?;
+                let (at, _) = text.char_indices().filter(is_letter).rfind(|(at, _)| begins_word(*at))?;
                 &text[..at]
             }
         };

@@ -1,5 +1,6 @@
 //! Where a curve bends most, and where it bends sharply.
 
+use super::super::budget::{MAX_PARTS, Steps, TooManySteps};
 use super::stops::{STOP_WIDTH, greatest};
 use super::{Arc, NARROW, Place, SmoothCurve, Stop};
 use crate::geometry::{Chebyshev, TERMS, Vector, cross, curvature, in_rising_order};
@@ -7,7 +8,10 @@ use crate::geometry::{Chebyshev, TERMS, Vector, cross, curvature, in_rising_orde
 impl SmoothCurve {
     /// The greatest curvature and its place; `None` for a curve without pieces, or that does not move. `stops` are no cusps,
     /// at which it is infinite; next to where the path returns on itself it is not looked for.
-    pub fn sharpest(&self, stops: &[Stop]) -> Option<(f64, Place)> {
+    ///
+    /// # Errors
+    /// The search takes too many steps.
+    pub fn sharpest(&self, stops: &[Stop]) -> Result<Option<(f64, Place)>, TooManySteps> {
         let mut best: Option<(f64, Place)> = None;
         let mut offer = |value: f64, place: Place| {
             if value.is_finite() && best.is_none_or(|(most, _)| value > most) {
@@ -30,13 +34,16 @@ impl SmoothCurve {
                 most = offer(curvature(v[j], a[j]).abs(), place);
             }
         }
-        self.visit_bends(parts, most, |value, place, _| offer(value, place));
-        best
+        self.visit_bends(parts, most, |value, place, _| offer(value, place))?;
+        Ok(best)
     }
 
     /// The places at which the curvature has a maximum of at least `least`, and those where the curve stops, in order; none of
     /// them at the end of a piece, but at the beginning of the next.
-    pub fn bends(&self, least: f64, stops: &[Stop]) -> Vec<Place> {
+    ///
+    /// # Errors
+    /// The search takes too many steps.
+    pub fn bends(&self, least: f64, stops: &[Stop]) -> Result<Vec<Place>, TooManySteps> {
         let mut places: Vec<Place> = stops.iter().map(|stop| stop.place).collect();
         let whole = self.arcs.iter().cloned().enumerate().map(|(piece, arc)| (piece, [-1.0, 1.0], arc));
         self.visit_bends(whole.collect(), least, |value, place, is_extreme| {
@@ -47,7 +54,7 @@ impl SmoothCurve {
                 places.push(place);
             }
             least
-        });
+        })?;
         // What is so close to an end of a piece is there: the rest of the piece would be rounding.
         let at_start = |Place { piece, u }: Place| match u {
             _ if u < STOP_WIDTH - 1.0 => Some(Place { piece, u: -1.0 }),
@@ -55,21 +62,27 @@ impl SmoothCurve {
             _ if piece + 1 < self.arcs.len() => Some(Place { piece: piece + 1, u: -1.0 }),
             _ => self.is_closed.then_some(Place { piece: 0, u: -1.0 }),
         };
-        in_rising_order(places.into_iter().filter_map(at_start).collect(), |place| 4.0 * place.piece as f64 + place.u)
+        let starts = places.into_iter().filter_map(at_start).collect();
+        Ok(in_rising_order(starts, |place| 4.0 * place.piece as f64 + place.u))
     }
 
     /// Calls `visit` with the curvatures that may exceed the `least`, and the places, and whether it has an extreme there; it
     /// returns the new least.
+    ///
+    /// # Errors
+    /// It takes too many steps.
     fn visit_bends(
         &self,
         mut pending: Vec<(usize, [f64; 2], Arc)>,
         mut least: f64,
         mut visit: impl FnMut(f64, Place, bool) -> f64,
-    ) {
+    ) -> Result<(), TooManySteps> {
         /// A change of the curvature, relative to it, that is less than the accuracy promised.
         const SAME: f64 = 1e-10;
         let [_, second_rounding, third_rounding] = self.derivative_rounding();
+        let steps = Steps::new(MAX_PARTS);
         while let Some((piece, [from, to], arc)) = pending.pop() {
+            steps.take(1)?;
             let derivatives = arc.derivatives_at_nodes();
             let [v, a, j] = &derivatives;
             let (_, along, _) = arc.cone();
@@ -112,6 +125,7 @@ impl SmoothCurve {
             pending.push((piece, [from, middle], left));
             pending.push((piece, [middle, to], right));
         }
+        Ok(())
     }
 
     /// The parts of a piece that are not next to where the path returns on itself.
