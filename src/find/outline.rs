@@ -35,12 +35,21 @@ impl Reading {
 }
 
 /// What is to be read of a file.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub struct ReadOptions<'a> {
     /// Whether the angles of the crank are read.
     pub is_timed: bool,
     /// The outline to take of several: its id, or its number from 1.
     pub outline: Option<&'a str>,
+    /// What is written before it, as messages have it.
+    pub outline_option: &'a str,
+}
+
+/// As the command without options reads.
+impl Default for ReadOptions<'_> {
+    fn default() -> Self {
+        ReadOptions { is_timed: false, outline: None, outline_option: "--outline " }
+    }
 }
 
 impl Outline {
@@ -98,13 +107,13 @@ pub(super) fn limited(mut problems: Vec<String>, what: &str) -> Vec<String> {
     problems
 }
 
-/// The index of what `--outline` names: that with its id, or with its number from 1; `what` is what it chooses from.
+/// The index of what is chosen: that with its id, or with its number from 1; `option` is written before it, and `what` is what it chooses from.
 ///
 /// # Errors
 /// There is none, or its id is that of several.
-pub(super) fn choose(wanted: &str, ids: &[Option<&str>], what: &str) -> Result<usize, String> {
-    let with_id: Vec<usize> = (0..ids.len()).filter(|k| ids[*k] == Some(wanted)).collect();
-    let number = wanted.parse::<usize>().ok().filter(|number| (1..=ids.len()).contains(number));
+pub(super) fn choose([option, chosen]: [&str; 2], ids: &[Option<&str>], what: &str) -> Result<usize, String> {
+    let with_id: Vec<usize> = (0..ids.len()).filter(|k| ids[*k] == Some(chosen)).collect();
+    let number = chosen.parse::<usize>().ok().filter(|number| (1..=ids.len()).contains(number));
     match (&with_id[..], number) {
         ([only], _) => Ok(*only),
         ([], Some(number)) => Ok(number - 1),
@@ -112,10 +121,10 @@ pub(super) fn choose(wanted: &str, ids: &[Option<&str>], what: &str) -> Result<u
             const SHOWN: usize = 8;
             let names: Vec<&str> = ids.iter().filter_map(|id| *id).take(SHOWN).collect();
             let names = if names.is_empty() { String::new() } else { format!(", or {}", names.join(", ")) };
-            Err(format!("--outline {wanted}: there is no such {what}: give a number from 1 to {}{names}", ids.len()))
+            Err(format!("{option}{chosen}: there is no such {what}: give a number from 1 to {}{names}", ids.len()))
         }
         (several, _) => {
-            Err(format!("--outline {wanted}: {} have this name: give a number from 1 to {}", several.len(), ids.len()))
+            Err(format!("{option}{chosen}: {} have this name: give a number from 1 to {}", several.len(), ids.len()))
         }
     }
 }

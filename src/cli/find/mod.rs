@@ -225,7 +225,8 @@ fn read_path(arguments: &Arguments) -> anyhow::Result<TracedPath> {
     files::protect(path);
     let name = files::input_name(path);
     let bytes = output::read_bytes(path).map_err(|error| not_a_path::unreadable(path, error))?;
-    let options = ReadOptions { is_timed: arguments.timed, outline: arguments.outline.as_deref() };
+    let options =
+        ReadOptions { is_timed: arguments.timed, outline: arguments.outline.as_deref(), ..ReadOptions::default() };
     let outline = find::parse_outline(&bytes, &options).map_err(|problems| {
         if let Some(message) = not_a_path::manifest_message(path, &bytes) {
             return InputErrors::from_messages(&[message]);

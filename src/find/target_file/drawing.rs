@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use coupler_curves::geometry::{Bounds, Point, cross};
 use kurbo::{Affine, BezPath, PathEl};
 
-use super::super::outline::{Outline, Reading, choose};
+use super::super::outline::{Outline, ReadOptions, Reading, choose};
 
 /// Points at equal distances along an outline: as many as are needed to see its shape.
 const POINTS: usize = 100;
@@ -159,13 +159,13 @@ fn length(path: &[Point]) -> f64 {
 ///
 /// # Errors
 /// There is no outline, or not the one that is chosen.
-pub(super) fn outline_of(pieces: Vec<Piece>, wanted: Option<&str>) -> Result<Outline, String> {
+pub(super) fn outline_of(pieces: Vec<Piece>, options: &ReadOptions) -> Result<Outline, String> {
     let pieces = join(pieces);
     let order = |piece: &Piece| (piece.is_frame(), piece.kind);
-    let index = match wanted {
-        Some(wanted) => {
+    let index = match options.outline {
+        Some(chosen) => {
             let ids: Vec<Option<&str>> = pieces.iter().map(|piece| piece.id.as_deref()).collect();
-            choose(wanted, &ids, "outline")?
+            choose([options.outline_option, chosen], &ids, "outline")?
         }
         None => {
             let ranked = pieces.iter().enumerate().map(|(k, piece)| (order(piece), piece.length(), k));
@@ -180,12 +180,12 @@ pub(super) fn outline_of(pieces: Vec<Piece>, wanted: Option<&str>) -> Result<Out
     let is_closed = piece.is_closed();
     let points = spaced_evenly(&piece.points, piece.length(), is_closed);
     let mut outline = Outline::new(points, None, is_closed.then_some(true));
-    outline.reading = Reading::of(taken(&pieces, index, wanted.is_some()));
+    outline.reading = Reading::of(taken(&pieces, index, options));
     Ok(outline)
 }
 
 /// Which outline was taken.
-fn taken(pieces: &[Piece], index: usize, is_chosen: bool) -> String {
+fn taken(pieces: &[Piece], index: usize, options: &ReadOptions) -> String {
     let piece = &pieces[index];
     let id = piece.id.as_ref().map_or(String::new(), |id| format!(" `{id}`"));
     let kind = match piece.kind {
@@ -202,11 +202,11 @@ fn taken(pieces: &[Piece], index: usize, is_chosen: bool) -> String {
         Short(size.x),
         Short(size.y)
     );
-    if !is_chosen && pieces.len() > 1 {
+    if options.outline.is_none() && pieces.len() > 1 {
         let alike =
             pieces.iter().filter(|other| (other.is_frame(), other.kind) == (piece.is_frame(), piece.kind)).count();
         let why = if alike > 1 { format!(", the longest of {alike} such") } else { String::new() };
-        taken += &format!("{why}; --outline N or ID takes another");
+        taken += &format!("{why}; {}N or ID takes another", options.outline_option);
     }
     taken
 }

@@ -12,8 +12,11 @@ use super::super::outline::{Outline, ReadOptions, Reading, limited};
 /// # Errors
 /// Every point that cannot be read.
 pub(super) fn parse_json(text: &str, options: &ReadOptions) -> Result<Outline, Vec<String>> {
-    if options.outline.is_some() {
-        return Err(vec!["--outline chooses from the paths of a drawing or a table, and JSON has one".to_owned()]);
+    if let Some(outline) = options.outline {
+        return Err(vec![format!(
+            "{}{outline}: JSON has only one path; a drawing or a table may have several",
+            options.outline_option
+        )]);
     }
     let value: Value = serde_json::from_str(text).map_err(|error| vec![format!("the JSON cannot be read: {error}")])?;
     let object = value.get("target").unwrap_or(&value);

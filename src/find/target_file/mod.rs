@@ -20,9 +20,9 @@ pub const MAX_POINTS: usize = 5000;
 pub fn parse_outline(bytes: &[u8], options: &ReadOptions) -> Result<Outline, Vec<String>> {
     let text = encoding::decode(bytes).map_err(|problem| vec![problem])?;
     let outline = match text.trim_start().chars().next() {
-        Some('<') => svg::parse_svg(&text, options.outline).map_err(|problem| vec![problem])?,
+        Some('<') => svg::parse_svg(&text, options).map_err(|problem| vec![problem])?,
         Some('{' | '[') => json::parse_json(&text, options)?,
-        _ if dxf::is_dxf(&text) => dxf::parse_dxf(&text, options.outline).map_err(|problem| vec![problem])?,
+        _ if dxf::is_dxf(&text) => dxf::parse_dxf(&text, options).map_err(|problem| vec![problem])?,
         _ => table::parse_table(&text, options)?,
     };
     match outline.points.len() {
@@ -39,7 +39,7 @@ mod tests {
     use super::*;
 
     fn parse(text: &str, is_timed: bool) -> Result<Outline, Vec<String>> {
-        parse_outline(text.as_bytes(), &ReadOptions { is_timed, outline: None })
+        parse_outline(text.as_bytes(), &ReadOptions { is_timed, ..ReadOptions::default() })
     }
 
     fn points(text: &str) -> Vec<[f64; 2]> {

@@ -87,7 +87,7 @@ pub fn record(text: &str) {
 /// Asserts that bytes are read as a path, of which it is said what was taken, or have problems.
 pub fn path(bytes: &[u8]) {
     for (is_timed, outline) in [(false, None), (true, None), (false, Some("1"))] {
-        match find::parse_outline(bytes, &ReadOptions { is_timed, outline }) {
+        match find::parse_outline(bytes, &ReadOptions { is_timed, outline, ..ReadOptions::default() }) {
             Ok(Outline { points, angles_deg, reading, .. }) => {
                 assert!(points.len() <= find::MAX_POINTS);
                 assert!(points.iter().all(|p| p.x.is_finite() && p.y.is_finite()), "{points:?}");

@@ -43,7 +43,7 @@ fn four_bar(random: &mut Random) -> Curve {
     Box::new(move |input| {
         let a = [crank * trig::cos(input), crank * trig::sin(input)];
         let to_pivot = [frame - a[0], -a[1]];
-        let distance = to_pivot[0].hypot(to_pivot[1]);
+        let distance = (to_pivot[0] * to_pivot[0] + to_pivot[1] * to_pivot[1]).sqrt();
         let x = (distance * distance + coupler * coupler - rocker * rocker) / (2.0 * distance);
         let y = (coupler * coupler - x * x).sqrt();
         let unit = to_pivot.map(|value| value / distance);
@@ -71,7 +71,10 @@ fn file(curve: &Curve, case: &Case, random: &mut Random) -> String {
     let point = |k: usize| curve(start + direction * TAU * case.part * k as f64 / steps as f64);
     let mut path: Vec<[f64; 2]> = (0..points).map(point).collect();
     let mean = [0, 1].map(|axis| path.iter().map(|point| point[axis]).sum::<f64>() / points as f64);
-    let square = |point: &[f64; 2]| (point[0] - mean[0]).powi(2) + (point[1] - mean[1]).powi(2);
+    let square = |point: &[f64; 2]| {
+        let [x, y] = [point[0] - mean[0], point[1] - mean[1]];
+        x * x + y * y
+    };
     let size = (path.iter().map(square).sum::<f64>() / points as f64).sqrt();
     // The sum of three even numbers is nearly normal.
     let mut normal = || 2.0 * (random.next() + random.next() + random.next() - 1.5);

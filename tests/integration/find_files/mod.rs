@@ -15,12 +15,12 @@ fn read(bytes: impl AsRef<[u8]>) -> Result<Outline, String> {
 
 /// The path in a file, with the angles of the crank.
 fn read_timed(bytes: impl AsRef<[u8]>) -> Result<Outline, String> {
-    let options = ReadOptions { is_timed: true, outline: None };
+    let options = ReadOptions { is_timed: true, ..ReadOptions::default() };
     parse_outline(bytes.as_ref(), &options).map_err(|problems| problems.join("\n"))
 }
 
 /// The outline of a file that is chosen.
 fn choose(bytes: impl AsRef<[u8]>, outline: &str) -> Result<Outline, String> {
-    let options = ReadOptions { is_timed: false, outline: Some(outline) };
+    let options = ReadOptions { outline: Some(outline), ..ReadOptions::default() };
     parse_outline(bytes.as_ref(), &options).map_err(|problems| problems.join("\n"))
 }

@@ -174,7 +174,7 @@ fn the_program_says_what_it_has_read() {
     let again: Json = serde_json::from_str(&again).unwrap();
     assert!(code == 0 && again["target"]["points"] == json["target"]["points"] && again["target"]["closed"] == true);
     let (code, _, error) = find(&["found.json", "--outline", "2"]);
-    assert!(code == 2 && error.contains("JSON has one"), "{error}");
+    assert!(code == 2 && error.contains("JSON has only one path"), "{error}");
     let (code, _, error) = find(&[&format!("exported/{name}.svg"), "--outline", "99"]);
     assert!(code == 2 && error.contains("give a number from 1 to"), "{error}");
 }
@@ -186,7 +186,7 @@ fn a_curve_of_points_csv_is_chosen() {
     printed(folder.path(), &["render", "-q"]);
     let bytes = fs::read(folder.path().join("atlas/bars/points.csv")).unwrap();
     let error = read(&bytes).unwrap_err();
-    assert!(error.contains("choose one with --outline") && error.contains("`1.1.1`"), "{error}");
+    assert!(error.contains("choose one, as in --outline 1") && error.contains("`1.1.1`"), "{error}");
     let (name, curve) = curves.iter().rfind(|(name, _)| name.starts_with("bars")).unwrap();
     let id = name.trim_start_matches("bars-").replace('-', ".");
     assert_eq!(super::choose(&bytes, &id).unwrap().points, samples(curve));

@@ -147,7 +147,7 @@ fn width_about(row: &Row, [from, to]: [f64; 2], centre: Point) -> f64 {
         let offsets = (0..16).map(|k| 1.0 / f64::from(1u32 << k)).chain([0.0]);
         offsets.flat_map(move |offset| [bend as f64 - offset, bend as f64 + offset])
     };
-    let beside: Vec<f64> = row.corners_between([from, to]).into_iter().flat_map(around).collect();
+    let beside: Vec<f64> = row.bends_between([from, to]).into_iter().flat_map(around).collect();
     let beside = row.points_at(&beside.into_iter().filter(|at| (from..=to).contains(at)).collect::<Vec<f64>>());
     let beside = beside.iter().map(|point| (point - centre).norm());
     let all: Vec<f64> = distances.iter().copied().chain((1..parts).filter_map(extreme_near)).chain(beside).collect();

@@ -30,7 +30,7 @@ pub(super) struct Row {
     places: Vec<(Place, f64)>,
     /// The points of the first round that are points of every portion, in order: where there may be a corner, where the curve
     /// stops, and where it bends sharply. The ends of an open curve are none.
-    corners: Vec<usize>,
+    bends: Vec<usize>,
     /// Every point, every second, every fourth and so on, as far as they have been asked for.
     every_nth: [OnceCell<EveryNth>; Row::MAX_POINTS.ilog2() as usize + 1],
 }
@@ -50,7 +50,7 @@ impl Row {
         let parts = |length: f64| (length / spacing).ceil().max(2.0) as usize;
         let count = lengths.iter().map(|length| parts(*length)).sum::<usize>() + 2 * bends.len() + 1;
         let (mut places, mut travel) = (Vec::with_capacity(count), Vec::with_capacity(2 * count));
-        let mut corners = Vec::new();
+        let mut indices = Vec::new();
         let mut before = 0.0;
         for (piece, length) in lengths.iter().enumerate() {
             let bends = || bends.iter().filter(|bend| bend.piece == piece).map(|bend| bend.u);
@@ -58,7 +58,7 @@ impl Row {
             let cuts: Vec<f64> = [-1.0].into_iter().chain(bends().filter(|u| *u > -1.0)).chain([1.0]).collect();
             for (k, ends) in cuts.windows(2).enumerate() {
                 if k > 0 || (is_corner && (curve.is_closed || piece > 0)) {
-                    corners.push(places.len());
+                    indices.push(places.len());
                 }
                 let width = ends[1] - ends[0];
                 let parts = parts(*length * width / 2.0);
@@ -99,7 +99,7 @@ impl Row {
             is_closed: curve.is_closed,
             cumulative_length,
             places,
-            corners,
+            bends: indices,
             every_nth: Default::default(),
         })
     }
@@ -153,27 +153,26 @@ impl Row {
 
     /// Whether the curve may go back along itself, so that the points of a portion are not in their order around a centre.
     pub fn is_folded(&self) -> bool {
-        !self.corners.is_empty()
+        !self.bends.is_empty()
     }
 
     /// The points of the first round that are points of every portion: corners, stops and sharp bends.
-    pub fn corners(&self) -> &[usize] {
-        &self.corners
+    pub fn bends(&self) -> &[usize] {
+        &self.bends
     }
 
-    /// The points strictly between two positions at which there may be a corner, in order; on a closed curve they may be
-    /// negative.
-    pub fn corners_between(&self, [from, to]: [f64; 2]) -> Vec<i64> {
+    /// Those strictly between two positions, in order; on a closed curve they may be negative.
+    pub fn bends_between(&self, [from, to]: [f64; 2]) -> Vec<i64> {
         let mut found = Vec::new();
-        if self.corners.is_empty() {
+        if self.bends.is_empty() {
             return found;
         }
         let round = self.start_count as i64;
         let rounds = if self.is_closed { from as i64 / round - 1..=to as i64 / round } else { 0..=0 };
         for first in rounds.map(|k| k * round) {
-            for corner in self.corners.iter().map(|corner| first + *corner as i64) {
-                if from < corner as f64 && (corner as f64) < to {
-                    found.push(corner);
+            for bend in self.bends.iter().map(|bend| first + *bend as i64) {
+                if from < bend as f64 && (bend as f64) < to {
+                    found.push(bend);
                 }
             }
         }

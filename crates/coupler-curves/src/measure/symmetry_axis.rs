@@ -120,7 +120,7 @@ impl<'a> MirrorImages<'a> {
     /// the curve stops or bends sharply.
     fn every_nth(&self, n: usize) -> impl Iterator<Item = usize> {
         let end = (!self.row.is_closed).then(|| self.points.len() - 1);
-        (0..self.points.len()).step_by(n).chain(end).chain(self.row.corners().iter().copied())
+        (0..self.points.len()).step_by(n).chain(end).chain(self.row.bends().iter().copied())
     }
 
     /// The greatest distance of the mirror images of about `count` points of the row from the curve.
@@ -247,7 +247,7 @@ impl<'a> MirrorImages<'a> {
         // Next to a cusp, which is between two corners, the curve is near on both its sides.
         let reach = found.0.abs() + self.spacing;
         let is_near = |corner: &&usize| (self.points[**corner] - point).norm() <= reach;
-        for corner in self.row.corners().iter().filter(is_near) {
+        for corner in self.row.bends().iter().filter(is_near) {
             for beside in [corner + count - 1, corner + 1] {
                 found = nearer(found, self.row.signed_distance(point, (beside % count) as f64)?);
             }

@@ -132,7 +132,7 @@ impl<'a> PortionPoints<'a> {
     /// Puts the corners between two positions among the points, in place of those that are too close to them.
     fn insert_corners(&mut self, ends: [f64; 2]) {
         self.corners.clear();
-        for corner in self.row.corners_between(ends) {
+        for corner in self.row.bends_between(ends) {
             let position = corner as f64 / self.spacing;
             // The ends stay.
             let last = self.positions.len() - 1;

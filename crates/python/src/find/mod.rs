@@ -208,7 +208,11 @@ pub fn find_linkages(
     let options = Options { full_turn, max_link, pivots, condition, effort, refine, seed: seed as u64, most: top };
 
     let outline = outline.map(OutlineName::into_text);
-    let mut path = Path::read(py, &path, &ReadOptions { is_timed: timed, outline: outline.as_deref() })?;
+    let mut path = Path::read(
+        py,
+        &path,
+        &ReadOptions { is_timed: timed, outline: outline.as_deref(), outline_option: "outline=" },
+    )?;
     let kind = path.kind(closed, part)?;
     let target = match path.angles(kind, angles, timed)? {
         Some(angles) => Target::timed(&path.outline.points, kind, &angles),

@@ -53,9 +53,7 @@ impl Path {
         let shown = file.display().to_string();
         let bytes = read_bytes(py, &file)?;
         let outline = parse_outline(&bytes, options).map_err(|problems| {
-            // The command and the argument are called differently.
-            let own = |problem: &String| problem.replace("--outline ", "outline=");
-            let problems: Vec<String> = problems.iter().map(|problem| format!("{shown}: {}", own(problem))).collect();
+            let problems: Vec<String> = problems.iter().map(|problem| format!("{shown}: {problem}")).collect();
             PyValueError::new_err(problems.join("\n"))
         })?;
         if outline.reading.has_unused_angles {

@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 
 use coupler_curves::geometry::{Bounds, Point, Vector};
 
-use super::super::outline::Outline;
+use super::super::outline::{Outline, ReadOptions};
 use super::drawing::{Kind, Piece, outline_of};
 use curves::{bulge_to, ellipse, spline};
 use groups::{Group, Record, groups};
@@ -33,7 +33,7 @@ pub(super) fn is_dxf(text: &str) -> bool {
 ///
 /// # Errors
 /// The drawing cannot be read, or has no such outline.
-pub(super) fn parse_dxf(text: &str, wanted: Option<&str>) -> Result<Outline, String> {
+pub(super) fn parse_dxf(text: &str, options: &ReadOptions) -> Result<Outline, String> {
     let groups = groups(text)?;
     let is_own = groups.first().is_some_and(|first| first.code == 999 && first.value.starts_with("coupler-atlas"));
     let records = Record::all(&groups);
@@ -73,7 +73,7 @@ pub(super) fn parse_dxf(text: &str, wanted: Option<&str>) -> Result<Outline, Str
             "the drawing has no line, polyline, circle, arc, ellipse or spline that is shown{without}"
         ));
     }
-    let mut outline = outline_of(pieces, wanted).map_err(|error| format!("the drawing: {error}"))?;
+    let mut outline = outline_of(pieces, options).map_err(|error| format!("the drawing: {error}"))?;
     outline.reading.taken += &format!("; in {}{without}", unit(&groups));
     Ok(outline)
 }
@@ -254,7 +254,7 @@ mod tests {
     }
 
     fn read(entities: &str) -> Outline {
-        parse_dxf(&drawing(entities), None).unwrap()
+        parse_dxf(&drawing(entities), &ReadOptions::default()).unwrap()
     }
 
     #[test]
@@ -307,7 +307,7 @@ mod tests {
             ("0\nARC\n10\n0\n20\n0\n40\n1\n50\n0\n51\n9\n210\n1\n220\n0\n230\n0\n", "not parallel"),
             ("a\nb\n", "is not the code of a group"),
         ] {
-            let error = parse_dxf(&drawing(entities), None).unwrap_err();
+            let error = parse_dxf(&drawing(entities), &ReadOptions::default()).unwrap_err();
             assert!(error.contains(expected), "{entities}: {error}");
         }
     }

@@ -7,7 +7,7 @@ mod tree;
 
 use kurbo::Affine;
 
-use super::super::outline::Outline;
+use super::super::outline::{Outline, ReadOptions};
 use super::drawing::{Kind, Piece, outline_of, polylines, shorten};
 use length::{MILLIMETRES, Side, Viewport, length, view_box, viewport_transform};
 use style::{Style, Styles};
@@ -19,7 +19,7 @@ use tree::{Element, Tree};
 ///
 /// # Errors
 /// The drawing cannot be read, or has no such outline.
-pub(super) fn parse_svg(text: &str, wanted: Option<&str>) -> Result<Outline, String> {
+pub(super) fn parse_svg(text: &str, options: &ReadOptions) -> Result<Outline, String> {
     let tree = Tree::parse(text)?;
     let root =
         tree.elements.first().filter(|root| root.name == "svg").ok_or("it is no drawing in SVG: it has no <svg>")?;
@@ -43,7 +43,7 @@ pub(super) fn parse_svg(text: &str, wanted: Option<&str>) -> Result<Outline, Str
         ));
     }
     let is_plate = pieces.iter().any(|piece| piece.kind == Kind::Curve);
-    let mut outline = outline_of(pieces, wanted).map_err(|error| format!("the drawing: {error}"))?;
+    let mut outline = outline_of(pieces, options).map_err(|error| format!("the drawing: {error}"))?;
     let taken = &mut outline.reading.taken;
     *taken += "; ";
     *taken += if is_plate && taken.contains("of this program") { "in the unit of its linkage" } else { &unit };

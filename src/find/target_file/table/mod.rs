@@ -59,9 +59,9 @@ pub(super) fn parse_table(text: &str, options: &ReadOptions) -> Result<Outline, 
     let ids: Vec<Option<&str>> = sets.iter().map(|set| set.id.as_deref()).collect();
     let index = match (options.outline, sets.len()) {
         (_, 0) => return Ok(Outline::new(Vec::new(), None, None)),
-        (Some(wanted), _) => choose(wanted, &ids, "path").map_err(|problem| vec![problem])?,
+        (Some(chosen), _) => choose([options.outline_option, chosen], &ids, "path").map_err(|problem| vec![problem])?,
         (None, 1) => 0,
-        (None, _) => return Err(vec![several(&sets)]),
+        (None, _) => return Err(vec![several(&sets, options)]),
     };
     let mut outline = sets[index].outline(dialect, options)?;
     if sets.len() > 1 {
@@ -134,7 +134,7 @@ fn unknown_lines<'r, 'a: 'r>(
 }
 
 /// What to do with several paths.
-fn several(sets: &[DataSet]) -> String {
+fn several(sets: &[DataSet], options: &ReadOptions) -> String {
     const SHOWN: usize = 8;
     let described = |(number, set): (usize, &DataSet)| {
         let [first, last] = set.lines();
@@ -144,8 +144,9 @@ fn several(sets: &[DataSet]) -> String {
     let shown: Vec<String> = (1..).zip(sets).take(SHOWN).map(described).collect();
     let more = if sets.len() > SHOWN { ", …" } else { "" };
     format!(
-        "it has {} paths: {}{more}; choose one with --outline, as in --outline 1, or leave out blank lines within a path",
+        "it has {} paths: {}{more}; choose one, as in {}1, or leave out blank lines within a path",
         sets.len(),
-        shown.join(", ")
+        shown.join(", "),
+        options.outline_option
     )
 }
