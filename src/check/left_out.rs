@@ -52,12 +52,12 @@ impl LeftOut {
     }
 
     /// Whether images and books are left out.
-    pub(super) fn has_images(self) -> bool {
+    pub(super) fn leaves_images(self) -> bool {
         self.images + self.volumes > 0
     }
 
     /// Whether the gallery is left out.
-    pub(super) fn has_gallery(self) -> bool {
+    pub(super) fn leaves_gallery(self) -> bool {
         self.gallery_files > 0
     }
 }

@@ -147,7 +147,7 @@ pub fn check_atlas(
         }
     }
     if options.only.is_empty() && !is_outdated {
-        if !left_out.has_images() {
+        if !left_out.leaves_images() {
             let volumes = record.book.iter().flat_map(|book| &book.files);
             for file in volumes {
                 report.add_findings(images::check_volume(recorded, file)?.into_iter().collect());
@@ -155,7 +155,7 @@ pub fn check_atlas(
             report.add_findings(images::check_images_file(&folder_record).into_iter().collect());
         }
         let check_file = |(name, file): (&str, Option<&FileRecord>)| match file {
-            Some(file) if file.name == name && left_out.has_gallery() => Ok(None),
+            Some(file) if file.name == name && left_out.leaves_gallery() => Ok(None),
             Some(file) if file.name == name => gallery::check_file(recorded, name, file),
             None if folder_record.is_unfinished => Ok(None),
             _ => {
@@ -237,7 +237,8 @@ fn check_family(
     report.pages += pages.len();
     let other_inputs: Vec<String> = pages.iter_mut().flat_map(|page| std::mem::take(&mut page.other_inputs)).collect();
     findings.extend(family_check.page_findings(pages, &changed_cells));
-    let data_files = record.files.iter().filter(|file| is_data_file_name(&file.name) && !report.left_out.has_gallery());
+    let data_files =
+        record.files.iter().filter(|file| is_data_file_name(&file.name) && !report.left_out.leaves_gallery());
     for file in data_files {
         findings.extend(gallery::check_file(recorded, &format!("{}/{}", planned.family.id, file.name), file)?);
     }

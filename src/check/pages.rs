@@ -95,7 +95,7 @@ impl<'a> RecordedPages<'a> {
             if !is_current {
                 page.differing_files.push(record.name.clone());
             }
-            if !self.left_out.has_images() {
+            if !self.left_out.leaves_images() {
                 let draw = || if is_current { render::png(&scene, plan.dpi).ok() } else { None };
                 let change = image_change(&self.folder, record, draw)?;
                 page.findings.extend(change.map(|change| self.file_location(&record.name).finding(change)));

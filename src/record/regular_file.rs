@@ -38,8 +38,11 @@ impl FileError {
     /// What an error of the system says about the file at a path.
     pub fn at(path: &Path) -> impl Fn(io::Error) -> FileError {
         |error| match error.kind() {
-            // There is no file in a file.
-            io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => FileError::NotFound,
+            // There is no file in a file, and none with a name that no file can have.
+            io::ErrorKind::NotFound
+            | io::ErrorKind::NotADirectory
+            | io::ErrorKind::InvalidFilename
+            | io::ErrorKind::InvalidInput => FileError::NotFound,
             _ => FileError::Unreadable { path: path.to_owned(), reason: error.to_string() },
         }
     }

@@ -4,14 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The source folders of the crates.
-const CRATES: [&str; 5] = [
-    "crates/coupler-curves/src",
-    "crates/coupler-drawing/src",
-    "crates/coupler-manifest/src",
-    "crates/coupler-kernel/src",
-    "src",
-];
+use crate::imports::CRATES;
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))

@@ -11,8 +11,8 @@ use std::path::Path;
 
 use names::Names;
 
-/// The source folders of the crates.
-const CRATES: [&str; 6] = [
+/// The source folders of the crates: of those without files, threads and clocks, of the program, and of the Python package.
+pub const CRATES: [&str; 6] = [
     "crates/coupler-curves/src",
     "crates/coupler-drawing/src",
     "crates/coupler-manifest/src",
