@@ -13,7 +13,7 @@ const LIMITS: [f64; 2] = [0.6, 2.5];
 /// How much more the closing step may deviate from its prediction than the other steps do.
 const MARGIN: f64 = 1.2;
 
-/// Ends are near, in whatever direction the gap is, if it is no longer than so many times the shorter of the steps beside it, or than this part of
+/// Ends are near, in any direction of the gap, if it is no longer than so many times the shorter of the steps beside it, or than this part of
 /// the median step.
 const NEAR: [f64; 2] = [1.25, 0.5];
 

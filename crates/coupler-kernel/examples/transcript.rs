@@ -4,11 +4,13 @@
 //! A line is a JSON object: `new` starts with a new instance; `request` and the numbers `given` with it are answered by `json` and `numbers`; `pose`
 //! and `joint` are the arguments of those calls, answered by `numbers`. Numbers are the hexadecimal digits of their bytes.
 
+use std::collections::BTreeSet;
 use std::env;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 use coupler_curves::geometry::trig;
+use coupler_curves::linkage::JointKind;
 use coupler_drawing::curve_file::CurveFormat;
 use coupler_kernel::Kernel;
 use coupler_manifest::{self as manifest, PlannedFamily};
@@ -27,13 +29,27 @@ fn main() -> io::Result<()> {
     if env::args().nth(1).is_some_and(|argument| argument == "sources") {
         return writeln!(out, "{digest}");
     }
+    let (mut families, mut kinds) = (0, BTreeSet::new());
     for seed in 0..4 {
         let mut session = Session::start(&mut out)?;
         for planned in &random_families(seed) {
+            let linkage = planned.family.linkage(&planned.family.cell(0)).unwrap();
+            kinds.extend(linkage.joints.iter().map(|joint| name(joint.kind)));
             session.ask_about_first_cell(planned, seed as usize)?;
         }
+        families += session.families;
+        assert!(session.calls > 8 * session.families, "{} calls, {} families", session.calls, session.families);
     }
+    // Every kind of joint is among them.
+    let joints = "Aligned Crank Dyad Fixed Gear Parallelogram Piston Rigid Slide Slot Yoke";
+    assert_eq!(kinds.into_iter().collect::<Vec<_>>().join(" "), joints);
+    assert!(families > 50, "{families} families");
     Session::start(&mut out)?.search()
+}
+
+/// The name of a kind of joint.
+fn name(kind: JointKind) -> String {
+    format!("{kind:?}").split(|c: char| !c.is_alphabetic()).next().unwrap_or_default().to_owned()
 }
 
 /// The families of a random manifest, with one for each kind of linkage.
@@ -53,14 +69,15 @@ fn hex(numbers: &[f64]) -> String {
 struct Session<'a, W: Write> {
     out: &'a mut W,
     kernel: Kernel,
-    /// The families asked about.
+    /// The families asked about, and the requests.
     families: usize,
+    calls: usize,
 }
 
 impl<'a, W: Write> Session<'a, W> {
     fn start(out: &'a mut W) -> io::Result<Session<'a, W>> {
         writeln!(out, "{}", json!({ "new": true }))?;
-        Ok(Session { out, kernel: Kernel::default(), families: 0 })
+        Ok(Session { out, kernel: Kernel::default(), families: 0, calls: 0 })
     }
 
     /// The answer to a request.
@@ -74,6 +91,7 @@ impl<'a, W: Write> Session<'a, W> {
         let (given, numbers) = (hex(given), hex(&answer.numbers));
         let line = json!({ "request": request, "given": given, "json": answer.json, "numbers": numbers });
         writeln!(self.out, "{line}")?;
+        self.calls += 1;
         Ok(serde_json::from_str(&answer.json)?)
     }
 

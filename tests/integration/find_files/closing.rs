@@ -4,14 +4,14 @@ use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
 use coupler_curves::catalogue;
-use coupler_curves::family::{Family, Sampling};
+use coupler_curves::family::Sampling;
 use coupler_curves::geometry::trig;
 use coupler_curves::measure;
 use coupler_curves::motion::Sampler;
 use coupler_curves::solve::solve_measuring;
 
 use super::read;
-use crate::find_linkage::random_curves::Random;
+use crate::find_linkage::random_curves::{Random, with_defaults};
 
 /// A curve by its input.
 type Curve = Box<dyn Fn(f64) -> [f64; 2]>;
@@ -260,14 +260,8 @@ fn curves_of_the_catalogue_are_closed_and_their_arcs_open() {
     let mut wrong = [0; 2];
     let mut cases = [0; 2];
     for template in catalogue::all() {
-        let defaults: Vec<(String, f64)> = template
-            .parameters
-            .iter()
-            .filter(|parameter| parameter.default.is_none())
-            .map(|parameter| (parameter.name.clone(), parameter.example.unwrap_or(1.0)))
-            .collect();
         for count in [24, 36, 72, 180, 360] {
-            let family = Family::single_cell(template.clone(), &defaults, Sampling::Samples(count)).unwrap();
+            let family = with_defaults(template, Sampling::Samples(count));
             let requested = vec![false; measure::ALL.len()];
             let Some(solved) = solve_measuring(&family, &Sampler::new(family.sampling), 0, &requested) else {
                 continue;

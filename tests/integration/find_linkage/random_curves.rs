@@ -27,6 +27,14 @@ impl Random {
     }
 }
 
+/// A linkage with its default dimensions, or those of its example where it has none.
+pub fn with_defaults(template: &Arc<Template>, sampling: Sampling) -> Family {
+    let required = template.parameters.iter().filter(|parameter| parameter.default.is_none());
+    let values: Vec<(String, f64)> =
+        required.map(|parameter| (parameter.name.clone(), parameter.example.unwrap_or(1.0))).collect();
+    Family::single_cell(template.clone(), &values, sampling).unwrap()
+}
+
 /// The curve of a linkage with dimensions around its defaults: lengths 0.6 to 1.7 times as great, coordinates moved by up to 0.6 of the mean
 /// length, angles anywhere. At most `count` points at equal distances; whether it is closed.
 pub fn random_curve(
@@ -35,13 +43,7 @@ pub fn random_curve(
     random: &mut Random,
     count: usize,
 ) -> (Vec<Point>, bool) {
-    let defaults: Vec<(String, f64)> = template
-        .parameters
-        .iter()
-        .filter(|parameter| parameter.default.is_none())
-        .map(|parameter| (parameter.name.clone(), parameter.example.unwrap_or(1.0)))
-        .collect();
-    let family = Family::single_cell(template.clone(), &defaults, Sampling::Samples(24)).unwrap();
+    let family = with_defaults(template, Sampling::Samples(24));
     let base = family.cell(0).values;
     let lengths: Vec<f64> = template
         .parameters

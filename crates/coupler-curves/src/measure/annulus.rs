@@ -92,21 +92,16 @@ impl AlternatingPoints {
 fn sorted_around(points: &[Point]) -> Option<Cow<'_, [Point]>> {
     /// What is no further from a line, relative to its length, is on it but for rounding.
     const LINE: f64 = 1e-12;
-    let furthest = |distance: &dyn Fn(&Point) -> f64| {
-        points.iter().copied().reduce(|far, p| if distance(&p) > distance(&far) { p } else { far }).unwrap_or_default()
-    };
     let a = points[0];
-    let b = furthest(&|p| (p - a).norm_squared());
-    let c = furthest(&|p| cross(b - a, p - a).abs());
+    let b = furthest(points, |p| (p - a).norm_squared());
+    let c = furthest(points, |p| cross(b - a, p - a).abs());
     let (u, v) = (b - a, c - a);
     let twice_area = 2.0 * cross(u, v);
     if twice_area.abs() <= LINE * u.norm_squared() {
         return None;
     }
     let centre = a + (left_normal(v) * -u.norm_squared() + left_normal(u) * v.norm_squared()) / twice_area;
-    let turns = points.windows(2).map(|pair| cross(pair[0] - centre, pair[1] - centre));
-    let [least, most] = turns.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], turn| [l.min(turn), h.max(turn)]);
-    if least >= 0.0 || most <= 0.0 {
+    if goes_one_way(points, |from, to| cross(from - centre, to - centre)) {
         return Some(points.into());
     }
     // From opposite the middle of the row, so that the gap of an arc is not within it.
@@ -121,19 +116,25 @@ fn sorted_around(points: &[Point]) -> Option<Cow<'_, [Point]>> {
 
 /// The points of a nearly straight row, sorted along it in case it reverses.
 fn sorted_along(points: &[Point]) -> Cow<'_, [Point]> {
-    let furthest_from = |from: Point| {
-        let square = |p: &Point| (p - from).norm_squared();
-        points.iter().copied().reduce(|far, p| if square(&p) > square(&far) { p } else { far }).unwrap_or(from)
-    };
     // The ends of the row need not be those of the line: they are one point if it goes to and fro.
-    let end = furthest_from(points[0]);
-    let along = furthest_from(end) - end;
-    let rises = points.windows(2).map(|pair| along.dot(&(pair[1] - pair[0])));
-    let [least, most] = rises.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], rise| [l.min(rise), h.max(rise)]);
-    if least >= 0.0 || most <= 0.0 {
+    let end = furthest(points, |p| (p - points[0]).norm_squared());
+    let along = furthest(points, |p| (p - end).norm_squared()) - end;
+    if goes_one_way(points, |from, to| along.dot(&(to - from))) {
         return points.into();
     }
     in_rising_order(points.to_vec(), |p| along.dot(&p.coords)).into()
+}
+
+/// The first of the points with the greatest distance.
+fn furthest(points: &[Point], distance: impl Fn(&Point) -> f64) -> Point {
+    points.iter().copied().reduce(|far, p| if distance(&p) > distance(&far) { p } else { far }).unwrap_or_default()
+}
+
+/// Whether no two steps from point to point have advances of different signs.
+fn goes_one_way(points: &[Point], advance: impl Fn(Point, Point) -> f64) -> bool {
+    let advances = points.windows(2).map(|pair| advance(pair[0], pair[1]));
+    let [least, most] = advances.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], step| [l.min(step), h.max(step)]);
+    least >= 0.0 || most <= 0.0
 }
 
 /// An initial guess of the four alternating points of a row, and the annulus through them.
