@@ -660,7 +660,7 @@ fn a_change_point_says_what_it_is_and_where() {
 #[test]
 fn the_transmission_angle_has_the_extremes_that_are_measured() {
     let plan = example();
-    for solved in solve_cells(&plan, 7) {
+    for solved in solve_cells(&plan, 35) {
         let [least, greatest] = ["mu_min_deg", "mu_max_deg"].map(|name| match solved.curves[0].value(name) {
             coupler_curves::measure::Value::Number(value) => value,
             value => panic!("{value:?}"),

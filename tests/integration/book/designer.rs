@@ -252,6 +252,7 @@ fn a_book_is_the_same_whether_its_cells_are_measured_with_the_tables_or_for_it()
 }
 
 #[test]
+#[ignore = "thorough"]
 fn what_the_manifest_leaves_out_is_not_in_the_book() {
     let keys = "[book]\nhow_to_read = false\nfinding_charts = false\nthumb_index = false\nindex = false\nlist = []\nchapter = []\n";
     let (begin, rest) = MANIFEST.split_once("[book]").unwrap();

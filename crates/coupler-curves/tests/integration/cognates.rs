@@ -327,6 +327,9 @@ fn chebyshevs_cognate_is_evanss_at_half_size() {
         let back = Cognates::from_four_bar(placed_evans).unwrap().others[0];
         assert!(is_scaled(&back.four_bar, &placed_chebyshev, 2.0), "p = {p}: {back:?}");
         // The curves they trace agree as well.
+        if k % 10 > 0 {
+            continue;
+        }
         let [one, other] = [
             chebyshev.clone(),
             cognates.others[0].to_linkage(poses(&chebyshev, 90), &chebyshev.motion_options).unwrap(),

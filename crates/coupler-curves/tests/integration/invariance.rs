@@ -91,7 +91,7 @@ fn a_coupler_curve_has_its_cusp_wherever_the_circuit_begins() {
 #[test]
 fn a_pin_that_rocks_has_the_length_and_the_curvature_of_its_arc() {
     for bar in [[3.966, 0.609, 1.88, 2.824], [4.0, 1.5, 3.0, 3.5], [4.0, 1.0, 3.0, 3.5], [5.0, 2.0, 4.0, 4.5]] {
-        for turn in [0.0, 45.0, 123.4] {
+        for turn in [0.0, 123.4] {
             for is_mirrored in [false, true] {
                 let layout = Layout { turn_deg: turn, is_mirrored, scale: 1.0 };
                 let mut linkage = four_bar(layout, bar, (1.0, 0.0));
