@@ -4,10 +4,10 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use coupler_curves::FourBar;
-use coupler_curves::find::{
+use coupler_curves::geometry::Point;
+use coupler_find::{
     CurveFitOptions, CurveFitter, CurveIndex, CurveLookup, Effort, Index, Options, PathKind, Search, Target,
 };
-use coupler_curves::geometry::Point;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 /// A hundred points of a coupler curve, or the first of them.

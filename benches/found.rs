@@ -4,7 +4,7 @@
 #[path = "../tests/integration/find_linkage/random_curves.rs"]
 mod random_curves;
 
-use coupler_curves::find::Options;
+use coupler_find::Options;
 use random_curves::deviations;
 
 /// The built-in linkages, and whether their input turns fully.

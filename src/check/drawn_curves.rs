@@ -101,7 +101,7 @@ impl PageCell<'_> {
         let is_off =
             |distance: &f64| *distance > DRAWING_TOLERANCE_MM && *distance > DRAWING_TOLERANCE_MM + curve.rounding_mm();
         // The page shows the recorded curve. If it is another one, the cell has changed, and only its samples are known.
-        let moved = greatest_difference(&recorded.points, circuit, joint) * drawn.page_from_plane.scale;
+        let moved = greatest_difference(&recorded.points, circuit, joint) * drawn.page_from_plane.scale();
         let stray = drawn
             .max_stray(&recorded.points, closed, |point, enough| curve.distance(point, enough))
             .map(|distance| distance - moved);

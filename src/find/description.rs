@@ -1,9 +1,9 @@
 //! How near a curve is to a path and where it is placed, in words.
 
-use coupler_curves::find::{LinkageSpace, Mechanism, Quality, format_length as number, format_relative as relative};
 use coupler_curves::linkage::{FourBar, PlacedFourBar};
 use coupler_curves::linkage_format::toml_number;
 use coupler_curves::template::ParameterKind;
+use coupler_find::{LinkageSpace, Mechanism, Quality, format_length as number, format_relative as relative};
 
 use super::PlacedCurve;
 
@@ -45,15 +45,15 @@ pub fn placement(curve: &PlacedCurve, size: f64) -> String {
         "{mirrored}scale {}, turned by {}°, shifted by ({}, {})",
         number(placement.scale(), placement.scale()),
         (1000.0 * placement.rotation_deg()).round() / 1000.0 + 0.0,
-        number(placement.shift.x, size),
-        number(placement.shift.y, size)
+        number(placement.shift.re, size),
+        number(placement.shift.im, size)
     )
 }
 
 /// How near a curve is, and where it is placed with all digits, for a family that is drawn in its direction.
 pub(super) fn exact_placement(curve: &PlacedCurve, size: f64) -> String {
     let placement = &curve.fit.placement;
-    let [x, y] = [placement.shift.x, placement.shift.y].map(toml_number);
+    let [x, y] = [placement.shift.re, placement.shift.im].map(toml_number);
     let scaled = match curve.is_scalable {
         true => String::new(),
         false => format!("{} times as large and ", toml_number(placement.scale())),

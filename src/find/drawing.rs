@@ -1,15 +1,14 @@
 //! A drawing of the path and the curves that have been found for it.
 
 use coupler_curves::family::Family;
-use coupler_curves::find::{
-    Answer, LinkageSpace, Placement, Target, format_length as number, format_relative as relative,
-};
+use coupler_curves::geometry::Similarity;
 use coupler_curves::linkage_format::quoted;
 use coupler_curves::measure;
 use coupler_curves::motion::Sampler;
 use coupler_curves::solve::solve_measuring;
 use coupler_drawing::page::{self, AnswersPage, FoundCurve, Options, Paper};
 use coupler_drawing::render::{self, TextMode};
+use coupler_find::{Answer, LinkageSpace, Target, format_length as number, format_relative as relative};
 
 use super::description::{deviation, dimensions, parameters, placement};
 use super::{AtlasFindings, LinkageFindings, PlacedCurve};
@@ -43,7 +42,7 @@ fn found(rank: usize, answer: &Answer, size: f64) -> Option<FoundCurve> {
         mechanism.mu_worst_deg,
         dimensions(mechanism, size)
     );
-    Some(FoundCurve { solved: mechanism.solved()?, placement: Placement::IDENTITY, pose: mechanism.pose(), label })
+    Some(FoundCurve { solved: mechanism.solved()?, placement: Similarity::IDENTITY, pose: mechanism.pose(), label })
 }
 
 /// A curve of any linkage of the page, where it is placed, with its linkage at the first sample.

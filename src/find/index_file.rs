@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-use coupler_curves::find::{Index, IndexPart};
+use coupler_find::{Index, IndexPart};
 use etcetera::BaseStrategy;
 use rayon::prelude::*;
 use std::io::Write;

@@ -1,7 +1,7 @@
 //! A path that has been read from a file.
 
-use coupler_curves::find::PathKind;
 use coupler_curves::geometry::Point;
+use coupler_find::PathKind;
 
 use super::closing::Gap;
 

@@ -1,11 +1,11 @@
 //! A curve of any linkage where it is on a path.
 
 use coupler_curves::family::Family;
-use coupler_curves::find::{CurveFit, Placement, Target, longest_link, pivots_of};
-use coupler_curves::geometry::{Point, Vector, distance_to_segment};
+use coupler_curves::geometry::{Point, Similarity, Vector, distance_to_segment};
 use coupler_curves::linkage::{FourBar, JointId, Linkage, PlacedFourBar};
 use coupler_curves::measure::Value;
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
+use coupler_find::{CurveFit, Target, longest_link, pivots_of};
 
 /// A curve near a target, and its linkage.
 #[derive(Clone, Debug)]
@@ -67,7 +67,7 @@ impl PlacedCurve {
 }
 
 /// The four-bar in a linkage on the target; none if it is seen from a moving link.
-fn placed_four_bar(linkage: &Linkage, joint: JointId, placement: &Placement) -> Option<PlacedFourBar> {
+fn placed_four_bar(linkage: &Linkage, joint: JointId, placement: &Similarity) -> Option<PlacedFourBar> {
     let PlacedFourBar { pivots, lengths: FourBar { frame, crank, coupler, rocker }, coupler_point } =
         PlacedFourBar::from_linkage(linkage, joint).ok().filter(|_| linkage.seen_from.is_none())?;
     let scale = placement.scale();

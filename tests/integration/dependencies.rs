@@ -188,9 +188,10 @@ fn unsafe_code_is_forbidden() {
     let level = table(lints, "rust").get("unsafe_code").and_then(|value| value.get_ref().as_str());
     assert_eq!(level, Some("forbid"));
     let curves = parsed(include_str!("../../crates/coupler-curves/Cargo.toml"));
+    let find = parsed(include_str!("../../crates/coupler-find/Cargo.toml"));
     let drawing = parsed(include_str!("../../crates/coupler-drawing/Cargo.toml"));
     let manifest = parsed(include_str!("../../crates/coupler-manifest/Cargo.toml"));
-    for member in [&cargo, &curves, &drawing, &manifest] {
+    for member in [&cargo, &curves, &find, &drawing, &manifest] {
         let inherits = table(member, "lints").get("workspace").and_then(|value| value.get_ref().as_bool());
         assert_eq!(inherits, Some(true));
     }

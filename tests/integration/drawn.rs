@@ -174,7 +174,7 @@ fn a_sample_that_is_moved_is_found() {
         for k in (0..samples.inputs.len()).filter(|&k| is_inside(samples.inputs[k])).step_by(7) {
             let Some(normal) = normal(&samples.positions, k) else { continue };
             let place = |(i, (input, at)): (usize, (f64, Point))| {
-                (input, if i == k { at + normal * (0.02 / curve.page_from_plane.scale) } else { at })
+                (input, if i == k { at + normal * (0.02 / curve.page_from_plane.scale()) } else { at })
             };
             let found = curve.furthest_sample(samples.pairs().enumerate().map(place), samples.after_last(curve));
             let is_found = found.is_some_and(|(at, distance)| at == k && distance > TOLERANCE);
@@ -370,8 +370,8 @@ fn the_attributes_of_a_page_describe_how_it_was_drawn() {
     assert_eq!((curve.id.as_str(), curve.cell, curve.trace, curve.circuit), ("evans-1-1-1", 1, 1, 1));
     assert_eq!(curve.dash, [5.0, 3.0]);
     let similarity = curve.page_from_plane;
-    let Point { coords: at, .. } = similarity.origin;
-    let facts = format!("data-scale=\"{}\" data-origin=\"{} {}\" data-dash=\"5 3\">", similarity.scale, at.x, at.y);
+    let Point { coords: at, .. } = similarity.origin();
+    let facts = format!("data-scale=\"{}\" data-origin=\"{} {}\" data-dash=\"5 3\">", similarity.scale(), at.x, at.y);
     assert!(text.contains(&format!(
         "<g id=\"evans-1-1-1\" class=\"curve\" data-cell=\"1\" data-trace=\"1\" data-circuit=\"1\" {facts}"
     )));

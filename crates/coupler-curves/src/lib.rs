@@ -69,8 +69,6 @@ pub mod solve;
 
 pub mod exchange;
 
-pub mod find;
-
 mod coupler_curve;
 
 pub use coupler_curve::{CouplerCurve, CurveError};

@@ -2,8 +2,8 @@
 
 use serde_json::{Value, json};
 
-use coupler_curves::find::{CurveFit, CurveFitOptions, CurveFitter, CurveIndex, CurveLookup, PathKind, Target};
 use coupler_curves::geometry::Point;
+use coupler_find::{CurveFit, CurveFitOptions, CurveFitter, CurveIndex, CurveLookup, PathKind, Target};
 
 use crate::finder::target_of;
 use crate::response::Numbers;
@@ -111,10 +111,10 @@ fn fit_json(fit: &CurveFit, target: &Target) -> Value {
         "greatest": fit.greatest / target.size(),
         "similarity": {
             "mirror": placement.is_mirrored,
-            "re": placement.factor.x,
-            "im": placement.factor.y,
-            "x": placement.shift.x,
-            "y": placement.shift.y,
+            "re": placement.factor.re,
+            "im": placement.factor.im,
+            "x": placement.shift.re,
+            "y": placement.shift.im,
         },
         "from": if target.kind() == PathKind::Closed { 0.0 } else { fit.ends[0] },
         "to": if target.kind() == PathKind::Closed { 1.0 } else { fit.ends[1] },

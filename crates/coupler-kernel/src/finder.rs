@@ -2,8 +2,8 @@
 
 use serde_json::{Value, json};
 
-use coupler_curves::find::{Answer, AnswerRecord, Index, Options, PathKind, Ranking, Search, Target, answers_manifest};
 use coupler_curves::geometry::Point;
+use coupler_find::{Answer, AnswerRecord, Index, Options, PathKind, Ranking, Search, Target, answers_manifest};
 
 use crate::response::Numbers;
 

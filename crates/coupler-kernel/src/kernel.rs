@@ -2,10 +2,10 @@
 
 use serde_json::{Value, json};
 
-use coupler_curves::find::{CurveIndex, Index};
 use coupler_curves::geometry::Point;
 use coupler_curves::linkage::{Cognates, JointId};
 use coupler_curves::motion;
+use coupler_find::{CurveIndex, Index};
 
 use crate::curves::{ShapeSearch, add_curves, deviation};
 use crate::description::{opened_json, study_json};

@@ -2,8 +2,8 @@
 
 use serde_json::Value;
 
-use coupler_curves::find::Options;
 use coupler_curves::geometry::Point;
+use coupler_find::Options;
 
 /// A request. As JSON it is an object with its name in snake case as `method`, and with its fields. Numbers may be given as
 /// strings: these are read to the last bit, as numbers of JSON need not be. `{"$": [start, length]}` is an array of the numbers

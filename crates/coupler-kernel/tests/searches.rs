@@ -1,7 +1,7 @@
 //! Searches of the kernel find what the crate below it finds, in steps.
 
-use coupler_curves::find::{AnswerRecord, Index, Options, PathKind, Search, Target, answers_manifest};
 use coupler_curves::geometry::{Point, trig};
+use coupler_find::{AnswerRecord, Index, Options, PathKind, Search, Target, answers_manifest};
 use coupler_kernel::{Kernel, Response};
 use serde_json::{Value, json};
 

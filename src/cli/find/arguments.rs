@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::find::MAX_CURVES;
 use clap::{Args, ValueEnum, ValueHint};
-use coupler_curves::find::{Index, Options};
+use coupler_find::{Index, Options};
 
 use super::super::files;
 

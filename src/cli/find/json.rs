@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use crate::find::PlacedCurve;
-use coupler_curves::find::{self, AnswerRecord, FitRecord, PathKind, scaled_values};
 use coupler_curves::template::Template;
+use coupler_find::{AnswerRecord, FitRecord, PathKind, scaled_values};
 use serde::Serialize;
 
 use super::super::report;
@@ -99,7 +99,7 @@ impl PlacedRecord {
                 mirrored: fit.placement.is_mirrored,
                 scale,
                 rotation_deg: fit.placement.rotation_deg(),
-                shift: [fit.placement.shift.x, fit.placement.shift.y],
+                shift: [fit.placement.shift.re, fit.placement.shift.im],
             },
             full_turn: curve.is_full_turn,
             class: curve.class,
@@ -109,7 +109,7 @@ impl PlacedRecord {
     }
 }
 
-pub(super) fn target(target: &find::Target, reading: &str) -> Target {
+pub(super) fn target(target: &coupler_find::Target, reading: &str) -> Target {
     Target {
         read: Some(reading.to_owned()).filter(|reading| !reading.is_empty()),
         points: target.points().iter().map(|p| [p.x, p.y]).collect(),

@@ -16,13 +16,13 @@ use crate::find::{self, MAX_POINTS, Outline, ReadOptions};
 use crate::output;
 use coupler_curves::expression::Expression;
 use coupler_curves::family::Family;
-use coupler_curves::find::{
-    Constraint, Effort, Index, Mechanism, Options, PathKind, Search, Target, answers_manifest, nearest_miss,
-    placed_parameters,
-};
 use coupler_curves::geometry::{Bounds, Point};
 use coupler_curves::motion::Sampling;
 use coupler_curves::template::Template;
+use coupler_find::{
+    Constraint, Effort, Index, Mechanism, Options, PathKind, Search, Target, answers_manifest, nearest_miss,
+    placed_parameters,
+};
 
 use super::export::CurveSamples;
 use super::linkage::DEFAULT_SAMPLES;

@@ -3,8 +3,8 @@
 use crate::sweep;
 use coupler_curves::expression::Kind;
 use coupler_curves::family::Family;
-use coupler_curves::find::{Options, Quality};
 use coupler_curves::measure::parse_condition;
+use coupler_find::{Options, Quality};
 
 use super::super::printable;
 use super::{Arguments, EffortChoice, InputChoice};

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use coupler_curves::find::{Answer, Constraint, Target};
+use coupler_find::{Answer, Constraint, Target};
 
 /// A path, and what has been found for it.
 pub(super) struct Report {

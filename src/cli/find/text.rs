@@ -2,9 +2,7 @@
 
 use std::fmt::Write;
 
-use coupler_curves::find::{
-    Answer, Constraint, Mechanism, Target, format_length as number, format_relative as relative,
-};
+use coupler_find::{Answer, Constraint, Mechanism, Target, format_length as number, format_relative as relative};
 
 use crate::find::description::dimensions;
 

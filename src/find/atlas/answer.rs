@@ -1,6 +1,6 @@
 //! What is asked of the curves of an atlas, and what is found.
 
-use coupler_curves::find::{Answer, Options, scaled_values};
+use coupler_find::{Answer, Options, scaled_values};
 
 use super::super::placed_curve::PlacedCurve;
 use crate::manifest::Plan;

@@ -8,8 +8,9 @@ pub use answer::{AtlasAnswer, AtlasQuery};
 use std::sync::atomic::AtomicBool;
 
 use coupler_curves::exchange::{ParameterSet, manifest_families};
-use coupler_curves::find::{
-    Answer, Condition, Constraint, Index, Options, Search, Target, answer_families, answers_manifest, manifest_head,
+use coupler_find::{
+    Answer, Condition, Constraint, Index, Mechanism, Options, Search, Target, answer_families, answers_manifest,
+    manifest_head,
 };
 use rayon::prelude::*;
 
@@ -68,7 +69,7 @@ fn ranked(found: Vec<AtlasAnswer>, target: &Target, query: &AtlasQuery) -> Vec<A
     let distinct = |found: Vec<AtlasAnswer>, most| distinct(found, |answer| &answer.curve, target, most);
     let mut found = distinct(found, STARTS_PER_ANSWER * most);
     // A condition on names that a four-bar does not have cannot be kept in a refinement.
-    let condition = query.condition.map(Condition::new).transpose();
+    let condition = query.condition.map(|text| Condition::new(&Mechanism::template(), text)).transpose();
     if query.options.refine
         && !query.is_fixed
         && let Ok(condition) = condition

@@ -5,13 +5,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use coupler_curves::expression::{CompiledExpression, Kind};
 use coupler_curves::family::Family;
-use coupler_curves::find::{
-    Constraint, CurveFitOptions, CurveFitter, CurveIndex, CurveLookup, CurveShape, Target, is_scalable,
-};
 use coupler_curves::geometry::{Bounds, Point};
 use coupler_curves::measure;
 use coupler_curves::motion::Sampler;
 use coupler_curves::solve::{self, MeasuredCurve, SolvedCell};
+use coupler_find::{
+    Constraint, CurveFitOptions, CurveFitter, CurveIndex, CurveLookup, CurveShape, Target, is_scalable,
+};
 
 use super::super::Error;
 use super::super::placed_curve::{PlacedCurve, REPORTED};

@@ -9,10 +9,8 @@ use std::sync::atomic::AtomicBool;
 
 use coupler_curves::exchange::{ParameterSet, manifest_families};
 use coupler_curves::family::Family;
-use coupler_curves::find::{
-    Constraint, LinkageSpace, Options, Target, answers_manifest, manifest_head, nearest_miss_by,
-};
 use coupler_curves::template::Template;
+use coupler_find::{Constraint, LinkageSpace, Options, Target, answers_manifest, manifest_head, nearest_miss_by};
 
 use super::{Error, description};
 

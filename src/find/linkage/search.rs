@@ -3,13 +3,13 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use coupler_curves::family::{Family, Sampling};
-use coupler_curves::find::{
-    Effort, LinkageFit, LinkageRefinement, LinkageSearch, LinkageSpace, Options, PathKind, SampleCurve, SampleIndex,
-    SampleShape, Target,
-};
 use coupler_curves::measure;
 use coupler_curves::motion::Sampler;
 use coupler_curves::solve::{SolvedCell, solve_measuring};
+use coupler_find::{
+    Effort, LinkageFit, LinkageRefinement, LinkageSearch, LinkageSpace, Options, PathKind, SampleCurve, SampleIndex,
+    SampleShape, Target,
+};
 use rayon::prelude::*;
 
 use super::super::Error;

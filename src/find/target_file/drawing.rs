@@ -216,7 +216,7 @@ struct Short(f64);
 
 impl std::fmt::Display for Short {
     fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-        f.write_str(&coupler_curves::find::format_length(self.0, self.0))
+        f.write_str(&coupler_find::format_length(self.0, self.0))
     }
 }
 

@@ -1,7 +1,7 @@
 //! Compares a drawn curve with the samples of its curve.
 
 use super::{DrawnCurve, FLATNESS_MM};
-use coupler_curves::geometry::{Capsule, CapsuleTree, CubicBezier, Point, Similarity, Spline, SplineSegment, Vector};
+use coupler_curves::geometry::{Capsule, CapsuleTree, CubicBezier, Point, Spline, SplineSegment, Vector};
 
 /// How far a drawn curve may be from its curve, in millimetres: the error of its splines and the rounding of their points.
 const TOLERANCE_MM: f64 = 0.01;
@@ -60,8 +60,8 @@ impl DrawnCurve {
     pub fn furthest_dash_end(&self, other: &DrawnCurve) -> f64 {
         let ends = |curve: &DrawnCurve| -> Vec<Point> {
             let on_page = |p: Point| {
-                let Similarity { scale, origin, .. } = curve.page_from_plane;
-                self.page_from_plane.origin + (p - origin) * (self.page_from_plane.scale / scale)
+                let (scale, origin) = (curve.page_from_plane.scale(), curve.page_from_plane.origin());
+                self.page_from_plane.origin() + (p - origin) * (self.page_from_plane.scale() / scale)
             };
             curve.dashes.iter().flat_map(|dash| [dash.start, dash.end()]).map(on_page).collect()
         };
@@ -238,7 +238,7 @@ mod tests {
 
     /// The first dashes of the circle, 3 of every 5 degrees, in chords of half a degree, which deviate by 0.0002 mm.
     fn circle(dashes: u32) -> DrawnCurve {
-        let page_from_plane = Similarity { scale: 1.0, flips_y: true, origin: Point::new(50.0, 40.0) };
+        let page_from_plane = Similarity::with_y_down(1.0, Point::new(50.0, 40.0));
         let line = |from: u32, halves: u32| {
             let place = |j: u32| page_from_plane.apply(at(f64::from(from) + f64::from(j) / 2.0));
             Spline { start: place(0), segments: (1..=halves).map(|j| SplineSegment::Line(place(j))).collect() }
@@ -314,13 +314,13 @@ mod tests {
             let asked = Cell::new(0);
             let distance_from_curve = |p: Point, _| {
                 asked.set(asked.get() + 1);
-                ((p - curve.page_from_plane.origin).norm() - 20.0).abs()
+                ((p - curve.page_from_plane.origin()).norm() - 20.0).abs()
             };
             assert_eq!(curve.max_stray(&places, true, distance_from_curve), None);
             assert_eq!(asked.get() > 0, count == 4);
             let page_from_plane = curve.page_from_plane;
             let SplineSegment::Line(end) = &mut curve.dashes[9].segments[2] else { panic!("a line") };
-            *end += (*end - page_from_plane.origin) / 20.0 * 0.05;
+            *end += (*end - page_from_plane.origin()) / 20.0 * 0.05;
             let stray = curve.max_stray(&places, true, distance_from_curve).unwrap();
             assert!((stray - 0.05).abs() < 1e-9, "{stray}");
             assert!(asked.get() <= 2 * queries, "{}", asked.get());

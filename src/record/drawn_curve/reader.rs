@@ -154,7 +154,7 @@ impl PageReader {
             trace: curve_attribute(2, &trace).parse_count()?,
             circuit: curve_attribute(3, &circuit).parse_count()?,
             id: id.into_owned(),
-            page_from_plane: Similarity { scale, flips_y: true, origin: Point::new(x, y) },
+            page_from_plane: Similarity::with_y_down(scale, Point::new(x, y)),
             dash,
             dashed_travel: drawn.map(stretches).transpose()?,
             hairline: Vec::new(),

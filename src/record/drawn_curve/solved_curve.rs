@@ -54,7 +54,7 @@ impl<'a> SolvedCurve<'a> {
             positions.x(joint).iter().chain(positions.y(joint))
         });
         let greatest = coordinates.copied().filter(|x| x.is_finite()).map(f64::abs).fold(0.0, f64::max);
-        ROUNDING * greatest * self.page_from_plane.scale
+        ROUNDING * greatest * self.page_from_plane.scale()
     }
 
     /// The arcs in which the search on a pass begins.

@@ -57,7 +57,7 @@ impl Drawing {
         let value = |name: &str| &drawn.unwrap().data.iter().find(|(key, _)| *key == name).unwrap().1;
         let origin: Vec<f64> = value("origin").split(' ').map(|number| number.parse().unwrap()).collect();
         let scale = value("scale").parse().unwrap();
-        let page_from_plane = Similarity { scale, flips_y: true, origin: Point::new(origin[0], origin[1]) };
+        let page_from_plane = Similarity::with_y_down(scale, Point::new(origin[0], origin[1]));
         let theme = options.theme.for_paper(PAPER);
         let mut drawing = Drawing { scene, theme, page_from_plane, lines: Vec::new() };
         let points: Vec<Point> = curve.points().collect();

@@ -4,11 +4,11 @@ use std::fs;
 
 use coupler_curves::catalogue;
 use coupler_curves::family::{Family, Sampling};
-use coupler_curves::find::{Effort, LinkageSpace, Options, PathKind, Target};
 use coupler_curves::geometry::{Point, trig};
 use coupler_curves::measure;
 use coupler_curves::motion::Sampler;
 use coupler_curves::solve::solve_measuring;
+use coupler_find::{Effort, LinkageSpace, Options, PathKind, Target};
 use serde_json::Value as Json;
 use tempfile::TempDir;
 

@@ -237,7 +237,10 @@ fn pages_say_where_their_curves_are() {
                         [&view["cell"], &curve[0], &curve[1], &view["scale"], &view["origin"][0], &view["origin"][1]];
                     let [cell, trace, circuit] = [drawn.cell, drawn.trace, drawn.circuit].map(|number| number as f64);
                     let view = drawn.page_from_plane;
-                    assert_eq!(values.map(number), [cell, trace, circuit, view.scale, view.origin.x, view.origin.y]);
+                    assert_eq!(
+                        values.map(number),
+                        [cell, trace, circuit, view.scale(), view.origin().x, view.origin().y]
+                    );
                 }
             }
             assert!(drawn.next().is_none());

@@ -20,7 +20,7 @@ pub use chebyshev::{Chebyshev, TERMS, Zeros};
 pub use order::{in_rising_order, rising_order};
 pub use orientation::Orientation;
 pub use polyline::simplify_polyline;
-pub use similarity::Similarity;
+pub use similarity::{Complex, Similarity};
 pub use spline::{CubicBezier, Spline, SplineSegment};
 
 /// A point of the plane.

@@ -1,31 +1,83 @@
-use super::{Bounds, Point, Vector};
+use super::{Bounds, Point, Vector, trig};
 
-/// A similarity without rotation: a scale, optionally a reflection of y, and a translation.
+/// A point or a vector of the plane as a complex number.
+pub type Complex = nalgebra::Complex<f64>;
+
+/// A similarity of the plane: a reflection in the x-axis or none, then a rotation with a scale, then a translation.
 ///
 /// A transform is named by its two spaces, target first: `page_from_plane` maps plane units to millimetres on paper,
 /// and is the only place where y up (plane) becomes y down (page).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Similarity {
-    /// Target units per source unit, positive.
-    pub scale: f64,
-    /// Whether y changes sign.
-    pub flips_y: bool,
-    /// The image of the source's origin.
-    pub origin: Point,
+    /// Whether y changes its sign first.
+    pub is_mirrored: bool,
+    /// What 1 becomes then, but for the translation: the scale in the direction of the rotation.
+    pub factor: Complex,
+    /// The image of the origin, in target units.
+    pub shift: Complex,
 }
 
 impl Similarity {
+    /// That which leaves everything in its place.
+    pub const IDENTITY: Similarity =
+        Similarity { is_mirrored: false, factor: Complex::new(1.0, 0.0), shift: Complex::new(0.0, 0.0) };
+
+    /// The transform to a plane with y down, at `scale` target units per source unit, with the image of the source's origin.
+    pub fn with_y_down(scale: f64, origin: Point) -> Similarity {
+        Similarity { is_mirrored: true, factor: Complex::new(scale, 0.0), shift: Complex::new(origin.x, origin.y) }
+    }
+
     /// The transform that maps the centre of `plane` (y up) to `centre` on the page (y down), at `scale` mm per unit.
     pub fn page_from_plane(plane: Bounds, centre: Point, scale: f64) -> Similarity {
         let c = plane.centre();
-        Similarity { scale, flips_y: true, origin: centre - Vector::new(c.x, -c.y) * scale }
+        Similarity::with_y_down(scale, centre - Vector::new(c.x, -c.y) * scale)
+    }
+
+    /// Target units per source unit, not negative.
+    #[inline]
+    pub fn scale(&self) -> f64 {
+        self.factor.norm_sqr().sqrt()
+    }
+
+    /// The rotation after the reflection, in degrees, counter-clockwise, from -180 to 180.
+    pub fn rotation_deg(&self) -> f64 {
+        trig::degrees(trig::atan2(self.factor.im, self.factor.re))
+    }
+
+    /// The image of the source's origin.
+    pub fn origin(&self) -> Point {
+        Point::new(self.shift.re, self.shift.im)
     }
 
     /// The image of a point.
     #[inline]
     pub fn apply(&self, p: Point) -> Point {
-        let y = if self.flips_y { -p.y } else { p.y };
-        self.origin + Vector::new(p.x, y) * self.scale
+        let z = self.image(Complex::new(p.x, p.y));
+        Point::new(z.re, z.im)
+    }
+
+    /// The image of a point.
+    #[inline]
+    pub fn image(&self, z: Complex) -> Complex {
+        self.direction(z) + self.shift
+    }
+
+    /// The image of a vector.
+    #[inline]
+    pub fn direction(&self, z: Complex) -> Complex {
+        self.factor * self.reflected(z)
+    }
+
+    /// The point whose image another one is.
+    #[inline]
+    pub fn preimage(&self, z: Complex) -> Complex {
+        self.reflected((z - self.shift) / self.factor)
+    }
+
+    /// A vector after the reflection.
+    #[inline]
+    pub fn reflected(&self, z: Complex) -> Complex {
+        if self.is_mirrored { z.conj() } else { z }
     }
 }
 
@@ -39,5 +91,14 @@ mod tests {
         let page_from_plane = Similarity::page_from_plane(plane, Point::new(100.0, 50.0), 10.0);
         assert_eq!(page_from_plane.apply(Point::new(2.0, 3.0)), Point::new(100.0, 50.0));
         assert_eq!(page_from_plane.apply(Point::new(3.0, 5.0)), Point::new(110.0, 30.0));
+    }
+
+    #[test]
+    fn a_point_is_reflected_turned_scaled_and_moved() {
+        let similarity =
+            Similarity { is_mirrored: true, factor: Complex::new(0.0, 2.0), shift: Complex::new(10.0, 20.0) };
+        assert_eq!(similarity.apply(Point::new(3.0, 4.0)), Point::new(18.0, 26.0));
+        assert_eq!(similarity.preimage(Complex::new(18.0, 26.0)), Complex::new(3.0, 4.0));
+        assert_eq!((similarity.scale(), similarity.rotation_deg()), (2.0, 90.0));
     }
 }

@@ -92,7 +92,7 @@ impl SolvedCell {
     }
 
     /// The same cell with only one of its curves.
-    pub(crate) fn with_curve(&self, curve: &MeasuredCurve) -> SolvedCell {
+    pub fn with_curve(&self, curve: &MeasuredCurve) -> SolvedCell {
         SolvedCell { curves: vec![curve.clone()], ..self.clone() }
     }
 

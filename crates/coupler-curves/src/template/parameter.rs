@@ -89,7 +89,7 @@ impl ParameterKind {
     /// # Errors
     /// What is not an expression; a unit where there is none; a number of degrees for radians, or the reverse, which the
     /// outermost function shows.
-    pub(crate) fn parse_value(self, name: &str, text: &str) -> Result<Expression, Error> {
+    pub fn parse_value(self, name: &str, text: &str) -> Result<Expression, Error> {
         let (expression, unit) = Expression::parse_with_angle_unit(text)?;
         match self.conversion(name, unit, expression.outermost_function()) {
             Ok(None) => Ok(expression),

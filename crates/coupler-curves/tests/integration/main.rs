@@ -10,8 +10,6 @@ mod dual;
 mod dyad_chains;
 mod expressions;
 mod extreme_lengths;
-mod find;
-mod find_curves;
 mod grids;
 mod instant;
 mod invariance;

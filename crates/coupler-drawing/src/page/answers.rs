@@ -10,7 +10,7 @@ use super::theme::Theme;
 use super::{AnswersPage, FoundCurve};
 use crate::mechanism::Mechanism;
 use crate::scene::{Anchor, Circle, Curve, Item, Path, Scene};
-use coupler_curves::find::Placement;
+use coupler_curves::geometry::Similarity;
 use coupler_curves::geometry::{Bounds, Point, Vector};
 use coupler_curves::path;
 
@@ -74,13 +74,13 @@ fn draw_figure(area: &impl Area, frame: Rect, page: &AnswersPage, theme: &Theme)
         let curve = &found.solved.curves[0];
         found.solved.circuit(curve).points(curve.joint).map(|p| found.placement.apply(p))
     });
-    let first = page.curves.first().filter(|found| found.placement == Placement::IDENTITY);
+    let first = page.curves.first().filter(|found| found.placement == Similarity::IDENTITY);
     let joints = first.iter().flat_map(|curve| curve.pose.iter().copied());
     let plot = Plot::new(frame, theme);
     let plot = plot.fitted_to(Bounds::from_points(page.target.iter().copied().chain(samples).chain(joints)));
     plot.draw_scale_bar(area, &[], theme);
     // A hundredth of a millimetre, as on other pages.
-    let tolerance = 0.01 / plot.page_from_plane.scale;
+    let tolerance = 0.01 / plot.page_from_plane.scale();
     // Behind the curves, which its plate would hide.
     if let Some(found) = first {
         let traced = found.solved.curves[0].joint;

@@ -35,7 +35,7 @@ impl Extents {
 
 /// The scale at which `bounds` is drawn in a frame, which has a scale bar.
 fn fit_scale(frame: Rect, bounds: Bounds, theme: &Theme) -> f64 {
-    Plot::new(frame, theme).fitted_to(bounds).page_from_plane.scale
+    Plot::new(frame, theme).fitted_to(bounds).page_from_plane.scale()
 }
 
 impl Arrangement {

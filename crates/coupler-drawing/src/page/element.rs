@@ -65,8 +65,7 @@ impl CouplerCurve {
     /// The transform and the dashes of the curve, with which a drawing can be compared with its samples. The numbers
     /// parse to the same `f64`.
     fn drawing_data(&self, origin: Vector) -> Vec<(&'static str, String)> {
-        let Similarity { scale, origin: plane_origin, .. } = self.page_from_plane;
-        let at = plane_origin + origin;
+        let (scale, at) = (self.page_from_plane.scale(), self.page_from_plane.origin() + origin);
         let DashPattern { period, dash_span } = self.dashes;
         let mut data = vec![
             ("scale", scale.to_string()),

@@ -46,7 +46,7 @@ pub(super) fn curve_path(
     page_from_plane: Similarity,
     dashes: DashPattern,
 ) -> JointPath {
-    let tolerance = MAX_CURVE_ERROR / page_from_plane.scale;
+    let tolerance = MAX_CURVE_ERROR / page_from_plane.scale();
     let mut path = path::joint_path(&solved.linkage, solved.circuit(curve), curve.joint, dashes, tolerance);
     let splines = path.whole.iter_mut().chain(path.dashes.iter_mut().map(|dash| &mut dash.spline));
     splines.for_each(|spline| *spline = spline.map(|p| page_from_plane.apply(p)));
@@ -163,7 +163,7 @@ impl<'a> Figure<'a> {
     /// The scale at which the drawing of the linkage fits its frame, in millimetres to a unit.
     pub fn fitting_scale(&self, whole: Rect, arrangement: Arrangement, theme: &Theme) -> f64 {
         let [_, key] = arrangement.rects(whole).map(|frame| Plot::new(frame, theme));
-        key.fitted_to(self.extents.linkage).page_from_plane.scale
+        key.fitted_to(self.extents.linkage).page_from_plane.scale()
     }
 
     /// The range of the input that a dash and its gap span.
@@ -219,7 +219,7 @@ impl<'a> Figure<'a> {
             let mut obstacles = Some(with_number);
             for ((circuits, bounds), frame) in self.groups.iter().zip(&self.extents.curves).zip(frames) {
                 let plot = Plot::new(frame, curve_theme).fitted_to(*bounds);
-                let enlargement = plot.page_from_plane.scale / key.page_from_plane.scale;
+                let enlargement = plot.page_from_plane.scale() / key.page_from_plane.scale();
                 let factor = marks::format_significant(enlargement, 2);
                 let remarks = [format!(", enlarged × {factor}"), format!(", × {factor}")];
                 plot.draw_scale_bar(area, &remarks, curve_theme);
@@ -273,7 +273,7 @@ impl<'a> Figure<'a> {
     /// Draws the curves of the key as light solid lines.
     fn draw_key_curves(&self, area: &impl Area, plot: &Plot, theme: &Theme) {
         let solved = self.solved_cell;
-        let tolerance = MAX_CURVE_ERROR / plot.page_from_plane.scale;
+        let tolerance = MAX_CURVE_ERROR / plot.page_from_plane.scale();
         let solid = |curve: &MeasuredCurve| {
             let splines = path::joint_splines(&solved.linkage, solved.circuit(curve), curve.joint, tolerance);
             let splines = splines.iter().map(|spline| spline.map(|p| plot.page_from_plane.apply(p))).collect();

@@ -221,7 +221,7 @@ pub(super) fn draw_linkage(
     let plot = Plot::whole(frame).fitted_to(mechanism.bounds().union(Bounds::from_points(at_points)));
     let underlay = mechanism.underlay_items(&plot, theme);
     let links = mechanism.linkage_items(&plot, theme, ink);
-    let least_radius = 4.0 * theme.joint_radius / plot.page_from_plane.scale;
+    let least_radius = 4.0 * theme.joint_radius / plot.page_from_plane.scale();
     let directions = DirectionMarks::new(mechanism, circuit, least_radius).map(plot.page_from_plane);
     let mut marks = directions.items(theme);
     let dot = |&joint: &JointId| Circle {

@@ -238,7 +238,7 @@ fn symmetry_axis_item(
     let points = curves.iter().flat_map(|curve| solved.circuit(curve).points(curve.joint));
     let positions = points.map(|p| axis.direction.dot(&(p - axis.point)));
     let [low, high] = positions.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], s| [low.min(s), high.max(s)]);
-    let beyond = 1.6 * theme.joint_radius / plot.page_from_plane.scale;
+    let beyond = 1.6 * theme.joint_radius / plot.page_from_plane.scale();
     let end = |s: f64| plot.page_from_plane.apply(axis.point + axis.direction * s);
     let (from, to) = (end(low - beyond), end(high + beyond));
     let whole = (to - from).norm();

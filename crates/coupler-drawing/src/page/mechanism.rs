@@ -90,7 +90,7 @@ impl<'a> PosedMechanism<'a> {
             }));
         }
         for &(centre, radius) in &self.mechanism.pitch_circles {
-            let (centre, radius) = (at(&centre), radius * plot.page_from_plane.scale);
+            let (centre, radius) = (at(&centre), radius * plot.page_from_plane.scale());
             let stroke = Some(theme.stroke(theme.grey, theme.hair_width));
             items.push(Item::Circle(Circle { centre, radius, stroke, fill: None }));
         }
@@ -132,7 +132,7 @@ impl<'a> PosedMechanism<'a> {
         let heavy = Stroke { has_round_ends: true, ..theme.stroke(theme.ink, theme.link_width) };
         for &[pivot, joint] in &self.mechanism.actuators {
             let offset = match self.linkage.joints[joint].kind {
-                JointKind::Piston { offset, .. } => offset * plot.page_from_plane.scale,
+                JointKind::Piston { offset, .. } => offset * plot.page_from_plane.scale(),
                 _ => 0.0,
             };
             items.extend(actuator_items(at(pivot), at(joint), offset, theme));

@@ -62,7 +62,7 @@ fn draw_figure(area: &impl Area, frame: Rect, page: &OverlayPage, theme: &Theme)
         true => page.current.iter().zip(&page.recorded).map(|(new, old)| (*new, old - new)).collect(),
         false => Vec::new(),
     };
-    let scale = plot.page_from_plane.scale;
+    let scale = plot.page_from_plane.scale();
     let longest = pairs
         .iter()
         .map(|(_, difference)| difference.norm() * scale)

@@ -5,8 +5,8 @@ use super::key::Key;
 use super::layout::Layout;
 use super::panel::Panel;
 use crate::chart::{Chart, Series};
-use coupler_curves::find::Placement;
 use coupler_curves::geometry::Point;
+use coupler_curves::geometry::Similarity;
 use coupler_curves::linkage::JointId;
 use coupler_curves::measure::StraightCriterion;
 use coupler_curves::solve::SolvedCell;
@@ -128,7 +128,7 @@ pub struct FoundCurve {
     /// The solved linkage with this curve only.
     pub solved: SolvedCell,
     /// Where it is on the target. Its linkage is drawn only if it is in its own place.
-    pub placement: Placement,
+    pub placement: Similarity,
     /// The positions of all joints, in which the linkage of the first curve is drawn.
     pub pose: Vec<Point>,
     /// What the legend says of it.

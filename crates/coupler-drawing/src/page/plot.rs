@@ -45,7 +45,7 @@ impl Plot {
     pub fn at_scale(self, bounds: Bounds, scale: Option<f64>) -> (Plot, &'static str) {
         let fitted = self.fitted_to(bounds);
         match scale {
-            Some(scale) if scale <= fitted.page_from_plane.scale * (1.0 + SCALE_ROUNDING) => {
+            Some(scale) if scale <= fitted.page_from_plane.scale() * (1.0 + SCALE_ROUNDING) => {
                 let page_from_plane = Similarity::page_from_plane(bounds, fitted.rect.centre(), scale);
                 (Plot { page_from_plane, ..fitted }, "")
             }
@@ -68,7 +68,7 @@ impl Plot {
     /// Draws a scale bar under the frame: the largest round number of units up to a fifth of the frame's width. The first
     /// remark on the scale that fits follows its label, or else the last.
     pub fn draw_scale_bar(&self, area: &impl Area, remarks: &[String], theme: &Theme) {
-        let scale = self.page_from_plane.scale;
+        let scale = self.page_from_plane.scale();
         let units = round_number_below(0.2 * self.rect.size.x / scale);
         let length = units * scale;
         let label = units.to_string();

@@ -6,11 +6,12 @@ use std::sync::Arc;
 use coupler_atlas::find::{AtlasAnswer, LinkageAnswer, PlacedCurve};
 use coupler_atlas::manifest::Plan;
 use coupler_curves::family::Family;
-use coupler_curves::find::{self, Constraint, Placement, Quality, Target};
 use coupler_curves::geometry::Point;
+use coupler_curves::geometry::Similarity;
 use coupler_curves::measure;
 use coupler_curves::motion::Sampler;
 use coupler_curves::solve::{SolvedCell, solve_measuring};
+use coupler_find::{Constraint, Quality, Target};
 use numpy::PyArray2;
 use pyo3::prelude::*;
 use pyo3::types::PyIterator;
@@ -139,7 +140,7 @@ pub(super) struct Entry {
 
 enum Mechanism {
     /// A four-bar where it is on the path.
-    FourBar(Box<find::Answer>),
+    FourBar(Box<coupler_find::Answer>),
     /// Any linkage, which a similarity brings to the path.
     Placed(Box<Placed>),
 }
@@ -148,14 +149,14 @@ struct Placed {
     /// Of the linkage only, as large as on the path if its dimensions scale.
     family: Family,
     /// From the plane of the family to that of the path.
-    placement: Placement,
+    placement: Similarity,
     curve: PlacedCurve,
     /// The inputs at the first and the last point of the path, where they are known.
     inputs: Option<[f64; 2]>,
 }
 
 impl Entry {
-    pub(super) fn of_four_bar(answer: find::Answer) -> Entry {
+    pub(super) fn of_four_bar(answer: coupler_find::Answer) -> Entry {
         Entry { name: None, mechanism: Mechanism::FourBar(Box::new(answer)) }
     }
 
@@ -237,12 +238,12 @@ impl Answer {
     /// The similarity from the plane of `linkage` to that of the path: an array A of shape (2, 3), with ``A[:, :2] @ p + A[:, 2]`` on the path.
     #[getter]
     fn placement<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let Placement { is_mirrored, factor, shift } = match &self.0.mechanism {
-            Mechanism::FourBar(_) => Placement::IDENTITY,
+        let Similarity { is_mirrored, factor, shift } = match &self.0.mechanism {
+            Mechanism::FourBar(_) => Similarity::IDENTITY,
             Mechanism::Placed(placed) => placed.placement,
         };
         let side = if is_mirrored { -1.0 } else { 1.0 };
-        arrays::rows(py, vec![factor.x, -side * factor.y, shift.x, factor.y, side * factor.x, shift.y], 3)
+        arrays::rows(py, vec![factor.re, -side * factor.im, shift.re, factor.im, side * factor.re, shift.im], 3)
     }
 
     /// The Roberts-Chebyshev cognates of a four-bar, which trace the same curve; none of other linkages, or if the coupler point is a pin.
@@ -259,7 +260,7 @@ impl Answer {
     /// The points of its curve on the circuit that follows the path: an array of shape (n, 2), in the unit of the path.
     fn curve<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let (numbers, placement) = match &self.0.mechanism {
-            Mechanism::FourBar(_) => (None, Placement::IDENTITY),
+            Mechanism::FourBar(_) => (None, Similarity::IDENTITY),
             Mechanism::Placed(placed) => (Some(placed.curve.numbers), placed.placement),
         };
         let solved = py.detach(|| self.0.solved());

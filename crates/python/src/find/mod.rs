@@ -14,10 +14,10 @@ use coupler_atlas::find::{
 use coupler_atlas::manifest;
 use coupler_atlas::record::{check_families, manifest_of};
 use coupler_curves::expression;
-use coupler_curves::find::{
+use coupler_curves::geometry::{Bounds, Point};
+use coupler_find::{
     Condition, Effort, Index, LinkageSpace, Options, Search, Target, answers_manifest, nearest_miss_by,
 };
-use coupler_curves::geometry::{Bounds, Point};
 use numpy::{AllowTypeChange, PyArrayLike1};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -231,8 +231,8 @@ pub fn find_linkages(
 /// The condition of `where`, on a four-bar or another linkage.
 fn condition(text: &str, sought: Option<&Sought>) -> PyResult<Condition> {
     let condition = match sought {
-        Some(sought) => Condition::for_template(sought.space.template(), text),
-        None => Condition::new(text),
+        Some(sought) => Condition::new(sought.space.template(), text),
+        None => Condition::new(&Mechanism::template(), text),
     };
     condition.map_err(|error: expression::Error| {
         let help = if error.help.is_empty() { String::new() } else { format!("; {}", error.help) };

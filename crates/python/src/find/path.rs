@@ -4,8 +4,8 @@ use std::ffi::CString;
 use std::path::PathBuf;
 
 use coupler_atlas::find::{MAX_POINTS, Outline, ReadOptions, parse_outline};
-use coupler_curves::find::PathKind;
 use coupler_curves::geometry::Point;
+use coupler_find::PathKind;
 use numpy::ndarray::ArrayView2;
 use numpy::{AllowTypeChange, PyArrayLike1, PyArrayLike2};
 use pyo3::exceptions::{PyTypeError, PyUserWarning, PyValueError};

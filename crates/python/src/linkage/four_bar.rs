@@ -1,9 +1,9 @@
 //! Four-bars.
 
-use coupler_curves::find::{Mechanism, placed_parameters};
 use coupler_curves::geometry::trig;
 use coupler_curves::linkage::{FourBar as Lengths, PlacedFourBar};
 use coupler_curves::template::Template;
+use coupler_find::{Mechanism, placed_parameters};
 use numpy::PyArray2;
 use pyo3::prelude::*;
 

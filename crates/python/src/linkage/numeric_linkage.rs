@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use coupler_curves::family::{Family, Sampling};
-use coupler_curves::find::Mechanism;
 use coupler_curves::motion::MAX_SAMPLES;
 use coupler_curves::template::{CircuitSelection, Template};
+use coupler_find::Mechanism;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;

@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use coupler_atlas::manifest;
 use coupler_curves::catalogue;
-use coupler_curves::find::Mechanism;
 use coupler_curves::problem::suggestion;
 use coupler_curves::template::Template;
+use coupler_find::Mechanism;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 

@@ -1,7 +1,7 @@
 //! The JSON of an atlas's curves.
 
 use crate::find::AtlasAnswer;
-use coupler_curves::find::AnswerRecord;
+use coupler_find::AnswerRecord;
 use serde::Serialize;
 
 use super::super::super::report;

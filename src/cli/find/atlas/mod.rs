@@ -11,7 +11,7 @@ use crate::find::{self, AtlasAnswer, AtlasQuery};
 use crate::output;
 use crate::record::{self, UnknownManifest};
 use coupler_curves::family::Family;
-use coupler_curves::find::{Constraint, Options, Quality, Target};
+use coupler_find::{Constraint, Options, Quality, Target};
 
 use super::super::source::ManifestSource;
 use super::{Arguments, Best, InputError, Outcome, Shown, show, source, title_of};

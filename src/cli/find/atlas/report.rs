@@ -2,7 +2,7 @@
 
 use crate::find::AtlasFindings;
 use crate::manifest::Plan;
-use coupler_curves::find::Target;
+use coupler_find::Target;
 
 /// What has been found in an atlas.
 pub(super) struct AtlasReport {

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::find::description::{self, dimensions};
 use crate::find::{AtlasAnswer, AtlasFindings};
-use coupler_curves::find::{Quality, format_length as number, format_relative as relative};
+use coupler_find::{Quality, format_length as number, format_relative as relative};
 
 use super::super::super::format::pluralize;
 use super::super::text::{described, options_of, place};

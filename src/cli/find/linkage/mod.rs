@@ -11,8 +11,8 @@ use std::sync::atomic::AtomicBool;
 use crate::find::{self, MAX_SAMPLES};
 use crate::manifest;
 use coupler_curves::family::Family;
-use coupler_curves::find::{Condition, Constraint, LinkageSpace, Mechanism, Options, Quality, Target};
 use coupler_curves::template::Template;
+use coupler_find::{Condition, Constraint, LinkageSpace, Mechanism, Options, Quality, Target};
 
 use super::super::linkage::find_template;
 use super::super::source;
@@ -109,8 +109,8 @@ pub(super) fn condition(
     text: &str,
 ) -> Result<Condition, coupler_curves::expression::Error> {
     match template {
-        Some(template) => Condition::for_template(template, text),
-        None => Condition::for_template(&Mechanism::template(), text),
+        Some(template) => Condition::new(template, text),
+        None => Condition::new(&Mechanism::template(), text),
     }
 }
 

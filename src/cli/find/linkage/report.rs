@@ -1,7 +1,7 @@
 //! What is shown of a search for the dimensions of a linkage.
 
 use crate::find::LinkageFindings;
-use coupler_curves::find::{LinkageSpace, Target};
+use coupler_find::{LinkageSpace, Target};
 
 /// What has been found for a linkage.
 pub(super) struct LinkageReport {

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::find::description::{deviation, parameters, placement};
 use crate::find::{LinkageAnswer, LinkageFindings};
-use coupler_curves::find::{LinkageSpace, format_length as number};
+use coupler_find::{LinkageSpace, format_length as number};
 
 use super::super::super::format::pluralize;
 use super::super::text::{angle, described, relaxed};

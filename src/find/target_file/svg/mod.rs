@@ -75,7 +75,7 @@ fn root_viewport(root: &Element) -> Result<(Affine, Viewport, String), String> {
     let Some(size) = size else { return Ok((Affine::IDENTITY, viewport, "in the drawing's unit".to_owned())) };
     let [a, _, _, d, _, _] = viewport_transform(root, size)?.0.as_coeffs();
     if (d / a - 1.0).abs() <= 1e-9 {
-        let unit = coupler_curves::find::format_length(a * MILLIMETRES, a * MILLIMETRES);
+        let unit = coupler_find::format_length(a * MILLIMETRES, a * MILLIMETRES);
         return Ok((Affine::IDENTITY, viewport, format!("in the drawing's unit, which is {unit} mm")));
     }
     let unit =

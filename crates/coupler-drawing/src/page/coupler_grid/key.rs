@@ -84,7 +84,7 @@ impl<'a> Key<'a> {
             Rect { corner: frame.corner + space, size: (frame.size - space * 2.0).sup(&Vector::repeat(letter)) };
         let page_from_plane = Similarity::page_from_plane(bounds, inner.centre(), inner.fit_scale(bounds));
         let centre = page_from_plane.apply(bounds.centre());
-        let least_radius = 4.0 * theme.joint_radius / page_from_plane.scale;
+        let least_radius = 4.0 * theme.joint_radius / page_from_plane.scale();
         let directions = DirectionMarks::new(mechanism, circuit, least_radius).map(page_from_plane);
         Key { frame, page, linkage, mechanism, point, page_from_plane, directions, centre, letter, theme }
     }

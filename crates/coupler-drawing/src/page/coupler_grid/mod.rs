@@ -65,7 +65,7 @@ pub(super) fn compose(scene: &mut Scene, page: &CouplerGridPage, options: &Optio
             let figure_theme = with_legible_notes(theme, MIN_TEXT_SIZE / Theme::SMALL_PART, size.min() / MIN_LINES);
             let plot = draw_figure(&root, figure, page, &mechanism, &shown, options, &figure_theme);
             // A scale that is common to all pages is stated as it is on this one.
-            let scale = common_scale(page).map(|_| plot.page_from_plane.scale);
+            let scale = common_scale(page).map(|_| plot.page_from_plane.scale());
             let symbols = page_symbols(page, &shown, scale, options, theme);
             let panel = footer::draw_symbols(&root, panel, &symbols, panel_theme);
             draw_panel(&root, panel, page, (&mechanism, &shown), panel_theme);

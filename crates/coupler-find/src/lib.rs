@@ -1,0 +1,81 @@
+//! The linkages whose coupler curves are nearest to a path.
+//!
+//! ```
+//! use coupler_find::{Options, Target};
+//!
+//! let at = |k: i32| f64::from(6 * k).to_radians();
+//! let points: Vec<_> = (0..60).map(at).map(|t| [4.0 * t.cos(), t.sin() + 0.5 * (2.0 * t).sin()].into()).collect();
+//! let answers = Target::closed(&points)?.search(&Options::default());
+//! println!("{:.4} of the path's size", answers[0].rms_relative);
+//! # assert!(answers[0].rms_relative < 0.05, "{}", answers[0].rms_relative);
+//! # Ok::<(), coupler_find::TargetError>(())
+//! ```
+//!
+//! # The metric
+//!
+//! The size of a target with points p is S = sqrt(mean |p - p̄|²). The deviation of a curve C from it is
+//! E = sqrt(mean d(p, C(t))²), the distances of the points from the continuous curve, where the t of the points are in their order
+//! along one circuit within one turn, in either direction. An answer for a closed target is valid only if its curve is at most 1.15 times
+//! as long as the target, and one for a part if its portion is; otherwise curves with detours between the points would win. The
+//! length of a target is that of its lowest harmonics: its noise has none.
+//!
+//! A timed target has an angle for each point: the curve's point is that at which the crank has turned by it since the first, in
+//! either direction, and the t are not free but for a common offset.
+//!
+//! # The search
+//!
+//! An [`Index`] has the shapes of many four-bars' curves. Those most like the target, or with a portion most like an open one, in any
+//! position, size, direction, reflection and with any start, are placed on it and refined by Levenberg and Marquardt's method on
+//! nine parameters, with the distances across the curve and derivatives that are regular at limits of the input. The constraints
+//! are kept in each step. The best begin again from their cognates (Roberts and Chebyshev). All of it is in steps of bounded work.
+//!
+//! # Given curves
+//!
+//! Those of an atlas, of any linkages, are looked up by their shapes in a [`CurveIndex`], and placed on the target by a [`CurveFitter`],
+//! with the same metric.
+//!
+//! # Other linkages
+//!
+//! A [`LinkageSearch`] finds the dimensions of any linkage, of the parameters of a [`LinkageSpace`]: the curves of samples are looked up by
+//! their shapes, placed and refined by differences of solved curves, with the same metric.
+
+mod complex;
+mod scatter;
+
+mod condition;
+mod curve_fit_options;
+mod options;
+
+mod shape;
+mod target;
+
+mod query;
+
+mod matching;
+mod quality;
+
+mod curve;
+mod four_bar;
+mod linkage;
+
+mod answer;
+mod search;
+
+mod report;
+
+pub use answer::Answer;
+pub use condition::Condition;
+pub use curve::{CurveFit, CurveFitter, CurveIndex, CurveLookup, CurveShape};
+pub use curve_fit_options::CurveFitOptions;
+pub use four_bar::{Index, IndexPart, Mechanism, placed_parameters};
+pub use linkage::{
+    LinkageFit, LinkageRefinement, LinkageSearch, LinkageSpace, LinkageSpaceError, SampleCurve, SampleIndex,
+    SampleShape, is_scalable, longest_link, pivots_of, scaled_values,
+};
+pub use options::{Effort, Options};
+pub use quality::Quality;
+pub use report::{
+    AnswerRecord, FitRecord, answer_families, answers_manifest, format_length, format_relative, manifest_head,
+};
+pub use search::{Constraint, Ranking, Search, nearest_miss, nearest_miss_by};
+pub use target::{MAX_LENGTH_RATIO, PathKind, Target, TargetError};

@@ -1,0 +1,144 @@
+//! What a search for a linkage aims at: the target with centroid 0 and size 1, and what the linkage must satisfy.
+
+use super::circuit::Traced;
+use super::space::LinkageSpace;
+use crate::complex::Complex;
+use crate::condition::Condition;
+use crate::options::Options;
+use crate::target::Target;
+use coupler_curves::family::{Family, MEASURES, Sampling};
+use coupler_curves::geometry::{Similarity, Vector};
+use coupler_curves::linkage::{JointId, Linkage};
+use coupler_curves::motion::{Sampler, poses};
+use coupler_curves::solve::solve_measuring;
+use std::sync::Arc;
+
+/// A target and the constraints of a search.
+pub(super) struct Aim {
+    pub target: Target,
+    /// The points of the target with centroid 0 and size 1, forward and backward.
+    points: [Vec<Complex>; 2],
+    pub polyline_length: f64,
+    /// The greatest length of a curve or of its portion.
+    pub greatest_length: f64,
+    /// The input at the points of a timed target, from that at the first.
+    pub angles_deg: Option<Vec<f64>>,
+    pub full_turn: bool,
+    max_link: f64,
+    /// The corners of the box of the fixed pivots.
+    pivots: Option<[Complex; 2]>,
+    condition: Option<Condition>,
+    template: Arc<coupler_curves::template::Template>,
+}
+
+/// The weight of what is beyond a limit, relative to a distance of all points: it is then beyond by far less than the margin.
+pub(super) const WEIGHT: f64 = 30.0;
+
+/// Limits are aimed at with a margin, in sizes of the target, so that they hold exactly in the end.
+const MARGIN: f64 = 2e-4;
+
+impl Aim {
+    pub fn new(space: &LinkageSpace, target: &Target, options: &Options) -> Aim {
+        let (size, centre) = target.placement();
+        let corner = |x: f64, y: f64| (Complex::new(x, y) - centre) / size;
+        let forward = target.normalized();
+        let backward = forward.iter().rev().copied().collect();
+        Aim {
+            points: [forward, backward],
+            polyline_length: target.polyline_length(),
+            greatest_length: target.greatest_length(),
+            angles_deg: target.angles_deg().map(|angles| angles.iter().map(|angle| angle - angles[0]).collect()),
+            full_turn: options.full_turn,
+            max_link: options.max_link,
+            pivots: options.pivots.map(|b| [corner(b.min.x, b.min.y), corner(b.max.x, b.max.y)]),
+            condition: options.condition.clone(),
+            template: space.template.clone(),
+            target: target.clone(),
+        }
+    }
+
+    /// The points in the direction of positions, or against it.
+    pub fn points_of(&self, is_reversed: bool) -> &[Complex] {
+        &self.points[usize::from(is_reversed)]
+    }
+
+    /// The number of points.
+    pub fn count(&self) -> f64 {
+        self.points[0].len() as f64
+    }
+
+    /// By how much a placed linkage is beyond the limits of its links and pivots, in sizes of the target; a number for each, not negative.
+    pub fn excesses(&self, traced: &Traced, placed: &Similarity) -> Vec<f64> {
+        self.beyond(traced, placed, MARGIN)
+    }
+
+    fn beyond(&self, traced: &Traced, placed: &Similarity, margin: f64) -> Vec<f64> {
+        let linkage = &traced.linkage;
+        let mut all = Vec::new();
+        if self.max_link.is_finite() {
+            let most = (self.max_link - margin).max(0.5 * self.max_link);
+            let scale = placed.scale();
+            let links = linkage.links.iter().map(|link| longest(&link.joints));
+            all.extend(links.map(|longest| scale * longest - most));
+        }
+        if let Some([low, high]) = self.pivots {
+            let margin = margin.min(0.25 * (high.re - low.re).min(high.im - low.im));
+            for pivot in self.pivots_of(traced) {
+                let z = placed.image(pivot);
+                all.extend([low.re - z.re, z.re - high.re, low.im - z.im, z.im - high.im].map(|by| by + margin));
+            }
+        }
+        all.iter().map(|excess| excess.max(0.0)).collect()
+    }
+
+    /// Whether a placed linkage is within the limits.
+    pub fn is_within(&self, traced: &Traced, placed: &Similarity) -> bool {
+        self.beyond(traced, placed, 0.0).iter().all(|excess| *excess <= 0.0)
+    }
+
+    fn pivots_of(&self, traced: &Traced) -> Vec<Complex> {
+        let Some(pass) = traced.circuit.passes.first() else { return Vec::new() };
+        let placed = poses(&traced.linkage, pass, &[pass.from.input.value]);
+        let pivots = pivots_of(&traced.linkage).map(|joint| placed.point(joint, 0));
+        pivots.map(|point| Complex::new(point.x, point.y)).collect()
+    }
+
+    /// Whether a linkage satisfies the condition with the curve of a circuit.
+    pub fn meets_condition(&self, values: &[f64], traced: &Traced) -> bool {
+        let Some(condition) = &self.condition else { return true };
+        let names = self.template.parameters.iter().map(|parameter| parameter.name.clone());
+        let given: Vec<(String, f64)> = names.zip(values.iter().copied()).collect();
+        let Ok(mut family) = Family::single_cell(self.template.clone(), &given, Sampling::Samples(180)) else {
+            return false;
+        };
+        let requested: Vec<bool> =
+            (0..MEASURES.len()).map(|k| family.expression_uses(condition.compiled(), k)).collect();
+        let Some(solved) = solve_measuring(&family, &Sampler::new(family.sampling), 0, &requested) else {
+            return false;
+        };
+        family.filter = Some(condition.compiled().clone());
+        solved.curves.iter().any(|curve| {
+            let passes = &solved.circuit(curve).passes;
+            curve.joint == traced.joint && *passes == traced.circuit.passes && family.keeps(&solved.cell, &curve.values)
+        })
+    }
+}
+
+/// The joints of the link at rest that are on another one.
+pub fn pivots_of(linkage: &Linkage) -> impl Iterator<Item = JointId> {
+    let ground = linkage.ground();
+    let is_pivot = |joint: &JointId| {
+        linkage.links.iter().any(|link| !std::ptr::eq(link, ground) && link.position(*joint).is_some())
+    };
+    ground.joints.iter().map(|(joint, _)| *joint).filter(is_pivot)
+}
+
+/// The greatest distance of two joints of a link.
+pub fn longest_link(linkage: &Linkage) -> f64 {
+    linkage.links.iter().map(|link| longest(&link.joints)).fold(0.0, f64::max)
+}
+
+fn longest(joints: &[(JointId, Vector)]) -> f64 {
+    let pairs = joints.iter().enumerate().flat_map(|(k, (_, a))| joints[k + 1..].iter().map(move |(_, b)| (a, b)));
+    pairs.map(|(a, b)| (b - a).norm_squared()).fold(0.0, f64::max).sqrt()
+}

@@ -1,0 +1,79 @@
+//! The matching of points with a row of places: each has its own place, in order.
+
+/// The places of a closed row that are nearest to points in the mean square, in their order and within one round: indices that do
+/// not fall, of which the last is at most a round after the first; they may be in the second round. With the sum of the squares, each of
+/// which `square` gives for a point and a place; `None` without places.
+pub(crate) fn match_places(
+    (points, most_starts): (usize, usize),
+    count: usize,
+    square: impl Fn(usize, usize) -> f64,
+) -> Option<(f64, Vec<usize>)> {
+    let (sum, free) = best_path((points, count, 2 * count), &square, 0..count)?;
+    let (first, last) = (*free.first()?, *free.last()?);
+    if last <= first + count {
+        return Some((sum, free));
+    }
+    // Rarely the best path is longer than a round. Then each start is tried that is nearest to the first point among its
+    // neighbours.
+    let first_square = |k: usize| square(0, k % count);
+    let is_near =
+        |k: &usize| first_square(*k) <= first_square(k + 1) && first_square(*k) <= first_square(k + count - 1);
+    let mut starts: Vec<usize> = (0..count).filter(is_near).collect();
+    starts.sort_by(|a, b| first_square(*a).total_cmp(&first_square(*b)));
+    starts.truncate(most_starts);
+    let from = |start: usize| best_path((points, count, 2 * count), &square, start..start + 1);
+    let paths = starts.into_iter().filter_map(from);
+    paths.min_by(|a, b| a.0.total_cmp(&b.0))
+}
+
+/// The same for a row that is open.
+pub(crate) fn match_open_places(
+    points: usize,
+    count: usize,
+    square: impl Fn(usize, usize) -> f64,
+) -> Option<(f64, Vec<usize>)> {
+    best_path((points, count, count), square, 0..count)
+}
+
+/// The indices that do not fall and have the least sum of squares, the first of which is in a range; if that is a single
+/// index, they end at most a round after it. With that sum. Where places are as near but for rounding, as on a straight portion that is
+/// passed there and back, they are those that are least apart.
+fn best_path(
+    (points, count, rounds): (usize, usize, usize),
+    square: impl Fn(usize, usize) -> f64,
+    starts: std::ops::Range<usize>,
+) -> Option<(f64, Vec<usize>)> {
+    /// Sums that differ by less are equal but for rounding: points have a mean square of 1.
+    const ROUNDING: f64 = 1e-14;
+    let end = if starts.len() == 1 { starts.start + count } else { rounds.checked_sub(1)? };
+    // For each point, the best sum of squares up to it if it is matched with a place, and the place before.
+    let mut sums = vec![f64::INFINITY; rounds];
+    let mut before: Vec<u32> = vec![0; points * rounds];
+    let mut squares = vec![0.0; count];
+    for k in 0..points {
+        squares.iter_mut().enumerate().for_each(|(j, value)| *value = square(k, j));
+        if k == 0 {
+            starts.clone().for_each(|start| sums[start] = squares[start]);
+            continue;
+        }
+        let row = &mut before[k * rounds..(k + 1) * rounds];
+        let mut best = (f64::INFINITY, 0);
+        for (j, sum) in sums.iter_mut().enumerate() {
+            if *sum <= best.0 + ROUNDING {
+                best = (sum.min(best.0), j as u32);
+            }
+            row[j] = best.1;
+            *sum = best.0 + squares[if j < count { j } else { j - count }];
+        }
+    }
+    let reachable = &sums[..=end];
+    let least = reachable.iter().copied().min_by(f64::total_cmp).filter(|sum| sum.is_finite())?;
+    let mut at = reachable.iter().position(|sum| *sum <= least + ROUNDING)?;
+    let sum = reachable[at];
+    let mut path = vec![0; points];
+    for k in (0..points).rev() {
+        path[k] = at;
+        at = before[k * rounds + at] as usize;
+    }
+    Some((sum, path))
+}

@@ -1,0 +1,9 @@
+//! Answers in JSON, as a manifest and in words.
+
+mod manifest;
+mod record;
+mod significant;
+
+pub use manifest::{answer_families, answers_manifest, manifest_head};
+pub use record::{AnswerRecord, FitRecord};
+pub use significant::{format_length, format_relative};

@@ -1,0 +1,141 @@
+//! The answers of a search: refined linkages without those whose curves are the same, with their cognates.
+
+use crate::answer::Answer;
+use crate::complex::{Complex, length};
+use crate::four_bar::fitting::{Fit, Fitting};
+use crate::four_bar::index::Index;
+use crate::four_bar::mechanism::Mechanism;
+use crate::four_bar::parameters::Parameters;
+use crate::four_bar::timing::Timing;
+use crate::options::Options;
+use crate::search::four_bars::Search;
+use crate::target::Target;
+use coupler_curves::geometry::Point;
+use coupler_curves::linkage::{Cognate, Cognates, PlacedFourBar};
+
+/// Makes the answers of a search so far, the nearest first. Those whose curves are the same to a thousandth of the target's size are
+/// one. The search takes no step meanwhile.
+#[derive(Default)]
+pub struct Ranking {
+    /// How many refinements are compared.
+    compared: usize,
+    /// The fits that differ, with the points of the curves at those of the target.
+    found: Vec<(Fit, Vec<Complex>)>,
+    /// The answers that are made, and the number of the next fit.
+    answers: Vec<Answer>,
+    next: usize,
+}
+
+impl Ranking {
+    /// Takes a step, of a few milliseconds at most for a target of a hundred points; false if nothing is left to do.
+    pub fn step(&mut self, search: &Search) -> bool {
+        let (fitting, refinements, most) = search.results();
+        if let Some(refinement) = refinements.get(self.compared) {
+            self.compared += 1;
+            if let Some(fit) = fitting.fit(refinement) {
+                self.add(fit);
+            }
+            return true;
+        }
+        if self.next == 0 {
+            self.found.sort_by(|a, b| a.0.matching.sum.total_cmp(&b.0.matching.sum));
+        }
+        let Some((fit, _)) = self.found.get(self.next).filter(|_| self.answers.len() < most) else { return false };
+        self.answers.extend(fitting.answer(fit));
+        self.next += 1;
+        true
+    }
+
+    /// Adds a fit, unless one that is at least as near has the same curve.
+    fn add(&mut self, fit: Fit) {
+        /// The distance up to which curves are the same, in sizes of the target.
+        const SAME: f64 = 1e-3;
+        let is_same = |a: &[Complex], b: &[Complex]| a.iter().zip(b).all(|(a, b)| length(a - b) <= SAME);
+        let feet = fit.linkage.curve(&fit.matching.poses);
+        match self.found.iter_mut().find(|(_, other)| is_same(other, &feet)) {
+            Some((other, _)) if other.matching.sum <= fit.matching.sum => {}
+            Some(other) => *other = (fit, feet),
+            None => self.found.push((fit, feet)),
+        }
+    }
+
+    /// The answers.
+    pub fn into_answers(self) -> Vec<Answer> {
+        self.answers
+    }
+}
+
+impl Target {
+    /// The four-bars whose curves are nearest, the nearest first, from an index of [`Index::DEFAULT_COUNT`] curves. That takes half a second to
+    /// compute: for several targets, make one and call [`Search::run`].
+    pub fn search(&self, options: &Options) -> Vec<Answer> {
+        Search::new(self, options.clone()).run(&Index::with_count(Index::DEFAULT_COUNT))
+    }
+}
+
+impl Search {
+    /// Searches to the end.
+    pub fn run(mut self, index: &Index) -> Vec<Answer> {
+        while self.step(index) {}
+        self.answers()
+    }
+
+    /// The answers that have been found so far, the nearest first. Those whose curves are the same to a thousandth of the
+    /// target's size are one. A [`Ranking`] makes them in steps.
+    pub fn answers(&self) -> Vec<Answer> {
+        let mut ranking = Ranking::default();
+        while ranking.step(self) {}
+        ranking.into_answers()
+    }
+}
+
+impl Fitting {
+    /// The answer of a fit, if one of the four-bars that trace its curve meets the constraints.
+    fn answer(&self, Fit { linkage, matching, length_ratio }: &Fit) -> Option<Answer> {
+        let (size, centre) = self.target.placement();
+        let original = linkage.transformed(Complex::new(size, 0.0), centre);
+        let placed = original.to_placed();
+        let poses: Vec<[Point; 2]> = matching.poses.iter().map(|pose| original.pins(pose)).collect();
+        // A point on a pin has no cognates.
+        let all = match Cognates::from_four_bar(placed) {
+            Ok(cognates) => cognates.all().to_vec(),
+            Err(_) => Vec::new(),
+        };
+        let solve = |cognate: &Cognate| {
+            let pins = |[a, b]: &[Point; 2]| cognate.pins([placed.pivots[0], *a, *b, placed.pivots[1]]);
+            let pins: Vec<[Point; 2]> = poses.iter().map(pins).collect();
+            // One of the cognates has another timing: its crank moves as the rocker of this one.
+            let cranks = || pins.iter().map(|[crank, _]| *crank);
+            let is_kept = |[timing, _]: &[Timing; 2]| timing.is_kept(cognate.four_bar.pivots[0], cranks());
+            let is_timed = self.timing.as_ref().is_none_or(is_kept);
+            if is_timed { self.mechanism(cognate.four_bar, &pins) } else { None }
+        };
+        let mut mechanisms: Vec<Mechanism> = match all.is_empty() {
+            true => self.mechanism(placed, &poses).into_iter().collect(),
+            false => all.iter().filter_map(solve).collect(),
+        };
+        let angle = |mechanism: &Mechanism| if mechanism.meets_constraints { mechanism.mu_worst_deg } else { f64::NAN };
+        let best = (0..mechanisms.len()).filter(|k| mechanisms[*k].meets_constraints);
+        let best = best.reduce(|best, k| if angle(&mechanisms[k]) > angle(&mechanisms[best]) { k } else { best })?;
+        mechanisms[..=best].rotate_right(1);
+        let rms_relative = (matching.sum / self.points.len() as f64).sqrt();
+        Some(Answer {
+            mechanism: mechanisms.remove(0),
+            cognates: mechanisms,
+            rms: size * rms_relative,
+            rms_relative,
+            greatest: size * matching.greatest,
+            is_in_order: matching.is_in_order,
+            length_ratio: *length_ratio,
+        })
+    }
+
+    /// A four-bar, solved, with its pins at each point of the target.
+    fn mechanism(&self, four_bar: PlacedFourBar, pins: &[[Point; 2]]) -> Option<Mechanism> {
+        let mut mechanism = Mechanism::solve(four_bar, pins, self.limits.condition.as_ref())?;
+        let (size, centre) = self.target.placement();
+        let normalized = Parameters::from_placed(&four_bar).transformed(Complex::new(1.0 / size, 0.0), -centre / size);
+        mechanism.meets_constraints &= self.limits.are_nearly_satisfied(&normalized);
+        Some(mechanism)
+    }
+}
