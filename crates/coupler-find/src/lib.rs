@@ -46,12 +46,14 @@ mod condition;
 mod curve_fit_options;
 mod options;
 
+mod descent;
+mod matching;
+
 mod shape;
 mod target;
 
 mod query;
 
-mod matching;
 mod quality;
 
 mod curve;

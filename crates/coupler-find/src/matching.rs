@@ -1,4 +1,8 @@
-//! The matching of points with a row of places: each has its own place, in order.
+//! The matching of points with a row of places, and with a curve: each has its own place, in order.
+
+use std::ops::Range;
+
+use crate::complex::{Complex, mean};
 
 /// The places of a closed row that are nearest to points in the mean square, in their order and within one round: indices that do
 /// not fall, of which the last is at most a round after the first; they may be in the second round. With the sum of the squares, each of
@@ -76,4 +80,49 @@ fn best_path(
         at = before[k * rounds + at] as usize;
     }
     Some((sum, path))
+}
+
+/// Points that follow each other and share a place on a curve, the foot of their mean.
+#[derive(Clone, Debug)]
+pub(crate) struct Block<F> {
+    pub points: Range<usize>,
+    pub mean: Complex,
+    pub foot: F,
+}
+
+/// The feet of points in their order, from the foot of each. Where those of neighbours would change it, these share the foot of their mean: of
+/// all common feet it has the least sum of squares (pool adjacent violators).
+///
+/// `position` is how far along the curve a foot is, and `foot_near` the foot of a mean near another one.
+pub(crate) fn feet_in_order<F>(
+    points: &[Complex],
+    feet: impl IntoIterator<Item = F>,
+    position: impl Fn(&F) -> f64,
+    mut foot_near: impl FnMut(Complex, F) -> Option<F>,
+) -> Option<Vec<Block<F>>> {
+    let mut blocks: Vec<Block<F>> = Vec::with_capacity(points.len());
+    for (k, foot) in feet.into_iter().enumerate() {
+        let mut block = Block { points: k..k + 1, mean: points[k], foot };
+        while let Some(last) = blocks.pop_if(|last| position(&last.foot) > position(&block.foot)) {
+            let points_of = last.points.start..block.points.end;
+            let mean = mean(&points[points_of.clone()]);
+            block = Block { points: points_of, mean, foot: foot_near(mean, last.foot)? };
+        }
+        blocks.push(block);
+    }
+    Some(blocks)
+}
+
+/// The foot of each point.
+pub(crate) fn feet_of_points<F: Clone>(blocks: &[Block<F>]) -> impl Iterator<Item = F> {
+    blocks.iter().flat_map(|block| std::iter::repeat_n(block.foot.clone(), block.points.len()))
+}
+
+/// The squares of the distances of points from the points of a curve at the feet of their blocks.
+pub(crate) fn squares<F>(points: &[Complex], blocks: &[Block<F>], at: &[Complex]) -> Vec<f64> {
+    let mut squares = Vec::with_capacity(points.len());
+    for (block, at) in blocks.iter().zip(at) {
+        squares.extend(points[block.points.clone()].iter().map(|point| (point - at).norm_sqr()));
+    }
+    squares
 }

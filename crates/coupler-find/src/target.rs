@@ -2,7 +2,7 @@
 
 use crate::complex::{Complex, closed_length, mean, open_length};
 use crate::shape::spectrum::{Transform, smooth_open_length};
-use coupler_curves::geometry::Point;
+use coupler_curves::geometry::{Point, Similarity};
 
 /// What a curve has in common with a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -201,9 +201,9 @@ impl Target {
         self.size
     }
 
-    /// The factor and the shift of the similarity from the normalized points, of centroid 0 and size 1, to the points.
-    pub(crate) fn placement(&self) -> (f64, Complex) {
-        (self.size, self.centre)
+    /// The similarity from the normalized points, of centroid 0 and size 1, to the points.
+    pub(crate) fn placement(&self) -> Similarity {
+        Similarity { is_mirrored: false, factor: Complex::new(self.size, 0.0), shift: self.centre }
     }
 
     /// The points with centroid 0 and size 1.

@@ -172,7 +172,7 @@ fn keep_nearest(refinements: &mut Vec<LinkageRefinement>, most: usize) {
     /// Refinements that have found the same linkage differ by less than this.
     const ALIKE: f64 = 1e-6;
     refinements.sort_by(|a, b| a.sum().total_cmp(&b.sum()));
-    refinements.dedup_by(|a, b| a.sum() - b.sum() <= ALIKE * b.sum() && a.is_done && b.is_done);
+    refinements.dedup_by(|a, b| a.sum() - b.sum() <= ALIKE * b.sum() && a.is_done() && b.is_done());
     refinements.truncate(most.max(1));
 }
 

@@ -74,6 +74,21 @@ impl Similarity {
         self.reflected((z - self.shift) / self.factor)
     }
 
+    /// The similarity that takes images back.
+    pub fn inverse(&self) -> Similarity {
+        let factor = self.reflected(self.factor.inv());
+        Similarity { is_mirrored: self.is_mirrored, factor, shift: -self.reflected(self.shift / self.factor) }
+    }
+
+    /// Another similarity, and then this one.
+    pub fn after(&self, first: &Similarity) -> Similarity {
+        Similarity {
+            is_mirrored: self.is_mirrored != first.is_mirrored,
+            factor: self.direction(first.factor),
+            shift: self.image(first.shift),
+        }
+    }
+
     /// A vector after the reflection.
     #[inline]
     pub fn reflected(&self, z: Complex) -> Complex {
@@ -100,5 +115,12 @@ mod tests {
         assert_eq!(similarity.apply(Point::new(3.0, 4.0)), Point::new(18.0, 26.0));
         assert_eq!(similarity.preimage(Complex::new(18.0, 26.0)), Complex::new(3.0, 4.0));
         assert_eq!((similarity.scale(), similarity.rotation_deg()), (2.0, 90.0));
+        assert_eq!(similarity.inverse().apply(Point::new(18.0, 26.0)), Point::new(3.0, 4.0));
+        assert_eq!(similarity.after(&similarity.inverse()), Similarity::IDENTITY);
+        let other = Similarity { factor: Complex::new(1.0, -1.0), ..similarity };
+        for one in [similarity, other] {
+            let p = Point::new(-2.0, 5.0);
+            assert_eq!(one.after(&other).apply(p), one.apply(other.apply(p)));
+        }
     }
 }

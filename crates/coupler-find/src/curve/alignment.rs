@@ -1,27 +1,23 @@
-//! The similarity that takes a curve as near as possible to points in their order: Levenberg and Marquardt's method with distances
-//! across the curve.
+//! The similarity that takes a curve as near as possible to points in their order, by the distances across the curve.
 
-use crate::complex::{Complex, dot, length, mean, times_i};
+use coupler_curves::geometry::Similarity;
+use nalgebra::{Const, Vector4};
+
+use crate::complex::{Complex, dot, length, times_i};
 use crate::curve::path::CurvePath;
-use nalgebra::{Matrix4, Vector4};
+use crate::descent::{Candidate, Descent, Equations};
+use crate::matching::{Block, feet_in_order, feet_of_points, squares};
 
 /// A curve on points, each of which is matched with a place of it.
+#[derive(Clone)]
 pub(crate) struct Alignment<'a> {
     path: &'a CurvePath,
     points: &'a [Complex],
-    factor: Complex,
-    shift: Complex,
-    /// The points in order, in blocks that share a place.
-    blocks: Vec<Block>,
+    pub placed: Similarity,
+    /// The points in order; a foot is a position on the curve.
+    blocks: Vec<Block<f64>>,
     /// The sum of the squares of the distances.
     pub sum: f64,
-}
-
-/// Points that follow each other and share a place of the curve, the foot of their mean.
-struct Block {
-    points: std::ops::Range<usize>,
-    mean: Complex,
-    position: f64,
 }
 
 impl<'a> Alignment<'a> {
@@ -29,21 +25,25 @@ impl<'a> Alignment<'a> {
     pub fn new(
         path: &'a CurvePath,
         points: &'a [Complex],
-        (factor, shift): (Complex, Complex),
-        near: &[f64],
-    ) -> Alignment<'a> {
-        let blocks = blocks(path, points, (factor, shift), near);
-        let sum = sum_of(path, points, (factor, shift), &blocks);
-        Alignment { path, points, factor, shift, blocks, sum }
+        placed: Similarity,
+        near: impl IntoIterator<Item = f64>,
+    ) -> Option<Alignment<'a>> {
+        let foot = |point: Complex, near: f64| path.foot(near, placed.preimage(point));
+        let feet = points.iter().zip(near).map(|(point, near)| foot(*point, near));
+        let blocks = feet_in_order(points, feet, |foot| *foot, |mean, near| Some(foot(mean, near)))?;
+        let mut alignment = Alignment { path, points, placed, blocks, sum: 0.0 };
+        alignment.sum = alignment.squares().iter().sum();
+        Some(alignment)
     }
 
-    pub fn similarity(&self) -> (Complex, Complex) {
-        (self.factor, self.shift)
+    fn squares(&self) -> Vec<f64> {
+        let at: Vec<Complex> = self.blocks.iter().map(|block| self.placed.image(self.path.point(block.foot))).collect();
+        squares(self.points, &self.blocks, &at)
     }
 
     /// The positions of the first and of the last point.
     pub fn ends(&self) -> [f64; 2] {
-        [0, self.blocks.len() - 1].map(|k| self.blocks[k].position)
+        [0, self.blocks.len() - 1].map(|k| self.blocks[k].foot)
     }
 
     /// Whether each point has its own foot, without the order keeping it from there.
@@ -53,113 +53,61 @@ impl<'a> Alignment<'a> {
 
     /// The greatest distance.
     pub fn greatest(&self) -> f64 {
-        squares(self.path, self.points, self.similarity(), &self.blocks).fold(0.0, f64::max).sqrt()
+        self.squares().into_iter().fold(0.0, f64::max).sqrt()
     }
 
     /// Moves the similarity to where the sum is least, in some steps at most.
     pub fn refine(&mut self, steps: usize) {
-        const MAX_DAMPING: f64 = 1e10;
-        /// A relative gain that is no progress.
-        const NO_GAIN: f64 = 1e-12;
-        let mut damping = 1e-4;
-        let mut equations = self.normal_equations();
-        for _ in 0..steps {
-            let (normal, gradient) = equations;
-            let floor = 1e-12 * normal.trace();
-            let damped = normal
-                + Matrix4::from_diagonal(
-                    &normal.diagonal().map(|entry| damping * entry.max(floor).max(f64::MIN_POSITIVE)),
-                );
-            let Some(matrix) = damped.cholesky() else { break };
-            let by = matrix.solve(&gradient);
-            let similarity = (self.factor + Complex::new(by[0], by[1]), self.shift + Complex::new(by[2], by[3]));
-            let blocks = blocks(self.path, self.points, similarity, &self.positions());
-            let sum = sum_of(self.path, self.points, similarity, &blocks);
-            if sum < self.sum {
-                let gain = self.sum - sum;
-                (self.factor, self.shift) = similarity;
-                (self.blocks, self.sum) = (blocks, sum);
-                if gain <= NO_GAIN * sum {
-                    break;
-                }
-                damping = (0.1 * damping).max(1e-12);
-                equations = self.normal_equations();
-            } else {
-                damping *= 10.0;
-                if damping > MAX_DAMPING {
-                    break;
-                }
-            }
-        }
+        let mut descent = Descent::default();
+        (0..steps).for_each(|_| descent.step(self, &()));
+    }
+}
+
+impl Candidate for Alignment<'_> {
+    type Unknowns = Const<4>;
+    type Aim<'a> = ();
+    const NO_GAIN: f64 = 1e-12;
+
+    fn objective(&self) -> f64 {
+        self.sum
     }
 
-    fn positions(&self) -> Vec<f64> {
-        self.blocks.iter().flat_map(|block| block.points.clone().map(|_| block.position)).collect()
-    }
-
-    /// The normal equations of the distances across the curve.
-    fn normal_equations(&self) -> (Matrix4<f64>, Vector4<f64>) {
-        let (mut normal, mut gradient) = (Matrix4::zeros(), Vector4::zeros());
+    fn equations(&self, _: &()) -> Option<Equations<Const<4>>> {
+        let mut equations = Equations::new(Const::<4>);
         for block in &self.blocks {
-            let at = self.path.point(block.position);
-            let velocity = self.factor * self.path.velocity(block.position);
-            let offset = block.mean - (self.factor * at + self.shift);
+            let at = self.path.point(block.foot);
+            let velocity = self.placed.direction(self.path.velocity(block.foot));
+            let offset = block.mean - self.placed.image(at);
             let speed = length(velocity);
-            let mut add = |axis: Complex| {
-                let row = Vector4::new(dot(axis, at), dot(axis, times_i(at)), axis.re, axis.im);
-                let weight = block.points.len() as f64;
-                normal += row * row.transpose() * weight;
-                gradient += row * (weight * dot(axis, offset));
-            };
             // At a corner, and where the curve stops, the foot does not move along it.
             let is_foot = dot(velocity, offset).abs() <= 1e-6 * speed * length(offset) || length(offset) <= 1e-12;
-            if speed > 0.0 && is_foot {
-                add(times_i(velocity) / speed);
-            } else {
-                add(Complex::new(1.0, 0.0));
-                add(Complex::new(0.0, 1.0));
+            for axis in axes(velocity, speed > 0.0 && is_foot) {
+                let row = similarity_rates(axis, self.placed.reflected(at));
+                equations.add(&row, dot(axis, offset), block.points.len() as f64);
             }
         }
-        (normal, gradient)
+        Some(equations)
+    }
+
+    fn moved(&self, _: &(), by: &Vector4<f64>) -> Option<Self> {
+        let placed = Similarity {
+            factor: self.placed.factor + Complex::new(by[0], by[1]),
+            shift: self.placed.shift + Complex::new(by[2], by[3]),
+            ..self.placed
+        };
+        Alignment::new(self.path, self.points, placed, feet_of_points(&self.blocks))
     }
 }
 
-/// The feet of points in their order. Where those of neighbours would change it, these share the foot of their mean: of all common feet
-/// it has the least sum of squares (pool adjacent violators).
-fn blocks(path: &CurvePath, points: &[Complex], (factor, shift): (Complex, Complex), near: &[f64]) -> Vec<Block> {
-    let foot = |points_of: std::ops::Range<usize>, near: f64| {
-        let mean = mean(&points[points_of.clone()]);
-        let position = path.foot(near, (mean - shift) / factor);
-        Block { points: points_of, mean, position }
-    };
-    let mut blocks: Vec<Block> = Vec::with_capacity(points.len());
-    for (k, near) in near.iter().enumerate() {
-        let mut block = foot(k..k + 1, *near);
-        while let Some(last) = blocks.pop() {
-            if last.position <= block.position {
-                blocks.push(last);
-                break;
-            }
-            block = foot(last.points.start..block.points.end, last.position);
-        }
-        blocks.push(block);
-    }
-    blocks
+/// The directions in which the distance of a point counts: across the curve, if its foot follows the curve, or else both of the plane.
+pub(crate) fn axes(velocity: Complex, is_foot: bool) -> impl Iterator<Item = Complex> {
+    let both = [Complex::new(1.0, 0.0), Complex::new(0.0, 1.0)];
+    let (axes, count) = if is_foot { ([times_i(velocity) / length(velocity), both[1]], 1) } else { (both, 2) };
+    axes.into_iter().take(count)
 }
 
-fn sum_of(path: &CurvePath, points: &[Complex], similarity: (Complex, Complex), blocks: &[Block]) -> f64 {
-    squares(path, points, similarity, blocks).sum()
-}
-
-/// The squares of the distances of the points.
-fn squares(
-    path: &CurvePath,
-    points: &[Complex],
-    (factor, shift): (Complex, Complex),
-    blocks: &[Block],
-) -> impl Iterator<Item = f64> {
-    blocks.iter().flat_map(move |block| {
-        let at = factor * path.point(block.position) + shift;
-        points[block.points.clone()].iter().map(move |point| (point - at).norm_sqr())
-    })
+/// The derivatives of a placed point's coordinate in a direction by the factor and the shift of the similarity; the point is given after the
+/// reflection.
+pub(crate) fn similarity_rates(axis: Complex, reflected: Complex) -> [f64; 4] {
+    [dot(axis, reflected), dot(axis, times_i(reflected)), axis.re, axis.im]
 }

@@ -1,6 +1,6 @@
 //! How a given curve fits a target: where it is placed on it, and its deviation.
 
-use crate::complex::{Complex, dot, length};
+use crate::complex::{Complex, dot};
 use crate::curve::alignment::Alignment;
 use crate::curve::path::CurvePath;
 use crate::curve_fit_options::CurveFitOptions;
@@ -68,12 +68,10 @@ type Samples<'a> = (&'a [Complex], &'a [f64]);
 /// A curve near the target.
 #[derive(Clone, Copy)]
 struct Start {
-    is_mirrored: bool,
+    placed: Similarity,
     is_reversed: bool,
     /// Whether the points are matched with an open curve on its way there only.
     is_one_way: bool,
-    factor: Complex,
-    shift: Complex,
 }
 
 /// The samples of a curve, at equal distances: for its shape, of which a circle's chords deviate by 0.000075 of the radius, and to be matched
@@ -115,19 +113,13 @@ impl CurveFitter {
     /// portion of it is like the target, or it has no extent. An open curve is passed there and back.
     pub fn fit(&self, points: &[Point], is_closed: bool) -> Option<CurveFit> {
         let path = CurvePath::new(points, is_closed)?;
-        let paths = [path.mirrored(), path];
-        let path_of = |start: &Start| &paths[usize::from(!start.is_mirrored)];
-        let even = paths[1].even_points(EVEN);
-        let [every, positions] = [paths[1].spaced_evenly(COARSE), paths[1].knots(FINE)];
-        let samples = |positions: &[f64]| {
-            paths.each_ref().map(|path| positions.iter().map(|position| path.point(*position)).collect::<Vec<_>>())
-        };
-        let (coarse, fine) = (samples(&every), samples(&positions));
-        let mut tried: Vec<(f64, Start)> = self
-            .starts(&paths[1], &even)
-            .iter()
-            .filter_map(|start| self.tried(start, path_of(start), (&coarse[usize::from(!start.is_mirrored)], &every)))
-            .collect();
+        let even = path.even_points(EVEN);
+        let [every, positions] = [path.spaced_evenly(COARSE), path.knots(FINE)];
+        let points_at = |positions: &[f64]| positions.iter().map(|position| path.point(*position)).collect::<Vec<_>>();
+        let (coarse, fine) = (points_at(&every), points_at(&positions));
+        let starts = self.starts(&path, &even);
+        let mut tried: Vec<(f64, Start)> =
+            starts.iter().filter_map(|start| self.tried(start, &path, (&coarse, &every))).collect();
         tried.sort_by(|a, b| a.0.total_cmp(&b.0));
         let nearest = tried.first()?.0;
         let mut best: Option<CurveFit> = None;
@@ -136,8 +128,7 @@ impl CurveFitter {
             if best.is_some() && !is_promising {
                 break;
             }
-            let samples = (&fine[usize::from(!start.is_mirrored)][..], &positions[..]);
-            let found = self.refined(start, path_of(start), samples);
+            let found = self.refined(start, &path, (&fine, &positions));
             best = found.filter(|found| best.is_none_or(|best| found.rms < best.rms)).or(best);
         }
         best
@@ -148,10 +139,8 @@ impl CurveFitter {
         let is_open_target = self.target.kind() != PathKind::Closed;
         match &self.query {
             None => {
-                let (size, centre) = self.target.placement();
-                let (factor, shift) = (Complex::new(path.size / size, 0.0), (path.centre - centre) / size);
-                let start =
-                    |(is_reversed, is_one_way)| Start { is_mirrored: false, is_reversed, is_one_way, factor, shift };
+                let placed = self.target.placement().inverse().after(&path.placement());
+                let start = |(is_reversed, is_one_way)| Start { placed, is_reversed, is_one_way };
                 let ways: &[(bool, bool)] = match (path.is_open, is_open_target) {
                     (false, _) => &[(false, false), (true, false)],
                     (true, false) => &[(false, false)],
@@ -162,22 +151,20 @@ impl CurveFitter {
             Some(Query::Whole(target, target_centre, target_size)) => {
                 let (spectrum, centre, size) = self.transform.spectrum(samples);
                 let start = |(likeness, is_reversed): (Likeness, bool)| {
-                    let (factor, shift) = likeness.similarity((*target_centre, *target_size), (centre, size));
-                    Start { is_mirrored: likeness.is_mirrored, is_reversed, is_one_way: false, factor, shift }
+                    let placed = likeness.similarity((*target_centre, *target_size), (centre, size));
+                    Start { placed, is_reversed, is_one_way: false }
                 };
                 let found = self.transform.likenesses(target, &spectrum).into_iter().map(start);
                 let may_begin = |start: &Start| {
-                    (self.options.may_be_mirrored || !start.is_mirrored) && !(path.is_open && start.is_reversed)
+                    (self.options.may_be_mirrored || !start.placed.is_mirrored) && !(path.is_open && start.is_reversed)
                 };
                 found.filter(may_begin).take(STARTS).collect()
             }
             Some(Query::Portion(stroke, close_stroke)) => {
                 let start = |portion: Portion| Start {
-                    is_mirrored: portion.is_mirrored,
+                    placed: portion.placed,
                     is_reversed: portion.is_reversed,
                     is_one_way: path.is_open && portion.ends[1] <= 0.5,
-                    factor: portion.factor,
-                    shift: portion.shift,
                 };
                 let curve = (samples, path.is_open);
                 portions((stroke, close_stroke), curve, &self.options, STARTS).into_iter().map(start).collect()
@@ -190,8 +177,7 @@ impl CurveFitter {
         const STEPS: usize = 15;
         let points = &self.some_points[usize::from(start.is_reversed)];
         let alignment = self.aligned(start, path, samples, (points, STEPS))?;
-        let (factor, shift) = alignment.similarity();
-        Some((alignment.sum, Start { factor, shift, ..*start }))
+        Some((alignment.sum, Start { placed: alignment.placed, ..*start }))
     }
 
     /// A curve on points that are matched with it in order, after some steps.
@@ -206,9 +192,8 @@ impl CurveFitter {
             if start.is_one_way { at.iter().take_while(|at| **at <= 0.5 * path.period()).count() } else { at.len() };
         let matched = matched(start, &samples[..legs], points)?;
         let position = |k: usize| at[k % at.len()] + path.period() * (k / at.len()) as f64;
-        let positions: Vec<f64> =
-            matched.iter().map(|(k, part)| position(*k) + part * (position(k + 1) - position(*k))).collect();
-        let mut alignment = Alignment::new(path, points, (start.factor, start.shift), &positions);
+        let near = matched.iter().map(|(k, part)| position(*k) + part * (position(k + 1) - position(*k)));
+        let mut alignment = Alignment::new(path, points, start.placed, near)?;
         if !self.options.is_fixed {
             alignment.refine(steps);
         }
@@ -227,7 +212,7 @@ impl CurveFitter {
             if best.as_ref().is_some_and(|best| alignment.sum >= best.sum) {
                 break;
             }
-            (start.factor, start.shift) = alignment.similarity();
+            start.placed = alignment.placed;
             best = Some(alignment);
             if self.options.is_fixed {
                 break;
@@ -238,8 +223,7 @@ impl CurveFitter {
 
     /// The fit of an alignment.
     fn fit_of(&self, start: &Start, path: &CurvePath, alignment: &Alignment) -> Option<CurveFit> {
-        let (size, centre) = self.target.placement();
-        let scale = length(start.factor);
+        let (size, scale) = (self.target.size(), start.placed.scale());
         let [first, last] = alignment.ends().map(|position| path.length_at(position));
         let own_length = scale
             * match self.target.kind() {
@@ -260,12 +244,7 @@ impl CurveFitter {
         let rms_relative = (alignment.sum / self.points[0].len() as f64).sqrt();
         let placement = match self.options.is_fixed {
             true => Similarity::IDENTITY,
-            false => {
-                // From the curve's own unit to that of the target.
-                let factor = start.factor * (size / path.size);
-                let shift = centre + start.shift * size - factor * path.centre;
-                Similarity { is_mirrored: start.is_mirrored, factor, shift }
-            }
+            false => self.target.placement().after(&start.placed).after(&path.placement().inverse()),
         };
         let round = legs * (first / legs).floor();
         let [first, last] = [first - round, last - round];
@@ -291,7 +270,7 @@ impl CurveFitter {
 /// The chords from sample to sample that are matched with points in order: each by the number of the chord, of the first or the second
 /// round, and the part of it.
 fn matched(start: &Start, samples: &[Complex], points: &[Complex]) -> Option<Vec<(usize, f64)>> {
-    let placed: Vec<Complex> = samples.iter().map(|z| start.factor * z + start.shift).collect();
+    let placed: Vec<Complex> = samples.iter().map(|z| start.placed.image(*z)).collect();
     let chord = |j: usize| placed[(j + 1) % placed.len()] - placed[j];
     let count = if start.is_one_way { placed.len() - 1 } else { placed.len() };
     let chords: Vec<(Complex, f64)> =

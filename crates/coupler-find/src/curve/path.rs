@@ -1,7 +1,7 @@
 //! A given curve as a chain of cubics, its length, and the feet of points on it.
 
 use crate::complex::{Complex, dot, length, mean};
-use coupler_curves::geometry::Point;
+use coupler_curves::geometry::{Point, Similarity};
 
 /// A curve through given points: the cubic spline by the lengths of their chords, with centroid 0 and size 1 of the points. Along an
 /// open curve it goes there and back, so that every curve is closed.
@@ -15,8 +15,8 @@ pub(crate) struct CurvePath {
     lengths: Vec<f64>,
     pub is_open: bool,
     /// The centroid and the size of the given points.
-    pub centre: Complex,
-    pub size: f64,
+    centre: Complex,
+    size: f64,
 }
 
 impl CurvePath {
@@ -67,10 +67,9 @@ impl CurvePath {
         Some(CurvePath { pieces, lengths, is_open, centre, size })
     }
 
-    /// The mirror image in the x-axis.
-    pub fn mirrored(&self) -> CurvePath {
-        let pieces = self.pieces.iter().map(|piece| piece.map(|z| z.conj())).collect();
-        CurvePath { pieces, centre: self.centre.conj(), ..self.clone() }
+    /// The similarity from this curve to the given points.
+    pub fn placement(&self) -> Similarity {
+        Similarity { is_mirrored: false, factor: Complex::new(self.size, 0.0), shift: self.centre }
     }
 
     /// The number of pieces: positions that differ by it are one place.

@@ -37,15 +37,15 @@ pub(crate) struct Fit {
 
 impl Fitting {
     pub fn new(target: &Target, options: &Options) -> Fitting {
-        let (size, centre) = target.placement();
-        let corner = |x: f64, y: f64| (Complex::new(x, y) - centre) / size;
+        let placement = target.placement();
+        let corner = |x: f64, y: f64| placement.preimage(Complex::new(x, y));
         let pivots = options.pivots.map(|b| [corner(b.min.x, b.min.y), corner(b.max.x, b.max.y)]);
         let limits = Limits {
             full_turn: options.full_turn,
             max_link: options.max_link,
             pivots,
             condition: options.condition.clone(),
-            placement: (size, centre),
+            placement,
         };
         Fitting {
             points: target.normalized(),

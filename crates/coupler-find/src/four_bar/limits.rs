@@ -4,13 +4,11 @@ use crate::complex::{Complex, length, times_i};
 use crate::condition::Condition;
 use crate::four_bar::parameters::{COUNT, FRAME, Parameters};
 use crate::four_bar::pose::Pose;
-use nalgebra::{Cholesky, Const, SMatrix, SVector};
+use coupler_curves::geometry::Similarity;
+use nalgebra::{Cholesky, Const, SVector};
 
 /// A motion of the parameters.
 pub(crate) type Motion = SVector<f64, COUNT>;
-
-/// The matrix of the normal equations of a motion.
-pub(crate) type Normal = SMatrix<f64, COUNT, COUNT>;
 
 /// The limits of a linkage, in sizes of the target.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,8 +21,8 @@ pub(crate) struct Limits {
     pub pivots: Option<[Complex; 2]>,
     /// The condition on the linkage, in the unit and axes of the target.
     pub condition: Option<Condition>,
-    /// The size and the centroid of the target.
-    pub placement: (f64, Complex),
+    /// From the plane of these limits to that of the target.
+    pub placement: Similarity,
 }
 
 /// Shorter links are not built: a hundredth of a millimetre in a path of ten.
@@ -110,8 +108,7 @@ impl Limits {
     /// Whether a linkage satisfies the condition on the circuit of a pose.
     pub fn meets_condition(&self, linkage: &Parameters, pose: &Pose) -> bool {
         let Some(condition) = &self.condition else { return true };
-        let (size, centre) = self.placement;
-        let placed = linkage.transformed(Complex::new(size, 0.0), centre);
+        let placed = linkage.transformed(&self.placement);
         condition.is_met(&placed.to_placed(), placed.pins(pose))
     }
 

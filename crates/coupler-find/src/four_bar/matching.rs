@@ -1,9 +1,9 @@
 //! The matching of a target with the curve of a four-bar: each point has its own point of the curve, in order.
 
-use crate::complex::{self, Complex, mean, open_length};
+use crate::complex::{self, Complex, open_length};
 use crate::four_bar::parameters::Parameters;
 use crate::four_bar::pose::Pose;
-use crate::matching::match_places;
+use crate::matching::{feet_in_order, feet_of_points, match_places};
 
 /// The points of a closed row of samples that are nearest to the points of a target in the mean square, see [`match_places`].
 fn match_in_order(target: &[Complex], samples: &[Complex]) -> Option<(f64, Vec<usize>)> {
@@ -33,6 +33,14 @@ pub(crate) struct Matching {
     pub is_in_order: bool,
 }
 
+/// A point of a curve that is nearest to another point: its pose, near which of the samples, and its position in samples.
+#[derive(Clone, Copy)]
+struct Foot {
+    pose: Pose,
+    near: usize,
+    position: f64,
+}
+
 /// The number of Newton rounds for a foot of a perpendicular.
 const ROUNDS: usize = 20;
 
@@ -40,48 +48,26 @@ impl Matching {
     /// The matching of a target with a circuit of a linkage, given by samples of it.
     pub fn new(linkage: &Parameters, circuit: &[Pose], target: &[Complex]) -> Option<Matching> {
         let (_, path) = match_in_order(target, &linkage.curve(circuit))?;
-        Some(Matching::in_order(linkage, circuit, (target, &path)))
+        Matching::in_order(linkage, circuit, (target, &path))
     }
 
-    /// The matching from a path of samples. Where the feet of neighbouring points would change
-    /// their order, these share the foot of their mean: of all common feet it has the least sum of squares (pool adjacent
-    /// violators).
-    fn in_order(linkage: &Parameters, circuit: &[Pose], (target, path): (&[Complex], &[usize])) -> Matching {
-        struct Block {
-            points: std::ops::Range<usize>,
-            pose: Pose,
-            position: f64,
-        }
-        let foot = |points: std::ops::Range<usize>, start: Pose, near: usize| {
-            let (pose, _) = linkage.nearest(start, mean(&target[points.clone()]), ROUNDS);
-            Block { points, pose, position: position(circuit, near, &pose) }
+    /// The matching from a path of samples.
+    fn in_order(linkage: &Parameters, circuit: &[Pose], (target, path): (&[Complex], &[usize])) -> Option<Matching> {
+        let foot = |point: Complex, pose: Pose, near: usize| {
+            let (pose, _) = linkage.nearest(pose, point, ROUNDS);
+            Foot { pose, near, position: position(circuit, near, &pose) }
         };
-        let mut blocks: Vec<Block> = Vec::with_capacity(target.len());
-        let mut is_in_order = true;
-        for k in 0..target.len() {
-            let mut block = foot(k..k + 1, circuit[path[k] % circuit.len()], path[k]);
-            while let Some(last) = blocks.pop() {
-                if last.position <= block.position {
-                    blocks.push(last);
-                    break;
-                }
-                is_in_order = false;
-                let points = last.points.start..block.points.end;
-                block = foot(points, last.pose, path[last.points.start]);
-            }
-            blocks.push(block);
-        }
-        let poses: Vec<Pose> = blocks.iter().flat_map(|block| block.points.clone().map(|_| block.pose)).collect();
-        let shared = |block: &Block| {
-            let mean = mean(&target[block.points.clone()]);
-            block.points.clone().map(move |_| mean)
-        };
-        let means = blocks.iter().flat_map(shared).collect();
+        let first = target.iter().zip(path).map(|(point, near)| foot(*point, circuit[near % circuit.len()], *near));
+        let near = |mean, last: Foot| Some(foot(mean, last.pose, last.near));
+        let blocks = feet_in_order(target, first, |foot| foot.position, near)?;
+        let is_in_order = blocks.len() == target.len();
+        let poses: Vec<Pose> = feet_of_points(&blocks).map(|foot| foot.pose).collect();
+        let means = blocks.iter().flat_map(|block| std::iter::repeat_n(block.mean, block.points.len())).collect();
         let squares = poses.iter().zip(target).map(|(pose, point)| (point - linkage.coupler_point(pose)).norm_sqr());
         let (sum, greatest) = squares.fold((0.0, 0.0f64), |(sum, most), square| (sum + square, most.max(square)));
-        let ends = [&blocks[0], &blocks[blocks.len() - 1]].map(|block| block.position);
+        let ends = [&blocks[0], &blocks[blocks.len() - 1]].map(|block| block.foot.position);
         let portion_length = portion_length(&linkage.curve(circuit), ends);
-        Matching { poses, means, portion_length, sum, greatest: greatest.sqrt(), is_in_order }
+        Some(Matching { poses, means, portion_length, sum, greatest: greatest.sqrt(), is_in_order })
     }
 }
 

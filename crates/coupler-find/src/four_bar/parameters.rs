@@ -3,7 +3,7 @@
 use crate::complex::{Complex, dot, length, times_i, turned, unit};
 use crate::four_bar::pose::Pose;
 use crate::scatter::Scatter;
-use coupler_curves::geometry::{Point, Vector, trig};
+use coupler_curves::geometry::{Point, Similarity, Vector, trig};
 use coupler_curves::linkage::{Cognates, FourBar, PlacedFourBar};
 
 /// The number of parameters of a placed four-bar with a coupler point.
@@ -77,17 +77,17 @@ impl Parameters {
         }
     }
 
-    /// The linkage under the similarity that takes z to `factor` z + `shift`.
-    pub fn transformed(&self, factor: Complex, shift: Complex) -> Parameters {
-        let scale = length(factor);
+    /// The image of the linkage.
+    pub fn transformed(&self, by: &Similarity) -> Parameters {
+        let scale = by.scale();
         Parameters {
-            crank_pivot: factor * self.crank_pivot + shift,
-            direction: self.direction * factor / scale,
+            crank_pivot: by.image(self.crank_pivot),
+            direction: by.direction(self.direction) / scale,
             frame: scale * self.frame,
             crank: scale * self.crank,
             coupler: scale * self.coupler,
             rocker: scale * self.rocker,
-            point: scale * self.point,
+            point: scale * by.reflected(self.point),
         }
     }
 
@@ -110,16 +110,6 @@ impl Parameters {
     pub fn cognates(&self) -> Vec<Parameters> {
         let Ok(cognates) = Cognates::from_four_bar(self.to_placed()) else { return Vec::new() };
         cognates.others.iter().map(|cognate| Parameters::from_placed(&cognate.four_bar)).collect()
-    }
-
-    /// The mirror image in the x-axis.
-    pub fn mirrored(&self) -> Parameters {
-        Parameters {
-            crank_pivot: self.crank_pivot.conj(),
-            direction: self.direction.conj(),
-            point: self.point.conj(),
-            ..*self
-        }
     }
 
     /// The coupler point in a pose.

@@ -39,8 +39,8 @@ const MARGIN: f64 = 2e-4;
 
 impl Aim {
     pub fn new(space: &LinkageSpace, target: &Target, options: &Options) -> Aim {
-        let (size, centre) = target.placement();
-        let corner = |x: f64, y: f64| (Complex::new(x, y) - centre) / size;
+        let placement = target.placement();
+        let corner = |x: f64, y: f64| placement.preimage(Complex::new(x, y));
         let forward = target.normalized();
         let backward = forward.iter().rev().copied().collect();
         Aim {

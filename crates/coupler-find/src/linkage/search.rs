@@ -6,12 +6,13 @@ use super::measured::Measured;
 use super::refinement::{FINAL_ROUNDS, LinkageRefinement};
 use super::samples::{SampleCurve, SampleIndex, SampleShape};
 use super::space::LinkageSpace;
-use super::state::squares;
 use super::timed;
 
+use crate::complex::Complex;
 use crate::curve::fit::CurveFit;
 use crate::curve::index::{CurveLookup, CurveShape};
 use crate::curve_fit_options::CurveFitOptions;
+use crate::matching::squares;
 use crate::options::Options;
 use crate::query::Query;
 use crate::scatter::Scatter;
@@ -211,7 +212,7 @@ impl LinkageSearch {
     /// what is asked of it.
     pub fn fit(&self, refinement: &LinkageRefinement) -> Option<LinkageFit> {
         let Aim { target, full_turn, .. } = &self.aim;
-        let (size, centre) = target.placement();
+        let size = target.size();
         let mut refinement = refinement.clone();
         let mut placed = refinement.state.placed;
         if self.space.is_scalable {
@@ -246,7 +247,7 @@ impl LinkageSearch {
             return None;
         }
         let is_timed = state.start.is_some();
-        let positions = [0, state.blocks.len() - 1].map(|k| state.blocks[k].position);
+        let positions = [0, state.blocks.len() - 1].map(|k| state.blocks[k].foot);
         // Along the target: forward.
         let positions = if refinement.is_reversed && !is_timed { [positions[1], positions[0]] } else { positions };
         let places = positions.map(|position| match state.start {
@@ -260,7 +261,7 @@ impl LinkageSearch {
         let ends = parts.map(|part| part - round);
         let rms_relative = (state.sum / self.aim.count()).sqrt();
         let fit = CurveFit {
-            placement: Similarity { factor: placed.factor * size, shift: centre + placed.shift * size, ..placed },
+            placement: target.placement().after(&placed),
             rms: size * rms_relative,
             rms_relative,
             greatest: size * self.greatest(&refinement)?,
@@ -279,9 +280,10 @@ impl LinkageSearch {
         let state = &refinement.state;
         let is_reversed = refinement.is_reversed && state.start.is_none();
         let points = self.aim.points_of(is_reversed);
-        let positions: Vec<f64> = state.blocks.iter().map(|block| block.position).collect();
+        let positions: Vec<f64> = state.blocks.iter().map(|block| block.foot).collect();
         let at = self.aim.points(&state.traced, &positions, state.start)?;
-        Some(squares(points, &state.placed, &state.blocks, &at).fold(0.0, f64::max).sqrt())
+        let at: Vec<Complex> = at.into_iter().map(|z| state.placed.image(z)).collect();
+        Some(squares(points, &state.blocks, &at).into_iter().fold(0.0, f64::max).sqrt())
     }
 
     /// The traced joints on the circuits of a parameter set.
@@ -324,23 +326,15 @@ impl LinkageSearch {
     /// A curve where it is most like the target.
     fn placed(&self, traced: &Traced) -> Option<Similarity> {
         let points = traced.points(&traced.positions(POINTS))?;
-        let (is_mirrored, factor, shift) = match &self.query {
+        let placed = match &self.query {
             Query::Whole(target, target_centre, target_size) => {
                 let (spectrum, centre, size) = self.transform.spectrum(&points);
                 let likeness = self.transform.likeness(target, &spectrum);
-                let (factor, shift) = likeness.similarity((*target_centre, *target_size), (centre, size));
-                (likeness.is_mirrored, factor, shift)
+                likeness.similarity((*target_centre, *target_size), (centre, size))
             }
-            Query::Portion(stroke, _) => {
-                let (window, factor, shift) = stroke.placement(&points)?;
-                (window.is_mirrored, factor, shift)
-            }
+            Query::Portion(stroke, _) => stroke.placement(&points)?.1,
         };
-        (factor.norm_sqr().is_normal() && shift.norm_sqr().is_finite()).then_some(Similarity {
-            is_mirrored,
-            factor,
-            shift,
-        })
+        (placed.factor.norm_sqr().is_normal() && placed.shift.norm_sqr().is_finite()).then_some(placed)
     }
 
     /// The length of the placed curve, or of the portion from the first point to the last.
@@ -350,8 +344,8 @@ impl LinkageSearch {
             PathKind::Closed => measured.whole(),
             PathKind::Open | PathKind::Part => {
                 let positions = state.blocks.iter().map(|block| match state.start {
-                    Some((pass, _)) => state.traced.position_of_input(pass, block.position),
-                    None => block.position,
+                    Some((pass, _)) => state.traced.position_of_input(pass, block.foot),
+                    None => block.foot,
                 });
                 let lengths: Vec<f64> = positions.map(|position| measured.length_at(position)).collect();
                 lengths.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum()

@@ -2,8 +2,8 @@
 
 use super::aim::{Aim, WEIGHT};
 use super::circuit::Traced;
-use crate::complex::{Complex, dot, mean};
-use crate::matching::match_places;
+use crate::complex::{Complex, dot};
+use crate::matching::{Block, feet_in_order, match_places, squares};
 use coupler_curves::geometry::{Similarity, trig};
 
 /// A curve on the target.
@@ -12,22 +12,13 @@ pub(super) struct State {
     pub traced: Traced,
     pub placed: Similarity,
     /// The points of the target in order, in blocks that share a position.
-    pub blocks: Vec<Block>,
+    pub blocks: Vec<Block<f64>>,
     /// If the target is timed, the pass, and the input at its first point.
     pub start: Option<(usize, f64)>,
     /// The sum of the squares of the distances.
     pub sum: f64,
     /// The sum with what the limits add to it.
     pub objective: f64,
-}
-
-/// Points that follow each other and share a position on the curve, the foot of their mean. If the target is timed, the position is
-/// the input.
-#[derive(Clone, Debug)]
-pub(super) struct Block {
-    pub points: std::ops::Range<usize>,
-    pub mean: Complex,
-    pub position: f64,
 }
 
 /// The samples of a curve with which a target is matched.
@@ -74,10 +65,17 @@ impl Aim {
         (near, rounds): (Vec<f64>, usize),
     ) -> Option<State> {
         let points = self.points_of(is_reversed);
-        let blocks = blocks(&traced, &placed, (points, near), rounds)?;
-        let positions: Vec<f64> = blocks.iter().map(|block| block.position).collect();
-        let at = traced.points(&positions)?;
-        let sum = squares(points, &placed, &blocks, &at).sum();
+        let mut first = near;
+        feet(&traced, &placed, points, &mut first, rounds)?;
+        let foot_near = |mean, near| {
+            let mut foot = [near];
+            feet(&traced, &placed, &[mean], &mut foot, rounds)?;
+            Some(foot[0])
+        };
+        let blocks = feet_in_order(points, first, |position| *position, foot_near)?;
+        let positions: Vec<f64> = blocks.iter().map(|block| block.foot).collect();
+        let at: Vec<Complex> = traced.points(&positions)?.into_iter().map(|z| placed.image(z)).collect();
+        let sum = squares(points, &blocks, &at).iter().sum();
         let objective = sum + self.penalty(&traced, &placed);
         Some(State { traced, placed, blocks, start: None, sum, objective })
     }
@@ -96,7 +94,7 @@ impl Aim {
         let at = traced.points_at_inputs(pass, &inputs)?;
         let points = self.points_of(false);
         let sum = points.iter().zip(&at).map(|(point, z)| (point - placed.image(*z)).norm_sqr()).sum();
-        let block = |(k, position): (usize, f64)| Block { points: k..k + 1, mean: points[k], position };
+        let block = |(k, position): (usize, f64)| Block { points: k..k + 1, mean: points[k], foot: position };
         let blocks = inputs.into_iter().enumerate().map(block).collect();
         let objective = sum + self.penalty(&traced, &placed);
         Some(State { traced, placed, blocks, start: Some((pass, input)), sum, objective })
@@ -136,46 +134,6 @@ impl Aim {
         });
         Some(after?.iter().zip(&before?).map(|(b, a)| (b - a) / (2.0 * unit)).collect())
     }
-}
-
-/// The squares of the distances of a target's points from the points of their blocks, where these are placed.
-pub(super) fn squares<'a>(
-    points: &'a [Complex],
-    placed: &'a Similarity,
-    blocks: &'a [Block],
-    at: &'a [Complex],
-) -> impl Iterator<Item = f64> + 'a {
-    blocks.iter().zip(at).flat_map(|(block, z)| {
-        let image = placed.image(*z);
-        points[block.points.clone()].iter().map(move |point| (point - image).norm_sqr())
-    })
-}
-
-/// The feet of points in their order. Where those of neighbours would change it, these share the foot of their mean: of all common
-/// feet it has the least sum of squares (pool adjacent violators).
-fn blocks(
-    traced: &Traced,
-    placed: &Similarity,
-    (points, mut near): (&[Complex], Vec<f64>),
-    rounds: usize,
-) -> Option<Vec<Block>> {
-    feet(traced, placed, points, &mut near, rounds)?;
-    let mut blocks: Vec<Block> = Vec::with_capacity(points.len());
-    for (k, position) in near.into_iter().enumerate() {
-        let mut block = Block { points: k..k + 1, mean: points[k], position };
-        while let Some(last) = blocks.pop() {
-            if last.position <= block.position {
-                blocks.push(last);
-                break;
-            }
-            let of = last.points.start..block.points.end;
-            let (mean, mut position) = ([mean(&points[of.clone()])], [last.position]);
-            feet(traced, placed, &mean, &mut position, rounds)?;
-            block = Block { points: of, mean: mean[0], position: position[0] };
-        }
-        blocks.push(block);
-    }
-    Some(blocks)
 }
 
 /// Moves positions to where the distances from points are least among their neighbours: Newton's method for all of them at once, each

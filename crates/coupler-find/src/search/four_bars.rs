@@ -112,8 +112,7 @@ impl Search {
 
     /// Begins with a four-bar that is placed on the target, in place of those of the index.
     pub fn from_four_bar(target: &Target, options: Options, start: &PlacedFourBar) -> Search {
-        let (size, centre) = target.placement();
-        let start = Parameters::from_placed(start).transformed(Complex::new(1.0 / size, 0.0), -centre / size);
+        let start = Parameters::from_placed(start).transformed(&target.placement().inverse());
         Search { stage: Stage::Begin(vec![start]), has_looked_again: true, ..Search::new(target, options) }
     }
 
@@ -189,7 +188,7 @@ impl Search {
             return Stage::Refine { round: round + 1, place: 0, steps: 0 };
         };
         let steps = self.fitting.advance(refinement, steps, most);
-        if !refinement.is_done && steps < most {
+        if !refinement.descent.is_done && steps < most {
             return Stage::Refine { round, place, steps };
         }
         if self.fitting.has_valid_length(&self.refinements[place]) {
@@ -241,7 +240,7 @@ impl Search {
         let promising = PROMISING_SUM * self.refinements.first().map_or(f64::INFINITY, |best| best.sum);
         let steps = self.fitting.advance(&mut refinement, steps, RESTART_STEPS);
         let is_hopeless = steps == PROMISING_STEPS && refinement.sum > promising;
-        if !(refinement.is_done || is_hopeless || steps == RESTART_STEPS) {
+        if !(refinement.descent.is_done || is_hopeless || steps == RESTART_STEPS) {
             return Stage::Restart { count, from, running: Some((refinement, steps)) };
         }
         // Those from before have been found valid.
@@ -266,7 +265,7 @@ impl Search {
                 });
             return Stage::Polish { place: if running.is_some() { place } else { place + 1 }, running };
         };
-        if steps < POLISH_STEPS && !polished.is_done {
+        if steps < POLISH_STEPS && !polished.descent.is_done {
             (0..STEPS_AT_ONCE).for_each(|_| polished.step(&means, &self.fitting.limits));
             let running = Polish { means, refinement: polished, sum, steps: steps + STEPS_AT_ONCE };
             return Stage::Polish { place, running: Some(running) };
@@ -286,7 +285,7 @@ impl Search {
         };
         let (_, most) = ROUNDS[ROUNDS.len() - 1];
         let steps = self.fitting.advance(refinement, steps, most);
-        match refinement.is_done || steps == most {
+        match refinement.descent.is_done || steps == most {
             true => Stage::Complete { place: place + 1, steps: 0 },
             false => Stage::Complete { place, steps },
         }

@@ -102,17 +102,16 @@ impl Lookup {
 
     /// The linkage of a curve of the index where it is most like the target, with how much it is.
     fn placed_on_target(&self, index: &Index, entry: &Entry) -> Option<(f64, Parameters)> {
-        let mirrored = |is_mirrored: bool| if is_mirrored { entry.linkage.mirrored() } else { entry.linkage };
         match &self.query {
             Query::Whole(target, target_centre, target_size) => {
                 let (spectrum, centre, size, _) = index.spectrum(entry);
                 let likeness = index.transform().likeness(target, &spectrum);
-                let (factor, shift) = likeness.similarity((*target_centre, *target_size), (centre, size));
-                Some((likeness.value, mirrored(likeness.is_mirrored).transformed(factor, shift)))
+                let placed = likeness.similarity((*target_centre, *target_size), (centre, size));
+                Some((likeness.value, entry.linkage.transformed(&placed)))
             }
             Query::Portion(stroke, _) => {
-                let (window, factor, shift) = stroke.placement(&entry.linkage.curve(&entry.circuit))?;
-                Some((-f64::from(window.residual), mirrored(window.is_mirrored).transformed(factor, shift)))
+                let (residual, placed) = stroke.placement(&entry.linkage.curve(&entry.circuit))?;
+                Some((-f64::from(residual), entry.linkage.transformed(&placed)))
             }
         }
     }

@@ -92,8 +92,8 @@ impl Search {
 impl Fitting {
     /// The answer of a fit, if one of the four-bars that trace its curve meets the constraints.
     fn answer(&self, Fit { linkage, matching, length_ratio }: &Fit) -> Option<Answer> {
-        let (size, centre) = self.target.placement();
-        let original = linkage.transformed(Complex::new(size, 0.0), centre);
+        let size = self.target.size();
+        let original = linkage.transformed(&self.target.placement());
         let placed = original.to_placed();
         let poses: Vec<[Point; 2]> = matching.poses.iter().map(|pose| original.pins(pose)).collect();
         // A point on a pin has no cognates.
@@ -133,8 +133,7 @@ impl Fitting {
     /// A four-bar, solved, with its pins at each point of the target.
     fn mechanism(&self, four_bar: PlacedFourBar, pins: &[[Point; 2]]) -> Option<Mechanism> {
         let mut mechanism = Mechanism::solve(four_bar, pins, self.limits.condition.as_ref())?;
-        let (size, centre) = self.target.placement();
-        let normalized = Parameters::from_placed(&four_bar).transformed(Complex::new(1.0 / size, 0.0), -centre / size);
+        let normalized = Parameters::from_placed(&four_bar).transformed(&self.target.placement().inverse());
         mechanism.meets_constraints &= self.limits.are_nearly_satisfied(&normalized);
         Some(mechanism)
     }

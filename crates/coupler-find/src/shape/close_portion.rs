@@ -1,10 +1,12 @@
 //! Portions of a given curve that are like an open path and begin and end anywhere on the curve.
 
-use crate::complex::{Complex, dot, mean};
+use crate::complex::{Complex, mean};
 use crate::curve_fit_options::CurveFitOptions;
+use crate::descent::{Candidate, Descent, Equations};
 use crate::shape::spectrum::without_noise;
 use crate::shape::stroke::{Stroke, Window, spaced_evenly};
-use nalgebra::{Matrix2, Vector2};
+use coupler_curves::geometry::Similarity;
+use nalgebra::{Const, Vector2};
 
 /// The points of the path and of a portion, at equal distances.
 const POINTS: usize = 33;
@@ -24,14 +26,12 @@ pub(crate) struct CloseStroke {
 pub(crate) struct Portion {
     /// The part of the path's sum of squares that remains where the portion is placed best.
     pub residual: f64,
-    /// Whether the curve is mirrored in the x-axis before it is placed, and whether the path follows it backward.
-    pub is_mirrored: bool,
+    /// Whether the path follows it backward.
     pub is_reversed: bool,
     /// Where it begins and ends, in parts of the curve; the second is greater, and may be in the second round.
     pub ends: [f64; 2],
-    /// The similarity that places the curve, after its reflection, on the path.
-    pub factor: Complex,
-    pub shift: Complex,
+    /// The similarity that places the curve on the path.
+    pub placed: Similarity,
 }
 
 /// The windows of a curve near which portions are looked for.
@@ -85,65 +85,12 @@ impl CloseStroke {
         CloseStroke { directions: [forward, backward], centre, size }
     }
 
-    /// The portion of a closed curve near another one that is most like the path, and at least a part of the curve, after some steps of
-    /// Levenberg and Marquardt's method.
-    fn nearest(&self, curve: &[Complex], portion: Portion, (steps, least): (usize, f64)) -> Portion {
-        /// Relative to the sum of squares, a gain that is no progress.
-        const NO_GAIN: f64 = 1e-3;
-        let mut best = portion;
-        let mut damping = 1e-3;
-        let mut equations = self.normal_equations(curve, &best);
-        for _ in 0..steps {
-            let (normal, gradient) = equations;
-            let damped = normal + Matrix2::from_diagonal(&(normal.diagonal() * damping));
-            let Some(by) = damped.cholesky().map(|matrix| matrix.solve(&gradient)) else { break };
-            let ends = [best.ends[0] + by[0], best.ends[1] + by[1]];
-            let is_possible = (least.max(f64::EPSILON)..=1.0).contains(&(ends[1] - ends[0]));
-            let other = is_possible.then(|| self.placed(curve, (best.is_mirrored, best.is_reversed), ends));
-            if let Some(other) = other.filter(|other| other.residual < best.residual) {
-                let gain = best.residual - other.residual;
-                best = other;
-                if gain <= NO_GAIN * best.residual {
-                    break;
-                }
-                damping *= 0.1;
-                equations = self.normal_equations(curve, &best);
-            } else {
-                damping = (10.0 * damping).max(1e-2);
-            }
-        }
-        let round = best.ends[0].floor();
-        Portion { ends: best.ends.map(|end| end - round), ..best }
-    }
-
-    /// The normal equations of the distances of a portion, placed best, from the path, for its ends: the similarity follows them (variable
-    /// projection after Golub and Pereyra, with the Jacobian of Kaufman).
-    fn normal_equations(&self, curve: &[Complex], portion: &Portion) -> (Matrix2<f64>, Vector2<f64>) {
-        let path = &self.directions[usize::from(portion.is_reversed)];
-        let places = self.places(curve, portion.ends);
-        let seen = |z: Complex| if portion.is_mirrored { z.conj() } else { z };
-        let points = places.map(|(point, _)| seen(point));
-        let centre = mean(&points);
-        let points = points.map(|z| z - centre);
-        let spread = points.iter().map(|z| z.norm_sqr()).sum::<f64>().max(f64::MIN_POSITIVE);
-        let factor = portion.factor / self.size;
-        let across = |vectors: [Complex; POINTS]| {
-            let centre = mean(&vectors);
-            let along: Complex =
-                points.iter().zip(&vectors).map(|(z, vector)| z.conj() * vector).sum::<Complex>() / spread;
-            let mut vectors = vectors;
-            vectors.iter_mut().zip(&points).for_each(|(vector, z)| *vector -= centre + along * z);
-            vectors
-        };
-        let moved = |weight: &dyn Fn(f64) -> f64| {
-            across(std::array::from_fn(|k| factor * seen(places[k].1) * weight(k as f64 / (POINTS - 1) as f64)))
-        };
-        let by_ends = [moved(&|part| 1.0 - part), moved(&|part| part)];
-        let product = |a: &[Complex], b: &[Complex]| a.iter().zip(b).map(|(a, b)| dot(*a, *b)).sum::<f64>();
-        let off: [Complex; POINTS] = std::array::from_fn(|k| path[k] - factor * points[k]);
-        let [a, b] = &by_ends;
-        let mixed = product(a, b);
-        (Matrix2::new(product(a, a), mixed, mixed, product(b, b)), Vector2::new(product(a, &off), product(b, &off)))
+    /// The portion of a closed curve near another one that is most like the path, and at least a part of the curve, after some steps.
+    fn nearest(&self, curve: &[Complex], mut portion: Portion, (steps, least): (usize, f64)) -> Portion {
+        let mut descent = Descent::default();
+        (0..steps).for_each(|_| descent.step(&mut portion, &Aim { stroke: self, curve, least }));
+        let round = portion.ends[0].floor();
+        Portion { ends: portion.ends.map(|end| end - round), ..portion }
     }
 
     /// The points of a portion at equal distances, and their derivatives by the part of the curve.
@@ -160,11 +107,12 @@ impl CloseStroke {
     /// A portion between two ends, placed best.
     fn placed(&self, curve: &[Complex], way: (bool, bool), ends: [f64; 2]) -> Portion {
         let (is_mirrored, is_reversed) = way;
+        let identity = Similarity { is_mirrored, ..Similarity::IDENTITY };
         let path = &self.directions[usize::from(is_reversed)];
         let mut sum = Complex::new(0.0, 0.0);
         let (mut product, mut squares) = (sum, 0.0);
         for ((z, _), at_path) in self.places(curve, ends).into_iter().zip(path) {
-            let z = if is_mirrored { z.conj() } else { z };
+            let z = identity.reflected(z);
             sum += z;
             squares += z.norm_sqr();
             product += z.conj() * at_path;
@@ -174,11 +122,66 @@ impl CloseStroke {
         let factor = product / spread * self.size;
         Portion {
             residual: 1.0 - product.norm_sqr() / spread,
-            is_mirrored,
             is_reversed,
             ends,
-            factor,
-            shift: self.centre - factor * centre,
+            placed: Similarity { is_mirrored, factor, shift: self.centre - factor * centre },
         }
+    }
+}
+
+/// The path that a portion is to be like, the curve, and the least portion of it.
+pub(crate) struct Aim<'a> {
+    stroke: &'a CloseStroke,
+    curve: &'a [Complex],
+    least: f64,
+}
+
+impl Candidate for Portion {
+    type Unknowns = Const<2>;
+    type Aim<'a> = Aim<'a>;
+    const NO_GAIN: f64 = 1e-3;
+
+    fn objective(&self) -> f64 {
+        self.residual
+    }
+
+    /// Those of the distances of the portion, placed best, from the path, for its ends: the similarity follows them (variable projection after
+    /// Golub and Pereyra, with the Jacobian of Kaufman).
+    fn equations(&self, &Aim { stroke, curve, .. }: &Aim<'_>) -> Option<Equations<Const<2>>> {
+        let path = &stroke.directions[usize::from(self.is_reversed)];
+        let places = stroke.places(curve, self.ends);
+        let points = places.map(|(point, _)| self.placed.reflected(point));
+        let centre = mean(&points);
+        let points = points.map(|z| z - centre);
+        let spread = points.iter().map(|z| z.norm_sqr()).sum::<f64>().max(f64::MIN_POSITIVE);
+        let factor = self.placed.factor / stroke.size;
+        let across = |vectors: [Complex; POINTS]| {
+            let centre = mean(&vectors);
+            let along: Complex =
+                points.iter().zip(&vectors).map(|(z, vector)| z.conj() * vector).sum::<Complex>() / spread;
+            let mut vectors = vectors;
+            vectors.iter_mut().zip(&points).for_each(|(vector, z)| *vector -= centre + along * z);
+            vectors
+        };
+        let moved = |weight: &dyn Fn(f64) -> f64| {
+            across(std::array::from_fn(|k| {
+                factor * self.placed.reflected(places[k].1) * weight(k as f64 / (POINTS - 1) as f64)
+            }))
+        };
+        let by_ends = [moved(&|part| 1.0 - part), moved(&|part| part)];
+        let mut equations = Equations::new(Const::<2>);
+        for k in 0..POINTS {
+            let off = path[k] - factor * points[k];
+            for axis in [|z: Complex| z.re, |z: Complex| z.im] {
+                equations.add(&by_ends.map(|moved| axis(moved[k])), axis(off), 1.0);
+            }
+        }
+        Some(equations)
+    }
+
+    fn moved(&self, &Aim { stroke, curve, least }: &Aim<'_>, by: &Vector2<f64>) -> Option<Portion> {
+        let ends = [self.ends[0] + by[0], self.ends[1] + by[1]];
+        let is_possible = (least.max(f64::EPSILON)..=1.0).contains(&(ends[1] - ends[0]));
+        is_possible.then(|| stroke.placed(curve, (self.placed.is_mirrored, self.is_reversed), ends))
     }
 }

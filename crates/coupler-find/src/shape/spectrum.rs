@@ -9,6 +9,7 @@ use std::borrow::Cow;
 use std::f64::consts::{PI, TAU};
 
 use crate::complex::{Complex, length, mean, open_length, unit};
+use coupler_curves::geometry::Similarity;
 
 /// The number of harmonics of either sign.
 pub(crate) const HARMONICS: usize = 10;
@@ -126,16 +127,15 @@ pub(crate) struct Likeness {
 }
 
 impl Likeness {
-    /// The factor and the shift of the similarity that places the curve on the target after its reflection, if it is there; each is given by the
-    /// centroid and the size that go with its spectrum.
+    /// The similarity that places the curve on the target, if it is there; each is given by the centroid and the size that go with its spectrum.
     pub fn similarity(
         &self,
         (target_centre, target_size): (Complex, f64),
         (centre, size): (Complex, f64),
-    ) -> (Complex, Complex) {
+    ) -> Similarity {
         let factor = self.factor * (target_size / size);
-        let centre = if self.is_mirrored { centre.conj() } else { centre };
-        (factor, target_centre - factor * centre)
+        let placed = Similarity { is_mirrored: self.is_mirrored, factor, shift: target_centre };
+        Similarity { shift: target_centre - placed.direction(centre), ..placed }
     }
 }
 

@@ -6,6 +6,7 @@
 
 use crate::complex::{Complex, closed_length, length, mean, open_length};
 use crate::shape::spectrum::{resampled, without_noise};
+use coupler_curves::geometry::Similarity;
 
 /// The points of a window.
 const POINTS: usize = 9;
@@ -192,13 +193,11 @@ impl Stroke {
         best
     }
 
-    /// The window of a closed curve that is most like the stroke, and the factor and the shift of the similarity that places the curve, after
-    /// its reflection, on the stroke.
-    pub fn placement(&self, curve: &[Complex]) -> Option<(Window, Complex, Complex)> {
+    /// The similarity that places a closed curve on the stroke where it is most like it, and the residual there.
+    pub fn placement(&self, curve: &[Complex]) -> Option<(f32, Similarity)> {
         let (points, coordinates, whole) = repeated(curve, 2 * CURVE_POINTS);
         let window = self.best_window(coordinates.each_ref().map(|values| &values[..]), whole, (1, 0.0, TOLERANCE))?;
-        let (factor, shift) = self.placed(&window, &points)?;
-        Some((window, factor, shift))
+        Some((window.residual, self.similarity(&window, &points)?))
     }
 
     /// Windows of a closed curve that are like the stroke and are at least a part of the curve, the likeliest first, in different places or
@@ -245,7 +244,7 @@ impl Stroke {
     }
 
     /// The similarity that places a window of a curve of [`repeated`] points on the stroke.
-    fn placed(&self, window: &Window, points: &[Complex]) -> Option<(Complex, Complex)> {
+    fn similarity(&self, window: &Window, points: &[Complex]) -> Option<Similarity> {
         let at = |k: usize| {
             let k = if window.is_reversed { INTERVALS - k } else { k };
             let z = points[(window.first + k * window.stride) % points.len()];
@@ -258,7 +257,8 @@ impl Stroke {
         let product: Complex = (0..POINTS).map(|k| (own[k] - own_centre).conj() * stroke(k)).sum();
         let spread: f64 = own.iter().map(|z| (z - own_centre).norm_sqr()).sum();
         let factor = product / spread.max(f64::MIN_POSITIVE) * self.size;
-        (factor.norm_sqr() > 0.0).then(|| (factor, self.centre - factor * own_centre))
+        let shift = self.centre - factor * own_centre;
+        (factor.norm_sqr() > 0.0).then_some(Similarity { is_mirrored: window.is_mirrored, factor, shift })
     }
 }
 
