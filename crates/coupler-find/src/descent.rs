@@ -27,12 +27,12 @@ where
 
     /// Adds a distance, with its derivatives by the unknowns, how many times it counts.
     pub fn add(&mut self, row: &[f64], distance: f64, weight: f64) {
-        for (j, entry) in row.iter().enumerate() {
-            let weighted = weight * entry;
-            self.gradient[j] += weighted * distance;
-            for (k, other) in row[..=j].iter().enumerate() {
-                self.normal[(j, k)] += weighted * other;
-            }
+        let count = row.len();
+        // By columns, as the matrix is stored.
+        for (k, column) in self.normal.as_mut_slice().chunks_exact_mut(count).enumerate() {
+            let weighted = weight * row[k];
+            self.gradient[k] += weighted * distance;
+            column[k..].iter_mut().zip(&row[k..]).for_each(|(sum, entry)| *sum += weighted * entry);
         }
     }
 }

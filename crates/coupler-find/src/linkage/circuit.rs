@@ -161,19 +161,25 @@ impl Traced {
 
     /// The points at some positions; `None` if one of them is not defined.
     pub fn points(&self, positions: &[f64]) -> Option<Vec<Complex>> {
-        let passes = &self.circuit.passes;
-        let places: Vec<(usize, f64)> = positions.iter().map(|position| self.place(*position)).collect();
         let mut points = vec![Complex::new(f64::NAN, f64::NAN); positions.len()];
-        for (k, pass) in passes.iter().enumerate() {
-            let on_pass: Vec<usize> = (0..places.len()).filter(|n| places[*n].0 == k).collect();
+        let (mut on_pass, mut inputs) = (Vec::with_capacity(positions.len()), Vec::with_capacity(positions.len()));
+        for (k, pass) in self.circuit.passes.iter().enumerate() {
+            on_pass.clear();
+            inputs.clear();
+            for (n, position) in positions.iter().enumerate() {
+                let (pass_of, fraction) = self.place(*position);
+                if pass_of == k {
+                    on_pass.push(n);
+                    inputs.push(eased_input(pass, fraction));
+                }
+            }
             if on_pass.is_empty() {
                 continue;
             }
-            let inputs: Vec<f64> = on_pass.iter().map(|n| eased_input(pass, places[*n].1)).collect();
             let placed = poses(&self.linkage, pass, &inputs);
-            for (place, n) in on_pass.into_iter().enumerate() {
+            for (place, n) in on_pass.iter().enumerate() {
                 let point = placed.point(self.joint, place);
-                points[n] = Complex::new(point.x, point.y);
+                points[*n] = Complex::new(point.x, point.y);
             }
         }
         points.iter().all(|z| z.re.is_finite() && z.im.is_finite()).then_some(points)

@@ -8,6 +8,7 @@
 
 mod aim;
 mod circuit;
+mod feet;
 mod measured;
 mod refinement;
 mod samples;

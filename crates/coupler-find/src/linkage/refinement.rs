@@ -10,7 +10,6 @@ use super::state::State;
 use crate::complex::{Complex, dot, length};
 use crate::curve::alignment::{axes, similarity_rates};
 use crate::descent::{Candidate, Descent, Equations};
-use crate::matching::feet_of_points;
 use coupler_curves::geometry::{Similarity, trig};
 
 /// A linkage on its way to the target.
@@ -147,9 +146,8 @@ impl Candidate for LinkageRefinement {
         const STEP: f64 = 1e-6;
         let State { traced, placed, blocks, start, .. } = &self.state;
         let count = free + self.other_count();
-        let positions: Vec<f64> = blocks.iter().map(|block| block.foot).collect();
-        let at = aim.points(traced, &positions, *start)?;
-        let velocities = aim.velocities(traced, &positions, *start)?;
+        let positions = self.state.positions();
+        let rates = self.state.rates(aim)?;
         let excesses = aim.excesses(traced, placed);
         // The motion of the points, and of the excesses, by each parameter.
         let mut columns: Vec<(Vec<Complex>, Vec<f64>)> = Vec::with_capacity(free);
@@ -164,19 +162,19 @@ impl Candidate for LinkageRefinement {
                 let linkage = space.template.linkage(&values).ok()?;
                 let other = traced.perturbed(linkage)?;
                 let points = aim.points(&other, &positions, *start)?;
-                let moved = points.iter().zip(&at).map(|(b, a)| (b - a) / step).collect();
+                let moved = points.iter().zip(blocks).map(|(moved, block)| (moved - block.foot.at) / step).collect();
                 let excess = aim.excesses(&other, placed).iter().zip(&excesses).map(|(b, a)| (b - a) / step).collect();
                 Some((moved, excess))
             };
-            let none = || (vec![Complex::new(0.0, 0.0); at.len()], vec![0.0; excesses.len()]);
+            let none = || (vec![Complex::new(0.0, 0.0); blocks.len()], vec![0.0; excesses.len()]);
             columns.push(motion(STEP).or_else(|| motion(-STEP)).unwrap_or_else(none));
         }
         let mut equations = Equations::new(Dyn(count));
         let mut row = vec![0.0; count];
         for (n, block) in blocks.iter().enumerate() {
-            let own = placed.reflected(at[n]);
-            let velocity = placed.direction(velocities[n]);
-            let offset = block.mean - placed.image(at[n]);
+            let at = block.foot.at;
+            let velocity = placed.direction(rates[n].velocity);
+            let offset = block.mean - placed.image(at);
             let speed = length(velocity);
             let weight = block.points.len() as f64;
             // At a cusp the foot does not move along the curve.
@@ -185,7 +183,7 @@ impl Candidate for LinkageRefinement {
                 for (entry, (moved, _)) in row.iter_mut().zip(&columns) {
                     *entry = dot(axis, placed.direction(moved[n]));
                 }
-                row[free..free + 4].copy_from_slice(&similarity_rates(axis, own));
+                row[free..free + 4].copy_from_slice(&similarity_rates(axis, placed.reflected(at)));
                 if start.is_some() {
                     row[free + 4] = dot(axis, velocity);
                 }
@@ -239,10 +237,7 @@ impl Candidate for LinkageRefinement {
             Some((pass, input)) => {
                 aim.timed_state(traced, placed, self.is_reversed, (pass, input + trig::degrees(other[4])))
             }
-            None => {
-                let near = feet_of_points(&self.state.blocks).collect();
-                aim.state(traced, placed, self.is_reversed, (near, ROUNDS))
-            }
+            None => aim.state(traced, placed, self.is_reversed, self.state.near(aim, ROUNDS)),
         }?;
         let is_nearer = state.objective < self.state.objective && aim.meets_condition(&values, &state.traced);
         is_nearer.then_some(LinkageRefinement { values, state, ..*self })

@@ -247,7 +247,7 @@ impl LinkageSearch {
             return None;
         }
         let is_timed = state.start.is_some();
-        let positions = [0, state.blocks.len() - 1].map(|k| state.blocks[k].foot);
+        let positions = [0, state.blocks.len() - 1].map(|k| state.blocks[k].foot.position);
         // Along the target: forward.
         let positions = if refinement.is_reversed && !is_timed { [positions[1], positions[0]] } else { positions };
         let places = positions.map(|position| match state.start {
@@ -264,7 +264,7 @@ impl LinkageSearch {
             placement: target.placement().after(&placed),
             rms: size * rms_relative,
             rms_relative,
-            greatest: size * self.greatest(&refinement)?,
+            greatest: size * self.greatest(&refinement),
             is_in_order: state.blocks.len() == self.aim.points_of(false).len(),
             length_ratio: own_length / self.aim.polyline_length,
             ends,
@@ -276,14 +276,12 @@ impl LinkageSearch {
         Some(LinkageFit { values: refinement.values.clone(), curve, fit, branch, inputs })
     }
 
-    fn greatest(&self, refinement: &LinkageRefinement) -> Option<f64> {
+    fn greatest(&self, refinement: &LinkageRefinement) -> f64 {
         let state = &refinement.state;
         let is_reversed = refinement.is_reversed && state.start.is_none();
         let points = self.aim.points_of(is_reversed);
-        let positions: Vec<f64> = state.blocks.iter().map(|block| block.foot).collect();
-        let at = self.aim.points(&state.traced, &positions, state.start)?;
-        let at: Vec<Complex> = at.into_iter().map(|z| state.placed.image(z)).collect();
-        Some(squares(points, &state.blocks, &at).into_iter().fold(0.0, f64::max).sqrt())
+        let at: Vec<Complex> = state.blocks.iter().map(|block| state.placed.image(block.foot.at)).collect();
+        squares(points, &state.blocks, &at).into_iter().fold(0.0, f64::max).sqrt()
     }
 
     /// The traced joints on the circuits of a parameter set.
@@ -344,8 +342,8 @@ impl LinkageSearch {
             PathKind::Closed => measured.whole(),
             PathKind::Open | PathKind::Part => {
                 let positions = state.blocks.iter().map(|block| match state.start {
-                    Some((pass, _)) => state.traced.position_of_input(pass, block.foot),
-                    None => block.foot,
+                    Some((pass, _)) => state.traced.position_of_input(pass, block.foot.position),
+                    None => block.foot.position,
                 });
                 let lengths: Vec<f64> = positions.map(|position| measured.length_at(position)).collect();
                 lengths.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum()

@@ -1,9 +1,12 @@
 //! A curve on the target: the points of the target in their order, each with its place on the curve.
 
+use std::sync::OnceLock;
+
 use super::aim::{Aim, WEIGHT};
 use super::circuit::Traced;
-use crate::complex::{Complex, dot};
-use crate::matching::{Block, feet_in_order, match_places, squares};
+use super::feet::{Foot, Near, Rates, feet};
+use crate::complex::Complex;
+use crate::matching::{Block, feet_in_order, feet_of_points, match_places, squares};
 use coupler_curves::geometry::{Similarity, trig};
 
 /// A curve on the target.
@@ -11,8 +14,10 @@ use coupler_curves::geometry::{Similarity, trig};
 pub(super) struct State {
     pub traced: Traced,
     pub placed: Similarity,
-    /// The points of the target in order, in blocks that share a position.
-    pub blocks: Vec<Block<f64>>,
+    /// The points of the target in order, in blocks that share a place.
+    pub blocks: Vec<Block<Foot>>,
+    /// The derivatives at the places of the blocks, once they are needed.
+    rates: OnceLock<Option<Vec<Rates>>>,
     /// If the target is timed, the pass, and the input at its first point.
     pub start: Option<(usize, f64)>,
     /// The sum of the squares of the distances.
@@ -22,7 +27,7 @@ pub(super) struct State {
 }
 
 /// The samples of a curve with which a target is matched.
-const SAMPLES: usize = 180;
+const SAMPLES: usize = 128;
 
 impl Aim {
     /// A curve that is matched with the target in order, anywhere on it.
@@ -39,7 +44,7 @@ impl Aim {
         let (_, path) = match_places((points.len(), 4), samples.len(), |k, j| (samples[j] - points[k]).norm_sqr())?;
         let count = positions.len();
         let near = path.iter().map(|k| positions[k % count] + traced.period() * (k / count) as f64).collect();
-        self.state(traced, placed, is_reversed, (near, rounds))
+        self.state(traced, placed, is_reversed, Near { positions: near, rates: None, rounds })
     }
 
     /// The same in the direction in which it is nearer to the target: whether the target is reversed, and the curve.
@@ -57,27 +62,19 @@ impl Aim {
     }
 
     /// A curve with the feet of the target's points near some positions, in their order.
-    pub(super) fn state(
-        &self,
-        traced: Traced,
-        placed: Similarity,
-        is_reversed: bool,
-        (near, rounds): (Vec<f64>, usize),
-    ) -> Option<State> {
+    pub(super) fn state(&self, traced: Traced, placed: Similarity, is_reversed: bool, near: Near) -> Option<State> {
         let points = self.points_of(is_reversed);
-        let mut first = near;
-        feet(&traced, &placed, points, &mut first, rounds)?;
-        let foot_near = |mean, near| {
-            let mut foot = [near];
-            feet(&traced, &placed, &[mean], &mut foot, rounds)?;
-            Some(foot[0])
+        let rounds = near.rounds;
+        let first = feet(&traced, &placed, points, near)?;
+        let foot_near = |mean, last: Foot| {
+            let near = Near { positions: vec![last.position], rates: None, rounds };
+            Some(feet(&traced, &placed, &[mean], near)?[0])
         };
-        let blocks = feet_in_order(points, first, |position| *position, foot_near)?;
-        let positions: Vec<f64> = blocks.iter().map(|block| block.foot).collect();
-        let at: Vec<Complex> = traced.points(&positions)?.into_iter().map(|z| placed.image(z)).collect();
+        let blocks = feet_in_order(points, first, |foot| foot.position, foot_near)?;
+        let at: Vec<Complex> = blocks.iter().map(|block| placed.image(block.foot.at)).collect();
         let sum = squares(points, &blocks, &at).iter().sum();
         let objective = sum + self.penalty(&traced, &placed);
-        Some(State { traced, placed, blocks, start: None, sum, objective })
+        Some(State { traced, placed, blocks, rates: OnceLock::new(), start: None, sum, objective })
     }
 
     /// A curve at the inputs of a timed target.
@@ -94,10 +91,11 @@ impl Aim {
         let at = traced.points_at_inputs(pass, &inputs)?;
         let points = self.points_of(false);
         let sum = points.iter().zip(&at).map(|(point, z)| (point - placed.image(*z)).norm_sqr()).sum();
-        let block = |(k, position): (usize, f64)| Block { points: k..k + 1, mean: points[k], foot: position };
-        let blocks = inputs.into_iter().enumerate().map(block).collect();
+        let block =
+            |k: usize| Block { points: k..k + 1, mean: points[k], foot: Foot { position: inputs[k], at: at[k] } };
+        let blocks = (0..inputs.len()).map(block).collect();
         let objective = sum + self.penalty(&traced, &placed);
-        Some(State { traced, placed, blocks, start: Some((pass, input)), sum, objective })
+        Some(State { traced, placed, blocks, rates: OnceLock::new(), start: Some((pass, input)), sum, objective })
     }
 
     fn penalty(&self, traced: &Traced, placed: &Similarity) -> f64 {
@@ -117,73 +115,38 @@ impl Aim {
             None => traced.points(positions),
         }
     }
-
-    /// The derivatives of the points by the position, or by the input in radians if the target is timed.
-    pub(super) fn velocities(
-        &self,
-        traced: &Traced,
-        positions: &[f64],
-        start: Option<(usize, f64)>,
-    ) -> Option<Vec<Complex>> {
-        /// Of an angle in radians.
-        const STEP: f64 = 1e-5;
-        let (step, unit) = if start.is_some() { (trig::degrees(STEP), STEP) } else { (STEP, STEP) };
-        let [before, after] = [-step, step].map(|step| {
-            let moved: Vec<f64> = positions.iter().map(|position| position + step).collect();
-            self.points(traced, &moved, start)
-        });
-        Some(after?.iter().zip(&before?).map(|(b, a)| (b - a) / (2.0 * unit)).collect())
-    }
 }
 
-/// Moves positions to where the distances from points are least among their neighbours: Newton's method for all of them at once, each
-/// step of which comes nearer.
-fn feet(traced: &Traced, placed: &Similarity, points: &[Complex], positions: &mut [f64], rounds: usize) -> Option<()> {
-    /// The interval of positions from which derivatives are computed.
-    const STEP: f64 = 1e-4;
-    /// The greatest step.
-    const MOST: f64 = 0.1;
-    /// A foot is found when the sine of the angle between the perpendicular and the curve is this small; the distance is then exact to
-    /// rounding.
-    const PERPENDICULAR: f64 = 1e-10;
-    let scale = placed.scale();
-    let own: Vec<Complex> = points.iter().map(|point| placed.preimage(*point)).collect();
-    let mut best = vec![f64::INFINITY; points.len()];
-    let mut steps = vec![0.0; points.len()];
-    let mut open: Vec<usize> = (0..points.len()).collect();
-    for _ in 0..=rounds {
-        let trial = |n: &usize| positions[*n] + steps[*n];
-        let all: Vec<f64> =
-            open.iter().map(trial).flat_map(|position| [position - STEP, position, position + STEP]).collect();
-        let at = traced.points(&all)?;
-        let mut still_open = Vec::with_capacity(open.len());
-        for (n, at) in open.iter().zip(at.as_chunks::<3>().0) {
-            let offset = own[*n] - at[1];
-            let square = offset.norm_sqr();
-            if square >= best[*n] {
-                steps[*n] *= 0.25;
-                if steps[*n].abs() > 1e-12 {
-                    still_open.push(*n);
-                }
-                continue;
-            }
-            positions[*n] += steps[*n];
-            best[*n] = square;
-            let velocity = (at[2] - at[0]) / (2.0 * STEP);
-            let acceleration = (at[2] - at[1] * 2.0 + at[0]) / (STEP * STEP);
-            let (slope, speed) = (dot(offset, velocity), velocity.norm_sqr());
-            if slope * slope <= PERPENDICULAR * PERPENDICULAR * speed * square || square * scale * scale <= 1e-32 {
-                continue;
-            }
-            let newton = speed - dot(offset, acceleration);
-            let step = slope / if newton > 0.1 * speed { newton } else { speed };
-            steps[*n] = step.clamp(-MOST, MOST);
-            still_open.push(*n);
-        }
-        open = still_open;
-        if open.is_empty() {
-            break;
-        }
+impl State {
+    /// The positions of the blocks, which are inputs if the target is timed.
+    pub fn positions(&self) -> Vec<f64> {
+        self.blocks.iter().map(|block| block.foot.position).collect()
     }
-    Some(())
+
+    /// The derivatives at the places of the blocks, by the position, or by the input in radians if the target is timed.
+    pub fn rates(&self, aim: &Aim) -> Option<&[Rates]> {
+        /// Of an angle in radians.
+        const STEP: f64 = 1e-5;
+        let compute = || {
+            let step = if self.start.is_some() { trig::degrees(STEP) } else { STEP };
+            let moved = |by: f64| {
+                let positions: Vec<f64> = self.blocks.iter().map(|block| block.foot.position + by).collect();
+                aim.points(&self.traced, &positions, self.start)
+            };
+            let (before, after) = (moved(-step)?, moved(step)?);
+            let both = before.iter().zip(&after).zip(&self.blocks);
+            Some(both.map(|((before, after), block)| Rates::new([*before, block.foot.at, *after], STEP)).collect())
+        };
+        self.rates.get_or_init(compute).as_deref()
+    }
+
+    /// Where the points are near on a curve that differs little.
+    pub fn near(&self, aim: &Aim, rounds: usize) -> Near {
+        let positions = feet_of_points(&self.blocks).map(|foot| foot.position).collect();
+        let each = |rates: &[Rates]| {
+            let of_blocks = self.blocks.iter().zip(rates);
+            of_blocks.flat_map(|(block, rates)| std::iter::repeat_n(*rates, block.points.len())).collect()
+        };
+        Near { positions, rates: self.rates(aim).map(each), rounds }
+    }
 }
