@@ -47,6 +47,8 @@
 //! # Ok::<(), coupler_curves::linkage::Error>(())
 //! ```
 
+pub mod numerical;
+
 pub mod geometry;
 pub mod problem;
 

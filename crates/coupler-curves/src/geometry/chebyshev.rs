@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 use std::sync::LazyLock;
 
 use super::trig;
+use crate::numerical::Bracket;
 
 /// The number of terms of a [`Chebyshev`] series, and of the nodes that determine it.
 pub const TERMS: usize = 16;
@@ -256,75 +257,53 @@ impl Chebyshev {
     /// and the same of the derivative that there is at most one. Values up to `rounding` are not told from zero; where
     /// they do not change the sign, they are doubtful if they are in a part narrower than `narrow`.
     pub fn zeros(&self, rounding: f64, narrow: f64) -> Zeros {
-        let mut out = Zeros::default();
+        let mut search = ZeroSearch { whole: self, rounding, narrow, found: Zeros::default(), examined: 0 };
         let radius = self.radius();
         if radius.is_finite() && self.0[0].abs() <= radius && self.0[0].abs() + radius > rounding {
-            let ends = [(-1.0, self.at(-1.0) < 0.0), (1.0, self.at(1.0) < 0.0)];
-            self.find_zeros(self, ends, (rounding, narrow), (&mut out, &mut 0));
+            search.examine(self, [-1.0, 1.0], [-1.0, 1.0].map(|u| self.at(u)));
         }
-        out
+        search.found
     }
+}
 
-    /// Finds the zeros of the `whole` on a part on which this is the polynomial, from the ends of the part and whether the
-    /// whole is negative there: neighbouring parts agree about the sign at the end they share.
-    ///
-    /// `examined` is the number of parts so far; after `MAX_EXAMINED` of them none is halved.
-    fn find_zeros(
-        &self,
-        whole: &Chebyshev,
-        ends: [(f64, bool); 2],
-        limits: (f64, f64),
-        (out, examined): (&mut Zeros, &mut usize),
-    ) {
-        /// Simple zeros take a few hundred; a zero of a high order, which is flat around, would take millions.
-        const MAX_EXAMINED: usize = 20_000;
-        *examined += 1;
-        let (rounding, narrow) = limits;
-        let radius = self.radius();
-        let [(from, starts_negative), (to, ends_negative)] = ends;
-        let changes = starts_negative != ends_negative;
-        if !changes && (self.0[0].abs() > radius || self.0[0].abs() + radius <= rounding) {
+/// The search for the zeros of a polynomial.
+struct ZeroSearch<'a> {
+    whole: &'a Chebyshev,
+    rounding: f64,
+    narrow: f64,
+    found: Zeros,
+    /// The number of parts so far; after [`ZeroSearch::MAX_EXAMINED`] of them none is halved.
+    examined: usize,
+}
+
+impl ZeroSearch<'_> {
+    /// Simple zeros take a few hundred; a zero of a high order, which is flat around, would take millions.
+    const MAX_EXAMINED: usize = 20_000;
+
+    /// Finds the zeros on a `part`, from its ends and the values of the whole there: neighbouring parts agree about the sign at the
+    /// end they share.
+    fn examine(&mut self, part: &Chebyshev, [from, to]: [f64; 2], values: [f64; 2]) {
+        self.examined += 1;
+        let (mean, radius) = (part.0[0].abs(), part.radius());
+        let bracket = Bracket::new([from, to], values);
+        if bracket.is_none() && (mean > radius || mean + radius <= self.rounding) {
             return;
         }
-        let slope = self.derivative();
+        let slope = part.derivative();
         let is_monotonic = slope.0[0].abs() > slope.radius();
-        if is_monotonic || to - from <= narrow || *examined >= MAX_EXAMINED {
-            if changes {
-                out.places.push(whole.zero_between([from, to]));
-            } else if !is_monotonic {
-                out.doubtful.push((from + to) / 2.0);
+        let middle = (from + to) / 2.0;
+        if is_monotonic || to - from <= self.narrow || self.examined >= ZeroSearch::MAX_EXAMINED {
+            match bracket {
+                Some(bracket) => self.found.places.push(bracket.zero(f64::EPSILON, |u| self.whole.at(u))),
+                None if !is_monotonic => self.found.doubtful.push(middle),
+                None => {}
             }
             return;
         }
-        let middle = (from + to) / 2.0;
-        let cut = (middle, whole.at(middle) < 0.0);
-        let [left, right] = self.halves();
-        left.find_zeros(whole, [ends[0], cut], limits, (out, examined));
-        right.find_zeros(whole, [cut, ends[1]], limits, (out, examined));
-    }
-
-    /// The zero between two places with values of different signs, where the polynomial is monotonic: by Newton's
-    /// method, kept in the bracket by bisection.
-    fn zero_between(&self, [mut from, mut to]: [f64; 2]) -> f64 {
-        const ROUNDS: usize = 60;
-        let slope = self.derivative();
-        let is_rising = self.at(to) >= self.at(from);
-        let mut u = (from + to) / 2.0;
-        for _ in 0..ROUNDS {
-            let value = self.at(u);
-            if (value < 0.0) == is_rising {
-                from = u
-            } else {
-                to = u
-            }
-            let newton = u - value / slope.at(u);
-            let next = if newton > from && newton < to { newton } else { (from + to) / 2.0 };
-            if (next - u).abs() <= f64::EPSILON || next <= from || next >= to {
-                return next;
-            }
-            u = next;
-        }
-        u
+        let [left, right] = part.halves();
+        let cut = self.whole.at(middle);
+        self.examine(&left, [from, middle], [values[0], cut]);
+        self.examine(&right, [middle, to], [cut, values[1]]);
     }
 }
 

@@ -1,9 +1,9 @@
 //! Four-bars with a symmetrical coupler curve, and the lengths for which it is straight at its axis (Natesan's thesis,
 //! chapter 8).
 
-use super::sextic::bisect;
 use super::{FourBar, Sextic, length_tolerance};
 use crate::geometry::{Point, Vector};
+use crate::numerical::Bracket;
 
 /// The symmetrical linkages of Natesan's chapter 8, given by three lengths: the frame p, one short link, and two
 /// or three long ones of equal length. The origin is the crank's pivot, x towards the rocker's; the axis of the curve
@@ -111,13 +111,14 @@ impl SymmetricalFourBar {
         let least = (frame + short) / 2.0;
         let second_derivative = |long: f64| self.crossing_derivatives(frame, short, long).map(|[_, second]| second);
         let mut from = least * (1.0 + 1e-9);
-        let start = second_derivative(from)?;
+        let mut start = second_derivative(from)?;
         let lengths = (0..50).map(|k: i32| least * (1.0 + 1e-9 * (2u64 << k) as f64));
         for to in lengths.take_while(|to| *to < least * 1_048_576.0) {
-            if second_derivative(to)? * start < 0.0 {
-                return Some(bisect(|long| second_derivative(long).unwrap_or(f64::NAN), from, to));
+            let end = second_derivative(to)?;
+            if let Some(bracket) = Bracket::new([from, to], [start, end]) {
+                return Some(bracket.zero(0.0, |long| second_derivative(long).unwrap_or(f64::NAN)));
             }
-            from = to;
+            (from, start) = (to, end);
         }
         None
     }

@@ -16,6 +16,7 @@ use super::row::Row;
 use super::strip::min_max;
 use super::{Measure, TracedCurve, Value, start_input, without_rounding};
 use crate::geometry::Point;
+use crate::numerical::partition_point;
 
 /// The greatest width of the annulus, relative to the curve's greatest extent.
 const TOLERANCE: f64 = 0.001;
@@ -216,7 +217,8 @@ impl Requirement for Circular<'_> {
         };
         // Any part of a portion that fits fits too.
         let first = points.first_reaching(travel, start + least, from + 1, last);
-        let to = if first <= last { last_holding([first, last], fits)? } else { return None };
+        let beyond = partition_point(first..last + 1, first, fits);
+        let to = beyond.checked_sub(1).filter(|to| *to >= first)?;
         Some((points.at_next(travel, to) - start, to))
     }
 
@@ -304,23 +306,4 @@ impl Circular<'_> {
         };
         LongestNear { limits: self.row.limits(), fit, reach }.search(ends, least)
     }
-}
-
-/// The last index up to which a monotonic condition holds; `None` if it does not hold at the first.
-fn last_holding([first, last]: [usize; 2], holds: impl Fn(usize) -> bool) -> Option<usize> {
-    if !holds(first) {
-        return None;
-    }
-    // Double the step, then bisect.
-    let (mut low, mut step) = (first, 1);
-    while low + step <= last && holds(low + step) {
-        low += step;
-        step *= 2;
-    }
-    let mut high = (low + step).min(last + 1);
-    while high - low > 1 {
-        let middle = (low + high) / 2;
-        if holds(middle) { low = middle } else { high = middle }
-    }
-    Some(low)
 }

@@ -17,7 +17,6 @@ mod four_bar_type;
 mod input_range;
 mod longest_near;
 mod longest_straight;
-mod maximum;
 mod measures;
 mod output;
 mod path;

@@ -7,6 +7,7 @@ use super::curve::{Place, SmoothCurve};
 use super::every_nth::EveryNth;
 use super::longest_near::Limits;
 use crate::geometry::{Point, Vector};
+use crate::numerical::{Bracket, border, partition_point};
 
 /// Points of a curve, in order, no further apart than a given length.
 ///
@@ -116,25 +117,8 @@ impl Row {
 
     /// The first point after another that is further along the polyline than a distance, searched for from a `guess`.
     pub fn first_point_beyond(&self, from: usize, distance: f64, guess: usize) -> usize {
-        let (far, last) = (self.cumulative_length[from] + distance, self.cumulative_length.len());
-        let is_beyond = |to: usize| to >= last || self.cumulative_length[to] > far;
-        let mut to = guess.clamp(from + 1, last);
-        // Gallop in one direction, then bisect.
-        let mut step = 1;
-        let (low, high) = if is_beyond(to) {
-            while to > from + step && is_beyond(to - step) {
-                to -= step;
-                step *= 2;
-            }
-            ((from + 1).max(to.saturating_sub(step)), to)
-        } else {
-            while !is_beyond(to + step) {
-                to += step;
-                step *= 2;
-            }
-            (to + 1, (to + step).min(last))
-        };
-        low + self.cumulative_length[low..high].partition_point(|&length| length <= far)
+        let far = self.cumulative_length[from] + distance;
+        partition_point(from + 1..self.cumulative_length.len(), guess, |to| self.cumulative_length[to] <= far)
     }
 
     /// The positions that a portion may not leave, and the positions it may span.
@@ -283,25 +267,11 @@ impl Row {
         if beyond > last {
             return None;
         }
-        // On a piece the input is linear or quadratic in the parameter.
-        let [mut low, mut high] = [(beyond as f64 - 1.0).max(from), beyond as f64];
-        let mut at = high;
-        for _ in 0..50 {
-            let excess = self.input_travel_at(at) - start - span;
-            if excess < 0.0 {
-                low = at;
-            } else {
-                high = at;
-            }
-            let next = at - excess / self.input_travel_rate_at(at);
-            let next = if next >= low && next <= high { next } else { (low + high) / 2.0 };
-            let is_found = (next - at).abs() <= 4.0 * f64::EPSILON * at;
-            at = next;
-            if is_found {
-                break;
-            }
-        }
-        Some(at)
+        let ends = [(beyond as f64 - 1.0).max(from), beyond as f64];
+        let excess = |at: f64| self.input_travel_at(at) - start - span;
+        let excesses = ends.map(excess);
+        let end = if excesses[0] < 0.0 { ends[1] } else { ends[0] };
+        Some(Bracket::new(ends, excesses).map_or(end, |bracket| bracket.zero(0.0, excess)))
     }
 
     /// The first position after another whose point is at a distance from that of the other.
@@ -320,7 +290,9 @@ impl Row {
         if to > last {
             return None;
         }
-        bisect([(to as f64 - 1.0).max(from), to as f64], |to| (self.point_at(to) - start).norm() < length)
+        let ends = [(to as f64 - 1.0).max(from), to as f64];
+        let [_, end] = border(ends, 4.0 * f64::EPSILON, |to| (self.point_at(to) - start).norm() < length);
+        Some(end)
     }
 
     /// The signed distance of a point from the curve near a position, positive to the left and beyond an end, and the direction
@@ -363,15 +335,6 @@ impl Row {
     pub fn points_between(&self, [from, to]: [f64; 2], parts: usize) -> Vec<Point> {
         self.points_at(&(0..=parts).map(|k| from + (to - from) * (k as f64 / parts as f64)).collect::<Vec<f64>>())
     }
-}
-
-/// The upper end of a bracket after fifty halvings, towards where a condition ceases to hold.
-fn bisect([mut low, mut high]: [f64; 2], holds: impl Fn(f64) -> bool) -> Option<f64> {
-    for _ in 0..50 {
-        let middle = (low + high) / 2.0;
-        if holds(middle) { low = middle } else { high = middle }
-    }
-    Some(high)
 }
 
 impl EveryNth {

@@ -2,12 +2,12 @@
 
 use super::budget::{MAX_PORTION_POINTS, Steps, TooManySteps};
 use super::curve_strip::{CurveStrips, PortionStrip};
-use super::maximum::{Bracket, greatest_in};
 use super::portions::EXACT;
 use super::rounding::within_period;
 use super::row::Row;
 use super::strip::{Strip, check_width};
 use crate::geometry::{Point, in_rising_order};
+use crate::numerical::maximum_with_ends;
 
 /// Of which portion the strip is the narrowest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,16 +77,22 @@ pub(super) fn straightest(
     // The portion that begins in the part from a point and is the best by a rank.
     let best_from = |from: f64, rank: &dyn Fn(Candidate) -> f64| {
         let mut strips = CurveStrips::new(row, [from, end(from)?], POINTS);
-        let to = from + stride as f64;
-        let bracket = Bracket { from, to, first_parts: 2, accuracy: ACCURACY * stride as f64 };
-        let ranked = |at: f64, _: f64| {
-            steps.take(POINTS).ok()?;
-            let to = end(at)?;
-            let PortionStrip { width, length, .. } = strips.strip([at, to]);
+        let mut best: Option<Candidate> = None;
+        let mut rank_from = |at: f64| {
+            let to = if steps.take(POINTS).is_ok() { end(at) } else { None };
+            let strip = to.map(|to| (to, strips.strip([at, to]))).filter(|(_, strip)| strip.width <= most);
+            let Some((to, PortionStrip { width, length, .. })) = strip else { return f64::NEG_INFINITY };
             let candidate = Candidate { size: narrowest.size(width, length), length, ends: [at, to] };
-            (width <= most).then(|| (candidate, rank(candidate)))
+            if best.is_none_or(|best| rank(candidate) > rank(best)) {
+                best = Some(candidate);
+            }
+            rank(candidate)
         };
-        greatest_in(bracket, ranked).map(|(_, (candidate, _))| candidate)
+        let ends = [from, from + stride as f64];
+        let found = maximum_with_ends(ends, ACCURACY * stride as f64, &mut rank_from);
+        // A portion may be missed when the search for the points that touch its strip begins elsewhere.
+        rank_from(found.place);
+        best
     };
     let mut found: Vec<(f64, Candidate)> = Vec::new();
     let mut least = f64::INFINITY;

@@ -1,9 +1,9 @@
 //! The strokes of a straight portion that is passed to and fro.
 
-use super::maximum::{Bracket, greatest_in};
 use super::portions::EXACT;
 use super::row::Row;
 use super::strip::{Strip, min_max};
+use crate::numerical::maximum_with_ends;
 
 /// Intervals between the points in which the turns of a portion are found.
 const INTERVALS: usize = 96;
@@ -37,9 +37,8 @@ fn turns(row: &Row, [from, to]: [f64; 2]) -> Vec<(f64, f64)> {
         }
         let sign = if rise + fall >= 0.0 { 1.0 } else { -1.0 };
         let reach = |at: f64| sign * direction.dot(&row.point_at(at).coords);
-        let bracket =
-            Bracket { from: position(before), to: position(after), first_parts: 2, accuracy: 1e-8 * (to - from) };
-        greatest_in(bracket, |at, _| Some((at, reach(at)))).map(|(at, (_, reach))| (at, sign * reach))
+        let furthest = maximum_with_ends([before, after].map(position), 1e-8 * (to - from), reach);
+        Some((furthest.place, sign * furthest.value))
     };
     (0..=INTERVALS).filter_map(turn).collect()
 }

@@ -2,9 +2,9 @@
 
 use super::axis_motion::{least_squares_motion, minimax_motion};
 use super::features::SymmetryAxis;
-use super::maximum::{Bracket, greatest_in};
 use super::row::Row;
 use crate::geometry::{Point, Vector, complex_product, cross, in_rising_order, trig};
+use crate::numerical::maximum_with_ends;
 
 /// The mirror images of a curve, given by a row of points.
 pub(super) struct MirrorImages<'a> {
@@ -155,11 +155,10 @@ impl<'a> MirrorImages<'a> {
         let distance = |position: f64| {
             let image = axis.mirror(self.row.point_at(position));
             let near = self.nearest(image, k.min(self.points.len() - 1));
-            self.signed_distance(image, near).map(|(distance, _)| (0.0, distance.abs()))
+            self.signed_distance(image, near).map_or(f64::NEG_INFINITY, |(distance, _)| distance.abs())
         };
-        let [from, to] = self.row.bounds([k as f64 - reach, k as f64 + reach]);
-        let bracket = Bracket { from, to, first_parts: 2, accuracy: 0.05 * reach };
-        greatest_in(bracket, |position, _| distance(position)).map_or(most, |(_, (_, distance))| distance.max(most))
+        let ends = self.row.bounds([k as f64 - reach, k as f64 + reach]);
+        maximum_with_ends(ends, 0.05 * reach, distance).value.max(most)
     }
 
     /// Moves an axis to where the greatest distance of the mirror image from the curve is least, to a hundredth; the

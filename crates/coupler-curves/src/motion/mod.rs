@@ -52,7 +52,7 @@ pub use pass::{InputPosition, Pass, PassEnd};
 pub use pieces::{CircuitPiece, CircuitPieces, InputMap};
 pub use positions::{DyadSigns, JointPositions, place_leading_joints};
 pub use sampling::{Circuit, Sampler, Sampling};
-pub use spacing::eased_input;
+pub use spacing::{eased_fraction, eased_input};
 
 use crate::geometry::Point;
 use crate::linkage::{Joint, JointId, JointKind, Linkage};

@@ -20,6 +20,20 @@ pub fn eased_input(pass: &Pass, fraction: f64) -> f64 {
     from + (to - from) * eased
 }
 
+/// The fraction of a pass at which an input is reached, eased as by [`eased_input`]: from 0 to 1, also for an input beyond the pass.
+pub fn eased_fraction(pass: &Pass, input: f64) -> f64 {
+    let (from, to) = (pass.from.input.value, pass.to.input.value);
+    let [before, after] = [(input - from) / (to - from), (to - input) / (to - from)].map(|part| part.clamp(0.0, 1.0));
+    let quarter_turns = |sine: f64| trig::asin(sine) / (PI / 2.0);
+    match (pass.from.flat_dyads.is_empty(), pass.to.flat_dyads.is_empty()) {
+        (true, true) => before,
+        (false, true) => 2.0 * quarter_turns((before / 2.0).sqrt()),
+        (true, false) => 1.0 - 2.0 * quarter_turns((after / 2.0).sqrt()),
+        (false, false) if before < after => quarter_turns(before.sqrt()),
+        (false, false) => 1.0 - quarter_turns(after.sqrt()),
+    }
+}
+
 /// The cumulative length of a joint's path, at many fractions of a pass.
 pub(super) struct CumulativeLength {
     /// Fractions of the pass, eased as by [`eased_input`].

@@ -130,6 +130,14 @@ fn a_scotch_yoke_is_harmonic() {
     near(value("output_dwell_deg"), 2.0 * acos_deg(0.98), 1e-9);
 }
 
+/// The second crank turns once, evenly, in two turns of the first: of dwells that are all as long, that at the start counts.
+#[test]
+fn an_output_that_turns_evenly_dwells_for_a_hundredth_of_its_turn_from_the_start() {
+    let value = measures(&default_linkage("geared-five-bar"), 0, 12);
+    near(value("output_dwell_deg"), 7.2, 2e-10);
+    assert_eq!(value("output_dwell_start_deg"), 0.0);
+}
+
 /// The crank-shaper: the slotted link rocks by twice the angle whose sine is crank to frame (Norton, §3.7).
 #[test]
 fn the_slotted_link_of_a_crank_shaper_has_closed_forms() {

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use coupler_curves::geometry::trig;
+use coupler_curves::numerical::border;
 
 /// A colour in sRGB: red, green and blue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,16 +59,12 @@ impl Color {
     /// to what sRGB has at that lightness and hue.
     pub fn from_lightness_and_hue(lightness: f64, hue_deg: f64, chroma: f64) -> Color {
         let (cos, sin) = trig::cos_sin_deg(hue_deg);
-        let mut range = [0.0, chroma];
+        let linear = |chroma: f64| linear_from_lab([lightness, chroma * cos, chroma * sin]);
+        let is_in_gamut = |chroma: f64| is_in_gamut(linear(chroma));
         // Sixteen halvings are finer than 8 bits in each channel.
-        for _ in 0..16 {
-            let middle = (range[0] + range[1]) / 2.0;
-            let is_in_gamut = is_in_gamut(linear_from_lab([lightness, middle * cos, middle * sin]));
-            range[usize::from(!is_in_gamut)] = middle;
-        }
         let chroma =
-            if is_in_gamut(linear_from_lab([lightness, chroma * cos, chroma * sin])) { chroma } else { range[0] };
-        let [r, g, b] = linear_from_lab([lightness, chroma * cos, chroma * sin]).map(|part| {
+            if is_in_gamut(chroma) { chroma } else { border([0.0, chroma], 2e-5 * chroma.abs(), is_in_gamut)[0] };
+        let [r, g, b] = linear(chroma).map(|part| {
             let part = part.clamp(0.0, 1.0);
             let encoded = if part <= 0.0031308 { 12.92 * part } else { 1.055 * trig::pow(part, 1.0 / 2.4) - 0.055 };
             (255.0 * encoded).round() as u8

@@ -2,7 +2,7 @@
 
 use crate::complex::Complex;
 use coupler_curves::linkage::{Input, JointId, Linkage};
-use coupler_curves::motion::{InputPosition, Pass, PassEnd, UnsampledCircuit, eased_input, find_circuits, poses};
+use coupler_curves::motion::{InputPosition, Pass, PassEnd, UnsampledCircuit, eased_fraction, eased_input, find_circuits, poses};
 
 /// A traced joint of a linkage on one of its circuits.
 ///
@@ -116,20 +116,9 @@ impl Traced {
 
     /// The position of an input of a pass, which on a full turn may be in any round.
     pub fn position_of_input(&self, pass: usize, input: f64) -> f64 {
-        /// Halvings of the fraction.
-        const ROUNDS: usize = 60;
         let Some(of) = self.circuit.passes.get(pass) else { return 0.0 };
         let fraction = (input - of.from.input.value) / (of.to.input.value - of.from.input.value);
-        if self.is_regular() {
-            return pass as f64 + fraction;
-        }
-        let [mut low, mut high] = [0.0, 1.0];
-        for _ in 0..ROUNDS {
-            let middle = 0.5 * (low + high);
-            let is_before = (eased_input(of, middle) - input) * of.input_direction() < 0.0;
-            if is_before { low = middle } else { high = middle }
-        }
-        pass as f64 + 0.5 * (low + high)
+        pass as f64 + if self.is_regular() { fraction } else { eased_fraction(of, input) }
     }
 
     /// Whether the linkage keeps the lengths of its links at positions of a round: where it cannot be assembled, its joints are placed

@@ -7,7 +7,6 @@ mod polynomial;
 mod roots;
 
 pub use double_point::{DoublePoint, DoublePointKind};
-pub(super) use roots::bisect;
 
 use crate::geometry::{Point, Vector, cross};
 use crate::linkage::FourBar;

@@ -1,6 +1,7 @@
 //! Real zeros of polynomials and of periodic functions.
 
 use crate::geometry::trig;
+use crate::numerical::{Bracket, maximum};
 
 /// The real roots of a polynomial, given by ascending powers, in ascending order. There is at most one between two
 /// roots of the derivative; a root of even order is a root of both.
@@ -27,24 +28,12 @@ pub(super) fn real_roots(coefficients: &[f64]) -> Vec<f64> {
         // At an extremum a value within its rounding error is a root of even order.
         if extrema.contains(&a) && fa.abs() <= 1e-13 * sa {
             roots.push(a);
-        } else if fa * fb < 0.0 {
-            roots.push(bisect(|t| value(t)[0], a, b));
+        } else if let Some(bracket) = Bracket::new([a, b], [fa, fb]) {
+            roots.push(bracket.zero(0.0, |t| value(t)[0]));
         }
     }
     roots.dedup_by(|a, b| (*a - *b).abs() <= 1e-9 * bound);
     roots
-}
-
-/// A zero of a function between two arguments at which its signs differ, to the last bit.
-pub(in crate::linkage) fn bisect(f: impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
-    let rises = f(b) > 0.0;
-    loop {
-        let middle = a + (b - a) / 2.0;
-        if middle == a || middle == b {
-            return middle;
-        }
-        if (f(middle) > 0.0) == rises { b = middle } else { a = middle }
-    }
 }
 
 /// The zeros of a function of period 2 pi that has few of them, including those where it touches zero.
@@ -56,17 +45,13 @@ pub(super) fn periodic_zeros(f: impl Fn(f64) -> f64) -> Vec<f64> {
     let size = values.iter().copied().filter(|v| v.is_finite()).fold(0.0, |a: f64, v| a.max(v.abs()));
     let mut found = Vec::new();
     for k in 0..STEPS {
-        if values[k] * values[k + 1] < 0.0 {
-            found.push(bisect(&f, at(k), at(k + 1)));
+        if let Some(bracket) = Bracket::new([at(k), at(k + 1)], [values[k], values[k + 1]]) {
+            found.push(bracket.zero(0.0, &f));
         } else if k > 0 && values[k].abs() <= values[k - 1].abs() && values[k].abs() < values[k + 1].abs() {
-            // The function may touch zero here: find the least magnitude nearby by ternary search.
-            let (mut a, mut b) = (at(k - 1), at(k + 1));
-            for _ in 0..80 {
-                let (c, d) = (a + (b - a) / 3.0, b - (b - a) / 3.0);
-                if f(c).abs() < f(d).abs() { b = d } else { a = c }
-            }
-            if f(a).abs() <= 1e-12 * size {
-                found.push(a);
+            // The function may touch zero here.
+            let nearest = maximum([at(k - 1), at(k + 1)], 0.0, |t| -f(t).abs());
+            if -nearest.value <= 1e-12 * size {
+                found.push(nearest.place);
             }
         }
     }

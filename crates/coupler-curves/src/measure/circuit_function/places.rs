@@ -1,10 +1,10 @@
 //! Places on a circuit at which a function is extreme, stationary or steepest.
 
-use super::monotonic::solve_between;
 use super::{CircuitFunction, FunctionSpan, NARROW, Place, Quantity};
 use crate::geometry::{Chebyshev, TERMS, in_rising_order, trig};
 use crate::linkage::Input;
 use crate::motion::{InputMap, JointDerivatives};
+use crate::numerical::Bracket;
 
 /// An extreme value, and the places at which it is reached.
 #[derive(Clone, Debug)]
@@ -167,13 +167,9 @@ impl<Q: Quantity> CircuitFunction<Q> {
         const NEAR: f64 = 1e-5;
         let pass = self.pass(place);
         let near = |u: f64| self.input(Place { u: u.clamp(-1.0, 1.0), ..place });
-        let bracket = [near(place.u - NEAR), near(place.u + NEAR)];
+        let ends = [near(place.u - NEAR), near(place.u + NEAR)];
         let at = |input: f64| rate(&JointDerivatives::on_pass(&self.linkage, pass, input));
-        let ends = bracket.map(at);
-        if ends.iter().all(|rate| rate.is_finite()) && (ends[0] < 0.0) != (ends[1] < 0.0) {
-            return solve_between(at, bracket);
-        }
-        self.input(place)
+        Bracket::new(ends, ends.map(at)).map_or_else(|| self.input(place), |bracket| bracket.zero(0.0, at))
     }
 
     /// The derivatives of the polynomial with respect to the input before and after a place, per radian of an angle; at

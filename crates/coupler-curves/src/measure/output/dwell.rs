@@ -10,6 +10,7 @@ use super::output_value;
 use crate::measure::budget::{MAX_DWELL_STEPS, Steps};
 use crate::measure::circuit_function::{MonotonicPart, Place};
 use crate::measure::{Measure, Subject, start_input};
+use crate::numerical::{Maximum, maximum};
 
 /// The width of the band of a dwell, relative to the swing or the stroke of the output, or to a full turn.
 pub(in crate::measure) const TOLERANCE: f64 = 0.01;
@@ -171,44 +172,29 @@ impl DwellSearch<'_> {
     /// of each part, refined between them.
     fn sampled_starts(&self) -> Vec<f64> {
         const SAMPLES: usize = 8;
+        /// How accurately the start is found, relative to its part.
+        const ACCURACY: f64 = 7e-9;
+        /// Spans that differ by less, relatively, are equal: all are, where the output turns evenly.
+        const ROUNDING: f64 = 1e-12;
         let count = self.parts.len() * SAMPLES;
         let position = |k: usize| k as f64 / SAMPLES as f64;
         let spans: Vec<f64> = (0..count).map(|k| self.span_from(position(k))).collect();
         let longest = spans.iter().fold(0.0, |longest: f64, span| longest.max(*span));
         let is_peak = |&k: &usize| {
             let [before, after] = [k.saturating_sub(1), (k + 1).min(count - 1)];
-            spans[k] >= spans[before].max(spans[after]) && spans[k] > 0.7 * longest
+            spans[k] >= spans[before].max(spans[after]) * (1.0 - ROUNDING) && spans[k] > 0.7 * longest
         };
         let refine = |k: usize| {
-            let mut best = (spans[k], position(k));
-            // A span may jump where an extreme comes into the band, and be smooth on either side.
-            for bracket in [[k.saturating_sub(1), k], [k, (k + 1).min(count)]] {
-                let found = self.longest_between(bracket.map(position));
-                if found.0 > best.0 {
+            let mut best = Maximum { place: position(k), value: spans[k] };
+            // A span may jump where an extreme comes into the band, and be smooth on either side. Of equal ones the first counts.
+            for ends in [[k, k.saturating_sub(1)], [(k + 1).min(count), k]] {
+                let found = maximum(ends.map(position), ACCURACY, |position| self.span_from(position));
+                if found.value > best.value * (1.0 + ROUNDING) {
                     best = found;
                 }
             }
-            best.1
+            best.place
         };
         (0..count).filter(is_peak).map(refine).collect()
-    }
-
-    /// The longest span from a start between two positions, and the start, by golden sections.
-    fn longest_between(&self, [mut a, mut b]: [f64; 2]) -> (f64, f64) {
-        const ROUNDS: usize = 34;
-        const GOLDEN: f64 = 0.618_033_988_749_894_9;
-        let limit = self.parts.len() as f64 - 1e-12;
-        let at = |position: f64| (self.span_from(position.min(limit)), position.min(limit));
-        let (mut c, mut d) = (at(b - (b - a) * GOLDEN), at(a + (b - a) * GOLDEN));
-        for _ in 0..ROUNDS {
-            if c.0 >= d.0 {
-                (b, d) = (d.1, c);
-                c = at(b - (b - a) * GOLDEN);
-            } else {
-                (a, c) = (c.1, d);
-                d = at(a + (b - a) * GOLDEN);
-            }
-        }
-        if c.0 >= d.0 { c } else { d }
     }
 }

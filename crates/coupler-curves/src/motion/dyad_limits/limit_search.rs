@@ -11,6 +11,7 @@ use crate::motion::pass::InputPosition;
 use crate::motion::pass_ends::place_at_end;
 use crate::motion::positions::{DyadSigns, JointPositions, place_leading_joints};
 use crate::motion::series::{Series, VectorSeries};
+use crate::numerical::{border, maximum};
 
 /// The search for the limits of a dyad on a span.
 pub(super) struct LimitSearch<'a> {
@@ -106,7 +107,10 @@ impl LimitSearch<'_> {
         let open: Vec<bool> = (0..inputs.len()).map(|i| is_open(known(i))).collect();
         let mut end = |inside: f64, outside: f64| {
             *next_id += 1;
-            let input = InputPosition::new(self.linkage.input(), self.bisect_limit(inside, outside));
+            // The last input, going outwards, at which the dyad still closes.
+            let floor = self.margin(inside).min(0.0);
+            let [last, _] = border([inside, outside], 0.0, |at| self.margin(at) >= floor);
+            let input = InputPosition::new(self.linkage.input(), last);
             IntervalEnd::from_flat_dyad(input, EndCause::Limit, self.dyad.id, *next_id)
         };
         let mut arcs: Vec<(Option<IntervalEnd>, Option<IntervalEnd>)> = Vec::new();
@@ -180,7 +184,8 @@ impl LimitSearch<'_> {
         // Where a bound is touched, the margin is constant within its rounding: the zero of its derivative is more
         // accurate.
         let stationary = self.stationary_input(from, to);
-        let at = stationary.unwrap_or_else(|| golden_section_minimum(from, to, |at| sign * self.margin(at)));
+        let accuracy = 2e-13 * (to - from);
+        let at = stationary.unwrap_or_else(|| maximum([from, to], accuracy, |at| -sign * self.margin(at)).place);
         let margin = self.margin(at);
         if is_open && margin < -tolerance || !is_open && margin >= -tolerance {
             return Some(Extremum::Crossing(at));
@@ -251,16 +256,12 @@ impl LimitSearch<'_> {
             return None;
         }
         // The last input at which the extent falls, or rises, going from one where it does.
-        let edge = |mut from: f64, mut to: f64, is_rising: bool| loop {
-            let middle = from + (to - from) / 2.0;
-            if middle == from || middle == to {
-                return from;
-            }
-            let rate = rate(middle);
-            if if is_rising { rate > 0.0 } else { rate < 0.0 } { from = middle } else { to = middle }
+        let edge = |ends: [f64; 2], is_rising: bool| {
+            let [last, _] = border(ends, 0.0, |at| if is_rising { rate(at) > 0.0 } else { rate(at) < 0.0 });
+            last
         };
         // Where a base vanishes with its derivative, rounding leaves neither sign nearby.
-        let [low, high] = [edge(a, b, !rises), edge(b, a, rises)];
+        let [low, high] = [edge([a, b], !rises), edge([b, a], rises)];
         let at = low + (high - low) / 2.0;
         Some(if self.dyad.base_can_vanish() { self.twice_vanishing_input(at) } else { at })
     }
@@ -295,18 +296,6 @@ impl LimitSearch<'_> {
         let input = SeriesInput { value, direction: [cos, sin] };
         place_as_series(self.linkage, self.dyad.joint.index(), input, sign, |_, position, _| position)
     }
-
-    /// The last input, going from `inside` towards `outside`, at which the dyad still closes.
-    fn bisect_limit(&self, mut inside: f64, mut outside: f64) -> f64 {
-        let floor = self.margin(inside).min(0.0);
-        loop {
-            let middle = inside + (outside - inside) / 2.0;
-            if middle == inside || middle == outside {
-                return inside;
-            }
-            if self.margin(middle) >= floor { inside = middle } else { outside = middle }
-        }
-    }
 }
 
 /// An extremum of the extent on a run of uncertain pieces.
@@ -331,24 +320,4 @@ fn split_spans(spans: Vec<Span>, end: IntervalEnd, input: Input) -> Vec<Span> {
         }
     }
     out
-}
-
-/// The minimum of `f` between `a` and `b`, by golden section.
-fn golden_section_minimum(mut a: f64, mut b: f64, f: impl Fn(f64) -> f64) -> f64 {
-    const RATIO: f64 = 0.618_033_988_749_894_9;
-    let (mut x, mut y) = (b - RATIO * (b - a), a + RATIO * (b - a));
-    let (mut fx, mut fy) = (f(x), f(y));
-    // 0.618^60 of a whole turn is below the rounding of an angle.
-    for _ in 0..60 {
-        if fx < fy {
-            (b, y, fy) = (y, x, fx);
-            x = b - RATIO * (b - a);
-            fx = f(x);
-        } else {
-            (a, x, fx) = (x, y, fy);
-            y = a + RATIO * (b - a);
-            fy = f(y);
-        }
-    }
-    if fx < fy { x } else { y }
 }

@@ -4,6 +4,7 @@ use super::shown_curve::ShownCurve;
 use coupler_curves::linkage::{Input, JointId};
 use coupler_curves::measure::transmission_angle;
 use coupler_curves::motion::{self, JointDerivatives, Pass};
+use coupler_curves::numerical::maximum;
 use coupler_curves::solve::SolvedCell;
 
 /// A value of the input and that of a quantity.
@@ -146,19 +147,15 @@ impl TransmissionAngles {
 
 /// The greatest of `sign` times a function that is sampled: the best sample, or a better value between its neighbours.
 fn extreme_sample(run: &[Sample], sign: f64, value: impl Fn(f64) -> f64) -> Option<Sample> {
-    /// Each step narrows the range to two thirds: from 6 degrees to less than the rounding of the value.
-    const STEPS: usize = 60;
+    /// How accurately the input is found, in degrees or units of length: the value is as accurate as its rounding then.
+    const ACCURACY: f64 = 1e-9;
     let is_better = |a: f64, b: f64| sign * (a - b) > 0.0;
     let best = (0..run.len()).reduce(|best, k| if is_better(run[k][1], run[best][1]) { k } else { best })?;
-    let [mut low, mut high] = [run[best.saturating_sub(1)][0], run[(best + 1).min(run.len() - 1)][0]];
-    for _ in 0..STEPS {
-        let third = (high - low) / 3.0;
-        if is_better(value(high - third), value(low + third)) { low += third } else { high -= third }
-    }
-    let between = (low + high) / 2.0;
-    let refined = [between, value(between)];
+    let ends = [best.saturating_sub(1), (best + 1).min(run.len() - 1)].map(|k| run[k][0]);
+    let refined = maximum(ends, ACCURACY, |input| sign * value(input));
     // A sample at a limit, or where the crank is on the frame, is exact.
-    Some(if sign * (refined[1] - run[best][1]) > 1e-9 { refined } else { run[best] })
+    let is_better = refined.value - sign * run[best][1] > 1e-9;
+    Some(if is_better { [refined.place, sign * refined.value] } else { run[best] })
 }
 
 /// The inputs at which a linkage goes on through a change point, from 0 up to a period, in rising order.
