@@ -1,8 +1,8 @@
-//! Numbers and counts, as text.
+//! Numbers, as text.
 
-pub(super) use coupler_curves::exchange::format_significant;
+use coupler_curves::exchange;
 
-/// "1 page", "2 pages".
-pub(super) fn pluralize(n: usize, noun: &str) -> String {
-    if n == 1 { format!("1 {noun}") } else { format!("{n} {noun}s") }
+/// A number rounded to `digits` significant digits, in scientific notation below 1e-5 and from 1e7 on.
+pub(super) fn format_significant(value: f64, digits: usize) -> String {
+    exchange::format_significant(value, digits, 1e-5)
 }

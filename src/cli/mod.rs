@@ -35,7 +35,6 @@ use crate::output;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use color::Color;
 use failure::report_failure;
-use format::pluralize;
 use outcome::{EXIT_CODES, EXIT_DIFFERENCE, EXIT_SUCCESS, InputError, InputErrors, Outcome};
 use printable::{printable, printable_lines};
 use printing::{print, print_bytes, print_stderr, print_styled};

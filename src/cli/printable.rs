@@ -6,15 +6,11 @@
 
 use std::fmt::Display;
 
-/// Whether a character is not shown as itself: control characters, those that change the direction of text, the line
-/// separators of Unicode, and the two characters that XML excludes besides.
+use coupler_curves::text::is_control_or_directional;
+
+/// Whether a character is not shown as itself: one that is obeyed, and the two characters that XML excludes besides.
 pub(super) fn is_unprintable(c: char) -> bool {
-    c.is_control()
-        || matches!(
-            c,
-            '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{fffe}'
-                | '\u{ffff}'
-        )
+    is_control_or_directional(c) || matches!(c, '\u{fffe}' | '\u{ffff}')
 }
 
 /// A value, or a message of one line, with a visible escape for each unprintable character, as `\n` or `\u{1b}`, and

@@ -9,7 +9,8 @@ use crate::output;
 use crate::record::RunRecord;
 use coupler_curves::problem::{self, Problem, suggestion};
 
-use super::{InputError, color, files, not_a_manifest, pluralize, print_stderr, print_styled};
+use super::{InputError, color, files, not_a_manifest, print_stderr, print_styled};
+use coupler_curves::text::pluralize;
 
 /// A manifest with its path and text, for messages.
 pub struct ManifestSource {

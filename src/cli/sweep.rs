@@ -10,7 +10,8 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::files::DEFAULT_MANIFEST;
 use super::source::{self, ManifestSource};
-use super::{InputError, Outcome, choice, files, interrupt, pluralize, print, printable};
+use super::{InputError, Outcome, choice, files, interrupt, print, printable};
+use coupler_curves::text::pluralize;
 
 /// Solve a part of the cells of a manifest, or all, into tables without pages: cells and points of each family, as Parquet.
 ///

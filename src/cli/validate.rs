@@ -11,7 +11,8 @@ use serde::Serialize;
 use super::files::DEFAULT_MANIFEST;
 use super::report::{self, ReportRequest};
 use super::source;
-use super::{Outcome, files, pluralize, print, print_bytes};
+use super::{Outcome, files, print, print_bytes};
+use coupler_curves::text::pluralize;
 
 /// Report every problem of a manifest, and write nothing but the requested reports.
 #[derive(Debug, Args)]
@@ -65,11 +66,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         return Err(source::problems_error(path, errors).into());
     };
     if !is_printed(ReportFormat::Json) {
-        let families = match plan.families.len() {
-            1 => "1 family".to_owned(),
-            n => format!("{n} families"),
-        };
-        print(&format!("{}: {families}, {}\n", files::input_name(path), pluralize(cell_count(&plan), "cell")))?;
+        let [families, cells] =
+            [(plan.families.len(), "family"), (cell_count(&plan), "cell")].map(|(count, noun)| pluralize(count, noun));
+        print(&format!("{}: {families}, {cells}\n", files::input_name(path)))?;
     }
     Ok(Outcome::Done)
 }

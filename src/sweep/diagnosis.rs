@@ -1,10 +1,11 @@
 //! Why no curve of a family is shown: how near its cells come to being assembled, and its curves to what `where` asks for.
 
-use coupler_curves::expression::{CompiledExpression, round_to_six_digits};
+use coupler_curves::expression::CompiledExpression;
 use coupler_curves::family::Family;
 use coupler_curves::measure::{self, Measure, Value};
 use coupler_curves::motion::Sampler;
 use coupler_curves::solve::solve_measuring;
+use coupler_curves::text::{pluralize, round_to_six_digits};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -181,7 +182,7 @@ impl Diagnosis {
         {
             let count = match self.unassembled {
                 unassembled if unassembled == cells => String::new(),
-                unassembled => format!("{} cannot be assembled; ", count_cells(unassembled)),
+                unassembled => format!("{} cannot be assembled; ", pluralize(unassembled, "cell")),
             };
             let which = if self.has_nearest() { "the nearest is" } else { "for example" };
             parts.push(match cells {
@@ -191,7 +192,7 @@ impl Diagnosis {
             });
         }
         if !self.names.is_empty() {
-            let place = if cells == 1 { String::new() } else { format!("in {} ", count_cells(cells)) };
+            let place = if cells == 1 { String::new() } else { format!("in {} ", pluralize(cells, "cell")) };
             parts.push(place + &list(&self.names));
         }
         if self.curves > 0 && !self.measures.is_empty() {
@@ -208,10 +209,6 @@ impl Diagnosis {
         parts.extend(self.conditions.iter().filter_map(failed));
         parts.join("; ")
     }
-}
-
-fn count_cells(count: usize) -> String {
-    if count == 1 { "1 cell".to_owned() } else { format!("{count} cells") }
 }
 
 impl NamedValues {

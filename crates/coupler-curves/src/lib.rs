@@ -48,6 +48,7 @@
 //! ```
 
 pub mod numerical;
+pub mod text;
 
 pub mod geometry;
 pub mod problem;

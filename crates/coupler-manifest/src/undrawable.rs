@@ -2,6 +2,7 @@
 
 use coupler_curves::linkage_format::{Fields, TomlValue};
 use coupler_curves::problem::{Problem, Span};
+use coupler_curves::text::is_invisible;
 use coupler_drawing::scene::{FontFamily, Typeface};
 
 /// The most texts that are reported: a remedy for one is one for all.
@@ -45,17 +46,16 @@ fn collect(value: &TomlValue, typeface: Typeface, problems: &mut Vec<Problem>) {
     }
 }
 
-/// Whether a character has no shape: controls, spaces, noncharacters and marks of direction, joining and line breaks.
-fn is_invisible(c: char) -> bool {
+/// Whether a character has no shape: spaces, noncharacters, and those that show nothing.
+fn has_no_shape(c: char) -> bool {
     let is_noncharacter = u32::from(c) & 0xfffe == 0xfffe || ('\u{fdd0}'..='\u{fdef}').contains(&c);
-    let is_mark = matches!(c, '\u{ad}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}');
-    c.is_control() || c.is_whitespace() || is_noncharacter || is_mark
+    c.is_whitespace() || is_noncharacter || is_invisible(c)
 }
 
 /// The problem of a text, if it has characters that a typeface does not have.
 fn problem(text: &str, span: Span, typeface: Typeface) -> Option<Problem> {
     let mut missing: Vec<char> = Vec::new();
-    for c in text.chars().filter(|c| !is_invisible(*c)) {
+    for c in text.chars().filter(|c| !has_no_shape(*c)) {
         if !missing.contains(&c) && !typeface.can_draw(c) {
             missing.push(c);
         }

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use coupler_curves::problem::{self, Problem};
+use coupler_curves::text::pluralize;
 use pyo3::exceptions::{PyException, PyUserWarning};
 use pyo3::prelude::*;
 use pyo3::types::PyList;
@@ -53,9 +54,8 @@ pub fn add_to(module: &Bound<PyModule>) -> PyResult<()> {
 pub fn manifest_error(py: Python, path: &Path, text: &str, problems: &[Problem]) -> PyErr {
     let name = path.display().to_string();
     let count = problems.iter().filter(|problem| problem.is_error()).count();
-    let plural = if count == 1 { "" } else { "s" };
     let report = problem::report(problems, &name, text, false);
-    let error = ManifestError::new_err(format!("{name}: {count} problem{plural}\n{}", report.trim_end()));
+    let error = ManifestError::new_err(format!("{name}: {}\n{}", pluralize(count, "problem"), report.trim_end()));
     // The attributes are in addition to the message.
     let _ = set_attributes(py, &error, &name, text, problems);
     error

@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::super::outdated::is_later;
 use super::change::Change;
+use coupler_curves::text::pluralize;
 
 impl fmt::Display for Change {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
@@ -83,11 +84,6 @@ impl fmt::Display for Change {
             }
         }
     }
-}
-
-/// "1 point", "2 points".
-fn pluralize(n: usize, noun: &str) -> String {
-    format!("{n} {noun}{}", if n == 1 { "" } else { "s" })
 }
 
 fn comma_separated(numbers: &[usize]) -> String {

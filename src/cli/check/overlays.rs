@@ -8,7 +8,8 @@ use crate::output;
 use crate::record::RUN_FILE_NAME;
 use quick_xml::escape::escape;
 
-use super::super::{InputError, pluralize, print_stderr, printable};
+use super::super::{InputError, print_stderr, printable};
+use coupler_curves::text::pluralize;
 
 /// At most this many curves are drawn, the worst ones: nobody looks at more.
 const MAX_CURVES: usize = 500;

@@ -4,8 +4,9 @@ use std::collections::HashMap;
 
 use crate::check::{Change, Finding, Report};
 
-use super::super::{pluralize, printable};
+use super::super::printable;
 use super::left_out::not_compared;
+use coupler_curves::text::pluralize;
 
 /// The findings shown one by one: with the other lines of the report they fill a screen.
 const MAX_FINDINGS: usize = 20;
@@ -37,8 +38,8 @@ pub fn text(report: &Report) -> String {
         let counted: Vec<String> = counted.map(|(kind, count)| format!("{count} {kind}")).collect();
         text.push_str(&format!("and {omitted} more: {}\n", counted.join(", ")));
     }
-    let families = if report.families == 1 { "1 family".to_owned() } else { format!("{} families", report.families) };
-    let checked = format!("{families}, {}, {}", pluralize(report.curves, "curve"), pluralize(report.pages, "page"));
+    let compared = [(report.families, "family"), (report.curves, "curve"), (report.pages, "page")];
+    let checked = compared.map(|(count, noun)| pluralize(count, noun)).join(", ");
     let result = match report.total() {
         0 => "nothing has changed".to_owned(),
         n => pluralize(n, "finding"),

@@ -2,12 +2,7 @@
 
 use crate::design::Design;
 
-use super::super::format;
-
-/// A number rounded to `digits` significant digits, in scientific notation below 1e-5 and from 1e7 on.
-pub(super) fn format_significant(value: f64, digits: usize) -> String {
-    format::format_significant(value, digits, 1e-5)
-}
+use super::super::format::format_significant;
 
 /// A ratio with two decimals, or ∞.
 pub(super) fn format_ratio(value: f64) -> String {

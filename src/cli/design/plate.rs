@@ -5,7 +5,8 @@ use coupler_curves::solve::SolvedCell;
 use coupler_drawing::page::{self, Heading, Layout, Options, Panel, PanelPage, PanelScale, Paper, PoseChoice};
 use coupler_drawing::render::{self, TextMode};
 
-use super::format::{format_significant, proportions};
+use super::super::format::format_significant;
+use super::format::proportions;
 use super::report::Report;
 
 /// An SVG with one panel for each design, in order of rank.

@@ -2,7 +2,8 @@
 
 use crate::design::Design;
 
-use super::format::{format_ratio, format_significant};
+use super::super::format::format_significant;
+use super::format::format_ratio;
 
 /// A property by which designs are compared.
 struct Quality {

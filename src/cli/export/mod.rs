@@ -24,7 +24,8 @@ use coupler_drawing::render::TextMode;
 use super::files::DEFAULT_MANIFEST;
 use super::linkage::{self, DEFAULT_SAMPLES};
 use super::source;
-use super::{InputError, InputErrors, Outcome, choice, files, pluralize, print, print_stderr, printable};
+use super::{InputError, InputErrors, Outcome, choice, files, print, print_stderr, printable};
+use coupler_curves::text::pluralize;
 use destination::Destination;
 use selection::CurveSelection;
 

@@ -6,8 +6,8 @@ use coupler_find::{Answer, Constraint, Mechanism, Target, format_length as numbe
 
 use crate::find::description::dimensions;
 
-use super::super::format::pluralize;
 use super::Report;
+use coupler_curves::text::pluralize;
 
 /// A table of the answers, each row followed by its dimensions and its cognates.
 pub(super) fn text(report: &Report) -> String {

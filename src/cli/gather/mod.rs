@@ -11,7 +11,8 @@ use crate::shard::{self, GatherOptions, Gathered, MAX_TOP};
 use clap::{Args, ValueHint};
 
 use super::sweep::{describe_counts, shard_error};
-use super::{InputError, Outcome, files, pluralize, print_bytes, print_stderr, printable};
+use super::{InputError, Outcome, files, print_bytes, print_stderr, printable};
+use coupler_curves::text::pluralize;
 
 /// Check that the shards of a manifest are complete: print the best of their curves as a table, and complete atlases whose pages
 /// render --shard has drawn.

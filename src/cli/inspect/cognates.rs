@@ -10,10 +10,11 @@ use coupler_curves::motion::{Motion, Sampler, Sampling};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 use coupler_drawing::page::{self, Panel};
 
+use super::super::format::format_significant;
 use super::super::linkage::DEFAULT_SAMPLES;
 use super::InputError;
 use super::cognate_set::{CognateMember, CognateSet};
-use super::format::{describe_circuit, format_point, format_significant};
+use super::format::{describe_circuit, format_point};
 use super::report::Report;
 
 /// Finds the cognates of a solved linkage; its coupler point is the `trace`-th traced joint, counted from 1.

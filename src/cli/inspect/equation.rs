@@ -6,7 +6,8 @@ use coupler_curves::linkage::{DoublePointKind, PlacedFourBar, Sextic, Symmetrica
 use coupler_curves::solve::SolvedCell;
 use serde::Serialize;
 
-use super::format::{format_point, format_significant};
+use super::super::format::format_significant;
+use super::format::format_point;
 
 /// The equation of one coupler curve.
 pub(super) struct Equation {

@@ -4,12 +4,7 @@ use coupler_curves::geometry::Point;
 use coupler_curves::linkage::{DyadId, JointId, Linkage, OutputLink};
 use coupler_curves::motion::{Circuit, Pass};
 
-use super::super::format;
-
-/// A number rounded to `digits` significant digits, in scientific notation below 1e-4 and from 1e7 on.
-pub(super) fn format_significant(value: f64, digits: usize) -> String {
-    format::format_significant(value, digits, 1e-4)
-}
+use super::super::format::format_significant;
 
 /// "(1.5, -2)".
 pub(super) fn format_point(p: Point) -> String {

@@ -6,7 +6,8 @@ use coupler_curves::measure::Value;
 use coupler_curves::motion::Circuit;
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 
-use super::format::{format_significant, input_unit};
+use super::super::format::format_significant;
+use super::format::input_unit;
 
 /// The number of circuits that are described one by one.
 const MAX_CIRCUITS: usize = 4;

@@ -5,7 +5,8 @@ use std::fmt::Write;
 use coupler_curves::linkage::{DyadId, FourBar};
 use coupler_curves::solve::SolvedCell;
 
-use super::format::{describe_circuit, describe_output, format_point, format_significant, input_unit};
+use super::super::format::format_significant;
+use super::format::{describe_circuit, describe_output, format_point, input_unit};
 use super::pose::{Pose, instant_geometries, link_rotations};
 use super::ranges::Ranges;
 use super::{Report, cognates, equation, summary};

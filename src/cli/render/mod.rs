@@ -20,7 +20,8 @@ use progress::ProgressReporter;
 use rendering::{Rendered, closing_line, open, openable_paths, output_options, render};
 
 use super::source::{self, ManifestSource};
-use super::{Outcome, interrupt, pluralize, print, print_stderr, printable};
+use super::{Outcome, interrupt, print, print_stderr, printable};
+use coupler_curves::text::pluralize;
 
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     if let Some(jobs) = arguments.jobs {

@@ -5,7 +5,8 @@ use crate::record::{FamilyRecord, FileRecord};
 use coupler_drawing::render::PageFormat;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::super::{pluralize, print_stderr, printable};
+use super::super::{print_stderr, printable};
+use coupler_curves::text::pluralize;
 
 /// The number of cells of a family that are reported one by one as not assembled.
 const MAX_WARNINGS: usize = 10;

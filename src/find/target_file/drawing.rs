@@ -2,7 +2,8 @@
 
 use std::collections::HashMap;
 
-use coupler_curves::geometry::{Bounds, Point, cross};
+use coupler_curves::geometry::{Bounds, Point, Vector, cross};
+use coupler_curves::numerical::equal_parts;
 use kurbo::{Affine, BezPath, PathEl};
 
 use super::super::outline::{Outline, ReadOptions, Reading, choose};
@@ -178,7 +179,7 @@ pub(super) fn outline_of(pieces: Vec<Piece>, options: &ReadOptions) -> Result<Ou
     };
     let piece = &pieces[index];
     let is_closed = piece.is_closed();
-    let points = spaced_evenly(&piece.points, piece.length(), is_closed);
+    let points = spaced_evenly(&piece.points, is_closed);
     let mut outline = Outline::new(points, None, is_closed.then_some(true));
     outline.reading = Reading::of(taken(&pieces, index, options));
     Ok(outline)
@@ -308,21 +309,16 @@ fn partners(
     (0..partners.len()).map(|end| partners[end].filter(|other| partners[*other] == Some(end))).collect()
 }
 
-/// Points at equal distances along a polyline: of a closed one without the last, which is the first.
-fn spaced_evenly(path: &[Point], length: f64, is_closed: bool) -> Vec<Point> {
-    let step = length / if is_closed { POINTS } else { POINTS - 1 } as f64;
-    let mut points = vec![path[0]];
-    let mut before = 0.0;
-    for pair in path.windows(2) {
-        let whole = (pair[1] - pair[0]).norm();
-        while points.len() < POINTS && step * points.len() as f64 <= before + whole {
-            points.push(pair[0] + (pair[1] - pair[0]) * ((step * points.len() as f64 - before) / whole));
-        }
-        before += whole;
+/// Points at equal distances along a polyline: of a closed one without the last, which is the first. Of one without a length,
+/// its ends.
+fn spaced_evenly(path: &[Point], is_closed: bool) -> Vec<Point> {
+    let segments: Vec<Vector> = path.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let lengths: Vec<f64> = segments.iter().map(|segment| segment.norm()).collect();
+    let places = equal_parts(&lengths, if is_closed { POINTS } else { POINTS - 1 });
+    if places.is_empty() {
+        return vec![path[0], path[path.len() - 1]];
     }
-    // Rounding may leave out the end.
-    points.extend((points.len() < POINTS).then(|| path[path.len() - 1]));
-    points
+    places.iter().take(POINTS).map(|at| path[at.segment] + segments[at.segment] * at.fraction).collect()
 }
 
 /// A part of a text for a message.

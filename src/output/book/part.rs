@@ -7,11 +7,12 @@ use super::super::{Error, Options, check_interrupt};
 use crate::manifest::BookPlan;
 use crate::pipeline::{Composer, FamilyPipeline, build_chart, measures_used_on_pages};
 use crate::sweep::{self, CellGroups, CellIndices};
-use coupler_curves::expression::round_to_six_digits;
+
 use coupler_curves::family::ParameterSpace;
 use coupler_curves::motion::Sampler;
 use coupler_curves::solve::{self, SolvedCell};
 use coupler_curves::template::CircuitSelection;
+use coupler_curves::text::round_to_six_digits;
 use coupler_drawing::chart::ChartBuilder;
 use coupler_drawing::page::Layout;
 use coupler_drawing::page::book::{CellEntry, Chapter, Tab};

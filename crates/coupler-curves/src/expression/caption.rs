@@ -1,6 +1,7 @@
 //! Captions: text with expressions in braces.
 
 use super::{Error, Expression, MathText};
+use crate::text::{format_fixed, round_to_six_digits};
 
 /// A line of text with expressions in braces, as in `p = {p:.2}, area {p * r}`.
 ///
@@ -118,11 +119,6 @@ impl Caption {
     }
 }
 
-/// The value rounded to six significant digits.
-pub fn round_to_six_digits(value: f64) -> f64 {
-    format!("{value:.5e}").parse().unwrap_or(value)
-}
-
 /// Parses the expression and the number of decimals between the braces at `start - 1` and `end`.
 fn parse_value(text: &str, start: usize, end: usize) -> Result<Piece, Error> {
     let inner = &text[start..end];
@@ -140,13 +136,6 @@ fn parse_value(text: &str, start: usize, end: usize) -> Result<Piece, Error> {
     let expression =
         Expression::parse(source).map_err(|e| Error { span: start + e.span.start..start + e.span.end, ..e })?;
     Ok(Piece::Value { expression, decimals, start })
-}
-
-/// A number with a fixed number of decimals; a zero has no minus sign.
-pub fn format_fixed(value: f64, decimals: usize) -> String {
-    let number = format!("{value:.decimals$}");
-    let is_zero = number.chars().all(|c| matches!(c, '-' | '0' | '.'));
-    if is_zero { number.trim_start_matches('-').to_owned() } else { number }
 }
 
 #[cfg(test)]

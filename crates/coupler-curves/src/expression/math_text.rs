@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::program::{Instruction, Operator};
 use super::{CompiledExpression, Expression, Function};
+use crate::text::format_exactly;
 
 /// A text in which parameters are symbols and exponents are raised.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -145,29 +146,6 @@ impl fmt::Display for MathText {
         }
         Ok(())
     }
-}
-
-/// A number in the fewest digits that read back to the same value, with a true minus sign.
-pub fn format_exactly(value: f64) -> String {
-    // Adding 0 makes a negative zero positive.
-    (value + 0.0).to_string().replace('-', "−")
-}
-
-/// A number in full: as a fraction with a denominator below 1000 if that is the same number and its decimal has more than
-/// eight digits, and as of [`format_exactly`] otherwise.
-pub fn format_in_full(value: f64) -> String {
-    const MAX_DIGITS: usize = 8;
-    const MAX_DENOMINATOR: u32 = 999;
-    let decimal = format_exactly(value);
-    if decimal.chars().filter(char::is_ascii_digit).count() <= MAX_DIGITS {
-        return decimal;
-    }
-    let numerator = |denominator: f64| {
-        let numerator = (value * denominator).round();
-        (numerator / denominator == value && numerator.abs() < 1e9).then_some(numerator)
-    };
-    let fraction = (2..=MAX_DENOMINATOR).find_map(|d| Some((numerator(f64::from(d))?, d)));
-    fraction.map_or(decimal, |(numerator, denominator)| format!("{} / {denominator}", format_exactly(numerator)))
 }
 
 fn is_single_letter(name: &str) -> bool {
@@ -398,20 +376,5 @@ mod tests {
         };
         assert_eq!(lines(14), ["a = 1, b = 22,", "c = 3"]);
         assert_eq!(lines(4), ["a =", "1, b", "=", "22,", "c =", "3"]);
-    }
-
-    #[test]
-    fn long_decimals_that_are_fractions_are_written_as_fractions() {
-        for (value, text) in [
-            (22.0 / 9.0, "22 / 9"),
-            (-1.0 / 3.0, "−1 / 3"),
-            (2.5, "2.5"),
-            (1.0 / 1024.0, "0.0009765625"),
-            (2.598_076_211_353_316, "2.598076211353316"),
-            (1e-300, &format_exactly(1e-300)),
-            (f64::NAN, "NaN"),
-        ] {
-            assert_eq!(format_in_full(value), text);
-        }
     }
 }

@@ -30,10 +30,10 @@ mod quantity;
 mod scope;
 mod unit;
 
-pub use caption::{Caption, format_fixed, round_to_six_digits};
+pub use caption::Caption;
 pub use function::Function;
 pub use kind::Kind;
-pub use math_text::{MathPiece, MathText, displayed_name, format_exactly, format_in_full, join_names};
+pub use math_text::{MathPiece, MathText, displayed_name, join_names};
 pub use program::{CompiledExpression, Expression, PostfixToken};
 pub use quantity::Quantity;
 pub use scope::Scope;

@@ -1,10 +1,9 @@
 //! The dimensions of a family's linkages as text: those that all cells share, and those of a cell.
 
 use super::{Cell, Family, ParameterSpace};
-use crate::expression::{
-    Caption, CompiledExpression, MathText, Unit, displayed_name, format_exactly, format_in_full, round_to_six_digits,
-};
+use crate::expression::{Caption, CompiledExpression, MathText, Unit, displayed_name};
 use crate::template::ParameterKind;
+use crate::text::{format_exactly, format_in_full, round_to_six_digits};
 
 /// A name that the caption of a cell should show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

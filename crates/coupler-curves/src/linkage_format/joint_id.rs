@@ -1,6 +1,7 @@
 //! What the id of a joint may be: it is a field of tables and a word in messages.
 
 use crate::problem::{Problem, Span};
+use crate::text::is_invisible;
 
 /// The problem of a joint's id, if it is empty, does not look like what it is, or is a formula to a spreadsheet.
 pub(super) fn check_joint_id(id: &str, span: &Span) -> Option<Problem> {
@@ -24,18 +25,6 @@ pub(super) fn check_joint_id(id: &str, span: &Span) -> Option<Problem> {
 
 /// What a formula begins with, also in the wide forms that spreadsheets take for the same.
 const FORMULA_MARKS: [char; 8] = ['=', '+', '-', '@', '\u{ff1d}', '\u{ff0b}', '\u{ff0d}', '\u{ff20}'];
-
-/// Whether a character shows nothing itself, and may turn the direction of text.
-fn is_invisible(c: char) -> bool {
-    // Marks, embeddings, overrides and isolates of direction; joiners and blanks without width; fillers, selectors of variants, and tags.
-    c.is_control()
-        || matches!(c, '\u{61c}' | '\u{ad}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}')
-        || matches!(
-            c,
-            '\u{34f}' | '\u{115f}' | '\u{1160}' | '\u{180b}'..='\u{180f}' | '\u{2800}' | '\u{3164}' | '\u{ffa0}'
-        )
-        || matches!(c, '\u{fe00}'..='\u{fe0f}' | '\u{e0000}'..='\u{e0fff}')
-}
 
 #[cfg(test)]
 mod tests {

@@ -267,9 +267,11 @@ impl Row {
         if beyond > last {
             return None;
         }
-        let ends = [(beyond as f64 - 1.0).max(from), beyond as f64];
+        let before = beyond.saturating_sub(1);
+        let travel = if from < before as f64 { self.input_travel[before] } else { start };
+        let ends = [from.max(before as f64), beyond as f64];
         let excess = |at: f64| self.input_travel_at(at) - start - span;
-        let excesses = ends.map(excess);
+        let excesses = [travel, self.input_travel[beyond]].map(|travel| travel - start - span);
         let end = if excesses[0] < 0.0 { ends[1] } else { ends[0] };
         Some(Bracket::new(ends, excesses).map_or(end, |bracket| bracket.zero(0.0, excess)))
     }

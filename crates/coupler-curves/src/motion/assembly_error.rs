@@ -2,9 +2,8 @@
 
 use std::fmt;
 
-use crate::expression::round_to_six_digits;
-
 use super::limits::{MAX_ASSEMBLY_MODES, MAX_CIRCUIT_BYTES, MAX_SAMPLES};
+use crate::text::round_to_six_digits;
 
 /// Why a linkage cannot be assembled at all, or not over the whole input range requested.
 ///

@@ -7,12 +7,16 @@
 //! | [`maximum`], [`maximum_with_ends`] of a function that rises, then falls | as asked; of a smooth one to the root of its rounding | one for each part of 0.618 |
 //! | [`partition_point`] of indices, from a guess | exact | two for each doubling of the distance from the guess |
 //!
+//! [`equal_parts`] divides a row of segments, as those of a polyline, into parts of equal length.
+//!
 //! They end for any function, and none panics: what they return where a function is not as stated is stated with each.
 
+mod division;
 mod index;
 mod maximum;
 mod root;
 
+pub use division::{SegmentPlace, equal_parts};
 pub use index::partition_point;
 pub use maximum::{Maximum, maximum, maximum_with_ends};
 pub use root::{Bracket, border};

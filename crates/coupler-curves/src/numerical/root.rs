@@ -24,13 +24,13 @@ impl Bracket {
     /// # Source
     /// T. R. Chandrupatla, A new hybrid quadratic/bisection algorithm for finding the zero of a nonlinear function without using
     /// derivatives, *Advances in Engineering Software* 28 (1997): the step is inverse quadratic interpolation where the last
-    /// three points say that it converges, or else bisection. Here it is bisection also after two steps in which the
-    /// bracket has not become half as wide.
+    /// three points say that it converges, or else bisection. Here the first step is linear interpolation, of which linear functions need one
+    /// more at most, and it is bisection also after two steps in which the bracket has not become half as wide.
     pub fn zero(self, accuracy: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
         const PATIENCE: usize = 2;
         // The last place and the other end of the bracket.
         let ([mut a, mut b], [mut fa, mut fb]) = (self.places, self.values);
-        let (mut part, mut width, mut slow): (f64, f64, usize) = (0.5, (b - a).abs(), 0);
+        let (mut part, mut width, mut slow) = (fa / (fa - fb), (b - a).abs(), 0);
         loop {
             let (best, value) = if fa.abs() <= fb.abs() { (a, fa) } else { (b, fb) };
             let least = (accuracy / 2.0).max(f64::EPSILON * best.abs()) / (b - a).abs();

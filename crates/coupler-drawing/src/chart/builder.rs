@@ -6,8 +6,9 @@ use super::parameters::ordered_places;
 use super::path::{LinePath, union};
 use super::refinement::{ForEachInterval, Path, Refinement};
 use super::{Chart, ChartSample, PointSource, path_name};
-use coupler_curves::expression::round_to_six_digits;
+
 use coupler_curves::family::Family;
+use coupler_curves::text::round_to_six_digits;
 
 /// The most numbers kept of a family, which are 16 MB. Curves beyond that are only counted.
 pub const MAX_NUMBERS: usize = 1 << 21;

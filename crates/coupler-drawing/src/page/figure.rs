@@ -220,7 +220,7 @@ impl<'a> Figure<'a> {
             for ((circuits, bounds), frame) in self.groups.iter().zip(&self.extents.curves).zip(frames) {
                 let plot = Plot::new(frame, curve_theme).fitted_to(*bounds);
                 let enlargement = plot.page_from_plane.scale() / key.page_from_plane.scale();
-                let factor = marks::format_significant(enlargement, 2);
+                let factor = marks::format_with_digits(enlargement, 2);
                 let remarks = [format!(", enlarged × {factor}"), format!(", × {factor}")];
                 plot.draw_scale_bar(area, &remarks, curve_theme);
                 let curves = self.solved_cell.curves.iter().filter(|curve| circuits.contains(&curve.circuit));

@@ -1,10 +1,11 @@
 //! The key of a page: what it says of the linkage, and how each joint is placed.
 
 use super::marks::straight_criterion_text;
-use coupler_curves::expression::{MathText, displayed_name, format_exactly};
+use coupler_curves::expression::{MathText, displayed_name};
 use coupler_curves::family::{Cell, Family};
 use coupler_curves::linkage::{JointId, OutputLink};
 use coupler_curves::template::{InputValue, JointTemplate, Template};
+use coupler_curves::text::format_exactly;
 
 /// What a page says about the linkages on it, so that they can be built: how the joints are placed by parameters, and
 /// the dimensions that are the same for all.

@@ -5,12 +5,13 @@ use super::theme::Theme;
 use super::typography::{format_fixed, superscript};
 use crate::chart;
 use crate::scene::{Color, Item, Path, Polyline};
-use coupler_curves::expression::{format_exactly, round_to_six_digits};
+
 use coupler_curves::family::{Family, StraightCriterion};
 use coupler_curves::geometry::{Bounds, Point, simplify_polyline};
 use coupler_curves::linkage::{Input, JointId, JointKind};
 use coupler_curves::measure::{StraightPortion, Symmetry, SymmetryAxis, Value};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
+use coupler_curves::text::{format_exactly, round_to_six_digits};
 
 /// The measures that pages of every layout and the index of a book use, in addition to those in captions.
 pub(super) const PAGE_MEASURES: [&str; 7] =
@@ -38,7 +39,7 @@ pub fn cell_facts(family: &Family, solved: &SolvedCell) -> [String; 2] {
     let straight = longest.map_or(String::new(), |(curve, portion)| {
         let unit = solved.linkage.input().unit_sign();
         let times = if mirrored_portion(solved, curve, portion).is_some() { "twice " } else { "" };
-        let length = format_significant(portion.length, 4);
+        let length = format_with_digits(portion.length, 4);
         let [exactly, deviation] = deviation_texts(family.straight, portion);
         let path = match path_name(solved, curve) {
             None if solved.linkage.traced.len() > 1 => Some(format!("curve {}", curve.trace)),
@@ -58,7 +59,7 @@ fn actuator_range(solved: &SolvedCell, curve: &MeasuredCurve) -> Option<String> 
     let is_length = solved.linkage.input() == Input::Length;
     let passes = solved.circuit(curve).passes.iter().filter(|_| is_length);
     let [least, most] = passes.map(|pass| pass.input_range()).reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])?;
-    Some(format!("actuator {}–{}", format_significant(least, 4), format_significant(most, 4)))
+    Some(format!("actuator {}–{}", format_with_digits(least, 4), format_with_digits(most, 4)))
 }
 
 /// The path of a curve by the name of its joint, where several joints are traced and their names differ.
@@ -91,7 +92,7 @@ fn deviation_texts(criterion: StraightCriterion, portion: &StraightPortion) -> [
     match criterion {
         _ if portion.deviation <= ROUNDING * portion.length => ["exactly ".to_owned(), String::new()],
         StraightCriterion::Tolerance(_) => Default::default(),
-        _ => [String::new(), format!(" ± {}", format_significant(portion.deviation, 2))],
+        _ => [String::new(), format!(" ± {}", format_with_digits(portion.deviation, 2))],
     }
 }
 
@@ -134,7 +135,7 @@ pub(super) fn visible_straight_portion<'a>(
 }
 
 /// A number with `count` significant digits; times a power of ten if it is very large or small.
-pub(super) fn format_significant(value: f64, count: i32) -> String {
+pub(super) fn format_with_digits(value: f64, count: i32) -> String {
     if value == 0.0 || !value.is_finite() {
         return value.to_string();
     }

@@ -6,10 +6,11 @@ use super::plot::Plot;
 use super::rect::Rect;
 use super::theme::Theme;
 use crate::scene::{Anchor, Color, Item, Path, Polyline};
-use coupler_curves::expression::{format_exactly, round_to_six_digits};
+
 use coupler_curves::geometry::{Point, Vector, left_normal};
 use coupler_curves::linkage::{Input, JointId, Linkage};
 use coupler_curves::motion::{self, Circuit, JointPositions};
+use coupler_curves::text::{format_exactly, round_to_six_digits};
 
 /// The input from a tick to the next, and from a number at a tick to the next, in degrees or as lengths.
 #[derive(Clone, Copy, Debug, PartialEq)]

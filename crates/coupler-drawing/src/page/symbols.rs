@@ -115,7 +115,7 @@ pub(super) fn of_chains(linkage: &Linkage, theme: &Theme) -> Vec<Symbol> {
 pub(super) fn scale_bar(scale: Option<f64>, crank: Option<f64>) -> Symbol {
     let meaning = match (scale, crank) {
         (Some(scale), Some(crank)) => format!("crank = {:.1} mm", crank * scale),
-        (Some(scale), None) => format!("one unit of length = {} mm", marks::format_significant(scale, 3)),
+        (Some(scale), None) => format!("one unit of length = {} mm", marks::format_with_digits(scale, 3)),
         (None, _) => "units of length".to_owned(),
     };
     Symbol { mark: Mark::ScaleBar, meaning }

@@ -1,6 +1,6 @@
 //! Typographic characters from plain input: apostrophes, quotation marks, dashes, minus signs and raised digits.
 
-use coupler_curves::expression;
+use coupler_curves::text;
 
 /// The text with the characters of typesetting in place of those of a typewriter: `'` and `"` become quotation marks or an
 /// apostrophe, a hyphen between spaces and two hyphens an en dash, three hyphens an em dash, a hyphen before a number a minus
@@ -67,7 +67,7 @@ pub(super) fn is_defined(letter: &str, after: &str) -> bool {
 
 /// A number with a fixed number of decimals and a true minus sign.
 pub(super) fn format_fixed(value: f64, decimals: usize) -> String {
-    expression::format_fixed(value, decimals).replace('-', "−")
+    text::format_fixed(value, decimals).replace('-', "−")
 }
 
 /// A whole number as superscript digits.

@@ -6,9 +6,9 @@ use crate::find::description::{self, dimensions};
 use crate::find::{AtlasAnswer, AtlasFindings};
 use coupler_find::{Quality, format_length as number, format_relative as relative};
 
-use super::super::super::format::pluralize;
 use super::super::text::{described, options_of, place};
 use super::AtlasReport;
+use coupler_curves::text::pluralize;
 
 /// The answers, each with its cell, where it is placed or what was refined from it.
 pub(super) fn text(report: &AtlasReport) -> String {

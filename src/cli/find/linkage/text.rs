@@ -6,9 +6,9 @@ use crate::find::description::{deviation, parameters, placement};
 use crate::find::{LinkageAnswer, LinkageFindings};
 use coupler_find::{LinkageSpace, format_length as number};
 
-use super::super::super::format::pluralize;
 use super::super::text::{angle, described, relaxed};
 use super::LinkageReport;
+use coupler_curves::text::pluralize;
 
 /// The answers, each with its dimensions and its place.
 pub(super) fn text(report: &LinkageReport) -> String {

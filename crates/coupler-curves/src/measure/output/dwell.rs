@@ -180,9 +180,12 @@ impl DwellSearch<'_> {
         let position = |k: usize| k as f64 / SAMPLES as f64;
         let spans: Vec<f64> = (0..count).map(|k| self.span_from(position(k))).collect();
         let longest = spans.iter().fold(0.0, |longest: f64, span| longest.max(*span));
+        if spans.iter().all(|span| *span >= longest * (1.0 - ROUNDING)) {
+            return vec![0.0];
+        }
         let is_peak = |&k: &usize| {
             let [before, after] = [k.saturating_sub(1), (k + 1).min(count - 1)];
-            spans[k] >= spans[before].max(spans[after]) * (1.0 - ROUNDING) && spans[k] > 0.7 * longest
+            spans[k] >= spans[before].max(spans[after]) && spans[k] > 0.7 * longest
         };
         let refine = |k: usize| {
             let mut best = Maximum { place: position(k), value: spans[k] };

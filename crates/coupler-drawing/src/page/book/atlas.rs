@@ -7,6 +7,7 @@ use super::folio::Tab;
 use super::index_entry::IndexEntry;
 use super::miniature::Miniature;
 use crate::scene::Scene;
+use coupler_curves::text::pluralize;
 
 /// An atlas as a book.
 #[derive(Clone, Debug)]
@@ -94,9 +95,9 @@ pub struct Chapter<'a> {
 impl Chapter<'_> {
     /// The numbers of geometries, curves and pages in words, as far as they are known.
     pub(super) fn format_counts(&self, separator: &str) -> String {
-        let cells = (!self.cells.is_empty()).then(|| format_count(self.cells.len(), "geometry", "geometries"));
-        let curves = self.curve_count.map(|curves| format_count(curves, "curve", "curves"));
-        let pages = format_count(self.page_count, "page", "pages");
+        let cells = (!self.cells.is_empty()).then(|| pluralize(self.cells.len(), "geometry"));
+        let curves = self.curve_count.map(|curves| pluralize(curves, "curve"));
+        let pages = pluralize(self.page_count, "page");
         cells.into_iter().chain(curves).chain([pages]).collect::<Vec<_>>().join(separator)
     }
 }
@@ -166,11 +167,6 @@ pub(super) fn charts_in<'c>(atlas: &'c Atlas, volume: &'c Volume) -> impl Iterat
         chart.cells.iter().flat_map(|cell| &cell.pages).any(|(_, page)| pages.contains(page))
     };
     atlas.charts.iter().filter(is_in_volume)
-}
-
-/// A count with its noun.
-fn format_count(count: usize, one: &str, many: &str) -> String {
-    format!("{count} {}", if count == 1 { one } else { many })
 }
 
 /// What the two pages show and say.

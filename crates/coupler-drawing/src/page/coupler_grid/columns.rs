@@ -10,6 +10,7 @@ use coupler_curves::geometry::Point;
 use coupler_curves::linkage::Input;
 use coupler_curves::measure::{StraightCriterion, Value};
 use coupler_curves::solve::MeasuredCurve;
+use coupler_curves::text::format_in_full;
 
 /// The measures of columns and description, in addition to those of all pages.
 pub const MEASURES: [&str; 11] = [
@@ -202,7 +203,7 @@ pub(super) const DWELL_TITLE: &str = "dwell on an arc";
 
 /// A tolerance in percent.
 pub(super) fn percent(tolerance: f64) -> String {
-    super::numbers::format_in_full(100.0 * tolerance)
+    format_in_full(100.0 * tolerance)
 }
 
 /// A measure of a curve, if it is a finite number.

@@ -6,12 +6,12 @@ use super::super::element::{Drawing, TextLine};
 use super::super::rect::Rect;
 use super::super::theme::Theme;
 use super::layout::AXIS_HEIGHT;
-use super::numbers::format_in_full;
 use super::shown_curve::ShownCurve;
 use super::turn::{InputRange, Runs, Sample, Speeds, TransmissionAngles};
 use crate::scene::{Anchor, Circle, Item, Path, Polyline, Stroke};
 use coupler_curves::geometry::{Point, Vector};
 use coupler_curves::solve::SolvedCell;
+use coupler_curves::text::format_in_full;
 
 /// The transmission angle below which, or above its supplement, a linkage transmits motion poorly, in degrees.
 pub(super) const POOR_TRANSMISSION: f64 = 40.0;

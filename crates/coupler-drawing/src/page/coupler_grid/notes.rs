@@ -7,7 +7,7 @@ use super::super::theme::Theme;
 use super::super::typography::format_fixed;
 use super::columns::{DWELL_TITLE, coordinates_of, percent, straight_title};
 use super::graphs::{Graphs, POOR_TRANSMISSION};
-use super::numbers::{coordinate_decimals, exact_decimals, format_in_full};
+use super::numbers::coordinate_decimals;
 use super::shown_curve::ShownCurve;
 use super::table::Table;
 use crate::scene::Anchor;
@@ -16,6 +16,7 @@ use coupler_curves::geometry::Point;
 use coupler_curves::linkage::{Input, JointId, JointKind};
 use coupler_curves::measure::StraightCriterion;
 use coupler_curves::solve::SolvedCell;
+use coupler_curves::text::{exact_decimals, format_in_full};
 
 /// The distance of lines, in ems.
 const LEADING: f64 = 1.4;

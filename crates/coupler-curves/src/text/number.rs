@@ -1,0 +1,93 @@
+//! Numbers as people read them.
+
+/// A number in the fewest digits that read back to the same value, with a true minus sign.
+pub fn format_exactly(value: f64) -> String {
+    // Adding 0 makes a negative zero positive.
+    (value + 0.0).to_string().replace('-', "−")
+}
+
+/// A number with a fixed number of decimals; a zero has no minus sign.
+pub fn format_fixed(value: f64, decimals: usize) -> String {
+    let number = format!("{value:.decimals$}");
+    let is_zero = number.chars().all(|c| matches!(c, '-' | '0' | '.'));
+    if is_zero { number.trim_start_matches('-').to_owned() } else { number }
+}
+
+/// The value rounded to six significant digits.
+pub fn round_to_six_digits(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
+}
+
+/// Whether two values stand for one number, up to rounding: coordinates on a link were divided and are multiplied by the length of
+/// their base, which are two roundings, of half an epsilon each.
+pub fn is_same_number(a: f64, b: f64) -> bool {
+    const ROUNDING: f64 = 1.5 * f64::EPSILON;
+    (a - b).abs() <= ROUNDING * a.abs().max(b.abs())
+}
+
+/// The decimals that are tried: fewer than give some doubles of about 1 or less in full.
+const MAX_DECIMALS: usize = 17;
+
+/// A number in full: with the fewest decimals that give it up to rounding, as a fraction if these are many, or with all digits of
+/// the double.
+pub fn format_in_full(value: f64) -> String {
+    const MAX_SHORT: usize = 8;
+    let typographic = |decimals: usize| format_fixed(value, decimals).replace('-', "−");
+    let decimals = exact_decimals(value);
+    match decimals {
+        Some(decimals) if decimals <= MAX_SHORT => typographic(decimals),
+        _ => fraction(value).or_else(|| Some(typographic(decimals?))).unwrap_or_else(|| format_exactly(value)),
+    }
+}
+
+/// A number as a fraction with a denominator below 1000, if it is one up to rounding.
+fn fraction(value: f64) -> Option<String> {
+    const MAX_DENOMINATOR: u32 = 999;
+    let numerator = |denominator: u32| {
+        let numerator = (value * f64::from(denominator)).round();
+        is_same_number(numerator / f64::from(denominator), value).then_some(numerator)
+    };
+    let (numerator, denominator) = (2..=MAX_DENOMINATOR).find_map(|d| Some((numerator(d)?, d)))?;
+    Some(format!("{} / {denominator}", format_exactly(numerator)))
+}
+
+/// The fewest decimals with which a number is given in full, up to rounding.
+pub fn exact_decimals(value: f64) -> Option<usize> {
+    let is_exact = |decimals: &usize| {
+        let read = format!("{value:.decimals$}").parse::<f64>();
+        read.is_ok_and(|read| is_same_number(read, value))
+    };
+    (0..MAX_DECIMALS).find(is_exact)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_in_full_have_no_digits_of_rounding() {
+        let third = 1.0 / 3.0;
+        let numbers = [(2.5, "2.5"), (3.0, "3"), (-0.25, "−0.25"), (0.1 + 0.2, "0.3"), (0.0, "0")];
+        for (value, text) in numbers {
+            assert_eq!(format_in_full(value), text);
+        }
+        assert_eq!(format_in_full(third), "1 / 3");
+        assert_eq!(format_in_full(-0.5 + 1.0 / 3.0), "−1 / 6");
+        assert_eq!(format_in_full(6.0_f64.sqrt()).parse::<f64>(), Ok(6.0_f64.sqrt()));
+    }
+
+    #[test]
+    fn long_decimals_that_are_fractions_are_written_as_fractions() {
+        for (value, text) in [
+            (22.0 / 9.0, "22 / 9"),
+            (-1.0 / 3.0, "−1 / 3"),
+            (2.5, "2.5"),
+            (1.0 / 1024.0, "0.0009765625"),
+            (2.598_076_211_353_316, "2.598076211353316"),
+            (1e-300, &format_exactly(1e-300)),
+            (f64::NAN, "NaN"),
+        ] {
+            assert_eq!(format_in_full(value), text);
+        }
+    }
+}
