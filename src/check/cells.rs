@@ -132,7 +132,7 @@ impl CellColumns {
             }
             let relative = match is_word {
                 true => f64::INFINITY,
-                false => measure_difference([recorded.number(a, name)?, current.number(b, name)?], (name, unit), size),
+                false => measure_difference([recorded.number(a, name)?, current.number(b, name)?], name, unit, size),
             };
             if relative > tolerances.measure_rtol {
                 findings.push(location.finding(Change::Measure {
@@ -159,7 +159,7 @@ pub(super) struct CurvePair {
 
 /// The relative difference of a measure, with a divisor of at least one degree for an angle, and of at least the
 /// curve's size for a coordinate.
-fn measure_difference(values: [f64; 2], (name, unit): (&str, &str), size: f64) -> f64 {
+fn measure_difference(values: [f64; 2], name: &str, unit: &str, size: f64) -> f64 {
     let is_coordinate = ["_x", "_y", "_x_min", "_x_max", "_y_min", "_y_max"].iter().any(|end| name.ends_with(end));
     let least = match unit {
         "deg" => 1.0,

@@ -34,7 +34,8 @@ pub struct Overlay<'r> {
 pub fn draw_overlays<'r>(
     plan: &Plan,
     recorded: &Path,
-    (options, report): (&Options, &'r Report),
+    options: &Options,
+    report: &'r Report,
     max_overlays: usize,
     mut receive: impl FnMut(Overlay<'r>),
 ) -> Result<(), Error> {

@@ -67,8 +67,8 @@ impl<'a> RecordedPages<'a> {
         };
         let mut page = PageFindings { cells, ..PageFindings::default() };
         let plan = self.pipeline.composer.plan;
-        let number = (job.number, self.pipeline.pagination.page_count);
-        let name = |format| page_file_name(&self.location.family, number, format);
+        let page_count = self.pipeline.pagination.page_count;
+        let name = |format| page_file_name(&self.location.family, job.number, page_count, format);
         let [svg_name, png_name] = PageFormat::ALL.map(name);
         let (svg_record, png_record) = (self.files.get(svg_name.as_str()), self.files.get(png_name.as_str()));
         if svg_record.is_none() && png_record.is_none() {

@@ -96,7 +96,7 @@ fn lists_all_pages(pipeline: &FamilyPipeline, record: &FamilyRecord) -> bool {
         .into_iter()
         .map(|format| {
             let is_listed =
-                |page: &usize| listed.contains(page_file_name(&record.id, (*page, page_count), format).as_str());
+                |page: &usize| listed.contains(page_file_name(&record.id, *page, page_count, format).as_str());
             (1..=page_count).filter(is_listed).count()
         })
         .filter(|&count| count == page_count)

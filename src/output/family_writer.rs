@@ -240,7 +240,7 @@ fn finished_pages(task: &FamilyTask, done: GroupsDone) -> Option<Vec<Vec<FileRec
     }
     let pages = if cells == arrangement.kept.len() { pagination.page_count } else { pagination.first_page(cells) - 1 };
     let record = |page: usize| -> Option<Vec<FileRecord>> {
-        let name = |format| page_file_name(&family.id, (page, pagination.page_count), format);
+        let name = |format| page_file_name(&family.id, page, pagination.page_count, format);
         let is_finished = |record: &FileRecord| record.inputs_sha256.is_some();
         task.sink.formats.iter().map(|&format| task.sink.registry.reuse_if(&name(format), is_finished)).collect()
     };

@@ -260,8 +260,8 @@ impl FamilyPages<'_> {
             known.iter_mut().for_each(|file| *file = FileRecord::from_name(&file.name));
         }
         let page_files = pages.clone().flat_map(|page| {
-            let page = (page + 1, pipeline.pagination.page_count);
-            formats.iter().map(move |&format| page_file_name(&family.id, page, format))
+            let of = pipeline.pagination.page_count;
+            formats.iter().map(move |&format| page_file_name(&family.id, page + 1, of, format))
         });
         self.check_files(&folder, page_files, &known)?;
         files::create_folder(&folder)?;

@@ -88,7 +88,7 @@ impl Sink for OutputSink<'_> {
         let &Composer { plan, planned, page_count, .. } = self.composer;
         let inputs = job.inputs_digest(self.composer);
         let with_name =
-            |&format: &PageFormat| (format, page_file_name(&planned.family.id, (job.number, page_count), format));
+            |&format: &PageFormat| (format, page_file_name(&planned.family.id, job.number, page_count, format));
         let names: Vec<(PageFormat, String)> = self.formats.iter().map(with_name).collect();
         let unchanged: Vec<Option<FileRecord>> =
             names.iter().map(|(_, name)| self.registry.reuse_unchanged(name, inputs)).collect();

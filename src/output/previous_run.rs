@@ -203,7 +203,7 @@ pub(super) fn has_pages(
 ) -> bool {
     let known: HashMap<&str, &FileRecord> = record.files.iter().map(|file| (file.name.as_str(), file)).collect();
     let is_intact = |page: usize, format: PageFormat| {
-        let file = known.get(page_file_name(&record.id, (page + 1, record.pages), format).as_str());
+        let file = known.get(page_file_name(&record.id, page + 1, record.pages, format).as_str());
         file.is_some_and(|file| file.inputs_sha256.is_some() && files::is_intact(folder, file))
     };
     record.inputs_sha256 == Some(inputs)
@@ -236,7 +236,7 @@ pub(super) fn unchanged_record(
     let page = |page| formats.iter().map(move |&format| (page, format));
     let pages = (1..=earlier.pages).flat_map(page).map(|(page, format)| {
         known
-            .get(page_file_name(&earlier.id, (page, earlier.pages), format).as_str())
+            .get(page_file_name(&earlier.id, page, earlier.pages, format).as_str())
             .filter(|file| file.inputs_sha256.is_some())
     });
     // `collect` stops at the first file that is not in the record.

@@ -38,7 +38,7 @@ pub const PAGES_PER_FOLDER: usize = 1000;
 
 /// The file name of a page in the folder of its family; `of` is the number of pages of the family. A family of more than
 /// [`PAGES_PER_FOLDER`] pages has them in subfolders, as in `1001-2000/evans-1234.svg`.
-pub fn page_file_name(family: &str, (page, of): (usize, usize), format: PageFormat) -> String {
+pub fn page_file_name(family: &str, page: usize, of: usize, format: PageFormat) -> String {
     let name = format!("{family}-{page:03}.{}", format.name());
     if of <= PAGES_PER_FOLDER {
         return name;

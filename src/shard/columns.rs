@@ -299,7 +299,7 @@ impl Rows {
             if !family.columns.is_empty() {
                 let first = 7 + dyads;
                 for sample in 0..circuit.len() {
-                    let values = compute_columns(&family.columns, &solved.linkage, (circuit, curve.joint), sample);
+                    let values = compute_columns(&family.columns, &solved.linkage, circuit, curve.joint, sample);
                     for (column, value) in self.columns[first..].iter_mut().zip(values) {
                         column.number(value);
                     }

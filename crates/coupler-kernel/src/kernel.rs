@@ -64,7 +64,7 @@ impl Kernel {
             Request::OpenFamily { manifest } => {
                 let family = OpenFamily::from_manifest(&manifest)?;
                 let description = family.description();
-                merged(json!({ "family": self.families.insert(family) }), description)
+                merge(json!({ "family": self.families.insert(family) }), description)
             }
             Request::CloseFamily { family } => json!({ "closed": self.families.remove(family) }),
             Request::OpenStudy { curve, shown, is_rough } => self.open_study(&curve, shown, is_rough, numbers)?,
@@ -135,7 +135,7 @@ impl Kernel {
         let description = study_json(&study, numbers);
         let open = OpenStudy { family: curve.family, cognates: cognates(&study), study };
         let handle = json!({ "study": self.studies.insert(open) });
-        Ok(merged(merged(handle, found), description))
+        Ok(merge(merge(handle, found), description))
     }
 
     fn study(&self, handle: usize) -> Result<&Study, String> {
@@ -168,7 +168,7 @@ impl Kernel {
 }
 
 /// Two JSON objects as one.
-fn merged(mut first: Value, second: Value) -> Value {
+fn merge(mut first: Value, second: Value) -> Value {
     if let (Value::Object(first), Value::Object(second)) = (&mut first, second) {
         first.extend(second);
     }

@@ -55,7 +55,7 @@ impl AtlasTotals {
         self.names = self.names.saturating_add(names);
         let span = fields.get("linkage").map_or_else(|| fields.span.clone(), TomlValue::span);
         let help = "use linkages with fewer parameters, or divide the atlas";
-        is_within((self.names, MAX_NAMES), "names", (span, help), parser)
+        is_within(self.names, MAX_NAMES, "names", span, help, parser)
     }
 
     /// Adds the cells of a family; reports too many, and is false then.
@@ -66,8 +66,8 @@ impl AtlasTotals {
         self.cells = self.cells.saturating_add(cells);
         self.values = self.values.saturating_add(cells.saturating_mul(values_per_cell));
         let help = "use fewer values, divide the atlas, or solve it without pages: `coupler-atlas sweep`";
-        is_within((self.cells, MAX_DRAWN_CELLS), "cells", (space_span(fields), help), parser)
-            && is_within((self.values, MAX_CHECKED_VALUES), "values of cells", (space_span(fields), help), parser)
+        is_within(self.cells, MAX_DRAWN_CELLS, "cells", space_span(fields), help, parser)
+            && is_within(self.values, MAX_CHECKED_VALUES, "values of cells", space_span(fields), help, parser)
     }
 
     /// Adds the files of a family's pages, and reports too many. How many pages a family with `where` has is known only
@@ -86,17 +86,17 @@ impl AtlasTotals {
         if formats.contains(&Format::Pdf) {
             self.book_cells = self.book_cells.saturating_add(cells);
             let help = "leave the format pdf out, or divide the atlas";
-            is_within((self.book_cells, MAX_BOOK_CELLS), "cells in the book", (space_span(fields), help), parser);
+            is_within(self.book_cells, MAX_BOOK_CELLS, "cells in the book", space_span(fields), help, parser);
         }
         let page_formats = formats.iter().filter(|format| format.page_format().is_some()).count();
         self.page_files = self.page_files.saturating_add(pages.saturating_mul(page_formats));
         let help = "put more panels on a page, write fewer formats, or divide the atlas";
-        is_within((self.page_files, MAX_PAGE_FILES), "files of pages", (space_span(fields), help), parser);
+        is_within(self.page_files, MAX_PAGE_FILES, "files of pages", space_span(fields), help, parser);
     }
 }
 
 /// Whether the number of something in the families so far is within its limit; reports it otherwise.
-fn is_within((number, limit): (usize, usize), what: &str, (span, help): (Span, &str), parser: &mut TomlParser) -> bool {
+fn is_within(number: usize, limit: usize, what: &str, span: Span, help: &str, parser: &mut TomlParser) -> bool {
     if number > limit {
         let message = format!("the families up to here have {number} {what}, more than the limit of {limit}");
         parser.report(Problem::error(span, message).with_help(help));
@@ -182,7 +182,7 @@ pub(crate) fn check(
                 continue;
             }
             problem_indices.insert(kind, problems.len());
-            let value_span = slot.and_then(|slot| value_span(family, fields, (k, slot)));
+            let value_span = slot.and_then(|slot| value_span(family, fields, k, slot));
             let span = value_span.or_else(|| case_span(fields, k)).or_else(|| spans.get(slot?).cloned().flatten());
             let message = format!("in cell {} ({}), {error}", cell.number, given_values(family, &cell));
             let span = span.unwrap_or_else(|| space_span(fields));
@@ -229,7 +229,7 @@ fn value_help(family: &Family, k: usize, slot: usize) -> String {
 }
 
 /// The place of the value that the grid or the k-th case gives a name, if it does.
-fn value_span(family: &Family, fields: &Fields, (k, slot): (usize, usize)) -> Option<Span> {
+fn value_span(family: &Family, fields: &Fields, k: usize, slot: usize) -> Option<Span> {
     let name = &family.names[slot];
     let value = match &family.space {
         ParameterSpace::Cases(_) => {

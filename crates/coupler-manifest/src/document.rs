@@ -62,17 +62,17 @@ pub fn parse_with_files(text: &str, files: FileReader) -> ParseOutcome {
 
 /// Parses a manifest for a program that writes these formats; others are errors.
 pub fn parse_for_formats(text: &str, writable: &[Format], files: FileReader) -> ParseOutcome {
-    parse_for(text, (writable, Purpose::Pages), files)
+    parse_for(text, writable, Purpose::Pages, files)
 }
 
 /// Parses a manifest for tables without pages of some of its cells: those of which `cells` returns the range of indices for
 /// the id of a family and its number of cells. Only these are checked. Of the others nothing is computed, so that there may
 /// be as many as `limit` allows.
 pub fn parse_for_tables(text: &str, files: FileReader, cells: &dyn Fn(&str, usize) -> Range<usize>) -> ParseOutcome {
-    parse_for(text, (&Format::ALL, Purpose::Tables(cells)), files)
+    parse_for(text, &Format::ALL, Purpose::Tables(cells), files)
 }
 
-fn parse_for(text: &str, (writable, purpose): (&[Format], Purpose), files: FileReader) -> ParseOutcome {
+fn parse_for(text: &str, writable: &[Format], purpose: Purpose, files: FileReader) -> ParseOutcome {
     if let Some(problem) = length_problem(text) {
         return ParseOutcome { plan: None, problems: vec![problem] };
     }

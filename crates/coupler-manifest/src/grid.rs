@@ -48,7 +48,8 @@ struct Decimal {
 
 /// Reads the values that a grid gives for a name of a kind.
 pub(crate) fn read_values<'t>(
-    (name, kind): (&str, ParameterKind),
+    name: &str,
+    kind: ParameterKind,
     value: &TomlValue<'t>,
     parser: &mut TomlParser<'t>,
 ) -> Option<GridValues> {
@@ -58,30 +59,31 @@ pub(crate) fn read_values<'t>(
             parser.report(problem.with_help("give at least one value, as in [2, 3, 4]"));
             return None;
         }
-        let read: Vec<Option<f64>> = list.iter().map(|item| parser.parameter_value(item, (name, kind))).collect();
+        let read: Vec<Option<f64>> = list.iter().map(|item| parser.parameter_value(item, name, kind)).collect();
         return read.into_iter().collect::<Option<Vec<f64>>>().map(GridValues::from);
     }
     if value.get_ref().is_table() {
-        return read_range((name, kind), value, parser);
+        return read_range(name, kind, value, parser);
     }
-    parser.parameter_value(value, (name, kind)).map(|value| GridValues::from(vec![value]))
+    parser.parameter_value(value, name, kind).map(|value| GridValues::from(vec![value]))
 }
 
 /// Reads a range by step or by count.
 fn read_range<'t>(
-    parameter: (&str, ParameterKind),
+    name: &str,
+    kind: ParameterKind,
     value: &TomlValue<'t>,
     parser: &mut TomlParser<'t>,
 ) -> Option<GridValues> {
     let fields = Fields::from_value(value, &RANGE, parser)?;
     let mut end = |key: &str| {
         let value = fields.required(key, &format!("{key} = 2"), parser)?;
-        Some((parser.parameter_value(value, parameter)?, value))
+        Some((parser.parameter_value(value, name, kind)?, value))
     };
     let (from, to) = (end("from"), end("to"));
     match (fields.get("step"), fields.get("count")) {
         (Some(step_value), None) => {
-            let step = parser.parameter_value(step_value, parameter)?;
+            let step = parser.parameter_value(step_value, name, kind)?;
             let ((from, from_value), (to, to_value)) = (from?, to?);
             if step == 0.0 {
                 parser.report(
@@ -201,7 +203,7 @@ mod tests {
         let mut parser = TomlParser::new(&text);
         let document = parser.parse_document();
         let root = Fields::with_any_keys(&document, "the file", &mut parser).unwrap();
-        match root.get("p").and_then(|value| read_values(("p", ParameterKind::Length), value, &mut parser)) {
+        match root.get("p").and_then(|value| read_values("p", ParameterKind::Length, value, &mut parser)) {
             Some(read) => Ok(read.values.iter().collect()),
             None => Err(parser.into_problems().remove(0).message),
         }

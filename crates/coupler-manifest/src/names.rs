@@ -72,7 +72,7 @@ pub(crate) fn read_names<'t>(
             read_all = false;
         }
         let kind = kind_of(Some(template), name);
-        let expression = parser.parameter_expression(value, (name, kind)).filter(|expression| {
+        let expression = parser.parameter_expression(value, name, kind).filter(|expression| {
             let compiled = expression.compile(&scope, Kind::Number);
             parser.ok_or_report(value, compiled).is_some()
         });
@@ -294,7 +294,7 @@ fn read_grid<'t>(
     let mut all_read = true;
     for (name, span, value) in table.entries() {
         linkage_format::check_identifier(name, span.clone(), parser);
-        match grid::read_values((name, kind_of(template, name)), value, parser) {
+        match grid::read_values(name, kind_of(template, name), value, parser) {
             Some(values) => axes.push((name.to_owned(), span, values)),
             None => all_read = false,
         }
@@ -347,7 +347,7 @@ fn read_cases<'t>(
         let mut case = Vec::new();
         for (name, span, value) in table.entries() {
             linkage_format::check_identifier(name, span.clone(), parser);
-            let value = parser.parameter_value(value, (name, kind_of(template, name)));
+            let value = parser.parameter_value(value, name, kind_of(template, name));
             all_read &= value.is_some();
             case.extend(value.map(|value| (name.to_owned(), span, value)));
         }

@@ -141,7 +141,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     })?;
     write_reports(arguments, &source, &report)?;
     if let Some(folder) = &arguments.diff {
-        overlays::write(folder, &source.plan, &arguments.against, (&options, &report))?;
+        overlays::write(folder, &source.plan, &arguments.against, &options, &report)?;
     }
     if arguments.bless {
         return bless(arguments, &source, &report);

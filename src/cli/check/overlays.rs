@@ -40,11 +40,11 @@ fn require_own_folder(folder: &Path) -> Result<(), InputError> {
 }
 
 /// Writes a page for each curve that has moved, and an index of the pages.
-pub fn write(folder: &Path, plan: &Plan, recorded: &Path, report: (&Options, &Report)) -> anyhow::Result<()> {
+pub fn write(folder: &Path, plan: &Plan, recorded: &Path, options: &Options, report: &Report) -> anyhow::Result<()> {
     require_own_folder(folder)?;
     output::create_folder(folder)?;
     let (mut figures, mut written, mut failed) = (String::new(), 0, None);
-    check::draw_overlays(plan, recorded, report, MAX_CURVES, |overlay| {
+    check::draw_overlays(plan, recorded, options, report, MAX_CURVES, |overlay| {
         let (name, location) = (&overlay.name, escape(printable(&overlay.finding.location)));
         figures.push_str(&format!(
             "<figure id=\"{name}\"><figcaption><b>{location}</b>: {}</figcaption>\

@@ -40,7 +40,7 @@ pub(super) fn notes(best: &Best, arguments: &Arguments) -> String {
 }
 
 /// Which conditions a cell of a family does not meet, and its values, or why the condition has no meaning there.
-pub(super) fn unmet((family, cell): (Family, usize), condition: &str) -> String {
+pub(super) fn unmet(family: Family, cell: usize, condition: &str) -> String {
     let scope = Family::scope(&family.names, family.template.is_driven_by_length());
     let found = match parse_condition(condition).and_then(|parsed| parsed.compile(&scope, Kind::Boolean)) {
         Ok(filter) => {

@@ -23,8 +23,8 @@ pub(super) trait Shown {
 /// Writes the drawing that the arguments ask for, and prints what they ask for unless that is the drawing.
 pub(super) fn show(report: &impl Shown, arguments: &Arguments, is_drawing_printed: bool) -> anyhow::Result<Outcome> {
     let mut notes = report.best().map_or(String::new(), |best| notes::notes(&best, arguments));
-    if let Some((miss, condition)) = report.miss().zip(arguments.condition.as_deref()) {
-        notes += &notes::unmet(miss, condition);
+    if let Some(((family, cell), condition)) = report.miss().zip(arguments.condition.as_deref()) {
+        notes += &notes::unmet(family, cell, condition);
     }
     if let Some(path) = &arguments.svg {
         files::write(path, &report.drawing())?;

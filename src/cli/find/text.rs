@@ -15,7 +15,7 @@ pub(super) fn text(report: &Report) -> String {
         ["E/S", "E", "greatest", "fit", "class", "mu worst", "longest link", "in order", "direction"];
     let Report { name, target, answers, .. } = report;
     let size = target.size();
-    let mut out = described(name, target) + "\n";
+    let mut out = describe_target(name, target) + "\n";
     if answers.is_empty() {
         return out + &nothing_found(report);
     }
@@ -44,7 +44,7 @@ pub(super) fn text(report: &Report) -> String {
 }
 
 /// The path in a few words.
-pub(super) fn described(name: &str, target: &Target) -> String {
+pub(super) fn describe_target(name: &str, target: &Target) -> String {
     let points = pluralize(target.points().len(), "point");
     let timed = if target.angles_deg().is_some() { ", timed" } else { "" };
     format!("{name}: {points}, {}{timed}, S = {}", target.kind().name(), number(target.size(), target.size()))

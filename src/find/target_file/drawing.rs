@@ -181,12 +181,12 @@ pub(super) fn outline_of(pieces: Vec<Piece>, options: &ReadOptions) -> Result<Ou
     let is_closed = piece.is_closed();
     let points = spaced_evenly(&piece.points, is_closed);
     let mut outline = Outline::new(points, None, is_closed.then_some(true));
-    outline.reading = Reading::of(taken(&pieces, index, options));
+    outline.reading = Reading::of(describe_taken(&pieces, index, options));
     Ok(outline)
 }
 
 /// Which outline was taken.
-fn taken(pieces: &[Piece], index: usize, options: &ReadOptions) -> String {
+fn describe_taken(pieces: &[Piece], index: usize, options: &ReadOptions) -> String {
     let piece = &pieces[index];
     let id = piece.id.as_ref().map_or(String::new(), |id| format!(" `{id}`"));
     let kind = match piece.kind {

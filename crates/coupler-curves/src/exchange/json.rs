@@ -156,7 +156,7 @@ fn rows(selected: &SelectedCurve) -> Vec<Vec<f64>> {
         let mode = circuit.mode_at(sample);
         let branches = (0..linkage.dyad_count().max(1)).map(DyadId::new).map(|dyad| f64::from(mode.sign(dyad)));
         let point = circuit.positions.point(joint, sample);
-        let further = compute_columns(&selected.family.columns, linkage, (circuit, joint), sample);
+        let further = compute_columns(&selected.family.columns, linkage, circuit, joint, sample);
         branches.chain([sample as f64, circuit.inputs[sample], point.x, point.y]).chain(further).collect()
     };
     (0..circuit.len()).map(row).collect()

@@ -50,7 +50,7 @@ impl<'a> PointTable<'a> {
                 }
                 append_integer(sample, out);
                 let point = circuit.positions.point(curve.joint, sample);
-                let columns = compute_columns(self.columns, &solved.linkage, (circuit, curve.joint), sample);
+                let columns = compute_columns(self.columns, &solved.linkage, circuit, curve.joint, sample);
                 for value in [circuit.inputs[sample], point.x, point.y].into_iter().chain(columns) {
                     out.push(b',');
                     append_number(value, out);

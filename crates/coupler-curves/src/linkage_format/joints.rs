@@ -42,7 +42,7 @@ pub(super) fn parse_joints<'t>(
         entries.iter().map(|(name, _, value)| parse_joint(name, value, &names, scope, parser)).collect();
     let traced = parse_traced(linkage, &names, parser);
     let seen_from = linkage.get("seen_from").map(|value| parse_joint_pair(value, &names, parser));
-    let output_link = linkage.get("output_link").map(|value| parse_output_link(value, (&names, &parsed), parser));
+    let output_link = linkage.get("output_link").map(|value| parse_output_link(value, &names, &parsed, parser));
     let chains = linkage.get("chains").map_or(Some(Vec::new()), |value| parse_chains(value, &names, parser));
     check_inputs(&entries, &parsed, &table, parser);
     let placings: Vec<JointKindTemplate> = parsed.into_iter().collect::<Option<_>>()?;
@@ -60,9 +60,9 @@ pub(super) fn parse_joints<'t>(
     };
     let chains = chains?;
     let named: Vec<usize> = seen_from.into_iter().flatten().chain(output_joints(output_link)).collect();
-    check_unused(&entries, (&placings, &needs), &traced, &named, parser);
+    check_unused(&entries, &placings, &needs, &traced, &named, parser);
     if seen_from.is_none() {
-        check_traced_joints_move(&entries, (&placings, &needs), &order, &traced, parser);
+        check_traced_joints_move(&entries, &placings, &needs, &order, &traced, parser);
     }
     let mut new_indices = vec![0; order.len()];
     order.iter().zip(0..).for_each(|(&joint, index)| new_indices[joint] = index);
@@ -121,7 +121,8 @@ fn parse_traced<'t>(linkage: &Fields<'_, 't>, names: &JointNames, parser: &mut T
 /// Parses an output link: two joints of a link, or the joint of a slider; `parsed` are the joints that can be read.
 fn parse_output_link<'t>(
     value: &TomlValue<'t>,
-    (names, parsed): (&JointNames, &[Option<JointKindTemplate>]),
+    names: &JointNames,
+    parsed: &[Option<JointKindTemplate>],
     parser: &mut TomlParser<'t>,
 ) -> Option<OutputLinkTemplate> {
     match value.get_ref() {
@@ -293,7 +294,8 @@ fn order_joints(
 /// has a link: a parallelogram may be there for its links alone.
 fn check_unused(
     entries: &[(&str, Span, &TomlValue)],
-    (placings, needs): (&[JointKindTemplate], &[Vec<usize>]),
+    placings: &[JointKindTemplate],
+    needs: &[Vec<usize>],
     traced: &[usize],
     named: &[usize],
     parser: &mut TomlParser,
@@ -319,7 +321,8 @@ fn check_unused(
 /// not apply: relative to a moving link, fixed joints move.
 fn check_traced_joints_move(
     entries: &[(&str, Span, &TomlValue)],
-    (placings, needs): (&[JointKindTemplate], &[Vec<usize>]),
+    placings: &[JointKindTemplate],
+    needs: &[Vec<usize>],
     order: &[usize],
     traced: &[usize],
     parser: &mut TomlParser,

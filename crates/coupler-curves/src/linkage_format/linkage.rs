@@ -171,8 +171,8 @@ pub fn parse_template<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) ->
         fields.get("coincident").and_then(|value| parser.word(value, &COINCIDENT_DYADS)).unwrap_or_default();
     let input_kind = joints::input_kind(&fields);
     let start = fields.get("start").and_then(|value| parser.input(value, input_kind, &scope));
-    let input = fields.get("input").and_then(|value| parse_input_range(value, &INPUT, (input_kind, &scope), parser));
-    let arc = fields.get("arc").and_then(|value| parse_arc(value, (input_kind, &scope), parser));
+    let input = fields.get("input").and_then(|value| parse_input_range(value, &INPUT, input_kind, &scope, parser));
+    let arc = fields.get("arc").and_then(|value| parse_arc(value, input_kind, &scope, parser));
     let joints = fields
         .required("joints", "a table [linkage.joints]", parser)
         .and_then(|value| joints::parse_joints(value, &fields, &scope, parser));
@@ -304,7 +304,8 @@ pub fn check_identifier(name: &str, span: Span, parser: &mut TomlParser) {
 fn parse_input_range<'t>(
     value: &TomlValue<'t>,
     schema: &'static TableSchema,
-    (kind, scope): (InputKind, &Scope),
+    kind: InputKind,
+    scope: &Scope,
     parser: &mut TomlParser<'t>,
 ) -> Option<[InputValue; 2]> {
     let fields = Fields::from_value(value, schema, parser)?;
@@ -322,10 +323,11 @@ fn parse_input_range<'t>(
 /// Parses an `arc` table: the input range and the branch.
 fn parse_arc<'t>(
     value: &TomlValue<'t>,
-    input: (InputKind, &Scope),
+    kind: InputKind,
+    scope: &Scope,
     parser: &mut TomlParser<'t>,
 ) -> Option<([InputValue; 2], i8)> {
-    let range = parse_input_range(value, &ARC, input, parser)?;
+    let range = parse_input_range(value, &ARC, kind, scope, parser)?;
     let fields = Fields::with_any_keys(value, "an arc", parser)?;
     let branch = match fields.get("branch") {
         None => 1,

@@ -38,7 +38,8 @@ impl<'t> TomlParser<'t> {
     pub fn parameter_expression(
         &mut self,
         value: &TomlValue<'t>,
-        (name, kind): (&str, ParameterKind),
+        name: &str,
+        kind: ParameterKind,
     ) -> Option<Expression> {
         match value.get_ref() {
             DeValue::String(text) => {
@@ -50,8 +51,8 @@ impl<'t> TomlParser<'t> {
     }
 
     /// A value of a parameter, as [`TomlParser::parameter_expression`], without names.
-    pub fn parameter_value(&mut self, value: &TomlValue<'t>, parameter: (&str, ParameterKind)) -> Option<f64> {
-        let expression = self.parameter_expression(value, parameter)?;
+    pub fn parameter_value(&mut self, value: &TomlValue<'t>, name: &str, kind: ParameterKind) -> Option<f64> {
+        let expression = self.parameter_expression(value, name, kind)?;
         let compiled = expression.compile(&Scope::default(), Kind::Number);
         let compiled = self.ok_or_report(value, compiled)?;
         self.require_finite(value, compiled.evaluate(|_| f64::NAN))

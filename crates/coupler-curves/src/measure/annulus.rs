@@ -37,35 +37,35 @@ impl AlternatingPoints {
     ///
     /// Its circles pass through four of the points, alternating between outer and inner circle (de la Vallée Poussin).
     /// The annulus of any four points is no wider than that of all; points are exchanged until it is as wide. The
-    /// search fails as soon as the annulus is certain to be wider than `most`, and ends as soon as it is known to be no
+    /// search fails as soon as the annulus is certain to be wider than `max_width`, and ends as soon as it is known to be no
     /// wider. `None` also if there is no such circle.
-    fn narrowest_annulus(&mut self, points: &[Point], most: f64) -> Option<Annulus> {
+    fn narrowest_annulus(&mut self, points: &[Point], max_width: f64) -> Option<Annulus> {
         if let Some(four) = &mut self.free
             && four[3] < points.len()
-            && let Some(ring) = narrowest_by_exchange(points, four, most, Annulus::through_alternating)
+            && let Some(ring) = narrowest_by_exchange(points, four, max_width, Annulus::through_alternating)
         {
             return Some(ring);
         }
         let (four, ring) = initial_points(points)?;
         let four = self.free.insert(four);
-        if ring.width > most {
+        if ring.width > max_width {
             return None;
         }
-        if most.is_finite() {
-            improve_by_subset(points, four, most);
+        if max_width.is_finite() {
+            improve_by_subset(points, four, max_width);
         }
-        narrowest_by_exchange(points, four, most, Annulus::through_alternating)
+        narrowest_by_exchange(points, four, max_width, Annulus::through_alternating)
     }
 
     /// The narrowest annulus with a radius of at most `largest` that contains a row of points; otherwise like
     /// [`AlternatingPoints::narrowest_annulus`].
-    pub fn narrowest_annulus_within(&mut self, points: &[Point], most: f64, largest: f64) -> Option<Annulus> {
+    pub fn narrowest_annulus_within(&mut self, points: &[Point], max_width: f64, largest: f64) -> Option<Annulus> {
         let around = if self.is_folded { sorted_around(points) } else { Some(points.into()) };
-        let free = around.as_deref().and_then(|points| self.narrowest_annulus(points, most));
+        let free = around.as_deref().and_then(|points| self.narrowest_annulus(points, max_width));
         if let Some(free) = free.filter(|free| free.radius <= largest) {
             return Some(free);
         }
-        let is_too_wide = |points| free.is_none() && most.is_finite() && initial_points(points).is_some();
+        let is_too_wide = |points| free.is_none() && max_width.is_finite() && initial_points(points).is_some();
         if around.as_deref().is_some_and(is_too_wide) {
             return None;
         }
@@ -84,7 +84,7 @@ impl AlternatingPoints {
             Some(Annulus::with_centre(centre, [a, b]))
         };
         let guess = self.bounded.filter(|three| three[2] <= last).unwrap_or([0, last / 2, last]);
-        narrowest_by_exchange(points, self.bounded.insert(guess), most, through)
+        narrowest_by_exchange(points, self.bounded.insert(guess), max_width, through)
     }
 }
 
@@ -150,7 +150,7 @@ fn initial_points(points: &[Point]) -> Option<([usize; 4], Annulus)> {
 }
 
 /// Improves the guess of the four points of a long row by the exchange on a subset of it.
-fn improve_by_subset(points: &[Point], four: &mut [usize; 4], most: f64) {
+fn improve_by_subset(points: &[Point], four: &mut [usize; 4], max_width: f64) {
     const FEW: usize = 16;
     let last = points.len() - 1;
     if last < 2 * FEW {
@@ -158,7 +158,7 @@ fn improve_by_subset(points: &[Point], four: &mut [usize; 4], most: f64) {
     }
     let few: [Point; FEW + 1] = std::array::from_fn(|k| points[k * last / FEW]);
     let mut four_of_few = four.map(|k| k * FEW / last);
-    narrowest_by_exchange(&few, &mut four_of_few, most, Annulus::through_alternating);
+    narrowest_by_exchange(&few, &mut four_of_few, max_width, Annulus::through_alternating);
     if Annulus::through_alternating(four_of_few.map(|k| few[k])).is_some() {
         *four = four_of_few.map(|k| k * last / FEW);
     }
@@ -192,7 +192,7 @@ impl Annulus {
 fn narrowest_by_exchange<const N: usize>(
     points: &[Point],
     alternating: &mut [usize; N],
-    most: f64,
+    max_width: f64,
     through: impl Fn([Point; N]) -> Option<Annulus>,
 ) -> Option<Annulus> {
     const ROUNDS: usize = 24;
@@ -200,7 +200,7 @@ fn narrowest_by_exchange<const N: usize>(
     let mut best: Option<Annulus> = None;
     let mut ring = ring_through(*alternating)?;
     for _ in 0..ROUNDS {
-        if ring.width > most {
+        if ring.width > max_width {
             return None;
         }
         let square = |p: &Point| (p - ring.centre).norm_squared();
@@ -210,7 +210,7 @@ fn narrowest_by_exchange<const N: usize>(
         if best.is_none_or(|best| found.width < best.width) {
             best = Some(found);
         }
-        if found.width <= ring.width * (1.0 + 1e-9) || (most.is_finite() && found.width <= most) {
+        if found.width <= ring.width * (1.0 + 1e-9) || (max_width.is_finite() && found.width <= max_width) {
             break;
         }
         let is_inside = ring.radius - low > high - ring.radius;
@@ -235,7 +235,7 @@ fn narrowest_by_exchange<const N: usize>(
         let Some(next) = wider.or_else(other) else { break };
         (ring, *alternating) = next;
     }
-    best.filter(|best| best.width <= most)
+    best.filter(|best| best.width <= max_width)
 }
 
 /// Sorted indices, with one of them replaced by another.
@@ -279,8 +279,8 @@ mod tests {
             let sagitta = radius - (radius * radius - 1.0 / 16.0).sqrt();
             for first in [0, 5, 16, 32, 40] {
                 let points: Vec<Point> = (first..=first + 64).map(point).collect();
-                for most in [f64::INFINITY, 1.01 * sagitta] {
-                    let ring = AlternatingPoints::folded(true).narrowest_annulus_within(&points, most, radius);
+                for max_width in [f64::INFINITY, 1.01 * sagitta] {
+                    let ring = AlternatingPoints::folded(true).narrowest_annulus_within(&points, max_width, radius);
                     let ring = ring.unwrap_or_else(|| panic!("no ring of {direction:?} from {first}"));
                     assert!((ring.width / sagitta - 1.0).abs() < sagitta / radius, "{ring:?}");
                 }

@@ -29,8 +29,8 @@ pub struct Steps(Cell<Option<usize>>);
 
 impl Steps {
     /// For a search that may take so many.
-    pub fn new(most: usize) -> Steps {
-        Steps(Cell::new(Some(most)))
+    pub fn new(limit: usize) -> Steps {
+        Steps(Cell::new(Some(limit)))
     }
 
     /// Takes some.

@@ -148,7 +148,8 @@ pub fn find_column(name: &str) -> Option<Column> {
 pub fn compute_columns(
     columns: &[Column],
     linkage: &Linkage,
-    (circuit, joint): (&Circuit, JointId),
+    circuit: &Circuit,
+    joint: JointId,
     sample: usize,
 ) -> Vec<f64> {
     if columns.is_empty() {

@@ -92,7 +92,7 @@ fn find_dwell(row: &Row, extent: f64, length: f64) -> Result<Option<Dwell>, TooM
         // Next to a sharp bend the points that touch are known less exactly than elsewhere: by as much less is allowed of them.
         requirement.max_width = max_width - 1.01 * (width - ring.width);
         let reach = 0.1 * (ends[1] - ends[0]);
-        let reached = requirement.longest_near_by(all(ends), (ends, reach), 0.0);
+        let reached = requirement.longest_near_by(all(ends), ends, reach, 0.0);
         steps.check()?;
         let Reached::Longest { ends: shorter, .. } = reached else { break };
         let Some(next) = CurveRings::new(row, shorter, all(shorter), length).ring(shorter) else { return Ok(None) };
@@ -229,7 +229,7 @@ impl Requirement for Circular<'_> {
     fn longest_near(&self, ends: [f64; 2], reach: f64, least: f64) -> Reached {
         /// Points of the portion in which those that touch its annulus are found.
         const POINTS: usize = 32;
-        let reached = self.longest_near_by(POINTS, (ends, reach), least);
+        let reached = self.longest_near_by(POINTS, ends, reach, least);
         if reached == Reached::Nothing {
             // Where no rate shows the way, the portion itself is the longest that is known, if it fits.
             let ring = CurveRings::new(self.row, ends, POINTS, self.max_radius).ring(ends);
@@ -245,7 +245,7 @@ impl Requirement for Circular<'_> {
         let all = (found[1] - found[0]).ceil() as usize;
         let is_wider = |ring: PortionRing| ring.width > self.max_width;
         if all > POINTS && CurveRings::new(self.row, found, all, self.max_radius).ring(found).is_some_and(is_wider) {
-            return self.longest_near_by(all, (found, reach), least);
+            return self.longest_near_by(all, found, reach, least);
         }
         reached
     }
@@ -280,7 +280,7 @@ impl Circular<'_> {
     }
 
     /// The longest portion near one between two positions, by about so many points of it.
-    fn longest_near_by(&self, count: usize, (ends, reach): ([f64; 2], f64), least: f64) -> Reached {
+    fn longest_near_by(&self, count: usize, ends: [f64; 2], reach: f64, least: f64) -> Reached {
         let permitted = self.max_width * (1.0 - ACCURACY);
         let mut rings = CurveRings::new(self.row, ends, count, self.max_radius);
         let fit = |ends: [f64; 2]| {

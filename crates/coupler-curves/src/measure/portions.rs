@@ -112,8 +112,8 @@ impl<R: Requirement> Search<'_, R> {
         in_rising_order(starts.iter().filter_map(candidate).collect(), |candidate| -candidate.0)
     }
 
-    /// Moves the ends of the most promising portions from point to point, no more than `most`, to where they are longest.
-    fn extend_candidates(&mut self, points: &EveryNth, candidates: &[(f64, [usize; 2])], most: usize) {
+    /// Moves the ends of the most promising portions from point to point, no more than `limit`, to where they are longest.
+    fn extend_candidates(&mut self, points: &EveryNth, candidates: &[(f64, [usize; 2])], limit: usize) {
         let mut is_covered = vec![false; points.start_count];
         let quantity = self.requirement.quantity(points);
         let mean_step = quantity[points.start_count] / points.start_count as f64;
@@ -124,7 +124,7 @@ impl<R: Requirement> Search<'_, R> {
             !R::HAS_CERTAIN_BOUNDS
                 || (bounds[from] >= bounds[(from + 1) % n] && bounds[from] >= bounds[(from + n - 1) % n])
         };
-        for &(bound, [from, to]) in candidates.iter().filter(|(_, [from, _])| is_peak(*from)).take(most) {
+        for &(bound, [from, to]) in candidates.iter().filter(|(_, [from, _])| is_peak(*from)).take(limit) {
             let least = self.least();
             if bound < least {
                 break;

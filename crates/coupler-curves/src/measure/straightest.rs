@@ -29,7 +29,7 @@ impl Narrowest {
     }
 }
 
-/// The ends of the portion with the narrowest strip that is no wider than `most`; of those that are equally narrow the
+/// The ends of the portion with the narrowest strip that is no wider than `max_width`; of those that are equally narrow the
 /// longest, and of those equally long the one that begins at the least input, from 0 up to 360 degrees. `end` returns the end of the portion that begins at a
 /// position.
 ///
@@ -42,7 +42,7 @@ pub(super) fn straightest(
     row: &Row,
     end: impl Fn(f64) -> Option<f64>,
     narrowest: Narrowest,
-    most: f64,
+    max_width: f64,
 ) -> Result<Option<[f64; 2]>, TooManySteps> {
     /// The number of parts of the curve in one of which the portion begins.
     const PARTS: usize = 128;
@@ -64,7 +64,7 @@ pub(super) fn straightest(
         // Any of its points need a strip no wider.
         steps.take(inner.len() + 1)?;
         let thinned: Vec<Point> = inner.iter().step_by((inner.len() / POINTS).max(1)).copied().collect();
-        if check_width(&thinned, most).is_err() {
+        if check_width(&thinned, max_width).is_err() {
             continue;
         }
         let width = match thinned.len() {
@@ -80,7 +80,7 @@ pub(super) fn straightest(
         let mut best: Option<Candidate> = None;
         let mut rank_from = |at: f64| {
             let to = if steps.take(POINTS).is_ok() { end(at) } else { None };
-            let strip = to.map(|to| (to, strips.strip([at, to]))).filter(|(_, strip)| strip.width <= most);
+            let strip = to.map(|to| (to, strips.strip([at, to]))).filter(|(_, strip)| strip.width <= max_width);
             let Some((to, PortionStrip { width, length, .. })) = strip else { return f64::NEG_INFINITY };
             let candidate = Candidate { size: narrowest.size(width, length), length, ends: [at, to] };
             if best.is_none_or(|best| rank(candidate) > rank(best)) {

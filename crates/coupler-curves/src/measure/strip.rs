@@ -28,12 +28,12 @@ impl Strip {
         Strip::by_exchange(points, three, f64::INFINITY).unwrap_or_else(|| Strip::enclosing(points))
     }
 
-    /// The strip of a row of points along a nearly straight path; `None` if it is wider than `most`, and a wider strip
+    /// The strip of a row of points along a nearly straight path; `None` if it is wider than `max_width`, and a wider strip
     /// than the narrowest if that is no wider.
     ///
     /// One line passes through two of three points, and the other through the one between them; points are exchanged
     /// until none is outside. `three` are the indices to begin with, and afterwards those of the strip.
-    pub fn by_exchange(points: &[Point], three: &mut [usize; 3], most: f64) -> Option<Strip> {
+    pub fn by_exchange(points: &[Point], three: &mut [usize; 3], max_width: f64) -> Option<Strip> {
         const ROUNDS: usize = 12;
         /// The greatest ratio of width to length for which the strip of the exchange, which is the narrowest across its
         /// own direction, is as narrow as any to the square of this.
@@ -41,7 +41,7 @@ impl Strip {
         for _ in 0..ROUNDS {
             let corners = three.map(|k| points[k]);
             let least = triangle_height(corners);
-            if least > most {
+            if least > max_width {
                 return None;
             }
             let [a, b, c] = corners;
@@ -49,7 +49,7 @@ impl Strip {
             let area = |p: &Point| cross(side, p - a);
             let [low, high] = min_max(points, area);
             let width = (high - low) / length;
-            if width <= least * (1.0 + 1e-12) || (most.is_finite() && width <= most) {
+            if width <= least * (1.0 + 1e-12) || (max_width.is_finite() && width <= max_width) {
                 let along = side / length;
                 let [near, far] = min_max(points, |p| along.dot(&(p - a)));
                 if width > THIN * (far - near) {
@@ -63,7 +63,7 @@ impl Strip {
             let Some(new) = points.iter().position(|p| area(p) == outside) else { break };
             *three = exchange_point(*three, new, |k| (k == 1) == ((outside > 0.0) == (own > 0.0)));
         }
-        Some(Strip::enclosing(points)).filter(|strip| strip.width <= most)
+        Some(Strip::enclosing(points)).filter(|strip| strip.width <= max_width)
     }
 
     /// The strip of points whose convex hull has these corners: one of its sides is on an edge of the strip.
@@ -126,11 +126,11 @@ impl Band {
     }
 }
 
-/// A band of a width of at most `most` that contains a row of points.
+/// A band of a width of at most `max_width` that contains a row of points.
 ///
 /// # Errors
 /// A lower bound of the width of any, if there is none.
-pub(super) fn check_width(points: &[Point], most: f64) -> Result<Band, f64> {
+pub(super) fn check_width(points: &[Point], max_width: f64) -> Result<Band, f64> {
     if points.len() < 3 {
         let along = points.last().zip(points.first()).and_then(|(last, first)| (last - first).try_normalize(0.0));
         return Ok(Band::around(points, along.unwrap_or_else(Vector::x)));
@@ -140,14 +140,14 @@ pub(super) fn check_width(points: &[Point], most: f64) -> Result<Band, f64> {
     let quarters = [0, last / 4, last / 2, last - last / 4, last].map(|k| points[k]);
     for corners in [[0, 2, 4], [0, 1, 3], [1, 3, 4]] {
         let height = triangle_height(corners.map(|k| quarters[k]));
-        if height > most {
+        if height > max_width {
             return Err(height);
         }
     }
     let mut three = [0, last / 2, last];
-    match Strip::by_exchange(points, &mut three, most) {
+    match Strip::by_exchange(points, &mut three, max_width) {
         Some(strip) => Ok(Band::around(points, strip.direction)),
-        None => Err(triangle_height(three.map(|k| points[k])).max(most)),
+        None => Err(triangle_height(three.map(|k| points[k])).max(max_width)),
     }
 }
 

@@ -207,7 +207,7 @@ impl<'a> PortionPoints<'a> {
         // The extreme between an end or a corner and the point next to it, if neither is it.
         let beside = |end: usize, next: usize, velocity: Vector| {
             let is_searched = next != 0 && next != last && is_near(end) && !is_extreme(next) && !self.is_corner(next);
-            if is_searched { self.extreme_beside(levels, (end, velocity), next) } else { None }
+            if is_searched { self.extreme_beside(levels, end, velocity, next) } else { None }
         };
         let fixed = |index: usize| Contact { index, point: self.points[index], rates: None };
         contacts.clear();
@@ -245,14 +245,14 @@ impl<'a> PortionPoints<'a> {
         let acceleration = (slopes[1] - slopes[0]) * (2.0 / (before + after));
         let velocity = (slopes[0] * after + slopes[1] * before) / (before + after);
         let (contact, step) =
-            self.extreme(levels, k, (positions[k], points[k]), [velocity, acceleration], [-before, after]);
+            self.extreme(levels, k, positions[k], points[k], [velocity, acceleration], [-before, after]);
         // Beyond a corner the curve is another.
         let is_beyond = (step <= -before && self.is_corner(k - 1)) || (step >= after && self.is_corner(k + 1));
         if is_beyond { Contact { index: k, point: points[k], rates: None } } else { contact }
     }
 
     /// The extreme between an end or a corner, at which the velocity is given, and the point next to it.
-    fn extreme_beside(&self, levels: &dyn Levels, (end, velocity): (usize, Vector), next: usize) -> Option<Contact> {
+    fn extreme_beside(&self, levels: &dyn Levels, end: usize, velocity: Vector, next: usize) -> Option<Contact> {
         /// A velocity that is less than this part of the mean is none: the curve stops there.
         const STOPPED: f64 = 1e-3;
         let points = &self.points;
@@ -270,7 +270,7 @@ impl<'a> PortionPoints<'a> {
         let point = if is_stopped { self.row.point_at(at * self.spacing) } else { points[end] };
         let acceleration = if is_stopped { slope * (2.0 / gap) } else { (slope - velocity) * (2.0 / gap) };
         let bounds = [gap.min(0.0) - from, gap.max(0.0) - from];
-        Some(self.extreme(levels, next, (at, point), [velocity, acceleration], bounds).0)
+        Some(self.extreme(levels, next, at, point, [velocity, acceleration], bounds).0)
     }
 
     /// The extreme height near that of the parabola with a velocity and an acceleration at a position, by Newton's
@@ -279,7 +279,8 @@ impl<'a> PortionPoints<'a> {
         &self,
         levels: &dyn Levels,
         index: usize,
-        (at, point): (f64, Point),
+        at: f64,
+        point: Point,
         [velocity, acceleration]: [Vector; 2],
         [least, most]: [f64; 2],
     ) -> (Contact, f64) {

@@ -7,7 +7,7 @@ use super::AssemblyError;
 use super::end_series::continuous_mode;
 use super::interval::{Interval, Span};
 use super::interval_search::IntervalSearch;
-use super::pass::{InputPosition, Pass, PassEnd};
+use super::pass::{Heading, InputPosition, Pass, PassEnd};
 use crate::linkage::{CircuitSelection, DyadId, Input, Linkage};
 
 /// A circuit that is not yet sampled; see [`super::Sampler::sample_circuit`].
@@ -150,10 +150,10 @@ fn trace_circuit(
     if first_interval.span == Span::FullTurn {
         return Ok(UnsampledCircuit { passes, is_closed: true });
     }
-    let closed = append_following(search, (first, true), &mut passes, seen)?;
+    let closed = append_following(search, Step { interval: first, rises: true }, &mut passes, seen)?;
     if !closed {
         let mut before = vec![first_interval.to_pass(false, period)];
-        append_following(search, (first, false), &mut before, seen)?;
+        append_following(search, Step { interval: first, rises: false }, &mut before, seen)?;
         before.reverse();
         before.pop();
         passes = before.iter().map(Pass::reversed).chain(passes).collect();
@@ -161,11 +161,17 @@ fn trace_circuit(
     Ok(UnsampledCircuit { passes: normalize_passes(search.linkage, passes, closed), is_closed: closed })
 }
 
-/// Appends the passes that follow `start`, an interval and whether the input rises on it. Returns whether they lead
-/// back to the start.
+/// An interval, by its index, and whether the input rises on it.
+#[derive(Clone, Copy, PartialEq)]
+struct Step {
+    interval: usize,
+    rises: bool,
+}
+
+/// Appends the passes that follow `start`. Returns whether they lead back to it.
 fn append_following(
     search: &mut IntervalSearch,
-    start: (usize, bool),
+    start: Step,
     passes: &mut Vec<Pass>,
     seen: &mut HashSet<usize>,
 ) -> Result<bool, AssemblyError> {
@@ -174,26 +180,25 @@ fn append_following(
         if next == start {
             return Ok(true);
         }
-        if !seen.insert(next.0) {
+        if !seen.insert(next.interval) {
             // This interval belongs to a circuit already: only where several dyads are flat at one input can three
             // intervals meet.
             return Ok(false);
         }
-        passes.push(search.intervals()[next.0].to_pass(next.1, search.linkage.input().period()));
+        passes.push(search.intervals()[next.interval].to_pass(next.rises, search.linkage.input().period()));
         current = next;
     }
     Ok(false)
 }
 
-/// The interval that follows, and whether the input rises on it.
-fn next_interval(
-    search: &mut IntervalSearch,
-    (interval, rising): (usize, bool),
-) -> Result<Option<(usize, bool)>, AssemblyError> {
-    let from = search.intervals()[interval];
-    let Some(end) = from.end(rising) else { return Ok(None) };
-    let Some((mode, rises)) = end.next_mode(from.mode, rising, &search.linkage.motion_options) else { return Ok(None) };
-    let mode = match continuous_mode(search.linkage, &end.to_pass_end(), (from.mode, rising), (mode, rises)) {
+/// The step that follows.
+fn next_interval(search: &mut IntervalSearch, step: Step) -> Result<Option<Step>, AssemblyError> {
+    let from = search.intervals()[step.interval];
+    let Some(end) = from.end(step.rises) else { return Ok(None) };
+    let before = Heading { mode: from.mode, rises: step.rises };
+    let Some(after) = end.next_heading(before, &search.linkage.motion_options) else { return Ok(None) };
+    let rises = after.rises;
+    let mode = match continuous_mode(search.linkage, &end.to_pass_end(), before, after) {
         Ok(mode) => mode,
         Err(error) => {
             search.end_motion(error);
@@ -203,7 +208,7 @@ fn next_interval(
     let mut of_mode = search.intervals_of(mode)?;
     // The next interval begins at this end: falling from the same upper end, or rising from the same lower one.
     let begins = |&k: &usize| search.intervals()[k].end(!rises).is_some_and(|e| e.id == end.id);
-    Ok(of_mode.find(begins).map(|k| (k, rises)))
+    Ok(of_mode.find(begins).map(|interval| Step { interval, rises }))
 }
 
 /// Rotates, and if necessary reverses, a chain of passes so that the circuit starts at its normal start, and makes the

@@ -5,7 +5,7 @@
 //! limits and derivatives are those of the motion on the pass, and not differences.
 
 use super::AssemblyError;
-use super::pass::PassEnd;
+use super::pass::{Heading, PassEnd};
 use super::positions::geared_angle;
 use super::series::{Series, VectorSeries};
 use crate::geometry::{Point, Vector, trig};
@@ -112,22 +112,20 @@ impl EndSeries {
 
 /// The sides of dyads after an end of a pass, with those whose bases vanish there on the sides on which their joints do not jump.
 ///
-/// The motion arrives in the assembly mode `before` and continues in the mode `after`, each with whether the input rises.
-///
 /// # Errors
 /// A joint would jump on either side.
 pub(super) fn continuous_mode(
     linkage: &Linkage,
     end: &PassEnd,
-    before: (AssemblyMode, bool),
-    after: (AssemblyMode, bool),
+    before: Heading,
+    after: Heading,
 ) -> Result<AssemblyMode, AssemblyError> {
-    let (mut mode, rises) = after;
+    let Heading { mut mode, rises } = after;
     if end.vanishing_dyads.is_empty() {
         return Ok(mode);
     }
     let sense = |rises: bool| if rises { 1.0 } else { -1.0 };
-    let arriving = EndSeries::new(linkage, end, before.0, -sense(before.1));
+    let arriving = EndSeries::new(linkage, end, before.mode, -sense(before.rises));
     for (id, joint) in linkage.joint_ids().zip(&linkage.joints) {
         let is_reached = |mode: AssemblyMode| {
             let leaving = EndSeries::new(linkage, end, mode, sense(rises));
@@ -137,7 +135,7 @@ pub(super) fn continuous_mode(
                     let line = |series: &EndSeries, mode: AssemblyMode| {
                         series.directions[id.index()].unwrap_or(UNKNOWN) * f64::from(mode.sign(dyad))
                     };
-                    [line(&arriving, before.0), line(&leaving, mode), Vector::x()]
+                    [line(&arriving, before.mode), line(&leaving, mode), Vector::x()]
                 }
                 kind => {
                     // Relative to a joint at the other end of its link, whatever the distance of the linkage from the origin.
@@ -167,6 +165,14 @@ pub(super) fn continuous_mode(
         )?;
     }
     Ok(mode)
+}
+
+/// The direction from one joint to another and their distance.
+struct Base {
+    unit: EndVector,
+    length: Series<f64, TERMS>,
+    /// Whether they coincide at the end.
+    vanishes: bool,
 }
 
 /// The joints that have been placed so far.
@@ -201,9 +207,9 @@ impl Placing<'_> {
         let zero = number(0.0);
         let mut direction = |pair: [JointId; 2]| {
             *vanishing = Some(UNKNOWN);
-            let (unit, length, vanishes) = self.direction(pair)?;
-            *vanishing = vanishes.then(|| Vector::new(unit.x.0[0], unit.y.0[0]));
-            Ok((unit, length, vanishes))
+            let base = self.direction(pair)?;
+            *vanishing = base.vanishes.then(|| Vector::new(base.unit.x.0[0], base.unit.y.0[0]));
+            Ok(base)
         };
         Ok(match kind {
             JointKind::Fixed(point) => VectorSeries::constant(point.coords),
@@ -219,26 +225,24 @@ impl Placing<'_> {
             JointKind::Piston { base, length, offset, dyad } => {
                 let s = self.input();
                 let b = root(s.square() + number(offset * offset), self.end.input.value * self.end.input.value, false)?;
-                let flat = self.end.flat_dyads.contains(dyad);
-                self.dyad(at(base[0]), direction(base)?, [b, number(length)], (self.sign(dyad), flat))?
+                self.dyad(at(base[0]), direction(base)?, [b, number(length)], dyad)?
             }
             JointKind::Dyad { base, lengths, dyad } => {
-                let flat = self.end.flat_dyads.contains(dyad);
-                self.dyad(at(base[0]), direction(base)?, lengths.map(number), (self.sign(dyad), flat))?
+                self.dyad(at(base[0]), direction(base)?, lengths.map(number), dyad)?
             }
             JointKind::Slide { from, length, line, offset, dyad } => {
-                let (unit, ..) = direction(line)?;
+                let Base { unit, .. } = direction(line)?;
                 let h = number(offset) - unit.cross(at(from).minus(at(line[0])));
                 let square = (number(length) - h) * (number(length) + h);
                 let along = root(square, length * length, self.end.flat_dyads.contains(dyad))?;
                 at(from).moved(unit, along.scaled(self.sign(dyad)), h)
             }
             JointKind::Slot { base, offset: 0.0, .. } => {
-                let _: Result<_, Failure> = direction(base);
+                let _: Result<Base, Failure> = direction(base);
                 at(base[0])
             }
             JointKind::Slot { base, offset, dyad } => {
-                let (unit, d, _) = direction(base)?;
+                let Base { unit, length: d, .. } = direction(base)?;
                 let square = (d - number(offset.abs())) * (d + number(offset.abs()));
                 let slide = root(square, offset * offset, self.end.flat_dyads.contains(dyad))?;
                 let across = slide.scaled(offset * self.sign(dyad)) / d;
@@ -249,13 +253,13 @@ impl Placing<'_> {
             }
             JointKind::Parallelogram { corners: [p, q, r] } => at(p).moved(at(r).minus(at(q)), number(1.0), zero),
             JointKind::Yoke { from, line, offset, slot_direction: slot } => {
-                let (unit, ..) = direction(line)?;
+                let Base { unit, .. } = direction(line)?;
                 let pin = at(from).minus(at(line[0]));
                 let along = unit.dot(pin) - (unit.cross(pin) - number(offset)).scaled(slot.x / slot.y);
                 at(line[0]).moved(unit, along, number(offset))
             }
             JointKind::Aligned { from, line, offset, direction: line_is, along, across } => {
-                let (unit, d, _) = direction(line)?;
+                let Base { unit, length: d, .. } = direction(line)?;
                 let sense = if let LineDirection::BySide(dyad) = line_is { -self.sign(dyad) } else { 1.0 };
                 let (along, across) = (along * sense, across * sense);
                 if offset == 0.0 {
@@ -276,13 +280,13 @@ impl Placing<'_> {
         f64::from(self.mode.sign(dyad))
     }
 
-    /// The joint of an RRR dyad, from the first joint of its base and the base's direction and length.
+    /// The joint of an RRR dyad, from the first joint of its base.
     fn dyad(
         &self,
         from: EndVector,
-        (unit, d, vanishes): (EndVector, Series<f64, TERMS>, bool),
+        Base { unit, length: d, vanishes }: Base,
         [l0, l1]: [Series<f64, TERMS>; 2],
-        (sign, is_flat): (f64, bool),
+        dyad: DyadId,
     ) -> Result<EndVector, Failure> {
         let magnitude = l0.0[0] * l1.0[0];
         let (sum, difference) = (l0 + l1, l0 - l1);
@@ -293,12 +297,12 @@ impl Placing<'_> {
             let product = (sum - d) * (sum + d) * ((d - difference) * (d + difference));
             ((d + sum * difference / d).scaled(0.5), product.scaled(0.25) / d.square())
         };
-        let height = root(square, magnitude, is_flat)?;
-        Ok(from.moved(unit, foot, height.scaled(sign)))
+        let height = root(square, magnitude, self.end.flat_dyads.contains(dyad))?;
+        Ok(from.moved(unit, foot, height.scaled(self.sign(dyad))))
     }
 
-    /// The direction from one joint to another and their distance, and whether they coincide at the end.
-    fn direction(&self, pair: [JointId; 2]) -> Result<(EndVector, Series<f64, TERMS>, bool), Failure> {
+    /// The base from one joint to another.
+    fn direction(&self, pair: [JointId; 2]) -> Result<Base, Failure> {
         let [p, q] = pair.map(|joint| self.at[joint]);
         let base = q.minus(p);
         let coefficient = |v: &EndVector, n: usize| Vector::new(v.x.0[n], v.y.0[n]);
@@ -312,7 +316,8 @@ impl Placing<'_> {
         let least = VANISHING_BASE * size(0..TERMS / 4 + 1);
         if coefficient(&base, 0).norm() > least && !self.linkage.joints.iter().any(is_known) {
             let d = base.norm_squared().sqrt();
-            return Ok((VectorSeries { x: base.x / d, y: base.y / d }, d, false));
+            let unit = VectorSeries { x: base.x / d, y: base.y / d };
+            return Ok(Base { unit, length: d, vanishes: false });
         }
         let least = ROUNDING * size(1..TERMS / 4 + 1);
         let is_rounding = |c: f64| c <= least;
@@ -323,7 +328,7 @@ impl Placing<'_> {
         }
         let length = leading.norm_squared().sqrt();
         let unit = VectorSeries { x: leading.x / length, y: leading.y / length };
-        Ok((unit, raised(length, order), true))
+        Ok(Base { unit, length: raised(length, order), vanishes: true })
     }
 
     /// The value of the input.

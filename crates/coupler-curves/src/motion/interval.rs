@@ -1,7 +1,7 @@
 //! Intervals of the input on which a linkage can be assembled in an assembly mode, and how a motion continues at their
 //! ends.
 
-use super::pass::{InputPosition, Pass, PassEnd};
+use super::pass::{Heading, InputPosition, Pass, PassEnd};
 use crate::linkage::{AssemblyMode, CoincidentDyads, Continuation, DyadId, DyadSet, MotionOptions};
 
 /// Ends closer than this, in degrees or relative to a length, are at one input: the rounding of an angle near 360.
@@ -85,9 +85,8 @@ impl IntervalEnd {
         }
     }
 
-    /// The assembly mode in which a motion continues that arrives here with a rising or falling input, and whether the
-    /// input then rises; `None` if the motion ends. The sides of dyads whose bases vanish are not yet decided.
-    pub fn next_mode(&self, mode: AssemblyMode, rising: bool, options: &MotionOptions) -> Option<(AssemblyMode, bool)> {
+    /// How a motion continues that arrives here; `None` if it ends. The sides of dyads whose bases vanish are not yet decided.
+    pub fn next_heading(&self, Heading { mode, rises }: Heading, options: &MotionOptions) -> Option<Heading> {
         let flips = match options.coincident {
             CoincidentDyads::Together => self.flipping_dyads,
             CoincidentDyads::First => self.flipping_dyads.first(),
@@ -95,9 +94,9 @@ impl IntervalEnd {
         };
         match self.cause {
             EndCause::RangeEnd => None,
-            EndCause::Limit => Some((mode.flipped(flips), !rising)),
-            EndCause::ChangePoint if options.continuation == Continuation::Branch => Some((mode, rising)),
-            EndCause::ChangePoint => Some((mode.flipped(flips), rising)),
+            EndCause::Limit => Some(Heading { mode: mode.flipped(flips), rises: !rises }),
+            EndCause::ChangePoint if options.continuation == Continuation::Branch => Some(Heading { mode, rises }),
+            EndCause::ChangePoint => Some(Heading { mode: mode.flipped(flips), rises }),
         }
     }
 

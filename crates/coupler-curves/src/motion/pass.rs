@@ -54,6 +54,14 @@ pub struct Pass {
     pub mode: AssemblyMode,
 }
 
+/// How a linkage moves before or after an end of a pass.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Heading {
+    pub mode: AssemblyMode,
+    /// Whether the input rises.
+    pub rises: bool,
+}
+
 impl PassEnd {
     /// An end at which no dyad is flat.
     pub fn regular(input: InputPosition) -> PassEnd {

@@ -224,7 +224,7 @@ impl Sampler {
         let intervals = self.interval_counts(circuit, &lengths);
         for (k, pass) in circuit.passes.iter().enumerate() {
             let begin = plan.inputs.len();
-            self.push_inner_samples(pass, (intervals[k], input), lengths.get(k), &mut plan.inputs);
+            self.push_inner_samples(pass, intervals[k], input, lengths.get(k), &mut plan.inputs);
             if k < last || !circuit.is_closed {
                 plan.pass_ends.push((plan.inputs.len(), k, false));
                 plan.inputs.push(pass.to.input);
@@ -239,7 +239,8 @@ impl Sampler {
     fn push_inner_samples(
         &self,
         pass: &Pass,
-        (intervals, input): (usize, Input),
+        intervals: usize,
+        input: Input,
         cumulative_length: Option<&CumulativeLength>,
         out: &mut Vec<InputPosition>,
     ) {

@@ -14,7 +14,7 @@ pub fn joint_polyline(linkage: &Linkage, circuit: &Circuit, joint: JointId, tole
     let mut out: Vec<Point> = Vec::new();
     for pass in &circuit.passes {
         let ends = [pass.from.input.value, pass.to.input.value];
-        let points = refined_lines(linkage, pass, ends, joint, (tolerance, MAX_NODES)).concat();
+        let points = refined_lines(linkage, pass, ends, joint, tolerance, MAX_NODES).concat();
         let meets = |end: &Point| points.first().is_some_and(|start| (end - start).norm() <= tolerance);
         let seam = usize::from(out.last().is_some_and(meets));
         out.extend(points.into_iter().skip(seam));
@@ -26,15 +26,16 @@ pub fn joint_polyline(linkage: &Linkage, circuit: &Circuit, joint: JointId, tole
 pub(super) const MAX_NODES: usize = 100_000;
 
 /// The path of a joint between two inputs of a pass, in lines without undefined positions and jumps; see
-/// [`joint_polyline`]. From more than `most` nodes it is not refined further.
+/// [`joint_polyline`]. From more than `max_nodes` nodes it is not refined further.
 pub(super) fn refined_lines(
     linkage: &Linkage,
     pass: &Pass,
     [from, to]: [f64; 2],
     joint: JointId,
-    (tolerance, most): (f64, usize),
+    tolerance: f64,
+    max_nodes: usize,
 ) -> Vec<Vec<Point>> {
-    let nodes = PathNodes::between(linkage, pass, [from, to], joint, (tolerance / 2.0, most));
+    let nodes = PathNodes::between(linkage, pass, [from, to], joint, tolerance / 2.0, max_nodes);
     nodes.unbroken_lines(tolerance).into_iter().map(|line| simplify_polyline(line, tolerance / 2.0)).collect()
 }
 
@@ -53,7 +54,8 @@ impl PathNodes {
         pass: &Pass,
         [from, to]: [f64; 2],
         joint: JointId,
-        (tolerance, most): (f64, usize),
+        tolerance: f64,
+        max_nodes: usize,
     ) -> PathNodes {
         /// The most input that a chord spans, in degrees of the fastest crank: a longer one may cross its curve at its
         /// middle.
@@ -68,13 +70,13 @@ impl PathNodes {
             Input::Angle { .. } => share.min(MAX_CHORD_DEG / linkage.fastest_crank_ratio()),
             Input::Length => share,
         };
-        let chords = ((to - from).abs() / longest).ceil().clamp(1.0, most as f64);
+        let chords = ((to - from).abs() / longest).ceil().clamp(1.0, max_nodes as f64);
         let inner = (0..chords as usize).map(|k| from + (to - from) * (k as f64 / chords));
         let mut nodes = PathNodes::at_inputs(linkage, pass, inner.chain([to]).collect(), joint);
         for _ in 0..MAX_ROUNDS {
             let pairs = |k: &usize| nodes.needs_refinement[k - 1];
             let pairs: Vec<usize> = (1..nodes.inputs.len()).filter(pairs).collect();
-            if pairs.is_empty() || nodes.inputs.len() > most {
+            if pairs.is_empty() || nodes.inputs.len() > max_nodes {
                 break;
             }
             let at = |share: &dyn Fn(f64, f64) -> f64| {

@@ -77,12 +77,12 @@ impl Trajectory<'_> {
 /// Places on an arc within a distance of a point: the feet of its perpendiculars, and the ends.
 fn places_near(arc: &Arc, point: Point, distance: f64) -> Vec<f64> {
     let mut out = Vec::new();
-    search(arc, [-1.0, 1.0], (point, distance), &mut out);
+    search(arc, [-1.0, 1.0], point, distance, &mut out);
     out
 }
 
 /// Searches a part of an arc, which is `part` by its own parameter, in parts that turn little.
-fn search(part: &Arc, [from, to]: [f64; 2], (point, distance): (Point, f64), out: &mut Vec<f64>) {
+fn search(part: &Arc, [from, to]: [f64; 2], point: Point, distance: f64, out: &mut Vec<f64>) {
     /// Next to a stop no part turns little, however short.
     const NARROWEST: f64 = 1e-5;
     let is_outside = |series: &Chebyshev, value: f64| (value - series.0[0]).abs() > series.radius() + distance;
@@ -100,6 +100,6 @@ fn search(part: &Arc, [from, to]: [f64; 2], (point, distance): (Point, f64), out
     }
     let middle = (from + to) / 2.0;
     let [left, right] = part.halves();
-    search(&left, [from, middle], (point, distance), out);
-    search(&right, [middle, to], (point, distance), out);
+    search(&left, [from, middle], point, distance, out);
+    search(&right, [middle, to], point, distance, out);
 }

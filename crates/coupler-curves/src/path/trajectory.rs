@@ -218,7 +218,7 @@ impl<'a> Trajectory<'a> {
         const LEAST: usize = 64;
         // Where many pieces are not resolved, they are rounding.
         let unresolved = self.is_resolved.iter().filter(|is_resolved| !**is_resolved).count();
-        let most = (MAX_NODES / unresolved.max(1)).max(LEAST);
+        let max_nodes = (MAX_NODES / unresolved.max(1)).max(LEAST);
         let mut out = Vec::new();
         for k in from.floor() as usize..to.ceil() as usize {
             let piece = &self.curve.pieces[k];
@@ -227,7 +227,7 @@ impl<'a> Trajectory<'a> {
             for (pass, [a, b]) in piece.passes.into_iter().zip([[a, split], [split, b]]).filter(|(_, [a, b])| a < b) {
                 let ends = [a, b].map(|u| piece.map.input(u));
                 let pass = &self.circuit.passes[pass];
-                for line in refined_lines(self.linkage, pass, ends, self.joint, (self.tolerance, most)) {
+                for line in refined_lines(self.linkage, pass, ends, self.joint, self.tolerance, max_nodes) {
                     let segments = line[1..].iter().map(|point| SplineSegment::Line(*point)).collect();
                     self.append(&mut out, Spline { start: line[0], segments });
                 }

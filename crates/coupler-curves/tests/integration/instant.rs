@@ -71,7 +71,7 @@ proptest! {
                         prop_assert!(instant.curvature_rate(p(pin)).abs() < 1e-6);
                     }
                 }
-                let computed = compute_columns(&columns, &linkage, (circuit, M), sample);
+                let computed = compute_columns(&columns, &linkage, circuit, M, sample);
                 if (p(M) - instant.pole).norm() > 0.1 {
                     prop_assert!(near(instant.curvature(p(M)), computed[0], 1.0), "{} {}", instant.curvature(p(M)), computed[0]);
                     prop_assert!(near(instant.curvature_rate(p(M)), computed[1], 1.0));
@@ -164,7 +164,7 @@ fn at_a_limit_the_coupler_turns_about_the_crank_pin() {
     let instant = instant_at(&linkage, circuit, limit);
     assert!((instant.pole - circuit.positions.point(A, limit)).norm() < 1e-9);
     let names = ["pole_x", "pole_y", "moving_pole_x", "moving_pole_y", "inflection_x", "inflection_y"];
-    let computed = compute_columns(&names.map(|name| find_column(name).unwrap()), &linkage, (circuit, M), limit);
+    let computed = compute_columns(&names.map(|name| find_column(name).unwrap()), &linkage, circuit, M, limit);
     let pole = circuit.positions.point(A, limit);
     assert!((computed[0] - pole.x).abs() < 1e-9 && (computed[1] - pole.y).abs() < 1e-9);
     assert!(Vector::new(computed[2], computed[3]).norm() < 1e-9 && computed[4].is_finite() && computed[5].is_finite());

@@ -279,7 +279,7 @@ fn columns_are_mccarthys_angles() {
     for (k, circuit) in motion.circuits.iter().enumerate() {
         for i in 0..circuit.len() {
             let theta = trig::radians(circuit.inputs[i]);
-            let values = compute_columns(&columns, &linkage, (circuit, JointId::new(3)), i);
+            let values = compute_columns(&columns, &linkage, circuit, JointId::new(3), i);
             let psi = bar.output_angles(theta).unwrap()[k];
             assert!(angle_difference(trig::radians(values[0]), psi) < 1e-12);
             assert!(angle_difference(trig::radians(values[1]), bar.coupler_angle(theta, psi)) < 1e-12);

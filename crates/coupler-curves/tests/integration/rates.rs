@@ -263,7 +263,7 @@ fn columns_cover_slots_without_offset_and_actuators() {
     let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Step(30.0)));
     for i in 0..motion.circuits[0].len() {
         let [s, length, beta, psi, ratio] =
-            compute_columns(&columns, &linkage, (&motion.circuits[0], b), i).try_into().unwrap();
+            compute_columns(&columns, &linkage, &motion.circuits[0], b, i).try_into().unwrap();
         let (cos, sin) = trig::cos_sin_deg(motion.circuits[0].inputs[i]);
         let arm = Vector::new(r * cos - g, r * sin);
         assert!((s - arm.norm()).abs() < 1e-14 && (length - s).abs() < 1e-14 && beta == 90.0);
@@ -278,8 +278,7 @@ fn columns_cover_slots_without_offset_and_actuators() {
     let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(12)));
     for i in 0..motion.circuits[0].len() {
         let circuit = &motion.circuits[0];
-        let [s, length, beta, _, _]: [f64; 5] =
-            compute_columns(&columns, &linkage, (circuit, a), i).try_into().unwrap();
+        let [s, length, beta, _, _]: [f64; 5] = compute_columns(&columns, &linkage, circuit, a, i).try_into().unwrap();
         assert!(s == circuit.inputs[i] && (length - (s * s + 0.09).sqrt()).abs() < 1e-13);
         assert!((beta - trig::degrees(trig::atan2(s, 0.3))).abs() < 1e-12);
     }

@@ -106,7 +106,7 @@ impl Chart {
         for k in 0..circuit.len() + usize::from(circuit.is_closed && !circuit.is_empty()) {
             let sample = k % circuit.len();
             let at = circuit.positions.point(curve.joint, sample);
-            let values = compute_columns(&columns, &solved.linkage, (circuit, curve.joint), sample);
+            let values = compute_columns(&columns, &solved.linkage, circuit, curve.joint, sample);
             let sample_values = [at.x, at.y, input_at(circuit, k), arc_lengths.get(k).copied().unwrap_or(f64::NAN)];
             let load = |slot: usize| match slot.checked_sub(curve_slots) {
                 None => fixed[slot],

@@ -143,7 +143,8 @@ impl TextLine {
         typeface: Typeface,
         at: Point,
         anchor: Anchor,
-        (size, color): (f64, Color),
+        size: f64,
+        color: Color,
     ) -> TextLine {
         let run = |piece: &MathPiece| TextRun {
             text: piece.text.clone(),

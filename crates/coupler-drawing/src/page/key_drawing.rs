@@ -82,12 +82,12 @@ pub(super) fn draw(area: &impl Area, rect: Rect, key: &Key, figure: Option<&Figu
             Some((linkage, circuit)) => {
                 let pose = pose::clearest_pose(&linkage, &circuit);
                 let mechanism = PosedMechanism::new(&linkage, Mechanism::new(&linkage, &circuit), pose);
-                draw_linkage(area, drawing, (&mechanism, &circuit), ink, theme);
+                draw_linkage(area, drawing, &mechanism, &circuit, ink, theme);
                 key.to_mut()
                     .remarks
                     .push("shown here with a longer crank, as its own is hidden by its joints".to_owned());
             }
-            None => draw_linkage(area, drawing, (mechanism, figure.first_circuit()), ink, theme),
+            None => draw_linkage(area, drawing, mechanism, figure.first_circuit(), ink, theme),
         }
     }
     let text = Rect { corner: text_corner, size: rect.corner + rect.size - text_corner };
@@ -209,7 +209,8 @@ impl KeyLines {
 pub(super) fn draw_linkage(
     area: &impl Area,
     rect: Rect,
-    (mechanism, circuit): (&PosedMechanism, &Circuit),
+    mechanism: &PosedMechanism,
+    circuit: &Circuit,
     ink: impl Fn(JointId) -> Color,
     theme: &Theme,
 ) {

@@ -241,7 +241,7 @@ impl<'a> LabelPlacer<'a> {
 
     /// Places a label on a curve by its index as far as possible from a point, where it is clear of everything and
     /// nearer to its curve than to any other.
-    pub fn place_far_from(&mut self, from: Point, (curve, points): (usize, &[Point]), text: Text) -> Option<Item> {
+    pub fn place_far_from(&mut self, from: Point, curve: usize, points: &[Point], text: Text) -> Option<Item> {
         let (half, distance) = (half_size(&text), RING_RADII[0] * self.joint_radius);
         let spot = far_positions(from, points).into_iter().find_map(|at| {
             let near = self.obstacles.nearby(at, 3.0 * distance + 2.0 * half.x);

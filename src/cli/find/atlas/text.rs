@@ -6,7 +6,7 @@ use crate::find::description::{self, dimensions};
 use crate::find::{AtlasAnswer, AtlasFindings};
 use coupler_find::{Quality, format_length as number, format_relative as relative};
 
-use super::super::text::{described, options_of, place};
+use super::super::text::{describe_target, options_of, place};
 use super::AtlasReport;
 use coupler_curves::text::pluralize;
 
@@ -14,7 +14,7 @@ use coupler_curves::text::pluralize;
 pub(super) fn text(report: &AtlasReport) -> String {
     let AtlasReport { name, target, findings: AtlasFindings { curves, answers, nearest_miss }, .. } = report;
     let size = target.size();
-    let mut out = format!("{}; {} of the atlas\n", described(name, target), pluralize(*curves, "curve"));
+    let mut out = format!("{}; {} of the atlas\n", describe_target(name, target), pluralize(*curves, "curve"));
     for (rank, answer) in (1..).zip(answers) {
         out += &entry(&rank.to_string(), answer, size);
     }

@@ -6,7 +6,7 @@ use crate::find::description::{deviation, parameters, placement};
 use crate::find::{LinkageAnswer, LinkageFindings};
 use coupler_find::{LinkageSpace, format_length as number};
 
-use super::super::text::{angle, described, relaxed};
+use super::super::text::{angle, describe_target, relaxed};
 use super::LinkageReport;
 use coupler_curves::text::pluralize;
 
@@ -18,7 +18,7 @@ pub(super) fn text(report: &LinkageReport) -> String {
     let free: Vec<&str> = space.free_names().collect();
     let mut out = format!(
         "{}; {id}, {} searched: {}; {}\n",
-        described(name, target),
+        describe_target(name, target),
         pluralize(free.len(), "parameter"),
         free.join(", "),
         pluralize(*curves, "curve")

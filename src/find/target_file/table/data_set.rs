@@ -84,7 +84,7 @@ impl DataSet<'_, '_> {
             return Err(limited(problems, "lines"));
         }
         outline.angles_deg = (!angles_deg.is_empty()).then_some(angles_deg);
-        let taken = self.taken(dialect, columns, options.is_timed, unit.as_deref(), left_out);
+        let taken = self.describe_taken(dialect, columns, options.is_timed, unit.as_deref(), left_out);
         outline.reading = Reading { taken, has_unused_angles: !options.is_timed && self.has_angles(columns) };
         Ok(outline)
     }
@@ -167,7 +167,14 @@ impl DataSet<'_, '_> {
     }
 
     /// What was taken, as a clause.
-    fn taken(&self, dialect: Dialect, columns: Columns, is_timed: bool, unit: Option<&str>, left_out: usize) -> String {
+    fn describe_taken(
+        &self,
+        dialect: Dialect,
+        columns: Columns,
+        is_timed: bool,
+        unit: Option<&str>,
+        left_out: usize,
+    ) -> String {
         let name = |k: usize| match self.header {
             Some(header) => format!("{} `{}`", k + 1 + self.shift, header.names[k].text),
             None => (k + 1).to_string(),

@@ -151,7 +151,7 @@ impl<Q: Quantity> CircuitFunction<Q> {
         for (k, piece) in pieces.pieces.iter().enumerate() {
             let series: JointSeries = joints.iter().map(|&joint| (joint, pieces.series(k, joint))).collect();
             let first = function.spans.len();
-            function.append(*piece, &series, (f64::INFINITY, MAX_DEPTH), &mut greatest)?;
+            function.append(*piece, &series, f64::INFINITY, MAX_DEPTH, &mut greatest)?;
             function.spans[first].is_corner = pieces.corners[k];
             for span in &mut function.spans[first..] {
                 span.input_before = input_before;
@@ -179,7 +179,8 @@ impl<Q: Quantity> CircuitFunction<Q> {
         &mut self,
         piece: CircuitPiece,
         joints: &JointSeries,
-        (tail_before, depth): (f64, usize),
+        tail_before: f64,
+        depth: usize,
         greatest: &mut f64,
     ) -> Result<(), NoFunction> {
         let (mut values, sensitivity) = self.values_at_nodes(&piece, joints);
@@ -218,7 +219,7 @@ impl<Q: Quantity> CircuitFunction<Q> {
             joints.iter().map(|(joint, series)| (*joint, series.each_ref().map(Chebyshev::halves))).collect();
         for (half, part) in [[-1.0, 0.0], [0.0, 1.0]].into_iter().enumerate() {
             let of_half = halves.iter().map(|(joint, [x, y])| (*joint, [x[half], y[half]])).collect();
-            self.append(piece.restricted(part), &of_half, (tail, depth - 1), greatest)?;
+            self.append(piece.restricted(part), &of_half, tail, depth - 1, greatest)?;
         }
         Ok(())
     }

@@ -34,12 +34,12 @@ impl ArcLength {
         let mut out = ArcLength { spans: Vec::with_capacity(curve.arcs.len()), total: 0.0, is_cut_short: false };
         let scale: f64 = curve.arcs.iter().map(|arc| 2.0 * (arc.velocity[0].bound() + arc.velocity[1].bound())).sum();
         for (piece, arc) in curve.arcs.iter().enumerate() {
-            out.integrate(&arc.velocity, (piece, -1.0, 1.0), ACCURACY * scale);
+            out.integrate(&arc.velocity, piece, -1.0, 1.0, ACCURACY * scale);
         }
         out
     }
 
-    fn integrate(&mut self, velocity: &[Chebyshev; 2], (piece, from, to): (usize, f64, f64), accuracy: f64) {
+    fn integrate(&mut self, velocity: &[Chebyshev; 2], piece: usize, from: f64, to: f64, accuracy: f64) {
         let [x, y] = velocity.each_ref().map(Chebyshev::values);
         let speeds = std::array::from_fn(|j| (x[j] * x[j] + y[j] * y[j]).sqrt());
         let half = (to - from) / 2.0;
@@ -65,8 +65,8 @@ impl ArcLength {
         }
         let [[x0, x1], [y0, y1]] = velocity.each_ref().map(Chebyshev::halves);
         let middle = (from + to) / 2.0;
-        self.integrate(&[x0, y0], (piece, from, middle), accuracy);
-        self.integrate(&[x1, y1], (piece, middle, to), accuracy);
+        self.integrate(&[x0, y0], piece, from, middle, accuracy);
+        self.integrate(&[x1, y1], piece, middle, to, accuracy);
     }
 
     /// Whether it is known. A curve that would have to be divided into more than [`MAX_PARTS`] parts has no length, and its

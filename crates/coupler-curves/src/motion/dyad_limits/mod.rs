@@ -41,7 +41,7 @@ pub(super) fn closing_spans(
     if let JointKind::Slide { line, .. } = dyad.kind
         && !linkage.links.iter().any(|link| line.iter().all(|&joint| link.position(joint).is_some()))
     {
-        return dyad.closing_spans_on_moving_line(linkage, line, (span, mode), next_id);
+        return dyad.closing_spans_on_moving_line(linkage, line, span, mode, next_id);
     }
     let spans = match dyad.sinusoidal_extent(linkage) {
         Some(extent) => intersect_spans(span, extent.closing_spans(dyad.id, next_id), 3, linkage.input()),
@@ -58,7 +58,8 @@ impl Dyad {
         &self,
         linkage: &Linkage,
         line: [JointId; 2],
-        (span, mode): (Span, AssemblyMode),
+        span: Span,
+        mode: AssemblyMode,
         next_id: &mut usize,
     ) -> Result<Vec<Span>, AssemblyError> {
         // The direction of the line is that of a slot without offset.

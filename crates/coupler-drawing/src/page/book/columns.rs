@@ -147,7 +147,8 @@ pub(super) fn compose_list(
     rows: &[Row],
     header: &ListHeader,
     places: impl Fn(usize) -> Places,
-    (options, theme): (&Options, &Theme),
+    options: &Options,
+    theme: &Theme,
 ) -> Vec<Scene> {
     let columns = ColumnLayout::fit(rows, options, theme);
     let placed = columns.place_rows(rows, theme);
@@ -280,9 +281,7 @@ impl ColumnLayout {
                     }
                 }
                 Row::Note(_) => root.record(&at_start(note_line(text, theme)).fit_width(self.column_size.x)),
-                Row::Entry(entry) => {
-                    leaders.extend(self.draw_entry(root, (entry, &places.label(entry.page)), at, theme))
-                }
+                Row::Entry(entry) => leaders.extend(self.draw_entry(root, entry, &places.label(entry.page), at, theme)),
             }
         }
         let stroke = Some(theme.stroke(theme.hairline, theme.fine_width));
@@ -290,7 +289,7 @@ impl ColumnLayout {
     }
 
     /// Draws an entry; the result is the dots of its leader.
-    fn draw_entry(&self, root: &impl Area, (entry, page): (&Entry, &str), at: Point, theme: &Theme) -> Vec<Polyline> {
+    fn draw_entry(&self, root: &impl Area, entry: &Entry, page: &str, at: Point, theme: &Theme) -> Vec<Polyline> {
         let right = at.x + self.column_size.x;
         let line = entry
             .text_line(at, theme)

@@ -44,7 +44,8 @@ fn is_right_hand(page_index: usize) -> bool {
 pub(super) fn draw_tabs(
     scene: &mut Scene,
     tabs: &[Tab],
-    (page, page_index): (Option<usize>, usize),
+    page: Option<usize>,
+    page_index: usize,
     link: impl Fn(usize) -> Option<usize>,
     options: &Options,
 ) {

@@ -44,13 +44,13 @@ impl Grid {
         let lines = note_lines(list, width, theme).len();
         let top = top + 1.35 * theme.source_size * lines.saturating_sub(1) as f64 + 0.5 * theme.source_size;
         let whole = Vector::new(width, options.paper.height - top - bottom);
-        let most = |length: f64, least: f64| ((length / least).floor().max(1.0) as usize).min(MOST_ROWS_COLUMNS);
+        let count = |length: f64, least: f64| ((length / least).floor().max(1.0) as usize).min(MOST_ROWS_COLUMNS);
         let em = theme.note_size;
-        let columns = most(whole.x, LEAST[0] * em);
+        let columns = count(whole.x, LEAST[0] * em);
         // The texts of all entries have space.
         let width = text_width(whole.x / columns as f64, em);
         let lines = list.entries.iter().map(|entry| entry_lines(entry, atlas, width, theme).len()).max().unwrap_or(0);
-        let rows = most(whole.y, LEAST[1].max(1.3 * lines as f64 + 1.1) * em);
+        let rows = count(whole.y, LEAST[1].max(1.3 * lines as f64 + 1.1) * em);
         // The entries are distributed evenly over the pages.
         let pages = list.entries.len().div_ceil(columns * rows).max(1);
         let rows = list.entries.len().div_ceil(pages * columns).clamp(1, rows);
@@ -92,7 +92,7 @@ pub(super) fn compose(
             let (column, row) = (place % grid.columns, place / grid.columns);
             let shift = Vector::new(grid.step.x * column as f64, grid.step.y * row as f64);
             let frame = Rect { corner: grid.corner + shift, size: grid.step };
-            draw_entry(&root, frame, (k * grid.per_page() + place + 1, entry), atlas, theme);
+            draw_entry(&root, frame, k * grid.per_page() + place + 1, entry, atlas, theme);
             if let Some(page_index) = link(entry.page) {
                 links.push(PageLink { corner: frame.corner, size: frame.size, page_index });
             }
@@ -118,7 +118,7 @@ fn draw_rules(root: &impl Area, grid: &Grid, count: usize, theme: &Theme) {
 }
 
 /// Draws an entry with its rank.
-fn draw_entry(root: &impl Area, frame: Rect, (rank, entry): (usize, &ListEntry), atlas: &Atlas, theme: &Theme) {
+fn draw_entry(root: &impl Area, frame: Rect, rank: usize, entry: &ListEntry, atlas: &Atlas, theme: &Theme) {
     let em = theme.note_size;
     let drawing = Rect {
         corner: frame.corner + Vector::new(0.8 * em, 1.0 * em),

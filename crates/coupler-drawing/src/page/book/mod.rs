@@ -36,16 +36,16 @@ use empty_scene::empty_scene;
 const INDEX_TITLE: &str = "Index of geometries";
 
 impl Atlas<'_> {
-    /// The volumes, of at most `most` pages each; all but the last are full. There is at least one.
-    pub fn volumes(&self, most: usize, options: &Options) -> Vec<Volume> {
+    /// The volumes, of at most `max_pages` pages each; all but the last are full. There is at least one.
+    pub fn volumes(&self, max_pages: usize, options: &Options) -> Vec<Volume> {
         let back_pages = self.back_matter(options).iter().map(|part| part.page_count).sum();
-        let (pages, most) = (self.page_count(), most.max(1));
-        let volume_count = pages.div_ceil(most).max(1);
+        let (pages, max_pages) = (self.page_count(), max_pages.max(1));
+        let volume_count = pages.div_ceil(max_pages).max(1);
         let volume = |k: usize| Volume {
             number: k + 1,
             volume_count,
-            first_page: k * most + 1,
-            page_count: most.min(pages - k * most),
+            first_page: k * max_pages + 1,
+            page_count: max_pages.min(pages - k * max_pages),
             back_page_count: if k + 1 == volume_count { back_pages } else { 0 },
         };
         (0..volume_count).map(volume).collect()
@@ -87,12 +87,12 @@ pub fn compose_front_matter(
 ) -> Vec<Scene> {
     let theme = options.theme.for_paper(options.paper);
     let mut first = empty_scene(atlas.title.to_owned(), options, &theme);
-    title::compose(&mut first, atlas, volume, frontispiece, (options, &theme));
+    title::compose(&mut first, atlas, volume, frontispiece, options, &theme);
     let mut pages = vec![first];
     let back_matter = atlas.back_matter(options);
     let rows = contents::rows(atlas, volume, &back_matter);
     let header = ListHeader { title: "Contents", atlas, volume };
-    let contents = columns::compose_list(&rows, &header, |count| places(atlas, volume, count), (options, &theme));
+    let contents = columns::compose_list(&rows, &header, |count| places(atlas, volume, count), options, &theme);
     let places = places(atlas, volume, contents.len());
     if let Some(how) = &atlas.how_to_read {
         let find = contents::ways_to_find(atlas, volume, &back_matter, &places);
@@ -106,7 +106,7 @@ pub fn compose_front_matter(
     for (index, page) in pages.iter_mut().enumerate() {
         draw_folio(page, page_number(volume, places.front, index), index, options);
         if index > 0 {
-            folio::draw_tabs(page, &tabs, (None, index), link, options);
+            folio::draw_tabs(page, &tabs, None, index, link, options);
         }
     }
     pages.extend(is_blank.then(|| empty_scene(atlas.title.to_owned(), options, &theme)));
@@ -124,7 +124,7 @@ pub fn compose_back_matter(atlas: &Atlas, volume: &Volume, front: usize, options
     let mut pages: Vec<Scene> = atlas.lists.iter().flat_map(|list| list::compose(list, atlas, link, options)).collect();
     let header = ListHeader { title: INDEX_TITLE, atlas, volume };
     let places = Places { how_to_read: 0, charts: 0, front };
-    pages.extend(columns::compose_list(&index::rows(atlas), &header, |_| places, (options, &theme)));
+    pages.extend(columns::compose_list(&index::rows(atlas), &header, |_| places, options, &theme));
     let finisher = PageFinisher::new(atlas, volume, front, options);
     for (page, index) in pages.iter_mut().zip(front + volume.page_count..) {
         finisher.finish(page, index);
@@ -154,7 +154,7 @@ impl<'a> PageFinisher<'a> {
         draw_folio(scene, label, page_index, self.options);
         if let PageNumber::Arabic(page) = label {
             let link = |page| self.volume.page_index(page, self.front);
-            folio::draw_tabs(scene, &self.tabs, (Some(page as usize), page_index), link, self.options);
+            folio::draw_tabs(scene, &self.tabs, Some(page as usize), page_index, link, self.options);
         }
         label
     }

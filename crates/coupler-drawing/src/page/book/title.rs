@@ -20,7 +20,8 @@ pub(super) fn compose(
     atlas: &Atlas,
     volume: &Volume,
     frontispiece: Option<&PanelPage>,
-    (options, theme): (&Options, &Theme),
+    options: &Options,
+    theme: &Theme,
 ) {
     let root = area::whole_page(scene);
     heading::draw_border(&root, theme);
@@ -34,8 +35,8 @@ pub(super) fn compose(
     let foot = page.y - theme.border - 2.2 * theme.margin;
     let first = foot - 1.6 * theme.title_size - step * lines.len() as f64;
     let mut y = theme.border + 5.2 * theme.title_size;
-    let most = (first - 4.0 * theme.title_size - y) / (LEADING * theme.title_size) + 1.0;
-    for line in wrap_title(atlas.title, width, most.clamp(1.0, 4.0) as usize, theme) {
+    let max_lines = (first - 4.0 * theme.title_size - y) / (LEADING * theme.title_size) + 1.0;
+    for line in wrap_title(atlas.title, width, max_lines.clamp(1.0, 4.0) as usize, theme) {
         centred(&line, y, TITLE_SCALE * theme.title_size, theme.ink);
         y += LEADING * theme.title_size;
     }
@@ -52,7 +53,7 @@ pub(super) fn compose(
     if let Some(frontispiece) = frontispiece {
         let corner = Point::new(theme.border + 2.0 * theme.margin, y + 2.0 * theme.title_size);
         let size = Vector::new(width, first - theme.title_size - corner.y);
-        draw_frontispiece(&root, Rect { corner, size }, frontispiece, (options, theme));
+        draw_frontispiece(&root, Rect { corner, size }, frontispiece, options, theme);
     }
 }
 
@@ -105,7 +106,7 @@ fn draw_rule(root: &impl Area, centre: Point, length: f64, theme: &Theme) {
 }
 
 /// Draws the first panel of a page, if it has a curve and there is enough space.
-fn draw_frontispiece(root: &impl Area, frame: Rect, page: &PanelPage, (options, theme): (&Options, &Theme)) {
+fn draw_frontispiece(root: &impl Area, frame: Rect, page: &PanelPage, options: &Options, theme: &Theme) {
     let Some(figure) = page.panels.first().and_then(Figure::from_panel) else { return };
     if frame.size.x > 10.0 * theme.joint_radius && frame.size.y > 10.0 * theme.joint_radius {
         let period = figure.dash_period(options);

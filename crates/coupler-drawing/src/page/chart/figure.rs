@@ -192,8 +192,8 @@ impl<'a> ChartFigure<'a> {
         let Some([x, y]) = &self.scales else { return Vec::new() };
         let (size, index) = (frame_size(frame), self.quantity_index);
         let clipped = |series: &Series| {
-            let points = ClippedLine::from_points(series.points(index), (x, y), size);
-            [ClippedLine::from_points(series.path(index), (x, y), size), points]
+            let points = ClippedLine::from_points(series.points(index), x, y, size);
+            [ClippedLine::from_points(series.path(index), x, y, size), points]
         };
         self.page.series.iter().map(clipped).collect()
     }
@@ -220,7 +220,9 @@ impl<'a> ChartFigure<'a> {
         }
         let items = line_labels::label_items(
             labels,
-            (span.x, span.y, self.right_margin),
+            span.x,
+            span.y,
+            self.right_margin,
             with_marks,
             self.page.heading.symbols,
             theme,

@@ -22,11 +22,7 @@ pub(super) struct ClippedLine {
 
 impl ClippedLine {
     /// The line through points, x and y, in a frame of a size in millimetres.
-    pub fn from_points(
-        points: impl IntoIterator<Item = [f64; 2]>,
-        (x, y): (&Scale, &Scale),
-        size: Vector,
-    ) -> ClippedLine {
+    pub fn from_points(points: impl IntoIterator<Item = [f64; 2]>, x: &Scale, y: &Scale, size: Vector) -> ClippedLine {
         let mut line = ClippedLine::default();
         let inside = |p: &Point| (-1e-6..=size.x + 1e-6).contains(&p.x) && (-1e-6..=size.y + 1e-6).contains(&p.y);
         let mut last: Option<Point> = None;
@@ -241,7 +237,7 @@ mod tests {
         let size = Vector::new(100.0, 50.0);
         let points =
             [[0.0, 0.0], [2.0, 1.0], [3.0, f64::NAN], [4.0, 0.5], [5.0, f64::INFINITY], [6.0, 0.5], [7.0, 2.0]];
-        let line = ClippedLine::from_points(points, (&x, &y), size);
+        let line = ClippedLine::from_points(points, &x, &y, size);
         assert_eq!(line.runs.len(), 2);
         assert_eq!(line.runs[0], [Point::new(0.0, 50.0), Point::new(20.0, 0.0)]);
         // The line from 0.5 to 2 leaves the frame after a third of its length.
@@ -254,7 +250,7 @@ mod tests {
     fn values_that_are_not_positive_are_left_out_on_a_logarithmic_axis() {
         let (x, y) = (scale(0.0, 2.0, false), scale(0.01, 1.0, true));
         let size = Vector::new(20.0, 20.0);
-        let line = ClippedLine::from_points([[0.0, 0.1], [1.0, 0.0], [2.0, -1.0], [2.0, f64::NAN]], (&x, &y), size);
+        let line = ClippedLine::from_points([[0.0, 0.1], [1.0, 0.0], [2.0, -1.0], [2.0, f64::NAN]], &x, &y, size);
         assert_eq!((line.nonpositive_count, line.isolated_points.len(), line.runs.len()), (2, 1, 0));
         assert!((line.isolated_points[0].y - 10.0).abs() < 1e-9);
     }

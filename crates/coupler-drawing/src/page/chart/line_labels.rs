@@ -40,7 +40,9 @@ pub(super) fn label_width<'a>(labels: impl Iterator<Item = &'a str>, symbols: &[
 /// others. `left` is the right edge of the frame, `height` the height of the frame, and `width` the space for the labels, all in millimetres.
 pub(super) fn label_items(
     labels: Vec<LineLabel>,
-    (left, height, width): (f64, f64, f64),
+    left: f64,
+    height: f64,
+    width: f64,
     with_marks: bool,
     symbols: &[String],
     theme: &Theme,
@@ -106,8 +108,8 @@ pub(super) fn label_items(
     items
 }
 
-/// Ascending heights moved as little as possible so that they are at least `spacing` apart and from 0 to `most`.
-fn spread_heights(preferred: &[f64], spacing: f64, most: f64) -> Vec<f64> {
+/// Ascending heights moved as little as possible so that they are at least `spacing` apart and from 0 to `max_height`.
+fn spread_heights(preferred: &[f64], spacing: f64, max_height: f64) -> Vec<f64> {
     // Neighbours that would overlap form a block about the mean of their preferred heights (pool adjacent violators).
     let mut blocks: Vec<(f64, usize)> = Vec::new();
     for &height in preferred {
@@ -132,7 +134,7 @@ fn spread_heights(preferred: &[f64], spacing: f64, most: f64) -> Vec<f64> {
         *height = f64::max(*height, least);
         least = *height + spacing;
     }
-    let mut greatest = most;
+    let mut greatest = max_height;
     for height in heights.iter_mut().rev() {
         *height = f64::min(*height, greatest);
         greatest = *height - spacing;

@@ -94,7 +94,9 @@ fn width(text: &str, theme: &Theme) -> f64 {
 /// out only together with all but the first two groups; the last result is their left edge.
 pub(super) fn fitting_columns(
     groups: [Option<ColumnGroup>; GROUP_COUNT],
-    (first, whole, graph_width): (f64, f64, f64),
+    first: f64,
+    whole: f64,
+    graph_width: f64,
     theme: &Theme,
 ) -> (Vec<(f64, ColumnGroup)>, Option<f64>) {
     let gap = GROUP_GAP * theme.note_size;

@@ -96,7 +96,7 @@ impl Graphs {
             area.record(&Drawing { class: "speed", title, items: vec![base, speed] });
         }
         if let (Some(strip), Some(transmission)) = (strip, &self.transmission) {
-            draw_transmission(area, strip, (&self.range, transmission), theme);
+            draw_transmission(area, strip, &self.range, transmission, theme);
         }
     }
 
@@ -153,12 +153,7 @@ impl Graphs {
 }
 
 /// Draws the transmission angle from 0 to 180 degrees, with bands where it is poor and dots at its extremes.
-fn draw_transmission(
-    area: &impl Area,
-    frame: Rect,
-    (range, angles): (&InputRange, &TransmissionAngles),
-    theme: &Theme,
-) {
+fn draw_transmission(area: &impl Area, frame: Rect, range: &InputRange, angles: &TransmissionAngles, theme: &Theme) {
     const STRAIGHT: f64 = 180.0;
     let axes = Axes { frame, range, top: STRAIGHT };
     let band = |[from, to]: [f64; 2]| {

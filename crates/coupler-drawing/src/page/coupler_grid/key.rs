@@ -19,7 +19,8 @@ pub(super) fn draw(
     area: &impl Area,
     frame: Rect,
     page: &CouplerGridPage,
-    (mechanism, shown): (&PosedMechanism, &[ShownCurve]),
+    mechanism: &PosedMechanism,
+    shown: &[ShownCurve],
     theme: &Theme,
 ) {
     let key = Key::new(frame, page, mechanism, shown, theme);

@@ -68,7 +68,7 @@ pub(super) fn compose(scene: &mut Scene, page: &CouplerGridPage, options: &Optio
             let scale = common_scale(page).map(|_| plot.page_from_plane.scale());
             let symbols = page_symbols(page, &shown, scale, options, theme);
             let panel = footer::draw_symbols(&root, panel, &symbols, panel_theme);
-            draw_panel(&root, panel, page, (&mechanism, &shown), panel_theme);
+            draw_panel(&root, panel, page, &mechanism, &shown, panel_theme);
         }
         None => {
             super::panels::draw_not_assembled(&root, whole, solved, theme);
@@ -154,7 +154,8 @@ fn draw_panel(
     area: &impl Area,
     panel: Rect,
     page: &CouplerGridPage,
-    (mechanism, shown): (&PosedMechanism, &[ShownCurve]),
+    mechanism: &PosedMechanism,
+    shown: &[ShownCurve],
     theme: &Theme,
 ) {
     let em = theme.note_size;
@@ -172,13 +173,13 @@ fn draw_panel(
     let key_width = half_width.min(1.8 * parts.key.size.y);
     let key = Rect { size: Vector::new(key_width, parts.key.size.y), ..parts.key };
     match page.key {
-        None => key::draw(area, key, page, (mechanism, shown), theme),
+        None => key::draw(area, key, page, mechanism, shown, theme),
         Some(_) => {
             let solved = page.panel.solved_cell;
             let circuit = shown.first().map_or(0, |s| s.curve.circuit - 1);
             let lettering = Theme { caption_size: 1.1 * em, ..theme.clone() };
             let ink = |_| theme.ink;
-            key_drawing::draw_linkage(area, key, (mechanism, &solved.motion.circuits[circuit]), ink, &lettering);
+            key_drawing::draw_linkage(area, key, mechanism, &solved.motion.circuits[circuit], ink, &lettering);
         }
     }
     let after_key = Vector::new(key_width + em, 0.0);
@@ -250,7 +251,7 @@ fn draw_figure(
     let far_from = |s: &ShownCurve| plot.page_from_plane.apply(mechanism.pose[s.curve.joint]);
     let mut in_bundles = Vec::new();
     for (k, (s, points)) in shown.iter().zip(&lines).enumerate() {
-        match placer.place_far_from(far_from(s), (k, points), number(s)) {
+        match placer.place_far_from(far_from(s), k, points, number(s)) {
             Some(placed) => numbers.push(placed),
             None => in_bundles.push((s, points)),
         }
@@ -268,7 +269,7 @@ fn draw_figure(
     group("grid", grid);
     group("straight", straight);
     for (k, (shown, path)) in shown.iter().zip(paths).enumerate() {
-        area.record(&coupler_curve(page, shown, path, (plot.page_from_plane, dashes(k)), theme));
+        area.record(&coupler_curve(page, shown, path, plot.page_from_plane, dashes(k), theme));
     }
     group("motion", motion);
     group("linkage", linkage);
@@ -292,7 +293,8 @@ fn coupler_curve(
     page: &CouplerGridPage,
     shown: &ShownCurve,
     path: JointPath,
-    (page_from_plane, dashes): (Similarity, DashPattern),
+    page_from_plane: Similarity,
+    dashes: DashPattern,
     theme: &Theme,
 ) -> CouplerCurve {
     let MeasuredCurve { trace, circuit, .. } = shown.curve;

@@ -29,7 +29,7 @@ impl Table {
     pub fn new(page: &CouplerGridPage, shown: &[ShownCurve], width: f64, theme: &Theme) -> Table {
         let groups = column_groups(page, shown, theme);
         let em = theme.note_size;
-        let (groups, graph_left) = fitting_columns(groups, (SWATCH_LENGTH * em, width, MIN_GRAPH_WIDTH * em), theme);
+        let (groups, graph_left) = fitting_columns(groups, SWATCH_LENGTH * em, width, MIN_GRAPH_WIDTH * em, theme);
         Table { groups, graph_left }
     }
 
@@ -73,7 +73,7 @@ impl Table {
                 break;
             }
             area.record(&swatch(Point::new(row.corner.x, row.centre().y), s, theme));
-            self.draw_row(area, (k, s), Point::new(row.corner.x, y), theme);
+            self.draw_row(area, k, s, Point::new(row.corner.x, y), theme);
             graphs.extend(self.graph_left.map(|left| Rect {
                 corner: row.corner + Vector::new(left, 0.0),
                 size: row.size - Vector::new(left, 0.0),
@@ -98,7 +98,7 @@ impl Table {
         }
     }
 
-    fn draw_row(&self, area: &impl Area, (row, shown): (usize, &ShownCurve), at: Point, theme: &Theme) {
+    fn draw_row(&self, area: &impl Area, row: usize, shown: &ShownCurve, at: Point, theme: &Theme) {
         for (k, (left, group)) in self.groups.iter().enumerate() {
             let color = if k == 0 { shown.text_ink(theme) } else { theme.grey };
             for column in &group.columns {

@@ -160,7 +160,7 @@ impl Theme {
 
     /// A line of mathematical text at a position of an area, in the theme's typeface.
     pub(super) fn math_line(&self, text: &MathText, at: Point, anchor: Anchor, size: f64, color: Color) -> TextLine {
-        TextLine::from_math(text, self.typeface, at, anchor, (size, color))
+        TextLine::from_math(text, self.typeface, at, anchor, size, color)
     }
 
     /// A line of text at a position of an area, in the theme's typeface and with the characters of typesetting.

@@ -27,7 +27,7 @@ pub(super) fn compose(how: &HowToRead, atlas: &Atlas, find: &[String], options: 
         .filter(|part| part.layouts[layout_index(how.layout)])
         .filter_map(|part| Some((part, part_anchor(part, &how.plate)?)))
         .collect();
-    [compose_plate(how, atlas, &shown, options, theme), text::compose(how, atlas, (&shown, find), options, theme)]
+    [compose_plate(how, atlas, &shown, options, theme), text::compose(how, atlas, &shown, find, options, theme)]
 }
 
 fn layout_index(layout: Layout) -> usize {

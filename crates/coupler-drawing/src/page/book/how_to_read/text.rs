@@ -83,7 +83,8 @@ fn paragraphs(how: &HowToRead, shown: &[(&Part, Point)], find: &[String]) -> Vec
 pub(super) fn compose(
     how: &HowToRead,
     atlas: &Atlas,
-    (shown, find): (&[(&Part, Point)], &[String]),
+    shown: &[(&Part, Point)],
+    find: &[String],
     options: &Options,
     theme: &Theme,
 ) -> Scene {
