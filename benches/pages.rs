@@ -1,11 +1,8 @@
 //! Benchmarks composing and rendering pages of ten coupler curves on one core: `cargo bench --bench pages`.
-
-use coupler_curves::solve;
 use std::hint::black_box;
 
 use coupler_atlas::manifest::{self, Plan};
-use coupler_curves::motion::Sampler;
-use coupler_curves::solve::SolvedCell;
+use coupler_curves::solve::{SolvedCell, Solver};
 use coupler_drawing::page::{self, CouplerGridPage, Heading, Layout, Panel, PanelScale, PoseChoice};
 use coupler_drawing::render::{self, TextMode};
 use coupler_drawing::scene::Scene;
@@ -49,9 +46,8 @@ fn compose(plan: &Plan, solved: &SolvedCell) -> Vec<Scene> {
 fn pages(criterion: &mut Criterion) {
     let plan = manifest::parse(include_str!("../examples/hrones-nelson.toml")).plan.expect("a valid manifest");
     let family = &plan.families[0].family;
-    let sampler = Sampler::new(family.sampling);
     // A = 2.5, B = 3.5, C = 3: its curves are neither small nor long.
-    let solved = solve::solve_cell(family, &sampler, 87).expect("a cell");
+    let solved = Solver::new(family).solve(87).expect("a cell");
     let scenes = compose(&plan, &solved);
     let mut group = criterion.benchmark_group("pages");
     group.throughput(Throughput::Elements(scenes.len() as u64));

@@ -11,8 +11,9 @@ use crate::record::{DrawnCurve, SolvedCurve, read_drawn_curves};
 use coupler_curves::family::Family;
 use coupler_curves::geometry::Point;
 use coupler_curves::linkage::JointId;
-use coupler_curves::motion::{Circuit, Sampler};
-use coupler_curves::solve::{SolvedCell, solve_measuring};
+use coupler_curves::measure::MeasureSet;
+use coupler_curves::motion::Circuit;
+use coupler_curves::solve::{SolvedCell, Solver};
 
 /// The greatest distance of a drawn curve from its recorded points and from the curve, in millimetres on paper.
 const DRAWING_TOLERANCE_MM: f64 = 0.01;
@@ -75,8 +76,7 @@ fn find_or_solve<'a>(family: &Family, cells: &'a [SolvedCell], number: usize) ->
         return Some(Cow::Borrowed(solved));
     }
     let k = number.checked_sub(1).filter(|k| *k < family.cell_count())?;
-    let none = vec![false; family.is_computed.len()];
-    solve_measuring(family, &Sampler::new(family.sampling), k, &none).map(Cow::Owned)
+    Solver::new(family).measuring(MeasureSet::EMPTY).solve(k).map(Cow::Owned)
 }
 
 impl PageCell<'_> {

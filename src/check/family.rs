@@ -15,8 +15,7 @@ use super::tables::Tables;
 use crate::manifest::Tolerances;
 use crate::pipeline::{FamilyPipeline, PageJob, Sink};
 use crate::record::{FamilyRecord, TableError, parse_rows};
-use coupler_curves::motion::Sampler;
-use coupler_curves::solve::{self, MeasuredCurve, SolvedCell, Status};
+use coupler_curves::solve::{MeasuredCurve, SolvedCell, Solver, Status};
 
 /// Receives the output of a family's pipeline, and compares it with the record of the family.
 pub(super) struct FamilyCheck<'a> {
@@ -226,8 +225,7 @@ impl<'a> FamilyCheck<'a> {
     pub fn recorded_and_current(&self, number: usize) -> Result<Option<(Vec<CurveSamples>, SolvedCell)>, Error> {
         let RecordedNumber::Known(recorded) = self.numbering.recorded_number(number) else { return Ok(None) };
         let family = &self.pipeline.composer.planned.family;
-        let solve = |k: usize| solve::solve_cell(family, &Sampler::new(family.sampling), k);
-        let solved = number.checked_sub(1).and_then(solve);
+        let solved = number.checked_sub(1).and_then(|k| Solver::new(family).solve(k));
         Ok(self.tables.recorded_curves(recorded)?.zip(solved))
     }
 

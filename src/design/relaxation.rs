@@ -30,14 +30,8 @@ pub(super) fn find_relaxations(
 }
 
 /// The relaxation of a requirement to a value, with the design of a trial.
-fn relax_to(
-    requirement: Requirement,
-    value: f64,
-    trial: &Trial,
-    requirements: &Requirements,
-    samplers: &Samplers,
-) -> Option<Relaxation> {
-    let design = Design::from_trial(ProportionOrigin::Search, trial, requirements, &samplers.fine)?;
+fn relax_to(requirement: Requirement, value: f64, trial: &Trial, requirements: &Requirements) -> Option<Relaxation> {
+    let design = Design::from_trial(ProportionOrigin::Search, trial, requirements)?;
     Some(Relaxation { requirement, value: Some(value), design })
 }
 
@@ -59,16 +53,10 @@ fn relax_lengths(requirements: &Requirements, too_short: &[Trial], samplers: &Sa
     let straightest = all.iter().min_by(|a, b| a.tolerance.total_cmp(&b.tolerance));
     let shorter = Requirements { length: Some(most_length), ..requirements.clone() };
     [
-        relax_to(Requirement::Size, least_size, longest, requirements, samplers),
-        relax_to(Requirement::Length, most_length, longest, &shorter, samplers),
+        relax_to(Requirement::Size, least_size, longest, requirements),
+        relax_to(Requirement::Length, most_length, longest, &shorter),
         straightest.and_then(|trial| {
-            relax_to(
-                Requirement::Tolerance,
-                round_to_four_digits(trial.tolerance * MARGIN, true),
-                trial,
-                requirements,
-                samplers,
-            )
+            relax_to(Requirement::Tolerance, round_to_four_digits(trial.tolerance * MARGIN, true), trial, requirements)
         }),
     ]
 }
@@ -79,7 +67,7 @@ fn relax_transmission(requirements: &Requirements, samplers: &Samplers) -> Optio
     let any = Requirements { mu_min: 0.0, ..requirements.clone() };
     let best = best_trial(&any, goal, samplers, |trial| -trial.performance.mu_min)?;
     let value = round_to_four_digits(best.performance.mu_min / MARGIN, false);
-    (value < requirements.mu_min).then(|| relax_to(Requirement::MuMin, value, &best, requirements, samplers)).flatten()
+    (value < requirements.mu_min).then(|| relax_to(Requirement::MuMin, value, &best, requirements)).flatten()
 }
 
 /// The nearest `p` that can be met.
@@ -94,7 +82,7 @@ fn relax_frame(requirements: &Requirements, samplers: &Samplers) -> Option<Relax
     } else {
         round_to_four_digits(found / MARGIN, false)
     };
-    relax_to(Requirement::P, value.clamp(P_RANGE[0], P_RANGE[1]), &best, requirements, samplers)
+    relax_to(Requirement::P, value.clamp(P_RANGE[0], P_RANGE[1]), &best, requirements)
 }
 
 /// The best trial of all linkages and drivers for another goal; the one with the least `merit`.

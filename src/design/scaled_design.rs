@@ -4,14 +4,13 @@ use super::kind::{DrivenLinkage, LinkageKind};
 use super::requirements::Requirements;
 use super::search::FINE_SAMPLES;
 use super::stroke::Stroke;
-use super::trial::{Performance, Trial, first_traced_curve, number_value, performance};
+use super::trial::{Performance, Trial, first_traced_curve, performance};
 use coupler_curves::family::{Family, StraightCriterion};
 use coupler_curves::geometry::Point;
 use coupler_curves::linkage::FourBar;
-use coupler_curves::measure::StraightPortion;
-use coupler_curves::motion::{Sampler, Sampling};
-use coupler_curves::solve;
-use coupler_curves::solve::SolvedCell;
+use coupler_curves::measure::{Measure, StraightPortion};
+use coupler_curves::motion::Sampling;
+use coupler_curves::solve::{SolvedCell, Solver};
 
 /// How the proportions of a linkage were found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,12 +55,7 @@ pub struct Design {
 
 impl Design {
     /// Scales a trial to the requirements; `None` if it cannot be assembled, which does not happen to a trial.
-    pub(super) fn from_trial(
-        origin: ProportionOrigin,
-        trial: &Trial,
-        requirements: &Requirements,
-        sampler: &Sampler,
-    ) -> Option<Design> {
+    pub(super) fn from_trial(origin: ProportionOrigin, trial: &Trial, requirements: &Requirements) -> Option<Design> {
         let kind = trial.driven_linkage.kind;
         let template = kind.template()?;
         let scale = match (requirements.length, requirements.size) {
@@ -79,7 +73,7 @@ impl Design {
         let given: Vec<(String, f64)> = named.map(|(name, value)| (name.clone(), scaled(&name, value))).collect();
         let mut family = Family::single_cell(template, &given, Sampling::Samples(FINE_SAMPLES)).ok()?;
         family.straight = StraightCriterion::Tolerance(trial.tolerance);
-        let solved = solve::solve_cell(&family, sampler, 0)?;
+        let solved = Solver::new(&family).solve(0)?;
         let curve = first_traced_curve(&solved.linkage, &solved.motion, trial.tolerance)?;
         let straight = curve.straight()?.clone();
         let figures = performance(trial.driven_linkage, &curve, &straight)?;
@@ -87,7 +81,7 @@ impl Design {
         let third = stroke.sample_indices.get(stroke.sample_indices.len() / 3);
         let joints = solved.linkage.joint_ids();
         let pose = third.map(|&k| joints.map(|joint| curve.circuit.positions.point(joint, k)).collect());
-        let crunode_count = number_value(&curve, "crunodes").unwrap_or(0.0) as usize;
+        let crunode_count = curve.measure(Measure::CRUNODES).unwrap_or(0.0) as usize;
         let class = FourBar::from_linkage(&solved.linkage)?.class().name();
         Some(Design {
             driven_linkage: trial.driven_linkage,

@@ -31,10 +31,8 @@ pub(super) fn synthesize_all(requirements: &Requirements, samplers: &Samplers) -
     let (kept, duplicates) = remove_duplicates(kept);
     found.rejected.extend(duplicates);
     let kept = select_best(kept, requirements);
-    found.designs = kept
-        .iter()
-        .filter_map(|(origin, trial)| Design::from_trial(*origin, trial, requirements, &samplers.fine))
-        .collect();
+    found.designs =
+        kept.iter().filter_map(|(origin, trial)| Design::from_trial(*origin, trial, requirements)).collect();
     (found, short)
 }
 

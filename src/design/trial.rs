@@ -8,7 +8,7 @@ use super::requirements::Requirements;
 use super::stroke::{InputLink, Stroke};
 use coupler_curves::geometry::{Point, trig};
 use coupler_curves::linkage::{FourBar, Linkage};
-use coupler_curves::measure::{self, StraightCriterion, StraightPortion, TracedCurve, Value};
+use coupler_curves::measure::{Measure, StraightCriterion, StraightPortion, TracedCurve};
 use coupler_curves::motion::{Motion, Sampler};
 use coupler_curves::template::Template;
 
@@ -110,7 +110,7 @@ impl Objective<'_> {
                 return Err(100.0 * UNMET_PENALTY * (1.0 + shortfall));
             }
         }
-        if requirements.double_point.is_some_and(|required| required != (number_value(&curve, "crunodes") > Some(0.0)))
+        if requirements.double_point.is_some_and(|required| required != (curve.measure(Measure::CRUNODES) > Some(0.0)))
         {
             return Err(100.0 * UNMET_PENALTY);
         }
@@ -151,20 +151,11 @@ pub(super) fn first_traced_curve<'a>(
     )
 }
 
-/// The value of a measure that is a number; `None` for other measures.
-pub(super) fn number_value(curve: &TracedCurve, name: &str) -> Option<f64> {
-    let measure = measure::ALL.iter().find(|measure| measure.name == name)?;
-    match (measure.compute)(curve) {
-        Value::Number(number) => Some(number),
-        _ => None,
-    }
-}
-
 /// The least transmission angle over a full turn, of an angle over 90 the supplement; `None` if the input cannot turn
 /// fully.
 fn min_transmission_angle(curve: &TracedCurve) -> Option<f64> {
     let turns = curve.circuit.is_closed && curve.circuit.passes.len() == 1;
-    number_value(curve, "mu_worst_deg").filter(|_| turns)
+    curve.measure(Measure::MU_WORST).filter(|_| turns)
 }
 
 /// The performance of a linkage with this straight portion; `None` if a motor drives and cannot turn it fully, or if

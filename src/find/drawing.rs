@@ -3,9 +3,7 @@
 use coupler_curves::family::Family;
 use coupler_curves::geometry::Similarity;
 use coupler_curves::linkage_format::quoted;
-use coupler_curves::measure;
-use coupler_curves::motion::Sampler;
-use coupler_curves::solve::solve_measuring;
+use coupler_curves::solve::Solver;
 use coupler_drawing::page::{self, AnswersPage, FoundCurve, Options, Paper};
 use coupler_drawing::render::{self, TextMode};
 use coupler_find::{Answer, LinkageSpace, Target, format_length as number, format_relative as relative};
@@ -47,8 +45,7 @@ fn found(rank: usize, answer: &Answer, size: f64) -> Option<FoundCurve> {
 
 /// A curve of any linkage of the page, where it is placed, with its linkage at the first sample.
 fn placed(curve: &PlacedCurve, family: &Family, cell: usize, label: String) -> Option<FoundCurve> {
-    let needed: Vec<bool> = (0..measure::ALL.len()).map(|k| family.filter_or_sort_uses(k)).collect();
-    let mut solved = solve_measuring(family, &Sampler::new(family.sampling), cell, &needed)?;
+    let mut solved = Solver::new(family).measuring(family.selection_measures()).solve(cell)?;
     solved.curves.retain(|other| [other.trace, other.circuit] == curve.numbers);
     let circuit = solved.circuit(solved.curves.first()?);
     let pose = solved.linkage.joint_ids().map(|joint| circuit.positions.point(joint, 0)).collect();

@@ -3,7 +3,7 @@
 use coupler_curves::family::Family;
 use coupler_curves::geometry::{Point, Similarity, Vector, distance_to_segment};
 use coupler_curves::linkage::{FourBar, JointId, Linkage, PlacedFourBar};
-use coupler_curves::measure::Value;
+use coupler_curves::measure::{Measure, MeasureSet};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 use coupler_find::{CurveFit, Target, longest_link, pivots_of};
 
@@ -37,7 +37,7 @@ pub struct PlacedCurve {
 }
 
 /// The measures of an answer.
-pub(super) const REPORTED: [&str; 2] = ["class", "mu_worst_deg"];
+pub(super) const REPORTED: MeasureSet = MeasureSet::EMPTY.with(Measure::CLASS).with(Measure::MU_WORST);
 
 impl PlacedCurve {
     /// The curve of a solved cell where it fits the target. It is not yet known whether the linkage is scalable.
@@ -56,8 +56,8 @@ impl PlacedCurve {
             is_scalable: false,
             pivots: pivots.collect(),
             longest_link: fit.placement.scale() * longest_link(&solved.linkage),
-            class: if let Value::Word(class) = curve.value("class") { class } else { "" },
-            mu_worst_deg: if let Value::Number(angle) = curve.value("mu_worst_deg") { angle } else { f64::NAN },
+            class: curve.measure(Measure::CLASS).unwrap_or(""),
+            mu_worst_deg: curve.measure(Measure::MU_WORST).unwrap_or(f64::NAN),
             is_full_turn: circuit.is_full_turn(),
             four_bar: placed_four_bar(&solved.linkage, curve.joint, &fit.placement),
             outline: circuit.points(curve.joint).step_by(step).map(|p| fit.placement.apply(p)).collect(),

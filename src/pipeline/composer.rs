@@ -7,8 +7,7 @@ use super::Captions;
 use crate::manifest::{Plan, PlannedFamily};
 use coupler_curves::family::Family;
 use coupler_curves::linkage::FourBar;
-use coupler_curves::motion::Sampler;
-use coupler_curves::solve::{MovablePoint, SolvedCell, solve_cell};
+use coupler_curves::solve::{MovablePoint, SolvedCell, Solver};
 use coupler_drawing::chart::{Chart, ChartData};
 use coupler_drawing::page::{
     self, ChartPage, CouplerGridPage, Heading, Key, Layout, LinkLabel, Panel, PanelPage, PoseChoice,
@@ -28,8 +27,8 @@ fn link_labels(family: &Family, solved: &SolvedCell) -> Vec<LinkLabel> {
 /// The first cell of a family that has a curve, of as many as are solved in an instant.
 fn first_with_curve(family: &Family) -> Option<SolvedCell> {
     const MOST: usize = 64;
-    let sampler = Sampler::new(family.sampling);
-    let solve = |k: usize| solve_cell(family, &sampler, k).filter(|solved| !solved.curves.is_empty());
+    let solver = Solver::new(family);
+    let solve = |k: usize| solver.solve(k).filter(|solved| !solved.curves.is_empty());
     (0..family.cell_count().min(MOST)).find_map(solve)
 }
 

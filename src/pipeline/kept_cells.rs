@@ -41,8 +41,7 @@ fn cell_bytes(solved: &SolvedCell) -> usize {
 mod tests {
     use super::*;
     use crate::manifest;
-    use coupler_curves::motion::Sampler;
-    use coupler_curves::solve::solve_cell;
+    use coupler_curves::solve::Solver;
 
     /// Of a linkage driven by a length, the number of samples is known only when it is solved.
     #[test]
@@ -53,7 +52,7 @@ mod tests {
         ));
         let plan = plan.plan.unwrap();
         let family = &plan.families[0].family;
-        let solved = || solve_cell(family, &Sampler::new(family.sampling), 0).unwrap();
+        let solved = || Solver::new(family).solve(0).unwrap();
         let bytes = cell_bytes(&solved());
         assert!(bytes > 40_000 * 16, "{bytes}");
         let mut kept = KeptCells::default();

@@ -25,8 +25,8 @@ use self::kept_cells::KeptCells;
 use crate::manifest::{Plan, PlannedFamily};
 use crate::record::Digest;
 use crate::sweep::{self, CellGroups, CellIndices, CellSelection};
-use coupler_curves::motion::Sampler;
-use coupler_curves::solve::SolvedCell;
+use coupler_curves::measure::MeasureSet;
+use coupler_curves::solve::{SolvedCell, Solver};
 use coupler_drawing::chart::{Chart, ChartBuilder, ChartSample};
 use coupler_drawing::page::Layout;
 use coupler_drawing::render::PageFormat;
@@ -231,8 +231,8 @@ impl<'a> FamilyPipeline<'a> {
             // Tables are in the order of the cells, but pages are sorted.
             let measures = measures_used_on_pages(planned);
             let sorted = (self.arrangement.page_order(), first_sorted);
-            let take = |_: &Sampler, cell: usize| kept_cells.lock().unwrap_or_else(PoisonError::into_inner).take(cell);
-            let groups = CellGroups { solve_known: Some(&take), ..self.cell_groups(sorted, sink, Some(&measures)) };
+            let take = |_: &Solver, cell: usize| kept_cells.lock().unwrap_or_else(PoisonError::into_inner).take(cell);
+            let groups = CellGroups { solve_known: Some(&take), ..self.cell_groups(sorted, sink, Some(measures)) };
             let make =
                 |group: usize, solved: Vec<SolvedCell>| Ok((None, self.send_pages(group, &solved, sink)?, Vec::new()));
             sweep::process_groups(&planned.family, groups, make, &mut deliver)?;
@@ -270,7 +270,7 @@ impl<'a> FamilyPipeline<'a> {
         let [first, last] = [first, last].map(|page| self.pagination.group_of_page(page));
         let cells = self.arrangement.page_order().first((last + 1) * self.pagination.group_size);
         let measures = measures_used_on_pages(planned);
-        let groups = self.cell_groups((&cells, first), sink, Some(&measures));
+        let groups = self.cell_groups((&cells, first), sink, Some(measures));
         let make = |group: usize, solved: Vec<SolvedCell>| self.send_pages(group, &solved, sink);
         sweep::process_groups(&planned.family, groups, make, |pages: Result<Vec<Option<S::PageOutput>>, S::Error>| {
             pages?.into_iter().flatten().try_for_each(&mut receive)
@@ -282,7 +282,7 @@ impl<'a> FamilyPipeline<'a> {
         &self,
         (cells, first_group): (&'c CellIndices, usize),
         sink: &impl Sink,
-        measures: Option<&'c [bool]>,
+        measures: Option<MeasureSet>,
     ) -> CellGroups<'c> {
         CellGroups {
             cells,

@@ -2,18 +2,13 @@
 
 use crate::manifest::PlannedFamily;
 use crate::sweep::CellSelection;
-use coupler_curves::measure::{self, Measure};
+use coupler_curves::measure::MeasureSet;
 use coupler_drawing::page::Layout;
 
-/// Which measures are needed to draw the pages of a family, by their indices in [`measure::ALL`].
-pub fn measures_used_on_pages(planned: &PlannedFamily) -> Vec<bool> {
+/// The measures that are needed to draw the pages of a family.
+pub fn measures_used_on_pages(planned: &PlannedFamily) -> MeasureSet {
     let family = &planned.family;
-    let is_used = |(k, measure): (usize, &Measure)| {
-        let is_on_pages = planned.layout.measures().any(|name| name == measure.name);
-        let is_used = is_on_pages || family.filter_or_sort_uses(k) || family.captions_use(k);
-        is_used && family.is_computed[k]
-    };
-    measure::ALL.iter().enumerate().map(is_used).collect()
+    (planned.layout.measures() | family.selection_measures() | family.caption_measures()) & family.measures
 }
 
 /// How the cells of a family are distributed over pages.

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use coupler_curves::expression::CompiledExpression;
 use coupler_curves::family::Family;
-use coupler_curves::measure::{self, Measure};
+use coupler_curves::measure::MeasureSet;
 
 use super::columns::TableColumn;
 use super::options::Options;
@@ -29,16 +29,14 @@ pub(super) fn swept_family<'f>(
     by: Option<&CompiledExpression>,
     measures: Option<&[String]>,
 ) -> Cow<'f, Family> {
-    let is_named =
-        |measure: &Measure, names: &[String]| measure.names().any(|own| names.iter().any(|name| name == own));
-    let is_computed = |(k, measure): (usize, &Measure)| {
-        let is_used = by.iter().copied().chain(&family.filter).any(|expression| family.expression_uses(expression, k));
-        is_used || measures.map_or(family.is_computed[k], |names| is_named(measure, names))
-    };
-    let is_computed: Vec<bool> = measure::ALL.iter().enumerate().map(is_computed).collect();
-    match is_computed == family.is_computed {
+    let named =
+        |names: &[String]| MeasureSet::of(|measure| measure.names().any(|own| names.iter().any(|name| name == own)));
+    let expressions = by.into_iter().chain(&family.filter);
+    let measures = expressions
+        .fold(measures.map_or(family.measures, named), |set, expression| set | family.measures_in(expression));
+    match measures == family.measures {
         true => Cow::Borrowed(family),
-        false => Cow::Owned(Family { is_computed, ..family.clone() }),
+        false => Cow::Owned(Family { measures, ..family.clone() }),
     }
 }
 
@@ -88,7 +86,7 @@ impl ShardRecord {
 }
 
 /// The groups in which cells are solved: as many cells as take a few megabytes.
-pub(super) fn groups<'g>(family: &Family, cells: &'g CellIndices, measures: Option<&'g [bool]>) -> CellGroups<'g> {
+pub(super) fn groups<'g>(family: &Family, cells: &'g CellIndices, measures: Option<MeasureSet>) -> CellGroups<'g> {
     const GROUP_BYTES: usize = 1 << 22;
     const MOST_CELLS: usize = 64;
     let size = (GROUP_BYTES / family.estimate_cell_bytes().max(1)).clamp(1, MOST_CELLS);

@@ -6,7 +6,6 @@ use std::sync::atomic::Ordering;
 
 use coupler_curves::expression::CompiledExpression;
 use coupler_curves::family::Family;
-use coupler_curves::measure;
 use coupler_curves::solve::{SolvedCell, Status};
 
 use super::Error;
@@ -173,7 +172,7 @@ impl FamilyShard<'_> {
         cells: &CellIndices,
         report: &mut dyn FnMut(Event),
     ) -> Result<(Vec<Place>, Counts), Error> {
-        let needed: Vec<bool> = (0..measure::ALL.len()).map(|k| self.family.expression_uses(by, k)).collect();
+        let needed = self.family.measures_in(by);
         let most = self.options.top.as_ref().map_or(0, |top| top.count);
         let rank = |_, solved: Vec<SolvedCell>| {
             let mut ranked: Vec<(f64, Place)> = Vec::new();
@@ -188,7 +187,7 @@ impl FamilyShard<'_> {
         let (mut best, mut counts) = (Best::new(most), Counts::default());
         sweep::process_groups(
             self.family,
-            groups(self.family, cells, Some(&needed)),
+            groups(self.family, cells, Some(needed)),
             rank,
             |(ranked, counted, cells)| {
                 self.check_interrupt()?;

@@ -1,10 +1,9 @@
 //! Why no curve of a family is shown: how near its cells come to being assembled, and its curves to what `where` asks for.
 
 use coupler_curves::expression::CompiledExpression;
-use coupler_curves::family::Family;
-use coupler_curves::measure::{self, Measure, Value};
-use coupler_curves::motion::Sampler;
-use coupler_curves::solve::solve_measuring;
+use coupler_curves::family::{Family, ScopeName};
+use coupler_curves::measure::{self, MeasureSet, Value};
+use coupler_curves::solve::Solver;
 use coupler_curves::text::{pluralize, round_to_six_digits};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -64,22 +63,18 @@ pub struct NamedValues {
 
 /// Solves cells of a family, given by their indices, without its `where`.
 pub fn diagnose(family: &Family, cells: Range<usize>) -> Diagnosis {
-    let slots = family.filter.iter().flat_map(|filter| filter.slots()).copied();
-    let names: Vec<usize> = slots.filter(|slot| *slot < family.names.len()).collect();
-    let is_used = |(k, _): &(usize, &'static Measure)| {
-        family.filter.as_ref().is_some_and(|filter| family.expression_uses(filter, *k))
-    };
-    let used: Vec<(usize, &Measure)> = measure::ALL.iter().enumerate().filter(is_used).collect();
-    let requested: Vec<bool> = (0..measure::ALL.len()).map(|k| used.iter().any(|(used, _)| *used == k)).collect();
+    let own = |name: ScopeName| if let ScopeName::Own(slot) = name { Some(slot) } else { None };
+    let names: Vec<usize> = family.filter.iter().flat_map(|filter| family.names_in(filter)).filter_map(own).collect();
+    let used = family.filter.as_ref().map_or(MeasureSet::EMPTY, |filter| family.measures_in(filter));
     let mut conjuncts = family.filter.as_ref().map(|filter| filter.conjuncts()).unwrap_or_default();
-    let is_on_curves = |conjunct: &CompiledExpression| conjunct.slots().iter().any(|slot| *slot >= family.names.len());
+    let is_on_curves = |conjunct: &CompiledExpression| !family.measures_in(conjunct).is_empty();
     let (sides_on_curves, sides_on_cells): (Vec<CompiledExpression>, Vec<CompiledExpression>) =
         conjuncts.iter().flat_map(CompiledExpression::computed_sides).partition(is_on_curves);
     if conjuncts.len() == 1 {
         conjuncts.clear();
     }
     let unfiltered = Family { filter: None, sort: None, ..family.clone() };
-    let sampler = Sampler::new(family.sampling);
+    let solver = Solver::new(&unfiltered).measuring(used);
     let is_driven_by_length = family.template.is_driven_by_length();
     let texts = |sides: &[CompiledExpression]| sides.iter().map(CompiledExpression::message_text).collect::<Vec<_>>();
     let none_of = |name| NamedValues { name, range: None, words: Vec::new() };
@@ -92,7 +87,7 @@ pub fn diagnose(family: &Family, cells: Range<usize>) -> Diagnosis {
             .collect(),
         measures: used
             .iter()
-            .map(|(_, m)| m.name_for(is_driven_by_length).to_owned())
+            .map(|k| measure::ALL[k].name_for(is_driven_by_length).to_owned())
             .chain(texts(&sides_on_curves))
             .map(none_of)
             .collect(),
@@ -108,7 +103,7 @@ pub fn diagnose(family: &Family, cells: Range<usize>) -> Diagnosis {
     };
     let diagnose_cell = |cell: usize| {
         let mut found = nothing();
-        let Some(solved) = solve_measuring(&unfiltered, &sampler, cell, &requested) else { return found };
+        let Some(solved) = solver.solve(cell) else { return found };
         let evaluate = |expression: &CompiledExpression, values: &[Value]| {
             expression.evaluate(|slot| Family::scope_value(&solved.cell, values, slot))
         };
@@ -138,7 +133,7 @@ pub fn diagnose(family: &Family, cells: Range<usize>) -> Diagnosis {
         for curve in &solved.curves {
             found.curves += 1;
             let computed = sides_on_curves.iter().map(|side| Value::Number(evaluate(side, &curve.values)));
-            let all = used.iter().map(|(k, _)| curve.values[*k]).chain(computed);
+            let all = used.iter().map(|k| curve.values[k]).chain(computed);
             found.measures.iter_mut().zip(all).for_each(|(values, value)| values.add(value));
         }
         found

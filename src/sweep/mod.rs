@@ -13,9 +13,9 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{self, Receiver, TryRecvError};
 
 use coupler_curves::family::Family;
-use coupler_curves::measure;
-use coupler_curves::motion::{self, Sampler};
-use coupler_curves::solve::{MeasuredCurve, Screening, SolvedCell, solve_measuring, solve_screened};
+use coupler_curves::measure::MeasureSet;
+use coupler_curves::motion;
+use coupler_curves::solve::{MeasuredCurve, SolvedCell, Solver};
 use rayon::prelude::*;
 
 /// The cells that `where` keeps, by index, see [`CellSelection::kept`].
@@ -27,11 +27,8 @@ pub fn kept_cells(family: &Family) -> CellIndices {
 
 /// Whether any cell of a family has a curve; most often the first has one.
 pub fn has_curve(family: &Family) -> bool {
-    let sampler = Sampler::new(family.sampling);
-    let no_measures = vec![false; measure::ALL.len()];
-    let is_assembled = |cell: usize| {
-        solve_measuring(family, &sampler, cell, &no_measures).is_some_and(|solved| solved.motion.is_assembled())
-    };
+    let solver = Solver::new(family).measuring(MeasureSet::EMPTY);
+    let is_assembled = |cell: usize| solver.solve(cell).is_some_and(|solved| solved.motion.is_assembled());
     is_assembled(0) || (1..family.cell_count()).into_par_iter().any(is_assembled)
 }
 
@@ -76,17 +73,12 @@ pub fn select_cells(family: &Family, counts_points: bool, stop: &AtomicBool) -> 
         rank: u64,
         points: u32,
     }
-    let sampler = Sampler::new(family.sampling);
-    // Only the measures that `where` and `sort` use are computed.
-    let measures: Vec<bool> = (0..measure::ALL.len()).map(|measure| family.filter_or_sort_uses(measure)).collect();
-    let screening = Screening::new(family, &measures);
+    let solver = Solver::new(family).measuring(family.selection_measures());
     // A condition on parameters alone leaves out a cell whether it can be assembled or not.
     let needs_curves = family.filter_uses_measures();
     let unassembled = AtomicUsize::new(0);
     let rank_cell = |cell: usize| {
-        let solved =
-            if stop.load(Ordering::Relaxed) { None } else { solve_screened(family, &sampler, cell, &screening) };
-        let solved = solved?;
+        let solved = if stop.load(Ordering::Relaxed) { None } else { solver.solve(cell) }?;
         if solved.is_left_out() {
             let is_unassembled = needs_curves && !solved.motion.is_assembled();
             unassembled.fetch_add(usize::from(is_unassembled), Ordering::Relaxed);
@@ -145,15 +137,14 @@ pub struct CellGroups<'a> {
     pub size: usize,
     /// The memory that processing a group takes in addition to the group itself, in bytes.
     pub work_bytes: usize,
-    /// Which measures are computed, by their indices in [`measure::ALL`]; must include those that `where` uses. Those
-    /// of the family if `None`.
-    pub requested_measures: Option<&'a [bool]>,
+    /// The measures that are computed, and those that `where` uses; those of the family if `None`.
+    pub requested_measures: Option<MeasureSet>,
     /// Solves a cell by its index from what is known of it already; `None` for a cell of which nothing is known.
     pub solve_known: Option<&'a SolveKnown<'a>>,
 }
 
 /// Solves a cell of which something is known.
-pub type SolveKnown<'a> = dyn Fn(&Sampler, usize) -> Option<SolvedCell> + Sync + 'a;
+pub type SolveKnown<'a> = dyn Fn(&Solver, usize) -> Option<SolvedCell> + Sync + 'a;
 
 /// The approximate limit of memory for groups in flight, in bytes.
 const MAX_BYTES: usize = motion::MAX_CIRCUIT_BYTES;
@@ -180,15 +171,14 @@ pub fn process_groups<T: Send, E>(
     work: impl Fn(usize, Vec<SolvedCell>) -> T + Sync,
     mut receive: impl FnMut(T) -> Result<(), E>,
 ) -> Result<(), E> {
-    let sampler = &Sampler::new(family.sampling);
+    let solver = &Solver::new(family).measuring(groups.requested_measures.unwrap_or(family.measures));
     let max_in_flight = groups.max_in_flight(family);
     let stopped = &AtomicBool::new(false);
     let work = &work;
-    let screening = &Screening::new(family, groups.requested_measures.unwrap_or(&family.is_computed));
     let known = groups.solve_known;
     let solve = move |cell: usize| {
-        let solved = known.and_then(|known| known(sampler, cell));
-        solved.or_else(|| solve_screened(family, sampler, cell, screening))
+        let solved = known.and_then(|known| known(solver, cell));
+        solved.or_else(|| solver.solve(cell))
     };
     let cells = groups.cells;
     let size = groups.size.max(1);

@@ -1,6 +1,5 @@
 //! Pages of coupler grids: their number and contents, and that nothing on them is cut off or overlaps.
 
-use coupler_curves::solve;
 use std::fs;
 
 use coupler_atlas::manifest::Plan;
@@ -8,8 +7,9 @@ use coupler_atlas::sweep;
 use coupler_curves::catalogue;
 use coupler_curves::family::{Family, Sampling};
 use coupler_curves::geometry::{Point, Vector, distance_to_segment};
-use coupler_curves::motion::{self, Sampler};
-use coupler_curves::solve::{MovablePoint, SolvedCell};
+use coupler_curves::measure::Measure;
+use coupler_curves::motion;
+use coupler_curves::solve::{MovablePoint, SolvedCell, Solver};
 use coupler_drawing::page::{
     self, CouplerGridPage, Heading, Layout, LinkLabel, Options, Panel, PanelScale, Paper, PoseChoice, Theme,
 };
@@ -114,9 +114,9 @@ fn pages(family: &Family, source: &str, solved: &SolvedCell, options: &Options) 
 /// The solved cells of the first family of a plan, one in every `step` of them.
 fn solve_cells(plan: &Plan, step: usize) -> Vec<SolvedCell> {
     let family = &plan.families[0].family;
-    let sampler = Sampler::new(family.sampling);
+    let solver = Solver::new(family);
     let kept = sweep::kept_cells(family);
-    kept.iter().step_by(step).map(|k| solve::solve_cell(family, &sampler, k).unwrap()).collect()
+    kept.iter().step_by(step).map(|k| solver.solve(k).unwrap()).collect()
 }
 
 /// All pages of one in every `step` cells.
@@ -379,7 +379,7 @@ fn no_type_is_too_small_to_read() {
 fn first(text: &str) -> (SolvedCell, Vec<(Scene, Vec<usize>)>) {
     let plan = plan(text);
     let planned = &plan.families[0];
-    let solved = solve::solve_cell(&planned.family, &Sampler::new(planned.family.sampling), 0).unwrap();
+    let solved = Solver::new(&planned.family).solve(0).unwrap();
     let pages = pages(&planned.family, &planned.source, &solved, &options(PAPERS[0]));
     for (scene, _) in &pages {
         assert_eq!(outside(scene), [""; 0]);
@@ -572,7 +572,7 @@ fn every_linkage_of_the_catalogue_has_a_page() {
         let given: Vec<(String, f64)> = given.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
         let family = Family::single_cell(template.clone(), &given, Sampling::Samples(72));
         let family = family.unwrap_or_else(|errors| panic!("{}: {errors:?}", template.id));
-        let solved = solve::solve_cell(&family, &Sampler::new(family.sampling), 0).unwrap();
+        let solved = Solver::new(&family).solve(0).unwrap();
         for paper in [PAPERS[0], PAPERS[2], PAPERS[4], PAPERS[5]] {
             for (scene, shown) in pages(&family, template.source.as_str(), &solved, &options(paper)) {
                 let id = &template.id;
@@ -661,10 +661,7 @@ fn a_change_point_says_what_it_is_and_where() {
 fn the_transmission_angle_has_the_extremes_that_are_measured() {
     let plan = example();
     for solved in solve_cells(&plan, 35) {
-        let [least, greatest] = ["mu_min_deg", "mu_max_deg"].map(|name| match solved.curves[0].value(name) {
-            coupler_curves::measure::Value::Number(value) => value,
-            value => panic!("{value:?}"),
-        });
+        let [least, greatest] = [Measure::MU_MIN, Measure::MU_MAX].map(|key| solved.curves[0].measure(key).unwrap());
         let (scene, _) = &pages(&plan.families[0].family, "", &solved, &options(PAPERS[2]))[0];
         let text = running_text(scene);
         // A crank is on the frame line where the angle is extreme.

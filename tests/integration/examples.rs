@@ -10,9 +10,8 @@ use coupler_atlas::manifest::Plan;
 use coupler_atlas::sweep;
 use coupler_curves::family::Family;
 use coupler_curves::geometry::trig;
-use coupler_curves::measure::Value;
-use coupler_curves::motion::Sampler;
-use coupler_curves::solve::{self, SolvedCell};
+use coupler_curves::measure::{Measure, MeasureKey};
+use coupler_curves::solve::{SolvedCell, Solver};
 use tempfile::TempDir;
 
 use crate::support;
@@ -41,17 +40,14 @@ fn family<'p>(plan: &'p Plan, id: &str) -> &'p Family {
 
 /// Every `step`-th cell of a family.
 fn solved(family: &Family, step: usize) -> Vec<SolvedCell> {
-    let sampler = Sampler::new(family.sampling);
-    let solve = |k| solve::solve_cell(family, &sampler, k).unwrap();
+    let solver = Solver::new(family);
+    let solve = |k| solver.solve(k).unwrap();
     (0..family.cell_count()).step_by(step).map(solve).collect()
 }
 
 /// A measure of the first curve of a cell.
-fn measure(solved: &SolvedCell, name: &str) -> f64 {
-    match solved.curves[0].value(name) {
-        Value::Number(number) => number,
-        value => panic!("{name} is {value:?}"),
-    }
+fn measure(solved: &SolvedCell, key: MeasureKey<f64>) -> f64 {
+    solved.curves[0].measure(key).unwrap_or_else(|| panic!("no {}", key.name))
 }
 
 /// A parameter or another name of a cell.
@@ -158,7 +154,7 @@ fn the_offset_of_slider_cranks_is_limited_by_their_transmission_angle() {
         assert_eq!(solved.curves.is_empty(), expected < 20.0, "L = {l}, e = {e}");
         if !solved.curves.is_empty() {
             assert_eq!(solved.curves.len(), 50);
-            assert!((measure(&solved, "mu_worst_deg") - expected).abs() < 1e-6, "L = {l}, e = {e}");
+            assert!((measure(&solved, Measure::MU_WORST) - expected).abs() < 1e-6, "L = {l}, e = {e}");
             kept += 1;
         }
     }
@@ -191,7 +187,7 @@ fn the_cranks_of_geared_five_bars_turn_fully() {
     for planned in plan.families.iter().filter(|planned| planned.family.id.starts_with("ratio")) {
         for solved in solved(&planned.family, 7) {
             let name = &planned.family.id;
-            assert!(solved.curves.len() == 1 && solved.curves[0].value("input_min_deg") == Value::Missing, "{name}");
+            assert!(solved.curves.len() == 1 && solved.curves[0].measure(Measure::INPUT_MIN).is_none(), "{name}");
         }
     }
 }
@@ -204,8 +200,8 @@ fn the_outputs_of_dwell_linkages_rest() {
         [("arc-rocker", 100.0), ("arc-slider", 100.0), ("line-rocker", 80.0), ("two-dwells", 50.0), ("line-yoke", 90.0)]
     {
         for solved in solved(family(&plan, id), 5) {
-            assert!(measure(&solved, "output_dwell_deg") >= least, "{id}");
-            assert!(measure(&solved, "mu_worst_deg") >= 30.0, "{id}");
+            assert!(measure(&solved, Measure::OUTPUT_DWELL) >= least, "{id}");
+            assert!(measure(&solved, Measure::MU_WORST) >= 30.0, "{id}");
         }
     }
 }
@@ -216,13 +212,13 @@ fn straight_line_linkages_have_a_stroke_of_one() {
     let plan = plan("straight-line-linkages");
     for id in ["peaucellier-lipkin", "hart-inversor", "isosceles-slider-crank"] {
         for solved in solved(family(&plan, id), 3) {
-            assert!((measure(&solved, "straight_length") - 1.0).abs() < 1e-9, "{id}");
-            assert_eq!(measure(&solved, "straight_deviation"), 0.0, "{id}");
+            assert!((measure(&solved, Measure::STRAIGHT_LENGTH) - 1.0).abs() < 1e-9, "{id}");
+            assert_eq!(measure(&solved, Measure::STRAIGHT_DEVIATION), 0.0, "{id}");
         }
     }
     for id in ["motor-driven", "rocker-driven", "roberts"] {
         let deviations: Vec<f64> =
-            solved(family(&plan, id), 1).iter().map(|solved| measure(solved, "straight_deviation")).collect();
+            solved(family(&plan, id), 1).iter().map(|solved| measure(solved, Measure::STRAIGHT_DEVIATION)).collect();
         for row in deviations.chunks(4) {
             assert!(row.is_sorted_by(|a, b| a > b) && row[0] < 0.01, "{id}: {row:?}");
         }

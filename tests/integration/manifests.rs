@@ -579,9 +579,9 @@ mod properties {
                 let cells: Vec<_> = (0..family.cell_count()).map(|k| family.cell(k)).collect();
                 let values = |cell| ["p", "h", "g"].map(|name| family.value(name, cell).to_bits());
                 // Joints are numbered in the order they are written in, so the curves of the traced one are compared.
-                let sampler = coupler_curves::motion::Sampler::new(family.sampling);
+                let solver = coupler_curves::solve::Solver::new(family);
                 let curves = |k| {
-                    let solved = coupler_curves::solve::solve_cell(family, &sampler, k).unwrap();
+                    let solved = solver.solve(k).unwrap();
                     let joint = solved.linkage.traced[0];
                     let curve = |circuit: &coupler_curves::motion::Circuit| {
                         circuit.points(joint).map(|p| [p.x.to_bits(), p.y.to_bits()]).collect()

@@ -1,6 +1,7 @@
 //! The examples and statements of docs/start.md, docs/manifest.md, docs/tutorial.md and docs/check.md, and the READMEs of the crates.
 
-use coupler_curves::solve;
+use coupler_curves::measure::Measure;
+use coupler_curves::solve::Solver;
 use std::sync::atomic::AtomicBool;
 
 use coupler_atlas::manifest;
@@ -28,13 +29,10 @@ fn the_feeder_in_docs_tutorial_is_found() {
     let family = &plan(text).families[0].family;
     let kept = sweep::kept_cells(family);
     assert_eq!((family.cell_count(), kept.iter().collect::<Vec<_>>()), (1125, vec![899]));
-    let solved = solve::solve_cell(family, &coupler_curves::motion::Sampler::new(family.sampling), 899).unwrap();
-    let number = |name: &str| match solved.curves[0].value(name) {
-        coupler_curves::measure::Value::Number(number) => number,
-        other => panic!("{name} is {other:?}"),
-    };
-    assert_eq!(format!("{:.3}", number("straight_length")), "2.105");
-    assert_eq!(format!("{:.1}", number("mu_min_deg")), "45.2");
+    let solved = Solver::new(family).solve(899).unwrap();
+    let number = |key| solved.curves[0].measure(key).unwrap();
+    assert_eq!(format!("{:.3}", number(Measure::STRAIGHT_LENGTH)), "2.105");
+    assert_eq!(format!("{:.1}", number(Measure::MU_MIN)), "45.2");
     assert!(tutorial.contains("cell 900, with 2.105 cranks of straight line and 45.2° at the worst"));
 }
 

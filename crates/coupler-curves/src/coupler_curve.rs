@@ -5,9 +5,9 @@ use crate::exchange::SelectedCurve;
 use crate::family::{Family, ParameterErrors, Sampling};
 use crate::geometry::Point;
 use crate::linkage::{FourBar, Linkage};
-use crate::measure::{self, Measure, StraightPortion, Value};
-use crate::motion::{AssemblyError, Circuit, Sampler};
-use crate::solve::{MeasuredCurve, SolvedCell, solve_cell};
+use crate::measure::{self, Measure, MeasureKey, MeasureValue, StraightPortion, Value};
+use crate::motion::{AssemblyError, Circuit};
+use crate::solve::{MeasuredCurve, SolvedCell, Solver};
 
 /// A coupler curve of a four-bar on one circuit, solved at 360 samples and measured.
 ///
@@ -15,6 +15,7 @@ use crate::solve::{MeasuredCurve, SolvedCell, solve_cell};
 /// x-axis, and the input is the crank's angle from that axis, counter-clockwise.
 ///
 /// ```
+/// use coupler_curves::measure::Measure;
 /// use coupler_curves::{FourBar, FourBarClass};
 ///
 /// // Hoeken's linkage traces a nearly straight line by a point beyond the rocker pin.
@@ -27,6 +28,9 @@ use crate::solve::{MeasuredCurve, SolvedCell, solve_cell};
 ///
 /// let straight = curve.straight_portion();
 /// assert!(straight.is_some_and(|straight| straight.length > 1.1 && straight.deviation < 0.001 * straight.length));
+///
+/// assert_eq!(curve.measure(Measure::STRAIGHT_LENGTH), straight.map(|straight| straight.length));
+/// assert_eq!(curve.measure(Measure::CLASS), Some("crank-rocker"));
 ///
 /// // The crank pin's circle has no straight portion.
 /// assert!(four_bar.coupler_curve(0.0, 0.0)?.straight_portion().is_none());
@@ -85,7 +89,7 @@ impl FourBar {
         let template = catalogue::find("four-bar").expect("the catalogue has the four-bar");
         let source = template.source_line();
         let family = Family::single_cell(template, &values, Sampling::Samples(360))?;
-        let solved = solve_cell(&family, &Sampler::new(family.sampling), 0).expect("a valid cell makes a linkage");
+        let solved = Solver::new(&family).solve(0).expect("a valid cell makes a linkage");
         if let Some(error) = &solved.motion.assembly_error {
             return Err(error.clone().into());
         }
@@ -122,6 +126,11 @@ impl CouplerCurve {
     /// Its longest straight portion: within a strip no wider than 1/1000 of the portion's length. `None` if it has none, as a circle.
     pub fn straight_portion(&self) -> Option<&StraightPortion> {
         self.measured().straight.as_ref()
+    }
+
+    /// A measure of it or of its linkage; `None` where it does not apply.
+    pub fn measure<T: MeasureValue>(&self, key: MeasureKey<T>) -> Option<T> {
+        self.measured().measure(key)
     }
 
     /// Every measure with its value.

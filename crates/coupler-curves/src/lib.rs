@@ -26,12 +26,13 @@
 //! # Ok::<(), coupler_curves::CurveError>(())
 //! ```
 //!
-//! Any other linkage of one degree of freedom is built joint by joint with [`linkage::LinkageBuilder`] and solved with
-//! [`motion::Motion::solve`], or taken from the [`catalogue`] with [`family::Family::single_cell`] and solved with
-//! [`solve::solve_cell`]:
+//! Any other linkage of one degree of freedom is built joint by joint with [`linkage::LinkageBuilder`], solved with
+//! [`motion::Motion::solve`] and measured with [`measure::TracedCurve::measure`]; or taken from the [`catalogue`] with
+//! [`family::Family::single_cell`], and solved and measured with a [`solve::Solver`]:
 //!
 //! ```
 //! use coupler_curves::linkage::{LinkageBuilder, MotionOptions, Side};
+//! use coupler_curves::measure::{Measure, TracedCurve};
 //! use coupler_curves::motion::{Motion, Sampler, Sampling};
 //!
 //! let mut builder = LinkageBuilder::default();
@@ -44,6 +45,11 @@
 //!
 //! let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Step(2.0)));
 //! assert_eq!(motion.circuits[0].points(m).count(), 180);
+//!
+//! let curve = TracedCurve::all(&linkage, &motion).next().expect("M has a curve on a circuit");
+//! let worst = curve.measure(Measure::MU_WORST).expect("a four-bar has a transmission angle");
+//! // It is that where the crank is on the line of the frame, by the law of cosines.
+//! assert!((worst - ((9.0_f64 + 12.25 - 9.0) / 21.0).acos().to_degrees()).abs() < 1e-9);
 //! # Ok::<(), coupler_curves::linkage::Error>(())
 //! ```
 

@@ -5,9 +5,8 @@ use serde_json::{Value, json};
 use coupler_curves::exchange::{CurveName, ParameterSet, SelectedCurve, manifest_fragment};
 use coupler_curves::expression::CompiledExpression;
 use coupler_curves::family::{Case, Family};
-use coupler_curves::motion::Sampler;
 use coupler_curves::problem::Problem;
-use coupler_curves::solve::{ChangedCell, solve_cell};
+use coupler_curves::solve::{ChangedCell, Solver};
 use coupler_curves::template::{CircuitSelection, JointKindTemplate};
 use coupler_drawing::curve_file::{self, CurveFormat, FileOptions};
 use coupler_drawing::plate::PAPER;
@@ -96,7 +95,7 @@ impl OpenFamily {
         work: impl FnOnce(&SelectedCurve) -> T,
     ) -> Result<T, String> {
         let ChangedCell { family, numbers, circuit } = self.changed_cell(request)?;
-        let solved = solve_cell(&family, &Sampler::new(family.sampling), 0).ok_or("it has no linkage")?;
+        let solved = Solver::new(&family).solve(0).ok_or("it has no linkage")?;
         let reason = solved.reason();
         let mut solved = numbers.restore(solved);
         let [trace, named] = request.curve;

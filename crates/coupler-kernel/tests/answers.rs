@@ -5,9 +5,9 @@ use std::path::Path;
 use coupler_curves::exchange::SelectedCurve;
 use coupler_curves::geometry::{Bounds, Point};
 use coupler_curves::linkage::CircuitSelection;
-use coupler_curves::measure::{self, TracedCurve, Value as Measured};
-use coupler_curves::motion::{self, Motion, Pass, Sampler};
-use coupler_curves::solve::{SolvedCell, solve_cell};
+use coupler_curves::measure::{self, MeasureSet, TracedCurve, Value as Measured};
+use coupler_curves::motion::{self, Motion, Pass};
+use coupler_curves::solve::{SolvedCell, Solver};
 use coupler_drawing::curve_file::{self, CurveFormat, FileOptions};
 use coupler_drawing::plate::PAPER;
 use coupler_drawing::render::Format;
@@ -62,9 +62,9 @@ fn curve_request(
 /// Some cells of every family of the atlas, solved.
 fn solved_cells(plan: &Plan) -> impl Iterator<Item = (&PlannedFamily, usize, SolvedCell)> {
     plan.families.iter().filter(|planned| planned.chart.is_none()).flat_map(|planned| {
-        let sampler = Sampler::new(planned.family.sampling);
+        let solver = Solver::new(&planned.family);
         let cells = (0..planned.family.cell_count()).step_by(7);
-        cells.filter_map(move |k| Some((planned, k, solve_cell(&planned.family, &sampler, k)?)))
+        cells.filter_map(move |k| Some((planned, k, solver.solve(k)?)))
     })
 }
 
@@ -169,9 +169,7 @@ fn exports_are_those_of_the_program() {
     for (planned, k, _) in solved_cells(&plan) {
         let family = open_family(&mut kernel, planned);
         // The program measures everything for an export.
-        let all = vec![true; measure::ALL.len()];
-        let sampler = Sampler::new(planned.family.sampling);
-        let solved = coupler_curves::solve::solve_measuring(&planned.family, &sampler, k, &all).unwrap();
+        let solved = Solver::new(&planned.family).measuring(MeasureSet::ALL).solve(k).unwrap();
         for selected in SelectedCurve::all_from_cell(&planned.family, &planned.source, &[], &solved) {
             let numbers = [selected.curve().trace, selected.curve().circuit];
             let curve = curve_request(planned, family, k, numbers, &[]);

@@ -3,7 +3,7 @@
 use crate::names::{read_filter, states_direction, uses_text_measure};
 use crate::plan::{BookPlan, FindingCharts, ListCriteria, PlannedChapter, PlannedFamily, PlannedList};
 use coupler_curves::expression::{Caption, CompiledExpression, Expression, Kind, Scope};
-use coupler_curves::family::{Family, MEASURES};
+use coupler_curves::family::Family;
 use coupler_curves::linkage_format::{Fields, KeySchema, TableSchema, TomlParser, TomlValue, ValueSchema};
 use coupler_curves::problem::Problem;
 use coupler_drawing::page::Layout;
@@ -352,7 +352,7 @@ fn scope(family: &Family) -> Scope<'_> {
 
 /// Whether a family computes all measures that an expression uses.
 fn computes(family: &Family, expression: &CompiledExpression) -> bool {
-    (0..MEASURES.len()).all(|k| family.is_computed[k] || !family.expression_uses(expression, k))
+    family.measures.contains_all(family.measures_in(expression))
 }
 
 /// A default list; `None` if no family has its measures.

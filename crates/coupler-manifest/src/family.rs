@@ -16,6 +16,7 @@ use crate::{applicability, chart, settings, tolerance};
 use coupler_curves::expression::{Caption, Dimension, Expression, Scope};
 use coupler_curves::family::{COLUMNS, Column, Family, MAX_SAMPLES, MEASURES, Sampling, StraightCriterion};
 use coupler_curves::linkage_format::{self, Fields, TomlParser, TomlValue};
+use coupler_curves::measure::MeasureSet;
 use coupler_curves::problem::{Problem, suggestion};
 use coupler_curves::template::{Orientation, Template};
 use coupler_drawing::page::{Layout, Options, PanelScale};
@@ -68,7 +69,7 @@ pub(crate) fn read<'t>(
     };
     let is_driven_by_length = template.as_ref().map(|template| template.is_driven_by_length());
     let measures = match fields.get("measures") {
-        None => Some(vec![true; MEASURES.len()]),
+        None => Some(MeasureSet::ALL),
         Some(value) => measures(value, is_driven_by_length, parser),
     };
     if let Some(template) = &template {
@@ -111,7 +112,7 @@ pub(crate) fn read<'t>(
         sampling,
         columns,
         straight,
-        is_computed: measures?,
+        measures: measures?,
         filter: names.filter,
         sort: names.sort,
         captions: names.captions,
@@ -119,11 +120,9 @@ pub(crate) fn read<'t>(
     let automatic_caption = family.automatic_caption().filter(|_| family.captions[0].is_none());
     family.captions[0] = family.captions[0].take().or_else(|| Caption::parse(automatic_caption.as_ref()?).ok());
     // A measure that an expression uses is computed, even if `measures` does not name it.
-    for k in 0..MEASURES.len() {
-        let quantities = chart.iter().flatten().flat_map(|chart| std::iter::once(&chart.x).chain(&chart.y));
-        let is_charted = quantities.into_iter().any(|quantity| family.expression_uses(&quantity.expression, k));
-        family.is_computed[k] |= family.filter_or_sort_uses(k) || family.captions_use(k) || is_charted;
-    }
+    let quantities = chart.iter().flatten().flat_map(|chart| std::iter::once(&chart.x).chain(&chart.y));
+    let charted = quantities.fold(MeasureSet::EMPTY, |set, quantity| set | family.measures_in(&quantity.expression));
+    family.measures |= family.selection_measures() | family.caption_measures() | charted;
     let count = family.cell_count();
     let checked = match purpose {
         Purpose::Pages if !totals.add_cells(&family, &fields, parser) => return None,
@@ -320,14 +319,15 @@ fn measures<'t>(
     value: &TomlValue<'t>,
     is_driven_by_length: Option<bool>,
     parser: &mut TomlParser<'t>,
-) -> Option<Vec<bool>> {
+) -> Option<MeasureSet> {
     let names = |is_driven_by_length: bool| MEASURES.iter().map(move |measure| measure.name_for(is_driven_by_length));
     let mut known: Vec<&str> = names(is_driven_by_length.unwrap_or(false)).collect();
     if is_driven_by_length.is_none() {
         known.extend(names(true));
     }
+    // Names beyond those of an angle are the same measures again.
     let places = name_indices(value, "measure", &known, parser)?;
-    Some((0..MEASURES.len()).map(|k| places.contains(&k)).collect())
+    Some(places.into_iter().filter(|place| *place < MEASURES.len()).collect())
 }
 
 /// Reads a list of names, each given once, as their indices in `known`; `what` is what messages call them.

@@ -5,7 +5,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::sweep::{self, CellGroups, CellIndices};
 use coupler_curves::exchange::CurveName;
 use coupler_curves::family::{Family, NoSuchCell};
-use coupler_curves::measure;
 use coupler_curves::solve::{ChangedCell, OriginalNumbers, SolvedCell};
 
 /// The selected curves of a family.
@@ -97,14 +96,12 @@ impl CurveSelection {
     ) -> Result<(), E> {
         // The numbers of cells have at most 32 bits.
         let cells = CellIndices::Listed(self.cells.keys().map(|&cell| cell as u32).collect());
-        let needed: Vec<bool> =
-            (0..measure::ALL.len()).map(|measure| self.family.filter_or_sort_uses(measure)).collect();
         let groups = CellGroups {
             cells: &cells,
             first_group: 0,
             size: 1,
             work_bytes: 0,
-            requested_measures: (!with_measures).then_some(&needed),
+            requested_measures: (!with_measures).then(|| self.family.selection_measures()),
             solve_known: None,
         };
         let works =

@@ -18,8 +18,7 @@ use std::sync::Arc;
 use clap::{Args, ValueHint};
 use coupler_curves::family::{Family, ParameterText, Sampling};
 use coupler_curves::linkage::CircuitSelection;
-use coupler_curves::motion::Sampler;
-use coupler_curves::solve::{self};
+use coupler_curves::solve::Solver;
 
 use super::linkage::{self, DEFAULT_SAMPLES};
 use super::{InputError, InputErrors, Outcome, files, print, print_bytes};
@@ -95,7 +94,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     }
     let family = Family::single_cell(Arc::clone(&template), &given, Sampling::Samples(DEFAULT_SAMPLES as usize))
         .map_err(|errors| InputErrors::from_messages(&linkage::parameter_errors(&template, &errors)))?;
-    let Some(solved) = solve::solve_cell(&family, &Sampler::new(family.sampling), 0) else {
+    let Some(solved) = Solver::new(&family).solve(0) else {
         return Err(InputError(format!("{}: there is no linkage with these parameters", arguments.linkage)).into());
     };
     let poses: Vec<Pose> = at.map(|at| pose::poses(&solved, at, branch)).unwrap_or_default();

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use coupler_curves::measure::Value;
+use coupler_curves::measure::Measure;
 use coupler_curves::motion::Circuit;
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 
@@ -49,7 +49,7 @@ fn per_circuit(count: usize, describe: impl Fn(usize) -> Option<String>) -> Opti
 /// "none, it turns fully", "28.95502437° to 97.18075578°, where it jams", or without that where only the range ends.
 fn describe_limits(curve: &MeasuredCurve, circuit: &Circuit, unit: &str) -> String {
     let jams = if circuit.limit_count() > 0 { ", where it jams" } else { "" };
-    match number(curve, "input_min_deg").zip(number(curve, "input_max_deg")) {
+    match curve.measure(Measure::INPUT_MIN).zip(curve.measure(Measure::INPUT_MAX)) {
         Some((least, most)) => {
             format!("{}{unit} to {}{unit}{jams}", format_significant(least, 10), format_significant(most, 10))
         }
@@ -60,26 +60,27 @@ fn describe_limits(curve: &MeasuredCurve, circuit: &Circuit, unit: &str) -> Stri
 /// "worst 26.57°, from 26.57° to 90°"; without the range if the linkage is not a four-bar, and `None` if no dyad
 /// transmits anything.
 fn describe_transmission(curve: &MeasuredCurve) -> Option<String> {
-    let worst = format_significant(number(curve, "mu_worst_deg")?, 4);
-    let range = number(curve, "mu_min_deg")
-        .zip(number(curve, "mu_max_deg"))
+    let worst = format_significant(curve.measure(Measure::MU_WORST)?, 4);
+    let range = curve
+        .measure(Measure::MU_MIN)
+        .zip(curve.measure(Measure::MU_MAX))
         .map(|(least, most)| format!(", from {}° to {}°", format_significant(least, 4), format_significant(most, 4)));
     Some(format!("worst {worst}°{}", range.unwrap_or_default()))
 }
 
 /// The straight portion of the curve on which it is longest for the size of the curve.
 fn describe_straight(solved: &SolvedCell, unit: &str) -> String {
-    let share = |curve: &&MeasuredCurve| number(curve, "straight_share").unwrap_or(f64::NEG_INFINITY);
+    let share = |curve: &&MeasuredCurve| curve.measure(Measure::STRAIGHT_SHARE).unwrap_or(f64::NEG_INFINITY);
     // Of equally long ones the first.
     let longest = solved.curves.iter().rev().max_by(|a, b| share(a).total_cmp(&share(b)));
     let text = longest.and_then(|curve| {
-        let value = |name| number(curve, name);
-        let [length, deviation] =
-            [value("straight_length")?, value("straight_deviation")?].map(|value| format_significant(value, 4));
-        let [start, span] =
-            [value("straight_start_deg")?, value("straight_input_deg")?].map(|value| format_significant(value, 4));
-        let share = format_significant(100.0 * value("straight_share")?, 3);
-        let twin = value("straight_twin_deg")
+        let value = |key| curve.measure(key);
+        let [length, deviation] = [value(Measure::STRAIGHT_LENGTH)?, value(Measure::STRAIGHT_DEVIATION)?]
+            .map(|value| format_significant(value, 4));
+        let [start, span] = [value(Measure::STRAIGHT_START)?, value(Measure::STRAIGHT_INPUT)?]
+            .map(|value| format_significant(value, 4));
+        let share = format_significant(100.0 * value(Measure::STRAIGHT_SHARE)?, 3);
+        let twin = value(Measure::STRAIGHT_TWIN)
             .map(|twin| format!(", and again from {}{unit}", format_significant(twin, 4)))
             .unwrap_or_default();
         let whose = match solved.curves.len() {
@@ -92,11 +93,4 @@ fn describe_straight(solved: &SolvedCell, unit: &str) -> String {
         ))
     });
     text.unwrap_or_else(|| "none".to_owned())
-}
-
-fn number(curve: &MeasuredCurve, name: &str) -> Option<f64> {
-    match curve.value(name) {
-        Value::Number(number) => Some(number),
-        _ => None,
-    }
 }

@@ -4,9 +4,9 @@ use std::fmt::Write;
 use std::sync::Arc;
 
 use coupler_curves::catalogue;
-use coupler_curves::family::{Family, MEASURES, Sampling};
-use coupler_curves::motion::Sampler;
-use coupler_curves::solve;
+use coupler_curves::family::{Family, Sampling};
+use coupler_curves::measure::MeasureSet;
+use coupler_curves::solve::Solver;
 use coupler_curves::template::{OutputLinkTemplate, Parameter, ParameterKind, Template};
 
 /// A paragraph for each linkage of the catalogue.
@@ -122,6 +122,6 @@ fn assembly_error(template: &Arc<Template>) -> Option<String> {
         Ok(family) => family,
         Err(errors) => return Some(errors.to_string().replace('\n', "; ")),
     };
-    let solved = solve::solve_measuring(&family, &Sampler::new(family.sampling), 0, &vec![false; MEASURES.len()])?;
+    let solved = Solver::new(&family).measuring(MeasureSet::EMPTY).solve(0)?;
     solved.motion.assembly_error.as_ref().map(ToString::to_string)
 }

@@ -6,9 +6,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use coupler_curves::expression::{CompiledExpression, Kind};
 use coupler_curves::family::Family;
 use coupler_curves::geometry::{Bounds, Point};
-use coupler_curves::measure;
-use coupler_curves::motion::Sampler;
-use coupler_curves::solve::{self, MeasuredCurve, SolvedCell};
+use coupler_curves::measure::{self, MeasureSet};
+use coupler_curves::solve::{MeasuredCurve, SolvedCell, Solver};
 use coupler_find::{
     Constraint, CurveFitOptions, CurveFitter, CurveIndex, CurveLookup, CurveShape, Target, is_scalable,
 };
@@ -172,14 +171,10 @@ fn is_kept(
         && condition.is_none_or(|condition| condition.evaluate(value) == 1.0)
 }
 
-/// Which measures are needed of the curves of a family.
-fn requested_measures(family: &Family, condition: Option<&CompiledExpression>) -> Vec<bool> {
-    let is_needed = |k: usize| {
-        REPORTED.contains(&measure::ALL[k].name)
-            || family.filter_or_sort_uses(k)
-            || condition.is_some_and(|condition| family.expression_uses(condition, k))
-    };
-    (0..measure::ALL.len()).map(is_needed).collect()
+/// The measures that are needed of the curves of a family.
+fn requested_measures(family: &Family, condition: Option<&CompiledExpression>) -> MeasureSet {
+    let used = condition.map_or(MeasureSet::EMPTY, |condition| family.measures_in(condition));
+    REPORTED | family.selection_measures() | used
 }
 
 /// Solves cells on all threads, and receives the results in order.
@@ -194,13 +189,12 @@ fn solve_cells<T: Send>(
     interrupt: &AtomicBool,
     mut receive: impl FnMut(Vec<T>),
 ) -> Result<(), Error> {
-    let requested = requested_measures(family, condition);
     let groups = CellGroups {
         cells,
         first_group: 0,
         size: 8,
         work_bytes: 0,
-        requested_measures: Some(&requested),
+        requested_measures: Some(requested_measures(family, condition)),
         solve_known: None,
     };
     let works = |_, solved: Vec<SolvedCell>| solved.into_iter().flat_map(&work).collect::<Vec<T>>();
@@ -297,7 +291,7 @@ fn meets_condition(plan: &Plan, condition: Option<&str>, answer: &AtlasAnswer) -
     let Some((_, family, condition)) = families.iter().find(|(other, ..)| *other == place) else { return Ok(false) };
     let Some(condition) = condition else { return Ok(true) };
     let requested = requested_measures(family, Some(condition));
-    let solved = solve::solve_measuring(family, &Sampler::new(family.sampling), cell, &requested);
+    let solved = Solver::new(family).measuring(requested).solve(cell);
     Ok(solved.is_some_and(|solved| {
         let mut curves = solved.curves.iter().filter(|curve| (curve.trace, curve.circuit) == (trace, circuit));
         let value = |curve: &MeasuredCurve, slot| Family::scope_value(&solved.cell, &curve.values, slot);

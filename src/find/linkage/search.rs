@@ -3,9 +3,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use coupler_curves::family::{Family, Sampling};
-use coupler_curves::measure;
-use coupler_curves::motion::Sampler;
-use coupler_curves::solve::{SolvedCell, solve_measuring};
+use coupler_curves::solve::{SolvedCell, Solver};
 use coupler_find::{
     Effort, LinkageFit, LinkageRefinement, LinkageSearch, LinkageSpace, Options, PathKind, SampleCurve, SampleIndex,
     SampleShape, Target,
@@ -234,8 +232,7 @@ fn answer(fit: LinkageFit, space: &LinkageSpace) -> Option<LinkageAnswer> {
     let names = template.parameters.iter().map(|parameter| parameter.name.clone());
     let given: Vec<(String, f64)> = names.zip(fit.values.iter().copied()).collect();
     let family = Family::single_cell(template.clone(), &given, Sampling::Samples(SAMPLES)).ok()?;
-    let requested: Vec<bool> = measure::ALL.iter().map(|measure| REPORTED.contains(&measure.name)).collect();
-    let solved: SolvedCell = solve_measuring(&family, &Sampler::new(family.sampling), 0, &requested)?;
+    let solved: SolvedCell = Solver::new(&family).measuring(REPORTED).solve(0)?;
     let curve = solved.curves.iter().find(|curve| [curve.trace, curve.circuit] == fit.curve)?;
     let mut curve = PlacedCurve::new(&family, &solved, curve, fit.fit);
     curve.is_scalable = space.is_scalable();

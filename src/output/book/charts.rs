@@ -7,9 +7,8 @@ use rayon::prelude::*;
 use super::super::{Error, Options, check_interrupt};
 use super::part::{BookFamily, FamilyPart, assignment};
 use crate::manifest::{FindingCharts, Plan};
-use crate::pipeline::{Composer, curves_by_page, measures_used_on_pages};
+use crate::pipeline::{Composer, curves_by_page};
 use coupler_curves::family::{Axis, ParameterSpace};
-use coupler_curves::motion::Sampler;
 use coupler_drawing::page::Layout;
 use coupler_drawing::page::book::{self, Emphasis, FindingCell, FindingChart, Miniature};
 
@@ -193,11 +192,10 @@ fn draw_cells(
     options: &Options,
 ) -> Result<BTreeMap<usize, DrawnPages>, Error> {
     let planned = family.pipeline.composer.planned;
-    let sampler = Sampler::new(planned.family.sampling);
-    let measures = measures_used_on_pages(planned);
+    let solver = family.page_solver();
     let draw = |(&cell, &first_page): (&usize, &usize)| {
         check_interrupt(&options.interrupt)?;
-        let Some(solved) = family.solve(&sampler, cell, &measures) else { return Ok((cell, Vec::new())) };
+        let Some(solved) = family.solve(&solver, cell) else { return Ok((cell, Vec::new())) };
         let pages = match planned.layout {
             Layout::CouplerGrid => curves_by_page(&solved),
             _ => vec![(0..solved.curves.len()).take(1).collect()],

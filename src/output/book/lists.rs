@@ -8,8 +8,7 @@ use super::super::survey::{self, Candidate};
 use super::super::{Error, Options, check_interrupt};
 use super::part::{BookFamily, CellPlaces, FamilyPart, find_cells};
 use crate::manifest::{Plan, PlannedList};
-use coupler_curves::motion::Sampler;
-use coupler_curves::solve;
+use coupler_curves::solve::Solver;
 use coupler_drawing::page::Layout;
 use coupler_drawing::page::book::{CurveList, Emphasis, ListEntry, Miniature};
 
@@ -72,9 +71,7 @@ fn list_entry(
     let own = &planned.family;
     let &(chapter, first_page) = places.get(&(candidate.family, candidate.cell))?;
     let curve = &candidate.curve;
-    let sampler = Sampler::new(own.sampling);
-    let measured = (vec![curve.clone()], 0);
-    let solved = solve::solve_measured(own, &sampler, candidate.cell as usize, measured)?;
+    let solved = Solver::new(own).solve_measured(candidate.cell as usize, (vec![curve.clone()], 0))?;
     let drawing = Miniature::new(&solved, curve, list.emphasis);
     let [caption, _] = family.pipeline.composer.captions.of_cell(&solved.cell, &curve.values);
     let criteria = list.criteria.get(candidate.family)?.as_ref()?;

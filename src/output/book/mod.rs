@@ -13,10 +13,9 @@ use super::journal::{Journal, JournalFile};
 use super::survey::{CellSurvey, FamilySurvey, Surveyor};
 use super::{Error, Event, Options, check_interrupt, files, previous_run};
 use crate::manifest::{BookPlan, FindingCharts, Plan, PlannedFamily};
-use crate::pipeline::{Composer, FamilyPipeline, Inputs, curves_by_page, measures_used_on_pages};
+use crate::pipeline::{Composer, FamilyPipeline, Inputs, curves_by_page};
 use crate::record::{BookRecord, Digest, FileRecord};
 use crate::sweep::{self, CellGroups};
-use coupler_curves::motion::Sampler;
 use coupler_curves::solve::SolvedCell;
 use coupler_drawing::page::book::{self, Atlas, HowToRead, PageFinisher, Volume};
 use coupler_drawing::page::{self, Layout, PanelPage};
@@ -302,12 +301,11 @@ fn how_to_read(plan: &Plan, parts: &[FamilyPart]) -> Option<HowToRead> {
     };
     let shown = PlannedFamily { layout, ..planned.clone() };
     let composer = Composer::new(plan, &shown, 1);
-    let sampler = Sampler::new(family.sampling);
-    let measures = measures_used_on_pages(planned);
+    let solver = part.family.page_solver();
     let size = layout.cells_per_page();
     let first = part.cells.len() / 2 / size * size;
     let cells = (first..first + size).filter_map(|k| part.cells.get(k));
-    let mut solved: Vec<SolvedCell> = cells.filter_map(|cell| part.family.solve(&sampler, cell, &measures)).collect();
+    let mut solved: Vec<SolvedCell> = cells.filter_map(|cell| part.family.solve(&solver, cell)).collect();
     if let (Layout::CouplerGrid, [solved]) = (layout, &mut solved[..]) {
         keep_middle_page(solved);
     }
@@ -337,10 +335,9 @@ fn keep_middle_page(solved: &mut SolvedCell) {
 /// middle page only.
 fn first_cell<'a>(family: &'a BookFamily) -> Option<(&'a Composer<'a>, SolvedCell)> {
     let FamilyPipeline { composer, arrangement, .. } = &family.pipeline;
-    let sampler = Sampler::new(composer.planned.family.sampling);
-    let measures = measures_used_on_pages(composer.planned);
+    let solver = family.page_solver();
     let order = arrangement.page_order();
-    let solved = order.iter().filter_map(|cell| family.solve(&sampler, cell, &measures));
+    let solved = order.iter().filter_map(|cell| family.solve(&solver, cell));
     let mut solved = solved.take(100).find(|solved| !solved.curves.is_empty())?;
     if composer.planned.layout == Layout::CouplerGrid {
         keep_middle_page(&mut solved);

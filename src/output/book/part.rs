@@ -9,8 +9,7 @@ use crate::pipeline::{Composer, FamilyPipeline, build_chart, measures_used_on_pa
 use crate::sweep::{self, CellGroups, CellIndices};
 
 use coupler_curves::family::ParameterSpace;
-use coupler_curves::motion::Sampler;
-use coupler_curves::solve::{self, SolvedCell};
+use coupler_curves::solve::{SolvedCell, Solver};
 use coupler_curves::template::CircuitSelection;
 use coupler_curves::text::round_to_six_digits;
 use coupler_drawing::chart::ChartBuilder;
@@ -27,16 +26,21 @@ pub(super) struct BookFamily<'a> {
 }
 
 impl BookFamily<'_> {
+    /// A solver of its cells, which computes the measures that pages need.
+    pub fn page_solver(&self) -> Solver<'_> {
+        let planned = self.pipeline.composer.planned;
+        Solver::new(&planned.family).measuring(measures_used_on_pages(planned))
+    }
+
     /// Solves a cell by its index, and measures it unless it has been.
-    pub fn solve(&self, sampler: &Sampler, cell: usize, measures: &[bool]) -> Option<SolvedCell> {
-        let family = &self.pipeline.composer.planned.family;
-        self.solve_known(sampler, cell).or_else(|| solve::solve_measuring(family, sampler, cell, measures))
+    pub fn solve(&self, solver: &Solver, cell: usize) -> Option<SolvedCell> {
+        self.solve_known(solver, cell).or_else(|| solver.solve(cell))
     }
 
     /// Solves a cell that has been measured.
-    fn solve_known(&self, sampler: &Sampler, cell: usize) -> Option<SolvedCell> {
+    fn solve_known(&self, solver: &Solver, cell: usize) -> Option<SolvedCell> {
         let measured = self.survey.curves.get(&u32::try_from(cell).ok()?)?;
-        solve::solve_measured(&self.pipeline.composer.planned.family, sampler, cell, measured.clone())
+        solver.solve_measured(cell, measured.clone())
     }
 }
 
@@ -213,14 +217,13 @@ impl FamilyPart<'_> {
         let composer = &composer.with_title(&self.title);
         let family = &composer.planned.family;
         let (interrupt, chart) = (&*options.interrupt, &composer.planned.chart);
-        let measures = measures_used_on_pages(composer.planned);
-        let solve_known = |sampler: &Sampler, cell: usize| self.family.solve_known(sampler, cell);
+        let solve_known = |solver: &Solver, cell: usize| self.family.solve_known(solver, cell);
         let groups = CellGroups {
             cells: &self.cells,
             first_group: 0,
             size: pagination.group_size,
             work_bytes: BYTES_PER_PAGE,
-            requested_measures: Some(measures.as_slice()),
+            requested_measures: Some(measures_used_on_pages(composer.planned)),
             solve_known: Some(&solve_known),
         };
         if let Some(chart) = chart {

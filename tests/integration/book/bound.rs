@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use coupler_atlas::manifest::{self, Plan};
 use coupler_atlas::sweep;
+use coupler_curves::measure::Measure;
 use coupler_curves::solve::SolvedCell;
 use coupler_drawing::page::book::{self, Atlas, CellEntry, Chapter, IndexEntry, PageFinisher, Volume};
 use coupler_drawing::page::{self, Heading, Options, Panel, PanelPage, PanelScale, Paper};
@@ -268,12 +269,9 @@ fn the_index_lists_the_best_first() {
     };
     let angles = section("By transmission angle", "By symmetry", "°");
     let least = |solved: &SolvedCell| {
-        let number = |name| match solved.curves[0].value(name) {
-            coupler_curves::measure::Value::Number(value) => value,
-            other => panic!("{name}: {other:?}"),
-        };
-        let worst = number("mu_worst_deg");
-        assert_eq!(worst, number("mu_min_deg").min(180.0 - number("mu_max_deg")));
+        let number = |key| solved.curves[0].measure(key).unwrap();
+        let worst = number(Measure::MU_WORST);
+        assert_eq!(worst, number(Measure::MU_MIN).min(180.0 - number(Measure::MU_MAX)));
         worst
     };
     let mut expected: Vec<f64> = solved.iter().flatten().map(least).collect();

@@ -6,9 +6,9 @@ use coupler_curves::family::Family;
 use coupler_curves::geometry::{Bounds, trig};
 use coupler_curves::linkage::Input;
 use coupler_curves::measure::{COLUMNS, Value};
-use coupler_curves::motion::{Sampler, Sampling};
+use coupler_curves::motion::Sampling;
 use coupler_curves::path::{self, DashPattern};
-use coupler_curves::solve::{self, SolvedCell, Status};
+use coupler_curves::solve::{SolvedCell, Solver, Status};
 
 /// Numbers from bytes, 0 where there are no more.
 struct Choices<'a>(&'a [u8]);
@@ -90,7 +90,7 @@ pub fn measures(bytes: &[u8]) -> bool {
     let template = catalogue::find(linkage).expect("it is in the catalogue");
     let Ok(family) = Family::single_cell(template, &values, Sampling::Samples(12)) else { return false };
     let family = Family { columns: COLUMNS.to_vec(), ..family };
-    let Some(solved) = solve::solve_cell(&family, &Sampler::new(family.sampling), 0) else { return false };
+    let Some(solved) = Solver::new(&family).solve(0) else { return false };
     assert!(solved.status() != Status::Failed, "{}", solved.reason());
     for curve in &solved.curves {
         let is_number = |value: &Value| !matches!(value, Value::Number(number) if number.is_nan());

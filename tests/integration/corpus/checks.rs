@@ -1,6 +1,6 @@
 //! Properties that hold for any text, shared by the fuzz targets and the tests over their corpora.
 
-use coupler_curves::solve::{self, Status};
+use coupler_curves::solve::{Solver, Status};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -39,7 +39,7 @@ pub fn manifest(text: &str) {
 fn solve_last_cell(family: &Family) {
     let Some(last) = family.cell_count().checked_sub(1) else { return };
     let few = family.linkage(&family.cell(last)).is_ok_and(|linkage| linkage.traced.len() <= 20);
-    if few && let Some(solved) = solve::solve_cell(family, &Sampler::new(Sampling::Samples(12)), last) {
+    if few && let Some(solved) = Solver::with_sampler(family, Sampler::new(Sampling::Samples(12))).solve(last) {
         assert!(solved.status() != Status::Failed, "{}", solved.reason());
         let circuits = &solved.motion.circuits;
         assert!(circuits.iter().all(|circuit| circuit.inputs.iter().all(|input| input.is_finite())));

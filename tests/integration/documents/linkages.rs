@@ -5,8 +5,7 @@ use std::fmt::Write;
 use std::fs;
 
 use coupler_curves::catalogue;
-use coupler_curves::motion::Sampler;
-use coupler_curves::solve::solve_cell;
+use coupler_curves::solve::Solver;
 use coupler_drawing::page::{Options, Paper, PoseChoice};
 use coupler_drawing::plate;
 use coupler_drawing::render::{self, TextMode};
@@ -107,7 +106,7 @@ impl Description {
         let plan = plan(&format!("[atlas]\ntitle = \"T\"\n{}", self.family));
         let mut family = plan.families[0].family.clone();
         family.title.clone_from(&family.template.id);
-        let solved = solve_cell(&family, &Sampler::new(family.sampling), 0).unwrap();
+        let solved = Solver::new(&family).solve(0).unwrap();
         let scene = plate::compose_cell(&family, &solved, PoseChoice::Clearest, &Options::for_paper(PAPER));
         String::from_utf8(render::svg(&scene, TextMode::Text)).unwrap()
     }

@@ -6,9 +6,8 @@ use std::fmt::Write as _;
 use coupler_curves::catalogue;
 use coupler_curves::family::Sampling;
 use coupler_curves::geometry::trig;
-use coupler_curves::measure;
-use coupler_curves::motion::Sampler;
-use coupler_curves::solve::solve_measuring;
+use coupler_curves::measure::MeasureSet;
+use coupler_curves::solve::Solver;
 
 use super::read;
 use crate::find_linkage::random_curves::{Random, with_defaults};
@@ -262,8 +261,7 @@ fn curves_of_the_catalogue_are_closed_and_their_arcs_open() {
     for template in catalogue::all() {
         for count in [24, 36, 72, 180, 360] {
             let family = with_defaults(template, Sampling::Samples(count));
-            let requested = vec![false; measure::ALL.len()];
-            let Some(solved) = solve_measuring(&family, &Sampler::new(family.sampling), 0, &requested) else {
+            let Some(solved) = Solver::new(&family).measuring(MeasureSet::EMPTY).solve(0) else {
                 continue;
             };
             for curve in &solved.curves {

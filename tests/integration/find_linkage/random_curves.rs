@@ -7,9 +7,8 @@ use coupler_atlas::find::{LinkageAnswer, find_linkage};
 use coupler_curves::catalogue;
 use coupler_curves::family::{Family, Sampling};
 use coupler_curves::geometry::{Point, trig};
-use coupler_curves::measure;
-use coupler_curves::motion::Sampler;
-use coupler_curves::solve::{MeasuredCurve, solve_measuring};
+use coupler_curves::measure::MeasureSet;
+use coupler_curves::solve::{MeasuredCurve, Solver};
 use coupler_curves::template::{ParameterKind, Template};
 use coupler_find::{LinkageSpace, Options, PathKind, Target};
 
@@ -65,8 +64,7 @@ pub fn random_curve(
         };
         let given: Vec<(String, f64)> = template.parameters.iter().zip(&base).map(vary).collect();
         let Ok(family) = Family::single_cell(template.clone(), &given, Sampling::ArcLength(count)) else { continue };
-        let requested = vec![false; measure::ALL.len()];
-        let Some(solved) = solve_measuring(&family, &Sampler::new(family.sampling), 0, &requested) else { continue };
+        let Some(solved) = Solver::new(&family).measuring(MeasureSet::EMPTY).solve(0) else { continue };
         // Other traced joints of some linkages move along lines.
         let is_point = |curve: &&MeasuredCurve| solved.linkage.joints[curve.joint.index()].name == "M";
         let Some(curve) = solved.curves.iter().find(is_point).or(solved.curves.last()) else { continue };

@@ -167,15 +167,8 @@ fn writing_out_a_default_changes_nothing() {
         let PlannedFamily { family, layout, chart, formats, source, .. } = &plan.families[0];
         let Template { circuits, continuation, coincident, orientation: placement, .. } = &*family.template;
         let linkage = family.linkage(&family.cell(0)).unwrap();
-        let options = (
-            &family.sampling,
-            &family.columns,
-            &family.is_computed,
-            &family.straight,
-            circuits,
-            continuation,
-            coincident,
-        );
+        let options =
+            (&family.sampling, &family.columns, &family.measures, &family.straight, circuits, continuation, coincident);
         let atlas = (&plan.title, &plan.output, plan.volume_pages, &plan.page, plan.dpi, plan.text_mode);
         format!("{atlas:?} {layout:?} {chart:?} {formats:?} {source} {options:?} {placement:?} {linkage:?}")
     };

@@ -5,20 +5,21 @@ mod dimensions;
 mod memory;
 mod parameter_space;
 mod parameter_text;
+mod scope;
 mod single_cell;
 
 pub use axis_values::AxisValues;
 pub use dimensions::CaptionParameter;
 pub use parameter_space::{Axis, Case, MAX_CELLS, ParameterSpace};
 pub use parameter_text::{ParameterSyntaxError, ParameterText, ParameterUnitError};
+pub use scope::ScopeName;
 pub use single_cell::{ParameterError, ParameterErrors};
 
-use std::cell::LazyCell;
 use std::collections::HashMap;
-use std::sync::{Arc, LazyLock};
+use std::sync::Arc;
 
-use crate::expression::{Caption, CompiledExpression, Kind, Scope};
-use crate::measure;
+use crate::expression::{Caption, CompiledExpression};
+use crate::measure::{self, MeasureSet};
 use crate::template::{self, Linkage, Template, dependency_order};
 
 pub use crate::measure::{ALL as MEASURES, COLUMNS, Column, StraightCriterion, find_column};
@@ -45,8 +46,8 @@ pub struct Family {
     pub columns: Vec<Column>,
     /// The criterion for the straight portion of each curve.
     pub straight: StraightCriterion,
-    /// Whether each measure is computed, by its index in [`measure::ALL`].
-    pub is_computed: Vec<bool>,
+    /// The measures that are computed.
+    pub measures: MeasureSet,
     /// The condition on a curve to be kept, over [`Family::scope`].
     pub filter: Option<CompiledExpression>,
     /// The sort key of the cells on pages, ascending, over [`Family::scope`]; their numbers by default.
@@ -187,87 +188,14 @@ impl Family {
         self.names.iter().zip(has_value).filter(|(_, has_value)| !has_value).map(|(name, _)| name.clone()).collect()
     }
 
-    /// The caption lines of a cell, with its values and the measures of its first curve filled in; empty where the
-    /// family has none.
-    pub fn format_captions(&self, cell: &Cell, measures: &[measure::Value]) -> [String; 2] {
-        self.captions
-            .each_ref()
-            .map(|line| line.as_ref().map(|line| self.format_caption(line, cell, measures)).unwrap_or_default())
-    }
-
-    /// A caption over [`Family::scope`] with the values of a cell and the measures of a curve filled in.
-    pub fn format_caption(&self, caption: &Caption, cell: &Cell, measures: &[measure::Value]) -> String {
-        static MEASURES_AND_BOOLEANS: [LazyLock<Scope>; 2] =
-            [LazyLock::new(|| Family::scope(&[], false)), LazyLock::new(|| Family::scope(&[], true))];
-        let measures_and_booleans = &MEASURES_AND_BOOLEANS[usize::from(self.template.is_driven_by_length())];
-        let own_names = LazyCell::new(|| Scope::from_numbers(self.names.iter().map(String::as_str)));
-        // The family's own names come before the measures.
-        let slot = |name: &str| {
-            let measure = || Some(self.names.len() + measures_and_booleans.index_of(name)?);
-            own_names.index_of(name).or_else(measure)
-        };
-        let load = |name: &str| slot(name).map_or(f64::NAN, |slot| Family::scope_value(cell, measures, slot));
-        let word = |name: &str| {
-            let is_named =
-                |(measure, _): &(&measure::Measure, &measure::Value)| measure.name == name && measure.is_word;
-            match measure::ALL.iter().zip(measures).find(is_named)? {
-                (_, measure::Value::Word(word)) => Some(*word),
-                _ => Some("–"),
-            }
-        };
-        caption.format(load, word)
-    }
-
     /// The value of a name in a cell; NaN for an unknown name.
     pub fn value(&self, name: &str, cell: &Cell) -> f64 {
         self.names.iter().position(|n| n == name).map_or(f64::NAN, |slot| cell.values[slot])
     }
 
-    /// The names that `where` may use, with their kinds: those of cells, the numeric measures and the booleans. Inputs
-    /// have the names of lengths if an actuator drives the linkage.
-    pub fn scope(names: &[String], is_driven_by_length: bool) -> Scope<'_> {
-        let own = names.iter().map(|name| (name.as_str(), Kind::Number));
-        let is_number = |measure: &&measure::Measure| !measure.is_word;
-        let measures =
-            measure::ALL.iter().filter(is_number).map(|measure| (measure.name_for(is_driven_by_length), Kind::Number));
-        let booleans = measure::BOOLEANS.iter().map(|boolean| (boolean.name, Kind::Boolean));
-        let scope: Scope = own.chain(measures).chain(booleans).collect();
-        scope.with_others_described(names.len(), "a measure: `coupler-atlas list measures` lists them")
-    }
-
-    /// Whether `where` or `sort` uses a measure, given by its index in [`measure::ALL`].
-    pub fn filter_or_sort_uses(&self, measure: usize) -> bool {
-        self.filter.iter().chain(&self.sort).any(|expression| self.expression_uses(expression, measure))
-    }
-
-    /// Whether `where` uses any measure, and so leaves out cells without curves.
-    pub fn filter_uses_measures(&self) -> bool {
-        self.filter.as_ref().is_some_and(|filter| filter.slots().iter().any(|slot| *slot >= self.names.len()))
-    }
-
-    /// Whether an expression over [`Family::scope`] needs a measure, given by its index in [`measure::ALL`].
-    pub fn expression_uses(&self, expression: &CompiledExpression, measure: usize) -> bool {
-        let is_number = |k: &usize| !measure::ALL[*k].is_word;
-        let numbers: Vec<usize> = (0..measure::ALL.len()).filter(is_number).collect();
-        let mut used = expression.slots().iter().filter_map(|slot| slot.checked_sub(self.names.len()));
-        // The booleans follow the numbers.
-        let boolean = |slot: usize| measure::BOOLEANS.get(slot - numbers.len());
-        let is_used_by = |slot: usize| match numbers.get(slot) {
-            Some(k) => *k == measure,
-            None => boolean(slot).is_some_and(|boolean| boolean.measure == measure::ALL[measure].name),
-        };
-        used.any(is_used_by)
-    }
-
-    /// Whether the caption lines show a measure.
-    pub fn captions_use(&self, measure: usize) -> bool {
-        let name = measure::ALL[measure].name_for(self.template.is_driven_by_length());
-        self.captions.iter().flatten().any(|caption| caption.uses(name))
-    }
-
     /// The measures that are computed, with their indices in [`measure::ALL`].
     pub fn computed_measures(&self) -> impl Iterator<Item = (usize, &'static measure::Measure)> {
-        measure::ALL.iter().enumerate().filter(|(k, _)| self.is_computed[*k])
+        self.measures.iter().map(|k| (k, &measure::ALL[k]))
     }
 
     /// The names of the measures that are words, which captions may show; in expressions only those can be used that are
@@ -294,32 +222,5 @@ impl Family {
         COLUMNS.contains(&name)
             || measure::Measure::find(name).is_some()
             || measure::BOOLEANS.iter().any(|boolean| boolean.name == name)
-    }
-
-    /// Whether `where` keeps a curve with these measures.
-    pub fn keeps(&self, cell: &Cell, measures: &[measure::Value]) -> bool {
-        let Some(filter) = &self.filter else { return true };
-        filter.evaluate(|slot| Family::scope_value(cell, measures, slot)) == 1.0
-    }
-
-    /// The value that a curve with these measures is sorted by on pages; NaN where it is not defined.
-    pub fn sort_key(&self, cell: &Cell, measures: &[measure::Value]) -> f64 {
-        self.sort
-            .as_ref()
-            .map_or(cell.number as f64, |sort| sort.evaluate(|slot| Family::scope_value(cell, measures, slot)))
-    }
-
-    /// The value of the name at an index of [`Family::scope`]; NaN where it has no value, or the index is out of range.
-    pub fn scope_value(cell: &Cell, measures: &[measure::Value], slot: usize) -> f64 {
-        let numbers = || measure::ALL.iter().zip(measures).filter(|(measure, _)| !measure.is_word);
-        let count = measure::ALL.iter().filter(|measure| !measure.is_word).count();
-        match slot.checked_sub(cell.values.len()) {
-            None => cell.values[slot],
-            Some(slot) if slot < count => match numbers().nth(slot) {
-                Some((_, measure::Value::Number(value))) => *value,
-                _ => f64::NAN,
-            },
-            Some(slot) => measure::BOOLEANS.get(slot - count).map_or(f64::NAN, |boolean| boolean.value(measures)),
-        }
     }
 }

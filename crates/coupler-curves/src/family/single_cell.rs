@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::{Case, CellError, Family, ParameterSpace, Sampling, StraightCriterion, sort_by_dependency};
 use crate::expression::{Kind, Scope};
-use crate::measure;
+use crate::measure::MeasureSet;
 use crate::problem::suggestion;
 use crate::template::{self, Template};
 
@@ -133,7 +133,7 @@ impl Family {
             sampling,
             columns: Vec::new(),
             straight: StraightCriterion::default(),
-            is_computed: vec![true; measure::ALL.len()],
+            measures: MeasureSet::ALL,
             filter: None,
             sort: None,
         };

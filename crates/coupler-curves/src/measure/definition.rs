@@ -1,5 +1,7 @@
 //! What a measure is, and its value for a curve.
 
+use std::marker::PhantomData;
+
 use super::subject::Subject;
 use super::traced_curve::TracedCurve;
 
@@ -34,6 +36,56 @@ pub struct Measure {
     pub definition: &'static str,
     /// Computes it.
     pub compute: fn(&TracedCurve) -> Value,
+}
+
+/// A measure to ask a curve for, as [`Measure::MU_WORST`]; its values are of the type `T`, [`f64`] for a number or `&'static str` for a
+/// word. It can be used as a reference to the [`Measure`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MeasureKey<T> {
+    pub(super) index: usize,
+    value: PhantomData<fn() -> T>,
+}
+
+impl<T: MeasureValue> MeasureKey<T> {
+    /// The key of the measure at an index.
+    ///
+    /// # Panics
+    /// Its values are of another type.
+    pub(super) const fn new(index: usize, measure: &Measure) -> MeasureKey<T> {
+        assert!(measure.is_word == T::IS_WORD);
+        MeasureKey { index, value: PhantomData }
+    }
+
+    /// Its value among those of all measures, in the order of [`ALL`](super::ALL); `None` if it is missing.
+    pub fn value_in(self, values: &[Value]) -> Option<T> {
+        values.get(self.index).and_then(|value| T::from_value(*value))
+    }
+}
+
+/// What the value of a measure can be.
+#[doc(hidden)]
+pub trait MeasureValue: Copy {
+    /// Whether it is a word.
+    const IS_WORD: bool;
+
+    /// The value; `None` if it is missing or of another type.
+    fn from_value(value: Value) -> Option<Self>;
+}
+
+impl MeasureValue for f64 {
+    const IS_WORD: bool = false;
+
+    fn from_value(value: Value) -> Option<f64> {
+        if let Value::Number(number) = value { Some(number) } else { None }
+    }
+}
+
+impl MeasureValue for &'static str {
+    const IS_WORD: bool = true;
+
+    fn from_value(value: Value) -> Option<&'static str> {
+        if let Value::Word(word) = value { Some(word) } else { None }
+    }
 }
 
 impl Measure {

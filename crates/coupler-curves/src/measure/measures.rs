@@ -1,6 +1,8 @@
 //! The list of measures.
 
-use super::definition::{Measure, Value};
+use std::ops::Deref;
+
+use super::definition::{Measure, MeasureKey, MeasureValue, Value};
 use super::{
     TracedCurve, class, dwell, four_bar_type, input_range, output, path, shape, six_bar, speed_ratio, straight,
     symmetry, transmission,
@@ -13,72 +15,95 @@ impl Measure {
     }
 }
 
-/// All measures, in the order of the columns.
-pub static ALL: [Measure; 63] = [
-    class::CLASS,
-    four_bar_type::TYPE,
-    four_bar_type::SHORTEST,
-    six_bar::SIX_BAR,
-    input_range::IS_FULL_TURN,
-    input_range::INPUT_MIN,
-    input_range::INPUT_MAX,
-    input_range::LIMIT_POSITIONS,
-    output::MIN,
-    output::MAX,
-    output::SWING,
-    output::STROKE,
-    transmission::MU_MIN,
-    transmission::MU_MAX,
-    transmission::MU_WORST,
-    output::TIME_RATIO,
-    output::DWELL,
-    output::DWELL_START,
-    output::TOGGLES,
-    output::VELOCITY_RATIO_MIN,
-    output::VELOCITY_RATIO_MAX,
-    output::MECHANICAL_ADVANTAGE_MIN,
-    output::MECHANICAL_ADVANTAGE_MAX,
-    path::LENGTH,
-    path::AREA,
-    path::BOUNDING_BOX[0],
-    path::BOUNDING_BOX[1],
-    path::BOUNDING_BOX[2],
-    path::BOUNDING_BOX[3],
-    shape::CUSPS,
-    shape::CRUNODES,
-    shape::INFLECTIONS,
-    shape::TOO_CLOSE,
-    symmetry::SYMMETRY,
-    symmetry::AXIS,
-    symmetry::RESIDUAL,
-    shape::CURVATURE_MAX,
-    speed_ratio::SPEED_RATIO,
-    straight::MEASURES[0],
-    straight::MEASURES[1],
-    straight::MEASURES[2],
-    straight::MEASURES[3],
-    straight::MEASURES[4],
-    straight::MEASURES[5],
-    straight::WIDER[0][0],
-    straight::WIDER[0][1],
-    straight::WIDER[0][2],
-    straight::WIDER[0][3],
-    straight::WIDER[0][4],
-    straight::WIDER[1][0],
-    straight::WIDER[1][1],
-    straight::WIDER[1][2],
-    straight::WIDER[1][3],
-    straight::WIDER[1][4],
-    straight::HALF_TURN[0],
-    straight::HALF_TURN[1],
-    straight::HALF_TURN[2],
-    dwell::MEASURES[0],
-    dwell::MEASURES[1],
-    dwell::MEASURES[2],
-    dwell::MEASURES[3],
-    dwell::MEASURES[4],
-    dwell::MEASURES[5],
-];
+/// The table of measures: makes [`ALL`], and of each row a constant of [`Measure`], which has its index and the type of its values.
+macro_rules! measures {
+    ($($name:ident: $value:ty = $measure:expr,)*) => {
+        /// The indices of the rows.
+        #[expect(non_camel_case_types, clippy::upper_case_acronyms, reason = "rows have the names of constants")]
+        enum Row { $($name,)* Count }
+
+        /// All measures, in the order of the columns.
+        pub static ALL: [Measure; Row::Count as usize] = [$($measure),*];
+
+        /// A constant for each measure, to ask a curve for it: the name of its column in capitals, without `_DEG` where no other
+        /// measure has that name.
+        impl Measure {
+            $(
+                #[doc = concat!("The measure `", stringify!($name), "`.")]
+                pub const $name: MeasureKey<$value> = MeasureKey::new(Row::$name as usize, &$measure);
+            )*
+        }
+
+        #[cfg(test)]
+        const CONSTANTS: [(&str, &str); Row::Count as usize] = [$((stringify!($name), $measure.name)),*];
+    };
+}
+
+measures! {
+    CLASS: &'static str = class::CLASS,
+    TYPE: &'static str = four_bar_type::TYPE,
+    SHORTEST: &'static str = four_bar_type::SHORTEST,
+    SIX_BAR: &'static str = six_bar::SIX_BAR,
+    IS_FULL_TURN: &'static str = input_range::IS_FULL_TURN,
+    INPUT_MIN: f64 = input_range::INPUT_MIN,
+    INPUT_MAX: f64 = input_range::INPUT_MAX,
+    LIMIT_POSITIONS: f64 = input_range::LIMIT_POSITIONS,
+    OUTPUT_MIN: f64 = output::MIN,
+    OUTPUT_MAX: f64 = output::MAX,
+    OUTPUT_SWING: f64 = output::SWING,
+    OUTPUT_STROKE: f64 = output::STROKE,
+    MU_MIN: f64 = transmission::MU_MIN,
+    MU_MAX: f64 = transmission::MU_MAX,
+    MU_WORST: f64 = transmission::MU_WORST,
+    TIME_RATIO: f64 = output::TIME_RATIO,
+    OUTPUT_DWELL: f64 = output::DWELL,
+    OUTPUT_DWELL_START: f64 = output::DWELL_START,
+    TOGGLES: f64 = output::TOGGLES,
+    VELOCITY_RATIO_MIN: f64 = output::VELOCITY_RATIO_MIN,
+    VELOCITY_RATIO_MAX: f64 = output::VELOCITY_RATIO_MAX,
+    MECHANICAL_ADVANTAGE_MIN: f64 = output::MECHANICAL_ADVANTAGE_MIN,
+    MECHANICAL_ADVANTAGE_MAX: f64 = output::MECHANICAL_ADVANTAGE_MAX,
+    LENGTH: f64 = path::LENGTH,
+    AREA: f64 = path::AREA,
+    BBOX_X_MIN: f64 = path::BOUNDING_BOX[0],
+    BBOX_X_MAX: f64 = path::BOUNDING_BOX[1],
+    BBOX_Y_MIN: f64 = path::BOUNDING_BOX[2],
+    BBOX_Y_MAX: f64 = path::BOUNDING_BOX[3],
+    CUSPS: f64 = shape::CUSPS,
+    CRUNODES: f64 = shape::CRUNODES,
+    INFLECTIONS: f64 = shape::INFLECTIONS,
+    TOO_CLOSE: &'static str = shape::TOO_CLOSE,
+    SYMMETRY: &'static str = symmetry::SYMMETRY,
+    SYMMETRY_DEG: f64 = symmetry::AXIS,
+    SYMMETRY_RESIDUAL: f64 = symmetry::RESIDUAL,
+    CURVATURE_MAX: f64 = shape::CURVATURE_MAX,
+    SPEED_RATIO: f64 = speed_ratio::SPEED_RATIO,
+    STRAIGHT_LENGTH: f64 = straight::MEASURES[0],
+    STRAIGHT_SHARE: f64 = straight::MEASURES[1],
+    STRAIGHT_DEVIATION: f64 = straight::MEASURES[2],
+    STRAIGHT_START: f64 = straight::MEASURES[3],
+    STRAIGHT_INPUT: f64 = straight::MEASURES[4],
+    STRAIGHT_TWIN: f64 = straight::MEASURES[5],
+    STRAIGHT_5_LENGTH: f64 = straight::WIDER[0][0],
+    STRAIGHT_5_SHARE: f64 = straight::WIDER[0][1],
+    STRAIGHT_5_DEVIATION: f64 = straight::WIDER[0][2],
+    STRAIGHT_5_START: f64 = straight::WIDER[0][3],
+    STRAIGHT_5_INPUT: f64 = straight::WIDER[0][4],
+    STRAIGHT_10_LENGTH: f64 = straight::WIDER[1][0],
+    STRAIGHT_10_SHARE: f64 = straight::WIDER[1][1],
+    STRAIGHT_10_DEVIATION: f64 = straight::WIDER[1][2],
+    STRAIGHT_10_START: f64 = straight::WIDER[1][3],
+    STRAIGHT_10_INPUT: f64 = straight::WIDER[1][4],
+    STRAIGHT_HALF_TURN_LENGTH: f64 = straight::HALF_TURN[0],
+    STRAIGHT_HALF_TURN_DEVIATION: f64 = straight::HALF_TURN[1],
+    STRAIGHT_HALF_TURN_START: f64 = straight::HALF_TURN[2],
+    DWELL_INPUT: f64 = dwell::MEASURES[0],
+    DWELL_RADIUS: f64 = dwell::MEASURES[1],
+    DWELL_DEVIATION: f64 = dwell::MEASURES[2],
+    DWELL_START: f64 = dwell::MEASURES[3],
+    DWELL_X: f64 = dwell::MEASURES[4],
+    DWELL_Y: f64 = dwell::MEASURES[5],
+}
 
 /// A boolean name of `where`: true where a measure that is a word has a certain value, false where it has another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -116,23 +141,39 @@ impl Boolean {
     }
 }
 
-/// Computes all measures of a curve, in the order of [`ALL`].
-pub fn compute_all(curve: &TracedCurve) -> Vec<Value> {
-    compute_selected(curve, |_| true)
+impl<T> Deref for MeasureKey<T> {
+    type Target = Measure;
+
+    fn deref(&self) -> &Measure {
+        &ALL[self.index]
+    }
 }
 
-/// Computes the selected measures of a curve, in the order of [`ALL`]; the others are [`Value::Missing`]. `is_selected`
-/// is called with indices of [`ALL`].
-pub fn compute_selected(curve: &TracedCurve, is_selected: impl Fn(usize) -> bool) -> Vec<Value> {
-    let value =
-        |(k, measure): (usize, &Measure)| if is_selected(k) { (measure.compute)(curve) } else { Value::Missing };
-    ALL.iter().enumerate().map(value).collect()
+impl TracedCurve<'_> {
+    /// Computes a measure; `None` where it does not apply.
+    pub fn measure<T: MeasureValue>(&self, key: MeasureKey<T>) -> Option<T> {
+        T::from_value((key.compute)(self))
+    }
+}
+
+/// Computes all measures of a curve, in the order of [`ALL`].
+pub fn compute_all(curve: &TracedCurve) -> Vec<Value> {
+    ALL.iter().map(|measure| (measure.compute)(curve)).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::linkage::FourBarClass;
+
+    #[test]
+    fn constants_have_the_names_of_columns() {
+        for (constant, column) in CONSTANTS {
+            let column = column.to_uppercase();
+            assert!([&*column, column.trim_end_matches("_DEG")].contains(&constant), "{constant} is {column}");
+        }
+        assert_eq!((Measure::MU_WORST.name, Measure::CLASS.name), ("mu_worst_deg", "class"));
+    }
 
     #[test]
     fn every_class_has_a_boolean() {

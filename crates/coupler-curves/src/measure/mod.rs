@@ -17,6 +17,7 @@ mod four_bar_type;
 mod input_range;
 mod longest_near;
 mod longest_straight;
+mod measure_set;
 mod measures;
 mod output;
 mod path;
@@ -40,13 +41,14 @@ mod transmission;
 mod word_comparison;
 
 pub use column::{COLUMNS, Column, compute_columns, find_column};
-pub use definition::{Measure, Value};
+pub use definition::{Measure, MeasureKey, MeasureValue, Value};
 pub use features::{Dwell, StraightCriterion, StraightPortion, Symmetry, SymmetryAxis};
-pub use measures::{ALL, BOOLEANS, Boolean, compute_all, compute_selected};
+pub use measure_set::MeasureSet;
+pub use measures::{ALL, BOOLEANS, Boolean, compute_all};
 pub use output::output_limit_poses;
 pub use path::cumulative_lengths;
 pub use subject::Subject;
-pub use traced_curve::{CircuitResults, TracedCurve};
+pub use traced_curve::TracedCurve;
 pub use transmission::transmission_angle;
 pub use word_comparison::parse_condition;
 

@@ -75,6 +75,19 @@ impl<'a> TracedCurve<'a> {
         }
     }
 
+    /// The curves of all traced joints on all circuits of a linkage's motion, in order of trace and circuit.
+    pub fn all(linkage: &'a Linkage, motion: &'a Motion) -> impl Iterator<Item = TracedCurve<'a>> {
+        let circuits: Vec<(&Circuit, CircuitResults)> =
+            motion.circuits.iter().map(|circuit| (circuit, Default::default())).collect();
+        linkage.traced.iter().flat_map(move |joint| {
+            let curve = |(circuit, results): &(&'a Circuit, CircuitResults)| TracedCurve {
+                circuit_results: results.clone(),
+                ..TracedCurve::new(linkage, motion, circuit, *joint)
+            };
+            circuits.iter().map(curve).collect::<Vec<_>>()
+        })
+    }
+
     /// The same curve with another criterion for the straight portion.
     pub fn with_straight_criterion(self, criterion: StraightCriterion) -> TracedCurve<'a> {
         TracedCurve { straight_criterion: criterion, straight: OnceCell::new(), ..self }
@@ -165,11 +178,6 @@ impl<'a> TracedCurve<'a> {
             || has_portion_too_close()
     }
 
-    /// The same curve with results that the curves of other joints on the circuit share.
-    pub fn with_circuit_results(self, circuit_results: CircuitResults) -> TracedCurve<'a> {
-        TracedCurve { circuit_results, ..self }
-    }
-
     /// The linkage without other traced points, and the joint in it: poses of it are faster to compute.
     pub(super) fn single_point_linkage(&self) -> (&Linkage, JointId) {
         let (linkage, joint) = self.single_point_linkage.get_or_init(|| self.linkage.with_one_point(self.joint));
@@ -185,7 +193,7 @@ impl<'a> TracedCurve<'a> {
 
 /// Results that do not depend on the traced joint, computed on first use. The curves of one circuit may share them.
 #[derive(Clone, Debug, Default)]
-pub struct CircuitResults(pub(super) Rc<SharedResults>);
+pub(super) struct CircuitResults(pub(super) Rc<SharedResults>);
 
 #[derive(Debug, Default)]
 pub(super) struct SharedResults {

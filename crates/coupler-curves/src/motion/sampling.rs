@@ -1,7 +1,7 @@
 //! Sampling of circuits: by a step of the input, by a number of samples, or evenly along a path.
 
 use std::ops::Range;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use super::AssemblyError;
 use super::circuit::UnsampledCircuit;
@@ -29,12 +29,13 @@ pub enum Sampling {
     ArcLength(usize),
 }
 
-/// Samples circuits. Contains the sines and cosines of a full turn, computed once for all linkages that it samples.
+/// Samples circuits. Contains the sines and cosines of a full turn, computed once for all linkages that it samples; its clones share
+/// them.
 #[derive(Clone, Debug)]
 pub struct Sampler {
     sampling: Sampling,
     /// The samples of a full turn.
-    full_turn: Vec<InputPosition>,
+    full_turn: Arc<[InputPosition]>,
 }
 
 /// A sampled circuit.
@@ -286,7 +287,7 @@ impl Sampler {
     fn full_period(&self, input: Input) -> Vec<InputPosition> {
         let period = input.period();
         match self.sampling {
-            _ if period == 360.0 => self.full_turn.clone(),
+            _ if period == 360.0 => self.full_turn.to_vec(),
             Sampling::Step(step) => {
                 multiples(step, 0.0, period).map(|value| self.input_at_multiple(input, value, step)).collect()
             }

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use super::SolvedCell;
 use super::moved_point::{MovedPointError, move_point};
+use super::solved_cell::SolvedCell;
 use crate::family::{Case, CellError, Family, NoSuchCell};
 use crate::linkage::CircuitSelection;
 use crate::problem::suggestion;
@@ -173,8 +173,8 @@ mod tests {
     use super::*;
     use crate::catalogue;
     use crate::family::ParameterSpace;
-    use crate::motion::{Sampler, Sampling};
-    use crate::solve::solve_cell;
+    use crate::motion::Sampling;
+    use crate::solve::Solver;
 
     fn family(linkage: &str, values: &[(&str, f64)]) -> Family {
         let values: Vec<_> = values.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
@@ -195,7 +195,7 @@ mod tests {
 
     fn solved(changed: &ChangedCell) -> SolvedCell {
         let family = &changed.family;
-        changed.numbers.restore(solve_cell(family, &Sampler::new(family.sampling), 0).unwrap())
+        changed.numbers.restore(Solver::new(family).solve(0).unwrap())
     }
 
     #[test]
@@ -210,7 +210,7 @@ mod tests {
     #[test]
     fn a_moved_point_of_a_grid_takes_the_place_of_the_original_one() {
         let grid = family("hrones-nelson", &[]);
-        let before = solve_cell(&grid, &Sampler::new(grid.sampling), 0).unwrap();
+        let before = Solver::new(&grid).solve(0).unwrap();
         let changed = ChangedCell::new(&grid, 1, Some(3), &overrides(&[("M.along", 0.0), ("M.across", 0.0)])).unwrap();
         let after = solved(&changed);
         let numbers = |solved: &SolvedCell| -> Vec<_> {

@@ -2,50 +2,46 @@
 
 use crate::expression::CompiledExpression;
 use crate::family::{Cell, Family};
-use crate::measure::{self, TracedCurve, Value};
+use crate::measure::{self, MeasureSet, TracedCurve, Value};
 
 /// The conditions of a family's `where`, one after the other, and the measures to compute of the curves that it keeps.
 #[derive(Clone, Debug)]
-pub struct Screening {
-    /// Each condition with the measures it uses, by their indices in [`measure::ALL`].
-    conditions: Vec<(CompiledExpression, Vec<usize>)>,
-    /// The measures of kept curves, by their indices in [`measure::ALL`].
-    requested: Vec<usize>,
+pub(super) struct Screening {
+    /// Each condition with the measures it uses.
+    conditions: Vec<(CompiledExpression, MeasureSet)>,
+    /// The measures of kept curves, in addition to those that the conditions use.
+    pub requested: MeasureSet,
 }
 
 impl Screening {
-    /// The screening of a family that computes the requested measures, by their indices in [`measure::ALL`]; those that
-    /// `where` uses are computed in any case.
-    pub fn new(family: &Family, requested: &[bool]) -> Screening {
+    /// The screening of a family that computes its measures.
+    pub fn new(family: &Family) -> Screening {
+        let conditions = family.filter.iter().flat_map(CompiledExpression::conjuncts);
         let used_by = |condition: CompiledExpression| {
-            let used = (0..measure::ALL.len()).filter(|k| family.expression_uses(&condition, *k)).collect();
+            let used = family.measures_in(&condition);
             (condition, used)
         };
-        let conditions = family.filter.iter().flat_map(CompiledExpression::conjuncts);
-        let mut conditions: Vec<(CompiledExpression, Vec<usize>)> = conditions.map(used_by).collect();
+        let mut conditions: Vec<(CompiledExpression, MeasureSet)> = conditions.map(used_by).collect();
         // The later a measure is in the list, the longer it usually takes.
-        conditions.sort_by_key(|(_, used)| used.last().copied());
-        let requested = requested.iter().enumerate().filter(|(_, is_requested)| **is_requested).map(|(k, _)| k);
-        Screening { conditions, requested: requested.collect() }
+        conditions.sort_by_key(|(_, used)| used.iter().next_back());
+        Screening { conditions, requested: family.measures }
     }
 
     /// The values of [`measure::ALL`] of a curve, those that are not requested missing; `None` if `where` excludes it.
-    pub(super) fn measure(&self, cell: &Cell, curve: &TracedCurve) -> Option<Vec<Value>> {
+    pub fn measure(&self, cell: &Cell, curve: &TracedCurve) -> Option<Vec<Value>> {
         let mut values = vec![Value::Missing; measure::ALL.len()];
-        let mut is_computed = [false; measure::ALL.len()];
-        let mut compute = |k: usize, values: &mut [Value]| {
-            if !is_computed[k] {
-                is_computed[k] = true;
-                values[k] = (measure::ALL[k].compute)(curve);
-            }
+        let mut computed = MeasureSet::EMPTY;
+        let mut compute = |set: MeasureSet, values: &mut [Value]| {
+            set.iter().filter(|k| !computed.contains(*k)).for_each(|k| values[k] = (measure::ALL[k].compute)(curve));
+            computed |= set;
         };
         for (condition, used) in &self.conditions {
-            used.iter().for_each(|&k| compute(k, &mut values));
+            compute(*used, &mut values);
             if condition.evaluate(|slot| Family::scope_value(cell, &values, slot)) != 1.0 {
                 return None;
             }
         }
-        self.requested.iter().for_each(|&k| compute(k, &mut values));
+        compute(self.requested, &mut values);
         Some(values)
     }
 }

@@ -3,16 +3,14 @@
 use coupler_curves::catalogue;
 use coupler_curves::family::Family;
 use coupler_curves::geometry::trig;
-use coupler_curves::measure::{self, Value};
-use coupler_curves::motion::{Sampler, Sampling};
-use coupler_curves::solve::{SolvedCell, Status, solve_cell};
-
-use crate::measures::number;
+use coupler_curves::measure::{self, Measure, Value};
+use coupler_curves::motion::Sampling;
+use coupler_curves::solve::{SolvedCell, Solver, Status};
 
 fn solved(linkage: &str, values: &[(&str, f64)]) -> SolvedCell {
     let values: Vec<(String, f64)> = values.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
     let family = Family::single_cell(catalogue::find(linkage).unwrap(), &values, Sampling::Samples(24)).unwrap();
-    solve_cell(&family, &Sampler::new(family.sampling), 0).unwrap()
+    Solver::new(&family).solve(0).unwrap()
 }
 
 fn four_bar([frame, crank, coupler, rocker]: [f64; 4], along: f64) -> SolvedCell {
@@ -28,17 +26,16 @@ fn a_very_short_rocker_is_resolved_as_far_as_rounding_lets_it() {
         let solved = four_bar([2.0, 1.0, 2.5, rocker], 1.0);
         assert_eq!(solved.motion.circuits.len(), 2, "{rocker}");
         for curve in &solved.curves {
-            let value = |name: &str| curve.value(name);
-            assert_eq!(value("output_swing_deg"), Value::Number(360.0), "{rocker}");
+            assert_eq!(curve.measure(Measure::OUTPUT_SWING), Some(360.0), "{rocker}");
             let limit = |side: f64| {
                 let cos = (5.0 - side * side) / 4.0;
                 trig::degrees(trig::atan2((1.0 - cos * cos).sqrt(), cos))
             };
             let [low, high] = [2.5 - rocker, 2.5 + rocker].map(limit);
-            let found = [number(value("input_min_deg")), number(value("input_max_deg"))];
+            let found = [Measure::INPUT_MIN, Measure::INPUT_MAX].map(|key| curve.measure(key).unwrap());
             let [from, to] = if found[0] > 0.0 { [low, high] } else { [-high, -low] };
             assert!((found[0] - from).abs().max((found[1] - to).abs()) < 1e-12, "{rocker}: {found:?} {low} {high}");
-            assert_eq!(value("cusps"), Value::Number(0.0), "{rocker}");
+            assert_eq!(curve.measure(Measure::CUSPS), Some(0.0), "{rocker}");
             // What is halved further is rounding.
             assert!(solved.circuit(curve).pieces(&solved.linkage).len() < 100, "{rocker}");
         }
@@ -46,8 +43,8 @@ fn a_very_short_rocker_is_resolved_as_far_as_rounding_lets_it() {
     // The rocker's angle is no more than rounding.
     for rocker in [1e-12, 1e-14] {
         for curve in &four_bar([2.0, 1.0, 2.5, rocker], 1.0).curves {
-            assert_eq!(curve.value("output_swing_deg"), Value::Missing, "{rocker}");
-            assert!(matches!(curve.value("too_close"), Value::Word("positions" | "measures")), "{rocker}");
+            assert_eq!(curve.measure(Measure::OUTPUT_SWING), None, "{rocker}");
+            assert!(matches!(curve.measure(Measure::TOO_CLOSE), Some("positions" | "measures")), "{rocker}");
         }
     }
 }
@@ -57,8 +54,8 @@ fn a_circuit_without_length_has_no_output_measures() {
     let solved = solved("geared-five-bar", &[("b", 1e-300)]);
     assert_ne!(solved.status(), Status::Failed);
     for curve in &solved.curves {
-        assert_eq!(curve.value("output_dwell_deg"), Value::Missing);
-        assert_eq!(curve.value("too_close"), Value::Word("positions"));
+        assert_eq!(curve.measure(Measure::OUTPUT_DWELL), None);
+        assert_eq!(curve.measure(Measure::TOO_CLOSE), Some("positions"));
     }
 }
 
@@ -108,7 +105,7 @@ fn searches_that_find_no_end_are_given_up() {
     let solved = solved("evans", &evans);
     assert_eq!(solved.status(), Status::Ok);
     for curve in &solved.curves {
-        assert_eq!(curve.value("output_dwell_deg"), Value::Missing);
-        assert!(matches!(curve.value("too_close"), Value::Word("positions" | "measures")));
+        assert_eq!(curve.measure(Measure::OUTPUT_DWELL), None);
+        assert!(matches!(curve.measure(Measure::TOO_CLOSE), Some("positions" | "measures")));
     }
 }

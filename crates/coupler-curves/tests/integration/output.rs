@@ -17,14 +17,12 @@ pub fn all() -> MotionOptions {
 pub fn measures(linkage: &Linkage, circuit: usize, samples: usize) -> impl Fn(&str) -> f64 + use<> {
     let motion = Motion::solve(linkage, &Sampler::new(Sampling::Samples(samples)));
     let curve = TracedCurve::new(linkage, &motion, &motion.circuits[circuit], linkage.traced[0]);
-    let is_tested = |k: usize| {
-        let name = measure::ALL[k].name;
-        OUTPUT_MEASURES.contains(&name) || name.starts_with("mu_")
-    };
-    let values = measure::compute_selected(&curve, is_tested);
+    let is_tested = |name: &str| OUTPUT_MEASURES.contains(&name) || name.starts_with("mu_");
+    let tested = measure::ALL.iter().filter(|measure| is_tested(measure.name));
+    let values: Vec<(&str, Value)> = tested.map(|measure| (measure.name, (measure.compute)(&curve))).collect();
     move |name| {
-        let k = measure::ALL.iter().position(|m| m.name == name).unwrap_or_else(|| panic!("{name}"));
-        if let Value::Number(value) = values[k] { value } else { f64::NAN }
+        let (_, value) = values.iter().find(|(known, _)| *known == name).unwrap_or_else(|| panic!("{name}"));
+        if let Value::Number(value) = value { *value } else { f64::NAN }
     }
 }
 

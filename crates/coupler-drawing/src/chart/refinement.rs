@@ -7,9 +7,10 @@ use super::adaptive::{AdaptiveInterval, ChartPoint, Sample};
 use super::axis::AxisRange;
 use super::path::settled_range;
 use super::{Chart, ChartSample};
-use coupler_curves::family::{Case, Family, MEASURES, ParameterSpace, Sampling};
+use coupler_curves::family::{Case, Family, ParameterSpace, Sampling};
+use coupler_curves::measure::MeasureSet;
 use coupler_curves::motion::Sampler;
-use coupler_curves::solve::solve_measuring;
+use coupler_curves::solve::Solver;
 
 /// The most curves that are solved for a chart in addition to those of its cells: some seconds of work at most. A
 /// chart with many cells gets fewer between two of them, and needs fewer.
@@ -27,7 +28,7 @@ pub(super) type CurveKey = (usize, usize);
 /// What is needed to solve a chart between its cells.
 #[derive(Debug)]
 pub(super) struct Refinement<'a> {
-    solver: Solver<'a>,
+    line_solver: LineSolver<'a>,
     /// The intervals of all groups of cells.
     intervals: Vec<Interval>,
     /// The indices in `intervals` of those of each group.
@@ -36,11 +37,11 @@ pub(super) struct Refinement<'a> {
 
 /// Solves cells between those of a family.
 #[derive(Debug)]
-struct Solver<'a> {
+struct LineSolver<'a> {
     chart: &'a Chart,
     family: &'a Family,
     sampler: Sampler,
-    requested_measures: Vec<bool>,
+    requested_measures: MeasureSet,
     /// The name that changes along a line, by its index.
     slot: usize,
     /// The axes of x and of each y.
@@ -84,11 +85,11 @@ impl<'a> Refinement<'a> {
             return None;
         }
         let slot = common_slot(family, cells).filter(|_| chart.is_ordered_by_x)?;
-        let solver = Solver {
+        let line_solver = LineSolver {
             chart,
             family,
             sampler: Sampler::new(Sampling::Samples(2)),
-            requested_measures: (0..MEASURES.len()).map(|measure| uses_measure(chart, family, measure)).collect(),
+            requested_measures: used_measures(chart, family),
             slot,
             axes: axes(chart, samples.values().flatten().map(|sample| &sample.numbers[..])),
         };
@@ -99,7 +100,7 @@ impl<'a> Refinement<'a> {
             let lines: BTreeSet<CurveKey> =
                 cells.iter().flat_map(of_cell).map(|sample| (sample.trace, sample.circuit)).collect();
             let lines: Vec<CurveKey> = lines.into_iter().collect();
-            let sample = |cell: usize| solver.sample_of_cell(cell, &lines, of_cell(&cell));
+            let sample = |cell: usize| line_solver.sample_of_cell(cell, &lines, of_cell(&cell));
             for pair in cells.windows(2) {
                 intervals.push(Interval {
                     case: family.case(pair[0] - 1),
@@ -109,7 +110,7 @@ impl<'a> Refinement<'a> {
             }
             groups.push(first..intervals.len());
         }
-        Some(Refinement { solver, intervals, groups })
+        Some(Refinement { line_solver, intervals, groups })
     }
 
     /// Adds samples to all intervals, in rounds: in each, those that need further ones share what is left.
@@ -118,7 +119,7 @@ impl<'a> Refinement<'a> {
         let all = MAX_ADDITIONAL_CURVES / curves_per_sample;
         let mut limit = FIRST_SAMPLES;
         while limit > 1 {
-            let solver = &self.solver;
+            let solver = &self.line_solver;
             for_each(&mut self.intervals, &|interval| interval.refine(limit, solver));
             let used: usize = self.intervals.iter().map(|interval| interval.adaptive.additional_count()).sum();
             let unfinished = self.intervals.iter().filter(|interval| interval.needs_samples()).count();
@@ -130,7 +131,7 @@ impl<'a> Refinement<'a> {
     pub fn paths(&self, group: usize, line: CurveKey, quantity: usize) -> impl Iterator<Item = Path> {
         self.intervals[self.groups[group].clone()]
             .iter()
-            .map(move |interval| interval.path(line, quantity, self.solver.chart.y.len()))
+            .map(move |interval| interval.path(line, quantity, self.line_solver.chart.y.len()))
     }
 }
 
@@ -140,7 +141,7 @@ impl Interval {
         !self.adaptive.is_finished() && self.adaptive.additional_count() + 2 <= MAX_SAMPLES
     }
 
-    fn refine(&mut self, limit: usize, solver: &Solver) {
+    fn refine(&mut self, limit: usize, solver: &LineSolver) {
         let Interval { case, lines, adaptive } = self;
         let limit = limit.min(MAX_SAMPLES - adaptive.additional_count().min(MAX_SAMPLES));
         adaptive.refine(limit, |parameter| solver.sample_between(case, lines, parameter));
@@ -153,7 +154,7 @@ impl Interval {
     }
 }
 
-impl Solver<'_> {
+impl LineSolver<'_> {
     /// The sample at a cell of the family.
     fn sample_of_cell<'s>(
         &self,
@@ -175,7 +176,7 @@ impl Solver<'_> {
         let x = self.chart.cell_x(&cell);
         // Between valid cells there may be some without a linkage.
         let solved = if family.cell_errors(&cell).is_empty() {
-            solve_measuring(&family, &self.sampler, 0, &self.requested_measures)
+            Solver::with_sampler(&family, self.sampler.clone()).measuring(self.requested_measures).solve(0)
         } else {
             None
         };
@@ -217,9 +218,11 @@ fn common_slot(family: &Family, cells: &[Vec<usize>]) -> Option<usize> {
     varying.first().copied().filter(|_| varying.len() == 1)
 }
 
-fn uses_measure(chart: &Chart, family: &Family, measure: usize) -> bool {
+/// The measures that a chart and `where` need.
+fn used_measures(chart: &Chart, family: &Family) -> MeasureSet {
     let quantities = std::iter::once(&chart.x).chain(&chart.y).map(|quantity| &quantity.expression);
-    quantities.chain(&family.filter).any(|expression| family.expression_uses(expression, measure))
+    let expressions = quantities.chain(&family.filter);
+    expressions.fold(MeasureSet::EMPTY, |set, expression| set | family.measures_in(expression))
 }
 
 /// The axes of x and of each y for the points of all curves.

@@ -9,23 +9,29 @@ use crate::scene::{Color, Item, Path, Polyline};
 use coupler_curves::family::{Family, StraightCriterion};
 use coupler_curves::geometry::{Bounds, Point, simplify_polyline};
 use coupler_curves::linkage::{Input, JointId, JointKind};
-use coupler_curves::measure::{StraightPortion, Symmetry, SymmetryAxis, Value};
+use coupler_curves::measure::{Measure, MeasureSet, StraightPortion, Symmetry, SymmetryAxis};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 use coupler_curves::text::{format_exactly, round_to_six_digits};
 
 /// The measures that pages of every layout and the index of a book use, in addition to those in captions.
-pub(super) const PAGE_MEASURES: [&str; 7] =
-    ["class", "mu_min_deg", "mu_max_deg", "mu_worst_deg", "length", "straight_length", "symmetry"];
+pub(super) const PAGE_MEASURES: MeasureSet = MeasureSet::EMPTY
+    .with(Measure::CLASS)
+    .with(Measure::MU_MIN)
+    .with(Measure::MU_MAX)
+    .with(Measure::MU_WORST)
+    .with(Measure::LENGTH)
+    .with(Measure::STRAIGHT_LENGTH)
+    .with(Measure::SYMMETRY);
 
 /// The facts of a cell of a family: first its class, the range of its transmission angle and that of its actuator, second
 /// its longest straight portion. Either may be empty.
 pub fn cell_facts(family: &Family, solved: &SolvedCell) -> [String; 2] {
     let Some(first) = solved.curves.first() else { return Default::default() };
     let mut parts = Vec::new();
-    if let Value::Word(class) = first.value("class") {
+    if let Some(class) = first.measure(Measure::CLASS) {
         parts.push(class.to_owned());
     }
-    if let (Value::Number(least), Value::Number(most)) = (first.value("mu_min_deg"), first.value("mu_max_deg")) {
+    if let (Some(least), Some(most)) = (first.measure(Measure::MU_MIN), first.measure(Measure::MU_MAX)) {
         parts.push(transmission_text(least, most));
     }
     parts.extend(actuator_range(solved, first));

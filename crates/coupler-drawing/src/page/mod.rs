@@ -52,6 +52,7 @@ pub use theme::{CurveStyle, NamedTheme, Theme};
 
 use crate::scene::Scene;
 use coupler_curves::geometry::Point;
+use coupler_curves::measure::MeasureSet;
 use coupler_curves::solve::SolvedCell;
 use marks::PAGE_MEASURES;
 
@@ -79,9 +80,8 @@ impl Layout {
     }
 
     /// The measures that pages of the layout and the index of a book use, in addition to those in captions.
-    pub fn measures(self) -> impl Iterator<Item = &'static str> {
-        let further: &[&str] = if self == Layout::CouplerGrid { &coupler_grid::MEASURES } else { &[] };
-        PAGE_MEASURES.iter().chain(further).copied()
+    pub fn measures(self) -> MeasureSet {
+        PAGE_MEASURES | if self == Layout::CouplerGrid { coupler_grid::MEASURES } else { MeasureSet::EMPTY }
     }
 }
 

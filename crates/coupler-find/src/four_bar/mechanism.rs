@@ -4,13 +4,13 @@ use std::sync::{Arc, LazyLock};
 
 use crate::condition::Condition;
 
-use coupler_curves::family::{Family, MEASURES, Sampling};
+use coupler_curves::family::{Family, Sampling};
 use coupler_curves::geometry::{Point, cross, left_normal, trig};
 use coupler_curves::linkage::{FourBar, PlacedFourBar, Side};
 use coupler_curves::linkage_format;
-use coupler_curves::measure::Value;
-use coupler_curves::motion::{Circuit, Sampler};
-use coupler_curves::solve::{SolvedCell, solve_measuring};
+use coupler_curves::measure::{Measure, MeasureSet};
+use coupler_curves::motion::Circuit;
+use coupler_curves::solve::{SolvedCell, Solver};
 use coupler_curves::template::Template;
 
 /// A four-bar whose coupler point traces the curve of an answer, in the unit and axes of the target.
@@ -42,7 +42,8 @@ pub struct Mechanism {
 impl Condition {
     /// Whether a four-bar meets the condition on the circuit with these positions of its crank pin and its rocker pin.
     pub(crate) fn is_met(&self, four_bar: &PlacedFourBar, pins: [Point; 2]) -> bool {
-        let Some((mut family, solved, circuit)) = solve_on_circuit(four_bar, pins, Some(self), &[]) else {
+        let Some((mut family, solved, circuit)) = solve_on_circuit(four_bar, pins, Some(self), MeasureSet::EMPTY)
+        else {
             return false;
         };
         family.filter = Some(self.compiled().clone());
@@ -56,7 +57,7 @@ static TEMPLATE: LazyLock<Arc<Template>> = LazyLock::new(|| {
 });
 
 /// The measures that are always computed.
-const REPORTED: [&str; 2] = ["class", "mu_worst_deg"];
+const REPORTED: MeasureSet = MeasureSet::EMPTY.with(Measure::CLASS).with(Measure::MU_WORST);
 
 impl Mechanism {
     /// The linkage of all answers, as the `[[linkage]]` of a manifest.
@@ -103,7 +104,7 @@ impl Mechanism {
     /// The solved linkage with the curve of the answer only, without measures.
     pub fn solved(&self) -> Option<SolvedCell> {
         let family = family(&self.four_bar)?;
-        let solved = solve_measuring(&family, &Sampler::new(family.sampling), 0, &[false; MEASURES.len()])?;
+        let solved = Solver::new(&family).measuring(MeasureSet::EMPTY).solve(0)?;
         let curve = solved.curves.iter().find(|curve| curve.circuit == self.circuit)?;
         Some(solved.with_curve(curve))
     }
@@ -116,7 +117,7 @@ impl Mechanism {
         condition: Option<&Condition>,
     ) -> Option<Mechanism> {
         let &[first, ..] = pins else { return None };
-        let (mut family, solved, circuit) = solve_on_circuit(&four_bar, first, condition, &REPORTED)?;
+        let (mut family, solved, circuit) = solve_on_circuit(&four_bar, first, condition, REPORTED)?;
         let curve = &solved.curves[circuit];
         let circuit = solved.circuit(curve);
         let is_full_turn = circuit.is_full_turn();
@@ -144,29 +145,25 @@ impl Mechanism {
             input_deg,
             is_reversed,
             circuit: curve.circuit,
-            class: if let Value::Word(class) = curve.value("class") { class } else { "" },
+            class: curve.measure(Measure::CLASS).unwrap_or(""),
             is_full_turn,
-            mu_worst_deg: if let Value::Number(angle) = curve.value("mu_worst_deg") { angle } else { f64::NAN },
+            mu_worst_deg: curve.measure(Measure::MU_WORST).unwrap_or(f64::NAN),
             meets_constraints: family.keeps(&solved.cell, &curve.values),
         })
     }
 }
 
-/// A four-bar, solved, with the measures that a condition needs and others by their names; and the index of the curve on the
+/// A four-bar, solved, with the measures that a condition needs and others; and the index of the curve on the
 /// circuit with these positions of its crank pin and its rocker pin.
 fn solve_on_circuit(
     four_bar: &PlacedFourBar,
     pins: [Point; 2],
     condition: Option<&Condition>,
-    reported: &[&str],
+    reported: MeasureSet,
 ) -> Option<(Family, SolvedCell, usize)> {
     let family = family(four_bar)?;
-    let is_used = |measure: usize| {
-        condition.is_some_and(|condition| family.expression_uses(condition.compiled(), measure))
-            || reported.contains(&MEASURES[measure].name)
-    };
-    let requested: Vec<bool> = (0..MEASURES.len()).map(is_used).collect();
-    let solved = solve_measuring(&family, &Sampler::new(family.sampling), 0, &requested)?;
+    let used = condition.map_or(MeasureSet::EMPTY, |condition| family.measures_in(condition.compiled()));
+    let solved = Solver::new(&family).measuring(used | reported).solve(0)?;
     let distance = |k: &usize| distance_from(&solved, solved.circuit(&solved.curves[*k]), pins);
     let nearest = (0..solved.curves.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
     Some((family, solved, nearest))

@@ -6,11 +6,11 @@ use crate::complex::Complex;
 use crate::condition::Condition;
 use crate::options::Options;
 use crate::target::Target;
-use coupler_curves::family::{Family, MEASURES, Sampling};
+use coupler_curves::family::{Family, Sampling};
 use coupler_curves::geometry::{Similarity, Vector};
 use coupler_curves::linkage::{JointId, Linkage};
-use coupler_curves::motion::{Sampler, poses};
-use coupler_curves::solve::solve_measuring;
+use coupler_curves::motion::poses;
+use coupler_curves::solve::Solver;
 use std::sync::Arc;
 
 /// A target and the constraints of a search.
@@ -111,11 +111,8 @@ impl Aim {
         let Ok(mut family) = Family::single_cell(self.template.clone(), &given, Sampling::Samples(180)) else {
             return false;
         };
-        let requested: Vec<bool> =
-            (0..MEASURES.len()).map(|k| family.expression_uses(condition.compiled(), k)).collect();
-        let Some(solved) = solve_measuring(&family, &Sampler::new(family.sampling), 0, &requested) else {
-            return false;
-        };
+        let requested = family.measures_in(condition.compiled());
+        let Some(solved) = Solver::new(&family).measuring(requested).solve(0) else { return false };
         family.filter = Some(condition.compiled().clone());
         solved.curves.iter().any(|curve| {
             let passes = &solved.circuit(curve).passes;

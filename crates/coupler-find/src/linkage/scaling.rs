@@ -2,11 +2,12 @@
 
 use std::sync::Arc;
 
-use coupler_curves::family::{Family, MEASURES, Sampling};
+use coupler_curves::family::{Family, Sampling};
 use coupler_curves::geometry::Point;
 use coupler_curves::linkage::JointId;
-use coupler_curves::motion::{Circuit, Sampler};
-use coupler_curves::solve::{SolvedCell, solve_measuring};
+use coupler_curves::measure::MeasureSet;
+use coupler_curves::motion::Circuit;
+use coupler_curves::solve::{SolvedCell, Solver};
 use coupler_curves::template::{ParameterKind, Template};
 
 /// Whether all positions are as many times greater if all parameters that are lengths are: no length is written as a number.
@@ -18,7 +19,7 @@ pub fn is_scalable(template: &Arc<Template>, values: &[f64]) -> bool {
         let scaled = template.parameters.iter().zip(scaled_values(template, values, factor));
         let given: Vec<(String, f64)> = scaled.map(|(parameter, value)| (parameter.name.clone(), value)).collect();
         let family = Family::single_cell(template.clone(), &given, Sampling::Samples(24)).ok()?;
-        solve_measuring(&family, &Sampler::new(family.sampling), 0, &vec![false; MEASURES.len()])
+        Solver::new(&family).measuring(MeasureSet::EMPTY).solve(0)
     };
     let (Some(one), Some(other)) = (solved(1.0), solved(FACTOR)) else { return false };
     let positions = |solved: &SolvedCell| -> Vec<Point> {

@@ -8,9 +8,8 @@ use coupler_atlas::manifest::Plan;
 use coupler_curves::family::Family;
 use coupler_curves::geometry::Point;
 use coupler_curves::geometry::Similarity;
-use coupler_curves::measure;
-use coupler_curves::motion::Sampler;
-use coupler_curves::solve::{SolvedCell, solve_measuring};
+use coupler_curves::measure::MeasureSet;
+use coupler_curves::solve::{SolvedCell, Solver};
 use coupler_find::{Constraint, Quality, Target};
 use numpy::PyArray2;
 use pyo3::prelude::*;
@@ -205,10 +204,7 @@ impl Entry {
     fn solved(&self) -> Option<SolvedCell> {
         match &self.mechanism {
             Mechanism::FourBar(answer) => answer.mechanism.solved(),
-            Mechanism::Placed(placed) => {
-                let family = &placed.family;
-                solve_measuring(family, &Sampler::new(family.sampling), 0, &vec![false; measure::ALL.len()])
-            }
+            Mechanism::Placed(placed) => Solver::new(&placed.family).measuring(MeasureSet::EMPTY).solve(0),
         }
     }
 }

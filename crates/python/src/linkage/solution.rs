@@ -5,9 +5,9 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use coupler_curves::family::{Family, MEASURES, Sampling};
 use coupler_curves::linkage::{Input, PlacedFourBar};
-use coupler_curves::measure::{BOOLEANS, Value};
+use coupler_curves::measure::{BOOLEANS, MeasureSet, Value};
 use coupler_curves::motion::{Circuit, Sampler};
-use coupler_curves::solve::{SolvedCell, solve_cell, solve_measuring};
+use coupler_curves::solve::{SolvedCell, Solver};
 use coupler_drawing::page::{Options, PoseChoice};
 use coupler_drawing::plate::{self, PAPER};
 use coupler_drawing::render::{self, TextMode};
@@ -20,13 +20,13 @@ use crate::argument::natural;
 use crate::error::LinkageError;
 
 /// A sampler; the last one is kept, for its table of sines takes as long as the samples of a linkage.
-pub(super) fn sampler(sampling: Sampling) -> Arc<Sampler> {
-    static LAST: Mutex<Option<(Sampling, Arc<Sampler>)>> = Mutex::new(None);
+pub(super) fn sampler(sampling: Sampling) -> Sampler {
+    static LAST: Mutex<Option<(Sampling, Sampler)>> = Mutex::new(None);
     let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
     match &*last {
         Some((known, sampler)) if *known == sampling => sampler.clone(),
         _ => {
-            let sampler = Arc::new(Sampler::new(sampling));
+            let sampler = Sampler::new(sampling);
             *last = Some((sampling, sampler.clone()));
             sampler
         }
@@ -72,15 +72,19 @@ impl Solution {
         (!solved.motion.is_assembled()).then(|| solved.reason())
     }
 
+    fn solver(&self) -> Solver<'_> {
+        Solver::with_sampler(&self.family, sampler(self.family.sampling))
+    }
+
     /// Its circuits and curves, without measures.
     pub(super) fn moved(&self) -> PyResult<&SolvedCell> {
-        let solve = || solve_measuring(&self.family, &sampler(self.family.sampling), 0, &[false; MEASURES.len()]);
+        let solve = || self.solver().measuring(MeasureSet::EMPTY).solve(0);
         self.moved.get_or_init(solve).as_ref().ok_or_else(|| self.no_linkage())
     }
 
     /// Its circuits and curves with all measures.
     pub(super) fn measured(&self, py: Python) -> PyResult<&SolvedCell> {
-        let solve = || solve_cell(&self.family, &sampler(self.family.sampling), 0);
+        let solve = || self.solver().solve(0);
         let measured = py.detach(|| self.measured.get_or_init(solve).as_ref());
         measured.ok_or_else(|| self.no_linkage())
     }

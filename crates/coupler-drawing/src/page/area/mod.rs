@@ -48,8 +48,7 @@ mod tests {
     use coupler_curves::FourBar;
     use coupler_curves::catalogue;
     use coupler_curves::family::{Family, Sampling};
-    use coupler_curves::motion::Sampler;
-    use coupler_curves::solve::{SolvedCell, solve_cell};
+    use coupler_curves::solve::{SolvedCell, Solver};
 
     const PAPERS: [Paper; 8] = {
         let [(_, letter), (_, tabloid), (_, a4), (_, a3)] = Paper::NAMED;
@@ -82,7 +81,7 @@ mod tests {
         let solve = |(id, values): (&str, Vec<(&str, f64)>)| {
             let values: Vec<(String, f64)> = values.iter().map(|(name, value)| (name.to_string(), *value)).collect();
             let family = Family::single_cell(catalogue::find(id).unwrap(), &values, Sampling::Samples(72)).unwrap();
-            let solved = solve_cell(&family, &Sampler::new(family.sampling), 0).unwrap();
+            let solved = Solver::new(&family).solve(0).unwrap();
             (family, solved)
         };
         four_bars.into_iter().chain(others).map(solve).collect()

@@ -1,6 +1,6 @@
 //! The index entry of a cell.
 
-use coupler_curves::measure::{Symmetry, Value};
+use coupler_curves::measure::{Measure, Symmetry};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 
 /// The index entry of a cell: its best curve by each measure of the index.
@@ -46,7 +46,7 @@ impl IndexEntry {
             caption: caption.to_owned(),
             straightness: best(straightness, |a, b| a > b),
             // The transmission angle is the same for all points of a linkage.
-            transmission_angle: best(|curve| number_measure(curve, "mu_worst_deg"), |a, b| a > b)
+            transmission_angle: best(|curve| curve.measure(Measure::MU_WORST), |a, b| a > b)
                 .map(|value| IndexValue { curve: None, ..value }),
             asymmetry: best(asymmetry, |a, b| a < b),
         }
@@ -68,7 +68,7 @@ impl IndexEntry {
 
 /// The straight portion of a curve as a fraction of its length.
 fn straightness(curve: &MeasuredCurve) -> Option<f64> {
-    let (length, whole) = (number_measure(curve, "straight_length")?, number_measure(curve, "length")?);
+    let (length, whole) = (curve.measure(Measure::STRAIGHT_LENGTH)?, curve.measure(Measure::LENGTH)?);
     (length > 0.0 && whole > 0.0).then(|| length / whole)
 }
 
@@ -78,18 +78,11 @@ fn straightness(curve: &MeasuredCurve) -> Option<f64> {
 fn asymmetry(curve: &MeasuredCurve) -> Option<f64> {
     /// The area relative to that of a circle of the same length from which a curve is nearly a circle.
     const NEARLY_A_CIRCLE: f64 = 0.95;
-    if let (Some(area), Some(length)) = (number_measure(curve, "area"), number_measure(curve, "length"))
+    if let (Some(area), Some(length)) = (curve.measure(Measure::AREA), curve.measure(Measure::LENGTH))
         && 4.0 * std::f64::consts::PI * area.abs() > NEARLY_A_CIRCLE * length * length
     {
         return None;
     }
     let symmetry = curve.symmetry.as_ref().filter(|symmetry| symmetry.axis.is_some())?;
     Some((symmetry.residual / Symmetry::TOLERANCE).round() * Symmetry::TOLERANCE)
-}
-
-fn number_measure(curve: &MeasuredCurve, name: &str) -> Option<f64> {
-    match curve.value(name) {
-        Value::Number(value) => Some(value),
-        _ => None,
-    }
 }

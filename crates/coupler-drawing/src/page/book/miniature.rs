@@ -9,7 +9,7 @@ use crate::mechanism::Mechanism;
 use crate::scene::{Circle, Curve, Item, Path, Polyline};
 use coupler_curves::geometry::{Bounds, Point, Spline, Vector};
 use coupler_curves::linkage::{JointId, LinkOutline, Linkage};
-use coupler_curves::measure::{self, TracedCurve, Value};
+use coupler_curves::measure::{self, Measure, MeasureKey, TracedCurve};
 use coupler_curves::motion::{self, Circuit};
 use coupler_curves::path;
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
@@ -81,11 +81,8 @@ impl Miniature {
             sharpest_input: None,
             dwell_lift: None,
         };
-        let number = |name: &str| match curve.value(name) {
-            Value::Number(value) if value.is_finite() => Some(value),
-            _ => None,
-        };
-        let between = |start: &str, span: &str| {
+        let number = |key: MeasureKey<f64>| curve.measure(key).filter(|value| value.is_finite());
+        let between = |start: MeasureKey<f64>, span: MeasureKey<f64>| {
             let (start, span) = (number(start)?, number(span)?);
             portion(&solved.linkage, circuit, curve.joint, [start, span])
         };
@@ -95,14 +92,15 @@ impl Miniature {
                 drawing.portion = curve.straight.as_ref().map(|portion| portion.points.clone()).unwrap_or_default();
             }
             Emphasis::Straight5 => {
-                drawing.portion = between("straight_5_start_deg", "straight_5_input_deg").unwrap_or_default();
+                drawing.portion = between(Measure::STRAIGHT_5_START, Measure::STRAIGHT_5_INPUT).unwrap_or_default();
             }
             Emphasis::Straight10 => {
-                drawing.portion = between("straight_10_start_deg", "straight_10_input_deg").unwrap_or_default();
+                drawing.portion = between(Measure::STRAIGHT_10_START, Measure::STRAIGHT_10_INPUT).unwrap_or_default();
             }
             Emphasis::Dwell => {
-                drawing.portion = between("dwell_start_deg", "dwell_input_deg").unwrap_or_default();
-                if let (Some(x), Some(y), Some(radius)) = (number("dwell_x"), number("dwell_y"), number("dwell_radius"))
+                drawing.portion = between(Measure::DWELL_START, Measure::DWELL_INPUT).unwrap_or_default();
+                if let (Some(x), Some(y), Some(radius)) =
+                    (number(Measure::DWELL_X), number(Measure::DWELL_Y), number(Measure::DWELL_RADIUS))
                 {
                     let distance = |p: Point| ((p - Point::new(x, y)).norm() - radius).abs();
                     drawing.dwell_lift = Some(circuit.points(curve.joint).map(distance).fold(0.0, f64::max));

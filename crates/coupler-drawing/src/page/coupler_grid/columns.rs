@@ -8,24 +8,23 @@ use super::shown_curve::ShownCurve;
 use crate::scene::Anchor;
 use coupler_curves::geometry::Point;
 use coupler_curves::linkage::Input;
-use coupler_curves::measure::{StraightCriterion, Value};
+use coupler_curves::measure::{Measure, MeasureKey, MeasureSet, StraightCriterion};
 use coupler_curves::solve::MeasuredCurve;
 use coupler_curves::text::format_in_full;
 
 /// The measures of columns and description, in addition to those of all pages.
-pub const MEASURES: [&str; 11] = [
-    "straight_start_deg",
-    "straight_input_deg",
-    "straight_10_length",
-    "straight_10_input_deg",
-    "dwell_radius",
-    "dwell_start_deg",
-    "dwell_input_deg",
-    "cusps",
-    "output_swing_deg",
-    "output_stroke",
-    "time_ratio",
-];
+pub const MEASURES: MeasureSet = MeasureSet::EMPTY
+    .with(Measure::STRAIGHT_START)
+    .with(Measure::STRAIGHT_INPUT)
+    .with(Measure::STRAIGHT_10_LENGTH)
+    .with(Measure::STRAIGHT_10_INPUT)
+    .with(Measure::DWELL_RADIUS)
+    .with(Measure::DWELL_START)
+    .with(Measure::DWELL_INPUT)
+    .with(Measure::CUSPS)
+    .with(Measure::OUTPUT_SWING)
+    .with(Measure::OUTPUT_STROKE)
+    .with(Measure::TIME_RATIO);
 
 /// Columns with a common head.
 pub(super) struct ColumnGroup {
@@ -145,22 +144,22 @@ pub(super) fn column_groups(
         let decimals = coordinate_decimals(&values);
         coordinates.iter().map(|pair| pair.map_or(String::new(), |pair| format_fixed(pair[k], decimals))).collect()
     };
-    let lengths = |measure: &str| -> Vec<String> {
-        let values: Vec<Option<f64>> = shown.iter().map(|s| number_of(s.curve, measure)).collect();
+    let lengths = |key: MeasureKey<f64>| -> Vec<String> {
+        let values: Vec<Option<f64>> = shown.iter().map(|s| finite(s.curve, key)).collect();
         let decimals = significant_decimals(values.iter().flatten().copied(), 4);
         values.iter().map(|value| value.map_or(MISSING.to_owned(), |value| format_fixed(value, decimals))).collect()
     };
-    let inputs = |measure: &str| {
+    let inputs = |key: MeasureKey<f64>| {
         // The lengths of an actuator have no common order of magnitude.
         if solved.linkage.input() == Input::Length {
-            return lengths(measure);
+            return lengths(key);
         }
         let text = |value: f64| format!("{value:.1}{}", solved.linkage.input().unit_sign());
-        shown.iter().map(|s| number_of(s.curve, measure).map_or(MISSING.to_owned(), text)).collect()
+        shown.iter().map(|s| finite(s.curve, key).map_or(MISSING.to_owned(), text)).collect()
     };
-    let counts = |measure: &str| {
+    let counts = |key: MeasureKey<f64>| {
         let text = |value: f64| format_fixed(value, 0);
-        shown.iter().map(|s| number_of(s.curve, measure).map_or(MISSING.to_owned(), text)).collect()
+        shown.iter().map(|s| finite(s.curve, key).map_or(MISSING.to_owned(), text)).collect()
     };
     [
         ColumnGroup::new("", [("point", shown.iter().map(number).collect())], theme),
@@ -168,27 +167,27 @@ pub(super) fn column_groups(
         ColumnGroup::new(
             straight_title(page.straight_criterion),
             [
-                ("length", lengths("straight_length")),
-                ("from", inputs("straight_start_deg")),
-                ("over", inputs("straight_input_deg")),
+                ("length", lengths(Measure::STRAIGHT_LENGTH)),
+                ("from", inputs(Measure::STRAIGHT_START)),
+                ("over", inputs(Measure::STRAIGHT_INPUT)),
             ],
             theme,
         ),
         ColumnGroup::new(
             straight_title(StraightCriterion::Tolerance(0.01)),
-            [("length", lengths("straight_10_length")), ("over", inputs("straight_10_input_deg"))],
+            [("length", lengths(Measure::STRAIGHT_10_LENGTH)), ("over", inputs(Measure::STRAIGHT_10_INPUT))],
             theme,
         ),
         ColumnGroup::new(
             DWELL_TITLE,
             [
-                ("radius", lengths("dwell_radius")),
-                ("from", inputs("dwell_start_deg")),
-                ("over", inputs("dwell_input_deg")),
+                ("radius", lengths(Measure::DWELL_RADIUS)),
+                ("from", inputs(Measure::DWELL_START)),
+                ("over", inputs(Measure::DWELL_INPUT)),
             ],
             theme,
         ),
-        ColumnGroup::new("", [("cusps", counts("cusps"))], theme),
+        ColumnGroup::new("", [("cusps", counts(Measure::CUSPS))], theme),
     ]
 }
 
@@ -209,11 +208,8 @@ pub(super) fn percent(tolerance: f64) -> String {
 }
 
 /// A measure of a curve, if it is a finite number.
-pub(super) fn number_of(curve: &MeasuredCurve, measure: &str) -> Option<f64> {
-    match curve.value(measure) {
-        Value::Number(value) if value.is_finite() => Some(value),
-        _ => None,
-    }
+pub(super) fn finite(curve: &MeasuredCurve, key: MeasureKey<f64>) -> Option<f64> {
+    curve.measure(key).filter(|value| value.is_finite())
 }
 
 /// The coordinates of a point on its link, as the linkage gives them.

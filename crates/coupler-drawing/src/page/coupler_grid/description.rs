@@ -5,13 +5,14 @@ use super::super::key_drawing;
 use super::super::rect::Rect;
 use super::super::theme::Theme;
 use super::super::{CouplerGridPage, LinkLabel};
-use super::columns::number_of;
+use super::columns::finite;
 use super::notes::format_inputs;
 use super::turn::change_point_inputs;
 use crate::scene::{Anchor, Color};
 use coupler_curves::expression::join_names;
 use coupler_curves::geometry::Point;
 use coupler_curves::linkage::{Continuation, FourBar, FourBarClass, JointId, Linkage, OutputLink};
+use coupler_curves::measure::Measure;
 use coupler_curves::solve::SolvedCell;
 
 /// The description of the linkage of a page: lines, and the lines of its key, if it has one.
@@ -131,13 +132,13 @@ fn role(linkage: &Linkage, joints: [JointId; 2]) -> Option<&'static str> {
 /// The swing or stroke of the output, and its time ratio, if they are measured.
 fn output_facts(solved: &SolvedCell) -> Option<String> {
     let first = solved.curves.first()?;
-    let number = |measure: &str| number_of(first, measure);
-    let swing = number("output_swing_deg").map(|swing| match swing {
+    let number = |key| finite(first, key);
+    let swing = number(Measure::OUTPUT_SWING).map(|swing| match swing {
         360.0 => "output turns fully".to_owned(),
         swing => format!("output swings {swing:.1}°"),
     });
-    let stroke = number("output_stroke").map(|stroke| format!("stroke of the output {stroke:.4}"));
-    let ratio = number("time_ratio").map(|ratio| format!("time ratio {ratio:.3}"));
+    let stroke = number(Measure::OUTPUT_STROKE).map(|stroke| format!("stroke of the output {stroke:.4}"));
+    let ratio = number(Measure::TIME_RATIO).map(|ratio| format!("time ratio {ratio:.3}"));
     let parts: Vec<String> = swing.into_iter().chain(stroke).chain(ratio).collect();
     (!parts.is_empty()).then(|| parts.join(", "))
 }

@@ -1,0 +1,149 @@
+//! What names stand for in expressions about the curves of a family, and their values.
+
+use std::cell::LazyCell;
+use std::sync::LazyLock;
+
+use super::{Cell, Family};
+use crate::expression::{Caption, CompiledExpression, Kind, Scope};
+use crate::measure::{self, BOOLEANS, Boolean, Measure, MeasureSet, Value};
+
+/// What a name of [`Family::scope`] stands for.
+#[derive(Clone, Copy, Debug)]
+pub enum ScopeName {
+    /// A name of cells, by its index in [`Family::names`].
+    Own(usize),
+    /// A measure that is a number, by its index in [`measure::ALL`].
+    Measure(usize),
+    /// A boolean.
+    Boolean(&'static Boolean),
+}
+
+/// The names that follow those of cells, the same in all families, in the order of [`Family::scope`].
+static CURVE_NAMES: LazyLock<Vec<ScopeName>> = LazyLock::new(|| {
+    let numbers = MeasureSet::of(|measure| !measure.is_word);
+    numbers.iter().map(ScopeName::Measure).chain(BOOLEANS.iter().map(ScopeName::Boolean)).collect()
+});
+
+impl ScopeName {
+    /// What the name at an index of [`Family::scope`] stands for, of cells with so many names; `None` for an index out of range.
+    fn at(slot: usize, own_count: usize) -> Option<ScopeName> {
+        match slot.checked_sub(own_count) {
+            None => Some(ScopeName::Own(slot)),
+            Some(further) => CURVE_NAMES.get(further).copied(),
+        }
+    }
+
+    /// Its value for a curve of a cell; NaN where it has none.
+    fn value(self, cell: &Cell, measures: &[Value]) -> f64 {
+        match self {
+            ScopeName::Own(slot) => cell.values[slot],
+            ScopeName::Measure(k) => match measures.get(k) {
+                Some(Value::Number(value)) => *value,
+                _ => f64::NAN,
+            },
+            ScopeName::Boolean(boolean) => boolean.value(measures),
+        }
+    }
+
+    /// The measure that it is, or that a boolean is computed from.
+    fn measures(self) -> MeasureSet {
+        match self {
+            ScopeName::Own(_) => MeasureSet::EMPTY,
+            ScopeName::Measure(k) => MeasureSet::from_iter([k]),
+            ScopeName::Boolean(boolean) => MeasureSet::of(|measure| measure.name == boolean.measure),
+        }
+    }
+}
+
+impl Family {
+    /// The names that `where` may use, with their kinds: those of cells, the numeric measures and the booleans. Inputs
+    /// have the names of lengths if an actuator drives the linkage.
+    pub fn scope(names: &[String], is_driven_by_length: bool) -> Scope<'_> {
+        let own = names.iter().map(|name| (name.as_str(), Kind::Number));
+        let of_curves = CURVE_NAMES.iter().filter_map(|name| match name {
+            ScopeName::Own(_) => None,
+            ScopeName::Measure(k) => Some((measure::ALL[*k].name_for(is_driven_by_length), Kind::Number)),
+            ScopeName::Boolean(boolean) => Some((boolean.name, Kind::Boolean)),
+        });
+        let scope: Scope = own.chain(of_curves).collect();
+        scope.with_others_described(names.len(), "a measure: `coupler-atlas list measures` lists them")
+    }
+
+    /// What the names of an expression over [`Family::scope`] stand for, without those that follow them in another scope.
+    pub fn names_in(&self, expression: &CompiledExpression) -> impl Iterator<Item = ScopeName> {
+        expression.slots().iter().filter_map(|slot| ScopeName::at(*slot, self.names.len()))
+    }
+
+    /// The value of the name at an index of [`Family::scope`]; NaN where it has no value, or the index is out of range.
+    pub fn scope_value(cell: &Cell, measures: &[Value], slot: usize) -> f64 {
+        ScopeName::at(slot, cell.values.len()).map_or(f64::NAN, |name| name.value(cell, measures))
+    }
+
+    /// The measures that an expression over [`Family::scope`] needs.
+    pub fn measures_in(&self, expression: &CompiledExpression) -> MeasureSet {
+        self.names_in(expression).fold(MeasureSet::EMPTY, |set, name| set | name.measures())
+    }
+
+    /// The measures that `where` and `sort` need.
+    pub fn selection_measures(&self) -> MeasureSet {
+        let expressions = self.filter.iter().chain(&self.sort);
+        expressions.fold(MeasureSet::EMPTY, |set, expression| set | self.measures_in(expression))
+    }
+
+    /// The measures that the caption lines show.
+    pub fn caption_measures(&self) -> MeasureSet {
+        let is_driven_by_length = self.template.is_driven_by_length();
+        let is_shown = |measure: &Measure| {
+            self.captions.iter().flatten().any(|caption| caption.uses(measure.name_for(is_driven_by_length)))
+        };
+        MeasureSet::of(is_shown)
+    }
+
+    /// Whether `where` uses any measure, and so leaves out cells without curves.
+    pub fn filter_uses_measures(&self) -> bool {
+        self.filter.as_ref().is_some_and(|filter| !self.measures_in(filter).is_empty())
+    }
+
+    /// Whether `where` keeps a curve with these measures.
+    pub fn keeps(&self, cell: &Cell, measures: &[Value]) -> bool {
+        let Some(filter) = &self.filter else { return true };
+        filter.evaluate(|slot| Family::scope_value(cell, measures, slot)) == 1.0
+    }
+
+    /// The value that a curve with these measures is sorted by on pages; NaN where it is not defined.
+    pub fn sort_key(&self, cell: &Cell, measures: &[Value]) -> f64 {
+        self.sort
+            .as_ref()
+            .map_or(cell.number as f64, |sort| sort.evaluate(|slot| Family::scope_value(cell, measures, slot)))
+    }
+
+    /// The caption lines of a cell, with its values and the measures of its first curve filled in; empty where the
+    /// family has none.
+    pub fn format_captions(&self, cell: &Cell, measures: &[Value]) -> [String; 2] {
+        self.captions
+            .each_ref()
+            .map(|line| line.as_ref().map(|line| self.format_caption(line, cell, measures)).unwrap_or_default())
+    }
+
+    /// A caption over [`Family::scope`] with the values of a cell and the measures of a curve filled in.
+    pub fn format_caption(&self, caption: &Caption, cell: &Cell, measures: &[Value]) -> String {
+        static OF_CURVES: [LazyLock<Scope>; 2] =
+            [LazyLock::new(|| Family::scope(&[], false)), LazyLock::new(|| Family::scope(&[], true))];
+        let of_curves = &OF_CURVES[usize::from(self.template.is_driven_by_length())];
+        let own_names = LazyCell::new(|| Scope::from_numbers(self.names.iter().map(String::as_str)));
+        // The family's own names come before the measures.
+        let find = |name: &str| match own_names.index_of(name) {
+            Some(slot) => Some(ScopeName::Own(slot)),
+            None => ScopeName::at(of_curves.index_of(name)?, 0),
+        };
+        let load = |name: &str| find(name).map_or(f64::NAN, |name| name.value(cell, measures));
+        let word = |name: &str| {
+            let is_named = |(measure, _): &(&Measure, &Value)| measure.name == name && measure.is_word;
+            match measure::ALL.iter().zip(measures).find(is_named)? {
+                (_, Value::Word(word)) => Some(*word),
+                _ => Some("–"),
+            }
+        };
+        caption.format(load, word)
+    }
+}
