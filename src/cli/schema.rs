@@ -80,7 +80,7 @@ fn value_schema(value: &ValueSchema) -> Value {
         }
         ValueSchema::Map(item) => json!({ "type": "object", "additionalProperties": value_schema(item) }),
         ValueSchema::Variants(variants) => {
-            json!({ "oneOf": variants.iter().map(|(_, variant)| table(variant)).collect::<Vec<_>>() })
+            json!({ "oneOf": variants().into_iter().map(|(_, variant)| table(variant)).collect::<Vec<_>>() })
         }
         ValueSchema::AnyOf(values) => json!({ "anyOf": values.iter().map(value_schema).collect::<Vec<_>>() }),
     }

@@ -94,8 +94,8 @@ fn collect_given_keys(schema: &ValueSchema, value: &Value, found: &mut BTreeSet<
             entries.values().for_each(|value| collect_given_keys(inner, value, found));
         }
         (ValueSchema::Variants(variants), Value::Object(entries)) => {
-            let variant = variants.iter().find(|(key, _)| entries.contains_key(*key)).unwrap();
-            collect_given_keys_of(&variant.1, value, found);
+            let (_, variant) = variants().into_iter().find(|(key, _)| entries.contains_key(*key)).unwrap();
+            collect_given_keys_of(variant, value, found);
         }
         (ValueSchema::AnyOf(schemas), value) => {
             schemas.iter().for_each(|schema| collect_given_keys(schema, value, found));
@@ -122,7 +122,9 @@ fn collect_known_keys(schema: &ValueSchema, found: &mut BTreeSet<(&'static str, 
         | ValueSchema::OneOrMore(inner, _)
         | ValueSchema::WithExamples(inner, _) => collect_known_keys(inner, found),
         ValueSchema::IdentifierMap(inner) | ValueSchema::Map(inner) => collect_known_keys(inner, found),
-        ValueSchema::Variants(variants) => variants.iter().for_each(|(_, table)| collect_known_keys_of(table, found)),
+        ValueSchema::Variants(variants) => {
+            variants().into_iter().for_each(|(_, table)| collect_known_keys_of(table, found))
+        }
         ValueSchema::AnyOf(schemas) => schemas.iter().for_each(|schema| collect_known_keys(schema, found)),
         _ => {}
     }

@@ -5,8 +5,9 @@ use std::collections::{HashMap, HashSet};
 use toml::de::DeValue;
 
 use super::fields::Fields;
-use super::joint::{parse_joint, parse_joint_pair, parse_joint_ref};
+use super::joint_forms::parse_joint;
 use super::joint_id::check_joint_id;
+use super::joint_values::{parse_joint_pair, parse_joint_ref};
 use super::names::JointNames;
 use super::quantities::InputKind;
 use super::toml_parser::{TomlParser, TomlValue};

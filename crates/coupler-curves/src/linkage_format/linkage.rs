@@ -1,7 +1,7 @@
 //! The schema of a `[[linkage]]` table and its parser.
 
 use super::fields::Fields;
-use super::joint_kinds::JOINT_KINDS;
+use super::joint_forms::joint_schemas;
 use super::joints;
 use super::quantities::InputKind;
 use super::schema::{KeySchema, TableSchema, ValueSchema, default_word, words};
@@ -39,7 +39,7 @@ pub(super) static LINKAGE: TableSchema = TableSchema::new(
         ),
         KeySchema::required(
             "joints",
-            ValueSchema::Map(&ValueSchema::Variants(&JOINT_KINDS)),
+            ValueSchema::Map(&ValueSchema::Variants(joint_schemas)),
             "Its joints, by their names, in any order.",
         ),
         CIRCUITS_KEY.with_default(|| default_word(&CIRCUIT_SELECTIONS)),

@@ -3,9 +3,9 @@
 mod canonical;
 mod entries;
 mod fields;
-mod joint;
+mod joint_forms;
 mod joint_id;
-mod joint_kinds;
+mod joint_values;
 mod joints;
 mod linkage;
 mod names;

@@ -74,7 +74,7 @@ pub enum ValueSchema {
     /// A table with any keys.
     Map(&'static ValueSchema),
     /// A table of one of several kinds: the first whose key is present.
-    Variants(&'static [(&'static str, TableSchema)]),
+    Variants(fn() -> Vec<(&'static str, &'static TableSchema)>),
     /// A value that any of several schemas allows.
     AnyOf(&'static [ValueSchema]),
 }
