@@ -1,5 +1,6 @@
 //! What the crates without files, threads and clocks must not use, and the crates that each is built from.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -55,6 +56,76 @@ fn only_the_program_uses_files_threads_clocks_and_the_terminal() {
         let prints = ["println!", "eprintln!", "stdout()", "stderr()"].iter().any(|word| code.contains(word));
         assert!(!prints || path.starts_with(root().join("src/cli")), "{} prints", path.display());
     }
+}
+
+/// The names that a module exports to its documentation, each once, by the module that it is documented in: without those of another
+/// public module, and those that are `#[doc(hidden)]` because they are for the other crates of the workspace only.
+fn documented_names(file: &Path, module: &str) -> BTreeSet<String> {
+    let items = syn::parse_file(&fs::read_to_string(file).unwrap()).unwrap().items;
+    let is_hidden = |attributes: &[syn::Attribute]| {
+        let is_hidden = |attribute: &syn::Attribute| match &attribute.meta {
+            syn::Meta::List(list) => list.path.is_ident("doc") && list.tokens.to_string() == "hidden",
+            _ => false,
+        };
+        attributes.iter().any(is_hidden)
+    };
+    let is_documented = |visibility: &syn::Visibility, attributes: &[syn::Attribute]| {
+        matches!(visibility, syn::Visibility::Public(_)) && !is_hidden(attributes)
+    };
+    let mut public_modules: BTreeSet<String> = BTreeSet::from(["crate".to_owned()]);
+    public_modules.extend(items.iter().filter_map(|item| match item {
+        syn::Item::Mod(item) if is_documented(&item.vis, &item.attrs) => Some(item.ident.to_string()),
+        _ => None,
+    }));
+    let mut found = BTreeSet::new();
+    for item in &items {
+        let (visibility, attributes, names) = match item {
+            syn::Item::Mod(item) if public_modules.contains(&item.ident.to_string()) => {
+                let (folder, name) = (file.parent().unwrap(), item.ident.to_string());
+                let files = [folder.join(&name).join("mod.rs"), folder.join(format!("{name}.rs"))];
+                let file = files.iter().find(|file| file.exists()).unwrap();
+                found.extend(documented_names(file, &format!("{module}::{name}")));
+                continue;
+            }
+            syn::Item::Use(item) => (&item.vis, &item.attrs, leaves(&item.tree, &public_modules)),
+            syn::Item::Const(item) => (&item.vis, &item.attrs, vec![item.ident.to_string()]),
+            syn::Item::Enum(item) => (&item.vis, &item.attrs, vec![item.ident.to_string()]),
+            syn::Item::Fn(item) => (&item.vis, &item.attrs, vec![item.sig.ident.to_string()]),
+            syn::Item::Static(item) => (&item.vis, &item.attrs, vec![item.ident.to_string()]),
+            syn::Item::Struct(item) => (&item.vis, &item.attrs, vec![item.ident.to_string()]),
+            syn::Item::Trait(item) => (&item.vis, &item.attrs, vec![item.ident.to_string()]),
+            syn::Item::Type(item) => (&item.vis, &item.attrs, vec![item.ident.to_string()]),
+            _ => continue,
+        };
+        if is_documented(visibility, attributes) {
+            found.extend(names.iter().map(|name| format!("{module}::{name}")));
+        }
+    }
+    found
+}
+
+/// The names that a `use` brings in, unless it begins with one of these modules.
+fn leaves(tree: &syn::UseTree, public_modules: &BTreeSet<String>) -> Vec<String> {
+    match tree {
+        syn::UseTree::Path(path) if public_modules.contains(&path.ident.to_string()) => Vec::new(),
+        syn::UseTree::Path(path) => leaves(&path.tree, public_modules),
+        syn::UseTree::Name(name) => vec![name.ident.to_string()],
+        syn::UseTree::Rename(name) => vec![name.rename.to_string()],
+        syn::UseTree::Group(group) => group.items.iter().flat_map(|tree| leaves(tree, public_modules)).collect(),
+        syn::UseTree::Glob(_) => panic!("names are exported one by one"),
+    }
+}
+
+/// What a user of the core has to choose from: as many names as `all.html` of its documentation lists.
+#[test]
+fn the_core_exports_few_names() {
+    let names = documented_names(&root().join("crates/coupler-curves/src/lib.rs"), "coupler_curves");
+    for name in ["CouplerCurve", "linkage::FourBar", "measure::ALL", "solve::Solver", "geometry::Point", "motion::pose"]
+    {
+        assert!(names.contains(&format!("coupler_curves::{name}")), "{name}");
+    }
+    assert!(names.iter().all(|name| !name.contains("TomlParser") && !name.contains("::trig")), "{names:?}");
+    assert!(names.len() <= 120, "{} names: {names:#?}", names.len());
 }
 
 /// The crates a package is built from on this machine, including itself, each with its version.

@@ -6,6 +6,8 @@
 //! linkage format -> template -> family x cell -> linkage -> motion -> measures -> solved cell -> exchange formats
 //! ```
 //!
+//! What is public only for the other crates of this workspace is not documented here, and may change with them.
+//!
 //! A template is a linkage whose dimensions are expressions in parameters; a family is a template with its parameter
 //! sets, the cells. A cell turns the template into a linkage with numeric dimensions.
 //!

@@ -16,11 +16,16 @@ mod selected_curve;
 mod table;
 
 pub use curve_name::{CurveName, CurveNameError};
-pub use fragment::{ParameterSet, manifest_families, manifest_fragment};
-pub use json::{Members, PassDocument};
-pub use number::{append_integer, append_number, format_significant};
 pub use selected_curve::SelectedCurve;
-pub use table::PointTable;
+
+// For the other crates of the workspace only.
+#[doc(hidden)]
+pub use self::{
+    fragment::{ParameterSet, manifest_families, manifest_fragment},
+    json::{Members, PassDocument},
+    number::{append_integer, append_number, format_significant},
+    table::PointTable,
+};
 
 impl SelectedCurve<'_> {
     /// The curve's rows of `points.csv`, with the header.

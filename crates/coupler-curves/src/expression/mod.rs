@@ -31,20 +31,29 @@ mod scope;
 mod unit;
 
 pub use caption::Caption;
-pub use function::Function;
 pub use kind::Kind;
-pub use math_text::{MathPiece, MathText, displayed_name, join_names};
-pub use program::{CompiledExpression, Expression, PostfixToken};
-pub use quantity::Quantity;
+pub use program::{CompiledExpression, Expression};
 pub use scope::Scope;
-pub use unit::{Dimension, Unit};
+pub use unit::Unit;
+
+// For the other crates of the workspace only.
+#[doc(hidden)]
+pub use self::{
+    function::Function,
+    math_text::{MathPiece, MathText, displayed_name, join_names},
+    program::PostfixToken,
+    quantity::Quantity,
+    unit::Dimension,
+};
 
 use crate::problem::{Problem, Span};
 
 /// The greatest depth to which parentheses, function calls, powers and signs may be nested.
+#[doc(hidden)]
 pub const MAX_DEPTH: usize = 100;
 
 /// The names that always have a value.
+#[doc(hidden)]
 pub const CONSTANTS: [(&str, f64); 1] = [("pi", std::f64::consts::PI)];
 
 /// An error in an expression; the span is in bytes from the start of the expression's own text.

@@ -9,10 +9,8 @@ mod scope;
 mod single_cell;
 
 pub use axis_values::AxisValues;
-pub use dimensions::CaptionParameter;
-pub use parameter_space::{Axis, Case, MAX_CELLS, ParameterSpace};
+pub use parameter_space::{Axis, Case, ParameterSpace};
 pub use parameter_text::{ParameterSyntaxError, ParameterText, ParameterUnitError};
-pub use scope::ScopeName;
 pub use single_cell::{ParameterError, ParameterErrors};
 
 use std::collections::HashMap;
@@ -22,8 +20,17 @@ use crate::expression::{Caption, CompiledExpression};
 use crate::measure::{self, MeasureSet};
 use crate::template::{self, Linkage, Template, dependency_order};
 
-pub use crate::measure::{ALL as MEASURES, COLUMNS, Column, StraightCriterion, find_column};
-pub use crate::motion::{MAX_SAMPLES, Sampling};
+pub use crate::measure::StraightCriterion;
+pub use crate::motion::Sampling;
+
+// For the other crates of the workspace only.
+#[doc(hidden)]
+pub use self::{dimensions::CaptionParameter, parameter_space::MAX_CELLS, scope::ScopeName};
+#[doc(hidden)]
+pub use crate::{
+    measure::{ALL as MEASURES, COLUMNS, Column, find_column},
+    motion::MAX_SAMPLES,
+};
 
 /// A linkage template over a grid or a list of cases.
 #[derive(Clone, Debug)]
@@ -100,6 +107,7 @@ pub struct NoSuchCell {
 ///
 /// # Errors
 /// The indices of a cycle of names, with the first repeated at the end.
+#[doc(hidden)]
 pub fn sort_by_dependency(
     sources: Vec<(usize, CompiledExpression)>,
 ) -> Result<Vec<(usize, CompiledExpression)>, Vec<usize>> {

@@ -26,7 +26,7 @@ mod position_analysis;
 mod sextic;
 mod symmetrical_four_bar;
 
-pub use assembly_mode::{AssemblyMode, DyadSet, MAX_DYADS, Side};
+pub use assembly_mode::{AssemblyMode, Side};
 pub use builder::LinkageBuilder;
 pub use cognate::{Cognate, CognateError, Cognates, MovingLink, PlacedFourBar};
 pub use error::Error;
@@ -35,14 +35,21 @@ pub use four_bar::{FourBar, FourBarClass};
 pub use id::{DyadId, JointId, LinkId};
 pub use input::Input;
 pub use joint::{Joint, JointKind, LineDirection};
-pub use kinematic_chain::{KinematicChain, SixBar};
+pub use kinematic_chain::SixBar;
 pub use link::Link;
 pub use motion_options::{BranchArc, CircuitSelection, CoincidentDyads, Continuation, MotionOptions};
-pub use outline::{LinkOutline, is_plate};
 pub use output_link::OutputLink;
 pub use planar_linkage::Linkage;
-pub use position_analysis::InvertedSliderCrank;
 pub use sextic::{DoublePoint, DoublePointKind, Sextic};
-pub use symmetrical_four_bar::SymmetricalFourBar;
+
+// For the other crates of the workspace only.
+#[doc(hidden)]
+pub use self::{
+    assembly_mode::{DyadSet, MAX_DYADS},
+    kinematic_chain::KinematicChain,
+    outline::{LinkOutline, is_plate},
+    position_analysis::InvertedSliderCrank,
+    symmetrical_four_bar::SymmetricalFourBar,
+};
 
 pub use crate::geometry::Orientation;

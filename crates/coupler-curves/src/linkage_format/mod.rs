@@ -14,14 +14,18 @@ mod schema;
 mod syntax_errors;
 mod toml_parser;
 
-pub use canonical::{canonical_toml, quoted, toml_number};
-pub use fields::{Fields, one_or_more};
-pub use linkage::{
-    CIRCUIT_SELECTIONS, CIRCUITS_KEY, COINCIDENT_DYADS, COINCIDENT_KEY, CONTINUATION_KEY, CONTINUATIONS,
-    check_identifier, parse_slug, parse_template,
+// For the other crates of the workspace only.
+#[doc(hidden)]
+pub use self::{
+    canonical::{canonical_toml, quoted, toml_number},
+    fields::{Fields, one_or_more},
+    linkage::{
+        CIRCUIT_SELECTIONS, CIRCUITS_KEY, COINCIDENT_DYADS, COINCIDENT_KEY, CONTINUATION_KEY, CONTINUATIONS,
+        check_identifier, parse_slug, parse_template,
+    },
+    schema::{KeySchema, TableSchema, ValueSchema, words},
+    toml_parser::{MAX_PROBLEMS, TomlParser, TomlValue},
 };
-pub use schema::{KeySchema, TableSchema, ValueSchema, words};
-pub use toml_parser::{MAX_PROBLEMS, TomlParser, TomlValue};
 
 use linkage::LINKAGE;
 
@@ -29,6 +33,7 @@ use crate::problem::Problem;
 use crate::template::Template;
 
 /// The key of `[[linkage]]` tables.
+#[doc(hidden)]
 pub const LINKAGES_KEY: KeySchema =
     KeySchema::new("linkage", ValueSchema::List(&LINKAGE_SCHEMA, [0, usize::MAX]), "Custom linkages, joint by joint.");
 static LINKAGE_SCHEMA: ValueSchema = ValueSchema::Table(&LINKAGE);

@@ -63,7 +63,6 @@ impl<T: MeasureValue> MeasureKey<T> {
 }
 
 /// What the value of a measure can be.
-#[doc(hidden)]
 pub trait MeasureValue: Copy {
     /// Whether it is a word.
     const IS_WORD: bool;

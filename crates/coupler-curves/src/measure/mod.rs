@@ -40,17 +40,24 @@ mod traced_curve;
 mod transmission;
 mod word_comparison;
 
-pub use column::{COLUMNS, Column, compute_columns, find_column};
-pub use definition::{Measure, MeasureKey, MeasureValue, Value};
+pub use definition::{Measure, MeasureKey, Value};
 pub use features::{Dwell, StraightCriterion, StraightPortion, Symmetry, SymmetryAxis};
 pub use measure_set::MeasureSet;
-pub use measures::{ALL, BOOLEANS, Boolean, compute_all};
-pub use output::output_limit_poses;
-pub use path::cumulative_lengths;
+pub use measures::{ALL, compute_all};
 pub use subject::Subject;
 pub use traced_curve::TracedCurve;
-pub use transmission::transmission_angle;
-pub use word_comparison::parse_condition;
+
+// For the other crates of the workspace only.
+#[doc(hidden)]
+pub use self::{
+    column::{COLUMNS, Column, compute_columns, find_column},
+    definition::MeasureValue,
+    measures::{BOOLEANS, Boolean},
+    output::output_limit_poses,
+    path::cumulative_lengths,
+    transmission::transmission_angle,
+    word_comparison::parse_condition,
+};
 
 use rounding::without_rounding;
 use traced_curve::start_input;

@@ -42,17 +42,23 @@ mod series;
 mod spacing;
 
 pub use assembly_error::AssemblyError;
-pub use circuit::{CircuitSet, UnsampledCircuit, find_circuits};
 pub use derivatives::JointDerivatives;
-pub use input_columns::InputSlices;
 pub use instantaneous_motion::InstantaneousMotion;
-pub use limits::{MAX_ASSEMBLY_MODES, MAX_CIRCUIT_BYTES, MAX_SAMPLES, SIZES};
-pub use memory::estimate_bytes;
 pub use pass::{InputPosition, Pass, PassEnd};
-pub use pieces::{CircuitPiece, CircuitPieces, InputMap};
-pub use positions::{DyadSigns, JointPositions, place_leading_joints};
+pub use positions::JointPositions;
 pub use sampling::{Circuit, Sampler, Sampling};
-pub use spacing::{eased_fraction, eased_input};
+
+// For the other crates of the workspace only.
+#[doc(hidden)]
+pub use self::{
+    circuit::{CircuitSet, UnsampledCircuit, find_circuits},
+    input_columns::InputSlices,
+    limits::{MAX_ASSEMBLY_MODES, MAX_CIRCUIT_BYTES, MAX_SAMPLES, SIZES},
+    memory::estimate_bytes,
+    pieces::{CircuitPiece, CircuitPieces, InputMap},
+    positions::{DyadSigns, place_leading_joints},
+    spacing::{eased_fraction, eased_input},
+};
 
 use crate::geometry::Point;
 use crate::linkage::{Joint, JointId, JointKind, Linkage};

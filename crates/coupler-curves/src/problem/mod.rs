@@ -7,7 +7,10 @@ mod report;
 mod suggestion;
 
 pub use report::report;
-pub use suggestion::{list_words, nearest_word, suggestion, suggestion_among};
+
+// For the other crates of the workspace only.
+#[doc(hidden)]
+pub use self::suggestion::{list_words, nearest_word, suggestion, suggestion_among};
 
 use std::ops::Range;
 

@@ -7,6 +7,10 @@ mod solved_cell;
 mod solver;
 
 pub use changed_cell::{ChangeError, ChangedCell, OriginalNumbers};
-pub use moved_point::{MovablePoint, MovedPointError, PointCoordinate};
+pub use moved_point::MovedPointError;
 pub use solved_cell::{MeasuredCurve, SolvedCell, Status};
 pub use solver::Solver;
+
+// For the other crates of the workspace only.
+#[doc(hidden)]
+pub use self::moved_point::{MovablePoint, PointCoordinate};

@@ -7,10 +7,15 @@ mod order;
 mod parameter;
 mod parameter_kinds;
 
-pub use input_value::InputValue;
 pub use joint_kind::{Coordinate, JointKindTemplate};
-pub use order::{DependencyCycle, dependency_order};
 pub use parameter::{Parameter, ParameterKind};
+
+// For the other crates of the workspace only.
+#[doc(hidden)]
+pub use self::{
+    input_value::InputValue,
+    order::{DependencyCycle, dependency_order},
+};
 
 use crate::expression::{Caption, CompiledExpression};
 use crate::linkage::{self, BranchArc, JointId, LinkageBuilder, MotionOptions};
