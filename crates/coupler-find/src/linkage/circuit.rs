@@ -2,7 +2,9 @@
 
 use crate::complex::Complex;
 use coupler_curves::linkage::{Input, JointId, Linkage};
-use coupler_curves::motion::{InputPosition, Pass, PassEnd, UnsampledCircuit, eased_fraction, eased_input, find_circuits, poses};
+use coupler_curves::motion::{
+    InputPosition, Pass, PassEnd, UnsampledCircuit, eased_fraction, eased_input, find_circuits, poses,
+};
 
 /// A traced joint of a linkage on one of its circuits.
 ///

@@ -232,7 +232,7 @@ pub fn find_linkages(
 fn condition(text: &str, sought: Option<&Sought>) -> PyResult<Condition> {
     let condition = match sought {
         Some(sought) => Condition::new(sought.space.template(), text),
-        None => Condition::new(&Mechanism::template(), text),
+        None => Condition::new(&coupler_find::Mechanism::template(), text),
     };
     condition.map_err(|error: expression::Error| {
         let help = if error.help.is_empty() { String::new() } else { format!("; {}", error.help) };
