@@ -444,6 +444,41 @@ fn parts_of_curves_are_found_again() {
     assert!(near[0] >= 6 && near[1] >= 7, "{near:?}");
 }
 
+/// The curves that are nearest to this path have detours between its points: the best answer is as long as may be.
+#[test]
+fn where_the_nearest_curves_are_too_long_others_are_found() {
+    let path = points(&[
+        (1.52, -0.13),
+        (1.37, 0.18),
+        (0.79, 0.45),
+        (-0.92, 0.50),
+        (-1.06, 0.34),
+        (-1.18, 0.09),
+        (-1.71, -0.17),
+        (-1.12, -0.30),
+        (-0.55, -0.19),
+        (0.45, -0.40),
+        (0.69, -0.35),
+        (1.43, -0.17),
+    ]);
+    let length = |curve: &[Point]| curve.iter().zip(curve.iter().cycle().skip(1)).map(|(a, b)| (b - a).norm()).sum();
+    let polygon: f64 = length(&path);
+    let answers = find(&path, Options::default());
+    // Without the limit the best becomes nearer, and longer.
+    let open = Target::new(&path, PathKind::Open).unwrap();
+    let longer =
+        Search::from_four_bar(&open, Options::default(), &answers[0].mechanism.four_bar).run(&Index::new()).remove(0);
+    let curve = samples(&longer.mechanism.four_bar, longer.mechanism.side, 5000);
+    assert!(longer.rms < answers[0].rms && length(&curve) > 1.0001 * polygon * answers[0].length_ratio);
+    // The curve of the lowest harmonics is a little longer than the polygon.
+    assert!(answers[0].rms_relative < 0.038 && answers[0].length_ratio > 1.1);
+    for answer in &answers {
+        let curve = samples(&answer.mechanism.four_bar, answer.mechanism.side, 5000);
+        assert!((length(&curve) / polygon - answer.length_ratio).abs() < 1e-3);
+        assert!(answer.length_ratio <= answers[0].length_ratio * (1.0 + 1e-9));
+    }
+}
+
 /// A part is as long as the path, of an open path only the points count.
 #[test]
 fn the_length_of_a_part_counts() {

@@ -1,6 +1,7 @@
 //! What a search fits linkages to: the target with centroid 0 and size 1, and the constraints.
 
 use crate::complex::{Complex, closed_length};
+use crate::four_bar::curve_length::LengthLimit;
 use crate::four_bar::index::SAMPLES;
 use crate::four_bar::limits::Limits;
 use crate::four_bar::matching::{Matching, nearest_samples};
@@ -40,7 +41,12 @@ impl Fitting {
         let placement = target.placement();
         let corner = |x: f64, y: f64| placement.preimage(Complex::new(x, y));
         let pivots = options.pivots.map(|b| [corner(b.min.x, b.min.y), corner(b.max.x, b.max.y)]);
+        let directions = directions(SAMPLES);
+        let greatest_length = target.greatest_length();
+        // What is not refined is not shortened either.
+        let has_limit = options.refine && target.kind() == PathKind::Closed;
         let limits = Limits {
+            length: has_limit.then(|| LengthLimit::new(greatest_length, &directions)),
             full_turn: options.full_turn,
             max_link: options.max_link,
             pivots,
@@ -51,9 +57,9 @@ impl Fitting {
             points: target.normalized(),
             polyline_length: target.polyline_length(),
             smooth_length: target.smooth_length(),
-            greatest_length: target.greatest_length(),
+            greatest_length,
             timing: target.angles_deg().map(Timing::both),
-            directions: directions(SAMPLES),
+            directions,
             target: target.clone(),
             limits,
         }
@@ -69,7 +75,10 @@ impl Fitting {
     pub fn begin(&self, linkage: &Parameters) -> Option<Refinement> {
         let linkage = self.limits.nearest(linkage, linkage.frame >= linkage.crank)?;
         let refinement = match &self.timing {
-            None => Refinement::new(linkage, &self.nearest_samples(&linkage)?, &self.points, None)?,
+            None => {
+                let poses = self.nearest_samples(&linkage)?;
+                Refinement::new(self.shortened(linkage, &poses[0])?, &poses, &self.points, None)?
+            }
             Some(both) => {
                 let samples = |timing: &Timing| {
                     let (sum, poses) = timing.nearest_samples(&linkage, &self.directions, &self.points)?;
@@ -77,10 +86,19 @@ impl Fitting {
                 };
                 let nearer = both.iter().filter_map(samples).min_by(|a, b| a.0.total_cmp(&b.0));
                 let (_, poses, timing) = nearer?;
-                Refinement::new(linkage, &poses, &self.points, Some(timing))?
+                Refinement::new(self.shortened(linkage, &poses[0])?, &poses, &self.points, Some(timing))?
             }
         };
-        Some(refinement).filter(|refinement| self.limits.meets_condition(&linkage, &refinement.poses[0]))
+        Some(refinement).filter(|refinement| self.limits.meets_condition(&refinement.linkage, &refinement.poses[0]))
+    }
+
+    /// The linkage near another one whose curve on the circuit of a pose is not too long.
+    fn shortened(&self, linkage: Parameters, pose: &Pose) -> Option<Parameters> {
+        let shortened = self.limits.length.as_ref().and_then(|limit| limit.shortened(&linkage, pose));
+        match shortened {
+            Some(shortened) => self.limits.nearest(&shortened, shortened.frame >= shortened.crank),
+            None => Some(linkage),
+        }
     }
 
     /// The samples of a linkage that are matched with the target, on the circuit and in the direction that are nearest to it.
@@ -124,13 +142,7 @@ impl Fitting {
 
     /// The samples of the circuit that a pose is on.
     pub fn circuit_of(&self, linkage: &Parameters, pose: &Pose) -> Vec<Pose> {
-        let distance = |circuit: &Vec<Pose>| {
-            let square =
-                |other: &Pose| (other.crank - pose.crank).norm_sqr() + (other.coupler - pose.coupler).norm_sqr();
-            circuit.iter().map(square).fold(f64::INFINITY, f64::min)
-        };
-        let circuits = linkage.circuits(&self.directions).into_iter();
-        circuits.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or_default()
+        linkage.circuit_of(pose, &self.directions)
     }
 
     /// The length of the whole curve.

@@ -2,6 +2,7 @@
 
 use crate::complex::{Complex, length, times_i};
 use crate::condition::Condition;
+use crate::four_bar::curve_length::LengthLimit;
 use crate::four_bar::parameters::{COUNT, FRAME, Parameters};
 use crate::four_bar::pose::Pose;
 use coupler_curves::geometry::Similarity;
@@ -23,6 +24,8 @@ pub(crate) struct Limits {
     pub condition: Option<Condition>,
     /// From the plane of these limits to that of the target.
     pub placement: Similarity,
+    /// The greatest length of the curve of a closed target.
+    pub length: Option<LengthLimit>,
 }
 
 /// Shorter links are not built: a hundredth of a millimetre in a path of ten.
@@ -32,7 +35,7 @@ const MIN_LINK: f64 = 1e-3;
 const MARGIN: f64 = 1e-9;
 
 /// A value that must not be negative, and its derivatives.
-type Constraint = (f64, Motion);
+pub(super) type Constraint = (f64, Motion);
 
 impl Limits {
     /// The constraints of a linkage; `is_frame_longer` than its crank, which a crank that turns fully never changes.
@@ -133,18 +136,20 @@ impl Limits {
     }
 
     /// The motion that minimizes a quadratic function, given by its factored matrix and by the motion to its minimum, as far
-    /// as the linearized constraints allow it. Their multipliers are found one after the other, round by round (Hildreth
-    /// 1957).
+    /// as the linearized constraints allow it, with a further one. Their multipliers are found one after the other, round by round
+    /// (Hildreth 1957).
     pub fn constrained_step(
         &self,
         linkage: &Parameters,
         is_frame_longer: bool,
+        further: Option<&Constraint>,
         (matrix, free): (&Cholesky<f64, Const<COUNT>>, Motion),
     ) -> Motion {
         const ROUNDS: usize = 60;
         /// The accuracy in sizes of the target; what remains is corrected after the step.
         const ACCURACY: f64 = 1e-12;
-        let constraints = self.constraints(linkage, is_frame_longer);
+        let mut constraints = self.constraints(linkage, is_frame_longer);
+        constraints.extend(further);
         if constraints.iter().all(|(value, rates)| value + rates.dot(&free) >= 0.0) {
             return free;
         }

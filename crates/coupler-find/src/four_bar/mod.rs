@@ -1,5 +1,6 @@
 //! Four-bars as candidates, in closed form: nine parameters, poses, the index of their curves, and the refinement under limits.
 
+mod curve_length;
 pub(crate) mod fitting;
 pub(crate) mod index;
 pub(crate) mod limits;

@@ -19,6 +19,8 @@ pub(crate) struct Refinement {
     pub sum: f64,
     pub descent: Descent,
     is_frame_longer: bool,
+    /// Whether the limit of the curve's length has been met.
+    is_long: bool,
     /// If the target is timed.
     timing: Option<Timing>,
 }
@@ -31,7 +33,7 @@ impl Refinement {
     pub fn new(linkage: Parameters, poses: &[Pose], target: &[Complex], timing: Option<Timing>) -> Option<Refinement> {
         let (poses, sum) = feet(&linkage, poses, target, timing.as_ref())?;
         let is_frame_longer = linkage.frame >= linkage.crank;
-        Some(Refinement { linkage, poses, sum, descent: Descent::default(), is_frame_longer, timing })
+        Some(Refinement { linkage, poses, sum, descent: Descent::default(), is_frame_longer, is_long: false, timing })
     }
 
     /// The timing in the direction that it follows, if the target is timed.
@@ -61,10 +63,7 @@ impl Refinement {
                 true => times_i(velocity) / speed.max(f64::MIN_POSITIVE),
                 false => offset / distance,
             };
-            // If a parameter opens the linkage, its angles close it by the shortest motion, which is regular at limits.
-            let [crank, coupler] = [0, 1].map(|k| dot(across, rates.by_angles[k]) * rates.closure[k]);
-            let closing = (crank + coupler) / rates.square;
-            equations.add(&row(linkage, pose, &rates, across, closing), dot(across, offset), 1.0);
+            equations.add(&row_of_curve(linkage, pose, &rates, across), dot(across, offset), 1.0);
         }
         equations
     }
@@ -109,15 +108,29 @@ impl Candidate for Refinement {
     }
 
     fn limited(&self, (_, limits): &Self::Aim<'_>, matrix: &Cholesky<f64, Const<COUNT>>, free: Motion) -> Motion {
-        limits.constrained_step(&self.linkage, self.is_frame_longer, (matrix, free))
+        let step = |length| limits.constrained_step(&self.linkage, self.is_frame_longer, length, (matrix, free));
+        let Some(limit) = &limits.length else { return step(None) };
+        let length = || Some(limit.constraint(&self.linkage, &self.poses[0]));
+        if self.is_long {
+            return step(length().as_ref());
+        }
+        // A step along the limit is nearer than one that crosses it and is shortened.
+        let motion = step(None);
+        let moved = self.linkage.moved(&motion.into());
+        if limit.shortened(&moved, &self.poses[0]).is_some() { step(length().as_ref()) } else { motion }
     }
 
     fn moved(&self, (target, limits): &Self::Aim<'_>, motion: &Motion) -> Option<Refinement> {
         let moved = self.linkage.moved(&(*motion).into());
-        let linkage = limits.nearest(&moved, self.is_frame_longer)?;
+        let mut linkage = limits.nearest(&moved, self.is_frame_longer)?;
+        let shortened = limits.length.as_ref().and_then(|limit| limit.shortened(&linkage, &self.poses[0]));
+        let is_long = self.is_long || shortened.is_some();
+        if let Some(shortened) = shortened {
+            linkage = Some(shortened).filter(|shortened| limits.are_satisfied(shortened))?;
+        }
         let (poses, sum) = feet(&linkage, &self.poses, target, self.timing.as_ref())?;
         let is_nearer = sum < self.sum && limits.meets_condition(&linkage, &poses[0]);
-        is_nearer.then(|| Refinement { linkage, poses, sum, timing: self.timing.clone(), ..*self })
+        is_nearer.then(|| Refinement { linkage, poses, sum, is_long, timing: self.timing.clone(), ..*self })
     }
 }
 
@@ -136,6 +149,13 @@ fn row(linkage: &Parameters, pose: &Pose, rates: &PoseRates, axis: Complex, clos
         dot(axis, pose.coupler),
         dot(axis, times_i(pose.coupler)),
     ]
+}
+
+/// The same where the curve passes, whatever the place of the point on it: if a parameter opens the linkage, its angles close it by the shortest
+/// motion, which is regular at limits.
+pub(crate) fn row_of_curve(linkage: &Parameters, pose: &Pose, rates: &PoseRates, axis: Complex) -> [f64; COUNT] {
+    let [crank, coupler] = [0, 1].map(|k| dot(axis, rates.by_angles[k]) * rates.closure[k]);
+    row(linkage, pose, rates, axis, (crank + coupler) / rates.square)
 }
 
 /// The feet of the target's points on the curve of a linkage near some poses, or where it is at their inputs if they are timed, and
