@@ -92,17 +92,15 @@ impl Parameters {
     }
 
     /// A linkage near this one, at random.
-    pub fn scattered(&self, scatter: &mut Scatter) -> Parameters {
-        /// The spread of the logarithms of lengths.
-        const SPREAD: f64 = 0.3;
-        let mut scaled = |length: f64| length * trig::exp(scatter.normal(SPREAD));
+    pub fn scattered(&self, scatter: &mut Scatter, spread: f64) -> Parameters {
+        let mut scaled = |length: f64| length * trig::exp(scatter.normal(spread));
         let [frame, crank, coupler, rocker] = [self.frame, self.crank, self.coupler, self.rocker].map(&mut scaled);
         let mut by = [0.0; COUNT];
-        by[0] = 0.3 * scatter.normal(SPREAD);
-        by[1] = 0.3 * scatter.normal(SPREAD);
-        by[2] = 0.5 * scatter.normal(SPREAD);
-        by[7] = length(self.point) * scatter.normal(SPREAD);
-        by[8] = length(self.point) * scatter.normal(SPREAD);
+        by[0] = 0.3 * scatter.normal(spread);
+        by[1] = 0.3 * scatter.normal(spread);
+        by[2] = 0.5 * scatter.normal(spread);
+        by[7] = length(self.point) * scatter.normal(spread);
+        by[8] = length(self.point) * scatter.normal(spread);
         Parameters { frame, crank, coupler, rocker, ..self.moved(&by) }
     }
 

@@ -75,7 +75,7 @@ const STEPS_AT_ONCE: usize = 4;
 /// The number of points for which an effort is measured. A path of fewer points is refined in less time, and has more minima that are
 /// not the least, as precision points do: more linkages are tried, up to this factor.
 const POINTS_OF_EFFORT: usize = 100;
-const MAX_MORE: usize = 4;
+const MAX_MORE: usize = 5;
 
 /// The parts of the starts that are refined in each round, and the steps of a round.
 const ROUNDS: [(usize, usize); 4] = [(1, 6), (3, 12), (8, 40), (20, 200)];
@@ -139,17 +139,18 @@ impl Search {
 
     fn start_count(&self) -> usize {
         let count = match self.options.effort {
-            Effort::Quick => 70,
-            Effort::Normal => 200,
-            Effort::Thorough => 800,
+            Effort::Quick => 35,
+            Effort::Normal => 100,
+            Effort::Thorough => 400,
         };
         // A portion is looked up once only.
         let count = if self.fitting.target.kind() == PathKind::Closed { count } else { 2 * count };
         count * (POINTS_OF_EFFORT / self.fitting.points.len()).clamp(1, MAX_MORE)
     }
 
+    /// Restarts are a third of the work, and find what no start has led to.
     fn restart_count(&self) -> usize {
-        self.start_count() / 10
+        self.start_count() * 3 / 5
     }
 
     fn lookup(&self, points: &[Complex]) -> Lookup {
@@ -191,6 +192,9 @@ impl Search {
         if !refinement.descent.is_done && steps < most {
             return Stage::Refine { round, place, steps };
         }
+        if round + 1 == ROUNDS.len() {
+            self.fitting.put_in_order(&mut self.refinements[place]);
+        }
         if self.fitting.has_valid_length(&self.refinements[place]) {
             return Stage::Refine { round, place: place + 1, steps: 0 };
         }
@@ -213,7 +217,9 @@ impl Search {
 
     fn choose_restarts(&mut self, count: usize) -> Stage {
         /// So many of the best have their cognates tried; then linkages near them.
-        const COGNATES: usize = 6;
+        const NEAR: usize = 8;
+        /// The spreads of these in turn: minima are near each other in some paths, and far apart in others.
+        const SPREADS: [f64; 4] = [0.15, 0.3, 0.6, 1.0];
         /// The mean square of the distances at which a target is met to rounding.
         const EXACT: f64 = 1e-16;
         let left_behind = self.keep_nearest(self.start_count() / ROUNDS[ROUNDS.len() - 1].0);
@@ -222,10 +228,11 @@ impl Search {
         if count == self.restart_count() || best.sum <= EXACT * self.fitting.points.len() as f64 {
             return Stage::Polish { place: 0, running: None };
         }
-        let near = self.refinements[count % self.refinements.len().min(COGNATES)].linkage;
-        let from = match count < COGNATES {
+        let near = self.refinements[count % self.refinements.len().min(NEAR)].linkage;
+        let spread = SPREADS[(count / NEAR) % SPREADS.len()];
+        let from = match count < NEAR {
             true => near.cognates(),
-            false => vec![near.scattered(&mut self.scatter), near.scattered(&mut self.scatter)],
+            false => vec![near.scattered(&mut self.scatter, spread), near.scattered(&mut self.scatter, spread)],
         };
         Stage::Restart { count: count + 1, from, running: None }
     }
@@ -242,6 +249,9 @@ impl Search {
         let is_hopeless = steps == PROMISING_STEPS && refinement.sum > promising;
         if !(refinement.descent.is_done || is_hopeless || steps == RESTART_STEPS) {
             return Stage::Restart { count, from, running: Some((refinement, steps)) };
+        }
+        if !is_hopeless {
+            self.fitting.put_in_order(&mut refinement);
         }
         // Those from before have been found valid.
         if self.fitting.has_valid_length(&refinement) {
@@ -291,20 +301,39 @@ impl Search {
         }
     }
 
-    /// Keeps the nearest refinements that are not alike; those that are left behind.
+    /// Keeps the nearest refinements with different curves; those that are left behind.
     fn keep_nearest(&mut self, most: usize) -> Vec<Refinement> {
-        /// Refinements that have found the same linkage differ by less than this.
-        const ALIKE: f64 = 1e-6;
+        /// The part of their distance from the target by which the curves of two refinements differ, if they are on their way to one linkage, as along a
+        /// valley in which links become longer and longer.
+        const ALIKE: f64 = 0.3;
         self.refinements.sort_by(|a, b| a.sum.total_cmp(&b.sum));
-        let is_alike = |a: &Refinement, b: &Refinement| {
-            (a.sum - b.sum).abs() <= ALIKE * b.sum && (a.linkage.frame - b.linkage.frame).abs() <= ALIKE
-        };
-        self.refinements.dedup_by(|a, b| is_alike(a, b));
-        self.refinements.split_off(most.max(1).min(self.refinements.len()))
+        let mut kept: Vec<(Vec<Complex>, Refinement)> = Vec::new();
+        let mut left_behind = Vec::new();
+        for refinement in self.refinements.drain(..) {
+            let feet = refinement.linkage.curve(&refinement.poses);
+            let alike = ALIKE * ALIKE * refinement.sum / feet.len() as f64;
+            let is_alike = |(other, _): &(Vec<Complex>, Refinement)| {
+                other.iter().zip(&feet).all(|(a, b)| (a - b).norm_sqr() <= alike)
+            };
+            match kept.len() < most.max(1) && !kept.iter().any(is_alike) {
+                true => kept.push((feet, refinement)),
+                false => left_behind.push(refinement),
+            }
+        }
+        self.refinements = kept.into_iter().map(|(_, refinement)| refinement).collect();
+        left_behind
     }
 }
 
 impl Fitting {
+    /// Matches the target's points with those of a linkage in their order, which feet that move each by itself may have lost: it would be
+    /// ranked before linkages that are nearer in order.
+    fn put_in_order(&self, refinement: &mut Refinement) {
+        if let Some(matching) = self.matching(refinement) {
+            (refinement.sum, refinement.poses) = (matching.sum, matching.poses);
+        }
+    }
+
     /// Takes some of the steps of a refinement, of which `taken` have been taken; how many have been taken then, `most` at most.
     fn advance(&self, refinement: &mut Refinement, taken: usize, most: usize) -> usize {
         let until = most.min(taken + STEPS_AT_ONCE);
