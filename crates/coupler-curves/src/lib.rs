@@ -55,7 +55,10 @@
 //! # Ok::<(), coupler_curves::linkage::Error>(())
 //! ```
 
+// For the other crates of the workspace only.
+#[doc(hidden)]
 pub mod numerical;
+#[doc(hidden)]
 pub mod text;
 
 pub mod geometry;

@@ -1,6 +1,6 @@
 //! Searches of the kernel find what the crate below it finds, in steps.
 
-use coupler_curves::geometry::{Point, trig};
+use coupler_curves::geometry::{Point, distance_to_segment, trig};
 use coupler_find::{AnswerRecord, Index, Options, PathKind, Search, Target, answers_manifest};
 use coupler_kernel::{Kernel, Response};
 use serde_json::{Value, json};
@@ -107,8 +107,10 @@ fn answers_are_those_of_the_program() {
                 // The curve passes the path at its deviation.
                 let [start, length] = [0, 1].map(|k| answer["curve"]["points"]["$"][k].as_u64().unwrap() as usize);
                 let curve = numbers_out[start..start + length].as_chunks::<2>().0;
+                let curve: Vec<Point> = curve.iter().map(|[x, y]| Point::new(*x, *y)).collect();
                 let distance = |p: &Point| {
-                    curve.iter().map(|[x, y]| (Point::new(*x, *y) - p).norm()).fold(f64::INFINITY, f64::min)
+                    let segments = curve.windows(2).map(|ends| distance_to_segment(*p, ends[0], ends[1]));
+                    segments.fold(f64::INFINITY, f64::min)
                 };
                 let greatest = points.iter().map(distance).fold(0.0, f64::max);
                 assert!(greatest < expected.greatest + 0.05 * target.size(), "{greatest}, {}", expected.greatest);

@@ -166,7 +166,7 @@ const CONSTANTS: [(&str, &str, &str, &str); 28] = [
     (
         "manifest",
         "| points in one grid of a joint | @ |",
-        "coupler-curves/src/linkage_format/joint_kinds.rs",
+        "coupler-curves/src/linkage_format/joint_values.rs",
         "MAX_GRID_POINTS",
     ),
     ("manifest", "| dyads of a linkage | @ |", "coupler-curves/src/linkage/assembly_mode.rs", "MAX_DYADS"),

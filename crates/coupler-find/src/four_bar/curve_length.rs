@@ -1,11 +1,9 @@
 //! The limit of the length of a curve: a closed path is not that of a curve with long detours from it.
 
 use crate::complex::{Complex, closed_length, length};
-use crate::four_bar::limits::{Constraint, Motion};
 use crate::four_bar::nearest_pose::PoseRates;
-use crate::four_bar::parameters::Parameters;
+use crate::four_bar::parameters::{Constraint, Motion, Parameters};
 use crate::four_bar::pose::Pose;
-use crate::four_bar::refinement::row_of_curve;
 use coupler_curves::geometry::Similarity;
 
 /// The greatest length of the whole curve of a linkage.
@@ -44,7 +42,7 @@ impl LengthLimit {
         for (k, pose) in circuit.iter().enumerate() {
             // A motion of the point along the chord to it makes the curve longer, and one along the chord from it shorter.
             let axis = chord(k) - chord(k + count - 1);
-            rates += Motion::from(row_of_curve(linkage, pose, &PoseRates::new(linkage, pose), axis));
+            rates += Motion::from(PoseRates::new(linkage, pose).row_of_curve(linkage, pose, axis));
         }
         (self.most - closed_length(&curve), rates)
     }

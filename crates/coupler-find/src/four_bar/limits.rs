@@ -3,13 +3,10 @@
 use crate::complex::{Complex, length, times_i};
 use crate::condition::Condition;
 use crate::four_bar::curve_length::LengthLimit;
-use crate::four_bar::parameters::{COUNT, FRAME, Parameters};
+use crate::four_bar::parameters::{COUNT, Constraint, FRAME, Motion, Parameters};
 use crate::four_bar::pose::Pose;
 use coupler_curves::geometry::Similarity;
-use nalgebra::{Cholesky, Const, SVector};
-
-/// A motion of the parameters.
-pub(crate) type Motion = SVector<f64, COUNT>;
+use nalgebra::{Cholesky, Const};
 
 /// The limits of a linkage, in sizes of the target.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,9 +30,6 @@ const MIN_LINK: f64 = 1e-3;
 
 /// What keeps a crank that turns fully off a change point, so that rounding does not take it there.
 const MARGIN: f64 = 1e-9;
-
-/// A value that must not be negative, and its derivatives.
-pub(super) type Constraint = (f64, Motion);
 
 impl Limits {
     /// The constraints of a linkage; `is_frame_longer` than its crank, which a crank that turns fully never changes.

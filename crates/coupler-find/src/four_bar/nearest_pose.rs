@@ -5,7 +5,7 @@
 //! crank's angle; only at a change point is it not smooth.
 
 use crate::complex::{Complex, dot, times_i};
-use crate::four_bar::parameters::Parameters;
+use crate::four_bar::parameters::{COUNT, Parameters};
 use crate::four_bar::pose::Pose;
 
 /// A linkage in a pose with its first derivatives.
@@ -32,6 +32,30 @@ impl PoseRates {
             closure,
             square: (closure[0] * closure[0] + closure[1] * closure[1]).max(f64::MIN_POSITIVE),
         }
+    }
+
+    /// The derivatives of the coupler point's coordinate in a direction by the parameters, if the linkage is closed by `closing` for
+    /// each unit of its closure.
+    pub fn row(&self, linkage: &Parameters, pose: &Pose, axis: Complex, closing: f64) -> [f64; COUNT] {
+        let by = |at: f64, closure: f64| at - closing * closure;
+        [
+            axis.re,
+            axis.im,
+            by(0.0, -linkage.frame * dot(self.arm, times_i(linkage.direction))),
+            by(0.0, -dot(self.arm, linkage.direction)),
+            by(dot(axis, pose.crank), dot(self.arm, pose.crank)),
+            by(0.0, dot(self.arm, pose.coupler)),
+            by(0.0, -linkage.rocker),
+            dot(axis, pose.coupler),
+            dot(axis, times_i(pose.coupler)),
+        ]
+    }
+
+    /// The same where the curve passes, whatever the place of the point on it: if a parameter opens the linkage, its angles close it by the
+    /// shortest motion, which is regular at limits.
+    pub fn row_of_curve(&self, linkage: &Parameters, pose: &Pose, axis: Complex) -> [f64; COUNT] {
+        let [crank, coupler] = [0, 1].map(|k| dot(axis, self.by_angles[k]) * self.closure[k]);
+        self.row(linkage, pose, axis, (crank + coupler) / self.square)
     }
 
     /// The direction of the curve of poses, of length 1.

@@ -5,12 +5,19 @@ use crate::four_bar::pose::Pose;
 use crate::scatter::Scatter;
 use coupler_curves::geometry::{Point, Similarity, Vector, trig};
 use coupler_curves::linkage::{Cognates, FourBar, PlacedFourBar};
+use nalgebra::SVector;
 
 /// The number of parameters of a placed four-bar with a coupler point.
 pub(crate) const COUNT: usize = 9;
 
 /// The places of the lengths among the parameters, see [`Parameters::moved`].
 pub(crate) const FRAME: usize = 3;
+
+/// A motion of the parameters.
+pub(crate) type Motion = SVector<f64, COUNT>;
+
+/// A value that must not be negative, and its derivatives.
+pub(crate) type Constraint = (f64, Motion);
 
 /// A four-bar with a coupler point, somewhere in the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,9 +2,9 @@
 
 use crate::complex::{Complex, dot, length, times_i};
 use crate::descent::{Candidate, Descent, Equations};
-use crate::four_bar::limits::{Limits, Motion};
+use crate::four_bar::limits::Limits;
 use crate::four_bar::nearest_pose::PoseRates;
-use crate::four_bar::parameters::{COUNT, Parameters};
+use crate::four_bar::parameters::{COUNT, Motion, Parameters};
 use crate::four_bar::pose::Pose;
 use crate::four_bar::timing::{self, Timing};
 use nalgebra::{Cholesky, Const};
@@ -63,7 +63,7 @@ impl Refinement {
                 true => times_i(velocity) / speed.max(f64::MIN_POSITIVE),
                 false => offset / distance,
             };
-            equations.add(&row_of_curve(linkage, pose, &rates, across), dot(across, offset), 1.0);
+            equations.add(&rates.row_of_curve(linkage, pose, across), dot(across, offset), 1.0);
         }
         equations
     }
@@ -81,7 +81,7 @@ impl Refinement {
             for axis in [Complex::new(1.0, 0.0), Complex::new(0.0, 1.0)] {
                 // At a given angle of the crank the coupler closes the linkage.
                 let closing = dot(axis, rates.by_angles[1]) / timing::closure_rate(&rates);
-                let row = row(linkage, pose, &rates, axis, closing);
+                let row = rates.row(linkage, pose, axis, closing);
                 let (distance, rate) = (dot(axis, offset), dot(axis, velocity));
                 equations.add(&row, distance, 1.0);
                 mixed.iter_mut().zip(&row).for_each(|(sum, entry)| *sum += entry * rate);
@@ -132,30 +132,6 @@ impl Candidate for Refinement {
         let is_nearer = sum < self.sum && limits.meets_condition(&linkage, &poses[0]);
         is_nearer.then(|| Refinement { linkage, poses, sum, is_long, timing: self.timing.clone(), ..*self })
     }
-}
-
-/// The derivatives of the coupler point's coordinate in a direction by the parameters, if the linkage is closed by `closing` for
-/// each unit of its closure.
-fn row(linkage: &Parameters, pose: &Pose, rates: &PoseRates, axis: Complex, closing: f64) -> [f64; COUNT] {
-    let by = |at: f64, closure: f64| at - closing * closure;
-    [
-        axis.re,
-        axis.im,
-        by(0.0, -linkage.frame * dot(rates.arm, times_i(linkage.direction))),
-        by(0.0, -dot(rates.arm, linkage.direction)),
-        by(dot(axis, pose.crank), dot(rates.arm, pose.crank)),
-        by(0.0, dot(rates.arm, pose.coupler)),
-        by(0.0, -linkage.rocker),
-        dot(axis, pose.coupler),
-        dot(axis, times_i(pose.coupler)),
-    ]
-}
-
-/// The same where the curve passes, whatever the place of the point on it: if a parameter opens the linkage, its angles close it by the shortest
-/// motion, which is regular at limits.
-pub(crate) fn row_of_curve(linkage: &Parameters, pose: &Pose, rates: &PoseRates, axis: Complex) -> [f64; COUNT] {
-    let [crank, coupler] = [0, 1].map(|k| dot(axis, rates.by_angles[k]) * rates.closure[k]);
-    row(linkage, pose, rates, axis, (crank + coupler) / rates.square)
 }
 
 /// The feet of the target's points on the curve of a linkage near some poses, or where it is at their inputs if they are timed, and
