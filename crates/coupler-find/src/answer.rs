@@ -6,7 +6,8 @@ use crate::quality::Quality;
 /// A coupler curve near a target, and the four-bars that trace it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
-    /// The four-bar to build: of those that meet the constraints the one with the best transmission angle.
+    /// The four-bar to build: of those that meet the constraints the one with the best transmission angle, and of two
+    /// with the same the one with shorter links.
     pub mechanism: Mechanism,
     /// Its cognates: the other four-bars that trace the same curve (Roberts and Chebyshev); none if the coupler point is a pin.
     pub cognates: Vec<Mechanism>,

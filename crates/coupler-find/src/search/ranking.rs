@@ -114,9 +114,8 @@ impl Fitting {
             true => self.mechanism(placed, &poses).into_iter().collect(),
             false => all.iter().filter_map(solve).collect(),
         };
-        let angle = |mechanism: &Mechanism| if mechanism.meets_constraints { mechanism.mu_worst_deg } else { f64::NAN };
         let best = (0..mechanisms.len()).filter(|k| mechanisms[*k].meets_constraints);
-        let best = best.reduce(|best, k| if angle(&mechanisms[k]) > angle(&mechanisms[best]) { k } else { best })?;
+        let best = best.reduce(|best, k| if is_better(&mechanisms[k], &mechanisms[best]) { k } else { best })?;
         mechanisms[..=best].rotate_right(1);
         let rms_relative = (matching.sum / self.points.len() as f64).sqrt();
         Some(Answer {
@@ -137,4 +136,13 @@ impl Fitting {
         mechanism.meets_constraints &= self.limits.are_nearly_satisfied(&normalized);
         Some(mechanism)
     }
+}
+
+/// Whether a four-bar leads an answer rather than its cognate: it transmits force better, or as well and has shorter links. Often two of three
+/// have the same worst angle but for rounding.
+fn is_better(one: &Mechanism, other: &Mechanism) -> bool {
+    /// In degrees.
+    const ROUNDING: f64 = 1e-6;
+    let difference = one.mu_worst_deg - other.mu_worst_deg;
+    difference > ROUNDING || difference.abs() <= ROUNDING && one.longest_link() < other.longest_link()
 }
