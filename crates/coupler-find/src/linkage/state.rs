@@ -27,7 +27,7 @@ pub(super) struct State {
 }
 
 /// The samples of a curve with which a target is matched.
-const SAMPLES: usize = 128;
+const SAMPLES: usize = 180;
 
 impl Aim {
     /// A curve that is matched with the target in order, anywhere on it.
@@ -147,6 +147,8 @@ impl State {
             let of_blocks = self.blocks.iter().zip(rates);
             of_blocks.flat_map(|(block, rates)| std::iter::repeat_n(*rates, block.points.len())).collect()
         };
-        Near { positions, rates: self.rates(aim).map(each), rounds }
+        // Where limits move, what is at a position does not change little.
+        let rates = self.rates(aim).filter(|_| self.traced.has_fixed_passes());
+        Near { positions, rates: rates.map(each), rounds }
     }
 }
