@@ -88,7 +88,7 @@ fn any_linkage_is_refused_or_measured() {
     measure_linkages(100);
 }
 
-/// In a process of its own, whose greatest memory is that of the linkages. `CORPUS_CHANGES=2000` measures 20,000.
+/// In a process of its own, whose greatest memory is that of the linkages. `CORPUS_CHANGES=2000` measures 10,000.
 #[test]
 #[ignore = "thorough"]
 fn any_linkage_is_measured_in_bounded_memory() {
@@ -101,7 +101,7 @@ fn any_linkage_is_measured_in_bounded_memory() {
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         return;
     }
-    measure_linkages(10 * change_count());
+    measure_linkages(5 * change_count());
     // Elsewhere it is only measured that none fails.
     let Ok(status) = fs::read_to_string("/proc/self/status") else { return };
     let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).expect("the peak of memory");

@@ -74,6 +74,7 @@ const NOT_RUN: [(&str, &str); 19] = [
     ("cargo bench", "takes minutes"),
     ("cargo bench --bench find", "takes minutes"),
     ("cargo bench --bench found", "takes minutes"),
+    ("cargo bench --bench unseen", "takes minutes"),
     ("cargo install --locked --path .", "builds the program, which has been built"),
     (
         "cargo tree -p PACKAGE -e normal --prefix none | sed 's/ (\\*)$//' | sort -u | wc -l",

@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | [`Bracket::zero`] of a function that changes its sign | as asked, to four units in the last place | about nine if it is smooth, three for each halving at most |
 //! | [`border`] of a condition that holds on one side | as asked, to neighbouring numbers | one for each halving |
-//! | [`maximum`], [`maximum_with_ends`] of a function that rises, then falls | as asked; of a smooth one to the root of its rounding | one for each part of 0.618 |
+//! | [`maximum()`], [`maximum_with_ends`] of a function that rises, then falls | as asked; of a smooth one to the root of its rounding | one for each part of 0.618 |
 //! | [`partition_point`] of indices, from a guess | exact | two for each doubling of the distance from the guess |
 //!
 //! [`equal_parts`] divides a row of segments, as those of a polyline, into parts of equal length.
