@@ -67,7 +67,7 @@ const SUBSTITUTED: [(&str, &[(&str, i32)]); 14] = [
 ];
 
 /// Commands that are not run, each with the reason.
-const NOT_RUN: [(&str, &str); 19] = [
+const NOT_RUN: [(&str, &str); 20] = [
     ("coupler-atlas render --watch --open", "it runs until it is interrupted: watching.rs"),
     ("cargo test", "this is it"),
     ("cargo build --release", "builds the program, which has been built"),
