@@ -6,6 +6,9 @@
 //! `KNOWN=FILE` the best that has been found is read from a file, and kept there, so that one version is compared with what others found. With
 //! `LIST=1` each target has a line. `JOBS=` is the number of threads.
 
+#[path = "../crates/coupler-find/tests/random/mod.rs"]
+mod random;
+
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::sync::Mutex;
@@ -20,6 +23,7 @@ use coupler_curves::measure::MeasureSet;
 use coupler_curves::solve::Solver;
 use coupler_curves::template::ParameterKind;
 use coupler_find::{Effort, Index, Options, PathKind, Search, Target};
+use random::Random;
 
 /// A random target: its points, what is asked for, and the four-bar that made it.
 struct Sought {
@@ -38,24 +42,7 @@ struct Outcome {
     seconds: f64,
 }
 
-/// Numbers from 0 to 1.
-struct Random(u64);
-
 impl Random {
-    fn number(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.number()
-    }
-
-    /// About normally distributed, with a standard deviation of 1.
-    fn normal(&mut self) -> f64 {
-        (0..12).map(|_| self.number()).sum::<f64>() - 6.0
-    }
-
     /// One of some values, each as likely as another.
     fn one_of<T: Copy>(&mut self, values: &[T]) -> T {
         values[((self.number() * values.len() as f64) as usize).min(values.len() - 1)]

@@ -1,6 +1,8 @@
 //! Searching for the linkage whose curve is nearest to a path: published targets, random linkages with and without noise,
 //! invariance, and wrong input. Answers are evaluated by a formula of their own.
 
+mod random;
+
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
@@ -10,6 +12,7 @@ use coupler_find::{
     Answer, Constraint, Effort, Index, MAX_LENGTH_RATIO, Options, PathKind, Search, Target, TargetError,
     nearest_miss_by,
 };
+use random::Random;
 
 static INDEX: LazyLock<Index> = LazyLock::new(|| Index::with_count(Index::DEFAULT_COUNT));
 
@@ -161,25 +164,6 @@ fn published_targets_are_met_as_well_as_is_known() {
     // On any circuit, of which each may be that of a triple-rocker.
     let any = find(&points(&YU2), Options { full_turn: false, ..Options::default() });
     assert!(any[0].rms <= 1.0005 * 0.5202, "{}", any[0].rms);
-}
-
-/// Numbers from 0 to 1 that are not those of the index.
-struct Random(u64);
-
-impl Random {
-    fn number(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.number()
-    }
-
-    /// About normally distributed, with a standard deviation of 1.
-    fn normal(&mut self) -> f64 {
-        (0..12).map(|_| self.number()).sum::<f64>() - 6.0
-    }
 }
 
 /// A random four-bar whose crank turns fully, in random position, size and direction, and its side.

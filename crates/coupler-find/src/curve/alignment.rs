@@ -9,7 +9,6 @@ use crate::descent::{Candidate, Descent, Equations};
 use crate::matching::{Block, feet_in_order, feet_of_points, squares};
 
 /// A curve on points, each of which is matched with a place of it.
-#[derive(Clone)]
 pub(crate) struct Alignment<'a> {
     path: &'a CurvePath,
     points: &'a [Complex],
@@ -90,24 +89,24 @@ impl Candidate for Alignment<'_> {
     }
 
     fn moved(&self, _: &(), by: &Vector4<f64>) -> Option<Self> {
-        let placed = Similarity {
-            factor: self.placed.factor + Complex::new(by[0], by[1]),
-            shift: self.placed.shift + Complex::new(by[2], by[3]),
-            ..self.placed
-        };
+        let placed = moved_similarity(&self.placed, [by[0], by[1], by[2], by[3]]);
         Alignment::new(self.path, self.points, placed, feet_of_points(&self.blocks))
     }
 }
 
 /// The directions in which the distance of a point counts: across the curve, if its foot follows the curve, or else both of the plane.
 pub(crate) fn axes(velocity: Complex, is_foot: bool) -> impl Iterator<Item = Complex> {
-    let both = [Complex::new(1.0, 0.0), Complex::new(0.0, 1.0)];
-    let (axes, count) = if is_foot { ([times_i(velocity) / length(velocity), both[1]], 1) } else { (both, 2) };
-    axes.into_iter().take(count)
+    let first = if is_foot { times_i(velocity) / length(velocity) } else { Complex::new(1.0, 0.0) };
+    std::iter::once(first).chain((!is_foot).then_some(Complex::new(0.0, 1.0)))
 }
 
 /// The derivatives of a placed point's coordinate in a direction by the factor and the shift of the similarity; the point is given after the
 /// reflection.
 pub(crate) fn similarity_rates(axis: Complex, reflected: Complex) -> [f64; 4] {
     [dot(axis, reflected), dot(axis, times_i(reflected)), axis.re, axis.im]
+}
+
+/// The similarity after a motion of its factor and its shift.
+pub(crate) fn moved_similarity(placed: &Similarity, [re, im, x, y]: [f64; 4]) -> Similarity {
+    Similarity { factor: placed.factor + Complex::new(re, im), shift: placed.shift + Complex::new(x, y), ..*placed }
 }

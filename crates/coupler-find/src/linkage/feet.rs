@@ -45,6 +45,8 @@ struct Moving {
     step: f64,
     /// Whether the derivatives are those at the position of this curve.
     has_exact_rates: bool,
+    /// Whether the step was too long, and is tried again, shorter.
+    is_shortened: bool,
 }
 
 /// The interval of positions from which derivatives are computed.
@@ -68,7 +70,7 @@ pub(super) fn feet(traced: &Traced, placed: &Similarity, points: &[Complex], nea
         None => with_rates(traced, &positions)?.into_iter().unzip(),
     };
     let mut feet: Vec<Foot> = positions.into_iter().zip(at).map(|(position, at)| Foot { position, at }).collect();
-    let all = (0..points.len()).map(|number| Moving { number, step: 0.0, has_exact_rates });
+    let all = (0..points.len()).map(|number| Moving { number, step: 0.0, has_exact_rates, is_shortened: false });
     let is_open = |moving: &mut Moving, feet: &[Foot], rates: &[Rates]| {
         let (foot, rates) = (&feet[moving.number], &rates[moving.number]);
         let step = newton_step(own[moving.number] - foot.at, rates, (perpendicular, scale));
@@ -87,12 +89,14 @@ pub(super) fn feet(traced: &Traced, placed: &Similarity, points: &[Complex], nea
         let mut unknown: Vec<usize> = Vec::new();
         for (k, (moving, at)) in open.iter_mut().zip(at).enumerate() {
             let (foot, own) = (&mut feet[moving.number], own[moving.number]);
+            moving.is_shortened = false;
             if (own - at).norm_sqr() < (own - foot.at).norm_sqr() {
                 rates[moving.number].advance(foot.at, at, moving.step);
                 *foot = Foot { position: foot.position + moving.step, at };
                 moving.has_exact_rates = false;
             } else if moving.has_exact_rates {
                 moving.step *= 0.25;
+                moving.is_shortened = true;
             } else {
                 unknown.push(k);
             }
@@ -102,15 +106,11 @@ pub(super) fn feet(traced: &Traced, placed: &Similarity, points: &[Complex], nea
             rates[open[*k].number] = exact;
             open[*k].has_exact_rates = true;
         }
-        let mut is_unknown = vec![false; open.len()];
-        unknown.into_iter().for_each(|k| is_unknown[k] = true);
-        let mut k = 0;
-        open.retain_mut(|moving| {
-            k += 1;
-            // A step that was too long is tried again, shorter.
-            let is_shorter = moving.has_exact_rates && !is_unknown[k - 1];
-            if is_shorter { moving.step.abs() > 1e-12 } else { is_open(moving, &feet, &rates) }
-        });
+        open.retain_mut(
+            |moving| {
+                if moving.is_shortened { moving.step.abs() > 1e-12 } else { is_open(moving, &feet, &rates) }
+            },
+        );
     }
     Some(feet)
 }

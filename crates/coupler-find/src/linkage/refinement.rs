@@ -8,7 +8,7 @@ use super::circuit::Traced;
 use super::space::LinkageSpace;
 use super::state::State;
 use crate::complex::{Complex, dot, length};
-use crate::curve::alignment::{axes, similarity_rates};
+use crate::curve::alignment::{axes, moved_similarity, similarity_rates};
 use crate::descent::{Candidate, Descent, Equations};
 use coupler_curves::geometry::{Similarity, trig};
 
@@ -196,14 +196,8 @@ impl Candidate for LinkageRefinement {
                 *entry = moved[n];
             }
             for (k, entry) in row[free..].iter_mut().enumerate() {
-                let mut other = *placed;
-                match k {
-                    0 => other.factor.re += STEP,
-                    1 => other.factor.im += STEP,
-                    2 => other.shift.re += STEP,
-                    3 => other.shift.im += STEP,
-                    _ => {}
-                }
+                let by = std::array::from_fn(|n| if n == k { STEP } else { 0.0 });
+                let other = moved_similarity(placed, by);
                 *entry = (aim.excesses(traced, &other)[n] - excess) / STEP;
             }
             equations.add(&row, -excess, weight);
@@ -212,14 +206,10 @@ impl Candidate for LinkageRefinement {
     }
 
     fn moved(&self, &Task { space, free, aim }: &Task<'_>, motion: &DVector<f64>) -> Option<LinkageRefinement> {
-        let by: Vec<f64> = motion.iter().copied().collect();
+        let by = motion.as_slice();
         let values = if free == 0 { self.values.clone() } else { space.moved(&self.values, &by[..free]) };
         let other = &by[free..];
-        let placed = Similarity {
-            factor: self.state.placed.factor + Complex::new(other[0], other[1]),
-            shift: self.state.placed.shift + Complex::new(other[2], other[3]),
-            ..self.state.placed
-        };
+        let placed = moved_similarity(&self.state.placed, [other[0], other[1], other[2], other[3]]);
         let traced = match free {
             0 => Some(self.state.traced.clone()),
             _ => {
