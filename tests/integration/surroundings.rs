@@ -75,15 +75,16 @@ fn the_environment_does_not_change_the_output() {
     assert_eq!(["svg", "png", "pdf", "csv", "json"].map(kind), [6, 6, 1, 6, 2]);
     let home = TempDir::new().unwrap();
     let home = home.path().to_str().unwrap();
-    let german = [("LANG", "de_DE.UTF-8"), ("LC_ALL", "de_DE.UTF-8"), ("LC_NUMERIC", "de_DE"), ("TZ", "Asia/Kolkata")];
-    let plain = [("LC_ALL", "C"), ("TZ", "America/St_Johns"), ("TERM", "dumb"), ("NO_COLOR", "1"), ("COLUMNS", "20")];
-    let turkish = [("LC_ALL", "tr_TR.UTF-8"), ("HOME", home), ("TMPDIR", home), ("TERM", "xterm-256color")];
-    let others = [
-        ("a/deeper/folder", "077", "2", &german[..]),
-        ("ümlaut and space", "002", "8", &plain[..]),
-        ("x", "000", "8", &turkish[..]),
-        ("y", "022", "3", &[("RAYON_NUM_THREADS", "1"), ("SOURCE_DATE_EPOCH", "1"), ("COLUMNS", "0")][..]),
+    let german = [
+        ("LANG", "de_DE.UTF-8"),
+        ("LC_ALL", "de_DE.UTF-8"),
+        ("LC_NUMERIC", "de_DE"),
+        ("TZ", "Asia/Kolkata"),
+        ("COLUMNS", "20"),
+        ("NO_COLOR", "1"),
     ];
+    let turkish = [("LC_ALL", "tr_TR.UTF-8"), ("HOME", home), ("TMPDIR", home), ("TERM", "xterm-256color")];
+    let others = [("a/deeper/folder", "077", "2", &german[..]), ("ümlaut and space", "000", "8", &turkish[..])];
     for (subfolder, mask, jobs, variables) in others {
         let (messages, files) = render(subfolder, mask, jobs, variables);
         assert!(messages == first.0, "{subfolder}: {}", String::from_utf8_lossy(&messages));

@@ -31,7 +31,7 @@ fn damage_anywhere_is_noticed_and_made_again() {
             let file = path.join(format).join("actuator").join(shard(table, 0, 2, format));
             let bytes = fs::read(&file).unwrap();
             // The last bytes are the length of the metadata, and the mark of the format.
-            for place in (4..bytes.len()).step_by(bytes.len() / 9).chain([bytes.len() - 1]) {
+            for place in (4..bytes.len()).step_by(bytes.len() / 4).chain([bytes.len() - 1]) {
                 let mut damaged = bytes.clone();
                 damaged[place] ^= 0xff;
                 fs::write(&file, &damaged).unwrap();
