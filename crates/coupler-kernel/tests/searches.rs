@@ -83,38 +83,37 @@ fn search(kernel: &mut Kernel, request: &Value, numbers: &[f64]) -> (String, Vec
 fn answers_are_those_of_the_program() {
     let (mut kernel, count) = kernel_with_index(3000);
     let index = Index::with_count(count);
-    for (kind, name, part) in [(PathKind::Closed, "closed", 1.0), (PathKind::Part, "part", 0.4)] {
-        for full_turn in [true, false] {
-            let numbers = path(60, part);
-            let (text, numbers_out, steps) = search(&mut kernel, &open_request(&numbers, name, full_turn), &numbers);
-            let found: Value = serde_json::from_str(&text).unwrap();
-            let points: Vec<Point> = numbers.as_chunks().0.iter().map(|&[x, y]| Point::new(x, y)).collect();
-            let target = Target::new(&points, kind).unwrap();
-            let options = Options { full_turn, most: 3, ..Options::default() };
-            let expected = Search::new(&target, options).run(&index);
-            assert!(!expected.is_empty(), "{name}");
-            assert_eq!(found["size"], target.size());
-            assert_eq!(found["manifest"], answers_manifest("bean", target.size(), &expected));
-            let answers = found["answers"].as_array().unwrap();
-            assert_eq!(answers.len(), expected.len());
-            for (rank, answer) in (1..).zip(&expected) {
-                // As text: numbers of JSON are not read to the last bit.
-                let record = serde_json::to_value(AnswerRecord::new(rank, answer)).unwrap();
-                assert!(text.contains(&format!("\"record\":{record}")), "{record}");
-            }
-            assert!(steps > 1000, "{steps} steps");
-            for (answer, expected) in answers.iter().zip(&expected) {
-                // The curve passes the path at its deviation.
-                let [start, length] = [0, 1].map(|k| answer["curve"]["points"]["$"][k].as_u64().unwrap() as usize);
-                let curve = numbers_out[start..start + length].as_chunks::<2>().0;
-                let curve: Vec<Point> = curve.iter().map(|[x, y]| Point::new(*x, *y)).collect();
-                let distance = |p: &Point| {
-                    let segments = curve.windows(2).map(|ends| distance_to_segment(*p, ends[0], ends[1]));
-                    segments.fold(f64::INFINITY, f64::min)
-                };
-                let greatest = points.iter().map(distance).fold(0.0, f64::max);
-                assert!(greatest < expected.greatest + 0.05 * target.size(), "{greatest}, {}", expected.greatest);
-            }
+    for (kind, name, part, full_turn) in [(PathKind::Closed, "closed", 1.0, true), (PathKind::Part, "part", 0.4, false)]
+    {
+        let numbers = path(60, part);
+        let (text, numbers_out, steps) = search(&mut kernel, &open_request(&numbers, name, full_turn), &numbers);
+        let found: Value = serde_json::from_str(&text).unwrap();
+        let points: Vec<Point> = numbers.as_chunks().0.iter().map(|&[x, y]| Point::new(x, y)).collect();
+        let target = Target::new(&points, kind).unwrap();
+        let options = Options { full_turn, most: 3, ..Options::default() };
+        let expected = Search::new(&target, options).run(&index);
+        assert!(!expected.is_empty(), "{name}");
+        assert_eq!(found["size"], target.size());
+        assert_eq!(found["manifest"], answers_manifest("bean", target.size(), &expected));
+        let answers = found["answers"].as_array().unwrap();
+        assert_eq!(answers.len(), expected.len());
+        for (rank, answer) in (1..).zip(&expected) {
+            // As text: numbers of JSON are not read to the last bit.
+            let record = serde_json::to_value(AnswerRecord::new(rank, answer)).unwrap();
+            assert!(text.contains(&format!("\"record\":{record}")), "{record}");
+        }
+        assert!(steps > 1000, "{steps} steps");
+        for (answer, expected) in answers.iter().zip(&expected) {
+            // The curve passes the path at its deviation.
+            let [start, length] = [0, 1].map(|k| answer["curve"]["points"]["$"][k].as_u64().unwrap() as usize);
+            let curve = numbers_out[start..start + length].as_chunks::<2>().0;
+            let curve: Vec<Point> = curve.iter().map(|[x, y]| Point::new(*x, *y)).collect();
+            let distance = |p: &Point| {
+                let segments = curve.windows(2).map(|ends| distance_to_segment(*p, ends[0], ends[1]));
+                segments.fold(f64::INFINITY, f64::min)
+            };
+            let greatest = points.iter().map(distance).fold(0.0, f64::max);
+            assert!(greatest < expected.greatest + 0.05 * target.size(), "{greatest}, {}", expected.greatest);
         }
     }
 }
