@@ -3,9 +3,9 @@
 use coupler_curves::linkage::{FourBar, PlacedFourBar};
 use coupler_curves::linkage_format::toml_number;
 use coupler_curves::template::ParameterKind;
-use coupler_find::{LinkageSpace, Mechanism, Quality, format_length as number, format_relative as relative};
-
-use super::PlacedCurve;
+use coupler_find::{
+    LinkageSpace, Mechanism, PlacedCurve, Quality, format_length as number, format_relative as relative,
+};
 
 /// How near a curve is to a target of a size: "E = 0.0052 S = 0.12, close".
 pub fn deviation(PlacedCurve { fit, .. }: &PlacedCurve, size: f64) -> String {

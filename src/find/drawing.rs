@@ -6,10 +6,10 @@ use coupler_curves::linkage_format::quoted;
 use coupler_curves::solve::Solver;
 use coupler_drawing::page::{self, AnswersPage, FoundCurve, Options, Paper};
 use coupler_drawing::render::{self, TextMode};
-use coupler_find::{Answer, LinkageSpace, Target, format_length as number, format_relative as relative};
+use coupler_find::{Answer, LinkageSpace, PlacedCurve, Target, format_length as number, format_relative as relative};
 
 use super::description::{deviation, dimensions, parameters, placement};
-use super::{AtlasFindings, LinkageFindings, PlacedCurve};
+use super::{AtlasFindings, LinkageFindings};
 use crate::manifest::Plan;
 
 /// The most curves of a drawing: more of them hide each other.

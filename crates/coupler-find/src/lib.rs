@@ -41,6 +41,7 @@
 
 mod complex;
 mod scatter;
+mod workers;
 
 mod condition;
 mod curve_fit_options;
@@ -71,8 +72,7 @@ pub use curve::{CurveFit, CurveFitter, CurveIndex, CurveLookup, CurveShape};
 pub use curve_fit_options::CurveFitOptions;
 pub use four_bar::{Index, IndexPart, Mechanism, placed_parameters};
 pub use linkage::{
-    LinkageFit, LinkageRefinement, LinkageSearch, LinkageSpace, LinkageSpaceError, SampleCurve, SampleIndex,
-    SampleShape, is_scalable, longest_link, pivots_of, scaled_values,
+    LinkageAnswer, LinkageSearch, LinkageSpace, LinkageSpaceError, PlacedCurve, distinct, is_scalable, scaled_values,
 };
 pub use options::{Effort, Options};
 pub use quality::Quality;
@@ -81,3 +81,4 @@ pub use report::{
 };
 pub use search::{Constraint, Ranking, Search, nearest_miss, nearest_miss_by};
 pub use target::{MAX_LENGTH_RATIO, PathKind, Target, TargetError};
+pub use workers::{OneAtATime, Workers};

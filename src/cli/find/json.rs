@@ -2,9 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::find::PlacedCurve;
 use coupler_curves::template::Template;
-use coupler_find::{AnswerRecord, FitRecord, PathKind, scaled_values};
+use coupler_find::{AnswerRecord, FitRecord, PathKind, PlacedCurve, scaled_values};
 use serde::Serialize;
 
 use super::super::report;

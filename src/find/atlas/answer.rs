@@ -1,8 +1,7 @@
 //! What is asked of the curves of an atlas, and what is found.
 
-use coupler_find::{Answer, Options, scaled_values};
+use coupler_find::{Answer, Options, PlacedCurve, scaled_values};
 
-use super::super::placed_curve::PlacedCurve;
 use crate::manifest::Plan;
 
 /// What the curves of an atlas must satisfy.

@@ -10,11 +10,10 @@ use std::sync::atomic::AtomicBool;
 use coupler_curves::exchange::{ParameterSet, manifest_families};
 use coupler_find::{
     Answer, Condition, Constraint, Index, Mechanism, Options, Search, Target, answer_families, answers_manifest,
-    manifest_head,
+    distinct, manifest_head,
 };
 use rayon::prelude::*;
 
-use super::placed_curve::distinct;
 use super::{Error, description};
 use crate::manifest::Plan;
 use search::AtlasOptions;

@@ -9,11 +9,10 @@ use coupler_curves::geometry::{Bounds, Point};
 use coupler_curves::measure::{self, MeasureSet};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell, Solver};
 use coupler_find::{
-    Constraint, CurveFitOptions, CurveFitter, CurveIndex, CurveLookup, CurveShape, Target, is_scalable,
+    Constraint, CurveFitOptions, CurveFitter, CurveIndex, CurveLookup, CurveShape, PlacedCurve, Target, is_scalable,
 };
 
 use super::super::Error;
-use super::super::placed_curve::{PlacedCurve, REPORTED};
 use super::answer::{AtlasAnswer, AtlasQuery};
 use crate::manifest::Plan;
 use crate::sweep::{self, CellGroups, CellIndices};
@@ -174,7 +173,7 @@ fn is_kept(
 /// The measures that are needed of the curves of a family.
 fn requested_measures(family: &Family, condition: Option<&CompiledExpression>) -> MeasureSet {
     let used = condition.map_or(MeasureSet::EMPTY, |condition| family.measures_in(condition));
-    REPORTED | family.selection_measures() | used
+    PlacedCurve::MEASURES | family.selection_measures() | used
 }
 
 /// Solves cells on all threads, and receives the results in order.

@@ -3,14 +3,14 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use coupler_atlas::find::{LinkageAnswer, find_linkage};
+use coupler_atlas::find::find_linkage;
 use coupler_curves::catalogue;
 use coupler_curves::family::{Family, Sampling};
 use coupler_curves::geometry::{Point, trig};
 use coupler_curves::measure::MeasureSet;
 use coupler_curves::solve::{MeasuredCurve, Solver};
 use coupler_curves::template::{ParameterKind, Template};
-use coupler_find::{LinkageSpace, Options, PathKind, Target};
+use coupler_find::{LinkageAnswer, LinkageSpace, Options, PathKind, Target};
 
 /// Random numbers from 0 to 1.
 pub struct Random(pub u64);

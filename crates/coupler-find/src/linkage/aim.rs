@@ -122,7 +122,7 @@ impl Aim {
 }
 
 /// The joints of the link at rest that are on another one.
-pub fn pivots_of(linkage: &Linkage) -> impl Iterator<Item = JointId> {
+pub(super) fn pivots_of(linkage: &Linkage) -> impl Iterator<Item = JointId> {
     let ground = linkage.ground();
     let is_pivot = |joint: &JointId| {
         linkage.links.iter().any(|link| !std::ptr::eq(link, ground) && link.position(*joint).is_some())
@@ -131,7 +131,7 @@ pub fn pivots_of(linkage: &Linkage) -> impl Iterator<Item = JointId> {
 }
 
 /// The greatest distance of two joints of a link.
-pub fn longest_link(linkage: &Linkage) -> f64 {
+pub(super) fn longest_link(linkage: &Linkage) -> f64 {
     linkage.links.iter().map(|link| longest(&link.joints)).fold(0.0, f64::max)
 }
 

@@ -7,9 +7,12 @@
 //! derivatives are differences of solved curves. Of a circuit, its passes are kept in each step.
 
 mod aim;
+mod answer;
 mod circuit;
 mod feet;
+mod fitting;
 mod measured;
+mod placed_curve;
 mod refinement;
 mod samples;
 mod scaling;
@@ -18,9 +21,8 @@ mod space;
 mod state;
 mod timed;
 
-pub use aim::{longest_link, pivots_of};
-pub use refinement::LinkageRefinement;
-pub use samples::{SampleCurve, SampleIndex, SampleShape};
+pub use answer::LinkageAnswer;
+pub use placed_curve::{PlacedCurve, distinct};
 pub use scaling::{is_scalable, scaled_values};
-pub use search::{LinkageFit, LinkageSearch};
+pub use search::LinkageSearch;
 pub use space::{LinkageSpace, LinkageSpaceError};

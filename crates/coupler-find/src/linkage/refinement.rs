@@ -14,7 +14,7 @@ use coupler_curves::geometry::{Similarity, trig};
 
 /// A linkage on its way to the target.
 #[derive(Clone, Debug)]
-pub struct LinkageRefinement {
+pub(super) struct LinkageRefinement {
     pub(super) values: Vec<f64>,
     /// The number of the traced joint, from 0.
     pub(super) trace: usize,

@@ -4,7 +4,7 @@ use crate::curve::index::{CurveIndex, CurveShape};
 
 /// A curve of the samples of a search: the number of the parameter set, from 0, the traced joint and the circuit, from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct SampleCurve {
+pub(super) struct SampleCurve {
     /// The number of the parameter set, from 0.
     pub sample: u32,
     /// The number of the traced joint, from 0.
@@ -15,7 +15,7 @@ pub struct SampleCurve {
 
 /// How a curve of a sample is described for comparison.
 #[derive(Clone, Copy)]
-pub enum SampleShape {
+pub(super) enum SampleShape {
     /// Its shape.
     Free(CurveShape),
     /// Of a timed target, the sum of the squares of the distances at the inputs of some points, where it is least.
@@ -24,7 +24,7 @@ pub enum SampleShape {
 
 /// The shapes of a search's curves, and which they are.
 #[derive(Default)]
-pub struct SampleIndex {
+pub(super) struct SampleIndex {
     pub(super) curves: Vec<SampleCurve>,
     pub(super) shapes: CurveIndex,
     /// Of a timed target the sums of squares, and the numbers of their curves.
@@ -46,10 +46,5 @@ impl SampleIndex {
     /// The number of curves.
     pub fn len(&self) -> usize {
         self.curves.len()
-    }
-
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.curves.is_empty()
     }
 }

@@ -1,354 +1,319 @@
-//! The steps of a search for the dimensions of a linkage, each for itself, so that many can be taken at once.
+//! The search for dimensions: from the curves of samples that are most like the target to the linkages whose curves are nearest to it.
 
-use super::aim::Aim;
-use super::circuit::Traced;
-use super::measured::Measured;
-use super::refinement::{FINAL_ROUNDS, LinkageRefinement};
+use super::answer::LinkageAnswer;
+use super::fitting::{LinkageFit, LinkageFitting};
+use super::placed_curve::{PlacedCurve, distinct};
+use super::refinement::LinkageRefinement;
 use super::samples::{SampleCurve, SampleIndex, SampleShape};
 use super::space::LinkageSpace;
-use super::timed;
-
-use crate::complex::Complex;
-use crate::curve::fit::CurveFit;
-use crate::curve::index::{CurveLookup, CurveShape};
-use crate::curve_fit_options::CurveFitOptions;
-use crate::matching::squares;
-use crate::options::Options;
-use crate::query::Query;
-use crate::scatter::Scatter;
-use crate::shape::spectrum::Transform;
+use crate::options::{Effort, Options};
 use crate::target::{PathKind, Target};
-use coupler_curves::geometry::{Point, Similarity};
-use coupler_curves::linkage::CircuitSelection;
-use coupler_curves::motion::find_circuits;
+use crate::workers::Workers;
+use coupler_curves::family::{Family, Sampling};
+use coupler_curves::solve::{SolvedCell, Solver};
 
-/// A search for the dimensions of a linkage whose curve is nearest to a target, in steps that do not depend on each other.
+/// A search for the dimensions of a linkage for which its curve is nearest to a target, in steps. The answers do not depend on how many
+/// parts are done at once.
+///
+/// ```
+/// use coupler_curves::catalogue;
+/// use coupler_find::{LinkageSearch, LinkageSpace, OneAtATime, Options, Target};
+///
+/// let at = |k: i32| f64::from(6 * k).to_radians();
+/// let points: Vec<_> = (0..60).map(at).map(|t| [2.0 * t.cos(), 0.8 * t.sin()].into()).collect();
+/// let target = Target::closed(&points).unwrap();
+/// let space = LinkageSpace::new(catalogue::find("slider-crank").unwrap(), &[]).unwrap();
+/// let mut search = LinkageSearch::new(&space, &target, &Options::default(), Some(200));
+/// while search.step(&OneAtATime) {}
+/// println!("{:.4} of the path's size", search.answers(&OneAtATime)[0].curve.fit.rms_relative);
+/// ```
 pub struct LinkageSearch {
-    space: LinkageSpace,
-    aim: Aim,
-    query: Query,
-    transform: Transform,
-    /// Whether the input must turn fully, and where it does, it has no change points and the circuit is the only one.
-    is_simple: bool,
+    fitting: LinkageFitting,
+    options: Options,
+    points: usize,
+    /// The parameter sets that are wanted, and those that are found to have a curve.
+    samples: usize,
+    found: usize,
+    index: SampleIndex,
+    curves: usize,
+    starts: usize,
+    refinements: Vec<LinkageRefinement>,
+    stage: Stage,
 }
 
-/// Dimensions of a linkage, and how the curve fits the target.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LinkageFit {
-    /// The values of the parameters, in the unit of the target if the linkage is scalable.
-    pub values: Vec<f64>,
-    /// The numbers of the traced joint and of the circuit, from 1.
-    pub curve: [usize; 2],
-    /// Where the curve is on the target, and how near.
-    pub fit: CurveFit,
-    /// The branch at the first point of the target: the side of the first two-valued joint, 1 left or -1 right.
-    pub branch: i8,
-    /// The input at the first and at the last point of the target: degrees, or a length.
-    pub inputs: [f64; 2],
+/// What the next step does.
+enum Stage {
+    /// Takes samples, from a number on.
+    Sample {
+        next: usize,
+    },
+    /// Begins with the curves that are most like the target.
+    Begin {
+        candidates: Vec<SampleCurve>,
+        next: usize,
+    },
+    /// Places the curves of refinements, from one on.
+    Place {
+        next: usize,
+    },
+    /// Refines them in a round; in the last place those that have been.
+    Refine {
+        round: usize,
+        next: usize,
+        refined: Vec<LinkageRefinement>,
+    },
+    /// Begins again near the best in a round.
+    Restart {
+        round: u64,
+        next: usize,
+        from: Vec<LinkageRefinement>,
+        best: f64,
+    },
+    Done,
 }
 
-/// The points of a curve of which the shape is computed.
-const POINTS: usize = 128;
+/// The most curves of all parameter sets together.
+const MAX_CURVES: usize = 8_000_000;
 
-/// The least part of a curve that may be like an open target before it is refined.
-const LEAST_PORTION: f64 = 0.05;
+/// Linkages whose circuits are found slowly have so many times fewer starts.
+const SLOWER: usize = 3;
+
+/// The curves that are found in a step at most, and how many parameter sets are tried for each that is wanted: others cannot be assembled, or
+/// their input does not turn.
+const CURVES_PER_STEP: usize = 1024;
+const TRIES: usize = 8;
+const SLOW_TRIES: usize = 2;
+
+/// The curves with which refinements are begun in a step at most.
+const BEGUN_PER_STEP: usize = 64;
+
+/// The parts of the starts that are refined in each round, and the steps of a round.
+const ROUNDS: [(usize, usize); 4] = [(2, 6), (4, 12), (8, 40), (20, 150)];
+
+/// The steps in which the curves are placed before.
+const PLACING_STEPS: usize = 10;
+
+/// The rounds of restarts, the part of the starts in each, and the nearest that are begun from.
+const RESTART_ROUNDS: u64 = 3;
+const RESTART_PART: usize = 5;
+const NEAREST: usize = 6;
+
+/// The samples of a circuit of an answer, as a family has them.
+const SAMPLES: usize = 360;
 
 impl LinkageSearch {
-    /// Begins a search. The condition of the options must be one of the linkage's.
-    pub fn new(space: &LinkageSpace, target: &Target, options: &Options) -> LinkageSearch {
-        let mut search = LinkageSearch {
-            aim: Aim::new(space, target, options),
-            query: Query::new(target.kind(), &target.normalized()),
-            transform: Transform::new(),
-            space: space.clone(),
-            is_simple: false,
+    /// The most parameter sets in which a path is looked up.
+    pub const MAX_SAMPLES: usize = 1_000_000;
+
+    /// Begins a search in a number of parameter sets, or in one that depends on the linkage. The condition of the options must be one of
+    /// the linkage's.
+    pub fn new(space: &LinkageSpace, target: &Target, options: &Options, samples: Option<usize>) -> LinkageSearch {
+        let fitting = LinkageFitting::new(space, target, options);
+        let samples = samples.unwrap_or_else(|| fitting.default_samples()).min(LinkageSearch::MAX_SAMPLES);
+        // Few parameters have few minima.
+        let starts = start_count(target, options).min(samples / 10);
+        LinkageSearch {
+            starts: if fitting.is_slow() { starts.div_ceil(SLOWER) } else { starts },
+            options: options.clone(),
+            points: target.points().len(),
+            samples,
+            found: 0,
+            index: SampleIndex::default(),
+            curves: 0,
+            refinements: Vec::new(),
+            stage: Stage::Sample { next: 0 },
+            fitting,
+        }
+    }
+
+    /// Takes a step, of some milliseconds for each part; false if nothing is left to do.
+    pub fn step(&mut self, workers: &impl Workers) -> bool {
+        self.stage = match std::mem::replace(&mut self.stage, Stage::Done) {
+            Stage::Sample { next } => self.sample(next, workers),
+            Stage::Begin { candidates, next } => self.begin(candidates, next, workers),
+            Stage::Place { next } => self.place(next, workers),
+            Stage::Refine { round, next, refined } => self.refine(round, next, refined, workers),
+            Stage::Restart { round, next, from, best } => self.restart((round, next), from, best, workers),
+            Stage::Done => Stage::Done,
         };
-        search.is_simple = search.has_simple_circuits();
-        search
+        !matches!(self.stage, Stage::Done)
     }
 
-    /// Whether the first samples whose input turns fully have no change points.
-    fn has_simple_circuits(&self) -> bool {
-        /// The samples that turn, and those among which they are sought.
-        const ENOUGH: usize = 16;
-        const MOST: usize = 200;
-        let template = self.space.template();
-        if !self.aim.full_turn || template.circuits != CircuitSelection::Start || template.input.is_some() {
-            return false;
-        }
-        let turning = (0..MOST).filter_map(|sample| {
-            let (_, _, traced) = self.traced(&self.space.sample(sample)?).into_iter().next()?;
-            Some(traced.has_fixed_passes())
-        });
-        let mut count = 0;
-        let are_simple = turning.take(ENOUGH).inspect(|_| count += 1).all(|is_simple| is_simple);
-        are_simple && count > 0
+    /// The number of curves in which the target has been looked up.
+    pub fn curve_count(&self) -> usize {
+        self.curves
     }
 
-    /// The default number of parameter sets: for few parameters fewer fill their ranges, and those of linkages that take long or trace many
-    /// joints are fewer.
-    pub fn default_samples(&self) -> usize {
-        const MOST: usize = 10_000;
-        const LEAST: usize = 500;
-        /// Of many traced joints together.
-        const MOST_CURVES: usize = 200_000;
-        /// For so many dyads more all circuits take as many times as long as there are modes.
-        const MODES: u32 = 4;
-        let template = self.space.template();
-        let dimension = self.space.dimension() - usize::from(self.space.is_scalable && self.space.dimension() > 1);
-        let mut samples = (250 * dimension * dimension).clamp(LEAST, MOST);
-        if self.is_slow() {
-            let dyads = template.structure().map_or(0, |linkage| linkage.dyad_count()) as u32;
-            let modes = if template.circuits == CircuitSelection::All { dyads.saturating_sub(2).min(MODES) } else { 0 };
-            samples = samples.div_ceil(2 << modes);
-        }
-        samples.min((MOST_CURVES / template.curve_count().max(1)).max(1))
+    /// The answers that have been found so far, the nearest first. Those whose curves are the same to a thousandth of the target's size are one.
+    pub fn answers(&self, workers: &impl Workers) -> Vec<LinkageAnswer> {
+        let mut refinements: Vec<&LinkageRefinement> = self.refinements.iter().collect();
+        refinements.sort_by(|a, b| a.sum().total_cmp(&b.sum()));
+        let fits = workers.map(refinements, |refinement| self.fitting.fit(refinement));
+        let mut fits: Vec<LinkageFit> = fits.into_iter().flatten().collect();
+        fits.sort_by(|a, b| a.fit.rms.total_cmp(&b.fit.rms));
+        let answers = fits.into_iter().filter_map(|fit| answer(fit, self.fitting.space()));
+        distinct(answers, |answer| &answer.curve, self.fitting.target(), self.options.most)
     }
 
-    /// Whether it takes long to find the circuits: limits of a chain of dyads are searched for.
-    pub fn is_slow(&self) -> bool {
-        let dyads = self.space.template().structure().map_or(0, |linkage| linkage.dyad_count());
-        !self.is_simple && dyads > 1
-    }
-
-    /// The linkage and its parameters.
-    pub fn space(&self) -> &LinkageSpace {
-        &self.space
-    }
-
-    /// The curves of a parameter set that satisfy what does not depend on their place, without the condition: it may take long.
-    pub fn curves(&self, sample: usize) -> Vec<(SampleCurve, SampleShape)> {
-        let Some(values) = self.space.sample(sample) else { return Vec::new() };
-        let mut found = Vec::new();
-        let traced = if self.is_simple { self.simply_traced(&values) } else { self.traced(&values) };
-        for (trace, circuit, traced) in traced {
-            let shape = match &self.aim.angles_deg {
-                None => self.shape(&traced).map(SampleShape::Free),
-                Some(_) => timed::best(&self.aim, &traced).map(|best| SampleShape::Timed(best.sum)),
-            };
-            let curve = SampleCurve { sample: sample as u32, trace: trace as u32, circuit: circuit as u32 };
-            found.extend(shape.map(|shape| (curve, shape)));
-        }
-        found
-    }
-
-    /// The curves of an index that are most like the target, the likeliest first, at most so many.
-    pub fn most_alike(&self, index: &SampleIndex, most: usize) -> Vec<SampleCurve> {
-        if self.aim.angles_deg.is_some() {
-            let mut sums = index.sums.clone();
-            sums.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-            return sums.iter().take(most).map(|(_, number)| index.curves[*number]).collect();
-        }
-        let options = CurveFitOptions { least_portion: LEAST_PORTION, ..CurveFitOptions::default() };
-        let mut lookup = CurveLookup::new(&self.aim.target, options, most);
-        lookup.compare(&index.shapes, 0..index.shapes.len());
-        // The points of samples are not kept for a closer comparison.
-        lookup.found().take(most).map(|(_, number)| index.curves[number]).collect()
-    }
-
-    /// Begins to refine a curve of a sample; with how much it is like the target, the greater the more. `None` if it is not like it
-    /// anywhere, or does not satisfy the condition.
-    pub fn begin(&self, curve: SampleCurve) -> Option<LinkageRefinement> {
-        let values = self.space.sample(curve.sample as usize)?;
-        let at = (curve.trace as usize, curve.circuit as usize);
-        let (trace, _, traced) =
-            self.traced(&values).into_iter().find(|(trace, circuit, _)| (*trace, *circuit) == at)?;
-        if !self.aim.meets_condition(&values, &traced) {
-            return None;
-        }
-        if self.aim.angles_deg.is_some() {
-            let best = timed::best(&self.aim, &traced)?;
-            return LinkageRefinement::timed(
-                &self.aim,
-                values,
-                (trace, traced),
-                best.placed,
-                (best.is_reversed, best.start),
-            );
-        }
-        let placed = self.placed(&traced)?;
-        LinkageRefinement::new(&self.aim, values, (trace, traced), placed)
-    }
-
-    /// Begins again from dimensions near others, at random, with a number that chooses them.
-    pub fn begin_near(&self, from: &LinkageRefinement, seed: u64, spread: f64) -> Option<LinkageRefinement> {
-        let values = self.space.near(&from.values, &mut Scatter::new(seed), spread);
-        let linkage = self.space.template().linkage(&values).ok().filter(|_| self.space.are_valid(&values))?;
-        let state = &from.state;
-        let traced = state.traced.followed(linkage).filter(|traced| !self.aim.full_turn || traced.is_full_turn())?;
-        if !self.aim.meets_condition(&values, &traced) {
-            return None;
-        }
-        match state.start {
-            Some(start) => LinkageRefinement::timed(
-                &self.aim,
-                values,
-                (from.trace, traced),
-                state.placed,
-                (from.is_reversed, start),
-            ),
-            None => LinkageRefinement::new(&self.aim, values, (from.trace, traced), state.placed),
-        }
-    }
-
-    /// Moves the curve of a refinement without changing the linkage.
-    pub fn place(&self, refinement: &mut LinkageRefinement, steps: usize) {
-        refinement.place(&self.space, &self.aim, steps);
-    }
-
-    /// Takes some steps of a refinement.
-    pub fn advance(&self, refinement: &mut LinkageRefinement, steps: usize) {
-        refinement.advance(&self.space, &self.aim, steps);
-        refinement.match_again(&self.aim, 2 * FINAL_ROUNDS / 3);
-    }
-
-    /// Whether the curve has no long detours from a closed target, and the portion none from a part.
-    pub fn has_valid_length(&self, refinement: &LinkageRefinement) -> bool {
-        let measured = Measured::new(&refinement.state.traced);
-        measured.is_some_and(|measured| self.length(&measured, refinement) <= self.aim.greatest_length)
-    }
-
-    /// How the curve of a refinement fits the target, with its size in the dimensions if it is scalable. `None` if it does not satisfy
-    /// what is asked of it.
-    pub fn fit(&self, refinement: &LinkageRefinement) -> Option<LinkageFit> {
-        let Aim { target, full_turn, .. } = &self.aim;
-        let size = target.size();
-        let mut refinement = refinement.clone();
-        let mut placed = refinement.state.placed;
-        if self.space.is_scalable {
-            let scale = placed.scale() * size;
-            refinement.values = self.space.scaled(&refinement.values, scale);
-            placed.factor /= scale;
-        }
-        let values = &refinement.values;
-        let circuits = self.traced(values);
-        let linkage = self.space.template().linkage(values).ok().filter(|_| self.space.are_valid(values))?;
-        let followed = refinement.state.traced.followed(linkage)?;
-        let (_, circuit, traced) = circuits.into_iter().find(|(trace, _, traced)| {
-            *trace == refinement.trace && traced.circuit.passes == followed.circuit.passes
-        })?;
-        refinement.state = match refinement.state.start {
-            Some(start) => self.aim.timed_state(traced, placed, refinement.is_reversed, start)?,
-            None => {
-                let (is_reversed, state) = self.aim.matched_either_way(&traced, placed, FINAL_ROUNDS)?;
-                refinement.is_reversed = is_reversed;
-                state
-            }
-        };
-        let state = &refinement.state;
-        let traced = &state.traced;
-        let measured = Measured::new(traced)?;
-        let own_length = self.length(&measured, &refinement);
-        let is_valid = self.aim.is_within(traced, &placed)
-            && (!full_turn || traced.is_full_turn())
-            && self.aim.meets_condition(values, traced)
-            && own_length <= self.aim.greatest_length;
-        if !is_valid {
-            return None;
-        }
-        let is_timed = state.start.is_some();
-        let positions = [0, state.blocks.len() - 1].map(|k| state.blocks[k].foot.position);
-        // Along the target: forward.
-        let positions = if refinement.is_reversed && !is_timed { [positions[1], positions[0]] } else { positions };
-        let places = positions.map(|position| match state.start {
-            Some((pass, _)) => traced.position_of_input(pass, position),
-            None => position,
-        });
-        let inputs = if is_timed { positions } else { places.map(|position| traced.input(position)) };
-        let legs = if traced.circuit.is_closed { 1.0 } else { 2.0 };
-        let parts = places.map(|position| legs * measured.length_at(position) / measured.whole());
-        let round = legs * (parts[0].min(parts[1]) / legs).floor();
-        let ends = parts.map(|part| part - round);
-        let rms_relative = (state.sum / self.aim.count()).sqrt();
-        let fit = CurveFit {
-            placement: target.placement().after(&placed),
-            rms: size * rms_relative,
-            rms_relative,
-            greatest: size * self.greatest(&refinement),
-            is_in_order: state.blocks.len() == self.aim.points_of(false).len(),
-            length_ratio: own_length / self.aim.polyline_length,
-            ends,
-            is_reversed: refinement.is_reversed,
-        };
-        let pass = traced.pass_of(places[0]);
-        let branch = traced.linkage.dyad_ids().next().map_or(1, |dyad| traced.circuit.passes[pass].mode.sign(dyad));
-        let curve = [refinement.trace + 1, circuit + 1];
-        Some(LinkageFit { values: refinement.values.clone(), curve, fit, branch, inputs })
-    }
-
-    fn greatest(&self, refinement: &LinkageRefinement) -> f64 {
-        let state = &refinement.state;
-        let is_reversed = refinement.is_reversed && state.start.is_none();
-        let points = self.aim.points_of(is_reversed);
-        let at: Vec<Complex> = state.blocks.iter().map(|block| state.placed.image(block.foot.at)).collect();
-        squares(points, &state.blocks, &at).into_iter().fold(0.0, f64::max).sqrt()
-    }
-
-    /// The traced joints on the circuits of a parameter set.
-    fn traced(&self, values: &[f64]) -> Vec<(usize, usize, Traced)> {
-        let Ok(linkage) = self.space.template().linkage(values) else { return Vec::new() };
-        let circuits = find_circuits(&linkage).circuits;
-        let mut found = Vec::new();
-        for (trace, joint) in linkage.traced.iter().enumerate() {
-            for (number, circuit) in circuits.iter().enumerate() {
-                let traced = Traced { linkage: linkage.clone(), circuit: circuit.clone(), joint: *joint };
-                if !self.aim.full_turn || traced.is_full_turn() {
-                    found.push((trace, number, traced));
+    fn sample(&mut self, next: usize, workers: &impl Workers) -> Stage {
+        let tries = self.samples * if self.fitting.is_slow() { SLOW_TRIES } else { TRIES };
+        if next < tries && self.found < self.samples && self.index.len() < MAX_CURVES {
+            let most = (CURVES_PER_STEP / self.fitting.space().template().curve_count().max(1)).max(1);
+            let end = (next + most.min(workers.most_at_once())).min(tries);
+            let curves: Vec<Vec<(SampleCurve, SampleShape)>> =
+                workers.map((next..end).collect(), |sample| self.fitting.curves(sample));
+            for curves in curves {
+                if self.found < self.samples && self.index.len() < MAX_CURVES {
+                    self.found += usize::from(!curves.is_empty());
+                    self.index.extend(curves);
                 }
             }
+            return Stage::Sample { next: end };
         }
-        found
+        // Many do not satisfy a condition.
+        let most = if self.options.condition.is_some() { 20 * self.starts } else { self.starts };
+        let index = std::mem::take(&mut self.index);
+        self.curves = index.len();
+        Stage::Begin { candidates: self.fitting.most_alike(&index, most), next: 0 }
     }
 
-    /// The same where the input turns fully, without the certainty that it does.
-    fn simply_traced(&self, values: &[f64]) -> Vec<(usize, usize, Traced)> {
-        let Ok(linkage) = self.space.template().linkage(values) else { return Vec::new() };
-        let Some(first) = linkage.traced.first().and_then(|joint| Traced::on_full_turn(&linkage, *joint)) else {
-            return Vec::new();
-        };
-        let joints = linkage.traced.iter().enumerate();
-        joints.map(|(trace, joint)| (trace, 0, Traced { joint: *joint, ..first.clone() })).collect()
-    }
-
-    fn shape(&self, traced: &Traced) -> Option<CurveShape> {
-        let passes = traced.circuit.passes.len() as f64;
-        let mut positions = traced.positions(POINTS);
-        let is_closed = traced.circuit.is_closed;
-        if !is_closed {
-            positions.retain(|position| *position <= passes);
+    /// Begins with the likeliest curves that satisfy the condition, as many as are wanted.
+    fn begin(&mut self, candidates: Vec<SampleCurve>, next: usize, workers: &impl Workers) -> Stage {
+        if next == candidates.len() || self.refinements.len() >= self.starts {
+            self.refinements.truncate(self.starts);
+            return Stage::Place { next: 0 };
         }
-        let points: Vec<Point> = traced.points(&positions)?.iter().map(|z| Point::new(z.re, z.im)).collect();
-        Some(CurveShape::new(&points, is_closed))
+        let end = (next + BEGUN_PER_STEP.min(workers.most_at_once())).min(candidates.len());
+        let begun = workers.map(candidates[next..end].to_vec(), |curve| self.fitting.begin(curve));
+        self.refinements.extend(begun.into_iter().flatten());
+        Stage::Begin { candidates, next: end }
     }
 
-    /// A curve where it is most like the target.
-    fn placed(&self, traced: &Traced) -> Option<Similarity> {
-        let points = traced.points(&traced.positions(POINTS))?;
-        let placed = match &self.query {
-            Query::Whole(target, target_centre, target_size) => {
-                let (spectrum, centre, size) = self.transform.spectrum(&points);
-                let likeness = self.transform.likeness(target, &spectrum);
-                likeness.similarity((*target_centre, *target_size), (centre, size))
-            }
-            Query::Portion(stroke, _) => stroke.placement(&points)?.1,
-        };
-        (placed.factor.norm_sqr().is_normal() && placed.shift.norm_sqr().is_finite()).then_some(placed)
+    fn place(&mut self, next: usize, workers: &impl Workers) -> Stage {
+        if next == self.refinements.len() {
+            return if self.options.refine { self.next_round(0) } else { Stage::Done };
+        }
+        let end = self.refinements.len().min(next.saturating_add(workers.most_at_once()));
+        let placed = workers.map(self.refinements.drain(next..end).collect(), |mut refinement: LinkageRefinement| {
+            self.fitting.place(&mut refinement, PLACING_STEPS);
+            refinement
+        });
+        self.refinements.splice(next..next, placed);
+        Stage::Place { next: end.min(self.refinements.len()) }
     }
 
-    /// The length of the placed curve, or of the portion from the first point to the last.
-    fn length(&self, measured: &Measured, refinement: &LinkageRefinement) -> f64 {
-        let state = &refinement.state;
-        let own = match self.aim.target.kind() {
-            PathKind::Closed => measured.whole(),
-            PathKind::Open | PathKind::Part => {
-                let positions = state.blocks.iter().map(|block| match state.start {
-                    Some((pass, _)) => state.traced.position_of_input(pass, block.foot.position),
-                    None => block.foot.position,
-                });
-                let lengths: Vec<f64> = positions.map(|position| measured.length_at(position)).collect();
-                lengths.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum()
+    fn next_round(&mut self, round: usize) -> Stage {
+        match ROUNDS.get(round) {
+            Some((part, _)) => {
+                keep_nearest(&mut self.refinements, (self.starts / part).max(2 * self.options.most));
+                Stage::Refine { round, next: 0, refined: Vec::new() }
             }
-        };
-        state.placed.scale() * own
+            None => self.next_restart(0),
+        }
     }
+
+    /// Takes steps of refinements, and leaves out those whose curves have not the length of the target.
+    fn refine(
+        &mut self,
+        round: usize,
+        next: usize,
+        mut refined: Vec<LinkageRefinement>,
+        workers: &impl Workers,
+    ) -> Stage {
+        if next == self.refinements.len() {
+            self.refinements = refined;
+            return self.next_round(round + 1);
+        }
+        let end = self.refinements.len().min(next.saturating_add(workers.most_at_once()));
+        let (_, steps) = ROUNDS[round];
+        let advanced = workers.map(self.refinements[next..end].to_vec(), |mut refinement| {
+            self.fitting.advance(&mut refinement, steps);
+            self.fitting.has_valid_length(&refinement).then_some(refinement)
+        });
+        refined.extend(advanced.into_iter().flatten());
+        Stage::Refine { round, next: end, refined }
+    }
+
+    /// Begins again near the best, as long as that finds something nearer.
+    fn next_restart(&mut self, round: u64) -> Stage {
+        /// The mean square of the distances at which a target is met to rounding.
+        const EXACT: f64 = 1e-16;
+        let count = self.refinements.len();
+        keep_nearest(&mut self.refinements, count);
+        match self.refinements.first().map(LinkageRefinement::sum) {
+            Some(best) if round < RESTART_ROUNDS && best > EXACT * self.points as f64 => {
+                let from = self.refinements.iter().take(NEAREST).cloned().collect();
+                Stage::Restart { round, next: 0, from, best }
+            }
+            _ => Stage::Done,
+        }
+    }
+
+    fn restart(
+        &mut self,
+        (round, next): (u64, usize),
+        from: Vec<LinkageRefinement>,
+        best: f64,
+        workers: &impl Workers,
+    ) -> Stage {
+        /// The spreads in turn.
+        const SPREADS: [f64; 3] = [0.1, 0.25, 0.5];
+        /// The steps, and those after which it must be near the best.
+        const STEPS: usize = 60;
+        const PROMISING_STEPS: usize = 16;
+        const PROMISING_SUM: f64 = 30.0;
+        let count = self.starts / RESTART_PART;
+        if next == count {
+            return self.next_restart(round + 1);
+        }
+        let begun = |k: usize| {
+            let number = round * count as u64 + k as u64 + 1;
+            let seed = self.options.seed.wrapping_add(number.wrapping_mul(0x5851_F42D_4C95_7F2D));
+            let mut refinement = self.fitting.begin_near(&from[k % from.len()], seed, SPREADS[k % SPREADS.len()])?;
+            self.fitting.advance(&mut refinement, PROMISING_STEPS);
+            if refinement.sum() > PROMISING_SUM * best {
+                return None;
+            }
+            self.fitting.advance(&mut refinement, STEPS - PROMISING_STEPS);
+            self.fitting.has_valid_length(&refinement).then_some(refinement)
+        };
+        let end = count.min(next.saturating_add(workers.most_at_once()));
+        let found = workers.map((next..end).collect(), begun);
+        self.refinements.extend(found.into_iter().flatten());
+        Stage::Restart { round, next: end, from, best }
+    }
+}
+
+fn start_count(target: &Target, options: &Options) -> usize {
+    /// The number of points for which an effort is measured; paths of fewer points have more minima that are not the least.
+    const POINTS_OF_EFFORT: usize = 100;
+    const MAX_MORE: usize = 4;
+    let count = match options.effort {
+        Effort::Quick => 100,
+        Effort::Normal => 300,
+        Effort::Thorough => 1200,
+    };
+    let count = if target.kind() == PathKind::Closed { count } else { 2 * count };
+    count * (POINTS_OF_EFFORT / target.points().len()).clamp(1, MAX_MORE)
+}
+
+/// Keeps the nearest that are not alike.
+fn keep_nearest(refinements: &mut Vec<LinkageRefinement>, most: usize) {
+    /// Refinements that have found the same linkage differ by less than this.
+    const ALIKE: f64 = 1e-6;
+    refinements.sort_by(|a, b| a.sum().total_cmp(&b.sum()));
+    refinements.dedup_by(|a, b| a.sum() - b.sum() <= ALIKE * b.sum() && a.is_done() && b.is_done());
+    refinements.truncate(most.max(1));
+}
+
+fn answer(fit: LinkageFit, space: &LinkageSpace) -> Option<LinkageAnswer> {
+    let template = space.template();
+    let names = template.parameters.iter().map(|parameter| parameter.name.clone());
+    let given: Vec<(String, f64)> = names.zip(fit.values.iter().copied()).collect();
+    let family = Family::single_cell(template.clone(), &given, Sampling::Samples(SAMPLES)).ok()?;
+    let solved: SolvedCell = Solver::new(&family).measuring(PlacedCurve::MEASURES).solve(0)?;
+    let curve = solved.curves.iter().find(|curve| [curve.trace, curve.circuit] == fit.curve)?;
+    let mut curve = PlacedCurve::new(&family, &solved, curve, fit.fit);
+    curve.is_scalable = space.is_scalable();
+    Some(LinkageAnswer { curve, branch: fit.branch, inputs: fit.inputs, family })
 }

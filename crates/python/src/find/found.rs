@@ -3,14 +3,14 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use coupler_atlas::find::{AtlasAnswer, LinkageAnswer, PlacedCurve};
+use coupler_atlas::find::AtlasAnswer;
 use coupler_atlas::manifest::Plan;
 use coupler_curves::family::Family;
 use coupler_curves::geometry::Point;
 use coupler_curves::geometry::Similarity;
 use coupler_curves::measure::MeasureSet;
 use coupler_curves::solve::{SolvedCell, Solver};
-use coupler_find::{Constraint, Quality, Target};
+use coupler_find::{Constraint, LinkageAnswer, PlacedCurve, Quality, Target};
 use numpy::PyArray2;
 use pyo3::prelude::*;
 use pyo3::types::PyIterator;

@@ -9,14 +9,14 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use coupler_atlas::find::{
-    self, AtlasQuery, MAX_CURVES, MAX_SAMPLES, ReadOptions, draw_four_bars, find_in_atlas, find_linkage, load_index,
+    self, AtlasQuery, MAX_CURVES, ReadOptions, draw_four_bars, find_in_atlas, find_linkage, load_index,
 };
 use coupler_atlas::manifest;
 use coupler_atlas::record::{check_families, manifest_of};
 use coupler_curves::expression;
 use coupler_curves::geometry::{Bounds, Point};
 use coupler_find::{
-    Condition, Effort, Index, LinkageSpace, Options, Search, Target, answers_manifest, nearest_miss_by,
+    Condition, Effort, Index, LinkageSearch, LinkageSpace, Options, Search, Target, answers_manifest, nearest_miss_by,
 };
 use numpy::{AllowTypeChange, PyArrayLike1};
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -183,7 +183,7 @@ pub fn find_linkages(
     if !(1..=MAX_TOP).contains(&top) {
         return wrong(format!("top={top}: give a number from 1 to {MAX_TOP}"));
     }
-    let most_looked_up = if sought.is_some() { MAX_SAMPLES } else { MAX_CURVES };
+    let most_looked_up = if sought.is_some() { LinkageSearch::MAX_SAMPLES } else { MAX_CURVES };
     if let Some(count) = index.filter(|count| !(1..=most_looked_up).contains(count)) {
         return wrong(format!("index={count}: give a number from 1 to {most_looked_up}"));
     }

@@ -1,6 +1,6 @@
 //! The JSON of linkages with their dimensions.
 
-use crate::find::LinkageAnswer;
+use coupler_find::LinkageAnswer;
 use serde::Serialize;
 
 use super::super::super::report;

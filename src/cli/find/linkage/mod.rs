@@ -8,11 +8,11 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use crate::find::{self, MAX_SAMPLES};
+use crate::find;
 use crate::manifest;
 use coupler_curves::family::Family;
 use coupler_curves::template::Template;
-use coupler_find::{Condition, Constraint, LinkageSpace, Mechanism, Options, Quality, Target};
+use coupler_find::{Condition, Constraint, LinkageSearch, LinkageSpace, Mechanism, Options, Quality, Target};
 
 use super::super::linkage::find_template;
 use super::super::source;
@@ -36,9 +36,12 @@ pub(super) fn check(arguments: &Arguments) -> Result<(), InputError> {
         Arguments { linkage: None, like: None, manifest: Some(_), .. } => {
             error("--manifest FILE has the curve of --like CURVE or the linkage of --linkage NAME: give one of these")
         }
-        Arguments { linkage: Some(_), index: Some(index), .. } if *index > MAX_SAMPLES as u64 => Err(InputError(
-            format!("--index {index}: of --linkage it is the number of parameter sets, at most {MAX_SAMPLES}"),
-        )),
+        Arguments { linkage: Some(_), index: Some(index), .. } if *index > LinkageSearch::MAX_SAMPLES as u64 => {
+            Err(InputError(format!(
+                "--index {index}: of --linkage it is the number of parameter sets, at most {}",
+                LinkageSearch::MAX_SAMPLES
+            )))
+        }
         _ => Ok(()),
     }
 }

@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
+use crate::find::LinkageFindings;
 use crate::find::description::{deviation, parameters, placement};
-use crate::find::{LinkageAnswer, LinkageFindings};
-use coupler_find::{LinkageSpace, format_length as number};
+use coupler_find::{LinkageAnswer, LinkageSpace, format_length as number};
 
 use super::super::text::{angle, describe_target, relaxed};
 use super::LinkageReport;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use coupler_curves::family::Family;
 use coupler_curves::template::Orientation;
 
-use super::super::placed_curve::PlacedCurve;
+use super::placed_curve::PlacedCurve;
 
 /// Dimensions of a linkage near a target.
 #[derive(Clone, Debug)]

@@ -1,21 +1,17 @@
 //! The dimensions of a linkage for which its curve is nearest to a path.
 
-mod answer;
-mod search;
-
-pub use answer::LinkageAnswer;
-
 use std::sync::atomic::AtomicBool;
 
 use coupler_curves::exchange::{ParameterSet, manifest_families};
 use coupler_curves::family::Family;
 use coupler_curves::template::Template;
-use coupler_find::{Constraint, LinkageSpace, Options, Target, answers_manifest, manifest_head, nearest_miss_by};
+use coupler_find::{
+    Constraint, LinkageAnswer, LinkageSearch, LinkageSpace, Options, Target, answers_manifest, manifest_head,
+    nearest_miss_by,
+};
 
+use super::threads::Threads;
 use super::{Error, description};
-
-/// The most parameter sets in which a path is looked up.
-pub const MAX_SAMPLES: usize = 1_000_000;
 
 /// Whether a linkage is a four-bar with all parameters free, which the search of four-bars finds.
 pub fn is_free_four_bar(template: &Template, kept: &[(String, Option<String>)]) -> bool {
@@ -46,14 +42,22 @@ pub fn find_linkage(
     samples: Option<usize>,
     interrupt: &AtomicBool,
 ) -> Result<LinkageFindings, Error> {
-    let (answers, curves) = search::search_linkage(space, target, options, samples, interrupt)?;
+    let threads = Threads { interrupt };
+    let search = |target: &Target, options: &Options| {
+        let mut search = LinkageSearch::new(space, target, options, samples);
+        while search.step(&threads) {
+            threads.proceed()?;
+        }
+        let answers = search.answers(&threads);
+        threads.proceed()?;
+        Ok((answers, search.curve_count()))
+    };
+    let (answers, curves) = search(target, options)?;
     let mut nearest_miss = None;
     if answers.is_empty() {
-        let nearest = |target: &Target, options: &Options| {
-            search::search_linkage(space, target, options, samples, interrupt).ok()?.0.into_iter().next()
-        };
+        let nearest = |target: &Target, options: &Options| search(target, options).ok()?.0.into_iter().next();
         nearest_miss = nearest_miss_by(target, options, nearest, |answer| answer.curve.fit.rms);
-        search::proceed(interrupt)?;
+        threads.proceed()?;
     }
     Ok(LinkageFindings { curves, answers, nearest_miss })
 }

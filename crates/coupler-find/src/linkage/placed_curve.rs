@@ -1,11 +1,13 @@
 //! A curve of any linkage where it is on a path.
 
+use super::aim::{longest_link, pivots_of};
+use crate::curve::CurveFit;
+use crate::target::Target;
 use coupler_curves::family::Family;
 use coupler_curves::geometry::{Point, Similarity, Vector, distance_to_segment};
 use coupler_curves::linkage::{FourBar, JointId, Linkage, PlacedFourBar};
 use coupler_curves::measure::{Measure, MeasureSet};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
-use coupler_find::{CurveFit, Target, longest_link, pivots_of};
 
 /// A curve near a target, and its linkage.
 #[derive(Clone, Debug)]
@@ -36,12 +38,12 @@ pub struct PlacedCurve {
     pub outline: Vec<Point>,
 }
 
-/// The measures of an answer.
-pub(super) const REPORTED: MeasureSet = MeasureSet::EMPTY.with(Measure::CLASS).with(Measure::MU_WORST);
-
 impl PlacedCurve {
+    /// The measures that it has of its curve.
+    pub const MEASURES: MeasureSet = MeasureSet::EMPTY.with(Measure::CLASS).with(Measure::MU_WORST);
+
     /// The curve of a solved cell where it fits the target. It is not yet known whether the linkage is scalable.
-    pub(super) fn new(family: &Family, solved: &SolvedCell, curve: &MeasuredCurve, fit: CurveFit) -> PlacedCurve {
+    pub fn new(family: &Family, solved: &SolvedCell, curve: &MeasuredCurve, fit: CurveFit) -> PlacedCurve {
         /// Of the points that are kept to tell curves from each other.
         const OUTLINE: usize = 720;
         let circuit = solved.circuit(curve);

@@ -1,0 +1,359 @@
+//! What a search for the dimensions of a linkage does with one sample, or with one refinement: each for itself, so that many can be done at once.
+
+use super::aim::Aim;
+use super::circuit::Traced;
+use super::measured::Measured;
+use super::refinement::{FINAL_ROUNDS, LinkageRefinement};
+use super::samples::{SampleCurve, SampleIndex, SampleShape};
+use super::space::LinkageSpace;
+use super::timed;
+
+use crate::complex::Complex;
+use crate::curve::fit::CurveFit;
+use crate::curve::index::{CurveLookup, CurveShape};
+use crate::curve_fit_options::CurveFitOptions;
+use crate::matching::squares;
+use crate::options::Options;
+use crate::query::Query;
+use crate::scatter::Scatter;
+use crate::shape::spectrum::Transform;
+use crate::target::{PathKind, Target};
+use coupler_curves::geometry::{Point, Similarity};
+use coupler_curves::linkage::CircuitSelection;
+use coupler_curves::motion::find_circuits;
+
+/// A target that linkages with free parameters are fitted to.
+pub(super) struct LinkageFitting {
+    space: LinkageSpace,
+    aim: Aim,
+    query: Query,
+    transform: Transform,
+    /// Whether the input must turn fully, and where it does, it has no change points and the circuit is the only one.
+    is_simple: bool,
+}
+
+/// Dimensions of a linkage, and how the curve fits the target.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct LinkageFit {
+    /// The values of the parameters, in the unit of the target if the linkage is scalable.
+    pub values: Vec<f64>,
+    /// The numbers of the traced joint and of the circuit, from 1.
+    pub curve: [usize; 2],
+    /// Where the curve is on the target, and how near.
+    pub fit: CurveFit,
+    /// The branch at the first point of the target: the side of the first two-valued joint, 1 left or -1 right.
+    pub branch: i8,
+    /// The input at the first and at the last point of the target: degrees, or a length.
+    pub inputs: [f64; 2],
+}
+
+/// The points of a curve of which the shape is computed.
+const POINTS: usize = 128;
+
+/// The least part of a curve that may be like an open target before it is refined.
+const LEAST_PORTION: f64 = 0.05;
+
+impl LinkageFitting {
+    /// The condition of the options must be one of the linkage's.
+    pub fn new(space: &LinkageSpace, target: &Target, options: &Options) -> LinkageFitting {
+        let mut fitting = LinkageFitting {
+            aim: Aim::new(space, target, options),
+            query: Query::new(target.kind(), &target.normalized()),
+            transform: Transform::new(),
+            space: space.clone(),
+            is_simple: false,
+        };
+        fitting.is_simple = fitting.has_simple_circuits();
+        fitting
+    }
+
+    /// Whether the first samples whose input turns fully have no change points.
+    fn has_simple_circuits(&self) -> bool {
+        /// The samples that turn, and those among which they are sought.
+        const ENOUGH: usize = 16;
+        const MOST: usize = 200;
+        let template = self.space.template();
+        if !self.aim.full_turn || template.circuits != CircuitSelection::Start || template.input.is_some() {
+            return false;
+        }
+        let turning = (0..MOST).filter_map(|sample| {
+            let (_, _, traced) = self.traced(&self.space.sample(sample)?).into_iter().next()?;
+            Some(traced.has_fixed_passes())
+        });
+        let mut count = 0;
+        let are_simple = turning.take(ENOUGH).inspect(|_| count += 1).all(|is_simple| is_simple);
+        are_simple && count > 0
+    }
+
+    /// The default number of parameter sets: for few parameters fewer fill their ranges, and those of linkages that take long or trace many
+    /// joints are fewer.
+    pub fn default_samples(&self) -> usize {
+        const MOST: usize = 10_000;
+        const LEAST: usize = 500;
+        /// Of many traced joints together.
+        const MOST_CURVES: usize = 200_000;
+        /// For so many dyads more all circuits take as many times as long as there are modes.
+        const MODES: u32 = 4;
+        let template = self.space.template();
+        let dimension = self.space.dimension() - usize::from(self.space.is_scalable && self.space.dimension() > 1);
+        let mut samples = (250 * dimension * dimension).clamp(LEAST, MOST);
+        if self.is_slow() {
+            let dyads = template.structure().map_or(0, |linkage| linkage.dyad_count()) as u32;
+            let modes = if template.circuits == CircuitSelection::All { dyads.saturating_sub(2).min(MODES) } else { 0 };
+            samples = samples.div_ceil(2 << modes);
+        }
+        samples.min((MOST_CURVES / template.curve_count().max(1)).max(1))
+    }
+
+    /// Whether it takes long to find the circuits: limits of a chain of dyads are searched for.
+    pub fn is_slow(&self) -> bool {
+        let dyads = self.space.template().structure().map_or(0, |linkage| linkage.dyad_count());
+        !self.is_simple && dyads > 1
+    }
+
+    /// The linkage and its parameters.
+    pub fn space(&self) -> &LinkageSpace {
+        &self.space
+    }
+
+    /// What the linkages are fitted to.
+    pub fn target(&self) -> &Target {
+        &self.aim.target
+    }
+
+    /// The curves of a parameter set that satisfy what does not depend on their place, without the condition: it may take long.
+    pub fn curves(&self, sample: usize) -> Vec<(SampleCurve, SampleShape)> {
+        let Some(values) = self.space.sample(sample) else { return Vec::new() };
+        let mut found = Vec::new();
+        let traced = if self.is_simple { self.simply_traced(&values) } else { self.traced(&values) };
+        for (trace, circuit, traced) in traced {
+            let shape = match &self.aim.angles_deg {
+                None => self.shape(&traced).map(SampleShape::Free),
+                Some(_) => timed::best(&self.aim, &traced).map(|best| SampleShape::Timed(best.sum)),
+            };
+            let curve = SampleCurve { sample: sample as u32, trace: trace as u32, circuit: circuit as u32 };
+            found.extend(shape.map(|shape| (curve, shape)));
+        }
+        found
+    }
+
+    /// The curves of an index that are most like the target, the likeliest first, at most so many.
+    pub fn most_alike(&self, index: &SampleIndex, most: usize) -> Vec<SampleCurve> {
+        if self.aim.angles_deg.is_some() {
+            let mut sums = index.sums.clone();
+            sums.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            return sums.iter().take(most).map(|(_, number)| index.curves[*number]).collect();
+        }
+        let options = CurveFitOptions { least_portion: LEAST_PORTION, ..CurveFitOptions::default() };
+        let mut lookup = CurveLookup::new(&self.aim.target, options, most);
+        lookup.compare(&index.shapes, 0..index.shapes.len());
+        // The points of samples are not kept for a closer comparison.
+        lookup.found().take(most).map(|(_, number)| index.curves[number]).collect()
+    }
+
+    /// Begins to refine a curve of a sample; with how much it is like the target, the greater the more. `None` if it is not like it
+    /// anywhere, or does not satisfy the condition.
+    pub fn begin(&self, curve: SampleCurve) -> Option<LinkageRefinement> {
+        let values = self.space.sample(curve.sample as usize)?;
+        let at = (curve.trace as usize, curve.circuit as usize);
+        let (trace, _, traced) =
+            self.traced(&values).into_iter().find(|(trace, circuit, _)| (*trace, *circuit) == at)?;
+        if !self.aim.meets_condition(&values, &traced) {
+            return None;
+        }
+        if self.aim.angles_deg.is_some() {
+            let best = timed::best(&self.aim, &traced)?;
+            return LinkageRefinement::timed(
+                &self.aim,
+                values,
+                (trace, traced),
+                best.placed,
+                (best.is_reversed, best.start),
+            );
+        }
+        let placed = self.placed(&traced)?;
+        LinkageRefinement::new(&self.aim, values, (trace, traced), placed)
+    }
+
+    /// Begins again from dimensions near others, at random, with a number that chooses them.
+    pub fn begin_near(&self, from: &LinkageRefinement, seed: u64, spread: f64) -> Option<LinkageRefinement> {
+        let values = self.space.near(&from.values, &mut Scatter::new(seed), spread);
+        let linkage = self.space.template().linkage(&values).ok().filter(|_| self.space.are_valid(&values))?;
+        let state = &from.state;
+        let traced = state.traced.followed(linkage).filter(|traced| !self.aim.full_turn || traced.is_full_turn())?;
+        if !self.aim.meets_condition(&values, &traced) {
+            return None;
+        }
+        match state.start {
+            Some(start) => LinkageRefinement::timed(
+                &self.aim,
+                values,
+                (from.trace, traced),
+                state.placed,
+                (from.is_reversed, start),
+            ),
+            None => LinkageRefinement::new(&self.aim, values, (from.trace, traced), state.placed),
+        }
+    }
+
+    /// Moves the curve of a refinement without changing the linkage.
+    pub fn place(&self, refinement: &mut LinkageRefinement, steps: usize) {
+        refinement.place(&self.space, &self.aim, steps);
+    }
+
+    /// Takes some steps of a refinement.
+    pub fn advance(&self, refinement: &mut LinkageRefinement, steps: usize) {
+        refinement.advance(&self.space, &self.aim, steps);
+        refinement.match_again(&self.aim, 2 * FINAL_ROUNDS / 3);
+    }
+
+    /// Whether the curve has no long detours from a closed target, and the portion none from a part.
+    pub fn has_valid_length(&self, refinement: &LinkageRefinement) -> bool {
+        let measured = Measured::new(&refinement.state.traced);
+        measured.is_some_and(|measured| self.length(&measured, refinement) <= self.aim.greatest_length)
+    }
+
+    /// How the curve of a refinement fits the target, with its size in the dimensions if it is scalable. `None` if it does not satisfy
+    /// what is asked of it.
+    pub fn fit(&self, refinement: &LinkageRefinement) -> Option<LinkageFit> {
+        let Aim { target, full_turn, .. } = &self.aim;
+        let size = target.size();
+        let mut refinement = refinement.clone();
+        let mut placed = refinement.state.placed;
+        if self.space.is_scalable {
+            let scale = placed.scale() * size;
+            refinement.values = self.space.scaled(&refinement.values, scale);
+            placed.factor /= scale;
+        }
+        let values = &refinement.values;
+        let circuits = self.traced(values);
+        let linkage = self.space.template().linkage(values).ok().filter(|_| self.space.are_valid(values))?;
+        let followed = refinement.state.traced.followed(linkage)?;
+        let (_, circuit, traced) = circuits.into_iter().find(|(trace, _, traced)| {
+            *trace == refinement.trace && traced.circuit.passes == followed.circuit.passes
+        })?;
+        refinement.state = match refinement.state.start {
+            Some(start) => self.aim.timed_state(traced, placed, refinement.is_reversed, start)?,
+            None => {
+                let (is_reversed, state) = self.aim.matched_either_way(&traced, placed, FINAL_ROUNDS)?;
+                refinement.is_reversed = is_reversed;
+                state
+            }
+        };
+        let state = &refinement.state;
+        let traced = &state.traced;
+        let measured = Measured::new(traced)?;
+        let own_length = self.length(&measured, &refinement);
+        let is_valid = self.aim.is_within(traced, &placed)
+            && (!full_turn || traced.is_full_turn())
+            && self.aim.meets_condition(values, traced)
+            && own_length <= self.aim.greatest_length;
+        if !is_valid {
+            return None;
+        }
+        let is_timed = state.start.is_some();
+        let positions = [0, state.blocks.len() - 1].map(|k| state.blocks[k].foot.position);
+        // Along the target: forward.
+        let positions = if refinement.is_reversed && !is_timed { [positions[1], positions[0]] } else { positions };
+        let places = positions.map(|position| match state.start {
+            Some((pass, _)) => traced.position_of_input(pass, position),
+            None => position,
+        });
+        let inputs = if is_timed { positions } else { places.map(|position| traced.input(position)) };
+        let legs = if traced.circuit.is_closed { 1.0 } else { 2.0 };
+        let parts = places.map(|position| legs * measured.length_at(position) / measured.whole());
+        let round = legs * (parts[0].min(parts[1]) / legs).floor();
+        let ends = parts.map(|part| part - round);
+        let rms_relative = (state.sum / self.aim.count()).sqrt();
+        let fit = CurveFit {
+            placement: target.placement().after(&placed),
+            rms: size * rms_relative,
+            rms_relative,
+            greatest: size * self.greatest(&refinement),
+            is_in_order: state.blocks.len() == self.aim.points_of(false).len(),
+            length_ratio: own_length / self.aim.polyline_length,
+            ends,
+            is_reversed: refinement.is_reversed,
+        };
+        let pass = traced.pass_of(places[0]);
+        let branch = traced.linkage.dyad_ids().next().map_or(1, |dyad| traced.circuit.passes[pass].mode.sign(dyad));
+        let curve = [refinement.trace + 1, circuit + 1];
+        Some(LinkageFit { values: refinement.values.clone(), curve, fit, branch, inputs })
+    }
+
+    fn greatest(&self, refinement: &LinkageRefinement) -> f64 {
+        let state = &refinement.state;
+        let is_reversed = refinement.is_reversed && state.start.is_none();
+        let points = self.aim.points_of(is_reversed);
+        let at: Vec<Complex> = state.blocks.iter().map(|block| state.placed.image(block.foot.at)).collect();
+        squares(points, &state.blocks, &at).into_iter().fold(0.0, f64::max).sqrt()
+    }
+
+    /// The traced joints on the circuits of a parameter set.
+    fn traced(&self, values: &[f64]) -> Vec<(usize, usize, Traced)> {
+        let Ok(linkage) = self.space.template().linkage(values) else { return Vec::new() };
+        let circuits = find_circuits(&linkage).circuits;
+        let mut found = Vec::new();
+        for (trace, joint) in linkage.traced.iter().enumerate() {
+            for (number, circuit) in circuits.iter().enumerate() {
+                let traced = Traced { linkage: linkage.clone(), circuit: circuit.clone(), joint: *joint };
+                if !self.aim.full_turn || traced.is_full_turn() {
+                    found.push((trace, number, traced));
+                }
+            }
+        }
+        found
+    }
+
+    /// The same where the input turns fully, without the certainty that it does.
+    fn simply_traced(&self, values: &[f64]) -> Vec<(usize, usize, Traced)> {
+        let Ok(linkage) = self.space.template().linkage(values) else { return Vec::new() };
+        let Some(first) = linkage.traced.first().and_then(|joint| Traced::on_full_turn(&linkage, *joint)) else {
+            return Vec::new();
+        };
+        let joints = linkage.traced.iter().enumerate();
+        joints.map(|(trace, joint)| (trace, 0, Traced { joint: *joint, ..first.clone() })).collect()
+    }
+
+    fn shape(&self, traced: &Traced) -> Option<CurveShape> {
+        let passes = traced.circuit.passes.len() as f64;
+        let mut positions = traced.positions(POINTS);
+        let is_closed = traced.circuit.is_closed;
+        if !is_closed {
+            positions.retain(|position| *position <= passes);
+        }
+        let points: Vec<Point> = traced.points(&positions)?.iter().map(|z| Point::new(z.re, z.im)).collect();
+        Some(CurveShape::new(&points, is_closed))
+    }
+
+    /// A curve where it is most like the target.
+    fn placed(&self, traced: &Traced) -> Option<Similarity> {
+        let points = traced.points(&traced.positions(POINTS))?;
+        let placed = match &self.query {
+            Query::Whole(target, target_centre, target_size) => {
+                let (spectrum, centre, size) = self.transform.spectrum(&points);
+                let likeness = self.transform.likeness(target, &spectrum);
+                likeness.similarity((*target_centre, *target_size), (centre, size))
+            }
+            Query::Portion(stroke, _) => stroke.placement(&points)?.1,
+        };
+        (placed.factor.norm_sqr().is_normal() && placed.shift.norm_sqr().is_finite()).then_some(placed)
+    }
+
+    /// The length of the placed curve, or of the portion from the first point to the last.
+    fn length(&self, measured: &Measured, refinement: &LinkageRefinement) -> f64 {
+        let state = &refinement.state;
+        let own = match self.aim.target.kind() {
+            PathKind::Closed => measured.whole(),
+            PathKind::Open | PathKind::Part => {
+                let positions = state.blocks.iter().map(|block| match state.start {
+                    Some((pass, _)) => state.traced.position_of_input(pass, block.foot.position),
+                    None => block.foot.position,
+                });
+                let lengths: Vec<f64> = positions.map(|position| measured.length_at(position)).collect();
+                lengths.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum()
+            }
+        };
+        state.placed.scale() * own
+    }
+}
