@@ -4,7 +4,6 @@ use std::sync::atomic::AtomicBool;
 
 use coupler_curves::exchange::{ParameterSet, manifest_families};
 use coupler_curves::family::Family;
-use coupler_curves::template::Template;
 use coupler_find::{
     Constraint, LinkageAnswer, LinkageSearch, LinkageSpace, Options, Target, answers_manifest, manifest_head,
     nearest_miss_by,
@@ -12,11 +11,6 @@ use coupler_find::{
 
 use super::threads::Threads;
 use super::{Error, description};
-
-/// Whether a linkage is a four-bar with all parameters free, which the search of four-bars finds.
-pub fn is_free_four_bar(template: &Template, kept: &[(String, Option<String>)]) -> bool {
-    template.id == "four-bar" && kept.is_empty()
-}
 
 /// What has been found for a linkage.
 #[derive(Clone, Debug)]

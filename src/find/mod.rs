@@ -8,14 +8,16 @@ mod drawing;
 mod index_file;
 mod linkage;
 mod outline;
+mod request;
 mod target_file;
 mod threads;
 
 pub use atlas::{AtlasAnswer, AtlasFindings, AtlasQuery, find_in_atlas};
 pub use drawing::draw_four_bars;
 pub use index_file::{MAX_CURVES, load_index};
-pub use linkage::{LinkageFindings, find_linkage, is_free_four_bar};
+pub use linkage::{LinkageFindings, find_linkage};
 pub use outline::{Outline, ReadOptions, Reading};
+pub use request::{Notation, Request, RequestProblem, Searched, SearchedLinkage};
 pub use target_file::{MAX_POINTS, parse_outline};
 
 /// Why a search has no result.

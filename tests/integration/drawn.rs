@@ -310,7 +310,6 @@ fn a_detour_between_coarse_samples_is_found() {
     assert!(moved > 130 && 100 * missed < moved, "{missed} of {moved}");
 }
 
-/// A page of the atlas with some curves.
 /// A page of the atlas.
 fn page_named(name: &str) -> &'static Page {
     static PAGES: OnceLock<Vec<Page>> = OnceLock::new();
@@ -318,6 +317,7 @@ fn page_named(name: &str) -> &'static Page {
     pages.iter().find(|page| page.name == name).unwrap()
 }
 
+/// A page with some curves.
 fn page() -> &'static Page {
     page_named("evans-001")
 }

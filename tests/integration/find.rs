@@ -277,10 +277,10 @@ fn constraints_are_kept_or_named() {
 #[test]
 fn every_mistake_is_named() {
     let folder = folder_with_bean();
-    let wrong = ["find", "bean.csv", "--where", "mu_wrst > 3", "--max-link", "-1", "--pivots", "1,2,3"];
+    let wrong = ["find", "bean.csv", "--where", "mu_wrst > 3", "--max-link", "-1", "--pivots", "1,2,3", "--fixed"];
     let (code, _, error) = run(folder.path(), &wrong);
     assert_eq!(code, 2);
-    for option in ["--where", "--max-link", "--pivots"] {
+    for option in ["--where", "--max-link -1: give a positive number", "--pivots", "--fixed compares"] {
         assert!(error.contains(option), "{error}");
     }
     for (text, expected) in [

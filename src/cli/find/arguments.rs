@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use crate::find::MAX_CURVES;
+use crate::find::{MAX_CURVES, Request};
 use clap::{Args, ValueEnum, ValueHint};
-use coupler_find::{Index, Options};
+use coupler_find::{Effort, Index, Options};
 
 use super::super::files;
 
@@ -118,7 +118,7 @@ pub struct Arguments {
 }
 
 /// The greatest `--top`.
-const MAX_TOP: i64 = 100;
+const MAX_TOP: i64 = Request::MAX_TOP as i64;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum InputChoice {
@@ -136,4 +136,14 @@ pub(super) enum EffortChoice {
     Normal,
     /// Four times the normal effort.
     Thorough,
+}
+
+impl From<EffortChoice> for Effort {
+    fn from(choice: EffortChoice) -> Effort {
+        match choice {
+            EffortChoice::Quick => Effort::Quick,
+            EffortChoice::Normal => Effort::Normal,
+            EffortChoice::Thorough => Effort::Thorough,
+        }
+    }
 }

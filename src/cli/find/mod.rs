@@ -7,21 +7,19 @@ mod linkage;
 mod not_a_path;
 mod notes;
 mod report;
+mod request;
 mod shown;
 mod text;
 
 use std::path::Path;
 
-use crate::find::{self, MAX_POINTS, Outline, ReadOptions};
+use crate::find::{self, MAX_POINTS, Outline, ReadOptions, Searched};
 use crate::output;
-use coupler_curves::expression::Expression;
 use coupler_curves::family::Family;
-use coupler_curves::geometry::{Bounds, Point};
+use coupler_curves::geometry::Point;
 use coupler_curves::motion::Sampling;
-use coupler_curves::template::Template;
 use coupler_find::{
-    Constraint, Effort, Index, Mechanism, Options, PathKind, Search, Target, answers_manifest, nearest_miss,
-    placed_parameters,
+    Constraint, Index, Mechanism, PathKind, Search, Target, answers_manifest, nearest_miss, placed_parameters,
 };
 
 use super::export::CurveSamples;
@@ -68,11 +66,13 @@ impl Shown for Report {
 pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let printed = [("--json", arguments.json), ("--toml", arguments.toml)];
     let is_drawing_printed = files::is_drawing_printed(arguments.svg.as_deref(), &printed)?;
-    atlas::check(arguments)?;
-    linkage::check(arguments)?;
-    let sought = linkage::sought(arguments)?;
-    let template = sought.as_ref().map(|sought| &*sought.template);
-    let options = parse_options(arguments, template).map_err(|errors| InputErrors::from_messages(&errors))?;
+    let linkage = linkage::named(arguments)?;
+    let searched = match (&linkage, &arguments.atlas) {
+        (Some(named), _) => Searched::Linkage(named.searched.clone()),
+        (None, Some(_)) => Searched::Atlas,
+        (None, None) => Searched::FourBars,
+    };
+    let (options, space) = request::check(arguments, searched)?;
     // Before a curve of an atlas is solved on these threads.
     if let Some(jobs) = arguments.jobs {
         rayon::ThreadPoolBuilder::new().num_threads(jobs.into()).build_global()?;
@@ -89,90 +89,14 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     if let Some(atlas) = &arguments.atlas {
         return atlas::run((arguments, atlas), &options, (name, reading, target), is_drawing_printed);
     }
-    if let Some(sought) = sought {
-        return linkage::run(arguments, sought, &options, (name, reading, target), is_drawing_printed);
+    if let Some((space, named)) = space.zip(linkage) {
+        return linkage::run(arguments, (space, named), &options, (name, reading, target), is_drawing_printed);
     }
     let index = find::load_index(arguments.index.map_or(Index::DEFAULT_COUNT, |count| count as usize));
     let answers = Search::new(&target, options.clone()).run(&index);
     let nearest_miss = if answers.is_empty() { nearest_miss(&target, &index, &options) } else { None };
     let report = Report { name, reading, target, answers, nearest_miss };
     show(&report, arguments, is_drawing_printed)
-}
-
-/// Reads the options of the search, for a linkage other than the four-bar if there is one.
-///
-/// # Errors
-/// Every error in them, one message each.
-fn parse_options(arguments: &Arguments, template: Option<&Template>) -> Result<Options, Vec<String>> {
-    let mut errors = Vec::new();
-    let mut max_link = Options::default().max_link;
-    match parse_max_link(&arguments.max_link) {
-        Ok(value) => max_link = value,
-        Err(error) => errors.push(format!("--max-link: {error}")),
-    }
-    let mut pivots = None;
-    match arguments.pivots.as_deref().map(parse_box).transpose() {
-        Ok(value) => pivots = value,
-        Err(error) => errors.push(format!("--pivots: {error}")),
-    }
-    let mut condition = None;
-    // The names of an atlas's linkages are not known yet.
-    let own = arguments.condition.as_deref().filter(|_| arguments.atlas.is_none());
-    match own.map(|text| linkage::condition(template, text).map_err(|error| (text, error))).transpose() {
-        Ok(value) => condition = value,
-        Err((text, error)) => {
-            let help = if error.help.is_empty() { String::new() } else { format!("; {}", error.help) };
-            errors.push(format!("--where: `{text}`: {error}{help}"));
-        }
-    }
-    let effort = match arguments.effort {
-        EffortChoice::Quick => Effort::Quick,
-        EffortChoice::Normal => Effort::Normal,
-        EffortChoice::Thorough => Effort::Thorough,
-    };
-    let options = Options {
-        full_turn: arguments.input == InputChoice::FullTurn,
-        max_link,
-        pivots,
-        condition,
-        effort,
-        refine: !arguments.no_refine,
-        seed: arguments.seed,
-        most: arguments.top.into(),
-    };
-    if errors.is_empty() { Ok(options) } else { Err(errors) }
-}
-
-/// Reads a length in sizes of the path, or `inf`.
-fn parse_max_link(text: &str) -> Result<f64, String> {
-    if text.trim() == "inf" {
-        return Ok(f64::INFINITY);
-    }
-    let value =
-        Expression::evaluate_constant(text).map_err(|error| format!("`{text}`: {error}; write it like 10, or inf"))?;
-    match value {
-        value if value.is_finite() && value > 0.0 => Ok(value),
-        value => Err(format!("`{text}` is {value}: give a positive number of sizes of the path, as in 10, or inf")),
-    }
-}
-
-/// Reads a box: `XMIN,YMIN,XMAX,YMAX`.
-fn parse_box(text: &str) -> Result<Bounds, String> {
-    const EXAMPLE: &str = "write it like --pivots=-50,-20,50,0";
-    let values: Result<Vec<f64>, String> = text
-        .split(',')
-        .map(|part| match part.trim().parse::<f64>() {
-            Ok(value) if value.is_finite() => Ok(value),
-            _ => Err(format!("`{part}` is not a number; {EXAMPLE}")),
-        })
-        .collect();
-    match values?[..] {
-        [x_min, y_min, x_max, y_max] if x_min < x_max && y_min < y_max => {
-            Ok(Bounds::from_points([Point::new(x_min, y_min), Point::new(x_max, y_max)]))
-        }
-        [_, _, _, _] => Err(format!("`{text}` is no box: XMIN < XMAX and YMIN < YMAX; {EXAMPLE}")),
-        _ => Err(format!("`{text}` does not have four numbers; {EXAMPLE}")),
-    }
 }
 
 /// The path to search for.

@@ -253,7 +253,9 @@ fn errors_name_what_is_wrong_and_what_to_do() {
     assert!(error(&["--keep", "s"]).contains("--linkage"));
     assert!(error(&["--manifest", "atlas.toml"]).contains("--linkage NAME"));
     assert!(error(&["--linkage", "linear-actuator", "--timed"]).contains("is a length"));
-    assert!(error(&["--linkage", "evans", "--index", "2000000"]).contains("at most 1000000"));
+    assert!(
+        error(&["--linkage", "evans", "--index", "2000000"]).contains("parameter sets: give one from 1 to 1000000")
+    );
     assert!(error(&["--linkage", "evans", "--where", "crank > 1"]).contains("--where"));
     let all = error(&["--linkage", "evans", "--keep", "q", "--keep", "p", "--keep", "k=two", "--keep", "r=-1"]);
     for part in ["no parameter `q`", "`p` has no default", "`two`", "`r` is -1"] {

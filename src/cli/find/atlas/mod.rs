@@ -17,23 +17,6 @@ use super::super::source::ManifestSource;
 use super::{Arguments, Best, InputError, Outcome, Shown, show, source, title_of};
 use report::AtlasReport;
 
-/// The error of options that do not go together, if there is one.
-pub(super) fn check(arguments: &Arguments) -> Result<(), InputError> {
-    let error = |message: &str| Err(InputError(message.to_owned()));
-    match arguments {
-        Arguments { atlas: None, linkage: None, fixed: true, .. } => {
-            error("--fixed compares the curves of an atlas where they are: name one with --atlas MANIFEST|DIR")
-        }
-        Arguments { atlas: Some(_), timed: true, .. } => error(
-            "--timed and --atlas do not go together: the curves of an atlas are compared by their shape; leave one out",
-        ),
-        Arguments { atlas: Some(_), index: Some(_), .. } => error(
-            "--index is the number of random four-bars, and with --atlas the curves of the atlas take their place: leave one out",
-        ),
-        _ => Ok(()),
-    }
-}
-
 pub(super) fn run(
     (arguments, atlas): (&Arguments, &Path),
     options: &Options,

@@ -1,0 +1,63 @@
+//! What the arguments ask of a search.
+
+use coupler_curves::expression::Expression;
+use coupler_find::{LinkageSpace, Options};
+
+use super::arguments::InputChoice;
+use super::{Arguments, InputErrors};
+use crate::find::{Notation, Request, Searched};
+
+/// The options of the search, and the space of a linkage's dimensions if these are searched.
+///
+/// # Errors
+/// All that is wrong with them.
+pub(super) fn check(arguments: &Arguments, searched: Searched) -> Result<(Options, Option<LinkageSpace>), InputErrors> {
+    let default = Options::default();
+    let max_link = parse_length(&arguments.max_link);
+    let pivots = arguments.pivots.as_deref().map(parse_box).transpose();
+    let request = Request {
+        notation: Notation::CommandLine,
+        searched,
+        is_timed: arguments.timed,
+        is_fixed: arguments.fixed,
+        index: arguments.index.map(|count| count as usize),
+        pivots: pivots.clone().unwrap_or_default(),
+        condition: arguments.condition.as_deref(),
+        options: Options {
+            full_turn: arguments.input == InputChoice::FullTurn,
+            max_link: *max_link.as_ref().unwrap_or(&default.max_link),
+            effort: arguments.effort.into(),
+            refine: !arguments.no_refine,
+            seed: arguments.seed,
+            most: arguments.top.into(),
+            ..default
+        },
+    };
+    let (checked, problems) = match request.check() {
+        Ok(checked) => (Some(checked), Vec::new()),
+        Err(problems) => (None, problems),
+    };
+    let unread = max_link.err().into_iter().chain(pivots.err());
+    let messages: Vec<String> = unread.chain(problems.into_iter().map(|problem| problem.message)).collect();
+    checked.filter(|_| messages.is_empty()).ok_or_else(|| InputErrors::from_messages(&messages))
+}
+
+/// Reads a length in sizes of the path, or `inf`.
+fn parse_length(text: &str) -> Result<f64, String> {
+    if text.trim() == "inf" {
+        return Ok(f64::INFINITY);
+    }
+    Expression::evaluate_constant(text)
+        .map_err(|error| format!("--max-link: `{text}`: {error}; write it like 10, or inf"))
+}
+
+/// Reads the numbers of a box: `XMIN,YMIN,XMAX,YMAX`.
+fn parse_box(text: &str) -> Result<[f64; 4], String> {
+    const EXAMPLE: &str = "write it like --pivots=-50,-20,50,0";
+    let number = |part: &str| {
+        let value = part.trim().parse::<f64>();
+        value.map_err(|_| format!("--pivots: `{part}` is not a number; {EXAMPLE}"))
+    };
+    let values: Vec<f64> = text.split(',').map(number).collect::<Result<_, String>>()?;
+    values.try_into().map_err(|_| format!("--pivots: `{text}` does not have four numbers; {EXAMPLE}"))
+}
