@@ -8,7 +8,7 @@ use clap_complete::Shell;
 use coupler_curves::catalogue;
 use coupler_drawing::render;
 
-use super::{Outcome, check, print_bytes, validate};
+use super::{Failure, Outcome, check, print_bytes, validate};
 
 /// Print completions for a shell: coupler-atlas completions bash >
 /// ~/.local/share/bash-completion/completions/coupler-atlas
@@ -29,7 +29,7 @@ const FAMILY_LISTS: [(Shell, &str, &str); 3] = [
     (Shell::Fish, "\"FAMILIES-OF-THE-MANIFEST\\t''\"", "\"(coupler-atlas list families 2>/dev/null)\""),
 ];
 
-pub fn run(arguments: &Arguments, command: clap::Command) -> anyhow::Result<Outcome> {
+pub fn run(arguments: &Arguments, command: clap::Command) -> Result<Outcome, Failure> {
     let mut command = offered_values().into_iter().fold(command, offer);
     let name = command.get_name().to_owned();
     let mut script = Vec::new();

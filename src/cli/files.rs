@@ -8,7 +8,7 @@ use crate::output;
 use crate::record::RunRecord;
 use clap::builder::{PathBufValueParser, TypedValueParser};
 
-use super::{InputError, print_bytes, printable};
+use super::{Failure, print_bytes, printable};
 
 /// The manifest that a command reads when none is given.
 pub const DEFAULT_MANIFEST: &str = "atlas.toml";
@@ -37,11 +37,11 @@ pub(super) fn input_name(path: &Path) -> String {
 }
 
 /// Why standard input cannot be read.
-pub(super) fn standard_input_error(error: &io::Error) -> anyhow::Error {
+pub(super) fn standard_input_error(error: &io::Error) -> Failure {
     let message = format!("cannot read standard input: {error}");
     match output::is_wrong_input(error) {
-        true => InputError(message).into(),
-        false => anyhow::Error::msg(message),
+        true => Failure::input(message),
+        false => Failure::system(message),
     }
 }
 
@@ -69,17 +69,17 @@ pub(super) fn protect(manifest: &Path) {
 ///
 /// # Errors
 /// The file is a manifest that was read, or a folder, or cannot be written.
-pub(super) fn write(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
+pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     if is_standard(path) {
-        return print_bytes(bytes);
+        return Ok(print_bytes(bytes)?);
     }
     let is_manifest = |path: &PathBuf| MANIFESTS.lock().is_ok_and(|manifests| manifests.contains(path));
     if path.canonicalize().is_ok_and(|path| is_manifest(&path)) {
         let message = format!("{} is the manifest, which would be lost: name another file", path.display());
-        return Err(InputError(message).into());
+        return Err(Failure::input(message));
     }
     if path.is_dir() {
-        return Err(InputError(format!("{} is a folder: name a file", path.display())).into());
+        return Err(Failure::input(format!("{} is a folder: name a file", path.display())));
     }
     Ok(output::write_file(path, bytes)?)
 }
@@ -88,7 +88,7 @@ pub(super) fn write(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
 ///
 /// # Errors
 /// Something else is to be printed; `printed` are the options that print something, and whether they are given.
-pub(super) fn is_drawing_printed(drawing: Option<&Path>, printed: &[(&str, bool)]) -> Result<bool, InputError> {
+pub(super) fn is_drawing_printed(drawing: Option<&Path>, printed: &[(&str, bool)]) -> Result<bool, Failure> {
     if !drawing.is_some_and(is_standard) {
         return Ok(false);
     }
@@ -96,7 +96,7 @@ pub(super) fn is_drawing_printed(drawing: Option<&Path>, printed: &[(&str, bool)
         Some((option, _)) => {
             let message =
                 format!("--svg - and {option} both write to standard output: name a file, as in --svg plate.svg");
-            Err(InputError(message))
+            Err(Failure::input(message))
         }
         None => Ok(true),
     }

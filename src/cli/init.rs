@@ -7,7 +7,7 @@ use crate::output;
 use clap::{Args, ValueHint};
 
 use super::files::DEFAULT_MANIFEST;
-use super::{InputError, Outcome, files, print, print_bytes, printable};
+use super::{Failure, Outcome, files, print, print_bytes, printable};
 
 /// Write a commented manifest to start from.
 #[derive(Debug, Args)]
@@ -19,7 +19,7 @@ pub struct Arguments {
 
 const STARTER: &[u8] = include_bytes!("starter.toml");
 
-pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
+pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     if files::is_standard(&arguments.file) {
         print_bytes(STARTER)?;
         return Ok(Outcome::Done);
@@ -30,7 +30,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     }
     match output::write_new(&arguments.file, STARTER) {
         Err(output::Error::Write { source, .. }) if source.kind() == ErrorKind::AlreadyExists => {
-            Err(InputError(format!("{file} exists already; give another name, or remove the file first")).into())
+            Err(Failure::input(format!("{file} exists already; give another name, or remove the file first")))
         }
         result => {
             result?;

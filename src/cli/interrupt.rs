@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+use super::Failure;
 use super::outcome::EXIT_INTERRUPTED;
 use super::printing::print_stderr;
 
@@ -13,7 +14,7 @@ const GRACE_PERIOD: Duration = Duration::from_millis(700);
 
 /// A flag that the first Ctrl-C sets; the second ends the program at once, and so does a run that does not look at it, with this
 /// error.
-pub(super) fn interrupt_flag(message: impl Display) -> anyhow::Result<Arc<AtomicBool>> {
+pub(super) fn interrupt_flag(message: impl Display) -> Result<Arc<AtomicBool>, Failure> {
     let message = message.to_string();
     let interrupt = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&interrupt);
@@ -29,6 +30,7 @@ pub(super) fn interrupt_flag(message: impl Display) -> anyhow::Result<Arc<Atomic
             print_stderr(&format!("error: {message}\n"));
             std::process::exit(EXIT_INTERRUPTED.into());
         });
-    })?;
+    })
+    .map_err(Failure::system)?;
     Ok(interrupt)
 }

@@ -10,7 +10,7 @@ use coupler_curves::family::{CellError, ParameterError, ParameterErrors};
 use coupler_curves::problem::suggestion;
 use coupler_curves::template::Template;
 
-use super::{InputError, source};
+use super::{Failure, source};
 
 /// The number of samples of a circuit where the command line sets none.
 pub(super) const DEFAULT_SAMPLES: u32 = 360;
@@ -19,7 +19,7 @@ pub(super) const DEFAULT_SAMPLES: u32 = 360;
 ///
 /// # Errors
 /// The manifest cannot be read, or no linkage has this name.
-pub(super) fn find_template(name: &str, manifest: Option<&Path>) -> anyhow::Result<Arc<Template>> {
+pub(super) fn find_template(name: &str, manifest: Option<&Path>) -> Result<Arc<Template>, Failure> {
     let mut known: Vec<Arc<Template>> = Vec::new();
     let mut error_count = 0;
     if let Some(path) = manifest {
@@ -34,10 +34,10 @@ pub(super) fn find_template(name: &str, manifest: Option<&Path>) -> anyhow::Resu
     template.ok_or_else(|| {
         // The linkage may be in what could not be read.
         if let (Some(path), true) = (manifest, error_count > 0) {
-            return source::problems_error(path, error_count).into();
+            return source::problems_error(path, error_count);
         }
         let ids: Vec<&str> = known.iter().map(|template| template.id.as_str()).collect();
-        InputError(format!("there is no linkage `{name}`: {}", suggestion(name, &ids))).into()
+        Failure::input(format!("there is no linkage `{name}`: {}", suggestion(name, &ids)))
     })
 }
 
@@ -56,11 +56,11 @@ pub(super) fn parameter_errors(template: &Template, errors: &ParameterErrors) ->
 
 /// Reads an input: a number or an expression without names, and for an angle a unit, degrees if there is none. `example`
 /// is shown in the error.
-pub(super) fn parse_input(text: &str, is_length: bool, example: &str) -> Result<f64, InputError> {
-    let error = |error: Error| InputError(format!("`{text}`: {error}; write it like {example}"));
+pub(super) fn parse_input(text: &str, is_length: bool, example: &str) -> Result<f64, Failure> {
+    let error = |error: Error| Failure::input(format!("`{text}`: {error}; write it like {example}"));
     match Quantity::parse(text, Dimension::Angle) {
         Ok(_) if is_length => {
-            Err(InputError(format!("`{text}` is an angle, and the input is a length: write it like {example}")))
+            Err(Failure::input(format!("`{text}` is an angle, and the input is a length: write it like {example}")))
         }
         Ok(quantity) => {
             quantity.expression.check(&Scope::default()).map_err(error)?;

@@ -9,7 +9,7 @@ use clap_mangen::Man;
 use clap_mangen::roff::{Roff, bold, roman};
 
 use super::files::DEFAULT_MANIFEST;
-use super::{EXIT_CODES, Outcome, color, print_bytes};
+use super::{EXIT_CODES, Failure, Outcome, color, print_bytes};
 
 /// Print the manual page in roff: coupler-atlas man | man -l -
 #[derive(Debug, Args)]
@@ -45,7 +45,7 @@ fn files() -> [(String, &'static str); 8] {
 }
 
 /// Prints one manual page: the program, then a section for each command.
-pub fn print_manual(_: &Manual, mut command: clap::Command) -> anyhow::Result<Outcome> {
+pub fn print_manual(_: &Manual, mut command: clap::Command) -> Result<Outcome, Failure> {
     command.build();
     let mut page = Vec::new();
     let program = Man::new(command.clone());

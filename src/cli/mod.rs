@@ -34,8 +34,8 @@ use std::ffi::OsString;
 use crate::output;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use color::Color;
-use failure::report_failure;
-use outcome::{EXIT_CODES, EXIT_DIFFERENCE, EXIT_SUCCESS, InputError, InputErrors, Outcome};
+use failure::Failure;
+use outcome::{EXIT_CODES, EXIT_DIFFERENCE, EXIT_SUCCESS, Outcome};
 use printable::{printable, printable_lines};
 use printing::{print, print_bytes, print_stderr, print_styled};
 
@@ -117,7 +117,7 @@ pub fn run(given: &[OsString]) -> u8 {
     let code = match result {
         Ok(Outcome::Done) => EXIT_SUCCESS,
         Ok(Outcome::Difference) => EXIT_DIFFERENCE,
-        Err(error) => report_failure(&error),
+        Err(failure) => failure.report(),
     };
     for (path, error) in output::take_leftovers() {
         let (path, error) = (printable(path.display()), printable(error));

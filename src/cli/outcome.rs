@@ -23,25 +23,3 @@ pub(super) enum Outcome {
     /// Success, but `check` found a difference, or `render --strict` an unassembled cell.
     Difference,
 }
-
-/// An error in the user's input, for which the exit code is 2.
-#[derive(Debug, thiserror::Error)]
-#[error("{0}")]
-pub(super) struct InputError(pub String);
-
-/// Errors in the user's input, and notes on them, a line for each; the first line is an error.
-#[derive(Debug, thiserror::Error)]
-#[error("{}", .0.join("\n"))]
-pub(super) struct InputErrors(pub Vec<String>);
-
-impl InputErrors {
-    /// Several errors.
-    pub fn from_messages(messages: &[String]) -> InputErrors {
-        let prefix = |k: usize| if k == 0 { "" } else { "error: " };
-        // Further lines of a message belong to it.
-        let lines = |(k, message): (usize, &String)| {
-            format!("{}{message}", prefix(k)).lines().map(str::to_owned).collect::<Vec<_>>()
-        };
-        InputErrors(messages.iter().enumerate().flat_map(lines).collect())
-    }
-}

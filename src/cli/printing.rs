@@ -5,16 +5,15 @@ use std::io::{self, Write};
 use super::printable::printable_lines;
 
 /// Writes a text to be read to standard output.
-pub(super) fn print(text: &str) -> anyhow::Result<()> {
+pub(super) fn print(text: &str) -> io::Result<()> {
     print_bytes(printable_lines(text).as_bytes())
 }
 
 /// Writes a result for programs, or one that is not text, to standard output as it is.
-pub(super) fn print_bytes(bytes: &[u8]) -> anyhow::Result<()> {
+pub(super) fn print_bytes(bytes: &[u8]) -> io::Result<()> {
     let mut out = io::stdout().lock();
     out.write_all(bytes)?;
-    out.flush()?;
-    Ok(())
+    out.flush()
 }
 
 /// Writes a message with the escape sequences of colours to standard error.

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use super::printable::is_unprintable;
-use super::{choice, files};
+use super::{Failure, choice, files};
 
 /// A report requested as `FORMAT` or `FORMAT=FILE`.
 #[derive(Clone, Debug)]
@@ -36,7 +36,7 @@ struct Document<'a, R> {
 }
 
 /// A report in a version of its format as indented JSON; infinite numbers are null.
-pub(super) fn json(format: u32, report: &impl Serialize) -> anyhow::Result<String> {
+pub(super) fn json(format: u32, report: &impl Serialize) -> Result<String, Failure> {
     let (program, version) = (env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION"));
     let text = serde_json::to_string_pretty(&Document { format, program, version, report })? + "\n";
     // What a terminal or the log of a CI run would obey is only in strings, where it can be escaped; the encoder escapes

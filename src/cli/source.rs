@@ -9,7 +9,7 @@ use crate::output;
 use crate::record::RunRecord;
 use coupler_curves::problem::{self, Problem, suggestion};
 
-use super::{InputError, color, files, not_a_manifest, print_stderr, print_styled};
+use super::{Failure, color, files, not_a_manifest, print_stderr, print_styled};
 use coupler_curves::text::pluralize;
 
 /// A manifest with its path and text, for messages.
@@ -23,18 +23,18 @@ pub struct ManifestSource {
 ///
 /// # Errors
 /// The file cannot be read.
-pub fn read_text(path: &Path) -> anyhow::Result<String> {
+pub fn read_text(path: &Path) -> Result<String, Failure> {
     files::protect(path);
     let text = output::read_text(path).map_err(|error| match error {
         output::Error::Read { source, .. } if files::is_standard(path) => files::standard_input_error(&source),
         output::Error::Read { source, .. } => match not_a_manifest::reason(path, source.kind()) {
-            Some(reason) => InputError(reason).into(),
+            Some(reason) => Failure::input(reason),
             None => output::Error::Read { path: path.to_owned(), source }.into(),
         },
-        error => anyhow::Error::from(error),
+        error => Failure::from(error),
     })?;
     match not_a_manifest::form(path, &text) {
-        Some(form) => Err(InputError(form).into()),
+        Some(form) => Err(Failure::input(form)),
         None => Ok(text),
     }
 }
@@ -70,7 +70,7 @@ fn with_files(
 ///
 /// # Errors
 /// The file cannot be read, or the manifest has errors.
-pub fn read(path: &Path) -> anyhow::Result<ManifestSource> {
+pub fn read(path: &Path) -> Result<ManifestSource, Failure> {
     read_with(path, |text| parse(path, text))
 }
 
@@ -79,14 +79,14 @@ pub fn read(path: &Path) -> anyhow::Result<ManifestSource> {
 ///
 /// # Errors
 /// The file cannot be read, or the manifest has errors.
-pub fn read_for_tables(path: &Path, cells: &dyn Fn(&str, usize) -> Range<usize>) -> anyhow::Result<ManifestSource> {
+pub fn read_for_tables(path: &Path, cells: &dyn Fn(&str, usize) -> Range<usize>) -> Result<ManifestSource, Failure> {
     read_with(path, |text| with_files(path, |files| manifest::parse_for_tables(text, Some(files), cells)))
 }
 
 fn read_with(
     path: &Path,
     parse: impl FnOnce(&str) -> Result<ParseOutcome, output::Error>,
-) -> anyhow::Result<ManifestSource> {
+) -> Result<ManifestSource, Failure> {
     parse_text(path, read_text(path)?, parse)
 }
 
@@ -94,14 +94,14 @@ fn parse_text(
     path: &Path,
     text: String,
     parse: impl FnOnce(&str) -> Result<ParseOutcome, output::Error>,
-) -> anyhow::Result<ManifestSource> {
+) -> Result<ManifestSource, Failure> {
     let loaded = parse(&text)?;
     report_problems(path, &text, &loaded.problems);
     match loaded.plan {
         Some(plan) => Ok(ManifestSource { path: path.to_owned(), text, plan }),
         None => {
             let errors = loaded.problems.iter().filter(|p| p.is_error()).count();
-            Err(problems_error(path, errors).into())
+            Err(problems_error(path, errors))
         }
     }
 }
@@ -110,13 +110,13 @@ fn parse_text(
 ///
 /// # Errors
 /// The manifest has errors.
-pub fn with_text(path: &Path, text: String) -> anyhow::Result<ManifestSource> {
+pub fn with_text(path: &Path, text: String) -> Result<ManifestSource, Failure> {
     parse_text(path, text, |text| parse(path, text))
 }
 
 /// The error of a manifest with problems.
-pub fn problems_error(path: &Path, errors: usize) -> InputError {
-    InputError(format!("{}: {}", files::input_name(path), pluralize(errors, "problem")))
+pub fn problems_error(path: &Path, errors: usize) -> Failure {
+    Failure::input(format!("{}: {}", files::input_name(path), pluralize(errors, "problem")))
 }
 
 impl ManifestSource {
@@ -129,7 +129,7 @@ impl ManifestSource {
     ///
     /// # Errors
     /// The number of texts.
-    pub fn require_drawable(&self) -> Result<(), InputError> {
+    pub fn require_drawable(&self) -> Result<(), Failure> {
         let undrawable = &self.plan.undrawable;
         self.report_problems(undrawable);
         if undrawable.is_empty() { Ok(()) } else { Err(problems_error(&self.path, undrawable.len())) }
@@ -139,10 +139,10 @@ impl ManifestSource {
     ///
     /// # Errors
     /// The first id of which the manifest has no family.
-    pub fn require_families(&self, only: &[String]) -> Result<(), InputError> {
+    pub fn require_families(&self, only: &[String]) -> Result<(), Failure> {
         let ids: Vec<&str> = self.plan.families.iter().map(|planned| planned.family.id.as_str()).collect();
         match only.iter().find(|id| !ids.contains(&id.as_str())) {
-            Some(id) => Err(InputError(format!("there is no family `{id}`: {}", suggestion(id, &ids)))),
+            Some(id) => Err(Failure::input(format!("there is no family `{id}`: {}", suggestion(id, &ids)))),
             None => Ok(()),
         }
     }
@@ -152,16 +152,17 @@ impl ManifestSource {
     ///
     /// # Errors
     /// None is given, and the manifest has no folder or no extension.
-    pub fn output_folder(&self, given: Option<&Path>) -> Result<PathBuf, InputError> {
+    pub fn output_folder(&self, given: Option<&Path>) -> Result<PathBuf, Failure> {
         if let Some(folder) = given {
             return Ok(folder.to_owned());
         }
         if files::is_standard(&self.path) {
-            return Err(InputError(
+            return Err(Failure::input(
                 "a manifest from standard input has no folder: name one to write to with -o".to_owned(),
             ));
         }
-        output::default_folder(&self.plan, &self.path).ok_or_else(|| InputError(output::no_folder_message(&self.path)))
+        output::default_folder(&self.plan, &self.path)
+            .ok_or_else(|| Failure::input(output::no_folder_message(&self.path)))
     }
 
     /// The folder of the manifest, in which the files are that it names.

@@ -10,7 +10,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::files::DEFAULT_MANIFEST;
 use super::source::{self, ManifestSource};
-use super::{InputError, Outcome, choice, files, interrupt, print, printable};
+use super::{Failure, Outcome, choice, files, interrupt, print, printable};
 use coupler_curves::text::pluralize;
 
 /// Solve a part of the cells of a manifest, or all, into tables without pages: cells and points of each family, as Parquet.
@@ -93,7 +93,7 @@ fn parse_format(name: &str) -> Result<TableFormat, String> {
     choice::parse("format", name, &TableFormat::ALL.map(|format| (format.name(), format)))
 }
 
-pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
+pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     if let Some(jobs) = arguments.jobs {
         rayon::ThreadPoolBuilder::new().num_threads(jobs.into()).build_global()?;
     }
@@ -140,8 +140,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
                 empty.push(record.family.clone());
             }
         }
-    })
-    .map_err(shard_error)?;
+    })?;
     let empty = source.plan.families.iter().filter(|planned| empty.contains(&planned.family.id));
     source.report_problems(&empty.map(output::empty_family_warning).collect::<Vec<_>>());
     if !arguments.quiet {
@@ -158,19 +157,8 @@ fn is_whole(record: &ShardRecord) -> bool {
     record.last_cell + 1 - record.first_cell == record.cell_count
 }
 
-/// An error of shards; those of the input have the exit code for it.
-pub(super) fn shard_error(error: shard::Error) -> anyhow::Error {
-    match error {
-        shard::Error::Output(error) => error.into(),
-        shard::Error::Interrupted => error.into(),
-        shard::Error::Unreadable(problems) => anyhow::Error::msg(problems.join("\nerror: ")),
-        shard::Error::Problems(problems) => super::InputErrors::from_messages(&problems).into(),
-        error => InputError(error.to_string()).into(),
-    }
-}
-
 /// The names of measures, or none.
-fn parse_measures(names: &[String]) -> Result<Vec<String>, InputError> {
+fn parse_measures(names: &[String]) -> Result<Vec<String>, Failure> {
     if names.len() == 1 && names[0].trim() == "none" {
         return Ok(Vec::new());
     }
@@ -181,27 +169,23 @@ fn parse_measures(names: &[String]) -> Result<Vec<String>, InputError> {
         .iter()
         .map(parse)
         .collect::<Result<_, String>>()
-        .map_err(|message| InputError(format!("--measures: {message}")))
+        .map_err(|message| Failure::input(format!("--measures: {message}")))
 }
 
 /// Checks that a range of cells is one of a single family.
-fn check_cells(
-    source: &ManifestSource,
-    division: Division,
-    is_selected: &dyn Fn(&str) -> bool,
-) -> Result<(), InputError> {
+fn check_cells(source: &ManifestSource, division: Division, is_selected: &dyn Fn(&str) -> bool) -> Result<(), Failure> {
     let Division::Cells { first, last } = division else { return Ok(()) };
     let mut families =
         source.plan.families.iter().map(|planned| &planned.family).filter(|family| is_selected(&family.id));
     match (families.next(), families.next()) {
-        (Some(family), Some(other)) => Err(InputError(format!(
+        (Some(family), Some(other)) => Err(Failure::input(format!(
             "--cells is for a single family: name one with --only, as in --only {}, of {}, {} and others",
             family.id, family.id, other.id
         ))),
         (Some(family), None) if last > family.cell_count() => {
             let count = family.cell_count();
             let which = if first > count { first } else { last };
-            Err(InputError(format!(
+            Err(Failure::input(format!(
                 "--cells: `{}` has no cell {which}: its cells are numbered from 1 to {count}",
                 family.id
             )))

@@ -11,7 +11,7 @@ use serde::Serialize;
 use super::files::DEFAULT_MANIFEST;
 use super::report::{self, ReportRequest};
 use super::source;
-use super::{Outcome, files, print, print_bytes};
+use super::{Failure, Outcome, files, print, print_bytes};
 use coupler_curves::text::pluralize;
 
 /// Report every problem of a manifest, and write nothing but the requested reports.
@@ -40,7 +40,7 @@ fn parse_report(text: &str) -> Result<ReportRequest<ReportFormat>, String> {
     report::parse_request(text, &REPORTS)
 }
 
-pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
+pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let path = &arguments.manifest;
     let text = source::read_text(path)?;
     let loaded = source::parse(path, &text)?;
@@ -63,7 +63,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     }
     let Some(plan) = loaded.plan else {
         let errors = problems.iter().filter(|problem| problem.is_error()).count();
-        return Err(source::problems_error(path, errors).into());
+        return Err(source::problems_error(path, errors));
     };
     if !is_printed(ReportFormat::Json) {
         let [families, cells] =
@@ -119,7 +119,7 @@ impl<'a> JsonProblem<'a> {
 }
 
 /// The problems of a manifest as JSON, in the order of the text: errors first, each in the order of the manifest.
-fn json(path: &Path, text: &str, problems: &[Problem], plan: Option<&Plan>) -> anyhow::Result<String> {
+fn json(path: &Path, text: &str, problems: &[Problem], plan: Option<&Plan>) -> Result<String, Failure> {
     let file = path.to_string_lossy();
     let mut ordered: Vec<&Problem> = problems.iter().collect();
     ordered.sort_by_key(|problem| (!problem.is_error(), problem.span.start));

@@ -3,7 +3,7 @@
 use crate::check::Report;
 use serde::Serialize;
 
-use super::super::report;
+use super::super::{Failure, report};
 
 /// The version of the format of the report.
 const FORMAT: u32 = 1;
@@ -16,6 +16,6 @@ struct Document<'a> {
 }
 
 /// The report as JSON, described in docs/check.md; infinite numbers are null.
-pub fn text(report: &Report) -> anyhow::Result<String> {
+pub fn text(report: &Report) -> Result<String, Failure> {
     report::json(FORMAT, &Document { has_differences: report.has_differences(), report })
 }

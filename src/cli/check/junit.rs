@@ -6,12 +6,12 @@ use crate::check::{Finding, Report};
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
 
-use super::super::printable;
+use super::super::{Failure, printable};
 use super::left_out::not_compared;
 
 /// The report as JUnit XML: a suite for each family with findings, with a case for each location, and a passing case
 /// for everything else.
-pub fn text(report: &Report) -> anyhow::Result<String> {
+pub fn text(report: &Report) -> Result<String, Failure> {
     let mut families: BTreeMap<&str, BTreeMap<String, Vec<&Finding>>> = BTreeMap::new();
     for finding in &report.findings {
         let cases = families.entry(&finding.location.family).or_default();
@@ -44,7 +44,7 @@ pub fn text(report: &Report) -> anyhow::Result<String> {
     }
     writer.write_event(Event::End(BytesEnd::new("testsuite")))?;
     writer.write_event(Event::End(BytesEnd::new("testsuites")))?;
-    Ok(String::from_utf8(writer.into_inner())? + "\n")
+    Ok(String::from_utf8(writer.into_inner()).map_err(Failure::system)? + "\n")
 }
 
 fn with_counts<'a>(mut start: BytesStart<'a>, name: &str, tests: usize, failures: usize) -> BytesStart<'a> {
@@ -54,7 +54,12 @@ fn with_counts<'a>(mut start: BytesStart<'a>, name: &str, tests: usize, failures
     start
 }
 
-fn write_case(writer: &mut Writer<Vec<u8>>, family: &str, location: &str, findings: &[&Finding]) -> anyhow::Result<()> {
+fn write_case(
+    writer: &mut Writer<Vec<u8>>,
+    family: &str,
+    location: &str,
+    findings: &[&Finding],
+) -> Result<(), Failure> {
     let mut start = BytesStart::new("testcase");
     start.push_attribute(("classname", printable(family).as_str()));
     start.push_attribute(("name", printable(location).as_str()));

@@ -18,7 +18,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use super::files::DEFAULT_MANIFEST;
 use super::report::{self, ReportRequest};
 use super::source::{self, ManifestSource};
-use super::{InputError, Outcome, files, print, print_bytes, print_stderr, printable};
+use super::{Failure, Outcome, files, print, print_bytes, print_stderr, printable};
 
 /// Run a manifest again, and report what has changed since an atlas was recorded: which curve, where and by how much.
 ///
@@ -113,13 +113,13 @@ fn parse_tolerance(text: &str) -> Result<f64, String> {
     if value >= 0.0 { Ok(value) } else { Err("a tolerance must not be negative".to_owned()) }
 }
 
-pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
+pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let source = source::read(&arguments.manifest)?;
     source.require_families(&arguments.only)?;
     if arguments.bless && !arguments.only.is_empty() {
         let message =
             "--bless records all families: leave out --only, or use `render --force --only` for a single family";
-        return Err(InputError(message.to_owned()).into());
+        return Err(Failure::input(message.to_owned()));
     }
     if let Some(jobs) = arguments.jobs {
         rayon::ThreadPoolBuilder::new().num_threads(jobs.into()).build_global()?;
@@ -155,7 +155,7 @@ pub(super) fn report_text(report: &Report) -> String {
 }
 
 /// Writes the requested reports, and prints the table unless a report is printed instead.
-fn write_reports(arguments: &Arguments, source: &ManifestSource, report: &Report) -> anyhow::Result<()> {
+fn write_reports(arguments: &Arguments, source: &ManifestSource, report: &Report) -> Result<(), Failure> {
     let mut has_table = true;
     for request in &arguments.report {
         let text = match request.format {
@@ -178,7 +178,7 @@ fn write_reports(arguments: &Arguments, source: &ManifestSource, report: &Report
 }
 
 /// Replaces the recorded atlas by a fresh run.
-fn bless(arguments: &Arguments, source: &ManifestSource, report: &Report) -> anyhow::Result<Outcome> {
+fn bless(arguments: &Arguments, source: &ManifestSource, report: &Report) -> Result<Outcome, Failure> {
     if report.findings.is_empty() {
         print_stderr("nothing has changed: the recorded atlas is kept\n");
         return Ok(Outcome::Done);

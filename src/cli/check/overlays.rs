@@ -8,7 +8,7 @@ use crate::output;
 use crate::record::RUN_FILE_NAME;
 use quick_xml::escape::escape;
 
-use super::super::{InputError, print_stderr, printable};
+use super::super::{Failure, print_stderr, printable};
 use coupler_curves::text::pluralize;
 
 /// At most this many curves are drawn, the worst ones: nobody looks at more.
@@ -24,7 +24,7 @@ const TITLE: &str = "what has moved";
 ///
 /// # Errors
 /// It has an atlas, or a page that no earlier check wrote.
-fn require_own_folder(folder: &Path) -> Result<(), InputError> {
+fn require_own_folder(folder: &Path) -> Result<(), Failure> {
     let page = folder.join("index.html");
     let is_own =
         || std::fs::read(&page).is_ok_and(|page| String::from_utf8_lossy(&page).contains(&format!("{TITLE}</title>")));
@@ -33,14 +33,14 @@ fn require_own_folder(folder: &Path) -> Result<(), InputError> {
         () if page.exists() && !is_own() => "a page index.html that no check wrote",
         () => return Ok(()),
     };
-    Err(InputError(format!(
+    Err(Failure::input(format!(
         "{} has {what}, which would be overwritten: name another folder with --diff",
         folder.display()
     )))
 }
 
 /// Writes a page for each curve that has moved, and an index of the pages.
-pub fn write(folder: &Path, plan: &Plan, recorded: &Path, options: &Options, report: &Report) -> anyhow::Result<()> {
+pub fn write(folder: &Path, plan: &Plan, recorded: &Path, options: &Options, report: &Report) -> Result<(), Failure> {
     require_own_folder(folder)?;
     output::create_folder(folder)?;
     let (mut figures, mut written, mut failed) = (String::new(), 0, None);

@@ -15,7 +15,7 @@ use clap::{Args, ValueEnum, ValueHint};
 use coupler_curves::expression::Expression;
 
 use super::linkage::parse_input;
-use super::{InputErrors, Outcome, choice, files, print, print_bytes};
+use super::{Failure, Outcome, choice, files, print, print_bytes};
 use report::{Report, option_name};
 
 /// Find the linkages that meet a designer's requirements, ranked, with their trade-offs (Natesan, chapter 10).
@@ -146,11 +146,11 @@ enum DoublePointChoice {
     Any,
 }
 
-pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
+pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let Task::StraightLine = arguments.what;
     let printed = [("--json", arguments.json), ("--toml", arguments.toml)];
     let is_drawing_printed = files::is_drawing_printed(arguments.svg.as_deref(), &printed)?;
-    let requirements = parse_requirements(arguments).map_err(|errors| InputErrors::from_messages(&errors))?;
+    let requirements = parse_requirements(arguments).map_err(|errors| Failure::inputs(&errors))?;
     let results = design::straight_line(&requirements);
     let report = Report { requirements, is_deviation_given: arguments.deviation.is_some(), results };
     if report.results.designs.is_empty() {
@@ -158,7 +158,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         if arguments.json {
             print_bytes(json::json(&report).as_bytes())?;
         }
-        return Err(InputErrors(text::no_design_message(&report).lines().map(str::to_owned).collect()).into());
+        return Err(Failure::inputs(&[text::no_design_message(&report)]));
     }
     if let Some(path) = &arguments.svg {
         files::write(path, &plate::plate(&report))?;

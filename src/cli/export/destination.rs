@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::export::Format;
 use crate::output;
 
-use super::super::{InputError, files, print_bytes, printable};
+use super::super::{Failure, files, print_bytes, printable};
 
 /// Where the files are written.
 pub(super) enum Destination {
@@ -19,8 +19,8 @@ impl Destination {
     ///
     /// # Errors
     /// The path cannot be that of so many files, or the folder cannot be created.
-    pub fn from_path(path: Option<&Path>, count: usize) -> anyhow::Result<Destination> {
-        let error = |message: String| Err(InputError(message).into());
+    pub fn from_path(path: Option<&Path>, count: usize) -> Result<Destination, Failure> {
+        let error = |message: String| Err(Failure::input(message));
         let Some(path) = path.filter(|path| !files::is_standard(path)) else {
             return match count {
                 1 => Ok(Destination::Stdout),
@@ -53,9 +53,9 @@ impl Destination {
     ///
     /// # Errors
     /// The file cannot be written.
-    pub fn write_file(&mut self, name: &str, bytes: &[u8]) -> anyhow::Result<()> {
+    pub fn write_file(&mut self, name: &str, bytes: &[u8]) -> Result<(), Failure> {
         match self {
-            Destination::Stdout => print_bytes(bytes),
+            Destination::Stdout => Ok(print_bytes(bytes)?),
             Destination::File(path) => files::write(path, bytes),
             Destination::Folder(folder) => files::write(&folder.join(name), bytes),
         }

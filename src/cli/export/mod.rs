@@ -24,7 +24,7 @@ use coupler_drawing::render::TextMode;
 use super::files::DEFAULT_MANIFEST;
 use super::linkage::{self, DEFAULT_SAMPLES};
 use super::source;
-use super::{InputError, InputErrors, Outcome, choice, files, print, print_stderr, printable};
+use super::{Failure, Outcome, choice, files, print, print_stderr, printable};
 use coupler_curves::text::pluralize;
 use destination::Destination;
 use selection::CurveSelection;
@@ -112,7 +112,7 @@ fn parse_step(text: &str, template: &Template) -> Result<f64, String> {
     is_valid.then_some(step).ok_or_else(|| format!("`{text}`: give a number of at least {MIN_STEP}, as in --step 2"))
 }
 
-pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
+pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let (selections, plan) = match &arguments.linkage {
         Some(id) => (vec![select_from_linkage(id, arguments)?], None),
         None => {
@@ -142,15 +142,15 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
 }
 
 /// One error of several messages.
-fn problems_error(problems: &[String]) -> anyhow::Error {
-    InputErrors::from_messages(problems).into()
+fn problems_error(problems: &[String]) -> Failure {
+    Failure::inputs(problems)
 }
 
 /// Selects the curves of a single linkage.
 ///
 /// # Errors
 /// Every error in the parameters and curves on the command line.
-fn select_from_linkage(id: &str, arguments: &Arguments) -> anyhow::Result<CurveSelection> {
+fn select_from_linkage(id: &str, arguments: &Arguments) -> Result<CurveSelection, Failure> {
     let template = linkage::find_template(id, arguments.manifest.as_deref())?;
     let mut problems = Vec::new();
     let (mut given, mut curves) = (Vec::new(), Vec::new());
@@ -183,7 +183,7 @@ fn select_from_linkage(id: &str, arguments: &Arguments) -> anyhow::Result<CurveS
                 0 => vec![name(None)],
                 _ => curves.into_iter().map(|curve| name(Some(curve))).collect(),
             };
-            names.iter().try_for_each(|name| selection.add(name)).map_err(|error| InputError(error.to_string()))?;
+            names.iter().try_for_each(|name| selection.add(name)).map_err(|error| Failure::input(error.to_string()))?;
             return Ok(selection);
         }
         Ok(_) => {}
@@ -195,7 +195,7 @@ fn select_from_linkage(id: &str, arguments: &Arguments) -> anyhow::Result<CurveS
 ///
 /// # Errors
 /// The manifest cannot be read, or every error in the names.
-fn select_from_manifest(arguments: &Arguments) -> anyhow::Result<(Vec<CurveSelection>, Plan)> {
+fn select_from_manifest(arguments: &Arguments) -> Result<(Vec<CurveSelection>, Plan), Failure> {
     let is_manifest = |word: &str| files::is_standard(Path::new(word)) || word.to_lowercase().ends_with(".toml");
     let (path, words) = match arguments.words.split_first() {
         Some((first, rest)) if is_manifest(first) => (Path::new(first), rest),
@@ -221,14 +221,14 @@ pub(super) struct CurveSamples {
 ///
 /// # Errors
 /// The manifest cannot be read, there is no such curve, or the name is that of several.
-pub(super) fn curve_points(manifest: &Path, name: &str) -> anyhow::Result<CurveSamples> {
+pub(super) fn curve_points(manifest: &Path, name: &str) -> Result<CurveSamples, Failure> {
     let source = source::read(manifest)?;
     let selections = select_curves(&source.plan, &[], &[name.to_owned()])?;
     let count = count_curves(&selections)?;
-    let [selection] = &selections[..] else { return Err(InputError(format!("there is no curve {name}")).into()) };
+    let [selection] = &selections[..] else { return Err(Failure::input(format!("there is no curve {name}"))) };
     if count > 1 {
         let message = format!("{name} has {count} curves: name one, as FAMILY:CELL.TRACE.CIRCUIT");
-        return Err(InputError(message).into());
+        return Err(Failure::input(message));
     }
     let points = |solved| {
         let solved = selection.retain_selected(solved);
@@ -240,16 +240,16 @@ pub(super) fn curve_points(manifest: &Path, name: &str) -> anyhow::Result<CurveS
     let mut found = None;
     selection.solve_cells(false, points, |curve| {
         found = found.take().or(curve);
-        Ok::<(), anyhow::Error>(())
+        Ok::<(), Failure>(())
     })?;
-    found.ok_or_else(|| InputError(format!("there is no curve {name}")).into())
+    found.ok_or_else(|| Failure::input(format!("there is no curve {name}")))
 }
 
 /// Selects the named curves of a plan, of some of its families or of all; without names, all of their curves.
 ///
 /// # Errors
 /// Every error in the names.
-fn select_curves(plan: &Plan, only: &[String], words: &[String]) -> anyhow::Result<Vec<CurveSelection>> {
+fn select_curves(plan: &Plan, only: &[String], words: &[String]) -> Result<Vec<CurveSelection>, Failure> {
     let is_requested = |id: &str| only.is_empty() || only.iter().any(|only| only == id);
     let planned: Vec<_> = plan.families.iter().filter(|planned| is_requested(&planned.family.id)).collect();
     let ids: Vec<&str> = planned.iter().map(|planned| planned.family.id.as_str()).collect();
@@ -295,7 +295,7 @@ fn select_curves(plan: &Plan, only: &[String], words: &[String]) -> anyhow::Resu
 ///
 /// # Errors
 /// Every named curve that does not exist; no curve at all.
-fn count_curves(selections: &[CurveSelection]) -> anyhow::Result<usize> {
+fn count_curves(selections: &[CurveSelection]) -> Result<usize, Failure> {
     let mut curves = 0;
     let mut problems = Vec::new();
     for selection in selections {
@@ -312,7 +312,7 @@ fn count_curves(selections: &[CurveSelection]) -> anyhow::Result<usize> {
                 not_assembled.extend(unassembled);
             }
             problems.extend(missing);
-            Ok::<(), anyhow::Error>(())
+            Ok::<(), Failure>(())
         })?;
         if let [first, rest @ ..] = &not_assembled[..] {
             let more = if rest.is_empty() { String::new() } else { format!(" and {} more", rest.len()) };
@@ -341,7 +341,7 @@ fn export_selection<'a>(
     (formats, options): (&[Format], &Options),
     destination: &mut Destination,
     cases: &mut Vec<ParameterSet<'a>>,
-) -> anyhow::Result<()> {
+) -> Result<(), Failure> {
     let curve_formats = || formats.iter().filter(|format| **format != Format::TOML);
     let export_cell = |solved| {
         let curves = SelectedCurve::all_from_cell(
@@ -361,7 +361,7 @@ fn export_selection<'a>(
     selection.solve_cells(true, export_cell, |(files, cell_cases)| {
         cases.extend(cell_cases);
         for (file, bytes) in files {
-            let bytes = bytes.map_err(|error| InputError(format!("{file}: {error}; give a smaller --dpi")))?;
+            let bytes = bytes.map_err(|error| Failure::input(format!("{file}: {error}; give a smaller --dpi")))?;
             destination.write_file(&file, &bytes)?;
         }
         Ok(())

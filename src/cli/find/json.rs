@@ -6,7 +6,7 @@ use coupler_curves::template::Template;
 use coupler_find::{AnswerRecord, FitRecord, PathKind, PlacedCurve, scaled_values};
 use serde::Serialize;
 
-use super::super::report;
+use super::super::{Failure, report};
 use super::Report;
 use super::text::options_of;
 
@@ -120,7 +120,7 @@ pub(super) fn target(target: &coupler_find::Target, reading: &str) -> Target {
 }
 
 /// The path, the linkages and their cognates, as indented JSON.
-pub(super) fn json(report: &Report) -> anyhow::Result<String> {
+pub(super) fn json(report: &Report) -> Result<String, Failure> {
     let Report { reading, target, answers, nearest_miss, .. } = report;
     let miss = nearest_miss.as_ref().map(|(constraints, answer)| NearestMiss {
         relax: options_of(constraints),

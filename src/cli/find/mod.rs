@@ -24,7 +24,7 @@ use coupler_find::{
 
 use super::export::CurveSamples;
 use super::linkage::DEFAULT_SAMPLES;
-use super::{InputError, InputErrors, Outcome, export, files, print_stderr, source};
+use super::{Failure, Outcome, export, files, print_stderr, source};
 pub use arguments::Arguments;
 use arguments::{EffortChoice, InputChoice};
 use notes::Best;
@@ -45,7 +45,7 @@ impl Shown for Report {
         constraints.contains(&Constraint::Condition).then_some((family, 0))
     }
 
-    fn json(&self) -> anyhow::Result<String> {
+    fn json(&self) -> Result<String, Failure> {
         json::json(self)
     }
 
@@ -63,7 +63,7 @@ impl Shown for Report {
     }
 }
 
-pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
+pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let printed = [("--json", arguments.json), ("--toml", arguments.toml)];
     let is_drawing_printed = files::is_drawing_printed(arguments.svg.as_deref(), &printed)?;
     let linkage = linkage::named(arguments)?;
@@ -85,7 +85,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         Some(angles_deg) => Target::timed(&points, kind, angles_deg),
         None => Target::new(&points, kind),
     };
-    let target = target.map_err(|error| InputError(format!("{name}: {error}")))?;
+    let target = target.map_err(|error| Failure::input(format!("{name}: {error}")))?;
     if let Some(atlas) = &arguments.atlas {
         return atlas::run((arguments, atlas), &options, (name, reading, target), is_drawing_printed);
     }
@@ -113,7 +113,7 @@ struct TracedPath {
 impl TracedPath {
     /// # Errors
     /// It is timed, open, and has no angles.
-    fn new(name: String, mut outline: Outline, arguments: &Arguments) -> Result<TracedPath, InputError> {
+    fn new(name: String, mut outline: Outline, arguments: &Arguments) -> Result<TracedPath, Failure> {
         let kind = match arguments {
             Arguments { closed: true, .. } => PathKind::Closed,
             Arguments { open: true, .. } => PathKind::Open,
@@ -123,7 +123,7 @@ impl TracedPath {
         };
         let angles_deg = if arguments.timed { outline.take_timing(kind) } else { None };
         if arguments.timed && angles_deg.is_none() {
-            return Err(InputError(format!(
+            return Err(Failure::input(format!(
                 "{name}: --timed needs an angle of the crank for each point of an open path: write them as a third column, in degrees"
             )));
         }
@@ -135,15 +135,15 @@ impl TracedPath {
 ///
 /// # Errors
 /// It cannot be read.
-fn read_path(arguments: &Arguments) -> anyhow::Result<TracedPath> {
+fn read_path(arguments: &Arguments) -> Result<TracedPath, Failure> {
     if let Some(name) = &arguments.like {
         let manifest = arguments.manifest.as_deref().unwrap_or(Path::new(files::DEFAULT_MANIFEST));
         let CurveSamples { points, inputs_deg, is_closed } = export::curve_points(manifest, name)?;
         if points.len() > MAX_POINTS {
             let message = format!("{name} has {} samples, and at most {MAX_POINTS} can be searched for", points.len());
-            return Err(InputError(message).into());
+            return Err(Failure::input(message));
         }
-        return Ok(TracedPath::new(name.clone(), Outline::new(points, inputs_deg, Some(is_closed)), arguments)?);
+        return TracedPath::new(name.clone(), Outline::new(points, inputs_deg, Some(is_closed)), arguments);
     }
     let path = arguments.path.as_deref().unwrap_or(Path::new("-"));
     files::protect(path);
@@ -153,15 +153,15 @@ fn read_path(arguments: &Arguments) -> anyhow::Result<TracedPath> {
         ReadOptions { is_timed: arguments.timed, outline: arguments.outline.as_deref(), ..ReadOptions::default() };
     let outline = find::parse_outline(&bytes, &options).map_err(|problems| {
         if let Some(message) = not_a_path::manifest_message(path, &bytes) {
-            return InputErrors::from_messages(&[message]);
+            return Failure::inputs(&[message]);
         }
         let problems: Vec<String> = problems.iter().map(|problem| format!("{name}: {problem}")).collect();
-        InputErrors::from_messages(&problems)
+        Failure::inputs(&problems)
     })?;
     if outline.reading.has_unused_angles {
         print_stderr(&format!(
             "note: the angles in {name} are not used: with --timed each point is reached at its own\n"
         ));
     }
-    Ok(TracedPath::new(name, outline, arguments)?)
+    TracedPath::new(name, outline, arguments)
 }

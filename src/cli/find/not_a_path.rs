@@ -5,10 +5,10 @@ use std::path::Path;
 
 use crate::output;
 
-use super::{InputError, files};
+use super::{Failure, files};
 
 /// Why the file of a path cannot be read, with the remedy.
-pub(super) fn unreadable(path: &Path, error: output::Error) -> anyhow::Error {
+pub(super) fn unreadable(path: &Path, error: output::Error) -> Failure {
     const FORMS: &str = "a table of points, JSON or a drawing in SVG or DXF";
     let name = files::input_name(path);
     let kind = match &error {
@@ -20,7 +20,7 @@ pub(super) fn unreadable(path: &Path, error: output::Error) -> anyhow::Error {
         ErrorKind::IsADirectory => format!("{name} is a folder: name {FORMS}"),
         _ => return error.into(),
     };
-    InputError(message).into()
+    Failure::input(message)
 }
 
 /// What to do with a manifest in place of a path; `None` if the text is no manifest.

@@ -4,14 +4,14 @@ use coupler_curves::expression::Expression;
 use coupler_find::{LinkageSpace, Options};
 
 use super::arguments::InputChoice;
-use super::{Arguments, InputErrors};
+use super::{Arguments, Failure};
 use crate::find::{Notation, Request, Searched};
 
 /// The options of the search, and the space of a linkage's dimensions if these are searched.
 ///
 /// # Errors
 /// All that is wrong with them.
-pub(super) fn check(arguments: &Arguments, searched: Searched) -> Result<(Options, Option<LinkageSpace>), InputErrors> {
+pub(super) fn check(arguments: &Arguments, searched: Searched) -> Result<(Options, Option<LinkageSpace>), Failure> {
     let default = Options::default();
     let max_link = parse_length(&arguments.max_link);
     let pivots = arguments.pivots.as_deref().map(parse_box).transpose();
@@ -39,7 +39,7 @@ pub(super) fn check(arguments: &Arguments, searched: Searched) -> Result<(Option
     };
     let unread = max_link.err().into_iter().chain(pivots.err());
     let messages: Vec<String> = unread.chain(problems.into_iter().map(|problem| problem.message)).collect();
-    checked.filter(|_| messages.is_empty()).ok_or_else(|| InputErrors::from_messages(&messages))
+    checked.filter(|_| messages.is_empty()).ok_or_else(|| Failure::inputs(&messages))
 }
 
 /// Reads a length in sizes of the path, or `inf`.

@@ -2,7 +2,7 @@
 
 use coupler_curves::family::Family;
 
-use super::super::{Outcome, files, print, print_bytes, print_stderr};
+use super::super::{Failure, Outcome, files, print, print_bytes, print_stderr};
 use super::Arguments;
 use super::notes::{self, Best};
 
@@ -10,7 +10,7 @@ use super::notes::{self, Best};
 pub(super) trait Shown {
     /// The path and the curves on one page, as SVG.
     fn drawing(&self) -> Vec<u8>;
-    fn json(&self) -> anyhow::Result<String>;
+    fn json(&self) -> Result<String, Failure>;
     /// A manifest that renders the linkages.
     fn manifest(&self) -> String;
     fn text(&self) -> String;
@@ -21,7 +21,7 @@ pub(super) trait Shown {
 }
 
 /// Writes the drawing that the arguments ask for, and prints what they ask for unless that is the drawing.
-pub(super) fn show(report: &impl Shown, arguments: &Arguments, is_drawing_printed: bool) -> anyhow::Result<Outcome> {
+pub(super) fn show(report: &impl Shown, arguments: &Arguments, is_drawing_printed: bool) -> Result<Outcome, Failure> {
     let mut notes = report.best().map_or(String::new(), |best| notes::notes(&best, arguments));
     if let Some(((family, cell), condition)) = report.miss().zip(arguments.condition.as_deref()) {
         notes += &notes::unmet(family, cell, condition);
@@ -34,7 +34,8 @@ pub(super) fn show(report: &impl Shown, arguments: &Arguments, is_drawing_printe
         }
     }
     if !arguments.json && !arguments.toml {
-        return print(&(report.text() + &notes)).map(|()| Outcome::Done);
+        print(&(report.text() + &notes))?;
+        return Ok(Outcome::Done);
     }
     print_bytes(if arguments.json { report.json()? } else { report.manifest() }.as_bytes())?;
     print_stderr(&notes);

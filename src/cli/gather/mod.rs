@@ -10,8 +10,8 @@ use crate::output;
 use crate::shard::{self, GatherOptions, Gathered, MAX_TOP};
 use clap::{Args, ValueHint};
 
-use super::sweep::{describe_counts, shard_error};
-use super::{InputError, Outcome, files, print_bytes, print_stderr, printable};
+use super::sweep::describe_counts;
+use super::{Failure, Outcome, files, print_bytes, print_stderr, printable};
 use coupler_curves::text::pluralize;
 
 /// Check that the shards of a manifest are complete: print the best of their curves as a table, and complete atlases whose pages
@@ -50,7 +50,7 @@ pub struct Arguments {
     quiet: bool,
 }
 
-pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
+pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     if let Some(jobs) = arguments.jobs {
         rayon::ThreadPoolBuilder::new().num_threads(jobs.into()).build_global()?;
     }
@@ -60,7 +60,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let (mut tables, mut atlases, mut complete) = (Vec::new(), Vec::new(), Vec::new());
     for folder in &arguments.folders {
         let shards = output::page_shards(folder)?;
-        let has_tables = shard::has_tables(folder).map_err(shard_error)?;
+        let has_tables = shard::has_tables(folder)?;
         let has_pages = !shards.is_empty();
         if has_pages {
             atlases.push((folder, shards));
@@ -88,10 +88,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         top: arguments.top.map(|top| top as usize),
         by: arguments.by.clone(),
     };
-    let gathered = shard::gather(&tables, &options).map_err(shard_error)?;
+    let gathered = shard::gather(&tables, &options)?;
     if arguments.toml.is_some() && gathered.by.is_none() {
         let message = "--toml is for the best curves: say how many and by what, as in --top 100 --by straight_length";
-        return Err(InputError(message.to_owned()).into());
+        return Err(Failure::input(message.to_owned()));
     }
     for note in &gathered.notes {
         print_stderr(&format!("note: {}\n", printable(note)));
@@ -114,7 +114,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
 }
 
 /// Checks that no option is given that is for tables.
-fn check_options(arguments: &Arguments) -> Result<(), InputError> {
+fn check_options(arguments: &Arguments) -> Result<(), Failure> {
     let given = [
         ("--top", arguments.top.is_some()),
         ("--by", arguments.by.is_some()),
@@ -123,14 +123,14 @@ fn check_options(arguments: &Arguments) -> Result<(), InputError> {
     ];
     let Some((option, _)) = given.into_iter().find(|(_, is_given)| *is_given) else { return Ok(()) };
     let names: Vec<String> = arguments.folders.iter().map(|folder| printable(folder.display())).collect();
-    Err(InputError(format!(
+    Err(Failure::input(format!(
         "{option} is for tables, and there are none in {}: `coupler-atlas sweep` writes them",
         names.join(" or in ")
     )))
 }
 
 /// Checks that a file for the best curves would replace nothing but one of an earlier gather.
-fn check_replaceable(path: &Path) -> Result<(), InputError> {
+fn check_replaceable(path: &Path) -> Result<(), Failure> {
     if files::is_standard(path) || !path.is_file() {
         return Ok(());
     }
@@ -139,7 +139,7 @@ fn check_replaceable(path: &Path) -> Result<(), InputError> {
     let first_line = beginning.split(|&byte| byte == b'\n').next().unwrap_or_default();
     match read {
         Ok(_) if shard::is_best_manifest(&String::from_utf8_lossy(first_line)) => Ok(()),
-        _ => Err(InputError(format!(
+        _ => Err(Failure::input(format!(
             "{} exists already, and is not what gather writes: name another file, or remove it first",
             path.display()
         ))),
@@ -179,20 +179,20 @@ fn totals(gathered: &Gathered) -> String {
 }
 
 /// Prints the rows of the best, as in `cells.csv`, and by what they are the best in a last column.
-fn print_table(gathered: &Gathered) -> anyhow::Result<()> {
+fn print_table(gathered: &Gathered) -> Result<(), Failure> {
     /// The rows that are printed at once.
     const ROWS: usize = 1 << 10;
     let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(gathered.columns.iter().map(String::as_str).chain(["by"]))?;
-    print_bytes(&writer.into_inner()?)?;
+    writer.write_record(gathered.columns.iter().map(String::as_str).chain(["by"])).map_err(Failure::system)?;
+    print_bytes(&writer.into_inner().map_err(Failure::system)?)?;
     for curves in gathered.best.chunks(ROWS) {
         let mut writer = csv::Writer::from_writer(Vec::new());
         for curve in curves {
             let mut key = Vec::new();
             coupler_curves::exchange::append_number(curve.key, &mut key);
-            writer.write_record(curve.fields.iter().map(str::as_bytes).chain([&key[..]]))?;
+            writer.write_record(curve.fields.iter().map(str::as_bytes).chain([&key[..]])).map_err(Failure::system)?;
         }
-        print_bytes(&writer.into_inner()?)?;
+        print_bytes(&writer.into_inner().map_err(Failure::system)?)?;
     }
     Ok(())
 }

@@ -8,7 +8,7 @@ use crate::record::{FolderRecord, PageShardHead, PageShardRecord, RunRecord};
 use crate::sweep::{Division, number_ranges};
 use coupler_drawing::render::Format;
 
-use super::super::{InputError, print_stderr, printable, render, source};
+use super::super::{Failure, print_stderr, printable, render, source};
 
 /// Whether a folder has a whole atlas.
 pub(super) fn has_atlas(folder: &Path) -> bool {
@@ -20,19 +20,18 @@ pub(super) fn has_atlas(folder: &Path) -> bool {
 }
 
 /// Checks that all pages of an atlas are drawn, and writes what they have in common.
-pub(super) fn complete(folder: &Path, shards: &[PageShard], is_quiet: bool) -> anyhow::Result<()> {
+pub(super) fn complete(folder: &Path, shards: &[PageShard], is_quiet: bool) -> Result<(), Failure> {
     let name = printable(folder.display());
     check_origin(&name, shards)?;
     let PageShardRecord { head: PageShardHead { formats, .. }, manifest, .. } = &shards[0].record;
     let path = manifest_path(folder, shards);
-    let source = source::with_text(&path, manifest.clone()).map_err(|error| match error.downcast_ref() {
-        Some(failure) if !output::Error::is_input(failure) => error,
-        _ => InputError(format!(
-            "{error}: the text is that of the manifest of the shards, and the files that it names are looked for beside {}; complete \
+    let source = source::with_text(&path, manifest.clone()).map_err(|failure| match failure.is_input() {
+        false => failure,
+        true => Failure::input(format!(
+            "{failure}: the text is that of the manifest of the shards, and the files that it names are looked for beside {}; complete \
              the atlas with `coupler-atlas render MANIFEST -o {name}`, wherever the manifest is now",
             printable(path.display())
-        ))
-        .into(),
+        )),
     })?;
     // Shards of a complete atlas that were drawn again need no others.
     if !output::has_atlas_of(&source.plan, folder) {
@@ -40,12 +39,12 @@ pub(super) fn complete(folder: &Path, shards: &[PageShard], is_quiet: bool) -> a
     }
     let parse = |names: &Vec<String>| names.iter().map(|name| render::parse_format(name)).collect();
     let formats: Option<Result<Vec<Format>, String>> = formats.as_ref().map(parse);
-    let formats = formats.transpose().map_err(InputError)?;
+    let formats = formats.transpose().map_err(Failure::input)?;
     render::complete(&source, folder, formats, is_quiet)
 }
 
 /// Checks that the shards are of one manifest.
-fn check_origin(name: &str, shards: &[PageShard]) -> Result<(), InputError> {
+fn check_origin(name: &str, shards: &[PageShard]) -> Result<(), Failure> {
     let PageShardRecord { head: PageShardHead { formats, .. }, manifest, run, .. } = &shards[0].record;
     let is_same = |shard: &PageShard| {
         let PageShardRecord { head, manifest: own, run: own_run, .. } = &shard.record;
@@ -55,7 +54,7 @@ fn check_origin(name: &str, shards: &[PageShard]) -> Result<(), InputError> {
     };
     let Some(other) = shards.iter().find(|shard| !is_same(shard)) else { return Ok(()) };
     let [first, other] = [&shards[0], other].map(|shard| shard.record.head.division);
-    Err(InputError(format!(
+    Err(Failure::input(format!(
         "{name}: {first} and {other} are of different manifests, formats or versions of the program: draw them again, {}",
         at_once(name)
     )))
@@ -68,7 +67,7 @@ fn at_once(name: &str) -> String {
 
 /// Checks that the shards of one number are all complete. What is left of other numbers is not needed, for any of them are all
 /// pages.
-fn check_complete(name: &str, shards: &[PageShard], is_quiet: bool) -> Result<(), InputError> {
+fn check_complete(name: &str, shards: &[PageShard], is_quiet: bool) -> Result<(), Failure> {
     let at_once = at_once(name);
     // For each number of shards the indices of those that are complete.
     let mut finished: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
@@ -104,7 +103,7 @@ fn check_complete(name: &str, shards: &[PageShard], is_quiet: bool) -> Result<()
             missing.join(", and ")
         )
     };
-    Err(InputError(message))
+    Err(Failure::input(message))
 }
 
 /// The path of the manifest of shards: where it is now, if any of them says so.

@@ -10,9 +10,9 @@ use coupler_curves::motion::{Motion, Sampler, Sampling};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 use coupler_drawing::page::{self, Panel};
 
+use super::super::Failure;
 use super::super::format::format_significant;
 use super::super::linkage::DEFAULT_SAMPLES;
-use super::InputError;
 use super::cognate_set::{CognateMember, CognateSet};
 use super::format::{describe_circuit, format_point};
 use super::report::Report;
@@ -21,21 +21,21 @@ use super::report::Report;
 ///
 /// # Errors
 /// There is no such joint, the linkage is not a four-bar with a coupler point there, or a cognate cannot be assembled.
-pub(super) fn find_cognates(id: &str, solved: &SolvedCell, trace: usize) -> anyhow::Result<CognateSet> {
+pub(super) fn find_cognates(id: &str, solved: &SolvedCell, trace: usize) -> Result<CognateSet, Failure> {
     let traced = &solved.linkage.traced;
     let Some(&joint) = trace.checked_sub(1).and_then(|k| traced.get(k)) else {
-        return Err(InputError(format!("{id} traces {} joints: give --trace 1 to {0}", traced.len())).into());
+        return Err(Failure::input(format!("{id} traces {} joints: give --trace 1 to {0}", traced.len())));
     };
-    let input_error = |error: CognateError| InputError(format!("{id}: {error}; {}", error.help()));
+    let input_error = |error: CognateError| Failure::input(format!("{id}: {error}; {}", error.help()));
     let placed = PlacedFourBar::from_linkage(&solved.linkage, joint).map_err(input_error)?;
     let cognates = Cognates::from_four_bar(placed).map_err(input_error)?;
     let assembled = Cognates::assemble(&solved.linkage, joint).map_err(input_error)?;
     let poses = four_bar_poses(solved);
     let motion_options = &solved.linkage.motion_options;
-    let member = |(name, cognate): (&'static str, Cognate)| -> anyhow::Result<CognateMember> {
+    let member = |(name, cognate): (&'static str, Cognate)| -> Result<CognateMember, Failure> {
         let linkage = cognate
             .to_linkage(poses.iter().copied(), motion_options)
-            .map_err(|error| InputError(format!("{id}, {name}: {error}; {}", error.help())))?;
+            .map_err(|error| Failure::input(format!("{id}, {name}: {error}; {}", error.help())))?;
         let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(DEFAULT_SAMPLES as usize)));
         Ok(CognateMember { name, cognate, class: cognate.four_bar.lengths.class(), linkage, motion })
     };

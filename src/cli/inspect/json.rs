@@ -9,6 +9,7 @@ use coupler_curves::solve::MeasuredCurve;
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use super::super::Failure;
 use super::cognate_set::{CognateMember, CognateSet};
 use super::equation::{self, EquationJson};
 use super::pose::{LinkRotation, Pose, instant_geometries, link_rotations};
@@ -119,7 +120,7 @@ struct CognateJson<'a> {
 ///
 /// # Errors
 /// None that can occur: the keys are strings.
-pub(super) fn json(report: &Report) -> anyhow::Result<String> {
+pub(super) fn json(report: &Report) -> Result<String, Failure> {
     let Report { family, solved, .. } = report;
     let linkage = &solved.linkage;
     let ranges = Ranges::new(linkage);

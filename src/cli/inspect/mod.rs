@@ -21,7 +21,7 @@ use coupler_curves::linkage::CircuitSelection;
 use coupler_curves::solve::Solver;
 
 use super::linkage::{self, DEFAULT_SAMPLES};
-use super::{InputError, InputErrors, Outcome, files, print, print_bytes};
+use super::{Failure, Outcome, files, print, print_bytes};
 use pose::Pose;
 use report::Report;
 
@@ -73,19 +73,19 @@ pub struct Arguments {
     animate: bool,
 }
 
-pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
+pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let printed = [("--json", arguments.json), ("--toml", arguments.toml), ("--sextic", arguments.sextic)];
     let is_drawing_printed = files::is_drawing_printed(arguments.svg.as_deref(), &printed)?;
     let mut template = linkage::find_template(&arguments.linkage, arguments.manifest.as_deref())?;
     let given = |text: &String| {
-        let parameter = ParameterText::parse(text).map_err(|error| InputError(error.to_string()))?;
-        parameter.resolve(&template).map_err(|error| InputError(format!("{}: {error}", arguments.linkage)))
+        let parameter = ParameterText::parse(text).map_err(|error| Failure::input(error.to_string()))?;
+        parameter.resolve(&template).map_err(|error| Failure::input(format!("{}: {error}", arguments.linkage)))
     };
     let given = arguments.parameters.iter().map(given).collect::<Result<Vec<_>, _>>()?;
     let is_length = template.is_driven_by_length();
     let at = arguments.at.as_deref().map(|text| linkage::parse_input(text, is_length, "--at 30")).transpose()?;
     if let (Some(at), Some(text)) = (at.filter(|at| !at.is_finite()), &arguments.at) {
-        return Err(InputError(format!("`{text}` is {at}: give a finite number, as in --at 30")).into());
+        return Err(Failure::input(format!("`{text}` is {at}: give a finite number, as in --at 30")));
     }
     let branch = arguments.branch.as_ref().map(|text| if text == "1" { 1 } else { -1 });
     if branch.is_some() {
@@ -93,9 +93,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         Arc::make_mut(&mut template).circuits = CircuitSelection::All;
     }
     let family = Family::single_cell(Arc::clone(&template), &given, Sampling::Samples(DEFAULT_SAMPLES as usize))
-        .map_err(|errors| InputErrors::from_messages(&linkage::parameter_errors(&template, &errors)))?;
+        .map_err(|errors| Failure::inputs(&linkage::parameter_errors(&template, &errors)))?;
     let Some(solved) = Solver::new(&family).solve(0) else {
-        return Err(InputError(format!("{}: there is no linkage with these parameters", arguments.linkage)).into());
+        return Err(Failure::input(format!("{}: there is no linkage with these parameters", arguments.linkage)));
     };
     let poses: Vec<Pose> = at.map(|at| pose::poses(&solved, at, branch)).unwrap_or_default();
     let cognates =
@@ -103,7 +103,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let equations = (equation::coupler_equations(&solved), arguments.sextic);
     if arguments.sextic && equations.0.is_empty() {
         let message = format!("{} has no coupler curve of a four-bar, and so no sextic: leave --sextic out", family.id);
-        return Err(InputError(message).into());
+        return Err(Failure::input(message));
     }
     let report = Report { family: &family, solved: &solved, input: at, poses, equations, cognates };
     if let Some(path) = &arguments.svg {

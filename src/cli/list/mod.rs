@@ -11,7 +11,7 @@ use coupler_drawing::page::{Layout, Theme};
 use super::files::DEFAULT_MANIFEST;
 use super::linkage::find_template;
 use super::source;
-use super::{InputError, Outcome, print, print_bytes, schema};
+use super::{Failure, Outcome, print, print_bytes, schema};
 
 /// List the built-in linkages, measures, further columns, layouts and themes, or the families of a manifest, or print the
 /// JSON Schema of manifests.
@@ -52,7 +52,7 @@ enum Topic {
     Schema,
 }
 
-pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
+pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     match (arguments.what, &arguments.name) {
         (Some(Topic::Schema), None) => {
             print_bytes(schema::schema_json().as_bytes())?;
@@ -75,7 +75,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
                 "nothing can be named here: write `list linkages {name}` for a linkage, or `list families {name}` for the \
                  families of a manifest"
             );
-            return Err(InputError(message).into());
+            return Err(Failure::input(message));
         }
         (_, None) => {}
     }

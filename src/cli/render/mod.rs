@@ -20,10 +20,10 @@ use progress::ProgressReporter;
 use rendering::{Rendered, closing_line, open, openable_paths, output_options, render};
 
 use super::source::{self, ManifestSource};
-use super::{Outcome, interrupt, print, print_stderr, printable};
+use super::{Failure, Outcome, interrupt, print, print_stderr, printable};
 use coupler_curves::text::pluralize;
 
-pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
+pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     if let Some(jobs) = arguments.jobs {
         rayon::ThreadPoolBuilder::new().num_threads(jobs.into()).build_global()?;
     }
@@ -45,7 +45,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
 }
 
 /// Draws a part of the pages.
-fn draw_shard(arguments: &Arguments, division: Division, interrupt: &Arc<AtomicBool>) -> anyhow::Result<Outcome> {
+fn draw_shard(arguments: &Arguments, division: Division, interrupt: &Arc<AtomicBool>) -> Result<Outcome, Failure> {
     let source = source::read(&arguments.manifest)?;
     if arguments.format.iter().flatten().any(|format| *format != Format::Svg) {
         source.require_drawable()?;
@@ -81,7 +81,7 @@ pub(super) fn complete(
     output: &Path,
     formats: Option<Vec<Format>>,
     is_quiet: bool,
-) -> anyhow::Result<()> {
+) -> Result<(), Failure> {
     let options = output::Options { formats, manifest: Some(source.file_name()), ..output::Options::default() };
     let mut reporter = ProgressReporter::new(is_quiet, true);
     let mut lines = String::new();

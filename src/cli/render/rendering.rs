@@ -10,7 +10,7 @@ use crate::record::{Digest, IMAGES_FILE_NAME, RUN_FILE_NAME, RunRecord, file_dig
 use coupler_drawing::render::Format;
 
 use super::super::source::{self, ManifestSource};
-use super::super::{files, print, print_stderr, printable};
+use super::super::{Failure, files, print, print_stderr, printable};
 use super::arguments::Arguments;
 use super::progress::ProgressReporter;
 
@@ -40,7 +40,7 @@ pub(super) struct Rendered {
 }
 
 /// Reads the manifest, and renders it once.
-pub(super) fn render(arguments: &Arguments, interrupt: &Arc<AtomicBool>) -> anyhow::Result<Rendered> {
+pub(super) fn render(arguments: &Arguments, interrupt: &Arc<AtomicBool>) -> Result<Rendered, Failure> {
     let source = source::read(&arguments.manifest)?;
     source.require_families(&arguments.only)?;
     if arguments.format.iter().flatten().any(|format| *format != Format::Svg) {

@@ -7,9 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::sleep;
 use std::time::Duration;
 
-use crate::output;
-
-use super::super::{InputError, Outcome, files, print_stderr, printable, report_failure};
+use super::super::{Failure, Outcome, files, print_stderr, printable};
 use super::arguments::Arguments;
 use super::live_page::LivePage;
 use super::rendering::{open, render};
@@ -21,10 +19,10 @@ const INTERVAL: Duration = Duration::from_millis(30);
 ///
 /// # Errors
 /// The manifest is not a file, or a run is interrupted. Other errors are printed, and the next change is waited for.
-pub(super) fn run(arguments: &Arguments, interrupt: &Arc<AtomicBool>) -> anyhow::Result<Outcome> {
+pub(super) fn run(arguments: &Arguments, interrupt: &Arc<AtomicBool>) -> Result<Outcome, Failure> {
     let path = &arguments.manifest;
     if files::is_standard(path) {
-        return Err(InputError("--watch needs a manifest in a file: standard input does not change".to_owned()).into());
+        return Err(Failure::input("--watch needs a manifest in a file: standard input does not change".to_owned()));
     }
     let mut live_page = arguments.open.then(LivePage::new).transpose()?;
     if let Some(page) = &live_page {
@@ -44,9 +42,9 @@ pub(super) fn run(arguments: &Arguments, interrupt: &Arc<AtomicBool>) -> anyhow:
             }
         }
         match result {
-            Err(error) if matches!(error.downcast_ref(), Some(output::Error::Interrupted)) => return Err(error),
+            Err(error) if error.is_interrupted() => return Err(error),
             Err(error) => {
-                report_failure(&error);
+                error.report();
             }
             Ok(_) => {}
         }
@@ -82,7 +80,7 @@ impl Contents {
 }
 
 /// The problems of a manifest, or else the error, as text.
-fn problem_text(path: &Path, error: &anyhow::Error) -> String {
+fn problem_text(path: &Path, error: &Failure) -> String {
     let Ok(text) = super::source::read_text(path) else { return error.to_string() };
     let problems = super::source::parse(path, &text).map(|loaded| loaded.problems).unwrap_or_default();
     if problems.is_empty() {

@@ -4,7 +4,7 @@ use crate::find::AtlasAnswer;
 use coupler_find::AnswerRecord;
 use serde::Serialize;
 
-use super::super::super::report;
+use super::super::super::{Failure, report};
 use super::super::json::{self, Document, FORMAT, NearestMiss, PlacedRecord};
 use super::super::text::options_of;
 use super::AtlasReport;
@@ -26,7 +26,7 @@ enum Linkage {
 }
 
 /// The path and the curves, as indented JSON.
-pub(super) fn json(report: &AtlasReport) -> anyhow::Result<String> {
+pub(super) fn json(report: &AtlasReport) -> Result<String, Failure> {
     let entry = |(rank, answer): (usize, &AtlasAnswer)| entry(report, rank, answer);
     let miss = report.findings.nearest_miss.as_ref();
     let document = Document {

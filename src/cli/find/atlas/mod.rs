@@ -14,7 +14,7 @@ use coupler_curves::family::Family;
 use coupler_find::{Constraint, Options, Quality, Target};
 
 use super::super::source::ManifestSource;
-use super::{Arguments, Best, InputError, Outcome, Shown, show, source, title_of};
+use super::{Arguments, Best, Failure, Outcome, Shown, show, source, title_of};
 use report::AtlasReport;
 
 pub(super) fn run(
@@ -22,11 +22,11 @@ pub(super) fn run(
     options: &Options,
     (name, reading, target): (String, String, Target),
     is_drawing_printed: bool,
-) -> anyhow::Result<Outcome> {
+) -> Result<Outcome, Failure> {
     let source = read(atlas)?;
     let query = AtlasQuery { options, condition: arguments.condition.as_deref(), is_fixed: arguments.fixed };
     let findings = find::find_in_atlas(&source.plan, &target, &query, &AtomicBool::new(false))
-        .map_err(|error| InputError(format!("--where: {error}")))?;
+        .map_err(|error| Failure::input(format!("--where: {error}")))?;
     if findings.curves == 0 {
         source.report_problems(&output::empty_family_warnings(&source.plan, None));
     }
@@ -38,7 +38,7 @@ pub(super) fn run(
 ///
 /// # Errors
 /// There is none, it has errors, or it is not that of the folder.
-fn read(atlas: &Path) -> anyhow::Result<ManifestSource> {
+fn read(atlas: &Path) -> Result<ManifestSource, Failure> {
     let is_folder = match atlas.metadata() {
         Ok(metadata) => metadata.is_dir(),
         Err(source) if !output::is_wrong_input(&source) => {
@@ -49,10 +49,10 @@ fn read(atlas: &Path) -> anyhow::Result<ManifestSource> {
     if !is_folder {
         return source::read(atlas);
     }
-    let example = |message: String| InputError(format!("{message}, as in --atlas path/to/atlas.toml"));
+    let example = |message: String| Failure::input(format!("{message}, as in --atlas path/to/atlas.toml"));
     let (path, run) = record::manifest_of(atlas).map_err(|error| match error {
-        UnknownManifest::Unreadable { .. } => anyhow::Error::from(error),
-        error => example(error.to_string()).into(),
+        UnknownManifest::Unreadable { .. } => Failure::system(error),
+        error => example(error.to_string()),
     })?;
     let source = source::read(&path)?;
     record::check_families(atlas, &path, &source.plan, &run).map_err(example)?;
@@ -78,7 +78,7 @@ impl Shown for AtlasReport {
         constraints.contains(&Constraint::Condition).then(|| (self.plan.families[*family].family.clone(), *cell))
     }
 
-    fn json(&self) -> anyhow::Result<String> {
+    fn json(&self) -> Result<String, Failure> {
         json::json(self)
     }
 

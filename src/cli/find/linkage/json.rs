@@ -3,7 +3,7 @@
 use coupler_find::LinkageAnswer;
 use serde::Serialize;
 
-use super::super::super::report;
+use super::super::super::{Failure, report};
 use super::super::json::{self, Document, FORMAT, NearestMiss, PlacedRecord};
 use super::super::text::options_of;
 use super::LinkageReport;
@@ -21,7 +21,7 @@ struct Entry {
 }
 
 /// The path and the linkages, as indented JSON.
-pub(super) fn json(report: &LinkageReport) -> anyhow::Result<String> {
+pub(super) fn json(report: &LinkageReport) -> Result<String, Failure> {
     let entry = |(rank, answer): (usize, &LinkageAnswer)| entry(report, rank, answer);
     let miss = report
         .findings

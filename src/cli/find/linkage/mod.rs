@@ -14,7 +14,7 @@ use coupler_find::{Constraint, LinkageSpace, Options, Quality, Target};
 
 use super::super::linkage::find_template;
 use super::super::source;
-use super::{Arguments, Best, InputError, Outcome, Shown, show, title_of};
+use super::{Arguments, Best, Failure, Outcome, Shown, show, title_of};
 use report::LinkageReport;
 
 /// The linkage that the arguments name.
@@ -28,13 +28,13 @@ pub(super) struct Named {
 ///
 /// # Errors
 /// There is no such linkage, or a manifest that is not used.
-pub(super) fn named(arguments: &Arguments) -> anyhow::Result<Option<Named>> {
+pub(super) fn named(arguments: &Arguments) -> Result<Option<Named>, Failure> {
     let Some(name) = &arguments.linkage else {
         return match (&arguments.manifest, &arguments.like) {
             (Some(_), None) => {
                 let message =
                     "--manifest FILE has the curve of --like CURVE or the linkage of --linkage NAME: give one of these";
-                Err(InputError(message.to_owned()).into())
+                Err(Failure::input(message.to_owned()))
             }
             _ => Ok(None),
         };
@@ -52,7 +52,7 @@ pub(super) fn named(arguments: &Arguments) -> anyhow::Result<Option<Named>> {
 }
 
 /// The text of a linkage of a manifest.
-fn own_text(path: &Path, id: &str) -> anyhow::Result<Option<String>> {
+fn own_text(path: &Path, id: &str) -> Result<Option<String>, Failure> {
     let text = source::read_text(path)?;
     Ok(manifest::linkage_text(&text, id))
 }
@@ -63,10 +63,10 @@ pub(super) fn run(
     options: &Options,
     (name, reading, target): (String, String, Target),
     is_drawing_printed: bool,
-) -> anyhow::Result<Outcome> {
+) -> Result<Outcome, Failure> {
     let samples = arguments.index.map(|count| count as usize);
     let findings = find::find_linkage(&space, &target, options, samples, &AtomicBool::new(false))
-        .map_err(|error| InputError(error.to_string()))?;
+        .map_err(|error| Failure::input(error.to_string()))?;
     let report = LinkageReport { name, reading, target, space, findings, own_linkage };
     show(&report, arguments, is_drawing_printed)
 }
@@ -86,7 +86,7 @@ impl Shown for LinkageReport {
         constraints.contains(&Constraint::Condition).then(|| (answer.family.clone(), 0))
     }
 
-    fn json(&self) -> anyhow::Result<String> {
+    fn json(&self) -> Result<String, Failure> {
         json::json(self)
     }
 
