@@ -146,8 +146,7 @@ impl Request<'_> {
             match Condition::new(template, text) {
                 Ok(condition) => options.condition = Some(condition),
                 Err(error) => {
-                    let help = if error.help.is_empty() { String::new() } else { format!("; {}", error.help) };
-                    let message = format!("{}: `{text}`: {error}{help}", self.notation.name("where"));
+                    let message = format!("{}: `{text}`: {}", self.notation.name("where"), error.message_with_help());
                     problems.push(RequestProblem { option: "where", message });
                 }
             }

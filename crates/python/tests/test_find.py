@@ -170,6 +170,7 @@ def test_ctrl_c_ends_a_search() -> None:
         (None, {"top": 0, "max_link": 0}, ValueError, "max_link=0: give a positive number of sizes of the path, as in 10, or inf\ntop=0"),
         (None, {"tops": 3}, TypeError, "unexpected keyword argument 'tops'"),
         (None, {"top": "3"}, TypeError, "top: "),
+        (None, {"top": None}, TypeError, "top: "),
         (None, {"effort": "much"}, ValueError, 'effort="much"'),
         (None, {"pivots": (1, 0, 0, 1)}, ValueError, "pivots=(1, 0, 0, 1): give a box"),
         (None, {"where": "mu_wrst_deg > 3"}, ValueError, "mu_worst_deg"),

@@ -119,7 +119,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     if arguments.bless && !arguments.only.is_empty() {
         let message =
             "--bless records all families: leave out --only, or use `render --force --only` for a single family";
-        return Err(Failure::input(message.to_owned()));
+        return Err(Failure::input(message));
     }
     if let Some(jobs) = arguments.jobs {
         rayon::ThreadPoolBuilder::new().num_threads(jobs.into()).build_global()?;

@@ -141,11 +141,6 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     Ok(Outcome::Done)
 }
 
-/// One error of several messages.
-fn problems_error(problems: &[String]) -> Failure {
-    Failure::inputs(problems)
-}
-
 /// Selects the curves of a single linkage.
 ///
 /// # Errors
@@ -183,12 +178,12 @@ fn select_from_linkage(id: &str, arguments: &Arguments) -> Result<CurveSelection
                 0 => vec![name(None)],
                 _ => curves.into_iter().map(|curve| name(Some(curve))).collect(),
             };
-            names.iter().try_for_each(|name| selection.add(name)).map_err(|error| Failure::input(error.to_string()))?;
+            names.iter().try_for_each(|name| selection.add(name)).map_err(Failure::input)?;
             return Ok(selection);
         }
         Ok(_) => {}
     }
-    Err(problems_error(&problems))
+    Err(Failure::inputs(&problems))
 }
 
 /// Selects the named curves of a manifest, and returns its plan.
@@ -288,7 +283,7 @@ fn select_curves(plan: &Plan, only: &[String], words: &[String]) -> Result<Vec<C
         selections
             .extend(planned.iter().map(|planned| CurveSelection::all(planned.family.clone(), planned.source.clone())));
     }
-    if problems.is_empty() { Ok(selections) } else { Err(problems_error(&problems)) }
+    if problems.is_empty() { Ok(selections) } else { Err(Failure::inputs(&problems)) }
 }
 
 /// The number of selected curves.
@@ -322,7 +317,7 @@ fn count_curves(selections: &[CurveSelection]) -> Result<usize, Failure> {
     if problems.is_empty() && curves == 0 {
         problems.push("there is no curve to export: see cells.csv for the reasons".to_owned());
     }
-    if problems.is_empty() { Ok(curves) } else { Err(problems_error(&problems)) }
+    if problems.is_empty() { Ok(curves) } else { Err(Failure::inputs(&problems)) }
 }
 
 fn export_options(arguments: &Arguments, plan: Option<&Plan>) -> Options {

@@ -91,7 +91,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let gathered = shard::gather(&tables, &options)?;
     if arguments.toml.is_some() && gathered.by.is_none() {
         let message = "--toml is for the best curves: say how many and by what, as in --top 100 --by straight_length";
-        return Err(Failure::input(message.to_owned()));
+        return Err(Failure::input(message));
     }
     for note in &gathered.notes {
         print_stderr(&format!("note: {}\n", printable(note)));

@@ -78,7 +78,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let is_drawing_printed = files::is_drawing_printed(arguments.svg.as_deref(), &printed)?;
     let mut template = linkage::find_template(&arguments.linkage, arguments.manifest.as_deref())?;
     let given = |text: &String| {
-        let parameter = ParameterText::parse(text).map_err(|error| Failure::input(error.to_string()))?;
+        let parameter = ParameterText::parse(text).map_err(Failure::input)?;
         parameter.resolve(&template).map_err(|error| Failure::input(format!("{}: {error}", arguments.linkage)))
     };
     let given = arguments.parameters.iter().map(given).collect::<Result<Vec<_>, _>>()?;

@@ -22,7 +22,7 @@ const INTERVAL: Duration = Duration::from_millis(30);
 pub(super) fn run(arguments: &Arguments, interrupt: &Arc<AtomicBool>) -> Result<Outcome, Failure> {
     let path = &arguments.manifest;
     if files::is_standard(path) {
-        return Err(Failure::input("--watch needs a manifest in a file: standard input does not change".to_owned()));
+        return Err(Failure::input("--watch needs a manifest in a file: standard input does not change"));
     }
     let mut live_page = arguments.open.then(LivePage::new).transpose()?;
     if let Some(page) = &live_page {

@@ -150,9 +150,8 @@ fn compile<'p>(plan: &'p Plan, condition: Option<&str>) -> Result<Vec<Conditione
     }
     match error.filter(|_| families.is_empty()) {
         Some(error) => {
-            let help = if error.help.is_empty() { String::new() } else { format!("; {}", error.help) };
             let condition = condition.unwrap_or_default().to_owned();
-            Err(Error::Condition { condition, error: format!("{error}{help}") })
+            Err(Error::Condition { condition, error: error.message_with_help() })
         }
         None => Ok(families),
     }

@@ -12,7 +12,7 @@ use mutator::Mutator;
 
 /// The number of changes that are made of each text, of large ones a tenth; `CORPUS_CHANGES=10000` makes more.
 fn change_count() -> usize {
-    std::env::var("CORPUS_CHANGES").ok().and_then(|number| number.parse().ok()).unwrap_or(150)
+    std::env::var("CORPUS_CHANGES").ok().and_then(|number| number.parse().ok()).unwrap_or(300)
 }
 
 /// The texts of single files and of the files of folders, sorted by path.

@@ -30,7 +30,7 @@ struct Case {
 /// A crank and rocker, or a drag link, by the intersection of two circles.
 fn four_bar(random: &mut Random) -> Curve {
     let [frame, crank, coupler, rocker] = loop {
-        let lengths = [random.within(0.3, 5.0), 1.0, random.within(0.3, 5.0), random.within(0.3, 5.0)];
+        let lengths = [random.between(0.3, 5.0), 1.0, random.between(0.3, 5.0), random.between(0.3, 5.0)];
         let mut sorted = lengths;
         sorted.sort_by(f64::total_cmp);
         let is_full_turn = sorted[0] == lengths[0] || sorted[0] == lengths[1];
@@ -38,7 +38,7 @@ fn four_bar(random: &mut Random) -> Curve {
             break lengths;
         }
     };
-    let [along, across] = [random.within(-1.0, 2.0), random.within(-1.5, 1.5)];
+    let [along, across] = [random.between(-1.0, 2.0), random.between(-1.5, 1.5)];
     Box::new(move |input| {
         let a = [crank * trig::cos(input), crank * trig::sin(input)];
         let to_pivot = [frame - a[0], -a[1]];
@@ -53,9 +53,9 @@ fn four_bar(random: &mut Random) -> Curve {
 
 /// A point of a planet gear, within or outside its pitch circle.
 fn planet_gear(random: &mut Random) -> Curve {
-    let ratio = [-4.0, -3.0, -2.0, 2.0, 3.0, 4.0, 5.0][(7.0 * random.next()) as usize];
-    let radius = random.within(0.1, 1.5) / f64::abs(ratio);
-    let start = random.within(0.0, TAU);
+    let ratio = [-4.0, -3.0, -2.0, 2.0, 3.0, 4.0, 5.0][(7.0 * random.number()) as usize];
+    let radius = random.between(0.1, 1.5) / f64::abs(ratio);
+    let start = random.between(0.0, TAU);
     Box::new(move |input| {
         let turned = ratio * input + start;
         [trig::cos(input) + radius * trig::cos(turned), trig::sin(input) + radius * trig::sin(turned)]
@@ -64,7 +64,7 @@ fn planet_gear(random: &mut Random) -> Curve {
 
 /// A file of the curve from a random input on, in a random direction.
 fn file(curve: &Curve, case: &Case, random: &mut Random) -> String {
-    let (start, direction) = (random.within(0.0, TAU), if random.next() < 0.5 { 1.0 } else { -1.0 });
+    let (start, direction) = (random.between(0.0, TAU), if random.number() < 0.5 { 1.0 } else { -1.0 });
     let steps = if case.is_closed { case.count } else { case.count - 1 };
     let points = case.count + usize::from(case.is_repeated);
     let point = |k: usize| curve(start + direction * TAU * case.part * k as f64 / steps as f64);
@@ -76,7 +76,7 @@ fn file(curve: &Curve, case: &Case, random: &mut Random) -> String {
     };
     let size = (path.iter().map(square).sum::<f64>() / points as f64).sqrt();
     // The sum of three even numbers is nearly normal.
-    let mut normal = || 2.0 * (random.next() + random.next() + random.next() - 1.5);
+    let mut normal = || 2.0 * (random.number() + random.number() + random.number() - 1.5);
     for point in &mut path {
         *point = point.map(|value| value + case.noise * size * normal());
     }
@@ -191,7 +191,7 @@ fn drawn_arcs_are_open_and_rings_closed() {
                     let steps = if is_closed { count } else { count - 1 };
                     for k in 0..count {
                         let [x, y] =
-                            curve(turn * k as f64 / steps as f64).map(|value| value + 0.004 * (random.next() - 0.5));
+                            curve(turn * k as f64 / steps as f64).map(|value| value + 0.004 * (random.number() - 0.5));
                         writeln!(text, "{x} {y}").unwrap();
                     }
                     assert_eq!(reading(&text).0, is_closed, "{count} {degrees} {slow} {wide}");

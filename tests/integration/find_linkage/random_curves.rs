@@ -12,19 +12,11 @@ use coupler_curves::solve::{MeasuredCurve, Solver};
 use coupler_curves::template::{ParameterKind, Template};
 use coupler_find::{LinkageAnswer, LinkageSpace, Options, PathKind, Target};
 
-/// Random numbers from 0 to 1.
-pub struct Random(pub u64);
+#[expect(dead_code, reason = "others need normally distributed numbers")]
+#[path = "../../../crates/coupler-find/tests/random/mod.rs"]
+mod random;
 
-impl Random {
-    pub fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    pub fn within(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.next()
-    }
-}
+pub use random::Random;
 
 /// A linkage with its default dimensions, or those of its example where it has none.
 pub fn with_defaults(template: &Arc<Template>, sampling: Sampling) -> Family {
@@ -56,9 +48,9 @@ pub fn random_curve(
         let vary = |(parameter, value): (&coupler_curves::template::Parameter, &f64)| {
             let value = match parameter.kind {
                 _ if ["n", "m"].contains(&parameter.name.as_str()) && template.id == "geared-five-bar" => *value,
-                ParameterKind::Angle(_) => random.within(-180.0, 180.0),
-                ParameterKind::Length if parameter.min.is_none() => value + mean * random.within(-0.6, 0.6),
-                _ => value * random.within(0.6, 1.7),
+                ParameterKind::Angle(_) => random.between(-180.0, 180.0),
+                ParameterKind::Length if parameter.min.is_none() => value + mean * random.between(-0.6, 0.6),
+                _ => value * random.between(0.6, 1.7),
             };
             (parameter.name.clone(), value)
         };
@@ -78,8 +70,8 @@ pub fn random_curve(
 
 /// Points elsewhere, in another size and direction, mirrored or not.
 pub fn placed(points: &[Point], random: &mut Random) -> Vec<Point> {
-    let (scale, angle) = (random.within(0.1, 30.0), random.within(0.0, 6.3));
-    let (x, y, mirror) = (random.within(-90.0, 90.0), random.within(-90.0, 90.0), random.next() < 0.5);
+    let (scale, angle) = (random.between(0.1, 30.0), random.between(0.0, 6.3));
+    let (x, y, mirror) = (random.between(-90.0, 90.0), random.between(-90.0, 90.0), random.number() < 0.5);
     let (cos, sin) = (scale * trig::cos(angle), scale * trig::sin(angle));
     let image = |p: &Point| {
         let own = if mirror { -p.y } else { p.y };

@@ -20,8 +20,8 @@ use crate::support::folder::tree;
 /// A family of two cells.
 const FAMILY: [&str; 2] = ["--only", "actuator"];
 
-#[test]
-fn damage_anywhere_is_noticed_and_made_again() {
+/// Panics unless damage of a shard's file, in its last byte and in so many parts of it, is noticed, and the shard made again.
+fn assert_noticed(parts: usize) {
     let folder = folder_with(MANIFEST);
     let path = folder.path();
     for (format, tables) in [("parquet", ["cells", "points"]), ("csv", ["cells", "points"])] {
@@ -31,7 +31,7 @@ fn damage_anywhere_is_noticed_and_made_again() {
             let file = path.join(format).join("actuator").join(shard(table, 0, 2, format));
             let bytes = fs::read(&file).unwrap();
             // The last bytes are the length of the metadata, and the mark of the format.
-            for place in (4..bytes.len()).step_by(bytes.len() / 4).chain([bytes.len() - 1]) {
+            for place in (4..bytes.len()).step_by(bytes.len() / parts).chain([bytes.len() - 1]) {
                 let mut damaged = bytes.clone();
                 damaged[place] ^= 0xff;
                 fs::write(&file, &damaged).unwrap();
@@ -44,6 +44,17 @@ fn damage_anywhere_is_noticed_and_made_again() {
             }
         }
     }
+}
+
+#[test]
+fn damage_is_noticed_and_made_again() {
+    assert_noticed(4);
+}
+
+#[test]
+#[ignore = "thorough"]
+fn damage_anywhere_is_noticed_and_made_again() {
+    assert_noticed(9);
 }
 
 /// A change of columns, and what it is noticed by.

@@ -71,6 +71,11 @@ pub struct Error {
 }
 
 impl Error {
+    /// What is wrong and how to fix it, in one line.
+    pub fn message_with_help(&self) -> String {
+        if self.help.is_empty() { self.message.clone() } else { format!("{}; {}", self.message, self.help) }
+    }
+
     pub(crate) fn new(span: Span, message: impl Into<String>, help: impl Into<String>) -> Error {
         Error { message: message.into(), span, help: help.into(), is_unknown_name: false }
     }

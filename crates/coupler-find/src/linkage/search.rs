@@ -30,7 +30,6 @@ use coupler_curves::solve::{SolvedCell, Solver};
 pub struct LinkageSearch {
     fitting: LinkageFitting,
     options: Options,
-    points: usize,
     /// The parameter sets that are wanted, and those that are found to have a curve.
     samples: usize,
     found: usize,
@@ -115,7 +114,6 @@ impl LinkageSearch {
         LinkageSearch {
             starts: if fitting.is_slow() { starts.div_ceil(SLOWER) } else { starts },
             options: options.clone(),
-            points: target.points().len(),
             samples,
             found: 0,
             index: SampleIndex::default(),
@@ -241,7 +239,7 @@ impl LinkageSearch {
         let count = self.refinements.len();
         keep_nearest(&mut self.refinements, count);
         match self.refinements.first().map(LinkageRefinement::sum) {
-            Some(best) if round < RESTART_ROUNDS && best > EXACT * self.points as f64 => {
+            Some(best) if round < RESTART_ROUNDS && best > EXACT * self.fitting.target().points().len() as f64 => {
                 let from = self.refinements.iter().take(NEAREST).cloned().collect();
                 Stage::Restart { round, next: 0, from, best }
             }

@@ -300,9 +300,8 @@ impl LinkageSpace {
 /// Reads the value of a parameter.
 fn parsed(parameter: &Parameter, text: &str, scope: &Scope) -> Result<Expression, LinkageSpaceError> {
     let name = &parameter.name;
-    let described = |error: expression::Error| {
-        let help = if error.help.is_empty() { String::new() } else { format!("; {}", error.help) };
-        LinkageSpaceError::Value { message: format!("`{name}` = `{text}`: {error}{help}") }
+    let described = |error: expression::Error| LinkageSpaceError::Value {
+        message: format!("`{name}` = `{text}`: {}", error.message_with_help()),
     };
     let expression = parameter.kind.parse_value(name, text).map_err(described)?;
     expression.compile(scope, Kind::Number).map_err(described)?;

@@ -50,17 +50,13 @@ enum OutlineName {
 }
 
 /// Keywords that have not been read.
-struct Unread<'a, 'py>(Option<&'a Bound<'py, PyDict>>);
+struct Unread<'py>(Bound<'py, PyDict>);
 
-impl<'py> Unread<'_, 'py> {
-    /// The value of a keyword; none if it is not given, or is None.
+impl<'py> Unread<'py> {
+    /// The value of a keyword, if it is given.
     fn take<T: FromPyObjectOwned<'py>>(&self, name: &str) -> PyResult<Option<T>> {
-        let Some(value) = self.0.map(|keywords| keywords.get_item(name)).transpose()?.flatten() else {
-            return Ok(None);
-        };
-        if value.is_none() {
-            return Ok(None);
-        }
+        let Some(value) = self.0.get_item(name)? else { return Ok(None) };
+        self.0.del_item(name)?;
         value.extract::<T>().map(Some).map_err(|error| {
             let (py, error): (_, PyErr) = (value.py(), error.into());
             match error.is_instance_of::<PyTypeError>(py) {
@@ -69,41 +65,21 @@ impl<'py> Unread<'_, 'py> {
             }
         })
     }
+
+    /// The value of a keyword that may be None.
+    fn take_optional<T>(&self, name: &str) -> PyResult<Option<T>>
+    where
+        Option<T>: FromPyObjectOwned<'py>,
+    {
+        Ok(self.take::<Option<T>>(name)?.flatten())
+    }
 }
 
 impl<'py> Keywords<'py> {
     /// # Errors
     /// A keyword is unknown, or has a value of another type.
-    pub fn from_dict(keywords: Option<&Bound<'py, PyDict>>) -> PyResult<Keywords<'py>> {
-        const NAMES: [&str; 20] = [
-            "outline",
-            "closed",
-            "part",
-            "angles",
-            "timed",
-            "where",
-            "full_turn",
-            "max_link",
-            "pivots",
-            "top",
-            "index",
-            "refine",
-            "effort",
-            "atlas",
-            "fixed",
-            "linkage",
-            "manifest",
-            "keep",
-            "seed",
-            "progress",
-        ];
-        for name in keywords.iter().flat_map(|keywords| keywords.keys()) {
-            let name: String = name.extract()?;
-            if !NAMES.contains(&name.as_str()) {
-                return Err(PyTypeError::new_err(format!("find() got an unexpected keyword argument '{name}'")));
-            }
-        }
-        let keywords = Unread(keywords);
+    pub fn from_dict(py: Python<'py>, keywords: Option<&Bound<'py, PyDict>>) -> PyResult<Keywords<'py>> {
+        let keywords = Unread(keywords.map_or_else(|| Ok(PyDict::new(py)), |keywords| keywords.copy())?);
         let default = Options::default();
         let whole = |name: &str, value: Option<i64>| value.map(|value| natural(name, value)).transpose();
         let effort: Option<String> = keywords.take("effort")?;
@@ -116,27 +92,34 @@ impl<'py> Keywords<'py> {
             effort: effort.map_or(Ok(default.effort), |name| effort_of(&name))?,
             ..default
         };
-        let outline = keywords.take("outline")?.map(|name| match name {
+        let outline = keywords.take_optional("outline")?.map(|name| match name {
             OutlineName::Number(number) => number.to_string(),
             OutlineName::Id(id) => id,
         });
-        Ok(Keywords {
+        let read = Keywords {
             outline,
-            closed: keywords.take("closed")?,
+            closed: keywords.take_optional("closed")?,
             part: keywords.take("part")?.unwrap_or_default(),
-            angles: keywords.take("angles")?,
+            angles: keywords.take_optional("angles")?,
             timed: keywords.take("timed")?.unwrap_or_default(),
-            condition: keywords.take("where")?,
-            index: whole("index", keywords.take("index")?)?,
-            atlas: keywords.take("atlas")?,
+            condition: keywords.take_optional("where")?,
+            index: whole("index", keywords.take_optional("index")?)?,
+            atlas: keywords.take_optional("atlas")?,
             fixed: keywords.take("fixed")?.unwrap_or_default(),
-            progress: keywords.take("progress")?,
-            linkage: keywords.take("linkage")?,
-            manifest: keywords.take("manifest")?,
-            keep: keywords.take("keep")?,
-            pivots: keywords.take("pivots")?,
+            progress: keywords.take_optional("progress")?,
+            linkage: keywords.take_optional("linkage")?,
+            manifest: keywords.take_optional("manifest")?,
+            keep: keywords.take_optional("keep")?,
+            pivots: keywords.take_optional("pivots")?,
             options,
-        })
+        };
+        match keywords.0.keys().iter().next() {
+            Some(name) => {
+                let message = format!("find() got an unexpected keyword argument '{name}'");
+                Err(PyTypeError::new_err(message))
+            }
+            None => Ok(read),
+        }
     }
 
     /// The linkage that they name, if they name one.

@@ -95,7 +95,7 @@ use path::Path;
                       keep=None, seed=1, progress=None)"
 )]
 pub fn find_linkages(py: Python, path: Bound<PyAny>, keywords: Option<&Bound<PyDict>>) -> PyResult<Found> {
-    let keywords = Keywords::from_dict(keywords)?;
+    let keywords = Keywords::from_dict(py, keywords)?;
     let linkage = keywords.named_linkage(py)?;
     let (options, space) = keywords.request(linkage.as_ref()).check().map_err(request_error)?;
     let read_options =

@@ -34,7 +34,7 @@ pub(super) fn named(arguments: &Arguments) -> Result<Option<Named>, Failure> {
             (Some(_), None) => {
                 let message =
                     "--manifest FILE has the curve of --like CURVE or the linkage of --linkage NAME: give one of these";
-                Err(Failure::input(message.to_owned()))
+                Err(Failure::input(message))
             }
             _ => Ok(None),
         };
@@ -65,8 +65,8 @@ pub(super) fn run(
     is_drawing_printed: bool,
 ) -> Result<Outcome, Failure> {
     let samples = arguments.index.map(|count| count as usize);
-    let findings = find::find_linkage(&space, &target, options, samples, &AtomicBool::new(false))
-        .map_err(|error| Failure::input(error.to_string()))?;
+    let findings =
+        find::find_linkage(&space, &target, options, samples, &AtomicBool::new(false)).map_err(Failure::input)?;
     let report = LinkageReport { name, reading, target, space, findings, own_linkage };
     show(&report, arguments, is_drawing_printed)
 }
