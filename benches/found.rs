@@ -1,5 +1,5 @@
 //! Counts how many curves of random linkages the search for any linkage finds: `cargo bench --bench found`, the table of docs/find.md. Takes minutes;
-//! `LINKAGE=evans` counts those of one linkage, `COUNT=100` more than twenty of each.
+//! `LINKAGE=evans` counts those of one linkage, `COUNT=100` more than twenty of each, and `INPUT=any` those of linkages that need not turn.
 
 #[path = "../tests/integration/find_linkage/random_curves.rs"]
 mod random_curves;
@@ -35,6 +35,7 @@ fn main() {
         if std::env::var("LINKAGE").is_ok_and(|only| only != name) {
             continue;
         }
+        let full_turn = full_turn && std::env::var("INPUT").is_err();
         let begin = std::time::Instant::now();
         let count = std::env::var("COUNT").map_or(20, |count| count.parse().unwrap());
         let mut all = deviations(name, full_turn, count, &Options::default());

@@ -251,7 +251,7 @@ fn of_four_bar(random: &mut Random, kind: PathKind, counts: &[usize], noises: &[
 
 /// The least deviation of an answer, in sizes of the target.
 fn least(search: Search, index: &Index) -> Option<f64> {
-    search.run(index).first().map(|answer| answer.rms_relative)
+    search.run(index).first().map(|answer| answer.deviation.rms_relative)
 }
 
 /// The best that long searches find, each with a seed of its own.
@@ -273,7 +273,7 @@ fn long_searches(target: &Target, sought: &Sought, count: u64, index: &Index) ->
         for (k, options) in relaxed {
             let answers = Search::new(target, options.clone()).run(index);
             match k {
-                0 => found.extend(answers.first().map(|answer| answer.rms_relative)),
+                0 => found.extend(answers.first().map(|answer| answer.deviation.rms_relative)),
                 _ => {
                     let mechanisms = answers.iter().take(6).flat_map(|answer| answer.mechanisms());
                     found.extend(mechanisms.filter_map(|mechanism| from(&mechanism.four_bar)));

@@ -4,13 +4,13 @@ use coupler_curves::linkage::{FourBar, PlacedFourBar};
 use coupler_curves::linkage_format::toml_number;
 use coupler_curves::template::ParameterKind;
 use coupler_find::{
-    LinkageSpace, Mechanism, PlacedCurve, Quality, format_length as number, format_relative as relative,
+    Deviation, LinkageSpace, Mechanism, PlacedCurve, format_length as number, format_relative as relative,
 };
 
 /// How near a curve is to a target of a size: "E = 0.0052 S = 0.12, close".
-pub fn deviation(PlacedCurve { fit, .. }: &PlacedCurve, size: f64) -> String {
-    let quality = Quality::of(fit.rms_relative).name();
-    format!("E = {} S = {}, {quality}", relative(fit.rms_relative), number(fit.rms, size))
+pub fn deviation(deviation: &Deviation, size: f64) -> String {
+    let quality = deviation.quality().name();
+    format!("E = {} S = {}, {quality}", relative(deviation.rms_relative), number(deviation.rms, size))
 }
 
 /// The dimensions of a four-bar, in six significant digits.
@@ -59,6 +59,6 @@ pub(super) fn exact_placement(curve: &PlacedCurve, size: f64) -> String {
         false => format!("{} times as large and ", toml_number(placement.scale())),
     };
     let [trace, circuit] = curve.numbers;
-    let deviation = deviation(curve, size);
+    let deviation = deviation(&curve.fit.deviation, size);
     format!("{deviation}; on the path it is {scaled}shifted by ({x}, {y}); trace {trace}, circuit {circuit}")
 }

@@ -6,10 +6,12 @@ use coupler_curves::linkage_format::quoted;
 use coupler_curves::solve::Solver;
 use coupler_drawing::page::{self, AnswersPage, FoundCurve, Options, Paper};
 use coupler_drawing::render::{self, TextMode};
-use coupler_find::{Answer, LinkageSpace, PlacedCurve, Target, format_length as number, format_relative as relative};
+use coupler_find::{
+    Answer, LinkageAnswer, LinkageSpace, PlacedCurve, Target, format_length as number, format_relative as relative,
+};
 
 use super::description::{deviation, dimensions, parameters, placement};
-use super::{AtlasFindings, LinkageFindings};
+use super::{AtlasAnswer, Findings};
 use crate::manifest::Plan;
 
 /// The most curves of a drawing: more of them hide each other.
@@ -34,8 +36,8 @@ fn found(rank: usize, answer: &Answer, size: f64) -> Option<FoundCurve> {
     let mechanism = &answer.mechanism;
     let label = format!(
         "{rank}: E = {} S, {}, {}, μ ≥ {:.1}°, {}",
-        relative(answer.rms_relative),
-        answer.quality().name(),
+        relative(answer.deviation.rms_relative),
+        answer.deviation.quality().name(),
         mechanism.class,
         mechanism.mu_worst_deg,
         dimensions(mechanism, size)
@@ -66,7 +68,7 @@ fn page_of(title: &str, target: &Target, details: Vec<String>, curves: impl Iter
     render::svg(&page::compose_answers(&page, &Options::for_paper(paper)), TextMode::Text)
 }
 
-impl AtlasFindings {
+impl Findings<AtlasAnswer> {
     /// A page with the path and the best curves, as SVG.
     pub fn drawing(&self, name: &str, target: &Target, plan: &Plan) -> Vec<u8> {
         let size = target.size();
@@ -82,13 +84,14 @@ impl AtlasFindings {
     }
 }
 
-impl LinkageFindings {
+impl Findings<LinkageAnswer> {
     /// A page with the path and the best curves, as SVG.
     pub fn drawing(&self, name: &str, target: &Target, space: &LinkageSpace) -> Vec<u8> {
         let size = target.size();
         let curves = (1..).zip(&self.answers).filter_map(|(rank, answer)| {
             let curve = &answer.curve;
-            let label = format!("{rank}: {}, {}", deviation(curve, size), parameters(space, curve, size));
+            let label =
+                format!("{rank}: {}, {}", deviation(&curve.fit.deviation, size), parameters(space, curve, size));
             placed(curve, &answer.family, 0, label)
         });
         page_of(&format!("{name}: {}", space.template().id), target, Vec::new(), curves)

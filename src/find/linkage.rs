@@ -5,23 +5,11 @@ use std::sync::atomic::AtomicBool;
 use coupler_curves::exchange::{ParameterSet, manifest_families};
 use coupler_curves::family::Family;
 use coupler_find::{
-    Constraint, LinkageAnswer, LinkageSearch, LinkageSpace, Options, Target, answers_manifest, manifest_head,
-    nearest_miss_by,
+    LinkageAnswer, LinkageSearch, LinkageSpace, Options, Target, answers_manifest, manifest_head, nearest_miss_by,
 };
 
 use super::threads::Threads;
-use super::{Error, description};
-
-/// What has been found for a linkage.
-#[derive(Clone, Debug)]
-pub struct LinkageFindings {
-    /// The number of curves in which the path was looked up.
-    pub curves: usize,
-    /// The nearest linkages, the nearest first.
-    pub answers: Vec<LinkageAnswer>,
-    /// If there is none, the constraints to relax, and the answer without them.
-    pub nearest_miss: Option<(Vec<Constraint>, LinkageAnswer)>,
-}
+use super::{Error, Findings, description};
 
 /// Finds the dimensions of a linkage for which its curves are nearest to a target, looked up in `samples` parameter sets or a number that
 /// depends on the linkage. Curves that are the same to a thousandth of the target's size are one. The answer does not depend on the number of
@@ -35,7 +23,7 @@ pub fn find_linkage(
     options: &Options,
     samples: Option<usize>,
     interrupt: &AtomicBool,
-) -> Result<LinkageFindings, Error> {
+) -> Result<Findings<LinkageAnswer>, Error> {
     let threads = Threads { interrupt };
     let search = |target: &Target, options: &Options| {
         let mut search = LinkageSearch::new(space, target, options, samples);
@@ -50,13 +38,13 @@ pub fn find_linkage(
     let mut nearest_miss = None;
     if answers.is_empty() {
         let nearest = |target: &Target, options: &Options| search(target, options).ok()?.0.into_iter().next();
-        nearest_miss = nearest_miss_by(target, options, nearest, |answer| answer.curve.fit.rms);
+        nearest_miss = nearest_miss_by(target, options, nearest, |answer| answer.curve.fit.deviation.rms);
         threads.proceed()?;
     }
-    Ok(LinkageFindings { curves, answers, nearest_miss })
+    Ok(Findings { curves, answers, nearest_miss })
 }
 
-impl LinkageFindings {
+impl Findings<LinkageAnswer> {
     /// A manifest that renders the linkages: in the direction that they have on the path and mirrored as there, and as large if their
     /// dimensions scale. Families have no shift; comments have it. `own_linkage` is the text of the linkage, if it is none of the catalogue.
     pub fn manifest(&self, name: &str, target: &Target, own_linkage: Option<&str>) -> String {
@@ -75,7 +63,7 @@ impl LinkageFindings {
         let mut sets = Vec::new();
         for ((rank, answer), family) in (1..).zip(&self.answers).zip(&families) {
             out += &format!("# {rank}: {}\n", description::exact_placement(&answer.curve, target.size()));
-            let curve_name = format!("{rank}: {}", description::deviation(&answer.curve, target.size()));
+            let curve_name = format!("{rank}: {}", description::deviation(&answer.curve.fit.deviation, target.size()));
             sets.push(ParameterSet { family, values: answer.curve.values.clone(), curve_name });
         }
         out + &manifest_families(&sets, own_linkage.is_some())

@@ -12,13 +12,26 @@ mod request;
 mod target_file;
 mod threads;
 
-pub use atlas::{AtlasAnswer, AtlasFindings, AtlasQuery, find_in_atlas};
+pub use atlas::{AtlasAnswer, AtlasQuery, find_in_atlas};
 pub use drawing::draw_four_bars;
 pub use index_file::{MAX_CURVES, load_index};
-pub use linkage::{LinkageFindings, find_linkage};
+pub use linkage::find_linkage;
 pub use outline::{Outline, ReadOptions, Reading};
 pub use request::{Notation, Request, RequestProblem, Searched, SearchedLinkage};
 pub use target_file::{MAX_POINTS, parse_outline};
+
+use coupler_find::Constraint;
+
+/// What has been found in an atlas, or for a linkage.
+#[derive(Clone, Debug)]
+pub struct Findings<A> {
+    /// The number of curves with which the path was compared.
+    pub curves: usize,
+    /// The answers, the nearest first.
+    pub answers: Vec<A>,
+    /// If there is none, the constraints to relax, and the nearest answer without them.
+    pub nearest_miss: Option<(Vec<Constraint>, A)>,
+}
 
 /// Why a search has no result.
 #[derive(Debug, thiserror::Error)]

@@ -6,8 +6,8 @@
 //! let at = |k: i32| f64::from(6 * k).to_radians();
 //! let points: Vec<_> = (0..60).map(at).map(|t| [4.0 * t.cos(), t.sin() + 0.5 * (2.0 * t).sin()].into()).collect();
 //! let answers = Target::closed(&points)?.search(&Options::default());
-//! println!("{:.4} of the path's size", answers[0].rms_relative);
-//! # assert!(answers[0].rms_relative < 0.05, "{}", answers[0].rms_relative);
+//! println!("{:.4} of the path's size", answers[0].deviation.rms_relative);
+//! # assert!(answers[0].deviation.rms_relative < 0.05, "{}", answers[0].deviation.rms_relative);
 //! # Ok::<(), coupler_find::TargetError>(())
 //! ```
 //!
@@ -57,6 +57,9 @@ mod query;
 
 mod quality;
 
+mod deviation;
+mod distinct;
+
 mod curve;
 mod four_bar;
 mod linkage;
@@ -70,9 +73,11 @@ pub use answer::Answer;
 pub use condition::Condition;
 pub use curve::{CurveFit, CurveFitter, CurveIndex, CurveLookup, CurveShape};
 pub use curve_fit_options::CurveFitOptions;
+pub use deviation::Deviation;
+pub use distinct::distinct;
 pub use four_bar::{Index, IndexPart, Mechanism, placed_parameters};
 pub use linkage::{
-    LinkageAnswer, LinkageSearch, LinkageSpace, LinkageSpaceError, PlacedCurve, distinct, is_scalable, scaled_values,
+    LinkageAnswer, LinkageSearch, LinkageSpace, LinkageSpaceError, PlacedCurve, is_scalable, scaled_values,
 };
 pub use options::{Effort, Options};
 pub use quality::Quality;

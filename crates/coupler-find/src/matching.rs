@@ -50,34 +50,31 @@ fn best_path(
     /// Sums that differ by less are equal but for rounding: points have a mean square of 1.
     const ROUNDING: f64 = 1e-14;
     let end = if starts.len() == 1 { starts.start + count } else { rounds.checked_sub(1)? };
-    // For each point, the best sum of squares up to it if it is matched with a place, and the place before.
-    let mut sums = vec![f64::INFINITY; rounds];
-    let mut before: Vec<u32> = vec![0; points * rounds];
+    let place = |j: usize| if j < count { j } else { j - count };
+    // In each row, for each place, the least sum of squares of the points before the row's that are at it or before; in the first, where the
+    // first point may be.
+    let mut least = vec![f64::INFINITY; (points + 1) * rounds];
+    least[starts].fill(0.0);
     let mut squares = vec![0.0; count];
     for k in 0..points {
         squares.iter_mut().enumerate().for_each(|(j, value)| *value = square(k, j));
-        if k == 0 {
-            starts.clone().for_each(|start| sums[start] = squares[start]);
-            continue;
-        }
-        let row = &mut before[k * rounds..(k + 1) * rounds];
-        let mut best = (f64::INFINITY, 0);
-        for (j, sum) in sums.iter_mut().enumerate() {
-            if *sum <= best.0 + ROUNDING {
-                best = (sum.min(best.0), j as u32);
-            }
-            row[j] = best.1;
-            *sum = best.0 + squares[if j < count { j } else { j - count }];
+        let (before, after) = least[k * rounds..(k + 2) * rounds].split_at_mut(rounds);
+        let mut best = f64::INFINITY;
+        for (j, (before, after)) in before.iter().zip(after).enumerate() {
+            best = best.min(before + squares[place(j)]);
+            *after = best;
         }
     }
-    let reachable = &sums[..=end];
-    let least = reachable.iter().copied().min_by(f64::total_cmp).filter(|sum| sum.is_finite())?;
-    let mut at = reachable.iter().position(|sum| *sum <= least + ROUNDING)?;
-    let sum = reachable[at];
+    let row = |k: usize| &least[k * rounds..(k + 1) * rounds];
+    let is_best = |k: usize, j: usize, best: f64| row(k)[j] + square(k, place(j)) <= best + ROUNDING;
+    let mut best = row(points)[end];
+    let last = points.checked_sub(1).filter(|_| best.is_finite())?;
     let mut path = vec![0; points];
-    for k in (0..points).rev() {
-        path[k] = at;
-        at = before[k * rounds + at] as usize;
+    path[last] = (0..=end).find(|j| is_best(last, *j, best))?;
+    let sum = row(last)[path[last]] + square(last, place(path[last]));
+    for k in (0..last).rev() {
+        best = row(k + 1)[path[k + 1]];
+        path[k] = (0..=path[k + 1]).rev().find(|j| is_best(k, *j, best))?;
     }
     Some((sum, path))
 }

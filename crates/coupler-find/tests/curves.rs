@@ -101,10 +101,10 @@ fn a_curve_in_another_place_is_found_there_to_rounding() {
             points.reverse();
         }
         let found = fit_freely(&points, PathKind::Closed, &curve, true);
-        assert!(found.rms_relative < 1e-9, "{case}: {found:?}");
+        assert!(found.deviation.rms_relative < 1e-9, "{case}: {found:?}");
         let far = curve.iter().map(|p| (found.placement.apply(*p) - placement.apply(*p)).norm()).fold(0.0, f64::max);
         assert!(far < 1e-8 * placement.scale(), "{case}: {far}");
-        assert!(found.is_in_order && (found.length_ratio - 1.0).abs() < 0.01, "{case}: {found:?}");
+        assert!(found.deviation.is_in_order && (found.deviation.length_ratio - 1.0).abs() < 0.01, "{case}: {found:?}");
     }
 }
 
@@ -118,7 +118,7 @@ fn the_deviation_is_that_of_the_curve_and_not_of_its_samples() {
             let fine = random.coupler_curve(720);
             let curve: Vec<Point> = fine.iter().step_by(720 / samples).copied().collect();
             let points: Vec<Point> = fine.iter().skip(1).step_by(8).copied().collect();
-            worst = worst.max(fit_freely(&points, PathKind::Closed, &curve, true).rms_relative);
+            worst = worst.max(fit_freely(&points, PathKind::Closed, &curve, true).deviation.rms_relative);
         }
         println!("{samples} samples: {worst:e}");
         assert!(worst < accuracy, "{samples}: {worst}");
@@ -155,7 +155,7 @@ fn assert_fits_are_as_near_as_brute_force_finds(random: &mut Random, cases: usiz
         let placed = |placement: &Similarity| placed_in(placement, 10);
         let is_within = |rms: f64, [low, high]: [f64; 2]| low * (1.0 - 5e-5) < rms && rms < high * (1.0 + 5e-5);
         let deviations = brute_deviation(&points, &placed_in(&free.placement, 1));
-        assert!(is_within(free.rms, deviations), "{case}: {} {deviations:?}", free.rms);
+        assert!(is_within(free.deviation.rms, deviations), "{case}: {} {deviations:?}", free.deviation.rms);
         // No similarity near it is better, nor the one that the points were made with.
         let others = (0..30).map(|_| {
             let mut by = || Complex::new(random.next(), random.next());
@@ -169,12 +169,15 @@ fn assert_fits_are_as_near_as_brute_force_finds(random: &mut Random, cases: usiz
         });
         let others: Vec<Similarity> = others.chain([placement]).collect();
         for other in others {
-            assert!(free.rms <= brute_deviation(&points, &placed(&other))[1] * (1.0 + 1e-4), "{case}: {other:?}");
+            assert!(
+                free.deviation.rms <= brute_deviation(&points, &placed(&other))[1] * (1.0 + 1e-4),
+                "{case}: {other:?}"
+            );
         }
         let fixed_curve: Vec<Point> = curve.iter().map(|p| placement.apply(*p)).collect();
         let fixed = fit(&target, &fixed_curve, true, CurveFitOptions { is_fixed: true, ..CurveFitOptions::default() });
         let deviations = brute_deviation(&points, &placed_in(&placement, 1));
-        assert!(is_within(fixed.rms, deviations), "{case}: {} {deviations:?}", fixed.rms);
+        assert!(is_within(fixed.deviation.rms, deviations), "{case}: {} {deviations:?}", fixed.deviation.rms);
         assert_eq!(fixed.placement, Similarity::IDENTITY);
     }
 }
@@ -211,9 +214,12 @@ fn a_fit_is_the_same_for_similar_targets_and_curves() {
                 other_curve.reverse();
             }
             let second = fit_freely(&other, kind, &other_curve, !is_open);
-            let difference = (first.rms_relative - second.rms_relative).abs();
+            let difference = (first.deviation.rms_relative - second.deviation.rms_relative).abs();
             assert!(difference < 1e-9, "{case}, {kind:?}: {difference:e}\n{first:?}\n{second:?}");
-            assert!((first.length_ratio - second.length_ratio).abs() < 1e-6, "{case}: {first:?} {second:?}");
+            assert!(
+                (first.deviation.length_ratio - second.deviation.length_ratio).abs() < 1e-6,
+                "{case}: {first:?} {second:?}"
+            );
             assert_eq!(first.placement.is_mirrored != is_mirrored, second.placement.is_mirrored, "{case}");
         }
     }
@@ -233,7 +239,7 @@ fn a_portion_is_found_with_its_place_on_the_curve() {
             points.reverse();
         }
         let found = fit_freely(&points, PathKind::Part, &curve, true);
-        assert!(found.rms_relative < 1e-8, "{case}: {found:?}");
+        assert!(found.deviation.rms_relative < 1e-8, "{case}: {found:?}");
         assert_eq!(found.is_reversed, is_reversed, "{case}");
         let length = |range: std::ops::Range<usize>| -> f64 {
             range.map(|k| (curve[(k + 1) % 360] - curve[k % 360]).norm()).sum()
@@ -245,11 +251,11 @@ fn a_portion_is_found_with_its_place_on_the_curve() {
         }
         let off = expected.iter().zip(found.ends).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         assert!(off < 1e-4, "{case}: {expected:?} {found:?}");
-        assert!((found.length_ratio - 1.0).abs() < 1e-2, "{case}: {found:?}");
+        assert!((found.deviation.length_ratio - 1.0).abs() < 1e-2, "{case}: {found:?}");
         // It is too short a portion, if only longer ones count.
         let options = CurveFitOptions { least_portion: 0.95, ..CurveFitOptions::default() };
         let longer = CurveFitter::new(&Target::new(&points, PathKind::Part).unwrap(), options).fit(&curve, true);
-        assert!(longer.is_none_or(|longer| longer.rms_relative > 0.01), "{case}: {longer:?}");
+        assert!(longer.is_none_or(|longer| longer.deviation.rms_relative > 0.01), "{case}: {longer:?}");
     }
 }
 
@@ -266,13 +272,13 @@ fn an_open_curve_is_passed_there_and_back() {
     let there_and_back: Vec<Point> = (3..=148).chain((3..148).rev()).map(|k| at(f64::from(k)) * 3.0).collect();
     let moved: Vec<Point> = there_and_back.iter().map(|p| Point::new(5.0 - p.y, p.x)).collect();
     let found = fit_freely(&moved, PathKind::Part, &arc, false);
-    assert!(found.rms_relative < 0.01, "{found:?}");
+    assert!(found.deviation.rms_relative < 0.01, "{found:?}");
     let whole: Vec<Point> = (0..=150).chain((1..150).rev()).map(|k| at(f64::from(k)) * 3.0).collect();
     let found = fit_freely(&whole, PathKind::Closed, &arc, false);
-    assert!(found.rms_relative < 1e-9 && (found.length_ratio - 1.0).abs() < 1e-3, "{found:?}");
+    assert!(found.deviation.rms_relative < 1e-9 && (found.deviation.length_ratio - 1.0).abs() < 1e-3, "{found:?}");
     let part: Vec<Point> = (30..=90).rev().map(|k| at(f64::from(k)) * 0.5).collect();
     let found = fit_freely(&part, PathKind::Part, &arc, false);
-    assert!(found.rms_relative < 1e-6 && found.is_reversed, "{found:?}");
+    assert!(found.deviation.rms_relative < 1e-6 && found.is_reversed, "{found:?}");
     assert!(found.ends.iter().all(|end| (0.0..=1.0).contains(end)) && found.ends[0] > found.ends[1], "{found:?}");
 }
 
@@ -290,7 +296,7 @@ fn a_straight_portion_fits_a_line() {
             for least_portion in [0.05, 0.15, 0.3] {
                 let options = CurveFitOptions { least_portion, ..CurveFitOptions::default() };
                 let found = fit(&Target::new(&points, kind).unwrap(), &line, true, options);
-                assert!(found.rms_relative < 1e-9, "{from} {length} {kind:?} {least_portion}: {found:?}");
+                assert!(found.deviation.rms_relative < 1e-9, "{from} {length} {kind:?} {least_portion}: {found:?}");
             }
         }
     }
@@ -303,9 +309,9 @@ fn a_mirror_image_counts_only_if_it_may() {
     let target = Target::new(&points, PathKind::Closed).unwrap();
     let options = CurveFitOptions { may_be_mirrored: false, ..CurveFitOptions::default() };
     let only_turned = CurveFitter::new(&target, options).fit(&curve, true);
-    assert!(only_turned.is_none_or(|found| found.rms_relative > 1e-3 && !found.placement.is_mirrored));
+    assert!(only_turned.is_none_or(|found| found.deviation.rms_relative > 1e-3 && !found.placement.is_mirrored));
     let found = fit(&target, &curve, true, CurveFitOptions::default());
-    assert!(found.rms_relative < 1e-10 && found.placement.is_mirrored, "{found:?}");
+    assert!(found.deviation.rms_relative < 1e-10 && found.placement.is_mirrored, "{found:?}");
 }
 
 #[test]
@@ -406,7 +412,7 @@ fn what_is_no_curve_fits_nothing() {
             for count in 2..=5 {
                 for is_closed in [false, true] {
                     let found = fitter.fit(&odd[..count], is_closed);
-                    assert!(found.is_none_or(|found| found.rms.is_finite()), "{found:?}");
+                    assert!(found.is_none_or(|found| found.deviation.rms.is_finite()), "{found:?}");
                 }
             }
         }

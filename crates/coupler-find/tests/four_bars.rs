@@ -148,14 +148,22 @@ fn published_targets_are_met_as_well_as_is_known() {
         let points = points(coordinates);
         let answers = find(&points, Options::default());
         let first = &answers[0];
-        assert!(first.rms <= 1.0005 * best_known, "{name}: {}", first.rms);
+        assert!(first.deviation.rms <= 1.0005 * best_known, "{name}: {}", first.deviation.rms);
         let curve = samples(&first.mechanism.four_bar, first.mechanism.side, 50_000);
         let [rms, in_order] = [deviation(&points, &curve), deviation_in_order(&points, &curve)];
-        assert!((rms - first.rms).abs() <= 1e-4 * first.rms, "{name}: {rms} by formula, {}", first.rms);
-        assert!((in_order - first.rms).abs() <= 1e-3 * first.rms, "{name}: {in_order} in order, {}", first.rms);
-        assert!(first.is_in_order, "{name}");
-        assert!(first.length_ratio <= MAX_LENGTH_RATIO);
-        assert!(answers.windows(2).all(|pair| pair[0].rms <= pair[1].rms));
+        assert!(
+            (rms - first.deviation.rms).abs() <= 1e-4 * first.deviation.rms,
+            "{name}: {rms} by formula, {}",
+            first.deviation.rms
+        );
+        assert!(
+            (in_order - first.deviation.rms).abs() <= 1e-3 * first.deviation.rms,
+            "{name}: {in_order} in order, {}",
+            first.deviation.rms
+        );
+        assert!(first.deviation.is_in_order, "{name}");
+        assert!(first.deviation.length_ratio <= MAX_LENGTH_RATIO);
+        assert!(answers.windows(2).all(|pair| pair[0].deviation.rms <= pair[1].deviation.rms));
         let FourBar { frame, crank, coupler, rocker } = first.mechanism.four_bar.lengths;
         let size = Target::new(&points, PathKind::Closed).unwrap().size();
         assert!([frame, crank, coupler, rocker].iter().all(|length| *length <= 10.0 * size * (1.0 + 1e-9)));
@@ -163,7 +171,7 @@ fn published_targets_are_met_as_well_as_is_known() {
     }
     // On any circuit, of which each may be that of a triple-rocker.
     let any = find(&points(&YU2), Options { full_turn: false, ..Options::default() });
-    assert!(any[0].rms <= 1.0005 * 0.5202, "{}", any[0].rms);
+    assert!(any[0].deviation.rms <= 1.0005 * 0.5202, "{}", any[0].deviation.rms);
 }
 
 /// A random four-bar whose crank turns fully, in random position, size and direction, and its side.
@@ -207,7 +215,7 @@ fn random_linkages_are_found_again() {
         let (points, size) = hundred_points(&placed, side, &mut random);
         let options = Options { max_link: f64::INFINITY, ..Options::default() };
         let answers = find(&points, options);
-        found += usize::from(answers.first().is_some_and(|answer| answer.rms < 1e-4 * size));
+        found += usize::from(answers.first().is_some_and(|answer| answer.deviation.rms < 1e-4 * size));
     }
     assert!(found >= COUNT * 9 / 10, "{found} of {COUNT}");
 }
@@ -227,7 +235,7 @@ fn with_noise_the_answer_is_as_near_as_the_linkage_that_made_the_path() {
             let points: Vec<Point> = clean.iter().map(|p| p + Vector::new(displacement(), displacement())).collect();
             let own = deviation_in_order(&points, &samples(&placed, side, 2000));
             let answers = find(&points, Options { max_link: f64::INFINITY, ..Options::default() });
-            let rms = answers.first().map_or(f64::INFINITY, |answer| answer.rms);
+            let rms = answers.first().map_or(f64::INFINITY, |answer| answer.deviation.rms);
             found += usize::from(rms <= 1.02 * own);
         }
         assert!(found >= least, "{noise}: {found} of {COUNT}");
@@ -295,7 +303,7 @@ fn noisy_strokes_have_answers() {
                 let answers = Search::new(&target, options).run(&INDEX);
                 let best = answers.first().unwrap_or_else(|| panic!("{placed:?} from {start} by {turn}, {kind:?}"));
                 // Across the path the noise is 0.02.
-                near += usize::from(best.rms_relative <= 0.025);
+                near += usize::from(best.deviation.rms_relative <= 0.025);
             }
             assert!(near >= 2, "{near} of 3 by {turn}, {kind:?}");
         }
@@ -320,7 +328,7 @@ fn any_open_path_has_an_answer() {
             let search = |target: &Target, options: &Options| {
                 Search::new(target, Options { effort: Effort::Quick, ..options.clone() }).run(&index).into_iter().next()
             };
-            let miss = || nearest_miss_by(&target, &options, search, |answer| answer.rms);
+            let miss = || nearest_miss_by(&target, &options, search, |answer| answer.deviation.rms);
             assert!(search(&target, &options).is_some() || miss().is_some(), "{turns} {kind:?}");
         }
     }
@@ -365,7 +373,7 @@ fn placed_otherwise(mut path: Vec<Point>, [start, direction, mirror, placement]:
 
 /// Panics unless the answer to a path that is placed otherwise is the same.
 fn assert_invariant(changes: &[[bool; 4]]) {
-    let rms = |changes: [bool; 4]| find(&placed_otherwise(points(&YU1), changes), Options::default())[0].rms_relative;
+    let rms = |changes: [bool; 4]| find(&placed_otherwise(points(&YU1), changes), Options::default())[0].deviation.rms_relative;
     let expected = rms([false; 4]);
     for &changes in changes {
         let found = rms(changes);
@@ -416,7 +424,7 @@ fn open_strokes_are_met_as_well_as_is_known() {
         let options = Options { full_turn: false, most: 1, ..Options::default() };
         let answers = Search::new(&target, options).run(&INDEX);
         let first = &answers[0];
-        assert!(first.rms_relative <= most, "{name}: {}", first.rms_relative);
+        assert!(first.deviation.rms_relative <= most, "{name}: {}", first.deviation.rms_relative);
         assert!(first.mechanism.longest_link() <= 10.0 * target.size() * (1.0 + 1e-9), "{name}");
     }
 }
@@ -437,7 +445,7 @@ fn parts_of_curves_are_found_again() {
             let target = Target::new(&points, kind).unwrap();
             let options = Options { most: 1, max_link: f64::INFINITY, ..Options::default() };
             let answers = Search::new(&target, options).run(&INDEX);
-            near[k] += usize::from(answers.first().is_some_and(|first| first.rms_relative < [1e-4, 1e-9][k]));
+            near[k] += usize::from(answers.first().is_some_and(|first| first.deviation.rms_relative < [1e-4, 1e-9][k]));
         }
     }
     // Measured: 7 and 8 of these 8.
@@ -469,13 +477,16 @@ fn where_the_nearest_curves_are_too_long_others_are_found() {
     let longer =
         Search::from_four_bar(&open, Options::default(), &answers[0].mechanism.four_bar).run(&Index::new()).remove(0);
     let curve = samples(&longer.mechanism.four_bar, longer.mechanism.side, 5000);
-    assert!(longer.rms < answers[0].rms && length(&curve) > 1.0001 * polygon * answers[0].length_ratio);
+    assert!(
+        longer.deviation.rms < answers[0].deviation.rms
+            && length(&curve) > 1.0001 * polygon * answers[0].deviation.length_ratio
+    );
     // The curve of the lowest harmonics is a little longer than the polygon.
-    assert!(answers[0].rms_relative < 0.038 && answers[0].length_ratio > 1.1);
+    assert!(answers[0].deviation.rms_relative < 0.038 && answers[0].deviation.length_ratio > 1.1);
     for answer in &answers {
         let curve = samples(&answer.mechanism.four_bar, answer.mechanism.side, 5000);
-        assert!((length(&curve) / polygon - answer.length_ratio).abs() < 1e-3);
-        assert!(answer.length_ratio <= answers[0].length_ratio * (1.0 + 1e-9));
+        assert!((length(&curve) / polygon - answer.deviation.length_ratio).abs() < 1e-3);
+        assert!(answer.deviation.length_ratio <= answers[0].deviation.length_ratio * (1.0 + 1e-9));
     }
 }
 
@@ -488,7 +499,7 @@ fn the_length_of_a_part_counts() {
     let answers = Search::new(&target, options()).run(&INDEX);
     assert!(!answers.is_empty());
     for answer in answers {
-        assert!(answer.length_ratio <= MAX_LENGTH_RATIO, "{}", answer.length_ratio);
+        assert!(answer.deviation.length_ratio <= MAX_LENGTH_RATIO, "{}", answer.deviation.length_ratio);
     }
 }
 
@@ -526,8 +537,8 @@ fn timed_targets_are_reached_at_their_inputs() {
         let target = Target::timed(&points, PathKind::Closed, &angles).unwrap();
         let options = Options { max_link: f64::INFINITY, ..Options::default() };
         let Some(answer) = Search::new(&target, options).run(&INDEX).into_iter().next() else { continue };
-        assert!((timed_deviation(&answer, &points, &angles) - answer.rms).abs() <= 1e-7 * size);
-        found += usize::from(answer.rms < 1e-6 * size);
+        assert!((timed_deviation(&answer, &points, &angles) - answer.deviation.rms).abs() <= 1e-7 * size);
+        found += usize::from(answer.deviation.rms < 1e-6 * size);
     }
     assert!(found >= COUNT * 9 / 10, "{found} of {COUNT}");
 }
@@ -548,10 +559,10 @@ fn a_timed_answer_with_noise_is_as_near_as_the_linkage_that_made_the_path() {
         let target = Target::timed(&points, PathKind::Closed, &angles).unwrap();
         let options = Options { max_link: f64::INFINITY, ..Options::default() };
         let answers = Search::new(&target, options.clone()).run(&INDEX);
-        found += usize::from(answers.first().is_some_and(|answer| answer.rms <= own));
+        found += usize::from(answers.first().is_some_and(|answer| answer.deviation.rms <= own));
         // Without its inputs the path is met at least as well.
         let free = Search::new(&Target::new(&points, PathKind::Closed).unwrap(), options).run(&INDEX);
-        assert!(answers.first().is_none_or(|answer| free[0].rms <= answer.rms));
+        assert!(answers.first().is_none_or(|answer| free[0].deviation.rms <= answer.deviation.rms));
     }
     assert!(found >= COUNT * 9 / 10, "{found} of {COUNT}");
 }
@@ -570,12 +581,12 @@ fn timed_answers_have_the_cognates_with_their_timing_and_are_invariant() {
     assert_eq!(answer.cognates.len(), 1);
     for mechanism in answer.mechanisms() {
         let alone = Answer { mechanism: mechanism.clone(), cognates: Vec::new(), ..answer.clone() };
-        assert!((timed_deviation(&alone, &points, &angles) - answer.rms).abs() < 1e-7 * size);
+        assert!((timed_deviation(&alone, &points, &angles) - answer.deviation.rms).abs() < 1e-7 * size);
     }
     let reversed = |values: &[f64]| values.iter().rev().copied().collect::<Vec<f64>>();
     let mirrored: Vec<Point> = points.iter().rev().map(|p| Point::new(7.0 - 3.0 * p.x, 3.0 * p.y)).collect();
     let other = find(&mirrored, &reversed(&angles));
-    assert!((other.rms_relative - answer.rms_relative).abs() <= 1e-9);
+    assert!((other.deviation.rms_relative - answer.deviation.rms_relative).abs() <= 1e-9);
 }
 
 #[test]
@@ -603,7 +614,7 @@ fn assert_short_links(max_links: &[f64]) {
             let longest = [frame, crank, coupler, rocker].into_iter().chain(sides).fold(0.0, f64::max);
             assert!(longest <= max_link * size * (1.0 + 1e-9), "{longest}");
         }
-        assert!(answers[0].rms >= free[0].rms * (1.0 - 1e-9));
+        assert!(answers[0].deviation.rms >= free[0].deviation.rms * (1.0 - 1e-9));
     }
 }
 

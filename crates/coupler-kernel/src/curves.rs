@@ -107,8 +107,8 @@ pub(crate) fn deviation(from: &[Point], points: &[Point], is_closed: bool) -> Re
 fn fit_json(fit: &CurveFit, target: &Target) -> Value {
     let placement = fit.placement;
     json!({
-        "rms": fit.rms_relative,
-        "greatest": fit.greatest / target.size(),
+        "rms": fit.deviation.rms_relative,
+        "greatest": fit.deviation.greatest / target.size(),
         "similarity": {
             "mirror": placement.is_mirrored,
             "re": placement.factor.re,

@@ -84,7 +84,7 @@ impl PlacedRecord {
         let values = scaled_values(template, &curve.values, if curve.is_scalable { scale } else { 1.0 });
         let names = template.parameters.iter().map(|parameter| parameter.name.clone());
         PlacedRecord {
-            fit: FitRecord::new(rank, fit),
+            fit: FitRecord::new(rank, &fit.deviation),
             direction: if fit.is_reversed { "backward" } else { "forward" },
             ends: fit.ends,
             linkage: template.id.clone(),

@@ -59,7 +59,7 @@ impl Shown for Report {
 
     fn best(&self) -> Option<Best> {
         let best = self.answers.first()?;
-        Some(Best { quality: best.quality(), mu_worst_deg: best.mechanism.mu_worst_deg })
+        Some(Best { quality: best.deviation.quality(), mu_worst_deg: best.mechanism.mu_worst_deg })
     }
 }
 

@@ -54,14 +54,14 @@ fn row(answer: &Answer, size: f64) -> [String; 9] {
     let mechanism = &answer.mechanism;
     let longest = mechanism.longest_link();
     [
-        relative(answer.rms_relative),
-        number(answer.rms, size),
-        number(answer.greatest, size),
-        answer.quality().name().to_owned(),
+        relative(answer.deviation.rms_relative),
+        number(answer.deviation.rms, size),
+        number(answer.deviation.greatest, size),
+        answer.deviation.quality().name().to_owned(),
         mechanism.class.to_owned(),
         angle(mechanism.mu_worst_deg),
         format!("{} = {:.2} S", number(longest, size), longest / size),
-        if answer.is_in_order { "yes" } else { "no" }.to_owned(),
+        if answer.deviation.is_in_order { "yes" } else { "no" }.to_owned(),
         mechanism.direction().to_owned(),
     ]
 }
@@ -96,9 +96,9 @@ fn nothing_found(report: &Report) -> String {
     let relax = relaxed(constraints, answer.mechanism.longest_link() / size);
     format!(
         "no linkage meets the constraints; the nearest miss has E = {} ({} S, {}), and is an answer with {relax}:\n     {}\n     {}\n     {}\n",
-        number(answer.rms, size),
-        relative(answer.rms_relative),
-        answer.quality().name(),
+        number(answer.deviation.rms, size),
+        relative(answer.deviation.rms_relative),
+        answer.deviation.quality().name(),
         summary(&answer.mechanism),
         dimensions(&answer.mechanism, size),
         place(&answer.mechanism, size)

@@ -1,6 +1,6 @@
 //! What is asked of the curves of an atlas, and what is found.
 
-use coupler_find::{Answer, Options, PlacedCurve, scaled_values};
+use coupler_find::{Answer, Deviation, Options, PlacedCurve, scaled_values};
 
 use crate::manifest::Plan;
 
@@ -29,9 +29,9 @@ pub struct AtlasAnswer {
 }
 
 impl AtlasAnswer {
-    /// The root of the mean square of the distances, in the unit of the target.
-    pub fn rms(&self) -> f64 {
-        self.refined.as_ref().map_or(self.curve.fit.rms, |answer| answer.rms)
+    /// How near it is: the refined one, if there is one.
+    pub fn deviation(&self) -> &Deviation {
+        self.refined.as_ref().map_or(&self.curve.fit.deviation, |answer| &answer.deviation)
     }
 
     /// The factor of the linkage's lengths that makes it as large as on the target; 1 if its dimensions do not scale.

@@ -14,20 +14,9 @@ use coupler_find::{
 };
 use rayon::prelude::*;
 
-use super::{Error, description};
+use super::{Error, Findings, description};
 use crate::manifest::Plan;
 use search::AtlasOptions;
-
-/// What has been found in an atlas.
-#[derive(Clone, Debug)]
-pub struct AtlasFindings {
-    /// The number of curves that were compared.
-    pub curves: usize,
-    /// The nearest curves, the nearest first.
-    pub answers: Vec<AtlasAnswer>,
-    /// If there is none, the nearest curve without constraints, and those that it does not meet.
-    pub nearest_miss: Option<(Vec<Constraint>, AtlasAnswer)>,
-}
 
 /// Finds the curves of an atlas that are nearest to a target. Four-bars are refined, others only placed on it; curves that are the same to a
 /// thousandth of the target's size are one. All threads solve cells; memory is bounded.
@@ -39,7 +28,7 @@ pub fn find_in_atlas(
     target: &Target,
     query: &AtlasQuery,
     interrupt: &AtomicBool,
-) -> Result<AtlasFindings, Error> {
+) -> Result<Findings<AtlasAnswer>, Error> {
     let options = AtlasOptions::new(query);
     let (found, curves) = search::search_atlas(plan, target, &options, interrupt)?;
     let answers = ranked(found, target, query);
@@ -57,7 +46,7 @@ pub fn find_in_atlas(
             nearest_miss = Some((relax, nearest));
         }
     }
-    Ok(AtlasFindings { curves, answers, nearest_miss })
+    Ok(Findings { curves, answers, nearest_miss })
 }
 
 /// Refines four-bars, merges curves that are the same, and ranks them.
@@ -65,7 +54,7 @@ fn ranked(found: Vec<AtlasAnswer>, target: &Target, query: &AtlasQuery) -> Vec<A
     /// The curves that are refined for each answer, because several are refined to the same curve.
     const STARTS_PER_ANSWER: usize = 8;
     let most = query.options.most;
-    let distinct = |found: Vec<AtlasAnswer>, most| distinct(found, |answer| &answer.curve, target, most);
+    let distinct = |found: Vec<AtlasAnswer>, most| distinct(found, |answer| &answer.curve.outline, target.size(), most);
     let mut found = distinct(found, STARTS_PER_ANSWER * most);
     // A condition on names that a four-bar does not have cannot be kept in a refinement.
     let condition = query.condition.map(|text| Condition::new(&Mechanism::template(), text)).transpose();
@@ -78,7 +67,7 @@ fn ranked(found: Vec<AtlasAnswer>, target: &Target, query: &AtlasQuery) -> Vec<A
         let refine = |found: &AtlasAnswer| {
             let start = found.curve.four_bar?;
             let answer = Search::from_four_bar(target, options.clone(), &start).run(&index).into_iter().next()?;
-            let solved = answer.mechanism.solved().filter(|_| answer.rms < found.curve.fit.rms)?;
+            let solved = answer.mechanism.solved().filter(|_| answer.deviation.rms < found.curve.fit.deviation.rms)?;
             let curve = &solved.curves[0];
             Some((answer, solved.circuit(curve).points(curve.joint).collect()))
         };
@@ -88,11 +77,11 @@ fn ranked(found: Vec<AtlasAnswer>, target: &Target, query: &AtlasQuery) -> Vec<A
             }
         });
     }
-    found.sort_by(|a, b| a.rms().total_cmp(&b.rms()));
+    found.sort_by(|a, b| a.deviation().rms.total_cmp(&b.deviation().rms));
     distinct(found, most)
 }
 
-impl AtlasFindings {
+impl Findings<AtlasAnswer> {
     /// A manifest that renders the linkages: refined four-bars where they are on the path, others in the direction that they have in the
     /// atlas, and as large as they are on the path if their dimensions scale.
     pub fn manifest(&self, name: &str, target: &Target, plan: &Plan) -> String {

@@ -124,7 +124,7 @@ pub(super) fn search_atlas(
         let fit = |solved: &SolvedCell, curve: &MeasuredCurve, _| answer(*place, of_family, solved, curve, &fitter);
         solve_curves(family, (&curves, range), &wanted, fit, interrupt, |found| {
             answers.extend(found.into_iter().filter(|answer| is_placed_well(answer, target, options)));
-            answers.sort_by(|a, b| a.curve.fit.rms.total_cmp(&b.curve.fit.rms));
+            answers.sort_by(|a, b| a.curve.fit.deviation.rms.total_cmp(&b.curve.fit.deviation.rms));
             answers.truncate(options.candidates);
         })?;
     }

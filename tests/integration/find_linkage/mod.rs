@@ -51,7 +51,7 @@ fn the_answer_does_not_depend_on_how_the_path_is_placed() {
     let bent: Vec<Point> =
         points.iter().enumerate().map(|(k, p)| Point::new(p.x + 0.1 * trig::sin(0.4 * k as f64), p.y)).collect();
     let options = Options { effort: Effort::Quick, most: 1, ..Options::default() };
-    let rms = |points: &[Point]| search(&template, points, &options)[0].curve.fit.rms_relative;
+    let rms = |points: &[Point]| search(&template, points, &options)[0].curve.fit.deviation.rms_relative;
     let own = rms(&bent);
     assert!(own > 1e-3, "{own}");
     let mut random = Random(8);
@@ -78,17 +78,19 @@ fn a_timed_path_is_met_at_its_inputs_and_a_part_where_it_is() {
     let angles: Vec<f64> = circuit.inputs.iter().map(|input| 40.0 - input).collect();
     let target = Target::timed(&points, PathKind::Closed, &angles).unwrap();
     let answer = &answers(&space, &target, &options)[0];
-    assert!(answer.curve.fit.rms_relative < 1e-6, "{:?}", answer.curve.fit);
+    assert!(answer.curve.fit.deviation.rms_relative < 1e-6, "{:?}", answer.curve.fit);
     let [from, to] = answer.inputs;
     assert!(((from - to).abs() - 355.0).abs() < 1e-6, "{from} {to}");
     // The same points at other times are no motion of the linkage.
     let angles: Vec<f64> = circuit.inputs.iter().map(|input| input + 25.0 * trig::sin(input.to_radians())).collect();
     let target = Target::timed(&points, PathKind::Closed, &angles).unwrap();
     let other = answers(&space, &target, &options);
-    assert!(other.first().is_none_or(|answer| answer.curve.fit.rms_relative > 1e-3), "{other:?}");
+    assert!(other.first().is_none_or(|answer| answer.curve.fit.deviation.rms_relative > 1e-3), "{other:?}");
     let part = Target::new(&points[10..45], PathKind::Part).unwrap();
     let answer = &answers(&space, &part, &options)[0];
-    assert!(answer.curve.fit.rms_relative < 1e-3 && (answer.curve.fit.length_ratio - 1.0).abs() < 0.01);
+    assert!(
+        answer.curve.fit.deviation.rms_relative < 1e-3 && (answer.curve.fit.deviation.length_ratio - 1.0).abs() < 0.01
+    );
 }
 
 const OWN: &str = r#"

@@ -97,7 +97,9 @@ pub fn deviations(name: &str, full_turn: bool, count: usize, options: &Options) 
     let deviation = |_| {
         let points = placed(&random_curve(&template, full_turn, &mut random, 100).0, &mut random);
         let options = Options { full_turn, most: 1, ..options.clone() };
-        search(&template, &points, &options).first().map_or(f64::INFINITY, |answer| answer.curve.fit.rms_relative)
+        search(&template, &points, &options)
+            .first()
+            .map_or(f64::INFINITY, |answer| answer.curve.fit.deviation.rms_relative)
     };
     (0..count).map(deviation).collect()
 }

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::pass::InputPosition;
+use crate::linkage::Input;
 
 /// Values of the input, in borrowed columns.
 #[derive(Clone, Copy, Debug)]
@@ -25,14 +26,14 @@ impl InputSlices<'_> {
 
 /// Values of the input, in owned columns.
 #[derive(Clone, Debug, Default)]
-pub(super) struct InputColumns {
+pub struct InputColumns {
     values: Vec<f64>,
     cos: Vec<f64>,
     sin: Vec<f64>,
 }
 
 impl InputColumns {
-    pub fn new(inputs: &[InputPosition]) -> InputColumns {
+    pub(super) fn new(inputs: &[InputPosition]) -> InputColumns {
         InputColumns {
             values: inputs.iter().map(|input| input.value).collect(),
             cos: inputs.iter().map(|input| input.cos).collect(),
@@ -40,11 +41,22 @@ impl InputColumns {
         }
     }
 
-    pub fn slice(&self, range: Range<usize>) -> InputSlices<'_> {
+    /// Those of values of an input: angles in degrees, or lengths.
+    pub fn from_values(input: Input, values: impl IntoIterator<Item = f64>) -> InputColumns {
+        let positions: Vec<InputPosition> = values.into_iter().map(|value| InputPosition::new(input, value)).collect();
+        InputColumns::new(&positions)
+    }
+
+    /// The angles in degrees, or the lengths.
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    pub(super) fn slice(&self, range: Range<usize>) -> InputSlices<'_> {
         InputSlices { values: &self.values[range.clone()], cos: &self.cos[range.clone()], sin: &self.sin[range] }
     }
 
-    pub fn as_slices(&self) -> InputSlices<'_> {
+    pub(super) fn as_slices(&self) -> InputSlices<'_> {
         self.slice(0..self.values.len())
     }
 }

@@ -52,7 +52,7 @@ pub use sampling::{Circuit, Sampler, Sampling};
 #[doc(hidden)]
 pub use self::{
     circuit::{CircuitSet, UnsampledCircuit, find_circuits},
-    input_columns::InputSlices,
+    input_columns::{InputColumns, InputSlices},
     limits::{MAX_ASSEMBLY_MODES, MAX_CIRCUIT_BYTES, MAX_SAMPLES, SIZES},
     memory::estimate_bytes,
     pieces::{CircuitPiece, CircuitPieces, InputMap},
@@ -122,11 +122,17 @@ fn undefined_error(linkage: &Linkage, circuit: &Circuit) -> Option<AssemblyError
 
 /// The positions of all joints at inputs of a pass, in the frame the linkage is seen from.
 pub fn poses(linkage: &Linkage, pass: &Pass, inputs: &[f64]) -> JointPositions {
+    poses_in_columns(linkage, pass, &InputColumns::from_values(linkage.input(), inputs.iter().copied()))
+}
+
+/// The same at inputs that are in columns already: for several linkages at the same inputs.
+#[doc(hidden)]
+pub fn poses_in_columns(linkage: &Linkage, pass: &Pass, inputs: &InputColumns) -> JointPositions {
     pass_positions::positions_at_inputs(linkage, pass, inputs)
 }
 
 /// The positions of all joints at one input of a pass, in the frame the linkage is seen from.
 pub fn pose(linkage: &Linkage, pass: &Pass, input: f64) -> Vec<Point> {
-    let columns = pass_positions::positions_at_inputs(linkage, pass, &[input]);
+    let columns = poses(linkage, pass, &[input]);
     linkage.joint_ids().map(|joint| columns.point(joint, 0)).collect()
 }

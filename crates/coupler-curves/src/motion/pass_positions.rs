@@ -1,15 +1,14 @@
 //! Positions of all joints at given inputs of a pass.
 
 use super::input_columns::InputColumns;
-use super::pass::{InputPosition, Pass};
+use super::pass::Pass;
 use super::pass_ends::{place_at_end, place_near_ends};
 use super::positions::{DyadSigns, JointPositions, convert_to_view_frame, place_leading_joints};
 use crate::linkage::{DyadSet, Linkage};
 
 /// The positions of all joints at inputs of a pass; at its ends exactly those of the sampled circuit.
-pub(super) fn positions_at_inputs(linkage: &Linkage, pass: &Pass, values: &[f64]) -> JointPositions {
-    let input = linkage.input();
-    let inputs = InputColumns::new(&values.iter().map(|&value| InputPosition::new(input, value)).collect::<Vec<_>>());
+pub(super) fn positions_at_inputs(linkage: &Linkage, pass: &Pass, inputs: &InputColumns) -> JointPositions {
+    let values = inputs.values();
     let mut out = JointPositions::new(linkage.joints.len(), values.len());
     let signs = DyadSigns::new(pass.mode, DyadSet::EMPTY);
     place_leading_joints(linkage, linkage.joints.len(), inputs.as_slices(), &signs, &mut out, 0..values.len());

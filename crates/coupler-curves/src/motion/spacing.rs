@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use super::input_columns::InputColumns;
 use super::pass::Pass;
 use super::pass_positions::positions_at_inputs;
 use crate::geometry::trig;
@@ -48,7 +49,8 @@ impl CumulativeLength {
     pub fn measure(linkage: &Linkage, pass: &Pass, joint: JointId) -> CumulativeLength {
         const CHORDS: usize = 2048;
         let fractions: Vec<f64> = (0..=CHORDS).map(|i| i as f64 / CHORDS as f64).collect();
-        let inputs: Vec<f64> = fractions.iter().map(|&fraction| eased_input(pass, fraction)).collect();
+        let inputs = fractions.iter().map(|&fraction| eased_input(pass, fraction));
+        let inputs = InputColumns::from_values(linkage.input(), inputs);
         let positions = positions_at_inputs(linkage, pass, &inputs);
         let mut lengths = vec![0.0];
         for i in 1..fractions.len() {

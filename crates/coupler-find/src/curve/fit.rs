@@ -4,8 +4,8 @@ use crate::complex::{Complex, dot};
 use crate::curve::alignment::Alignment;
 use crate::curve::path::CurvePath;
 use crate::curve_fit_options::CurveFitOptions;
+use crate::deviation::Deviation;
 use crate::matching::{match_open_places, match_places};
-use crate::quality::Quality;
 use crate::query::Query;
 use crate::shape::close_portion::{Portion, portions};
 use crate::shape::spectrum::{Likeness, Transform};
@@ -17,30 +17,13 @@ use coupler_curves::geometry::{Point, Similarity};
 pub struct CurveFit {
     /// Where the curve is placed.
     pub placement: Similarity,
-    /// E: the root of the mean square of the distances of the target's points from the continuous curve, in their order along one
-    /// circuit and within one turn, in the unit of the target.
-    pub rms: f64,
-    /// E relative to the size of the target.
-    pub rms_relative: f64,
-    /// The greatest of these distances.
-    pub greatest: f64,
-    /// Whether the points of the curve that are nearest to those of the target are in their order.
-    pub is_in_order: bool,
-    /// The length of the placed curve relative to that of the polygon of a closed target, and of the matched portion relative to that of an
-    /// open one.
-    pub length_ratio: f64,
+    /// How near it is then.
+    pub deviation: Deviation,
     /// Where the first and the last point of the target are along the curve, in parts of its length from its first point on. From 0
     /// to 1, and beyond where the target passes the end: of a closed curve into the next round, of an open one on the way back.
     pub ends: [f64; 2],
     /// Whether the target is followed against the order of the curve's points.
     pub is_reversed: bool,
-}
-
-impl CurveFit {
-    /// How near the curve is.
-    pub fn quality(&self) -> Quality {
-        Quality::of(self.rms_relative)
-    }
 }
 
 /// Fits curves to a target.
@@ -124,12 +107,13 @@ impl CurveFitter {
         let nearest = tried.first()?.0;
         let mut best: Option<CurveFit> = None;
         for (sum, start) in tried.iter().take(REFINED) {
-            let is_promising = *sum <= PROMISING * nearest && best.is_none_or(|best| best.rms_relative > EXACT);
+            let is_promising =
+                *sum <= PROMISING * nearest && best.is_none_or(|best| best.deviation.rms_relative > EXACT);
             if best.is_some() && !is_promising {
                 break;
             }
             let found = self.refined(start, &path, (&fine, &positions));
-            best = found.filter(|found| best.is_none_or(|best| found.rms < best.rms)).or(best);
+            best = found.filter(|found| best.is_none_or(|best| found.deviation.rms < best.deviation.rms)).or(best);
         }
         best
     }
@@ -256,11 +240,13 @@ impl CurveFitter {
         };
         Some(CurveFit {
             placement,
-            rms: size * rms_relative,
-            rms_relative,
-            greatest: size * alignment.greatest(),
-            is_in_order: alignment.is_in_order(),
-            length_ratio: own_length / self.polyline_length,
+            deviation: Deviation {
+                rms: size * rms_relative,
+                rms_relative,
+                greatest: size * alignment.greatest(),
+                is_in_order: alignment.is_in_order(),
+                length_ratio: own_length / self.polyline_length,
+            },
             ends,
             is_reversed,
         })

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::complex::{Complex, closed_length};
 use crate::curve::fit::EVEN;
 use crate::curve::path::CurvePath;
 use crate::curve_fit_options::CurveFitOptions;
@@ -24,6 +25,18 @@ impl CurveShape {
         let (spectrum, _, size) = Transform::new().spectrum(&path.even_points(EVEN));
         let shape = Shape::new(&spectrum.canonical(), path.length() / size, true);
         CurveShape(if path.is_open { shape.of_open() } else { shape })
+    }
+}
+
+impl CurveShape {
+    /// That of a polyline that is passed around, or there and back along an open curve: of many points, so that it need not be smoothed.
+    pub(crate) fn of_polyline(transform: &Transform, points: &[Complex], is_open: bool) -> CurveShape {
+        let (spectrum, _, size) = transform.spectrum(points);
+        if !size.is_normal() {
+            return CurveShape(Shape::EMPTY);
+        }
+        let shape = Shape::new(&spectrum.canonical(), closed_length(points) / size, true);
+        CurveShape(if is_open { shape.of_open() } else { shape })
     }
 }
 

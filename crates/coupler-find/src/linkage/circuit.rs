@@ -1,9 +1,11 @@
 //! The curve of a traced joint on a circuit, by a coordinate in which it is regular at limits of the input.
 
+use super::poses::{PassPlaces, Places, Poses};
 use crate::complex::Complex;
 use coupler_curves::linkage::{Input, JointId, Linkage};
 use coupler_curves::motion::{
-    InputPosition, Pass, PassEnd, UnsampledCircuit, eased_fraction, eased_input, find_circuits, poses,
+    InputColumns, InputPosition, Pass, PassEnd, UnsampledCircuit, eased_fraction, eased_input, find_circuits,
+    poses_in_columns,
 };
 
 /// A traced joint of a linkage on one of its circuits.
@@ -18,18 +20,15 @@ pub(super) struct Traced {
 }
 
 impl Traced {
-    /// A joint of a linkage whose input turns fully on the branch of its start, without limits or change points, as far as its links keep
-    /// their lengths at some inputs. `None` otherwise. It takes far less time than to find the circuits of a chain of dyads.
-    pub fn on_full_turn(linkage: &Linkage, joint: JointId) -> Option<Traced> {
-        /// The inputs of a turn.
-        const CHECKED: usize = 64;
+    /// A joint of a linkage whose input turns fully on the branch of its start, without limits or change points. Whether it does is not known: where
+    /// it cannot be assembled, its links do not keep their lengths. It takes far less time than to find the circuits of a chain of dyads.
+    pub fn on_full_turn(linkage: Linkage, joint: JointId) -> Option<Traced> {
         let end = |value| PassEnd::regular(InputPosition::from_degrees(value));
         let Input::Angle { .. } = linkage.input() else { return None };
         let mode = linkage.motion_options.mode.truncated(linkage.dyad_count());
         let pass = Pass { from: end(0.0), to: end(linkage.input().period()), mode };
         let circuit = UnsampledCircuit { passes: vec![pass], is_closed: true };
-        let traced = Traced { linkage: linkage.clone(), circuit, joint };
-        traced.is_closed_at(&traced.positions(CHECKED)).then_some(traced)
+        Some(Traced { linkage, circuit, joint })
     }
 
     /// The number of positions of a round.
@@ -96,7 +95,7 @@ impl Traced {
     fn place(&self, position: f64) -> (usize, f64) {
         let passes = self.circuit.passes.len();
         let period = self.period();
-        let within = position.rem_euclid(period);
+        let within = if (0.0..period).contains(&position) { position } else { position.rem_euclid(period) };
         let there = if within > passes as f64 { period - within } else { within };
         let pass = (there as usize).min(passes - 1);
         (pass, (there - pass as f64).clamp(0.0, 1.0))
@@ -123,73 +122,52 @@ impl Traced {
         pass as f64 + if self.is_regular() { fraction } else { eased_fraction(of, input) }
     }
 
-    /// Whether the linkage keeps the lengths of its links at positions of a round: where it cannot be assembled, its joints are placed
-    /// otherwise. A circuit on which no dyad is flat has the same passes then, up to what is between the positions.
-    pub fn is_closed_at(&self, positions: &[f64]) -> bool {
-        /// Relative to the length of a link.
-        const ROUNDING: f64 = 1e-9;
-        self.circuit.passes.iter().enumerate().all(|(k, pass)| {
-            let inputs: Vec<f64> = positions
-                .iter()
-                .map(|position| self.place(*position))
-                .filter(|(pass, _)| *pass == k)
-                .map(|(_, fraction)| eased_input(pass, fraction))
-                .collect();
-            let placed = poses(&self.linkage, pass, &inputs);
-            self.linkage.links.iter().all(|link| {
-                let Some((first, from)) = link.joints.first() else { return true };
-                link.joints[1..].iter().all(|(joint, to)| {
-                    let own = (to - from).norm();
-                    let is_kept = |n: usize| {
-                        let distance = (placed.point(*joint, n) - placed.point(*first, n)).norm();
-                        (distance - own).abs() <= ROUNDING * own.max(distance)
-                    };
-                    (0..inputs.len()).all(is_kept)
-                })
-            })
-        })
-    }
-
-    /// The points at some positions; `None` if one of them is not defined.
-    pub fn points(&self, positions: &[f64]) -> Option<Vec<Complex>> {
-        let mut points = vec![Complex::new(f64::NAN, f64::NAN); positions.len()];
-        let (mut on_pass, mut inputs) = (Vec::with_capacity(positions.len()), Vec::with_capacity(positions.len()));
-        for (k, pass) in self.circuit.passes.iter().enumerate() {
-            on_pass.clear();
-            inputs.clear();
-            for (n, position) in positions.iter().enumerate() {
-                let (pass_of, fraction) = self.place(*position);
-                if pass_of == k {
-                    on_pass.push(n);
-                    inputs.push(eased_input(pass, fraction));
-                }
-            }
-            if on_pass.is_empty() {
-                continue;
-            }
-            let placed = poses(&self.linkage, pass, &inputs);
-            for (place, n) in on_pass.iter().enumerate() {
-                let point = placed.point(self.joint, place);
-                points[*n] = Complex::new(point.x, point.y);
-            }
+    /// Where some positions are on the passes.
+    pub fn places(&self, positions: &[f64]) -> Places {
+        let passes = self.circuit.passes.len();
+        let (mut numbers, mut inputs) = (vec![Vec::new(); passes], vec![Vec::new(); passes]);
+        for (number, position) in positions.iter().enumerate() {
+            let (pass, fraction) = self.place(*position);
+            numbers[pass].push(number);
+            inputs[pass].push(eased_input(&self.circuit.passes[pass], fraction));
         }
-        points.iter().all(|z| z.re.is_finite() && z.im.is_finite()).then_some(points)
+        let input = self.linkage.input();
+        let of_pass = |(pass, (numbers, inputs)): (usize, (Vec<usize>, Vec<f64>))| PassPlaces {
+            pass,
+            numbers,
+            inputs: InputColumns::from_values(input, inputs),
+        };
+        let of_passes = numbers.into_iter().zip(inputs).enumerate().map(of_pass);
+        Places { count: positions.len(), of_passes: of_passes.filter(|places| !places.numbers.is_empty()).collect() }
     }
 
-    /// The points at inputs of a pass; `None` if one of them is beyond it or not defined. The pass of a full turn has all inputs.
-    pub fn points_at_inputs(&self, pass: usize, inputs: &[f64]) -> Option<Vec<Complex>> {
-        let pass = self.circuit.passes.get(pass)?;
-        let [low, high] = pass.input_range();
+    /// The places of inputs of a pass; `None` if one of them is beyond it. The pass of a full turn has all inputs.
+    pub fn places_at_inputs(&self, pass: usize, inputs: &[f64]) -> Option<Places> {
+        let [low, high] = self.circuit.passes.get(pass)?.input_range();
         let has_all = self.is_regular() && self.is_full_turn();
         if !has_all && inputs.iter().any(|input| *input < low || *input > high) {
             return None;
         }
-        let placed = poses(&self.linkage, pass, inputs);
-        let points: Vec<Complex> = (0..inputs.len())
-            .map(|k| placed.point(self.joint, k))
-            .map(|point| Complex::new(point.x, point.y))
-            .collect();
-        points.iter().all(|z| z.re.is_finite() && z.im.is_finite()).then_some(points)
+        let columns = InputColumns::from_values(self.linkage.input(), inputs.iter().copied());
+        let of_pass = PassPlaces { pass, numbers: (0..inputs.len()).collect(), inputs: columns };
+        Some(Places { count: inputs.len(), of_passes: vec![of_pass] })
+    }
+
+    /// The poses at places, which are those of this circuit or of one with the same passes.
+    pub fn poses<'a>(&self, places: &'a Places) -> Poses<'a> {
+        let passes = &self.circuit.passes;
+        let of_pass = |of: &PassPlaces| poses_in_columns(&self.linkage, &passes[of.pass], &of.inputs);
+        Poses { places, of_passes: places.of_passes.iter().map(of_pass).collect() }
+    }
+
+    /// The points at places; `None` if one of them is not defined.
+    pub fn points_at(&self, places: &Places) -> Option<Vec<Complex>> {
+        self.poses(places).points(self.joint)
+    }
+
+    /// The points at some positions; `None` if one of them is not defined.
+    pub fn points(&self, positions: &[f64]) -> Option<Vec<Complex>> {
+        self.points_at(&self.places(positions))
     }
 
     /// Positions of a round in their order, about as many as asked for a turn, more for several turns.

@@ -3,6 +3,7 @@
 use super::aim::Aim;
 use super::circuit::Traced;
 use super::measured::Measured;
+use super::poses::Places;
 use super::refinement::{FINAL_ROUNDS, LinkageRefinement};
 use super::samples::{SampleCurve, SampleIndex, SampleShape};
 use super::space::LinkageSpace;
@@ -12,13 +13,14 @@ use crate::complex::Complex;
 use crate::curve::fit::CurveFit;
 use crate::curve::index::{CurveLookup, CurveShape};
 use crate::curve_fit_options::CurveFitOptions;
+use crate::deviation::Deviation;
 use crate::matching::squares;
 use crate::options::Options;
 use crate::query::Query;
 use crate::scatter::Scatter;
 use crate::shape::spectrum::Transform;
 use crate::target::{PathKind, Target};
-use coupler_curves::geometry::{Point, Similarity};
+use coupler_curves::geometry::Similarity;
 use coupler_curves::linkage::CircuitSelection;
 use coupler_curves::motion::find_circuits;
 
@@ -28,8 +30,16 @@ pub(super) struct LinkageFitting {
     aim: Aim,
     query: Query,
     transform: Transform,
-    /// Whether the input must turn fully, and where it does, it has no change points and the circuit is the only one.
-    is_simple: bool,
+    /// The places of a turn, if the input must turn fully and, where it does, it has no change points and the circuit is the only one.
+    turn: Option<Turn>,
+}
+
+/// The places of a turn at which its curve is sampled, and some of them.
+struct Turn {
+    /// Its length in degrees.
+    period: f64,
+    few: Places,
+    all: Places,
 }
 
 /// Dimensions of a linkage, and how the curve fits the target.
@@ -61,28 +71,31 @@ impl LinkageFitting {
             query: Query::new(target.kind(), &target.normalized()),
             transform: Transform::new(),
             space: space.clone(),
-            is_simple: false,
+            turn: None,
         };
-        fitting.is_simple = fitting.has_simple_circuits();
+        fitting.turn = fitting.simple_turn();
         fitting
     }
 
-    /// Whether the first samples whose input turns fully have no change points.
-    fn has_simple_circuits(&self) -> bool {
+    /// The places of a turn, if the first samples whose input turns fully have no change points.
+    fn simple_turn(&self) -> Option<Turn> {
+        /// So few that it takes next to no time to see that most linkages that do not turn do not.
+        const FEW: usize = 8;
         /// The samples that turn, and those among which they are sought.
         const ENOUGH: usize = 16;
         const MOST: usize = 200;
         let template = self.space.template();
         if !self.aim.full_turn || template.circuits != CircuitSelection::Start || template.input.is_some() {
-            return false;
+            return None;
         }
-        let turning = (0..MOST).filter_map(|sample| {
+        let turning = |sample| {
             let (_, _, traced) = self.traced(&self.space.sample(sample)?).into_iter().next()?;
-            Some(traced.has_fixed_passes())
-        });
-        let mut count = 0;
-        let are_simple = turning.take(ENOUGH).inspect(|_| count += 1).all(|is_simple| is_simple);
-        are_simple && count > 0
+            Some(traced)
+        };
+        let turning: Vec<Traced> = (0..MOST).filter_map(turning).take(ENOUGH).collect();
+        let first = turning.first().filter(|_| turning.iter().all(Traced::has_fixed_passes))?;
+        let [few, all] = [FEW, POINTS].map(|count| first.places(&first.positions(count)));
+        Some(Turn { period: first.linkage.input().period(), few, all })
     }
 
     /// The default number of parameter sets: for few parameters fewer fill their ranges, and those of linkages that take long or trace many
@@ -96,19 +109,20 @@ impl LinkageFitting {
         const MODES: u32 = 4;
         let template = self.space.template();
         let dimension = self.space.dimension() - usize::from(self.space.is_scalable && self.space.dimension() > 1);
-        let mut samples = (250 * dimension * dimension).clamp(LEAST, MOST);
-        if self.is_slow() {
+        let samples = if self.is_slow() {
             let dyads = template.structure().map_or(0, |linkage| linkage.dyad_count()) as u32;
             let modes = if template.circuits == CircuitSelection::All { dyads.saturating_sub(2).min(MODES) } else { 0 };
-            samples = samples.div_ceil(2 << modes);
-        }
+            (10 * dimension.pow(3)).clamp(LEAST, MOST).div_ceil(2 << modes)
+        } else {
+            (250 * dimension.pow(2)).clamp(LEAST, MOST)
+        };
         samples.min((MOST_CURVES / template.curve_count().max(1)).max(1))
     }
 
     /// Whether it takes long to find the circuits: limits of a chain of dyads are searched for.
     pub fn is_slow(&self) -> bool {
         let dyads = self.space.template().structure().map_or(0, |linkage| linkage.dyad_count());
-        !self.is_simple && dyads > 1
+        self.turn.is_none() && dyads > 1
     }
 
     /// The linkage and its parameters.
@@ -125,16 +139,41 @@ impl LinkageFitting {
     pub fn curves(&self, sample: usize) -> Vec<(SampleCurve, SampleShape)> {
         let Some(values) = self.space.sample(sample) else { return Vec::new() };
         let mut found = Vec::new();
-        let traced = if self.is_simple { self.simply_traced(&values) } else { self.traced(&values) };
-        for (trace, circuit, traced) in traced {
+        for (trace, circuit, traced, points) in self.sampled(&values) {
             let shape = match &self.aim.angles_deg {
-                None => self.shape(&traced).map(SampleShape::Free),
+                None => {
+                    let is_open = !traced.circuit.is_closed;
+                    points.map(|points| SampleShape::Free(CurveShape::of_polyline(&self.transform, &points, is_open)))
+                }
                 Some(_) => timed::best(&self.aim, &traced).map(|best| SampleShape::Timed(best.sum)),
             };
             let curve = SampleCurve { sample: sample as u32, trace: trace as u32, circuit: circuit as u32 };
             found.extend(shape.map(|shape| (curve, shape)));
         }
         found
+    }
+
+    /// The traced joints on the circuits of a parameter set, with points all around.
+    fn sampled(&self, values: &[f64]) -> Vec<(usize, usize, Traced, Option<Vec<Complex>>)> {
+        let Some(turn) = &self.turn else {
+            let all = self.traced(values).into_iter();
+            return all
+                .map(|(trace, circuit, traced)| {
+                    let points = traced.points(&traced.positions(POINTS));
+                    (trace, circuit, traced, points)
+                })
+                .collect();
+        };
+        let Some(traced) = self.on_full_turn(values).filter(|traced| traced.linkage.input().period() == turn.period)
+        else {
+            return Vec::new();
+        };
+        let are_closed = |places| Some(traced.poses(places)).filter(|poses| poses.are_closed(&traced.linkage));
+        let Some(poses) = are_closed(&turn.few).and_then(|_| are_closed(&turn.all)) else { return Vec::new() };
+        let joints = traced.linkage.traced.iter().enumerate();
+        joints
+            .map(|(trace, joint)| (trace, 0, Traced { joint: *joint, ..traced.clone() }, poses.points(*joint)))
+            .collect()
     }
 
     /// The curves of an index that are most like the target, the likeliest first, at most so many.
@@ -156,8 +195,8 @@ impl LinkageFitting {
     pub fn begin(&self, curve: SampleCurve) -> Option<LinkageRefinement> {
         let values = self.space.sample(curve.sample as usize)?;
         let at = (curve.trace as usize, curve.circuit as usize);
-        let (trace, _, traced) =
-            self.traced(&values).into_iter().find(|(trace, circuit, _)| (*trace, *circuit) == at)?;
+        let (trace, _, traced, points) =
+            self.sampled(&values).into_iter().find(|(trace, circuit, ..)| (*trace, *circuit) == at)?;
         if !self.aim.meets_condition(&values, &traced) {
             return None;
         }
@@ -171,7 +210,7 @@ impl LinkageFitting {
                 (best.is_reversed, best.start),
             );
         }
-        let placed = self.placed(&traced)?;
+        let placed = self.placed(&points?)?;
         LinkageRefinement::new(&self.aim, values, (trace, traced), placed)
     }
 
@@ -267,11 +306,13 @@ impl LinkageFitting {
         let rms_relative = (state.sum / self.aim.count()).sqrt();
         let fit = CurveFit {
             placement: target.placement().after(&placed),
-            rms: size * rms_relative,
-            rms_relative,
-            greatest: size * self.greatest(&refinement),
-            is_in_order: state.blocks.len() == self.aim.points_of(false).len(),
-            length_ratio: own_length / self.aim.polyline_length,
+            deviation: Deviation {
+                rms: size * rms_relative,
+                rms_relative,
+                greatest: size * self.greatest(&refinement),
+                is_in_order: state.blocks.len() == self.aim.points_of(false).len(),
+                length_ratio: own_length / self.aim.polyline_length,
+            },
             ends,
             is_reversed: refinement.is_reversed,
         };
@@ -305,37 +346,22 @@ impl LinkageFitting {
         found
     }
 
-    /// The same where the input turns fully, without the certainty that it does.
-    fn simply_traced(&self, values: &[f64]) -> Vec<(usize, usize, Traced)> {
-        let Ok(linkage) = self.space.template().linkage(values) else { return Vec::new() };
-        let Some(first) = linkage.traced.first().and_then(|joint| Traced::on_full_turn(&linkage, *joint)) else {
-            return Vec::new();
-        };
-        let joints = linkage.traced.iter().enumerate();
-        joints.map(|(trace, joint)| (trace, 0, Traced { joint: *joint, ..first.clone() })).collect()
-    }
-
-    fn shape(&self, traced: &Traced) -> Option<CurveShape> {
-        let passes = traced.circuit.passes.len() as f64;
-        let mut positions = traced.positions(POINTS);
-        let is_closed = traced.circuit.is_closed;
-        if !is_closed {
-            positions.retain(|position| *position <= passes);
-        }
-        let points: Vec<Point> = traced.points(&positions)?.iter().map(|z| Point::new(z.re, z.im)).collect();
-        Some(CurveShape::new(&points, is_closed))
+    /// The first of them as if the input turned fully.
+    fn on_full_turn(&self, values: &[f64]) -> Option<Traced> {
+        let linkage = self.space.template().linkage(values).ok()?;
+        let joint = *linkage.traced.first()?;
+        Traced::on_full_turn(linkage, joint)
     }
 
     /// A curve where it is most like the target.
-    fn placed(&self, traced: &Traced) -> Option<Similarity> {
-        let points = traced.points(&traced.positions(POINTS))?;
+    fn placed(&self, points: &[Complex]) -> Option<Similarity> {
         let placed = match &self.query {
             Query::Whole(target, target_centre, target_size) => {
-                let (spectrum, centre, size) = self.transform.spectrum(&points);
+                let (spectrum, centre, size) = self.transform.spectrum(points);
                 let likeness = self.transform.likeness(target, &spectrum);
                 likeness.similarity((*target_centre, *target_size), (centre, size))
             }
-            Query::Portion(stroke, _) => stroke.placement(&points)?.1,
+            Query::Portion(stroke, _) => stroke.placement(points)?.1,
         };
         (placed.factor.norm_sqr().is_normal() && placed.shift.norm_sqr().is_finite()).then_some(placed)
     }

@@ -13,6 +13,7 @@ mod feet;
 mod fitting;
 mod measured;
 mod placed_curve;
+mod poses;
 mod refinement;
 mod samples;
 mod scaling;
@@ -22,7 +23,7 @@ mod state;
 mod timed;
 
 pub use answer::LinkageAnswer;
-pub use placed_curve::{PlacedCurve, distinct};
+pub use placed_curve::PlacedCurve;
 pub use scaling::{is_scalable, scaled_values};
 pub use search::LinkageSearch;
 pub use space::{LinkageSpace, LinkageSpaceError};

@@ -2,9 +2,9 @@
 
 use super::aim::{longest_link, pivots_of};
 use crate::curve::CurveFit;
-use crate::target::Target;
+use crate::distinct::OUTLINE_POINTS;
 use coupler_curves::family::Family;
-use coupler_curves::geometry::{Point, Similarity, Vector, distance_to_segment};
+use coupler_curves::geometry::{Point, Similarity, Vector};
 use coupler_curves::linkage::{FourBar, JointId, Linkage, PlacedFourBar};
 use coupler_curves::measure::{Measure, MeasureSet};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
@@ -44,13 +44,11 @@ impl PlacedCurve {
 
     /// The curve of a solved cell where it fits the target. It is not yet known whether the linkage is scalable.
     pub fn new(family: &Family, solved: &SolvedCell, curve: &MeasuredCurve, fit: CurveFit) -> PlacedCurve {
-        /// Of the points that are kept to tell curves from each other.
-        const OUTLINE: usize = 720;
         let circuit = solved.circuit(curve);
         let name = |joint: JointId| solved.linkage.joints[joint.index()].name.clone();
         let pivots = pivots_of(&solved.linkage)
             .map(|joint| (name(joint), fit.placement.apply(circuit.positions.point(joint, 0))));
-        let step = circuit.len().div_ceil(OUTLINE).max(1);
+        let step = circuit.len().div_ceil(OUTLINE_POINTS).max(1);
         PlacedCurve {
             numbers: [curve.trace, curve.circuit],
             joint: name(curve.joint),
@@ -84,36 +82,4 @@ fn placed_four_bar(linkage: &Linkage, joint: JointId, placement: &Similarity) ->
         },
         coupler_point: Vector::new(scale * coupler_point.x, scale * across),
     })
-}
-
-/// The first of what has been found whose curves are not the same to a thousandth of the target's size, at most so many; nothing after
-/// these is looked at.
-pub fn distinct<T>(
-    found: impl IntoIterator<Item = T>,
-    curve: impl Fn(&T) -> &PlacedCurve,
-    target: &Target,
-    most: usize,
-) -> Vec<T> {
-    /// In sizes of the target.
-    const SAME: f64 = 1e-3;
-    let are_same = |a: &T, b: &T| are_same(&curve(a).outline, &curve(b).outline, SAME * target.size());
-    let mut kept: Vec<T> = Vec::new();
-    let mut found = found.into_iter();
-    while kept.len() < most
-        && let Some(next) = found.next()
-    {
-        if kept.iter().all(|other| !are_same(&next, other)) {
-            kept.push(next);
-        }
-    }
-    kept
-}
-
-/// Whether two curves, each given by some of its points, are the same to a distance.
-fn are_same(a: &[Point], b: &[Point], distance: f64) -> bool {
-    let is_near = |p: &Point, curve: &[Point]| {
-        let chords = (0..curve.len()).map(|k| [curve[k], curve[(k + 1) % curve.len()]]);
-        chords.into_iter().any(|[from, to]| distance_to_segment(*p, from, to) <= distance)
-    };
-    a.iter().all(|p| is_near(p, b)) && b.iter().all(|p| is_near(p, a))
 }

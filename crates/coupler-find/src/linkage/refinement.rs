@@ -147,6 +147,7 @@ impl Candidate for LinkageRefinement {
         let State { traced, placed, blocks, start, .. } = &self.state;
         let count = free + self.other_count();
         let positions = self.state.positions();
+        let places = aim.places(traced, &positions, *start)?;
         let rates = self.state.rates(aim)?;
         let excesses = aim.excesses(traced, placed);
         // The motion of the points, and of the excesses, by each parameter.
@@ -161,7 +162,10 @@ impl Candidate for LinkageRefinement {
                 }
                 let linkage = space.template.linkage(&values).ok()?;
                 let other = traced.perturbed(linkage)?;
-                let points = aim.points(&other, &positions, *start)?;
+                let points = match traced.has_fixed_passes() {
+                    true => other.points_at(&places)?,
+                    false => other.points_at(&aim.places(&other, &positions, *start)?)?,
+                };
                 let moved = points.iter().zip(blocks).map(|(moved, block)| (moved - block.foot.at) / step).collect();
                 let excess = aim.excesses(&other, placed).iter().zip(&excesses).map(|(b, a)| (b - a) / step).collect();
                 Some((moved, excess))
@@ -216,7 +220,9 @@ impl Candidate for LinkageRefinement {
                 let linkage = space.template.linkage(&values).ok().filter(|_| space.are_valid(&values))?;
                 // All circuits are found in the end of several steps only: of a chain of dyads that takes long.
                 let traced = self.state.traced.perturbed(linkage)?;
-                let is_closed = !traced.has_fixed_passes() || traced.is_closed_at(&traced.positions(CHECKED));
+                let are_closed =
+                    || traced.poses(&traced.places(&traced.positions(CHECKED))).are_closed(&traced.linkage);
+                let is_closed = !traced.has_fixed_passes() || are_closed();
                 is_closed.then_some(traced)
             }
         }?;

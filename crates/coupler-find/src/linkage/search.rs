@@ -2,10 +2,11 @@
 
 use super::answer::LinkageAnswer;
 use super::fitting::{LinkageFit, LinkageFitting};
-use super::placed_curve::{PlacedCurve, distinct};
+use super::placed_curve::PlacedCurve;
 use super::refinement::LinkageRefinement;
 use super::samples::{SampleCurve, SampleIndex, SampleShape};
 use super::space::LinkageSpace;
+use crate::distinct::distinct;
 use crate::options::{Effort, Options};
 use crate::target::{PathKind, Target};
 use crate::workers::Workers;
@@ -25,7 +26,7 @@ use coupler_curves::solve::{SolvedCell, Solver};
 /// let space = LinkageSpace::new(catalogue::find("slider-crank").unwrap(), &[]).unwrap();
 /// let mut search = LinkageSearch::new(&space, &target, &Options::default(), Some(200));
 /// while search.step(&OneAtATime) {}
-/// println!("{:.4} of the path's size", search.answers(&OneAtATime)[0].curve.fit.rms_relative);
+/// println!("{:.4} of the path's size", search.answers(&OneAtATime)[0].curve.fit.deviation.rms_relative);
 /// ```
 pub struct LinkageSearch {
     fitting: LinkageFitting,
@@ -90,7 +91,7 @@ const BEGUN_PER_STEP: usize = 64;
 const ROUNDS: [(usize, usize); 4] = [(2, 6), (4, 12), (8, 40), (20, 150)];
 
 /// The steps in which the curves are placed before.
-const PLACING_STEPS: usize = 10;
+const PLACING_STEPS: usize = 6;
 
 /// The rounds of restarts, the part of the starts in each, and the nearest that are begun from.
 const RESTART_ROUNDS: u64 = 3;
@@ -148,9 +149,9 @@ impl LinkageSearch {
         refinements.sort_by(|a, b| a.sum().total_cmp(&b.sum()));
         let fits = workers.map(refinements, |refinement| self.fitting.fit(refinement));
         let mut fits: Vec<LinkageFit> = fits.into_iter().flatten().collect();
-        fits.sort_by(|a, b| a.fit.rms.total_cmp(&b.fit.rms));
+        fits.sort_by(|a, b| a.fit.deviation.rms.total_cmp(&b.fit.deviation.rms));
         let answers = fits.into_iter().filter_map(|fit| answer(fit, self.fitting.space()));
-        distinct(answers, |answer| &answer.curve, self.fitting.target(), self.options.most)
+        distinct(answers, |answer| &answer.curve.outline, self.fitting.target().size(), self.options.most)
     }
 
     fn sample(&mut self, next: usize, workers: &impl Workers) -> Stage {

@@ -18,6 +18,8 @@ use coupler_curves::template::{JointKindTemplate, Parameter, ParameterKind, Temp
 pub struct LinkageSpace {
     pub(super) template: Arc<Template>,
     free: Vec<FreeParameter>,
+    /// The numbers by which samples are varied.
+    sequence: EvenSequence,
     /// Those that are not varied.
     kept: Vec<usize>,
     /// The values of parameters without an expression.
@@ -177,8 +179,16 @@ impl LinkageSpace {
             return Err(vec![LinkageSpaceError::NothingFree { linkage: linkage(), why }]);
         }
         let kept = (0..names.len()).filter(|slot| is_kept[*slot]).collect();
-        let mut space =
-            LinkageSpace { free, kept, base, expressions, is_scalable: false, held: None, template: template.clone() };
+        let mut space = LinkageSpace {
+            sequence: EvenSequence::new(free.len()),
+            free,
+            kept,
+            base,
+            expressions,
+            is_scalable: false,
+            held: None,
+            template: template.clone(),
+        };
         space.is_scalable = is_scalable(&template, &space.base) && space.keeps_scale();
         let is_held = |free: &&FreeParameter| {
             parameters[free.slot].kind == ParameterKind::Length && matches!(free.unit, VariationUnit::Factor)
@@ -228,25 +238,24 @@ impl LinkageSpace {
     /// A parameter set of the sequence, the ranges of which are around the defaults: those that are computed from others around what
     /// follows from these. `None` if one is out of its bounds.
     ///
-    /// The numbers are those of the additive recurrence of Roberts, which fill a cube of any dimension evenly.
+    /// The numbers are those of an [`EvenSequence`].
     pub(super) fn sample(&self, number: usize) -> Option<Vec<f64>> {
         let (factor, shift, turn) = WIDTHS[number % WIDTHS.len()];
-        let parts = even_parts(self.free.len(), number / WIDTHS.len());
+        let part = self.sequence.parts(number / WIDTHS.len());
         let mut values = self.base.clone();
         let vary = |values: &mut [f64], slot: usize| {
             let Some(place) = self.free.iter().position(|free| free.slot == slot && self.held != Some(slot)) else {
                 return;
             };
-            let part = 2.0 * parts[place] - 1.0;
+            let part = part(place);
+            let centred = 2.0 * part - 1.0;
             let parameter = &self.template.parameters[slot];
             let (value, by) = (values[slot], &mut values[slot]);
             *by = match (self.free[place].unit, parameter.min, parameter.max) {
-                (VariationUnit::Factor | VariationUnit::Shift(_), Some(min), Some(max)) => {
-                    min + (max - min) * parts[place]
-                }
-                (VariationUnit::Factor, ..) => value * trig::exp(trig::ln(factor) * part),
-                (VariationUnit::Shift(unit), ..) => value + shift * unit * part,
-                (VariationUnit::Turn(unit), ..) => value + turn * std::f64::consts::PI * unit * part,
+                (VariationUnit::Factor | VariationUnit::Shift(_), Some(min), Some(max)) => min + (max - min) * part,
+                (VariationUnit::Factor, ..) => value * trig::exp(trig::ln(factor) * centred),
+                (VariationUnit::Shift(unit), ..) => value + shift * unit * centred,
+                (VariationUnit::Turn(unit), ..) => value + turn * std::f64::consts::PI * unit * centred,
             };
             *by = reflected(*by, parameter);
         };
@@ -360,18 +369,31 @@ fn reflected(value: f64, parameter: &Parameter) -> f64 {
     }
 }
 
-/// Numbers from 0 to 1: the powers of the inverse of the real root of x^(d+1) = x + 1, times the place in the sequence.
-fn even_parts(dimension: usize, number: usize) -> Vec<f64> {
-    const ROUNDS: usize = 60;
-    let mut root: f64 = 1.0;
-    for _ in 0..ROUNDS {
-        // The root of order d + 1 of 1 + x is nearer to it.
-        root = trig::exp(trig::ln(1.0 + root) / (dimension as f64 + 1.0));
+/// The numbers of a sequence that fills a cube of a dimension evenly, the additive recurrence of Roberts: the powers of the inverse of the real
+/// root of x^(d+1) = x + 1, times the place in the sequence.
+#[derive(Clone, Debug)]
+struct EvenSequence {
+    powers: Vec<f64>,
+}
+
+impl EvenSequence {
+    fn new(dimension: usize) -> EvenSequence {
+        const ROUNDS: usize = 60;
+        let mut root: f64 = 1.0;
+        for _ in 0..ROUNDS {
+            // The root of order d + 1 of 1 + x is nearer to it.
+            root = trig::exp(trig::ln(1.0 + root) / (dimension as f64 + 1.0));
+        }
+        let mut power = 1.0;
+        let next = |_| {
+            power /= root;
+            power
+        };
+        EvenSequence { powers: (0..dimension).map(next).collect() }
     }
-    let mut power = 1.0;
-    let part = |_| {
-        power /= root;
-        (0.5 + power * (number as f64 + 1.0)).fract()
-    };
-    (0..dimension).map(part).collect()
+
+    /// Numbers from 0 to 1, one for each direction.
+    fn parts(&self, number: usize) -> impl Fn(usize) -> f64 + '_ {
+        move |direction| (0.5 + self.powers[direction] * (number as f64 + 1.0)).fract()
+    }
 }

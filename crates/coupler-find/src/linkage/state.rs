@@ -5,6 +5,7 @@ use std::sync::OnceLock;
 use super::aim::{Aim, WEIGHT};
 use super::circuit::Traced;
 use super::feet::{Foot, Near, Rates, feet};
+use super::poses::Places;
 use crate::complex::Complex;
 use crate::matching::{Block, feet_in_order, feet_of_points, match_places, squares};
 use coupler_curves::geometry::{Similarity, trig};
@@ -88,7 +89,7 @@ impl Aim {
         let angles = self.angles_deg.as_ref()?;
         let sign = if is_reversed { -1.0 } else { 1.0 };
         let inputs: Vec<f64> = angles.iter().map(|angle| input + sign * angle).collect();
-        let at = traced.points_at_inputs(pass, &inputs)?;
+        let at = traced.points_at(&traced.places_at_inputs(pass, &inputs)?)?;
         let points = self.points_of(false);
         let sum = points.iter().zip(&at).map(|(point, z)| (point - placed.image(*z)).norm_sqr()).sum();
         let block =
@@ -103,16 +104,11 @@ impl Aim {
         WEIGHT * WEIGHT * self.count() * squares
     }
 
-    /// The points at positions, which are inputs if the target is timed.
-    pub(super) fn points(
-        &self,
-        traced: &Traced,
-        positions: &[f64],
-        start: Option<(usize, f64)>,
-    ) -> Option<Vec<Complex>> {
+    /// The places of positions, which are inputs if the target is timed.
+    pub(super) fn places(&self, traced: &Traced, positions: &[f64], start: Option<(usize, f64)>) -> Option<Places> {
         match start {
-            Some((pass, _)) => traced.points_at_inputs(pass, positions),
-            None => traced.points(positions),
+            Some((pass, _)) => traced.places_at_inputs(pass, positions),
+            None => Some(traced.places(positions)),
         }
     }
 }
@@ -131,7 +127,7 @@ impl State {
             let step = if self.start.is_some() { trig::degrees(STEP) } else { STEP };
             let moved = |by: f64| {
                 let positions: Vec<f64> = self.blocks.iter().map(|block| block.foot.position + by).collect();
-                aim.points(&self.traced, &positions, self.start)
+                self.traced.points_at(&aim.places(&self.traced, &positions, self.start)?)
             };
             let (before, after) = (moved(-step)?, moved(step)?);
             let both = before.iter().zip(&after).zip(&self.blocks);

@@ -37,7 +37,8 @@ pub(super) fn best(aim: &Aim, traced: &Traced) -> Option<Timed> {
         let count = if is_whole { (pass.input_length() / step).round() as usize } else { STEPS + 1 };
         let inputs: Vec<f64> = (0..count).map(|k| range[0] + step * k as f64).collect();
         let inputs: Vec<f64> = inputs.into_iter().map(|input| input.min(range[1])).collect();
-        let Some(samples) = traced.points_at_inputs(number, &inputs) else { continue };
+        let places = traced.places_at_inputs(number, &inputs);
+        let Some(samples) = places.and_then(|places| traced.points_at(&places)) else { continue };
         for is_reversed in [false, true] {
             let sign = if is_reversed { -1.0 } else { 1.0 };
             let shifts: Vec<i64> = chosen.iter().map(|k| (sign * angles[*k] / step).round() as i64).collect();

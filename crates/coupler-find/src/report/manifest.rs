@@ -82,7 +82,8 @@ fn append_family((form, title): (&str, &str), ranked: &[(usize, &Answer)], size:
     );
     for (rank, answer) in ranked {
         let values = answer.mechanism.parameters().map(|(name, value)| format!("{name} = {}", rounded(value, size)));
-        let [rms, relative] = [format_length(answer.rms, size), format_relative(answer.rms_relative)];
+        let [rms, relative] =
+            [format_length(answer.deviation.rms, size), format_relative(answer.deviation.rms_relative)];
         let values = values.join(", ");
         let _ = writeln!(out, "    {{ rank = {rank}, deviation = {relative}, {values} }}, # E = {rms} = {relative} S");
     }

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::answer::Answer;
-use crate::curve::fit::CurveFit;
+use crate::deviation::Deviation;
 use crate::four_bar::mechanism::Mechanism;
 use coupler_curves::linkage::{FourBar, PlacedFourBar, Side};
 
@@ -58,16 +58,16 @@ struct Parameters {
 }
 
 impl FitRecord {
-    /// The record of a fit with a rank, from 1.
-    pub fn new(rank: usize, fit: &CurveFit) -> FitRecord {
+    /// The record of a deviation with a rank, from 1.
+    pub fn new(rank: usize, deviation: &Deviation) -> FitRecord {
         FitRecord {
             rank,
-            quality: fit.quality().name(),
-            rms: fit.rms,
-            rms_relative: fit.rms_relative,
-            max: fit.greatest,
-            in_order: fit.is_in_order,
-            length_ratio: fit.length_ratio,
+            quality: deviation.quality().name(),
+            rms: deviation.rms,
+            rms_relative: deviation.rms_relative,
+            max: deviation.greatest,
+            in_order: deviation.is_in_order,
+            length_ratio: deviation.length_ratio,
         }
     }
 }
@@ -76,15 +76,7 @@ impl AnswerRecord {
     /// The record of an answer with a rank, from 1.
     pub fn new(rank: usize, answer: &Answer) -> AnswerRecord {
         AnswerRecord {
-            fit: FitRecord {
-                rank,
-                quality: answer.quality().name(),
-                rms: answer.rms,
-                rms_relative: answer.rms_relative,
-                max: answer.greatest,
-                in_order: answer.is_in_order,
-                length_ratio: answer.length_ratio,
-            },
+            fit: FitRecord::new(rank, &answer.deviation),
             linkage: LinkageRecord::new(&answer.mechanism),
             cognates: answer.cognates.iter().map(LinkageRecord::new).collect(),
         }

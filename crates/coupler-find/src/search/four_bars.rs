@@ -148,9 +148,11 @@ impl Search {
         count * (POINTS_OF_EFFORT / self.fitting.points.len()).clamp(1, MAX_MORE)
     }
 
-    /// Restarts are a third of the work, and find what no start has led to.
+    /// Restarts are a third of the work, and find what no start has led to: half of it for a path of few points, of which the least minimum is
+    /// otherwise found by some seeds only.
     fn restart_count(&self) -> usize {
-        self.start_count() * 3 / 5
+        let is_sparse = self.fitting.points.len() <= POINTS_OF_EFFORT / 2;
+        self.start_count() * if is_sparse { 6 } else { 3 } / 5
     }
 
     fn lookup(&self, points: &[Complex]) -> Lookup {

@@ -1,7 +1,8 @@
 //! The answers of a search: refined linkages without those whose curves are the same, with their cognates.
 
 use crate::answer::Answer;
-use crate::complex::{Complex, length};
+use crate::deviation::Deviation;
+use crate::distinct::{OUTLINE_POINTS, are_same};
 use crate::four_bar::fitting::{Fit, Fitting};
 use crate::four_bar::index::Index;
 use crate::four_bar::mechanism::Mechanism;
@@ -9,6 +10,7 @@ use crate::four_bar::parameters::Parameters;
 use crate::four_bar::timing::Timing;
 use crate::options::Options;
 use crate::search::four_bars::Search;
+use crate::shape::spectrum::directions;
 use crate::target::Target;
 use coupler_curves::geometry::Point;
 use coupler_curves::linkage::{Cognate, Cognates, PlacedFourBar};
@@ -17,46 +19,38 @@ use coupler_curves::linkage::{Cognate, Cognates, PlacedFourBar};
 /// one. The search takes no step meanwhile.
 #[derive(Default)]
 pub struct Ranking {
-    /// How many refinements are compared.
-    compared: usize,
-    /// The fits that differ, with the points of the curves at those of the target.
-    found: Vec<(Fit, Vec<Complex>)>,
-    /// The answers that are made, and the number of the next fit.
-    answers: Vec<Answer>,
+    /// How many refinements are fitted.
+    fitted: usize,
+    fits: Vec<Fit>,
+    /// The number of the next fit, in the order of their deviations.
     next: usize,
+    answers: Vec<Answer>,
+    /// The curves of the answers, with centroid 0 and size 1 of the target.
+    outlines: Vec<Vec<Point>>,
 }
 
 impl Ranking {
     /// Takes a step, of a few milliseconds at most for a target of a hundred points; false if nothing is left to do.
     pub fn step(&mut self, search: &Search) -> bool {
         let (fitting, refinements, most) = search.results();
-        if let Some(refinement) = refinements.get(self.compared) {
-            self.compared += 1;
-            if let Some(fit) = fitting.fit(refinement) {
-                self.add(fit);
-            }
+        if let Some(refinement) = refinements.get(self.fitted) {
+            self.fitted += 1;
+            self.fits.extend(fitting.fit(refinement));
             return true;
         }
         if self.next == 0 {
-            self.found.sort_by(|a, b| a.0.matching.sum.total_cmp(&b.0.matching.sum));
+            self.fits.sort_by(|a, b| a.matching.sum.total_cmp(&b.matching.sum));
         }
-        let Some((fit, _)) = self.found.get(self.next).filter(|_| self.answers.len() < most) else { return false };
-        self.answers.extend(fitting.answer(fit));
+        let Some(fit) = self.fits.get(self.next).filter(|_| self.answers.len() < most) else { return false };
         self.next += 1;
-        true
-    }
-
-    /// Adds a fit, unless one that is at least as near has the same curve.
-    fn add(&mut self, fit: Fit) {
-        /// The distance up to which curves are the same, in sizes of the target.
-        const SAME: f64 = 1e-3;
-        let is_same = |a: &[Complex], b: &[Complex]| a.iter().zip(b).all(|(a, b)| length(a - b) <= SAME);
-        let feet = fit.linkage.curve(&fit.matching.poses);
-        match self.found.iter_mut().find(|(_, other)| is_same(other, &feet)) {
-            Some((other, _)) if other.matching.sum <= fit.matching.sum => {}
-            Some(other) => *other = (fit, feet),
-            None => self.found.push((fit, feet)),
+        let outline = fitting.outline(fit);
+        if !self.outlines.iter().any(|other| are_same(other, &outline, 1.0))
+            && let Some(answer) = fitting.answer(fit)
+        {
+            self.answers.push(answer);
+            self.outlines.push(outline);
         }
+        true
     }
 
     /// The answers.
@@ -90,6 +84,12 @@ impl Search {
 }
 
 impl Fitting {
+    /// Points of the curve of a fit.
+    fn outline(&self, Fit { linkage, matching, .. }: &Fit) -> Vec<Point> {
+        let circuit = linkage.circuit_of(&matching.poses[0], &directions(OUTLINE_POINTS));
+        linkage.curve(&circuit).into_iter().map(|z| Point::new(z.re, z.im)).collect()
+    }
+
     /// The answer of a fit, if one of the four-bars that trace its curve meets the constraints.
     fn answer(&self, Fit { linkage, matching, length_ratio }: &Fit) -> Option<Answer> {
         let size = self.target.size();
@@ -121,11 +121,13 @@ impl Fitting {
         Some(Answer {
             mechanism: mechanisms.remove(0),
             cognates: mechanisms,
-            rms: size * rms_relative,
-            rms_relative,
-            greatest: size * matching.greatest,
-            is_in_order: matching.is_in_order,
-            length_ratio: *length_ratio,
+            deviation: Deviation {
+                rms: size * rms_relative,
+                rms_relative,
+                greatest: size * matching.greatest,
+                is_in_order: matching.is_in_order,
+                length_ratio: *length_ratio,
+            },
         })
     }
 

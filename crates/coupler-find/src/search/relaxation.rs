@@ -57,7 +57,7 @@ impl Constraint {
 pub fn nearest_miss(target: &Target, index: &Index, options: &Options) -> Option<(Vec<Constraint>, Answer)> {
     let search =
         |target: &Target, options: &Options| Search::new(target, options.clone()).run(index).into_iter().next();
-    nearest_miss_by(target, options, search, |answer| answer.rms)
+    nearest_miss_by(target, options, search, |answer| answer.deviation.rms)
 }
 
 /// The same for any search, given by the nearest answer for a target with options, and the deviation of an answer.

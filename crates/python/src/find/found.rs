@@ -10,7 +10,7 @@ use coupler_curves::geometry::Point;
 use coupler_curves::geometry::Similarity;
 use coupler_curves::measure::MeasureSet;
 use coupler_curves::solve::{SolvedCell, Solver};
-use coupler_find::{Constraint, LinkageAnswer, PlacedCurve, Quality, Target};
+use coupler_find::{Constraint, Deviation, LinkageAnswer, PlacedCurve, Target};
 use numpy::PyArray2;
 use pyo3::prelude::*;
 use pyo3::types::PyIterator;
@@ -122,7 +122,10 @@ impl Found {
         match (self.answers.first(), &self.relax()[..]) {
             (Some(best), _) => {
                 let count = self.answers.len();
-                format!("<coupler_atlas.Found: linkages: {count}, the nearest within {:.3e} S>", best.deviation())
+                format!(
+                    "<coupler_atlas.Found: linkages: {count}, the nearest within {:.3e} S>",
+                    best.deviation().rms_relative
+                )
             }
             (None, []) => "<coupler_atlas.Found: no linkage is like the path>".to_owned(),
             (None, relax) => format!("<coupler_atlas.Found: no linkage; relax {}>", relax.join(", ")),
@@ -185,10 +188,10 @@ impl Entry {
         Entry { name: None, mechanism: Mechanism::Placed(Box::new(placed)) }
     }
 
-    fn deviation(&self) -> f64 {
+    fn deviation(&self) -> &Deviation {
         match &self.mechanism {
-            Mechanism::FourBar(answer) => answer.rms_relative,
-            Mechanism::Placed(placed) => placed.curve.fit.rms_relative,
+            Mechanism::FourBar(answer) => &answer.deviation,
+            Mechanism::Placed(placed) => &placed.curve.fit.deviation,
         }
     }
 
@@ -275,49 +278,37 @@ impl Answer {
     /// E, relative to the size of the path: the root of the mean square of the distances of its points from the curve, divided by S.
     #[getter]
     fn deviation(&self) -> f64 {
-        self.0.deviation()
+        self.0.deviation().rms_relative
     }
 
     /// E in the unit of the path.
     #[getter]
     fn rms(&self) -> f64 {
-        match &self.0.mechanism {
-            Mechanism::FourBar(answer) => answer.rms,
-            Mechanism::Placed(placed) => placed.curve.fit.rms,
-        }
+        self.0.deviation().rms
     }
 
     /// The greatest of the distances, in the unit of the path.
     #[getter]
     fn greatest(&self) -> f64 {
-        match &self.0.mechanism {
-            Mechanism::FourBar(answer) => answer.greatest,
-            Mechanism::Placed(placed) => placed.curve.fit.greatest,
-        }
+        self.0.deviation().greatest
     }
 
     /// How near the curve is, in a word: ``exact``, ``close``, ``fair`` or ``poor``.
     #[getter]
     fn quality(&self) -> &'static str {
-        Quality::of(self.0.deviation()).name()
+        self.0.deviation().quality().name()
     }
 
     /// Whether the points of the curve that are nearest to those of the path are in their order.
     #[getter]
     fn in_order(&self) -> bool {
-        match &self.0.mechanism {
-            Mechanism::FourBar(answer) => answer.is_in_order,
-            Mechanism::Placed(placed) => placed.curve.fit.is_in_order,
-        }
+        self.0.deviation().is_in_order
     }
 
     /// The length of the curve, or of its part, relative to that of the path.
     #[getter]
     fn length_ratio(&self) -> f64 {
-        match &self.0.mechanism {
-            Mechanism::FourBar(answer) => answer.length_ratio,
-            Mechanism::Placed(placed) => placed.curve.fit.length_ratio,
-        }
+        self.0.deviation().length_ratio
     }
 
     /// The name of its curve in the atlas that was searched, ``family:cell.trace.circuit``; None without an atlas.
@@ -387,6 +378,6 @@ impl Answer {
     fn __repr__(&self, py: Python) -> PyResult<String> {
         let linkage = self.linkage(py)?.repr()?;
         let class = self.0.class().map_or(String::new(), |class| format!("{class}, "));
-        Ok(format!("<coupler_atlas.Answer: {class}within {:.3e} S: {linkage}>", self.0.deviation()))
+        Ok(format!("<coupler_atlas.Answer: {class}within {:.3e} S: {linkage}>", self.0.deviation().rms_relative))
     }
 }

@@ -153,8 +153,10 @@ fn search_four_bars(
         };
         let answers = search(&sought, &options);
         let nearest = |target: &Target, options: &Options| search(target, options).into_iter().next();
-        let miss =
-            answers.is_empty().then(|| nearest_miss_by(&sought, &options, nearest, |answer| answer.rms)).flatten();
+        let miss = answers
+            .is_empty()
+            .then(|| nearest_miss_by(&sought, &options, nearest, |answer| answer.deviation.rms))
+            .flatten();
         (answers, miss)
     })?;
     let manifest = answers_manifest(&name, target.size(), &answers);

@@ -11,7 +11,7 @@ use crate::find::{self, AtlasAnswer, AtlasQuery};
 use crate::output;
 use crate::record::{self, UnknownManifest};
 use coupler_curves::family::Family;
-use coupler_find::{Constraint, Options, Quality, Target};
+use coupler_find::{Constraint, Options, Target};
 
 use super::super::source::ManifestSource;
 use super::{Arguments, Best, Failure, Outcome, Shown, show, source, title_of};
@@ -65,11 +65,10 @@ impl Shown for AtlasReport {
     }
 
     fn best(&self) -> Option<Best> {
-        let AtlasAnswer { curve, refined, .. } = self.findings.answers.first()?;
-        Some(match refined {
-            Some(answer) => Best { quality: answer.quality(), mu_worst_deg: answer.mechanism.mu_worst_deg },
-            None => Best { quality: Quality::of(curve.fit.rms_relative), mu_worst_deg: curve.mu_worst_deg },
-        })
+        let best = self.findings.answers.first()?;
+        let refined = best.refined.as_ref();
+        let mu_worst_deg = refined.map_or(best.curve.mu_worst_deg, |answer| answer.mechanism.mu_worst_deg);
+        Some(Best { quality: best.deviation().quality(), mu_worst_deg })
     }
 
     fn miss(&self) -> Option<(Family, usize)> {

@@ -1,6 +1,6 @@
 //! What is shown of a search of an atlas.
 
-use crate::find::AtlasFindings;
+use crate::find::{AtlasAnswer, Findings};
 use crate::manifest::Plan;
 use coupler_find::Target;
 
@@ -11,5 +11,5 @@ pub(super) struct AtlasReport {
     pub(super) reading: String,
     pub(super) target: Target,
     pub(super) plan: Plan,
-    pub(super) findings: AtlasFindings,
+    pub(super) findings: Findings<AtlasAnswer>,
 }

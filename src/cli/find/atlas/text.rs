@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use crate::find::description::{self, dimensions};
-use crate::find::{AtlasAnswer, AtlasFindings};
-use coupler_find::{Quality, format_length as number, format_relative as relative};
+use crate::find::{AtlasAnswer, Findings};
+use coupler_find::{Deviation, format_length as number, format_relative as relative};
 
 use super::super::text::{describe_target, options_of, place};
 use super::AtlasReport;
@@ -12,7 +12,7 @@ use coupler_curves::text::pluralize;
 
 /// The answers, each with its cell, where it is placed or what was refined from it.
 pub(super) fn text(report: &AtlasReport) -> String {
-    let AtlasReport { name, target, findings: AtlasFindings { curves, answers, nearest_miss }, .. } = report;
+    let AtlasReport { name, target, findings: Findings { curves, answers, nearest_miss }, .. } = report;
     let size = target.size();
     let mut out = format!("{}; {} of the atlas\n", describe_target(name, target), pluralize(*curves, "curve"));
     for (rank, answer) in (1..).zip(answers) {
@@ -36,11 +36,12 @@ pub(super) fn text(report: &AtlasReport) -> String {
 
 fn entry(rank: &str, AtlasAnswer { curve, name, refined, .. }: &AtlasAnswer, size: f64) -> String {
     let fit = &curve.fit;
-    let line = |relative_rms: f64, rms: f64, greatest: f64| {
-        let quality = Quality::of(relative_rms).name();
+    let line = |deviation: &Deviation| {
+        let Deviation { rms, rms_relative, greatest, .. } = *deviation;
+        let quality = deviation.quality().name();
         format!(
             "E = {} S = {}, greatest {}, {quality}",
-            relative(relative_rms),
+            relative(rms_relative),
             number(rms, size),
             number(greatest, size)
         )
@@ -48,14 +49,14 @@ fn entry(rank: &str, AtlasAnswer { curve, name, refined, .. }: &AtlasAnswer, siz
     match refined {
         Some(answer) => format!(
             "{rank:>3}  {}, refined from {} (E = {} S)\n     {}\n     {}\n",
-            line(answer.rms_relative, answer.rms, answer.greatest),
+            line(&answer.deviation),
             name,
-            relative(fit.rms_relative),
+            relative(fit.deviation.rms_relative),
             dimensions(&answer.mechanism, size),
             place(&answer.mechanism, size)
         ),
         None => {
-            let deviation = line(fit.rms_relative, fit.rms, fit.greatest);
+            let deviation = line(&fit.deviation);
             let class = if curve.class.is_empty() { String::new() } else { format!(", {}", curve.class) };
             format!("{rank:>3}  {deviation}, {}{class}\n     {}\n", name, description::placement(curve, size))
         }

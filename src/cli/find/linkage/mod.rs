@@ -10,7 +10,7 @@ use std::sync::atomic::AtomicBool;
 use crate::find::{self, SearchedLinkage};
 use crate::manifest;
 use coupler_curves::family::Family;
-use coupler_find::{Constraint, LinkageSpace, Options, Quality, Target};
+use coupler_find::{Constraint, LinkageSpace, Options, Target};
 
 use super::super::linkage::find_template;
 use super::super::source;
@@ -78,7 +78,7 @@ impl Shown for LinkageReport {
 
     fn best(&self) -> Option<Best> {
         let curve = &self.findings.answers.first()?.curve;
-        Some(Best { quality: Quality::of(curve.fit.rms_relative), mu_worst_deg: curve.mu_worst_deg })
+        Some(Best { quality: curve.fit.deviation.quality(), mu_worst_deg: curve.mu_worst_deg })
     }
 
     fn miss(&self) -> Option<(Family, usize)> {

@@ -1,7 +1,7 @@
 //! What is shown of a search for the dimensions of a linkage.
 
-use crate::find::LinkageFindings;
-use coupler_find::{LinkageSpace, Target};
+use crate::find::Findings;
+use coupler_find::{LinkageAnswer, LinkageSpace, Target};
 
 /// What has been found for a linkage.
 pub(super) struct LinkageReport {
@@ -10,7 +10,7 @@ pub(super) struct LinkageReport {
     pub(super) reading: String,
     pub(super) target: Target,
     pub(super) space: LinkageSpace,
-    pub(super) findings: LinkageFindings,
+    pub(super) findings: Findings<LinkageAnswer>,
     /// The text of the linkage, if it is none of the catalogue.
     pub(super) own_linkage: Option<String>,
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::find::LinkageFindings;
+use crate::find::Findings;
 use crate::find::description::{deviation, parameters, placement};
 use coupler_find::{LinkageAnswer, LinkageSpace, format_length as number};
 
@@ -12,7 +12,7 @@ use coupler_curves::text::pluralize;
 
 /// The answers, each with its dimensions and its place.
 pub(super) fn text(report: &LinkageReport) -> String {
-    let LinkageReport { name, target, space, findings: LinkageFindings { curves, answers, nearest_miss }, .. } = report;
+    let LinkageReport { name, target, space, findings: Findings { curves, answers, nearest_miss }, .. } = report;
     let size = target.size();
     let id = &space.template().id;
     let free: Vec<&str> = space.free_names().collect();
@@ -48,11 +48,11 @@ fn entry(rank: &str, answer: &LinkageAnswer, space: &LinkageSpace, size: f64) ->
     } else {
         String::new()
     };
-    let order = if fit.is_in_order { "in order" } else { "not in order" };
+    let order = if fit.deviation.is_in_order { "in order" } else { "not in order" };
     let mut out = format!(
         "{rank:>3}  {}, greatest {}, {order}, {}{class}{mu}, longest link {} = {:.2} S\n     {}\n",
-        deviation(curve, size),
-        number(fit.greatest, size),
+        deviation(&fit.deviation, size),
+        number(fit.deviation.greatest, size),
         if fit.is_reversed { "backward" } else { "forward" },
         number(curve.longest_link, size),
         curve.longest_link / size,
