@@ -49,6 +49,7 @@ mod options;
 
 mod descent;
 mod matching;
+mod timing;
 
 mod shape;
 mod target;

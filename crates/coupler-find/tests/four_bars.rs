@@ -373,7 +373,9 @@ fn placed_otherwise(mut path: Vec<Point>, [start, direction, mirror, placement]:
 
 /// Panics unless the answer to a path that is placed otherwise is the same.
 fn assert_invariant(changes: &[[bool; 4]]) {
-    let rms = |changes: [bool; 4]| find(&placed_otherwise(points(&YU1), changes), Options::default())[0].deviation.rms_relative;
+    let rms = |changes: [bool; 4]| {
+        find(&placed_otherwise(points(&YU1), changes), Options::default())[0].deviation.rms_relative
+    };
     let expected = rms([false; 4]);
     for &changes in changes {
         let found = rms(changes);

@@ -112,7 +112,11 @@ fn assert_same_answers(sought: [(PathKind, &str, f64, bool); 2]) {
                 segments.fold(f64::INFINITY, f64::min)
             };
             let greatest = points.iter().map(distance).fold(0.0, f64::max);
-            assert!(greatest < expected.deviation.greatest + 0.05 * target.size(), "{greatest}, {}", expected.deviation.greatest);
+            assert!(
+                greatest < expected.deviation.greatest + 0.05 * target.size(),
+                "{greatest}, {}",
+                expected.deviation.greatest
+            );
         }
     }
 }

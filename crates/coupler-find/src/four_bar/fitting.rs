@@ -12,6 +12,7 @@ use crate::four_bar::timing::Timing;
 use crate::options::Options;
 use crate::shape::spectrum::directions;
 use crate::target::{PathKind, Target};
+use crate::timing::TimedPoints;
 
 /// A target with the constraints of a search.
 pub(crate) struct Fitting {
@@ -23,8 +24,8 @@ pub(crate) struct Fitting {
     pub smooth_length: f64,
     /// The greatest length of a curve or of its portion.
     greatest_length: f64,
-    /// The inputs of the points, forward and backward, if they are timed.
-    pub timing: Option<[Timing; 2]>,
+    /// The inputs of the points, forward and backward, if they are timed; and some points for where a linkage is placed at first.
+    pub timing: Option<([Timing; 2], TimedPoints)>,
     /// The directions of the cranks of sampled circuits.
     directions: Vec<Complex>,
 }
@@ -53,15 +54,17 @@ impl Fitting {
             condition: options.condition.clone(),
             placement,
         };
+        let points = target.normalized();
+        let timing = |angles_deg: &[f64]| (Timing::both(angles_deg), TimedPoints::new(&points, angles_deg));
         Fitting {
-            points: target.normalized(),
             polyline_length: target.polyline_length(),
             smooth_length: target.smooth_length(),
             greatest_length,
-            timing: target.angles_deg().map(Timing::both),
+            timing: target.angles_deg().map(timing),
             directions,
             target: target.clone(),
             limits,
+            points,
         }
     }
 
@@ -73,20 +76,17 @@ impl Fitting {
 
     /// Begins a refinement from a linkage near the limits, on the circuit and in the direction that are nearest to the target.
     pub fn begin(&self, linkage: &Parameters) -> Option<Refinement> {
-        let linkage = self.limits.nearest(linkage, linkage.frame >= linkage.crank)?;
+        let allowed = |linkage: &Parameters| self.limits.nearest(linkage, linkage.frame >= linkage.crank);
         let refinement = match &self.timing {
             None => {
+                let linkage = allowed(linkage)?;
                 let poses = self.nearest_samples(&linkage)?;
                 Refinement::new(self.shortened(linkage, &poses[0])?, &poses, &self.points, None)?
             }
-            Some(both) => {
-                let samples = |timing: &Timing| {
-                    let (sum, poses) = timing.nearest_samples(&linkage, &self.directions, &self.points)?;
-                    Some((sum, poses, timing.clone()))
-                };
-                let nearer = both.iter().filter_map(samples).min_by(|a, b| a.0.total_cmp(&b.0));
-                let (_, poses, timing) = nearer?;
-                Refinement::new(self.shortened(linkage, &poses[0])?, &poses, &self.points, Some(timing))?
+            Some((both, target)) => {
+                let (timing, linkage, poses) = Timing::placed_best(both, target, linkage, &self.directions)?;
+                let linkage = self.shortened(allowed(&linkage)?, &poses[0])?;
+                Refinement::new(linkage, &poses, &self.points, Some(timing))?
             }
         };
         Some(refinement).filter(|refinement| self.limits.meets_condition(&refinement.linkage, &refinement.poses[0]))

@@ -7,6 +7,7 @@ use crate::four_bar::matching::Matching;
 use crate::four_bar::nearest_pose::PoseRates;
 use crate::four_bar::parameters::Parameters;
 use crate::four_bar::pose::Pose;
+use crate::timing::{TimedPlace, TimedPoints, TimedRow};
 use coupler_curves::geometry::{Point, Vector, cross};
 
 /// The angles from the crank at the first point of a target to that at each.
@@ -41,38 +42,33 @@ impl Timing {
         self.turns.iter().map(|turn| linkage.assemble(first * turn, side)).collect()
     }
 
-    /// The poses in which a linkage is nearest to a target, of those with the crank near one of some directions, which are equally
-    /// spaced; with the sum of the squares of the distances at these.
-    pub fn nearest_samples(
-        &self,
+    /// A linkage where it is nearest to a target, of those with the crank near one of some directions, which are equally spaced over a turn; with
+    /// its poses.
+    pub fn placed_best(
+        [forward, backward]: &[Timing; 2],
+        target: &TimedPoints,
         linkage: &Parameters,
         directions: &[Complex],
-        target: &[Complex],
-    ) -> Option<(f64, Vec<Pose>)> {
-        let count = directions.len();
-        let step = std::f64::consts::TAU / count as f64;
-        let shift = |angle: &f64| (angle / step).round().rem_euclid(count as f64) as usize;
-        let shifts: Vec<usize> = self.angles.iter().map(shift).collect();
-        let mut best: Option<(f64, usize, f64)> = None;
-        for side in [1.0, -1.0] {
-            // Where the linkage is not assembled no sum is less than another.
+    ) -> Option<(Timing, Parameters, Vec<Pose>)> {
+        let step_deg = 360.0 / directions.len() as f64;
+        let of_side = |side: f64| {
             let missing = Complex::new(f64::NAN, f64::NAN);
             let at =
                 |crank: &Complex| linkage.assemble(*crank, side).map_or(missing, |pose| linkage.coupler_point(&pose));
-            let samples: Vec<Complex> = directions.iter().map(at).collect();
-            for first in 0..count {
-                let squares = shifts
-                    .iter()
-                    .zip(target)
-                    .map(|(shift, point)| (samples[(first + shift) % count] - point).norm_sqr());
-                let sum: f64 = squares.sum();
-                if best.map_or(sum.is_finite(), |(least, ..)| sum < least) {
-                    best = Some((sum, first, side));
-                }
-            }
-        }
-        let (sum, first, side) = best?;
-        Some((sum, self.poses(linkage, directions[first], side)?))
+            let points: Vec<Complex> = directions.iter().map(at).collect();
+            let place = target.best_place(&TimedRow { points: &points, step_deg, is_whole: true })?;
+            Some((side, place))
+        };
+        let found = [1.0, -1.0].into_iter().filter_map(of_side);
+        let (side, TimedPlace { placed, is_reversed, first, .. }) =
+            found.reduce(|best, other| if other.1.sum < best.1.sum { other } else { best })?;
+        // A reflection exchanges the sides, and the directions of turning.
+        let side = if placed.is_mirrored { -side } else { side };
+        let timing = if is_reversed == placed.is_mirrored { forward } else { backward };
+        let linkage = linkage.transformed(&placed);
+        let crank = placed.direction(directions[first]) / placed.scale();
+        let poses = timing.poses(&linkage, crank, side)?;
+        Some((timing.clone(), linkage, poses))
     }
 
     /// The poses in which a linkage is nearest to a target, near those of a linkage like it, and the sum of the squares of the

@@ -6,6 +6,7 @@ use crate::complex::Complex;
 use crate::condition::Condition;
 use crate::options::Options;
 use crate::target::Target;
+use crate::timing::TimedPoints;
 use coupler_curves::family::{Family, Sampling};
 use coupler_curves::geometry::{Similarity, Vector};
 use coupler_curves::linkage::{JointId, Linkage};
@@ -23,6 +24,8 @@ pub(super) struct Aim {
     pub greatest_length: f64,
     /// The input at the points of a timed target, from that at the first.
     pub angles_deg: Option<Vec<f64>>,
+    /// The same for where a curve is placed at first.
+    pub timed: Option<TimedPoints>,
     pub full_turn: bool,
     max_link: f64,
     /// The corners of the box of the fixed pivots.
@@ -42,12 +45,14 @@ impl Aim {
         let placement = target.placement();
         let corner = |x: f64, y: f64| placement.preimage(Complex::new(x, y));
         let forward = target.normalized();
+        let timed = target.angles_deg().map(|angles| TimedPoints::new(&forward, angles));
         let backward = forward.iter().rev().copied().collect();
         Aim {
             points: [forward, backward],
             polyline_length: target.polyline_length(),
             greatest_length: target.greatest_length(),
             angles_deg: target.angles_deg().map(|angles| angles.iter().map(|angle| angle - angles[0]).collect()),
+            timed,
             full_turn: options.full_turn,
             max_link: options.max_link,
             pivots: options.pivots.map(|b| [corner(b.min.x, b.min.y), corner(b.max.x, b.max.y)]),

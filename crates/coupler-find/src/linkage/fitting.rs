@@ -145,7 +145,7 @@ impl LinkageFitting {
                     let is_open = !traced.circuit.is_closed;
                     points.map(|points| SampleShape::Free(CurveShape::of_polyline(&self.transform, &points, is_open)))
                 }
-                Some(_) => timed::best(&self.aim, &traced).map(|best| SampleShape::Timed(best.sum)),
+                Some(_) => timed::best(&self.aim, &traced).map(|(_, place)| SampleShape::Timed(place.sum)),
             };
             let curve = SampleCurve { sample: sample as u32, trace: trace as u32, circuit: circuit as u32 };
             found.extend(shape.map(|shape| (curve, shape)));
@@ -201,14 +201,9 @@ impl LinkageFitting {
             return None;
         }
         if self.aim.angles_deg.is_some() {
-            let best = timed::best(&self.aim, &traced)?;
-            return LinkageRefinement::timed(
-                &self.aim,
-                values,
-                (trace, traced),
-                best.placed,
-                (best.is_reversed, best.start),
-            );
+            let (start, place) = timed::best(&self.aim, &traced)?;
+            let followed = (place.is_reversed, start);
+            return LinkageRefinement::timed(&self.aim, values, (trace, traced), place.placed, followed);
         }
         let placed = self.placed(&points?)?;
         LinkageRefinement::new(&self.aim, values, (trace, traced), placed)

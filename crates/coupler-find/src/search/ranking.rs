@@ -12,6 +12,7 @@ use crate::options::Options;
 use crate::search::four_bars::Search;
 use crate::shape::spectrum::directions;
 use crate::target::Target;
+use crate::timing::TimedPoints;
 use coupler_curves::geometry::Point;
 use coupler_curves::linkage::{Cognate, Cognates, PlacedFourBar};
 
@@ -106,7 +107,8 @@ impl Fitting {
             let pins: Vec<[Point; 2]> = poses.iter().map(pins).collect();
             // One of the cognates has another timing: its crank moves as the rocker of this one.
             let cranks = || pins.iter().map(|[crank, _]| *crank);
-            let is_kept = |[timing, _]: &[Timing; 2]| timing.is_kept(cognate.four_bar.pivots[0], cranks());
+            let is_kept =
+                |([timing, _], _): &([Timing; 2], TimedPoints)| timing.is_kept(cognate.four_bar.pivots[0], cranks());
             let is_timed = self.timing.as_ref().is_none_or(is_kept);
             if is_timed { self.mechanism(cognate.four_bar, &pins) } else { None }
         };
