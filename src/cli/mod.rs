@@ -22,6 +22,7 @@ mod not_a_manifest;
 mod outcome;
 mod printable;
 mod printing;
+mod progress_bar;
 mod render;
 mod report;
 mod schema;

@@ -6,11 +6,11 @@ use crate::output;
 use crate::shard::{self, Division, Event, MAX_SHARDS, MAX_TOP, Options, ShardRecord, TableFormat, Top};
 use clap::{Args, ValueHint};
 use coupler_curves::family::MEASURES;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::ProgressBar;
 
 use super::files::DEFAULT_MANIFEST;
 use super::source::{self, ManifestSource};
-use super::{Failure, Outcome, choice, files, interrupt, print, printable};
+use super::{Failure, Outcome, choice, files, interrupt, print, printable, progress_bar};
 use coupler_curves::text::pluralize;
 
 /// Solve a part of the cells of a manifest, or all, into tables without pages: cells and points of each family, as Parquet.
@@ -126,10 +126,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     shard::write_shard(&source.plan, &output, &options, &mut |event| match event {
         Event::Begin { .. } if arguments.quiet => {}
         Event::Begin { family, cells } => {
-            bar = ProgressBar::with_draw_target(Some(cells as u64), ProgressDrawTarget::stderr());
-            let style = ProgressStyle::with_template("{msg:20} {bar:40} {pos}/{len} cells");
-            bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-            bar.set_message(printable(family));
+            bar = progress_bar::of_things(family, cells, "cells");
         }
         Event::Cells(cells) => bar.inc(cells as u64),
         Event::End { record, path, is_kept } => {

@@ -13,7 +13,7 @@ use super::{Error, Findings, description};
 
 /// Finds the dimensions of a linkage for which its curves are nearest to a target, looked up in `samples` parameter sets or a number that
 /// depends on the linkage. Curves that are the same to a thousandth of the target's size are one. The answer does not depend on the number of
-/// threads.
+/// threads. `report_part` is told which part of the search is done, from 0 to 1, after each step.
 ///
 /// # Errors
 /// `interrupt` is true.
@@ -23,12 +23,14 @@ pub fn find_linkage(
     options: &Options,
     samples: Option<usize>,
     interrupt: &AtomicBool,
+    mut report_part: impl FnMut(f64),
 ) -> Result<Findings<LinkageAnswer>, Error> {
     let threads = Threads { interrupt };
-    let search = |target: &Target, options: &Options| {
+    let mut search = |target: &Target, options: &Options| {
         let mut search = LinkageSearch::new(space, target, options, samples);
         while search.step(&threads) {
             threads.proceed()?;
+            report_part(search.part_done());
         }
         let answers = search.answers(&threads);
         threads.proceed()?;

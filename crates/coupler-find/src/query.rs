@@ -2,14 +2,14 @@
 
 use crate::complex::Complex;
 use crate::shape::close_portion::CloseStroke;
-use crate::shape::spectrum::{Spectrum, Transform};
+use crate::shape::spectrum::{Extent, Spectrum, Transform};
 use crate::shape::stroke::Stroke;
 use crate::target::PathKind;
 
 /// A path, described for comparison with the curves of an index.
 pub(crate) enum Query {
-    /// A closed path: its spectrum, and the centroid and the size of points at equal distances along it.
-    Whole(Box<Spectrum>, Complex, f64),
+    /// A closed path: its spectrum, with the extent that goes with it.
+    Whole(Box<Spectrum>, Extent),
     /// A path that is like a portion of a curve, for a first comparison and for a closer one.
     Portion(Box<Stroke>, Box<CloseStroke>),
 }
@@ -19,8 +19,8 @@ impl Query {
     pub fn new(kind: PathKind, points: &[Complex]) -> Query {
         match kind {
             PathKind::Closed => {
-                let (spectrum, centre, size) = Transform::new().spectrum(points);
-                Query::Whole(Box::new(spectrum), centre, size)
+                let (spectrum, extent) = Transform::new().spectrum(points);
+                Query::Whole(Box::new(spectrum), extent)
             }
             PathKind::Open | PathKind::Part => {
                 Query::Portion(Box::new(Stroke::new(points)), Box::new(CloseStroke::new(points)))

@@ -13,12 +13,12 @@ use crate::check::{self, Event, Report};
 use crate::manifest::{PartialTolerances, Tolerances};
 use crate::output;
 use clap::{Args, ValueHint};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::ProgressBar;
 
 use super::files::DEFAULT_MANIFEST;
 use super::report::{self, ReportRequest};
 use super::source::{self, ManifestSource};
-use super::{Failure, Outcome, files, print, print_bytes, print_stderr, printable};
+use super::{Failure, Outcome, files, print, print_bytes, print_stderr, printable, progress_bar};
 
 /// Run a manifest again, and report what has changed since an atlas was recorded: which curve, where and by how much.
 ///
@@ -130,10 +130,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let mut bar = ProgressBar::hidden();
     let report = check::check_atlas(&source.plan, &arguments.against, &options, &mut |event| match event {
         Event::Begin { family, pages } if !arguments.quiet => {
-            let style = ProgressStyle::with_template("{msg:20} {bar:40} {pos}/{len} pages");
-            bar = ProgressBar::with_draw_target(Some(pages as u64), ProgressDrawTarget::stderr());
-            bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-            bar.set_message(printable(family));
+            bar = progress_bar::of_things(family, pages, "pages");
         }
         Event::Begin { .. } => {}
         Event::Page => bar.inc(1),

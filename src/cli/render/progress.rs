@@ -3,9 +3,9 @@
 use crate::output::Event;
 use crate::record::{FamilyRecord, FileRecord};
 use coupler_drawing::render::PageFormat;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::ProgressBar;
 
-use super::super::{print_stderr, printable};
+use super::super::{print_stderr, printable, progress_bar};
 use coupler_curves::text::pluralize;
 
 /// The number of cells of a family that are reported one by one as not assembled.
@@ -48,10 +48,7 @@ impl ProgressReporter {
     pub fn handle_event(&mut self, event: Event, lines: &mut String) {
         match event {
             Event::Begin { family, pages } if !self.is_quiet => {
-                let style = ProgressStyle::with_template("{msg:20} {bar:40} {pos}/{len} pages");
-                self.bar = ProgressBar::with_draw_target(Some(pages as u64), ProgressDrawTarget::stderr());
-                self.bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-                self.bar.set_message(printable(family));
+                self.bar = progress_bar::of_things(family, pages, "pages");
             }
             Event::Begin { .. } => {}
             Event::Page => self.bar.inc(1),

@@ -1,7 +1,9 @@
 //! `find --linkage`: curves of linkages with random dimensions are found again, wherever they are.
 
 use std::fs;
+use std::sync::atomic::AtomicBool;
 
+use coupler_atlas::find::find_linkage;
 use coupler_curves::catalogue;
 use coupler_curves::family::{Family, Sampling};
 use coupler_curves::geometry::{Point, trig};
@@ -17,6 +19,20 @@ use random_curves::{Random, answers, deviations, placed, random_curve, search};
 
 use crate::support::command::{folder_with, printed, run};
 use crate::support::table::{numbers, rows};
+
+#[test]
+fn the_part_that_is_done_rises_to_all_of_it() {
+    let mut random = Random(5);
+    let template = catalogue::find("slider-crank").unwrap();
+    let (points, _) = random_curve(&template, true, &mut random, 60);
+    let target = Target::new(&points, PathKind::Closed).unwrap();
+    let space = LinkageSpace::new(template, &[]).unwrap();
+    let mut parts = Vec::new();
+    let never = AtomicBool::new(false);
+    find_linkage(&space, &target, &Options::default(), Some(300), &never, |part| parts.push(part)).unwrap();
+    assert!(parts.len() > 10 && parts.is_sorted(), "{parts:?}");
+    assert!(parts[0] > 0.0 && parts[0] < 0.5 && parts[parts.len() - 1] <= 1.0, "{parts:?}");
+}
 
 #[test]
 #[ignore = "thorough"]

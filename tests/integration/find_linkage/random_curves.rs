@@ -87,7 +87,7 @@ pub fn search(template: &Arc<Template>, points: &[Point], options: &Options) -> 
 }
 
 pub fn answers(space: &LinkageSpace, target: &Target, options: &Options) -> Vec<LinkageAnswer> {
-    find_linkage(space, target, options, None, &AtomicBool::new(false)).unwrap().answers
+    find_linkage(space, target, options, None, &AtomicBool::new(false), |_| ()).unwrap().answers
 }
 
 /// The least deviations of searches for random curves of a linkage, relative to the size of the path.

@@ -132,10 +132,10 @@ impl CurveFitter {
                 };
                 ways.iter().copied().map(start).collect()
             }
-            Some(Query::Whole(target, target_centre, target_size)) => {
-                let (spectrum, centre, size) = self.transform.spectrum(samples);
+            Some(Query::Whole(target, target_extent)) => {
+                let (spectrum, extent) = self.transform.spectrum(samples);
                 let start = |(likeness, is_reversed): (Likeness, bool)| {
-                    let placed = likeness.similarity((*target_centre, *target_size), (centre, size));
+                    let placed = likeness.similarity(target_extent, &extent);
                     Start { placed, is_reversed, is_one_way: false }
                 };
                 let found = self.transform.likenesses(target, &spectrum).into_iter().map(start);

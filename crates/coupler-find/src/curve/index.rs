@@ -9,7 +9,7 @@ use crate::curve_fit_options::CurveFitOptions;
 use crate::query::Query;
 use crate::shape::close_portion::portions;
 use crate::shape::compact::{Shape, Shapes};
-use crate::shape::spectrum::Transform;
+use crate::shape::spectrum::{Extent, Transform};
 use crate::target::Target;
 use coupler_curves::geometry::Point;
 
@@ -22,7 +22,7 @@ impl CurveShape {
     /// points without extent, or with a coordinate that is not finite, the shape is one that is like no target.
     pub fn new(points: &[Point], is_closed: bool) -> CurveShape {
         let Some(path) = CurvePath::new(points, is_closed) else { return CurveShape(Shape::EMPTY) };
-        let (spectrum, _, size) = Transform::new().spectrum(&path.even_points(EVEN));
+        let (spectrum, Extent { size, .. }) = Transform::new().spectrum(&path.even_points(EVEN));
         let shape = Shape::new(&spectrum.canonical(), path.length() / size, true);
         CurveShape(if path.is_open { shape.of_open() } else { shape })
     }
@@ -31,7 +31,7 @@ impl CurveShape {
 impl CurveShape {
     /// That of a polyline that is passed around, or there and back along an open curve: of many points, so that it need not be smoothed.
     pub(crate) fn of_polyline(transform: &Transform, points: &[Complex], is_open: bool) -> CurveShape {
-        let (spectrum, _, size) = transform.spectrum(points);
+        let (spectrum, Extent { size, .. }) = transform.spectrum(points);
         if !size.is_normal() {
             return CurveShape(Shape::EMPTY);
         }

@@ -9,14 +9,14 @@ use coupler_curves::geometry::Similarity;
 /// The greatest length of the whole curve of a linkage.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct LengthLimit {
-    most: f64,
+    max_length: f64,
     /// The directions of the cranks of sampled circuits.
     directions: Vec<Complex>,
 }
 
 impl LengthLimit {
-    pub fn new(most: f64, directions: &[Complex]) -> LengthLimit {
-        LengthLimit { most, directions: directions.to_vec() }
+    pub fn new(max_length: f64, directions: &[Complex]) -> LengthLimit {
+        LengthLimit { max_length, directions: directions.to_vec() }
     }
 
     /// The linkage as much smaller, with the target's centroid in its place, as its curve on the circuit of a pose is too long; `None` if it is not.
@@ -24,8 +24,8 @@ impl LengthLimit {
         /// What keeps the curve within the limit in spite of rounding.
         const WITHIN: f64 = 1.0 - 1e-12;
         let length = closed_length(&linkage.curve(&linkage.circuit_of(pose, &self.directions)));
-        let factor = WITHIN * self.most / length;
-        (length > self.most)
+        let factor = WITHIN * self.max_length / length;
+        (length > self.max_length)
             .then(|| linkage.transformed(&Similarity { factor: Complex::new(factor, 0.0), ..Similarity::IDENTITY }))
     }
 
@@ -44,7 +44,7 @@ impl LengthLimit {
             let axis = chord(k) - chord(k + count - 1);
             rates += Motion::from(PoseRates::new(linkage, pose).row_of_curve(linkage, pose, axis));
         }
-        (self.most - closed_length(&curve), rates)
+        (self.max_length - closed_length(&curve), rates)
     }
 }
 

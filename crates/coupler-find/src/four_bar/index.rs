@@ -5,7 +5,7 @@ use crate::four_bar::parameters::Parameters;
 use crate::four_bar::pose::Pose;
 use crate::four_bar::sequence::{CLASSES, four_bar_of_sequence};
 use crate::shape::compact::{Shape, Shapes};
-use crate::shape::spectrum::{Spectrum, Transform, directions};
+use crate::shape::spectrum::{Extent, Spectrum, Transform, directions};
 use crate::shape::stroke::Stroke;
 use crate::target::{PathKind, Target};
 
@@ -136,16 +136,16 @@ impl Index {
         (circuit.len() > SAMPLES / 2).then_some(Entry { linkage, circuit })
     }
 
-    /// The spectrum of a curve, with its centroid, its size, and its length in sizes.
-    pub(crate) fn spectrum(&self, entry: &Entry) -> (Spectrum, Complex, f64, f64) {
+    /// The spectrum of a curve, with its extent, and its length in sizes.
+    pub(crate) fn spectrum(&self, entry: &Entry) -> (Spectrum, Extent, f64) {
         let points = entry.linkage.curve(&entry.circuit);
-        let (spectrum, centre, size) = self.transform.spectrum(&points);
-        (spectrum, centre, size, closed_length(&points) / size)
+        let (spectrum, extent) = self.transform.spectrum(&points);
+        (spectrum, extent, closed_length(&points) / extent.size)
     }
 
     fn shape(&self, number: usize) -> Shape {
         let Some(entry) = self.entry(number) else { return Shape::EMPTY };
-        let (spectrum, _, _, length) = self.spectrum(&entry);
+        let (spectrum, _, length) = self.spectrum(&entry);
         Shape::new(&spectrum.canonical(), length, entry.linkage.is_full_turn())
     }
 

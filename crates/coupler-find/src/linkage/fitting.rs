@@ -351,10 +351,10 @@ impl LinkageFitting {
     /// A curve where it is most like the target.
     fn placed(&self, points: &[Complex]) -> Option<Similarity> {
         let placed = match &self.query {
-            Query::Whole(target, target_centre, target_size) => {
-                let (spectrum, centre, size) = self.transform.spectrum(points);
+            Query::Whole(target, target_extent) => {
+                let (spectrum, extent) = self.transform.spectrum(points);
                 let likeness = self.transform.likeness(target, &spectrum);
-                likeness.similarity((*target_centre, *target_size), (centre, size))
+                likeness.similarity(target_extent, &extent)
             }
             Query::Portion(stroke, _) => stroke.placement(points)?.1,
         };

@@ -138,6 +138,34 @@ impl LinkageSearch {
         !matches!(self.stage, Stage::Done)
     }
 
+    /// About which part of the search is done, from 0 to 1. It may end sooner.
+    pub fn part_done(&self) -> f64 {
+        /// Where the stages begin: of linkages whose circuits are found slowly, most of the time goes to samples and the last.
+        const STAGES: [f64; 6] = [0.0, 0.4, 0.5, 0.55, 0.8, 1.0];
+        let part = |done: usize, of: usize| done as f64 / of.max(1) as f64;
+        let (stage, within) = match &self.stage {
+            Stage::Sample { next } => (0, part(self.found, self.samples).max(part(*next, self.tries()))),
+            Stage::Begin { candidates, next } => {
+                (1, part(*next, candidates.len()).max(part(self.refinements.len(), self.starts)))
+            }
+            Stage::Place { next } => (2, part(*next, self.refinements.len())),
+            Stage::Refine { round, next, .. } => {
+                (3, (*round as f64 + part(*next, self.refinements.len())) / ROUNDS.len() as f64)
+            }
+            Stage::Restart { round, next, .. } => {
+                (4, (*round as f64 + part(*next, self.starts / RESTART_PART)) / RESTART_ROUNDS as f64)
+            }
+            Stage::Done => return 1.0,
+        };
+        let [from, to] = [STAGES[stage], STAGES[stage + 1]];
+        from + (to - from) * within.min(1.0)
+    }
+
+    /// How many parameter sets are tried at most.
+    fn tries(&self) -> usize {
+        self.samples * if self.fitting.is_slow() { SLOW_TRIES } else { TRIES }
+    }
+
     /// The number of curves in which the target has been looked up.
     pub fn curve_count(&self) -> usize {
         self.curves
@@ -155,7 +183,7 @@ impl LinkageSearch {
     }
 
     fn sample(&mut self, next: usize, workers: &impl Workers) -> Stage {
-        let tries = self.samples * if self.fitting.is_slow() { SLOW_TRIES } else { TRIES };
+        let tries = self.tries();
         if next < tries && self.found < self.samples && self.index.len() < MAX_CURVES {
             let most = (CURVES_PER_STEP / self.fitting.space().template().curve_count().max(1)).max(1);
             let end = (next + most.min(workers.most_at_once())).min(tries);

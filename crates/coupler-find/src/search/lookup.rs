@@ -103,10 +103,10 @@ impl Lookup {
     /// The linkage of a curve of the index where it is most like the target, with how much it is.
     fn placed_on_target(&self, index: &Index, entry: &Entry) -> Option<(f64, Parameters)> {
         match &self.query {
-            Query::Whole(target, target_centre, target_size) => {
-                let (spectrum, centre, size, _) = index.spectrum(entry);
+            Query::Whole(target, target_extent) => {
+                let (spectrum, extent, _) = index.spectrum(entry);
                 let likeness = index.transform().likeness(target, &spectrum);
-                let placed = likeness.similarity((*target_centre, *target_size), (centre, size));
+                let placed = likeness.similarity(target_extent, &extent);
                 Some((likeness.value, entry.linkage.transformed(&placed)))
             }
             Query::Portion(stroke, _) => {

@@ -64,7 +64,7 @@ pub fn nearest_miss(target: &Target, index: &Index, options: &Options) -> Option
 pub fn nearest_miss_by<A>(
     target: &Target,
     options: &Options,
-    search: impl Fn(&Target, &Options) -> Option<A>,
+    mut search: impl FnMut(&Target, &Options) -> Option<A>,
     rms: impl Fn(&A) -> f64,
 ) -> Option<(Vec<Constraint>, A)> {
     let is_set = |constraint: &Constraint| constraint.is_set(target, options);

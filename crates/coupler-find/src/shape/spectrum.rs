@@ -115,6 +115,15 @@ fn resampled_segments(points: &[Complex], segments: usize, count: usize) -> Vec<
     (0..count).map(point).collect()
 }
 
+/// Where the points of a curve are at equal distances along it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Extent {
+    /// Their centroid.
+    pub centre: Complex,
+    /// The root of the mean square of their distances from it.
+    pub size: f64,
+}
+
 /// How a curve is placed on the one it is like.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Likeness {
@@ -127,15 +136,11 @@ pub(crate) struct Likeness {
 }
 
 impl Likeness {
-    /// The similarity that places the curve on the target, if it is there; each is given by the centroid and the size that go with its spectrum.
-    pub fn similarity(
-        &self,
-        (target_centre, target_size): (Complex, f64),
-        (centre, size): (Complex, f64),
-    ) -> Similarity {
-        let factor = self.factor * (target_size / size);
-        let placed = Similarity { is_mirrored: self.is_mirrored, factor, shift: target_centre };
-        Similarity { shift: target_centre - placed.direction(centre), ..placed }
+    /// The similarity that places the curve on the target, if it is there; each is given by the extent that goes with its spectrum.
+    pub fn similarity(&self, target: &Extent, curve: &Extent) -> Similarity {
+        let factor = self.factor * (target.size / curve.size);
+        let placed = Similarity { is_mirrored: self.is_mirrored, factor, shift: target.centre };
+        Similarity { shift: target.centre - placed.direction(curve.centre), ..placed }
     }
 }
 
@@ -149,9 +154,8 @@ impl Transform {
         Transform { directions: directions(POINTS) }
     }
 
-    /// The spectrum of a closed polyline, and of [`POINTS`] points at equal distances along it the centroid and the size, the
-    /// root of the mean square from it.
-    pub fn spectrum(&self, polyline: &[Complex]) -> (Spectrum, Complex, f64) {
+    /// The spectrum of a closed polyline, and the extent of [`POINTS`] points at equal distances along it.
+    pub fn spectrum(&self, polyline: &[Complex]) -> (Spectrum, Extent) {
         let points = resampled(polyline, POINTS);
         let centre = mean(&points);
         let mut harmonics = [Complex::new(0.0, 0.0); 2 * HARMONICS];
@@ -167,12 +171,12 @@ impl Transform {
         }
         let size = (squares / points.len() as f64).sqrt();
         let scale = 1.0 / (points.len() as f64 * size.max(f64::MIN_POSITIVE));
-        (Spectrum(harmonics.map(|harmonic| harmonic * scale)), centre, size)
+        (Spectrum(harmonics.map(|harmonic| harmonic * scale)), Extent { centre, size })
     }
 
     /// The length of the curve of the harmonics ±1 to ±10 of a closed polyline.
     pub fn length(&self, polyline: &[Complex]) -> f64 {
-        let (Spectrum(harmonics), _, size) = self.spectrum(polyline);
+        let (Spectrum(harmonics), Extent { size, .. }) = self.spectrum(polyline);
         let velocity = |n: usize| -> Complex {
             let of_order = |k: usize| {
                 let turn = self.directions[(n * k) % POINTS];

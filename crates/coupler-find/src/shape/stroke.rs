@@ -60,6 +60,16 @@ impl Window {
     }
 }
 
+/// The windows of a curve that are tried.
+pub(crate) struct Windows {
+    /// Every so many-th point may be the first.
+    pub step: usize,
+    /// The least part of the curve that a window is.
+    pub least: f64,
+    /// By how much its spans may differ from those of the stroke, as parts of its length.
+    pub tolerance: f32,
+}
+
 impl Stroke {
     /// The description of an open polyline.
     pub fn new(points: &[Complex]) -> Stroke {
@@ -88,11 +98,10 @@ impl Stroke {
     }
 
     /// The window of a closed curve that is most like the stroke. The curve is given by points at equal distances, repeated once,
-    /// and its length; every `step`-th point may be the first, and every multiple of `stride` the distance of its points. `None` if no
-    /// window has about the stroke's spans.
-    pub fn best_window(&self, curve: [&[f32]; 2], curve_length: f32, options: (usize, f64, f32)) -> Option<Window> {
+    /// and its length. `None` if no window has about the stroke's spans.
+    pub fn best_window(&self, curve: [&[f32]; 2], curve_length: f32, tried: &Windows) -> Option<Window> {
         let mut best: Option<Window> = None;
-        self.for_each_window(curve, curve_length, options, |window| {
+        self.for_each_window(curve, curve_length, tried, |window| {
             if best.is_none_or(|best| window.residual < best.residual) {
                 best = Some(window);
             }
@@ -100,12 +109,12 @@ impl Stroke {
         best
     }
 
-    /// Calls a function with the windows that have about the stroke's spans, to a tolerance, and are at least a part of the curve.
+    /// Calls a function with the windows of those that are tried that have about the stroke's spans.
     pub fn for_each_window(
         &self,
         [xs, ys]: [&[f32]; 2],
         curve_length: f32,
-        (step, least, tolerance): (usize, f64, f32),
+        &Windows { step, least, tolerance }: &Windows,
         mut receive: impl FnMut(Window),
     ) {
         let count = xs.len() / 2;
@@ -196,7 +205,11 @@ impl Stroke {
     /// The similarity that places a closed curve on the stroke where it is most like it, and the residual there.
     pub fn placement(&self, curve: &[Complex]) -> Option<(f32, Similarity)> {
         let (points, coordinates, whole) = repeated(curve, 2 * CURVE_POINTS);
-        let window = self.best_window(coordinates.each_ref().map(|values| &values[..]), whole, (1, 0.0, TOLERANCE))?;
+        let window = self.best_window(
+            coordinates.each_ref().map(|values| &values[..]),
+            whole,
+            &Windows { step: 1, least: 0.0, tolerance: TOLERANCE },
+        )?;
         Some((window.residual, self.similarity(&window, &points)?))
     }
 
@@ -215,7 +228,8 @@ impl Stroke {
         let (_, coordinates, whole) = repeated(curve, WINDOW_POINTS);
         let coordinates = coordinates.each_ref().map(|values| &values[..]);
         let mut windows: Vec<Window> = Vec::new();
-        self.for_each_window(coordinates, whole, (STEP, least, LOOSE_TOLERANCE), |window| {
+        let tried = Windows { step: STEP, least, tolerance: LOOSE_TOLERANCE };
+        self.for_each_window(coordinates, whole, &tried, |window| {
             let [xs, ys] = coordinates.map(|values| &values[window.first..]);
             let residuals = self.residuals([xs, ys], window.stride, usize::from(window.is_reversed));
             let both = [false, true].into_iter().zip(residuals);

@@ -2,7 +2,7 @@
 
 use crate::complex::unit;
 use crate::shape::spectrum::HARMONICS;
-use crate::shape::stroke::{CURVE_POINTS, LOOSE_TOLERANCE, Stroke, TOLERANCE, Window};
+use crate::shape::stroke::{CURVE_POINTS, LOOSE_TOLERANCE, Stroke, TOLERANCE, Window, Windows};
 use std::f64::consts::TAU;
 
 /// Computes the points of curves from their harmonics.
@@ -26,7 +26,7 @@ impl Synthesis {
     pub fn best_window(&self, harmonics: &[[f32; 2]; 2 * HARMONICS], length: f32, stroke: &Stroke) -> Option<Window> {
         let coordinates = self.coordinates(harmonics);
         let [xs, ys] = &coordinates;
-        stroke.best_window([xs, ys], length, (2, 0.0, TOLERANCE))
+        stroke.best_window([xs, ys], length, &Windows { step: 2, least: 0.0, tolerance: TOLERANCE })
     }
 
     /// The coordinates of points of a curve, repeated once.
@@ -68,7 +68,7 @@ impl Synthesis {
         let [xs, ys] = &coordinates;
         // The best window of each quarter, in both directions.
         let mut best: [Option<Window>; 8] = [None; 8];
-        stroke.for_each_window([xs, ys], length, (2, least, LOOSE_TOLERANCE), |window| {
+        stroke.for_each_window([xs, ys], length, &Windows { step: 2, least, tolerance: LOOSE_TOLERANCE }, |window| {
             let place = &mut best[2 * (4 * window.first / CURVE_POINTS) + usize::from(window.is_reversed)];
             if place.is_none_or(|best| window.residual < best.residual) {
                 *place = Some(window);

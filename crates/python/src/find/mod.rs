@@ -223,8 +223,17 @@ fn search_linkage(
 ) -> PyResult<Found> {
     let (sought, own_space) = (target.clone(), space.clone());
     let findings = task::run(py, progress, move |task: &Task| {
-        task.begin("find", 0);
-        find_linkage(&own_space, &sought, &options, samples, &task.interrupt)
+        /// The steps that are shown of the whole search.
+        const STEPS: usize = 1000;
+        task.begin("find", STEPS);
+        let mut done = 0;
+        // A search without an answer is followed by others, for the nearest miss.
+        let report_part = |part: f64| {
+            let steps = (part * STEPS as f64) as usize;
+            task.advance(steps.saturating_sub(done));
+            done = done.max(steps);
+        };
+        find_linkage(&own_space, &sought, &options, samples, &task.interrupt, report_part)
     })?;
     let findings = findings.map_err(|error| PyValueError::new_err(error.to_string()))?;
     let manifest = findings.manifest(&name, &target, own_text.as_deref());

@@ -13,7 +13,7 @@ use coupler_curves::family::Family;
 use coupler_find::{Constraint, LinkageSpace, Options, Target};
 
 use super::super::linkage::find_template;
-use super::super::source;
+use super::super::{progress_bar, source};
 use super::{Arguments, Best, Failure, Outcome, Shown, show, title_of};
 use report::LinkageReport;
 
@@ -65,8 +65,11 @@ pub(super) fn run(
     is_drawing_printed: bool,
 ) -> Result<Outcome, Failure> {
     let samples = arguments.index.map(|count| count as usize);
-    let findings =
-        find::find_linkage(&space, &target, options, samples, &AtomicBool::new(false)).map_err(Failure::input)?;
+    let bar = progress_bar::of_parts(&space.template().id);
+    let report_part = |part: f64| bar.set_position((1000.0 * part) as u64);
+    let findings = find::find_linkage(&space, &target, options, samples, &AtomicBool::new(false), report_part);
+    bar.finish_and_clear();
+    let findings = findings.map_err(Failure::input)?;
     let report = LinkageReport { name, reading, target, space, findings, own_linkage };
     show(&report, arguments, is_drawing_printed)
 }
