@@ -56,7 +56,8 @@ impl InputColumns {
         InputSlices { values: &self.values[range.clone()], cos: &self.cos[range.clone()], sin: &self.sin[range] }
     }
 
-    pub(super) fn as_slices(&self) -> InputSlices<'_> {
+    /// All of them, borrowed.
+    pub fn as_slices(&self) -> InputSlices<'_> {
         self.slice(0..self.values.len())
     }
 }
