@@ -5,8 +5,8 @@ use super::curve_strip::{CurveStrips, PortionStrip};
 use super::portions::EXACT;
 use super::rounding::within_period;
 use super::row::Row;
-use super::strip::{Strip, check_width};
-use crate::geometry::{Point, in_rising_order};
+use super::strip::{Strip, check_width, min_max};
+use crate::geometry::{Point, Vector, in_rising_order};
 use crate::numerical::maximum_with_ends;
 
 /// Of which portion the strip is the narrowest.
@@ -56,8 +56,16 @@ pub(super) fn straightest(
     let steps = Steps::new(MAX_PORTION_POINTS);
     let stride = (row.start_count / PARTS).max(1);
     let last = row.points.len() - 1;
-    let length_between = |from: usize, to: usize| row.cumulative_length[to.min(last)] - row.cumulative_length[from];
-    let mut cells: Vec<(f64, f64)> = Vec::new();
+    // The extent of a portion is at most its length, and at most the diagonal of the box around its points, beyond which it reaches by at most half
+    // of the length between two of them, on both sides.
+    let length_bound = |from: usize, to: usize| {
+        let (lengths, points) = (&row.cumulative_length[from..=to.min(last)], &row.points[from..=to.min(last)]);
+        let gap = lengths.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+        let [[x_min, x_max], [y_min, y_max]] = [min_max(points, |p| p.x), min_max(points, |p| p.y)];
+        let diagonal = Vector::new(x_max - x_min, y_max - y_min).norm();
+        (lengths[lengths.len() - 1] - lengths[0]).min(diagonal + gap)
+    };
+    let mut cells: Vec<Cell> = Vec::new();
     for from in (0..row.start_count).step_by(stride) {
         let Some(to) = end(from as f64) else { continue };
         let inner = row.points.get(from + stride..=(to.floor() as usize).min(last)).unwrap_or_default();
@@ -71,8 +79,8 @@ pub(super) fn straightest(
             0..3 => 0.0,
             count => Strip::of_row(&thinned, &mut [0, count / 2, count - 1]).width,
         };
-        let longest = end((from + stride) as f64).map_or(f64::INFINITY, |to| length_between(from, to.ceil() as usize));
-        cells.push((narrowest.size(width, longest), from as f64));
+        let longest = end((from + stride) as f64).map_or(f64::INFINITY, |to| length_bound(from, to.ceil() as usize));
+        cells.push(Cell { from: from as f64, size: narrowest.size(width, longest), length: longest });
     }
     // The portion that begins in the part from a point and is the best by a rank.
     let best_from = |from: f64, rank: &dyn Fn(Candidate) -> f64| {
@@ -95,10 +103,15 @@ pub(super) fn straightest(
         best
     };
     let mut found: Vec<(f64, Candidate)> = Vec::new();
-    let mut least = f64::INFINITY;
-    for (bound, from) in in_rising_order(cells, |cell| cell.0) {
-        if bound > least * (1.0 + EQUAL) {
+    let (mut least, mut longest_straight) = (f64::INFINITY, 0.0);
+    // Of portions that are straight to rounding, which those of a line all are, the longest first.
+    cells.sort_by(|a, b| b.length.total_cmp(&a.length));
+    for Cell { from, size, length } in in_rising_order(cells, |cell| cell.size) {
+        if size > least * (1.0 + EQUAL) {
             break;
+        }
+        if length < longest_straight * (1.0 - EQUAL) {
+            continue;
         }
         if let Some(candidate) = best_from(from, &|Candidate { size, length, .. }| match size {
             // Straight lines are all equally narrow.
@@ -106,6 +119,9 @@ pub(super) fn straightest(
             _ => -size,
         }) {
             least = least.min(candidate.size);
+            if candidate.size == 0.0 {
+                longest_straight = candidate.length.max(longest_straight);
+            }
             found.push((from, candidate));
         }
         steps.check()?;
@@ -123,6 +139,16 @@ pub(super) fn straightest(
     found.retain(|candidate| candidate.length >= longest * (1.0 - EQUAL));
     let start_input = |ends: &[f64; 2]| within_period(row.input_at(ends[0]), 360.0);
     Ok(found.into_iter().map(|candidate| candidate.ends).min_by(|a, b| start_input(a).total_cmp(&start_input(b))))
+}
+
+/// What is known of the portions that begin in one part of the curve before they are searched.
+struct Cell {
+    /// Where the part begins.
+    from: f64,
+    /// A lower bound of their sizes.
+    size: f64,
+    /// An upper bound of their lengths.
+    length: f64,
 }
 
 /// The narrowest portion that begins in one part of the curve.
