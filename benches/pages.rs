@@ -2,7 +2,7 @@
 use std::hint::black_box;
 
 #[expect(dead_code, reason = "others need pages of panels")]
-#[path = "composed.rs"]
+#[path = "../crates/counts/src/composed.rs"]
 mod composed;
 
 use composed::coupler_grid;

@@ -187,7 +187,7 @@ impl Requirement for Circular<'_> {
     const HAS_CERTAIN_BOUNDS: bool = false;
     const FEW: f64 = 24.0;
 
-    fn longest_from(&self, points: &EveryNth, from: usize, least: f64) -> Option<(f64, usize)> {
+    fn longest_from(&self, points: &EveryNth, from: usize, least: f64, likely: usize) -> Option<(f64, usize)> {
         /// So many points are in any annulus, or nearly.
         const FEW: usize = 4;
         /// Of a portion of more than twice as many points so many are enough.
@@ -217,7 +217,7 @@ impl Requirement for Circular<'_> {
         };
         // Any part of a portion that fits fits too.
         let first = points.first_reaching(travel, start + least, from + 1, last);
-        let beyond = partition_point(first..last + 1, first, fits);
+        let beyond = partition_point(first..last + 1, likely, fits);
         let to = beyond.checked_sub(1).filter(|to| *to >= first)?;
         Some((points.at_next(travel, to) - start, to))
     }

@@ -26,7 +26,7 @@ impl Requirement for StraightTo<'_> {
     const HAS_CERTAIN_BOUNDS: bool = true;
     const FEW: f64 = 96.0;
 
-    fn longest_from(&self, points: &EveryNth, from: usize, least: f64) -> Option<(f64, usize)> {
+    fn longest_from(&self, points: &EveryNth, from: usize, least: f64, _: usize) -> Option<(f64, usize)> {
         let lengths = &points.lengths;
         let before = points.step_before(lengths, from);
         let (start, last) = (lengths[from] - before, points.last_end(from));

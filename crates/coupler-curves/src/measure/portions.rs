@@ -19,8 +19,8 @@ const EQUAL: f64 = 1e-7;
 /// A requirement of portions, and what of them is to be greatest.
 pub(super) trait Requirement {
     /// An upper bound of the size of the portions that begin at a point or between it and the one before, and the last
-    /// point of the longest; `None` if it is less than `least`.
-    fn longest_from(&self, points: &EveryNth, from: usize, least: f64) -> Option<(f64, usize)>;
+    /// point of the longest; `None` if it is less than `least`. That of the start before is where it is likely.
+    fn longest_from(&self, points: &EveryNth, from: usize, least: f64, likely: usize) -> Option<(f64, usize)>;
 
     /// Whether the bounds are certain for any points, so that what a few of them rule out need not be looked at again, and
     /// vary so smoothly that the longest portion begins next to a start with a greater bound than its neighbours.
@@ -105,8 +105,10 @@ impl<R: Requirement> Search<'_, R> {
 
     /// The bounds of the portions that begin at some points, and the points of the longest, the greatest first.
     fn candidates(&self, points: &EveryNth, starts: &[usize]) -> Vec<(f64, [usize; 2])> {
+        let mut likely = 0;
         let candidate = |from: &usize| {
-            let (bound, to) = self.requirement.longest_from(points, *from, self.least())?;
+            let (bound, to) = self.requirement.longest_from(points, *from, self.least(), likely)?;
+            likely = to;
             Some((bound, [*from, to]))
         };
         in_rising_order(starts.iter().filter_map(candidate).collect(), |candidate| -candidate.0)

@@ -1,10 +1,9 @@
 //! What a search for the dimensions of a linkage does with one sample, or with one refinement: each for itself, so that many can be done at once.
 
 use super::aim::Aim;
-use super::circuit::Traced;
 use super::measured::Measured;
-use super::poses::Places;
 use super::refinement::{FINAL_ROUNDS, LinkageRefinement};
+use super::sampled_space::{OnCircuit, SampledSpace};
 use super::samples::{SampleCurve, SampleIndex, SampleShape};
 use super::space::LinkageSpace;
 use super::timed;
@@ -21,25 +20,13 @@ use crate::scatter::Scatter;
 use crate::shape::spectrum::Transform;
 use crate::target::{PathKind, Target};
 use coupler_curves::geometry::Similarity;
-use coupler_curves::linkage::CircuitSelection;
-use coupler_curves::motion::find_circuits;
 
 /// A target that linkages with free parameters are fitted to.
 pub(super) struct LinkageFitting {
-    space: LinkageSpace,
+    pub sampled: SampledSpace,
     aim: Aim,
     query: Query,
     transform: Transform,
-    /// The places of a turn, if the input must turn fully and, where it does, it has no change points and the circuit is the only one.
-    turn: Option<Turn>,
-}
-
-/// The places of a turn at which its curve is sampled, and some of them.
-struct Turn {
-    /// Its length in degrees.
-    period: f64,
-    few: Places,
-    all: Places,
 }
 
 /// Dimensions of a linkage, and how the curve fits the target.
@@ -57,77 +44,23 @@ pub(super) struct LinkageFit {
     pub inputs: [f64; 2],
 }
 
-/// The points of a curve of which the shape is computed.
-const POINTS: usize = 128;
-
 /// The least part of a curve that may be like an open target before it is refined.
 const LEAST_PORTION: f64 = 0.05;
 
 impl LinkageFitting {
     /// The condition of the options must be one of the linkage's.
     pub fn new(space: &LinkageSpace, target: &Target, options: &Options) -> LinkageFitting {
-        let mut fitting = LinkageFitting {
+        LinkageFitting {
+            sampled: SampledSpace::new(space, options.full_turn),
             aim: Aim::new(space, target, options),
             query: Query::new(target.kind(), &target.normalized()),
             transform: Transform::new(),
-            space: space.clone(),
-            turn: None,
-        };
-        fitting.turn = fitting.simple_turn();
-        fitting
-    }
-
-    /// The places of a turn, if the first samples whose input turns fully have no change points.
-    fn simple_turn(&self) -> Option<Turn> {
-        /// So few that it takes next to no time to see that most linkages that do not turn do not.
-        const FEW: usize = 8;
-        /// The samples that turn, and those among which they are sought.
-        const ENOUGH: usize = 16;
-        const MOST: usize = 200;
-        let template = self.space.template();
-        if !self.aim.full_turn || template.circuits != CircuitSelection::Start || template.input.is_some() {
-            return None;
         }
-        let turning = |sample| {
-            let (_, _, traced) = self.traced(&self.space.sample(sample)?).into_iter().next()?;
-            Some(traced)
-        };
-        let turning: Vec<Traced> = (0..MOST).filter_map(turning).take(ENOUGH).collect();
-        let first = turning.first().filter(|_| turning.iter().all(Traced::has_fixed_passes))?;
-        let [few, all] = [FEW, POINTS].map(|count| first.places(&first.positions(count)));
-        Some(Turn { period: first.linkage.input().period(), few, all })
-    }
-
-    /// The default number of parameter sets: for few parameters fewer fill their ranges, and those of linkages that take long or trace many
-    /// joints are fewer.
-    pub fn default_samples(&self) -> usize {
-        const MOST: usize = 10_000;
-        const LEAST: usize = 500;
-        /// Of many traced joints together.
-        const MOST_CURVES: usize = 200_000;
-        /// For so many dyads more all circuits take as many times as long as there are modes.
-        const MODES: u32 = 4;
-        let template = self.space.template();
-        let dimension = self.space.dimension() - usize::from(self.space.is_scalable && self.space.dimension() > 1);
-        let samples = if self.is_slow() {
-            let dyads = template.structure().map_or(0, |linkage| linkage.dyad_count()) as u32;
-            let modes = if template.circuits == CircuitSelection::All { dyads.saturating_sub(2).min(MODES) } else { 0 };
-            (10 * dimension.pow(3)).clamp(LEAST, MOST).div_ceil(2 << modes)
-        } else {
-            (250 * dimension.pow(2)).clamp(LEAST, MOST)
-        };
-        samples.min((MOST_CURVES / template.curve_count().max(1)).max(1))
-    }
-
-    /// Whether it takes long to find the circuits: limits of a chain of dyads are searched for.
-    pub fn is_slow(&self) -> bool {
-        let dyads = self.space.template().structure().map_or(0, |linkage| linkage.dyad_count());
-        self.turn.is_none() && dyads > 1
     }
 
     /// The linkage and its parameters.
     pub fn space(&self) -> &LinkageSpace {
-        &self.space
+        &self.sampled.space
     }
 
     /// What the linkages are fitted to.
@@ -137,9 +70,9 @@ impl LinkageFitting {
 
     /// The curves of a parameter set that satisfy what does not depend on their place, without the condition: it may take long.
     pub fn curves(&self, sample: usize) -> Vec<(SampleCurve, SampleShape)> {
-        let Some(values) = self.space.sample(sample) else { return Vec::new() };
+        let Some(values) = self.space().sample(sample) else { return Vec::new() };
         let mut found = Vec::new();
-        for (trace, circuit, traced, points) in self.sampled(&values) {
+        for (OnCircuit { trace, circuit, traced }, points) in self.sampled.curves(&values) {
             let shape = match &self.aim.angles_deg {
                 None => {
                     let is_open = !traced.circuit.is_closed;
@@ -151,29 +84,6 @@ impl LinkageFitting {
             found.extend(shape.map(|shape| (curve, shape)));
         }
         found
-    }
-
-    /// The traced joints on the circuits of a parameter set, with points all around.
-    fn sampled(&self, values: &[f64]) -> Vec<(usize, usize, Traced, Option<Vec<Complex>>)> {
-        let Some(turn) = &self.turn else {
-            let all = self.traced(values).into_iter();
-            return all
-                .map(|(trace, circuit, traced)| {
-                    let points = traced.points(&traced.positions(POINTS));
-                    (trace, circuit, traced, points)
-                })
-                .collect();
-        };
-        let Some(traced) = self.on_full_turn(values).filter(|traced| traced.linkage.input().period() == turn.period)
-        else {
-            return Vec::new();
-        };
-        let are_closed = |places| Some(traced.poses(places)).filter(|poses| poses.are_closed(&traced.linkage));
-        let Some(poses) = are_closed(&turn.few).and_then(|_| are_closed(&turn.all)) else { return Vec::new() };
-        let joints = traced.linkage.traced.iter().enumerate();
-        joints
-            .map(|(trace, joint)| (trace, 0, Traced { joint: *joint, ..traced.clone() }, poses.points(*joint)))
-            .collect()
     }
 
     /// The curves of an index that are most like the target, the likeliest first, at most so many.
@@ -190,13 +100,12 @@ impl LinkageFitting {
         lookup.found().take(most).map(|(_, number)| index.curves[number]).collect()
     }
 
-    /// Begins to refine a curve of a sample; with how much it is like the target, the greater the more. `None` if it is not like it
-    /// anywhere, or does not satisfy the condition.
+    /// Begins to refine a curve of a sample. `None` if it is not like the target anywhere, or does not satisfy the condition.
     pub fn begin(&self, curve: SampleCurve) -> Option<LinkageRefinement> {
-        let values = self.space.sample(curve.sample as usize)?;
+        let values = self.space().sample(curve.sample as usize)?;
         let at = (curve.trace as usize, curve.circuit as usize);
-        let (trace, _, traced, points) =
-            self.sampled(&values).into_iter().find(|(trace, circuit, ..)| (*trace, *circuit) == at)?;
+        let mut curves = self.sampled.curves(&values).into_iter();
+        let (OnCircuit { trace, traced, .. }, points) = curves.find(|(on, _)| (on.trace, on.circuit) == at)?;
         if !self.aim.meets_condition(&values, &traced) {
             return None;
         }
@@ -211,8 +120,8 @@ impl LinkageFitting {
 
     /// Begins again from dimensions near others, at random, with a number that chooses them.
     pub fn begin_near(&self, from: &LinkageRefinement, seed: u64, spread: f64) -> Option<LinkageRefinement> {
-        let values = self.space.near(&from.values, &mut Scatter::new(seed), spread);
-        let linkage = self.space.template().linkage(&values).ok().filter(|_| self.space.are_valid(&values))?;
+        let values = self.space().near(&from.values, &mut Scatter::new(seed), spread);
+        let linkage = self.space().template().linkage(&values).ok().filter(|_| self.space().are_valid(&values))?;
         let state = &from.state;
         let traced = state.traced.followed(linkage).filter(|traced| !self.aim.full_turn || traced.is_full_turn())?;
         if !self.aim.meets_condition(&values, &traced) {
@@ -232,12 +141,12 @@ impl LinkageFitting {
 
     /// Moves the curve of a refinement without changing the linkage.
     pub fn place(&self, refinement: &mut LinkageRefinement, steps: usize) {
-        refinement.place(&self.space, &self.aim, steps);
+        refinement.place(self.space(), &self.aim, steps);
     }
 
     /// Takes some steps of a refinement.
     pub fn advance(&self, refinement: &mut LinkageRefinement, steps: usize) {
-        refinement.advance(&self.space, &self.aim, steps);
+        refinement.advance(self.space(), &self.aim, steps);
         refinement.match_again(&self.aim, 2 * FINAL_ROUNDS / 3);
     }
 
@@ -254,16 +163,16 @@ impl LinkageFitting {
         let size = target.size();
         let mut refinement = refinement.clone();
         let mut placed = refinement.state.placed;
-        if self.space.is_scalable {
+        if self.space().is_scalable {
             let scale = placed.scale() * size;
-            refinement.values = self.space.scaled(&refinement.values, scale);
+            refinement.values = self.space().scaled(&refinement.values, scale);
             placed.factor /= scale;
         }
         let values = &refinement.values;
-        let circuits = self.traced(values);
-        let linkage = self.space.template().linkage(values).ok().filter(|_| self.space.are_valid(values))?;
+        let circuits = self.sampled.traced(values);
+        let linkage = self.space().template().linkage(values).ok().filter(|_| self.space().are_valid(values))?;
         let followed = refinement.state.traced.followed(linkage)?;
-        let (_, circuit, traced) = circuits.into_iter().find(|(trace, _, traced)| {
+        let OnCircuit { circuit, traced, .. } = circuits.into_iter().find(|OnCircuit { trace, traced, .. }| {
             *trace == refinement.trace && traced.circuit.passes == followed.circuit.passes
         })?;
         refinement.state = match refinement.state.start {
@@ -323,29 +232,6 @@ impl LinkageFitting {
         let points = self.aim.points_of(is_reversed);
         let at: Vec<Complex> = state.blocks.iter().map(|block| state.placed.image(block.foot.at)).collect();
         squares(points, &state.blocks, &at).into_iter().fold(0.0, f64::max).sqrt()
-    }
-
-    /// The traced joints on the circuits of a parameter set.
-    fn traced(&self, values: &[f64]) -> Vec<(usize, usize, Traced)> {
-        let Ok(linkage) = self.space.template().linkage(values) else { return Vec::new() };
-        let circuits = find_circuits(&linkage).circuits;
-        let mut found = Vec::new();
-        for (trace, joint) in linkage.traced.iter().enumerate() {
-            for (number, circuit) in circuits.iter().enumerate() {
-                let traced = Traced { linkage: linkage.clone(), circuit: circuit.clone(), joint: *joint };
-                if !self.aim.full_turn || traced.is_full_turn() {
-                    found.push((trace, number, traced));
-                }
-            }
-        }
-        found
-    }
-
-    /// The first of them as if the input turned fully.
-    fn on_full_turn(&self, values: &[f64]) -> Option<Traced> {
-        let linkage = self.space.template().linkage(values).ok()?;
-        let joint = *linkage.traced.first()?;
-        Traced::on_full_turn(linkage, joint)
     }
 
     /// A curve where it is most like the target.

@@ -15,6 +15,7 @@ mod measured;
 mod placed_curve;
 mod poses;
 mod refinement;
+mod sampled_space;
 mod samples;
 mod scaling;
 mod search;

@@ -109,11 +109,11 @@ impl LinkageSearch {
     /// the linkage's.
     pub fn new(space: &LinkageSpace, target: &Target, options: &Options, samples: Option<usize>) -> LinkageSearch {
         let fitting = LinkageFitting::new(space, target, options);
-        let samples = samples.unwrap_or_else(|| fitting.default_samples()).min(LinkageSearch::MAX_SAMPLES);
+        let samples = samples.unwrap_or_else(|| fitting.sampled.default_count()).min(LinkageSearch::MAX_SAMPLES);
         // Few parameters have few minima.
         let starts = start_count(target, options).min(samples / 10);
         LinkageSearch {
-            starts: if fitting.is_slow() { starts.div_ceil(SLOWER) } else { starts },
+            starts: if fitting.sampled.is_slow() { starts.div_ceil(SLOWER) } else { starts },
             options: options.clone(),
             samples,
             found: 0,
@@ -163,7 +163,7 @@ impl LinkageSearch {
 
     /// How many parameter sets are tried at most.
     fn tries(&self) -> usize {
-        self.samples * if self.fitting.is_slow() { SLOW_TRIES } else { TRIES }
+        self.samples * if self.fitting.sampled.is_slow() { SLOW_TRIES } else { TRIES }
     }
 
     /// The number of curves in which the target has been looked up.

@@ -24,7 +24,7 @@ const ALL: &str = "all";
 const HEAD: &str = "# counted by .ci/counts --bless, with ";
 
 fn path() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/counts/counts.csv")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("counts.csv")
 }
 
 /// The compiler, and the machine that it makes programs for.

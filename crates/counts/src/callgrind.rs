@@ -33,7 +33,7 @@ pub fn count(name: &str) -> Counts {
     let folder = tempfile::tempdir().expect("a folder");
     let out = folder.path().join("callgrind.out");
     let status = Command::new("valgrind")
-        .args(["--tool=callgrind", "--quiet", "--toggle-collect=*counts::counted*"])
+        .args(["--tool=callgrind", "--quiet", "--toggle-collect=*coupler_counts::counted*"])
         .args(["--compress-strings=no", "--compress-pos=no"])
         .arg(format!("--callgrind-out-file={}", out.display()))
         .arg(std::env::current_exe().expect("this program"))

@@ -20,15 +20,13 @@ use coupler_drawing::render::pdf::Book;
 use coupler_drawing::scene::{PageNumber, Scene};
 use coupler_find::{CurveFitOptions, CurveFitter, Index, Options, PathKind, Search, Target};
 
-#[path = "../composed.rs"]
-mod composed;
-
 #[expect(dead_code, reason = "others need normally distributed numbers")]
-#[path = "../../crates/coupler-find/tests/random/mod.rs"]
+#[path = "../../coupler-find/tests/random/mod.rs"]
 mod random;
 
-use composed::{coupler_grid, panels};
 use random::Random;
+
+use super::composed::{coupler_grid, panels};
 
 /// A benchmark: its name, and what prepares its work, which is not counted.
 pub type Benchmark = (&'static str, fn() -> Box<dyn FnMut()>);
@@ -188,7 +186,7 @@ fn pdf(scenes: Vec<Scene>) -> Box<dyn FnMut()> {
 
 /// A hundredth of the million four-bars of docs/scale.md, with their six measures.
 fn sweep() -> Box<dyn FnMut()> {
-    let plan = plan(include_str!("../../examples/scale/four-bars.toml"));
+    let plan = plan(include_str!("../../../examples/scale/four-bars.toml"));
     let folder = tempfile::tempdir().expect("a folder");
     Box::new(move || {
         let options = shard::Options {
