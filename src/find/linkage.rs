@@ -13,7 +13,7 @@ use super::{Error, Findings, description};
 
 /// Finds the dimensions of a linkage for which its curves are nearest to a target, looked up in `samples` parameter sets or a number that
 /// depends on the linkage. Curves that are the same to a thousandth of the target's size are one. The answer does not depend on the number of
-/// threads. `report_part` is told which part of the search is done, from 0 to 1, after each step.
+/// threads. `report_part` receives which part of the search is done, from 0 to 1, after each step.
 ///
 /// # Errors
 /// `interrupt` is true.

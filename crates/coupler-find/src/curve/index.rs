@@ -22,20 +22,20 @@ impl CurveShape {
     /// points without extent, or with a coordinate that is not finite, the shape is one that is like no target.
     pub fn new(points: &[Point], is_closed: bool) -> CurveShape {
         let Some(path) = CurvePath::new(points, is_closed) else { return CurveShape(Shape::EMPTY) };
-        let (spectrum, Extent { size, .. }) = Transform::new().spectrum(&path.even_points(EVEN));
-        let shape = Shape::new(&spectrum.canonical(), path.length() / size, true);
-        CurveShape(if path.is_open { shape.of_open() } else { shape })
+        CurveShape::with_length(&Transform::new(), &path.even_points(EVEN), path.length(), path.is_open)
     }
-}
 
-impl CurveShape {
     /// That of a polyline that is passed around, or there and back along an open curve: of many points, so that it need not be smoothed.
     pub(crate) fn of_polyline(transform: &Transform, points: &[Complex], is_open: bool) -> CurveShape {
+        CurveShape::with_length(transform, points, closed_length(points), is_open)
+    }
+
+    fn with_length(transform: &Transform, points: &[Complex], length: f64, is_open: bool) -> CurveShape {
         let (spectrum, Extent { size, .. }) = transform.spectrum(points);
         if !size.is_normal() {
             return CurveShape(Shape::EMPTY);
         }
-        let shape = Shape::new(&spectrum.canonical(), closed_length(points) / size, true);
+        let shape = Shape::new(&spectrum.canonical(), length / size, true);
         CurveShape(if is_open { shape.of_open() } else { shape })
     }
 }

@@ -147,7 +147,8 @@ impl Candidate for LinkageRefinement {
         let State { traced, placed, blocks, start, .. } = &self.state;
         let count = free + self.other_count();
         let positions = self.state.positions();
-        let places = aim.places(traced, &positions, *start)?;
+        // Those of all linkages, where they do not depend on the dimensions.
+        let places = traced.has_fixed_passes().then(|| aim.places(traced, &positions, *start)).flatten();
         let rates = self.state.rates(aim)?;
         let excesses = aim.excesses(traced, placed);
         // The motion of the points, and of the excesses, by each parameter.
@@ -162,9 +163,9 @@ impl Candidate for LinkageRefinement {
                 }
                 let linkage = space.template.linkage(&values).ok()?;
                 let other = traced.perturbed(linkage)?;
-                let points = match traced.has_fixed_passes() {
-                    true => other.points_at(&places)?,
-                    false => other.points_at(&aim.places(&other, &positions, *start)?)?,
+                let points = match &places {
+                    Some(places) => other.points_at(places)?,
+                    None => other.points_at(&aim.places(&other, &positions, *start)?)?,
                 };
                 let moved = points.iter().zip(blocks).map(|(moved, block)| (moved - block.foot.at) / step).collect();
                 let excess = aim.excesses(&other, placed).iter().zip(&excesses).map(|(b, a)| (b - a) / step).collect();
