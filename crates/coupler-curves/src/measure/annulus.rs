@@ -57,6 +57,25 @@ impl AlternatingPoints {
         narrowest_by_exchange(points, four, max_width, Annulus::through_alternating)
     }
 
+    /// Turns to a row of another number of points, whose points in the same places are likely to alternate. Whether four of
+    /// them are in no annulus of a width: then the row is not.
+    pub fn are_apart(&mut self, points: &[Point], before: usize, max_width: f64) -> bool {
+        let (last, last_before) = (points.len() - 1, before.max(2) - 1);
+        let Some(four) = &mut self.free else { return false };
+        if last != last_before {
+            *four = four.map(|k| (k * last + last_before / 2) / last_before);
+        }
+        let [a, b, c, d] = *four;
+        if !(a < b && b < c && c < d && d <= last) {
+            self.free = None;
+            return false;
+        }
+        let alternating = four.map(|k| points[k]);
+        Annulus::through_alternating(alternating).is_some_and(|ring| {
+            ring.width > max_width && goes_one_way(&alternating, |from, to| cross(from - ring.centre, to - ring.centre))
+        })
+    }
+
     /// The narrowest annulus with a radius of at most `largest` that contains a row of points; otherwise like
     /// [`AlternatingPoints::narrowest_annulus`].
     pub fn narrowest_annulus_within(&mut self, points: &[Point], max_width: f64, largest: f64) -> Option<Annulus> {

@@ -90,6 +90,12 @@ impl<'a> CurveRings<'a> {
         }
     }
 
+    /// The same, with more points of the row, by their indices.
+    pub fn with_points(mut self, added: &[i64]) -> CurveRings<'a> {
+        self.portion.added.extend_from_slice(added);
+        self
+    }
+
     /// The annulus of the portion between two positions; `None` if it is straight.
     pub fn ring(&mut self, ends: [f64; 2]) -> Option<PortionRing> {
         /// So often are points that touch found anew, where others stick out of the annulus of those found.

@@ -5,6 +5,8 @@
 //! the curve's greatest extent, and the mean radius is no greater than the length of the curve, which excludes straight
 //! portions. The best one spans the most input.
 
+use std::cell::RefCell;
+
 use super::annulus::AlternatingPoints;
 use super::budget::{MAX_PORTION_POINTS, Steps, TooManySteps};
 use super::curve_ring::{CurveRings, PortionRing};
@@ -76,7 +78,8 @@ fn find_dwell(row: &Row, extent: f64, length: f64) -> Result<Option<Dwell>, TooM
     const EXCESS: f64 = 1e-6;
     let max_width = TOLERANCE * extent;
     let steps = &Steps::new(MAX_PORTION_POINTS);
-    let mut requirement = Circular { row, max_width, max_radius: length, steps };
+    let alternating = RefCell::new((AlternatingPoints::folded(row.is_folded()), 0));
+    let mut requirement = Circular { row, max_width, max_radius: length, steps, alternating };
     let Some(&longest) = longest(row, &requirement, 0.0, steps)?.first() else { return Ok(None) };
     // The whole of a closed curve begins where the curve does.
     let is_whole = row.is_closed && longest[1] - longest[0] >= row.start_count as f64 * (1.0 - 1e-9);
@@ -92,7 +95,8 @@ fn find_dwell(row: &Row, extent: f64, length: f64) -> Result<Option<Dwell>, TooM
         // Next to a sharp bend the points that touch are known less exactly than elsewhere: by as much less is allowed of them.
         requirement.max_width = max_width - 1.01 * (width - ring.width);
         let reach = 0.1 * (ends[1] - ends[0]);
-        let reached = requirement.longest_near_by(all(ends), ends, reach, 0.0);
+        let rings = CurveRings::new(row, ends, all(ends), length);
+        let reached = requirement.longest_near_by(rings, all(ends), ends, reach, 0.0);
         steps.check()?;
         let Reached::Longest { ends: shorter, .. } = reached else { break };
         let Some(next) = CurveRings::new(row, shorter, all(shorter), length).ring(shorter) else { return Ok(None) };
@@ -181,11 +185,15 @@ struct Circular<'a> {
     max_width: f64,
     max_radius: f64,
     steps: &'a Steps,
+    /// The points that bounded the last portion that was compared roughly, and the number of its points.
+    alternating: RefCell<(AlternatingPoints, usize)>,
 }
 
 impl Requirement for Circular<'_> {
     const HAS_CERTAIN_BOUNDS: bool = false;
     const FEW: f64 = 24.0;
+    // The fourth root of the width, which is known to a millionth.
+    const EQUAL: f64 = 1e-6;
 
     fn longest_from(&self, points: &EveryNth, from: usize, least: f64, likely: usize) -> Option<(f64, usize)> {
         /// So many points are in any annulus, or nearly.
@@ -212,8 +220,9 @@ impl Requirement for Circular<'_> {
             if self.steps.take(portion.len()).is_err() {
                 return false;
             }
-            let mut alternating = AlternatingPoints::folded(self.row.is_folded());
-            alternating.narrowest_annulus_within(portion, self.max_width, self.max_radius).is_some()
+            let (alternating, count) = &mut *self.alternating.borrow_mut();
+            let are_apart = alternating.are_apart(portion, std::mem::replace(count, portion.len()), self.max_width);
+            !are_apart && alternating.narrowest_annulus_within(portion, self.max_width, self.max_radius).is_some()
         };
         // Any part of a portion that fits fits too.
         let first = points.first_reaching(travel, start + least, from + 1, last);
@@ -226,28 +235,32 @@ impl Requirement for Circular<'_> {
         &points.travel
     }
 
-    fn longest_near(&self, ends: [f64; 2], reach: f64, least: f64) -> Reached {
+    fn longest_near(&self, mut ends: [f64; 2], reach: f64, least: f64) -> Reached {
         /// Points of the portion in which those that touch its annulus are found.
         const POINTS: usize = 32;
-        let reached = self.longest_near_by(POINTS, ends, reach, least);
-        if reached == Reached::Nothing {
-            // Where no rate shows the way, the portion itself is the longest that is known, if it fits.
-            let ring = CurveRings::new(self.row, ends, POINTS, self.max_radius).ring(ends);
-            let fits = ring.is_some_and(|ring| ring.width <= self.max_width);
-            return if fits {
-                Reached::Longest { size: self.row.input_span(ends), ends, is_certain: false }
-            } else {
-                reached
-            };
+        /// So often points are added where the curve leaves the annulus between them.
+        const ROUNDS: usize = 6;
+        let mut added = Vec::new();
+        let mut found = Reached::Nothing;
+        for _ in 0..ROUNDS {
+            let rings = |ends: [f64; 2]| CurveRings::new(self.row, ends, POINTS, self.max_radius).with_points(&added);
+            found = self.longest_near_by(rings(ends), POINTS, ends, reach, least);
+            if found == Reached::Nothing {
+                // Where no rate shows the way, the portion itself is the longest that is known, if it fits.
+                let fits = rings(ends).ring(ends).is_some_and(|ring| ring.width <= self.max_width);
+                if fits {
+                    return Reached::Longest { size: self.row.input_span(ends), ends, is_certain: false };
+                }
+            }
+            let Reached::Longest { ends: longest, .. } = found else { break };
+            let outside = rings(longest).ring(longest).map_or_else(Vec::new, |ring| self.points_outside(longest, ring));
+            if outside.is_empty() {
+                break;
+            }
+            added.extend(outside);
+            ends = longest;
         }
-        let Reached::Longest { ends: found, .. } = reached else { return reached };
-        // Between so few points the curve may leave the annulus: then by all points of the row.
-        let all = (found[1] - found[0]).ceil() as usize;
-        let is_wider = |ring: PortionRing| ring.width > self.max_width;
-        if all > POINTS && CurveRings::new(self.row, found, all, self.max_radius).ring(found).is_some_and(is_wider) {
-            return self.longest_near_by(all, found, reach, least);
-        }
-        reached
+        found
     }
 }
 
@@ -279,10 +292,37 @@ impl Circular<'_> {
         ends
     }
 
-    /// The longest portion near one between two positions, by about so many points of it.
-    fn longest_near_by(&self, count: usize, ends: [f64; 2], reach: f64, least: f64) -> Reached {
+    /// The points of the row between two positions at which the curve is furthest outside of an annulus.
+    fn points_outside(&self, [from, to]: [f64; 2], ring: PortionRing) -> Vec<i64> {
+        /// What it is outside by less, relative to the width, is taken off in the end.
+        const OUTSIDE: f64 = 1e-7;
+        let (first, last) = (from.ceil() as i64, to.floor() as i64);
+        let outside = |k: i64| {
+            let height = (self.row.nth_point(k) - ring.centre).norm() - ring.radius;
+            if height.abs() > self.max_width * (0.5 + OUTSIDE) { height } else { 0.0 }
+        };
+        let mut found = Vec::new();
+        let [mut before, mut here] = [0.0, outside(first)];
+        for k in first..=last {
+            let after = if k < last { outside(k + 1) } else { 0.0 };
+            if here != 0.0 && here.abs() >= before.abs() && here.abs() > after.abs() {
+                found.push(k);
+            }
+            (before, here) = (here, after);
+        }
+        found
+    }
+
+    /// The longest portion near one between two positions, by its annuli of about so many points.
+    fn longest_near_by(
+        &self,
+        mut rings: CurveRings,
+        count: usize,
+        ends: [f64; 2],
+        reach: f64,
+        least: f64,
+    ) -> Reached {
         let permitted = self.max_width * (1.0 - ACCURACY);
-        let mut rings = CurveRings::new(self.row, ends, count, self.max_radius);
         let fit = |ends: [f64; 2]| {
             self.steps.take(count)?;
             let size = self.row.input_span(ends);

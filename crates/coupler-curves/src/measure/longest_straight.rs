@@ -25,6 +25,7 @@ pub(super) struct StraightTo<'a> {
 impl Requirement for StraightTo<'_> {
     const HAS_CERTAIN_BOUNDS: bool = true;
     const FEW: f64 = 96.0;
+    const EQUAL: f64 = 1e-7;
 
     fn longest_from(&self, points: &EveryNth, from: usize, least: f64, _: usize) -> Option<(f64, usize)> {
         let lengths = &points.lengths;

@@ -13,9 +13,6 @@ use super::rounding::within_period;
 use super::row::Row;
 use crate::geometry::in_rising_order;
 
-/// Two portions whose sizes differ by less than this part are equally long: more than the error of either.
-const EQUAL: f64 = 1e-7;
-
 /// A requirement of portions, and what of them is to be greatest.
 pub(super) trait Requirement {
     /// An upper bound of the size of the portions that begin at a point or between it and the one before, and the last
@@ -28,6 +25,9 @@ pub(super) trait Requirement {
 
     /// Points between the ends of a portion, at least, where bounds are not much greater than what they bound.
     const FEW: f64;
+
+    /// Two portions whose sizes differ by less than this part are equally long: more than the error of either.
+    const EQUAL: f64;
 
     /// What a portion has the more of the longer it is, up to each point.
     fn quantity<'p>(&self, points: &'p EveryNth) -> &'p [f64];
@@ -85,7 +85,7 @@ pub(super) fn longest<R: Requirement>(
         points = finer;
     }
     let Search { best, mut found, .. } = search;
-    found.retain(|(size, _)| *size >= best * (1.0 - EQUAL));
+    found.retain(|(size, _)| *size >= best * (1.0 - R::EQUAL));
     Ok(distinct(row, found.into_iter().map(|(_, ends)| requirement.without_excess(ends)).collect()))
 }
 
@@ -100,7 +100,7 @@ struct Search<'a, R> {
 impl<R: Requirement> Search<'_, R> {
     /// The size that portions must have.
     fn least(&self) -> f64 {
-        self.best * (1.0 - EQUAL)
+        self.best * (1.0 - R::EQUAL)
     }
 
     /// The bounds of the portions that begin at some points, and the points of the longest, the greatest first.
@@ -128,7 +128,8 @@ impl<R: Requirement> Search<'_, R> {
         };
         for &(bound, [from, to]) in candidates.iter().filter(|(_, [from, _])| is_peak(*from)).take(limit) {
             let least = self.least();
-            if bound < least {
+            // Nothing is longer than the whole curve.
+            if bound < least || self.best >= (quantity[points.start_count] - quantity[0]) * (1.0 - R::EQUAL) {
                 break;
             }
             if is_covered[from] {

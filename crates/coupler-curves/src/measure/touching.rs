@@ -87,6 +87,8 @@ pub(super) struct PortionPoints<'a> {
     velocities: [Vector; 2],
     /// Those of its points that are corners, with the velocities before and after each.
     corners: Vec<(usize, [Vector; 2])>,
+    /// Points of the row, by their indices, that are points of each portion in which they are, too.
+    pub added: Vec<i64>,
     heights: Vec<f64>,
 }
 
@@ -105,6 +107,7 @@ impl<'a> PortionPoints<'a> {
             positions: Vec::with_capacity(2 * count),
             velocities: [Vector::zeros(); 2],
             corners: Vec::new(),
+            added: Vec::new(),
             heights: Vec::with_capacity(2 * count),
         }
     }
@@ -126,26 +129,36 @@ impl<'a> PortionPoints<'a> {
         let [begin, end] = [begin, end].map(|k| (k - self.first) as usize);
         self.points.extend_from_slice(&self.all[begin..end]);
         self.points.push(last.0);
+        let [low, high] = [ends[0] + TOO_CLOSE * self.spacing, ends[1] - TOO_CLOSE * self.spacing];
+        for k in 0..self.added.len() {
+            if (low..high).contains(&(self.added[k] as f64)) {
+                self.insert(self.added[k]);
+            }
+        }
         self.insert_corners(ends);
     }
 
-    /// Puts the corners between two positions among the points, in place of those that are too close to them.
+    /// Puts the corners between two positions among the points.
     fn insert_corners(&mut self, ends: [f64; 2]) {
         self.corners.clear();
         for corner in self.row.bends_between(ends) {
-            let position = corner as f64 / self.spacing;
-            // The ends stay.
-            let last = self.positions.len() - 1;
-            let inner = &self.positions[1..last];
-            let first = 1 + inner.partition_point(|other| *other < position - TOO_CLOSE);
-            let after = 1 + inner.partition_point(|other| *other <= position + TOO_CLOSE);
-            self.positions.drain(first..after);
-            self.positions.insert(first, position);
-            self.points.drain(first..after);
-            self.points.insert(first, self.row.nth_point(corner));
+            let index = self.insert(corner);
             let velocities = self.row.velocities_at_corner(corner).map(|velocity| velocity * self.spacing);
-            self.corners.push((first, velocities));
+            self.corners.push((index, velocities));
         }
+    }
+
+    /// Puts a point of the row among the points, in place of those that are too close to it; its index among them.
+    fn insert(&mut self, nth: i64) -> usize {
+        let position = nth as f64 / self.spacing;
+        // The ends stay.
+        let last = self.positions.len() - 1;
+        let inner = &self.positions[1..last];
+        let first = 1 + inner.partition_point(|other| *other < position - TOO_CLOSE);
+        let after = 1 + inner.partition_point(|other| *other <= position + TOO_CLOSE);
+        self.positions.splice(first..after, [position]);
+        self.points.splice(first..after, [self.row.nth_point(nth)]);
+        first
     }
 
     /// Makes sure that there are the points from one index to before another.
