@@ -67,6 +67,9 @@ impl Symmetry {
     /// than the error of its samples.
     pub const TOLERANCE: f64 = 1e-4;
 
+    /// The greatest residual that is a measure of a curve: what is less symmetrical has no axis that an eye would see.
+    pub const GREATEST: f64 = 0.01;
+
     /// The axis, if the curve is symmetrical.
     pub fn axis_if_symmetric(&self) -> Option<SymmetryAxis> {
         self.axis.filter(|_| self.residual <= Symmetry::TOLERANCE)

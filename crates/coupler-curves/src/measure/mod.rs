@@ -1,6 +1,7 @@
 //! Measures of a curve; each is a column of `cells.csv` and a name in `where`.
 
 mod annulus;
+mod asymmetry;
 mod axis_motion;
 mod budget;
 mod circuit_function;

@@ -321,11 +321,13 @@ impl Row {
             }
         }
         let (distance, offset, velocity) = nearest?;
-        let normal = Vector::new(-velocity.y, velocity.x).try_normalize(0.0)?;
         // Beyond the end of a path, and at a cusp, the nearest point is not at the foot of a perpendicular: the distance
         // grows away from that point.
-        let across = normal.dot(&offset);
-        Some(if distance > 1.001 * across.abs() { (distance, offset / distance) } else { (across, normal) })
+        let perpendicular = Vector::new(-velocity.y, velocity.x).try_normalize(0.0).filter(|normal| distance <= 1.001 * normal.dot(&offset).abs());
+        match perpendicular {
+            Some(normal) => Some((normal.dot(&offset), normal)),
+            None => offset.try_normalize(0.0).map(|away| (distance, away)),
+        }
     }
 
     /// The points at some positions.

@@ -7,6 +7,7 @@
 //! half the angle at the rocker's pin (7.8). The same is true with crank and rocker exchanged. For any other curve the
 //! axis is searched for.
 
+use super::asymmetry::is_asymmetrical;
 use super::features::{Symmetry, SymmetryAxis};
 use super::row::Row;
 use super::symmetry_axis::{AxisCandidates, MirrorImages};
@@ -31,7 +32,7 @@ pub const AXIS: Measure = Measure::number(
     "symmetry_deg",
     "direction of the axis of symmetry",
     "deg",
-    "direction of the line about which the curve is symmetrical, or most nearly so, from the x-axis: 0 up to 180; empty for a circle",
+    "direction of the line about which the curve is symmetrical, or nearly so, from the x-axis: 0 up to 180; empty for a circle, and where the residual would be more than 0.01",
     |curve: &TracedCurve| {
         curve.symmetry().and_then(|s| s.axis).map_or(Value::Missing, |axis| Value::Number(axis.direction_deg()))
     },
@@ -42,26 +43,29 @@ pub const RESIDUAL: Measure = Measure::number(
     "symmetry_residual",
     "deviation from symmetry",
     "",
-    "greatest distance of the curve's mirror image about that line from the curve, relative to its greatest extent",
+    "greatest distance of the curve's mirror image about that line from the curve, relative to its greatest extent; empty where that is more than 0.01",
     |curve: &TracedCurve| {
         curve.symmetry().map_or(Value::Missing, |s| Value::Number(without_rounding(s.residual, RESOLVED)))
     },
 );
 
 impl TracedCurve<'_> {
-    /// The symmetry of the curve; `None` for a point.
+    /// The symmetry of the curve; `None` for a point, and where its residual would be more than [`Symmetry::GREATEST`].
     pub fn symmetry(&self) -> Option<&Symmetry> {
-        self.symmetry.get_or_init(|| find_symmetry(self)).as_ref()
+        let is_near = |symmetry: &Symmetry| symmetry.residual <= Symmetry::GREATEST;
+        self.symmetry.get_or_init(|| find_symmetry(self).filter(is_near)).as_ref()
     }
 }
 
 /// The accuracy of the residual of a symmetrical curve.
 const RESOLVED: f64 = 1e-9;
 
-/// The symmetry of a curve; `None` for a point.
+/// The symmetry of a curve; `None` for a point, and for a curve that is far from any.
 fn find_symmetry(curve: &TracedCurve) -> Option<Symmetry> {
     /// If the residual for a theorem's axis is greater than this, the mirror image is the curve of another circuit.
     const MAX_ROUGH_RESIDUAL: f64 = 0.1;
+    /// No axis has ever been improved to what is reported from a residual of more than this.
+    const GREATEST_ROUGH: f64 = 4.0 * Symmetry::GREATEST;
     /// As many points show whether an axis is worth refining.
     const FEW_POINTS: usize = 32;
     /// The residual below which a curve may be symmetrical about an axis that is not yet exact.
@@ -75,10 +79,13 @@ fn find_symmetry(curve: &TracedCurve) -> Option<Symmetry> {
     // curve does not have the axis of the whole.
     if row.is_closed
         && let Some((axis, theorem)) = axis_by_theorem(curve)
-        && (has_one_circuit(curve) || images.residual(axis, FEW_POINTS) <= MAX_ROUGH_RESIDUAL * extent)
+        && (has_one_circuit(curve) || images.residual(axis, FEW_POINTS, MAX_ROUGH_RESIDUAL * extent).is_some())
     {
         let residual = residual_by_sextic(curve, row, axis).unwrap_or_else(|| images.exact_residual(axis)) / extent;
         return Some(Symmetry { axis: Some(axis), residual, theorem: Some(theorem) });
+    }
+    if is_asymmetrical(row, extent, Symmetry::GREATEST * extent) {
+        return None;
     }
     let candidates = match images.candidates() {
         AxisCandidates::AnyDiameter => return Some(Symmetry { axis: None, residual: 0.0, theorem: None }),
@@ -86,13 +93,12 @@ fn find_symmetry(curve: &TracedCurve) -> Option<Symmetry> {
     };
     // If the moving joints are in line too, the mirror image of a pose is a pose of the other branch.
     if let Some(axis) = line_of_pivots(curve)
-        && images.residual(axis, FEW_POINTS) <= EXACT * extent
+        && images.residual(axis, FEW_POINTS, EXACT * extent).is_some()
     {
         return Some(Symmetry { axis: Some(axis), residual: images.exact_residual(axis) / extent, theorem: None });
     }
-    let rough: Vec<(f64, SymmetryAxis)> =
-        candidates.into_iter().map(|axis| (images.residual(axis, FEW_POINTS), axis)).collect();
-    let rough = in_rising_order(rough, |candidate| candidate.0);
+    let few = |axis| Some((images.residual(axis, FEW_POINTS, GREATEST_ROUGH * extent)?, axis));
+    let rough = in_rising_order(candidates.into_iter().filter_map(few).collect(), |candidate| candidate.0);
     let least = rough.first()?.0;
     // Refining an axis rarely improves it by more than a third.
     let refined =

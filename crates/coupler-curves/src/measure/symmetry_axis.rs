@@ -123,13 +123,14 @@ impl<'a> MirrorImages<'a> {
         (0..self.points.len()).step_by(n).chain(end).chain(self.row.bends().iter().copied())
     }
 
-    /// The greatest distance of the mirror images of about `count` points of the row from the curve.
-    pub fn residual(&self, axis: SymmetryAxis, count: usize) -> f64 {
-        self.greatest_distance(axis, count).0
+    /// The greatest distance of the mirror images of about `count` points of the row from the curve, unless it is more than `most`.
+    pub fn residual(&self, axis: SymmetryAxis, count: usize, most: f64) -> Option<f64> {
+        let (residual, _) = self.greatest_distance(axis, count, most);
+        (residual <= most).then_some(residual)
     }
 
-    /// That distance, and the index of the point whose image is so far away.
-    fn greatest_distance(&self, axis: SymmetryAxis, count: usize) -> (f64, usize) {
+    /// That distance, and the index of the point whose image is so far away; of the first that is further than `enough`.
+    fn greatest_distance(&self, axis: SymmetryAxis, count: usize, enough: f64) -> (f64, usize) {
         let mut near = 0;
         let mut most = (0.0, 0);
         for k in self.every_nth((self.points.len() / count).max(1)) {
@@ -141,6 +142,9 @@ impl<'a> MirrorImages<'a> {
                 && distance.abs() > most.0
             {
                 most = (distance.abs(), k);
+                if most.0 > enough {
+                    break;
+                }
             }
         }
         most
@@ -150,7 +154,7 @@ impl<'a> MirrorImages<'a> {
     pub fn exact_residual(&self, axis: SymmetryAxis) -> f64 {
         /// As many points locate the greatest distance, which is then searched for between them.
         const COUNT: usize = 128;
-        let (most, k) = self.greatest_distance(axis, COUNT);
+        let (most, k) = self.greatest_distance(axis, COUNT, f64::INFINITY);
         let reach = (self.points.len() / COUNT).max(1) as f64;
         let distance = |position: f64| {
             let image = axis.mirror(self.row.point_at(position));
