@@ -57,6 +57,24 @@ pub(super) fn fit_cubic(
     None
 }
 
+/// The control points of the cubic between two points with given handles, the velocities at its ends times a third of the range of the
+/// parameter, if it is within `tolerance` of `points`, which are at evenly spaced parameters between the ends.
+pub(super) fn hermite_cubic(
+    [start, end]: [Point; 2],
+    [leaving, arriving]: [Vector; 2],
+    points: &[Point],
+    tolerance: f64,
+) -> Option<[Point; 2]> {
+    let controls = [start + leaving, end - arriving];
+    let cubic = CubicBezier([start, controls[0], controls[1], end]);
+    let enough = AT_POINTS * tolerance;
+    let step = 1.0 / (points.len() + 1) as f64;
+    let is_near = |(k, point): (usize, &Point)| {
+        (cubic.point(step * (k + 1) as f64) - point).norm_squared() <= enough * enough
+    };
+    points.iter().enumerate().all(is_near).then_some(controls)
+}
+
 /// Parameters of points on a cubic, at first.
 struct FootParameters {
     parameters: Vec<f64>,

@@ -12,7 +12,6 @@
 //!
 //! A test of the glyphs compares the table with the font files, and can write it.
 
-use std::iter::repeat_n;
 use std::sync::LazyLock;
 
 use super::{Face, FontFamily};
@@ -46,42 +45,49 @@ pub(super) fn units(face: Face, character: char) -> u32 {
 static TABLES: LazyLock<[[WidthTable; 2]; 2]> = LazyLock::new(|| {
     let mut bytes = include_bytes!("widths.bin").iter().copied();
     [(); 2].map(|()| {
-        let upright = WidthTable { units: read_runs(&mut bytes) };
-        let differences = WidthTable { units: read_runs(&mut bytes) };
-        let count = upright.units.len().max(differences.units.len());
-        let italic = (0..count).map(|code| upright.at(code) + differences.at(code)).collect();
-        [upright, WidthTable { units: italic }]
+        let upright = read_runs(&mut bytes);
+        let differences = read_runs(&mut bytes);
+        [WidthTable { upright: upright.clone(), differences: Vec::new() }, WidthTable { upright, differences }]
     })
 });
 
-/// The widths of a face, or their differences from those of another.
+/// The widths of a face: those of the upright one, and the differences from them.
 struct WidthTable {
-    /// By code point, up to the first character from which on all are the same.
-    units: Vec<i16>,
+    upright: Vec<Run>,
+    differences: Vec<Run>,
+}
+
+/// Characters of one width.
+#[derive(Clone, Copy)]
+struct Run {
+    /// The code point of the first.
+    first: u32,
+    /// Their width, or by how much they are wider.
+    units: i16,
 }
 
 impl WidthTable {
-    fn at(&self, code: usize) -> i16 {
-        self.units[code.min(self.units.len() - 1)]
-    }
-
     fn width(&self, character: char) -> u32 {
-        self.at(character as usize) as u32
+        let at = |runs: &[Run]| {
+            let after = runs.partition_point(|run| run.first <= u32::from(character));
+            after.checked_sub(1).map_or(0, |k| runs[k].units)
+        };
+        (at(&self.upright) + at(&self.differences)) as u32
     }
 }
 
-/// Reads the runs of a face, the last one as a single character.
-fn read_runs(bytes: &mut impl Iterator<Item = u8>) -> Vec<i16> {
-    let mut units = Vec::new();
+/// Reads the runs of a face.
+fn read_runs(bytes: &mut impl Iterator<Item = u8>) -> Vec<Run> {
+    let (mut runs, mut first) = (Vec::new(), 0);
     loop {
-        let length = read_number(bytes) as usize;
+        let length = read_number(bytes);
         let number = read_number(bytes);
         let half = (number / 2) as i16;
-        let unit = if number & 1 == 0 { half } else { -half - 1 };
-        units.extend(repeat_n(unit, length.max(1)));
+        runs.push(Run { first, units: if number & 1 == 0 { half } else { -half - 1 } });
         if length == 0 {
-            return units;
+            return runs;
         }
+        first += length;
     }
 }
 
