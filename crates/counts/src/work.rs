@@ -165,7 +165,7 @@ fn page(text: &str, format: &str) -> Box<dyn FnMut()> {
     let text = text.replace("title = \"A page\"\n", &format!("title = \"A page\"\nformats = [\"{format}\"]\n"));
     let plan = plan(&text);
     let folder = tempfile::tempdir().expect("a folder");
-    let mut draw = move || {
+    let draw = move || {
         let source = PageShardSource { plan: &plan, text: &text, folder: folder.path() };
         let whole = Division::Shard { index: 0, of: 1 };
         let options = output::Options { force: true, ..output::Options::default() };

@@ -314,14 +314,7 @@ impl Circular<'_> {
     }
 
     /// The longest portion near one between two positions, by its annuli of about so many points.
-    fn longest_near_by(
-        &self,
-        mut rings: CurveRings,
-        count: usize,
-        ends: [f64; 2],
-        reach: f64,
-        least: f64,
-    ) -> Reached {
+    fn longest_near_by(&self, mut rings: CurveRings, count: usize, ends: [f64; 2], reach: f64, least: f64) -> Reached {
         let permitted = self.max_width * (1.0 - ACCURACY);
         let fit = |ends: [f64; 2]| {
             self.steps.take(count)?;

@@ -323,7 +323,9 @@ impl Row {
         let (distance, offset, velocity) = nearest?;
         // Beyond the end of a path, and at a cusp, the nearest point is not at the foot of a perpendicular: the distance
         // grows away from that point.
-        let perpendicular = Vector::new(-velocity.y, velocity.x).try_normalize(0.0).filter(|normal| distance <= 1.001 * normal.dot(&offset).abs());
+        let perpendicular = Vector::new(-velocity.y, velocity.x)
+            .try_normalize(0.0)
+            .filter(|normal| distance <= 1.001 * normal.dot(&offset).abs());
         match perpendicular {
             Some(normal) => Some((normal.dot(&offset), normal)),
             None => offset.try_normalize(0.0).map(|away| (distance, away)),

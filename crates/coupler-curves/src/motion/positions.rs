@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use pulp::{Arch, Simd, WithSimd};
+
 use super::input_columns::InputSlices;
 use crate::geometry::{Orientation, Point, cross, trig};
 use crate::linkage::{AssemblyMode, DyadId, DyadSet, JointId, JointKind, LineDirection, Linkage, MAX_DYADS};
@@ -88,6 +90,9 @@ pub fn place_leading_joints(
 }
 
 /// Places a range of joints from those before them, as [`place_leading_joints`] does.
+///
+/// The loops are compiled for several levels of instructions, of which the processor's is taken. No level adds in another order, or
+/// multiplies and adds in one step: positions are the same bits on all.
 pub(super) fn place_joints(
     linkage: &Linkage,
     joints: Range<usize>,
@@ -96,74 +101,105 @@ pub(super) fn place_joints(
     out: &mut JointPositions,
     range: Range<usize>,
 ) {
-    let len = out.len;
-    for id in joints {
-        let joint = &linkage.joints[id];
-        let (x_before, x_after) = out.x.split_at_mut(id * len);
-        let (y_before, y_after) = out.y.split_at_mut(id * len);
-        let (x, y) = (&mut x_after[range.clone()], &mut y_after[range.clone()]);
-        let columns =
-            |j: JointId| (&x_before[j.index() * len..][range.clone()], &y_before[j.index() * len..][range.clone()]);
-        match joint.kind {
-            JointKind::Fixed(at) => {
-                x.fill(at.x);
-                y.fill(at.y);
-            }
-            JointKind::Crank { pivot, length } => place_crank(columns(pivot), length, (inputs.cos, inputs.sin), x, y),
-            JointKind::Gear { pivot, length, ratio, phase_deg } => {
-                let angle = |at: &f64| trig::cos_sin_deg(geared_angle(*at, ratio, phase_deg));
-                let (cos, sin): (Vec<f64>, Vec<f64>) = inputs.values.iter().map(angle).unzip();
-                place_crank(columns(pivot), length, (&cos, &sin), x, y);
-            }
-            JointKind::Piston { base, length, offset, dyad } => {
-                place_piston(
-                    (columns(base[0]), columns(base[1])),
-                    (inputs.values, length, offset),
-                    signs.0[dyad],
-                    x,
-                    y,
-                );
-            }
-            JointKind::Dyad { base, lengths, dyad } => {
-                place_dyad(columns(base[0]), columns(base[1]), lengths, signs.0[dyad], x, y)
-            }
-            JointKind::Slide { from, length, line, offset, dyad } => {
-                let line = (columns(line[0]), columns(line[1]));
-                place_slide(columns(from), length, line, offset, signs.0[dyad], x, y);
-            }
-            JointKind::Slot { base, offset: 0.0, .. } => {
-                let (px, py) = columns(base[0]);
-                x.copy_from_slice(px);
-                y.copy_from_slice(py);
-            }
-            JointKind::Slot { base, offset, dyad } => {
-                place_slot(columns(base[0]), columns(base[1]), offset, signs.0[dyad], x, y)
-            }
-            JointKind::Rigid { base, along, across } => {
-                place_rigid(columns(base[0]), columns(base[1]), along, across, x, y)
-            }
-            JointKind::Parallelogram { corners: [p, q, r] } => {
-                place_parallelogram(columns(p), columns(q), columns(r), x, y)
-            }
-            JointKind::Yoke { from, line, offset, slot_direction: slot } => {
-                place_yoke(columns(from), (columns(line[0]), columns(line[1])), offset, slot.x / slot.y, x, y);
-            }
-            JointKind::Aligned { from, line, offset, direction: line_is, along, across } => {
-                let line = (columns(line[0]), columns(line[1]));
-                match line_is {
-                    LineDirection::Towards => place_aligned(columns(from), line, (offset, None), [along, across], x, y),
-                    LineDirection::Actuator => {
-                        place_aligned(columns(from), line, (offset, Some(inputs.values)), [along, across], x, y)
-                    }
-                    LineDirection::BySide(dyad) => {
-                        place_aligned(
-                            columns(from),
-                            line,
-                            (offset, None),
-                            [along, across].map(|c| c * -signs.0[dyad]),
-                            x,
-                            y,
-                        );
+    Arch::new().dispatch(Placement { linkage, joints, inputs, signs, out, range });
+}
+
+/// The arguments of [`place_joints`].
+struct Placement<'a> {
+    linkage: &'a Linkage,
+    joints: Range<usize>,
+    inputs: InputSlices<'a>,
+    signs: &'a DyadSigns,
+    out: &'a mut JointPositions,
+    range: Range<usize>,
+}
+
+impl WithSimd for Placement<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.place();
+    }
+}
+
+impl Placement<'_> {
+    #[inline(always)]
+    fn place(self) {
+        let Placement { linkage, joints, inputs, signs, out, range } = self;
+        let len = out.len;
+        for id in joints {
+            let joint = &linkage.joints[id];
+            let (x_before, x_after) = out.x.split_at_mut(id * len);
+            let (y_before, y_after) = out.y.split_at_mut(id * len);
+            let (x, y) = (&mut x_after[range.clone()], &mut y_after[range.clone()]);
+            let columns =
+                |j: JointId| (&x_before[j.index() * len..][range.clone()], &y_before[j.index() * len..][range.clone()]);
+            match joint.kind {
+                JointKind::Fixed(at) => {
+                    x.fill(at.x);
+                    y.fill(at.y);
+                }
+                JointKind::Crank { pivot, length } => {
+                    place_crank(columns(pivot), length, (inputs.cos, inputs.sin), x, y)
+                }
+                JointKind::Gear { pivot, length, ratio, phase_deg } => {
+                    let angle = |at: &f64| trig::cos_sin_deg(geared_angle(*at, ratio, phase_deg));
+                    let (cos, sin): (Vec<f64>, Vec<f64>) = inputs.values.iter().map(angle).unzip();
+                    place_crank(columns(pivot), length, (&cos, &sin), x, y);
+                }
+                JointKind::Piston { base, length, offset, dyad } => {
+                    place_piston(
+                        (columns(base[0]), columns(base[1])),
+                        (inputs.values, length, offset),
+                        signs.0[dyad],
+                        x,
+                        y,
+                    );
+                }
+                JointKind::Dyad { base, lengths, dyad } => {
+                    place_dyad(columns(base[0]), columns(base[1]), lengths, signs.0[dyad], x, y)
+                }
+                JointKind::Slide { from, length, line, offset, dyad } => {
+                    let line = (columns(line[0]), columns(line[1]));
+                    place_slide(columns(from), length, line, offset, signs.0[dyad], x, y);
+                }
+                JointKind::Slot { base, offset: 0.0, .. } => {
+                    let (px, py) = columns(base[0]);
+                    x.copy_from_slice(px);
+                    y.copy_from_slice(py);
+                }
+                JointKind::Slot { base, offset, dyad } => {
+                    place_slot(columns(base[0]), columns(base[1]), offset, signs.0[dyad], x, y)
+                }
+                JointKind::Rigid { base, along, across } => {
+                    place_rigid(columns(base[0]), columns(base[1]), along, across, x, y)
+                }
+                JointKind::Parallelogram { corners: [p, q, r] } => {
+                    place_parallelogram(columns(p), columns(q), columns(r), x, y)
+                }
+                JointKind::Yoke { from, line, offset, slot_direction: slot } => {
+                    place_yoke(columns(from), (columns(line[0]), columns(line[1])), offset, slot.x / slot.y, x, y);
+                }
+                JointKind::Aligned { from, line, offset, direction: line_is, along, across } => {
+                    let line = (columns(line[0]), columns(line[1]));
+                    match line_is {
+                        LineDirection::Towards => {
+                            place_aligned(columns(from), line, (offset, None), [along, across], x, y)
+                        }
+                        LineDirection::Actuator => {
+                            place_aligned(columns(from), line, (offset, Some(inputs.values)), [along, across], x, y)
+                        }
+                        LineDirection::BySide(dyad) => {
+                            place_aligned(
+                                columns(from),
+                                line,
+                                (offset, None),
+                                [along, across].map(|c| c * -signs.0[dyad]),
+                                x,
+                                y,
+                            );
+                        }
                     }
                 }
             }
@@ -173,8 +209,10 @@ pub(super) fn place_joints(
 
 type PointColumn<'a> = (&'a [f64], &'a [f64]);
 
-// In each kernel the slices are first cut to one length, so that the loop has no bounds checks and vectorises.
+// In each kernel the slices are first cut to one length, so that the loop has no bounds checks and vectorises; it is inlined, so that
+// it does at each level.
 
+#[inline(always)]
 fn place_crank((ox, oy): PointColumn, length: f64, (cos, sin): PointColumn, x: &mut [f64], y: &mut [f64]) {
     let n = x.len();
     let (ox, oy, cos, sin, y) = (&ox[..n], &oy[..n], &cos[..n], &sin[..n], &mut y[..n]);
@@ -187,6 +225,7 @@ fn place_crank((ox, oy): PointColumn, length: f64, (cos, sin): PointColumn, x: &
 /// The RRR dyad: with d the length of the base, the foot of its height is `(d^2 + l0^2 - l1^2) / 2d` along it, and
 /// the height `sqrt((l0+l1+d)(l0+l1-d)(d+l0-l1)(d-l0+l1)) / 2d` (Natesan 5.7-5.10, with the root factored: the
 /// factors lose no digits where the dyad is nearly flat, and keep a short link's length on a long base).
+#[inline(always)]
 fn place_dyad(
     (px, py): PointColumn,
     (qx, qy): PointColumn,
@@ -213,6 +252,7 @@ fn place_dyad(
 
 /// The RRP dyad: with h the distance of the line from the joint that a link of length l starts at, the end of the link
 /// is h across and `sqrt((l - h)(l + h))` along the line from that joint.
+#[inline(always)]
 fn place_slide(
     (ax, ay): PointColumn,
     length: f64,
@@ -242,6 +282,7 @@ pub(super) fn geared_angle(input_deg: f64, [turns, per]: [i64; 2], phase_deg: f6
 }
 
 /// A crank driven by a linear actuator: an RRR dyad whose first link is `b = sqrt(s^2 + e^2)` long (McCarthy 2.40).
+#[inline(always)]
 fn place_piston(
     ((px, py), (qx, qy)): (PointColumn, PointColumn),
     (s, length, offset): (&[f64], f64, f64),
@@ -258,6 +299,7 @@ fn place_piston(
 }
 
 /// The RPR dyad: pivot, foot and joint are a right triangle with the base for hypotenuse (McCarthy 2.40-2.42).
+#[inline(always)]
 fn place_slot((px, py): PointColumn, (qx, qy): PointColumn, offset: f64, sign: f64, x: &mut [f64], y: &mut [f64]) {
     let n = x.len();
     let (px, py, qx, qy, y) = (&px[..n], &py[..n], &qx[..n], &qy[..n], &mut y[..n]);
@@ -273,6 +315,7 @@ fn place_slot((px, py): PointColumn, (qx, qy): PointColumn, offset: f64, sign: f
 }
 
 /// The RPP dyad: as far along the guide as the joint in the slot, less what the slot's lean contributes up to there.
+#[inline(always)]
 fn place_yoke(
     (ax, ay): PointColumn,
     ((px, py), (qx, qy)): (PointColumn, PointColumn),
@@ -297,6 +340,7 @@ fn place_yoke(
 /// A point of a body that is aligned with a line. The line passes through q and at the distance `offset` from p: its
 /// direction is that from p to q, rotated clockwise by the angle whose sine is offset / d. `known` is the distance of q
 /// along the line, if that is known.
+#[inline(always)]
 fn place_aligned(
     (ax, ay): PointColumn,
     ((px, py), (qx, qy)): (PointColumn, PointColumn),
@@ -318,6 +362,7 @@ fn place_aligned(
     }
 }
 
+#[inline(always)]
 fn place_parallelogram(
     (px, py): PointColumn,
     (qx, qy): PointColumn,
@@ -333,6 +378,7 @@ fn place_parallelogram(
     }
 }
 
+#[inline(always)]
 fn place_rigid((px, py): PointColumn, (qx, qy): PointColumn, along: f64, across: f64, x: &mut [f64], y: &mut [f64]) {
     let n = x.len();
     let (px, py, qx, qy, y) = (&px[..n], &py[..n], &qx[..n], &qy[..n], &mut y[..n]);
@@ -367,5 +413,18 @@ pub(super) fn convert_to_view_frame(linkage: &Linkage, out: &mut JointPositions)
             let placed = linkage.placement.transform_point(Point::new(*x, *y));
             (*x, *y) = (placed.x, placed.y);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Without its feature for it, `pulp` stays at the lowest level in silence.
+    #[test]
+    #[cfg(target_arch = "x86_64")]
+    fn a_processor_with_avx2_is_dispatched_to_it() {
+        let has_avx2 = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
+        assert_eq!(matches!(Arch::new(), Arch::V3(_)), has_avx2, "{:?}", Arch::new());
     }
 }

@@ -69,9 +69,8 @@ pub(super) fn hermite_cubic(
     let cubic = CubicBezier([start, controls[0], controls[1], end]);
     let enough = AT_POINTS * tolerance;
     let step = 1.0 / (points.len() + 1) as f64;
-    let is_near = |(k, point): (usize, &Point)| {
-        (cubic.point(step * (k + 1) as f64) - point).norm_squared() <= enough * enough
-    };
+    let is_near =
+        |(k, point): (usize, &Point)| (cubic.point(step * (k + 1) as f64) - point).norm_squared() <= enough * enough;
     points.iter().enumerate().all(is_near).then_some(controls)
 }
 
