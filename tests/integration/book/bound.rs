@@ -282,11 +282,10 @@ fn the_index_lists_the_best_first() {
     let percentages = section("By straightness", "By transmission angle", " %");
     assert!(percentages.len() == 6 && percentages.is_sorted_by(|a, b| a >= b), "{percentages:?}");
     assert!(percentages[5] > 0.0 && percentages[0] < 100.0, "{percentages:?}");
-    // Evans linkages with s = a are symmetrical by theorem 2, and the other geometries by their most nearly symmetrical
-    // curves.
+    // Evans linkages with s = a are symmetrical by theorem 2, two other geometries have curves that nearly are, and two have none.
     let residuals = section("By symmetry", "", " %");
-    assert!(residuals.len() == 6 && residuals.is_sorted(), "{residuals:?}");
-    assert!(residuals[..2] == [0.0, 0.0] && residuals[2] > 0.0, "{residuals:?}");
+    assert!(residuals.len() == 4 && residuals.is_sorted(), "{residuals:?}");
+    assert!(residuals[..2] == [0.0, 0.0] && residuals[2] > 0.0 && residuals[3] <= 1.0, "{residuals:?}");
 }
 
 #[test]

@@ -13,6 +13,12 @@ impl CubicBezier {
         Point::from(a.coords * wa + b.coords * wb + c.coords * wc + d.coords * wd)
     }
 
+    /// Its coefficients as a polynomial in the parameter, the constant first.
+    pub fn coefficients(&self) -> [Vector; 4] {
+        let [a, b, c, d] = self.0.map(|point| point.coords);
+        [a, (b - a) * 3.0, (a - b * 2.0 + c) * 3.0, d - a + (b - c) * 3.0]
+    }
+
     /// The first and the second derivative at a parameter.
     pub fn derivatives(&self, t: f64) -> [Vector; 2] {
         let CubicBezier([a, b, c, d]) = self;

@@ -346,18 +346,25 @@ impl Row {
 impl EveryNth {
     /// Of a row.
     pub fn new(row: &Row, stride: usize) -> EveryNth {
-        let first: Vec<usize> = (0..row.start_count).step_by(stride).collect();
-        let start_count = first.len();
-        let second = first.iter().map(|k| k + row.start_count).take(if row.is_closed { start_count } else { 1 });
-        let positions: Vec<usize> = first.iter().copied().chain(second).collect();
+        let positions: Vec<usize> = (0..row.points.len()).collect();
+        let start_count = row.start_count.div_ceil(stride);
         EveryNth {
-            points: positions.iter().map(|&k| row.points[k]).collect(),
-            lengths: positions.iter().map(|&k| row.cumulative_length[k]).collect(),
-            travel: positions.iter().map(|&k| row.input_travel[k]).collect(),
+            points: every_nth_of_round(&row.points, row.start_count, stride),
+            lengths: every_nth_of_round(&row.cumulative_length, row.start_count, stride),
+            travel: every_nth_of_round(&row.input_travel, row.start_count, stride),
             start_count,
             is_closed: row.is_closed,
-            positions,
+            positions: every_nth_of_round(&positions, row.start_count, stride),
             stride,
         }
     }
+}
+
+/// Every nth of the values of one round, and of those after it.
+fn every_nth_of_round<T: Copy>(values: &[T], round: usize, stride: usize) -> Vec<T> {
+    if stride == 1 {
+        return values.to_vec();
+    }
+    let (first, second) = values.split_at(round);
+    first.iter().step_by(stride).chain(second.iter().step_by(stride)).copied().collect()
 }

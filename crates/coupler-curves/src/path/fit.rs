@@ -57,23 +57,6 @@ pub(super) fn fit_cubic(
     None
 }
 
-/// The control points of the cubic between two points with given handles, the velocities at its ends times a third of the range of the
-/// parameter, if it is within `tolerance` of `points`, which are at evenly spaced parameters between the ends.
-pub(super) fn hermite_cubic(
-    [start, end]: [Point; 2],
-    [leaving, arriving]: [Vector; 2],
-    points: &[Point],
-    tolerance: f64,
-) -> Option<[Point; 2]> {
-    let controls = [start + leaving, end - arriving];
-    let cubic = CubicBezier([start, controls[0], controls[1], end]);
-    let enough = AT_POINTS * tolerance;
-    let step = 1.0 / (points.len() + 1) as f64;
-    let is_near =
-        |(k, point): (usize, &Point)| (cubic.point(step * (k + 1) as f64) - point).norm_squared() <= enough * enough;
-    points.iter().enumerate().all(is_near).then_some(controls)
-}
-
 /// Parameters of points on a cubic, at first.
 struct FootParameters {
     parameters: Vec<f64>,
@@ -106,19 +89,23 @@ fn parabola_handles(chord: Vector, [leaving, arriving]: [Vector; 2]) -> Option<[
 /// Moves the parameters of points towards their feet on a cubic, and returns the greatest distance of a point from there:
 /// none is further from the cubic.
 fn greatest_distance(cubic: &CubicBezier, points: &[Point], feet: &mut [f64]) -> f64 {
+    let [a, b, c, d] = cubic.coefficients();
     let mut greatest = 0.0f64;
     for (point, t) in points.iter().zip(feet) {
+        let from_point = a - point.coords;
+        let offset = |t: f64| from_point + (b + (c + d * t) * t) * t;
         for _ in 0..2 {
-            let (offset, [first, second]) = (cubic.point(*t) - point, cubic.derivatives(*t));
+            let (offset, first) = (offset(*t), b + (c * 2.0 + d * (3.0 * *t)) * *t);
+            let second = c * 2.0 + d * (6.0 * *t);
             let step = offset.dot(&first) / (first.norm_squared() + offset.dot(&second));
             *t = if step.is_finite() { (*t - step).clamp(0.0, 1.0) } else { *t };
         }
-        let distance = (cubic.point(*t) - point).norm();
-        if distance.is_nan() || distance > greatest {
-            greatest = distance;
+        let square = offset(*t).norm_squared();
+        if square.is_nan() || square > greatest {
+            greatest = square;
         }
     }
-    greatest
+    greatest.sqrt()
 }
 
 /// The changes of the distances of the control points from the ends that make the distances of the points least, to first

@@ -1,6 +1,6 @@
 //! The curve of a joint by one parameter.
 
-use super::fit::{AT_POINTS, fit_cubic, hermite_cubic};
+use super::fit::{AT_POINTS, fit_cubic};
 use super::polyline::{MAX_NODES, refined_lines};
 use crate::geometry::{Point, Spline, SplineSegment, TERMS, Vector, distance_to_segment};
 use crate::linkage::{JointId, Linkage};
@@ -113,8 +113,8 @@ impl<'a> Trajectory<'a> {
         Place { piece: k as usize, u: 2.0 * (t - k) - 1.0 }
     }
 
-    /// The position, the velocity in the parameter of the piece, and the direction of motion; `None` if that is not known.
-    fn motion_at(&self, t: f64, side: Side) -> (Point, Vector, Option<Vector>) {
+    /// The position, and the direction of motion; `None` if that is not known.
+    fn point_and_direction(&self, t: f64, side: Side) -> (Point, Option<Vector>) {
         /// Of the acceleration, in the parameter of the piece: a curve that is slower stops here, to the accuracy to
         /// which such places are found.
         const AT_REST: f64 = 1e-6;
@@ -126,7 +126,7 @@ impl<'a> Trajectory<'a> {
             Side::After => acceleration,
             Side::Before => -acceleration,
         };
-        (point, velocity, along.try_normalize(0.0))
+        (point, along.try_normalize(0.0))
     }
 
     /// The position.
@@ -178,7 +178,7 @@ impl<'a> Trajectory<'a> {
     fn fitted(&self, [from, to]: [f64; 2], straightness: f64) -> Spline {
         /// A cubic spans no more pieces, of at most an eighth of a turn each.
         const MAX_PIECES: f64 = 3.0;
-        let (start, ..) = self.motion_at(from, Side::After);
+        let (start, _) = self.point_and_direction(from, Side::After);
         let mut segments = Vec::new();
         let parts = ((to - from) / MAX_PIECES).ceil().max(1.0);
         for k in 0..parts as usize {
@@ -192,22 +192,15 @@ impl<'a> Trajectory<'a> {
     fn fit(&self, [from, to]: [f64; 2], straightness: f64, out: &mut Vec<SplineSegment>) {
         /// Points with which a segment is compared: some, and more on each piece, which has 16 terms.
         const POINTS: [f64; 2] = [5.0, 10.0];
-        let [(start, first, leaving), (end, last, arriving)] =
-            [self.motion_at(from, Side::After), self.motion_at(to, Side::Before)];
+        let [(start, leaving), (end, arriving)] =
+            [self.point_and_direction(from, Side::After), self.point_and_direction(to, Side::Before)];
         let points = self.points_between([from, to], (POINTS[0] + POINTS[1] * (to - from)) as usize);
         let is_on_line = |point: &Point| distance_to_segment(*point, start, end) <= AT_POINTS * straightness;
         if points.iter().all(is_on_line) {
             return out.push(SplineSegment::Line(end));
         }
         let tangents = leaving.zip(arriving);
-        // A short part of a piece is nearly the cubic with its velocities, at the same parameters.
-        let is_on_piece = self.place(from, Side::After).piece == self.place(to, Side::Before).piece;
-        let third = 2.0 * (to - from) / 3.0;
-        let of_velocities = || hermite_cubic([start, end], [first * third, last * third], &points, self.tolerance);
-        let cubic = tangents.and_then(|(a, b)| {
-            let cubic = if is_on_piece { of_velocities() } else { None };
-            cubic.or_else(|| fit_cubic([start, end], [a, b], &points, self.tolerance))
-        });
+        let cubic = tangents.and_then(|(a, b)| fit_cubic([start, end], [a, b], &points, self.tolerance));
         let middle = (from + to) / 2.0;
         match cubic {
             Some(control_points) => out.push(SplineSegment::Cubic([control_points[0], control_points[1], end])),

@@ -4,7 +4,7 @@ use coupler_curves::geometry::{Point, trig};
 use coupler_curves::linkage::{
     CircuitSelection, Continuation, FourBar, JointId, Linkage, LinkageBuilder, MotionOptions, Orientation, Side,
 };
-use coupler_curves::measure::{self, TracedCurve, Value};
+use coupler_curves::measure::{self, Symmetry, TracedCurve, Value};
 use coupler_curves::motion::{Motion, Sampler, Sampling};
 use proptest::prelude::*;
 
@@ -282,7 +282,7 @@ proptest! {
                     (Value::Number(a), Value::Number(b)) => {
                         prop_assert!(!a.is_nan(), "{}", m.name);
                         // The input that a portion spans changes more than its length as its ends move, and so does
-                        // the circle of a short arc. The residual of a curve that is not symmetrical is a local minimum.
+                        // the circle of a short arc. The residual of a curve that is nearly symmetrical is a local minimum.
                         let near = match m.name {
                             name if name.starts_with("straight") && name.ends_with("input_deg") => 2e-2,
                             name if name.starts_with("straight") => 1e-4,
@@ -296,8 +296,11 @@ proptest! {
                     }
                     // Within the accuracy of its length it is not known whether a portion is a twentieth of the extent.
                     _ if m.name.starts_with("straight") && is_barely_long(&before, &after) => {}
+                    // A local minimum may be less than the greatest that is reported on one side only.
+                    (Value::Number(residual), Value::Missing) | (Value::Missing, Value::Number(residual))
+                        if m.name == "symmetry_residual" && residual > 0.7 * Symmetry::GREATEST => {}
                     // Within the accuracy of the residual it is not known whether it is less than the tolerance.
-                    _ if m.name == "symmetry" && (0.5e-4..2e-4).contains(&number(before("symmetry_residual"))) => {}
+                    _ if m.name == "symmetry" && matches!(before("symmetry_residual"), Value::Number(at) if (0.5e-4..2e-4).contains(&at)) => {}
                     (a, b) => prop_assert_eq!(a, b, "{}", m.name),
                 }
             }
