@@ -9,8 +9,7 @@
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-use super::row::Row;
-use super::strip::min_max;
+use super::portion::{Row, min_max};
 use crate::geometry::{Point, Vector, complex_product, cross, trig};
 
 /// The directions in which the support function is taken.

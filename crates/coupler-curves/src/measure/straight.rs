@@ -8,13 +8,11 @@
 //! input span or a length, it is the portion with the narrowest strip. A portion may extend across the start of a closed
 //! curve, and across limits.
 
-use super::budget::{MAX_PORTION_POINTS, Steps, TooManySteps};
-use super::curve_strip::{CurveStrips, PortionStrip};
+use super::budget::TooManySteps;
 use super::features::{StraightCriterion, StraightPortion};
-use super::longest_straight::StraightTo;
-use super::portions::{EXACT, LEAST_SHARE, SPACING, longest};
-use super::row::Row;
-use super::straightest::{Narrowest, straightest};
+use super::portion::{
+    CurveStrips, EXACT, INTERVALS, LEAST_SHARE, Narrowest, PortionStrip, Row, SPACING, longest_straight, straightest,
+};
 use super::{Measure, Subject, TracedCurve, Value, start_input};
 use crate::linkage::Input;
 
@@ -214,10 +212,7 @@ fn find_portions(curve: &TracedCurve, criterion: StraightCriterion) -> Result<Ve
         straightest(row, end, Narrowest::Absolutely, f64::INFINITY).map(Vec::from_iter)
     };
     let ends = match criterion {
-        StraightCriterion::Tolerance(tolerance) => {
-            let steps = &Steps::new(MAX_PORTION_POINTS);
-            longest(row, &StraightTo { row, tolerance, steps }, LEAST_SHARE * extent, steps)
-        }
+        StraightCriterion::Tolerance(tolerance) => longest_straight(row, tolerance, LEAST_SHARE * extent),
         StraightCriterion::Input(span) => narrowest(&|from| row.end_after_input(from, span)),
         StraightCriterion::Length(length) => narrowest(&|from| row.end_after_length(from, length)),
     };
@@ -243,9 +238,6 @@ fn find_half_turn(curve: &TracedCurve) -> Result<Option<StraightPortion>, TooMan
     let is_straight = |portion: &StraightPortion| 2.0 * portion.deviation <= WIDEST * portion.length;
     Ok(ends.map(|ends| portion(row, ends)).filter(is_straight))
 }
-
-/// Intervals between the points of a portion: enough to draw it.
-const INTERVALS: usize = 96;
 
 /// The portion between two positions.
 fn portion(row: &Row, ends: [f64; 2]) -> StraightPortion {

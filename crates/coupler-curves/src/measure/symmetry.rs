@@ -9,7 +9,7 @@
 
 use super::asymmetry::is_asymmetrical;
 use super::features::{Symmetry, SymmetryAxis};
-use super::row::Row;
+use super::portion::Row;
 use super::symmetry_axis::{AxisCandidates, MirrorImages};
 use super::{Measure, TracedCurve, Value, without_rounding};
 use crate::geometry::{Point, Vector, complex_product, cross, in_rising_order, trig};

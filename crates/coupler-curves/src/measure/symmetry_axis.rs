@@ -2,7 +2,7 @@
 
 use super::axis_motion::{least_squares_motion, minimax_motion};
 use super::features::SymmetryAxis;
-use super::row::Row;
+use super::portion::Row;
 use crate::geometry::{Point, Vector, complex_product, cross, in_rising_order, trig};
 use crate::numerical::maximum_with_ends;
 

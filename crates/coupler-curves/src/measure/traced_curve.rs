@@ -8,9 +8,8 @@ use super::circuit_function::{CircuitFunction, NoFunction, Quantity};
 use super::curve::{ArcLength, Crossings, SmoothCurve, Stop};
 use super::features::{Dwell, StraightCriterion, StraightPortion, Symmetry};
 use super::output::motion::OutputMotion;
-use super::portions::SPACING;
+use super::portion::{Row, SPACING};
 use super::rounding::{within_period, without_rounding};
-use super::row::Row;
 use crate::linkage::{Input, JointId, Linkage};
 use crate::motion::{Circuit, Motion};
 

@@ -1,6 +1,6 @@
 //! The parts of a circuit on which a function is monotonic, and where it reaches a value.
 
-use super::{CircuitFunction, Place, Quantity};
+use super::{CircuitFunction, NARROW, Place, Quantity};
 use crate::numerical::Bracket;
 
 /// A part of a span on which the function is monotonic.
@@ -13,12 +13,13 @@ pub(in crate::measure) struct MonotonicPart {
 }
 
 impl<Q: Quantity> CircuitFunction<Q> {
-    /// The monotonic parts of the function, in the order of the circuit.
+    /// The monotonic parts of the function, in the order of the circuit, without those that are so narrow that a stationary point is not
+    /// told from the end of its span.
     pub(in crate::measure) fn monotonic_parts(&self) -> Vec<MonotonicPart> {
         let mut parts = Vec::new();
         for (span, function) in self.spans.iter().enumerate() {
             let cuts: Vec<f64> = [-1.0].into_iter().chain(function.roots.iter().copied()).chain([1.0]).collect();
-            for ends in cuts.windows(2).filter(|ends| ends[1] > ends[0]) {
+            for ends in cuts.windows(2).filter(|ends| ends[1] - ends[0] > NARROW) {
                 let values = [ends[0], ends[1]].map(|u| function.series.at(u));
                 parts.push(MonotonicPart { span, ends: [ends[0], ends[1]], values });
             }
@@ -34,6 +35,12 @@ impl<Q: Quantity> CircuitFunction<Q> {
         let bracket = Bracket::new(part.ends, excesses);
         let u = bracket.map_or(nearer, |bracket| bracket.zero(f64::EPSILON, |u| series.at(u) - value));
         Place { span: part.span, u }
+    }
+
+    /// The derivatives of the function and of the covered input with respect to the parameter of the piece at a place.
+    pub(in crate::measure) fn slope_and_input_rate(&self, place: Place) -> [f64; 2] {
+        let span = &self.spans[place.span];
+        [span.slope.at(place.u), span.piece.map.input_rate(place.u).abs()]
     }
 
     /// The place at a fraction of a monotonic part.

@@ -1,6 +1,6 @@
 use super::{Place, SmoothCurve};
 use crate::geometry::{Point, in_rising_order};
-use crate::measure::strip::convex_hull;
+use crate::measure::portion::convex_hull;
 
 impl SmoothCurve {
     /// The greatest distance of two points of the curve; 0 for a curve without pieces.

@@ -10,7 +10,7 @@ use super::output_value;
 use crate::measure::budget::{MAX_DWELL_STEPS, Steps};
 use crate::measure::circuit_function::{MonotonicPart, Place};
 use crate::measure::{Measure, Subject, start_input};
-use crate::numerical::{Maximum, maximum};
+use crate::numerical::Bracket;
 
 /// The width of the band of a dwell, relative to the swing or the stroke of the output, or to a full turn.
 pub(in crate::measure) const TOLERANCE: f64 = 0.01;
@@ -57,7 +57,8 @@ impl OutputMotion {
         }
         let mut starts = search.sampled_starts();
         starts.extend((0..search.parts.len()).filter_map(|part| search.start_at_extreme(part)));
-        let spans: Vec<(f64, f64)> = starts.into_iter().map(|start| (start, search.span_from(start))).collect();
+        let spans: Vec<(f64, f64)> =
+            starts.into_iter().map(|start| (start, search.span_from(start).input_span)).collect();
         let longest = spans.iter().fold(0.0, |longest: f64, (_, span)| longest.max(*span));
         // Of equal ones the first on the circuit.
         let first = spans
@@ -105,11 +106,12 @@ impl DwellSearch<'_> {
         }
     }
 
-    /// The input spanned by the longest dwell that begins at a position.
-    fn span_from(&self, position: f64) -> f64 {
+    /// The longest dwell that begins at a position.
+    fn span_from(&self, position: f64) -> Span {
         let coordinate = &self.output.coordinate;
         let start = self.place(position);
         let (start_value, start_covered) = (coordinate.value(start), coordinate.covered_input(start));
+        let [start_slope, start_rate] = coordinate.slope_and_input_rate(start);
         let [mut least, mut greatest] = [start_value; 2];
         // A band that touches an extreme includes it in spite of rounding.
         let width = self.width * (1.0 + 1e-10);
@@ -120,25 +122,33 @@ impl DwellSearch<'_> {
                 break;
             }
             let end = self.parts[part].values[1] + change;
-            let limit = if end > least + width {
-                Some(least + width)
+            let border = if end > least + width {
+                Some((least, width))
             } else if end < greatest - width {
-                Some(greatest - width)
+                Some((greatest, -width))
             } else {
                 None
             };
-            if let Some(limit) = limit {
-                let place = coordinate.solve_in_part(&self.parts[part], limit - change);
-                return coordinate.covered_input(place) + input - start_covered;
+            if let Some((border, width)) = border {
+                let place = coordinate.solve_in_part(&self.parts[part], border + width - change);
+                let input_span = coordinate.covered_input(place) + input - start_covered;
+                // Where the band begins at the start the end moves as fast as the output at the start, by that at the end.
+                let [end_slope, end_rate] = coordinate.slope_and_input_rate(place);
+                let rate = if border == start_value {
+                    end_rate * start_slope * end_slope.signum() - start_rate * end_slope.abs()
+                } else {
+                    -start_rate
+                };
+                return Span { input_span, rate };
             }
             (least, greatest) = (least.min(end), greatest.max(end));
             let Some((next, more_change, more_input)) = self.neighbour(part, true) else {
-                return coordinate.covered_input(coordinate.place_in_part(&self.parts[part], 1.0)) + input
-                    - start_covered;
+                let covered = coordinate.covered_input(coordinate.place_in_part(&self.parts[part], 1.0));
+                return Span { input_span: covered + input - start_covered, rate: -start_rate };
             };
             (part, change, input) = (next, change + more_change, input + more_input);
         }
-        coordinate.total_input()
+        Span { input_span: coordinate.total_input(), rate: 0.0 }
     }
 
     /// The start of the dwell whose band touches the extreme at the end of a part: going back from there, where the
@@ -172,32 +182,43 @@ impl DwellSearch<'_> {
     /// of each part, refined between them.
     fn sampled_starts(&self) -> Vec<f64> {
         const SAMPLES: usize = 8;
-        /// How accurately the start is found, relative to its part.
-        const ACCURACY: f64 = 7e-9;
+        /// How accurately the start is found, relative to its part: the span changes with the square.
+        const ACCURACY: f64 = 1e-9;
         /// Spans that differ by less, relatively, are equal: all are, where the output turns evenly.
         const ROUNDING: f64 = 1e-12;
         let count = self.parts.len() * SAMPLES;
         let position = |k: usize| k as f64 / SAMPLES as f64;
-        let spans: Vec<f64> = (0..count).map(|k| self.span_from(position(k))).collect();
-        let longest = spans.iter().fold(0.0, |longest: f64, span| longest.max(*span));
-        if spans.iter().all(|span| *span >= longest * (1.0 - ROUNDING)) {
+        let spans: Vec<Span> = (0..count).map(|k| self.span_from(position(k))).collect();
+        let longest = spans.iter().fold(0.0, |longest: f64, span| longest.max(span.input_span));
+        if spans.iter().all(|span| span.input_span >= longest * (1.0 - ROUNDING)) {
             return vec![0.0];
         }
         let is_peak = |&k: &usize| {
-            let [before, after] = [k.saturating_sub(1), (k + 1).min(count - 1)];
-            spans[k] >= spans[before].max(spans[after]) && spans[k] > 0.7 * longest
+            let [before, here, after] = [k.saturating_sub(1), k, (k + 1).min(count - 1)].map(|k| spans[k].input_span);
+            here >= before.max(after) && here > 0.7 * longest
         };
         let refine = |k: usize| {
-            let mut best = Maximum { place: position(k), value: spans[k] };
-            // A span may jump where an extreme comes into the band, and be smooth on either side. Of equal ones the first counts.
-            for ends in [[k, k.saturating_sub(1)], [(k + 1).min(count), k]] {
-                let found = maximum(ends.map(position), ACCURACY, |position| self.span_from(position));
-                if found.value > best.value * (1.0 + ROUNDING) {
-                    best = found;
+            let (mut start, mut most) = (position(k), spans[k].input_span);
+            // A span may jump where an extreme comes into the band, where another start is looked for, and is smooth on either side. Of
+            // equal ones the first counts.
+            for [from, to] in [[k.saturating_sub(1), k], [k, (k + 1).min(count)]] {
+                let rate = |position| self.span_from(position).rate;
+                let rates = [from, to].map(|k| spans.get(k).map_or_else(|| rate(position(k)), |span| span.rate));
+                let bracket = Bracket::new([from, to].map(position), rates).filter(|_| rates[0] > 0.0);
+                let Some(place) = bracket.map(|bracket| bracket.zero(ACCURACY, rate)) else { continue };
+                let span = self.span_from(place).input_span;
+                if span > most * (1.0 + ROUNDING) {
+                    (start, most) = (place, span);
                 }
             }
-            best.place
+            start
         };
         (0..count).filter(is_peak).map(refine).collect()
     }
+}
+
+/// The input that a dwell spans, and how it changes with the start: the sign of the derivative.
+struct Span {
+    input_span: f64,
+    rate: f64,
 }

@@ -5,7 +5,7 @@ use crate::geometry::{Point, Vector, cross, rising_order};
 
 /// The narrowest band between two parallel lines that contains some points.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Strip {
+pub struct Strip {
     /// The distance of the two lines.
     pub width: f64,
     /// The extent of the points along the lines.
@@ -105,7 +105,7 @@ impl Strip {
 
 /// A band between two parallel lines, not necessarily the narrowest, that grows with the points in it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Band {
+pub struct Band {
     direction: Vector,
     low: f64,
     high: f64,
@@ -130,7 +130,7 @@ impl Band {
 ///
 /// # Errors
 /// A lower bound of the width of any, if there is none.
-pub(super) fn check_width(points: &[Point], max_width: f64) -> Result<Band, f64> {
+pub fn check_width(points: &[Point], max_width: f64) -> Result<Band, f64> {
     if points.len() < 3 {
         let along = points.last().zip(points.first()).and_then(|(last, first)| (last - first).try_normalize(0.0));
         return Ok(Band::around(points, along.unwrap_or_else(Vector::x)));
@@ -152,14 +152,14 @@ pub(super) fn check_width(points: &[Point], max_width: f64) -> Result<Band, f64>
 }
 
 /// The least height of a triangle; 0 if its corners coincide.
-pub(super) fn triangle_height([a, b, c]: [Point; 3]) -> f64 {
+pub fn triangle_height([a, b, c]: [Point; 3]) -> f64 {
     let longest = (b - a).norm_squared().max((c - b).norm_squared()).max((a - c).norm_squared());
     let area = cross(b - a, c - a);
     if longest > 0.0 { area.abs() / longest.sqrt() } else { 0.0 }
 }
 
 /// The least and the greatest value of a function of points.
-pub(super) fn min_max<T>(points: &[T], value_at: impl Fn(&T) -> f64) -> [f64; 2] {
+pub fn min_max<T>(points: &[T], value_at: impl Fn(&T) -> f64) -> [f64; 2] {
     // Four at a time, so that the compiler vectorizes the loop.
     let (mut low, mut high) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4]);
     let (fours, rest) = points.as_chunks::<4>();
@@ -176,7 +176,7 @@ pub(super) fn min_max<T>(points: &[T], value_at: impl Fn(&T) -> f64) -> [f64; 2]
 }
 
 /// The indices of the points at the corners of the convex hull of some points, counter-clockwise.
-pub(super) fn convex_hull(points: &[Point]) -> Vec<usize> {
+pub fn convex_hull(points: &[Point]) -> Vec<usize> {
     // In a direction that few points share: those of a row along an axis would be in no order.
     let ends = points.last().zip(points.first()).map_or(Vector::zeros(), |(last, first)| last - first);
     let along = if ends.x.abs() >= ends.y.abs() { Vector::new(1.0, 1e-3) } else { Vector::new(-1e-3, 1.0) };

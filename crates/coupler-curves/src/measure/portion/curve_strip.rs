@@ -8,7 +8,7 @@ use crate::geometry::{Point, Vector, cross, left_normal};
 
 /// The strip of a portion of a curve, and how it changes with the ends.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct PortionStrip {
+pub struct PortionStrip {
     /// Its width.
     pub width: f64,
     /// Its length.
@@ -28,7 +28,7 @@ pub(super) struct PortionStrip {
 /// The points that the lines of a strip touch are found among evenly spaced points, and then moved to where the curve is
 /// parallel to the lines.
 #[derive(Clone, Debug)]
-pub(super) struct CurveStrips<'a> {
+pub struct CurveStrips<'a> {
     portion: PortionPoints<'a>,
     /// The points that may touch the strip.
     contacts: Vec<Contact>,

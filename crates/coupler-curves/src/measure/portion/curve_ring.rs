@@ -9,7 +9,7 @@ use crate::geometry::{Point, Vector, cross};
 
 /// The narrowest annulus of a portion of a curve, and how its width changes with the ends.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct PortionRing {
+pub struct PortionRing {
     /// The centre of its circles.
     pub centre: Point,
     /// The radius halfway between them.
@@ -30,7 +30,7 @@ pub(super) struct PortionRing {
 /// For a small motion of the centre distances from it are linear, and the width is a linear minimax problem: of all
 /// groups of four points, or of three if the radius is given, the one that needs the greatest width decides.
 #[derive(Clone, Debug)]
-pub(super) struct CurveRings<'a> {
+pub struct CurveRings<'a> {
     portion: PortionPoints<'a>,
     max_radius: f64,
     contacts: Vec<Contact>,

@@ -6,15 +6,15 @@
 //! to where the portion is longest, until no bound is greater than what has been found. The points are as far apart as
 //! the portion found allows.
 
-use super::budget::{Steps, TooManySteps};
 use super::every_nth::EveryNth;
 use super::longest_near::Reached;
-use super::rounding::within_period;
 use super::row::Row;
 use crate::geometry::in_rising_order;
+use crate::measure::budget::{Steps, TooManySteps};
+use crate::measure::rounding::within_period;
 
 /// A requirement of portions, and what of them is to be greatest.
-pub(super) trait Requirement {
+pub trait Requirement {
     /// An upper bound of the size of the portions that begin at a point or between it and the one before, and the last
     /// point of the longest; `None` if it is less than `least`. That of the start before is where it is likely.
     fn longest_from(&self, points: &EveryNth, from: usize, least: f64, likely: usize) -> Option<(f64, usize)>;
@@ -47,7 +47,7 @@ pub(super) trait Requirement {
 ///
 /// # Errors
 /// It has taken too many.
-pub(super) fn longest<R: Requirement>(
+pub fn longest<R: Requirement>(
     row: &Row,
     requirement: &R,
     least: f64,
@@ -173,11 +173,14 @@ fn distinct(row: &Row, portions: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
 
 /// The part of the curve's greatest extent that a portion to a tolerance is at least as long as: any curve is straight
 /// over a short enough length.
-pub(super) const LEAST_SHARE: f64 = 0.05;
+pub const LEAST_SHARE: f64 = 0.05;
 
 /// The distance of the points in which portions are searched for, relative to the extent: the shortest portion has ten.
-pub(super) const SPACING: f64 = LEAST_SHARE / 10.0;
+pub const SPACING: f64 = LEAST_SHARE / 10.0;
 
 /// The deviation of a portion that is straight to rounding, relative to its length, or that is circular, relative to its
 /// radius; it is reported as 0.
-pub(super) const EXACT: f64 = 1e-9;
+pub const EXACT: f64 = 1e-9;
+
+/// Intervals between the points of a portion that is reported: enough to draw it.
+pub const INTERVALS: usize = 96;

@@ -4,7 +4,7 @@ use crate::geometry::Point;
 
 /// Every nth point of a row.
 #[derive(Clone, Debug)]
-pub(super) struct EveryNth {
+pub struct EveryNth {
     pub points: Vec<Point>,
     /// The length of the curve up to each.
     pub lengths: Vec<f64>,

@@ -8,7 +8,7 @@ use crate::geometry::{Point, Vector, cross, in_rising_order, left_normal};
 
 /// The ring between two concentric circles.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Annulus {
+pub struct Annulus {
     /// The centre of both circles.
     pub centre: Point,
     /// The radius halfway between them.
@@ -20,7 +20,7 @@ pub(super) struct Annulus {
 /// The indices of the points through which the circles of an annulus pass, alternating between outer and inner circle.
 /// They are a good initial guess for a similar row of points.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct AlternatingPoints {
+pub struct AlternatingPoints {
     /// Whether rows may go back along themselves, so that their order is not that around the centre.
     is_folded: bool,
     free: Option<[usize; 4]>,

@@ -1,25 +1,35 @@
 //! Portions of a curve that are straight to a tolerance.
 
-use super::budget::Steps;
 use super::curve_strip::{CurveStrips, PortionStrip};
 use super::every_nth::EveryNth;
+use super::longest::{Requirement, longest};
 use super::longest_near::{ACCURACY, Constraint, Fit, LongestNear, Reached};
-use super::portions::Requirement;
 use super::row::Row;
 use super::strip::{Band, check_width};
 use super::strokes::shortest_stroke;
+use crate::measure::budget::{MAX_PORTION_POINTS, Steps, TooManySteps};
 
 /// Points of a portion in which those that touch its strip are found.
 const POINTS: usize = 32;
+
+/// The longest portions of a row's curve, longer than `least`, in a strip no wider than `tolerance` times their length: of several equally
+/// long ones all, in the order of the input at which they begin.
+///
+/// # Errors
+/// The search takes too many steps.
+pub fn longest_straight(row: &Row, tolerance: f64, least: f64) -> Result<Vec<[f64; 2]>, TooManySteps> {
+    let steps = &Steps::new(MAX_PORTION_POINTS);
+    longest(row, &StraightTo { row, tolerance, steps }, least, steps)
+}
 
 /// The requirement of lying in a strip no wider than `tolerance` times its length. The size is the length.
 ///
 /// A portion that begins at the same point and ends further on is at least as wide. So one that is too wide for its
 /// length rules out all ends closer than the length its width requires.
-pub(super) struct StraightTo<'a> {
-    pub row: &'a Row,
-    pub tolerance: f64,
-    pub steps: &'a Steps,
+struct StraightTo<'a> {
+    row: &'a Row,
+    tolerance: f64,
+    steps: &'a Steps,
 }
 
 impl Requirement for StraightTo<'_> {

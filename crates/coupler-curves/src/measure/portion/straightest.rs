@@ -1,17 +1,17 @@
 //! The straightest portion of a given input or length.
 
-use super::budget::{MAX_PORTION_POINTS, Steps, TooManySteps};
 use super::curve_strip::{CurveStrips, PortionStrip};
-use super::portions::EXACT;
-use super::rounding::within_period;
+use super::longest::EXACT;
 use super::row::Row;
 use super::strip::{Strip, check_width, min_max};
 use crate::geometry::{Point, Vector, in_rising_order};
+use crate::measure::budget::{MAX_PORTION_POINTS, Steps, TooManySteps};
+use crate::measure::rounding::within_period;
 use crate::numerical::maximum_with_ends;
 
 /// Of which portion the strip is the narrowest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Narrowest {
+pub enum Narrowest {
     /// The one with the least width.
     Absolutely,
     /// The one with the least ratio of width to length.
@@ -38,7 +38,7 @@ impl Narrowest {
 ///
 /// # Errors
 /// The search takes too many steps.
-pub(super) fn straightest(
+pub fn straightest(
     row: &Row,
     end: impl Fn(f64) -> Option<f64>,
     narrowest: Narrowest,

@@ -5,7 +5,7 @@
 /// further out: a neighbour on the same side, or else the one at the other end.
 ///
 /// `is_like` returns whether the point at an index of `alternating` is on the side of the new point.
-pub(super) fn exchange_point<const N: usize>(
+pub fn exchange_point<const N: usize>(
     mut alternating: [usize; N],
     new: usize,
     is_like: impl Fn(usize) -> bool,

@@ -5,7 +5,7 @@ use super::strip::min_max;
 use crate::geometry::{Point, Vector};
 
 /// A family of parallel lines or concentric circles.
-pub(super) trait Levels {
+pub trait Levels {
     /// The height of a point: which line or circle it is on.
     fn height(&self, point: Point) -> f64;
 
@@ -21,7 +21,7 @@ pub(super) trait Levels {
 
 /// A point of a portion where the curve touches a line or a circle: an extreme, a corner or an end.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Contact {
+pub struct Contact {
     /// The index of the point in the portion.
     pub index: usize,
     point: Point,
@@ -72,7 +72,7 @@ fn vertex(levels: &dyn Levels, point: Point, velocity: Vector, acceleration: Vec
 
 /// The points of portions of a row's curve near each other: the ends, evenly spaced points between them, and the corners.
 #[derive(Clone, Debug)]
-pub(super) struct PortionPoints<'a> {
+pub struct PortionPoints<'a> {
     row: &'a Row,
     /// The distance of the points, as a difference of positions.
     spacing: f64,

@@ -1,6 +1,6 @@
 //! The strokes of a straight portion that is passed to and fro.
 
-use super::portions::EXACT;
+use super::longest::EXACT;
 use super::row::Row;
 use super::strip::{Strip, min_max};
 use crate::numerical::maximum_with_ends;
@@ -10,7 +10,7 @@ const INTERVALS: usize = 96;
 
 /// A straight portion without what goes back along its line beyond its furthest points, as next to a limit; of a line that is passed
 /// to and fro, the stroke for which the input travels least.
-pub(super) fn shortest_stroke(row: &Row, ends: [f64; 2]) -> [f64; 2] {
+pub fn shortest_stroke(row: &Row, ends: [f64; 2]) -> [f64; 2] {
     let turns = turns(row, ends);
     let [least, most] = min_max(&turns, |(_, reach)| *reach);
     let is_at = |end: f64, reach: f64| (reach - end).abs() <= EXACT * (most - least);

@@ -5,14 +5,14 @@
 //! middle is then moved to where the size is greatest: where its rate is zero, or, where the points change that bound
 //! the portion, where the rate jumps from positive to negative.
 
-use super::budget::TooManySteps;
+use crate::measure::budget::TooManySteps;
 
 /// The excess that is as good as none. What is permitted is less by as much than what is promised.
-pub(super) const ACCURACY: f64 = 1e-9;
+pub const ACCURACY: f64 = 1e-9;
 
 /// How a portion compares with what is permitted.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Fit {
+pub struct Fit {
     /// By what part it exceeds what is permitted; negative if it fits.
     pub excess: Constraint,
     /// What is to be greatest.
@@ -27,14 +27,14 @@ pub(super) struct Fit {
 
 /// The points that bound a portion: the start is the least number, the end the greatest, and of those between the
 /// numbers say which.
-pub(super) type Contacts = [i64; 4];
+pub type Contacts = [i64; 4];
 
 /// A few constraints.
-pub(super) type Constraints = [Option<Constraint>; 8];
+pub type Constraints = [Option<Constraint>; 8];
 
 /// A value and its derivatives with respect to the start and the end.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Constraint {
+pub struct Constraint {
     pub value: f64,
     pub rates: [f64; 2],
 }
@@ -54,7 +54,7 @@ struct Fitting {
 
 /// Where portions may be.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Limits {
+pub struct Limits {
     /// The first position.
     pub low: f64,
     /// The last position.
@@ -65,7 +65,7 @@ pub(super) struct Limits {
 
 /// What is reached from a portion.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Reached {
+pub enum Reached {
     /// The longest, certainly or not.
     Longest { size: f64, ends: [f64; 2], is_certain: bool },
     /// One that is not the longest; the longest is shorter than what was asked for, and no longer than `bound`.
@@ -75,7 +75,7 @@ pub(super) enum Reached {
 }
 
 /// The search for the portion of the greatest size near a given one.
-pub(super) struct LongestNear<F> {
+pub struct LongestNear<F> {
     /// Where portions may be.
     pub limits: Limits,
     /// Compares the portion between two positions with what is permitted; fails if that would be one step too many.
@@ -363,8 +363,8 @@ fn linear_step(constraints: impl Iterator<Item = Constraint>, fit: &Fit, [low, h
 
 #[cfg(test)]
 mod tests {
-    use super::super::budget::Steps;
     use super::*;
+    use crate::measure::budget::Steps;
 
     /// A portion of a span of 2 that is the larger the further on it begins, without an end.
     #[test]

@@ -3,10 +3,10 @@
 use std::cell::OnceCell;
 use std::rc::Rc;
 
-use super::curve::{Place, SmoothCurve};
 use super::every_nth::EveryNth;
 use super::longest_near::Limits;
 use crate::geometry::{Point, Vector};
+use crate::measure::curve::{Place, SmoothCurve};
 use crate::numerical::{Bracket, border, partition_point};
 
 /// Points of a curve, in order, no further apart than a given length.
@@ -15,7 +15,7 @@ use crate::numerical::{Bracket, border, partition_point};
 /// those of the curve. The points of a closed curve are repeated once, so that a portion across its first point is a row
 /// of points too.
 #[derive(Clone, Debug)]
-pub(super) struct Row {
+pub struct Row {
     curve: Rc<SmoothCurve>,
     /// The points.
     pub points: Vec<Point>,
