@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Compares the speed of this program with that of common alternatives, in one run: numpy with matplotlib, and pylinkage.
+# Compares the speed of this program with that of common alternatives, in one run: numpy and numba, matplotlib, and pylinkage. Both sides are the
+# best of many short batches.
 # They are installed into target/peers only; without Python the comparison is skipped.
 #
 #     benches/peers.sh            the atlas of Hrones and Nelson in every format, against matplotlib in one process

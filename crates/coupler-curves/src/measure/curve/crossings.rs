@@ -1,7 +1,7 @@
 //! Where a curve crosses itself.
 
 use super::{Arc, Place, SmoothCurve, Stop, StopKind};
-use crate::geometry::{Chebyshev, Point, Vector, cross, in_rising_order, rising_order};
+use crate::geometry::{Chebyshev, Point, Vector, cross, in_rising_order, left_normal, rising_order};
 use crate::measure::budget::MAX_PAIRS;
 
 /// The points at which a curve crosses itself.
@@ -54,8 +54,22 @@ impl Span {
         Place { piece: self.piece, u: self.from + (u + 1.0) / 2.0 * self.width() }
     }
 
+    /// Whether a line along an axis, or along the direction of one of them, passes between both.
     fn is_apart(&self, other: &Span, margin: f64) -> bool {
-        (0..2).any(|k| self.low[k] > other.high[k] + margin || other.low[k] > self.high[k] + margin)
+        let is_between = |[low, high]: [f64; 2], [other_low, other_high]: [f64; 2]| {
+            low > other_high + margin || other_low > high + margin
+        };
+        (0..2).any(|k| is_between([self.low[k], self.high[k]], [other.low[k], other.high[k]]))
+            || [self.direction, other.direction].into_iter().any(|along| {
+                let [own, others] = [self, other].map(|span| span.heights(left_normal(along)));
+                is_between(own, others)
+            })
+    }
+
+    /// An enclosure of how far it is in a direction.
+    fn heights(&self, direction: Vector) -> [f64; 2] {
+        let [x, y] = &self.arc.position;
+        Chebyshev(std::array::from_fn(|k| direction.x * x.0[k] + direction.y * y.0[k])).range()
     }
 
     /// Whether no tangent of one is parallel to one of the other.
