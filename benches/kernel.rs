@@ -98,7 +98,8 @@ fn measures(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("measures");
     group.throughput(Throughput::Elements(linkages.len() as u64));
     group.sample_size(20);
-    let is_portion = |name: &str| name.starts_with("straight") || name.starts_with("dwell");
+    // Whether measures are too close to tell takes all portions.
+    let is_portion = |name: &str| ["straight", "dwell", "too_close"].iter().any(|word| name.starts_with(word));
     let mut bench = |title: &str, is_included: &dyn Fn(&str) -> bool| {
         let measures: Vec<_> = measure::ALL.iter().filter(|measure| is_included(measure.name)).collect();
         group.bench_function(title, |bencher| {
