@@ -9,7 +9,7 @@
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-use super::portion::{Row, min_max};
+use super::portion::min_max;
 use crate::geometry::{Point, Vector, complex_product, cross, trig};
 
 /// The directions in which the support function is taken.
@@ -31,11 +31,9 @@ static DIRECTIONS: LazyLock<[Vector; COUNT]> = LazyLock::new(|| {
     })
 });
 
-/// Whether the mirror image of a curve of a given extent is further from it than a distance, whatever the line. A curve of which that
-/// is not known may be further, too.
-pub(super) fn is_asymmetrical(row: &Row, extent: f64, distance: f64) -> bool {
-    let points = &row.points[..if row.is_closed { row.start_count } else { row.points.len() }];
-    let gap = points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).fold(0.0, f64::max);
+/// Whether the mirror image of a curve of a given extent is further from it than a distance, about any line: by points of it, no further apart
+/// than a `gap`. If that is not known, it may be further all the same.
+pub(super) fn is_asymmetrical(points: &[Point], gap: f64, extent: f64, distance: f64) -> bool {
     let coefficients = support_coefficients(points);
     // Between two points of the row the curve reaches further by at most half of what is between them; and how far it and its mirror
     // image are known to reach differs by at most as much.
@@ -61,11 +59,11 @@ pub(super) fn is_asymmetrical(row: &Row, extent: f64, distance: f64) -> bool {
     };
     /// The parts of half a turn, which are halved where the bound is not known to exceed the limit all over them.
     const PARTS: usize = 16;
-    /// So often at most.
-    const HALVINGS: i32 = 10;
+    /// The narrowest, relative to these.
+    const NARROWEST: f64 = 1.0 / 1024.0;
     let half = PI / (2 * PARTS) as f64;
     let mut parts: Vec<(f64, f64)> = (0..PARTS).map(|k| ((2 * k + 1) as f64 * half, half)).collect();
-    let least = half * f64::from(2i16.pow(HALVINGS as u32)).recip();
+    let least = NARROWEST * half;
     while let Some((middle, half)) = parts.pop() {
         let at_middle = bound(middle);
         if at_middle <= limit || half < least {

@@ -1,5 +1,6 @@
 //! The axis about which a curve is most nearly symmetrical, and the distance of the curve from its mirror image.
 
+use super::asymmetry::is_asymmetrical;
 use super::axis_motion::{least_squares_motion, minimax_motion};
 use super::features::SymmetryAxis;
 use super::portion::Row;
@@ -35,6 +36,11 @@ impl<'a> MirrorImages<'a> {
         let corners = |points: &[Point]| points.iter().fold([points[0]; 2], |[low, high], p| [low.inf(p), high.sup(p)]);
         let spacing = points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).fold(0.0, f64::max);
         MirrorImages { row, points, spacing, boxes: points.chunks(Self::BOX_SIZE).map(corners).collect() }
+    }
+
+    /// Whether they are further from the curve, of a given extent, than a distance, about any axis; if not, they may be all the same.
+    pub fn are_far(&self, extent: f64, distance: f64) -> bool {
+        is_asymmetrical(self.points, self.spacing, extent, distance)
     }
 
     /// The axes about which the mirror image comes closest to the curve in the mean, when both are passed at one speed

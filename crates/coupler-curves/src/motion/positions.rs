@@ -119,13 +119,6 @@ impl WithSimd for Placement<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        self.place();
-    }
-}
-
-impl Placement<'_> {
-    #[inline(always)]
-    fn place(self) {
         let Placement { linkage, joints, inputs, signs, out, range } = self;
         let len = out.len;
         for id in joints {

@@ -61,15 +61,9 @@ impl Span {
         };
         (0..2).any(|k| is_between([self.low[k], self.high[k]], [other.low[k], other.high[k]]))
             || [self.direction, other.direction].into_iter().any(|along| {
-                let [own, others] = [self, other].map(|span| span.heights(left_normal(along)));
+                let [own, others] = [self, other].map(|span| span.arc.heights(left_normal(along)).range());
                 is_between(own, others)
             })
-    }
-
-    /// An enclosure of how far it is in a direction.
-    fn heights(&self, direction: Vector) -> [f64; 2] {
-        let [x, y] = &self.arc.position;
-        Chebyshev(std::array::from_fn(|k| direction.x * x.0[k] + direction.y * y.0[k])).range()
     }
 
     /// Whether no tangent of one is parallel to one of the other.

@@ -75,6 +75,12 @@ impl Arc {
         )
     }
 
+    /// How far it is in a direction, as a function of the parameter.
+    pub fn heights(&self, direction: Vector) -> Chebyshev {
+        let [x, y] = &self.position;
+        Chebyshev(std::array::from_fn(|k| direction.x * x.0[k] + direction.y * y.0[k]))
+    }
+
     /// The parameter of the foot of the perpendicular from a point, if it is on the arc.
     pub fn foot(&self, point: Point) -> Option<f64> {
         let mut u = 0.0f64;
@@ -248,10 +254,7 @@ impl SmoothCurve {
 
     /// The extent furthest in a direction and its place.
     pub fn furthest(&self, direction: Vector) -> Option<(f64, Place)> {
-        self.greatest(|k| {
-            let [x, y] = &self.arcs[k].position;
-            Chebyshev(std::array::from_fn(|n| direction.x * x.0[n] + direction.y * y.0[n]))
-        })
+        self.greatest(|k| self.arcs[k].heights(direction))
     }
 
     /// The area enclosed, positive counter-clockwise; `None` for an open curve.
