@@ -6,7 +6,7 @@ use super::annulus::AlternatingPoints;
 use super::curve_ring::{CurveRings, PortionRing};
 use super::every_nth::EveryNth;
 use super::longest::{INTERVALS, Requirement, longest};
-use super::longest_near::{ACCURACY, Constraint, Constraints, Contacts, Fit, Limits, LongestNear, Reached};
+use super::longest_near::{ACCURACY, Constraint, Constraints, Contacts, Fit, Limits, LongestNear, Reached, Touching};
 use super::row::Row;
 use super::strip::min_max;
 use crate::geometry::Point;
@@ -55,7 +55,7 @@ pub fn longest_circular(row: &Row, max_width: f64, max_radius: f64) -> Result<Op
         // Next to a sharp bend the points that touch are known less exactly than elsewhere: by as much less is allowed of them.
         requirement.max_width = max_width - 1.01 * (width - ring.width);
         let reach = 0.1 * (ends[1] - ends[0]);
-        let reached = requirement.longest_near_by(rings(ends), all(ends), ends, reach, 0.0);
+        let reached = requirement.longest_near_by(&mut rings(ends), all(ends), ends, reach, 0.0);
         steps.check()?;
         let Reached::Longest { ends: shorter, .. } = reached else { break };
         let Some(next) = rings(shorter).ring(shorter) else { return Ok(None) };
@@ -129,17 +129,17 @@ impl Requirement for Circular<'_> {
         let mut added = Vec::new();
         let mut found = Reached::Nothing;
         for _ in 0..ROUNDS {
-            let rings = |ends: [f64; 2]| CurveRings::new(self.row, ends, POINTS, self.max_radius).with_points(&added);
-            found = self.longest_near_by(rings(ends), POINTS, ends, reach, least);
+            let mut rings = CurveRings::new(self.row, ends, POINTS, self.max_radius).with_points(&added);
+            found = self.longest_near_by(&mut rings, POINTS, ends, reach, least);
             if found == Reached::Nothing {
                 // Where no rate shows the way, the portion itself is the longest that is known, if it fits.
-                let fits = rings(ends).ring(ends).is_some_and(|ring| ring.width <= self.max_width);
+                let fits = rings.ring(ends).is_some_and(|ring| ring.width <= self.max_width);
                 if fits {
                     return Reached::Longest { size: self.row.input_span(ends), ends, is_certain: false };
                 }
             }
             let Reached::Longest { ends: longest, .. } = found else { break };
-            let outside = rings(longest).ring(longest).map_or_else(Vec::new, |ring| self.points_outside(longest, ring));
+            let outside = rings.next_ring(longest).map_or_else(Vec::new, |ring| self.points_outside(longest, ring));
             if outside.is_empty() {
                 break;
             }
@@ -200,9 +200,9 @@ impl Circular<'_> {
     }
 
     /// The longest portion near one between two positions, by its annuli of about so many points.
-    fn longest_near_by(&self, mut rings: CurveRings, count: usize, ends: [f64; 2], reach: f64, least: f64) -> Reached {
+    fn longest_near_by(&self, rings: &mut CurveRings, count: usize, ends: [f64; 2], reach: f64, least: f64) -> Reached {
         let permitted = self.max_width * (1.0 - ACCURACY);
-        let fit = |ends: [f64; 2]| {
+        let fit = |ends: [f64; 2], touching: Touching| {
             self.steps.take(count)?;
             let size = self.row.input_span(ends);
             let rates = ends.map(|position| self.row.input_travel_rate_at(position));
@@ -210,7 +210,10 @@ impl Circular<'_> {
                 value: value / permitted - 1.0,
                 rates: rates.map(|rate: f64| rate / permitted),
             };
-            let ring = rings.ring(ends);
+            let ring = match touching {
+                Touching::Next => rings.next_ring(ends),
+                Touching::Anew => rings.ring_anew(ends),
+            };
             let excess = ring.map_or(Constraint { value: 0.0, rates: [0.0; 2] }, |ring| Constraint {
                 value: ring.width,
                 rates: ring.width_rates,

@@ -35,11 +35,20 @@ pub struct CurveRings<'a> {
     max_radius: f64,
     contacts: Vec<Contact>,
     alternating: AlternatingPoints,
+    /// Whether the radius is the greatest that there may be.
+    is_bounded: bool,
+    /// The annulus that the contacts determine, and the group of spokes that decides.
+    latest: Option<(Annulus, Group)>,
     /// The spokes about a centre, those about the centre before, and groups of them: kept for their memory.
     spokes: Vec<Spoke>,
-    earlier_spokes: Vec<Spoke>,
+    spokes_before: Vec<Spoke>,
     groups: Vec<Group>,
 }
+
+/// The annulus of the points that touch contains all others to this part of its width, where they are found anew, and nothing but
+/// rounding is outside where they are those of the portion before.
+const OUTSIDE: f64 = 1e-6;
+const ROUNDING: f64 = 1e-9;
 
 /// Circles about a centre.
 struct Circles(Point);
@@ -84,8 +93,10 @@ impl<'a> CurveRings<'a> {
             max_radius,
             contacts: Vec::new(),
             alternating: AlternatingPoints::folded(row.is_folded()),
+            is_bounded: false,
+            latest: None,
             spokes: Vec::new(),
-            earlier_spokes: Vec::new(),
+            spokes_before: Vec::new(),
             groups: Vec::new(),
         }
     }
@@ -106,19 +117,58 @@ impl<'a> CurveRings<'a> {
             return None;
         }
         let sampled = self.alternating.narrowest_annulus_within(points, f64::INFINITY, self.max_radius)?;
-        let is_bounded = sampled.radius >= self.max_radius - sampled.width;
+        self.is_bounded = sampled.radius >= self.max_radius - sampled.width;
         let mut about = sampled;
-        let mut found = self.touching_annulus(about, is_bounded);
+        let mut found = self.touching_annulus(about);
         for _ in 1..ROUNDS {
             let Some((annulus, _, false)) = found else { break };
             about = annulus;
-            found = self.touching_annulus(about, is_bounded);
+            found = self.touching_annulus(about);
         }
         let (annulus, group) = match found {
             Some((annulus, group, true)) => (annulus, Some(group)),
             // The points alone show how wide it is.
             other => (sampled, other.map(|(_, group, _)| group)),
         };
+        self.latest = group.map(|group| (annulus, group));
+        Some(self.described(annulus, group))
+    }
+
+    /// The annulus of a portion next to the one before, which most often touches the same points; otherwise they are found anew.
+    pub fn next_ring(&mut self, ends: [f64; 2]) -> Option<PortionRing> {
+        let Some((annulus, group)) = self.latest.take().and_then(|latest| self.followed(latest, ends)) else {
+            return self.ring(ends);
+        };
+        self.latest = Some((annulus, group));
+        Some(self.described(annulus, Some(group)))
+    }
+
+    /// The annulus of a portion next to the one before, of which the points that touch are found anew.
+    pub fn ring_anew(&mut self, ends: [f64; 2]) -> Option<PortionRing> {
+        let latest = self.latest.take();
+        if let Some((about, _)) = latest.filter(|_| self.portion.follow(ends, &mut self.contacts))
+            && let Some((annulus, group, true)) = self.touching_annulus(about)
+        {
+            self.latest = Some((annulus, group));
+            return Some(self.described(annulus, Some(group)));
+        }
+        self.ring(ends)
+    }
+
+    /// The annulus that touches the points that the one before touches or nearly does, where all others are in it.
+    fn followed(&mut self, (latest, group): (Annulus, Group), ends: [f64; 2]) -> Option<(Annulus, Group)> {
+        if !self.portion.follow(ends, &mut self.contacts) {
+            return None;
+        }
+        let (annulus, group) = self.annulus_of_contacts(latest, Some(group))?;
+        let is_bounded = annulus.radius >= self.max_radius - annulus.width;
+        let [low, high] = self.portion.range_with_contacts(&Circles(annulus.centre), &self.contacts)?;
+        let contains_others = high - low <= annulus.width * (1.0 + ROUNDING);
+        (contains_others && is_bounded == self.is_bounded).then_some((annulus, group))
+    }
+
+    /// An annulus with what is known of how it changes.
+    fn described(&self, annulus: Annulus, group: Option<Group>) -> PortionRing {
         let mut others = Constraints::default();
         let near = self.groups.iter().filter(|other| 2.0 * other.half.abs() >= 0.8 * annulus.width);
         for (other, group) in others.iter_mut().zip(near) {
@@ -126,45 +176,56 @@ impl<'a> CurveRings<'a> {
         }
         let Annulus { centre, radius, width } = annulus;
         let label = |k: usize| self.portion.label(self.spokes[k].index);
-        Some(PortionRing {
+        PortionRing {
             centre,
             radius,
             width,
             width_rates: group.map_or([0.0; 2], |group| self.width_rates(&group)),
             contacts: group.map_or(Contacts::default(), |group| group.spokes.map(label)),
             others,
-        })
+        }
     }
 
     /// The annulus of the points that touch one about which they are found or nearly do, the group of them that decides, and
     /// whether all other points are in it; `None` if no group decides.
-    fn touching_annulus(&mut self, about: Annulus, is_bounded: bool) -> Option<(Annulus, Group, bool)> {
-        const ROUNDS: usize = 3;
+    fn touching_annulus(&mut self, about: Annulus) -> Option<(Annulus, Group, bool)> {
+        self.portion.collect_contacts(&Circles(about.centre), &[], &mut self.contacts);
+        select_contacts(&mut self.contacts, &about, self.portion.last());
+        let (annulus, group) = self.annulus_of_contacts(about, None)?;
+        let [low, high] = min_max(&self.portion.points, |p| (p - annulus.centre).norm_squared()).map(f64::sqrt);
+        Some((annulus, group, high - low <= annulus.width * (1.0 + OUTSIDE)))
+    }
+
+    /// The annulus that touches the contacts that there are, of which a group is likely to decide.
+    fn annulus_of_contacts(&mut self, about: Annulus, likely: Option<Group>) -> Option<(Annulus, Group)> {
+        const ROUNDS: usize = 4;
         /// A motion of the centre, relative to the radius, whose square is less than rounding.
         const SMALL: f64 = 1e-8;
-        /// The annulus of the points that touch contains all others to this part of its width.
-        const MOVED: f64 = 1e-6;
+        let is_bounded = self.is_bounded;
         let (mut centre, mut radius) = (about.centre, if is_bounded { self.max_radius } else { about.radius });
-        self.portion.collect_contacts(&Circles(centre), &[], &mut self.contacts);
-        select_contacts(&mut self.contacts, &about, self.portion.last());
-        let CurveRings { contacts, spokes, earlier_spokes, groups, .. } = self;
-        let mut best: Option<Group> = None;
-        groups.clear();
+        let CurveRings { portion, contacts, spokes, spokes_before, groups, .. } = self;
+        let mut best = likely;
         for _ in 0..ROUNDS {
-            std::mem::swap(spokes, earlier_spokes);
+            portion.touch(&Circles(centre), contacts);
+            std::mem::swap(spokes, spokes_before);
             collect_spokes(contacts, centre, spokes);
-            groups.clear();
-            if is_bounded {
-                collect_groups_of_three(spokes, radius, groups);
-            } else {
-                collect_groups_of_four(spokes, groups);
-            }
-            let Some(group) = groups.iter().copied().max_by(|a, b| a.half.abs().total_cmp(&b.half.abs())) else {
+            let with_correction = |group: Group| (group, correction(&group, spokes, radius, is_bounded));
+            // The group that decided about the centre before most often does so about this one.
+            let before = best.and_then(|group| group.about(spokes, radius)).map(with_correction);
+            let decides = before.filter(|(group, (motion, change))| {
+                let most = group.half.abs() * (1.0 + 1e-12);
+                spokes.iter().all(|spoke| (spoke.distance - radius - change - spoke.normal.dot(motion)).abs() <= most)
+            });
+            let decides = decides.or_else(|| {
+                collect_groups(spokes, is_bounded.then_some(radius), groups);
+                let widest = groups.iter().copied().max_by(|a, b| a.half.abs().total_cmp(&b.half.abs()));
+                widest.map(with_correction)
+            });
+            let Some((group, (motion, change))) = decides else {
                 // The best group is of the spokes before.
-                std::mem::swap(spokes, earlier_spokes);
+                std::mem::swap(spokes, spokes_before);
                 break;
             };
-            let (motion, change) = correction(&group, spokes, radius, is_bounded);
             best = Some(group);
             let is_small = motion.norm() <= 0.5 * radius;
             if !is_small {
@@ -178,8 +239,9 @@ impl<'a> CurveRings<'a> {
         }
         let group = best?;
         let width = 2.0 * group.half.abs();
-        let [low, high] = min_max(&self.portion.points, |p| (p - centre).norm_squared()).map(f64::sqrt);
-        Some((Annulus { centre, radius, width }, group, high - low <= width * (1.0 + MOVED)))
+        groups.retain(|other| other.half.abs() >= 0.75 * group.half.abs());
+        groups.iter_mut().for_each(|other| *other = other.about(spokes, radius).unwrap_or(*other));
+        Some((Annulus { centre, radius, width }, group))
     }
 
     /// The derivatives of the width that a group of the spokes needs with respect to the ends.
@@ -215,7 +277,7 @@ fn select_contacts(contacts: &mut Vec<Contact>, annulus: &Annulus, last: usize) 
     });
     let inside = |contact: &Contact| match is_end(contact) {
         true => f64::NEG_INFINITY,
-        false => annulus.width / 2.0 - (contact.height(&circles) - annulus.radius).abs(),
+        false => annulus.width / 2.0 - (contact.touching_and_height(&circles).1 - annulus.radius).abs(),
     };
     while contacts.len() > MOST {
         let depths = contacts.iter().map(inside).enumerate();
@@ -228,47 +290,47 @@ fn select_contacts(contacts: &mut Vec<Contact>, annulus: &Annulus, last: usize) 
 fn collect_spokes(contacts: &[Contact], centre: Point, spokes: &mut Vec<Spoke>) {
     let circles = Circles(centre);
     let spoke = |contact: &Contact| {
-        let normal = (contact.touching(&circles) - centre).normalize();
-        Spoke { normal, distance: contact.height(&circles), index: contact.index }
+        let (point, distance) = contact.touching_and_height(&circles);
+        Spoke { normal: (point - centre).normalize(), distance, index: contact.index }
     };
     spokes.clear();
     spokes.extend(contacts.iter().map(spoke));
 }
 
-/// A group with its multipliers, which need not be normalised; `None` if they vanish.
-fn group(spokes: &[Spoke], members: [usize; 4], multipliers: [f64; 4], radius: f64) -> Option<Group> {
-    let sum: f64 = multipliers.iter().map(|multiplier| multiplier.abs()).sum();
-    let multipliers = multipliers.map(|multiplier| multiplier / sum);
-    let half = (0..4).map(|i| multipliers[i] * (spokes[members[i]].distance - radius)).sum::<f64>();
-    half.is_finite().then_some(Group { spokes: members, multipliers, half })
-}
+impl Group {
+    /// The group of four spokes, whose multipliers are those of the affine dependency of their directions, or of three of which the
+    /// last is given twice, about a circle: those of the linear dependency. `None` if they vanish.
+    fn of(spokes: &[Spoke], members: [usize; 4], radius: f64) -> Option<Group> {
+        let [a, b, c, d] = members.map(|k| spokes[k].normal);
+        let (multipliers, radius) = if members[2] == members[3] {
+            ([cross(b, c), cross(c, a), cross(a, b), 0.0], radius)
+        } else {
+            let area = |p: Vector, q: Vector, r: Vector| cross(q - p, r - p);
+            ([area(b, c, d), -area(a, c, d), area(a, b, d), -area(a, b, c)], spokes[members[0]].distance)
+        };
+        let sum: f64 = multipliers.iter().map(|multiplier| multiplier.abs()).sum();
+        let multipliers = multipliers.map(|multiplier| multiplier / sum);
+        let half = (0..4).map(|i| multipliers[i] * (spokes[members[i]].distance - radius)).sum::<f64>();
+        half.is_finite().then_some(Group { spokes: members, multipliers, half })
+    }
 
-/// Adds all groups of four spokes: their multipliers are those of the affine dependency of the directions.
-fn collect_groups_of_four(spokes: &[Spoke], groups: &mut Vec<Group>) {
-    let count = spokes.len();
-    for i in 0..count {
-        for j in i + 1..count {
-            for k in j + 1..count {
-                for l in k + 1..count {
-                    let area = |a: usize, b: usize, c: usize| {
-                        cross(spokes[b].normal - spokes[a].normal, spokes[c].normal - spokes[a].normal)
-                    };
-                    let multipliers = [area(j, k, l), -area(i, k, l), area(i, j, l), -area(i, j, k)];
-                    groups.extend(group(spokes, [i, j, k, l], multipliers, spokes[i].distance));
-                }
-            }
-        }
+    /// The same group of spokes about another centre.
+    fn about(&self, spokes: &[Spoke], radius: f64) -> Option<Group> {
+        Group::of(spokes, self.spokes, radius)
     }
 }
 
-/// Adds all groups of three spokes: their multipliers are those of the linear dependency of the directions.
-fn collect_groups_of_three(spokes: &[Spoke], radius: f64, groups: &mut Vec<Group>) {
+/// Replaces `groups` with all of four spokes, or of three about a circle of a given radius.
+fn collect_groups(spokes: &[Spoke], given_radius: Option<f64>, groups: &mut Vec<Group>) {
+    groups.clear();
     let count = spokes.len();
     for i in 0..count {
         for j in i + 1..count {
             for k in j + 1..count {
-                let [a, b, c] = [i, j, k].map(|n| spokes[n].normal);
-                groups.extend(group(spokes, [i, j, k, k], [cross(b, c), cross(c, a), cross(a, b), 0.0], radius));
+                match given_radius {
+                    Some(radius) => groups.extend(Group::of(spokes, [i, j, k, k], radius)),
+                    None => groups.extend((k + 1..count).filter_map(|l| Group::of(spokes, [i, j, k, l], 0.0))),
+                }
             }
         }
     }

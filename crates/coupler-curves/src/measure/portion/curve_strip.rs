@@ -35,7 +35,14 @@ pub struct CurveStrips<'a> {
     touched: Vec<Point>,
     /// The points that touch the last strip, with which the next begins.
     touching: [usize; 3],
+    /// The strip that the contacts determine, by their numbers.
+    latest: Option<Strip>,
 }
+
+/// The strip of the points that touch contains all others to this part of its width, where they are found anew, and nothing but
+/// rounding is outside where they are those of the portion before.
+const OUTSIDE: f64 = 1e-4;
+const ROUNDING: f64 = 1e-9;
 
 /// Parallel lines in a direction.
 struct Lines(Vector);
@@ -54,46 +61,109 @@ impl<'a> CurveStrips<'a> {
     /// For portions about as long as the one between two positions, with about this many points.
     pub fn new(row: &'a Row, ends: [f64; 2], count: usize) -> CurveStrips<'a> {
         let portion = PortionPoints::new(row, ends, count);
-        CurveStrips { portion, contacts: Vec::new(), touched: Vec::new(), touching: [0, count / 2, count] }
+        CurveStrips {
+            portion,
+            contacts: Vec::new(),
+            touched: Vec::new(),
+            touching: [0, count / 2, count],
+            latest: None,
+        }
     }
 
     /// The strip of the portion between two positions.
     pub fn strip(&mut self, ends: [f64; 2]) -> PortionStrip {
         /// A strip this much narrower than long is straight to rounding.
         const EXACT: f64 = 1e-12;
-        /// The strip of the points that touch contains all others to this part of its width.
-        const TURNED: f64 = 1e-4;
+        /// So often are points that touch found anew, where others stick out of the strip of those found.
         const ROUNDS: usize = 2;
         self.portion.turn_to(ends);
         let last = self.portion.last();
         if self.touching[2] > last || self.touching[0] >= self.touching[1] || self.touching[1] >= self.touching[2] {
             self.touching = [0, last / 2, last];
         }
-        let mut strip = Strip::of_row(&self.portion.points, &mut self.touching);
-        let mut corners = strip.contacts.map(|k| self.portion.points[k]);
+        let sampled = Strip::of_row(&self.portion.points, &mut self.touching);
+        self.latest = None;
+        let (mut direction, mut kept) = (sampled.direction, sampled.contacts);
+        for _ in 0..if sampled.width > EXACT * sampled.length { ROUNDS } else { 0 } {
+            let (touched, contains_others) = self.strip_about(direction, kept);
+            if contains_others {
+                return self.described_touched(touched);
+            }
+            (direction, kept) = (touched.direction, touched.contacts.map(|k| self.contacts[k].index));
+        }
+        // The points alone show how wide it is.
         self.touched.clear();
-        if strip.width > EXACT * strip.length {
-            self.portion.collect_contacts(&Lines(strip.direction), &strip.contacts, &mut self.contacts);
-            // The contacts move along the curve, and the strip with them: the second time by the square of the first.
-            for _ in 0..ROUNDS {
-                let lines = Lines(strip.direction);
-                if self.contacts.iter().any(|contact| !contact.is_close(&lines)) {
-                    self.portion.collect_contacts(&lines, &strip.contacts, &mut self.contacts);
-                }
-                let mut three = strip.contacts.map(|k| self.contacts.partition_point(|contact| contact.index < k));
-                three.sort_unstable();
-                self.touched.clear();
-                self.touched.extend(self.contacts.iter().map(|contact| contact.touching(&Lines(strip.direction))));
-                let touched = Strip::of_row(&self.touched, &mut three);
-                // In another direction other points touch.
-                let [low, high] = min_max(&self.portion.points, |p| cross(touched.direction, p - corners[0]));
-                if high - low > touched.width * (1.0 + TURNED) {
-                    break;
-                }
-                corners = touched.contacts.map(|k| self.touched[k]);
-                strip = Strip { contacts: touched.contacts.map(|k| self.contacts[k].index), ..touched };
+        self.described(&sampled, sampled.contacts.map(|k| self.portion.points[k]))
+    }
+
+    /// The strip of a portion next to the one before, which most often touches the same points; otherwise they are found anew.
+    pub fn next_strip(&mut self, ends: [f64; 2]) -> PortionStrip {
+        if let Some(latest) = self.latest.take()
+            && self.portion.follow(ends, &mut self.contacts)
+            && let touched = self.touching_strip(latest.direction, latest.contacts)
+            && let Some([low, high]) = self.portion.range_with_contacts(&Lines(touched.direction), &self.contacts)
+            && high - low <= touched.width * (1.0 + ROUNDING)
+        {
+            return self.described_touched(touched);
+        }
+        self.strip(ends)
+    }
+
+    /// The strip of a portion next to the one before, of which the points that touch are found anew.
+    pub fn strip_anew(&mut self, ends: [f64; 2]) -> PortionStrip {
+        if let Some(latest) = self.latest.take()
+            && self.portion.follow(ends, &mut self.contacts)
+        {
+            let kept = latest.contacts.map(|k| self.contacts[k].index);
+            let (touched, contains_others) = self.strip_about(latest.direction, kept);
+            if contains_others {
+                return self.described_touched(touched);
             }
         }
+        self.strip(ends)
+    }
+
+    /// The strip of the points that touch lines near a direction, which are found, points of given indices among them, and whether
+    /// it contains all others.
+    fn strip_about(&mut self, direction: Vector, kept: [usize; 3]) -> (Strip, bool) {
+        self.portion.collect_contacts(&Lines(direction), &kept, &mut self.contacts);
+        let mut three = kept.map(|k| self.contacts.partition_point(|contact| contact.index < k));
+        three.sort_unstable();
+        let strip = self.touching_strip(direction, three);
+        let [low, high] = min_max(&self.portion.points, |p| cross(strip.direction, p.coords));
+        (strip, high - low <= strip.width * (1.0 + OUTSIDE))
+    }
+
+    /// The strip of the points that touch lines near a direction, from three of them, which it passes through.
+    fn touching_strip(&mut self, mut direction: Vector, mut three: [usize; 3]) -> Strip {
+        const ROUNDS: usize = 6;
+        /// The square of a turn by less is less than rounding.
+        const TURNED: f64 = 1e-8;
+        // The contacts move along the curve, and the strip with them: each time by the square of the time before.
+        for round in 1.. {
+            let lines = Lines(direction);
+            self.portion.touch(&lines, &mut self.contacts);
+            self.touched.clear();
+            self.touched.extend(self.contacts.iter().map(|contact| contact.touching(&lines)));
+            let strip = Strip::of_row(&self.touched, &mut three);
+            if round == ROUNDS || cross(direction, strip.direction).abs() <= TURNED {
+                return strip;
+            }
+            direction = strip.direction;
+        }
+        unreachable!()
+    }
+
+    /// The strip of the points that touch, for the portion and the next.
+    fn described_touched(&mut self, touched: Strip) -> PortionStrip {
+        self.latest = Some(touched);
+        let strip = Strip { contacts: touched.contacts.map(|k| self.contacts[k].index), ..touched };
+        self.described(&strip, touched.contacts.map(|k| self.touched[k]))
+    }
+
+    /// A strip, which passes through three points, with what is known of how it changes.
+    fn described(&self, strip: &Strip, corners: [Point; 3]) -> PortionStrip {
+        let last = self.portion.last();
         let points = &self.portion.points;
         let [near, far] = min_max(points, |p| strip.direction.dot(&p.coords));
         let along = [0, last].map(|k| strip.direction.dot(&points[k].coords));

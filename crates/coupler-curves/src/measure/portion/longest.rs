@@ -84,9 +84,9 @@ pub fn longest<R: Requirement>(
         }
         points = finer;
     }
-    let Search { best, mut found, .. } = search;
-    found.retain(|(size, _)| *size >= best * (1.0 - R::EQUAL));
-    Ok(distinct(row, found.into_iter().map(|(_, ends)| requirement.without_excess(ends)).collect()))
+    let Search { best, found, .. } = search;
+    let longest = found.into_iter().filter(|(size, _)| *size >= best * (1.0 - R::EQUAL)).map(|(_, ends)| ends);
+    Ok(distinct(row, different(longest).into_iter().map(|ends| requirement.without_excess(ends)).collect()))
 }
 
 struct Search<'a, R> {
@@ -151,6 +151,19 @@ impl<R: Requirement> Search<'_, R> {
             points.cover(&mut is_covered, [first[0].min(start) - extra, first[0].max(start) + extra]);
         }
     }
+}
+
+/// Portions without those that are one of the others.
+fn different(portions: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
+    /// The difference of the ends of one portion that was reached twice, relative to its span.
+    const SAME: f64 = 1e-6;
+    portions.fold(Vec::new(), |mut out, ends| {
+        let is_near = |other: &[f64; 2]| (0..2).all(|k| (ends[k] - other[k]).abs() <= SAME * (ends[1] - ends[0]));
+        if !out.iter().any(is_near) {
+            out.push(ends);
+        }
+        out
+    })
 }
 
 /// Portions that do not overlap, in the order of the input at which they begin.

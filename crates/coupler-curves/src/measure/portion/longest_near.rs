@@ -45,11 +45,20 @@ struct Fitting {
     middle: f64,
     half: f64,
     size: f64,
-    /// The derivative of the size with respect to the middle.
+    /// The derivatives of the size and of half the span with respect to the middle.
     slope: f64,
+    half_slope: f64,
     /// Whether it fits less if either end moves outwards.
     is_held: bool,
     contacts: Contacts,
+}
+
+impl Fitting {
+    /// About half the span that just fits around another middle.
+    fn half_at(&self, middle: f64) -> f64 {
+        let half = self.half + self.half_slope * (middle - self.middle);
+        half.clamp(0.5 * self.half, 2.0 * self.half)
+    }
 }
 
 /// Where portions may be.
@@ -61,6 +70,15 @@ pub struct Limits {
     pub high: f64,
     /// The greatest span.
     pub span: f64,
+}
+
+/// How the points are found that bound a portion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Touching {
+    /// Near those of the portion before, if these still do.
+    Next,
+    /// In the whole portion.
+    Anew,
 }
 
 /// What is reached from a portion.
@@ -78,29 +96,38 @@ pub enum Reached {
 pub struct LongestNear<F> {
     /// Where portions may be.
     pub limits: Limits,
-    /// Compares the portion between two positions with what is permitted; fails if that would be one step too many.
+    /// Compares the portion between two positions with what is permitted, by points found as [`Touching`] says; fails if that would
+    /// be one step too many.
     pub fit: F,
     /// How far the ends need be moved: what is further away is reached from elsewhere.
     pub reach: f64,
 }
 
-impl<F: FnMut([f64; 2]) -> Result<Fit, TooManySteps>> LongestNear<F> {
+impl<F: FnMut([f64; 2], Touching) -> Result<Fit, TooManySteps>> LongestNear<F> {
     /// The longest portion that fits and is reached from a given one along ever longer ones; nothing after too many steps.
     pub fn search(&mut self, ends: [f64; 2], least: f64) -> Reached {
         const ROUNDS: usize = 4;
         let (mut ends, mut reached) = (ends, Reached::Nothing);
         for _ in 0..ROUNDS {
-            match self.ascend(ends, least) {
-                Ok(near) => reached = self.climb(near, least),
-                Err(reached) => return reached,
+            reached = match self.ascend(ends, least) {
+                Ok(near) => self.climb(near, least),
+                Err(reached) => reached,
+            };
+            let Reached::Longest { ends: found, is_certain, .. } = reached else { break };
+            // Where an end could be moved outwards so that the portion fits better, it is not the longest.
+            if is_certain && self.is_confirmed(found) {
+                break;
             }
-            match reached {
-                // Where an end could be moved outwards so that the portion fits better, it is not the longest.
-                Reached::Longest { ends: found, is_certain: false, .. } => ends = found,
-                _ => break,
-            }
+            ends = found;
         }
         reached
+    }
+
+    /// Whether the points that bound a portion, found anew, permit as much as those that were followed to it.
+    fn is_confirmed(&mut self, ends: [f64; 2]) -> bool {
+        /// What it fits too well is nothing to its size.
+        const SLACK: f64 = 1e-7;
+        (self.fit)(ends, Touching::Anew).is_ok_and(|fit| (-SLACK..=ACCURACY).contains(&fit.excess.value))
     }
 
     /// The longest portion that fits near one that nearly is it.
@@ -125,7 +152,7 @@ impl<F: FnMut([f64; 2]) -> Result<Fit, TooManySteps>> LongestNear<F> {
             if low.slope == 0.0 || middle == low.middle {
                 return self.exactly(low);
             }
-            match self.fitting(middle, low.half, ROUGH) {
+            match self.fitting(middle, low.half_at(middle), ROUGH) {
                 Some(next) if next.slope * step > 0.0 && next.size >= low.size => low = next,
                 next => break (middle, next),
             }
@@ -162,7 +189,7 @@ impl<F: FnMut([f64; 2]) -> Result<Fit, TooManySteps>> LongestNear<F> {
             }
             let part = if part > 1e-6 && part < 1.0 - 1e-6 { part } else { 0.5 };
             let middle = low.middle + part * distance;
-            match self.fitting(middle, low.half, ROUGH) {
+            match self.fitting(middle, low.half_at(middle), ROUGH) {
                 Some(next) if next.slope * distance > 0.0 && next.size >= low.size => {
                     low = next;
                     weights = [1.0, weights[1] / 2.0];
@@ -203,7 +230,7 @@ impl<F: FnMut([f64; 2]) -> Result<Fit, TooManySteps>> LongestNear<F> {
         const LINEAR: f64 = 0.1;
         let span = ends[1] - ends[0];
         let mut reach = (0.1 * span).min(self.reach);
-        let Ok(mut here) = (self.fit)(ends) else { return Err(Reached::Nothing) };
+        let Ok(mut here) = (self.fit)(ends, Touching::Next) else { return Err(Reached::Nothing) };
         let value = |fit: &Fit| fit.size * (1.0 - PENALTY * fit.excess.value.max(0.0));
         // What bounded portions that were tried in vain: more than can be told from one point.
         let mut cuts: Vec<([f64; 2], Constraint)> = Vec::new();
@@ -239,7 +266,7 @@ impl<F: FnMut([f64; 2]) -> Result<Fit, TooManySteps>> LongestNear<F> {
             if !(0.0..=self.limits.span).contains(&(next_ends[1] - next_ends[0])) {
                 break;
             }
-            let Ok(next) = (self.fit)(next_ends) else { return Err(Reached::Nothing) };
+            let Ok(next) = (self.fit)(next_ends, Touching::Next) else { return Err(Reached::Nothing) };
             if value(&next) > value(&here) {
                 (ends, here) = (next_ends, next);
                 reach = (2.0 * reach).min(0.1 * (ends[1] - ends[0]));
@@ -272,7 +299,7 @@ impl<F: FnMut([f64; 2]) -> Result<Fit, TooManySteps>> LongestNear<F> {
         let (mut fits, mut exceeds): (Option<f64>, Option<f64>) = (None, None);
         for _ in 0..ROUNDS {
             let ends = self.ends(middle, half);
-            let fit = (self.fit)(ends).ok()?;
+            let fit = (self.fit)(ends, Touching::Next).ok()?;
             // An end at a limit does not move.
             let moves = [middle - half > low, middle + half < high].map(|moves| if moves { 1.0 } else { 0.0 });
             let rates = |[start, end]: [f64; 2]| {
@@ -293,7 +320,8 @@ impl<F: FnMut([f64; 2]) -> Result<Fit, TooManySteps>> LongestNear<F> {
                 }
                 let (half, size) = (half - rest, fit.size - size_by_half * rest);
                 let is_held = fit.excess.rates[0] * moves[0] <= 0.0 && fit.excess.rates[1] * moves[1] >= 0.0;
-                return Some(Fitting { middle, half, size, slope, is_held, contacts: fit.contacts });
+                let half_slope = -by_middle;
+                return Some(Fitting { middle, half, size, slope, half_slope, is_held, contacts: fit.contacts });
             }
             if fit.excess.value <= 0.0 {
                 fits = Some(half);
@@ -371,7 +399,7 @@ mod tests {
     fn a_search_without_an_end_takes_no_more_steps_than_it_may() {
         for most in [0, 10, 1000] {
             let (steps, mut count) = (Steps::new(most), 0);
-            let fit = |ends: [f64; 2]| {
+            let fit = |ends: [f64; 2], _: Touching| {
                 steps.take(1)?;
                 count += 1;
                 let excess = Constraint { value: ends[1] - ends[0] - 2.0, rates: [-1.0, 1.0] };

@@ -3,7 +3,7 @@
 use super::curve_strip::{CurveStrips, PortionStrip};
 use super::every_nth::EveryNth;
 use super::longest::{Requirement, longest};
-use super::longest_near::{ACCURACY, Constraint, Fit, LongestNear, Reached};
+use super::longest_near::{ACCURACY, Constraint, Fit, LongestNear, Reached, Touching};
 use super::row::Row;
 use super::strip::{Band, check_width};
 use super::strokes::shortest_stroke;
@@ -83,9 +83,12 @@ impl Requirement for StraightTo<'_> {
 
     fn longest_near(&self, ends: [f64; 2], reach: f64, least: f64) -> Reached {
         let mut strips = CurveStrips::new(self.row, ends, POINTS);
-        let fit = |ends: [f64; 2]| {
+        let fit = |ends: [f64; 2], touching: Touching| {
             self.steps.take(POINTS)?;
-            let PortionStrip { width, length, width_rates, length_rates, contacts, others } = strips.strip(ends);
+            let PortionStrip { width, length, width_rates, length_rates, contacts, others } = match touching {
+                Touching::Next => strips.next_strip(ends),
+                Touching::Anew => strips.strip_anew(ends),
+            };
             let permitted = self.tolerance * (1.0 - ACCURACY) * length;
             // What is permitted changes with the length.
             let compare = |Constraint { value, rates }| Constraint {

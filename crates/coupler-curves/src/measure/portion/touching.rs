@@ -24,6 +24,8 @@ pub trait Levels {
 pub struct Contact {
     /// The index of the point in the portion.
     pub index: usize,
+    /// Its position, in units of the spacing.
+    at: f64,
     point: Point,
     /// The velocity and the acceleration there; `None` for an end or a corner, which stays where it is.
     rates: Option<[Vector; 2]>,
@@ -32,42 +34,43 @@ pub struct Contact {
 impl Contact {
     /// The point, moved to where the curve touches one of the levels.
     pub fn touching(&self, levels: &dyn Levels) -> Point {
-        let Some([velocity, acceleration]) = self.rates else { return self.point };
-        let step = self.step(levels);
-        self.point + velocity * step + acceleration * (step * step / 2.0)
+        self.touching_and_height(levels).0
     }
 
-    /// The height of the level that the curve touches.
-    pub fn height(&self, levels: &dyn Levels) -> f64 {
+    /// The point, moved to where the curve touches one of the levels, and the height of that level.
+    pub fn touching_and_height(&self, levels: &dyn Levels) -> (Point, f64) {
         let height = levels.height(self.point);
-        let Some([velocity, acceleration]) = self.rates else { return height };
+        let Some([velocity, acceleration]) = self.rates else { return (self.point, height) };
+        let [first, second] = levels.height_rates(self.point, velocity, acceleration);
+        let step = -first / second;
+        // It is not near if the step is long.
+        let step = if step.abs() <= 1.0 { step } else { 0.0 };
         // The height of the vertex of a parabola is that of its tangent halfway to it.
-        height + levels.height_rates(self.point, velocity, acceleration)[0] * self.step(levels) / 2.0
+        (self.point + velocity * step + acceleration * (step * step / 2.0), height + first * step / 2.0)
     }
 
-    /// Whether the curve is as good as a parabola up to where it touches one of the levels. It is not where it is so flat
-    /// that the place moves far as the levels turn.
-    pub fn is_close(&self, levels: &dyn Levels) -> bool {
+    /// Whether it is less than a part of the distance of two points to where the curve touches one of the levels.
+    fn is_within(&self, part: f64, levels: &dyn Levels) -> bool {
         let step = |[velocity, acceleration]: [Vector; 2]| vertex(levels, self.point, velocity, acceleration);
-        self.rates.is_none_or(|rates| step(rates).abs() < CLOSE)
-    }
-
-    /// How far it is to where the curve touches one of the levels; 0 if it is not near.
-    fn step(&self, levels: &dyn Levels) -> f64 {
-        let Some([velocity, acceleration]) = self.rates else { return 0.0 };
-        let step = vertex(levels, self.point, velocity, acceleration);
-        if step.abs() <= 1.0 { step } else { 0.0 }
+        self.rates.is_none_or(|rates| step(rates).abs() < part)
     }
 }
-
-/// The part of the distance of two points over which the curve is as good as a parabola.
-const CLOSE: f64 = 0.02;
 
 /// How far it is to where the height of a moving point is stationary.
 fn vertex(levels: &dyn Levels, point: Point, velocity: Vector, acceleration: Vector) -> f64 {
     let [first, second] = levels.height_rates(point, velocity, acceleration);
     let step = -first / second;
     if step.is_finite() { step } else { 0.0 }
+}
+
+/// Where the curve may touch.
+enum Place {
+    /// At an end or a corner, by its index.
+    At(usize),
+    /// At an extreme near a point.
+    Near(usize),
+    /// At an extreme between an end or a corner, at which the velocity is given, and the point next to it.
+    Beside { end: usize, next: usize, velocity: Vector },
 }
 
 /// The points of portions of a row's curve near each other: the ends, evenly spaced points between them, and the corners.
@@ -83,8 +86,14 @@ pub struct PortionPoints<'a> {
     pub points: Vec<Point>,
     /// Their positions, in units of the spacing.
     positions: Vec<f64>,
+    /// Those of the portion before.
+    positions_before: Vec<f64>,
     /// The velocities at its ends, in these units.
     velocities: [Vector; 2],
+    /// The ends of the portion to which it was turned, and from which they have been moved.
+    turned_to: [f64; 2],
+    /// Whether the points between the ends are those of the portion before.
+    is_same: bool,
     /// Those of its points that are corners, with the velocities before and after each.
     corners: Vec<(usize, [Vector; 2])>,
     /// Points of the row, by their indices, that are points of each portion in which they are, too.
@@ -105,7 +114,10 @@ impl<'a> PortionPoints<'a> {
             all: Vec::new(),
             points: Vec::with_capacity(2 * count),
             positions: Vec::with_capacity(2 * count),
+            positions_before: Vec::new(),
             velocities: [Vector::zeros(); 2],
+            turned_to: [f64::NAN; 2],
+            is_same: false,
             corners: Vec::new(),
             added: Vec::new(),
             heights: Vec::with_capacity(2 * count),
@@ -118,17 +130,17 @@ impl<'a> PortionPoints<'a> {
         let begin = (from + TOO_CLOSE).ceil() as i64;
         let end = ((to - TOO_CLOSE).floor() as i64 + 1).max(begin);
         self.prepare([begin, end]);
-        let [first, last] = ends.map(|position| self.row.point_and_velocity_at(position));
-        self.velocities = [first.1, last.1].map(|velocity| velocity * self.spacing);
+        self.turned_to = ends;
         self.positions.clear();
         self.positions.push(from);
         self.positions.extend((begin..end).map(|k| k as f64));
         self.positions.push(to);
-        self.points.clear();
-        self.points.push(first.0);
         let [begin, end] = [begin, end].map(|k| (k - self.first) as usize);
+        self.points.clear();
+        self.points.push(Point::origin());
         self.points.extend_from_slice(&self.all[begin..end]);
-        self.points.push(last.0);
+        self.points.push(Point::origin());
+        self.move_ends(ends);
         let [low, high] = [ends[0] + TOO_CLOSE * self.spacing, ends[1] - TOO_CLOSE * self.spacing];
         for k in 0..self.added.len() {
             if (low..high).contains(&(self.added[k] as f64)) {
@@ -136,6 +148,61 @@ impl<'a> PortionPoints<'a> {
             }
         }
         self.insert_corners(ends);
+    }
+
+    /// Turns to a portion near that of some contacts, which become the same points of it; not if one of these is not in it.
+    pub fn follow(&mut self, ends: [f64; 2], contacts: &mut [Contact]) -> bool {
+        let last_before = self.last();
+        self.is_same = (0..2).all(|k| (ends[k] - self.turned_to[k]).abs() < TOO_CLOSE * self.spacing);
+        if self.is_same {
+            self.move_ends(ends);
+        } else {
+            std::mem::swap(&mut self.positions, &mut self.positions_before);
+            self.turn_to(ends);
+            for contact in contacts.iter_mut() {
+                contact.index = match contact.index {
+                    0 => 0,
+                    k if k == last_before => self.last(),
+                    k => match self.positions.binary_search_by(|p| p.total_cmp(&self.positions_before[k])) {
+                        Ok(k) if (1..self.last()).contains(&k) => k,
+                        _ => return false,
+                    },
+                };
+            }
+        }
+        let ends = [0, self.last()].map(|k| self.positions[k]);
+        contacts.iter_mut().all(|contact| {
+            if contact.index == 0 || contact.index == self.last() {
+                (contact.at, contact.point) = (self.positions[contact.index], self.points[contact.index]);
+            }
+            contact.at >= ends[0] && contact.at <= ends[1]
+        })
+    }
+
+    /// Moves contacts along the curve to where it touches one of the levels; one that would leave the portion stays where it is.
+    pub fn touch(&self, levels: &dyn Levels, contacts: &mut [Contact]) {
+        /// What a parabola neglects is less than 1e-10 of the width of what is touched four times.
+        const NEAR: f64 = 0.005;
+        let ends = [0, self.last()].map(|k| self.positions[k]);
+        for contact in contacts.iter_mut().filter(|contact| !contact.is_within(NEAR, levels)) {
+            let Contact { index, at, point, rates } = *contact;
+            if let Some(rates) = rates {
+                let bounds = [(ends[0] - at).max(-1.0), (ends[1] - at).min(1.0)];
+                let (moved, step) = self.extreme(levels, index, at, point, rates, bounds);
+                let has_left = step <= ends[0] - at || step >= ends[1] - at;
+                *contact = if has_left { Contact { rates: None, ..*contact } } else { moved };
+            }
+        }
+    }
+
+    /// Moves the ends of the portion.
+    fn move_ends(&mut self, ends: [f64; 2]) {
+        let last = self.last();
+        for (k, (index, end)) in [0, last].into_iter().zip(ends).enumerate() {
+            let (point, velocity) = self.row.point_and_velocity_at(end);
+            (self.points[index], self.positions[index]) = (point, end / self.spacing);
+            self.velocities[k] = velocity * self.spacing;
+        }
     }
 
     /// Puts the corners between two positions among the points.
@@ -210,22 +277,62 @@ impl<'a> PortionPoints<'a> {
     pub fn collect_contacts(&mut self, levels: &dyn Levels, kept: &[usize], contacts: &mut Vec<Contact>) {
         /// An extreme is higher than the points next to it by less than this part of the range.
         const NEAR: f64 = 0.05;
-        levels.collect_heights(&self.points, &mut self.heights);
-        let heights = &self.heights;
+        contacts.clear();
+        self.find_places(levels, NEAR, kept, |points, place| {
+            contacts.push(match place {
+                Place::At(index) => points.fixed(index),
+                Place::Near(index) => points.extreme_near(levels, index),
+                Place::Beside { end, next, velocity } => points.extreme_beside(levels, end, velocity, next),
+            });
+        });
+    }
+
+    /// The least and the greatest height of the points of a portion to which contacts were followed; `None` if the curve may touch the
+    /// levels of these where there is no contact.
+    pub fn range_with_contacts(&mut self, levels: &dyn Levels, contacts: &[Contact]) -> Option<[f64; 2]> {
+        /// No extreme of a portion that is touched a few times is higher than the points next to it by more of the range.
+        const NEAR: f64 = 0.02;
+        if self.is_same {
+            levels.collect_heights(&self.points, &mut self.heights);
+            return Some(min_max(&self.heights, |height| *height));
+        }
+        let mut have_contacts = true;
+        let range = self.find_places(levels, NEAR, &[], |points, place| {
+            let around = match place {
+                Place::At(index) => [index; 2],
+                Place::Near(index) => [index - 1, index + 1],
+                Place::Beside { end, next, .. } => [end.min(next), end.max(next)],
+            };
+            let [from, to] = around.map(|index| points.positions[index]);
+            have_contacts &= contacts.iter().any(|contact| (from..=to).contains(&contact.at));
+        });
+        have_contacts.then_some(range)
+    }
+
+    /// Finds the places, in their order, at which the curve may touch the outer ones of the levels of the portion, to a part of the
+    /// range of heights, and the points of given indices; the least and the greatest height.
+    fn find_places(
+        &mut self,
+        levels: &dyn Levels,
+        part: f64,
+        kept: &[usize],
+        mut found: impl FnMut(&PortionPoints, Place),
+    ) -> [f64; 2] {
+        let mut heights = std::mem::take(&mut self.heights);
+        levels.collect_heights(&self.points, &mut heights);
         let last = self.last();
-        let [low, high] = min_max(heights, |height| *height);
-        let near = NEAR * (high - low);
+        let [low, high] = min_max(&heights, |height| *height);
+        let near = part * (high - low);
         let is_near = |k: usize| heights[k] >= high - near || heights[k] <= low + near;
         let is_extreme = |k: usize| (heights[k] - heights[k - 1]) * (heights[k + 1] - heights[k]) <= 0.0;
         // The extreme between an end or a corner and the point next to it, if neither is it.
         let beside = |end: usize, next: usize, velocity: Vector| {
-            let is_searched = next != 0 && next != last && is_near(end) && !is_extreme(next) && !self.is_corner(next);
-            if is_searched { self.extreme_beside(levels, end, velocity, next) } else { None }
+            let may_be = next != 0 && next != last && is_near(end) && !is_extreme(next) && !self.is_corner(next);
+            (may_be && self.turns_beside(levels, end, velocity, next)).then_some(Place::Beside { end, next, velocity })
         };
-        let fixed = |index: usize| Contact { index, point: self.points[index], rates: None };
-        contacts.clear();
-        contacts.push(fixed(0));
-        contacts.extend(beside(0, 1, self.velocities[0]));
+        let mut find = |place: Option<Place>| place.into_iter().for_each(|place| found(self, place));
+        find(Some(Place::At(0)));
+        find(beside(0, 1, self.velocities[0]));
         let mut corners = self.corners.iter().peekable();
         for k in 1..last {
             let corner = corners.next_if(|(corner, _)| *corner == k);
@@ -235,15 +342,22 @@ impl<'a> PortionPoints<'a> {
             }
             match corner {
                 Some((_, [before, after])) => {
-                    contacts.extend(beside(k, k - 1, *before));
-                    contacts.push(fixed(k));
-                    contacts.extend(beside(k, k + 1, *after));
+                    find(beside(k, k - 1, *before));
+                    find(Some(Place::At(k)));
+                    find(beside(k, k + 1, *after));
                 }
-                None => contacts.push(self.extreme_near(levels, k)),
+                None => find(Some(Place::Near(k))),
             }
         }
-        contacts.extend(beside(last, last.max(1) - 1, self.velocities[1]));
-        contacts.push(fixed(last));
+        find(beside(last, last.max(1) - 1, self.velocities[1]));
+        find(Some(Place::At(last)));
+        self.heights = heights;
+        [low, high]
+    }
+
+    /// An end or a corner.
+    fn fixed(&self, index: usize) -> Contact {
+        Contact { index, at: self.positions[index], point: self.points[index], rates: None }
     }
 
     fn is_corner(&self, index: usize) -> bool {
@@ -261,29 +375,34 @@ impl<'a> PortionPoints<'a> {
             self.extreme(levels, k, positions[k], points[k], [velocity, acceleration], [-before, after]);
         // Beyond a corner the curve is another.
         let is_beyond = (step <= -before && self.is_corner(k - 1)) || (step >= after && self.is_corner(k + 1));
-        if is_beyond { Contact { index: k, point: points[k], rates: None } } else { contact }
+        if is_beyond { self.fixed(k) } else { contact }
     }
 
-    /// The extreme between an end or a corner, at which the velocity is given, and the point next to it.
-    fn extreme_beside(&self, levels: &dyn Levels, end: usize, velocity: Vector, next: usize) -> Option<Contact> {
-        /// A velocity that is less than this part of the mean is none: the curve stops there.
-        const STOPPED: f64 = 1e-3;
-        let points = &self.points;
-        let gap = self.positions[next] - self.positions[end];
-        let slope = (points[next] - points[end]) / gap;
+    /// Whether there is an extreme between an end or a corner, at which the velocity is given, and the point next to it.
+    fn turns_beside(&self, levels: &dyn Levels, end: usize, velocity: Vector, next: usize) -> bool {
+        let (points, slope) = (&self.points, self.slope(end, next));
         let rate = |point: Point, velocity: Vector| levels.height_rates(point, velocity, Vector::zeros())[0];
-        let is_stopped = velocity.norm() < STOPPED * slope.norm();
         // From where it stops the curve goes in the direction of its acceleration.
-        let leaving = if is_stopped { slope } else { velocity };
-        if rate(points[end], leaving) * rate(points[next], slope * 2.0 - velocity) >= 0.0 {
-            return None;
-        }
-        let (from, velocity) = if is_stopped { (gap / 2.0, slope) } else { (0.0, velocity) };
-        let at = self.positions[end] + from;
-        let point = if is_stopped { self.row.point_at(at * self.spacing) } else { points[end] };
-        let acceleration = if is_stopped { slope * (2.0 / gap) } else { (slope - velocity) * (2.0 / gap) };
-        let bounds = [gap.min(0.0) - from, gap.max(0.0) - from];
-        Some(self.extreme(levels, next, at, point, [velocity, acceleration], bounds).0)
+        let leaving = if is_stopped(velocity, slope) { slope } else { velocity };
+        rate(points[end], leaving) * rate(points[next], slope * 2.0 - velocity) < 0.0
+    }
+
+    /// The extreme there.
+    fn extreme_beside(&self, levels: &dyn Levels, end: usize, velocity: Vector, next: usize) -> Contact {
+        let gap = self.positions[next] - self.positions[end];
+        let slope = self.slope(end, next);
+        let (from, at, point, rates) = if is_stopped(velocity, slope) {
+            let at = self.positions[end] + gap / 2.0;
+            (gap / 2.0, at, self.row.point_at(at * self.spacing), [slope, slope * (2.0 / gap)])
+        } else {
+            (0.0, self.positions[end], self.points[end], [velocity, (slope - velocity) * (2.0 / gap)])
+        };
+        self.extreme(levels, next, at, point, rates, [gap.min(0.0) - from, gap.max(0.0) - from]).0
+    }
+
+    /// The mean velocity between two points.
+    fn slope(&self, from: usize, to: usize) -> Vector {
+        (self.points[to] - self.points[from]) / (self.positions[to] - self.positions[from])
     }
 
     /// The extreme height near that of the parabola with a velocity and an acceleration at a position, by Newton's
@@ -306,12 +425,19 @@ impl<'a> PortionPoints<'a> {
             let rates = [velocity * self.spacing, acceleration * (self.spacing * self.spacing)];
             let next = (step + vertex(levels, point, rates[0], rates[1])).clamp(least, most);
             if (next - step).abs() < SMALL || round == ROUNDS {
-                return (Contact { index, point, rates: Some(rates) }, step);
+                return (Contact { index, at: at + step, point, rates: Some(rates) }, step);
             }
             step = next;
             round += 1;
         }
     }
+}
+
+/// Whether the curve stops at a point from where it goes on at a mean velocity.
+fn is_stopped(velocity: Vector, mean: Vector) -> bool {
+    /// A velocity that is less than this part of the mean is none.
+    const STOPPED: f64 = 1e-3;
+    velocity.norm() < STOPPED * mean.norm()
 }
 
 /// A point closer to an end or a corner than this part of the spacing says nothing that these do not.
