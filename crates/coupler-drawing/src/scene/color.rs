@@ -127,10 +127,19 @@ fn is_in_gamut(linear: [f64; 3]) -> bool {
     linear.into_iter().all(|part| (-1e-4..=1.0 + 1e-4).contains(&part))
 }
 
+impl Color {
+    /// Writes the colour with six hexadecimal digits, as `Display` does.
+    pub(crate) fn write_to(self, out: &mut impl fmt::Write) -> fmt::Result {
+        let Color(r, g, b) = self;
+        out.write_char('#')?;
+        let digits = [r, g, b].into_iter().flat_map(|part| [part >> 4, part & 0xf]);
+        digits.map(|digit| char::from(b"0123456789abcdef"[usize::from(digit)])).try_for_each(|c| out.write_char(c))
+    }
+}
+
 impl fmt::Display for Color {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Color(r, g, b) = self;
-        write!(f, "#{r:02x}{g:02x}{b:02x}")
+        self.write_to(f)
     }
 }
 

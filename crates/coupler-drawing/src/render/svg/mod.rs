@@ -5,7 +5,7 @@ mod number;
 mod outlines;
 mod path_data;
 
-use std::fmt::Write;
+use std::fmt::{self, Write};
 
 use super::TextMode;
 use crate::scene::{
@@ -120,13 +120,26 @@ impl SvgWriter {
         )
     }
 
+    /// Writes an attribute with a length: most attributes have one, and `format_args` takes longer.
+    fn write_length(&mut self, before: &str, mm: f64) {
+        self.output.push_str(before);
+        let _ = Number(to_micrometres(mm)).write_to(&mut self.output);
+        self.output.push('"');
+    }
+
+    fn write_color(&mut self, before: &str, color: Color) {
+        self.output.push_str(before);
+        let _ = color.write_to(&mut self.output);
+        self.output.push('"');
+    }
+
     fn write_paint(&mut self, stroke: Option<Stroke>, fill: Option<Color>) {
         if let Some(fill) = fill {
-            self.write(format_args!(" fill=\"{}\"", fill));
+            self.write_color(" fill=\"", fill);
         }
         if let Some(stroke) = stroke {
-            let width = Number(to_micrometres(stroke.width));
-            self.write(format_args!(" stroke=\"{}\" stroke-width=\"{width}\"", stroke.color));
+            self.write_color(" stroke=\"", stroke.color);
+            self.write_length(" stroke-width=\"", stroke.width);
             if stroke.has_round_ends {
                 self.output.push_str(" stroke-linecap=\"round\"");
             }
@@ -158,22 +171,25 @@ impl SvgWriter {
     }
 
     fn write_circle(&mut self, circle: &Circle, animation: Option<&String>) {
-        let [x, y] = [circle.centre.x, circle.centre.y].map(|c| Number(to_micrometres(c)));
-        let radius = Number(to_micrometres(circle.radius));
-        self.write(format_args!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\""));
+        self.write_length("<circle cx=\"", circle.centre.x);
+        self.write_length(" cy=\"", circle.centre.y);
+        self.write_length(" r=\"", circle.radius);
         self.write_paint(circle.stroke, circle.fill);
         self.end_element("circle", animation);
     }
 
     fn write_text(&mut self, text: &Text) {
-        let [x, y, size] = [text.position.x, text.position.y, text.size].map(|c| Number(to_micrometres(c)));
-        self.write(format_args!("<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" fill=\"{}\"", text.color));
+        self.write_length("<text x=\"", text.position.x);
+        self.write_length(" y=\"", text.position.y);
+        self.write_length(" font-size=\"", text.size);
+        self.write_color(" fill=\"", text.color);
         match text.anchor {
             Anchor::Start => {}
             Anchor::Middle => self.output.push_str(" text-anchor=\"middle\""),
             Anchor::End => self.output.push_str(" text-anchor=\"end\""),
         }
         if text.quarter_turns != 0 {
+            let [x, y] = [text.position.x, text.position.y].map(|c| Number(to_micrometres(c)));
             self.write(format_args!(" transform=\"rotate({} {x} {y})\"", u32::from(text.quarter_turns) * 90));
         }
         if text.runs.iter().any(|run| has_right_to_left(&run.text)) {
@@ -189,22 +205,23 @@ impl SvgWriter {
         for run in &text.runs {
             let is_shifted = run.rise(text.size) != rise;
             if !is_shifted && !run.is_raised && !run.face.is_italic {
-                self.write(format_args!("{}", Escaped(&run.text)));
+                let _ = Escaped(&run.text).write_to(&mut self.output);
                 continue;
             }
             self.output.push_str("<tspan");
             if is_shifted {
-                let shift = Number(to_micrometres(rise - run.rise(text.size)));
-                self.write(format_args!(" dy=\"{shift}\""));
+                self.write_length(" dy=\"", rise - run.rise(text.size));
                 rise = run.rise(text.size);
             }
             if run.is_raised {
-                self.write(format_args!(" font-size=\"{}\"", Number(to_micrometres(run.size(text.size)))));
+                self.write_length(" font-size=\"", run.size(text.size));
             }
             if run.face.is_italic {
                 self.output.push_str(" font-style=\"italic\"");
             }
-            self.write(format_args!(">{}</tspan>", Escaped(&run.text)));
+            self.output.push('>');
+            let _ = Escaped(&run.text).write_to(&mut self.output);
+            self.output.push_str("</tspan>");
         }
         self.output.push_str("</text>\n");
     }
@@ -213,20 +230,26 @@ impl SvgWriter {
 /// Text with escaped markup; characters that XML does not allow become replacement characters.
 struct Escaped<'a>(&'a str);
 
-impl std::fmt::Display for Escaped<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+impl Escaped<'_> {
+    fn write_to(&self, out: &mut impl Write) -> fmt::Result {
         for c in self.0.chars() {
             match c {
-                '&' => f.write_str("&amp;")?,
-                '<' => f.write_str("&lt;")?,
-                '>' => f.write_str("&gt;")?,
-                '"' => f.write_str("&quot;")?,
-                '\t' | '\n' => f.write_str(" ")?,
-                '\0'..='\x1f' | '\x7f' | '\u{fffe}' | '\u{ffff}' => f.write_char('\u{fffd}')?,
-                c => f.write_char(c)?,
+                '&' => out.write_str("&amp;")?,
+                '<' => out.write_str("&lt;")?,
+                '>' => out.write_str("&gt;")?,
+                '"' => out.write_str("&quot;")?,
+                '\t' | '\n' => out.write_char(' ')?,
+                '\0'..='\x1f' | '\x7f' | '\u{fffe}' | '\u{ffff}' => out.write_char('\u{fffd}')?,
+                c => out.write_char(c)?,
             }
         }
         Ok(())
+    }
+}
+
+impl fmt::Display for Escaped<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.write_to(f)
     }
 }
 

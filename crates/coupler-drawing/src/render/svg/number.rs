@@ -1,9 +1,15 @@
 //! Numbers of an SVG, in as few characters as possible.
 
-/// A length in whole micrometres.
+use std::fmt::{self, Write};
+
+/// A length in whole micrometres, the nearest; of two the one further from zero.
 #[inline]
 pub(super) fn to_micrometres(mm: f64) -> i64 {
-    (mm * 1000.0).round() as i64
+    /// The number before a half: rounding of the sum makes a half of it, but only where that is needed.
+    const HALF: f64 = 0.5 - f64::EPSILON / 4.0;
+    let micrometres = mm * 1000.0;
+    // As `f64::round`, which is a call where the processor may be an old one.
+    (micrometres + HALF.copysign(micrometres)) as i64
 }
 
 /// A length in micrometres that is written in millimetres, in as few characters as possible.
@@ -11,50 +17,60 @@ pub(super) fn to_micrometres(mm: f64) -> i64 {
 pub(super) struct Number(pub i64);
 
 impl Number {
-    /// The text of the number, at the end of a buffer. An SVG consists mostly of numbers, and this is faster than
-    /// `fmt`.
+    /// Writes the number. An SVG consists mostly of numbers, and for a `String` this is faster than `Display`.
     #[inline]
-    pub fn format_into(self, buffer: &mut [u8; 24]) -> &str {
-        let (mut whole, mut part) = (self.0.unsigned_abs() / 1000, self.0.unsigned_abs() % 1000);
-        let mut at = buffer.len();
-        let mut push = |byte: u8| {
-            at -= 1;
-            buffer[at] = byte;
-        };
+    pub fn write_to(self, out: &mut impl Write) -> fmt::Result {
+        let (whole, part) = (self.0.unsigned_abs() / 1000, (self.0.unsigned_abs() % 1000) as u32);
+        if self.0 < 0 {
+            out.write_char('-')?;
+        }
+        if whole > 0 || part == 0 {
+            write_whole(whole, out)?;
+        }
         if part > 0 {
-            let mut digits = 3;
-            while part % 10 == 0 {
-                part /= 10;
-                digits -= 1;
+            out.write_char('.')?;
+            out.write_char(digit(part / 100))?;
+            if part % 100 > 0 {
+                out.write_char(digit(part / 10 % 10))?;
+                if part % 10 > 0 {
+                    out.write_char(digit(part % 10))?;
+                }
             }
-            for _ in 0..digits {
-                push(b'0' + (part % 10) as u8);
-                part /= 10;
-            }
-            push(b'.');
         }
-        while whole > 0 {
-            push(b'0' + (whole % 10) as u8);
-            whole /= 10;
-        }
-        match self.0.signum() {
-            -1 => push(b'-'),
-            0 => push(b'0'),
-            _ => {}
-        }
-        std::str::from_utf8(&buffer[at..]).unwrap_or_default()
+        Ok(())
     }
 }
 
-impl std::fmt::Display for Number {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.format_into(&mut [0; 24]))
+fn write_whole(whole: u64, out: &mut impl Write) -> fmt::Result {
+    if whole >= 10 {
+        write_whole(whole / 10, out)?;
+    }
+    out.write_char(digit((whole % 10) as u32))
+}
+
+#[inline]
+fn digit(value: u32) -> char {
+    char::from(b'0' + value as u8)
+}
+
+impl fmt::Display for Number {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.write_to(f)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn micrometres_are_rounded() {
+        let halves = (-2000..2000).map(|k| f64::from(k) / 2.0).chain([0.1, 4e15, 9e15 + 1.0, 1e300, f64::NAN]);
+        for micrometres in halves.flat_map(|value| [value.next_down(), value, value.next_up()]) {
+            let mm = micrometres / 1000.0;
+            assert_eq!(to_micrometres(mm), (mm * 1000.0).round() as i64, "{micrometres}");
+        }
+    }
 
     #[test]
     fn numbers_are_short() {

@@ -100,11 +100,12 @@ impl PathWriter {
         if is_separated && x >= 0 {
             out.push(' ');
         }
-        out.push_str(Number(x).format_into(&mut [0; 24]));
+        // Writing to a string cannot fail.
+        let _ = Number(x).write_to(out);
         if y >= 0 {
             out.push(' ');
         }
-        out.push_str(Number(y).format_into(&mut [0; 24]));
+        let _ = Number(y).write_to(out);
     }
 
     /// Closes the current contour.
