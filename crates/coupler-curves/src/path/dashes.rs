@@ -24,40 +24,32 @@ pub(super) struct DashRange {
 pub(super) fn dash_ranges(trajectory: &Trajectory, pattern: DashPattern) -> Vec<DashRange> {
     let arc = trajectory.linkage.motion_options.figure_arc;
     let mut out: Vec<DashRange> = Vec::new();
-    let mut continues = false;
+    let mut reaches_end = false;
     for (k, pass) in trajectory.circuit.passes.iter().enumerate() {
-        let parts = cut_pass(pass, pattern, arc);
-        for PassPart { ends, is_drawn, is_in_figure } in &parts {
+        let may_continue = std::mem::take(&mut reaches_end);
+        for DashPart { ends, is_in_figure } in dash_parts(pass, pattern, arc) {
             let range = ends.map(|input| trajectory.parameter(k, input));
-            let last = out.last_mut().filter(|last| continues && last.is_in_figure == *is_in_figure);
-            match last.filter(|_| *is_drawn && ends[0] == pass.from.input.value) {
+            let continues = may_continue && ends[0] == pass.from.input.value;
+            match out.last_mut().filter(|last| continues && last.is_in_figure == is_in_figure) {
                 Some(last) => last.range[1] = range[1],
-                None if *is_drawn => out.push(DashRange { range, is_in_figure: *is_in_figure }),
-                None => {}
+                None => out.push(DashRange { range, is_in_figure }),
             }
+            reaches_end = ends[1] == pass.to.input.value;
         }
-        continues = parts.last().is_some_and(|part| part.is_drawn);
     }
     out
 }
 
-/// A part of a pass: a dash or a gap, in the direction of the pass.
-struct PassPart {
-    /// The inputs of its ends.
+/// A dash on a pass, or a part of it that is whole or not at all on the arc of the figure.
+struct DashPart {
+    /// The inputs of its ends, in the direction of the pass.
     ends: [f64; 2],
-    is_drawn: bool,
     is_in_figure: bool,
 }
 
-/// Cuts a pass into dashes and gaps, in the order of the pass.
-fn cut_pass(pass: &Pass, pattern: DashPattern, arc: Option<BranchArc>) -> Vec<PassPart> {
+/// The dashes of a pass, in its order.
+fn dash_parts(pass: &Pass, pattern: DashPattern, arc: Option<BranchArc>) -> Vec<DashPart> {
     let [low, high] = pass.input_range();
-    let mut cuts = vec![low, high];
-    let mut k = (low / pattern.period).floor();
-    while k * pattern.period < high {
-        cuts.extend([k * pattern.period, k * pattern.period + pattern.dash_span]);
-        k += 1.0;
-    }
     // The arc is given within one turn; the pass may lie in another.
     let arc_of_branch = arc.filter(|arc| arc.branch == pass.mode.sign(DyadId::FIRST));
     let turn = ((low + high) / 720.0).floor() * 360.0;
@@ -65,18 +57,29 @@ fn cut_pass(pass: &Pass, pattern: DashPattern, arc: Option<BranchArc>) -> Vec<Pa
         .iter()
         .flat_map(|arc| [turn - 360.0, turn, turn + 360.0].map(|t| arc.input_deg.map(|deg| deg + t)))
         .collect();
-    cuts.extend(arcs.iter().flatten());
-    cuts.retain(|deg| (low..=high).contains(deg));
-    cuts.sort_by(f64::total_cmp);
-    cuts.dedup();
-    if pass.input_direction() < 0.0 {
-        cuts.reverse();
-    }
-    let part = |ends: &[f64]| {
-        let middle = (ends[0] + ends[1]) / 2.0;
-        let is_drawn = middle.rem_euclid(pattern.period) < pattern.dash_span;
-        let is_in_figure = arc.is_none() || arcs.iter().any(|[a, b]| (*a..=*b).contains(&middle));
-        PassPart { ends: [ends[0], ends[1]], is_drawn, is_in_figure }
+    let mut arc_ends = arcs.concat();
+    arc_ends.sort_by(f64::total_cmp);
+    let is_in_figure = |[from, to]: [f64; 2]| {
+        let middle = (from + to) / 2.0;
+        arc.is_none() || arcs.iter().any(|[a, b]| (*a..=*b).contains(&middle))
     };
-    cuts.windows(2).map(part).collect()
+    let mut parts = Vec::new();
+    let mut k = (low / pattern.period).floor();
+    while k * pattern.period < high {
+        let start = k * pattern.period;
+        let [mut from, end] = [start.max(low), (start + pattern.dash_span).min(high)];
+        let cuts = arc_ends.iter().copied().filter(|cut| start < *cut && *cut < end);
+        for to in cuts.chain([end]) {
+            if from < to {
+                parts.push(DashPart { ends: [from, to], is_in_figure: is_in_figure([from, to]) });
+                from = to;
+            }
+        }
+        k += 1.0;
+    }
+    if pass.input_direction() < 0.0 {
+        parts.reverse();
+        parts.iter_mut().for_each(|part| part.ends.reverse());
+    }
+    parts
 }

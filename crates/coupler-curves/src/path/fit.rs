@@ -31,9 +31,8 @@ pub(super) fn fit_cubic(
     let cubic = |[a, b]: [f64; 2]| CubicBezier([start, start + leaving * a, end - arriving * b, end]);
     let controls = |CubicBezier([_, b, c, _]): CubicBezier| [b, c];
     if let Some(handles) = parabola_handles(end - start, [leaving, arriving]).filter(|[a, b]| a.max(*b) < length) {
-        let mut feet = feet.parameters.clone();
         let candidate = cubic(handles);
-        if greatest_distance(&candidate, points, &mut feet) <= enough {
+        if is_within(enough, &candidate, points, &feet.parameters) {
             return Some(controls(candidate));
         }
     }
@@ -86,21 +85,43 @@ fn parabola_handles(chord: Vector, [leaving, arriving]: [Vector; 2]) -> Option<[
     handles.iter().all(|handle| *handle > 0.0 && handle.is_finite()).then_some(handles)
 }
 
+/// Where a point is from the cubic with some coefficients at a parameter.
+#[inline]
+fn offset([a, b, c, d]: &[Vector; 4], point: &Point, t: f64) -> Vector {
+    a - point.coords + (b + (c + d * t) * t) * t
+}
+
+/// A parameter nearer to the foot of a point, by Newton's method.
+#[inline]
+fn nearer_foot(coefficients: &[Vector; 4], point: &Point, t: f64) -> f64 {
+    let [_, b, c, d] = coefficients;
+    let (offset, first) = (offset(coefficients, point, t), b + (c * 2.0 + d * (3.0 * t)) * t);
+    let second = c * 2.0 + d * (6.0 * t);
+    let step = offset.dot(&first) / (first.norm_squared() + offset.dot(&second));
+    if step.is_finite() { (t - step).clamp(0.0, 1.0) } else { t }
+}
+
+/// The square of the distance of a point from a cubic at a parameter, which is moved towards its foot.
+#[inline]
+fn distance_squared(coefficients: &[Vector; 4], point: &Point, t: &mut f64) -> f64 {
+    *t = nearer_foot(coefficients, point, nearer_foot(coefficients, point, *t));
+    offset(coefficients, point, *t).norm_squared()
+}
+
+/// Whether no point is further than a distance from a cubic; near their feet are these parameters.
+fn is_within(distance: f64, cubic: &CubicBezier, points: &[Point], feet: &[f64]) -> bool {
+    let coefficients = cubic.coefficients();
+    let is_near = |(point, &(mut t)): (&Point, &f64)| distance_squared(&coefficients, point, &mut t).sqrt() <= distance;
+    points.iter().zip(feet).all(is_near)
+}
+
 /// Moves the parameters of points towards their feet on a cubic, and returns the greatest distance of a point from there:
 /// none is further from the cubic.
 fn greatest_distance(cubic: &CubicBezier, points: &[Point], feet: &mut [f64]) -> f64 {
-    let [a, b, c, d] = cubic.coefficients();
+    let coefficients = cubic.coefficients();
     let mut greatest = 0.0f64;
     for (point, t) in points.iter().zip(feet) {
-        let from_point = a - point.coords;
-        let offset = |t: f64| from_point + (b + (c + d * t) * t) * t;
-        for _ in 0..2 {
-            let (offset, first) = (offset(*t), b + (c * 2.0 + d * (3.0 * *t)) * *t);
-            let second = c * 2.0 + d * (6.0 * *t);
-            let step = offset.dot(&first) / (first.norm_squared() + offset.dot(&second));
-            *t = if step.is_finite() { (*t - step).clamp(0.0, 1.0) } else { *t };
-        }
-        let square = offset(*t).norm_squared();
+        let square = distance_squared(&coefficients, point, t);
         if square.is_nan() || square > greatest {
             greatest = square;
         }

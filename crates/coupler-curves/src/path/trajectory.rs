@@ -32,7 +32,8 @@ pub(super) fn parameter(place: Place) -> f64 {
     /// More than the rounding of inputs relative to the width of a piece.
     const NEXT_TO_END: f64 = 1e-9;
     let t = place.piece as f64 + (place.u + 1.0) / 2.0;
-    if (t - t.round()).abs() <= NEXT_TO_END { t.round() } else { t }
+    let nearest_end = (t + 0.5) as usize as f64;
+    if (t - nearest_end).abs() <= NEXT_TO_END { nearest_end } else { t }
 }
 
 /// A side of a place.
@@ -108,9 +109,11 @@ impl<'a> Trajectory<'a> {
 
     /// The place at a parameter: where two pieces meet, on the piece of the given side.
     fn place(&self, t: f64, side: Side) -> Place {
-        let k = if side == Side::After { t.floor() } else { t.ceil() - 1.0 };
-        let k = k.clamp(0.0, (self.curve.arcs.len() as f64 - 1.0).max(0.0));
-        Place { piece: k as usize, u: 2.0 * (t - k) - 1.0 }
+        let after = t as usize;
+        let is_before = side == Side::Before && after as f64 == t;
+        let piece = if is_before { after.saturating_sub(1) } else { after };
+        let piece = piece.min(self.curve.arcs.len().saturating_sub(1));
+        Place { piece, u: 2.0 * (t - piece as f64) - 1.0 }
     }
 
     /// The position, and the direction of motion; `None` if that is not known.
@@ -146,11 +149,14 @@ impl<'a> Trajectory<'a> {
         /// A part that is shorter is a point.
         const SHORTEST: f64 = 1e-6;
         let knots = self.knots.iter().copied().filter(|knot| from + SHORTEST < *knot && *knot < to - SHORTEST);
-        let cuts: Vec<f64> = [from].into_iter().chain(knots).chain([to]).collect();
         let mut out = Vec::new();
-        for part in cuts.windows(2).map(|ends| [ends[0], ends[1]]).filter(|[from, to]| from < to) {
+        let mut start = from;
+        for end in knots.chain([to]) {
+            let part = [std::mem::replace(&mut start, end), end];
             let Place { piece, .. } = self.place(part[0], Side::After);
-            if self.is_resolved[piece] {
+            if part[0] >= part[1] {
+                continue;
+            } else if self.is_resolved[piece] {
                 self.append(&mut out, self.fitted(part, straightness));
             } else {
                 self.refined(part).into_iter().for_each(|spline| self.append(&mut out, spline));
@@ -178,22 +184,29 @@ impl<'a> Trajectory<'a> {
     fn fitted(&self, [from, to]: [f64; 2], straightness: f64) -> Spline {
         /// A cubic spans no more pieces, of at most an eighth of a turn each.
         const MAX_PIECES: f64 = 3.0;
-        let (start, _) = self.point_and_direction(from, Side::After);
-        let mut segments = Vec::new();
+        let start = self.point_and_direction(from, Side::After);
         let parts = ((to - from) / MAX_PIECES).ceil().max(1.0);
+        let mut segments = Vec::with_capacity(parts as usize);
         for k in 0..parts as usize {
             let at = |k: usize| from + (to - from) * (k as f64 / parts);
-            self.fit([at(k), at(k + 1)], straightness, &mut segments);
+            let start = if k == 0 { start } else { self.point_and_direction(at(k), Side::After) };
+            self.fit([at(k), at(k + 1)], start, straightness, &mut segments);
         }
-        Spline { start, segments }
+        Spline { start: start.0, segments }
     }
 
-    /// Appends segments from one parameter to another: one, or those of both halves.
-    fn fit(&self, [from, to]: [f64; 2], straightness: f64, out: &mut Vec<SplineSegment>) {
+    /// Appends segments from one parameter, with the position and direction there, to another: one, or those of both
+    /// halves.
+    fn fit(
+        &self,
+        [from, to]: [f64; 2],
+        (start, leaving): (Point, Option<Vector>),
+        straightness: f64,
+        out: &mut Vec<SplineSegment>,
+    ) {
         /// Points with which a segment is compared: some, and more on each piece, which has 16 terms.
         const POINTS: [f64; 2] = [5.0, 10.0];
-        let [(start, leaving), (end, arriving)] =
-            [self.point_and_direction(from, Side::After), self.point_and_direction(to, Side::Before)];
+        let (end, arriving) = self.point_and_direction(to, Side::Before);
         let points = self.points_between([from, to], (POINTS[0] + POINTS[1] * (to - from)) as usize);
         let is_on_line = |point: &Point| distance_to_segment(*point, start, end) <= AT_POINTS * straightness;
         if points.iter().all(is_on_line) {
@@ -205,8 +218,8 @@ impl<'a> Trajectory<'a> {
         match cubic {
             Some(control_points) => out.push(SplineSegment::Cubic([control_points[0], control_points[1], end])),
             None if from < middle && middle < to => {
-                self.fit([from, middle], straightness, out);
-                self.fit([middle, to], straightness, out);
+                self.fit([from, middle], (start, leaving), straightness, out);
+                self.fit([middle, to], self.point_and_direction(middle, Side::After), straightness, out);
             }
             None => out.push(SplineSegment::Line(end)),
         }
