@@ -3,7 +3,7 @@
 use super::rect::Rect;
 use super::theme::Theme;
 use crate::scene::{Circle, Item, Polyline, Text};
-use coupler_curves::geometry::{Point, Vector, cross, distance_to_segment, trig};
+use coupler_curves::geometry::{Bounds, Point, Vector, cross, distance_to_segment, trig};
 use coupler_curves::path::JointPath;
 
 /// The line of a path on the page for the placement of labels: through all of its splines, to a twentieth of a millimetre.
@@ -16,6 +16,8 @@ pub(super) fn label_line(path: &JointPath) -> Vec<Point> {
 #[derive(Default)]
 pub(super) struct Obstacles {
     segments: Vec<Segment>,
+    /// The boxes around runs of segments, each with the end of its run.
+    runs: Vec<(Bounds, usize)>,
     circles: Vec<(Point, f64)>,
 }
 
@@ -73,16 +75,33 @@ impl Obstacles {
         self.add_segments(points, Segment { half_width: weight / 2.0, curve: Some(curve), ..Segment::default() });
     }
 
-    fn add_segments(&mut self, points: &[Point], like: Segment) {
-        self.segments.extend(points.windows(2).map(|p| Segment { ends: [p[0], p[1]], ..like }));
+    fn add_segments(&mut self, mut points: &[Point], like: Segment) {
+        /// The points of a run.
+        const RUN: usize = 9;
+        while points.len() > 1 {
+            let run = &points[..points.len().min(RUN)];
+            self.segments.extend(run.windows(2).map(|p| Segment { ends: [p[0], p[1]], ..like }));
+            self.runs.push((Bounds::from_points(run.iter().copied()), self.segments.len()));
+            points = &points[run.len() - 1..];
+        }
     }
 
     /// The obstacles within a distance of a point, and some that are a little further away.
     fn nearby(&self, centre: Point, within: f64) -> Obstacles {
         let reach = Vector::repeat(within);
-        let segments = self.segments.iter().filter(|segment| segment.is_near(centre, reach)).copied().collect();
+        let mut near = Obstacles::default();
+        let mut start = 0;
+        for &(bounds, end) in &self.runs {
+            let run = &self.segments[start..end];
+            start = end;
+            if meets([bounds.min, bounds.max], centre, reach) {
+                near.segments.extend(run.iter().filter(|segment| segment.is_near(centre, reach)));
+                near.runs.push((bounds, near.segments.len()));
+            }
+        }
         let circles = self.circles.iter().filter(|(at, radius)| (at - centre).norm() < 2.0 * within + radius);
-        Obstacles { segments, circles: circles.copied().collect() }
+        near.circles.extend(circles);
+        near
     }
 
     /// The clearance of a box: its distance from obstacles that are not light plus a quarter of that from light ones,
@@ -92,9 +111,10 @@ impl Obstacles {
             self.circles.iter().map(|(at, radius)| spot.distance_to_point(*at) - radius).fold(enough, f64::min);
         let (mut heavy, mut light) = (circles, enough);
         for segment in &self.segments {
-            let reach = spot.half_size + Vector::repeat(enough + segment.half_width);
+            let least = if segment.is_light { &mut light } else { &mut heavy };
+            // One that is not nearer than the nearest so far makes no difference.
+            let reach = spot.half_size + Vector::repeat(*least + segment.half_width);
             if segment.is_near(spot.centre, reach) {
-                let least = if segment.is_light { &mut light } else { &mut heavy };
                 *least = least.min(spot.distance_to_segment(segment.ends) - segment.half_width);
             }
         }
@@ -121,9 +141,16 @@ fn circle_points(circle: &Circle) -> Vec<Point> {
 impl Segment {
     /// Whether its bounding box meets the box with a centre and half size.
     fn is_near(&self, centre: Point, half_size: Vector) -> bool {
-        let ([a, b], low, high) = (self.ends, centre - half_size, centre + half_size);
-        a.x.min(b.x) <= high.x && a.x.max(b.x) >= low.x && a.y.min(b.y) <= high.y && a.y.max(b.y) >= low.y
+        let [a, b] = self.ends;
+        meets([a.inf(&b), a.sup(&b)], centre, half_size)
     }
+}
+
+/// Whether the box between two corners meets the one with a centre and half size.
+#[inline]
+fn meets([min, max]: [Point; 2], centre: Point, half_size: Vector) -> bool {
+    let (low, high) = (centre - half_size, centre + half_size);
+    min.x <= high.x && max.x >= low.x && min.y <= high.y && max.y >= low.y
 }
 
 /// A possible box of a label.

@@ -1,5 +1,7 @@
 //! A frame in which a figure is drawn to scale, with its scale bar.
 
+use std::sync::LazyLock;
+
 use super::area::Area;
 use super::element::Drawing;
 use super::rect::Rect;
@@ -96,7 +98,7 @@ impl Plot {
         let stroke = Some(theme.stroke(theme.grey, theme.hair_width));
         let bar = Item::Path(Path { polylines: lines, stroke, fill: None });
         let text = Item::Text(Text { position: Point::new(left + length + gap, at.y), ..text.text });
-        area.record(&Drawing { class: "scale", title: format!("scale bar: {label}"), items: vec![bar, text] });
+        area.record(Drawing { class: "scale", title: format!("scale bar: {label}"), items: vec![bar, text] });
     }
 }
 
@@ -105,10 +107,12 @@ pub(super) fn round_number_below(x: f64) -> f64 {
     if !(1e-12..=1e12).contains(&x) {
         return 1.0;
     }
-    (-12..=12)
-        .flat_map(|power: i32| [1, 2, 5].map(|digit| format!("{digit}e{power}").parse().unwrap_or(1.0)))
-        .filter(|round: &f64| *round <= x)
-        .fold(1e-12, f64::max)
+    /// In rising order.
+    static ROUND: LazyLock<Vec<f64>> = LazyLock::new(|| {
+        let number = |digit: i32, power: i32| format!("{digit}e{power}").parse().unwrap_or(1.0);
+        (-12..=12).flat_map(|power| [1, 2, 5].map(|digit| number(digit, power))).collect()
+    });
+    ROUND[ROUND.partition_point(|round| *round <= x).max(1) - 1]
 }
 
 /// The greatest distance of a spline from its curve, in millimetres on paper. With the rounding to 1/1000 mm, a page can

@@ -1,6 +1,7 @@
 //! Colours.
 
 use std::fmt;
+use std::sync::LazyLock;
 
 use coupler_curves::geometry::trig;
 use coupler_curves::numerical::border;
@@ -24,10 +25,14 @@ impl Color {
 
     /// Linear red, green and blue, each from 0 to 1.
     fn to_linear(self) -> [f64; 3] {
-        [self.0, self.1, self.2].map(|channel| match f64::from(channel) / 255.0 {
-            c if c <= 0.04045 => c / 12.92,
-            c => trig::pow((c + 0.055) / 1.055, 2.4),
-        })
+        /// Of each value of a channel.
+        static LINEAR: LazyLock<[f64; 256]> = LazyLock::new(|| {
+            std::array::from_fn(|channel| match channel as f64 / 255.0 {
+                c if c <= 0.04045 => c / 12.92,
+                c => trig::pow((c + 0.055) / 1.055, 2.4),
+            })
+        });
+        [self.0, self.1, self.2].map(|channel| LINEAR[usize::from(channel)])
     }
 
     /// The relative luminance, from 0 for black to 1 for white (WCAG 2.2).

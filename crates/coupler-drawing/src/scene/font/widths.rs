@@ -47,14 +47,19 @@ static TABLES: LazyLock<[[WidthTable; 2]; 2]> = LazyLock::new(|| {
     [(); 2].map(|()| {
         let upright = read_runs(&mut bytes);
         let differences = read_runs(&mut bytes);
-        [WidthTable { upright: upright.clone(), differences: Vec::new() }, WidthTable { upright, differences }]
+        [WidthTable::new(upright.clone(), Vec::new()), WidthTable::new(upright, differences)]
     })
 });
+
+/// The number of characters whose widths are found without a search: Latin letters, and most of what pages are set in.
+const FIRST_CHARACTERS: usize = 0x180;
 
 /// The widths of a face: those of the upright one, and the differences from them.
 struct WidthTable {
     upright: Vec<Run>,
     differences: Vec<Run>,
+    /// The widths of the first characters.
+    first: Vec<u32>,
 }
 
 /// Characters of one width.
@@ -67,7 +72,17 @@ struct Run {
 }
 
 impl WidthTable {
+    fn new(upright: Vec<Run>, differences: Vec<Run>) -> WidthTable {
+        let mut table = WidthTable { upright, differences, first: Vec::new() };
+        table.first = ('\0'..).take(FIRST_CHARACTERS).map(|character| table.width(character)).collect();
+        table
+    }
+
     fn width(&self, character: char) -> u32 {
+        self.first.get(character as usize).copied().unwrap_or_else(|| self.find(character))
+    }
+
+    fn find(&self, character: char) -> u32 {
         let at = |runs: &[Run]| {
             let after = runs.partition_point(|run| run.first <= u32::from(character));
             after.checked_sub(1).map_or(0, |k| runs[k].units)
