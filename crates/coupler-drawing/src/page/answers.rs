@@ -23,7 +23,7 @@ pub(super) fn compose(scene: &mut Scene, page: &AnswersPage, theme: &Theme) {
     for line in &page.details {
         let line = theme.text_line(line, Point::origin(), Anchor::Start, theme.source_size, theme.grey);
         for line in line.wrap(width) {
-            root.record(&theme.text_line(&line, at, Anchor::Start, theme.source_size, theme.grey));
+            root.record(theme.text_line(&line, at, Anchor::Start, theme.source_size, theme.grey));
             at.y += 1.35 * theme.source_size;
         }
     }
@@ -42,8 +42,8 @@ pub(super) fn compose(scene: &mut Scene, page: &AnswersPage, theme: &Theme) {
             theme.note_size,
             theme.ink,
         );
-        root.record(&Drawing { class: "legend", title: String::new(), items: vec![item] });
-        root.record(&line.fit_width(width - 4.0 * theme.note_size));
+        root.record(Drawing { class: "legend", title: String::new(), items: vec![item] });
+        root.record(line.fit_width(width - 4.0 * theme.note_size));
         baseline += step;
         Point::new(at.x, baseline - 0.35 * theme.note_size)
     };
@@ -92,7 +92,7 @@ fn draw_figure(area: &impl Area, frame: Rect, page: &AnswersPage, theme: &Theme)
             theme,
             |joint| if joint == traced { theme.curve_ink(0) } else { theme.ink },
         ));
-        area.record(&Drawing { class: "linkage", title: "the linkage of the first curve".to_owned(), items });
+        area.record(Drawing { class: "linkage", title: "the linkage of the first curve".to_owned(), items });
     }
     for (k, found) in page.curves.iter().enumerate().rev() {
         let (solved, curve) = (&found.solved, &found.solved.curves[0]);
@@ -101,12 +101,12 @@ fn draw_figure(area: &impl Area, frame: Rect, page: &AnswersPage, theme: &Theme)
         let on_page = |p: Point| plot.page_from_plane.apply(found.placement.apply(p));
         let splines = splines.iter().map(|spline| spline.map(on_page)).collect();
         let stroke = theme.stroke(theme.curve_ink(k), curve_width(k, theme));
-        area.record(&Drawing {
+        area.record(Drawing {
             class: "found",
             title: found.label.clone(),
             items: vec![Item::Curve(Curve { splines, stroke })],
         });
     }
     let dots = page.target.iter().map(|p| dot(plot.page_from_plane.apply(*p), theme)).collect();
-    area.record(&Drawing { class: "target", title: page.target_label.clone(), items: dots });
+    area.record(Drawing { class: "target", title: page.target_label.clone(), items: dots });
 }

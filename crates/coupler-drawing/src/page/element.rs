@@ -3,18 +3,15 @@
 use std::collections::HashSet;
 
 use super::typography::{is_article, is_defined};
-use crate::scene::{
-    Anchor, Animation, Circle, Color, Curve, Face, Group, Item, MIN_TEXT_SIZE, Path, Polyline, Stroke, Text, TextRun,
-    Typeface,
-};
+use crate::scene::{Anchor, Circle, Color, Curve, Face, Group, Item, MIN_TEXT_SIZE, Stroke, Text, TextRun, Typeface};
 use coupler_curves::expression::{MathPiece, MathText};
-use coupler_curves::geometry::{Point, Similarity, Spline, Vector};
-use coupler_curves::path::{DashPattern, JointPath};
+use coupler_curves::geometry::{Point, Similarity, Spline, SplineSegment, Vector};
+use coupler_curves::path::{Dash, DashPattern, JointPath};
 
 /// An element, whose geometry is in millimetres from the origin of the area it is drawn on.
 pub(super) trait Element {
     /// The item of the page, for the position of that origin on the page.
-    fn to_item(&self, origin: Vector) -> Item;
+    fn into_item(self, origin: Vector) -> Item;
 }
 
 /// A coupler curve: a group with an id, a title and data attributes.
@@ -38,26 +35,20 @@ pub(super) struct CouplerCurve {
 }
 
 impl Element for CouplerCurve {
-    fn to_item(&self, origin: Vector) -> Item {
-        let curve = |splines: Vec<&Spline>, stroke: Stroke| {
-            let splines: Vec<Spline> = splines.into_iter().map(|spline| spline.map(|p| p + origin)).collect();
+    fn into_item(self, origin: Vector) -> Item {
+        let drawing_data = self.drawing_data(origin);
+        let data = self.data.into_iter().chain(drawing_data).collect();
+        let curve = |splines: Vec<Spline>, stroke: Stroke| {
             (!splines.is_empty()).then_some(Item::Curve(Curve { splines, stroke }))
         };
-        let dashes = |is_in_figure: bool, stroke: Stroke| {
-            let dashes = self.path.dashes.iter().filter(|dash| dash.is_in_figure == is_in_figure);
-            curve(dashes.map(|dash| &dash.spline).collect(), stroke)
-        };
-        let [figure, other] = self.stroke_styles;
-        let hairline = curve(self.path.whole.iter().collect(), self.hairline);
-        let paths = [hairline, dashes(false, other), dashes(true, figure)].into_iter().flatten();
-        let marks = self.marks.iter().map(|mark| translated(&Item::Circle(mark.clone()), origin));
-        Item::Group(Group {
-            id: self.id.clone(),
-            class: self.class,
-            title: self.title.clone(),
-            data: self.data.iter().cloned().chain(self.drawing_data(origin)).collect(),
-            items: paths.chain(marks).collect(),
-        })
+        let (figure, other): (Vec<Dash>, Vec<Dash>) = self.path.dashes.into_iter().partition(|dash| dash.is_in_figure);
+        let [figure, other] = [figure, other].map(|dashes| dashes.into_iter().map(|dash| dash.spline).collect());
+        let hairline = curve(self.path.whole, self.hairline);
+        let [figure_stroke, other_stroke] = self.stroke_styles;
+        let paths = [hairline, curve(other, other_stroke), curve(figure, figure_stroke)].into_iter().flatten();
+        let mut items: Vec<Item> = paths.chain(self.marks.into_iter().map(Item::Circle)).collect();
+        items.iter_mut().for_each(|item| translate(item, origin));
+        Item::Group(Group { id: self.id, class: self.class, title: self.title, data, items })
     }
 }
 
@@ -88,38 +79,40 @@ pub(super) struct Drawing {
 }
 
 impl Element for Drawing {
-    fn to_item(&self, origin: Vector) -> Item {
-        let items = self.items.iter().map(|item| translated(item, origin)).collect();
-        Item::Group(Group { class: self.class, title: self.title.clone(), items, ..Group::default() })
+    fn into_item(mut self, origin: Vector) -> Item {
+        self.items.iter_mut().for_each(|item| translate(item, origin));
+        Item::Group(Group { class: self.class, title: self.title, items: self.items, ..Group::default() })
     }
 }
 
 impl Element for Item {
-    fn to_item(&self, origin: Vector) -> Item {
-        translated(self, origin)
+    fn into_item(mut self, origin: Vector) -> Item {
+        translate(&mut self, origin);
+        self
     }
 }
 
-fn translated(item: &Item, by: Vector) -> Item {
+/// Moves an item.
+fn translate(item: &mut Item, by: Vector) {
     match item {
-        Item::Group(group) => {
-            let items = group.items.iter().map(|item| translated(item, by)).collect();
-            Item::Group(Group { items, ..group.clone() })
-        }
+        Item::Group(group) => group.items.iter_mut().for_each(|item| translate(item, by)),
         Item::Path(path) => {
-            let line =
-                |line: &Polyline| Polyline { points: line.points.iter().map(|p| p + by).collect(), ..line.clone() };
-            Item::Path(Path { polylines: path.polylines.iter().map(line).collect(), ..path.clone() })
+            path.polylines.iter_mut().flat_map(|line| &mut line.points).for_each(|point| *point += by);
         }
-        Item::Curve(curve) => {
-            let splines = curve.splines.iter().map(|spline| spline.map(|p| p + by)).collect();
-            Item::Curve(Curve { splines, ..curve.clone() })
-        }
-        Item::Circle(circle) => Item::Circle(Circle { centre: circle.centre + by, ..circle.clone() }),
-        Item::Text(text) => Item::Text(Text { position: text.position + by, ..text.clone() }),
-        Item::Animation(moving) => {
-            let frame = |items: &Vec<Item>| items.iter().map(|item| translated(item, by)).collect();
-            Item::Animation(Animation { frames: moving.frames.iter().map(frame).collect(), ..moving.clone() })
+        Item::Curve(curve) => curve.splines.iter_mut().for_each(|spline| map_spline(spline, |point| point + by)),
+        Item::Circle(circle) => circle.centre += by,
+        Item::Text(text) => text.position += by,
+        Item::Animation(moving) => moving.frames.iter_mut().flatten().for_each(|item| translate(item, by)),
+    }
+}
+
+/// Makes a spline its image under an affine map.
+pub(super) fn map_spline(spline: &mut Spline, map: impl Fn(Point) -> Point) {
+    spline.start = map(spline.start);
+    for segment in &mut spline.segments {
+        match segment {
+            SplineSegment::Line(end) => *end = map(*end),
+            SplineSegment::Cubic(points) => *points = points.map(&map),
         }
     }
 }
@@ -320,8 +313,8 @@ impl TextLine {
 }
 
 impl Element for TextLine {
-    fn to_item(&self, origin: Vector) -> Item {
-        translated(&Item::Text(self.text.clone()), origin)
+    fn into_item(self, origin: Vector) -> Item {
+        Item::Text(self.text).into_item(origin)
     }
 }
 

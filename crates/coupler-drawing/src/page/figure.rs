@@ -2,7 +2,7 @@
 
 use super::area::Area;
 use super::arrangement::{Arrangement, Extents};
-use super::element::{CouplerCurve, Drawing, TextLine};
+use super::element::{CouplerCurve, Drawing, TextLine, map_spline};
 use super::labels::{Obstacles, label_line};
 use super::marks;
 use super::mechanism::PosedMechanism;
@@ -49,7 +49,7 @@ pub(super) fn curve_path(
     let tolerance = MAX_CURVE_ERROR / page_from_plane.scale();
     let mut path = path::joint_path(&solved.linkage, solved.circuit(curve), curve.joint, dashes, tolerance);
     let splines = path.whole.iter_mut().chain(path.dashes.iter_mut().map(|dash| &mut dash.spline));
-    splines.for_each(|spline| *spline = spline.map(|p| page_from_plane.apply(p)));
+    splines.for_each(|spline| map_spline(spline, |point| page_from_plane.apply(point)));
     path
 }
 
@@ -264,10 +264,10 @@ impl<'a> Figure<'a> {
                 // A dot marks each limit of the input.
                 marks: limits[circuit - 1].iter().map(dot).collect(),
             };
-            area.record(&element);
+            area.record(element);
         }
         let points = self.coupler_point_items(plot, curves, theme);
-        area.record(&Drawing { class: "coupler-point", title: String::new(), items: points });
+        area.record(Drawing { class: "coupler-point", title: String::new(), items: points });
     }
 
     /// Draws the curves of the key as light solid lines.
@@ -275,23 +275,23 @@ impl<'a> Figure<'a> {
         let solved = self.solved_cell;
         let tolerance = MAX_CURVE_ERROR / plot.page_from_plane.scale();
         let solid = |curve: &MeasuredCurve| {
-            let splines = path::joint_splines(&solved.linkage, solved.circuit(curve), curve.joint, tolerance);
-            let splines = splines.iter().map(|spline| spline.map(|p| plot.page_from_plane.apply(p))).collect();
+            let mut splines = path::joint_splines(&solved.linkage, solved.circuit(curve), curve.joint, tolerance);
+            splines.iter_mut().for_each(|spline| map_spline(spline, |point| plot.page_from_plane.apply(point)));
             let ink = theme.faded(self.curve_ink(curve, theme));
             Item::Curve(Curve { splines, stroke: theme.stroke(ink, theme.fine_width) })
         };
         let items = solved.curves.iter().map(solid).collect();
-        area.record(&Drawing { class: "trail", title: String::new(), items });
+        area.record(Drawing { class: "trail", title: String::new(), items });
     }
 
     /// Draws the marks of the curves: axes of symmetry and straight portions.
     fn draw_marks(&self, area: &impl Area, plot: &Plot, curves: &[&MeasuredCurve], axes: Vec<Item>, theme: &Theme) {
-        area.record(&Drawing { class: "axis", title: String::new(), items: axes });
+        area.record(Drawing { class: "axis", title: String::new(), items: axes });
         let portion = |curve: &&MeasuredCurve| {
             marks::straight_portion_item(self.solved_cell, curve, self.curve_ink(curve, theme), plot, theme)
         };
         let items = curves.iter().filter_map(portion).collect();
-        area.record(&Drawing { class: "straight", title: String::new(), items });
+        area.record(Drawing { class: "straight", title: String::new(), items });
     }
 
     /// Draws the start, the direction and the ticks of each curve, with numbers where they are clear of the `obstacles`
@@ -312,21 +312,23 @@ impl<'a> Figure<'a> {
         let marks = |curve: &&MeasuredCurve| {
             MotionMarks::new(&poses[curve.circuit - 1], curve.joint, plot, self.curve_ink(curve, theme), theme)
         };
-        let marks: Vec<MotionMarks> = curves.iter().map(marks).collect();
+        let mut marks: Vec<MotionMarks> = curves.iter().map(marks).collect();
         let least_size = MIN_NUMBERED_CURVE * theme.small_size();
-        let is_large = |path: &JointPath| Bounds::from_points(label_line(path)).size().max() >= least_size;
-        let is_numbered: Vec<bool> = paths.iter().map(is_large).collect();
-        paths.iter().for_each(|path| obstacles.add_points(&label_line(path), theme.curve_width, false));
-        for marks in &marks {
+        let lines: Vec<Vec<Point>> = paths.iter().map(label_line).collect();
+        let is_large = |line: &Vec<Point>| Bounds::from_points(line.iter().copied()).size().max() >= least_size;
+        let is_numbered: Vec<bool> = lines.iter().map(is_large).collect();
+        lines.iter().for_each(|line| obstacles.add_points(line, theme.curve_width, false));
+        for marks in &mut marks {
             obstacles.add(&marks.items, false);
-            area.record(&Drawing { class: "motion", title: String::new(), items: marks.items.clone() });
+            let items = std::mem::take(&mut marks.items);
+            area.record(Drawing { class: "motion", title: String::new(), items });
         }
         let frame = plot.rect_above_scale_bar(theme);
         let least = MIN_NUMBERED_FRAME.map(|ems| ems * theme.small_size());
         if frame.size.x >= least[0] && frame.size.y >= least[1] {
             let marks = marks.into_iter().zip(is_numbered).filter(|(_, is_numbered)| *is_numbered);
             let marks = marks.map(|(marks, _)| marks).collect();
-            area.record(&MotionMarks::place_numbers(marks, &obstacles, frame, theme));
+            area.record(MotionMarks::place_numbers(marks, &obstacles, frame, theme));
         }
     }
 
@@ -379,10 +381,10 @@ impl<'a> Figure<'a> {
     fn draw_underlay(&self, area: &impl Area, plot: &Plot, theme: &Theme) {
         let ghosts: Vec<Item> = self.ghosts.iter().flat_map(|ghost| ghost.ghost_items(plot, theme)).collect();
         if !ghosts.is_empty() {
-            area.record(&Drawing { class: "ghost", title: String::new(), items: ghosts });
+            area.record(Drawing { class: "ghost", title: String::new(), items: ghosts });
         }
         let items = self.posed_items(|mechanism| mechanism.underlay_items(plot, theme));
-        area.record(&Drawing { class: "underlay", title: String::new(), items });
+        area.record(Drawing { class: "underlay", title: String::new(), items });
     }
 
     fn linkage_items(&self, plot: &Plot, theme: &Theme) -> Vec<Item> {
@@ -440,5 +442,5 @@ impl<'a> Figure<'a> {
 }
 
 fn draw_linkage(area: &impl Area, items: Vec<Item>) {
-    area.record(&Drawing { class: "linkage", title: String::new(), items });
+    area.record(Drawing { class: "linkage", title: String::new(), items });
 }

@@ -98,19 +98,19 @@ impl<'a> Heading<'a> {
         let source_line = |text: &str, at| theme.text_line(text, at, Anchor::Start, theme.source_size, theme.grey);
         // A source too long for one line is broken at separators.
         for line in source_line(&self.source, Point::origin()).wrap_at_separators(right - left) {
-            root.record(&source_line(&line, at).with_italics(self.symbols).fit_width(right - left));
+            root.record(source_line(&line, at).with_italics(self.symbols).fit_width(right - left));
             at.y += SOURCE_LEADING * theme.source_size;
         }
         let dimension_line =
             |text: &MathText, at| theme.math_line(text, at, Anchor::Start, theme.source_size, theme.ink);
         let fits = |text: &MathText| dimension_line(text, Point::origin()).text.width() <= right - left;
         for line in MathText::join(self.dimensions.iter().cloned(), ", ").wrap(fits) {
-            root.record(&dimension_line(&line, at).fit_width(right - left));
+            root.record(dimension_line(&line, at).fit_width(right - left));
             at.y += SOURCE_LEADING * theme.source_size;
         }
         let mut foot = Point::new(right, foot_baseline(page, theme) - self.folio_height(page, theme));
         for line in self.folio_lines(self.atlas_title, page, theme) {
-            root.record(&line.moved_to(foot));
+            root.record(line.moved_to(foot));
             foot.y += SOURCE_LEADING * theme.source_size;
         }
         // Two thirds of the last line's leading are above the contents.
@@ -195,7 +195,7 @@ pub(super) fn draw_title(root: &impl Area, title: &str, theme: &Theme) -> Point 
     let mut at = Point::new(left, theme.border + 1.9 * theme.title_size);
     for line in theme.text_line(title, at, Anchor::Start, theme.title_size, theme.ink).fit_or_wrap(width) {
         let size = line.text.size;
-        root.record(&line.moved_to(at));
+        root.record(line.moved_to(at));
         at.y += 1.2 * size;
     }
     Point::new(left, at.y - 1.2 * theme.title_size + 1.85 * theme.source_size)

@@ -198,7 +198,7 @@ impl KeyLines {
             let column = Vector::new((k / self.per_column) as f64 * (self.width + em), 0.0);
             let at = rect.corner + column + Vector::new(0.0, em + gap + step * (k % self.per_column) as f64);
             for (line, x) in name.iter().map(|name| (name, 0.0)).chain([(text, *indent)]) {
-                area.record(&line.clone().moved_to(at + Vector::new(x, 0.0)).fit_width(self.width - x));
+                area.record(line.clone().moved_to(at + Vector::new(x, 0.0)).fit_width(self.width - x));
             }
         }
     }
@@ -245,7 +245,7 @@ pub(super) fn draw_linkage(
         joint_names(mechanism, &named, &plot, theme).into_iter().chain(directions.zero_end().map(|at| (at, zero)));
     let names = names.filter_map(|(at, name)| placer.place_at_point(at, name)).collect();
     for (class, items) in [("underlay", underlay), ("linkage", links), ("direction", marks), ("name", names)] {
-        area.record(&Drawing { class, title: String::new(), items });
+        area.record(Drawing { class, title: String::new(), items });
     }
 }
 

@@ -17,14 +17,14 @@ pub(super) fn compose(scene: &mut Scene, page: &OverlayPage, theme: &Theme) {
     let paper = root.size();
     let width = paper.x - 2.0 * at.x;
     for line in &page.details {
-        root.record(&theme.text_line(line, at, Anchor::Start, theme.source_size, theme.grey).fit_width(width));
+        root.record(theme.text_line(line, at, Anchor::Start, theme.source_size, theme.grey).fit_width(width));
         at.y += 1.35 * theme.source_size;
     }
     let foot = theme.border + theme.margin + 2.0 * theme.source_size;
     let frame = Rect { corner: Point::new(at.x, at.y), size: Vector::new(width, paper.y - foot - at.y) };
     draw_figure(&root, frame, page, theme);
     let at = Point::new(paper.x - at.x, paper.y - theme.border - 0.6 * theme.margin);
-    root.record(&theme.text_line(page.footer, at, Anchor::End, theme.source_size, theme.grey).fit_width(width));
+    root.record(theme.text_line(page.footer, at, Anchor::End, theme.source_size, theme.grey).fit_width(width));
 }
 
 /// The length at which the greatest difference is drawn, as a fraction of the height of the figure.
@@ -55,9 +55,9 @@ fn draw_figure(area: &impl Area, frame: Rect, page: &OverlayPage, theme: &Theme)
     }
     let faded = theme.faded(old);
     let recorded = vec![path(&recorded, faded, 2.0 * theme.curve_width)];
-    area.record(&Drawing { class: "recorded", title: "recorded".to_owned(), items: recorded });
+    area.record(Drawing { class: "recorded", title: "recorded".to_owned(), items: recorded });
     let current = vec![path(&page.current_path, new, theme.hair_width)];
-    area.record(&Drawing { class: "now", title: "current".to_owned(), items: current });
+    area.record(Drawing { class: "now", title: "current".to_owned(), items: current });
     let pairs: Vec<(Point, Vector)> = match page.recorded.len() == page.current.len() {
         true => page.current.iter().zip(&page.recorded).map(|(new, old)| (*new, old - new)).collect(),
         false => Vec::new(),
@@ -77,7 +77,7 @@ fn draw_figure(area: &impl Area, frame: Rect, page: &OverlayPage, theme: &Theme)
         Item::Circle(Circle { centre: on_page(*p), radius: 1.6 * theme.joint_radius, stroke, fill: None })
     };
     let worst = page.worst_points.iter().filter(is_defined);
-    area.record(&Drawing {
+    area.record(Drawing {
         class: "worst",
         title: "the greatest differences".to_owned(),
         items: worst.map(|p| mark(p, old)).collect(),
@@ -107,8 +107,8 @@ fn draw_differences(
         times if times < 1.0 => format!("the difference, magnified {times} times"),
         times => format!("the difference, magnified {times:.0} times"),
     };
-    area.record(&Drawing { class: "difference", title: magnified.clone(), items: vec![hairlines] });
+    area.record(Drawing { class: "difference", title: magnified.clone(), items: vec![hairlines] });
     let legend = format!("thin line: current; broad pale line: recorded; hairlines: {magnified}");
     let at = Point::new(frame.corner.x, frame.corner.y + frame.size.y + theme.source_size);
-    area.record(&theme.text_line(&legend, at, Anchor::Start, theme.note_size, theme.grey).fit_width(frame.size.x));
+    area.record(theme.text_line(&legend, at, Anchor::Start, theme.note_size, theme.grey).fit_width(frame.size.x));
 }

@@ -206,7 +206,7 @@ fn draw_panels<A: Area>(
             }
             None => draw_not_assembled(area, frame, panel.solved_cell, theme),
         }
-        area.record(&figure::number_line(panel.solved_cell, theme));
+        area.record(figure::number_line(panel.solved_cell, theme));
         draw_lines(area, lines, area.size().y - foot, theme);
     }
     DrawnPanels { scale, has_facts: facts != FactsLayout::None, has_notes, has_enlarged }
@@ -318,7 +318,7 @@ fn draw_lines(area: &impl Area, lines: Vec<TextLine>, top: f64, theme: &Theme) {
             break;
         }
         after_last = Some(leading(&line));
-        area.record(&line.moved_to(Point::new(area.size().x / 2.0, y)));
+        area.record(line.moved_to(Point::new(area.size().x / 2.0, y)));
     }
 }
 
@@ -340,5 +340,5 @@ pub(super) fn draw_not_assembled(area: &impl Area, frame: Rect, cell: &SolvedCel
         text.position.y = first + step * k as f64;
     }
     let items = lines.into_iter().map(Item::Text).collect();
-    area.record(&Drawing { class: "not-assembled", title: String::new(), items });
+    area.record(Drawing { class: "not-assembled", title: String::new(), items });
 }

@@ -164,9 +164,9 @@ pub(super) fn draw(area: &impl Area, line: &[Symbol], at: Point, theme: &Theme) 
     for symbol in line {
         let middle = at + Vector::new(mark_width(symbol.mark, theme) / 2.0, -0.32 * theme.note_size);
         let items = symbol.mark.items(middle, theme);
-        area.record(&Drawing { class: "symbol", title: String::new(), items });
+        area.record(Drawing { class: "symbol", title: String::new(), items });
         let text_at = at + Vector::new(mark_width(symbol.mark, theme) + 0.45 * theme.note_size, 0.0);
-        area.record(&symbol.text(text_at, theme));
+        area.record(symbol.text(text_at, theme));
         at.x += symbol.width(theme) + gap(theme);
     }
 }

@@ -30,7 +30,7 @@ pub(super) trait Area: Sized {
     fn grid_cells(&self, rows: usize, columns: usize) -> Vec<Self>;
 
     /// Draws an element.
-    fn record(&self, element: &impl Element);
+    fn record(&self, element: impl Element);
 
     /// Draws a rectangle by two opposite corners, which are rounded, as the width of the stroke is.
     fn record_rectangle(&self, corners: [Point; 2], stroke: Stroke);

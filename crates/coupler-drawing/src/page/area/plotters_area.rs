@@ -1,5 +1,6 @@
 //! An area of plotters: it places elements, and inside it they keep full precision.
 
+use std::cell::Cell;
 use std::convert::Infallible;
 use std::iter::{Once, once};
 
@@ -37,9 +38,9 @@ impl Area for PlottersArea<'_> {
         self.split_evenly((rows, columns))
     }
 
-    fn record(&self, element: &impl Element) {
+    fn record(&self, element: impl Element) {
         // A canvas cannot fail, and no element draws on an area, which would borrow it twice.
-        self.draw(&AtOrigin(element)).expect("recording a scene does not fail");
+        self.draw(&AtOrigin(Cell::new(Some(element)))).expect("recording a scene does not fail");
     }
 
     fn record_rectangle(&self, corners: [Point; 2], stroke: Stroke) {
@@ -51,10 +52,10 @@ impl Area for PlottersArea<'_> {
     }
 }
 
-/// An element for plotters, anchored at the origin of the area it is drawn on.
-struct AtOrigin<'e, E>(&'e E);
+/// An element for plotters, anchored at the origin of the area it is drawn on, until it is drawn.
+struct AtOrigin<E>(Cell<Option<E>>);
 
-impl<'a, E> PointCollection<'a, BackendCoord> for &'a AtOrigin<'_, E> {
+impl<'a, E> PointCollection<'a, BackendCoord> for &'a AtOrigin<E> {
     type Point = BackendCoord;
     type IntoIter = Once<BackendCoord>;
 
@@ -63,15 +64,15 @@ impl<'a, E> PointCollection<'a, BackendCoord> for &'a AtOrigin<'_, E> {
     }
 }
 
-impl<'s, E: Element> Drawable<Canvas<'s>> for AtOrigin<'_, E> {
+impl<'s, E: Element> Drawable<Canvas<'s>> for AtOrigin<E> {
     fn draw<I: Iterator<Item = BackendCoord>>(
         &self,
         mut origin: I,
         canvas: &mut Canvas<'s>,
         _: (u32, u32),
     ) -> Result<(), DrawingErrorKind<Infallible>> {
-        if let Some(origin) = origin.next() {
-            canvas.record(self.0.to_item(pixel::to_millimetres(origin).coords));
+        if let Some((origin, element)) = origin.next().zip(self.0.take()) {
+            canvas.record(element.into_item(pixel::to_millimetres(origin).coords));
         }
         Ok(())
     }

@@ -53,8 +53,8 @@ impl Area for SceneArea<'_> {
         ys.windows(2).flat_map(row).collect()
     }
 
-    fn record(&self, element: &impl Element) {
-        self.push(element.to_item(pixel::to_millimetres(self.start).coords));
+    fn record(&self, element: impl Element) {
+        self.push(element.into_item(pixel::to_millimetres(self.start).coords));
     }
 
     fn record_rectangle(&self, corners: [Point; 2], stroke: Stroke) {

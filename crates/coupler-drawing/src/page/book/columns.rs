@@ -163,9 +163,9 @@ pub(super) fn compose_list(
         let title = header.atlas.title;
         let subtitle = header.volume.name().map_or(title.to_owned(), |name| format!("{title} · {name}"));
         let subtitle = theme.text_line(&subtitle, at, Anchor::Start, theme.source_size, theme.grey);
-        root.record(&subtitle.fit_width(root.size().x - 2.0 * at.x));
+        root.record(subtitle.fit_width(root.size().x - 2.0 * at.x));
         let leaders = columns.draw_lines(&root, placed, &places, theme);
-        root.record(&Drawing { class: "leaders", title: String::new(), items: leaders });
+        root.record(Drawing { class: "leaders", title: String::new(), items: leaders });
         drop(root);
         scene.links = placed.iter().filter_map(|placed| columns.line_link(placed, header.volume, &places)).collect();
         scene
@@ -275,12 +275,12 @@ impl ColumnLayout {
             let at_start = |line: TextLine| TextLine { text: Text { position: at, ..line.text } };
             match line.row {
                 Row::Heading { page, .. } => {
-                    root.record(&at_start(heading_line(text, theme)).fit_width(self.heading_width(*page)));
+                    root.record(at_start(heading_line(text, theme)).fit_width(self.heading_width(*page)));
                     if let Some(page) = page.filter(|_| line.is_first) {
-                        root.record(&text_line(&places.label(page), end, Anchor::End, theme.note_size, theme));
+                        root.record(text_line(&places.label(page), end, Anchor::End, theme.note_size, theme));
                     }
                 }
-                Row::Note(_) => root.record(&at_start(note_line(text, theme)).fit_width(self.column_size.x)),
+                Row::Note(_) => root.record(at_start(note_line(text, theme)).fit_width(self.column_size.x)),
                 Row::Entry(entry) => leaders.extend(self.draw_entry(root, entry, &places.label(entry.page), at, theme)),
             }
         }
@@ -295,7 +295,7 @@ impl ColumnLayout {
             .text_line(at, theme)
             .fit_width(self.column_size.x - self.page_width - self.value_width - self.curve_width);
         let from = at.x + line.text.width();
-        root.record(&line);
+        root.record(line);
         let numbers = [
             (page.to_owned(), right, theme.ink),
             (entry.value.clone(), right - self.page_width, theme.ink),
@@ -305,7 +305,7 @@ impl ColumnLayout {
         for (text, x, ink) in numbers.into_iter().filter(|(text, ..)| !text.is_empty()) {
             let number = theme.text_line(&text, Point::new(x, at.y), Anchor::End, theme.note_size, ink);
             to = number.text.start().x;
-            root.record(&number);
+            root.record(number);
         }
         leader_dots(from, to, at.y, theme)
     }

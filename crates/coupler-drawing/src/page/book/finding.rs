@@ -68,7 +68,7 @@ pub(super) fn compose(
     let title = if chart.title.is_empty() { TITLE.to_owned() } else { format!("{TITLE}: {}", chart.title) };
     let at = heading::draw_title(&root, &title, theme);
     let note = theme.text_line(&chart.note, at, Anchor::Start, theme.source_size, theme.grey);
-    root.record(&note.with_italics(&chart.symbols).fit_width(root.size().x - 2.0 * at.x));
+    root.record(note.with_italics(&chart.symbols).fit_width(root.size().x - 2.0 * at.x));
     let whole = frame(options, theme);
     let column_count = chart.cells.iter().map(|cell| cell.place[1] + 1).max().unwrap_or(1).max(chart.columns.len());
     let row_count = chart.cells.iter().map(|cell| cell.place[0] + 1).max().unwrap_or(1).max(chart.rows.len());
@@ -78,7 +78,7 @@ pub(super) fn compose(
         let line = theme.text_line(text, at, Anchor::Middle, em, theme.ink).with_italics(&chart.symbols);
         let mut line = line.fit_width(width);
         line.text.quarter_turns = turns;
-        root.record(&line);
+        root.record(line);
     };
     for (k, text) in chart.columns.iter().enumerate() {
         label(text, whole.corner + Vector::new((k as f64 + 0.5) * step.x, -0.6 * em), step.x, 0);
@@ -122,7 +122,7 @@ pub(super) fn compose(
             let at = part.corner + Vector::new(0.5 * width, part.size.y - 0.25 * em);
             let size = (0.9 * em).max(crate::scene::MIN_TEXT_SIZE.min(em));
             let number = theme.text_line(&page.to_string(), at, Anchor::Middle, size, theme.grey);
-            root.record(&number.fit_width(width));
+            root.record(number.fit_width(width));
             if let Some(page_index) = link(*page) {
                 links.push(PageLink { corner: part.corner, size: part.size, page_index });
             }
@@ -141,5 +141,5 @@ fn draw_lines(root: &impl Area, whole: Rect, [columns, rows]: [usize; 2], theme:
     let down = (0..=columns).map(|k| k as f64 / columns as f64).map(|x| line([at(x, 0.0), at(x, 1.0)]));
     let across = (0..=rows).map(|k| k as f64 / rows as f64).map(|y| line([at(0.0, y), at(1.0, y)]));
     let items = down.chain(across).collect();
-    root.record(&Drawing { class: "rule", title: String::new(), items });
+    root.record(Drawing { class: "rule", title: String::new(), items });
 }

@@ -26,7 +26,7 @@ pub fn draw_folio(scene: &mut Scene, label: PageNumber, page_index: usize, optio
         false => (theme.border, Anchor::Start),
     };
     let at = Point::new(x, page.y - 0.5 * theme.border + 0.35 * theme.source_size);
-    root.record(&theme.text_line(&text, at, anchor, theme.source_size, theme.ink));
+    root.record(theme.text_line(&text, at, anchor, theme.source_size, theme.ink));
 }
 
 /// Whether so many marks have space for what they stand for.
@@ -72,7 +72,7 @@ pub(super) fn draw_tabs(
             let points = vec![corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)];
             let polylines = vec![Polyline { points, is_closed: true }];
             let tab = Item::Path(Path { polylines, stroke: None, fill: Some(theme.ink) });
-            root.record(&Drawing { class: "tab", title: String::new(), items: vec![tab] });
+            root.record(Drawing { class: "tab", title: String::new(), items: vec![tab] });
         }
         if let Some(page_index) = link(tab.first_page).filter(|_| !is_current) {
             links.push(PageLink { corner: Point::new(left, top), size: Vector::new(width, height), page_index });
@@ -86,7 +86,7 @@ pub(super) fn draw_tabs(
         let at = Point::new(left + 0.5 * width + shift * size, top + 0.5 * height);
         let mut line = theme.text_line(&tab.label, at, Anchor::Middle, size, ink).fit_width(0.94 * height);
         line.text.quarter_turns = turns;
-        root.record(&line);
+        root.record(line);
     }
     drop(root);
     scene.links.extend(links);

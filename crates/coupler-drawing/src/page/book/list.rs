@@ -84,7 +84,7 @@ pub(super) fn compose(
         heading::draw_border(&root, theme);
         let mut at = heading::draw_title(&root, &list.title, theme);
         for line in note_lines(list, root.size().x - 2.0 * at.x, theme) {
-            root.record(&line.moved_to(at));
+            root.record(line.moved_to(at));
             at.y += 1.35 * theme.source_size;
         }
         let mut links = Vec::new();
@@ -114,7 +114,7 @@ fn draw_rules(root: &impl Area, grid: &Grid, count: usize, theme: &Theme) {
         Item::Path(Path::stroked(vec![Point::new(grid.corner.x, y), Point::new(end, y)], stroke))
     };
     let items = (0..count.div_ceil(grid.columns)).map(rule).collect();
-    root.record(&Drawing { class: "rule", title: String::new(), items });
+    root.record(Drawing { class: "rule", title: String::new(), items });
 }
 
 /// Draws an entry with its rank.
@@ -131,14 +131,14 @@ fn draw_entry(root: &impl Area, frame: Rect, rank: usize, entry: &ListEntry, atl
     let bottom = frame.corner.y + frame.size.y - 0.6 * em;
     let rank_line =
         theme.text_line(&rank.to_string(), frame.corner + Vector::new(0.0, 1.4 * em), Anchor::Start, em, theme.grey);
-    root.record(&rank_line);
+    root.record(rank_line);
     // On paper that is too small for a single entry, the page is told and other lines as far as there is space.
     for line in entry_lines(entry, atlas, width, theme) {
         y += 1.3 * em;
         if y > bottom {
             return;
         }
-        root.record(&line.fit_width(width).moved_to(Point::new(left, y)));
+        root.record(line.fit_width(width).moved_to(Point::new(left, y)));
     }
 }
 

@@ -189,7 +189,7 @@ impl Miniature {
                 None,
             ));
         }
-        area.record(&Drawing { class: "miniature", title: String::new(), items });
+        area.record(Drawing { class: "miniature", title: String::new(), items });
     }
 }
 

@@ -28,7 +28,7 @@ pub(super) fn compose(
     let page = root.size();
     let width = page.x - 2.0 * (theme.border + 2.0 * theme.margin);
     let centred = |text: &str, y: f64, size: f64, color: Color| {
-        root.record(&theme.text_line(text, Point::new(page.x / 2.0, y), Anchor::Middle, size, color).fit_width(width));
+        root.record(theme.text_line(text, Point::new(page.x / 2.0, y), Anchor::Middle, size, color).fit_width(width));
     };
     let lines = family_lines(atlas);
     let step = 1.7 * theme.source_size;
@@ -102,7 +102,7 @@ fn family_lines(atlas: &Atlas) -> Vec<String> {
 fn draw_rule(root: &impl Area, centre: Point, length: f64, theme: &Theme) {
     let half = Vector::new(length / 2.0, 0.0);
     let path = Path::stroked(vec![centre - half, centre + half], theme.stroke(theme.hairline, theme.fine_width));
-    root.record(&Drawing { class: "rule", title: String::new(), items: vec![Item::Path(path)] });
+    root.record(Drawing { class: "rule", title: String::new(), items: vec![Item::Path(path)] });
 }
 
 /// Draws the first panel of a page, if it has a curve and there is enough space.

@@ -151,7 +151,7 @@ impl<'a> ChartFigure<'a> {
     fn draw_title(&self, area: &PlottersArea, theme: &Theme) {
         let at = Point::new(0.0, 1.2 * theme.caption_size);
         let title = theme.text_line(&self.quantity().label(), at, Anchor::Start, theme.caption_size, theme.ink);
-        area.record(&title.with_italics(self.page.heading.symbols).fit_width(area.size().x));
+        area.record(title.with_italics(self.page.heading.symbols).fit_width(area.size().x));
     }
 
     /// Draws the quantity of the x axis under the frame, and the number of values that a logarithmic axis leaves out.
@@ -164,7 +164,7 @@ impl<'a> ChartFigure<'a> {
             theme.text_line(&name, Point::new(left + inner.x / 2.0, y), Anchor::Middle, theme.caption_size, theme.ink);
         let title = title.with_italics(self.page.heading.symbols).fit_width(0.9 * inner.x);
         let note_width = (inner.x - title.text.width()) / 2.0 - theme.caption_size;
-        area.record(&title);
+        area.record(title);
         let lines = self.clipped_lines(frame);
         let drawn = lines.iter().zip(&self.labels).filter(|(_, label)| label.is_some());
         let left_out: usize = drawn.map(|([_, points], _)| points.nonpositive_count).sum();
@@ -174,7 +174,7 @@ impl<'a> ChartFigure<'a> {
                 n => format!("{n} values of 0 or less are left out"),
             };
             let note = theme.text_line(&note, Point::new(left + inner.x, y), Anchor::End, theme.note_size, theme.grey);
-            area.record(&note.fit_width(note_width));
+            area.record(note.fit_width(note_width));
         }
     }
 
@@ -184,7 +184,7 @@ impl<'a> ChartFigure<'a> {
         let text = if is_log { "no positive value for a logarithmic axis" } else { "no finite value" };
         let at = Point::from(area.size() / 2.0);
         let line = theme.text_line(text, at, Anchor::Middle, theme.caption_size, theme.grey).fit_width(area.size().x);
-        area.record(&Drawing { class: "nothing", title: String::new(), items: vec![Item::Text(line.text)] });
+        area.record(Drawing { class: "nothing", title: String::new(), items: vec![Item::Text(line.text)] });
     }
 
     /// The lines of the chart, and their points, which may be fewer than those of the lines.
@@ -213,7 +213,7 @@ impl<'a> ChartFigure<'a> {
             let mut items = style.line_items(&line.runs, theme);
             let marked = if with_marks { &points.points } else { &line.isolated_points };
             items.extend(marked.iter().map(|at| style.mark_item(*at, theme)));
-            frame.record(&Item::Group(self.series_group(k, label, items)));
+            frame.record(Item::Group(self.series_group(k, label, items)));
             if let Some(end) = line.end_point().filter(|_| !label.is_empty()) {
                 labels.push(LineLabel { text: label, style, end_height: end.y });
             }
@@ -228,7 +228,7 @@ impl<'a> ChartFigure<'a> {
             theme,
         );
         if !items.is_empty() {
-            frame.record(&Drawing { class: "keys", title: String::new(), items });
+            frame.record(Drawing { class: "keys", title: String::new(), items });
         }
         LineFeatures { has_marks: with_marks, has_gaps: lines.iter().any(|[line, _]| line.runs.len() > 1) }
     }

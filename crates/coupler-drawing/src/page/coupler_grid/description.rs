@@ -67,7 +67,7 @@ impl Description {
             if y <= bottom {
                 let at = Point::new(frame.corner.x, y);
                 let line = theme.text_line(text, at, Anchor::Start, *size, *color).with_italics(page.heading.symbols);
-                area.record(&line.fit_width(frame.size.x));
+                area.record(line.fit_width(frame.size.x));
             }
         }
         if let Some(key) = page.key {

@@ -35,7 +35,7 @@ pub(super) fn draw(area: &impl Area, page: &CouplerGridPage, theme: &Theme) -> f
         let mut y = baseline - height;
         for line in lines {
             y += leading * line.text.size;
-            area.record(&line.moved_to(Point::new(x, y)));
+            area.record(line.moved_to(Point::new(x, y)));
         }
         height
     });
@@ -87,7 +87,7 @@ pub(super) fn draw_source(area: &impl Area, panel: Rect, page: &CouplerGridPage,
     for (k, line) in lines.iter().enumerate() {
         let at = Point::new(right, first + step * k as f64);
         let line = theme.text_line(line, at, Anchor::End, theme.note_size, theme.grey);
-        area.record(&line.with_italics(symbols).fit_width(panel.size.x));
+        area.record(line.with_italics(symbols).fit_width(panel.size.x));
     }
     Rect { size: panel.size - Vector::new(0.0, height + 1.6 * step), ..panel }
 }

@@ -93,7 +93,7 @@ impl Graphs {
             let base = stroked(vec![axes.across(0.0)], theme.stroke(theme.hairline, theme.hair_width));
             let speed = stroked(axes.lines(runs), theme.stroke(shown.ink(theme), theme.fine_width));
             let title = format!("speed of point {}", shown.curve.trace);
-            area.record(&Drawing { class: "speed", title, items: vec![base, speed] });
+            area.record(Drawing { class: "speed", title, items: vec![base, speed] });
         }
         if let (Some(strip), Some(transmission)) = (strip, &self.transmission) {
             draw_transmission(area, strip, &self.range, transmission, theme);
@@ -105,7 +105,7 @@ impl Graphs {
         let lines = ["speed".to_owned(), format!("0 to {}", format_in_full(self.speeds.top))];
         for (text, k) in lines.iter().zip([1.0, 0.0]) {
             let at = Point::new(first.corner.x, first.corner.y - (0.55 + 1.35 * k) * em);
-            area.record(&theme.text_line(text, at, Anchor::Start, em, theme.grey).fit_width(first.size.x));
+            area.record(theme.text_line(text, at, Anchor::Start, em, theme.grey).fit_width(first.size.x));
         }
     }
 
@@ -120,7 +120,7 @@ impl Graphs {
             lines.extend(ticks.iter().map(|&tick| line([from, to].map(|y| Point::new(axes.x(tick), y)).to_vec())));
         }
         let stroke = theme.stroke(theme.faded(theme.hairline), theme.hair_width);
-        area.record(&Drawing { class: "axis", title: String::new(), items: vec![stroked(lines, stroke)] });
+        area.record(Drawing { class: "axis", title: String::new(), items: vec![stroked(lines, stroke)] });
         let y = bottom + (AXIS_HEIGHT - 0.65) * em;
         let number = |k: usize, tick: f64| {
             let unit = if k + 1 == ticks.len() { self.range.unit() } else { "" };
@@ -145,7 +145,7 @@ impl Graphs {
         let step = if numbers.windows(2).all(|pair| gap(pair) > 0.6 * em) { 1 } else { 2 };
         let last = numbers.len().saturating_sub(1);
         numbers
-            .iter()
+            .into_iter()
             .enumerate()
             .filter(|(k, _)| (last - k).is_multiple_of(step))
             .for_each(|(_, text)| area.record(text));
@@ -175,11 +175,11 @@ fn draw_transmission(area: &impl Area, frame: Rect, range: &InputRange, angles: 
         stroked(axes.lines(&angles.runs), theme.stroke(theme.ink, theme.fine_width)),
     ];
     items.extend(angles.extremes.iter().map(dot));
-    area.record(&Drawing { class: "transmission", title: "transmission angle".to_owned(), items });
+    area.record(Drawing { class: "transmission", title: "transmission angle".to_owned(), items });
     let em = theme.note_size;
     for value in [0.0, POOR_TRANSMISSION, STRAIGHT - POOR_TRANSMISSION, STRAIGHT] {
         let at = Point::new(frame.corner.x - 0.6 * em, axes.y(value) + 0.36 * em);
-        area.record(&theme.text_line(&format!("{value}°"), at, Anchor::End, em, theme.grey));
+        area.record(theme.text_line(&format!("{value}°"), at, Anchor::End, em, theme.grey));
     }
 }
 

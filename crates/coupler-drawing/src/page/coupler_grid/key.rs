@@ -30,16 +30,16 @@ pub(super) fn draw(
     items.extend(key.joint_items());
     let mut obstacles = Obstacles::default();
     obstacles.add(&items, false);
-    area.record(&Drawing { class: "key", title: String::new(), items });
+    area.record(Drawing { class: "key", title: String::new(), items });
 
     let mut placed = Vec::new();
     for (name, spot) in key.link_labels(&obstacles) {
-        area.record(&name);
+        area.record(name);
         placed.push(spot);
     }
     let mut placer = LabelPlacer::new(&obstacles, frame, theme).with_placed(placed, key.label_gap());
     let items = key.point_labels().into_iter().filter_map(|(at, text)| placer.place_at_point(at, text)).collect();
-    area.record(&Drawing { class: "key", title: String::new(), items });
+    area.record(Drawing { class: "key", title: String::new(), items });
 }
 
 struct Key<'a> {

@@ -264,12 +264,12 @@ fn draw_figure(
         }
     }
 
-    let group = |class, items| area.record(&Drawing { class, title: String::new(), items });
+    let group = |class, items| area.record(Drawing { class, title: String::new(), items });
     group("underlay", underlay);
     group("grid", grid);
     group("straight", straight);
     for (k, (shown, path)) in shown.iter().zip(paths).enumerate() {
-        area.record(&coupler_curve(page, shown, path, plot.page_from_plane, dashes(k), theme));
+        area.record(coupler_curve(page, shown, path, plot.page_from_plane, dashes(k), theme));
     }
     group("motion", motion);
     group("linkage", linkage);

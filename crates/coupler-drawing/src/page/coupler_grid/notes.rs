@@ -80,7 +80,7 @@ impl Notes {
             for line in note {
                 at.y += LEADING * theme.note_size;
                 if at.y <= bottom {
-                    area.record(&text_line(line, at, theme).with_italics(page.heading.symbols).fit_width(frame.size.x));
+                    area.record(text_line(line, at, theme).with_italics(page.heading.symbols).fit_width(frame.size.x));
                 }
             }
         }

@@ -57,7 +57,7 @@ impl Table {
         self.draw_heads(area, frame.corner, theme);
         let rule = [frame.corner.x, frame.corner.x + frame.size.x].map(|x| Point::new(x, top));
         let rule = Item::Path(Path::stroked(rule.to_vec(), theme.stroke(theme.hairline, theme.hair_width)));
-        area.record(&Drawing { class: "rule", title: String::new(), items: vec![rule] });
+        area.record(Drawing { class: "rule", title: String::new(), items: vec![rule] });
         let row_count = ((frame.corner.y + frame.size.y - top) / row_height + 1e-9).floor().max(1.0) as usize;
         let mut graphs = Vec::new();
         for (k, s) in shown.iter().enumerate() {
@@ -69,10 +69,10 @@ impl Table {
             let y = row.centre().y + 0.36 * em;
             if k + 1 >= row_count && k + 1 < shown.len() {
                 let rest = format!("and {} more", shown.len() - k);
-                area.record(&theme.text_line(&rest, Point::new(row.corner.x, y), Anchor::Start, em, theme.grey));
+                area.record(theme.text_line(&rest, Point::new(row.corner.x, y), Anchor::Start, em, theme.grey));
                 break;
             }
-            area.record(&swatch(Point::new(row.corner.x, row.centre().y), s, theme));
+            area.record(swatch(Point::new(row.corner.x, row.centre().y), s, theme));
             self.draw_row(area, k, s, Point::new(row.corner.x, y), theme);
             graphs.extend(self.graph_left.map(|left| Rect {
                 corner: row.corner + Vector::new(left, 0.0),
@@ -86,7 +86,7 @@ impl Table {
         let em = theme.note_size;
         let text = |text: &str, x: f64, line: f64, anchor: Anchor| {
             let at = Point::new(corner.x + x, corner.y + (HEAD_HEIGHT - 0.55 - 1.35 * (1.0 - line)) * em);
-            area.record(&theme.text_line(text, at, anchor, em, theme.grey));
+            area.record(theme.text_line(text, at, anchor, em, theme.grey));
         };
         for (left, group) in &self.groups {
             if !group.title.is_empty() {
@@ -103,7 +103,7 @@ impl Table {
             let color = if k == 0 { shown.text_ink(theme) } else { theme.grey };
             for column in &group.columns {
                 let at = at + Vector::new(left + column.right, 0.0);
-                area.record(&theme.text_line(&column.texts[row], at, Anchor::End, theme.note_size, color));
+                area.record(theme.text_line(&column.texts[row], at, Anchor::End, theme.note_size, color));
             }
         }
     }

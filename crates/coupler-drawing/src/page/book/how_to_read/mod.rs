@@ -155,7 +155,7 @@ fn compose_plate(how: &HowToRead, atlas: &Atlas, shown: &[(&Part, Point)], optio
     let page = root.size();
     let subtitle = "A plate as in this book. The numbers are explained on the facing page.";
     root.record(
-        &theme.text_line(subtitle, at, Anchor::Start, theme.source_size, theme.grey).fit_width(page.x - 2.0 * at.x),
+        theme.text_line(subtitle, at, Anchor::Start, theme.source_size, theme.grey).fit_width(page.x - 2.0 * at.x),
     );
     let [top, bottom, _] = heading::margins(theme);
     let plate = Vector::new(how.plate.width, how.plate.height);
@@ -163,7 +163,7 @@ fn compose_plate(how: &HowToRead, atlas: &Atlas, shown: &[(&Part, Point)], optio
     let scale = PLATE_SCALE.min(space / plate.y);
     let shift = Vector::new(0.5 * (page.x - scale * plate.x), top + 0.5 * (space - scale * plate.y));
     let items = how.plate.items.iter().map(|item| scaled(item, scale, shift)).collect();
-    root.record(&Drawing { class: "plate", title: String::new(), items });
+    root.record(Drawing { class: "plate", title: String::new(), items });
     let radius = 1.1 * theme.source_size;
     let ink = theme.text_ink(theme.curve_ink(0));
     let mut texts = Vec::new();
@@ -212,11 +212,11 @@ fn draw_number(
     let towards = (anchor - centre).try_normalize(0.0).unwrap_or(Vector::new(0.0, 1.0));
     let line = Path::stroked(vec![centre + towards * radius, anchor], stroke);
     let circle = Circle { centre, radius, stroke: Some(stroke), fill: Some(theme.paper) };
-    root.record(&Drawing {
+    root.record(Drawing {
         class: "callout",
         title: String::new(),
         items: vec![Item::Path(line), Item::Circle(circle)],
     });
     let at = centre + Vector::new(0.0, 0.36 * theme.source_size);
-    root.record(&theme.text_line(&number.to_string(), at, Anchor::Middle, theme.source_size, ink));
+    root.record(theme.text_line(&number.to_string(), at, Anchor::Middle, theme.source_size, ink));
 }

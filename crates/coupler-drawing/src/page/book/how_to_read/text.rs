@@ -112,7 +112,7 @@ pub(super) fn compose(
             break;
         }
     }
-    for line in laid_out.iter().filter(|line| line.text.position.x < page.x - left) {
+    for line in laid_out.into_iter().filter(|line| line.text.position.x < page.x - left) {
         root.record(line);
     }
     drop(root);
