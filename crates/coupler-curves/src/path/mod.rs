@@ -7,6 +7,7 @@
 mod dashes;
 mod fit;
 mod polyline;
+mod quintic;
 mod retraced;
 mod trajectory;
 

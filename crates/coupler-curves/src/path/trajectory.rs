@@ -2,6 +2,7 @@
 
 use super::fit::{AT_POINTS, fit_cubic};
 use super::polyline::{MAX_NODES, refined_lines};
+use super::quintic::{Quintic, quintic_error};
 use crate::geometry::{Point, Spline, SplineSegment, TERMS, Vector, distance_to_segment};
 use crate::linkage::{JointId, Linkage};
 use crate::measure::curve::{Arc, Place, SmoothCurve};
@@ -21,6 +22,8 @@ pub(super) struct Trajectory<'a> {
     pub knots: Vec<f64>,
     /// Whether the curve is a polynomial on a piece, to a small part of the tolerance.
     is_resolved: Vec<bool>,
+    /// How far each piece is from its quintics, see [`quintic_error`].
+    quintic_errors: Vec<f64>,
     /// The input travelled from the beginning of the circuit to that of each piece.
     piece_starts: Vec<f64>,
     /// The input travelled from the beginning of the circuit to that of each pass.
@@ -34,6 +37,16 @@ pub(super) fn parameter(place: Place) -> f64 {
     let t = place.piece as f64 + (place.u + 1.0) / 2.0;
     let nearest_end = (t + 0.5) as usize as f64;
     if (t - nearest_end).abs() <= NEXT_TO_END { nearest_end } else { t }
+}
+
+/// Where a curve is, and how it moves there.
+#[derive(Clone, Copy)]
+struct Station {
+    point: Point,
+    /// The first and the second derivative with respect to the parameter of the piece.
+    rates: [Vector; 2],
+    /// The direction of motion, if that is known.
+    direction: Option<Vector>,
 }
 
 /// A side of a place.
@@ -65,6 +78,7 @@ impl<'a> Trajectory<'a> {
             extent: extent(&curve),
             knots: Vec::new(),
             is_resolved: curve.arcs.iter().map(is_resolved).collect(),
+            quintic_errors: curve.arcs.iter().map(|arc| quintic_error(&arc.position)).collect(),
             piece_starts: Vec::new(),
             pass_starts: circuit.passes.iter().map(pass_start).collect(),
             curve,
@@ -116,20 +130,21 @@ impl<'a> Trajectory<'a> {
         Place { piece, u: 2.0 * (t - piece as f64) - 1.0 }
     }
 
-    /// The position, and the direction of motion; `None` if that is not known.
-    fn point_and_direction(&self, t: f64, side: Side) -> (Point, Option<Vector>) {
+    /// Where the curve is at a parameter, and how it moves there.
+    fn station(&self, t: f64, side: Side) -> Station {
         /// Of the acceleration, in the parameter of the piece: a curve that is slower stops here, to the accuracy to
         /// which such places are found.
         const AT_REST: f64 = 1e-6;
         let Place { piece, u } = self.place(t, side);
-        let (point, [velocity, acceleration]) = self.curve.arcs[piece].point_and_rates(u);
+        let (point, rates) = self.curve.arcs[piece].point_and_rates(u);
+        let [velocity, acceleration] = rates;
         // From rest it moves with the acceleration, and it comes to rest against it.
         let along = match side {
             _ if velocity.norm() > AT_REST * acceleration.norm() => velocity,
             Side::After => acceleration,
             Side::Before => -acceleration,
         };
-        (point, along.try_normalize(0.0))
+        Station { point, rates, direction: along.try_normalize(0.0) }
     }
 
     /// The position.
@@ -137,10 +152,19 @@ impl<'a> Trajectory<'a> {
         self.curve.point(self.place(t, Side::After))
     }
 
-    /// The positions at evenly spaced parameters between two, on pieces between these.
-    fn points_between(&self, [from, to]: [f64; 2], count: usize) -> Vec<Point> {
-        let at = |k: usize| self.place(from + (to - from) * (k as f64 / (count + 1) as f64), Side::After);
-        let places: Vec<Place> = (1..=count).map(at).collect();
+    /// The positions at evenly spaced parameters between two stations, on pieces between these.
+    fn points_between(&self, [from, to]: [f64; 2], stations: [&Station; 2], count: usize) -> Vec<Point> {
+        /// Of the tolerance: far less than pages are rounded to.
+        const NEGLIGIBLE: f64 = 1e-6;
+        let share = |k: usize| k as f64 / (count + 1) as f64;
+        let [start, end] = [self.place(from, Side::After), self.place(to, Side::Before)];
+        let step = end.u - start.u;
+        let sixth = step * step * step * step * step * step;
+        if start.piece == end.piece && self.quintic_errors[start.piece] * sixth <= NEGLIGIBLE * self.tolerance {
+            let quintic = Quintic::between(stations.map(|station| (station.point, station.rates)), step);
+            return (1..=count).map(|k| quintic.point(share(k))).collect();
+        }
+        let places: Vec<Place> = (1..=count).map(|k| self.place(from + (to - from) * share(k), Side::After)).collect();
         self.curve.points(&places)
     }
 
@@ -184,44 +208,39 @@ impl<'a> Trajectory<'a> {
     fn fitted(&self, [from, to]: [f64; 2], straightness: f64) -> Spline {
         /// A cubic spans no more pieces, of at most an eighth of a turn each.
         const MAX_PIECES: f64 = 3.0;
-        let start = self.point_and_direction(from, Side::After);
+        let start = self.station(from, Side::After);
         let parts = ((to - from) / MAX_PIECES).ceil().max(1.0);
         let mut segments = Vec::with_capacity(parts as usize);
         for k in 0..parts as usize {
             let at = |k: usize| from + (to - from) * (k as f64 / parts);
-            let start = if k == 0 { start } else { self.point_and_direction(at(k), Side::After) };
-            self.fit([at(k), at(k + 1)], start, straightness, &mut segments);
+            let start = if k == 0 { start } else { self.station(at(k), Side::After) };
+            self.fit([at(k), at(k + 1)], &start, straightness, &mut segments);
         }
-        Spline { start: start.0, segments }
+        Spline { start: start.point, segments }
     }
 
-    /// Appends segments from one parameter, with the position and direction there, to another: one, or those of both
-    /// halves.
-    fn fit(
-        &self,
-        [from, to]: [f64; 2],
-        (start, leaving): (Point, Option<Vector>),
-        straightness: f64,
-        out: &mut Vec<SplineSegment>,
-    ) {
+    /// Appends segments from one parameter, where the curve is at `start`, to another: one, or those of both halves.
+    fn fit(&self, [from, to]: [f64; 2], start: &Station, straightness: f64, out: &mut Vec<SplineSegment>) {
         /// Points with which a segment is compared: some, and more on each piece, which has 16 terms.
         const POINTS: [f64; 2] = [5.0, 10.0];
-        let (end, arriving) = self.point_and_direction(to, Side::Before);
-        let points = self.points_between([from, to], (POINTS[0] + POINTS[1] * (to - from)) as usize);
-        let is_on_line = |point: &Point| distance_to_segment(*point, start, end) <= AT_POINTS * straightness;
+        let end = self.station(to, Side::Before);
+        let count = (POINTS[0] + POINTS[1] * (to - from)) as usize;
+        let points = self.points_between([from, to], [start, &end], count);
+        let ends = [start.point, end.point];
+        let is_on_line = |point: &Point| distance_to_segment(*point, ends[0], ends[1]) <= AT_POINTS * straightness;
         if points.iter().all(is_on_line) {
-            return out.push(SplineSegment::Line(end));
+            return out.push(SplineSegment::Line(end.point));
         }
-        let tangents = leaving.zip(arriving);
-        let cubic = tangents.and_then(|(a, b)| fit_cubic([start, end], [a, b], &points, self.tolerance));
+        let tangents = start.direction.zip(end.direction);
+        let cubic = tangents.and_then(|(a, b)| fit_cubic(ends, [a, b], &points, self.tolerance));
         let middle = (from + to) / 2.0;
         match cubic {
-            Some(control_points) => out.push(SplineSegment::Cubic([control_points[0], control_points[1], end])),
+            Some([a, b]) => out.push(SplineSegment::Cubic([a, b, end.point])),
             None if from < middle && middle < to => {
-                self.fit([from, middle], (start, leaving), straightness, out);
-                self.fit([middle, to], self.point_and_direction(middle, Side::After), straightness, out);
+                self.fit([from, middle], start, straightness, out);
+                self.fit([middle, to], &self.station(middle, Side::After), straightness, out);
             }
-            None => out.push(SplineSegment::Line(end)),
+            None => out.push(SplineSegment::Line(end.point)),
         }
     }
 
