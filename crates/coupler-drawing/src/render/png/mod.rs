@@ -43,10 +43,12 @@ pub fn png(scene: &Scene, dpi: f64) -> Result<Vec<u8>, Error> {
     let failure = |error: std::io::Error| Error::Encoding(error.to_string());
     let rows = (STRIP_BYTES / (4 * width as usize)).clamp(1, height as usize) as u32;
     let shapes = scene.shapes();
-    let mut encoder = Encoder::new((width, height), dpi);
+    let Color(r, g, b) = scene.paper;
+    let paper = [r, g, b, 255];
+    let mut encoder = Encoder::new((width, height), dpi, paper);
     for top in (0..height).step_by(rows as usize) {
-        let paper = blank_pixmap(scene.paper, (width, rows.min(height - top)));
-        let mut strip = Strip { pixmap: paper.ok_or(too_large.clone())?, scale, top_row: top };
+        let blank = blank_pixmap(paper, (width, rows.min(height - top)));
+        let mut strip = Strip { pixmap: blank.ok_or(too_large.clone())?, scale, top_row: top };
         shapes.iter().for_each(|shape| strip.draw_shape(*shape));
         // The paper makes every pixel opaque, so premultiplied colours equal plain ones.
         encoder.push_rows(strip.pixmap.data()).map_err(failure)?;
@@ -55,8 +57,8 @@ pub fn png(scene: &Scene, dpi: f64) -> Result<Vec<u8>, Error> {
 }
 
 /// A pixmap filled with one colour; `None` if it would be empty.
-fn blank_pixmap(Color(r, g, b): Color, (width, height): (u32, u32)) -> Option<Pixmap> {
-    let pixels = vec![[r, g, b, 255]; width as usize * height as usize];
+fn blank_pixmap(color: [u8; 4], (width, height): (u32, u32)) -> Option<Pixmap> {
+    let pixels = vec![color; width as usize * height as usize];
     Pixmap::from_vec(pixels.into_flattened(), IntSize::from_wh(width, height)?)
 }
 
