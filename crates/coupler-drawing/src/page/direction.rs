@@ -150,13 +150,13 @@ fn output_arcs(
         sides.iter().map(|side| (0..=arc_deg).map(|deg| at(side * deg)).collect()).collect()
     };
     let joints = mechanism.drawn_joints();
-    let clearance = |arcs: &Vec<Vec<Point>>| {
+    let with_clearance = |arcs: Vec<Vec<Point>>| {
         let distances =
             arcs.iter().flatten().flat_map(|&p| joints.iter().map(move |&joint| (mechanism.pose[joint] - p).norm()));
-        distances.fold(f64::INFINITY, f64::min).min(0.5 * least_radius)
+        (distances.fold(f64::INFINITY, f64::min).min(0.5 * least_radius), arcs)
     };
-    let candidates = RADII.map(arcs).into_iter();
-    candidates.reduce(|best, next| if clearance(&next) > clearance(&best) { next } else { best }).unwrap_or_default()
+    let candidates = RADII.into_iter().map(|part| with_clearance(arcs(part)));
+    candidates.reduce(|best, next| if next.0 > best.0 { next } else { best }).map(|(_, arcs)| arcs).unwrap_or_default()
 }
 
 /// The angle from a vector to another, in degrees from -180 to 180.

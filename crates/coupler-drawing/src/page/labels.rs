@@ -1,5 +1,7 @@
 //! The placement of labels: each next to its point, where it is clearest of everything that is drawn.
 
+use std::sync::LazyLock;
+
 use super::rect::Rect;
 use super::theme::Theme;
 use crate::scene::{Circle, Item, Polyline, Text};
@@ -358,11 +360,12 @@ fn clearer_box(first: (f64, LabelBox), second: (f64, LabelBox)) -> (f64, LabelBo
 
 /// The boxes around a point at a distance, in 16 directions counterclockwise, starting on the right.
 fn boxes_around(centre: Point, half: Vector, distance: f64) -> impl Iterator<Item = LabelBox> {
-    const DIRECTIONS: i32 = 16;
-    (0..DIRECTIONS).map(move |direction| {
-        let (cos, sin) = trig::cos_sin_deg(360.0 / f64::from(DIRECTIONS) * f64::from(direction));
-        let reach = half + Vector::repeat(distance);
-        LabelBox { centre: centre + Vector::new(cos * reach.x, -sin * reach.y), half_size: half }
+    static DIRECTIONS: LazyLock<[(f64, f64); 16]> =
+        LazyLock::new(|| std::array::from_fn(|k| trig::cos_sin_deg(360.0 / 16.0 * k as f64)));
+    let reach = half + Vector::repeat(distance);
+    DIRECTIONS.iter().map(move |(cos, sin)| {
+        let centre = centre + Vector::new(cos * reach.x, -sin * reach.y);
+        LabelBox { centre, half_size: half }
     })
 }
 
