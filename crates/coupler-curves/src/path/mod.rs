@@ -79,8 +79,9 @@ pub fn joint_path(
         Some(_) => vec![trajectory.range()],
         None => trajectory.first_traced_ranges(),
     };
-    let mut dashes = Vec::new();
-    for DashRange { range, is_in_figure } in dash_ranges(&trajectory, pattern) {
+    let ranges = dash_ranges(&trajectory, pattern);
+    let mut dashes = Vec::with_capacity(ranges.len());
+    for DashRange { range, is_in_figure } in ranges {
         for part in first_traced.iter().filter_map(|stretch| intersection(range, *stretch)) {
             let splines = trajectory.splines(part, tolerance);
             dashes.extend(splines.into_iter().map(|spline| Dash { spline, is_in_figure }));

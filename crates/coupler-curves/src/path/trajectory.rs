@@ -173,7 +173,8 @@ impl<'a> Trajectory<'a> {
         /// A part that is shorter is a point.
         const SHORTEST: f64 = 1e-6;
         let knots = self.knots.iter().copied().filter(|knot| from + SHORTEST < *knot && *knot < to - SHORTEST);
-        let mut out = Vec::new();
+        // Most parts are in one spline.
+        let mut out = Vec::with_capacity(1);
         let mut start = from;
         for end in knots.chain([to]) {
             let part = [std::mem::replace(&mut start, end), end];
