@@ -40,7 +40,7 @@ pub fn png(scene: &Scene, dpi: f64) -> Result<Vec<u8>, Error> {
     let too_large = Error::InvalidSize { width, height };
     let pixels = (width as usize).checked_mul(height as usize);
     pixels.filter(|pixels| *pixels <= isize::MAX as usize / 3).ok_or(too_large.clone())?;
-    let failure = |error: std::io::Error| Error::Encoding(error.to_string());
+    let failure = |error: png::EncodingError| Error::Encoding(error.to_string());
     let rows = (STRIP_BYTES / (4 * width as usize)).clamp(1, height as usize) as u32;
     let shapes = scene.shapes();
     let Color(r, g, b) = scene.paper;
@@ -51,7 +51,7 @@ pub fn png(scene: &Scene, dpi: f64) -> Result<Vec<u8>, Error> {
         let mut strip = Strip { pixmap: blank.ok_or(too_large.clone())?, scale, top_row: top };
         shapes.iter().for_each(|shape| strip.draw_shape(*shape));
         // The paper makes every pixel opaque, so premultiplied colours equal plain ones.
-        encoder.push_rows(strip.pixmap.data()).map_err(failure)?;
+        encoder.push_rows(strip.pixmap.data()).map_err(|error| failure(error.into()))?;
     }
     encoder.finish().map_err(failure)
 }
