@@ -1,10 +1,11 @@
 //! Annuli of portions of a curve, between any two positions of it.
 
 use super::annulus::{AlternatingPoints, Annulus};
+use super::contact::{Contact, Levels};
 use super::longest_near::{Constraint, Constraints, Contacts};
 use super::row::Row;
 use super::strip::min_max;
-use super::touching::{Contact, Levels, PortionPoints};
+use super::touching::PortionPoints;
 use crate::geometry::{Point, Vector, cross};
 
 /// The narrowest annulus of a portion of a curve, and how its width changes with the ends.

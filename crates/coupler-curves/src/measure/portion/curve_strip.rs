@@ -1,9 +1,10 @@
 //! Strips of portions of a curve, between any two positions of it.
 
+use super::contact::{Contact, Levels};
 use super::longest_near::{Constraint, Constraints, Contacts};
 use super::row::Row;
 use super::strip::{Strip, min_max, triangle_height};
-use super::touching::{Contact, Levels, PortionPoints};
+use super::touching::PortionPoints;
 use crate::geometry::{Point, Vector, cross, left_normal};
 
 /// The strip of a portion of a curve, and how it changes with the ends.

@@ -8,6 +8,7 @@
 
 mod annulus;
 mod circular;
+mod contact;
 mod curve_ring;
 mod curve_strip;
 mod every_nth;
