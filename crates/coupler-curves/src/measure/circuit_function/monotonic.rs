@@ -10,6 +10,13 @@ pub(in crate::measure) struct MonotonicPart {
     ends: [f64; 2],
     /// The values at its ends.
     pub values: [f64; 2],
+    /// The values at evenly spaced places, its ends among them.
+    samples: [f64; MonotonicPart::SAMPLES + 1],
+}
+
+impl MonotonicPart {
+    /// The intervals between the samples.
+    pub(in crate::measure) const SAMPLES: usize = 8;
 }
 
 impl<Q: Quantity> CircuitFunction<Q> {
@@ -20,20 +27,30 @@ impl<Q: Quantity> CircuitFunction<Q> {
         for (span, function) in self.spans.iter().enumerate() {
             let cuts: Vec<f64> = [-1.0].into_iter().chain(function.roots.iter().copied()).chain([1.0]).collect();
             for ends in cuts.windows(2).filter(|ends| ends[1] - ends[0] > NARROW) {
-                let values = [ends[0], ends[1]].map(|u| function.series.at(u));
-                parts.push(MonotonicPart { span, ends: [ends[0], ends[1]], values });
+                let fraction = |k: usize| k as f64 / MonotonicPart::SAMPLES as f64;
+                let samples = std::array::from_fn(|k| function.series.at(ends[0] + (ends[1] - ends[0]) * fraction(k)));
+                let values = [samples[0], samples[MonotonicPart::SAMPLES]];
+                parts.push(MonotonicPart { span, ends: [ends[0], ends[1]], values, samples });
             }
         }
         parts
     }
 
-    /// The place in a monotonic part at which a value between those at its ends is reached.
-    pub(in crate::measure) fn solve_in_part(&self, part: &MonotonicPart, value: f64) -> Place {
+    /// The place in a monotonic part at which a value between those at its ends is reached, to an accuracy of the parameter.
+    pub(in crate::measure) fn solve_in_part(&self, part: &MonotonicPart, value: f64, accuracy: f64) -> Place {
         let series = &self.spans[part.span].series;
-        let excesses = part.values.map(|end| end - value);
-        let nearer = part.ends[if excesses[0].abs() < excesses[1].abs() { 0 } else { 1 }];
-        let bracket = Bracket::new(part.ends, excesses);
-        let u = bracket.map_or(nearer, |bracket| bracket.zero(f64::EPSILON, |u| series.at(u) - value));
+        // Between the two samples nearest to it.
+        let is_before = |sample: &f64| (*sample < value) == (part.values[0] < part.values[1]);
+        let after = part.samples.iter().position(|sample| !is_before(sample));
+        let after = after.unwrap_or(MonotonicPart::SAMPLES).max(1);
+        let ends = [after - 1, after].map(|k| {
+            let fraction = k as f64 / MonotonicPart::SAMPLES as f64;
+            part.ends[0] + (part.ends[1] - part.ends[0]) * fraction
+        });
+        let excesses = [after - 1, after].map(|k| part.samples[k] - value);
+        let nearer = ends[if excesses[0].abs() < excesses[1].abs() { 0 } else { 1 }];
+        let bracket = Bracket::new(ends, excesses);
+        let u = bracket.map_or(nearer, |bracket| bracket.zero(accuracy, |u| series.at(u) - value));
         Place { span: part.span, u }
     }
 

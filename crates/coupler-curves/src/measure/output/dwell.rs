@@ -58,7 +58,7 @@ impl OutputMotion {
         let mut starts = search.sampled_starts();
         starts.extend((0..search.parts.len()).filter_map(|part| search.start_at_extreme(part)));
         let spans: Vec<(f64, f64)> =
-            starts.into_iter().map(|start| (start, search.span_from(start).input_span)).collect();
+            starts.into_iter().map(|start| (start, search.span_from(start, f64::EPSILON).input_span)).collect();
         let longest = spans.iter().fold(0.0, |longest: f64, (_, span)| longest.max(*span));
         // Of equal ones the first on the circuit.
         let first = spans
@@ -106,8 +106,8 @@ impl DwellSearch<'_> {
         }
     }
 
-    /// The longest dwell that begins at a position.
-    fn span_from(&self, position: f64) -> Span {
+    /// The longest dwell that begins at a position, with its end to an accuracy of the parameter.
+    fn span_from(&self, position: f64, accuracy: f64) -> Span {
         let coordinate = &self.output.coordinate;
         let start = self.place(position);
         let (start_value, start_covered) = (coordinate.value(start), coordinate.covered_input(start));
@@ -130,7 +130,7 @@ impl DwellSearch<'_> {
                 None
             };
             if let Some((border, width)) = border {
-                let place = coordinate.solve_in_part(&self.parts[part], border + width - change);
+                let place = coordinate.solve_in_part(&self.parts[part], border + width - change, accuracy);
                 let input_span = coordinate.covered_input(place) + input - start_covered;
                 // Where the band begins at the start the end moves as fast as the output at the start, by that at the end.
                 let [end_slope, end_rate] = coordinate.slope_and_input_rate(place);
@@ -169,7 +169,7 @@ impl DwellSearch<'_> {
             let begin = self.parts[part].values[0] + change;
             let limit = [(begin < band[0]).then_some(band[0]), (begin > band[1]).then_some(band[1])];
             if let Some(limit) = limit.into_iter().flatten().next() {
-                let place = coordinate.solve_in_part(&self.parts[part], limit - change);
+                let place = coordinate.solve_in_part(&self.parts[part], limit - change, f64::EPSILON);
                 return Some(part as f64 + coordinate.fraction_of_part(&self.parts[part], place));
             }
             let Some((previous, more_change, _)) = self.neighbour(part, false) else { return Some(part as f64) };
@@ -181,14 +181,16 @@ impl DwellSearch<'_> {
     /// Positions at which the dwell that begins there is longer than those that begin next to it: the best of samples
     /// of each part, refined between them.
     fn sampled_starts(&self) -> Vec<f64> {
-        const SAMPLES: usize = 8;
+        const SAMPLES: usize = MonotonicPart::SAMPLES;
         /// How accurately the start is found, relative to its part: the span changes with the square.
         const ACCURACY: f64 = 1e-9;
+        /// How accurately the ends of samples are found: enough to tell which are the longest.
+        const ROUGH: f64 = 1e-6;
         /// Spans that differ by less, relatively, are equal: all are, where the output turns evenly.
         const ROUNDING: f64 = 1e-12;
         let count = self.parts.len() * SAMPLES;
         let position = |k: usize| k as f64 / SAMPLES as f64;
-        let spans: Vec<Span> = (0..count).map(|k| self.span_from(position(k))).collect();
+        let spans: Vec<Span> = (0..count).map(|k| self.span_from(position(k), ROUGH)).collect();
         let longest = spans.iter().fold(0.0, |longest: f64, span| longest.max(span.input_span));
         if spans.iter().all(|span| span.input_span >= longest * (1.0 - ROUNDING)) {
             return vec![0.0];
@@ -198,15 +200,15 @@ impl DwellSearch<'_> {
             here >= before.max(after) && here > 0.7 * longest
         };
         let refine = |k: usize| {
-            let (mut start, mut most) = (position(k), spans[k].input_span);
+            let (mut start, mut most) = (position(k), self.span_from(position(k), f64::EPSILON).input_span);
             // A span may jump where an extreme comes into the band, where another start is looked for, and is smooth on either side. Of
             // equal ones the first counts.
             for [from, to] in [[k.saturating_sub(1), k], [k, (k + 1).min(count)]] {
-                let rate = |position| self.span_from(position).rate;
+                let rate = |position| self.span_from(position, f64::EPSILON).rate;
                 let rates = [from, to].map(|k| spans.get(k).map_or_else(|| rate(position(k)), |span| span.rate));
                 let bracket = Bracket::new([from, to].map(position), rates).filter(|_| rates[0] > 0.0);
                 let Some(place) = bracket.map(|bracket| bracket.zero(ACCURACY, rate)) else { continue };
-                let span = self.span_from(place).input_span;
+                let span = self.span_from(place, f64::EPSILON).input_span;
                 if span > most * (1.0 + ROUNDING) {
                     (start, most) = (place, span);
                 }
