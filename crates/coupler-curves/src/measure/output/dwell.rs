@@ -186,13 +186,15 @@ impl DwellSearch<'_> {
         const ACCURACY: f64 = 1e-9;
         /// How accurately the ends of samples are found: enough to tell which are the longest.
         const ROUGH: f64 = 1e-6;
-        /// Spans that differ by less, relatively, are equal: all are, where the output turns evenly.
+        /// Where all spans are equal to this part of them the output turns evenly.
+        const EVEN: f64 = 1e-9;
+        /// Spans that differ by less, relatively, are equal.
         const ROUNDING: f64 = 1e-12;
         let count = self.parts.len() * SAMPLES;
         let position = |k: usize| k as f64 / SAMPLES as f64;
         let spans: Vec<Span> = (0..count).map(|k| self.span_from(position(k), ROUGH)).collect();
         let longest = spans.iter().fold(0.0, |longest: f64, span| longest.max(span.input_span));
-        if spans.iter().all(|span| span.input_span >= longest * (1.0 - ROUNDING)) {
+        if spans.iter().all(|span| span.input_span >= longest * (1.0 - EVEN)) {
             return vec![0.0];
         }
         let is_peak = |&k: &usize| {
