@@ -247,3 +247,55 @@ fn portion(row: &Row, ends: [f64; 2]) -> StraightPortion {
     let points = row.points_between(ends, INTERVALS);
     StraightPortion { length, deviation, start_input: row.input_at(ends[0]), input_span, points }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::trig;
+    use crate::linkage::{LinkageBuilder, MotionOptions, Side};
+    use crate::motion::{Motion, Sampler, Sampling};
+
+    /// A coupler point of a four-bar with a frame of 4 and a crank of 1.
+    fn with_curve(coupler: f64, rocker: f64, point: [f64; 2], use_curve: impl FnOnce(&TracedCurve)) {
+        let mut builder = LinkageBuilder::default();
+        let [o, c] = [("O", 0.0), ("C", 4.0)].map(|(name, x)| builder.fixed(name, [x, 0.0].into()));
+        let a = builder.crank("A", o, 1.0).expect("a crank");
+        let b = builder.dyad("B", [a, c], [coupler, rocker], Side::Left).expect("a dyad");
+        let m = builder.point("M", [a, b], point[0], point[1]).expect("a point");
+        let linkage = builder.build(vec![m], None, MotionOptions::default()).expect("a linkage");
+        let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Step(6.0)));
+        use_curve(&TracedCurve::all(&linkage, &motion).next().expect("a curve"));
+    }
+
+    /// The strip of a portion next to another is that which is found anew: of all but one in a hundred to rounding, and of the others,
+    /// where a point begins to touch that did not nearly touch before, it is no wider.
+    #[test]
+    fn a_strip_that_is_followed_is_that_of_its_portion() {
+        const POINTS: usize = 32;
+        let (mut count, mut different) = (0, 0);
+        for k in 0..120 {
+            // Numbers that do not repeat.
+            let turn = |n: usize| (f64::from(k) * trig::cos(n as f64 + 0.5)).rem_euclid(1.0);
+            let point = [8.0 * turn(2) - 2.0, 6.0 * turn(3) - 3.0];
+            with_curve(3.5 + turn(0), 3.5 + turn(1), point, |curve| {
+                let row = curve.row().ok().flatten().expect("points of a curve");
+                let round = row.start_count as f64;
+                let span = (0.02 + 0.2 * turn(4)) * round;
+                let mut ends = [turn(5) * round, turn(5) * round + span];
+                let start = CurveStrips::new(row, ends, POINTS);
+                let mut strips = start.clone();
+                for n in 6..14 {
+                    ends = [ends[0] + 0.1 * (turn(n) - 0.5) * span, ends[1] + 0.1 * (turn(n + 20) - 0.5) * span];
+                    let (next, anew) = (strips.next_strip(ends), start.clone().strip(ends));
+                    let part = next.width / anew.width - 1.0;
+                    if anew.width > 1e-6 * anew.length {
+                        count += 1;
+                        different += usize::from(part.abs() > 1e-9);
+                        assert!(part < 1e-9, "{point:?} {ends:?}: {} is wider than {}", next.width, anew.width);
+                    }
+                }
+            });
+        }
+        assert!(count > 500 && different <= count / 100, "{different} of {count} differ");
+    }
+}

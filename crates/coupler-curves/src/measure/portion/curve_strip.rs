@@ -40,10 +40,10 @@ pub struct CurveStrips<'a> {
     latest: Option<Strip>,
 }
 
-/// The strip of the points that touch contains all others to this part of its width, where they are found anew, and nothing but
-/// rounding is outside where they are those of the portion before.
-const OUTSIDE: f64 = 1e-4;
+/// What is outside of the strip of the points that touch by less, relative to its width, is rounding.
 const ROUNDING: f64 = 1e-9;
+/// By no more are others outside where no strip of points that touch contains all: the points alone would say less.
+const OUTSIDE: f64 = 1e-4;
 
 /// Parallel lines in a direction.
 struct Lines(Vector);
@@ -76,7 +76,7 @@ impl<'a> CurveStrips<'a> {
         /// A strip this much narrower than long is straight to rounding.
         const EXACT: f64 = 1e-12;
         /// So often are points that touch found anew, where others stick out of the strip of those found.
-        const ROUNDS: usize = 2;
+        const ROUNDS: usize = 4;
         self.portion.turn_to(ends);
         let last = self.portion.last();
         if self.touching[2] > last || self.touching[0] >= self.touching[1] || self.touching[1] >= self.touching[2] {
@@ -85,9 +85,9 @@ impl<'a> CurveStrips<'a> {
         let sampled = Strip::of_row(&self.portion.points, &mut self.touching);
         self.latest = None;
         let (mut direction, mut kept) = (sampled.direction, sampled.contacts);
-        for _ in 0..if sampled.width > EXACT * sampled.length { ROUNDS } else { 0 } {
-            let (touched, contains_others) = self.strip_about(direction, kept);
-            if contains_others {
+        for round in 1..=if sampled.width > EXACT * sampled.length { ROUNDS } else { 0 } {
+            let (touched, outside) = self.strip_about(direction, kept);
+            if outside <= if round < ROUNDS { ROUNDING } else { OUTSIDE } {
                 return self.described_touched(touched);
             }
             (direction, kept) = (touched.direction, touched.contacts.map(|k| self.contacts[k].index));
@@ -116,23 +116,23 @@ impl<'a> CurveStrips<'a> {
             && self.portion.follow(ends, &mut self.contacts)
         {
             let kept = latest.contacts.map(|k| self.contacts[k].index);
-            let (touched, contains_others) = self.strip_about(latest.direction, kept);
-            if contains_others {
+            let (touched, outside) = self.strip_about(latest.direction, kept);
+            if outside <= ROUNDING {
                 return self.described_touched(touched);
             }
         }
         self.strip(ends)
     }
 
-    /// The strip of the points that touch lines near a direction, which are found, points of given indices among them, and whether
-    /// it contains all others.
-    fn strip_about(&mut self, direction: Vector, kept: [usize; 3]) -> (Strip, bool) {
+    /// The strip of the points that touch lines near a direction, which are found, points of given indices among them, and by what
+    /// part of its width other points are outside.
+    fn strip_about(&mut self, direction: Vector, kept: [usize; 3]) -> (Strip, f64) {
         self.portion.collect_contacts(&Lines(direction), &kept, &mut self.contacts);
         let mut three = kept.map(|k| self.contacts.partition_point(|contact| contact.index < k));
         three.sort_unstable();
         let strip = self.touching_strip(direction, three);
         let [low, high] = min_max(&self.portion.points, |p| cross(strip.direction, p.coords));
-        (strip, high - low <= strip.width * (1.0 + OUTSIDE))
+        (strip, (high - low) / strip.width - 1.0)
     }
 
     /// The strip of the points that touch lines near a direction, from three of them, which it passes through.

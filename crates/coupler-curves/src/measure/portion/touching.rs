@@ -234,6 +234,9 @@ impl<'a> PortionPoints<'a> {
     pub fn range_with_contacts(&mut self, levels: &dyn Levels, contacts: &[Contact]) -> Option<[f64; 2]> {
         /// No extreme of a portion that is touched a few times is higher than the points next to it by more of the range.
         const NEAR: f64 = 0.02;
+        if !contacts.iter().all(|contact| contact.is_within(CLOSE, levels)) {
+            return None;
+        }
         if self.is_same {
             levels.collect_heights(&self.points, &mut self.heights);
             return Some(min_max(&self.heights, |height| *height));
@@ -374,6 +377,9 @@ impl<'a> PortionPoints<'a> {
         }
     }
 }
+
+/// The part of the distance of two points over which the curve is as good as a parabola.
+const CLOSE: f64 = 0.02;
 
 /// Whether the curve stops at a point from where it goes on at a mean velocity.
 fn is_stopped(velocity: Vector, mean: Vector) -> bool {
