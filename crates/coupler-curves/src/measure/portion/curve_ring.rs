@@ -5,7 +5,7 @@ use super::contact::{Contact, Levels};
 use super::longest_near::{Constraint, Constraints, Contacts};
 use super::row::Row;
 use super::strip::min_max;
-use super::touching::PortionPoints;
+use super::touching::{PortionPoints, are_touched};
 use crate::geometry::{Point, Vector, cross};
 
 /// The narrowest annulus of a portion of a curve, and how its width changes with the ends.
@@ -194,7 +194,8 @@ impl<'a> CurveRings<'a> {
         select_contacts(&mut self.contacts, &about, self.portion.last());
         let (annulus, group) = self.annulus_of_contacts(about, None)?;
         let [low, high] = min_max(&self.portion.points, |p| (p - annulus.centre).norm_squared()).map(f64::sqrt);
-        Some((annulus, group, high - low <= annulus.width * (1.0 + OUTSIDE)))
+        let are_touched = are_touched(&Circles(annulus.centre), &self.contacts);
+        Some((annulus, group, are_touched && high - low <= annulus.width * (1.0 + OUTSIDE)))
     }
 
     /// The annulus that touches the contacts that there are, of which a group is likely to decide.

@@ -4,7 +4,7 @@ use super::contact::{Contact, Levels};
 use super::longest_near::{Constraint, Constraints, Contacts};
 use super::row::Row;
 use super::strip::{Strip, min_max, triangle_height};
-use super::touching::PortionPoints;
+use super::touching::{PortionPoints, are_touched};
 use crate::geometry::{Point, Vector, cross, left_normal};
 
 /// The strip of a portion of a curve, and how it changes with the ends.
@@ -132,7 +132,8 @@ impl<'a> CurveStrips<'a> {
         three.sort_unstable();
         let strip = self.touching_strip(direction, three);
         let [low, high] = min_max(&self.portion.points, |p| cross(strip.direction, p.coords));
-        (strip, (high - low) / strip.width - 1.0)
+        let are_touched = are_touched(&Lines(strip.direction), &self.contacts);
+        (strip, if are_touched { (high - low) / strip.width - 1.0 } else { f64::INFINITY })
     }
 
     /// The strip of the points that touch lines near a direction, from three of them, which it passes through.

@@ -234,7 +234,7 @@ impl<'a> PortionPoints<'a> {
     pub fn range_with_contacts(&mut self, levels: &dyn Levels, contacts: &[Contact]) -> Option<[f64; 2]> {
         /// No extreme of a portion that is touched a few times is higher than the points next to it by more of the range.
         const NEAR: f64 = 0.02;
-        if !contacts.iter().all(|contact| contact.is_within(CLOSE, levels)) {
+        if !are_touched(levels, contacts) {
             return None;
         }
         if self.is_same {
@@ -376,6 +376,11 @@ impl<'a> PortionPoints<'a> {
             round += 1;
         }
     }
+}
+
+/// Whether contacts are where the curve touches the levels, or so near that it is as good as a parabola up to there.
+pub fn are_touched(levels: &dyn Levels, contacts: &[Contact]) -> bool {
+    contacts.iter().all(|contact| contact.is_within(CLOSE, levels))
 }
 
 /// The part of the distance of two points over which the curve is as good as a parabola.
