@@ -66,10 +66,10 @@ impl SplineSegment {
         }
     }
 
-    fn map(&self, f: impl Fn(Point) -> Point) -> SplineSegment {
-        match *self {
-            SplineSegment::Line(end) => SplineSegment::Line(f(end)),
-            SplineSegment::Cubic(points) => SplineSegment::Cubic(points.map(f)),
+    fn transform(&mut self, f: impl Fn(Point) -> Point) {
+        match self {
+            SplineSegment::Line(end) => *end = f(*end),
+            SplineSegment::Cubic(points) => *points = points.map(f),
         }
     }
 }
@@ -100,9 +100,17 @@ impl Spline {
         starts.zip(&self.segments)
     }
 
+    /// Makes the spline its image under an affine map.
+    pub fn transform(&mut self, f: impl Fn(Point) -> Point) {
+        self.start = f(self.start);
+        self.segments.iter_mut().for_each(|segment| segment.transform(&f));
+    }
+
     /// The image of the spline under an affine map.
     pub fn map(&self, f: impl Fn(Point) -> Point) -> Spline {
-        Spline { start: f(self.start), segments: self.segments.iter().map(|segment| segment.map(&f)).collect() }
+        let mut image = self.clone();
+        image.transform(f);
+        image
     }
 
     /// Points on the spline, the ends of all segments among them, whose polyline is nowhere further than `tolerance` from

@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use super::typography::{is_article, is_defined};
 use crate::scene::{Anchor, Circle, Color, Curve, Face, Group, Item, MIN_TEXT_SIZE, Stroke, Text, TextRun, Typeface};
 use coupler_curves::expression::{MathPiece, MathText};
-use coupler_curves::geometry::{Point, Similarity, Spline, SplineSegment, Vector};
+use coupler_curves::geometry::{Point, Similarity, Spline, Vector};
 use coupler_curves::path::{Dash, DashPattern, JointPath};
 
 /// An element, whose geometry is in millimetres from the origin of the area it is drawn on.
@@ -99,21 +99,10 @@ fn translate(item: &mut Item, by: Vector) {
         Item::Path(path) => {
             path.polylines.iter_mut().flat_map(|line| &mut line.points).for_each(|point| *point += by);
         }
-        Item::Curve(curve) => curve.splines.iter_mut().for_each(|spline| map_spline(spline, |point| point + by)),
+        Item::Curve(curve) => curve.splines.iter_mut().for_each(|spline| spline.transform(|point| point + by)),
         Item::Circle(circle) => circle.centre += by,
         Item::Text(text) => text.position += by,
         Item::Animation(moving) => moving.frames.iter_mut().flatten().for_each(|item| translate(item, by)),
-    }
-}
-
-/// Makes a spline its image under an affine map.
-pub(super) fn map_spline(spline: &mut Spline, map: impl Fn(Point) -> Point) {
-    spline.start = map(spline.start);
-    for segment in &mut spline.segments {
-        match segment {
-            SplineSegment::Line(end) => *end = map(*end),
-            SplineSegment::Cubic(points) => *points = points.map(&map),
-        }
     }
 }
 

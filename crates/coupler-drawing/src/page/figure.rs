@@ -2,7 +2,7 @@
 
 use super::area::Area;
 use super::arrangement::{Arrangement, Extents};
-use super::element::{CouplerCurve, Drawing, TextLine, map_spline};
+use super::element::{CouplerCurve, Drawing, TextLine};
 use super::labels::{Obstacles, label_line};
 use super::marks;
 use super::mechanism::PosedMechanism;
@@ -49,7 +49,7 @@ pub(super) fn curve_path(
     let tolerance = MAX_CURVE_ERROR / page_from_plane.scale();
     let mut path = path::joint_path(&solved.linkage, solved.circuit(curve), curve.joint, dashes, tolerance);
     let splines = path.whole.iter_mut().chain(path.dashes.iter_mut().map(|dash| &mut dash.spline));
-    splines.for_each(|spline| map_spline(spline, |point| page_from_plane.apply(point)));
+    splines.for_each(|spline| spline.transform(|point| page_from_plane.apply(point)));
     path
 }
 
@@ -276,7 +276,7 @@ impl<'a> Figure<'a> {
         let tolerance = MAX_CURVE_ERROR / plot.page_from_plane.scale();
         let solid = |curve: &MeasuredCurve| {
             let mut splines = path::joint_splines(&solved.linkage, solved.circuit(curve), curve.joint, tolerance);
-            splines.iter_mut().for_each(|spline| map_spline(spline, |point| plot.page_from_plane.apply(point)));
+            splines.iter_mut().for_each(|spline| spline.transform(|point| plot.page_from_plane.apply(point)));
             let ink = theme.faded(self.curve_ink(curve, theme));
             Item::Curve(Curve { splines, stroke: theme.stroke(ink, theme.fine_width) })
         };

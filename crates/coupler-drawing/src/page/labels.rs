@@ -360,8 +360,9 @@ fn clearer_box(first: (f64, LabelBox), second: (f64, LabelBox)) -> (f64, LabelBo
 
 /// The boxes around a point at a distance, in 16 directions counterclockwise, starting on the right.
 fn boxes_around(centre: Point, half: Vector, distance: f64) -> impl Iterator<Item = LabelBox> {
-    static DIRECTIONS: LazyLock<[(f64, f64); 16]> =
-        LazyLock::new(|| std::array::from_fn(|k| trig::cos_sin_deg(360.0 / 16.0 * k as f64)));
+    const COUNT: usize = 16;
+    static DIRECTIONS: LazyLock<[(f64, f64); COUNT]> =
+        LazyLock::new(|| std::array::from_fn(|k| trig::cos_sin_deg(360.0 / COUNT as f64 * k as f64)));
     let reach = half + Vector::repeat(distance);
     DIRECTIONS.iter().map(move |(cos, sin)| {
         let centre = centre + Vector::new(cos * reach.x, -sin * reach.y);
