@@ -8,15 +8,28 @@ use crate::numerical::Bracket;
 pub(in crate::measure) struct MonotonicPart {
     span: usize,
     ends: [f64; 2],
-    /// The values at its ends.
-    pub values: [f64; 2],
-    /// The values at evenly spaced places, its ends among them.
+    /// The values at evenly spaced places, from one end to the other.
     samples: [f64; MonotonicPart::SAMPLES + 1],
 }
 
 impl MonotonicPart {
     /// The intervals between the samples.
     pub(in crate::measure) const SAMPLES: usize = 8;
+
+    /// The values at its ends.
+    pub(in crate::measure) fn values(&self) -> [f64; 2] {
+        [self.samples[0], self.samples[MonotonicPart::SAMPLES]]
+    }
+}
+
+/// The parameter at a fraction of the way between two.
+fn between([from, to]: [f64; 2], fraction: f64) -> f64 {
+    from + (to - from) * fraction
+}
+
+/// The parameter of a sample of the part between two.
+fn sampled(ends: [f64; 2], k: usize) -> f64 {
+    between(ends, k as f64 / MonotonicPart::SAMPLES as f64)
 }
 
 impl<Q: Quantity> CircuitFunction<Q> {
@@ -26,11 +39,9 @@ impl<Q: Quantity> CircuitFunction<Q> {
         let mut parts = Vec::new();
         for (span, function) in self.spans.iter().enumerate() {
             let cuts: Vec<f64> = [-1.0].into_iter().chain(function.roots.iter().copied()).chain([1.0]).collect();
-            for ends in cuts.windows(2).filter(|ends| ends[1] - ends[0] > NARROW) {
-                let fraction = |k: usize| k as f64 / MonotonicPart::SAMPLES as f64;
-                let samples = std::array::from_fn(|k| function.series.at(ends[0] + (ends[1] - ends[0]) * fraction(k)));
-                let values = [samples[0], samples[MonotonicPart::SAMPLES]];
-                parts.push(MonotonicPart { span, ends: [ends[0], ends[1]], values, samples });
+            for ends in cuts.windows(2).map(|cuts| [cuts[0], cuts[1]]).filter(|[from, to]| to - from > NARROW) {
+                let samples = std::array::from_fn(|k| function.series.at(sampled(ends, k)));
+                parts.push(MonotonicPart { span, ends, samples });
             }
         }
         parts
@@ -40,13 +51,11 @@ impl<Q: Quantity> CircuitFunction<Q> {
     pub(in crate::measure) fn solve_in_part(&self, part: &MonotonicPart, value: f64, accuracy: f64) -> Place {
         let series = &self.spans[part.span].series;
         // Between the two samples nearest to it.
-        let is_before = |sample: &f64| (*sample < value) == (part.values[0] < part.values[1]);
+        let [first, last] = part.values();
+        let is_before = |sample: &f64| (*sample < value) == (first < last);
         let after = part.samples.iter().position(|sample| !is_before(sample));
         let after = after.unwrap_or(MonotonicPart::SAMPLES).max(1);
-        let ends = [after - 1, after].map(|k| {
-            let fraction = k as f64 / MonotonicPart::SAMPLES as f64;
-            part.ends[0] + (part.ends[1] - part.ends[0]) * fraction
-        });
+        let ends = [after - 1, after].map(|k| sampled(part.ends, k));
         let excesses = [after - 1, after].map(|k| part.samples[k] - value);
         let nearer = ends[if excesses[0].abs() < excesses[1].abs() { 0 } else { 1 }];
         let bracket = Bracket::new(ends, excesses);
@@ -62,7 +71,7 @@ impl<Q: Quantity> CircuitFunction<Q> {
 
     /// The place at a fraction of a monotonic part.
     pub(in crate::measure) fn place_in_part(&self, part: &MonotonicPart, fraction: f64) -> Place {
-        Place { span: part.span, u: part.ends[0] + (part.ends[1] - part.ends[0]) * fraction }
+        Place { span: part.span, u: between(part.ends, fraction) }
     }
 
     /// The fraction of a monotonic part at which a place on it is.

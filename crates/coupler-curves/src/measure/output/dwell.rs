@@ -121,7 +121,7 @@ impl DwellSearch<'_> {
             if self.steps.take(1).is_err() {
                 break;
             }
-            let end = self.parts[part].values[1] + change;
+            let end = self.parts[part].values()[1] + change;
             let border = if end > least + width {
                 Some((least, width))
             } else if end < greatest - width {
@@ -155,10 +155,10 @@ impl DwellSearch<'_> {
     /// output leaves the band. `None` if the end is no extreme.
     fn start_at_extreme(&self, part: usize) -> Option<f64> {
         let coordinate = &self.output.coordinate;
-        let [before, extreme] = self.parts[part].values;
+        let [before, extreme] = self.parts[part].values();
         let is_greatest = extreme > before;
         if let Some((next, change, _)) = self.neighbour(part, true)
-            && (self.parts[next].values[1] + change > extreme) == is_greatest
+            && (self.parts[next].values()[1] + change > extreme) == is_greatest
         {
             return None;
         }
@@ -166,7 +166,7 @@ impl DwellSearch<'_> {
         let (mut part, mut change) = (part, 0.0);
         for _ in 0..=self.parts.len() {
             self.steps.take(1).ok()?;
-            let begin = self.parts[part].values[0] + change;
+            let begin = self.parts[part].values()[0] + change;
             let limit = [(begin < band[0]).then_some(band[0]), (begin > band[1]).then_some(band[1])];
             if let Some(limit) = limit.into_iter().flatten().next() {
                 let place = coordinate.solve_in_part(&self.parts[part], limit - change, f64::EPSILON);
@@ -184,7 +184,7 @@ impl DwellSearch<'_> {
         const SAMPLES: usize = MonotonicPart::SAMPLES;
         /// How accurately the start is found, relative to its part: the span changes with the square.
         const ACCURACY: f64 = 1e-9;
-        /// How accurately the ends of samples are found: enough to tell which are the longest.
+        /// How accurately the ends of samples are found: enough to know which are the longest.
         const ROUGH: f64 = 1e-6;
         /// Where all spans are equal to this part of them the output turns evenly.
         const EVEN: f64 = 1e-9;

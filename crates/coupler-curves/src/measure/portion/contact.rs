@@ -39,12 +39,12 @@ impl Contact {
     pub fn touching_and_height(&self, levels: &dyn Levels) -> (Point, f64) {
         let height = levels.height(self.point);
         let Some([velocity, acceleration]) = self.rates else { return (self.point, height) };
-        let [first, second] = levels.height_rates(self.point, velocity, acceleration);
-        let step = -first / second;
+        let rates = levels.height_rates(self.point, velocity, acceleration);
+        let step = stationary(rates);
         // It is not near if the step is long.
         let step = if step.abs() <= 1.0 { step } else { 0.0 };
         // The height of the vertex of a parabola is that of its tangent halfway to it.
-        (self.point + velocity * step + acceleration * (step * step / 2.0), height + first * step / 2.0)
+        (self.point + velocity * step + acceleration * (step * step / 2.0), height + rates[0] * step / 2.0)
     }
 
     /// Whether it is less than a part of the distance of two points to where the curve touches one of the levels.
@@ -56,7 +56,11 @@ impl Contact {
 
 /// How far it is to where the height of a moving point is stationary.
 pub fn vertex(levels: &dyn Levels, point: Point, velocity: Vector, acceleration: Vector) -> f64 {
-    let [first, second] = levels.height_rates(point, velocity, acceleration);
+    stationary(levels.height_rates(point, velocity, acceleration))
+}
+
+/// How far it is to where a height with a first and a second derivative is stationary; 0 if that is nowhere.
+fn stationary([first, second]: [f64; 2]) -> f64 {
     let step = -first / second;
     if step.is_finite() { step } else { 0.0 }
 }

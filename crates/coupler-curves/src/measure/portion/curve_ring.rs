@@ -51,6 +51,10 @@ pub struct CurveRings<'a> {
 const OUTSIDE: f64 = 1e-6;
 const ROUNDING: f64 = 1e-9;
 
+/// An annulus this much narrower hardly matters; those that are a little narrower yet are kept for portions next to this one.
+const NEAR: f64 = 0.8;
+const KEPT: f64 = 0.75;
+
 /// Circles about a centre.
 struct Circles(Point);
 
@@ -171,7 +175,7 @@ impl<'a> CurveRings<'a> {
     /// An annulus with what is known of how it changes.
     fn described(&self, annulus: Annulus, group: Option<Group>) -> PortionRing {
         let mut others = Constraints::default();
-        let near = self.groups.iter().filter(|other| 2.0 * other.half.abs() >= 0.8 * annulus.width);
+        let near = self.groups.iter().filter(|other| 2.0 * other.half.abs() >= NEAR * annulus.width);
         for (other, group) in others.iter_mut().zip(near) {
             *other = Some(Constraint { value: 2.0 * group.half.abs(), rates: self.width_rates(group) });
         }
@@ -241,7 +245,7 @@ impl<'a> CurveRings<'a> {
         }
         let group = best?;
         let width = 2.0 * group.half.abs();
-        groups.retain(|other| other.half.abs() >= 0.75 * group.half.abs());
+        groups.retain(|other| other.half.abs() >= KEPT * group.half.abs());
         groups.iter_mut().for_each(|other| *other = other.about(spokes, radius).unwrap_or(*other));
         Some((Annulus { centre, radius, width }, group))
     }

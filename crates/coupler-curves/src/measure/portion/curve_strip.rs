@@ -85,9 +85,11 @@ impl<'a> CurveStrips<'a> {
         let sampled = Strip::of_row(&self.portion.points, &mut self.touching);
         self.latest = None;
         let (mut direction, mut kept) = (sampled.direction, sampled.contacts);
-        for round in 1..=if sampled.width > EXACT * sampled.length { ROUNDS } else { 0 } {
+        let rounds = if sampled.width > EXACT * sampled.length { ROUNDS } else { 0 };
+        for round in 1..=rounds {
             let (touched, outside) = self.strip_about(direction, kept);
-            if outside <= if round < ROUNDS { ROUNDING } else { OUTSIDE } {
+            let permitted = if round < rounds { ROUNDING } else { OUTSIDE };
+            if outside <= permitted {
                 return self.described_touched(touched);
             }
             (direction, kept) = (touched.direction, touched.contacts.map(|k| self.contacts[k].index));
@@ -142,7 +144,8 @@ impl<'a> CurveStrips<'a> {
         /// The square of a turn by less is less than rounding.
         const TURNED: f64 = 1e-8;
         // The contacts move along the curve, and the strip with them: each time by the square of the time before.
-        for round in 1.. {
+        let mut round = 1;
+        loop {
             let lines = Lines(direction);
             self.portion.touch(&lines, &mut self.contacts);
             self.touched.clear();
@@ -152,8 +155,8 @@ impl<'a> CurveStrips<'a> {
                 return strip;
             }
             direction = strip.direction;
+            round += 1;
         }
-        unreachable!()
     }
 
     /// The strip of the points that touch, for the portion and the next.
