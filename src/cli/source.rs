@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use crate::manifest::{self, ParseOutcome, Plan};
 use crate::output;
 use crate::record::RunRecord;
+use coupler_curves::family::Family;
 use coupler_curves::problem::{self, Problem, suggestion};
 
 use super::{Failure, color, files, not_a_manifest, print_stderr, print_styled};
@@ -79,7 +80,7 @@ pub fn read(path: &Path) -> Result<ManifestSource, Failure> {
 ///
 /// # Errors
 /// The file cannot be read, or the manifest has errors.
-pub fn read_for_tables(path: &Path, cells: &dyn Fn(&str, usize) -> Range<usize>) -> Result<ManifestSource, Failure> {
+pub fn read_for_tables(path: &Path, cells: &dyn Fn(&Family) -> Range<usize>) -> Result<ManifestSource, Failure> {
     read_with(path, |text| with_files(path, |files| manifest::parse_for_tables(text, Some(files), cells)))
 }
 

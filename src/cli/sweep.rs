@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::output;
 use crate::shard::{self, Division, Event, MAX_SHARDS, MAX_TOP, Options, ShardRecord, TableFormat, Top};
+use crate::sweep::cells_of_division;
 use clap::{Args, ValueHint};
 use coupler_curves::family::MEASURES;
 use indicatif::ProgressBar;
@@ -25,7 +26,7 @@ pub struct Arguments {
     /// The folder to write to, in a folder for each family [default: that of render].
     #[arg(short, long, value_name = "DIR", value_hint = ValueHint::DirPath, value_parser = files::folder_parser())]
     output: Option<PathBuf>,
-    /// Only the I-th of N equal parts of each family's cells, I from 0 to N - 1, as in --shard 3/64 [default: 0/1, all cells].
+    /// Only the I-th of N parts of equal work of each family's cells, I from 0 to N - 1, as in --shard 3/64 [default: 0/1, all cells].
     #[arg(long, value_name = "I/N", value_parser = parse_shard, conflicts_with = "cells")]
     shard: Option<Division>,
     /// Only the cells of a single family with the numbers A to B, both included, as in --cells 1..1000.
@@ -100,8 +101,8 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let measures = arguments.measures.as_deref().map(parse_measures).transpose()?;
     let division = arguments.shard.or(arguments.cells).unwrap_or(Division::WHOLE);
     let is_selected = |id: &str| arguments.only.is_empty() || arguments.only.iter().any(|only| only == id);
-    let source = source::read_for_tables(&arguments.manifest, &|family, cells| {
-        if is_selected(family) { division.range(cells) } else { 0..0 }
+    let source = source::read_for_tables(&arguments.manifest, &|family| {
+        if is_selected(&family.id) { cells_of_division(family, division) } else { 0..0 }
     })?;
     source.require_families(&arguments.only)?;
     check_cells(&source, division, &is_selected)?;

@@ -40,7 +40,7 @@ impl TableStream {
         let measures = if table == TableKind::Points { Some(&[][..]) } else { measures };
         let family = Arc::new(swept_family(family, None, measures).into_owned());
         let columns = table::columns(&family, table);
-        let rest = division.range(family.cell_count());
+        let rest = sweep::cells_of_division(&family, division);
         TableStream { family, table, columns, rest }
     }
 

@@ -12,7 +12,7 @@ use super::record::{Counts, FORMAT, ShardRecord, TableKind};
 use super::table;
 use crate::manifest::{Plan, PlannedFamily};
 use crate::record::{Digest, RunningDigest};
-use crate::sweep::{CellGroups, CellIndices};
+use crate::sweep::{CellGroups, CellIndices, cells_of_division};
 
 /// The digest of what a manifest says of the values in tables.
 pub(super) fn manifest_digest(plan: &Plan) -> Digest {
@@ -48,7 +48,7 @@ pub(super) fn initial_record(
     options: &Options,
 ) -> ShardRecord {
     let cell_count = family.cell_count();
-    let range = options.division.range(cell_count);
+    let range = cells_of_division(&planned.family, options.division);
     let joint = |traced: &usize| family.template.joints[*traced].name.clone();
     ShardRecord {
         format: FORMAT,

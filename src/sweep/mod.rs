@@ -3,10 +3,12 @@
 mod cell_indices;
 mod diagnosis;
 mod division;
+mod equal_work;
 
 pub use cell_indices::CellIndices;
 pub use diagnosis::{Diagnosis, diagnose};
 pub use division::{Division, MAX_RANGES, MAX_SHARDS, number_ranges};
+pub use equal_work::cells_of_division;
 
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};

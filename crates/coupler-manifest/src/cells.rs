@@ -24,9 +24,9 @@ const MAX_DRAWN_CELLS: usize = 10_000_000;
 pub enum Purpose<'a> {
     /// All of them are solved, and drawn on pages. Their number is limited, and all of them are checked.
     Pages,
-    /// Some are solved, and written into tables: those of which this function returns the range of indices for the id of a
-    /// family and its number of cells. Only these are checked, and there may be as many as `limit` allows.
-    Tables(&'a dyn Fn(&str, usize) -> Range<usize>),
+    /// Some are solved, and written into tables: those of which this function returns the range of indices in a family. Only these
+    /// are checked, and there may be as many as `limit` allows.
+    Tables(&'a dyn Fn(&Family) -> Range<usize>),
 }
 
 /// The most values of all cells of an atlas, each computed and checked before any cell is solved, in some ten seconds.

@@ -4,6 +4,7 @@ use std::collections::HashSet;
 use std::ops::Range;
 use std::sync::Arc;
 
+use coupler_curves::family::Family;
 use coupler_curves::linkage_format::{Fields, TomlParser, canonical_toml};
 use coupler_curves::problem::Problem;
 use coupler_curves::template::Template;
@@ -65,10 +66,9 @@ pub fn parse_for_formats(text: &str, writable: &[Format], files: FileReader) -> 
     parse_for(text, writable, Purpose::Pages, files)
 }
 
-/// Parses a manifest for tables without pages of some of its cells: those of which `cells` returns the range of indices for
-/// the id of a family and its number of cells. Only these are checked. Of the others nothing is computed, so that there may
-/// be as many as `limit` allows.
-pub fn parse_for_tables(text: &str, files: FileReader, cells: &dyn Fn(&str, usize) -> Range<usize>) -> ParseOutcome {
+/// Parses a manifest for tables without pages of some of its cells: those of which `cells` returns the range of indices in a
+/// family, whose cells may have errors. Only these are checked. Of the others nothing is computed, so that there may be as many as `limit` allows.
+pub fn parse_for_tables(text: &str, files: FileReader, cells: &dyn Fn(&Family) -> Range<usize>) -> ParseOutcome {
     parse_for(text, &Format::ALL, Purpose::Tables(cells), files)
 }
 

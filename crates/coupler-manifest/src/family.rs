@@ -127,7 +127,7 @@ pub(crate) fn read<'t>(
     let checked = match purpose {
         Purpose::Pages if !totals.add_cells(&family, &fields, parser) => return None,
         Purpose::Pages => 0..count,
-        Purpose::Tables(range) => range(&family.id, count),
+        Purpose::Tables(range) => range(&family),
     };
     if !parser.has_syntax_error() {
         let given = cells::GivenNames { spans: &names.spans, misspelt: &names.misspelt };

@@ -68,7 +68,7 @@ impl ManifestArgument<'_> {
         match self {
             ManifestArgument::Atlas(atlas) => Ok(atlas.get().manifest.clone()),
             ManifestArgument::Path(path) => {
-                Manifest::for_tables(py, path.clone(), read_text(py, path)?.into(), |_, count| 0..count)
+                Manifest::for_tables(py, path.clone(), read_text(py, path)?.into(), |family| 0..family.cell_count())
             }
         }
     }
@@ -328,5 +328,5 @@ pub fn read(py: Python, manifest: PathBuf) -> PyResult<Atlas> {
 #[pyfunction]
 #[pyo3(name = "_atlas")]
 pub fn read_again(py: Python, path: PathBuf, text: String) -> PyResult<Atlas> {
-    Ok(Atlas { manifest: Manifest::for_tables(py, path, text.into(), |_, _| 0..0)? })
+    Ok(Atlas { manifest: Manifest::for_tables(py, path, text.into(), |_| 0..0)? })
 }

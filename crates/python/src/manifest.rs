@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use coupler_atlas::manifest::{self, ParseOutcome, Plan, PlannedFamily};
 use coupler_atlas::output;
+use coupler_curves::family::Family;
 use coupler_curves::problem::suggestion;
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
@@ -29,7 +30,7 @@ impl Manifest {
         py: Python,
         path: PathBuf,
         text: Arc<str>,
-        cells: impl Fn(&str, usize) -> Range<usize> + Send + 'static,
+        cells: impl Fn(&Family) -> Range<usize> + Send + 'static,
     ) -> PyResult<Manifest> {
         let (own, from) = (text.clone(), path.clone());
         let outcome = task::run_with(py, None, move |_| {

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use coupler_curves::family::Family;
 use pyo3::prelude::*;
 use pyo3::types::{PyAny, PyTuple};
 
@@ -23,7 +24,7 @@ pub fn make_linkage_again(
     let linkage: Linkage = match (path, text, values) {
         (Some(path), Some(text), None) => {
             let own = name.clone();
-            let cells = move |id: &str, _| if id == own { number.saturating_sub(1)..number } else { 0..0 };
+            let cells = move |family: &Family| if family.id == own { number.saturating_sub(1)..number } else { 0..0 };
             let manifest = Manifest::for_tables(py, path, text.into(), cells)?;
             manifest.cell(&name, number)?
         }

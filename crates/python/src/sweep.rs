@@ -8,6 +8,7 @@ use arrow_array::{RecordBatch, RecordBatchReader};
 use arrow_schema::{ArrowError, SchemaRef};
 use coupler_atlas::output;
 use coupler_atlas::shard::{Division, MAX_SHARDS, Rows, TableKind, TableStream};
+use coupler_atlas::sweep::cells_of_division;
 use coupler_curves::family::MEASURES;
 use coupler_curves::problem::suggestion;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
@@ -217,7 +218,7 @@ impl Sweep {
 /// family : str, optional
 ///     The id of the family; needed if the manifest has several, for each has columns of its own.
 /// shard : (int, int), optional
-///     Only the i-th of n equal parts of the cells, i from 0 to n - 1, as (3, 64).
+///     Only the i-th of n parts of the cells with about equal work, i from 0 to n - 1, as (3, 64).
 /// cells : (int, int), optional
 ///     Only the cells with these numbers and those between, counted from 1, as (1, 1000).
 /// points : bool
@@ -278,9 +279,9 @@ fn make_sweep(
 ) -> PyResult<Sweep> {
     let division = division(shard, cells)?;
     let wanted = family.clone();
-    let manifest = Manifest::for_tables(py, path.clone(), text.clone(), move |id, count| match &wanted {
-        Some(wanted) if wanted != id => 0..0,
-        _ => division.range(count),
+    let manifest = Manifest::for_tables(py, path.clone(), text.clone(), move |family| match &wanted {
+        Some(wanted) if *wanted != family.id => 0..0,
+        _ => cells_of_division(family, division),
     })?;
     let planned = manifest.family(family.as_deref())?;
     let own = &planned.family;
@@ -295,7 +296,8 @@ fn make_sweep(
         return Err(PyValueError::new_err(message));
     }
     let table = if points { TableKind::Points } else { TableKind::Cells };
-    let stream = TableStream::new(own, table, division, measures.as_deref());
+    // Where the work of a shard is, is found by cells that are solved.
+    let stream = py.detach(|| TableStream::new(own, table, division, measures.as_deref()));
     let schema = arrow::schema(stream.columns());
     let recipe = Recipe { path, text, arguments: (own.id.clone(), shard, cells, points, measures) };
     Ok(Sweep { family: own.id.clone(), stream, schema, progress: None, recipe })

@@ -125,13 +125,14 @@ fn points_problem(file: &ShardFile, columns: &[String]) -> Option<String> {
 /// Reports cells that are in no file or in two; the files are in order of their first cells.
 fn check_coverage(id: &str, files: &[ShardFile], missing_shards: &mut MissingShards, problems: &mut Vec<String>) {
     let cell_count = files[0].record.cell_count;
+    // Each with the file before and after it.
     let mut missing = Vec::new();
     let mut next = 1;
     let mut previous: Option<&ShardFile> = None;
     for file in files.iter().filter(|file| file.record.first_cell <= file.record.last_cell) {
         let record = &file.record;
         if record.first_cell > next {
-            missing.push((next, record.first_cell - 1));
+            missing.push(((next, record.first_cell - 1), (previous, Some(file))));
         }
         if let Some(previous) = previous.filter(|_| record.first_cell < next) {
             problems.push(format!(
@@ -146,28 +147,29 @@ fn check_coverage(id: &str, files: &[ShardFile], missing_shards: &mut MissingSha
         previous = Some(file);
     }
     if next <= cell_count {
-        missing.push((next, cell_count));
+        missing.push(((next, cell_count), (previous, None)));
     }
     if missing.is_empty() {
         return;
     }
-    let shard_count = |file: &ShardFile| match file.record.division {
-        Division::Shard { of, .. } => Some(of),
+    let shard = |file: &ShardFile| match file.record.division {
+        Division::Shard { index, of } => Some((index, of)),
         Division::Cells { .. } => None,
     };
-    let of = shard_count(&files[0]).filter(|of| files.iter().all(|file| shard_count(file) == Some(*of)));
-    if let Some(of) = of {
-        let present: BTreeSet<(usize, usize)> =
-            files.iter().map(|file| (file.record.first_cell, file.record.last_cell)).collect();
-        let is_missing = |index: &usize| {
-            let range = Division::Shard { index: *index, of }.range(cell_count);
-            !range.is_empty() && !present.contains(&(range.start + 1, range.end))
-        };
+    let of = shard(&files[0]).map(|(_, of)| of);
+    let present: Option<BTreeSet<usize>> =
+        files.iter().map(|file| shard(file).filter(|shard| Some(shard.1) == of).map(|(index, _)| index)).collect();
+    if let Some((of, present)) = of.zip(present) {
+        let index = |file: Option<&ShardFile>| file.and_then(shard).map(|(index, _)| index);
         let (indices, families) = missing_shards.0.entry(of).or_default();
-        indices.extend((0..of).filter(is_missing));
+        for (_, (before, after)) in missing {
+            let between = index(before).map_or(0, |index| index + 1)..index(after).unwrap_or(of);
+            indices.extend(between.filter(|index| !present.contains(index)));
+        }
         families.push(id.to_owned());
         return;
     }
+    let missing: Vec<(usize, usize)> = missing.into_iter().map(|(cells, _)| cells).collect();
     let (first, last) = missing[0];
     let ranges: Vec<String> = missing.iter().take(MAX_RANGES).map(|(a, b)| format!("{a} to {b}")).collect();
     let more = missing.len().saturating_sub(MAX_RANGES);

@@ -40,6 +40,40 @@ fn the_union_of_shards_is_what_render_writes() {
     }
 }
 
+/// The curves of a family with 4,000 cells whose `where` keeps none of the first half.
+#[test]
+fn shards_have_equal_work() {
+    const MANIFEST: &str = r#"[atlas]
+title = "T"
+[[family]]
+id = "bars"
+linkage = "four-bar"
+sampling = { samples = 12 }
+measures = ["length"]
+where = "coupler > 3 and is_crank_rocker"
+let = { crank = 1, along = 0.5, across = 0.5 }
+grid = { coupler = { from = 2, to = 4, count = 40 }, frame = { from = 2, to = 3, count = 10 }, rocker = { from = 2, to = 3, count = 10 } }
+"#;
+    let folder = folder_with(MANIFEST);
+    let all = printed(folder.path(), &["sweep", "-o", "whole", "--no-points"]);
+    sweep_all(folder.path(), "out", 3, &["--no-points"]);
+    let cells = |output: &str, index, of| {
+        table_rows(&folder.path().join(output).join("bars").join(shard("cells", index, of, "parquet")))
+    };
+    let whole = cells("whole", 0, 1);
+    let parts: Vec<Vec<Vec<String>>> = (0..3).map(|index| cells("out", index, 3)).collect();
+    let joined: Vec<&Vec<String>> = parts.iter().flat_map(|part| &part[1..]).collect();
+    assert!(joined == whole[1..].iter().collect::<Vec<_>>(), "{all}");
+    // A cell that is left out is a twentieth of the work of a curve, and there are as many of each.
+    let curves = parts.iter().map(|part| part.len() - 1);
+    let third = (whole.len() - 1) / 3;
+    assert!(curves.clone().all(|count| count.abs_diff(third) < third / 8), "{:?}: {all}", curves.collect::<Vec<_>>());
+    // A shard in the middle is missing: it is known which, without its cells.
+    fs::remove_file(folder.path().join("out/bars").join(shard("cells", 1, 3, "parquet"))).unwrap();
+    let (code, _, errors) = run(folder.path(), &["gather", "out"]);
+    assert!(code == 2 && errors.contains("bars: shard 1 of 3 is missing"), "{errors}");
+}
+
 #[test]
 fn columns_have_types_and_files_say_what_they_are() {
     let folder = folder_with(MANIFEST);
