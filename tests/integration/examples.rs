@@ -70,7 +70,8 @@ fn every_example_is_valid_and_documented() {
 }
 
 /// A family of each example that takes little time, with the number of its pages.
-const PARTS: [(&str, &str, usize); 5] = [
+const PARTS: [(&str, &str, usize); 6] = [
+    ("drawings", "press", 1),
     ("offset-slider-crank", "slider", 1),
     ("inverted-slider-crank", "conchoids", 1),
     ("geared-five-bars", "ratio-2-1", 6),

@@ -57,6 +57,21 @@ fn the_libraries_are_where_they_are_said_to_be() {
     }
 }
 
+/// A linkage by its drawing, without its input, and with further links.
+fn drawing(links: &str) -> String {
+    format!(
+        r#"[[linkage]]
+id = "mine"
+trace = ["B"]
+[linkage.drawing]
+joints = {{ O = [0, 0], C = [4, 0], A = [0.6, 0.8], B = [3.4, 2.6], S = [7, 0], P = [5, 0], Q = [9, 0] }}
+frame = ["O", "C", "P", "Q"{}]
+links = [["O", "A"], ["A", "B"], ["B", "C"]{links}]
+"#,
+        if links.is_empty() { ", \"S\"" } else { "" }
+    )
+}
+
 /// Manifests with a place, marked by `@`, for an example.
 fn places() -> Vec<String> {
     let grid = "[[family]]\nid = \"f\"\nlinkage = \"evans\"\nlet = { a = \"(1 + p)^1.5 / 2\" }\n";
@@ -77,6 +92,9 @@ fn places() -> Vec<String> {
         format!("{ATLAS}{grid}grid = {{ p = [2, 3] }}\n@\n"),
         format!("{ATLAS}{geared}grid = {{ @ }}\n"),
         format!("{ATLAS}{mine}{LINKAGE}@\n{JOINTS}"),
+        format!("{ATLAS}{mine}{}@\n", drawing("")),
+        format!("{ATLAS}{mine}{}input = \"O A\"\n@\n", drawing("")),
+        format!("{ATLAS}{mine}{}input = \"O A\"\n@\n", drawing(", [\"B\", \"S\"]")),
         format!("{ATLAS}{}{LINKAGE}{JOINTS}", mine.replace("cases = [{}]", "@")),
         format!(
             "{ATLAS}[[family]]\nid = \"h\"\nlinkage = \"h\"\n@\ngrid = {{ A = 2.5, B = 3, C = 3 }}\n{}",

@@ -59,6 +59,7 @@ fn the_keys_of_manifests_are_those_of_the_schema() {
     for (file, section) in [
         ("docs/manifest.md", "Parameters"),
         ("docs/manifest.md", "Linkages"),
+        ("docs/manifest.md", "Drawings"),
         ("docs/manifest.md", "Families"),
         ("docs/themes.md", "Themes"),
     ] {

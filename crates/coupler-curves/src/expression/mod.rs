@@ -18,6 +18,7 @@
 //! are 1 and 0. No text makes the parser panic, and nesting beyond [`MAX_DEPTH`] is an error.
 
 mod angle_units;
+mod arithmetic;
 mod caption;
 mod conjuncts;
 mod function;

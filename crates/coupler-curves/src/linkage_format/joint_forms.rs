@@ -124,7 +124,7 @@ static FORMS: [JointForm; 11] = [
         parse: |joint, parser| {
             let (base, length) = (joint.joint_pair("piston", parser), joint.length(parser));
             let (offset, side) = (joint.offset(parser), joint.side(&SIDES, parser));
-            Some(JointKindTemplate::Piston { base: base?, length: length?, offset: offset?, side: side? })
+            Some(JointKindTemplate::Piston { base: base?, length: length?, offset: offset?, side: side?.into() })
         },
     },
     JointForm {
@@ -144,7 +144,7 @@ static FORMS: [JointForm; 11] = [
         parse: |joint, parser| {
             let (base, lengths) = (joint.joint_pair("dyad", parser), joint.lengths(parser));
             let side = joint.side(&SIDES, parser);
-            Some(JointKindTemplate::Dyad { base: base?, lengths: lengths?, side: side? })
+            Some(JointKindTemplate::Dyad { base: base?, lengths: lengths?, side: side?.into() })
         },
     },
     JointForm {
@@ -171,7 +171,13 @@ static FORMS: [JointForm; 11] = [
             let (from, length) = (joint.joint("slide", parser), joint.length(parser));
             let (line, offset) = (joint.joint_pair("line", parser), joint.offset(parser));
             let side = joint.side(&SLIDE_SIDES, parser);
-            Some(JointKindTemplate::Slide { from: from?, length: length?, line: line?, offset: offset?, side: side? })
+            Some(JointKindTemplate::Slide {
+                from: from?,
+                length: length?,
+                line: line?,
+                offset: offset?,
+                side: side?.into(),
+            })
         },
     },
     JointForm {
@@ -221,7 +227,7 @@ static FORMS: [JointForm; 11] = [
             // Without offset the line points from pivot to joint at the start, on either side.
             let needs_side = ["offset", "side"].iter().any(|key| joint.fields.get(key).is_some());
             let side = if needs_side { joint.side(&SIDES, parser) } else { Some(Side::Right) };
-            Some(JointKindTemplate::Slot { base: base?, offset: offset?, side: side? })
+            Some(JointKindTemplate::Slot { base: base?, offset: offset?, side: side?.into() })
         },
     },
     JointForm {
@@ -251,7 +257,7 @@ static FORMS: [JointForm; 11] = [
         parse: |joint, parser| {
             let base = joint.joint_pair("point", parser);
             let (distances, side) = (joint.numbers("distances", parser), joint.side(&SIDES, parser));
-            Some(JointKindTemplate::Distances { base: base?, distances: distances?, side: side? })
+            Some(JointKindTemplate::Distances { base: base?, distances: distances?, side: side?.into() })
         },
     },
     JointForm {

@@ -153,7 +153,7 @@ fn parse_ratio<'t>(
 }
 
 /// Reports a length that is the same in every cell and not positive; the others are checked in each cell.
-fn check_positive<'t>(length: &CompiledExpression, value: &TomlValue<'t>, parser: &mut TomlParser<'t>) {
+pub(super) fn check_positive<'t>(length: &CompiledExpression, value: &TomlValue<'t>, parser: &mut TomlParser<'t>) {
     let number = length.evaluate(|_| f64::NAN);
     if number <= 0.0 {
         let problem = Problem::error(value.span(), format!("a length must be positive, found {number}"));

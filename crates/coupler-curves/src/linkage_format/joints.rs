@@ -1,9 +1,10 @@
-//! Parses the `[linkage.joints]` table: joint by joint, then sorted so that each can be placed.
+//! Parses the joints of a linkage, drawn or joint by joint, and sorts them so that each can be placed.
 
 use std::collections::{HashMap, HashSet};
 
 use toml::de::DeValue;
 
+use super::drawing::{self, place, read_drawing};
 use super::fields::Fields;
 use super::joint_forms::parse_joint;
 use super::joint_id::check_joint_id;
@@ -14,7 +15,7 @@ use super::toml_parser::{TomlParser, TomlValue};
 use crate::expression::Scope;
 use crate::problem::{Problem, Span};
 use crate::template::{
-    Coordinate, DependencyCycle, JointKindTemplate, JointTemplate, OutputLinkTemplate, dependency_order,
+    Coordinate, DependencyCycle, InputValue, JointKindTemplate, JointTemplate, OutputLinkTemplate, dependency_order,
 };
 
 /// The joints of a linkage in the order they are placed.
@@ -24,35 +25,87 @@ pub(super) struct ParsedJoints {
     pub seen_from: Option<[usize; 2]>,
     pub output_link: Option<OutputLinkTemplate>,
     pub chains: Vec<Vec<usize>>,
+    /// The input in the drawing, if there is one.
+    pub start: Option<InputValue>,
     /// Each joint's name and its span in the text.
     pub spans: Vec<(String, Span)>,
 }
 
+/// A joint with its name, where this is, and where it is said how the joint is placed.
+struct Entry<'e> {
+    name: &'e str,
+    name_span: Span,
+    span: Span,
+    /// Whether it is of a drawing, and need not be of use.
+    is_drawn: bool,
+}
+
+/// Parses the joints of a linkage: those of its drawing, and those of `[linkage.joints]`, which may be placed from them.
 pub(super) fn parse_joints<'t>(
-    value: &TomlValue<'t>,
     linkage: &Fields<'_, 't>,
     scope: &Scope,
     parser: &mut TomlParser<'t>,
 ) -> Option<ParsedJoints> {
-    let table = Fields::with_any_keys(value, "`joints`", parser)?;
-    let names = JointNames::new(table.keys());
-    let entries: Vec<(&str, Span, &TomlValue<'t>)> = table.entries().collect();
-    let wrong_ids: Vec<Problem> = entries.iter().filter_map(|(name, span, _)| check_joint_id(name, span)).collect();
-    wrong_ids.into_iter().for_each(|problem| parser.report(problem));
-    let parsed: Vec<Option<JointKindTemplate>> =
-        entries.iter().map(|(name, _, value)| parse_joint(name, value, &names, scope, parser)).collect();
+    let drawing = match linkage.get("drawing") {
+        None => None,
+        Some(value) => Some(read_drawing(value, scope, parser)?),
+    };
+    let placed = match drawing.as_ref().map(place) {
+        None => None,
+        Some(Ok(placed)) => Some(placed),
+        Some(Err(problem)) => {
+            parser.report(problem);
+            return None;
+        }
+    };
+    let table = match (linkage.get("joints"), &drawing) {
+        (None, Some(_)) => None,
+        _ => {
+            let value =
+                linkage.required("joints", "a table [linkage.joints], or a drawing, [linkage.drawing]", parser)?;
+            Some(Fields::with_any_keys(value, "`joints`", parser)?)
+        }
+    };
+    let mut entries: Vec<Entry> = Vec::new();
+    if let Some((drawing, placed)) = drawing.as_ref().zip(placed.as_ref()) {
+        let drawn = drawing.names.iter().zip(&drawing.spans);
+        entries.extend(drawn.map(|(name, [name_span, span])| Entry {
+            name,
+            name_span: name_span.clone(),
+            span: span.clone(),
+            is_drawn: true,
+        }));
+        let foot = |name| Entry { name, name_span: drawing.span.clone(), span: drawing.span.clone(), is_drawn: true };
+        entries.extend(placed.feet.iter().map(|name| foot(name.as_str())));
+    }
+    let drawn_count = entries.len();
+    let own: Vec<(&str, Span, &TomlValue<'t>)> = table.iter().flat_map(Fields::entries).collect();
+    for (name, name_span, value) in &own {
+        check_joint_id(name, name_span).into_iter().for_each(|problem| parser.report(problem));
+        if entries[..drawn_count].iter().any(|entry| entry.name == *name) {
+            let problem = Problem::error(name_span.clone(), format!("the joint `{name}` is in the drawing"));
+            parser.report(problem.with_help("give it another name, or leave it out of one of the two"));
+        }
+        entries.push(Entry { name, name_span: name_span.clone(), span: value.span(), is_drawn: false });
+    }
+    let names = JointNames::new(entries.iter().map(|entry| entry.name).collect());
+    let drawn = placed.iter().flat_map(|placed| placed.kinds.iter().cloned().map(Some));
+    let mut parsed: Vec<Option<JointKindTemplate>> = drawn.collect();
+    parsed
+        .extend(own.iter().map(|(name, _, value)| parse_joint(name, value, &names, scope, parser)).collect::<Vec<_>>());
     let traced = parse_traced(linkage, &names, parser);
     let seen_from = linkage.get("seen_from").map(|value| parse_joint_pair(value, &names, parser));
     let output_link = linkage.get("output_link").map(|value| parse_output_link(value, &names, &parsed, parser));
     let chains = linkage.get("chains").map_or(Some(Vec::new()), |value| parse_chains(value, &names, parser));
-    check_inputs(&entries, &parsed, &table, parser);
+    let span = table.as_ref().map_or_else(|| linkage.span.clone(), |table| table.span.clone());
+    check_inputs(&entries, &parsed, span, parser);
     let placings: Vec<JointKindTemplate> = parsed.into_iter().collect::<Option<_>>()?;
     check_grids(&entries, &placings, parser);
     let needs = dependencies(&placings);
     let order = order_joints(&entries, &needs, parser)?;
     let traced = traced?;
     let seen_from = match seen_from {
-        None => None,
+        None => placed.as_ref().and_then(|placed| placed.seen_from),
         Some(joints) => Some(joints?),
     };
     let output_link = match output_link {
@@ -70,9 +123,13 @@ pub(super) fn parse_joints<'t>(
     let new_index = |joint: usize| new_indices[joint];
     let joints = order
         .iter()
-        .map(|&k| JointTemplate { name: names.all()[k].to_owned(), kind: placings[k].clone().map_joints(new_index) })
+        .map(|&k| JointTemplate {
+            name: names.all()[k].to_owned(),
+            kind: placings[k].clone().map_joints(new_index),
+            drawn: drawing.as_ref().and_then(|drawing| drawing.position(k)),
+        })
         .collect();
-    let spans = entries.iter().map(|(name, span, _)| ((*name).to_owned(), span.clone())).collect();
+    let spans = entries.iter().map(|entry| (entry.name.to_owned(), entry.name_span.clone())).collect();
     Some(ParsedJoints {
         joints,
         traced: traced.into_iter().map(new_index).collect(),
@@ -82,12 +139,16 @@ pub(super) fn parse_joints<'t>(
             OutputLinkTemplate::Slider(joint) => OutputLinkTemplate::Slider(new_index(joint)),
         }),
         chains: chains.into_iter().map(|chain| chain.into_iter().map(new_index).collect()).collect(),
+        start: placed.map(|placed| placed.start),
         spans,
     })
 }
 
 /// What the input of a linkage is: a length if it has a piston.
 pub(super) fn input_kind(linkage: &Fields) -> InputKind {
+    if let Some(drawing) = linkage.get("drawing") {
+        return drawing::input_kind(drawing);
+    }
     let joints = linkage.get("joints").and_then(|value| value.get_ref().as_table());
     let has = |key: &str| {
         let is_so = |joint: &TomlValue| joint.get_ref().as_table().is_some_and(|joint| joint.contains_key(key));
@@ -188,16 +249,11 @@ fn is_input(kind: &JointKindTemplate) -> bool {
 }
 
 /// Checks that a linkage has one input, and that its gears are geared to it.
-fn check_inputs(
-    entries: &[(&str, Span, &TomlValue)],
-    parsed: &[Option<JointKindTemplate>],
-    table: &Fields,
-    parser: &mut TomlParser,
-) {
+fn check_inputs(entries: &[Entry], parsed: &[Option<JointKindTemplate>], table: Span, parser: &mut TomlParser) {
     let inputs: Vec<usize> = (0..parsed.len()).filter(|&k| parsed[k].as_ref().is_some_and(is_input)).collect();
     // A joint that could not be parsed may be the input.
     if inputs.is_empty() && parsed.iter().all(Option::is_some) {
-        let problem = Problem::error(table.span.clone(), "the linkage has no input");
+        let problem = Problem::error(table, "the linkage has no input");
         let help = match parsed.iter().flatten().any(is_sliding) {
             true => {
                 "a slider cannot be the input: add a crank, as in { crank = \"O\", length = 1 }, or an actuator, as in \
@@ -208,24 +264,25 @@ fn check_inputs(
         parser.report(problem.with_help(help));
     }
     for &k in inputs.iter().skip(1) {
-        let (first, second) = (entries[inputs[0]].0, entries[k].0);
+        let (first, second) = (entries[inputs[0]].name, entries[k].name);
         let problem =
-            Problem::error(entries[k].2.span(), format!("`{second}` is a second input in addition to `{first}`"));
+            Problem::error(entries[k].span.clone(), format!("`{second}` is a second input in addition to `{first}`"));
         let help = "a linkage of one degree of freedom has one input; place the other joints by dyads or gears";
         parser.report(problem.with_help(help));
     }
     for (k, placing) in parsed.iter().enumerate() {
         let Some(JointKindTemplate::Gear { crank, .. }) = placing else { continue };
         if !matches!(parsed[*crank], Some(JointKindTemplate::Crank { .. }) | None) {
-            let message = format!("`{}` is geared to `{}`, which is not a crank", entries[k].0, entries[*crank].0);
-            let problem = Problem::error(entries[k].2.span(), message);
+            let message =
+                format!("`{}` is geared to `{}`, which is not a crank", entries[k].name, entries[*crank].name);
+            let problem = Problem::error(entries[k].span.clone(), message);
             parser.report(problem.with_help("name the pin of the crank that drives the linkage"));
         }
     }
 }
 
 /// Checks that no joint is placed from a grid of points, which has more than one position.
-fn check_grids(entries: &[(&str, Span, &TomlValue)], placings: &[JointKindTemplate], parser: &mut TomlParser) {
+fn check_grids(entries: &[Entry], placings: &[JointKindTemplate], parser: &mut TomlParser) {
     let is_grid = |k: usize| match &placings[k] {
         JointKindTemplate::Point { along, across, .. } => {
             matches!(along, Coordinate::Range { .. }) || matches!(across, Coordinate::Range { .. })
@@ -234,9 +291,9 @@ fn check_grids(entries: &[(&str, Span, &TomlValue)], placings: &[JointKindTempla
     };
     for (k, placing) in placings.iter().enumerate() {
         for base in placing.referenced_joints().into_iter().filter(|&base| is_grid(base)) {
-            let (name, grid) = (entries[k].0, entries[base].0);
+            let (name, grid) = (entries[k].name, entries[base].name);
             let problem =
-                Problem::error(entries[k].2.span(), format!("`{name}` is placed from `{grid}`, a grid of points"));
+                Problem::error(entries[k].span.clone(), format!("`{name}` is placed from `{grid}`, a grid of points"));
             parser.report(problem.with_help("a grid can only be traced; place the joint from a single point"));
         }
     }
@@ -262,19 +319,15 @@ fn dependencies(placings: &[JointKindTemplate]) -> Vec<Vec<usize>> {
 }
 
 /// An order in which every joint comes after those it is placed from; the order as written, if it is one.
-fn order_joints(
-    entries: &[(&str, Span, &TomlValue)],
-    needs: &[Vec<usize>],
-    parser: &mut TomlParser,
-) -> Option<Vec<usize>> {
+fn order_joints(entries: &[Entry], needs: &[Vec<usize>], parser: &mut TomlParser) -> Option<Vec<usize>> {
     match dependency_order(needs.len(), |k| needs[k].clone()) {
         Ok(order) => Some(order),
         Err(DependencyCycle { cycle, unresolved }) => {
-            let names = |joints: &[usize]| joints.iter().map(|&k| format!("`{}`", entries[k].0)).collect::<Vec<_>>();
+            let names = |joints: &[usize]| joints.iter().map(|&k| format!("`{}`", entries[k].name)).collect::<Vec<_>>();
             let (cycle_names, unresolved) = (names(&cycle), names(&unresolved));
             let first = &cycle_names[0];
             let problem =
-                Problem::error(entries[cycle[0]].2.span(), format!("the joint {first} is placed from itself"));
+                Problem::error(entries[cycle[0]].span.clone(), format!("the joint {first} is placed from itself"));
             let help = if cycle.len() <= 2 {
                 format!("{first} needs its own position; place it from joints already placed")
             } else {
@@ -294,7 +347,7 @@ fn order_joints(
 /// Checks that every joint is traced, is in `seen_from` or `output_link` (the joints `named`), carries another joint, or
 /// has a link: a parallelogram may be there for its links alone.
 fn check_unused(
-    entries: &[(&str, Span, &TomlValue)],
+    entries: &[Entry],
     placings: &[JointKindTemplate],
     needs: &[Vec<usize>],
     traced: &[usize],
@@ -304,15 +357,15 @@ fn check_unused(
     let mut is_used = vec![false; placings.len()];
     let used = needs.iter().flatten().chain(traced).chain(named);
     used.for_each(|&k| is_used[k] = true);
-    for (k, (name, span, _)) in entries.iter().enumerate() {
+    for (k, Entry { name, name_span, is_drawn, .. }) in entries.iter().enumerate() {
         let has_links = matches!(
             placings[k],
             JointKindTemplate::Crank { .. }
                 | JointKindTemplate::Piston { .. }
                 | JointKindTemplate::Parallelogram { .. }
         );
-        if !is_used[k] && !has_links {
-            let problem = Problem::error(span.clone(), format!("the joint `{name}` is not used"));
+        if !is_used[k] && !has_links && !is_drawn {
+            let problem = Problem::error(name_span.clone(), format!("the joint `{name}` is not used"));
             parser.report(problem.with_help(format!("trace it, place another joint from it, or remove `{name}`")));
         }
     }
@@ -321,7 +374,7 @@ fn check_unused(
 /// Checks that the traced joints depend on the driven one, if there is one, without which they do not move. With `seen_from` this does
 /// not apply: relative to a moving link, fixed joints move.
 fn check_traced_joints_move(
-    entries: &[(&str, Span, &TomlValue)],
+    entries: &[Entry],
     placings: &[JointKindTemplate],
     needs: &[Vec<usize>],
     order: &[usize],
@@ -337,7 +390,7 @@ fn check_traced_joints_move(
         moves[k] = is_driven || needs[k].iter().any(|&need| moves[need]);
     }
     for &k in traced.iter().filter(|&&k| !moves[k]) {
-        let (name, span) = (entries[k].0, entries[k].1.clone());
+        let (name, span) = (entries[k].name, entries[k].name_span.clone());
         let problem = Problem::error(span, format!("the traced joint `{name}` does not move"));
         parser.report(problem.with_help("trace a joint that depends on the driven one"));
     }

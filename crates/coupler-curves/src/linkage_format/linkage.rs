@@ -1,5 +1,6 @@
 //! The schema of a `[[linkage]]` table and its parser.
 
+use super::drawing::DRAWING;
 use super::fields::Fields;
 use super::joint_forms::joint_schemas;
 use super::joints;
@@ -37,10 +38,15 @@ pub(super) static LINKAGE: TableSchema = TableSchema::new(
             ValueSchema::Set(&JOINT_NAME, [1, usize::MAX]),
             "The joints whose curves are traced.",
         ),
-        KeySchema::required(
+        KeySchema::new(
             "joints",
             ValueSchema::Map(&ValueSchema::Variants(joint_schemas)),
-            "Its joints, by their names, in any order.",
+            "Its joints, by their names, in any order; with a drawing, further ones that are placed from it.",
+        ),
+        KeySchema::new(
+            "drawing",
+            ValueSchema::Table(&DRAWING),
+            "The pose it is drawn in: joints by coordinates, and links by their joints. Dimensions and sides follow from it.",
         ),
         CIRCUITS_KEY.with_default(|| default_word(&CIRCUIT_SELECTIONS)),
         CONTINUATION_KEY.with_default(|| default_word(&CONTINUATIONS)),
@@ -173,9 +179,11 @@ pub fn parse_template<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) ->
     let start = fields.get("start").and_then(|value| parser.input(value, input_kind, &scope));
     let input = fields.get("input").and_then(|value| parse_input_range(value, &INPUT, input_kind, &scope, parser));
     let arc = fields.get("arc").and_then(|value| parse_arc(value, input_kind, &scope, parser));
-    let joints = fields
-        .required("joints", "a table [linkage.joints]", parser)
-        .and_then(|value| joints::parse_joints(value, &fields, &scope, parser));
+    let joints = joints::parse_joints(&fields, &scope, parser);
+    if let (Some(start), Some(_)) = (fields.get("start"), fields.get("drawing")) {
+        let problem = Problem::error(start.span(), "the drawing is the start of the motion");
+        parser.report(problem.with_help("leave `start` out, or draw the linkage in that pose"));
+    }
     let (id, joints) = (id?, joints?);
     let mut template = Template {
         id,
@@ -192,7 +200,7 @@ pub fn parse_template<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) ->
         circuits,
         continuation,
         coincident,
-        start,
+        start: start.or(joints.start),
         input,
         arc,
         parameters,

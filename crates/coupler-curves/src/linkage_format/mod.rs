@@ -1,6 +1,7 @@
 //! The linkage format: templates as `[[linkage]]` tables in TOML, in manifests and in the catalogue.
 
 mod canonical;
+mod drawing;
 mod entries;
 mod fields;
 mod joint_forms;

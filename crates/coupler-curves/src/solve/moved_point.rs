@@ -54,7 +54,7 @@ impl MovablePoint {
     /// no point with coordinates.
     pub fn of_trace(template: &Template, trace: usize, values: &[f64]) -> Option<MovablePoint> {
         let (joint, point) = find_traced_point(template, trace)?;
-        let JointTemplate { name, kind: JointKindTemplate::Point { along, across, .. } } = &template.joints[joint]
+        let JointTemplate { name, kind: JointKindTemplate::Point { along, across, .. }, .. } = &template.joints[joint]
         else {
             return None;
         };
@@ -93,7 +93,7 @@ pub(super) fn move_point(
 ) -> Result<(Template, usize), MovedPointError> {
     let trace = trace.ok_or(MovedPointError::NotSingleCurve)?;
     let (joint, point) = find_traced_point(template, trace).ok_or(MovedPointError::NoSuchTrace(trace))?;
-    let JointTemplate { name, kind } = &template.joints[joint];
+    let JointTemplate { name, kind, .. } = &template.joints[joint];
     let JointKindTemplate::Point { base, along, across } = kind else {
         return Err(MovedPointError::NoCoordinates(name.clone()));
     };
@@ -119,7 +119,7 @@ pub(super) fn move_point(
     let mut moved = template.clone();
     if is_grid {
         moved.traced.push(moved.joints.len());
-        moved.joints.push(JointTemplate { name: format!("{name}′"), kind });
+        moved.joints.push(JointTemplate { name: format!("{name}′"), kind, drawn: None });
         return Ok((moved, template.curve_count() + 1));
     }
     moved.joints[joint].kind = kind;

@@ -1,19 +1,42 @@
 //! The construction of a linkage in words: for each joint, the lengths and angles that place it.
 
-use super::{Coordinate, JointKindTemplate, Side, Template};
+use super::{Coordinate, JointKindTemplate, JointTemplate, Side, Template};
 use crate::expression::{CompiledExpression, MathText, displayed_name, join_names};
+use crate::text::{format_exactly, is_same_number, round_to_six_digits};
 
 impl Template {
     /// How a joint, by its index in [`Template::joints`], is placed: "AB = a, CB = s". The dimensions are as in the
     /// template, by the names of its parameters.
+    ///
+    /// Of a joint of a drawing the coordinates in it are stated, too; of its dimensions, which follow from them, those that are numbers, rounded.
     pub fn construction(&self, joint: usize) -> MathText {
         let Some(placed) = self.joints.get(joint) else { return MathText::default() };
+        let construction = self.construction_without_drawing(joint, placed);
+        match &placed.drawn {
+            Some([x, y]) if !matches!(placed.kind, JointKindTemplate::Fixed(_)) => {
+                let at = construction.with_words("; drawn at (").with(x.to_math_text()).with_words(", ");
+                at.with(y.to_math_text()).with_words(")")
+            }
+            _ => construction,
+        }
+    }
+
+    fn construction_without_drawing(&self, joint: usize, placed: &JointTemplate) -> MathText {
         let name = |k: usize| displayed_name(&self.joints[k].name);
         let between = |[a, b]: [usize; 2]| join_names(&[a, b].map(|k| self.joints[k].name.as_str()));
-        let length = |from: usize, value: &CompiledExpression| equation(&between([from, joint]), value.to_math_text());
+        let length = |from: usize, value: &CompiledExpression| {
+            let link = between([from, joint]);
+            match (placed.drawn.is_some(), value.constant_value()) {
+                (true, Some(value)) => MathText::from_words(format!("{link} {}", rounded_equation(value))),
+                (true, None) if value.is_distance() => MathText::from_words(format!("link {link}")),
+                _ => equation(&link, value.to_math_text()),
+            }
+        };
         match &placed.kind {
-            JointKindTemplate::Fixed([x, y]) => {
+            JointKindTemplate::Fixed(position) => {
+                let [x, y] = placed.drawn.as_ref().unwrap_or(position);
                 let what = match (self.seen_from, self.is_pivot(joint)) {
+                    (Some(_), _) if placed.drawn.is_some() => format!("on link {}, drawn at (", self.defined_link()),
                     (Some(_), _) => format!("on link {}, at (", self.defined_link()),
                     (None, true) => "fixed pivot at (".to_owned(),
                     (None, false) => "fixed point at (".to_owned(),
@@ -61,7 +84,10 @@ impl Template {
                     name(*pivot),
                     name(*through)
                 ));
-                let side = format!(" to the {} of {}", side_name(*side), between([*pivot, *through]));
+                let side = match side.constant() {
+                    Some(side) => format!(" to the {} of {}", side_name(side), between([*pivot, *through])),
+                    None => format!(" on the side of {} on which it is drawn", between([*pivot, *through])),
+                };
                 foot.with(length(*pivot, offset)).with_words(if is_zero(offset) { "" } else { &side })
             }
             JointKindTemplate::Parallelogram { corners } => {
@@ -74,6 +100,9 @@ impl Template {
                     Some(direction) => format!("parallel to {direction}"),
                     None => format!("along {}", between(*base)),
                 };
+                if placed.drawn.is_some() {
+                    return point_of_drawing(&place, &name(base[0]), along, across);
+                }
                 point_on_link(&place, &name(base[0]), along, across)
             }
             JointKindTemplate::Distances { base: [a, b], distances: [first, second], .. } => {
@@ -146,6 +175,29 @@ fn point_on_link(place: &str, first: &str, along: &Coordinate, across: &Coordina
         Coordinate::Single(across) if is_zero(across) => along,
         _ => along.with_words(", to its left: ").with(coordinate(across)),
     }
+}
+
+/// "along AB from A ≈ 1.41421, to its left = 2", or "on a line along AB" where the dimensions differ from cell to cell.
+fn point_of_drawing(place: &str, first: &str, along: &Coordinate, across: &Coordinate) -> MathText {
+    let number = |coordinate: &Coordinate| match coordinate {
+        Coordinate::Single(value) => value.constant_value(),
+        Coordinate::Range { .. } => None,
+    };
+    match number(along).zip(number(across)) {
+        Some((along, 0.0)) => MathText::from_words(format!("{place} from {first} {}", rounded_equation(along))),
+        Some((along, across)) => {
+            let [along, across] = [along, across].map(rounded_equation);
+            MathText::from_words(format!("{place} from {first} {along}, to its left {across}"))
+        }
+        None => MathText::from_words(format!("point of the link {}", place.trim_start_matches("along "))),
+    }
+}
+
+/// "= 2", or "≈ 1.41421" where it is rounded.
+fn rounded_equation(value: f64) -> String {
+    let rounded = round_to_six_digits(value);
+    let sign = if is_same_number(value, rounded) { "=" } else { "≈" };
+    format!("{sign} {}", format_exactly(rounded))
 }
 
 fn side_name(side: Side) -> &'static str {

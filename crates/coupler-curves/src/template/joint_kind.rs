@@ -1,6 +1,6 @@
 //! How the joints of a template are placed.
 
-use super::{InputValue, Side};
+use super::{InputValue, SideTemplate};
 use crate::expression::CompiledExpression;
 
 /// How a joint is placed; other joints are given by their indices in [`super::Template::joints`].
@@ -37,7 +37,7 @@ pub enum JointKindTemplate {
         /// The distance of the actuator's line from its pivot.
         offset: CompiledExpression,
         /// The side of the base at the start.
-        side: Side,
+        side: SideTemplate,
     },
     /// At the common pin of two links.
     Dyad {
@@ -46,7 +46,7 @@ pub enum JointKindTemplate {
         /// Their lengths.
         lengths: [CompiledExpression; 2],
         /// The side of the base at the start.
-        side: Side,
+        side: SideTemplate,
     },
     /// At the end of a link that slides on a line.
     Slide {
@@ -59,7 +59,7 @@ pub enum JointKindTemplate {
         /// The distance of the line to the left of them.
         offset: CompiledExpression,
         /// [`Side::Left`] is ahead of `from` along the line, [`Side::Right`] behind it.
-        side: Side,
+        side: SideTemplate,
     },
     /// At the point where the slot of a yoke, in which a joint slides, meets the yoke's guide.
     Yoke {
@@ -79,7 +79,7 @@ pub enum JointKindTemplate {
         /// The line's distance from the pivot.
         offset: CompiledExpression,
         /// The side of the base at the start.
-        side: Side,
+        side: SideTemplate,
     },
     /// At the fourth corner of a parallelogram.
     Parallelogram {
@@ -102,7 +102,7 @@ pub enum JointKindTemplate {
         /// The distances from them.
         distances: [CompiledExpression; 2],
         /// The side of the line from the first joint to the second.
-        side: Side,
+        side: SideTemplate,
     },
 }
 

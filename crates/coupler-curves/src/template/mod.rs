@@ -6,9 +6,11 @@ mod joint_kind;
 mod order;
 mod parameter;
 mod parameter_kinds;
+mod side;
 
 pub use joint_kind::{Coordinate, JointKindTemplate};
 pub use parameter::{Parameter, ParameterKind};
+pub use side::SideTemplate;
 
 // For the other crates of the workspace only.
 #[doc(hidden)]
@@ -79,6 +81,8 @@ pub struct JointTemplate {
     pub name: String,
     /// How it is placed.
     pub kind: JointKindTemplate,
+    /// Its coordinates in the drawing that its dimensions follow from, if there is one.
+    pub drawn: Option<[CompiledExpression; 2]>,
 }
 
 /// Why a linkage cannot be built from a parameter set.
@@ -104,6 +108,12 @@ pub enum Error {
         value: f64,
         /// The error in it, as a clause.
         why: &'static str,
+    },
+    /// A joint is drawn where its links are in line.
+    #[error("`{joint}` is drawn at a dead point, in line with the joints that hold it, so that its side is not known")]
+    Flat {
+        /// The joint.
+        joint: String,
     },
     /// A joint cannot be placed.
     #[error(transparent)]
@@ -219,6 +229,9 @@ impl Template {
                 }
             };
             let two = |base: &[usize; 2]| base.map(|j| built[j][0]);
+            let side = |side: &SideTemplate| {
+                side.evaluate(|sine| number(k, sine)).ok_or_else(|| Error::Flat { joint: name.to_owned() })
+            };
             let ids = match &joint.kind {
                 JointKindTemplate::Fixed([x, y]) => {
                     let position = [finite("the x", number(k, x))?, finite("the y", number(k, y))?];
@@ -232,31 +245,31 @@ impl Template {
                     let phase = finite("`phase`", phase.evaluate(values))?;
                     vec![builder.gear(name, (built[*pivot][0], number(k, length)), ratio, phase)?]
                 }
-                JointKindTemplate::Piston { base, length, offset, side } => {
+                JointKindTemplate::Piston { base, length, offset, side: own } => {
                     let crank = (number(k, length), finite("`offset`", number(k, offset))?);
-                    vec![builder.piston(name, two(base), crank, *side)?]
+                    vec![builder.piston(name, two(base), crank, side(own)?)?]
                 }
-                JointKindTemplate::Dyad { base, lengths: [l0, l1], side } => {
-                    vec![builder.dyad(name, two(base), [number(k, l0), number(k, l1)], *side)?]
+                JointKindTemplate::Dyad { base, lengths: [l0, l1], side: own } => {
+                    vec![builder.dyad(name, two(base), [number(k, l0), number(k, l1)], side(own)?)?]
                 }
-                JointKindTemplate::Slide { from, length, line, offset, side } => {
+                JointKindTemplate::Slide { from, length, line, offset, side: own } => {
                     let link = (built[*from][0], number(k, length));
                     let line = (two(line), finite("`offset`", number(k, offset))?);
-                    vec![builder.slide(name, link, line, *side)?]
+                    vec![builder.slide(name, link, line, side(own)?)?]
                 }
                 JointKindTemplate::Yoke { from, line, offset, angle } => {
                     let line = (two(line), finite("`offset`", number(k, offset))?);
                     let angle = finite("`angle`", angle.evaluate(values))?;
                     vec![builder.yoke(name, built[*from][0], line, angle)?]
                 }
-                JointKindTemplate::Slot { base, offset, side } => {
-                    vec![builder.slot(name, two(base), finite("`offset`", number(k, offset))?, *side)?]
+                JointKindTemplate::Slot { base, offset, side: own } => {
+                    vec![builder.slot(name, two(base), finite("`offset`", number(k, offset))?, side(own)?)?]
                 }
                 JointKindTemplate::Parallelogram { corners } => {
                     vec![builder.parallelogram(name, corners.map(|j| built[j][0]))?]
                 }
-                JointKindTemplate::Distances { base, distances: [d0, d1], side } => {
-                    vec![builder.point_at_distances(name, two(base), [number(k, d0), number(k, d1)], *side)?]
+                JointKindTemplate::Distances { base, distances: [d0, d1], side: own } => {
+                    vec![builder.point_at_distances(name, two(base), [number(k, d0), number(k, d1)], side(own)?)?]
                 }
                 JointKindTemplate::Point { base, along, across } => {
                     let across = across.values(|b| number(k, b));

@@ -6,6 +6,7 @@ mod circuits;
 mod circular_portions;
 mod cognates;
 mod coincident_joints;
+mod drawings;
 mod dual;
 mod dyad_chains;
 mod expressions;

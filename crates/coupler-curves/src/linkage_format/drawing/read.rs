@@ -1,0 +1,359 @@
+//! Reads a `[linkage.drawing]` table.
+
+use std::collections::HashMap;
+
+use super::vectors::DrawnVector;
+use super::{DRAWING, Drawing, DrawnInput, DrawnLink, FLOATING_INPUT, Slide};
+use crate::expression::{CompiledExpression, Scope};
+use crate::linkage_format::fields::Fields;
+use crate::linkage_format::joint_id::check_joint_id;
+use crate::linkage_format::joint_values::{check_positive, parse_joint_pair, parse_joint_ref};
+use crate::linkage_format::names::JointNames;
+use crate::linkage_format::quantities::InputKind;
+use crate::linkage_format::toml_parser::{TomlParser, TomlValue};
+use crate::problem::Problem;
+
+/// What the input of a drawing is, as far as it can be read.
+pub fn input_kind(drawing: &TomlValue) -> InputKind {
+    let input = drawing.get_ref().as_table().and_then(|table| table.get("input"));
+    match input.map(|input| (input.get_ref().as_str(), input.get_ref().as_table())) {
+        Some((Some(_), _)) => InputKind::Angle { has_slider: false },
+        Some((_, Some(input))) if input.contains_key("between") => InputKind::Angle { has_slider: false },
+        Some((_, Some(input))) if input.contains_key("distance") => InputKind::Length,
+        _ => InputKind::Unknown,
+    }
+}
+
+/// Reads a drawing over the parameters in `scope`; `None` if it has a problem, which is reported.
+pub fn read_drawing<'v, 't>(
+    value: &'v TomlValue<'t>,
+    scope: &Scope,
+    parser: &mut TomlParser<'t>,
+) -> Option<Drawing<'v>> {
+    let before = parser.problem_count();
+    let fields = Fields::from_value(value, &DRAWING, parser)?;
+    let table = fields.required("joints", "joints = { O = [0, 0], A = [1, 0.5] }", parser)?;
+    let table = Fields::with_any_keys(table, "`joints`", parser)?;
+    let names = JointNames::new(table.keys());
+    let mut coordinates = Vec::new();
+    let mut spans = Vec::new();
+    for (name, span, value) in table.entries() {
+        check_joint_id(name, &span).into_iter().for_each(|problem| parser.report(problem));
+        let position = parser.pair(value, "[0.6, 0.8]").map(|xy| xy.map(|c| parser.numeric_expression(c, scope)));
+        if let Some([Some(x), Some(y)]) = position {
+            coordinates.push(DrawnVector([x, y]));
+        }
+        spans.push([span, value.span()]);
+    }
+    let reader = Reader { names: &names, scope };
+    let frame = fields.required("frame", "frame = [\"O\", \"C\"]", parser);
+    let frame = frame.and_then(|value| reader.link(value, 1, parser));
+    let links = fields.required("links", "links = [[\"O\", \"A\"], [\"A\", \"B\"]]", parser);
+    let links: Vec<Option<DrawnLink>> = links
+        .and_then(|value| parser.list(value))
+        .unwrap_or_default()
+        .iter()
+        .map(|value| reader.link(value, 2, parser))
+        .collect();
+    // What is in an entry with a syntax error is missing without a problem of its own.
+    let (frame, links) = (frame?, links.into_iter().collect::<Option<Vec<DrawnLink>>>()?);
+    if parser.problem_count() > before || coordinates.len() < spans.len() {
+        return None;
+    }
+    let links = merged([frame].into_iter().chain(links).collect());
+    for (joint, name) in names.all().iter().enumerate() {
+        if !links.iter().any(|link| link.joints.contains(&joint)) {
+            let problem = Problem::error(spans[joint][0].clone(), format!("the joint `{name}` is in no link"));
+            parser.report(problem.with_help("name it in a link or in `frame`, or leave it out"));
+        }
+    }
+    let slides = fields.get("slides").map(|value| reader.slides(value, &links, parser)).unwrap_or_default();
+    let lengths = fields.get("lengths").map(|value| reader.lengths(value, &links, parser)).unwrap_or_default();
+    let input_value = fields.required("input", "input = \"O A\"", parser)?;
+    let input = reader.input(input_value, &links, parser);
+    if parser.problem_count() > before {
+        return None;
+    }
+    let names = names.all().to_vec();
+    let (span, input_span) = (fields.span.clone(), input_value.span());
+    Some(Drawing { names, spans, coordinates, links, slides, lengths, input: input?, input_span, span })
+}
+
+/// Links of which two that have two joints in common are one.
+fn merged(links: Vec<DrawnLink>) -> Vec<DrawnLink> {
+    let mut out: Vec<DrawnLink> = Vec::new();
+    for link in links {
+        out.push(link);
+        // A link that has grown may have two joints in common with others.
+        while let Some([a, b]) = rigid_pair(&out) {
+            let other = out.remove(b);
+            let joints = other.joints.into_iter().filter(|joint| !out[a].joints.contains(joint)).collect::<Vec<_>>();
+            out[a].joints.extend(joints);
+        }
+    }
+    out
+}
+
+/// Two links with two joints in common.
+fn rigid_pair(links: &[DrawnLink]) -> Option<[usize; 2]> {
+    let common = |a: &DrawnLink, b: &DrawnLink| a.joints.iter().filter(|joint| b.joints.contains(joint)).count();
+    (1..links.len()).flat_map(|b| (0..b).map(move |a| [a, b])).find(|&[a, b]| common(&links[a], &links[b]) >= 2)
+}
+
+/// What the values of a drawing may use.
+struct Reader<'r, 'v> {
+    names: &'r JointNames<'v>,
+    scope: &'r Scope<'r>,
+}
+
+impl Reader<'_, '_> {
+    /// A link by its joints, at least so many.
+    fn link<'t>(&self, value: &TomlValue<'t>, least: usize, parser: &mut TomlParser<'t>) -> Option<DrawnLink> {
+        let list = parser.list(value)?;
+        let joints: Vec<Option<usize>> = list.iter().map(|value| parse_joint_ref(value, self.names, parser)).collect();
+        let joints: Vec<usize> = joints.into_iter().collect::<Option<_>>()?;
+        if let Some(k) = (0..joints.len()).find(|&k| joints[..k].contains(&joints[k])) {
+            let problem = Problem::error(list[k].span(), format!("`{}` is named twice", self.names.all()[joints[k]]));
+            parser.report(problem.with_help("name each joint of a link once"));
+            return None;
+        }
+        if joints.len() < least {
+            let (what, help) = match least {
+                1 => ("the frame has no joint", "name the joints that are fixed, as in frame = [\"O\", \"C\"]"),
+                _ => (
+                    "a link has two joints or more",
+                    "name them, as in [\"A\", \"B\"]; a point of a link is one of its joints",
+                ),
+            };
+            parser.report(Problem::error(value.span(), what).with_help(help));
+            return None;
+        }
+        Some(DrawnLink { joints, span: value.span() })
+    }
+
+    /// Two joints in one text: "O A".
+    fn line<'t>(&self, value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<[usize; 2]> {
+        let text = parser.text(value)?;
+        let line = self.pair_in(&text);
+        if line.is_none() && !parser.has_syntax_error() {
+            let problem = Problem::error(value.span(), format!("`{}` does not name two joints", text.escape_debug()));
+            parser.report(problem.with_help(self.example_of_pair()));
+        }
+        line
+    }
+
+    /// The two joints that a text names, with a blank between them; names may have blanks, too.
+    fn pair_in(&self, text: &str) -> Option<[usize; 2]> {
+        let splits = text.match_indices(' ').map(|(at, _)| (text[..at].trim(), text[at..].trim()));
+        let pairs = splits.filter_map(|(a, b)| Some([self.names.index_of(a)?, self.names.index_of(b)?]));
+        pairs.into_iter().find(|[a, b]| a != b)
+    }
+
+    fn example_of_pair(&self) -> String {
+        match self.names.all() {
+            [a, b, ..] => format!("name two joints of a link with a blank between them, as in \"{a} {b}\""),
+            _ => "name two joints of a link with a blank between them, as in \"O A\"".to_owned(),
+        }
+    }
+
+    /// The link that has some joints; reported if there is none.
+    fn link_with<'t>(
+        &self,
+        joints: [usize; 2],
+        links: &[DrawnLink],
+        value: &TomlValue<'t>,
+        parser: &mut TomlParser<'t>,
+    ) -> Option<usize> {
+        let link = links.iter().position(|link| joints.iter().all(|joint| link.joints.contains(joint)));
+        if link.is_none() {
+            let [a, b] = joints.map(|joint| self.names.all()[joint]);
+            let problem = Problem::error(value.span(), format!("no link has both `{a}` and `{b}`"));
+            parser.report(problem.with_help("name two joints of one link, or add the link to `links`"));
+        }
+        link
+    }
+
+    fn slides<'t>(&self, value: &TomlValue<'t>, links: &[DrawnLink], parser: &mut TomlParser<'t>) -> Vec<Slide> {
+        let Some(table) = Fields::with_any_keys(value, "`slides`", parser) else { return Vec::new() };
+        let mut slides = Vec::new();
+        for (name, span, value) in table.entries() {
+            let Some(joint) = self.names.index_of(name) else {
+                let problem = Problem::error(span, format!("unknown joint `{}`", name.escape_debug()));
+                parser.report(problem.with_help(crate::problem::suggestion(name, self.names.all())));
+                continue;
+            };
+            let Some(line) = parse_joint_pair(value, self.names, parser) else { continue };
+            let Some(link) = self.link_with(line, links, value, parser) else { continue };
+            if links[link].joints.contains(&joint) {
+                let problem = Problem::error(span, format!("`{name}` slides on a line of its own link"));
+                parser.report(
+                    problem.with_help(
+                        "name two joints of the other link, or leave the joint out of the link with the line",
+                    ),
+                );
+                continue;
+            }
+            slides.push(Slide { joint, line, link });
+        }
+        slides
+    }
+
+    fn lengths<'t>(
+        &self,
+        value: &TomlValue<'t>,
+        links: &[DrawnLink],
+        parser: &mut TomlParser<'t>,
+    ) -> HashMap<[usize; 2], CompiledExpression> {
+        let Some(table) = Fields::with_any_keys(value, "`lengths`", parser) else { return HashMap::new() };
+        let mut lengths = HashMap::new();
+        for (text, span, value) in table.entries() {
+            let Some([a, b]) = self.pair_in(text) else {
+                let problem = Problem::error(span, format!("`{}` does not name two joints", text.escape_debug()));
+                parser.report(problem.with_help(self.example_of_pair()));
+                continue;
+            };
+            let link = self.link_with([a, b], links, value, parser);
+            let Some(length) = parser.numeric_expression(value, self.scope) else { continue };
+            check_positive(&length, value, parser);
+            if link == Some(0) {
+                let problem = Problem::error(span, format!("`{text}` is a distance of the frame"));
+                parser.report(problem.with_help("change the coordinates of its joints, which may use parameters"));
+            }
+            if lengths.insert([a.min(b), a.max(b)], length).is_some() {
+                let problem = Problem::error(value.span(), format!("the distance `{text}` is given twice"));
+                parser.report(problem.with_help("give it once"));
+            }
+        }
+        lengths
+    }
+
+    fn input<'t>(&self, value: &TomlValue<'t>, links: &[DrawnLink], parser: &mut TomlParser<'t>) -> Option<DrawnInput> {
+        if value.get_ref().as_table().is_none() {
+            let line = self.line(value, parser)?;
+            let link = self.link_with(line, links, value, parser)?;
+            return self.crank(line, link, links, value, parser);
+        }
+        let fields = Fields::from_value(value, &FLOATING_INPUT, parser)?;
+        match (fields.get("between"), fields.get("distance")) {
+            (Some(between), None) => {
+                let [first, second] = parser.pair(between, "[\"A B\", \"B C\"]")?;
+                let (from, to) = (self.line(first, parser), self.line(second, parser));
+                let (from, to) = (from?, to?);
+                let ground = self.link_with(from, links, first, parser);
+                let link = self.link_with(to, links, second, parser);
+                let (ground, link) = (ground?, link?);
+                let pivot = self.common_joint([ground, link], links, between, parser)?;
+                match to.iter().find(|joint| **joint != pivot) {
+                    Some(&other) if to.contains(&pivot) => {
+                        Some(DrawnInput::Crank { ground, from: Some(from), link, line: [pivot, other] })
+                    }
+                    _ => {
+                        let name = self.names.all()[pivot];
+                        let problem = Problem::error(
+                            second.span(),
+                            format!("the line does not begin at `{name}`, about which its link turns"),
+                        );
+                        parser.report(problem.with_help(format!("name `{name}` and another joint of that link")));
+                        None
+                    }
+                }
+            }
+            (None, Some(distance)) => {
+                let [a, b] = parse_joint_pair(distance, self.names, parser)?;
+                let candidates = || {
+                    let with =
+                        move |joint: usize| (0..links.len()).filter(move |&link| links[link].joints.contains(&joint));
+                    with(a)
+                        .flat_map(move |first| with(b).map(move |second| [first, second]))
+                        .filter(|[first, second]| first != second)
+                };
+                let common = |[first, second]: [usize; 2]| {
+                    links[first]
+                        .joints
+                        .iter()
+                        .copied()
+                        .find(|joint| links[second].joints.contains(joint) && *joint != a && *joint != b)
+                };
+                let found = candidates().find_map(|pair| Some((pair, common(pair)?)));
+                let Some(([first, second], pivot)) = found else {
+                    let [a, b] = [a, b].map(|joint| self.names.all()[joint]);
+                    let problem = Problem::error(
+                        distance.span(),
+                        format!("`{a}` and `{b}` are not on two links that have a joint in common"),
+                    );
+                    parser.report(problem.with_help(
+                        "an actuator is between two links that turn about a joint of both: name a joint of each",
+                    ));
+                    return None;
+                };
+                // The frame is at rest if it is one of the two.
+                Some(match second {
+                    0 => DrawnInput::Actuator { ground: second, link: first, joints: [b, a, pivot] },
+                    _ => DrawnInput::Actuator { ground: first, link: second, joints: [a, b, pivot] },
+                })
+            }
+            (given, _) => {
+                let what = if given.is_some() {
+                    "an input has one of `between` and `distance`"
+                } else {
+                    "the input is not said"
+                };
+                let problem = Problem::error(value.span(), what);
+                parser.report(problem.with_help("write a link on the frame, as in \"O A\", or { between = [\"A B\", \"B C\"] } or { distance = [\"O\", \"B\"] }"));
+                None
+            }
+        }
+    }
+
+    /// A link on the frame that is driven.
+    fn crank<'t>(
+        &self,
+        [a, b]: [usize; 2],
+        link: usize,
+        links: &[DrawnLink],
+        value: &TomlValue<'t>,
+        parser: &mut TomlParser<'t>,
+    ) -> Option<DrawnInput> {
+        let is_fixed = |joint: usize| links[0].joints.contains(&joint);
+        let line = match (is_fixed(a), is_fixed(b)) {
+            _ if link == 0 => None,
+            (true, false) => Some([a, b]),
+            (false, true) => Some([b, a]),
+            _ => None,
+        };
+        if line.is_none() {
+            let fixed: Vec<String> =
+                links[0].joints.iter().map(|&joint| format!("`{}`", self.names.all()[joint])).collect();
+            let text = format!("{} {}", self.names.all()[a], self.names.all()[b]);
+            let problem =
+                Problem::error(value.span(), format!("`{text}` is not a link that turns about a fixed joint"));
+            parser.report(problem.with_help(format!(
+                "name a fixed joint, {}, and another joint of a link there; the angle between two moving links is {{ between = [\"A B\", \"B C\"] }}",
+                fixed.join(" or ")
+            )));
+        }
+        line.map(|line| DrawnInput::Crank { ground: 0, from: None, link, line })
+    }
+
+    /// The joint about which two links turn.
+    fn common_joint<'t>(
+        &self,
+        [a, b]: [usize; 2],
+        links: &[DrawnLink],
+        value: &TomlValue<'t>,
+        parser: &mut TomlParser<'t>,
+    ) -> Option<usize> {
+        let common = links[a].joints.iter().copied().find(|joint| links[b].joints.contains(joint));
+        match common {
+            Some(joint) if a != b => Some(joint),
+            _ => {
+                let what = if a == b { "both lines are on one link" } else { "the two links have no joint in common" };
+                parser.report(
+                    Problem::error(value.span(), what)
+                        .with_help("name lines of two links that turn about a joint of both"),
+                );
+                None
+            }
+        }
+    }
+}

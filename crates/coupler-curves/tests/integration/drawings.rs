@@ -1,0 +1,421 @@
+//! Linkages by their drawings: they pass the pose that is drawn, and keep the lengths of its links.
+
+use coupler_curves::geometry::{Point, Vector, cross, trig};
+use coupler_curves::linkage::{Input, Linkage};
+use coupler_curves::linkage_format::parse_templates;
+use coupler_curves::motion::{self, Motion, Sampler, Sampling};
+use coupler_curves::template::{self, Template};
+
+/// What is in a drawing but its coordinates: the joints, the table without them, the links, the slides, and the number of coordinates that are 0: the
+/// frame's first joint is at the origin, and its second may be on the x-axis.
+struct Kind {
+    name: &'static str,
+    joints: &'static [&'static str],
+    table: &'static str,
+    links: &'static [&'static [&'static str]],
+    slides: &'static [(&'static str, [&'static str; 2])],
+}
+
+const KINDS: [Kind; 11] = [
+    Kind {
+        name: "four-bar",
+        joints: &["O", "C", "A", "B", "M"],
+        table: r#"frame = ["O", "C"]
+links = [["O", "A"], ["A", "B", "M"], ["B", "C"]]
+input = "O A""#,
+        links: &[&["O", "A"], &["A", "B", "M"], &["B", "C"]],
+        slides: &[],
+    },
+    Kind {
+        name: "four-bar, by an angle between moving links",
+        joints: &["O", "C", "A", "B", "M"],
+        table: r#"frame = ["O", "C"]
+links = [["O", "A"], ["A", "B", "M"], ["B", "C"]]
+input = { between = ["O A", "A B"] }"#,
+        links: &[&["O", "A"], &["A", "B", "M"], &["B", "C"]],
+        slides: &[],
+    },
+    Kind {
+        name: "four-bar, by a distance",
+        joints: &["O", "C", "A", "B", "M"],
+        table: r#"frame = ["O", "C"]
+links = [["O", "A"], ["A", "B", "M"], ["B", "C"]]
+input = { distance = ["O", "B"] }"#,
+        links: &[&["O", "A"], &["A", "B", "M"], &["B", "C"]],
+        slides: &[],
+    },
+    Kind {
+        name: "Watt II",
+        joints: &["O", "C", "Q", "A", "B", "D", "M"],
+        table: r#"frame = ["Q", "O", "C"]
+links = [["A", "O"], ["B", "A"], ["C", "B", "D"], ["D", "M"], ["M", "Q"]]
+input = "O A""#,
+        links: &[&["O", "A"], &["B", "A"], &["C", "B", "D"], &["D", "M"], &["M", "Q"]],
+        slides: &[],
+    },
+    Kind {
+        name: "Watt I",
+        joints: &["O", "C", "A", "B", "D", "E", "M"],
+        table: r#"frame = ["O", "C"]
+links = [["D", "M"], ["O", "A"], ["A", "B", "D"], ["C", "B", "E"], ["M", "E"]]
+input = "O A""#,
+        links: &[&["O", "A"], &["A", "B", "D"], &["C", "B", "E"], &["D", "M"], &["M", "E"]],
+        slides: &[],
+    },
+    Kind {
+        name: "Stephenson III",
+        joints: &["O", "C", "Q", "A", "B", "D", "M"],
+        table: r#"frame = ["O", "C", "Q"]
+links = [["O", "A"], ["A", "B", "D"], ["B", "C"], ["D", "M"], ["M", "Q"]]
+input = "A O""#,
+        links: &[&["O", "A"], &["A", "B", "D"], &["B", "C"], &["D", "M"], &["M", "Q"]],
+        slides: &[],
+    },
+    Kind {
+        name: "Stephenson I",
+        joints: &["O", "C", "A", "E", "B", "F", "M"],
+        table: r#"frame = ["O", "C"]
+links = [["O", "A", "E"], ["A", "B"], ["C", "B", "F"], ["E", "M"], ["M", "F"]]
+input = "O E""#,
+        links: &[&["O", "A", "E"], &["A", "B"], &["C", "B", "F"], &["E", "M"], &["M", "F"]],
+        slides: &[],
+    },
+    Kind {
+        name: "eight-bar, with two links given twice and three at a pin",
+        joints: &["O", "C", "Q", "A", "B", "D", "E", "G", "M"],
+        table: r#"frame = ["O", "C", "Q"]
+links = [["O", "A"], ["A", "B", "D"], ["A", "D"], ["B", "C"], ["D", "E"], ["E", "Q"], ["E", "M"], ["M", "G"], ["G", "C", "B"]]
+input = "O A""#,
+        links: &[&["O", "A"], &["A", "B", "D"], &["D", "E"], &["E", "Q"], &["E", "M"], &["M", "G"], &["G", "C", "B"]],
+        slides: &[],
+    },
+    Kind {
+        name: "slider-crank",
+        joints: &["O", "P", "Q", "A", "B", "M"],
+        table: r#"frame = ["O", "P", "Q"]
+links = [["O", "A"], ["A", "B", "M"]]
+slides = { B = ["P", "Q"] }
+input = "O A""#,
+        links: &[&["O", "A"], &["A", "B", "M"]],
+        slides: &[("B", ["P", "Q"])],
+    },
+    Kind {
+        name: "inverted slider-crank",
+        joints: &["O", "C", "A", "P", "Q", "M"],
+        table: r#"frame = ["O", "C"]
+links = [["O", "A"], ["C", "P", "Q", "M"]]
+slides = { A = ["P", "Q"] }
+input = "O A""#,
+        links: &[&["O", "A"], &["C", "P", "Q", "M"]],
+        slides: &[("A", ["P", "Q"])],
+    },
+    Kind {
+        name: "slider on a moving link",
+        joints: &["O", "C", "Q", "A", "B", "D", "M"],
+        table: r#"frame = ["O", "C", "Q"]
+links = [["O", "A"], ["A", "B", "D"], ["B", "C"], ["Q", "M"]]
+slides = { M = ["D", "A"] }
+input = "O A""#,
+        links: &[&["O", "A"], &["A", "B", "D"], &["B", "C"], &["Q", "M"]],
+        slides: &[("M", ["D", "A"])],
+    },
+];
+
+/// Random numbers from -1 to 1, by a linear congruential generator.
+fn random(state: &mut u64) -> f64 {
+    *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+    (*state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+}
+
+fn template(kind: &Kind, position: &dyn Fn(usize) -> String) -> Template {
+    let joints: Vec<String> =
+        kind.joints.iter().enumerate().map(|(k, name)| format!("{name} = {}", position(k))).collect();
+    let text = format!(
+        "[[linkage]]\nid = \"a\"\nparameters = {{ p = {{ default = 0 }} }}\ntrace = [\"M\"]\n[linkage.drawing]\njoints = {{ {} }}\n{}\n",
+        joints.join(", "),
+        kind.table
+    );
+    parse_templates(&text).unwrap_or_else(|problems| panic!("{}: {problems:?}\n{text}", kind.name)).remove(0)
+}
+
+fn solve(linkage: &Linkage) -> Motion {
+    Motion::solve(linkage, &Sampler::new(Sampling::Samples(180)))
+}
+
+/// The positions of the joints at the start, by their names.
+fn start_pose(linkage: &Linkage) -> Option<Vec<Point>> {
+    let start = linkage.motion_options.start.unwrap();
+    let motion = solve(linkage);
+    motion.circuits.iter().flat_map(|circuit| &circuit.passes).find_map(|pass| {
+        let (from, to) = (pass.from.input.value, pass.to.input.value);
+        let is_angle = matches!(linkage.input(), Input::Angle { .. });
+        let turns = if is_angle { ((from.min(to) - start) / 360.0).ceil() } else { 0.0 };
+        let at = start + 360.0 * turns;
+        (pass.mode == linkage.motion_options.mode && at <= from.max(to) && at >= from.min(to))
+            .then(|| motion::pose(linkage, pass, at))
+    })
+}
+
+#[test]
+fn drawn_linkages_pass_their_drawing_and_keep_their_lengths() {
+    let mut state = 48;
+    for kind in &KINDS {
+        let (mut drawn, mut greatest, mut changed) = (0, 0.0f64, 0.0f64);
+        for _ in 0..20 {
+            let mut positions: Vec<Point> =
+                kind.joints.iter().map(|_| Point::new(4.0 * random(&mut state), 4.0 * random(&mut state))).collect();
+            let c = usize::from(kind.joints[1] == "C");
+            positions[0] = Point::origin();
+            positions[c] = if c == 1 { Point::new(3.0 + random(&mut state), 0.0) } else { positions[c] };
+            // Every second coordinate has a parameter, which is 0.
+            let text = |k: usize| match k % 2 {
+                0 if k > 1 => format!("[\"{:?} + p\", {:?}]", positions[k].x, positions[k].y),
+                _ => format!("[{:?}, {:?}]", positions[k].x, positions[k].y),
+            };
+            let template = template(kind, &text);
+            let linkage = match template.linkage(&[0.0]) {
+                Ok(linkage) => linkage,
+                Err(template::Error::Flat { .. }) => continue,
+                Err(error) => panic!("{}: {error}", kind.name),
+            };
+            // Near a limit, a drawing is beyond it by rounding.
+            let Some(pose) = start_pose(&linkage) else { continue };
+            drawn += 1;
+            let id = |name: &str| linkage.find_joint(name).unwrap();
+            let place = |name: &str| positions[kind.joints.iter().position(|own| *own == name).unwrap()];
+            for &name in kind.joints {
+                let distance = (pose[id(name).index()] - place(name)).norm();
+                greatest = greatest.max(distance);
+            }
+            // Lengths and distances from lines are those of the drawing all along the motion.
+            let motion = solve(&linkage);
+            for circuit in &motion.circuits {
+                for sample in (0..circuit.len()).step_by(7) {
+                    let at = |name: &str| circuit.positions.point(id(name), sample);
+                    for link in kind.links {
+                        for (k, a) in link.iter().enumerate() {
+                            for b in &link[..k] {
+                                let length = (place(a) - place(b)).norm();
+                                changed = changed.max(((at(a) - at(b)).norm() - length).abs());
+                            }
+                        }
+                    }
+                    for (joint, [a, b]) in kind.slides {
+                        let off = |at: &dyn Fn(&str) -> Point| cross((at(b) - at(a)).normalize(), at(joint) - at(a));
+                        changed = changed.max((off(&at) - off(&place)).abs());
+                    }
+                }
+            }
+        }
+        assert!(drawn >= 15, "{}: {drawn} of 20", kind.name);
+        // The condition of a dyad near its limit is the square root of a rounding.
+        assert!(greatest < 1e-9 && changed < 1e-9, "{}: {greatest:e}, {changed:e}", kind.name);
+    }
+}
+
+#[test]
+fn the_same_four_bar_in_both_forms_is_one() {
+    let by_drawing = r#"
+[[linkage]]
+id = "drawn"
+parameters = { p = { default = 1 } }
+trace = ["M"]
+[linkage.drawing]
+joints = { O = [0, 0], C = [4, 0], A = [0.6, 0.8], B = [3.6, 4.8], M = ["0.6 + p", 4.8] }
+frame = ["O", "C"]
+links = [["O", "A"], ["A", "B", "M"], ["B", "C"]]
+input = "O A"
+"#;
+    let by_joints = r#"
+[[linkage]]
+id = "joints"
+parameters = { p = { default = 1 } }
+trace = ["M"]
+start = "atan2(0.8, 0.6) rad"
+[linkage.joints]
+O = { fixed = [0, 0] }
+C = { fixed = [4, 0] }
+A = { crank = "O", length = 1 }
+B = { dyad = ["A", "C"], lengths = [5, "hypot(0.4, 4.8)"], side = "left" }
+M = { point = ["A", "B"], along = "0.6 * p + 3.2", across = "2.4 - 0.8 * p" }
+"#;
+    let [drawn, joints] = [by_drawing, by_joints].map(|text| parse_templates(text).unwrap().remove(0));
+    for p in [1.0, 0.3, -2.0] {
+        let [drawn, joints] = [&drawn, &joints].map(|template| {
+            let linkage = template.linkage(&[p]).unwrap();
+            let motion = solve(&linkage);
+            let points: Vec<Point> = motion.circuits[0].points(linkage.traced[0]).collect();
+            points
+        });
+        assert_eq!(drawn.len(), joints.len());
+        let apart = drawn.iter().zip(&joints).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+        assert!(apart < 1e-13, "{p}: {apart:e}");
+    }
+}
+
+#[test]
+fn the_input_is_the_angle_or_the_distance_that_is_named() {
+    let four_bar = |input: &str| {
+        let text = format!(
+            r#"
+[[linkage]]
+id = "a"
+trace = ["M"]
+[linkage.drawing]
+joints = {{ O = [0, 0], C = [4, 0], A = [0.6, 0.8], B = [3.4, 2.6], M = [2.5, 3.4] }}
+frame = ["O", "C"]
+links = [["O", "A"], ["A", "B", "M"], ["B", "C"]]
+input = {input}
+"#
+        );
+        parse_templates(&text).unwrap().remove(0).linkage(&[]).unwrap()
+    };
+    let angle = |u: Vector, v: Vector| trig::degrees(trig::atan2(cross(u, v), u.dot(&v)));
+    for (input, measured) in [
+        ("\"O A\"", [["O", "C"], ["O", "A"]]),
+        ("\"C B\"", [["O", "C"], ["C", "B"]]),
+        ("{ between = [\"O A\", \"A B\"] }", [["O", "A"], ["A", "B"]]),
+        ("{ between = [\"M A\", \"C B\"] }", [["M", "A"], ["B", "C"]]),
+    ] {
+        let linkage = four_bar(input);
+        let motion = solve(&linkage);
+        let circuit = &motion.circuits[0];
+        for sample in 0..circuit.len() {
+            let at = |name: &str| circuit.positions.point(linkage.find_joint(name).unwrap(), sample);
+            let [u, v] = measured.map(|[a, b]| at(b) - at(a));
+            let off = (angle(u, v) - circuit.inputs[sample]).rem_euclid(360.0);
+            assert!(off.min(360.0 - off) < 1e-9, "{input}: {off}");
+            assert_eq!(at("O"), Point::origin());
+            assert!((at("C") - Point::new(4.0, 0.0)).norm() < 1e-12);
+        }
+    }
+    let linkage = four_bar("{ distance = [\"B\", \"O\"] }");
+    let motion = solve(&linkage);
+    let circuit = &motion.circuits[0];
+    for sample in 0..circuit.len() {
+        let at = |name: &str| circuit.positions.point(linkage.find_joint(name).unwrap(), sample);
+        assert!(((at("B") - at("O")).norm() - circuit.inputs[sample]).abs() < 1e-12);
+    }
+}
+
+/// The problems of a drawing that is changed: a text in it, and what is in its place.
+fn problems(change: [&str; 2]) -> Vec<String> {
+    const TEXT: &str = r#"
+[[linkage]]
+id = "a"
+trace = ["M"]
+[linkage.drawing]
+joints = { O = [0, 0], C = [4, 0], A = [0.6, 0.8], B = [3.4, 2.6], M = [2.5, 3.4] }
+frame = ["O", "C"]
+links = [["O", "A"], ["A", "B", "M"], ["B", "C"]]
+input = "O A"
+"#;
+    assert!(TEXT.contains(change[0]), "{change:?}");
+    let changed = TEXT.replacen(change[0], change[1], 1);
+    let problems = parse_templates(&changed).expect_err(change[1]);
+    problems.iter().map(|problem| format!("{}: {}", problem.message, problem.help)).collect()
+}
+
+#[test]
+fn what_cannot_be_placed_is_named() {
+    for (change, words) in [
+        (["[\"B\", \"C\"]]", "[\"B\", \"X\"]]"], "unknown joint `X`"),
+        (["[\"B\", \"C\"]]", "[\"B\"]]"], "a link has two joints or more"),
+        (["[\"B\", \"C\"]]", "[\"B\", \"B\"]]"], "`B` is named twice"),
+        (
+            [", [\"B\", \"C\"]]", "]"],
+            "the drawing has 2 degrees of freedom, where one is driven: 3 · (3 links - 1) - 2 · 2 pins = 2",
+        ),
+        (["[\"B\", \"C\"]]", "[\"B\", \"C\"], [\"M\", \"C\"]]"], "the link M-C is one too many"),
+        (["\"O A\"", "\"A B\""], "`A B` is not a link that turns about a fixed joint"),
+        (["\"O A\"", "\"O B\""], "no link has both `O` and `B`"),
+        (["\"O A\"", "\"OA\""], "`OA` does not name two joints"),
+        (["\"O A\"", "{ between = [\"A B\", \"A M\"] }"], "both lines are on one link"),
+        (["\"O A\"", "{ between = [\"O A\", \"B C\"] }"], "the two links have no joint in common"),
+        (["\"O A\"", "{ between = [\"O A\", \"B M\"] }"], "the line does not begin at `A`"),
+        (["\"O A\"", "{ distance = [\"A\", \"B\"] }"], "`A` and `B` are not on two links that have a joint in common"),
+        (["\"O A\"", "{ }"], "the input is not said"),
+        (["[0.6, 0.8]", "[0.6]"], "expected two values"),
+        (["[0.6, 0.8]", "[\"q\", 0.8]"], "unknown name `q`"),
+        (["frame = [\"O\", \"C\"]", "frame = []"], "the frame has no joint"),
+        (["M = [2.5, 3.4]", "M = [2.5, 3.4], X = [1, 1]"], "the joint `X` is in no link"),
+        (
+            ["input = \"O A\"", "input = \"O A\"\nslides = { A = [\"B\", \"M\"] }"],
+            "`A` slides on a line of its own link",
+        ),
+        (
+            ["input = \"O A\"", "input = \"O A\"\nslides = { M = [\"O\", \"C\"] }"],
+            "`M` is held without the line on which it slides",
+        ),
+        (["input = \"O A\"", "input = \"O A\"\nlengths = { \"A C\" = 3 }"], "no link has both `A` and `C`"),
+        (["input = \"O A\"", "input = \"O A\"\nlengths = { \"A B\" = 0 }"], "a length must be positive"),
+        (["input = \"O A\"", "input = \"O A\"\nlengths = { \"O C\" = 3 }"], "is a distance of the frame"),
+        (["trace", "start = \"0 deg\"\ntrace"], "the drawing is the start of the motion"),
+        (
+            ["input = \"O A\"", "input = \"O A\"\n[linkage.joints]\nM = { point = [\"A\", \"B\"] }"],
+            "the joint `M` is in the drawing",
+        ),
+    ] {
+        let found = problems(change);
+        assert!(found.iter().any(|problem| problem.contains(words)), "{change:?}: {found:?}");
+    }
+}
+
+#[test]
+fn an_input_by_which_dyads_serve_is_named() {
+    const STEPHENSON_II: &str = r#"
+[[linkage]]
+id = "a"
+trace = ["M"]
+[linkage.drawing]
+joints = { O = [0, 0], C = [4, 0], A = [0, 1], M = [1, 3], D = [2, 1], E = [3, 3], F = [4, 2] }
+frame = ["O", "C"]
+links = [["O", "A"], ["A", "M", "D"], ["C", "E", "F"], ["M", "E"], ["D", "F"]]
+input = INPUT
+"#;
+    let problems = parse_templates(&STEPHENSON_II.replace("INPUT", "\"O A\"")).expect_err("a triad");
+    let [problem] = &problems[..] else { panic!("{problems:?}") };
+    assert_eq!(problem.message, "no dyads place `M`, `D`, `E` and `F`: these links hold each other");
+    let inputs: Vec<&str> = problem.help.split("input = ").nth(1).unwrap().split(" or ").collect();
+    assert!(!inputs.is_empty());
+    for input in inputs {
+        let linkage = parse_templates(&STEPHENSON_II.replace("INPUT", input)).unwrap().remove(0).linkage(&[]).unwrap();
+        let pose = start_pose(&linkage).unwrap();
+        let at = |name: &str| pose[linkage.find_joint(name).unwrap().index()];
+        assert!((at("E") - Point::new(3.0, 3.0)).norm() < 1e-9, "{input}");
+    }
+}
+
+#[test]
+fn lengths_that_are_given_are_those_of_the_linkage() {
+    let text = r#"
+[[linkage]]
+id = "a"
+parameters = { k = { default = 3.3 } }
+trace = ["M", "N"]
+[linkage.drawing]
+joints = { O = [0, 0], C = [4, 0], A = [0.6, 0.8], B = [3.4, 2.6], M = [2.5, 3.4], D = [4, 6], E = [7, 5], N = [5, 8] }
+frame = ["O", "C", "E"]
+links = [["O", "A"], ["A", "B", "M"], ["B", "C"], ["M", "D"], ["D", "E", "N"]]
+input = "O A"
+lengths = { "A B" = "k", "M B" = 1.25 }
+[linkage.joints]
+G = { point = ["A", "B"], along = 1, across = { from = 0, to = 1, count = 3 } }
+"#;
+    let template =
+        parse_templates(&text.replace("trace = [\"M\", \"N\"]", "trace = [\"M\", \"N\", \"G\"]")).unwrap().remove(0);
+    for k in [3.3, 3.1] {
+        let linkage = template.linkage(&[k]).unwrap();
+        let motion = solve(&linkage);
+        let circuit = &motion.circuits[0];
+        assert_eq!(linkage.traced.len(), 5);
+        for sample in 0..circuit.len() {
+            let at = |name: &str| circuit.positions.point(linkage.find_joint(name).unwrap(), sample);
+            for (a, b, length) in
+                [("A", "B", k), ("M", "B", 1.25), ("A", "M", trig::hypot(1.9, 2.6)), ("D", "N", trig::hypot(1.0, 2.0))]
+            {
+                assert!(((at(a) - at(b)).norm() - length).abs() < 1e-12, "{a}{b}");
+            }
+        }
+    }
+}
