@@ -58,7 +58,7 @@ pub enum JointKindTemplate {
         line: [usize; 2],
         /// The distance of the line to the left of them.
         offset: CompiledExpression,
-        /// [`Side::Left`] is ahead of `from` along the line, [`Side::Right`] behind it.
+        /// [`Side::Left`](super::Side::Left) is ahead of `from` along the line, [`Side::Right`](super::Side::Right) behind it.
         side: SideTemplate,
     },
     /// At the point where the slot of a yoke, in which a joint slides, meets the yoke's guide.
