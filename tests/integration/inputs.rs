@@ -68,14 +68,15 @@ fn a_length_is_not_asked_for_in_degrees_nor_an_angle_without_a_unit() {
     }
 }
 
-/// The displacement of a slider is no input: where one might be meant this is said, and no degrees are proposed where there is no crank.
+/// The displacement of a slider on a link is no input: where one might be meant this is said, and no degrees are proposed where there is no crank.
 #[test]
 fn a_slider_is_not_taken_for_the_input() {
     let found = errors(&with(SLIDER_CRANK, "output_link = \"B\"\nstart = 2.5", ""));
     assert_eq!(found.len(), 1, "{found:?}");
     assert!(found[0].message.ends_with("the input is the angle of the crank"), "{found:?}");
     assert!(
-        found[0].help.contains("\"2.5 deg\"") && found[0].help.contains("a slider cannot be the input"),
+        found[0].help.contains("\"2.5 deg\"")
+            && found[0].help.contains("a slider or an actuator that is the input is a joint with `slider` or `piston`"),
         "{found:?}"
     );
     let driven_by_slider = "C = { fixed = [2, 0] }\nB = { slide = \"C\", length = 3, line = [\"O\", \"C\"], side = \"ahead\" }\n\
@@ -83,7 +84,10 @@ fn a_slider_is_not_taken_for_the_input() {
     for (key, family) in NUMBERS.into_iter().chain(KEYS) {
         let found = errors(&with(driven_by_slider, key, family));
         assert_eq!(found[0].message, "the linkage has no input");
-        assert!(found[0].help.starts_with("a slider cannot be the input: add a crank, "), "{found:?}");
+        assert!(
+            found[0].help.starts_with("add a crank, ") && found[0].help.contains("slider that is driven"),
+            "{found:?}"
+        );
         assert!(found.iter().all(|problem| !problem.help.contains("2.5 deg")), "{key}{family}: {found:?}");
     }
 }

@@ -41,9 +41,9 @@ fn the_joints_in_docs_manifest_can_be_parsed() {
     let document = include_str!("../../docs/manifest.md");
     let joints: Vec<&str> =
         document.lines().filter(|line| line.starts_with("| `{")).filter_map(|line| line.split('`').nth(1)).collect();
-    assert_eq!(joints.len(), 6);
+    assert_eq!(joints.len(), 7);
     for joint in joints {
-        let is_input = joint.contains("piston");
+        let is_input = joint.contains("piston") || joint.contains("slider");
         let a = if is_input { "A = { fixed = [1, 2] }" } else { "A = { crank = \"O\", length = 1 }" };
         // Dyads on the joint use all joints that it does not use itself.
         let dyad = |name: &str, on: [&str; 2]| {

@@ -62,7 +62,9 @@ impl Mechanism {
     pub fn new(linkage: &Linkage, circuit: &Circuit) -> Mechanism {
         let joints = || linkage.joint_ids().zip(&linkage.joints);
         let block = |(joint, placed): (JointId, &coupler_curves::linkage::Joint)| match placed.kind {
-            JointKind::Slide { line, .. } | JointKind::Yoke { line, .. } => Some(Block { joint, line }),
+            JointKind::Slide { line, .. } | JointKind::Yoke { line, .. } | JointKind::DrivenSlider { line, .. } => {
+                Some(Block { joint, line })
+            }
             _ => None,
         };
         let actuator = |(joint, placed): (JointId, &coupler_curves::linkage::Joint)| match placed.kind {
@@ -132,7 +134,9 @@ fn pitch_circles(linkage: &Linkage, circuit: &Circuit) -> Vec<(JointId, f64)> {
 
 /// The guide on the frame of a slider or a yoke.
 fn find_guide(linkage: &Linkage, circuit: &Circuit, joint: JointId) -> Option<Guide> {
-    let (JointKind::Slide { line, .. } | JointKind::Yoke { line, .. }) = linkage.joints[joint].kind else {
+    let (JointKind::Slide { line, .. } | JointKind::Yoke { line, .. } | JointKind::DrivenSlider { line, .. }) =
+        linkage.joints[joint].kind
+    else {
         return None;
     };
     let along = fixed_line_direction(linkage, circuit, line)?;

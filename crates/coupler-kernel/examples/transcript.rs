@@ -41,7 +41,7 @@ fn main() -> io::Result<()> {
         assert!(session.calls > 8 * session.families, "{} calls, {} families", session.calls, session.families);
     }
     // Every kind of joint is among them.
-    let joints = "Aligned Crank Dyad Fixed Gear Parallelogram Piston Rigid Slide Slot Yoke";
+    let joints = "Aligned Crank DrivenSlider Dyad Fixed Gear Parallelogram Piston Rigid Slide Slot Yoke";
     assert_eq!(kinds.into_iter().collect::<Vec<_>>().join(" "), joints);
     assert!(families > 50, "{families} families");
     Session::start(&mut out)?.search()

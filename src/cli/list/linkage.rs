@@ -42,8 +42,7 @@ pub(super) fn describe(template: &Arc<Template>) -> String {
     for line in [&template.source, &template.legend].into_iter().filter(|line| !line.is_empty()) {
         let _ = writeln!(out, "  {line}");
     }
-    let input = if template.is_driven_by_length() { "the length of an actuator" } else { "the angle of the crank" };
-    let _ = writeln!(out, "  input: {input}");
+    let _ = writeln!(out, "  input: {}", template.input_in_words());
     if let Some(output) = output_link(template) {
         let _ = writeln!(out, "  output: {output}");
     }

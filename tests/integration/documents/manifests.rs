@@ -95,6 +95,7 @@ fn places() -> Vec<String> {
         format!("{ATLAS}{mine}{}@\n", drawing("")),
         format!("{ATLAS}{mine}{}input = \"O A\"\n@\n", drawing("")),
         format!("{ATLAS}{mine}{}input = \"O A\"\n@\n", drawing(", [\"B\", \"S\"]")),
+        format!("{ATLAS}{mine}{}slides = {{ S = [\"P\", \"Q\"] }}\n@\n", drawing(", [\"B\", \"S\"]")),
         format!("{ATLAS}{}{LINKAGE}{JOINTS}", mine.replace("cases = [{}]", "@")),
         format!(
             "{ATLAS}[[family]]\nid = \"h\"\nlinkage = \"h\"\n@\ngrid = {{ A = 2.5, B = 3, C = 3 }}\n{}",

@@ -8,7 +8,7 @@ use coupler_manifest as manifest;
 const LINKAGES: &str = include_str!("linkages.toml");
 
 /// Every linkage, with the parameters that are varied and their usual values.
-const KINDS: [(&str, &str); 32] = [
+const KINDS: [(&str, &str); 33] = [
     ("four-bar", "frame 4 crank 1.5 coupler 3 rocker 3.5 along 2 across 1"),
     ("four-bar", "frame 2 crank 4 coupler 3 rocker 3.5 along 2 across 1"),
     ("evans", "p 2 r 1 a 2.6 s 2.6 k 2"),
@@ -41,6 +41,7 @@ const KINDS: [(&str, &str); 32] = [
     ("coupler-driven", "p 4 r 5 s 5 a 2"),
     ("part-of-a-turn", "p 4 r 1.5 a 3 s 3.5"),
     ("two-dyads", "p 4 r 2 a 3.5 s 2.4"),
+    ("driven-slider", "e 0.3 r 1.2 l 3 a 2.6 s 2.2"),
 ];
 
 /// The number of kinds of linkages.
@@ -90,7 +91,7 @@ fn header(random: &mut Random) -> String {
 /// A family with valid cells: parameters with which the linkage cannot be built are drawn again.
 fn family(random: &mut Random, kind: usize, number: usize, cells: usize) -> String {
     let (linkage, parameters) = KINDS.get(kind).copied().unwrap_or(("small-curve", "x 4 r 1.5"));
-    let is_actuator = ["linear-actuator", "actuator-and-dyad"].contains(&linkage);
+    let is_actuator = ["linear-actuator", "actuator-and-dyad", "driven-slider"].contains(&linkage);
     let columns = random.pick(&[5, 3, 2, 1]);
     let mut text = format!(
         "[[family]]\nid = \"family-{number}\"\nlinkage = \"{linkage}\"\npanels = [{columns}, {}]\n",

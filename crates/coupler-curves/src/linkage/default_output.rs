@@ -34,7 +34,11 @@ impl Linkage {
             }
             JointKind::Slot { base: [pivot, _], offset, .. } if offset != 0.0 => bar(pivot, joint),
             JointKind::Slot { base, dyad, .. } => is_on_ground(base[0]).then_some(OutputLink::Slot { base, dyad }),
-            JointKind::Fixed(_) | JointKind::Crank { .. } | JointKind::Aligned { .. } | JointKind::Rigid { .. } => None,
+            JointKind::Fixed(_)
+            | JointKind::Crank { .. }
+            | JointKind::DrivenSlider { .. }
+            | JointKind::Aligned { .. }
+            | JointKind::Rigid { .. } => None,
         }
     }
 }

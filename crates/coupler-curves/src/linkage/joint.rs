@@ -47,6 +47,13 @@ pub enum JointKind {
         /// Its dyad.
         dyad: DyadId,
     },
+    /// On a slider that is driven along a line; its distance from the first joint of the line, along it, is the linkage's input.
+    DrivenSlider {
+        /// Two joints of one link that the line is parallel to; it points from the first to the second.
+        line: [JointId; 2],
+        /// The distance of the line to the left of the two.
+        offset: f64,
+    },
     /// At the common pin of two links, each connected to one base joint (the RRR dyad).
     Dyad {
         /// The joints the links are connected to.
@@ -143,9 +150,10 @@ impl JointKind {
     pub(crate) fn base(&self) -> Option<[JointId; 2]> {
         match *self {
             JointKind::Dyad { base, .. } | JointKind::Slot { base, .. } | JointKind::Piston { base, .. } => Some(base),
-            JointKind::Slide { line, .. } | JointKind::Yoke { line, .. } | JointKind::Aligned { line, .. } => {
-                Some(line)
-            }
+            JointKind::Slide { line, .. }
+            | JointKind::Yoke { line, .. }
+            | JointKind::DrivenSlider { line, .. }
+            | JointKind::Aligned { line, .. } => Some(line),
             JointKind::Fixed(_)
             | JointKind::Crank { .. }
             | JointKind::Gear { .. }
@@ -164,6 +172,7 @@ impl JointKind {
             JointKind::Fixed(_)
             | JointKind::Crank { .. }
             | JointKind::Gear { .. }
+            | JointKind::DrivenSlider { .. }
             | JointKind::Yoke { .. }
             | JointKind::Parallelogram { .. }
             | JointKind::Aligned { .. }

@@ -70,7 +70,9 @@ impl KinematicChain {
             };
             match joint.kind {
                 JointKind::Gear { .. } => return None,
-                JointKind::Slide { line, .. } => slides.push([link_with(line)?, part_at(id)?]),
+                JointKind::Slide { line, .. } | JointKind::DrivenSlider { line, .. } => {
+                    slides.push([link_with(line)?, part_at(id)?])
+                }
                 JointKind::Yoke { from, line, .. } => {
                     let yoke = part_at(id)?;
                     add_block(from, yoke);

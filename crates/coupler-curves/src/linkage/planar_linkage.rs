@@ -32,7 +32,7 @@ impl Linkage {
         let mut turns = 1;
         for joint in &self.joints {
             match joint.kind {
-                JointKind::Piston { .. } => return Input::Length,
+                JointKind::Piston { .. } | JointKind::DrivenSlider { .. } => return Input::Length,
                 JointKind::Gear { ratio: [_, crank_turns], .. } => {
                     // Several gears repeat together after the least common multiple of their turns.
                     let crank_turns = crank_turns.unsigned_abs() as u32;
@@ -42,6 +42,11 @@ impl Linkage {
             }
         }
         Input::Angle { turns }
+    }
+
+    /// Whether a slider drives it.
+    pub fn is_driven_by_slider(&self) -> bool {
+        self.joints.iter().any(|joint| matches!(joint.kind, JointKind::DrivenSlider { .. }))
     }
 
     /// The turns of its fastest crank for a turn of the driven one, at least 1.

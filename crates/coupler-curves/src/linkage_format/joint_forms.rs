@@ -44,7 +44,7 @@ pub(super) struct JointForm {
 }
 
 /// All forms: a joint has the first whose key is present.
-static FORMS: [JointForm; 11] = [
+static FORMS: [JointForm; 12] = [
     JointForm {
         key: "fixed",
         schema: TableSchema::new(
@@ -125,6 +125,24 @@ static FORMS: [JointForm; 11] = [
             let (base, length) = (joint.joint_pair("piston", parser), joint.length(parser));
             let (offset, side) = (joint.offset(parser), joint.side(&SIDES, parser));
             Some(JointKindTemplate::Piston { base: base?, length: length?, offset: offset?, side: side?.into() })
+        },
+    },
+    JointForm {
+        key: "slider",
+        schema: TableSchema::new(
+            "a joint with `slider`",
+            &[
+                KeySchema::required(
+                    "slider",
+                    TWO_JOINTS,
+                    "A slider that is driven along the line of two joints of a link; its distance from the first is the input.",
+                ),
+                OFFSET,
+            ],
+        ),
+        parse: |joint, parser| {
+            let (line, offset) = (joint.joint_pair("slider", parser), joint.offset(parser));
+            Some(JointKindTemplate::DrivenSlider { line: line?, offset: offset? })
         },
     },
     JointForm {

@@ -154,7 +154,7 @@ pub(super) fn input_kind(linkage: &Fields) -> InputKind {
         let is_so = |joint: &TomlValue| joint.get_ref().as_table().is_some_and(|joint| joint.contains_key(key));
         joints.is_some_and(|joints| joints.values().any(is_so))
     };
-    match (has("piston"), has("crank")) {
+    match (has("piston") || has("slider"), has("crank")) {
         (true, _) => InputKind::Length,
         (false, true) => InputKind::Angle { has_slider: has("slide") || has("yoke") },
         (false, false) => InputKind::Unknown,
@@ -245,7 +245,10 @@ fn is_sliding(kind: &JointKindTemplate) -> bool {
 
 /// Whether a joint is that of the input.
 fn is_input(kind: &JointKindTemplate) -> bool {
-    matches!(kind, JointKindTemplate::Crank { .. } | JointKindTemplate::Piston { .. })
+    matches!(
+        kind,
+        JointKindTemplate::Crank { .. } | JointKindTemplate::Piston { .. } | JointKindTemplate::DrivenSlider { .. }
+    )
 }
 
 /// Checks that a linkage has one input, and that its gears are geared to it.
@@ -256,8 +259,8 @@ fn check_inputs(entries: &[Entry], parsed: &[Option<JointKindTemplate>], table: 
         let problem = Problem::error(table, "the linkage has no input");
         let help = match parsed.iter().flatten().any(is_sliding) {
             true => {
-                "a slider cannot be the input: add a crank, as in { crank = \"O\", length = 1 }, or an actuator, as in \
-                 { piston = [\"C\", \"O\"], length = 1 }"
+                "add a crank, as in { crank = \"O\", length = 1 }, an actuator, as in { piston = [\"C\", \"O\"], length = 1 }, or a \
+                 slider that is driven, as in { slider = [\"P\", \"Q\"] }"
             }
             false => "add a crank, as in { crank = \"O\", length = 1 }",
         };
@@ -362,6 +365,7 @@ fn check_unused(
             placings[k],
             JointKindTemplate::Crank { .. }
                 | JointKindTemplate::Piston { .. }
+                | JointKindTemplate::DrivenSlider { .. }
                 | JointKindTemplate::Parallelogram { .. }
         );
         if !is_used[k] && !has_links && !is_drawn {

@@ -66,7 +66,7 @@ impl<'t> TomlParser<'t> {
                 let number = self.source_text(value);
                 let problem = Problem::error(value.span(), "the unit is missing: the input is the angle of the crank");
                 self.report(problem.with_help(format!(
-                    "write \"{number} deg\" with the quotes; a slider cannot be the input, but the length of a `piston` can"
+                    "write \"{number} deg\" with the quotes; a slider or an actuator that is the input is a joint with `slider` or `piston`"
                 )));
                 None
             }

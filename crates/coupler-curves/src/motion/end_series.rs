@@ -227,6 +227,10 @@ impl Placing<'_> {
                 let b = root(s.square() + number(offset * offset), self.end.input.value * self.end.input.value, false)?;
                 self.dyad(at(base[0]), direction(base)?, [b, number(length)], dyad)?
             }
+            JointKind::DrivenSlider { line, offset } => {
+                let Base { unit, .. } = direction(line)?;
+                at(line[0]).moved(unit, self.input(), number(offset))
+            }
             JointKind::Dyad { base, lengths, dyad } => {
                 self.dyad(at(base[0]), direction(base)?, lengths.map(number), dyad)?
             }

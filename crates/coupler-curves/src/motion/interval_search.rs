@@ -15,7 +15,7 @@ use super::dyad_limits;
 use super::interval::{Interval, IntervalEnd, Span};
 use super::limits::MAX_ASSEMBLY_MODES;
 use super::pass::InputPosition;
-use crate::linkage::{AssemblyMode, DyadId, Input, Linkage, Side};
+use crate::linkage::{AssemblyMode, DyadId, Input, Joint, JointKind, Linkage, Side};
 
 /// Finds the intervals of assembly modes within the requested range.
 pub(super) struct IntervalSearch<'a> {
@@ -133,12 +133,34 @@ impl<'a> IntervalSearch<'a> {
     }
 }
 
+/// A distance from any joint beyond which links keep no slider: the sum of all lengths and coordinates. A slider that nothing else keeps moves as far.
+fn reach(linkage: &Linkage) -> f64 {
+    let extent = |joint: &Joint| match joint.kind {
+        JointKind::Fixed(at) => at.coords.norm(),
+        JointKind::Crank { length, .. } | JointKind::Gear { length, .. } => length,
+        JointKind::Piston { length, offset, .. } | JointKind::Slide { length, offset, .. } => length + offset.abs(),
+        JointKind::Dyad { lengths, .. } => lengths.iter().sum(),
+        JointKind::Slot { offset, .. } | JointKind::Yoke { offset, .. } | JointKind::DrivenSlider { offset, .. } => {
+            offset.abs()
+        }
+        JointKind::Aligned { offset, along, across, .. } => offset.abs() + along.abs() + across.abs(),
+        JointKind::Parallelogram { .. } | JointKind::Rigid { .. } => 0.0,
+    };
+    // Points are as far from a joint of their link as they are on it.
+    let links = linkage.links.iter().flat_map(|link| &link.joints).map(|(_, at)| at.norm());
+    linkage.joints.iter().map(extent).chain(links).sum()
+}
+
 /// The requested range of the input.
 fn requested_span(linkage: &Linkage) -> Span {
     let input = linkage.input();
     let end = |at: f64, id| IntervalEnd::range_end(InputPosition::new(input, at), id);
     match linkage.motion_options.range {
         Some([from, to]) if to - from < input.period() => Span::Range { lower: end(from, 0), upper: end(to, 1) },
+        _ if linkage.is_driven_by_slider() => {
+            let reach = reach(linkage);
+            Span::Range { lower: end(-reach, 0), upper: end(reach, 1) }
+        }
         _ if input == Input::Length => Span::Range { lower: end(0.0, 0), upper: end(f64::MAX / 16.0, 1) },
         _ => Span::FullTurn,
     }

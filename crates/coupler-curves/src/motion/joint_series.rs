@@ -46,6 +46,9 @@ pub(super) fn place_as_series<T: Scalar, const N: usize>(
                 let b = (Series::variable(input.value).square() + constant(offset * offset)).sqrt();
                 dyad_position(base.map(|j| at[j]), [b, constant(length)], sign(dyad))
             }
+            JointKind::DrivenSlider { line: [p, q], offset } => {
+                at[p].moved(at[q].minus(at[p]).unit(), Series::variable(input.value), constant(offset))
+            }
             JointKind::Dyad { base, lengths, dyad } => {
                 dyad_position(base.map(|j| at[j]), lengths.map(constant), sign(dyad))
             }

@@ -150,6 +150,9 @@ impl WithSimd for Placement<'_> {
                         y,
                     );
                 }
+                JointKind::DrivenSlider { line, offset } => {
+                    place_driven_slider((columns(line[0]), columns(line[1])), inputs.values, offset, x, y);
+                }
                 JointKind::Dyad { base, lengths, dyad } => {
                     place_dyad(columns(base[0]), columns(base[1]), lengths, signs.0[dyad], x, y)
                 }
@@ -288,6 +291,26 @@ fn place_piston(
         let one = i..i + 1;
         let base = ((&px[one.clone()], &py[one.clone()]), (&qx[one.clone()], &qy[one.clone()]));
         place_dyad(base.0, base.1, [b, length], sign, &mut x[one.clone()], &mut y[one]);
+    }
+}
+
+/// A slider at a distance s along a line from its first joint, and to its left.
+#[inline(always)]
+fn place_driven_slider(
+    ((px, py), (qx, qy)): (PointColumn, PointColumn),
+    s: &[f64],
+    offset: f64,
+    x: &mut [f64],
+    y: &mut [f64],
+) {
+    let n = x.len();
+    let (px, py, qx, qy, s, y) = (&px[..n], &py[..n], &qx[..n], &qy[..n], &s[..n], &mut y[..n]);
+    for i in 0..n {
+        let (dx, dy) = (qx[i] - px[i], qy[i] - py[i]);
+        let d = (dx * dx + dy * dy).sqrt();
+        let (ux, uy) = (dx / d, dy / d);
+        x[i] = px[i] + s[i] * ux - offset * uy;
+        y[i] = py[i] + s[i] * uy + offset * ux;
     }
 }
 

@@ -63,6 +63,11 @@ impl Template {
                 let driven = driven.with_words(format!(", driven by the actuator from {}", name(*from)));
                 with_unless_zero(driven, ", its line at a distance of ", offset, &format!(" from {}", name(*from)))
             }
+            JointKindTemplate::DrivenSlider { line: along, offset } => {
+                let slider =
+                    MathText::from_words(format!("slider that is driven, on a line along {}", between(*along)));
+                with_unless_zero(slider, ", to its left: ", offset, "")
+            }
             JointKindTemplate::Dyad { base: [a, b], lengths: [first, second], .. } => {
                 length(*a, first).with_words(", ").with(length(*b, second))
             }
@@ -142,6 +147,7 @@ impl Template {
             JointKindTemplate::Parallelogram { corners } => corners.contains(&joint),
             JointKindTemplate::Slide { .. }
             | JointKindTemplate::Yoke { .. }
+            | JointKindTemplate::DrivenSlider { .. }
             | JointKindTemplate::Point { .. }
             | JointKindTemplate::Distances { .. }
             | JointKindTemplate::Fixed(_) => false,

@@ -39,6 +39,13 @@ pub enum JointKindTemplate {
         /// The side of the base at the start.
         side: SideTemplate,
     },
+    /// On a slider that is driven along a line, and whose distance from the first of its joints is the input.
+    DrivenSlider {
+        /// Two joints that the line is parallel to.
+        line: [usize; 2],
+        /// The distance of the line to the left of them.
+        offset: CompiledExpression,
+    },
     /// At the common pin of two links.
     Dyad {
         /// The joints the links are connected to.
@@ -118,6 +125,7 @@ impl JointKindTemplate {
                 vec![*from, line[0], line[1]]
             }
             JointKindTemplate::Dyad { base, .. }
+            | JointKindTemplate::DrivenSlider { line: base, .. }
             | JointKindTemplate::Piston { base, .. }
             | JointKindTemplate::Slot { base, .. }
             | JointKindTemplate::Point { base, .. }
@@ -137,6 +145,7 @@ impl JointKindTemplate {
                 (*from, *line) = (new_index(*from), line.map(new_index));
             }
             JointKindTemplate::Dyad { base, .. }
+            | JointKindTemplate::DrivenSlider { line: base, .. }
             | JointKindTemplate::Piston { base, .. }
             | JointKindTemplate::Slot { base, .. }
             | JointKindTemplate::Point { base, .. }

@@ -19,7 +19,7 @@ pub use self::{
     order::{DependencyCycle, dependency_order},
 };
 
-use crate::expression::{Caption, CompiledExpression};
+use crate::expression::{Caption, CompiledExpression, displayed_name};
 use crate::linkage::{self, BranchArc, JointId, LinkageBuilder, MotionOptions};
 
 pub use crate::linkage::{CircuitSelection, CoincidentDyads, Continuation, Linkage, Orientation, Side};
@@ -127,9 +127,25 @@ impl Template {
         parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" · ")
     }
 
-    /// Whether its input is the length of an actuator rather than an angle.
+    /// Whether its input is a length, of an actuator or of the way of a slider, rather than an angle.
     pub fn is_driven_by_length(&self) -> bool {
-        self.joints.iter().any(|joint| matches!(joint.kind, JointKindTemplate::Piston { .. }))
+        self.joints.iter().any(|joint| {
+            matches!(joint.kind, JointKindTemplate::Piston { .. } | JointKindTemplate::DrivenSlider { .. })
+        })
+    }
+
+    /// What its input is, in words.
+    pub fn input_in_words(&self) -> String {
+        let driven = self.joints.iter().find_map(|joint| match &joint.kind {
+            JointKindTemplate::Piston { .. } => Some("the actuator's length".to_owned()),
+            JointKindTemplate::DrivenSlider { line: [from, to], .. } => {
+                let [slider, from, to] =
+                    [joint, &self.joints[*from], &self.joints[*to]].map(|joint| displayed_name(&joint.name));
+                Some(format!("the way of the slider {slider} from {from} towards {to}"))
+            }
+            _ => None,
+        });
+        driven.unwrap_or_else(|| "the angle of the crank".to_owned())
     }
 
     /// The number of curves that its traced joints trace on one circuit.
@@ -248,6 +264,9 @@ impl Template {
                 JointKindTemplate::Piston { base, length, offset, side: own } => {
                     let crank = (number(k, length), finite("`offset`", number(k, offset))?);
                     vec![builder.piston(name, two(base), crank, side(own)?)?]
+                }
+                JointKindTemplate::DrivenSlider { line, offset } => {
+                    vec![builder.driven_slider(name, (two(line), finite("`offset`", number(k, offset))?))?]
                 }
                 JointKindTemplate::Dyad { base, lengths: [l0, l1], side: own } => {
                     vec![builder.dyad(name, two(base), [number(k, l0), number(k, l1)], side(own)?)?]

@@ -46,7 +46,9 @@ impl JointKindTemplate {
                 vec![length, offset]
             }
             JointKindTemplate::Dyad { lengths, .. } => lengths.iter().collect(),
-            JointKindTemplate::Yoke { offset, .. } | JointKindTemplate::Slot { offset, .. } => vec![offset],
+            JointKindTemplate::Yoke { offset, .. }
+            | JointKindTemplate::Slot { offset, .. }
+            | JointKindTemplate::DrivenSlider { offset, .. } => vec![offset],
             JointKindTemplate::Distances { distances, .. } => distances.iter().collect(),
             JointKindTemplate::Point { along, across, .. } => {
                 [along, across].into_iter().flat_map(Coordinate::ends).collect()

@@ -16,7 +16,7 @@ struct Kind {
     slides: &'static [(&'static str, [&'static str; 2])],
 }
 
-const KINDS: [Kind; 11] = [
+const KINDS: [Kind; 14] = [
     Kind {
         name: "four-bar",
         joints: &["O", "C", "A", "B", "M"],
@@ -98,6 +98,36 @@ slides = { B = ["P", "Q"] }
 input = "O A""#,
         links: &[&["O", "A"], &["A", "B", "M"]],
         slides: &[("B", ["P", "Q"])],
+    },
+    Kind {
+        name: "slider-crank, by its slider",
+        joints: &["O", "P", "Q", "A", "B", "M"],
+        table: r#"frame = ["O", "P", "Q"]
+links = [["O", "A"], ["A", "B", "M"]]
+slides = { B = ["P", "Q"] }
+input = { slider = "B" }"#,
+        links: &[&["O", "A"], &["A", "B", "M"]],
+        slides: &[("B", ["P", "Q"])],
+    },
+    Kind {
+        name: "inverted slider-crank, by its slider",
+        joints: &["O", "C", "A", "P", "Q", "M"],
+        table: r#"frame = ["O", "C"]
+links = [["O", "A"], ["C", "P", "Q", "M"]]
+slides = { A = ["P", "Q"] }
+input = { slider = "A" }"#,
+        links: &[&["O", "A"], &["C", "P", "Q", "M"]],
+        slides: &[("A", ["P", "Q"])],
+    },
+    Kind {
+        name: "six-bar, by a slider",
+        joints: &["O", "C", "Q", "A", "B", "D", "P", "E", "M"],
+        table: r#"frame = ["O", "C", "Q", "P"]
+links = [["O", "A"], ["A", "B"], ["B", "C", "D"], ["D", "E", "M"]]
+slides = { E = ["Q", "P"] }
+input = { slider = "E" }"#,
+        links: &[&["O", "A"], &["A", "B"], &["B", "C", "D"], &["D", "E", "M"]],
+        slides: &[("E", ["Q", "P"])],
     },
     Kind {
         name: "inverted slider-crank",
@@ -289,6 +319,36 @@ input = {input}
             assert!((at("C") - Point::new(4.0, 0.0)).norm() < 1e-12);
         }
     }
+    // The way of a slider from the first joint of its line, which may be negative.
+    let text = r#"
+[[linkage]]
+id = "a"
+trace = ["M"]
+[linkage.drawing]
+joints = { O = [0, 0], A = [0.6, 0.8], B = [3.4, 1.6], M = [2.5, 3.4], P = [3, 1], Q = [4, 1.5] }
+frame = ["O", "P", "Q"]
+links = [["O", "A"], ["A", "B", "M"]]
+slides = { B = ["P", "Q"] }
+input = { slider = "B" }
+"#;
+    let linkage = parse_templates(text).unwrap().remove(0).linkage(&[]).unwrap();
+    let motion = solve(&linkage);
+    let circuit = &motion.circuits[0];
+    let along = Vector::new(1.0, 0.5).normalize();
+    let [mut least, mut greatest] = [f64::INFINITY, f64::NEG_INFINITY];
+    for sample in 0..circuit.len() {
+        let at = |name: &str| circuit.positions.point(linkage.find_joint(name).unwrap(), sample);
+        let way = along.dot(&(at("B") - Point::new(3.0, 1.0)));
+        assert!((way - circuit.inputs[sample]).abs() < 1e-12);
+        [least, greatest] = [least.min(way), greatest.max(way)];
+    }
+    // Both dead points of the crank and coupler: the slider is as far from O as they are long, together and one less the other.
+    let coupler = trig::hypot(2.8, 0.8);
+    let foot = along.dot(&Vector::new(3.0, 1.0));
+    // The line goes through the place of B.
+    let line = cross(along, Vector::new(3.4, 1.6));
+    let reach = |length: f64| (length * length - line * line).sqrt() - foot;
+    assert!((least - reach(coupler - 1.0)).abs() < 1e-9 && (greatest - reach(coupler + 1.0)).abs() < 1e-9);
     let linkage = four_bar("{ distance = [\"B\", \"O\"] }");
     let motion = solve(&linkage);
     let circuit = &motion.circuits[0];

@@ -45,6 +45,9 @@ fn positions(linkage: &Linkage, input: Third, mode: AssemblyMode) -> Vec<[Third;
                 let reach = (input * input + n(offset * offset)).sqrt();
                 intersection(at[p], at[q], [reach, n(length)], side(dyad))
             }
+            JointKind::DrivenSlider { line: [p, q], offset } => {
+                moved(at[p], unit(minus(at[q], at[p])), input, n(offset))
+            }
             JointKind::Dyad { base: [p, q], lengths, dyad } => intersection(at[p], at[q], lengths.map(n), side(dyad)),
             JointKind::Slide { from, length, line: [p, q], offset, dyad } => {
                 // Along the line from the foot of the joint to which the link is attached.
@@ -87,7 +90,7 @@ fn positions(linkage: &Linkage, input: Third, mode: AssemblyMode) -> Vec<[Third;
     at
 }
 
-/// A linkage with a joint of every kind but the piston, each attached to moving ones.
+/// A linkage with a joint of every kind but the piston and the driven slider, each attached to moving ones.
 fn all_kinds([crank, a, b, offset, phase]: [f64; 5]) -> Linkage {
     let mut builder = LinkageBuilder::default();
     let o = builder.fixed("O", [0.0, 0.0].into());
@@ -118,6 +121,18 @@ fn actuator(offset: f64) -> Linkage {
     let p = builder.point("P", [c, a], 0.7, 0.2).unwrap();
     let r = builder.point("R", [a, c], 0.3, -0.1).unwrap();
     builder.build(vec![p, r], None, MotionOptions::default()).unwrap()
+}
+
+/// A slider that drives a crank, and a point on its block.
+fn driven_slider(offset: f64) -> Linkage {
+    let mut builder = LinkageBuilder::default();
+    let [p, q] = [("P", 1.0), ("Q", 2.0)].map(|(name, x)| builder.fixed(name, [x, 0.3 * x].into()));
+    let o = builder.fixed("O", [0.0, 0.0].into());
+    let b = builder.driven_slider("B", ([p, q], offset)).unwrap();
+    let a = builder.dyad("A", [o, b], [1.0, 3.0], Side::Left).unwrap();
+    let m = builder.point("M", [a, b], 0.7, 0.2).unwrap();
+    let k = builder.point("K", [b, q], 0.3, -0.1).unwrap();
+    builder.build(vec![m, k], None, MotionOptions::default()).unwrap()
 }
 
 /// Compares the derivatives at an input with dual numbers, relative to the greatest derivative of each joint.
@@ -154,6 +169,8 @@ proptest! {
         let s = 1.3 + deg / 720.0;
         let input = InputPosition { value: s, cos: 0.0, sin: 0.0 };
         compare(&actuator, input, variable(s), actuator.motion_options.mode)?;
+        let slider = driven_slider(offset);
+        compare(&slider, input, variable(s), slider.motion_options.mode)?;
     }
 
     /// Sampling and derivatives place every joint alike, in every placement, which changes no shape.

@@ -59,9 +59,9 @@ fn note_formulas(family: &Family) -> Option<MathText> {
 fn remarks(template: &Template) -> Vec<String> {
     let name = |joint: usize| displayed_name(&template.joints[joint].name);
     let driven_by = match (template.is_driven_by_length(), template.seen_from) {
-        (true, _) => "input: the actuator's length",
-        (false, None) => "input: the crank's angle from 0, in the direction of its arrow",
-        (false, Some(_)) => "input: the driving link's angle from 0, in the direction of its arrow",
+        (true, _) => format!("input: {}", template.input_in_words()),
+        (false, None) => "input: the crank's angle from 0, in the direction of its arrow".to_owned(),
+        (false, Some(_)) => "input: the driving link's angle from 0, in the direction of its arrow".to_owned(),
     };
     let range = template.input.as_ref().map_or(String::new(), |[from, to]| {
         let [from, to] = [from, to].map(InputValue::to_math_text);

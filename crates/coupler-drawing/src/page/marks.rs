@@ -8,7 +8,7 @@ use crate::scene::{Color, Item, Path, Polyline};
 
 use coupler_curves::family::{Family, StraightCriterion};
 use coupler_curves::geometry::{Bounds, Point, simplify_polyline};
-use coupler_curves::linkage::{Input, JointId, JointKind};
+use coupler_curves::linkage::{Input, JointId, JointKind, Linkage};
 use coupler_curves::measure::{Measure, MeasureSet, StraightPortion, Symmetry, SymmetryAxis};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 use coupler_curves::text::{format_exactly, round_to_six_digits};
@@ -34,10 +34,13 @@ pub fn cell_facts(family: &Family, solved: &SolvedCell) -> [String; 2] {
     if let (Some(least), Some(most)) = (first.measure(Measure::MU_MIN), first.measure(Measure::MU_MAX)) {
         parts.push(transmission_text(least, most));
     }
-    parts.extend(actuator_range(solved, first));
+    parts.extend(length_range(solved, first));
     // The path of a slider on its guide is straight by construction.
     let is_of_slider = |curve: &&MeasuredCurve| {
-        matches!(solved.linkage.joints[curve.joint].kind, JointKind::Slide { .. } | JointKind::Yoke { .. })
+        matches!(
+            solved.linkage.joints[curve.joint].kind,
+            JointKind::Slide { .. } | JointKind::Yoke { .. } | JointKind::DrivenSlider { .. }
+        )
     };
     let portions = solved.curves.iter().filter(|curve| !is_of_slider(curve));
     let portions = portions.filter_map(|curve| Some((curve, curve.straight.as_ref()?)));
@@ -60,12 +63,18 @@ pub fn cell_facts(family: &Family, solved: &SolvedCell) -> [String; 2] {
     [parts.join(" · "), straight]
 }
 
-/// The range of an actuator's length on the circuit of a curve.
-fn actuator_range(solved: &SolvedCell, curve: &MeasuredCurve) -> Option<String> {
+/// The part whose length or way is the input.
+pub(super) fn driver(linkage: &Linkage) -> &'static str {
+    if linkage.is_driven_by_slider() { "slider" } else { "actuator" }
+}
+
+/// The range of the input on the circuit of a curve, if it is a length.
+fn length_range(solved: &SolvedCell, curve: &MeasuredCurve) -> Option<String> {
     let is_length = solved.linkage.input() == Input::Length;
     let passes = solved.circuit(curve).passes.iter().filter(|_| is_length);
     let [least, most] = passes.map(|pass| pass.input_range()).reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])?;
-    Some(format!("actuator {}–{}", format_with_digits(least, 4), format_with_digits(most, 4)))
+    let range = format!("{} to {}", format_with_digits(least, 4), format_with_digits(most, 4));
+    Some(format!("{} {}", driver(&solved.linkage), if least < 0.0 { range } else { range.replace(" to ", "–") }))
 }
 
 /// The path of a curve by the name of its joint, where several joints are traced and their names differ.

@@ -34,6 +34,19 @@ impl LinkageBuilder {
         Ok(id)
     }
 
+    /// Adds a slider that is driven along the line `offset` to the left of two joints of one link; its distance from the first of them, along the line, is
+    /// the input.
+    ///
+    /// # Errors
+    /// One joint given twice for the line, joints that are on no common link.
+    pub fn driven_slider(&mut self, name: &str, (line, offset): ([JointId; 2], f64)) -> Result<JointId, Error> {
+        self.check_line(name, line)?;
+        self.require_common_link(name, line)?;
+        let id = self.add_joint(name, JointKind::DrivenSlider { line, offset });
+        self.add_slider(id, line);
+        Ok(id)
+    }
+
     /// Adds the end of a link from the joint `from`, which slides on the line `offset` to the left of two others;
     /// `ahead` is [`Side::Left`] where it is ahead of `from` along the line, and [`Side::Right`] where it is behind.
     ///

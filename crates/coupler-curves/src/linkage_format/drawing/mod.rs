@@ -40,8 +40,8 @@ pub(super) static DRAWING: TableSchema = TableSchema::new(
         KeySchema::required(
             "input",
             ValueSchema::AnyOf(&[LINE, ValueSchema::Table(&FLOATING_INPUT)]),
-            "What is driven: a link on the frame, by its pivot and another of its joints, as in \"O A\"; or an angle between two links, or a \
-             distance.",
+            "What is driven: a link on the frame, by its pivot and another of its joints, as in \"O A\"; or an angle between two links, the way of a \
+             slider, or a distance.",
         ),
         KeySchema::new(
             "slides",
@@ -68,13 +68,18 @@ static FLOATING_INPUT: TableSchema = TableSchema::new(
              of both links.",
         ),
         KeySchema::new(
+            "slider",
+            JOINT_NAME,
+            "A joint of `slides`: its way along its line, from the first joint of the line towards the second.",
+        ),
+        KeySchema::new(
             "distance",
             TWO_JOINTS,
             "The distance of two joints, the length of an actuator, on two links that have a joint in common.",
         ),
     ],
 )
-.with_one_of(&["between", "distance"]);
+.with_one_of(&["between", "slider", "distance"]);
 
 /// A linkage by its drawing. Joints and links are given by their indices; the frame is the first of the links.
 #[derive(Clone)]
@@ -127,6 +132,13 @@ enum DrawnInput {
         /// Its pivot, and another of its joints.
         line: [usize; 2],
     },
+    /// The way of a joint along the line on which it slides.
+    Slider {
+        /// The link with the line.
+        ground: usize,
+        /// Which of the slides.
+        slide: usize,
+    },
     /// The distance of two joints.
     Actuator {
         /// The link with the first.
@@ -162,7 +174,9 @@ impl Drawing<'_> {
     /// The link that is at rest while positions are computed.
     fn ground(&self) -> usize {
         match self.input {
-            DrawnInput::Crank { ground, .. } | DrawnInput::Actuator { ground, .. } => ground,
+            DrawnInput::Crank { ground, .. }
+            | DrawnInput::Slider { ground, .. }
+            | DrawnInput::Actuator { ground, .. } => ground,
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::mobility::Mobility;
 use super::vectors::DrawnVector;
-use super::{Drawing, DrawnInput};
+use super::{Drawing, DrawnInput, Slide};
 use crate::expression::{CompiledExpression, Unit};
 use crate::problem::Problem;
 use crate::template::{Coordinate, InputValue, JointKindTemplate, Side, SideTemplate};
@@ -108,7 +108,7 @@ impl<'d, 'v> Placer<'d, 'v> {
         let ground = self.drawing.ground();
         let line = match self.drawing.input {
             DrawnInput::Crank { from, .. } => from,
-            DrawnInput::Actuator { .. } => None,
+            DrawnInput::Slider { .. } | DrawnInput::Actuator { .. } => None,
         };
         for &joint in &self.drawing.links[ground].joints {
             let DrawnVector(position) = match line {
@@ -126,6 +126,13 @@ impl<'d, 'v> Placer<'d, 'v> {
     fn place_input(&mut self) -> Result<(), Obstacle> {
         let drawing = self.drawing;
         let (link, line) = match drawing.input {
+            DrawnInput::Slider { slide, .. } => {
+                let Slide { joint, line: [a, b], .. } = drawing.slides[slide];
+                let offset = drawing.vector(a, b).across(&drawing.vector(a, joint));
+                self.kinds[joint] = Some(JointKindTemplate::DrivenSlider { line: [a, b], offset });
+                self.is_slide_used[slide] = true;
+                return Ok(());
+            }
             DrawnInput::Crank { link, line: [pivot, joint], .. } => {
                 self.kinds[joint] = Some(JointKindTemplate::Crank { pivot, length: drawing.length(pivot, joint) });
                 (link, [pivot, joint])
@@ -312,6 +319,10 @@ fn start(drawing: &Drawing) -> InputValue {
             let x_axis = DrawnVector([one, CompiledExpression::constant(0.0)]);
             let from = from.map_or(x_axis, |[a, b]| drawing.vector(a, b));
             angle(&from, &drawing.vector(pivot, joint))
+        }
+        DrawnInput::Slider { slide, .. } => {
+            let Slide { joint, line: [a, b], .. } = drawing.slides[slide];
+            InputValue { value: drawing.vector(a, b).along(&drawing.vector(a, joint)), unit: None }
         }
         DrawnInput::Actuator { joints: [a, b, _], .. } => InputValue { value: drawing.length(a, b), unit: None },
     }

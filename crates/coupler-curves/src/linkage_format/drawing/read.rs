@@ -19,7 +19,7 @@ pub fn input_kind(drawing: &TomlValue) -> InputKind {
     match input.map(|input| (input.get_ref().as_str(), input.get_ref().as_table())) {
         Some((Some(_), _)) => InputKind::Angle { has_slider: false },
         Some((_, Some(input))) if input.contains_key("between") => InputKind::Angle { has_slider: false },
-        Some((_, Some(input))) if input.contains_key("distance") => InputKind::Length,
+        Some((_, Some(input))) if input.contains_key("distance") || input.contains_key("slider") => InputKind::Length,
         _ => InputKind::Unknown,
     }
 }
@@ -70,7 +70,7 @@ pub fn read_drawing<'v, 't>(
     let slides = fields.get("slides").map(|value| reader.slides(value, &links, parser)).unwrap_or_default();
     let lengths = fields.get("lengths").map(|value| reader.lengths(value, &links, parser)).unwrap_or_default();
     let input_value = fields.required("input", "input = \"O A\"", parser)?;
-    let input = reader.input(input_value, &links, parser);
+    let input = reader.input(input_value, &links, &slides, parser);
     if parser.problem_count() > before {
         return None;
     }
@@ -227,15 +227,21 @@ impl Reader<'_, '_> {
         lengths
     }
 
-    fn input<'t>(&self, value: &TomlValue<'t>, links: &[DrawnLink], parser: &mut TomlParser<'t>) -> Option<DrawnInput> {
+    fn input<'t>(
+        &self,
+        value: &TomlValue<'t>,
+        links: &[DrawnLink],
+        slides: &[Slide],
+        parser: &mut TomlParser<'t>,
+    ) -> Option<DrawnInput> {
         if value.get_ref().as_table().is_none() {
             let line = self.line(value, parser)?;
             let link = self.link_with(line, links, value, parser)?;
             return self.crank(line, link, links, value, parser);
         }
         let fields = Fields::from_value(value, &FLOATING_INPUT, parser)?;
-        match (fields.get("between"), fields.get("distance")) {
-            (Some(between), None) => {
+        match (fields.get("between"), fields.get("slider"), fields.get("distance")) {
+            (Some(between), None, None) => {
                 let [first, second] = parser.pair(between, "[\"A B\", \"B C\"]")?;
                 let (from, to) = (self.line(first, parser), self.line(second, parser));
                 let (from, to) = (from?, to?);
@@ -258,7 +264,19 @@ impl Reader<'_, '_> {
                     }
                 }
             }
-            (None, Some(distance)) => {
+            (None, Some(slider), None) => {
+                let joint = parse_joint_ref(slider, self.names, parser)?;
+                let found = slides.iter().position(|slide| slide.joint == joint);
+                if found.is_none() {
+                    let name = self.names.all()[joint];
+                    let problem = Problem::error(slider.span(), format!("`{name}` does not slide"));
+                    parser.report(
+                        problem.with_help(format!("give it a line, as in slides = {{ {name} = [\"P\", \"Q\"] }}")),
+                    );
+                }
+                found.map(|slide| DrawnInput::Slider { ground: slides[slide].link, slide })
+            }
+            (None, None, Some(distance)) => {
                 let [a, b] = parse_joint_pair(distance, self.names, parser)?;
                 let candidates = || {
                     let with =
@@ -292,14 +310,15 @@ impl Reader<'_, '_> {
                     _ => DrawnInput::Actuator { ground: first, link: second, joints: [a, b, pivot] },
                 })
             }
-            (given, _) => {
-                let what = if given.is_some() {
-                    "an input has one of `between` and `distance`"
+            (between, slider, distance) => {
+                let is_given = [between, slider, distance].iter().any(Option::is_some);
+                let what = if is_given {
+                    "an input has one of `between`, `slider` and `distance`"
                 } else {
                     "the input is not said"
                 };
                 let problem = Problem::error(value.span(), what);
-                parser.report(problem.with_help("write a link on the frame, as in \"O A\", or { between = [\"A B\", \"B C\"] } or { distance = [\"O\", \"B\"] }"));
+                parser.report(problem.with_help("write a link on the frame, as in \"O A\", { between = [\"A B\", \"B C\"] }, { slider = \"S\" } or { distance = [\"O\", \"B\"] }"));
                 None
             }
         }

@@ -2,6 +2,7 @@
 
 use super::super::CouplerGridPage;
 use super::super::area::Area;
+use super::super::marks::driver;
 use super::super::rect::Rect;
 use super::super::theme::Theme;
 use super::super::typography::format_fixed;
@@ -44,7 +45,7 @@ impl Notes {
         if let Some(graphs) = graphs {
             notes.extend(transmission_note(graphs));
             notes.push(match solved.linkage.input() {
-                Input::Length => "speed: of the point, relative to that of the actuator".to_owned(),
+                Input::Length => format!("speed: of the point, relative to that of the {}", driver(&solved.linkage)),
                 Input::Angle { .. } => {
                     "speed: of the point per radian of input, in crank lengths: that of the crank pin is 1".to_owned()
                 }
