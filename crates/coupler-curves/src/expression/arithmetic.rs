@@ -11,6 +11,11 @@ impl CompiledExpression {
         combine(Instruction::Call(function, N), arguments)
     }
 
+    /// The number of its names, numbers and operators.
+    pub(crate) fn token_count(&self) -> usize {
+        self.expression.program.len()
+    }
+
     /// Whether it is the length of a vector.
     pub(crate) fn is_distance(&self) -> bool {
         self.expression.outermost_function() == Some(Function::Hypot)

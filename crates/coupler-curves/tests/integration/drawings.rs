@@ -421,6 +421,35 @@ fn what_cannot_be_placed_is_named() {
     }
 }
 
+/// Large drawings are refused, or placed, at once and in little memory.
+#[test]
+fn the_size_of_a_drawing_is_limited() {
+    let drawing = |joints: usize, links: usize, coordinate: &str| {
+        let points: Vec<String> = (0..joints).map(|k| format!("J{k} = [{k}, {}]", k * k)).collect();
+        let names: Vec<String> = (0..joints).map(|k| format!("\"J{k}\"")).collect();
+        let chain: Vec<String> = (0..links).map(|k| format!("[\"O\", \"J{}\"]", k % joints)).collect();
+        let text = format!(
+            "[[linkage]]\nid = \"a\"\ntrace = [\"J1\"]\n[linkage.drawing]\njoints = {{ O = [{coordinate}, 0], {} }}\nframe = [\"O\"]\n\
+             links = [[\"O\", {}], {}]\ninput = \"O J1\"\n",
+            points.join(", "),
+            names.join(", "),
+            chain.join(", ")
+        );
+        parse_templates(&text)
+    };
+    let long = format!("\"{}\"", vec!["1"; 60].join(" + "));
+    for (joints, links, coordinate, words) in [
+        (1001, 1, "0", "at most 1000 are possible"),
+        (3000, 3000, "0", "at most 100 are possible"),
+        (10, 1, long.as_str(), "at most 100 are possible"),
+    ] {
+        let problems = drawing(joints, links, coordinate).expect_err(words);
+        assert!(problems.iter().any(|problem| problem.message.contains(words)), "{problems:?}");
+    }
+    let template = drawing(999, 99, "0.5").unwrap().remove(0);
+    assert_eq!(template.joints.len(), 1000);
+}
+
 #[test]
 fn an_input_by_which_dyads_serve_is_named() {
     const STEPHENSON_II: &str = r#"

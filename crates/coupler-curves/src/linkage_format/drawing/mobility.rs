@@ -16,8 +16,7 @@ pub(super) struct Mobility {
 
 impl Mobility {
     pub fn of(drawing: &Drawing) -> Mobility {
-        let links_at = |joint: usize| drawing.links.iter().filter(|link| link.joints.contains(&joint)).count();
-        let pins = (0..drawing.names.len()).map(|joint| links_at(joint).saturating_sub(1)).sum();
+        let pins = drawing.links_at.iter().map(|links| links.len().saturating_sub(1)).sum();
         Mobility { links: drawing.links.len(), pins, slides: drawing.slides.len() }
     }
 

@@ -90,6 +90,8 @@ pub(super) struct Drawing<'v> {
     pub spans: Vec<[Span; 2]>,
     coordinates: Vec<DrawnVector>,
     links: Vec<DrawnLink>,
+    /// The links that each joint is on.
+    links_at: Vec<Vec<usize>>,
     slides: Vec<Slide>,
     /// Distances that are given, by the joints in ascending order.
     lengths: HashMap<[usize; 2], CompiledExpression>,

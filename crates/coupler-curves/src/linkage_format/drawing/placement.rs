@@ -204,10 +204,10 @@ impl<'d, 'v> Placer<'d, 'v> {
     /// Places the common joint of two links, each of which has one joint that is placed.
     fn place_dyad(&mut self) -> Result<bool, Obstacle> {
         let drawing = self.drawing;
-        let held: Vec<(usize, usize)> = self.held_links().collect();
-        let has = |link: usize, joint: usize| drawing.links[link].joints.contains(&joint);
+        let mut held = vec![None; drawing.links.len()];
+        self.held_links().for_each(|(link, by)| held[link] = Some(by));
         for joint in (0..self.kinds.len()).filter(|joint| !self.is_placed(*joint)) {
-            let mut at_joint = held.iter().copied().filter(|(link, _)| has(*link, joint));
+            let mut at_joint = drawing.links_at[joint].iter().filter_map(|&link| Some((link, held[link]?)));
             let Some((first, a)) = at_joint.next() else { continue };
             let Some((second, b)) = at_joint.find(|(_, other)| *other != a) else { continue };
             let lengths = [a, b].map(|other| drawing.length(other, joint));
@@ -226,7 +226,7 @@ impl<'d, 'v> Placer<'d, 'v> {
         for (k, slide) in drawing.slides.iter().enumerate() {
             let joint = slide.joint;
             let is_free = !self.is_slide_used[k] && !self.is_placed(joint);
-            let held = self.held_links().find(|(link, _)| drawing.links[*link].joints.contains(&joint));
+            let held = self.held_links().find(|(link, _)| drawing.links_at[joint].contains(link));
             let Some((link, from)) = held.filter(|_| is_free && self.is_link_placed[slide.link]) else { continue };
             let [a, b] = slide.line;
             let line = drawing.vector(a, b);

@@ -1,6 +1,6 @@
 //! Reads a `[linkage.drawing]` table.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::vectors::DrawnVector;
 use super::{DRAWING, Drawing, DrawnInput, DrawnLink, FLOATING_INPUT, Slide};
@@ -12,6 +12,13 @@ use crate::linkage_format::names::JointNames;
 use crate::linkage_format::quantities::InputKind;
 use crate::linkage_format::toml_parser::{TomlParser, TomlValue};
 use crate::problem::Problem;
+
+/// The most links and the most joints of a drawing.
+const MAX_LINKS: usize = 100;
+const MAX_JOINTS: usize = 1000;
+
+/// The most names, numbers and operators of a coordinate: dimensions repeat it some ten times, and a joint may be in those of all others.
+const MAX_TOKENS: usize = 100;
 
 /// What the input of a drawing is, as far as it can be read.
 pub fn input_kind(drawing: &TomlValue) -> InputKind {
@@ -39,7 +46,7 @@ pub fn read_drawing<'v, 't>(
     let mut spans = Vec::new();
     for (name, span, value) in table.entries() {
         check_joint_id(name, &span).into_iter().for_each(|problem| parser.report(problem));
-        let position = parser.pair(value, "[0.6, 0.8]").map(|xy| xy.map(|c| parser.numeric_expression(c, scope)));
+        let position = parser.pair(value, "[0.6, 0.8]").map(|xy| xy.map(|c| read_coordinate(c, scope, parser)));
         if let Some([Some(x), Some(y)]) = position {
             coordinates.push(DrawnVector([x, y]));
         }
@@ -55,14 +62,16 @@ pub fn read_drawing<'v, 't>(
         .iter()
         .map(|value| reader.link(value, 2, parser))
         .collect();
+    check_size([links.len(), names.all().len()], &fields, parser);
     // What is in an entry with a syntax error is missing without a problem of its own.
     let (frame, links) = (frame?, links.into_iter().collect::<Option<Vec<DrawnLink>>>()?);
     if parser.problem_count() > before || coordinates.len() < spans.len() {
         return None;
     }
     let links = merged([frame].into_iter().chain(links).collect());
+    let in_links: HashSet<usize> = links.iter().flat_map(|link| link.joints.iter().copied()).collect();
     for (joint, name) in names.all().iter().enumerate() {
-        if !links.iter().any(|link| link.joints.contains(&joint)) {
+        if !in_links.contains(&joint) {
             let problem = Problem::error(spans[joint][0].clone(), format!("the joint `{name}` is in no link"));
             parser.report(problem.with_help("name it in a link or in `frame`, or leave it out"));
         }
@@ -76,28 +85,61 @@ pub fn read_drawing<'v, 't>(
     }
     let names = names.all().to_vec();
     let (span, input_span) = (fields.span.clone(), input_value.span());
-    Some(Drawing { names, spans, coordinates, links, slides, lengths, input: input?, input_span, span })
+    let mut links_at = vec![Vec::new(); names.len()];
+    for (k, link) in links.iter().enumerate() {
+        link.joints.iter().for_each(|&joint| links_at[joint].push(k));
+    }
+    Some(Drawing { names, spans, coordinates, links, links_at, slides, lengths, input: input?, input_span, span })
 }
 
-/// Links of which two that have two joints in common are one.
-fn merged(links: Vec<DrawnLink>) -> Vec<DrawnLink> {
-    let mut out: Vec<DrawnLink> = Vec::new();
-    for link in links {
-        out.push(link);
-        // A link that has grown may have two joints in common with others.
-        while let Some([a, b]) = rigid_pair(&out) {
-            let other = out.remove(b);
-            let joints = other.joints.into_iter().filter(|joint| !out[a].joints.contains(joint)).collect::<Vec<_>>();
-            out[a].joints.extend(joints);
+/// A coordinate of a joint.
+fn read_coordinate<'t>(
+    value: &TomlValue<'t>,
+    scope: &Scope,
+    parser: &mut TomlParser<'t>,
+) -> Option<CompiledExpression> {
+    let coordinate = parser.numeric_expression(value, scope)?;
+    let tokens = coordinate.token_count();
+    if tokens > MAX_TOKENS {
+        let message =
+            format!("the coordinate has {tokens} names, numbers and operators, at most {MAX_TOKENS} are possible");
+        let help = "make it a parameter, whose default or `let` is that expression";
+        parser.report(Problem::error(value.span(), message).with_help(help));
+        return None;
+    }
+    Some(coordinate)
+}
+
+/// Reports more links or joints than are placed in an instant.
+fn check_size([links, joints]: [usize; 2], fields: &Fields, parser: &mut TomlParser) {
+    for (key, count, limit) in [("links", links, MAX_LINKS), ("joints", joints, MAX_JOINTS)] {
+        if count > limit {
+            let span = fields.get(key).map_or_else(|| fields.span.clone(), TomlValue::span);
+            let problem = Problem::error(span, format!("the drawing has {count} {key}, at most {limit} are possible"));
+            parser.report(problem.with_help("points of a link can be joints of [linkage.joints], also as grids"));
         }
     }
-    out
 }
 
-/// Two links with two joints in common.
-fn rigid_pair(links: &[DrawnLink]) -> Option<[usize; 2]> {
-    let common = |a: &DrawnLink, b: &DrawnLink| a.joints.iter().filter(|joint| b.joints.contains(joint)).count();
-    (1..links.len()).flat_map(|b| (0..b).map(move |a| [a, b])).find(|&[a, b]| common(&links[a], &links[b]) >= 2)
+/// Links of which two that have two joints in common are one, in the place of the first.
+fn merged(links: Vec<DrawnLink>) -> Vec<DrawnLink> {
+    let mut out: Vec<(DrawnLink, HashSet<usize>)> = Vec::new();
+    for link in links {
+        let joints = link.joints.iter().copied().collect();
+        out.push((link, joints));
+        // A link that has grown may have two joints in common with others.
+        let mut grown = out.len() - 1;
+        while let Some(other) =
+            (0..out.len()).find(|&k| k != grown && out[k].1.intersection(&out[grown].1).nth(1).is_some())
+        {
+            let (link, joints) = out.remove(grown.max(other));
+            grown = grown.min(other);
+            let (into, known) = &mut out[grown];
+            into.joints.extend(link.joints.into_iter().filter(|joint| !known.contains(joint)));
+            known.extend(joints);
+        }
+    }
+    out.into_iter().map(|(link, _)| link).collect()
 }
 
 /// What the values of a drawing may use.
@@ -112,7 +154,8 @@ impl Reader<'_, '_> {
         let list = parser.list(value)?;
         let joints: Vec<Option<usize>> = list.iter().map(|value| parse_joint_ref(value, self.names, parser)).collect();
         let joints: Vec<usize> = joints.into_iter().collect::<Option<_>>()?;
-        if let Some(k) = (0..joints.len()).find(|&k| joints[..k].contains(&joints[k])) {
+        let mut seen = HashSet::new();
+        if let Some(k) = joints.iter().position(|joint| !seen.insert(*joint)) {
             let problem = Problem::error(list[k].span(), format!("`{}` is named twice", self.names.all()[joints[k]]));
             parser.report(problem.with_help("name each joint of a link once"));
             return None;
