@@ -33,6 +33,8 @@ pub mod output;
 
 pub mod shard;
 
+pub mod manifest_files;
+
 // For the program, and the command of the Python package.
 #[doc(hidden)]
 pub mod cli;

@@ -4,6 +4,7 @@ use std::io;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Mutex;
 
+use crate::manifest_files::NamedFile;
 use crate::output;
 use crate::record::RunRecord;
 use clap::builder::{PathBufValueParser, TypedValueParser};
@@ -55,14 +56,30 @@ pub(super) fn output_name(path: &Path) -> String {
     if is_standard(path) { "the manifest".to_owned() } else { printable(path.display()) }
 }
 
-/// The manifests that this run has read, which it must not overwrite.
-static MANIFESTS: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+/// The manifests and their files that this run has read, which it must not overwrite, and what each is.
+static PROTECTED: Mutex<Vec<(PathBuf, &str)>> = Mutex::new(Vec::new());
 
-/// Keeps a manifest from being overwritten by this run.
-pub(super) fn protect(manifest: &Path) {
-    if let (Ok(path), Ok(mut manifests)) = (manifest.canonicalize(), MANIFESTS.lock()) {
-        manifests.push(path);
+/// Keeps a file from being overwritten by this run, and says what it is.
+pub(super) fn protect(path: &Path, what: &'static str) {
+    if let (Ok(path), Ok(mut files)) = (path.canonicalize(), PROTECTED.lock()) {
+        files.push((path, what));
     }
+}
+
+/// The files that the last manifest names, as they were before they were read.
+static NAMED: Mutex<Vec<NamedFile>> = Mutex::new(Vec::new());
+
+/// Keeps the files that a manifest names from being overwritten by this run, and for [`take_named`].
+pub(super) fn set_named(files: Vec<NamedFile>) {
+    files.iter().for_each(|file| protect(&file.path, "a file of the manifest"));
+    if let Ok(mut named) = NAMED.lock() {
+        *named = files;
+    }
+}
+
+/// The files that the manifest which was read last names; none if none has been read since the last call.
+pub(super) fn take_named() -> Vec<NamedFile> {
+    NAMED.lock().map(|mut named| std::mem::take(&mut *named)).unwrap_or_default()
 }
 
 /// Writes a file, or to standard output.
@@ -73,9 +90,13 @@ pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     if is_standard(path) {
         return Ok(print_bytes(bytes)?);
     }
-    let is_manifest = |path: &PathBuf| MANIFESTS.lock().is_ok_and(|manifests| manifests.contains(path));
-    if path.canonicalize().is_ok_and(|path| is_manifest(&path)) {
-        let message = format!("{} is the manifest, which would be lost: name another file", path.display());
+    let canonical = path.canonicalize().ok();
+    let protected = PROTECTED
+        .lock()
+        .ok()
+        .and_then(|files| files.iter().find(|(own, _)| Some(own) == canonical.as_ref()).map(|(_, what)| *what));
+    if let Some(what) = protected {
+        let message = format!("{} is {what}, which would be lost: name another file", path.display());
         return Err(Failure::input(message));
     }
     if path.is_dir() {

@@ -1,10 +1,10 @@
 //! Reads a manifest, and prints the problems in it.
 
-use std::cell::RefCell;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use crate::manifest::{self, ParseOutcome, Plan};
+use crate::manifest::{self, FileReader, ParseOutcome, Plan};
+use crate::manifest_files::ManifestFiles;
 use crate::output;
 use crate::record::RunRecord;
 use coupler_curves::family::Family;
@@ -25,7 +25,7 @@ pub struct ManifestSource {
 /// # Errors
 /// The file cannot be read.
 pub fn read_text(path: &Path) -> Result<String, Failure> {
-    files::protect(path);
+    files::protect(path, "the manifest");
     let text = output::read_text(path).map_err(|error| match error {
         output::Error::Read { source, .. } if files::is_standard(path) => files::standard_input_error(&source),
         output::Error::Read { source, .. } => match not_a_manifest::reason(path, source.kind()) {
@@ -45,26 +45,15 @@ pub fn read_text(path: &Path) -> Result<String, Failure> {
 /// # Errors
 /// The system failed to read one of them, so that nothing is known about it.
 pub fn parse(path: &Path, text: &str) -> Result<ParseOutcome, output::Error> {
-    with_files(path, |files| manifest::parse_with_files(text, Some(files)))
+    with_files(path, |files| manifest::parse_with_files(text, files))
 }
 
 /// Reads the files that a manifest names while it is parsed. That one is missing or wrong is a problem of the manifest.
-fn with_files(
-    path: &Path,
-    parse: impl FnOnce(&dyn Fn(&str) -> Result<Vec<u8>, String>) -> ParseOutcome,
-) -> Result<ParseOutcome, output::Error> {
-    let failure = RefCell::new(None);
-    let outcome = parse(&|name| {
-        output::read_font(path, name).map_err(|source| {
-            let message = source.to_string();
-            if !output::is_wrong_input(&source) {
-                let path = path.parent().unwrap_or(Path::new("")).join(name);
-                failure.replace(Some(output::Error::Read { path, source }));
-            }
-            message
-        })
-    });
-    failure.into_inner().map_or(Ok(outcome), Err)
+fn with_files(path: &Path, parse: impl FnOnce(FileReader) -> ParseOutcome) -> Result<ParseOutcome, output::Error> {
+    let named = ManifestFiles::new(path);
+    let outcome = parse(Some(&named));
+    files::set_named(named.take_named());
+    named.take_failure().map_or(Ok(outcome), Err)
 }
 
 /// Reads a manifest, and prints every problem in it to standard error.
@@ -81,7 +70,7 @@ pub fn read(path: &Path) -> Result<ManifestSource, Failure> {
 /// # Errors
 /// The file cannot be read, or the manifest has errors.
 pub fn read_for_tables(path: &Path, cells: &dyn Fn(&Family) -> Range<usize>) -> Result<ManifestSource, Failure> {
-    read_with(path, |text| with_files(path, |files| manifest::parse_for_tables(text, Some(files), cells)))
+    read_with(path, |text| with_files(path, |files| manifest::parse_for_tables(text, files, cells)))
 }
 
 fn read_with(

@@ -40,26 +40,8 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, Error> {
     bytes.map_err(|source| Error::Read { path: path.to_owned(), source })
 }
 
-/// The most bytes of a font file: those for Chinese, Japanese and Korean have some 20 MB.
-const MAX_FONT_BYTES: u64 = 1 << 26;
-
-/// Reads a font file that a manifest names, relative to the folder of the manifest.
-///
-/// # Errors
-/// It cannot be read, is not a regular file, or is too large.
-pub fn read_font(manifest: &Path, name: &str) -> io::Result<Vec<u8>> {
-    let path = manifest.parent().unwrap_or(Path::new("")).join(name);
-    let mut bytes = Vec::new();
-    open_regular(&path)?.take(MAX_FONT_BYTES + 1).read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > MAX_FONT_BYTES {
-        let message = format!("it has more than {MAX_FONT_BYTES} bytes");
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
-    }
-    Ok(bytes)
-}
-
 /// Opens a file, which may be a link to one. Opening a pipe would wait for another program.
-fn open_regular(path: &Path) -> io::Result<fs::File> {
+pub(crate) fn open_regular(path: &Path) -> io::Result<fs::File> {
     let metadata = fs::metadata(path)?;
     if !metadata.is_file() && !metadata.is_dir() {
         let message = "it is not a regular file; give a file, or `-` for standard input";

@@ -21,8 +21,8 @@ mod table_file;
 mod temporary;
 
 pub use error::{Error, is_wrong_input};
-pub(crate) use files::AtomicFile;
-pub use files::{create_folder, read_bytes, read_font, read_text, write as write_file, write_new};
+pub(crate) use files::{AtomicFile, open_regular};
+pub use files::{create_folder, read_bytes, read_text, write as write_file, write_new};
 pub(crate) use lock::Lock;
 pub use options::{Event, Options};
 pub use page_shard::{DrawnPages, PageShard, PageShardSource, has_atlas_of, page_shards, write_page_shard};

@@ -29,6 +29,7 @@ pub use error::Error;
 pub use folder::has_tables;
 pub use gather::{BestCurve, FamilyTotals, GatherOptions, Gathered, gather};
 pub use options::{Event, Options};
+pub(crate) use parquet_table::into_io;
 pub use record::{Counts, FORMAT, MAX_TOP, ShardRecord, TableKind, Top};
 pub use stream::TableStream;
 pub use table_format::TableFormat;

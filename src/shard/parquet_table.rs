@@ -188,7 +188,7 @@ fn properties(columns: &[TableColumn]) -> WriterProperties {
 }
 
 /// The error of the file, if it was one.
-pub(super) fn into_io(error: ParquetError) -> io::Error {
+pub(crate) fn into_io(error: ParquetError) -> io::Error {
     match error {
         ParquetError::External(inner) => match inner.downcast::<io::Error>() {
             Ok(error) => *error,

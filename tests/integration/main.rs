@@ -7,6 +7,7 @@ mod architecture;
 mod atlas;
 mod binding;
 mod book;
+mod case_tables;
 mod charts;
 mod check;
 mod command_line;

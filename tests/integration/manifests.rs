@@ -86,7 +86,7 @@ fn each_mistake_of_a_beginner_has_its_remedy() {
         ("[atlas]\ntitle", "title", "did you mean `atlas.title`?"),
         ("title = \"T\"", "title = T", "write \"T\""),
         ("title = \"T\"", "title = My curves", "write \"My curves\""),
-        ("grid = { p = [2, 3] }", "cases = \"list.csv\"", "write them in the manifest, they are not read from a file"),
+        ("grid = { p = [2, 3] }", "cases = \"list.csv\"", "write them in the manifest: cases = [{ p = 2 }, { p = 3 }]"),
         ("(1 + p)", "cos(deg(p))", "`deg` turns radians into degrees: write `cos(rad(p))`"),
         ("let =", "where = \"mu_min_deg > acos(0.5)\"\nlet =", "write `deg(acos(0.5))` for `acos(0.5)`"),
         ("p = [2, 3]", "p = 4,5", "write a decimal point, 4.5, or a list of values, [4, 5]"),

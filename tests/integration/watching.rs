@@ -107,6 +107,25 @@ fn what_has_changed_is_drawn_whenever_the_manifest_changes() {
 }
 
 #[test]
+fn a_table_of_cases_is_watched_as_well() {
+    let mut watching = Watching::start(&[]);
+    watching.wait_for_rest(1);
+    let text = manifest(2.5).replace("[{ p = 2.5, a = 2.6 }]", "\"list.csv\"");
+    fs::write(watching.path("atlas.toml"), text).unwrap();
+    watching.wait_for_rest(2);
+    assert!(watching.text("err.txt").contains("cannot read `list.csv`"), "{}", watching.text("err.txt"));
+    let page = || watching.text("out/evans/evans-001.svg");
+    let first = page();
+    fs::write(watching.path("list.csv"), "p,a\n2.5,2.6\n").unwrap();
+    watching.wait_for_rest(3);
+    assert!(page() == first);
+    fs::write(watching.path("list.csv"), "p,a\n2.75,2.6\n").unwrap();
+    watching.wait_for_rest(4);
+    assert!(page().contains("2.75"), "{}", watching.text("err.txt"));
+    assert_eq!(watching.end(), Some(0));
+}
+
+#[test]
 fn the_page_that_is_opened_shows_the_pages_and_the_problems() {
     let mut watching = Watching::start(&["--open"]);
     watching.wait_for_rest(1);

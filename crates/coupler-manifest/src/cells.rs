@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
+use crate::parameter_sets::TableColumns;
 use crate::plan::PlannedFamily;
 use coupler_curves::family::{Cell, CellError, Family, ParameterSpace};
 use coupler_curves::linkage_format::{Fields, TomlParser, TomlValue};
@@ -145,6 +146,8 @@ pub(crate) struct GivenNames<'a> {
     pub spans: &'a [Option<Span>],
     /// The parameters of which misspelt names have been reported.
     pub misspelt: &'a [String],
+    /// The table that the cases are from, if they are.
+    pub table: Option<&'a TableColumns>,
 }
 
 /// Checks the values and the linkages of a range of cells; of each kind of problem the first cell is reported, and the others are
@@ -154,7 +157,7 @@ pub(crate) fn check(
     family: &Family,
     cells: Range<usize>,
     fields: &Fields,
-    GivenNames { spans, misspelt }: GivenNames,
+    GivenNames { spans, misspelt, table }: GivenNames,
     has_problems: bool,
     parser: &mut TomlParser,
 ) {
@@ -170,7 +173,11 @@ pub(crate) fn check(
             }
             let (kind, slot, help) = match &error {
                 CellError::Missing(name) => {
-                    (ProblemKind::Missing(name.clone()), None, "give it in the grid, the cases or `let`".to_owned())
+                    let help = match table {
+                        Some(table) => format!("give it in a column of `{}`, or in `let`", table.path),
+                        None => "give it in the grid, the cases or `let`".to_owned(),
+                    };
+                    (ProblemKind::Missing(name.clone()), None, help)
                 }
                 CellError::Value { slot, .. } => (ProblemKind::Value(*slot), Some(*slot), value_help(family, k, *slot)),
                 CellError::Template(_) => {
@@ -184,7 +191,8 @@ pub(crate) fn check(
             problem_indices.insert(kind, problems.len());
             let value_span = slot.and_then(|slot| value_span(family, fields, k, slot));
             let span = value_span.or_else(|| case_span(fields, k)).or_else(|| spans.get(slot?).cloned().flatten());
-            let message = format!("in cell {} ({}), {error}", cell.number, given_values(family, &cell));
+            let row = table.map_or(String::new(), |table| format!("{}: ", table.row(k)));
+            let message = format!("in cell {} ({row}{}), {error}", cell.number, given_values(family, &cell));
             let span = span.unwrap_or_else(|| space_span(fields));
             problems.push(CellProblem { span, message, help, cell_count: 1 });
         }
@@ -223,7 +231,10 @@ fn space_span(fields: &Fields) -> Span {
 fn value_help(family: &Family, k: usize, slot: usize) -> String {
     let allowed = family.template.parameters.get(slot).and_then(Parameter::allowed);
     match allowed.filter(|_| family.space.assigns(k, slot)) {
-        Some(allowed) => format!("give `{}` a value {allowed} here", family.names[slot]),
+        Some(allowed) => {
+            let place = if matches!(family.space, ParameterSpace::Table { .. }) { "there" } else { "here" };
+            format!("give `{}` a value {allowed} {place}", family.names[slot])
+        }
         None => "change the values it comes from".to_owned(),
     }
 }
@@ -235,6 +246,7 @@ fn value_span(family: &Family, fields: &Fields, k: usize, slot: usize) -> Option
         ParameterSpace::Cases(_) => {
             fields.get("cases")?.get_ref().as_array()?.get(k)?.get_ref().as_table()?.get(name.as_str())?
         }
+        ParameterSpace::Table { .. } => return None,
         ParameterSpace::Grid(axes) => {
             let value = fields.get("grid")?.get_ref().as_table()?.get(name.as_str())?;
             let axis = axes.iter().find(|axis| axis.slot == slot)?;
@@ -246,9 +258,13 @@ fn value_span(family: &Family, fields: &Fields, k: usize, slot: usize) -> Option
     Some(value.span())
 }
 
-/// The place of the k-th case, if the family has cases.
+/// The place of the k-th case, if the family has cases; of one in a file, that of the file's name.
 fn case_span(fields: &Fields, k: usize) -> Option<Span> {
-    Some(fields.get("cases")?.get_ref().as_array()?.get(k)?.span())
+    let cases = fields.get("cases")?;
+    match cases.get_ref().as_array() {
+        Some(list) => Some(list.get(k)?.span()),
+        None => Some(cases.span()),
+    }
 }
 
 #[cfg(test)]

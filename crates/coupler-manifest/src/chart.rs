@@ -216,7 +216,12 @@ fn default_series_slots(x: &CompiledExpression, point_source: PointSource, names
             slots.dedup();
             slots
         }
-        ParameterSpace::Cases(_) => Vec::new(),
+        ParameterSpace::Table { slots, .. } if point_source == PointSource::Samples => {
+            let mut slots = slots.clone();
+            slots.sort_unstable();
+            slots
+        }
+        ParameterSpace::Cases(_) | ParameterSpace::Table { .. } => Vec::new(),
     }
 }
 

@@ -11,11 +11,11 @@ use coupler_curves::template::Template;
 use coupler_drawing::render::{Format, TextMode};
 
 use crate::cells::{AtlasTotals, Purpose};
+use crate::files::FileReader;
 use crate::inputs::SharedInputs;
 use crate::plan::{Plan, PlannedFamily};
 use crate::schema::MANIFEST;
 use crate::templates::{Templates, id_and_span};
-use crate::theme::FileReader;
 use crate::tolerance::PartialTolerances;
 use crate::undrawable::{names_missing_font, undrawable_texts};
 use crate::{family, format_version, settings, tolerance};
@@ -162,7 +162,7 @@ fn read_plan(
         let default_title = default_title.as_deref();
         let page = page.as_ref().map(|page| &page.options);
         let context =
-            family::Context { templates: &templates, formats: &formats, writable, default_title, page, purpose };
+            family::Context { templates: &templates, formats: &formats, writable, default_title, page, purpose, files };
         let read = family::read(value, context, &mut totals, parser);
         if let Some((id, span)) = id_and_span(value) {
             let message = format!("there are two families `{id}`");
@@ -173,7 +173,11 @@ fn read_plan(
         }
         let tolerances = |family: PartialTolerances| family.or(tolerances);
         families.extend(read.map(|read| PlannedFamily {
-            manifest_inputs: shared_inputs.of_family(value, read.layout, &read.family.title),
+            manifest_inputs: shared_inputs.of_family(
+                value,
+                (read.layout, &read.family.title),
+                read.case_file.as_ref().map(|file| file.digest.as_str()),
+            ),
             tolerances: tolerances(read.tolerances),
             ..read
         }));

@@ -4,9 +4,11 @@ use std::sync::Arc;
 
 use crate::bounded_number::read_within;
 use crate::cells::{self, AtlasTotals, Purpose};
+use crate::files::FileReader;
 use crate::inputs::ManifestInputs;
-use crate::names::{check_expression_syntax, read_names, read_space};
-use crate::plan::PlannedFamily;
+use crate::names::{check_expression_syntax, read_names};
+use crate::parameter_sets::read_space;
+use crate::plan::{CaseFile, PlannedFamily};
 use crate::schema::{
     DEFAULT_LAYOUT, DEFAULT_PLACE, FAMILY, MIN_TOLERANCE, PANEL_SCALES, PLACE, SAMPLING, SPACINGS, STRAIGHT, Spacing,
     default_sampling,
@@ -36,12 +38,14 @@ pub(crate) struct Context<'a> {
     pub page: Option<&'a Options>,
     /// What the cells are for.
     pub purpose: Purpose<'a>,
+    /// What reads the files that they name.
+    pub files: FileReader<'a>,
 }
 
 /// Reads a family, and adds it to `totals`.
 pub(crate) fn read<'t>(
     value: &TomlValue<'t>,
-    Context { templates, formats, writable, default_title, page, purpose }: Context,
+    Context { templates, formats, writable, default_title, page, purpose, files }: Context,
     totals: &mut AtlasTotals,
     parser: &mut TomlParser<'t>,
 ) -> Option<PlannedFamily> {
@@ -81,9 +85,9 @@ pub(crate) fn read<'t>(
         return None;
     }
     let names = match &template {
-        Some(template) => read_names(template, &fields, parser),
+        Some(template) => read_names(template, &fields, files, parser),
         None => {
-            read_space(&fields, None, parser);
+            read_space(&fields, None, files, parser);
             check_expression_syntax(&fields, parser);
             None
         }
@@ -130,7 +134,7 @@ pub(crate) fn read<'t>(
         Purpose::Tables(range) => range(&family),
     };
     if !parser.has_syntax_error() {
-        let given = cells::GivenNames { spans: &names.spans, misspelt: &names.misspelt };
+        let given = cells::GivenNames { spans: &names.spans, misspelt: &names.misspelt, table: names.table.as_ref() };
         cells::check(&family, checked, &fields, given, parser.problem_count() > before, parser);
     }
     let source = source.unwrap_or_else(|| family.template.source_line());
@@ -148,6 +152,7 @@ pub(crate) fn read<'t>(
         formats,
         source,
         automatic_caption,
+        case_file: names.table.map(|table| CaseFile { path: table.path, digest: table.digest }),
         manifest_inputs: inputs,
         tolerances,
         span: value.span(),

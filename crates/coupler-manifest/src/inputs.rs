@@ -90,21 +90,34 @@ impl SharedInputs {
     }
 
     /// The inputs of the family with this table of the manifest, with what depends on the whole manifest: its layout, and its title if it states
-    /// none, which a manifest of the family alone would not have.
-    pub fn of_family(&self, family: &TomlValue, layout: Layout, title: &str) -> ManifestInputs {
+    /// none, which a manifest of the family alone would not have. A file with its cases counts by what is in it, whatever its name.
+    pub fn of_family(
+        &self,
+        family: &TomlValue,
+        (layout, title): (Layout, &str),
+        case_digest: Option<&str>,
+    ) -> ManifestInputs {
         let linkage = string_at("linkage", family).and_then(|id| self.linkages.get(id));
         let title = string_at("title", family).is_none().then(|| quoted(title));
-        let with_title = |ignored: &[&str]| match (canonical_toml(family, ignored), &title) {
-            (table, None) => table,
-            (table, Some(title)) => format!("{},title={title}}}", table.strip_suffix('}').unwrap_or_default()),
+        let with_key = |table: String, key: &str, value: Option<&String>| match value {
+            None => table,
+            Some(value) => format!("{},{key}={value}}}", table.strip_suffix('}').unwrap_or_default()),
         };
+        let case_digest = case_digest.map(quoted);
+        let with_cases = |ignored: &[&str]| match &case_digest {
+            Some(digest) if !ignored.contains(&"cases") => {
+                with_key(canonical_toml(family, &[ignored, &["cases"]].concat()), "cases", Some(digest))
+            }
+            _ => canonical_toml(family, ignored),
+        };
+        let with_title = |ignored: &[&str]| with_key(with_cases(ignored), "title", title.as_ref());
         let [columns, rows] = layout.grid();
         ManifestInputs {
             tables: Arc::clone(&self.tables),
             linkage: linkage.cloned().unwrap_or_default(),
             family: with_title(&IGNORED_FAMILY_KEYS),
             settings: with_title(&IGNORED_SETTINGS),
-            tables_of_curves: canonical_toml(family, &IGNORED_TABLE_KEYS),
+            tables_of_curves: with_cases(&IGNORED_TABLE_KEYS),
             page: format!("{}# grid {columns} x {rows}\n", with_title(&IGNORED_PAGE_KEYS)),
         }
     }

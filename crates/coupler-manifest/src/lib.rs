@@ -1,8 +1,8 @@
 //! Parses manifests of atlases: TOML that names families of planar linkages and says how they are drawn.
 //!
 //! [`parse`] turns a text into a validated [`Plan`], or reports every problem in it with its place and a remedy. It uses
-//! no files, threads or clocks, and what it returns depends on the text alone; [`parse_with_files`] also reads the font file
-//! that a theme may name.
+//! no files, threads or clocks, and what it returns depends on the text alone; [`parse_with_files`] has the files that the manifest
+//! may name read, the font file of a theme and tables of cases.
 //!
 //! ```
 //! let text = r#"
@@ -26,7 +26,8 @@ mod default_value;
 mod format_version;
 mod inputs;
 mod tolerance;
-mod unused_names;
+
+mod files;
 
 mod theme;
 
@@ -35,6 +36,9 @@ mod undrawable;
 mod settings;
 
 mod grid;
+
+mod parameter_sets;
+mod unused_names;
 
 mod names;
 
@@ -58,11 +62,11 @@ pub use document::{
     MAX_MANIFEST_BYTES, ParseOutcome, linkage_text, parse, parse_for_formats, parse_for_tables, parse_linkages,
     parse_with_files,
 };
+pub use files::{CaseTable, FileProblem, FileReader, Files, RowPlaces};
 pub use format_version::FORMAT_VERSION;
 pub use inputs::ManifestInputs;
-pub use plan::{BookPlan, FindingCharts, ListCriteria, Plan, PlannedChapter, PlannedFamily, PlannedList};
+pub use plan::{BookPlan, CaseFile, FindingCharts, ListCriteria, Plan, PlannedChapter, PlannedFamily, PlannedList};
 pub use schema::MANIFEST;
-pub use theme::FileReader;
 pub use tolerance::{PartialTolerances, Tolerances};
 
 pub use coupler_curves::linkage_format::{KeySchema, TableSchema, ValueSchema};

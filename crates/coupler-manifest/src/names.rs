@@ -2,14 +2,15 @@
 
 use std::collections::HashMap;
 
-use crate::grid::{self, GridValues};
+use crate::files::FileReader;
+use crate::parameter_sets::{TableColumns, kind_of, read_space};
 use crate::unused_names;
 use coupler_curves::expression::{Caption, CompiledExpression, Expression, Kind, Scope};
-use coupler_curves::family::{Axis, AxisValues, Case, Family, MAX_CELLS, ParameterSpace, sort_by_dependency};
+use coupler_curves::family::{Family, ParameterSpace, sort_by_dependency};
 use coupler_curves::linkage_format::{self, Fields, TomlParser, TomlValue};
 use coupler_curves::measure::{BOOLEANS, parse_condition};
 use coupler_curves::problem::{Problem, Span};
-use coupler_curves::template::{ParameterKind, Template};
+use coupler_curves::template::Template;
 use coupler_drawing::chart;
 
 /// The names of a family and where their values come from.
@@ -24,35 +25,39 @@ pub(crate) struct FamilyNames {
     pub spans: Vec<Option<Span>>,
     /// The parameters of which misspelt names have been reported, and so not that they have no value.
     pub misspelt: Vec<String>,
+    /// The table that the cases are from, if they are.
+    pub table: Option<TableColumns>,
 }
 
 /// Reads the names of a family, and the expressions over them: `let`, `where`, `sort`, `caption` and `note`.
 pub(crate) fn read_names<'t>(
     template: &Template,
     fields: &Fields<'_, 't>,
+    files: FileReader,
     parser: &mut TomlParser<'t>,
 ) -> Option<FamilyNames> {
     let lets = match fields.get("let") {
         None => Vec::new(),
         Some(value) => Fields::with_any_keys(value, "`let`", parser)?.entries().collect(),
     };
-    let named_space = read_space(fields, Some(template), parser);
-    let mut table = NameTable::default();
+    let named_space = read_space(fields, Some(template), files, parser);
+    let mut collected = NameTable::default();
     for parameter in &template.parameters {
-        table.add(&parameter.name, None);
+        collected.add(&parameter.name, None);
     }
     let Some(named_space) = named_space else {
         check_expression_syntax(fields, parser);
         return None;
     };
-    let space = named_space.into_space(&mut |name, span| table.add(name, Some(span)));
-    let let_slots: Vec<usize> = lets.iter().map(|(name, span, _)| table.add(name, Some(span))).collect();
-    let NameTable { all, spans, .. } = table;
+    let (space, table) = named_space.into_space(&mut |name, span| collected.add(name, Some(span)));
+    let let_slots: Vec<usize> = lets.iter().map(|(name, span, _)| collected.add(name, Some(span))).collect();
+    let NameTable { all, spans, .. } = collected;
     for (slot, name) in all.iter().enumerate() {
         if Family::is_column_name(name) {
+            let place = table.as_ref().map_or(String::new(), |table| table.place_of(name));
             let problem = Problem::error(
                 spans[slot].clone().unwrap_or(fields.span.clone()),
-                format!("`{name}` is the name of a column"),
+                format!("{place}`{name}` is the name of a column"),
             );
             parser.report(problem.with_help("`coupler-atlas list measures` lists the reserved names: use another one"));
         }
@@ -60,7 +65,7 @@ pub(crate) fn read_names<'t>(
     let scope = Scope::from_numbers(all.iter().map(String::as_str));
     let assignments = space.assignment_counts(all.len());
     let mut sources: Vec<(usize, Expression, Span)> = Vec::new();
-    let mut read_all = true;
+    let mut read_all = table.as_ref().is_none_or(|table| table.is_complete);
     for ((name, span, value), &slot) in lets.iter().zip(&let_slots) {
         linkage_format::check_identifier(name, span.clone(), parser);
         if assignments[slot] > 0 {
@@ -105,11 +110,11 @@ pub(crate) fn read_names<'t>(
         let known = chart::scope(&all, template.is_driven_by_length());
         let is_known = |word: &str| read_all || known.index_of(word).is_some();
         let names = all.iter().zip(&spans).map(|(name, span)| (name.as_str(), span.clone().unwrap_or_default()));
-        misspelt = unused_names::report(template, names, is_known, fields, parser);
+        misspelt = unused_names::report(template, (names, table.as_ref()), is_known, fields, parser);
     }
     let derived = in_dependency_order(sources, &all, &scope, parser)?;
     read_all.then_some(())?;
-    Some(FamilyNames { all, space, derived, filter, sort, captions, spans, misspelt })
+    Some(FamilyNames { all, space, derived, filter, sort, captions, spans, misspelt, table })
 }
 
 /// The names of a family while they are collected.
@@ -202,158 +207,6 @@ pub(crate) fn read_filter<'t>(
     let expression = parser.ok_or_report(value, parsed)?;
     let compiled = expression.compile(scope, Kind::Boolean);
     parser.ok_or_report(value, compiled)
-}
-
-/// The most cells that `limit` may allow; their numbers have 32 bits.
-pub(crate) const MAX_LIMIT: usize = 4_000_000_000;
-
-/// The values of `grid` or `cases`, by name.
-pub(crate) enum NamedSpace {
-    Grid(Vec<(String, Span, AxisValues)>),
-    Cases(Vec<Vec<(String, Span, f64)>>),
-}
-
-impl NamedSpace {
-    fn into_space(self, slot_of: &mut impl FnMut(&str, &Span) -> usize) -> ParameterSpace {
-        match self {
-            NamedSpace::Grid(axes) => {
-                let axis = |(name, span, values): (String, Span, _)| Axis { slot: slot_of(&name, &span), values };
-                ParameterSpace::Grid(axes.into_iter().map(axis).collect())
-            }
-            NamedSpace::Cases(cases) => {
-                let mut case = |case: Vec<(String, Span, f64)>| -> Case {
-                    case.into_iter().map(|(name, span, value)| (slot_of(&name, &span), value)).collect()
-                };
-                ParameterSpace::Cases(cases.into_iter().map(&mut case).collect())
-            }
-        }
-    }
-}
-
-/// What a name is a number of: a parameter of the linkage, or another name.
-fn kind_of(template: Option<&Template>, name: &str) -> ParameterKind {
-    let parameter = template.and_then(|template| template.parameters.iter().find(|parameter| parameter.name == name));
-    parameter.map(|parameter| parameter.kind).unwrap_or_default()
-}
-
-/// Reads `grid` or `cases` of a family of a linkage; `None` if it is not known which.
-pub(crate) fn read_space<'t>(
-    fields: &Fields<'_, 't>,
-    template: Option<&Template>,
-    parser: &mut TomlParser<'t>,
-) -> Option<NamedSpace> {
-    let limit = match fields.get("limit") {
-        None => MAX_CELLS,
-        Some(value) => parser.integer(value, 1, MAX_LIMIT)?,
-    };
-    match (fields.get("grid"), fields.get("cases")) {
-        (Some(value), None) => read_grid(value, limit, template, parser),
-        (None, Some(value)) => read_cases(value, limit, template, parser),
-        // One may be in an entry that could not be read.
-        (None, None) if parser.has_syntax_error() => None,
-        (grid, _) => {
-            let message = if grid.is_some() {
-                "a family has a grid or cases, not both"
-            } else {
-                "a [[family]] has no `grid` and no `cases`"
-            };
-            let problem = Problem::error(fields.span.clone(), message);
-            let help = match template.map(|template| (&template.id, &template.parameters[..])) {
-                Some((id, [])) => format!("write cases = [{{}}]: `{id}` has no parameters, and one cell"),
-                Some((_, [first, ..])) => {
-                    format!("write grid = {{ {0} = [2, 3] }} or cases = [{{ {0} = 2 }}]", first.name)
-                }
-                None => "write grid = { p = [2, 3, 4] } or cases = [{ p = 2 }, { p = 3 }]".to_owned(),
-            };
-            parser.report(problem.with_help(help));
-            None
-        }
-    }
-}
-
-/// Reads `grid`, with at most `limit` cells.
-fn read_grid<'t>(
-    value: &TomlValue<'t>,
-    limit: usize,
-    template: Option<&Template>,
-    parser: &mut TomlParser<'t>,
-) -> Option<NamedSpace> {
-    let table = Fields::with_any_keys(value, "`grid`", parser)?;
-    if table.keys().is_empty() {
-        if parser.has_syntax_error() {
-            return None;
-        }
-        let help = match template {
-            Some(template) if template.parameters.is_empty() => "write cases = [{}] for its one cell",
-            _ => "name a parameter, as in { p = [2, 3, 4] }",
-        };
-        parser.report(Problem::error(value.span(), "the grid is empty").with_help(help));
-        return None;
-    }
-    let mut axes = Vec::new();
-    let mut all_read = true;
-    for (name, span, value) in table.entries() {
-        linkage_format::check_identifier(name, span.clone(), parser);
-        match grid::read_values(name, kind_of(template, name), value, parser) {
-            Some(values) => axes.push((name.to_owned(), span, values)),
-            None => all_read = false,
-        }
-    }
-    let cells: f64 = axes.iter().map(|(.., read): &(_, _, GridValues)| read.count).product();
-    if cells > limit as f64 {
-        let problem =
-            Problem::error(value.span(), format!("the grid has {cells:.0} cells, more than the limit of {limit}"));
-        parser.report(problem.with_help("use fewer values, or allow more with `limit = N` in the family"));
-        return None;
-    }
-    all_read.then(|| NamedSpace::Grid(axes.into_iter().map(|(name, span, read)| (name, span, read.values)).collect()))
-}
-
-/// Reads `cases`, at most `limit` of them.
-fn read_cases<'t>(
-    value: &TomlValue<'t>,
-    limit: usize,
-    template: Option<&Template>,
-    parser: &mut TomlParser<'t>,
-) -> Option<NamedSpace> {
-    // The name of a file, by itself or in a list.
-    let is_text = |value: &&TomlValue| value.get_ref().is_str();
-    let items = value.get_ref().as_array().into_iter().flatten();
-    if let Some(text) = std::iter::once(value).chain(items).find(is_text) {
-        let help = "write them in the manifest, they are not read from a file: cases = [{ p = 2 }, { p = 3 }]";
-        parser.report(Problem::error(text.span(), "expected a list of cases, found a string").with_help(help));
-        return None;
-    }
-    let list = parser.list(value)?;
-    if list.is_empty() {
-        parser.report(
-            Problem::error(value.span(), "there are no cases").with_help("give at least one, as in [{ p = 2 }]"),
-        );
-        return None;
-    }
-    if list.len() > limit {
-        let problem =
-            Problem::error(value.span(), format!("there are {} cases, more than the limit of {limit}", list.len()));
-        parser.report(problem.with_help("use fewer, or allow more with `limit = N` in the family"));
-        return None;
-    }
-    let mut cases = Vec::new();
-    let mut all_read = true;
-    for item in list {
-        let Some(table) = Fields::with_any_keys(item, "a case", parser) else {
-            all_read = false;
-            continue;
-        };
-        let mut case = Vec::new();
-        for (name, span, value) in table.entries() {
-            linkage_format::check_identifier(name, span.clone(), parser);
-            let value = parser.parameter_value(value, name, kind_of(template, name));
-            all_read &= value.is_some();
-            case.extend(value.map(|value| (name.to_owned(), span, value)));
-        }
-        cases.push(case);
-    }
-    all_read.then_some(NamedSpace::Cases(cases))
 }
 
 /// Sorts expressions so that each comes after those it uses; reports a cycle.

@@ -126,6 +126,8 @@ pub struct PlannedFamily {
     pub source: String,
     /// The caption of its cells, if neither the manifest nor the linkage gives one: the parameters that vary.
     pub automatic_caption: Option<String>,
+    /// The file that its cases are from, if they are.
+    pub case_file: Option<CaseFile>,
     /// What the manifest contributes to its files.
     pub manifest_inputs: ManifestInputs,
     /// How much it may differ from a recorded atlas.
@@ -134,6 +136,15 @@ pub struct PlannedFamily {
     pub span: Span,
     /// The place of its `where` in the manifest.
     pub filter_span: Option<Span>,
+}
+
+/// The file that the cases of a family are from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CaseFile {
+    /// Its path, as the manifest has it.
+    pub path: String,
+    /// A digest of the names and values in it.
+    pub digest: String,
 }
 
 impl PlannedFamily {

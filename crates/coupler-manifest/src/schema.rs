@@ -4,7 +4,7 @@ use crate::book::BOOK;
 use crate::chart::{CHART, measure_names, numeric_measures};
 use crate::default_value;
 use crate::grid::VALUES_FORM;
-use crate::names::MAX_LIMIT;
+use crate::parameter_sets::MAX_LIMIT;
 use crate::settings::{ATLAS, FORMATS, PAGE};
 use crate::tolerance::{CHECK, FAMILY_CHECK};
 use coupler_curves::catalogue;
@@ -84,8 +84,11 @@ pub(crate) static FAMILY: TableSchema = TableSchema::new(
         ),
         KeySchema::new(
             "cases",
-            ValueSchema::List(&ValueSchema::IdentifierMap(&ValueSchema::Number), [1, usize::MAX]),
-            "The values of parameters, case by case.",
+            ValueSchema::AnyOf(&[
+                ValueSchema::List(&ValueSchema::IdentifierMap(&ValueSchema::Number), [1, usize::MAX]),
+                ValueSchema::Text,
+            ]),
+            "The values of parameters, case by case; or a table in CSV with a row for each case, relative to the manifest's folder.",
         ),
         KeySchema::new("let", ValueSchema::IdentifierMap(&ValueSchema::Number), "Values that are derived from others.")
             .with_default(default_value::empty_table),

@@ -2,8 +2,9 @@
 
 use crate::bounded_number::read_within;
 use crate::default_value;
+use crate::files::FileReader;
 use crate::format_version::FORMAT_VERSION;
-use crate::theme::{self, FileReader};
+use crate::theme;
 use coupler_curves::expression::Dimension;
 use coupler_curves::linkage_format::{Fields, KeySchema, TableSchema, TomlParser, TomlValue, ValueSchema, words};
 use coupler_curves::problem::Problem;

@@ -2,6 +2,7 @@
 
 use crate::bounded_number::read_within;
 use crate::default_value;
+use crate::files::FileReader;
 use coupler_curves::expression::Dimension;
 use coupler_curves::linkage_format::{Fields, KeySchema, TableSchema, TomlParser, TomlValue, ValueSchema, words};
 use coupler_curves::problem::{Problem, Span};
@@ -16,10 +17,6 @@ pub(crate) fn default_name() -> String {
     let [default, ..] = Theme::NAMED;
     default_value::string(default.name)
 }
-
-/// Reads a file that a manifest names, by its path relative to the manifest; the error says why it cannot be read. `None` if
-/// files are not read.
-pub type FileReader<'a> = Option<&'a dyn Fn(&str) -> Result<Vec<u8>, String>>;
 
 /// The table of a theme that modifies another.
 pub(crate) static THEME: TableSchema = TableSchema::new(
@@ -145,8 +142,8 @@ fn with_fallback<'t>(
     parser: &mut TomlParser<'t>,
 ) -> Option<Typeface> {
     let path = parser.text(value)?;
-    let Some(read) = files else { return Some(typeface) };
-    let font = read(&path).and_then(|bytes| typeface.with_fallback(bytes).map_err(|error| error.to_string()));
+    let Some(files) = files else { return Some(typeface) };
+    let font = files.font(&path).and_then(|bytes| typeface.with_fallback(bytes).map_err(|error| error.to_string()));
     if let Err(why) = &font {
         let problem = Problem::error(value.span(), format!("cannot use `{}`: {why}", path.escape_debug()));
         parser.report(problem.with_help("give the path of a .ttf, .otf or .ttc file, relative to the manifest"));

@@ -2,12 +2,13 @@
 
 use std::collections::BTreeSet;
 
+use crate::parameter_sets::TableColumns;
 use coupler_curves::expression::Caption;
-use coupler_curves::linkage_format::{Fields, TomlParser, TomlValue, one_or_more};
+use coupler_curves::linkage_format::{Fields, TomlParser, TomlValue, identifier_error, one_or_more};
 use coupler_curves::problem::{Problem, Span, list_words, nearest_word};
 use coupler_curves::template::Template;
 
-/// Reports each of the `names` with a value, of which the parameters of the linkage are the first, that is no parameter
+/// Reports each of the `names` with a value, in a table or elsewhere, of which the parameters of the linkage are the first, that is no parameter
 /// and that no expression of the family uses. `is_known` says of other words whether expressions may use them.
 ///
 /// Expressions with errors count as well: a name is not reported if one uses a word that may be the name misspelt.
@@ -15,7 +16,7 @@ use coupler_curves::template::Template;
 /// Returns the parameters that the reported names may be, misspelt.
 pub(crate) fn report<'n>(
     template: &Template,
-    names: impl Iterator<Item = (&'n str, Span)>,
+    (names, table): (impl Iterator<Item = (&'n str, Span)>, Option<&TableColumns>),
     is_known: impl Fn(&str) -> bool,
     fields: &Fields,
     parser: &mut TomlParser,
@@ -28,10 +29,12 @@ pub(crate) fn report<'n>(
     let mut meant = Vec::new();
     for (name, span) in names.skip(parameters.len()) {
         let may_be_misspelt = || unknown.iter().any(|word| nearest_word(word, [name]).is_some());
-        if used.contains(name) || may_be_misspelt() {
+        // That no expression can use it has been reported.
+        if used.contains(name) || may_be_misspelt() || identifier_error(name).is_some() {
             continue;
         }
-        let message = format!("`{name}` is not a parameter of `{}`, and no expression uses it", template.id);
+        let place = table.map_or(String::new(), |table| table.place_of(name));
+        let message = format!("{place}`{name}` is not a parameter of `{}`, and no expression uses it", template.id);
         let near = nearest_word(name, parameters.iter().copied());
         meant.extend(near.map(str::to_owned));
         let help = match near {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use coupler_atlas::manifest::{self, PlannedFamily};
-use coupler_atlas::output;
+use coupler_atlas::manifest_files::ManifestFiles;
 use coupler_curves::problem::suggestion;
 use pyo3::exceptions::{PyIndexError, PyKeyError, PyTypeError};
 use pyo3::prelude::*;
@@ -54,12 +54,8 @@ impl ManifestArgument<'_> {
     pub fn read(&self, py: Python) -> PyResult<Manifest> {
         let (path, text) = self.text(py)?;
         let (own, from) = (text.clone(), path.clone());
-        let outcome = task::run_with(py, None, move |_| {
-            manifest::parse_with_files(
-                &own,
-                Some(&|name| output::read_font(&from, name).map_err(|error| error.to_string())),
-            )
-        })?;
+        let outcome =
+            task::run_with(py, None, move |_| manifest::parse_with_files(&own, Some(&ManifestFiles::new(&from))))?;
         Manifest::from_outcome(py, path, text, outcome)
     }
 

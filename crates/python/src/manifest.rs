@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use coupler_atlas::manifest::{self, ParseOutcome, Plan, PlannedFamily};
-use coupler_atlas::output;
+use coupler_atlas::manifest_files::ManifestFiles;
 use coupler_curves::family::Family;
 use coupler_curves::problem::suggestion;
 use pyo3::exceptions::{PyIndexError, PyValueError};
@@ -34,11 +34,7 @@ impl Manifest {
     ) -> PyResult<Manifest> {
         let (own, from) = (text.clone(), path.clone());
         let outcome = task::run_with(py, None, move |_| {
-            manifest::parse_for_tables(
-                &own,
-                Some(&|name| output::read_font(&from, name).map_err(|error| error.to_string())),
-                &cells,
-            )
+            manifest::parse_for_tables(&own, Some(&ManifestFiles::new(&from)), &cells)
         })?;
         Manifest::from_outcome(py, path, text, outcome)
     }

@@ -146,7 +146,7 @@ fn read_path(arguments: &Arguments) -> Result<TracedPath, Failure> {
         return TracedPath::new(name.clone(), Outline::new(points, inputs_deg, Some(is_closed)), arguments);
     }
     let path = arguments.path.as_deref().unwrap_or(Path::new("-"));
-    files::protect(path);
+    files::protect(path, "the path");
     let name = files::input_name(path);
     let bytes = output::read_bytes(path).map_err(|error| not_a_path::unreadable(path, error))?;
     let options =

@@ -1,4 +1,4 @@
-//! `render --watch`: renders a manifest again whenever it changes.
+//! `render --watch`: renders a manifest again whenever it or a file that it names changes.
 
 use std::fs;
 use std::path::Path;
@@ -6,6 +6,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::sleep;
 use std::time::Duration;
+
+use crate::manifest_files::NamedFile;
 
 use super::super::{Failure, Outcome, files, print_stderr, printable};
 use super::arguments::Arguments;
@@ -15,7 +17,7 @@ use super::rendering::{open, render};
 /// How often the manifest is looked at.
 const INTERVAL: Duration = Duration::from_millis(30);
 
-/// Renders the manifest, and again whenever it changes, until it is interrupted.
+/// Renders the manifest, and again whenever it or a file that it names changes, until it is interrupted.
 ///
 /// # Errors
 /// The manifest is not a file, or a run is interrupted. Other errors are printed, and the next change is waited for.
@@ -34,6 +36,7 @@ pub(super) fn run(arguments: &Arguments, interrupt: &Arc<AtomicBool>) -> Result<
         // What changes from here on is rendered next.
         let contents = Contents::of(path);
         let result = render(&arguments, interrupt);
+        let named = files::take_named();
         arguments.force = false;
         if let Some(page) = &mut live_page {
             match &result {
@@ -48,8 +51,12 @@ pub(super) fn run(arguments: &Arguments, interrupt: &Arc<AtomicBool>) -> Result<
             }
             Ok(_) => {}
         }
-        print_stderr(&format!("waiting for changes of {}; Ctrl-C ends\n", printable(path.display())));
-        while contents.are_current(path) {
+        let names: Vec<String> = std::iter::once(path)
+            .chain(named.iter().map(|file| &file.path))
+            .map(|path| printable(path.display()))
+            .collect();
+        print_stderr(&format!("waiting for changes of {}; Ctrl-C ends\n", names.join(", ")));
+        while contents.are_current(path) && named.iter().all(is_current) {
             if interrupt.load(Ordering::Relaxed) {
                 return Ok(Outcome::Done);
             }
@@ -77,6 +84,16 @@ impl Contents {
         sleep(INTERVAL);
         Contents::of(path) != next
     }
+}
+
+/// Whether a file that a manifest names is as it was; others count as those of a manifest do, see [`Contents::are_current`].
+fn is_current(file: &NamedFile) -> bool {
+    let next = file.now();
+    if next == *file || !next.exists() {
+        return true;
+    }
+    sleep(INTERVAL);
+    file.now() != next
 }
 
 /// The problems of a manifest, or else the error, as text.

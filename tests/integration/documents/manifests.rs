@@ -1,16 +1,35 @@
 //! The examples in TOML are valid: whole manifests, parts of them, and single values in prose.
 
-use coupler_atlas::manifest;
+use coupler_atlas::manifest::{self, CaseTable, FileProblem, Files, RowPlaces};
 use coupler_curves::problem::report;
+use coupler_drawing::scene::{FontFamily, Typeface};
 
 use super::text::Block;
 use super::{document, documents, root};
 
 /// What the parser finds wrong with a manifest.
 fn problems(text: &str) -> String {
-    let loaded = manifest::parse(text);
+    let loaded = manifest::parse_with_files(text, Some(&Tables));
     assert!(loaded.plan.is_some() || !loaded.problems.is_empty());
     report(&loaded.problems, "example", text, false)
+}
+
+/// The table of docs/manifest.md under any name.
+struct Tables;
+
+impl Files for Tables {
+    fn font(&self, _: &str) -> Result<Vec<u8>, String> {
+        Ok(Typeface::from(FontFamily::Sans).regular().bytes().to_vec())
+    }
+
+    fn cases(&self, _: &str, _: usize, _: &mut dyn FnMut(FileProblem)) -> Option<CaseTable> {
+        let page = document("docs/manifest.md");
+        let block = page.blocks.iter().find(|block| block.language == "text").unwrap();
+        let rows: Vec<Vec<&str>> = block.text.lines().map(|line| line.split(',').collect()).collect();
+        let names = rows[0].iter().map(|name| (*name).to_owned()).collect();
+        let values = rows[1..].iter().flatten().map(|value| value.parse().unwrap()).collect();
+        Some(CaseTable { names, values, count: rows.len() - 1, digest: String::new(), rows: RowPlaces::Numbered })
+    }
 }
 
 const ATLAS: &str = "[atlas]\ntitle = \"T\"\n";
@@ -82,6 +101,7 @@ fn places() -> Vec<String> {
         format!("{ATLAS}[page]\n@\n{FAMILY}"),
         format!("{ATLAS}{FAMILY}[book]\n@\n"),
         format!("{ATLAS}{FAMILY}@\n"),
+        format!("{ATLAS}[[family]]\nid = \"f\"\nlinkage = \"evans\"\n@\n"),
         format!("{ATLAS}{grid}grid = {{ p = @ }}\n"),
         format!("{ATLAS}{grid}grid = {{ k = @, p = 2 }}\n"),
         format!("{ATLAS}{grid}{chart}@\n"),

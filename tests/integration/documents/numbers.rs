@@ -133,7 +133,7 @@ fn the_example_of_a_page_is_on_it() {
 }
 
 /// Statements with the value of a constant in place of `@`.
-const CONSTANTS: [(&str, &str, &str, &str); 28] = [
+const CONSTANTS: [(&str, &str, &str, &str); 30] = [
     (
         "manifest",
         "| cells of a family | @, or its `limit` |",
@@ -147,9 +147,14 @@ const CONSTANTS: [(&str, &str, &str, &str); 28] = [
         "MAX_CELLS",
     ),
     ("manifest", "| cells of all families, to be drawn | @ |", "coupler-manifest/src/cells.rs", "MAX_DRAWN_CELLS"),
-    ("manifest", "| cells of a family for [`sweep`](scale.md) | @, if", "coupler-manifest/src/names.rs", "MAX_LIMIT"),
+    (
+        "manifest",
+        "| cells of a family for [`sweep`](scale.md) | @, if",
+        "coupler-manifest/src/parameter_sets.rs",
+        "MAX_LIMIT",
+    ),
     ("scale", "draws atlases of up to @ cells", "coupler-manifest/src/cells.rs", "MAX_DRAWN_CELLS"),
-    ("scale", "up to @ in a family (`limit`)", "coupler-manifest/src/names.rs", "MAX_LIMIT"),
+    ("scale", "up to @ in a family (`limit`)", "coupler-manifest/src/parameter_sets.rs", "MAX_LIMIT"),
     (
         "manifest",
         "| 8 MiB, and @ values, tables and lists |",
@@ -157,6 +162,8 @@ const CONSTANTS: [(&str, &str, &str, &str); 28] = [
         "MAX_MANIFEST_VALUES",
     ),
     ("manifest", "traced points of each | @ |", "coupler-manifest/src/cells.rs", "MAX_CHECKED_VALUES"),
+    ("manifest", "| a table of cases | @ MB, and", "../src/manifest_files/case_rows.rs", "MAX_TABLE_BYTES"),
+    ("manifest", "MB, and @ values |", "../src/manifest_files/case_rows.rs", "MAX_VALUES"),
     ("manifest", "| names of all families | @ |", "coupler-manifest/src/cells.rs", "MAX_NAMES"),
     ("manifest", "| files of pages of all families | @ |", "coupler-manifest/src/cells.rs", "MAX_PAGE_FILES"),
     ("manifest", "| cells in a book | @ |", "coupler-manifest/src/cells.rs", "MAX_BOOK_CELLS"),

@@ -18,6 +18,12 @@ fn an_input_that_the_system_fails_to_read_is_not_wrong() {
     }
     let with_font = manifest.replacen("[page]", "[page]\ntheme = { fallback_face = \"broken.ttf\" }", 1);
     fs::write(folder.path().join("font.toml"), with_font).unwrap();
+    let with_table = manifest.replacen(
+        "[[family]]",
+        "[[family]]\nid = \"table\"\nlinkage = \"evans\"\ncases = \"broken.csv\"\n[[family]]",
+        1,
+    );
+    fs::write(folder.path().join("table.toml"), with_table).unwrap();
     for (arguments, name) in [
         (&["validate", "broken.toml"][..], "broken.toml"),
         (&["render", "broken.toml"], "broken.toml"),
@@ -32,6 +38,7 @@ fn an_input_that_the_system_fails_to_read_is_not_wrong() {
         (&["validate", "font.toml"], "broken.ttf"),
         (&["render", "font.toml"], "broken.ttf"),
         (&["sweep", "font.toml"], "broken.ttf"),
+        (&["sweep", "table.toml"], "broken.csv"),
     ] {
         let (code, out, err) = run(folder.path(), arguments);
         assert_eq!((code, out.as_str()), (3, ""), "{arguments:?}: {err}");

@@ -3,10 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use coupler_atlas::manifest;
 use serde_json::{Value, json};
 
-use super::{json, schema_errors};
+use super::{json, parse, schema_errors};
 
 use crate::support::command::run;
 
@@ -36,7 +35,7 @@ fn between<'a>(text: &'a str, open: &str, close: &str) -> Vec<&'a str> {
 ///
 /// If the parser accepts it and the schema does not.
 fn is_manifest(text: &str, name: &str) -> bool {
-    let is_accepted = manifest::parse(text).plan.is_some();
+    let is_accepted = parse(text).plan.is_some();
     if is_accepted {
         let errors = schema_errors(&json(text));
         assert!(errors.is_empty(), "{name}: {errors}");

@@ -8,7 +8,9 @@ use std::fmt::Write;
 use std::path::Path;
 use std::sync::LazyLock;
 
-use coupler_atlas::manifest;
+use coupler_atlas::manifest::{self, CaseTable, FileProblem, Files, ParseOutcome};
+use coupler_atlas::manifest_files::ManifestFiles;
+use coupler_drawing::scene::{FontFamily, Typeface};
 use jsonschema::Validator;
 use serde_json::{Map, Number, Value};
 use toml::de::{DeTable, DeValue};
@@ -37,9 +39,28 @@ fn schema_errors(manifest: &Value) -> String {
     VALIDATOR.iter_errors(manifest).map(|error| format!("{}: {error}\n", error.instance_path())).collect()
 }
 
+/// Parses a manifest with the files that [`EVERY_KEY`] names.
+fn parse(text: &str) -> ParseOutcome {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/integration/schema/every-key.toml");
+    manifest::parse_with_files(text, Some(&OwnFont(ManifestFiles::new(&path))))
+}
+
+/// The files of a manifest, but for the font.
+struct OwnFont(ManifestFiles);
+
+impl Files for OwnFont {
+    fn font(&self, _: &str) -> Result<Vec<u8>, String> {
+        Ok(Typeface::from(FontFamily::Sans).regular().bytes().to_vec())
+    }
+
+    fn cases(&self, path: &str, limit: usize, report: &mut dyn FnMut(FileProblem)) -> Option<CaseTable> {
+        self.0.cases(path, limit, report)
+    }
+}
+
 /// The messages and help texts of the parser's errors; `None` if it accepts the manifest.
 fn parser_errors(text: &str) -> Option<Vec<(String, String)>> {
-    let loaded = manifest::parse(text);
+    let loaded = parse(text);
     let errors = loaded.problems.into_iter().filter(|problem| problem.is_error());
     loaded.plan.is_none().then(|| errors.map(|problem| (problem.message, problem.help)).collect())
 }

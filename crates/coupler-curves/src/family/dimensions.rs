@@ -47,6 +47,20 @@ impl Family {
                 slots.retain(varies);
                 slots
             }
+            ParameterSpace::Table { slots: columns, values } => {
+                let mut rows = values.chunks_exact(columns.len().max(1));
+                let first = rows.next().unwrap_or_default();
+                let mut differs = vec![false; columns.len()];
+                for row in rows {
+                    for ((differs, value), of_first) in differs.iter_mut().zip(row).zip(first) {
+                        *differs |= value != of_first;
+                    }
+                }
+                let mut slots: Vec<usize> =
+                    columns.iter().zip(differs).filter(|(_, differs)| *differs).map(|(slot, _)| *slot).collect();
+                slots.sort_unstable();
+                slots
+            }
         }
     }
 

@@ -1,4 +1,5 @@
 use std::collections::HashSet;
+use std::sync::Arc;
 
 use super::AxisValues;
 
@@ -24,6 +25,13 @@ pub enum ParameterSpace {
     Grid(Vec<Axis>),
     /// A list of cases.
     Cases(Vec<Case>),
+    /// Many cases that give values to the same names: a row of a table for each.
+    Table {
+        /// The indices of the names, one for each column, each once.
+        slots: Vec<usize>,
+        /// The values, row by row: shared by all copies of the family.
+        values: Arc<Vec<f64>>,
+    },
 }
 
 impl ParameterSpace {
@@ -32,6 +40,7 @@ impl ParameterSpace {
         match self {
             ParameterSpace::Grid(axes) => axes.iter().fold(1, |n: usize, axis| n.saturating_mul(axis.values.len())),
             ParameterSpace::Cases(cases) => cases.len(),
+            ParameterSpace::Table { slots, values } => values.len() / slots.len().max(1),
         }
     }
 
@@ -42,11 +51,12 @@ impl ParameterSpace {
 
     /// The indices of the names that the `k`-th set, from 0, gives values to.
     pub fn slots_of(&self, k: usize) -> impl Iterator<Item = usize> + '_ {
-        let (axes, case) = match self {
-            ParameterSpace::Grid(axes) => (&axes[..], &[][..]),
-            ParameterSpace::Cases(cases) => (&[][..], &cases[k][..]),
+        let (axes, case, columns) = match self {
+            ParameterSpace::Grid(axes) => (&axes[..], &[][..], &[][..]),
+            ParameterSpace::Cases(cases) => (&[][..], &cases[k][..], &[][..]),
+            ParameterSpace::Table { slots, .. } => (&[][..], &[][..], &slots[..]),
         };
-        axes.iter().map(|axis| axis.slot).chain(case.iter().map(|(slot, _)| *slot))
+        axes.iter().map(|axis| axis.slot).chain(case.iter().map(|(slot, _)| *slot)).chain(columns.iter().copied())
     }
 
     /// The indices of the names that any set gives a value to, in order.
@@ -54,6 +64,7 @@ impl ParameterSpace {
         let mut slots: Vec<usize> = match self {
             ParameterSpace::Grid(axes) => axes.iter().map(|axis| axis.slot).collect(),
             ParameterSpace::Cases(cases) => cases.iter().flatten().map(|(slot, _)| *slot).collect(),
+            ParameterSpace::Table { slots, .. } => slots.clone(),
         };
         slots.sort_unstable();
         slots.dedup();
@@ -61,10 +72,10 @@ impl ParameterSpace {
     }
 
     /// The distinct lists of names that sets give values to, by their indices and in order, each with the index of the
-    /// first set that has it. A grid has one.
+    /// first set that has it. A grid and a table have one.
     pub fn distinct_names(&self) -> Vec<(usize, Vec<usize>)> {
         let count = match self {
-            ParameterSpace::Grid(_) => self.count().min(1),
+            ParameterSpace::Grid(_) | ParameterSpace::Table { .. } => self.count().min(1),
             ParameterSpace::Cases(cases) => cases.len(),
         };
         let mut found: Vec<(usize, Vec<usize>)> = Vec::new();
@@ -85,6 +96,7 @@ impl ParameterSpace {
         match self {
             ParameterSpace::Grid(axes) => axes.iter().for_each(|axis| counts[axis.slot] = self.count()),
             ParameterSpace::Cases(cases) => cases.iter().flatten().for_each(|(slot, _)| counts[*slot] += 1),
+            ParameterSpace::Table { slots, .. } => slots.iter().for_each(|slot| counts[*slot] = self.count()),
         }
         counts
     }
@@ -104,6 +116,10 @@ impl ParameterSpace {
                     values[slot] = value;
                 }
             }
+            ParameterSpace::Table { slots, values: rows } => {
+                let row = &rows[k * slots.len()..];
+                slots.iter().zip(row).for_each(|(slot, value)| values[*slot] = *value);
+            }
         }
     }
 }
@@ -120,5 +136,15 @@ mod tests {
         let mut values = [0.0; 2];
         grid.fill(4, &mut values);
         assert_eq!(values, [4.0, 2.0]);
+    }
+
+    #[test]
+    fn a_table_has_the_values_of_its_rows() {
+        let table = ParameterSpace::Table { slots: vec![2, 0], values: Arc::new(vec![1.0, 2.0, 3.0, 4.0]) };
+        assert_eq!((table.count(), table.assigned_slots()), (2, vec![0, 2]));
+        assert_eq!((table.assignment_counts(3), table.distinct_names()), (vec![2, 0, 2], vec![(0, vec![0, 2])]));
+        let mut values = [0.0; 3];
+        table.fill(1, &mut values);
+        assert_eq!(values, [4.0, 0.0, 3.0]);
     }
 }

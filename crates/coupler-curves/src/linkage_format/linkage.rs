@@ -299,14 +299,21 @@ fn parse_parameters<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> V
 
 /// Reports a parameter, helper or grid name that cannot be used in an expression.
 pub fn check_identifier(name: &str, span: Span, parser: &mut TomlParser) {
+    if let Some(message) = identifier_error(name) {
+        parser.report(Problem::error(span, message).with_help(IDENTIFIER_HELP));
+    }
+}
+
+/// What a name is that expressions may use.
+pub const IDENTIFIER_HELP: &str = "a name is a letter, then letters, digits and underscores";
+
+/// Why expressions cannot use a name, if they cannot.
+pub fn identifier_error(name: &str) -> Option<String> {
     let first = name.chars().next().is_some_and(|c| c.is_ascii_alphabetic() || c == '_');
     let is_word = first && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
     let is_reserved = ["and", "or", "not", "pi"].contains(&name);
-    if !is_word || is_reserved {
-        let why = if is_reserved { "is reserved" } else { "cannot be used in an expression" };
-        let problem = Problem::error(span, format!("the name `{}` {why}", name.escape_debug()));
-        parser.report(problem.with_help("a name is a letter, then letters, digits and underscores"));
-    }
+    let why = if is_reserved { "is reserved" } else { "cannot be used in an expression" };
+    (!is_word || is_reserved).then(|| format!("the name `{}` {why}", name.escape_debug()))
 }
 
 fn parse_input_range<'t>(

@@ -22,7 +22,7 @@ pub use self::{
     fields::{Fields, one_or_more},
     linkage::{
         CIRCUIT_SELECTIONS, CIRCUITS_KEY, COINCIDENT_DYADS, COINCIDENT_KEY, CONTINUATION_KEY, CONTINUATIONS,
-        check_identifier, parse_slug, parse_template,
+        IDENTIFIER_HELP, check_identifier, identifier_error, parse_slug, parse_template,
     },
     schema::{KeySchema, TableSchema, ValueSchema, words},
     toml_parser::{MAX_PROBLEMS, TomlParser, TomlValue},

@@ -1,0 +1,81 @@
+//! What reads the files that a manifest names.
+
+/// Reads the files that a manifest names, by their paths relative to the manifest.
+pub trait Files {
+    /// The bytes of a font file. The error says why it cannot be read.
+    fn font(&self, path: &str) -> Result<Vec<u8>, String>;
+
+    /// The cases in a table, of which the first `limit` are kept. Everything that is wrong in it is reported, and names the file; `None` if
+    /// not even its columns are known.
+    fn cases(&self, path: &str, limit: usize, report: &mut dyn FnMut(FileProblem)) -> Option<CaseTable>;
+}
+
+/// What reads the files of a manifest; `None` if files are not read.
+pub type FileReader<'a> = Option<&'a dyn Files>;
+
+/// What is wrong in a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FileProblem {
+    /// The message, with the place in the file.
+    pub message: String,
+    /// How to fix it.
+    pub help: String,
+}
+
+/// The cases in a file.
+#[derive(Clone, Debug)]
+pub struct CaseTable {
+    /// The names of its columns, each one that an expression may use.
+    pub names: Vec<String>,
+    /// The values of the cases that are kept, case by case; NaN where a value is wrong.
+    pub values: Vec<f64>,
+    /// The number of cases, kept or not.
+    pub count: usize,
+    /// A digest of the names and values.
+    pub digest: String,
+    /// Where its rows are.
+    pub rows: RowPlaces,
+}
+
+/// Where the rows of a table are, for messages.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum RowPlaces {
+    /// In lines of a text: the indices of rows, from 0, with their lines, from 1. The rows after one are in the lines after its line.
+    Lines(Vec<(usize, usize)>),
+    /// In a file without lines.
+    Numbered,
+}
+
+impl RowPlaces {
+    /// Adds the line of the next row.
+    pub fn push(&mut self, row: usize, line: usize) {
+        let RowPlaces::Lines(known) = self else { return };
+        if known.last().is_none_or(|(first, of_first)| row - first != line - of_first) {
+            known.push((row, line));
+        }
+    }
+
+    /// The place of a row by its index, from 0: "line 7", or "row 6".
+    pub fn place(&self, row: usize) -> String {
+        let RowPlaces::Lines(known) = self else { return format!("row {}", row + 1) };
+        let after = known.partition_point(|(first, _)| *first <= row);
+        let line = after.checked_sub(1).map(|k| known[k]).map_or(row + 2, |(first, line)| line + row - first);
+        format!("line {line}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_are_found_in_their_lines() {
+        let mut rows = RowPlaces::Lines(Vec::new());
+        let lines = [2, 3, 5, 6, 7, 10];
+        lines.iter().enumerate().for_each(|(row, line)| rows.push(row, *line));
+        assert_eq!(rows, RowPlaces::Lines(vec![(0, 2), (2, 5), (5, 10)]));
+        let found: Vec<String> = (0..lines.len()).map(|row| rows.place(row)).collect();
+        assert_eq!(found, lines.map(|line| format!("line {line}")));
+        assert_eq!(RowPlaces::Numbered.place(0), "row 1");
+    }
+}

@@ -1,0 +1,243 @@
+//! The parameter sets of a family: its `grid` or its `cases`, which may be in a file.
+
+use std::sync::Arc;
+
+use crate::files::{CaseTable, FileProblem, FileReader, RowPlaces};
+use crate::grid::{self, GridValues};
+use coupler_curves::family::{Axis, AxisValues, Case, MAX_CELLS, ParameterSpace};
+use coupler_curves::linkage_format::{self, Fields, TomlParser, TomlValue};
+use coupler_curves::problem::{Problem, Span};
+use coupler_curves::template::{ParameterKind, Template};
+
+/// The most cells that `limit` may allow; their numbers have 32 bits.
+pub(crate) const MAX_LIMIT: usize = 4_000_000_000;
+
+/// The values of `grid` or `cases`, by name.
+pub(crate) enum NamedSpace {
+    Grid(Vec<(String, Span, AxisValues)>),
+    Cases(Vec<Vec<(String, Span, f64)>>),
+    /// Those of a file, with the place of its name.
+    Table(TableColumns, Vec<f64>, Span),
+}
+
+impl NamedSpace {
+    /// The parameter sets, with the indices of their names, and the table that they are from.
+    pub fn into_space(self, slot_of: &mut impl FnMut(&str, &Span) -> usize) -> (ParameterSpace, Option<TableColumns>) {
+        let space = match self {
+            NamedSpace::Grid(axes) => {
+                let axis = |(name, span, values): (String, Span, _)| Axis { slot: slot_of(&name, &span), values };
+                ParameterSpace::Grid(axes.into_iter().map(axis).collect())
+            }
+            NamedSpace::Cases(cases) => {
+                let mut case = |case: Vec<(String, Span, f64)>| -> Case {
+                    case.into_iter().map(|(name, span, value)| (slot_of(&name, &span), value)).collect()
+                };
+                ParameterSpace::Cases(cases.into_iter().map(&mut case).collect())
+            }
+            NamedSpace::Table(columns, values, span) => {
+                let slots = columns.names.iter().map(|name| slot_of(name, &span)).collect();
+                return (ParameterSpace::Table { slots, values: Arc::new(values) }, Some(columns));
+            }
+        };
+        (space, None)
+    }
+}
+
+/// What a name is a number of: a parameter of the linkage, or another name.
+pub(crate) fn kind_of(template: Option<&Template>, name: &str) -> ParameterKind {
+    let parameter = template.and_then(|template| template.parameters.iter().find(|parameter| parameter.name == name));
+    parameter.map(|parameter| parameter.kind).unwrap_or_default()
+}
+
+/// Reads `grid` or `cases` of a family of a linkage; `None` if it is not known which.
+pub(crate) fn read_space<'t>(
+    fields: &Fields<'_, 't>,
+    template: Option<&Template>,
+    files: FileReader,
+    parser: &mut TomlParser<'t>,
+) -> Option<NamedSpace> {
+    let limit = match fields.get("limit") {
+        None => MAX_CELLS,
+        Some(value) => parser.integer(value, 1, MAX_LIMIT)?,
+    };
+    match (fields.get("grid"), fields.get("cases")) {
+        (Some(value), None) => read_grid(value, limit, template, parser),
+        (None, Some(value)) if value.get_ref().is_str() => read_table(value, limit, files, parser),
+        (None, Some(value)) => read_cases(value, limit, template, parser),
+        // One may be in an entry that could not be read.
+        (None, None) if parser.has_syntax_error() => None,
+        (grid, _) => {
+            let message = if grid.is_some() {
+                "a family has a grid or cases, not both"
+            } else {
+                "a [[family]] has no `grid` and no `cases`"
+            };
+            let problem = Problem::error(fields.span.clone(), message);
+            let help = match template.map(|template| (&template.id, &template.parameters[..])) {
+                Some((id, [])) => format!("write cases = [{{}}]: `{id}` has no parameters, and one cell"),
+                Some((_, [first, ..])) => {
+                    format!("write grid = {{ {0} = [2, 3] }} or cases = [{{ {0} = 2 }}]", first.name)
+                }
+                None => "write grid = { p = [2, 3, 4] } or cases = [{ p = 2 }, { p = 3 }]".to_owned(),
+            };
+            parser.report(problem.with_help(help));
+            None
+        }
+    }
+}
+
+/// Reads `grid`, with at most `limit` cells.
+fn read_grid<'t>(
+    value: &TomlValue<'t>,
+    limit: usize,
+    template: Option<&Template>,
+    parser: &mut TomlParser<'t>,
+) -> Option<NamedSpace> {
+    let table = Fields::with_any_keys(value, "`grid`", parser)?;
+    if table.keys().is_empty() {
+        if parser.has_syntax_error() {
+            return None;
+        }
+        let help = match template {
+            Some(template) if template.parameters.is_empty() => "write cases = [{}] for its one cell",
+            _ => "name a parameter, as in { p = [2, 3, 4] }",
+        };
+        parser.report(Problem::error(value.span(), "the grid is empty").with_help(help));
+        return None;
+    }
+    let mut axes = Vec::new();
+    let mut all_read = true;
+    for (name, span, value) in table.entries() {
+        linkage_format::check_identifier(name, span.clone(), parser);
+        match grid::read_values(name, kind_of(template, name), value, parser) {
+            Some(values) => axes.push((name.to_owned(), span, values)),
+            None => all_read = false,
+        }
+    }
+    let cells: f64 = axes.iter().map(|(.., read): &(_, _, GridValues)| read.count).product();
+    if cells > limit as f64 {
+        let problem =
+            Problem::error(value.span(), format!("the grid has {cells:.0} cells, more than the limit of {limit}"));
+        parser.report(problem.with_help("use fewer values, or allow more with `limit = N` in the family"));
+        return None;
+    }
+    all_read.then(|| NamedSpace::Grid(axes.into_iter().map(|(name, span, read)| (name, span, read.values)).collect()))
+}
+
+/// Reads `cases`, at most `limit` of them.
+fn read_cases<'t>(
+    value: &TomlValue<'t>,
+    limit: usize,
+    template: Option<&Template>,
+    parser: &mut TomlParser<'t>,
+) -> Option<NamedSpace> {
+    let mut items = value.get_ref().as_array().into_iter().flatten();
+    if let Some(text) = items.find(|value| value.get_ref().is_str()) {
+        let help = "write { p = 2 }, or name one file with all of them: cases = \"list.csv\"";
+        parser.report(Problem::error(text.span(), "expected a case, found a string").with_help(help));
+        return None;
+    }
+    let list = parser.list(value)?;
+    if list.is_empty() {
+        parser.report(
+            Problem::error(value.span(), "there are no cases").with_help("give at least one, as in [{ p = 2 }]"),
+        );
+        return None;
+    }
+    if !is_within_limit(list.len(), limit, value, parser) {
+        return None;
+    }
+    let mut cases = Vec::new();
+    let mut all_read = true;
+    for item in list {
+        let Some(table) = Fields::with_any_keys(item, "a case", parser) else {
+            all_read = false;
+            continue;
+        };
+        let mut case = Vec::new();
+        for (name, span, value) in table.entries() {
+            linkage_format::check_identifier(name, span.clone(), parser);
+            let value = parser.parameter_value(value, name, kind_of(template, name));
+            all_read &= value.is_some();
+            case.extend(value.map(|value| (name.to_owned(), span, value)));
+        }
+        cases.push(case);
+    }
+    all_read.then_some(NamedSpace::Cases(cases))
+}
+
+/// Whether there are at most `limit` cases; reports more.
+fn is_within_limit(count: usize, limit: usize, value: &TomlValue, parser: &mut TomlParser) -> bool {
+    if count > limit {
+        let problem = Problem::error(value.span(), format!("there are {count} cases, more than the limit of {limit}"));
+        parser.report(problem.with_help("use fewer, or allow more with `limit = N` in the family"));
+    }
+    count <= limit
+}
+
+/// What is known of the table that the cases of a family are from, besides their values.
+pub(crate) struct TableColumns {
+    /// The path, as the manifest has it, for messages.
+    pub path: String,
+    /// The names of the columns.
+    pub names: Vec<String>,
+    /// Whether all of it could be read.
+    pub is_complete: bool,
+    /// The digest of its names and values.
+    pub digest: String,
+    rows: RowPlaces,
+}
+
+impl TableColumns {
+    /// The beginning of a message about a name; empty if it is none of a column.
+    pub fn place_of(&self, name: &str) -> String {
+        match self.names.iter().any(|own| own == name) {
+            true => format!("in `{}`, ", self.path),
+            false => String::new(),
+        }
+    }
+
+    /// Where the `k`-th row is, from 0: "`list.csv`, line 7".
+    pub fn row(&self, k: usize) -> String {
+        format!("`{}`, {}", self.path, self.rows.place(k))
+    }
+}
+
+/// Reads the cases in a file, at most `limit` of them.
+fn read_table<'t>(
+    value: &TomlValue<'t>,
+    limit: usize,
+    files: FileReader,
+    parser: &mut TomlParser<'t>,
+) -> Option<NamedSpace> {
+    let path = parser.text(value)?;
+    let Some(files) = files else {
+        let problem = Problem::error(value.span(), "the cases are in a file, and files are not read here");
+        parser.report(problem.with_help("write them in the manifest: cases = [{ p = 2 }, { p = 3 }]"));
+        return None;
+    };
+    let before = parser.problem_count();
+    let table = files.cases(&path, limit, &mut |FileProblem { message, help }| {
+        parser.report(Problem::error(value.span(), message).with_help(help));
+    });
+    let CaseTable { names, values, count, digest, rows } = table?;
+    let path = path.escape_debug().to_string();
+    for (k, name) in names.iter().enumerate() {
+        if let Some(message) = linkage_format::identifier_error(name) {
+            let problem = Problem::error(value.span(), format!("in `{path}`, column {}: {message}", k + 1));
+            parser.report(problem.with_help(linkage_format::IDENTIFIER_HELP));
+        } else if names[..k].contains(name) {
+            let problem = Problem::error(value.span(), format!("in `{path}`, there are two columns `{name}`"));
+            parser.report(problem.with_help("remove one of them, or name it otherwise"));
+        }
+    }
+    if count == 0 {
+        let problem = Problem::error(value.span(), "there are no cases");
+        parser.report(problem.with_help(format!("give at least one, in a row below the names in `{path}`")));
+    }
+    if count == 0 || !is_within_limit(count, limit, value, parser) {
+        return None;
+    }
+    let is_complete = parser.problem_count() == before;
+    Some(NamedSpace::Table(TableColumns { path, names, is_complete, digest, rows }, values, value.span()))
+}

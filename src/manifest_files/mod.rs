@@ -1,0 +1,119 @@
+//! The files that a manifest names: fonts, and tables of cases as CSV or Parquet.
+
+mod case_rows;
+mod csv_table;
+mod parquet_table;
+
+use std::cell::RefCell;
+use std::fs::{self, File};
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+use crate::manifest::{CaseTable, FileProblem, Files};
+use crate::output::{self, Error};
+use case_rows::{CaseRows, MAX_TABLE_BYTES};
+
+/// The most bytes of a font file: those for Chinese, Japanese and Korean have some 20 MB.
+const MAX_FONT_BYTES: u64 = 1 << 26;
+
+/// Reads the files that a manifest names while it is parsed, relative to its folder. That one is missing or wrong is a problem of the manifest.
+pub struct ManifestFiles {
+    folder: PathBuf,
+    named: RefCell<Vec<NamedFile>>,
+    failure: RefCell<Option<Error>>,
+}
+
+/// A file that a manifest names, as it was before it was read.
+pub struct NamedFile {
+    /// Its path.
+    pub path: PathBuf,
+    state: Option<fs::Metadata>,
+}
+
+impl ManifestFiles {
+    /// Those of the manifest at a path; of one from standard input they are relative to the current folder.
+    pub fn new(manifest: &Path) -> ManifestFiles {
+        let folder = manifest.parent().unwrap_or(Path::new("")).to_owned();
+        ManifestFiles { folder, named: RefCell::default(), failure: RefCell::default() }
+    }
+
+    /// The files that the manifest has named so far, whether they can be read or not.
+    pub fn take_named(&self) -> Vec<NamedFile> {
+        self.named.take()
+    }
+
+    /// That the system failed to read one of them, so that nothing is known about it, if it did.
+    pub fn take_failure(&self) -> Option<Error> {
+        self.failure.take()
+    }
+
+    /// Opens a file of at most so many bytes.
+    fn open(&self, name: &str, max_bytes: u64) -> io::Result<io::Take<File>> {
+        let named = NamedFile::new(self.folder.join(name));
+        let opened = output::open_regular(&named.path);
+        self.named.borrow_mut().push(named);
+        let file = opened?;
+        if file.metadata()?.len() > max_bytes {
+            let message = format!("it has more than {max_bytes} bytes");
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
+        }
+        Ok(file.take(max_bytes))
+    }
+
+    /// Says why a file cannot be read, and keeps it if the system has failed.
+    fn describe(&self, name: &str, source: io::Error) -> String {
+        let message = source.to_string();
+        if !output::is_wrong_input(&source) {
+            self.failure.replace(Some(Error::Read { path: self.folder.join(name), source }));
+        }
+        message
+    }
+}
+
+impl Files for ManifestFiles {
+    fn font(&self, name: &str) -> Result<Vec<u8>, String> {
+        let mut bytes = Vec::new();
+        let read = self.open(name, MAX_FONT_BYTES).and_then(|mut file| file.read_to_end(&mut bytes));
+        read.map_err(|error| self.describe(name, error))?;
+        Ok(bytes)
+    }
+
+    fn cases(&self, name: &str, limit: usize, report: &mut dyn FnMut(FileProblem)) -> Option<CaseTable> {
+        let is_parquet = Path::new(name).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("parquet"));
+        let mut rows = CaseRows::new(name, limit, report);
+        let read = self.open(name, MAX_TABLE_BYTES).and_then(|file| match is_parquet {
+            true => parquet_table::read(file.into_inner(), &mut rows),
+            false => csv_table::read(file, &mut rows),
+        });
+        if let Err(error) = read {
+            let message = self.describe(name, error);
+            rows.report_unreadable(&message);
+            return None;
+        }
+        rows.into_table()
+    }
+}
+
+impl NamedFile {
+    fn new(path: PathBuf) -> NamedFile {
+        NamedFile { state: fs::metadata(&path).ok(), path }
+    }
+
+    /// The same file as it is now.
+    pub fn now(&self) -> NamedFile {
+        NamedFile::new(self.path.clone())
+    }
+
+    /// Whether there is a file.
+    pub fn exists(&self) -> bool {
+        self.state.is_some()
+    }
+}
+
+impl PartialEq for NamedFile {
+    /// Whether it is the same file with the same length and time.
+    fn eq(&self, other: &NamedFile) -> bool {
+        let [state, other_state] = [self, other].map(|file| file.state.as_ref().map(|s| (s.len(), s.modified().ok())));
+        self.path == other.path && state == other_state
+    }
+}
