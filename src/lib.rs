@@ -22,6 +22,8 @@ pub use coupler_manifest as manifest;
 
 pub mod record;
 
+pub mod import;
+
 pub mod export;
 mod pipeline;
 

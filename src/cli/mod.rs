@@ -12,6 +12,7 @@ mod find;
 mod format;
 mod gather;
 mod hints;
+mod import;
 mod init;
 mod inspect;
 mod interrupt;
@@ -81,6 +82,7 @@ enum Command {
     List(list::Arguments),
     Sweep(sweep::Arguments),
     Gather(gather::Arguments),
+    Import(import::Arguments),
     Init(init::Arguments),
     Completions(completions::Arguments),
     Man(manual::Manual),
@@ -111,6 +113,7 @@ pub fn run(given: &[OsString]) -> u8 {
         Command::List(arguments) => list::run(&arguments),
         Command::Sweep(arguments) => sweep::run(&arguments),
         Command::Gather(arguments) => gather::run(&arguments),
+        Command::Import(arguments) => import::run(&arguments),
         Command::Init(arguments) => init::run(&arguments),
         Command::Completions(arguments) => completions::run(&arguments, Arguments::command()),
         Command::Man(arguments) => manual::print_manual(&arguments, Arguments::command()),

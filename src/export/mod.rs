@@ -1,4 +1,8 @@
-//! Exports single curves: as files of text, see [`coupler_drawing::curve_file`], and as images of their plates.
+//! Exports single curves: as files of text, see [`coupler_drawing::curve_file`], as images of their plates, and as addresses of PMKS+.
+
+mod pmks;
+
+pub use pmks::PmksError;
 
 use coupler_curves::exchange::SelectedCurve;
 use coupler_drawing::curve_file::{self, CurveFormat, FileOptions};
@@ -13,6 +17,8 @@ pub enum Format {
     Text(CurveFormat),
     /// The plate as a PNG image.
     Png,
+    /// The address by which PMKS+ opens the linkage.
+    Pmks,
 }
 
 impl Format {
@@ -20,7 +26,7 @@ impl Format {
     pub const TOML: Format = Format::Text(CurveFormat::Toml);
 
     /// Every format.
-    pub const ALL: [Format; 7] = [
+    pub const ALL: [Format; 8] = [
         Format::Text(CurveFormat::Svg),
         Format::Text(CurveFormat::MovingSvg),
         Format::Png,
@@ -28,6 +34,7 @@ impl Format {
         Format::Text(CurveFormat::Csv),
         Format::Text(CurveFormat::Json),
         Format::TOML,
+        Format::Pmks,
     ];
 
     /// Its name on the command line.
@@ -35,6 +42,7 @@ impl Format {
         match self {
             Format::Text(format) => format.name(),
             Format::Png => "png",
+            Format::Pmks => "pmks",
         }
     }
 
@@ -43,6 +51,7 @@ impl Format {
         match self {
             Format::Text(format) => format.file_name(curve),
             Format::Png => format!("{}.png", curve.file_stem()),
+            Format::Pmks => format!("{}.txt", curve.file_stem()),
         }
     }
 }
@@ -59,13 +68,25 @@ pub struct Options {
     pub dpi: f64,
 }
 
+/// Why a curve cannot be exported.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The image would have too many pixels.
+    #[error(transparent)]
+    Png(#[from] PngError),
+    /// PMKS+ does not have all that the linkage is made of.
+    #[error(transparent)]
+    Pmks(#[from] PmksError),
+}
+
 /// Renders a curve in a format; as manifest text, this curve alone.
 ///
 /// # Errors
-/// The image would have too many pixels.
-pub fn bytes(curve: &SelectedCurve, format: Format, options: &Options) -> Result<Vec<u8>, PngError> {
+/// The image would have too many pixels, or PMKS+ cannot have the linkage.
+pub fn bytes(curve: &SelectedCurve, format: Format, options: &Options) -> Result<Vec<u8>, Error> {
     match format {
         Format::Text(format) => Ok(curve_file::bytes(curve, format, &options.file)),
-        Format::Png => render::png(&plate::compose(curve, PoseChoice::Clearest, &options.file.page), options.dpi),
+        Format::Png => Ok(render::png(&plate::compose(curve, PoseChoice::Clearest, &options.file.page), options.dpi)?),
+        Format::Pmks => Ok(pmks::address(curve)?.into_bytes()),
     }
 }

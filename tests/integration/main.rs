@@ -31,6 +31,7 @@ mod formats;
 mod gallery;
 mod golden;
 mod hostile_text;
+mod import;
 mod imports;
 mod inputs;
 mod inspect_output;

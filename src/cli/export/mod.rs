@@ -40,7 +40,7 @@ pub struct Arguments {
     #[arg(value_name = "MANIFEST|CURVE", help = words_help())]
     words: Vec<String>,
     /// The formats to export: svg, moving-svg, png, dxf (AutoCAD R12), csv, json, toml (one fragment of a manifest for
-    /// all curves).
+    /// all curves), pmks (the address by which PMKS+ opens the linkage).
     #[arg(long, value_name = "FORMATS", value_delimiter = ',', default_value = "svg", value_parser = parse_format)]
     format: Vec<Format>,
     /// The file to write, or the folder if there are several files; - for standard output.
@@ -356,9 +356,18 @@ fn export_selection<'a>(
     selection.solve_cells(true, export_cell, |(files, cell_cases)| {
         cases.extend(cell_cases);
         for (file, bytes) in files {
-            let bytes = bytes.map_err(|error| Failure::input(format!("{file}: {error}; give a smaller --dpi")))?;
+            let bytes = bytes.map_err(|error| export_error(&file, &error))?;
             destination.write_file(&file, &bytes)?;
         }
         Ok(())
     })
+}
+
+/// Why a file cannot be exported, with the remedy.
+fn export_error(file: &str, error: &export::Error) -> Failure {
+    let remedy = match error {
+        export::Error::Png(_) => "; give a smaller --dpi",
+        export::Error::Pmks(_) => "",
+    };
+    Failure::input(format!("{file}: {error}{remedy}"))
 }

@@ -28,6 +28,7 @@ const SUBSTITUTED: [(&str, &[(&str, i32)]); 14] = [
             ("coupler-atlas list --help", 0),
             ("coupler-atlas sweep --help", 0),
             ("coupler-atlas gather --help", 0),
+            ("coupler-atlas import --help", 0),
             ("coupler-atlas init --help", 0),
             ("coupler-atlas completions --help", 0),
             ("coupler-atlas man --help", 0),

@@ -10,7 +10,7 @@ use tempfile::TempDir;
 pub const PROGRAM: &str = env!("CARGO_BIN_EXE_coupler-atlas");
 
 /// The commands of the program; a test of the documents compares them with its help.
-pub const COMMANDS: [&str; 13] = [
+pub const COMMANDS: [&str; 14] = [
     "render",
     "validate",
     "check",
@@ -21,6 +21,7 @@ pub const COMMANDS: [&str; 13] = [
     "list",
     "sweep",
     "gather",
+    "import",
     "init",
     "completions",
     "man",
