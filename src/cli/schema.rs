@@ -22,6 +22,9 @@ fn table(table: &TableSchema) -> Value {
     if !table.one_of.is_empty() {
         schema["oneOf"] = table.one_of.iter().map(|key| json!({ "required": [key] })).collect();
     }
+    if !table.any_of.is_empty() {
+        schema["anyOf"] = table.any_of.iter().map(|key| json!({ "required": [key] })).collect();
+    }
     if let Some((key, other)) = table.dependent_keys {
         schema["dependentRequired"] = json!({ key: [other] });
     }

@@ -39,6 +39,8 @@ pub enum DrawingInput {
     Line([usize; 2]),
     /// The angle from a line of a link to a line of another.
     Between([[usize; 2]; 2]),
+    /// The way of a joint that slides.
+    Slider(usize),
 }
 
 impl Drawing {
@@ -238,7 +240,7 @@ fn sketch_input(
         Some(SketchInput::Pivot(pivot)) => pivot,
     };
     if sketch.sliders.iter().any(|slider| slider.joint == pivot) {
-        return fail(format!("the slider at {} is driven, which a drawing cannot express", name(pivot)));
+        return Ok((DrawingInput::Slider(index[pivot]), None));
     }
     let links = sketch.links_at(pivot);
     let other = |link: usize| {

@@ -28,6 +28,7 @@ pub fn manifest_text(drawing: &Drawing) -> String {
     let title = quoted(title.as_deref().unwrap_or("Imported linkage"));
     let input = match drawing.input {
         DrawingInput::Line(joints) => line(joints),
+        DrawingInput::Slider(joint) => format!("{{ slider = {} }}", name(joint)),
         DrawingInput::Between(lines) => format!("{{ between = [{}] }}", lines.map(line).join(", ")),
     };
     let links: Vec<String> = drawing.links.iter().map(|link| list(link)).collect();

@@ -130,6 +130,8 @@ fn command(text: &str) -> Option<String> {
         "coupler-atlas" | "cargo" | "node" => Some(text.to_owned()),
         // A key of a manifest.
         _ if second == "=" => None,
+        // A statement of Python.
+        "import" if second.chars().all(|c| c.is_alphanumeric() || c == '_') || text.contains(" as ") => None,
         _ if COMMANDS.contains(&first) => Some(format!("coupler-atlas {text}")),
         _ if first.starts_with(".ci/") || first.starts_with("benches/") => Some(text.to_owned()),
         _ => None,

@@ -79,7 +79,8 @@ pub(super) static LINKAGE: TableSchema = TableSchema::new(
             "The part of the curve that is drawn in full weight; all of it by default.",
         ),
     ],
-);
+)
+.with_any_of(&["joints", "drawing"]);
 
 /// The key that selects the circuits to solve.
 pub const CIRCUITS_KEY: KeySchema = KeySchema::new(

@@ -35,8 +35,11 @@ use crate::template::Template;
 
 /// The key of `[[linkage]]` tables.
 #[doc(hidden)]
-pub const LINKAGES_KEY: KeySchema =
-    KeySchema::new("linkage", ValueSchema::List(&LINKAGE_SCHEMA, [0, usize::MAX]), "Custom linkages, by a drawing or joint by joint.");
+pub const LINKAGES_KEY: KeySchema = KeySchema::new(
+    "linkage",
+    ValueSchema::List(&LINKAGE_SCHEMA, [0, usize::MAX]),
+    "Custom linkages, by a drawing or joint by joint.",
+);
 static LINKAGE_SCHEMA: ValueSchema = ValueSchema::Table(&LINKAGE);
 
 static FILE: TableSchema = TableSchema::new("the file", &[LINKAGES_KEY]);

@@ -15,6 +15,8 @@ pub struct TableSchema {
     pub keys: &'static [KeySchema],
     /// Keys of which exactly one must be present; no restriction if empty.
     pub one_of: &'static [&'static str],
+    /// Keys of which one at least must be present; no restriction if empty.
+    pub any_of: &'static [&'static str],
     /// A key, and another that is required if it is present.
     pub dependent_keys: Option<(&'static str, &'static str)>,
 }
@@ -82,12 +84,17 @@ pub enum ValueSchema {
 impl TableSchema {
     /// A table with these keys.
     pub const fn new(display_name: &'static str, keys: &'static [KeySchema]) -> TableSchema {
-        TableSchema { display_name, keys, one_of: &[], dependent_keys: None }
+        TableSchema { display_name, keys, one_of: &[], any_of: &[], dependent_keys: None }
     }
 
     /// Requires exactly one of these keys.
     pub const fn with_one_of(self, one_of: &'static [&'static str]) -> TableSchema {
         TableSchema { one_of, ..self }
+    }
+
+    /// Requires one of these keys or several.
+    pub const fn with_any_of(self, any_of: &'static [&'static str]) -> TableSchema {
+        TableSchema { any_of, ..self }
     }
 
     /// Requires the second key if the first is present.

@@ -87,7 +87,14 @@ pub fn joint_path(
             dashes.extend(splines.into_iter().map(|spline| Dash { spline, is_in_figure }));
         }
     }
-    let travel = |stretch: &[f64; 2]| stretch.map(|t| trajectory.travel(t));
+    // Stretches that are next to each other may overlap by the rounding of the travel.
+    let mut travelled = 0.0f64;
+    let travel = |stretch: &[f64; 2]| {
+        stretch.map(|t| {
+            travelled = travelled.max(trajectory.travel(t));
+            travelled
+        })
+    };
     JointPath {
         whole: whole(&trajectory, tolerance),
         dashes,
