@@ -2,6 +2,7 @@
 
 mod case_rows;
 mod csv_table;
+mod known_table;
 mod parquet_table;
 
 use std::cell::RefCell;
@@ -13,12 +14,15 @@ use crate::manifest::{CaseTable, FileProblem, Files};
 use crate::output::{self, Error};
 use case_rows::{CaseRows, MAX_TABLE_BYTES};
 
+pub use known_table::KnownTable;
+
 /// The most bytes of a font file: those for Chinese, Japanese and Korean have some 20 MB.
 const MAX_FONT_BYTES: u64 = 1 << 26;
 
 /// Reads the files that a manifest names while it is parsed, relative to its folder. That one is missing or wrong is a problem of the manifest.
 pub struct ManifestFiles {
     folder: PathBuf,
+    known: Vec<KnownTable>,
     named: RefCell<Vec<NamedFile>>,
     failure: RefCell<Option<Error>>,
 }
@@ -34,7 +38,12 @@ impl ManifestFiles {
     /// Those of the manifest at a path; of one from standard input they are relative to the current folder.
     pub fn new(manifest: &Path) -> ManifestFiles {
         let folder = manifest.parent().unwrap_or(Path::new("")).to_owned();
-        ManifestFiles { folder, named: RefCell::default(), failure: RefCell::default() }
+        ManifestFiles { folder, known: Vec::new(), named: RefCell::default(), failure: RefCell::default() }
+    }
+
+    /// The same with tables that have been read before, and are not read again.
+    pub fn with_tables(self, known: Vec<KnownTable>) -> ManifestFiles {
+        ManifestFiles { known, ..self }
     }
 
     /// The files that the manifest has named so far, whether they can be read or not.
@@ -81,6 +90,9 @@ impl Files for ManifestFiles {
     fn cases(&self, name: &str, limit: usize, report: &mut dyn FnMut(FileProblem)) -> Option<CaseTable> {
         let is_parquet = Path::new(name).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("parquet"));
         let mut rows = CaseRows::new(name, limit, report);
+        if let Some(known) = self.known.iter().find(|known| known.path == name) {
+            return known.read(&mut rows).ok().and_then(|()| rows.into_table());
+        }
         let read = self.open(name, MAX_TABLE_BYTES).and_then(|file| match is_parquet {
             true => parquet_table::read(file.into_inner(), &mut rows),
             false => csv_table::read(file, &mut rows),

@@ -174,7 +174,7 @@ pub(crate) fn check(
             let (kind, slot, help) = match &error {
                 CellError::Missing(name) => {
                     let help = match table {
-                        Some(table) => format!("give it in a column of `{}`, or in `let`", table.path),
+                        Some(table) => format!("give it in a column of `{}`, or in `let`", table.shown_path()),
                         None => "give it in the grid, the cases or `let`".to_owned(),
                     };
                     (ProblemKind::Missing(name.clone()), None, help)

@@ -177,7 +177,7 @@ fn is_within_limit(count: usize, limit: usize, value: &TomlValue, parser: &mut T
 
 /// What is known of the table that the cases of a family are from, besides their values.
 pub(crate) struct TableColumns {
-    /// The path, as the manifest has it, for messages.
+    /// The path, as the manifest has it.
     pub path: String,
     /// The names of the columns.
     pub names: Vec<String>,
@@ -192,14 +192,19 @@ impl TableColumns {
     /// The beginning of a message about a name; empty if it is none of a column.
     pub fn place_of(&self, name: &str) -> String {
         match self.names.iter().any(|own| own == name) {
-            true => format!("in `{}`, ", self.path),
+            true => format!("in `{}`, ", self.shown_path()),
             false => String::new(),
         }
     }
 
     /// Where the `k`-th row is, from 0: "`list.csv`, line 7".
     pub fn row(&self, k: usize) -> String {
-        format!("`{}`, {}", self.path, self.rows.place(k))
+        format!("`{}`, {}", self.shown_path(), self.rows.place(k))
+    }
+
+    /// The path for messages.
+    pub fn shown_path(&self) -> String {
+        self.path.escape_debug().to_string()
     }
 }
 
@@ -221,19 +226,19 @@ fn read_table<'t>(
         parser.report(Problem::error(value.span(), message).with_help(help));
     });
     let CaseTable { names, values, count, digest, rows } = table?;
-    let path = path.escape_debug().to_string();
+    let shown = path.escape_debug();
     for (k, name) in names.iter().enumerate() {
         if let Some(message) = linkage_format::identifier_error(name) {
-            let problem = Problem::error(value.span(), format!("in `{path}`, column {}: {message}", k + 1));
+            let problem = Problem::error(value.span(), format!("in `{shown}`, column {}: {message}", k + 1));
             parser.report(problem.with_help(linkage_format::IDENTIFIER_HELP));
         } else if names[..k].contains(name) {
-            let problem = Problem::error(value.span(), format!("in `{path}`, there are two columns `{name}`"));
+            let problem = Problem::error(value.span(), format!("in `{shown}`, there are two columns `{name}`"));
             parser.report(problem.with_help("remove one of them, or name it otherwise"));
         }
     }
     if count == 0 {
         let problem = Problem::error(value.span(), "there are no cases");
-        parser.report(problem.with_help(format!("give at least one, in a row below the names in `{path}`")));
+        parser.report(problem.with_help(format!("give at least one, in a row below the names in `{shown}`")));
     }
     if count == 0 || !is_within_limit(count, limit, value, parser) {
         return None;

@@ -1,11 +1,9 @@
 //! Atlases and their families.
 
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use coupler_atlas::manifest::{self, PlannedFamily};
-use coupler_atlas::manifest_files::ManifestFiles;
 use coupler_curves::problem::suggestion;
 use pyo3::exceptions::{PyIndexError, PyKeyError, PyTypeError};
 use pyo3::prelude::*;
@@ -14,7 +12,7 @@ use pyo3::types::{PyDict, PyIterator, PyTuple};
 use crate::argument::{Index, position};
 use crate::file::read_text;
 use crate::linkage::into_object;
-use crate::manifest::Manifest;
+use crate::manifest::{Manifest, PickledTables, Source};
 use crate::task;
 
 /// A manifest as an argument: its path, or an atlas that has been read.
@@ -39,23 +37,20 @@ impl<'py> FromPyObject<'_, 'py> for ManifestArgument<'py> {
 }
 
 impl ManifestArgument<'_> {
-    /// Its path and its text.
-    pub fn text(&self, py: Python) -> PyResult<(PathBuf, Arc<str>)> {
+    /// What it is parsed from.
+    pub fn source(&self, py: Python) -> PyResult<Source> {
         match self {
-            ManifestArgument::Atlas(atlas) => {
-                let Manifest { path, text, .. } = &atlas.get().manifest;
-                Ok((path.clone(), text.clone()))
-            }
-            ManifestArgument::Path(path) => Ok((path.clone(), read_text(py, path)?.into())),
+            ManifestArgument::Atlas(atlas) => Ok(atlas.get().manifest.source()),
+            ManifestArgument::Path(path) => Ok(Source::new(path.clone(), read_text(py, path)?.into())),
         }
     }
 
     /// The manifest, for pages of all its cells.
     pub fn read(&self, py: Python) -> PyResult<Manifest> {
-        let (path, text) = self.text(py)?;
-        let (own, from) = (text.clone(), path.clone());
+        let source = self.source(py)?;
+        let Source { path, text, .. } = source.clone();
         let outcome =
-            task::run_with(py, None, move |_| manifest::parse_with_files(&own, Some(&ManifestFiles::new(&from))))?;
+            task::run_with(py, None, move |_| manifest::parse_with_files(&source.text, Some(&source.files())))?;
         Manifest::from_outcome(py, path, text, outcome)
     }
 
@@ -64,7 +59,8 @@ impl ManifestArgument<'_> {
         match self {
             ManifestArgument::Atlas(atlas) => Ok(atlas.get().manifest.clone()),
             ManifestArgument::Path(path) => {
-                Manifest::for_tables(py, path.clone(), read_text(py, path)?.into(), |family| 0..family.cell_count())
+                let source = Source::new(path.clone(), read_text(py, path)?.into());
+                Manifest::for_tables(py, source, |family| 0..family.cell_count())
             }
         }
     }
@@ -142,7 +138,7 @@ impl Atlas {
         }
     }
 
-    /// Whether the other was read from the same text at the same path.
+    /// Whether the other was read from the same text at the same path, with the same cases in files.
     fn __eq__(&self, other: &Bound<PyAny>) -> bool {
         other.cast::<Atlas>().is_ok_and(|other| self.manifest.is_same(&other.get().manifest))
     }
@@ -152,8 +148,9 @@ impl Atlas {
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let Manifest { path, text, .. } = &self.manifest;
-        Ok((py.import("coupler_atlas._core")?.getattr("_atlas")?, (path, &**text).into_pyobject(py)?))
+        let source = self.manifest.source();
+        let arguments = (&source.path, &*source.text, source.pickled_tables()).into_pyobject(py)?;
+        Ok((py.import("coupler_atlas._core")?.getattr("_atlas")?, arguments))
     }
 
     fn __repr__(&self) -> String {
@@ -323,6 +320,6 @@ pub fn read(py: Python, manifest: PathBuf) -> PyResult<Atlas> {
 /// Reads an atlas again that was pickled.
 #[pyfunction]
 #[pyo3(name = "_atlas")]
-pub fn read_again(py: Python, path: PathBuf, text: String) -> PyResult<Atlas> {
-    Ok(Atlas { manifest: Manifest::for_tables(py, path, text.into(), |_| 0..0)? })
+pub fn read_again(py: Python, path: PathBuf, text: String, tables: PickledTables) -> PyResult<Atlas> {
+    Ok(Atlas { manifest: Manifest::for_tables(py, Source::from_pickle(path, text, tables), |_| 0..0)? })
 }

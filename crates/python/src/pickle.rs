@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyAny, PyTuple};
 
 use crate::linkage::{Linkage, into_object, template_of_text};
-use crate::manifest::Manifest;
+use crate::manifest::{Manifest, Source};
 
 /// Makes a linkage again that was pickled.
 #[pyfunction]
@@ -25,8 +25,12 @@ pub fn make_linkage_again(
         (Some(path), Some(text), None) => {
             let own = name.clone();
             let cells = move |family: &Family| if family.id == own { number.saturating_sub(1)..number } else { 0..0 };
-            let manifest = Manifest::for_tables(py, path, text.into(), cells)?;
+            let manifest = Manifest::for_tables(py, Source::new(path, text.into()), cells)?;
             manifest.cell(&name, number)?
+        }
+        (Some(path), Some(text), Some(values)) => {
+            let manifest = Manifest::for_tables(py, Source::new(path, text.into()), |_| 0..0)?;
+            manifest.cell_with(&name, number, values)?
         }
         (_, text, values) => {
             let template = template_of_text(&name, text.as_deref())?;

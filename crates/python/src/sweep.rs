@@ -1,7 +1,7 @@
 //! Sweeps: the cells of a family as a stream of batches that are solved as they are asked for.
 
 use std::path::PathBuf;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError};
 
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
 use arrow_array::{RecordBatch, RecordBatchReader};
@@ -18,7 +18,7 @@ use pyo3::types::{PyCapsule, PyTuple};
 use crate::arrow::{self, Batch, arrow_error};
 use crate::atlas::ManifestArgument;
 use crate::error::OutputError;
-use crate::manifest::Manifest;
+use crate::manifest::{Manifest, PickledTables, Source};
 use crate::task;
 
 /// The cells of a family, or a part of them, as a table that is solved as it is read.
@@ -36,13 +36,12 @@ pub struct Sweep {
     recipe: Recipe,
 }
 
-/// The arguments of `sweep` from which it can be made again, after the path and the text of the manifest; without `progress`.
+/// The arguments of `sweep` from which it can be made again, after the path, the text and the tables of the manifest; without `progress`.
 type Arguments = (String, Option<[i64; 2]>, Option<[i64; 2]>, bool, Option<Vec<String>>);
 
 /// What a sweep was made from.
 struct Recipe {
-    path: PathBuf,
-    text: Arc<str>,
+    source: Source,
     arguments: Arguments,
 }
 
@@ -183,9 +182,9 @@ impl Sweep {
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let Recipe { path, text, arguments } = &self.recipe;
+        let Recipe { source, arguments } = &self.recipe;
         let make = py.import("coupler_atlas._core")?.getattr("_sweep")?;
-        Ok((make, (path, &**text, arguments.clone()).into_pyobject(py)?))
+        Ok((make, (&source.path, &*source.text, source.pickled_tables(), arguments.clone()).into_pyobject(py)?))
     }
 
     /// The schema, for readers of Arrow data.
@@ -256,22 +255,28 @@ pub fn sweep(
         measures.map(|names| names.into_iter().map(known_measure).collect::<PyResult<Vec<_>>>()).transpose()?;
     // Whether it can be shown is found out when it is read.
     py.import("coupler_atlas._progress")?.getattr("reporter")?.call1((&progress,))?;
-    let (path, text) = manifest.text(py)?;
-    let sweep = make_sweep(py, (path, text), family, (shard, cells), points, measures)?;
+    let source = manifest.source(py)?;
+    let sweep = make_sweep(py, source, family, (shard, cells), points, measures)?;
     Ok(Sweep { progress, ..sweep })
 }
 
 /// Makes a sweep again that was pickled.
 #[pyfunction]
 #[pyo3(name = "_sweep")]
-pub fn sweep_again(py: Python, path: PathBuf, text: String, arguments: Arguments) -> PyResult<Sweep> {
+pub fn sweep_again(
+    py: Python,
+    path: PathBuf,
+    text: String,
+    tables: PickledTables,
+    arguments: Arguments,
+) -> PyResult<Sweep> {
     let (family, shard, cells, points, measures) = arguments;
-    make_sweep(py, (path, text.into()), Some(family), (shard, cells), points, measures)
+    make_sweep(py, Source::from_pickle(path, text, tables), Some(family), (shard, cells), points, measures)
 }
 
 fn make_sweep(
     py: Python,
-    (path, text): (PathBuf, Arc<str>),
+    source: Source,
     family: Option<String>,
     (shard, cells): (Option<[i64; 2]>, Option<[i64; 2]>),
     points: bool,
@@ -279,7 +284,7 @@ fn make_sweep(
 ) -> PyResult<Sweep> {
     let division = division(shard, cells)?;
     let wanted = family.clone();
-    let manifest = Manifest::for_tables(py, path.clone(), text.clone(), move |family| match &wanted {
+    let manifest = Manifest::for_tables(py, source, move |family| match &wanted {
         Some(wanted) if *wanted != family.id => 0..0,
         _ => cells_of_division(family, division),
     })?;
@@ -299,7 +304,7 @@ fn make_sweep(
     // Where the work of a shard is, is found by cells that are solved.
     let stream = py.detach(|| TableStream::new(own, table, division, measures.as_deref()));
     let schema = arrow::schema(stream.columns());
-    let recipe = Recipe { path, text, arguments: (own.id.clone(), shard, cells, points, measures) };
+    let recipe = Recipe { source: manifest.source(), arguments: (own.id.clone(), shard, cells, points, measures) };
     Ok(Sweep { family: own.id.clone(), stream, schema, progress: None, recipe })
 }
 

@@ -18,8 +18,9 @@ pub enum Recipe {
         circuits: Option<String>,
         values: Vec<(String, f64)>,
     },
-    /// A cell of an atlas, by the path and the text of its manifest, its family, and its number.
-    Cell { path: PathBuf, text: Arc<str>, family: String, number: usize },
+    /// A cell of an atlas, by the path and the text of its manifest, its family, and its number. If the manifest names tables, the text is that of the
+    /// family alone, see [`coupler_atlas::manifest::PlannedFamily::excerpt`], and the values are given that the cell has.
+    Cell { path: PathBuf, text: Arc<str>, family: String, number: usize, values: Option<Vec<(String, f64)>> },
     /// A linkage that was found in an atlas: it is equal to itself only.
     Found,
 }
@@ -38,8 +39,8 @@ impl Recipe {
                 let text = manifest.as_ref().map(|text| text.to_string());
                 Ok((None, text, name.clone(), *samples, circuits.clone(), Some(values.clone())))
             }
-            Recipe::Cell { path, text, family, number } => {
-                Ok((Some(path.clone()), Some(text.to_string()), family.clone(), *number, None, None))
+            Recipe::Cell { path, text, family, number, values } => {
+                Ok((Some(path.clone()), Some(text.to_string()), family.clone(), *number, None, values.clone()))
             }
             Recipe::Found => Err(PyTypeError::new_err(
                 "a linkage that was found in an atlas cannot be pickled: take its cell, or keep the manifest that toml() writes",
