@@ -47,6 +47,34 @@ def test_atlases_and_their_cells_are_pickled_with_the_text(manifest) -> None:
     assert np.array_equal(again[2].curve(), made[2].curve()) and again[2].number == 2
 
 
+def test_cases_in_a_file_are_read_beside_the_manifest_and_pickled(manifest) -> None:
+    text = '[atlas]\ntitle = "T"\n[[family]]\nid = "listed"\nlinkage = "evans"\nsampling = { samples = 36 }\ncases = CASES\n'
+    inline = manifest(text.replace("CASES", "[{ p = 2, a = 2.5 }, { p = 3, a = 4 }, { p = 4, a = 5.5 }]"))
+    expected = ca.read(inline)["listed"]
+    rows = sum(len(batch) for batch in ca.sweep(inline).batches())
+    path = manifest(text.replace("CASES", '"list.csv"'))
+    table = path.parent / "list.csv"
+    table.write_text("p,a\n2,2.5\n3,x\n4,5.5\n", encoding="utf-8")
+    with pytest.raises(ca.ManifestError, match="`list.csv`, line 3, column `a`: expected a finite number, found `x`"):
+        ca.read(path)
+    table.write_text("p,a\n2,2.5\n3,4\n4,5.5\n", encoding="utf-8")
+    atlas, sweep = ca.read(path), ca.sweep(path)
+    assert [atlas["listed"].values(k) for k in range(3)] == [expected.values(k) for k in range(3)]
+    made = [atlas, atlas["listed"], atlas["listed"].cell(2)]
+    pickles = [pickle.dumps(one) for one in [*made, sweep]]
+    assert len(pickles[2]) < 2_000
+    table.write_text("p,a\n2,2.5\n3,4.5\n4,5.5\n", encoding="utf-8")
+    assert ca.read(path) != atlas
+    table.unlink()
+    *again, sweep_again = [pickle.loads(one) for one in pickles]
+    assert again == made and again[2].number == 2
+    assert np.array_equal(again[2].curve(), expected.cell(2).curve())
+    for one in (sweep, sweep_again, ca.sweep(atlas)):
+        assert sum(len(batch) for batch in one.batches()) == rows
+    with pytest.raises(ca.ManifestError, match="cannot read `list.csv`"):
+        ca.sweep(path)
+
+
 def test_a_manifest_too_large_to_draw_can_be_read_and_swept(manifest) -> None:
     path = manifest(MANY)
     atlas = ca.read(path)
