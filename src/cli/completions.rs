@@ -2,6 +2,7 @@
 
 use crate::design::LinkageKind;
 use crate::export;
+use crate::import;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use clap_complete::Shell;
@@ -57,6 +58,7 @@ fn offered_values() -> Vec<Offer> {
     vec![
         ("inspect", "linkage", linkages()),
         ("export", "linkage", linkages()),
+        ("import", "format", import::Format::ALL.map(import::Format::name).to_vec()),
         ("design", "types", LinkageKind::ALL.map(LinkageKind::id).to_vec()),
         ("render", "format", built_in.map(render::Format::name).collect()),
         ("export", "format", export::Format::ALL.map(export::Format::name).to_vec()),

@@ -1,5 +1,6 @@
 //! `import`: prints a manifest with a linkage of another program.
 
+use std::io::ErrorKind;
 use std::path::Path;
 
 use crate::import::{self, Format};
@@ -44,15 +45,17 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         .map_err(|error| Failure::input(printable(format_args!("{name}: {error}"))))?;
     let manifest = import::manifest_text(&drawing);
     let outcome = manifest::parse(&manifest);
+    let styled = color::is_stderr_styled();
+    let report = problem::report(&outcome.problems, "the manifest", &manifest, styled);
+    if styled {
+        print_styled(&report)
+    } else {
+        print_stderr(&report)
+    }
     if outcome.plan.is_none() {
-        let styled = color::is_stderr_styled();
-        let report = problem::report(&outcome.problems, "the manifest", &manifest, styled);
-        if styled {
-            print_styled(&report)
-        } else {
-            print_stderr(&report)
-        }
-        return Err(Failure::input(format!("{name}: it cannot be drawn so; --input names another input")));
+        return Err(Failure::input(format!(
+            "{name}: it cannot be drawn so: change it where it was made, or name another input with --input"
+        )));
     }
     print_bytes(manifest.as_bytes())?;
     Ok(Outcome::Done)
@@ -60,8 +63,18 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
 
 /// Reads a file, or standard input.
 fn read_text(path: &Path) -> Result<String, Failure> {
+    let name = files::input_name(path);
     output::read_text(path).map_err(|error| match error {
+        output::Error::Read { source, .. } if source.kind() == ErrorKind::InvalidData => {
+            Failure::input(format!("{name} is not a text: give one of the formats in docs/import.md"))
+        }
         output::Error::Read { source, .. } if files::is_standard(path) => files::standard_input_error(&source),
+        output::Error::Read { source, .. } if source.kind() == ErrorKind::NotFound => {
+            Failure::input(format!("cannot find {name}: give a file, or an address with its `?` in quotation marks"))
+        }
+        output::Error::Read { source, .. } if source.kind() == ErrorKind::IsADirectory => {
+            Failure::input(format!("{name} is a folder: give a file in it"))
+        }
         error => error.into(),
     })
 }

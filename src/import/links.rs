@@ -1,5 +1,7 @@
 //! LINKS and LInK: bars between points, by lists in JSON.
 
+use std::collections::BTreeSet;
+
 use serde_json::{Map, Value};
 
 use super::error::{Error, quote};
@@ -70,7 +72,7 @@ pub fn parse(object: &Map<String, Value>) -> Result<Sketch, Error> {
 
 /// The edges of a list of pairs, each in ascending order and once.
 fn listed_edges(list: &[Value], count: usize) -> Result<Vec<[usize; 2]>, Error> {
-    let mut edges = Vec::new();
+    let mut edges = BTreeSet::new();
     for (k, value) in list.iter().enumerate() {
         let place = format!("`edges`, entry {k}");
         let pair = value.as_array().map(Vec::as_slice).unwrap_or_default();
@@ -82,17 +84,14 @@ fn listed_edges(list: &[Value], count: usize) -> Result<Vec<[usize; 2]>, Error> 
         if a == b {
             return Err(Error::new(place, format!("the bar is from joint {a} to itself"), "leave it out"));
         }
-        let edge = [a.min(b), a.max(b)];
-        if !edges.contains(&edge) {
-            edges.push(edge);
-        }
+        edges.insert([a.min(b), a.max(b)]);
     }
-    Ok(edges)
+    Ok(edges.into_iter().collect())
 }
 
 /// The edges of a matrix whose entries are not zero where two joints are joined.
 fn adjacent(rows: &[Value], count: usize) -> Result<Vec<[usize; 2]>, Error> {
-    let mut edges = Vec::new();
+    let mut edges = BTreeSet::new();
     for (i, row) in rows.iter().enumerate() {
         let place = format!("`A`, row {i}");
         let row = row.as_array().filter(|row| row.len() == count && rows.len() == count).ok_or_else(|| {
@@ -110,13 +109,12 @@ fn adjacent(rows: &[Value], count: usize) -> Result<Vec<[usize; 2]>, Error> {
                     value.as_f64().ok_or_else(|| Error::new(&place, message, "write 1 for a bar"))? != 0.0
                 }
             };
-            let edge = [i.min(j), i.max(j)];
-            if is_joined && i != j && !edges.contains(&edge) {
-                edges.push(edge);
+            if is_joined && i != j {
+                edges.insert([i.min(j), i.max(j)]);
             }
         }
     }
-    Ok(edges)
+    Ok(edges.into_iter().collect())
 }
 
 /// The rigid links that bars form: three joints that are joined by three bars, and further ones that are so joined to two of a link.

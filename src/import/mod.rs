@@ -82,7 +82,7 @@ pub fn is_text(word: &str) -> bool {
 }
 
 fn parse_any(text: &str) -> Result<Sketch, Error> {
-    if text.starts_with(['{', '[']) {
+    if text.starts_with('{') {
         let object = json_object(text)?;
         if pylinkage::is_pylinkage(&object) {
             return pylinkage::parse(&object);

@@ -50,7 +50,10 @@ pub fn parse(query: &str) -> Result<Sketch, Error> {
         };
         for name in names(on) {
             let link = find_link(name, &mut links);
-            links[link].joints.push(k);
+            check_count(links.len())?;
+            if !links[link].joints.contains(&k) {
+                links[link].joints.push(k);
+            }
         }
         ids.push(id.to_owned());
         joints.push(PmksJoint {
@@ -62,7 +65,7 @@ pub fn parse(query: &str) -> Result<Sketch, Error> {
             is_traced: false,
             angle: if is_slider { parse_number(angle, &place, "the angle")? } else { 0.0 },
         });
-        check_count(joints.len().max(links.len()))?;
+        check_count(joints.len())?;
     }
     for (k, line) in lines(&value("l")?.unwrap_or_default()).enumerate() {
         let place = format!("`l`, link {}", k + 1);

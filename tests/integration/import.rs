@@ -306,6 +306,7 @@ fn wrong_texts_are_errors_with_remedies() {
         ("{\"bodies\": []}", "linkage_sim"),
         ("{\"edges\": [", "line 1, column 11: it is not JSON"),
         ("hello", "its format is not known"),
+        ("[[linkage]]", "its format is not known"),
         (
             PYSLVS,
             "the input is not known; name two joints of the driven link: --input \"P0, P1\" or --input \"P3, P2\"",
@@ -360,6 +361,13 @@ fn the_command_prints_a_manifest() {
     ] {
         let (code, out, err) = run(path, arguments);
         assert!(code == 2 && out.is_empty() && !err.is_empty(), "{arguments:?}: {err}");
+    }
+    std::fs::write(path.join("binary"), [0xff]).unwrap();
+    for (file, words) in
+        [("missing.json", "cannot find missing.json"), ("binary", "binary is not a text"), (".", ". is a folder")]
+    {
+        let (code, _, err) = run(path, &["import", file]);
+        assert!(code == 2 && err.contains(words), "{err}");
     }
     let (code, _, err) = run(path, &["import", "four-bar.json", "--input", "A, Q"]);
     assert!(code == 2 && err.contains("has no joint `Q`"), "{err}");
