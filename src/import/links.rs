@@ -15,7 +15,8 @@ pub fn is_links(object: &Map<String, Value>) -> bool {
     ["edges", "A", "x0", "positions"].iter().any(|key| object.contains_key(*key))
 }
 
-/// Reads a linkage from the lists `edges`, `positions`, `fixed`, `motor` and `target`, or from the arrays `A`, `x0`, `fixed_nodes`, `motor` and `target`.
+/// Reads a linkage from the lists `edges`, `positions`, `fixed`, `motor` and `target`, or from the arrays `A`, `x0`,
+/// `fixed_nodes`, `motor` and `target`.
 ///
 /// # Errors
 /// A list is missing or wrong.

@@ -55,8 +55,8 @@ impl Format {
 /// The most bytes of a text.
 pub const MAX_BYTES: usize = 1 << 23;
 
-/// Reads the drawing in a text of another program, in a format that is given or follows from the text. `input` are two joints of the link that is driven,
-/// in place of the input in the text.
+/// Reads the drawing in a text of another program, in a format that is given or follows from the text. `input` names what is
+/// driven in place of the input in the text: two joints of a link, or two lines.
 ///
 /// # Errors
 /// What is wrong with the text, where, and what to do.
