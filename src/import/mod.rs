@@ -81,6 +81,12 @@ pub fn is_text(word: &str) -> bool {
     word.contains(['?', '\n']) || pyslvs::is_pyslvs(word)
 }
 
+/// Whether a text is that of another program, and not a manifest.
+pub fn is_foreign(text: &str) -> bool {
+    let text = text.trim_start();
+    text.starts_with(['{', '?']) || text.starts_with("http") || pyslvs::is_pyslvs(text)
+}
+
 fn parse_any(text: &str) -> Result<Sketch, Error> {
     if text.starts_with('{') {
         let object = json_object(text)?;

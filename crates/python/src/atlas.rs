@@ -3,13 +3,15 @@
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use coupler_atlas::import;
 use coupler_atlas::manifest::{self, PlannedFamily};
 use coupler_curves::problem::suggestion;
-use pyo3::exceptions::{PyIndexError, PyKeyError, PyTypeError};
+use pyo3::exceptions::{PyIndexError, PyKeyError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyIterator, PyTuple};
 
 use crate::argument::{Index, position};
+use crate::error::Error;
 use crate::file::read_text;
 use crate::linkage::into_object;
 use crate::manifest::{Manifest, PickledTables, Source};
@@ -294,12 +296,15 @@ impl Cells {
     }
 }
 
-/// Read a manifest.
+/// Read a manifest, or a linkage of another program.
 ///
 /// Parameters
 /// ----------
 /// manifest : path
-///     The manifest, a TOML file.
+///     The manifest, a TOML file. Or an address of PMKS+, an expression of Pyslvs, or a file with one of them or with the JSON of pylinkage or LINKS,
+///     whose linkage is the family ``"imported"``, as ``coupler-atlas import`` prints it.
+/// input : str, optional
+///     What drives a linkage of another program, in place of what its text says: two joints of a link, as in ``"A, B"``.
 ///
 /// Returns
 /// -------
@@ -312,9 +317,25 @@ impl Cells {
 ///     The manifest has errors; the message has each with its place, and `problems` as data.
 /// FileNotFoundError
 ///     There is no such file.
+/// Error
+///     What another program has written is wrong, or cannot be drawn.
 #[pyfunction]
-pub fn read(py: Python, manifest: PathBuf) -> PyResult<Atlas> {
-    Ok(Atlas { manifest: ManifestArgument::Path(manifest).read_for_tables(py)? })
+#[pyo3(signature = (manifest, *, input=None))]
+pub fn read(py: Python, manifest: PathBuf, input: Option<&str>) -> PyResult<Atlas> {
+    let word = manifest.to_str().filter(|word| import::is_text(word) && !manifest.is_file());
+    let text = word.map_or_else(|| read_text(py, &manifest), |word| Ok(word.to_owned()))?;
+    let source = if word.is_some() || import::is_foreign(&text) {
+        let drawing = import::read(&text, None, input).map_err(|error| Error::new_err(error.to_string()))?;
+        let path = word.map_or_else(|| manifest.with_extension("toml"), |_| PathBuf::from("imported.toml"));
+        Source::new(path, import::manifest_text(&drawing).into())
+    } else if input.is_some() {
+        return Err(PyValueError::new_err(
+            "input is for linkages of other programs: a manifest says what drives its linkages",
+        ));
+    } else {
+        Source::new(manifest, text.into())
+    };
+    Ok(Atlas { manifest: Manifest::for_tables(py, source, |family| 0..family.cell_count())? })
 }
 
 /// Reads an atlas again that was pickled.

@@ -36,6 +36,34 @@ def test_a_manifest_is_read(manifest) -> None:
         atlas["wat"]
 
 
+ADDRESS = (
+    "https://app.pmksplus.com/?j=A,0,0,AB,R,t,0,0.1,t,%0AB,0.6,0.8,AB%7CBCM,R,f,0,0.1,f,%0AC,3.4,2.6,BCM%7CCD,R,f,0,0.1,f,%0A"
+    "D,4,0,CD,R,t,0,0.1,f,%0AM,2.5,3.4,BCM,R,f,0,0.1,f,%0A"
+)
+
+
+def test_linkages_of_other_programs_are_read(manifest, tmp_path) -> None:
+    links = '{"edges": [[0, 1], [1, 2], [2, 3], [1, 4], [2, 4]], "positions": [[0, 0], [0.6, 0.8], [3.4, 2.6], [4, 0], [2.5, 3.4]], "fixed": [0, 3], '
+    path = tmp_path / "bars.json"
+    path.write_text(links + '"motor": [0, 1], "target": 4}')
+    curves = []
+    for source in (ADDRESS, path):
+        atlas = ca.read(source)
+        assert list(atlas) == ["imported"] and len(atlas["imported"]) == 1
+        linkage = atlas["imported"][0]
+        curves.append(linkage.curve())
+        assert pickle.loads(pickle.dumps(linkage)).curve().tolist() == curves[-1].tolist()
+    assert np.abs(curves[0] - curves[1]).max() < 1e-12
+    # The curve passes the coupler point of the drawing.
+    assert np.hypot(*(curves[0] - [2.5, 3.4]).T).min() < 0.05
+    driven = ca.read(ADDRESS, input="D, C")["imported"][0]
+    assert driven.curve().shape != curves[0].shape or np.abs(driven.curve() - curves[0]).max() > 0.01
+    with pytest.raises(ca.Error, match="9 fields"):
+        ca.read("?j=A,0,0,AB,R,t")
+    with pytest.raises(ValueError, match="of other programs"):
+        ca.read(manifest(), input="A, B")
+
+
 def test_atlases_and_their_cells_are_pickled_with_the_text(manifest) -> None:
     path = manifest()
     atlas = ca.read(path)

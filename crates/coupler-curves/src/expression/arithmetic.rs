@@ -11,6 +11,13 @@ impl CompiledExpression {
         combine(Instruction::Call(function, N), arguments)
     }
 
+    /// The same value, but 0 where its magnitude is not greater than a bound.
+    pub(crate) fn or_zero_within(self, bound: CompiledExpression) -> CompiledExpression {
+        let magnitude = CompiledExpression::call(Function::Abs, [self.clone()]);
+        // A comparison has the value 1 or 0.
+        self * combine(Instruction::Binary(Operator::Greater), [magnitude, bound])
+    }
+
     /// The number of its names, numbers and operators.
     pub(crate) fn token_count(&self) -> usize {
         self.expression.program.len()
@@ -129,5 +136,6 @@ mod tests {
         let constant = CompiledExpression::constant;
         assert_eq!(CompiledExpression::call(Function::Hypot, [constant(3.0), constant(4.0)]), constant(5.0));
         assert_eq!(a.clone() - constant(0.0), a);
+        assert_eq!([4.0, 3.0, 2.0].map(|bound| values(&a.clone().or_zero_within(constant(bound)))), [0.0, 0.0, 3.0]);
     }
 }

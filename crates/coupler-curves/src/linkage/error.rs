@@ -54,6 +54,14 @@ pub enum Error {
         /// The joints it is placed from.
         base: [String; 2],
     },
+    /// What should slide on a line is held by a joint of the link with that line.
+    #[error("`{joint}` cannot slide: `{base}`, which holds it, is on the link with the line")]
+    NothingSlides {
+        /// The joint to place.
+        joint: String,
+        /// The joint that holds it.
+        base: String,
+    },
     /// The slot of a yoke is parallel to its guide.
     #[error("the slot of `{joint}` is parallel to its guide")]
     SlotParallelToGuide {
@@ -102,6 +110,7 @@ impl Error {
             | Error::NoDirection { joint, .. }
             | Error::NoTriangle { joint, .. }
             | Error::AmbiguousLink { joint, .. }
+            | Error::NothingSlides { joint, .. }
             | Error::SlotParallelToGuide { joint }
             | Error::InvalidRatio { joint, .. }
             | Error::TooManyDyads { joint } => joint,
@@ -122,6 +131,7 @@ impl Error {
             Error::AmbiguousLink { .. } => {
                 "give each of these links its own pivot, or its own second joint of the line"
             }
+            Error::NothingSlides { .. } => "slide on a line of another link, or make one link of the two",
             Error::SlotParallelToGuide { .. } => "give an angle between 0 and 180 deg, as in angle = \"90 deg\"",
             Error::InvalidRatio { .. } => "write it like ratio = [2, 3]",
             Error::NotASlider { .. } => {

@@ -75,8 +75,9 @@ pub(super) fn parse_joints<'t>(
             span: span.clone(),
             is_drawn: true,
         }));
-        let foot = |name| Entry { name, name_span: drawing.span.clone(), span: drawing.span.clone(), is_drawn: true };
-        entries.extend(placed.feet.iter().map(|name| foot(name.as_str())));
+        let further =
+            |name| Entry { name, name_span: drawing.span.clone(), span: drawing.span.clone(), is_drawn: true };
+        entries.extend(placed.further.iter().map(|joint| further(joint.name.as_str())));
     }
     let drawn_count = entries.len();
     let own: Vec<(&str, Span, &TomlValue<'t>)> = table.iter().flat_map(Fields::entries).collect();
@@ -121,12 +122,16 @@ pub(super) fn parse_joints<'t>(
     let mut new_indices = vec![0; order.len()];
     order.iter().zip(0..).for_each(|(&joint, index)| new_indices[joint] = index);
     let new_index = |joint: usize| new_indices[joint];
+    let drawn_at = |k: usize| {
+        let (drawing, placed) = drawing.as_ref().zip(placed.as_ref())?;
+        drawing.position(k).or_else(|| placed.further.get(k - drawing.names.len())?.drawn.clone())
+    };
     let joints = order
         .iter()
         .map(|&k| JointTemplate {
             name: names.all()[k].to_owned(),
             kind: placings[k].clone().map_joints(new_index),
-            drawn: drawing.as_ref().and_then(|drawing| drawing.position(k)),
+            drawn: drawn_at(k),
         })
         .collect();
     let spans = entries.iter().map(|entry| (entry.name.to_owned(), entry.name_span.clone())).collect();

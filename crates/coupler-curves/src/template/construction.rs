@@ -24,9 +24,10 @@ impl Template {
     fn construction_without_drawing(&self, joint: usize, placed: &JointTemplate) -> MathText {
         let name = |k: usize| displayed_name(&self.joints[k].name);
         let between = |[a, b]: [usize; 2]| join_names(&[a, b].map(|k| self.joints[k].name.as_str()));
+        let is_drawn = self.joints.iter().any(|joint| joint.drawn.is_some());
         let length = |from: usize, value: &CompiledExpression| {
             let link = between([from, joint]);
-            match (placed.drawn.is_some(), value.constant_value()) {
+            match (is_drawn, value.constant_value()) {
                 (true, Some(value)) => MathText::from_words(format!("{link} {}", rounded_equation(value))),
                 (true, None) if value.is_distance() => MathText::from_words(format!("link {link}")),
                 _ => equation(&link, value.to_math_text()),
@@ -93,7 +94,10 @@ impl Template {
                     Some(side) => format!(" to the {} of {}", side_name(side), between([*pivot, *through])),
                     None => format!(" on the side of {} on which it is drawn", between([*pivot, *through])),
                 };
-                foot.with(length(*pivot, offset)).with_words(if is_zero(offset) { "" } else { &side })
+                match is_drawn && offset.constant_value().is_none() {
+                    true => foot.with_words(side.trim_start()),
+                    false => foot.with(length(*pivot, offset)).with_words(if is_zero(offset) { "" } else { &side }),
+                }
             }
             JointKindTemplate::Parallelogram { corners } => {
                 let corners = corners.iter().chain([&joint]).map(|&corner| self.joints[corner].name.as_str());
@@ -105,7 +109,7 @@ impl Template {
                     Some(direction) => format!("parallel to {direction}"),
                     None => format!("along {}", between(*base)),
                 };
-                if placed.drawn.is_some() {
+                if is_drawn {
                     return point_of_drawing(&place, &name(base[0]), along, across);
                 }
                 point_on_link(&place, &name(base[0]), along, across)

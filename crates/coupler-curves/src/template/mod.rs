@@ -282,7 +282,13 @@ impl Template {
                     vec![builder.yoke(name, built[*from][0], line, angle)?]
                 }
                 JointKindTemplate::Slot { base, offset, side: own } => {
-                    vec![builder.slot(name, two(base), finite("`offset`", number(k, offset))?, side(own)?)?]
+                    let offset = finite("`offset`", number(k, offset))?;
+                    // Without an offset the side is a matter of direction, which is towards the joint in a drawing.
+                    let side = match own {
+                        SideTemplate::Drawn(_) if offset == 0.0 => Side::Right,
+                        own => side(own)?,
+                    };
+                    vec![builder.slot(name, two(base), offset, side)?]
                 }
                 JointKindTemplate::Parallelogram { corners } => {
                     vec![builder.parallelogram(name, corners.map(|j| built[j][0]))?]

@@ -62,6 +62,7 @@ impl LinkageBuilder {
     ) -> Result<JointId, Error> {
         self.check_line(name, line)?;
         check_length(name, length)?;
+        self.check_slides(name, from, &line)?;
         let dyad = self.add_dyad(name, ahead)?;
         let id = self.add_joint(name, JointKind::Slide { from, length, line, offset, dyad });
         self.add_bar(from, id, length);
@@ -83,6 +84,7 @@ impl LinkageBuilder {
         angle_deg: f64,
     ) -> Result<JointId, Error> {
         self.check_line(name, line)?;
+        self.check_slides(name, from, &line)?;
         let (cos, sin) = trig::cos_sin_deg(angle_deg);
         if sin == 0.0 {
             return Err(Error::SlotParallelToGuide { joint: name.to_owned() });
@@ -110,6 +112,7 @@ impl LinkageBuilder {
     /// One joint given twice, more than [`MAX_DYADS`](crate::linkage::MAX_DYADS) dyads.
     pub fn slot(&mut self, name: &str, base: [JointId; 2], offset: f64, side: Side) -> Result<JointId, Error> {
         self.check_distinct(name, base)?;
+        self.check_slides(name, base[0], &base[1..])?;
         let dyad = self.add_dyad(name, side)?;
         let id = self.add_joint(name, JointKind::Slot { base, offset, dyad });
         if offset == 0.0 {
@@ -189,6 +192,18 @@ impl LinkageBuilder {
             }
             BodyReference::Line { direction: LineDirection::Actuator, .. } => None,
         }
+    }
+
+    /// Checks that a joint that holds what slides is not on the link with the line, or with the joint on it: nothing would move, and two joints would name
+    /// two links.
+    fn check_slides(&self, name: &str, held_by: JointId, on: &[JointId]) -> Result<(), Error> {
+        let is_on = |link: &Link, joint: JointId| link.position(joint).is_some();
+        let is_fast = |link: &Link| is_on(link, held_by) && on.iter().all(|&joint| is_on(link, joint));
+        if self.links.iter().any(is_fast) {
+            let base = self.joints[held_by].name.clone();
+            return Err(Error::NothingSlides { joint: name.to_owned(), base });
+        }
+        Ok(())
     }
 
     /// Checks that two joints can define a line: they are different, and on one link they do not coincide.

@@ -1,8 +1,11 @@
 //! Linkages by their drawing: the joints by coordinates, and the links by their joints. Dimensions and sides follow from the pose that is drawn.
 
 mod mobility;
+mod obstacle;
 mod placement;
+mod placer;
 mod read;
+mod read_input;
 mod vectors;
 
 pub(super) use placement::place;
