@@ -6,11 +6,12 @@ use coupler_curves::linkage_format::parse_templates;
 use coupler_curves::motion::{self, Motion, Sampler, Sampling};
 use coupler_curves::template::{self, Template};
 
-/// What is in a drawing but its coordinates: the joints, the table without them, the links and the slides.
+/// What is in a drawing but its coordinates.
 struct Kind {
     name: &'static str,
     joints: &'static [&'static str],
-    table: &'static str,
+    frame: &'static [&'static str],
+    input: &'static str,
     links: &'static [&'static [&'static str]],
     slides: &'static [(&'static str, [&'static str; 2])],
 }
@@ -19,151 +20,138 @@ const KINDS: [Kind; 16] = [
     Kind {
         name: "four-bar",
         joints: &["O", "C", "A", "B", "M"],
-        table: r#"frame = ["O", "C"]
-links = [["O", "A"], ["A", "B", "M"], ["B", "C"]]
-input = "O A""#,
+        frame: &["O", "C"],
+        input: r#""O A""#,
         links: &[&["O", "A"], &["A", "B", "M"], &["B", "C"]],
         slides: &[],
     },
     Kind {
         name: "four-bar, by an angle between moving links",
         joints: &["O", "C", "A", "B", "M"],
-        table: r#"frame = ["O", "C"]
-links = [["O", "A"], ["A", "B", "M"], ["B", "C"]]
-input = { between = ["O A", "A B"] }"#,
+        frame: &["O", "C"],
+        input: r#"{ between = ["O A", "A B"] }"#,
         links: &[&["O", "A"], &["A", "B", "M"], &["B", "C"]],
         slides: &[],
     },
     Kind {
         name: "four-bar, by a distance",
         joints: &["O", "C", "A", "B", "M"],
-        table: r#"frame = ["O", "C"]
-links = [["O", "A"], ["A", "B", "M"], ["B", "C"]]
-input = { distance = ["O", "B"] }"#,
+        frame: &["O", "C"],
+        input: r#"{ distance = ["O", "B"] }"#,
         links: &[&["O", "A"], &["A", "B", "M"], &["B", "C"]],
         slides: &[],
     },
     Kind {
         name: "Watt II",
         joints: &["O", "C", "Q", "A", "B", "D", "M"],
-        table: r#"frame = ["Q", "O", "C"]
-links = [["A", "O"], ["B", "A"], ["C", "B", "D"], ["D", "M"], ["M", "Q"]]
-input = "O A""#,
-        links: &[&["O", "A"], &["B", "A"], &["C", "B", "D"], &["D", "M"], &["M", "Q"]],
+        frame: &["Q", "O", "C"],
+        input: r#""O A""#,
+        links: &[&["A", "O"], &["B", "A"], &["C", "B", "D"], &["D", "M"], &["M", "Q"]],
         slides: &[],
     },
     Kind {
         name: "Watt I",
         joints: &["O", "C", "A", "B", "D", "E", "M"],
-        table: r#"frame = ["O", "C"]
-links = [["D", "M"], ["O", "A"], ["A", "B", "D"], ["C", "B", "E"], ["M", "E"]]
-input = "O A""#,
-        links: &[&["O", "A"], &["A", "B", "D"], &["C", "B", "E"], &["D", "M"], &["M", "E"]],
+        frame: &["O", "C"],
+        input: r#""O A""#,
+        links: &[&["D", "M"], &["O", "A"], &["A", "B", "D"], &["C", "B", "E"], &["M", "E"]],
         slides: &[],
     },
     Kind {
         name: "Stephenson III",
         joints: &["O", "C", "Q", "A", "B", "D", "M"],
-        table: r#"frame = ["O", "C", "Q"]
-links = [["O", "A"], ["A", "B", "D"], ["B", "C"], ["D", "M"], ["M", "Q"]]
-input = "A O""#,
+        frame: &["O", "C", "Q"],
+        input: r#""A O""#,
         links: &[&["O", "A"], &["A", "B", "D"], &["B", "C"], &["D", "M"], &["M", "Q"]],
         slides: &[],
     },
     Kind {
         name: "Stephenson I",
         joints: &["O", "C", "A", "E", "B", "F", "M"],
-        table: r#"frame = ["O", "C"]
-links = [["O", "A", "E"], ["A", "B"], ["C", "B", "F"], ["E", "M"], ["M", "F"]]
-input = "O E""#,
+        frame: &["O", "C"],
+        input: r#""O E""#,
         links: &[&["O", "A", "E"], &["A", "B"], &["C", "B", "F"], &["E", "M"], &["M", "F"]],
         slides: &[],
     },
     Kind {
         name: "eight-bar, with two links given twice and three at a pin",
         joints: &["O", "C", "Q", "A", "B", "D", "E", "G", "M"],
-        table: r#"frame = ["O", "C", "Q"]
-links = [["O", "A"], ["A", "B", "D"], ["A", "D"], ["B", "C"], ["D", "E"], ["E", "Q"], ["E", "M"], ["M", "G"], ["G", "C", "B"]]
-input = "O A""#,
-        links: &[&["O", "A"], &["A", "B", "D"], &["D", "E"], &["E", "Q"], &["E", "M"], &["M", "G"], &["G", "C", "B"]],
+        frame: &["O", "C", "Q"],
+        input: r#""O A""#,
+        links: &[
+            &["O", "A"],
+            &["A", "B", "D"],
+            &["A", "D"],
+            &["B", "C"],
+            &["D", "E"],
+            &["E", "Q"],
+            &["E", "M"],
+            &["M", "G"],
+            &["G", "C", "B"],
+        ],
         slides: &[],
     },
     Kind {
         name: "slider-crank",
         joints: &["O", "P", "Q", "A", "B", "M"],
-        table: r#"frame = ["O", "P", "Q"]
-links = [["O", "A"], ["A", "B", "M"]]
-slides = { B = ["P", "Q"] }
-input = "O A""#,
+        frame: &["O", "P", "Q"],
+        input: r#""O A""#,
         links: &[&["O", "A"], &["A", "B", "M"]],
         slides: &[("B", ["P", "Q"])],
     },
     Kind {
         name: "four-bar, by an angle from a line of the frame",
         joints: &["O", "C", "A", "B", "M"],
-        table: r#"frame = ["O", "C"]
-links = [["O", "A"], ["A", "B", "M"], ["B", "C"]]
-input = { between = ["C O", "O A"] }"#,
+        frame: &["O", "C"],
+        input: r#"{ between = ["C O", "O A"] }"#,
         links: &[&["O", "A"], &["A", "B", "M"], &["B", "C"]],
         slides: &[],
     },
     Kind {
         name: "inverted slider-crank, parallel to a line through its pivot",
         joints: &["O", "C", "A", "P", "M"],
-        table: r#"frame = ["O", "C"]
-links = [["O", "A"], ["P", "C", "M"]]
-slides = { A = ["P", "C"] }
-input = "O A""#,
+        frame: &["O", "C"],
+        input: r#""O A""#,
         links: &[&["O", "A"], &["P", "C", "M"]],
         slides: &[("A", ["P", "C"])],
     },
     Kind {
         name: "slider-crank, by its slider",
         joints: &["O", "P", "Q", "A", "B", "M"],
-        table: r#"frame = ["O", "P", "Q"]
-links = [["O", "A"], ["A", "B", "M"]]
-slides = { B = ["P", "Q"] }
-input = { slider = "B" }"#,
+        frame: &["O", "P", "Q"],
+        input: r#"{ slider = "B" }"#,
         links: &[&["O", "A"], &["A", "B", "M"]],
         slides: &[("B", ["P", "Q"])],
     },
     Kind {
         name: "inverted slider-crank, by its slider",
         joints: &["O", "C", "A", "P", "Q", "M"],
-        table: r#"frame = ["O", "C"]
-links = [["O", "A"], ["C", "P", "Q", "M"]]
-slides = { A = ["P", "Q"] }
-input = { slider = "A" }"#,
+        frame: &["O", "C"],
+        input: r#"{ slider = "A" }"#,
         links: &[&["O", "A"], &["C", "P", "Q", "M"]],
         slides: &[("A", ["P", "Q"])],
     },
     Kind {
         name: "six-bar, by a slider",
         joints: &["O", "C", "Q", "A", "B", "D", "P", "E", "M"],
-        table: r#"frame = ["O", "C", "Q", "P"]
-links = [["O", "A"], ["A", "B"], ["B", "C", "D"], ["D", "E", "M"]]
-slides = { E = ["Q", "P"] }
-input = { slider = "E" }"#,
+        frame: &["O", "C", "Q", "P"],
+        input: r#"{ slider = "E" }"#,
         links: &[&["O", "A"], &["A", "B"], &["B", "C", "D"], &["D", "E", "M"]],
         slides: &[("E", ["Q", "P"])],
     },
     Kind {
         name: "inverted slider-crank",
         joints: &["O", "C", "A", "P", "Q", "M"],
-        table: r#"frame = ["O", "C"]
-links = [["O", "A"], ["C", "P", "Q", "M"]]
-slides = { A = ["P", "Q"] }
-input = "O A""#,
+        frame: &["O", "C"],
+        input: r#""O A""#,
         links: &[&["O", "A"], &["C", "P", "Q", "M"]],
         slides: &[("A", ["P", "Q"])],
     },
     Kind {
         name: "slider on a moving link",
         joints: &["O", "C", "Q", "A", "B", "D", "M"],
-        table: r#"frame = ["O", "C", "Q"]
-links = [["O", "A"], ["A", "B", "D"], ["B", "C"], ["Q", "M"]]
-slides = { M = ["D", "A"] }
-input = "O A""#,
+        frame: &["O", "C", "Q"],
+        input: r#""O A""#,
         links: &[&["O", "A"], &["A", "B", "D"], &["B", "C"], &["Q", "M"]],
         slides: &[("M", ["D", "A"])],
     },
@@ -178,10 +166,15 @@ fn random(state: &mut u64) -> f64 {
 fn template(kind: &Kind, position: &dyn Fn(usize) -> String) -> Template {
     let joints: Vec<String> =
         kind.joints.iter().enumerate().map(|(k, name)| format!("{name} = {}", position(k))).collect();
+    let slides: Vec<String> = kind.slides.iter().map(|(joint, line)| format!("{joint} = {line:?}")).collect();
     let text = format!(
-        "[[linkage]]\nid = \"a\"\nparameters = {{ p = {{ default = 0 }} }}\ntrace = [\"M\"]\n[linkage.drawing]\njoints = {{ {} }}\n{}\n",
+        "[[linkage]]\nid = \"a\"\nparameters = {{ p = {{ default = 0 }} }}\ntrace = [\"M\"]\n[linkage.drawing]\njoints = {{ {} }}\n\
+         frame = {:?}\nlinks = {:?}\nslides = {{ {} }}\ninput = {}\n",
         joints.join(", "),
-        kind.table
+        kind.frame,
+        kind.links,
+        slides.join(", "),
+        kind.input
     );
     parse_templates(&text).unwrap_or_else(|problems| panic!("{}: {problems:?}\n{text}", kind.name)).remove(0)
 }
