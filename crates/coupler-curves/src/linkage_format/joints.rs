@@ -90,7 +90,10 @@ pub(super) fn parse_joints<'t>(
         entries.push(Entry { name, name_span: name_span.clone(), span: value.span(), is_drawn: false });
     }
     let names = JointNames::new(entries.iter().map(|entry| entry.name).collect());
-    let drawn = placed.iter().flat_map(|placed| placed.kinds.iter().cloned().map(Some));
+    let drawn = placed.iter().flat_map(|placed| {
+        let further = placed.further.iter().map(|joint| &joint.kind);
+        placed.kinds.iter().chain(further).cloned().map(Some)
+    });
     let mut parsed: Vec<Option<JointKindTemplate>> = drawn.collect();
     parsed
         .extend(own.iter().map(|(name, _, value)| parse_joint(name, value, &names, scope, parser)).collect::<Vec<_>>());

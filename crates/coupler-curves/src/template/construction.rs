@@ -170,7 +170,7 @@ fn with_unless_zero(text: MathText, before: &str, value: &CompiledExpression, af
 }
 
 fn is_zero(value: &CompiledExpression) -> bool {
-    value.slots().is_empty() && value.evaluate(|_| f64::NAN) == 0.0
+    value.constant_value() == Some(0.0)
 }
 
 /// "along AB from A: k a", or "along AB from A: u, to its left: v"; `place` is "along AB", or "parallel to the bar". The colons keep

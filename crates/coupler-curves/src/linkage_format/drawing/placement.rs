@@ -2,7 +2,7 @@
 
 use super::mobility::Mobility;
 use super::obstacle::describe;
-use super::placer::{Obstacle, Placer};
+use super::placer::{FurtherJoint, Obstacle, Placer};
 use super::vectors::DrawnVector;
 use super::{Drawing, DrawnInput, Slide};
 use crate::expression::{CompiledExpression, Unit};
@@ -11,7 +11,7 @@ use crate::template::{Coordinate, InputValue, JointKindTemplate};
 
 /// The joints of a drawing as they are placed.
 pub struct PlacedDrawing {
-    /// How each joint is placed, in the order of the drawing, then the further ones.
+    /// How each joint of the drawing is placed.
     pub kinds: Vec<JointKindTemplate>,
     /// The joints that the drawing has not: feet of perpendiculars to lines that slide, and what the frame is seen by.
     pub further: Vec<FurtherJoint>,
@@ -19,14 +19,6 @@ pub struct PlacedDrawing {
     pub start: InputValue,
     /// Two joints of the frame, if it does not lie as in the drawing while positions are computed.
     pub seen_from: Option<[usize; 2]>,
-}
-
-/// A joint that a drawing has not.
-pub struct FurtherJoint {
-    /// Its name.
-    pub name: String,
-    /// Where it is in the drawing, if that is stated.
-    pub drawn: Option<[CompiledExpression; 2]>,
 }
 
 /// Places the joints of a drawing.
@@ -43,19 +35,14 @@ pub fn place(drawing: &Drawing) -> Result<PlacedDrawing, Problem> {
     if let Err(obstacle) = result {
         return Err(describe(drawing, mobility, &placer, obstacle));
     }
-    let mut kinds: Vec<JointKindTemplate> = placer.kinds.into_iter().flatten().collect();
-    let mut further = Vec::new();
-    for foot in placer.feet {
-        kinds.push(foot.kind);
-        further.push(FurtherJoint { name: foot.name, drawn: None });
-    }
     let seen_from = match drawing.input {
         DrawnInput::Crank { ground: 0, from: None, .. }
         | DrawnInput::Slider { ground: 0, .. }
         | DrawnInput::Actuator { ground: 0, .. } => None,
-        _ => Some(seen_from(drawing, &mut kinds, &mut further)?),
+        _ => Some(seen_from(drawing, &mut placer)?),
     };
-    Ok(PlacedDrawing { kinds, further, start: start(drawing), seen_from })
+    let kinds = placer.kinds.into_iter().flatten().collect();
+    Ok(PlacedDrawing { kinds, further: placer.further, start: start(drawing), seen_from })
 }
 
 /// The input in a drawing.
@@ -86,11 +73,7 @@ fn start(drawing: &Drawing) -> InputValue {
 
 /// Two joints of the frame, at the origin and on the x-axis of the drawing, from which everything is seen if another link is at rest while positions are
 /// computed, or the frame lies along a line from which the input is measured; points of the frame are added for what it has not.
-fn seen_from(
-    drawing: &Drawing,
-    kinds: &mut Vec<JointKindTemplate>,
-    further: &mut Vec<FurtherJoint>,
-) -> Result<[usize; 2], Problem> {
+fn seen_from(drawing: &Drawing, placer: &mut Placer) -> Result<[usize; 2], Problem> {
     let frame = &drawing.links[0];
     let &[a, b, ..] = &frame.joints[..] else {
         let problem =
@@ -110,14 +93,8 @@ fn seen_from(
     let mut point = |name: &str, x: f64| {
         let position = [x, 0.0].map(CompiledExpression::constant);
         let (line, own) = (drawing.vector(a, b), &DrawnVector(position.clone()) - &drawing.coordinates[a]);
-        let [along, across] = [line.along(&own), line.across(&own)].map(Coordinate::Single);
-        kinds.push(JointKindTemplate::Point { base: [a, b], along, across });
-        let is_taken = |name: &str| drawing.names.contains(&name) || further.iter().any(|other| other.name == name);
-        let name = std::iter::successors(Some(name.to_owned()), |name| Some(format!("{name}'")))
-            .find(|name| !is_taken(name))
-            .unwrap_or_default();
-        further.push(FurtherJoint { name, drawn: Some(position) });
-        kinds.len() - 1
+        let [along, across] = line.components(&own).map(Coordinate::Single);
+        placer.add_further(name.to_owned(), JointKindTemplate::Point { base: [a, b], along, across }, Some(position))
     };
     let origin = origin.unwrap_or_else(|| point("origin", 0.0));
     Ok([origin, on_axis.unwrap_or_else(|| point("x-axis", 1.0))])

@@ -18,10 +18,14 @@ pub(super) enum Obstacle {
     Open,
 }
 
-/// The foot of the perpendicular from a pivot to a line that slides through a joint.
-pub(super) struct Foot {
+/// A joint that a drawing has not.
+pub struct FurtherJoint {
+    /// Its name.
     pub name: String,
+    /// How it is placed.
     pub kind: JointKindTemplate,
+    /// Where it is in the drawing, if that is stated.
+    pub drawn: Option<[CompiledExpression; 2]>,
 }
 
 /// Places joints from those that are placed.
@@ -31,8 +35,8 @@ pub(super) struct Placer<'d, 'v> {
     pub kinds: Vec<Option<JointKindTemplate>>,
     is_link_placed: Vec<bool>,
     is_slide_used: Vec<bool>,
-    /// The joints that the drawing has not.
-    pub feet: Vec<Foot>,
+    /// The joints that the drawing has not: feet of perpendiculars from pivots to lines that slide.
+    pub further: Vec<FurtherJoint>,
 }
 
 impl<'d, 'v> Placer<'d, 'v> {
@@ -42,7 +46,7 @@ impl<'d, 'v> Placer<'d, 'v> {
             kinds: vec![None; drawing.names.len()],
             is_link_placed: vec![false; drawing.links.len()],
             is_slide_used: vec![false; drawing.slides.len()],
-            feet: Vec::new(),
+            further: Vec::new(),
         }
     }
 
@@ -89,7 +93,7 @@ impl<'d, 'v> Placer<'d, 'v> {
                 None => self.drawing.coordinates[joint].clone(),
                 Some([a, b]) => {
                     let (x_axis, own) = (self.drawing.vector(a, b), self.drawing.vector(a, joint));
-                    DrawnVector([x_axis.along(&own), x_axis.across(&own)])
+                    DrawnVector(x_axis.components(&own))
                 }
             };
             self.kinds[joint] = Some(JointKindTemplate::Fixed(position));
@@ -154,7 +158,7 @@ impl<'d, 'v> Placer<'d, 'v> {
             return JointKindTemplate::Distances { base, distances, side: self.side_of(joint, base) };
         }
         let (line, own) = (drawing.vector(a, b), drawing.vector(a, joint));
-        let [along, across] = [line.along(&own), line.across(&own)].map(Coordinate::Single);
+        let [along, across] = line.components(&own).map(Coordinate::Single);
         JointKindTemplate::Point { base, along, across }
     }
 
@@ -236,6 +240,21 @@ impl<'d, 'v> Placer<'d, 'v> {
         Ok(false)
     }
 
+    /// Adds a joint that the drawing has not, and returns its index; primes are added to its name if another joint has it.
+    pub fn add_further(
+        &mut self,
+        mut name: String,
+        kind: JointKindTemplate,
+        drawn: Option<[CompiledExpression; 2]>,
+    ) -> usize {
+        let names = &self.drawing.names;
+        while names.contains(&name.as_str()) || self.further.iter().any(|other| other.name == name) {
+            name.push('\'');
+        }
+        self.further.push(FurtherJoint { name, kind, drawn });
+        names.len() + self.further.len() - 1
+    }
+
     fn place_sliding_link(&mut self, link: usize, pivot: usize, (through, line): (usize, [usize; 2])) {
         let drawing = self.drawing;
         let [a, b] = line;
@@ -252,16 +271,12 @@ impl<'d, 'v> Placer<'d, 'v> {
             side: SideTemplate::Drawn(ahead.clone() * offset.clone() / to_joint.dot(&to_joint)),
             offset: CompiledExpression::call(Function::Abs, [offset]),
         };
-        let name = (1..)
-            .map(|k| format!("{}{}", drawing.names[pivot], "'".repeat(k)))
-            .find(|name| !drawing.names.contains(&name.as_str()) && self.feet.iter().all(|foot| foot.name != *name));
-        self.feet.push(Foot { name: name.unwrap_or_default(), kind });
+        self.add_further(format!("{}'", drawing.names[pivot]), kind, None);
         // Points of the link are measured in the direction from the foot to the joint.
         let sign = ahead.clone() / CompiledExpression::call(Function::Abs, [ahead]);
         for &joint in drawing.links[link].joints.iter().filter(|joint| **joint != pivot) {
             let own = drawing.vector(pivot, joint);
-            let [along, across] =
-                [direction.along(&own), direction.across(&own)].map(|value| Coordinate::Single(value * sign.clone()));
+            let [along, across] = direction.components(&own).map(|value| Coordinate::Single(value * sign.clone()));
             self.kinds[joint] = Some(JointKindTemplate::Point { base: [pivot, through], along, across });
         }
     }

@@ -11,7 +11,7 @@ use crate::linkage_format::joint_values::{check_positive, parse_joint_pair, pars
 use crate::linkage_format::names::JointNames;
 use crate::linkage_format::quantities::InputKind;
 use crate::linkage_format::toml_parser::{TomlParser, TomlValue};
-use crate::problem::Problem;
+use crate::problem::{Problem, Span};
 
 /// The most links and the most joints of a drawing.
 const MAX_LINKS: usize = 100;
@@ -179,8 +179,7 @@ impl Reader<'_, '_> {
         let text = parser.text(value)?;
         let line = self.pair_in(&text);
         if line.is_none() && !parser.has_syntax_error() {
-            let problem = Problem::error(value.span(), format!("`{}` does not name two joints", text.escape_debug()));
-            parser.report(problem.with_help(self.example_of_pair()));
+            self.report_no_pair(&text, value.span(), parser);
         }
         line
     }
@@ -192,11 +191,15 @@ impl Reader<'_, '_> {
         pairs.into_iter().find(|[a, b]| a != b)
     }
 
-    fn example_of_pair(&self) -> String {
-        match self.names.all() {
-            [a, b, ..] => format!("name two joints of a link with a blank between them, as in \"{a} {b}\""),
-            _ => "name two joints of a link with a blank between them, as in \"O A\"".to_owned(),
-        }
+    /// Reports a text that does not name two joints.
+    fn report_no_pair(&self, text: &str, span: Span, parser: &mut TomlParser) {
+        let example = match self.names.all() {
+            [a, b, ..] => [*a, *b],
+            _ => ["O", "A"],
+        };
+        let problem = Problem::error(span, format!("`{}` does not name two joints", text.escape_debug()));
+        let help = format!("name two joints of a link with a blank between them, as in \"{}\"", example.join(" "));
+        parser.report(problem.with_help(help));
     }
 
     /// The link that has some joints; reported if there is none.
@@ -251,8 +254,7 @@ impl Reader<'_, '_> {
         let mut lengths = HashMap::new();
         for (text, span, value) in table.entries() {
             let Some([a, b]) = self.pair_in(text) else {
-                let problem = Problem::error(span, format!("`{}` does not name two joints", text.escape_debug()));
-                parser.report(problem.with_help(self.example_of_pair()));
+                self.report_no_pair(text, span, parser);
                 continue;
             };
             let link = self.link_with([a, b], links, value, parser);

@@ -35,6 +35,11 @@ impl DrawnVector {
         self.cross(other) / self.length()
     }
 
+    /// How far another vector goes in the direction of this one, and to its left.
+    pub fn components(&self, other: &DrawnVector) -> [CompiledExpression; 2] {
+        [self.along(other), self.across(other)]
+    }
+
     /// The angle to another vector, in radians.
     pub fn angle_to(&self, other: &DrawnVector) -> CompiledExpression {
         CompiledExpression::call(Function::Atan2, [self.cross(other), self.dot(other)])
