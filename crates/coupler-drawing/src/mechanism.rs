@@ -61,11 +61,8 @@ impl Mechanism {
     /// The parts of a linkage on a circuit.
     pub fn new(linkage: &Linkage, circuit: &Circuit) -> Mechanism {
         let joints = || linkage.joint_ids().zip(&linkage.joints);
-        let block = |(joint, placed): (JointId, &coupler_curves::linkage::Joint)| match placed.kind {
-            JointKind::Slide { line, .. } | JointKind::Yoke { line, .. } | JointKind::DrivenSlider { line, .. } => {
-                Some(Block { joint, line })
-            }
-            _ => None,
+        let block = |(joint, placed): (JointId, &coupler_curves::linkage::Joint)| {
+            placed.kind.slider_line().map(|line| Block { joint, line })
         };
         let actuator = |(joint, placed): (JointId, &coupler_curves::linkage::Joint)| match placed.kind {
             JointKind::Piston { base: [pivot, _], .. } => Some([pivot, joint]),
@@ -134,12 +131,7 @@ fn pitch_circles(linkage: &Linkage, circuit: &Circuit) -> Vec<(JointId, f64)> {
 
 /// The guide on the frame of a slider or a yoke.
 fn find_guide(linkage: &Linkage, circuit: &Circuit, joint: JointId) -> Option<Guide> {
-    let (JointKind::Slide { line, .. } | JointKind::Yoke { line, .. } | JointKind::DrivenSlider { line, .. }) =
-        linkage.joints[joint].kind
-    else {
-        return None;
-    };
-    let along = fixed_line_direction(linkage, circuit, line)?;
+    let along = fixed_line_direction(linkage, circuit, linkage.joints[joint].kind.slider_line()?)?;
     let by = |a: &Point, b: &Point| along.dot(&a.coords).total_cmp(&along.dot(&b.coords));
     Some(Guide { joint, ends: [circuit.points(joint).min_by(by)?, circuit.points(joint).max_by(by)?] })
 }

@@ -162,6 +162,16 @@ impl JointKind {
         }
     }
 
+    /// The two joints of the line on which the joint is a slider, a yoke or a driven slider; `None` if it is none of these.
+    pub fn slider_line(&self) -> Option<[JointId; 2]> {
+        match *self {
+            JointKind::Slide { line, .. } | JointKind::Yoke { line, .. } | JointKind::DrivenSlider { line, .. } => {
+                Some(line)
+            }
+            _ => None,
+        }
+    }
+
     /// The joint's dyad; `None` for a joint with only one position for each input.
     pub fn dyad(&self) -> Option<DyadId> {
         match *self {

@@ -8,7 +8,7 @@ use crate::scene::{Color, Item, Path, Polyline};
 
 use coupler_curves::family::{Family, StraightCriterion};
 use coupler_curves::geometry::{Bounds, Point, simplify_polyline};
-use coupler_curves::linkage::{Input, JointId, JointKind, Linkage};
+use coupler_curves::linkage::{Input, JointId, Linkage};
 use coupler_curves::measure::{Measure, MeasureSet, StraightPortion, Symmetry, SymmetryAxis};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 use coupler_curves::text::{format_exactly, round_to_six_digits};
@@ -36,12 +36,7 @@ pub fn cell_facts(family: &Family, solved: &SolvedCell) -> [String; 2] {
     }
     parts.extend(length_range(solved, first));
     // The path of a slider on its guide is straight by construction.
-    let is_of_slider = |curve: &&MeasuredCurve| {
-        matches!(
-            solved.linkage.joints[curve.joint].kind,
-            JointKind::Slide { .. } | JointKind::Yoke { .. } | JointKind::DrivenSlider { .. }
-        )
-    };
+    let is_of_slider = |curve: &&MeasuredCurve| solved.linkage.joints[curve.joint].kind.slider_line().is_some();
     let portions = solved.curves.iter().filter(|curve| !is_of_slider(curve));
     let portions = portions.filter_map(|curve| Some((curve, curve.straight.as_ref()?)));
     let longest = portions.max_by(|(_, a), (_, b)| a.length.total_cmp(&b.length));
@@ -73,8 +68,10 @@ fn length_range(solved: &SolvedCell, curve: &MeasuredCurve) -> Option<String> {
     let is_length = solved.linkage.input() == Input::Length;
     let passes = solved.circuit(curve).passes.iter().filter(|_| is_length);
     let [least, most] = passes.map(|pass| pass.input_range()).reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])?;
-    let range = format!("{} to {}", format_with_digits(least, 4), format_with_digits(most, 4));
-    Some(format!("{} {}", driver(&solved.linkage), if least < 0.0 { range } else { range.replace(" to ", "–") }))
+    // A dash would look like the sign of a negative number.
+    let to = if least < 0.0 { " to " } else { "–" };
+    let [least, most] = [least, most].map(|length| format_with_digits(length, 4));
+    Some(format!("{} {least}{to}{most}", driver(&solved.linkage)))
 }
 
 /// The path of a curve by the name of its joint, where several joints are traced and their names differ.
