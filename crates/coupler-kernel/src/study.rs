@@ -195,7 +195,7 @@ impl Study {
         let whole: f64 = self.passes().iter().map(Pass::input_length).sum();
         let parts = move |pass: &Pass| ((count as f64 * pass.input_length() / whole) as usize).max(8);
         let of_pass = move |(k, pass): (usize, &Pass)| {
-            let (pass, parts) = (*pass, parts(pass));
+            let (pass, parts) = (pass.clone(), parts(pass));
             let input = move |i: usize| match i {
                 0 => pass.from.input.value,
                 i if i == parts => pass.to.input.value,

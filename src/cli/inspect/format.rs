@@ -32,7 +32,7 @@ pub(super) fn describe_output(linkage: &Linkage) -> Option<String> {
 pub(super) fn describe_circuit(linkage: &Linkage, circuit: &Circuit) -> String {
     let unit = input_unit(linkage);
     let first = &circuit.passes[0];
-    if let [pass] = circuit.passes[..]
+    if let [pass] = &circuit.passes[..]
         && circuit.is_closed
     {
         let turns = (pass.input_length() / 360.0).round();

@@ -1,13 +1,31 @@
 //! The output link of a linkage that states none.
 
-use super::{JointId, JointKind, Linkage, OutputLink};
+use super::{Closure, JointId, JointKind, Linkage, OutputLink};
 
 impl Linkage {
     /// The output link: the one stated, or else the last driven link on the ground. Of the links that are pivoted on
     /// the [ground](Linkage::ground) or slide along it, that is the one whose joint is placed last; neither the crank
     /// that is the input nor an actuator is one of them. `None` if there is no such link.
     pub fn output(&self) -> Option<OutputLink> {
-        self.output_link.or_else(|| self.joint_ids().rev().find_map(|joint| self.driven_link_on_ground(joint)))
+        self.output_link
+            .or_else(|| self.group_link_on_ground())
+            .or_else(|| self.joint_ids().rev().find_map(|joint| self.driven_link_on_ground(joint)))
+    }
+
+    /// The last link of the group that turns about a joint of the ground, or slides on a line of it.
+    fn group_link_on_ground(&self) -> Option<OutputLink> {
+        let is_on_ground = |joint: JointId| self.ground().position(joint).is_some();
+        self.group.as_ref()?.closures.iter().rev().find_map(|closure| match *closure {
+            Closure::Distance { joints: [a, b], .. } => match [a, b].map(is_on_ground) {
+                [true, false] => Some(OutputLink::Link([a, b])),
+                [false, true] => Some(OutputLink::Link([b, a])),
+                _ => None,
+            },
+            Closure::OnLine { joint, line, .. } => {
+                line.into_iter().all(is_on_ground).then_some(OutputLink::Slider { joint, line })
+            }
+            Closure::OnLink { .. } => None,
+        })
     }
 
     /// The link on the ground that a joint was placed with.
@@ -38,6 +56,7 @@ impl Linkage {
             | JointKind::Crank { .. }
             | JointKind::DrivenSlider { .. }
             | JointKind::Aligned { .. }
+            | JointKind::Grouped { .. }
             | JointKind::Rigid { .. } => None,
         }
     }

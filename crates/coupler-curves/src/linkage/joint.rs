@@ -115,6 +115,12 @@ pub enum JointKind {
         /// The distance to the left of the line.
         across: f64,
     },
+    /// In a group, whose joints are placed together by the equations of [`super::Group`].
+    Grouped {
+        /// The group as a dyad, which all its joints have in common. Its side is the sign of the determinant of the
+        /// equations' derivatives, left at the start; it is flat where that is 0.
+        dyad: DyadId,
+    },
     /// At the fourth corner of a parallelogram: `corners[0] + corners[2] - corners[1]`.
     Parallelogram {
         /// The other corners, in order around it; the last two are on one link.
@@ -157,6 +163,7 @@ impl JointKind {
             JointKind::Fixed(_)
             | JointKind::Crank { .. }
             | JointKind::Gear { .. }
+            | JointKind::Grouped { .. }
             | JointKind::Parallelogram { .. }
             | JointKind::Rigid { .. } => None,
         }
@@ -178,6 +185,7 @@ impl JointKind {
             JointKind::Dyad { dyad, .. }
             | JointKind::Slide { dyad, .. }
             | JointKind::Slot { dyad, .. }
+            | JointKind::Grouped { dyad }
             | JointKind::Piston { dyad, .. } => Some(dyad),
             JointKind::Fixed(_)
             | JointKind::Crank { .. }

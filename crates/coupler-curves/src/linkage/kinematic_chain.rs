@@ -87,6 +87,7 @@ impl KinematicChain {
                 JointKind::Fixed(_)
                 | JointKind::Crank { .. }
                 | JointKind::Dyad { .. }
+                | JointKind::Grouped { .. }
                 | JointKind::Aligned { .. }
                 | JointKind::Parallelogram { .. }
                 | JointKind::Rigid { .. } => {}

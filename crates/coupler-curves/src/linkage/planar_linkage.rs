@@ -1,7 +1,7 @@
 //! A linkage as a list of joints and links.
 
-use super::{DyadId, Input, Joint, JointId, JointKind, Link, MotionOptions, OutputLink};
-use crate::geometry::Orientation;
+use super::{DyadId, Group, Input, Joint, JointId, JointKind, Link, MotionOptions, OutputLink};
+use crate::geometry::{Orientation, Point, trig};
 
 /// A linkage with numeric dimensions. All lengths are in one unit, which may be any.
 #[derive(Clone, Debug, PartialEq)]
@@ -10,6 +10,8 @@ pub struct Linkage {
     pub joints: Vec<Joint>,
     /// The links; the first is the frame, which carries the fixed joints.
     pub links: Vec<Link>,
+    /// The joints that no dyads place, if there are any, and the equations that do.
+    pub group: Option<Group>,
     /// The joints whose curves are traced, in the order of the curves.
     pub traced: Vec<JointId>,
     /// Two joints of the link in whose frame everything is reported: the one at its origin and one on its positive
@@ -99,6 +101,7 @@ impl Linkage {
         let linkage = Linkage {
             joints: kept.iter().map(|&joint| self.joints[joint].clone()).collect(),
             links: self.links.iter().map(link).collect(),
+            group: self.group.clone(),
             traced: new_id(joint).into_iter().collect(),
             seen_from: self.seen_from,
             output_link: self.output_link,
@@ -109,9 +112,25 @@ impl Linkage {
         (linkage, joint.min(JointId::new(first)))
     }
 
-    /// The number of dyads.
+    /// The number of dyads; a group counts as one.
     pub fn dyad_count(&self) -> usize {
-        self.joints.iter().filter(|joint| joint.kind.dyad().is_some()).count()
+        match self.group {
+            Some(_) => 1,
+            None => self.joints.iter().filter(|joint| joint.kind.dyad().is_some()).count(),
+        }
+    }
+
+    /// The input in a pose, in the frame of the fixed joints: an angle in degrees, or a length.
+    pub(crate) fn input_of_pose(&self, at: impl Fn(JointId) -> Point) -> Option<f64> {
+        self.joint_ids().find_map(|joint| match self.joints[joint].kind {
+            JointKind::Crank { pivot, .. } => {
+                let arm = at(joint) - at(pivot);
+                Some(trig::degrees(trig::atan2(arm.y, arm.x)))
+            }
+            JointKind::Piston { base: [from, _], .. } => Some((at(joint) - at(from)).norm()),
+            JointKind::DrivenSlider { line: [p, q], .. } => Some((at(q) - at(p)).normalize().dot(&(at(joint) - at(p)))),
+            _ => None,
+        })
     }
 
     /// The pivot and the pin of the crank whose angle is the input; `None` if an actuator drives the linkage.

@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use toml::de::DeValue;
 
-use super::drawing::{self, place, read_drawing};
+use super::drawing::{self, PlacedDrawing, place, read_drawing};
 use super::fields::Fields;
 use super::joint_forms::parse_joint;
 use super::joint_id::check_joint_id;
@@ -15,12 +15,16 @@ use super::toml_parser::{TomlParser, TomlValue};
 use crate::expression::Scope;
 use crate::problem::{Problem, Span};
 use crate::template::{
-    Coordinate, DependencyCycle, InputValue, JointKindTemplate, JointTemplate, OutputLinkTemplate, dependency_order,
+    ClosureTemplate, Coordinate, DependencyCycle, InputValue, JointKindTemplate, JointTemplate, OutputLinkTemplate,
+    dependency_order,
 };
 
 /// The joints of a linkage in the order they are placed.
 pub(super) struct ParsedJoints {
     pub joints: Vec<JointTemplate>,
+    pub closures: Vec<ClosureTemplate>,
+    /// The joints of the drawing as they are placed if it is driven elsewhere, and the input there.
+    pub driven_elsewhere: Option<(Vec<JointTemplate>, InputValue)>,
     pub traced: Vec<usize>,
     pub seen_from: Option<[usize; 2]>,
     pub output_link: Option<OutputLinkTemplate>,
@@ -138,8 +142,17 @@ pub(super) fn parse_joints<'t>(
         })
         .collect();
     let spans = entries.iter().map(|entry| (entry.name.to_owned(), entry.name_span.clone())).collect();
+    let closures = placed.iter().flat_map(|placed| placed.closures.iter().cloned());
+    let closures = closures.map(|closure| closure.map_joints(new_index)).collect();
+    let driven_elsewhere = placed.as_ref().and_then(|placed| placed.driven_elsewhere.as_deref());
+    let driven_elsewhere = driven_elsewhere.and_then(|other| {
+        let drawing = drawing.as_ref()?;
+        Some((joints_in_order(drawing.names.as_slice(), other)?, other.start.clone()))
+    });
     Some(ParsedJoints {
         joints,
+        closures,
+        driven_elsewhere,
         traced: traced.into_iter().map(new_index).collect(),
         seen_from: seen_from.map(|joints| joints.map(new_index)),
         output_link: output_link.map(|output| match output {
@@ -150,6 +163,24 @@ pub(super) fn parse_joints<'t>(
         start: placed.map(|placed| placed.start),
         spans,
     })
+}
+
+/// The joints of a drawing in an order in which each can be placed.
+fn joints_in_order(names: &[&str], placed: &PlacedDrawing) -> Option<Vec<JointTemplate>> {
+    let further = placed.further.iter().map(|joint| &joint.kind);
+    let kinds: Vec<JointKindTemplate> = placed.kinds.iter().chain(further).cloned().collect();
+    let needs = dependencies(&kinds);
+    let order = dependency_order(kinds.len(), |k| needs[k].clone()).ok()?;
+    let mut new_indices = vec![0; order.len()];
+    order.iter().zip(0..).for_each(|(&joint, index)| new_indices[joint] = index);
+    let name = |k: usize| {
+        names.get(k).copied().or_else(|| placed.further.get(k - names.len()).map(|joint| joint.name.as_str()))
+    };
+    let joint = |&k: &usize| {
+        let kind = kinds[k].clone().map_joints(|joint| new_indices[joint]);
+        Some(JointTemplate { name: name(k)?.to_owned(), kind, drawn: None })
+    };
+    order.iter().map(joint).collect()
 }
 
 /// What the input of a linkage is: a length if it has a piston.
@@ -398,7 +429,8 @@ fn check_traced_joints_move(
     }
     let mut moves = vec![false; placings.len()];
     for &k in order {
-        let is_driven = is_input(&placings[k]) || matches!(placings[k], JointKindTemplate::Gear { .. });
+        let is_driven = is_input(&placings[k])
+            || matches!(placings[k], JointKindTemplate::Gear { .. } | JointKindTemplate::Grouped { .. });
         moves[k] = is_driven || needs[k].iter().any(|&need| moves[need]);
     }
     for &k in traced.iter().filter(|&&k| !moves[k]) {

@@ -193,6 +193,8 @@ pub fn parse_template<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) ->
         caption,
         note,
         joints: joints.joints,
+        closures: joints.closures,
+        driven_elsewhere: None,
         traced: joints.traced,
         seen_from: joints.seen_from,
         output_link: joints.output_link,
@@ -206,6 +208,20 @@ pub fn parse_template<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) ->
         arc,
         parameters,
     };
+    if let (Some((joints, start)), CircuitSelection::All) = (joints.driven_elsewhere, circuits) {
+        let (traced, start) = ((0..joints.len()).collect(), Some(start));
+        template.driven_elsewhere = Some(Box::new(Template {
+            joints,
+            closures: Vec::new(),
+            traced,
+            start,
+            seen_from: None,
+            output_link: None,
+            chains: Vec::new(),
+            input: None,
+            ..template.clone()
+        }));
+    }
     for ((kind, states_unit), parameter) in
         template.infer_kinds().into_iter().zip(states_unit).zip(&mut template.parameters)
     {

@@ -4,7 +4,7 @@ use super::budget::TooManySteps;
 use super::curve::{Place, StopKind};
 use super::{Measure, TracedCurve, Value};
 use crate::geometry::{Chebyshev, curvature};
-use crate::motion::{InputMap, InputPosition, JointDerivatives};
+use crate::motion::{InputMap, JointDerivatives};
 
 /// The measure `crunodes`.
 pub const CRUNODES: Measure = Measure::number(
@@ -116,8 +116,7 @@ fn curvature_at(curve: &TracedCurve, place: Place) -> f64 {
     let piece = &curve.smooth().pieces[place.piece];
     let pass = &curve.circuit.passes[piece.pass_at(place.u)];
     let (linkage, joint) = curve.single_point_linkage();
-    let input = InputPosition::new(linkage.input(), piece.map.input(place.u));
-    let derivatives = JointDerivatives::new(linkage, input, pass.mode);
+    let derivatives = JointDerivatives::on_pass(linkage, pass, piece.map.input(place.u));
     curvature(derivatives.velocity(joint), derivatives.acceleration(joint))
 }
 

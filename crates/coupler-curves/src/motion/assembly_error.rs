@@ -178,6 +178,35 @@ pub enum AssemblyError {
          remove dyads"
     )]
     TooManyModesOnCircuit,
+    /// The links that no dyads place do not close at the start.
+    #[error("its links do not close at the start, an input of {input}: a length misses by {}", Short(*gap))]
+    GroupOpen {
+        /// The input at the start.
+        input: f64,
+        /// By how much a length is missed, in the pose that is stated.
+        gap: f64,
+    },
+    /// The driven link is held by a part that is rigid.
+    #[error("its input cannot move: {} held without it, a part of the links is rigid", were(joints))]
+    InputHeld {
+        /// The joints that do not move with the others.
+        joints: Vec<String>,
+    },
+    /// Links that no dyads place are closed by a joint on a gear.
+    #[error("its links cannot be solved: they are closed by a joint on a gear, a slot or a yoke")]
+    GroupOfGears,
+    /// All circuits are requested of a linkage that dyads place by no input.
+    #[error("not all of its circuits can be found, as dyads place its joints by no input: set `circuits` to \"start\"")]
+    NoOtherInput,
+    /// The motion of links that no dyads place cannot be followed: there are other poses too close to it.
+    #[error(
+        "its motion cannot be followed at an input of {}: there its links can move in more than one way, or as good as",
+        Short(*input)
+    )]
+    GroupNotFollowed {
+        /// The input.
+        input: f64,
+    },
     /// The input does not reach all of the range: some of the motion is missing.
     #[error(
         "the input goes from {} to {}{unit} only, of the requested {} to {}{unit}",
@@ -207,6 +236,11 @@ impl AssemblyError {
         };
         Some(missing / size)
     }
+}
+
+/// "A, B are" or "A is".
+fn were(joints: &[String]) -> String {
+    format!("{} {}", joints.join(", "), if joints.len() == 1 { "is" } else { "are" })
 }
 
 /// Prints up to six significant digits.

@@ -5,10 +5,13 @@ use std::ops::Range;
 
 use super::AssemblyError;
 use super::end_series::continuous_mode;
+use super::group::NamedPose;
+use super::input_columns::InputColumns;
 use super::interval::{Interval, Span};
 use super::interval_search::IntervalSearch;
 use super::pass::{Heading, InputPosition, Pass, PassEnd};
-use crate::linkage::{CircuitSelection, DyadId, Input, Linkage};
+use super::pass_positions::positions_at_inputs;
+use crate::linkage::{CircuitSelection, DyadId, Group, Input, JointId, Linkage};
 
 /// A circuit that is not yet sampled; see [`super::Sampler::sample_circuit`].
 #[derive(Clone, Debug)]
@@ -49,6 +52,7 @@ pub struct CircuitSet {
 pub fn find_circuits(linkage: &Linkage) -> CircuitSet {
     let mut search = IntervalSearch::new(linkage);
     let traced = match linkage.motion_options.circuits {
+        _ if let Some(group) = &linkage.group => trace_group(&mut search, group),
         CircuitSelection::Start => trace_start_circuit(&mut search),
         CircuitSelection::All => trace_all_circuits(&mut search),
     };
@@ -78,6 +82,43 @@ pub(super) fn trace_start_circuit(search: &mut IntervalSearch) -> Result<Vec<Uns
     let start = start_interval(search.linkage, search.intervals(), of_mode)
         .map_err(|error| search.assembly_error().cloned().unwrap_or(error))?;
     Ok(vec![trace_circuit(search, start, &mut HashSet::new())?])
+}
+
+/// Traces the circuits of a linkage with a group.
+fn trace_group(search: &mut IntervalSearch, group: &Group) -> Result<Vec<UnsampledCircuit>, AssemblyError> {
+    let (linkage, all) = (search.linkage, CircuitSelection::All);
+    let poses = match (linkage.motion_options.circuits == all, &group.driven_elsewhere) {
+        (false, _) => Vec::new(),
+        (true, Some(other)) => poses_of_circuits(other)?,
+        (true, None) => return Err(AssemblyError::NoOtherInput),
+    };
+    let start = search.add_group(group, &poses)?;
+    let mut seen = HashSet::new();
+    let mut circuits = vec![trace_circuit(search, start, &mut seen)?];
+    let others = if linkage.motion_options.circuits == all { 0..search.intervals().len() } else { 0..0 };
+    for interval in others {
+        if !seen.contains(&interval) {
+            circuits.push(trace_circuit(search, interval, &mut seen)?);
+        }
+    }
+    Ok(circuits)
+}
+
+/// A pose on each circuit of a linkage that dyads place.
+fn poses_of_circuits(linkage: &Linkage) -> Result<Vec<NamedPose<'_>>, AssemblyError> {
+    let CircuitSet { circuits, assembly_error } = find_circuits(linkage);
+    if let (true, Some(error)) = (circuits.is_empty(), assembly_error) {
+        return Err(error);
+    }
+    let pose_of = |circuit: &UnsampledCircuit| {
+        let pass = &circuit.passes[0];
+        // Not in the middle, where symmetrical linkages have poses that are not regular.
+        let input = pass.from.input.value + (pass.to.input.value - pass.from.input.value) * 0.381_966;
+        let positions = positions_at_inputs(linkage, pass, &InputColumns::from_values(linkage.input(), [input]));
+        let point = |joint: JointId| (linkage.joints[joint].name.as_str(), positions.point(joint, 0));
+        linkage.joint_ids().map(point).collect()
+    };
+    Ok(circuits.iter().map(pose_of).collect())
 }
 
 /// Traces every circuit.
@@ -145,7 +186,7 @@ fn trace_circuit(
 ) -> Result<UnsampledCircuit, AssemblyError> {
     seen.insert(first);
     let period = search.linkage.input().period();
-    let first_interval = search.intervals()[first];
+    let first_interval = search.intervals()[first].clone();
     let mut passes = vec![first_interval.to_pass(true, period)];
     if first_interval.span == Span::FullTurn {
         return Ok(UnsampledCircuit { passes, is_closed: true });
@@ -193,7 +234,7 @@ fn append_following(
 
 /// The step that follows.
 fn next_interval(search: &mut IntervalSearch, step: Step) -> Result<Option<Step>, AssemblyError> {
-    let from = search.intervals()[step.interval];
+    let from = &search.intervals()[step.interval];
     let Some(end) = from.end(step.rises) else { return Ok(None) };
     let before = Heading { mode: from.mode, rises: step.rises };
     let Some(after) = end.next_heading(before, &search.linkage.motion_options) else { return Ok(None) };
@@ -228,7 +269,7 @@ fn normalize_passes(linkage: &Linkage, passes: Vec<Pass>, closed: bool) -> Vec<P
         let starts = if closed { direction.len() } else { 1 };
         for start in 0..starts {
             let n = direction.len();
-            let rotated: Vec<Pass> = (0..n).map(|k| direction[(start + k) % n]).collect();
+            let rotated: Vec<Pass> = (0..n).map(|k| direction[(start + k) % n].clone()).collect();
             let candidate = make_continuous(join_passes(rotated), reverses, has_range, period);
             if closed
                 && candidate[0].input_direction() < 0.0
@@ -274,7 +315,7 @@ fn cut_at_zero(passes: Vec<Pass>, period: f64) -> Vec<Pass> {
         let zero = (high / period).ceil() * period - period;
         if zero > low {
             let end = PassEnd::regular(InputPosition::from_degrees(zero));
-            cut.push(Pass { to: end, ..pass });
+            cut.push(Pass { to: end, ..pass.clone() });
             cut.push(Pass { from: end, ..pass });
         } else {
             cut.push(pass);

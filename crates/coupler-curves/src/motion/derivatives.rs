@@ -1,5 +1,7 @@
 //! Velocity, acceleration and jerk of all joints with respect to the input, by Taylor series to the third order.
 
+use std::collections::HashMap;
+
 use super::end_series::EndSeries;
 use super::joint_series::{SeriesInput, place_as_series};
 use super::pass::{InputPosition, Pass, PassEnd};
@@ -32,13 +34,23 @@ impl JointDerivatives {
     /// The derivatives at an input of a pass. At its ends they are the one-sided ones: unbounded at a limit; finite at
     /// a change point, through which the motion continues smoothly.
     pub fn on_pass(linkage: &Linkage, pass: &Pass, input: f64) -> JointDerivatives {
+        let position = InputPosition::new(linkage.input(), input);
+        if let Some(track) = &pass.track {
+            let is_limit =
+                [pass.from, pass.to].iter().any(|end| end.input.value == input && !end.flat_dyads.is_empty());
+            let group: HashMap<JointId, JointSeries> = track.series(position, is_limit).into_iter().collect();
+            let input = SeriesInput { value: position.value, direction: [position.cos, position.sin] };
+            let placed = |joint, position, _: &[JointSeries]| group.get(&joint).copied().unwrap_or(position);
+            let all = place_as_series(linkage, linkage.joints.len(), input, |_| 1.0, placed);
+            return JointDerivatives(to_view_frame(linkage, all));
+        }
         let is_here = |(end, _): &(PassEnd, f64)| end.input.value == input && !end.flat_dyads.is_empty();
         if let Some((end, inwards)) = pass.ends().into_iter().rev().find(is_here) {
             let series = EndSeries::new(linkage, &end, pass.mode, inwards);
             let at = linkage.joint_ids().map(|joint| series.in_input(joint)).collect();
             return JointDerivatives(to_view_frame(linkage, at));
         }
-        JointDerivatives::new(linkage, InputPosition::new(linkage.input(), input), pass.mode)
+        JointDerivatives::new(linkage, position, pass.mode)
     }
 
     /// A joint's position.

@@ -37,6 +37,11 @@ impl Enclosure {
         if low <= high { Enclosure { low, high } } else { self }
     }
 
+    /// The greatest magnitude of a number in it.
+    pub fn magnitude(self) -> f64 {
+        self.low.abs().max(self.high.abs())
+    }
+
     /// Whether it contains a number.
     pub fn contains(self, x: f64) -> bool {
         self.low <= x && x <= self.high
@@ -114,6 +119,11 @@ impl Scalar for Enclosure {
     fn sqrt(self) -> Enclosure {
         let [low, high] = [self.low, self.high].map(|x| x.max(0.0).sqrt());
         Enclosure { low: low.next_down().max(0.0), ..Enclosure::rounded_outwards(low, high) }
+    }
+
+    fn to_degrees(self) -> Enclosure {
+        let degrees = trig::degrees(1.0);
+        self * Enclosure { low: degrees.next_down(), high: degrees.next_up() }
     }
 
     fn cos_sin_deg(self) -> [Enclosure; 2] {

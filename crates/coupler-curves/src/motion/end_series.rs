@@ -227,6 +227,8 @@ impl Placing<'_> {
                 let b = root(s.square() + number(offset * offset), self.end.input.value * self.end.input.value, false)?;
                 self.dyad(at(base[0]), direction(base)?, [b, number(length)], dyad)?
             }
+            // Rates at the limits of groups are those of their tracks.
+            JointKind::Grouped { .. } => return Err(Failure::Undefined),
             JointKind::DrivenSlider { line, offset } => {
                 let Base { unit, .. } = direction(line)?;
                 at(line[0]).moved(unit, self.input(), number(offset))

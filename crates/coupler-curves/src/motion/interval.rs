@@ -1,6 +1,7 @@
 //! Intervals of the input on which a linkage can be assembled in an assembly mode, and how a motion continues at their
 //! ends.
 
+use super::group::GroupTrack;
 use super::pass::{Heading, InputPosition, Pass, PassEnd};
 use crate::linkage::{AssemblyMode, CoincidentDyads, Continuation, DyadId, DyadSet, MotionOptions};
 
@@ -134,10 +135,12 @@ impl Span {
 }
 
 /// A span of the input on which the linkage can be assembled in an assembly mode.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Interval {
     pub span: Span,
     pub mode: AssemblyMode,
+    /// The poses of the joints that no dyads place, if there are any.
+    pub track: Option<GroupTrack>,
 }
 
 impl Interval {
@@ -150,7 +153,7 @@ impl Interval {
     }
 
     /// The interval traversed with a rising or falling input; a full turn from 0 to its period.
-    pub fn to_pass(self, rising: bool, period: f64) -> Pass {
+    pub fn to_pass(&self, rising: bool, period: f64) -> Pass {
         let (from, to) = match self.span {
             Span::FullTurn => {
                 let period_end = |at| PassEnd::regular(InputPosition::from_degrees(at));
@@ -158,6 +161,7 @@ impl Interval {
             }
             Span::Range { lower, upper } => (lower.to_pass_end(), upper.to_pass_end()),
         };
-        if rising { Pass { from, to, mode: self.mode } } else { Pass { from: to, to: from, mode: self.mode } }
+        let pass = Pass { from, to, mode: self.mode, track: self.track.clone() };
+        if rising { pass } else { pass.reversed() }
     }
 }

@@ -12,10 +12,11 @@ use std::ops::Range;
 
 use super::AssemblyError;
 use super::dyad_limits;
+use super::group::{NamedPose, find_intervals};
 use super::interval::{Interval, IntervalEnd, Span};
 use super::limits::MAX_ASSEMBLY_MODES;
 use super::pass::InputPosition;
-use crate::linkage::{AssemblyMode, DyadId, Input, Joint, JointKind, Linkage, Side};
+use crate::linkage::{AssemblyMode, DyadId, Group, Input, Joint, JointKind, Linkage, Side};
 
 /// Finds the intervals of assembly modes within the requested range.
 pub(super) struct IntervalSearch<'a> {
@@ -83,10 +84,29 @@ impl<'a> IntervalSearch<'a> {
         if self.ranges_by_mode.len() == MAX_ASSEMBLY_MODES {
             return Err(AssemblyError::TooManyModesOnCircuit);
         }
-        self.intervals.extend(spans.into_iter().map(|span| Interval { span, mode }));
+        self.intervals.extend(spans.into_iter().map(|span| Interval { span, mode, track: None }));
         let range = begin..self.intervals.len();
         self.ranges_by_mode.insert(mode, range.clone());
         Ok(range)
+    }
+
+    /// Finds the intervals of a group on its circuits through the start pose and through other poses, and returns the index of the one
+    /// that contains the start pose.
+    ///
+    /// # Errors
+    /// The group does not close at the start, or its motion cannot be followed.
+    pub fn add_group(&mut self, group: &Group, poses: &[NamedPose]) -> Result<usize, AssemblyError> {
+        let (found, start) = find_intervals(self.linkage, group, poses)?;
+        let start_mode = found[start].mode;
+        // Those of a mode are together.
+        let (of_start, others): (Vec<_>, Vec<_>) = found.into_iter().partition(|interval| interval.mode == start_mode);
+        let split = of_start.len();
+        self.ranges_by_mode.insert(start_mode, 0..split);
+        if let Some(other) = others.first() {
+            self.ranges_by_mode.insert(other.mode, split..split + others.len());
+        }
+        self.intervals = of_start.into_iter().chain(others).collect();
+        Ok(start)
     }
 
     /// Finds the intervals of all assembly modes, in the order of the modes.
@@ -144,7 +164,7 @@ fn reach(linkage: &Linkage) -> f64 {
             offset.abs()
         }
         JointKind::Aligned { offset, along, across, .. } => offset.abs() + along.abs() + across.abs(),
-        JointKind::Parallelogram { .. } | JointKind::Rigid { .. } => 0.0,
+        JointKind::Grouped { .. } | JointKind::Parallelogram { .. } | JointKind::Rigid { .. } => 0.0,
     };
     // Points are as far from a joint of their link as they are on it.
     let links = linkage.links.iter().flat_map(|link| &link.joints).map(|(_, at)| at.norm());

@@ -1,6 +1,7 @@
 //! The kernels of [`super::positions`] over Taylor series.
 
 use super::series::{Scalar, Series, VectorSeries};
+use crate::geometry::Vector;
 use crate::linkage::{DyadId, JointId, JointKind, LineDirection, Linkage};
 
 /// A value of the input and, for an angle, its direction.
@@ -71,6 +72,8 @@ pub(super) fn place_as_series<T: Scalar, const N: usize>(
             JointKind::Rigid { base: [p, q], along, across } => {
                 at[p].moved(at[q].minus(at[p]), constant(along), constant(across))
             }
+            // The caller has the positions of a group, and puts them in place of these.
+            JointKind::Grouped { .. } => VectorSeries::constant(Vector::zeros()),
             JointKind::Parallelogram { corners: [p, q, r] } => at[p].moved(at[r].minus(at[q]), constant(1.0), zero),
             JointKind::Yoke { from, line: [p, q], offset, slot_direction: slot } => {
                 let unit = at[q].minus(at[p]).unit();

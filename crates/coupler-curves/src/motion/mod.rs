@@ -25,6 +25,7 @@ mod derivatives;
 mod dyad_limits;
 mod enclosure;
 mod end_series;
+mod group;
 mod input_columns;
 mod instantaneous_motion;
 mod interval;
@@ -43,6 +44,7 @@ mod spacing;
 
 pub use assembly_error::AssemblyError;
 pub use derivatives::JointDerivatives;
+pub use group::GroupTrack;
 pub use instantaneous_motion::InstantaneousMotion;
 pub use pass::{InputPosition, Pass, PassEnd};
 pub use positions::JointPositions;

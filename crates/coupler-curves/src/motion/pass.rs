@@ -1,5 +1,6 @@
 //! Passes, and the values of the input at which they begin and end.
 
+use super::group::GroupTrack;
 use crate::geometry::trig;
 use crate::linkage::{AssemblyMode, DyadSet, Input, JointKind, Linkage};
 
@@ -44,7 +45,7 @@ pub struct PassEnd {
 }
 
 /// A part of a circuit on which the input is monotonic and the assembly mode is constant.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Pass {
     /// Its beginning.
     pub from: PassEnd,
@@ -52,6 +53,8 @@ pub struct Pass {
     pub to: PassEnd,
     /// The assembly mode.
     pub mode: AssemblyMode,
+    /// The poses of the joints that no dyads place, if there are any.
+    pub track: Option<GroupTrack>,
 }
 
 /// How a linkage moves before or after an end of a pass.
@@ -105,12 +108,13 @@ impl Pass {
     }
 
     pub(super) fn reversed(&self) -> Pass {
-        Pass { from: self.to, to: self.from, mode: self.mode }
+        Pass { from: self.to, to: self.from, ..self.clone() }
     }
 
     pub(super) fn shifted(&self, deg: f64) -> Pass {
         let shift =
             |end: PassEnd| PassEnd { input: InputPosition { value: end.input.value + deg, ..end.input }, ..end };
-        Pass { from: shift(self.from), to: shift(self.to), mode: self.mode }
+        let track = self.track.as_ref().map(|track| track.shifted(deg));
+        Pass { from: shift(self.from), to: shift(self.to), mode: self.mode, track }
     }
 }

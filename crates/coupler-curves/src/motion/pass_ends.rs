@@ -18,8 +18,11 @@ pub(super) fn place_at_end(linkage: &Linkage, pass: &Pass, begins: bool, out: &m
     let PassEnd { input, flat_dyads: flat, vanishing_dyads: vanishing } = end;
     let signs = DyadSigns::new(pass.mode, flat.without(vanishing));
     let inputs = InputColumns::new(&[input]);
+    if let Some(track) = &pass.track {
+        track.place(&[input.value], out, sample);
+    }
     place_leading_joints(linkage, linkage.joints.len(), inputs.as_slices(), &signs, out, sample..sample + 1);
-    if flat.is_empty() {
+    if flat.is_empty() || pass.track.is_some() {
         return;
     }
     let series = (!vanishing.is_empty()).then(|| EndSeries::new(linkage, &end, pass.mode, inwards));

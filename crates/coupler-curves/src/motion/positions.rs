@@ -74,7 +74,7 @@ impl DyadSigns {
     }
 }
 
-/// Places the first `joints` joints at the samples of `range`, in the frame of the fixed joints.
+/// Places the first `joints` joints at the samples of `range`, in the frame of the fixed joints; those of a group are there already.
 ///
 /// `inputs` has one value for each sample of `range`. A dyad whose base is longer or shorter than it can span is placed
 /// flat; one whose base has no length is placed at NaN.
@@ -141,6 +141,9 @@ impl WithSimd for Placement<'_> {
                     let (cos, sin): (Vec<f64>, Vec<f64>) = inputs.values.iter().map(angle).unzip();
                     place_crank(columns(pivot), length, (&cos, &sin), x, y);
                 }
+                // In a group, joints are placed before all others.
+                JointKind::Grouped { .. } => {}
+                JointKind::Piston { .. } if linkage.group.is_some() => {}
                 JointKind::Piston { base, length, offset, dyad } => {
                     place_piston(
                         (columns(base[0]), columns(base[1])),

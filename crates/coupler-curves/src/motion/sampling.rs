@@ -9,12 +9,13 @@ use super::derivatives::JointDerivatives;
 use super::input_columns::InputColumns;
 use super::limits::MAX_SAMPLES;
 use super::pass::{InputPosition, Pass, PassEnd};
-use super::pass_ends::{place_at_end, place_near_ends};
+use super::pass_ends::place_at_end;
+use super::pass_positions::place_on_pass;
 use super::pieces::CircuitPieces;
-use super::positions::{DyadSigns, JointPositions, convert_to_view_frame, place_leading_joints};
+use super::positions::{JointPositions, convert_to_view_frame};
 use super::spacing::{self, CumulativeLength};
 use crate::geometry::Point;
-use crate::linkage::{AssemblyMode, DyadSet, Input, JointId, Linkage};
+use crate::linkage::{AssemblyMode, Input, JointId, Linkage};
 
 /// How a circuit is sampled.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -178,12 +179,8 @@ impl Sampler {
         let mut plan = self.plan_samples(&circuit, linkage);
         let mut positions = JointPositions::new(linkage.joints.len(), plan.inputs.len());
         let inputs = InputColumns::new(&plan.inputs);
-        let all = linkage.joints.len();
         for (range, pass) in plan.pass_ranges.iter().zip(&circuit.passes) {
-            let signs = DyadSigns::new(pass.mode, DyadSet::EMPTY);
-            let inputs = inputs.slice(range.clone());
-            place_leading_joints(linkage, all, inputs, &signs, &mut positions, range.clone());
-            place_near_ends(linkage, pass, inputs, &mut positions, range.clone());
+            place_on_pass(linkage, pass, inputs.slice(range.clone()), &mut positions, range.clone());
         }
         for &(sample, pass, is_first) in &plan.pass_ends {
             place_at_end(linkage, &circuit.passes[pass], is_first, &mut positions, sample);
@@ -206,7 +203,7 @@ impl Sampler {
     fn plan_samples(&self, circuit: &UnsampledCircuit, linkage: &Linkage) -> SamplePlan {
         let input = linkage.input();
         let mut plan = SamplePlan::default();
-        if let [pass] = circuit.passes[..]
+        if let [pass] = &circuit.passes[..]
             && circuit.is_closed
             && pass.from.flat_dyads.is_empty()
             && !matches!(self.sampling, Sampling::ArcLength(_))

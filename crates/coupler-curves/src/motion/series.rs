@@ -25,6 +25,9 @@ pub(super) trait Scalar:
     /// The square root; 0 for a number that is negative by rounding.
     fn sqrt(self) -> Self;
 
+    /// The angle in degrees of one in radians.
+    fn to_degrees(self) -> Self;
+
     /// The cosine and the sine of an angle in degrees.
     fn cos_sin_deg(self) -> [Self; 2];
 
@@ -39,6 +42,10 @@ impl Scalar for f64 {
 
     fn sqrt(self) -> f64 {
         self.max(0.0).sqrt()
+    }
+
+    fn to_degrees(self) -> f64 {
+        trig::degrees(self)
     }
 
     fn cos_sin_deg(self) -> [f64; 2] {

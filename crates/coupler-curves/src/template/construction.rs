@@ -1,6 +1,6 @@
 //! The construction of a linkage in words: for each joint, the lengths and angles that place it.
 
-use super::{Coordinate, JointKindTemplate, JointTemplate, Side, Template};
+use super::{ClosureTemplate, Coordinate, JointKindTemplate, JointTemplate, Side, Template};
 use crate::expression::{CompiledExpression, MathText, displayed_name, join_names};
 use crate::text::{format_exactly, is_same_number, round_to_six_digits};
 
@@ -11,7 +11,7 @@ impl Template {
     /// Of a joint of a drawing the coordinates in it are stated, too; of its dimensions, which follow from them, those that are numbers, rounded.
     pub fn construction(&self, joint: usize) -> MathText {
         let Some(placed) = self.joints.get(joint) else { return MathText::default() };
-        let construction = self.construction_without_drawing(joint, placed);
+        let construction = self.with_closures(joint, self.construction_without_drawing(joint, placed));
         match &placed.drawn {
             Some([x, y]) if !matches!(placed.kind, JointKindTemplate::Fixed(_)) => {
                 let at = construction.with_words("; drawn at (").with(x.to_math_text()).with_words(", ");
@@ -19,6 +19,33 @@ impl Template {
             }
             _ => construction,
         }
+    }
+
+    /// What is known of a joint, with the links to joints before it that close loops, and the lines that it slides on.
+    fn with_closures(&self, joint: usize, known: MathText) -> MathText {
+        let between = |[a, b]: [usize; 2]| join_names(&[a, b].map(|k| self.joints[k].name.as_str()));
+        let closing = self.closures.iter().filter_map(|closure| match closure {
+            ClosureTemplate::Bar { joints: [a, b], length } if *a.max(b) == joint => {
+                let link = between([*a.min(b), joint]);
+                Some(match length.constant_value() {
+                    Some(value) => MathText::from_words(format!("{link} {}", rounded_equation(value))),
+                    None if length.is_distance() => MathText::from_words(format!("link {link}")),
+                    None => equation(&link, length.to_math_text()),
+                })
+            }
+            ClosureTemplate::Hold { joint: held, base, .. } if *held == joint => {
+                Some(MathText::from_words(format!("on the link {}", between(*base))))
+            }
+            ClosureTemplate::Guide { joint: guided, line, offset } if *guided == joint => {
+                let guide = MathText::from_words(format!("slides on a line along {}", between(*line)));
+                Some(match offset.constant_value() {
+                    Some(0.0) | None => guide,
+                    Some(offset) => guide.with_words(format!(", to its left {}", rounded_equation(offset))),
+                })
+            }
+            _ => None,
+        });
+        closing.fold(known, |text, next| if text.is_empty() { next } else { text.with_words(", ").with(next) })
     }
 
     fn construction_without_drawing(&self, joint: usize, placed: &JointTemplate) -> MathText {
@@ -104,6 +131,7 @@ impl Template {
                 let corners: Vec<&str> = corners.collect();
                 MathText::from_words(format!("parallelogram {}", join_names(&corners)))
             }
+            JointKindTemplate::Grouped { .. } => MathText::default(),
             JointKindTemplate::Point { base, along, across } => {
                 let place = match self.sliding_direction(*base) {
                     Some(direction) => format!("parallel to {direction}"),
@@ -154,8 +182,12 @@ impl Template {
             | JointKindTemplate::DrivenSlider { .. }
             | JointKindTemplate::Point { .. }
             | JointKindTemplate::Distances { .. }
+            | JointKindTemplate::Grouped { .. }
             | JointKindTemplate::Fixed(_) => false,
-        })
+        }) || self
+            .closures
+            .iter()
+            .any(|closure| matches!(closure, ClosureTemplate::Bar { joints, .. } if joints.contains(&joint)))
     }
 }
 

@@ -88,6 +88,11 @@ pub enum JointKindTemplate {
         /// The side of the base at the start.
         side: SideTemplate,
     },
+    /// In a group, whose joints are placed together by the closures of [`super::Template::closures`].
+    Grouped {
+        /// Its coordinates at the start, in the frame of the fixed joints.
+        at: [CompiledExpression; 2],
+    },
     /// At the fourth corner of a parallelogram.
     Parallelogram {
         /// The other corners, in order around it.
@@ -117,7 +122,7 @@ impl JointKindTemplate {
     /// The joints it refers to.
     pub fn referenced_joints(&self) -> Vec<usize> {
         match self {
-            JointKindTemplate::Fixed(_) => Vec::new(),
+            JointKindTemplate::Fixed(_) | JointKindTemplate::Grouped { .. } => Vec::new(),
             JointKindTemplate::Crank { pivot, .. } => vec![*pivot],
             JointKindTemplate::Gear { crank, pivot, .. } => vec![*crank, *pivot],
             JointKindTemplate::Parallelogram { corners } => corners.to_vec(),
@@ -137,7 +142,7 @@ impl JointKindTemplate {
     #[must_use]
     pub fn map_joints(mut self, new_index: impl Fn(usize) -> usize) -> JointKindTemplate {
         match &mut self {
-            JointKindTemplate::Fixed(_) => {}
+            JointKindTemplate::Fixed(_) | JointKindTemplate::Grouped { .. } => {}
             JointKindTemplate::Crank { pivot, .. } => *pivot = new_index(*pivot),
             JointKindTemplate::Gear { crank, pivot, .. } => (*crank, *pivot) = (new_index(*crank), new_index(*pivot)),
             JointKindTemplate::Parallelogram { corners } => *corners = corners.map(new_index),

@@ -1,5 +1,6 @@
 //! A template: a linkage whose dimensions are expressions. A parameter set turns it into a [`Linkage`].
 
+mod closure;
 mod construction;
 mod input_value;
 mod joint_kind;
@@ -8,6 +9,7 @@ mod parameter;
 mod parameter_kinds;
 mod side;
 
+pub use closure::ClosureTemplate;
 pub use joint_kind::{Coordinate, JointKindTemplate};
 pub use parameter::{Parameter, ParameterKind};
 pub use side::SideTemplate;
@@ -41,6 +43,10 @@ pub struct Template {
     pub note: Option<Caption>,
     /// The joints in the order they are placed.
     pub joints: Vec<JointTemplate>,
+    /// The closed loops by which joints are placed that no dyads place; none if there are no such joints.
+    pub closures: Vec<ClosureTemplate>,
+    /// The same linkage driven elsewhere, by which dyads place all joints, if all circuits of joints with closures are to be found.
+    pub driven_elsewhere: Option<Box<Template>>,
     /// The joints whose curves are traced, by their indices in `joints`.
     pub traced: Vec<usize>,
     /// The link in whose frame everything is reported: the joint at its origin and a joint on its positive x-axis.
@@ -198,7 +204,11 @@ impl Template {
     /// # Errors
     /// A number that is not finite, a length that is not positive, a joint that cannot be placed.
     pub fn linkage(&self, values: &[f64]) -> Result<Linkage, Error> {
-        self.build_with(values, |_, expression| expression.evaluate(|slot| values[slot]))
+        let mut linkage = self.build_with(values, |_, expression| expression.evaluate(|slot| values[slot]))?;
+        if let (Some(group), Some(other)) = (&mut linkage.group, &self.driven_elsewhere) {
+            group.driven_elsewhere = Some(Box::new(other.linkage(values)?));
+        }
+        Ok(linkage)
     }
 
     /// The error in the joints that does not depend on numbers: one joint given twice, a point on no link, too many
@@ -224,7 +234,7 @@ impl Template {
         // Fixed joints and points must not coincide, so that lines through them have directions.
         let position = |joint: usize| (joint * joint) as f64;
         let numbers = |joint: usize, _: &CompiledExpression| match self.joints[joint].kind {
-            JointKindTemplate::Fixed(_) => position(joint),
+            JointKindTemplate::Fixed(_) | JointKindTemplate::Grouped { .. } => position(joint),
             JointKindTemplate::Point { .. } => 1.0 + position(joint),
             _ => 1.0,
         };
@@ -290,6 +300,10 @@ impl Template {
                     };
                     vec![builder.slot(name, two(base), offset, side)?]
                 }
+                JointKindTemplate::Grouped { at: [x, y] } => {
+                    let at = [finite("the x", number(k, x))?, finite("the y", number(k, y))?];
+                    vec![builder.grouped(name, at.into())]
+                }
                 JointKindTemplate::Parallelogram { corners } => {
                     vec![builder.parallelogram(name, corners.map(|j| built[j][0]))?]
                 }
@@ -309,6 +323,28 @@ impl Template {
                 }
             };
             built.push(ids);
+            // A link is there before the points of it.
+            for closure in self.closures.iter().filter(|closure| closure.joints().into_iter().max() == Some(k)) {
+                let finite = |what, value: f64| match value.is_finite() {
+                    true => Ok(value),
+                    false => Err(Error::NotFinite { joint: name.to_owned(), what, value }),
+                };
+                let two = |base: &[usize; 2]| base.map(|j| built[j][0]);
+                match closure {
+                    ClosureTemplate::Bar { joints, length } => builder.grouped_bar(two(joints), number(k, length))?,
+                    ClosureTemplate::Hold { joint, base, place: [along, across] } => {
+                        let place = [finite("`along`", number(k, along))?, finite("`across`", number(k, across))?];
+                        builder.hold(built[*joint][0], two(base), place)?;
+                    }
+                    ClosureTemplate::Guide { joint, line, offset } => {
+                        builder.guide(built[*joint][0], two(line), finite("`offset`", number(k, offset))?)?;
+                    }
+                    ClosureTemplate::Start { joint, at: [x, y] } => {
+                        let at = [finite("the x", number(k, x))?, finite("the y", number(k, y))?];
+                        builder.start_at(built[*joint][0], at.into());
+                    }
+                }
+            }
         }
         let traced = self.traced.iter().flat_map(|&k| built[k].clone()).collect();
         let seen_from = self.seen_from.map(|joints| joints.map(|k| built[k][0]));

@@ -40,7 +40,9 @@ impl JointKindTemplate {
     /// The expressions of its lengths and coordinates.
     fn lengths(&self) -> Vec<&CompiledExpression> {
         match self {
-            JointKindTemplate::Fixed(position) => position.iter().collect(),
+            JointKindTemplate::Fixed(position) | JointKindTemplate::Grouped { at: position } => {
+                position.iter().collect()
+            }
             JointKindTemplate::Crank { length, .. } | JointKindTemplate::Gear { length, .. } => vec![length],
             JointKindTemplate::Piston { length, offset, .. } | JointKindTemplate::Slide { length, offset, .. } => {
                 vec![length, offset]

@@ -510,31 +510,6 @@ input = "O A"
 }
 
 #[test]
-fn an_input_by_which_dyads_serve_is_named() {
-    const STEPHENSON_II: &str = r#"
-[[linkage]]
-id = "a"
-trace = ["M"]
-[linkage.drawing]
-joints = { O = [0, 0], C = [4, 0], A = [0, 1], M = [1, 3], D = [2, 1], E = [3, 3], F = [4, 2] }
-frame = ["O", "C"]
-links = [["O", "A"], ["A", "M", "D"], ["C", "E", "F"], ["M", "E"], ["D", "F"]]
-input = INPUT
-"#;
-    let problems = parse_templates(&STEPHENSON_II.replace("INPUT", "\"O A\"")).expect_err("a triad");
-    let [problem] = &problems[..] else { panic!("{problems:?}") };
-    assert_eq!(problem.message, "no dyads place `M`, `D`, `E` and `F`: these links hold each other");
-    let inputs: Vec<&str> = problem.help.split("input = ").nth(1).unwrap().split(" or ").collect();
-    assert!(!inputs.is_empty());
-    for input in inputs {
-        let linkage = parse_templates(&STEPHENSON_II.replace("INPUT", input)).unwrap().remove(0).linkage(&[]).unwrap();
-        let pose = start_pose(&linkage).unwrap();
-        let at = |name: &str| pose[linkage.find_joint(name).unwrap().index()];
-        assert!((at("E") - Point::new(3.0, 3.0)).norm() < 1e-9, "{input}");
-    }
-}
-
-#[test]
 fn lengths_that_are_given_are_those_of_the_linkage() {
     let text = r#"
 [[linkage]]

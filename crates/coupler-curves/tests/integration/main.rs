@@ -12,6 +12,7 @@ mod dyad_chains;
 mod expressions;
 mod extreme_lengths;
 mod grids;
+mod groups;
 mod instant;
 mod invariance;
 mod layouts;

@@ -262,7 +262,7 @@ fn the_inverted_slider_cranks_output_rocks_or_turns() {
 fn rates_at_a_limit_are_unbounded() {
     let linkage = four_bar(FourBar { frame: 4.0, crank: 2.0, coupler: 2.0, rocker: 2.0 });
     let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(60)));
-    let pass = motion.circuits[0].passes[0];
+    let pass = motion.circuits[0].passes[0].clone();
     let jets = JointDerivatives::on_pass(&linkage, &pass, pass.to.input.value);
     assert!(jets.velocity(JointId::new(2)).norm().is_finite(), "the crank keeps turning");
     assert_eq!(jets.velocity(JointId::new(3)), Vector::new(f64::INFINITY, f64::INFINITY));

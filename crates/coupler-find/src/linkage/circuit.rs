@@ -26,7 +26,7 @@ impl Traced {
         let end = |value| PassEnd::regular(InputPosition::from_degrees(value));
         let Input::Angle { .. } = linkage.input() else { return None };
         let mode = linkage.motion_options.mode.truncated(linkage.dyad_count());
-        let pass = Pass { from: end(0.0), to: end(linkage.input().period()), mode };
+        let pass = Pass { from: end(0.0), to: end(linkage.input().period()), mode, track: None };
         let circuit = UnsampledCircuit { passes: vec![pass], is_closed: true };
         Some(Traced { linkage, circuit, joint })
     }

@@ -1,5 +1,6 @@
 //! Building a linkage joint by joint.
 
+mod group;
 mod sliding_body;
 mod sliding_joints;
 
@@ -7,7 +8,7 @@ use sliding_body::SlidingBody;
 
 use super::planar_linkage::gcd;
 use super::{
-    AssemblyMode, DyadId, Error, Joint, JointId, JointKind, Link, LinkId, Linkage, MAX_DYADS, MotionOptions,
+    AssemblyMode, DyadId, Error, Group, Joint, JointId, JointKind, Link, LinkId, Linkage, MAX_DYADS, MotionOptions,
     OutputLink, Side,
 };
 use crate::geometry::{Orientation, Point, Vector, left_normal};
@@ -33,6 +34,7 @@ pub struct LinkageBuilder {
     sliding_bodies: Vec<SlidingBody>,
     mode: AssemblyMode,
     dyad_count: usize,
+    group: Option<Group>,
     output_link: Option<OutputLink>,
 }
 
@@ -156,8 +158,7 @@ impl LinkageBuilder {
         let span = (to - from).norm();
         let (along, across) = (along / span, across / span);
         let id = self.add_joint(name, JointKind::Rigid { base, along, across });
-        let position = from + (to - from) * along + left_normal(to - from) * across;
-        self.links[link].joints.push((id, position));
+        self.links[link].joints.push((id, point_on_link([from, to], along, across)));
         Ok(id)
     }
 
@@ -231,8 +232,17 @@ impl LinkageBuilder {
         let motion_options = MotionOptions { mode: self.mode, ..options };
         let placement = Orientation::default();
         let (joints, links, output_link) = (self.joints, self.links, self.output_link);
-        let linkage =
-            Linkage { joints, links, traced, seen_from, output_link, chains: Vec::new(), placement, motion_options };
+        let linkage = Linkage {
+            joints,
+            links,
+            group: self.group,
+            traced,
+            seen_from,
+            output_link,
+            chains: Vec::new(),
+            placement,
+            motion_options,
+        };
         match output_link {
             Some(OutputLink::Link(pair)) if pair.iter().all(|&joint| linkage.ground().position(joint).is_some()) => {
                 Err(Error::OutputAtRest { base: pair.map(|joint| linkage.joints[joint].name.clone()) })
@@ -286,6 +296,11 @@ impl LinkageBuilder {
             .enumerate()
             .find_map(|(k, link)| Some((LinkId::new(k), link.position(from)?, link.position(to)?)))
     }
+}
+
+/// A point by its position along the line of two, and to the left of it, in units of their distance.
+fn point_on_link([from, to]: [Vector; 2], along: f64, across: f64) -> Vector {
+    from + (to - from) * along + left_normal(to - from) * across
 }
 
 fn check_length(joint: &str, length: f64) -> Result<(), Error> {

@@ -95,7 +95,7 @@ impl LinkageBuilder {
     }
 
     /// Adds the block of a slider or a yoke, which its joint and either joint of its line identify.
-    fn add_slider(&mut self, joint: JointId, line: [JointId; 2]) {
+    pub(super) fn add_slider(&mut self, joint: JointId, line: [JointId; 2]) {
         self.add_sliding_body([joint, line[1]], line, (0.0, LineDirection::Towards));
         let block = self.sliding_bodies[self.sliding_bodies.len() - 1];
         self.sliding_bodies.push(SlidingBody { base: [joint, line[0]], is_backward: true, ..block });

@@ -1,5 +1,6 @@
 //! Linkages by their drawing: the joints by coordinates, and the links by their joints. Dimensions and sides follow from the pose that is drawn.
 
+mod group;
 mod mobility;
 mod obstacle;
 mod placement;
@@ -8,7 +9,7 @@ mod read;
 mod read_input;
 mod vectors;
 
-pub(super) use placement::place;
+pub(super) use placement::{PlacedDrawing, place};
 pub(super) use read::{input_kind, read_drawing};
 
 use std::collections::HashMap;

@@ -1,8 +1,9 @@
 //! What keeps a drawing from being placed, in words.
 
+use super::Drawing;
+use super::group::MAX_GROUPED;
 use super::mobility::Mobility;
 use super::placer::{Obstacle, Placer};
-use super::{Drawing, DrawnInput};
 use crate::problem::Problem;
 
 /// The problem of a drawing that cannot be placed.
@@ -39,6 +40,11 @@ pub(super) fn describe(drawing: &Drawing, mobility: Mobility, placer: &Placer, o
             );
             problem.with_help(format!("leave the line out of `slides`; degrees of freedom: {count}"))
         }
+        Obstacle::TooLarge(joints) => {
+            let message = format!("{joints} joints hold each other, at most {MAX_GROUPED} can be placed together");
+            let problem = Problem::error(drawing.input_span.clone(), message);
+            problem.with_help("drive it elsewhere, so that dyads place joints one after the other: input = …")
+        }
         Obstacle::Open if mobility.degrees() > 1 => {
             let problem = Problem::error(
                 drawing.span.clone(),
@@ -51,48 +57,8 @@ pub(super) fn describe(drawing: &Drawing, mobility: Mobility, placer: &Placer, o
             problem.with_help(format!("leave a link out; those with {} hold each other", listed(unplaced())))
         }
         Obstacle::Open => {
-            let message = format!("no dyads place {}: these links hold each other", listed(unplaced()));
-            let problem = Problem::error(drawing.input_span.clone(), message);
-            let inputs = other_inputs(drawing);
-            problem.with_help(match &inputs[..] {
-                [] => "there is no other input by which dyads would place them".to_owned(),
-                inputs => format!("drive it elsewhere, which gives the same curves: input = {}", inputs.join(" or ")),
-            })
+            let message = format!("the driven link and the frame hold {} without the other links", listed(unplaced()));
+            Problem::error(drawing.input_span.clone(), message).with_help(format!("degrees of freedom: {count}"))
         }
     }
-}
-
-/// The inputs by which dyads place all joints: links on the frame, then angles between moving links.
-fn other_inputs(drawing: &Drawing) -> Vec<String> {
-    let mut found = Vec::new();
-    for ground in 0..drawing.links.len() {
-        for link in (1..drawing.links.len()).filter(|link| *link > ground) {
-            let (own, other) = (&drawing.links[link].joints, &drawing.links[ground].joints);
-            let Some(&pivot) = own.iter().find(|joint| other.contains(joint)) else { continue };
-            let Some(&joint) = own.iter().find(|joint| **joint != pivot) else { continue };
-            let Some(&before) = other.iter().find(|joint| **joint != pivot).or((ground == 0).then_some(&pivot)) else {
-                continue;
-            };
-            let from = (ground != 0).then_some([before, pivot]);
-            let input = DrawnInput::Crank { ground, from, link, line: [pivot, joint] };
-            let tried = Drawing { input, ..drawing.clone() };
-            if Placer::new(&tried).place_all().is_ok() {
-                let name = |joint: usize| drawing.names[joint];
-                found.push(match ground {
-                    0 => format!("\"{} {}\"", name(pivot), name(joint)),
-                    _ => format!(
-                        "{{ between = [\"{} {}\", \"{} {}\"] }}",
-                        name(before),
-                        name(pivot),
-                        name(pivot),
-                        name(joint)
-                    ),
-                });
-            }
-            if found.len() == 2 {
-                return found;
-            }
-        }
-    }
-    found
 }

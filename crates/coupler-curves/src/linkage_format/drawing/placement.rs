@@ -7,7 +7,7 @@ use super::vectors::DrawnVector;
 use super::{Drawing, DrawnInput, Slide};
 use crate::expression::{CompiledExpression, Unit};
 use crate::problem::Problem;
-use crate::template::{Coordinate, InputValue, JointKindTemplate};
+use crate::template::{ClosureTemplate, Coordinate, InputValue, JointKindTemplate};
 
 /// The joints of a drawing as they are placed.
 pub struct PlacedDrawing {
@@ -15,6 +15,10 @@ pub struct PlacedDrawing {
     pub kinds: Vec<JointKindTemplate>,
     /// The joints that the drawing has not: feet of perpendiculars to lines that slide, and what the frame is seen by.
     pub further: Vec<FurtherJoint>,
+    /// The closed loops of the joints that no dyads place.
+    pub closures: Vec<ClosureTemplate>,
+    /// The same drawing driven elsewhere, by which dyads place all joints, if they are not placed by dyads here.
+    pub driven_elsewhere: Option<Box<PlacedDrawing>>,
     /// The input in the drawing.
     pub start: InputValue,
     /// Two joints of the frame, if it does not lie as in the drawing while positions are computed.
@@ -24,11 +28,20 @@ pub struct PlacedDrawing {
 /// Places the joints of a drawing.
 ///
 /// # Errors
-/// It has another mobility than one, is rigid in a part, or has a group of links that no dyads solve; or it is to be seen from a frame with one joint.
+/// It has another mobility than one, is rigid in a part, or or has more joints that no dyads place than are possible; or it is to be seen from a frame with one joint.
 pub fn place(drawing: &Drawing) -> Result<PlacedDrawing, Problem> {
     let mobility = Mobility::of(drawing);
     let mut placer = Placer::new(drawing);
     let mut result = placer.place_all();
+    let (mut closures, mut driven_elsewhere) = (Vec::new(), None);
+    if matches!(result, Err(Obstacle::Open)) && mobility.degrees() == 1 {
+        placer = Placer::new(drawing);
+        (result, closures) = match placer.place_as_group() {
+            Ok(closures) => (Ok(()), closures),
+            Err(obstacle) => (Err(obstacle), Vec::new()),
+        };
+        driven_elsewhere = drive_elsewhere(drawing).map(Box::new);
+    }
     if result.is_ok() && mobility.degrees() != 1 {
         result = Err(Obstacle::Open);
     }
@@ -42,7 +55,34 @@ pub fn place(drawing: &Drawing) -> Result<PlacedDrawing, Problem> {
         _ => Some(seen_from(drawing, &mut placer)?),
     };
     let kinds = placer.kinds.into_iter().flatten().collect();
-    Ok(PlacedDrawing { kinds, further: placer.further, start: start(drawing), seen_from })
+    Ok(PlacedDrawing { kinds, further: placer.further, closures, driven_elsewhere, start: start(drawing), seen_from })
+}
+
+/// The drawing driven by the angle between two links by which dyads place all joints; links on the frame are tried first.
+fn drive_elsewhere(drawing: &Drawing) -> Option<PlacedDrawing> {
+    let links = drawing.links.len();
+    let mut pairs = (0..links).flat_map(|ground| (ground + 1..links).map(move |link| (ground, link)));
+    pairs.find_map(|(ground, link)| {
+        let (own, other) = (&drawing.links[link].joints, &drawing.links[ground].joints);
+        let pivot = *own.iter().find(|joint| other.contains(joint))?;
+        let joint = *own.iter().find(|joint| **joint != pivot)?;
+        let from = match ground {
+            0 => None,
+            _ => Some([*other.iter().find(|joint| **joint != pivot)?, pivot]),
+        };
+        let input = DrawnInput::Crank { ground, from, link, line: [pivot, joint] };
+        let tried = Drawing { input, ..drawing.clone() };
+        let mut placer = Placer::new(&tried);
+        placer.place_all().ok()?;
+        Some(PlacedDrawing {
+            kinds: placer.kinds.into_iter().flatten().collect(),
+            further: placer.further,
+            closures: Vec::new(),
+            driven_elsewhere: None,
+            start: start(&tried),
+            seen_from: None,
+        })
+    })
 }
 
 /// The input in a drawing.

@@ -1,6 +1,5 @@
 //! Places the joints of a drawing one after the other: on the driven link, by dyads, and on links that are placed.
 
-use super::vectors::DrawnVector;
 use super::{Drawing, DrawnInput, Slide};
 use crate::expression::{CompiledExpression, Function};
 use crate::template::{Coordinate, JointKindTemplate, SideTemplate};
@@ -16,6 +15,8 @@ pub(super) enum Obstacle {
     RedundantSlide(usize),
     /// No joint can be placed from those that are.
     Open,
+    /// No dyads place so many joints, more than can be placed together.
+    TooLarge(usize),
 }
 
 /// A joint that a drawing has not.
@@ -30,11 +31,11 @@ pub struct FurtherJoint {
 
 /// Places joints from those that are placed.
 pub(super) struct Placer<'d, 'v> {
-    drawing: &'d Drawing<'v>,
+    pub(super) drawing: &'d Drawing<'v>,
     /// How each joint is placed; `None` of those that are not.
     pub kinds: Vec<Option<JointKindTemplate>>,
-    is_link_placed: Vec<bool>,
-    is_slide_used: Vec<bool>,
+    pub(super) is_link_placed: Vec<bool>,
+    pub(super) is_slide_used: Vec<bool>,
     /// The joints that the drawing has not: feet of perpendiculars from pivots to lines that slide.
     pub further: Vec<FurtherJoint>,
 }
@@ -82,26 +83,26 @@ impl<'d, 'v> Placer<'d, 'v> {
     }
 
     /// The joints of the link at rest.
-    fn place_ground(&mut self) {
+    pub(super) fn place_ground(&mut self) {
         let ground = self.drawing.ground();
-        let line = match self.drawing.input {
-            DrawnInput::Crank { from, .. } => from,
-            DrawnInput::Slider { .. } | DrawnInput::Actuator { .. } => None,
-        };
         for &joint in &self.drawing.links[ground].joints {
-            let DrawnVector(position) = match line {
-                None => self.drawing.coordinates[joint].clone(),
-                Some([a, b]) => {
-                    let (x_axis, own) = (self.drawing.vector(a, b), self.drawing.vector(a, joint));
-                    DrawnVector(x_axis.components(&own))
-                }
-            };
-            self.kinds[joint] = Some(JointKindTemplate::Fixed(position));
+            self.kinds[joint] = Some(JointKindTemplate::Fixed(self.position_on_ground(joint)));
         }
         self.is_link_placed[ground] = true;
     }
 
-    fn place_input(&mut self) -> Result<(), Obstacle> {
+    /// The coordinates of a joint in the frame of the link at rest.
+    pub(super) fn position_on_ground(&self, joint: usize) -> [CompiledExpression; 2] {
+        match self.drawing.input {
+            DrawnInput::Crank { from: Some([a, b]), .. } => {
+                let (x_axis, own) = (self.drawing.vector(a, b), self.drawing.vector(a, joint));
+                x_axis.components(&own)
+            }
+            _ => self.drawing.coordinates[joint].0.clone(),
+        }
+    }
+
+    pub(super) fn place_input(&mut self) -> Result<(), Obstacle> {
         let drawing = self.drawing;
         let (link, line) = match drawing.input {
             DrawnInput::Slider { slide, .. } => {
@@ -149,7 +150,7 @@ impl<'d, 'v> Placer<'d, 'v> {
     }
 
     /// A point of a link, by coordinates on it, or by the distances that are given.
-    fn point(&self, joint: usize, base: [usize; 2]) -> JointKindTemplate {
+    pub(super) fn point(&self, joint: usize, base: [usize; 2]) -> JointKindTemplate {
         let drawing = self.drawing;
         let [a, b] = base;
         let is_given = |[p, q]: [usize; 2]| drawing.given_length(p, q).is_some();

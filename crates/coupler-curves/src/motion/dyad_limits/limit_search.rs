@@ -31,7 +31,7 @@ impl LimitSearch<'_> {
         let signs = DyadSigns::new(self.mode, DyadSet::EMPTY);
         let inputs = InputColumns::new(&inputs);
         place_leading_joints(self.linkage, joints, inputs.as_slices(), &signs, &mut out, 0..values.len());
-        let pass = Interval { span: self.span, mode: self.mode }.to_pass(true, input.period());
+        let pass = Interval { span: self.span, mode: self.mode, track: None }.to_pass(true, input.period());
         let mut is_unknown = vec![false; values.len()];
         for (i, value) in values.iter().enumerate() {
             for (end, begins) in [(pass.from, true), (pass.to, false)] {

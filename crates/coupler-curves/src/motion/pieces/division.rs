@@ -4,12 +4,12 @@ use super::InputMap;
 use super::circuit_pieces::{CircuitPiece, CircuitPieces, MAX_PIECES, nodes_of};
 use super::first_pieces::{first_pieces, junction_after};
 use crate::geometry::{Chebyshev, TERMS, in_rising_order, trig};
-use crate::linkage::{DyadSet, Input, JointId, JointKind, Linkage};
+use crate::linkage::{Input, JointId, JointKind, Linkage};
 use crate::motion::circuit::UnsampledCircuit;
 use crate::motion::input_columns::InputColumns;
 use crate::motion::pass::{InputPosition, Pass};
-use crate::motion::pass_ends::place_near_ends;
-use crate::motion::positions::{DyadSigns, JointPositions, convert_to_view_frame, place_leading_joints};
+use crate::motion::pass_positions::place_on_pass;
+use crate::motion::positions::{JointPositions, convert_to_view_frame};
 
 /// A piece that is not yet known to be short enough.
 #[derive(Clone, Copy)]
@@ -157,11 +157,7 @@ fn node_positions(linkage: &Linkage, circuit: &UnsampledCircuit, pieces: &[Pendi
     let mut from = 0;
     for run in node_passes.chunk_by(|a, b| a == b) {
         let range = from..from + run.len();
-        let signs = DyadSigns::new(circuit.passes[run[0]].mode, DyadSet::EMPTY);
-        let all = linkage.joints.len();
-        let inputs = columns.slice(range.clone());
-        place_leading_joints(linkage, all, inputs, &signs, &mut positions, range.clone());
-        place_near_ends(linkage, &circuit.passes[run[0]], inputs, &mut positions, range.clone());
+        place_on_pass(linkage, &circuit.passes[run[0]], columns.slice(range.clone()), &mut positions, range.clone());
         from = range.end;
     }
     convert_to_view_frame(linkage, &mut positions);

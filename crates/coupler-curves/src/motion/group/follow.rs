@@ -1,0 +1,169 @@
+//! Follows the curve on which the equations of a group hold, by certified steps, and finds the limits on it.
+
+use super::equations::Equations;
+use super::step::{Node, Tube};
+use crate::motion::assembly_error::AssemblyError;
+
+/// The most nodes of a curve.
+const MAX_NODES: usize = 100_000;
+
+/// The length of the first step, relative to the size of the linkage and a radian.
+const FIRST_STEP: f64 = 0.05;
+
+/// The greatest step: the nodes are also what poses between them are found from.
+const MAX_STEP: f64 = 0.25;
+
+/// Where steps become shorter than this two parts of the curve cross, or are closer to each other than that.
+const LEAST_STEP: f64 = 1e-9;
+
+/// Within this of a limit, relative to the size, poses next to it are found from it.
+const LEAST_DISTANCE_FROM_LIMIT: f64 = 1e-7;
+
+/// Beyond this many times the size, the curve has left the linkage: a slider on a line that is parallel to another.
+const FARTHEST: f64 = 1e4;
+
+/// A closed curve in the direction of its tangents: the last node is the first again, apart from whole turns of the input.
+#[derive(Debug, Default)]
+pub(super) struct Curve {
+    pub nodes: Vec<Node>,
+    /// The indices of the nodes at which the input reverses.
+    pub limits: Vec<usize>,
+}
+
+impl Equations {
+    /// The curve through a node.
+    ///
+    /// # Errors
+    /// Two parts of it cross, or it leads to infinity.
+    pub fn follow(&self, origin: &Node) -> Result<Curve, AssemblyError> {
+        let mut curve = Curve { nodes: vec![origin.clone()], ..Curve::default() };
+        let mut length = FIRST_STEP;
+        loop {
+            let node = &curve.nodes[curve.nodes.len() - 1];
+            let Some(tube) = self.certified_step(node, length) else {
+                length /= 2.0;
+                if length < LEAST_STEP {
+                    return Err(self.error_at(node));
+                }
+                continue;
+            };
+            if curve.nodes.len() > MAX_NODES || node.state.iter().any(|x| x.abs() > FARTHEST) {
+                return Err(self.error_at(node));
+            }
+            let closing = (curve.nodes.len() > 1).then(|| self.origin_in(&tube, node, origin)).flatten();
+            let next = match &closing {
+                Some(state) => self.node(state.clone()),
+                None => {
+                    let corrected = self.corrected(node.ahead(length), tube.parameter);
+                    corrected.filter(|state| tube.position_of(node, state).is_some()).and_then(|state| self.node(state))
+                }
+            };
+            // In the tube there is a solution; that it is not found, or that its direction is not, is for lack of digits.
+            let Some(next) = next else { return Err(self.error_at(node)) };
+            let before = node.clone();
+            if (before.input_rate() > 0.0) != (next.input_rate() > 0.0) {
+                let limit = self.limit_between(&before, &next).ok_or_else(|| self.error_at(&before))?;
+                curve.limits.push(curve.nodes.len());
+                curve.nodes.push(limit);
+            }
+            curve.nodes.push(next);
+            if closing.is_some() {
+                return Ok(curve);
+            }
+            let growth = if tube.contraction < 0.3 { 2.0 } else { 1.2 };
+            length = (length * growth).min(MAX_STEP);
+        }
+    }
+
+    /// A tube of that length on which the input has one limit at most.
+    fn certified_step(&self, node: &Node, length: f64) -> Option<Tube> {
+        /// In a shorter tube the rates of the input at both ends decide.
+        const SHORT: f64 = 1e-6;
+        let tube = self.tube(node, length)?;
+        let is_sure = tube.input_rates.iter().any(|rate| !rate.contains(0.0));
+        (is_sure || tube.parameter == self.unknown_count() || length < SHORT).then_some(tube)
+    }
+
+    /// The origin of the curve, if it is in a tube; its input is that at which it is reached again.
+    fn origin_in(&self, tube: &Tube, node: &Node, origin: &Node) -> Option<Vec<f64>> {
+        let input = self.unknown_count();
+        let mut state = origin.state.clone();
+        if let Some(turn) = self.turn() {
+            let middle = node.ahead(tube.length / 2.0)[input];
+            state[input] += ((middle - state[input]) / turn).round() * turn;
+        }
+        tube.position_of(node, &state).is_some().then_some(state)
+    }
+
+    /// The node between two at which the input does not change.
+    fn limit_between(&self, before: &Node, after: &Node) -> Option<Node> {
+        let held = before.parameter();
+        let (mut low, mut high) = (before.clone(), after.clone());
+        // Secant steps, with those of the halved rate at an end that stays (Illinois); and halving where these are slow.
+        let (mut low_rate, mut high_rate) = (low.input_rate(), high.input_rate());
+        let mut last = 0;
+        for step in 0..100 {
+            let (a, b) = (low.state[held], high.state[held]);
+            let share = if step % 8 == 7 { 0.5 } else { low_rate / (low_rate - high_rate) };
+            let at = a + (b - a) * share;
+            if (b - a).abs() <= 2.0 * f64::EPSILON * a.abs().max(1.0) || at == a || at == b {
+                break;
+            }
+            let mut guess: Vec<f64> =
+                low.state.iter().zip(&high.state).map(|(low, high)| low + (high - low) * share).collect();
+            guess[held] = at;
+            let middle = self.node(self.corrected(guess, held)?)?;
+            let rate = middle.input_rate();
+            if rate == 0.0 {
+                return Some(middle);
+            }
+            if (rate > 0.0) == (low.input_rate() > 0.0) {
+                (low, low_rate) = (middle, rate);
+                high_rate = if last == 1 { high_rate / 2.0 } else { high.input_rate() };
+                last = 1;
+            } else {
+                (high, high_rate) = (middle, rate);
+                low_rate = if last == -1 { low_rate / 2.0 } else { low.input_rate() };
+                last = -1;
+            }
+        }
+        Some(if low.input_rate().abs() <= high.input_rate().abs() { low } else { high })
+    }
+
+    /// Nodes from a limit on, with others between them so that each is at most a few times as far from the limit as the one before: next to
+    /// it, the curve in the input is as narrow as it is near.
+    pub fn graded(&self, nodes: Vec<Node>) -> Vec<Node> {
+        /// How much farther.
+        const RATIO: f64 = 4.0;
+        let limit = nodes[0].clone();
+        let distance = |state: &[f64]| {
+            let squares = state.iter().zip(&limit.state).map(|(a, b)| (a - b) * (a - b));
+            squares.sum::<f64>().sqrt()
+        };
+        let mut out: Vec<Node> = vec![limit.clone()];
+        for next in nodes.into_iter().skip(1) {
+            let far = distance(&next.state);
+            loop {
+                let last = &out[out.len() - 1];
+                let near = distance(&last.state);
+                let wanted = RATIO * near.max(LEAST_DISTANCE_FROM_LIMIT / RATIO);
+                if far <= 1.5 * wanted {
+                    break;
+                }
+                let guess = last.towards(&next, (wanted - near) / (far - near));
+                let between = self.corrected(guess, last.parameter()).and_then(|state| self.node(state));
+                match between.filter(|node| distance(&node.state) > near) {
+                    Some(node) => out.push(node),
+                    None => break,
+                }
+            }
+            out.push(next);
+        }
+        out
+    }
+
+    /// The error where a curve cannot be followed.
+    pub fn error_at(&self, node: &Node) -> AssemblyError {
+        AssemblyError::GroupNotFollowed { input: self.input(&node.state) }
+    }
+}

@@ -1,0 +1,14 @@
+//! The motion of a linkage with a group of links that no dyads solve.
+//!
+//! The coordinates of the group's joints and the input are a curve on which the equations of its closed loops hold. It
+//! is followed by steps each of which is proven to be on one curve, however close another is ([`step`]). Its nodes are
+//! what poses are found from by Newton's method ([`track`]). At a limit the derivatives of the equations with respect to
+//! the unknowns are singular: the group takes the place of a dyad there, whose side is the sign of their determinant.
+
+mod equations;
+mod follow;
+mod step;
+mod track;
+
+pub use track::GroupTrack;
+pub(super) use track::{NamedPose, find_intervals};

@@ -1,0 +1,308 @@
+//! Links that no dyads place: their poses, rates, limits and circuits, against the same linkages driven so that dyads do, and against
+//! Newton's method.
+
+use coupler_curves::geometry::{Chebyshev, Point, trig};
+use coupler_curves::linkage::{Linkage, SixBar};
+use coupler_curves::linkage_format::parse_templates;
+use coupler_curves::motion::{self, AssemblyError, JointDerivatives, Motion, Sampler, Sampling};
+
+/// Linkages of one degree of freedom: the number of joints, the frame and the other links by their joints.
+struct Kind {
+    name: &'static str,
+    joints: usize,
+    frame: &'static [usize],
+    links: &'static [&'static [usize]],
+    /// Links on the frame by which no dyads place the others, by pivot and joint.
+    inputs: &'static [[usize; 2]],
+    /// Angles between two links by which dyads do, or a link on the frame.
+    others: &'static [&'static str],
+}
+
+const KINDS: [Kind; 5] = [
+    Kind {
+        name: "Stephenson II",
+        joints: 7,
+        frame: &[0, 1],
+        links: &[&[0, 2], &[2, 3, 4], &[1, 5, 6], &[3, 5], &[4, 6]],
+        inputs: &[[0, 2]],
+        others: &["{ between = [\"J5 J3\", \"J3 J2\"] }", "{ between = [\"J3 J5\", \"J5 J1\"] }"],
+    },
+    Kind {
+        name: "Stephenson III",
+        joints: 7,
+        frame: &[0, 1, 2],
+        links: &[&[0, 3], &[3, 4], &[1, 5], &[2, 6], &[4, 5, 6]],
+        inputs: &[[0, 3]],
+        others: &["\"J1 J5\"", "\"J2 J6\""],
+    },
+    Kind {
+        name: "Stephenson I",
+        joints: 7,
+        frame: &[0, 1],
+        links: &[&[0, 2, 3], &[1, 4, 5], &[3, 6], &[6, 5], &[2, 4]],
+        inputs: &[],
+        others: &["\"J0 J2\""],
+    },
+    Kind {
+        name: "eight-bar of two ternary and two quaternary links",
+        joints: 10,
+        frame: &[0, 1, 2],
+        links: &[&[0, 3], &[3, 4, 5, 6], &[1, 7], &[7, 4], &[2, 8, 9], &[8, 5], &[9, 6]],
+        inputs: &[[0, 3]],
+        others: &["{ between = [\"J8 J5\", \"J5 J3\"] }"],
+    },
+    Kind {
+        name: "eight-bar with a four-bar and a triad",
+        joints: 10,
+        frame: &[0, 1, 2],
+        links: &[&[0, 3], &[3, 4, 5], &[1, 4, 6], &[5, 7], &[6, 8], &[2, 9], &[7, 8, 9]],
+        inputs: &[[0, 3], [1, 4]],
+        others: &[],
+    },
+];
+
+/// Numbers from 0 to 1 that look random.
+struct Numbers(u64);
+
+impl Numbers {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+/// A drawing with random coordinates.
+struct Drawing {
+    positions: Vec<Point>,
+    kind: &'static Kind,
+}
+
+impl Drawing {
+    fn random(kind: &'static Kind, numbers: &mut Numbers) -> Drawing {
+        let positions = (0..kind.joints).map(|_| Point::new(8.0 * numbers.next() - 4.0, 8.0 * numbers.next() - 4.0));
+        Drawing { positions: positions.collect(), kind }
+    }
+
+    fn linkage(&self, input: &str, circuits: &str) -> Linkage {
+        let list = |joints: &[usize]| {
+            let names: Vec<String> = joints.iter().map(|joint| format!("\"J{joint}\"")).collect();
+            format!("[{}]", names.join(", "))
+        };
+        let joints = self.positions.iter().enumerate().map(|(k, at)| format!("J{k} = [{}, {}]", at.x, at.y));
+        let links: Vec<String> = self.kind.links.iter().map(|link| list(link)).collect();
+        let moving: Vec<usize> = (0..self.kind.joints).filter(|joint| !self.kind.frame.contains(joint)).collect();
+        let text = format!(
+            "[[linkage]]\nid = \"a\"\ncircuits = \"{circuits}\"\ntrace = {}\n[linkage.drawing]\njoints = {{ {} }}\nframe = {}\nlinks = [{}]\ninput = {input}\n",
+            list(&moving),
+            joints.collect::<Vec<String>>().join(", "),
+            list(self.kind.frame),
+            links.join(", ")
+        );
+        let template = parse_templates(&text).unwrap_or_else(|problems| panic!("{text}: {problems:?}")).remove(0);
+        template.linkage(&[]).unwrap()
+    }
+
+    /// How far the lengths of links are missed at any sample, and how far from the drawing the nearest sample is.
+    fn errors(&self, linkage: &Linkage, motion: &Motion) -> [f64; 2] {
+        let joints: Vec<_> = (0..self.kind.joints).map(|k| linkage.find_joint(&format!("J{k}")).unwrap()).collect();
+        let (mut worst, mut nearest) = (0.0f64, f64::INFINITY);
+        for circuit in &motion.circuits {
+            for sample in 0..circuit.len() {
+                let at = |joint: usize| circuit.positions.point(joints[joint], sample);
+                for link in self.kind.links.iter().chain([&self.kind.frame]) {
+                    for (k, &a) in link.iter().enumerate() {
+                        for &b in &link[k + 1..] {
+                            let drawn = (self.positions[a] - self.positions[b]).norm();
+                            worst = worst.max(((at(a) - at(b)).norm() - drawn).abs());
+                        }
+                    }
+                }
+                let distance = (0..joints.len()).map(|k| (at(k) - self.positions[k]).norm()).fold(0.0, f64::max);
+                nearest = nearest.min(distance);
+            }
+        }
+        [worst, nearest]
+    }
+}
+
+fn crank(input: [usize; 2]) -> String {
+    format!("\"J{} J{}\"", input[0], input[1])
+}
+
+fn solve(linkage: &Linkage) -> Motion {
+    Motion::solve(linkage, &Sampler::new(Sampling::Samples(90)))
+}
+
+/// The areas within the curves of a circuit, and their first moments, with the sign of the area.
+fn areas(linkage: &Linkage, motion: &Motion, circuit: usize) -> Vec<f64> {
+    let pieces = motion.circuits[circuit].pieces(linkage);
+    let of_joint = |&joint: &_| {
+        let mut sums = [0.0; 3];
+        for piece in 0..pieces.len() {
+            let [x, y] = pieces.series(piece, joint);
+            // In halves, products have the terms that a series has.
+            for (x, y) in x.halves().iter().zip(&y.halves()) {
+                let (vy, vx) = (y.derivative().values(), x.derivative().values());
+                let (x, y) = (x.values(), y.values());
+                let integral = |of: &dyn Fn(usize) -> f64| Chebyshev::from_values(&std::array::from_fn(of)).total();
+                sums[0] += integral(&|k| x[k] * vy[k]);
+                sums[1] += integral(&|k| x[k] * x[k] * vy[k] / 2.0);
+                sums[2] -= integral(&|k| y[k] * y[k] * vx[k] / 2.0);
+            }
+        }
+        let sign = if sums[0].abs() > 1e-6 { sums[0].signum() } else { 0.0 };
+        sums.map(|sum| sum * sign)
+    };
+    linkage.traced.iter().flat_map(of_joint).collect()
+}
+
+fn are_equal(a: &[f64], b: &[f64]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-9 * (1.0 + a.abs()))
+}
+
+/// Whatever drives a linkage, its circuit is the same: curves by a group and by dyads have the same areas.
+#[test]
+fn a_circuit_is_that_of_the_same_linkage_driven_elsewhere() {
+    let mut numbers = Numbers(7);
+    let mut compared = 0;
+    for kind in &KINDS {
+        for _ in 0..4 {
+            let drawing = Drawing::random(kind, &mut numbers);
+            for &input in kind.inputs {
+                let linkage = drawing.linkage(&crank(input), "start");
+                assert!(linkage.group.is_some(), "{}", kind.name);
+                let motion = solve(&linkage);
+                assert!(motion.is_assembled(), "{}: {:?}", kind.name, motion.assembly_error);
+                let [worst, _] = drawing.errors(&linkage, &motion);
+                assert!(worst < 1e-11, "{}: {worst:e}", kind.name);
+                for other in kind.others {
+                    let other = drawing.linkage(other, "start");
+                    assert!(other.group.is_none(), "{}", kind.name);
+                    let by_dyads = solve(&other);
+                    let expected = areas(&other, &by_dyads, 0);
+                    let found = areas(&linkage, &motion, 0);
+                    assert!(are_equal(&found, &expected), "{}: {found:?} {expected:?}", kind.name);
+                    compared += 1;
+                }
+            }
+        }
+    }
+    assert_eq!(compared, 20);
+}
+
+/// All circuits of a linkage, whatever drives it.
+#[test]
+fn all_circuits_are_found() {
+    let mut numbers = Numbers(11);
+    let mut counts = Vec::new();
+    for kind in &KINDS[..4] {
+        for _ in 0..3 {
+            let drawing = Drawing::random(kind, &mut numbers);
+            for &input in kind.inputs {
+                let linkage = drawing.linkage(&crank(input), "all");
+                let other = drawing.linkage(kind.others[0], "all");
+                let sorted = |linkage: &Linkage| {
+                    let motion = solve(linkage);
+                    assert!(motion.is_assembled(), "{}: {:?}", kind.name, motion.assembly_error);
+                    let circuits = 0..motion.circuits.len();
+                    let mut all: Vec<Vec<f64>> = circuits.map(|circuit| areas(linkage, &motion, circuit)).collect();
+                    all.sort_by(|a, b| a.iter().sum::<f64>().total_cmp(&b.iter().sum()));
+                    all
+                };
+                let (found, expected) = (sorted(&linkage), sorted(&other));
+                assert_eq!(found.len(), expected.len(), "{}", kind.name);
+                assert!(found.iter().zip(&expected).all(|(a, b)| are_equal(a, b)), "{}", kind.name);
+                counts.push(found.len());
+            }
+        }
+    }
+    assert!(counts.iter().any(|count| *count > 2), "{counts:?}");
+    let drawing = Drawing::random(&KINDS[4], &mut numbers);
+    let error = solve(&drawing.linkage(&crank([0, 3]), "all")).assembly_error;
+    assert_eq!(error, Some(AssemblyError::NoOtherInput));
+}
+
+/// Velocity, acceleration and jerk are the derivatives of positions, by differences of eighth order.
+#[test]
+fn rates_are_the_derivatives_of_poses() {
+    /// Of the first derivative, for values on one side.
+    const WEIGHTS: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
+    const STEP: f64 = 0.02;
+    let mut numbers = Numbers(3);
+    let mut checked = 0;
+    for kind in &KINDS {
+        for &input in kind.inputs {
+            let drawing = Drawing::random(kind, &mut numbers);
+            let linkage = drawing.linkage(&crank(input), "start");
+            let motion = solve(&linkage);
+            let pass = &motion.circuits[0].passes[0];
+            let [low, high] = pass.input_range();
+            for share in [0.3, 0.5, 0.8] {
+                let at = low + (high - low) * share;
+                let exact = |by: f64| JointDerivatives::on_pass(&linkage, pass, at + trig::degrees(by));
+                let rates = exact(0.0);
+                for joint in linkage.joint_ids() {
+                    let difference = |of: &dyn Fn(&JointDerivatives) -> coupler_curves::geometry::Vector| {
+                        let pair = |k: usize| {
+                            let by = STEP * (k + 1) as f64 / 4.0;
+                            (of(&exact(by)) - of(&exact(-by))) * WEIGHTS[k]
+                        };
+                        (pair(0) + pair(1) + pair(2) + pair(3)) / (STEP / 4.0)
+                    };
+                    let expected = [
+                        difference(&|rates| rates.position(joint).coords),
+                        difference(&|rates| rates.velocity(joint)),
+                        difference(&|rates| rates.acceleration(joint)),
+                    ];
+                    let found = [rates.velocity(joint), rates.acceleration(joint), rates.jerk(joint)];
+                    for (found, expected) in found.iter().zip(&expected) {
+                        // Next to a limit differences have fewer digits.
+                        if expected.norm() < 1e3 {
+                            assert!(
+                                (found - expected).norm() < 1e-6 * (1.0 + expected.norm()),
+                                "{}: {found} {expected}",
+                                kind.name
+                            );
+                            checked += 1;
+                        }
+                    }
+                }
+            }
+        }
+    }
+    assert!(checked > 200, "{checked}");
+}
+
+/// On a range of the input the motion is that part of the circuit, and ends there.
+#[test]
+fn a_range_is_a_part_of_the_circuit() {
+    let drawing = Drawing::random(&KINDS[1], &mut Numbers(5));
+    let mut linkage = drawing.linkage("\"J0 J3\"", "start");
+    let whole = solve(&linkage);
+    let start = linkage.motion_options.start.unwrap();
+    let [from, to] = [start - 2.0, start + 3.0];
+    linkage.motion_options.range = Some([from, to]);
+    let part = solve(&linkage);
+    assert_eq!(part.assembly_error, None);
+    let [circuit] = &part.circuits[..] else { panic!("{} circuits", part.circuits.len()) };
+    assert!(!circuit.is_closed);
+    let ends = [circuit.inputs[0], circuit.inputs[circuit.len() - 1]];
+    assert_eq!([ends[0].min(ends[1]), ends[0].max(ends[1])], [from, to]);
+    let pose_at_start = motion::pose(&linkage, &circuit.passes[0], start);
+    let is_drawn = |k: usize| {
+        (pose_at_start[linkage.find_joint(&format!("J{k}")).unwrap().index()] - drawing.positions[k]).norm() < 1e-11
+    };
+    assert!((0..drawing.kind.joints).all(is_drawn));
+    assert!(whole.circuits[0].len() >= circuit.len());
+}
+
+/// The kinds of six-bars are recognised, though no dyads place them.
+#[test]
+fn six_bars_are_named() {
+    let mut numbers = Numbers(1);
+    for (kind, expected) in [(&KINDS[0], SixBar::StephensonII), (&KINDS[1], SixBar::StephensonIII)] {
+        let linkage = Drawing::random(kind, &mut numbers).linkage(&crank(kind.inputs[0]), "start");
+        let chain = coupler_curves::linkage::KinematicChain::from_linkage(&linkage).unwrap();
+        assert_eq!(chain.six_bar(), Some(expected));
+    }
+}
