@@ -7,7 +7,7 @@ use std::sync::{Arc, LazyLock};
 use crate::linkage_format;
 use crate::template::Template;
 
-const FILES: [&str; 20] = [
+const FILES: [&str; 31] = [
     include_str!("four-bar.toml"),
     include_str!("evans.toml"),
     include_str!("chebyshev.toml"),
@@ -28,6 +28,17 @@ const FILES: [&str; 20] = [
     include_str!("geared-five-bar.toml"),
     include_str!("watt-six-bar.toml"),
     include_str!("stephenson-six-bar.toml"),
+    include_str!("whitworth.toml"),
+    include_str!("shaper.toml"),
+    include_str!("elliptic-trammel.toml"),
+    include_str!("toggle-press.toml"),
+    include_str!("dwell-eight-bar.toml"),
+    include_str!("excavator.toml"),
+    include_str!("gripper.toml"),
+    include_str!("watt-i-six-bar.toml"),
+    include_str!("watt-i-six-bar-by-ternary.toml"),
+    include_str!("watt-ii-six-bar-by-ternary.toml"),
+    include_str!("stephenson-i-six-bar.toml"),
 ];
 
 static TEMPLATES: LazyLock<Vec<Arc<Template>>> = LazyLock::new(|| {

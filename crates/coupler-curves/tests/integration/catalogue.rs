@@ -2,20 +2,30 @@
 
 use coupler_curves::geometry::{Point, Vector, trig};
 use coupler_curves::linkage::{CircuitSelection, JointId, Linkage, MotionOptions};
-use coupler_curves::motion::{Circuit, Motion, Sampler, Sampling};
+use coupler_curves::motion::{self, Circuit, Motion, Sampler, Sampling};
 
 use crate::linkages::{check_motion, third_corner};
+use crate::output::measures;
 
 /// A linkage of the catalogue with its default proportions.
 pub fn default_linkage(id: &str) -> Linkage {
+    linkage_with(id, &[])
+}
+
+/// A linkage of the catalogue with some dimensions given, and defaults for the others.
+fn linkage_with(id: &str, given: &[(&str, f64)]) -> Linkage {
     let template = coupler_curves::catalogue::find(id).unwrap();
-    let mut values: Vec<f64> = vec![f64::NAN; template.parameters.len()];
     let index = |name: &str| template.parameters.iter().position(|p| p.name == name).unwrap();
+    let mut values: Vec<f64> = vec![f64::NAN; template.parameters.len()];
+    given.iter().for_each(|&(name, value)| values[index(name)] = value);
     // Defaults may refer to one another: as many passes as there are parameters settle them.
     for _ in 0..values.len() {
         for (k, parameter) in template.parameters.iter().enumerate() {
-            if let Some(default) = &parameter.default {
-                values[k] = default.evaluate(|i| values[index(&default.names()[i])]);
+            match &parameter.default {
+                Some(default) if given.iter().all(|(name, _)| *name != parameter.name) => {
+                    values[k] = default.evaluate(|i| values[index(&default.names()[i])]);
+                }
+                _ => {}
             }
         }
     }
@@ -29,6 +39,10 @@ fn first_circuit(linkage: &Linkage, samples: usize) -> Circuit {
 
 fn joint(linkage: &Linkage, name: &str) -> JointId {
     linkage.find_joint(name).unwrap()
+}
+
+fn square(x: f64) -> f64 {
+    x * x
 }
 
 /// The least and the greatest of the values.
@@ -197,6 +211,175 @@ fn a_scotch_yoke_is_harmonic() {
     let circuit = first_circuit(&linkage, 24);
     for (i, p) in circuit.points(linkage.traced[0]).enumerate() {
         assert!((p - Point::new(2.0 + trig::cos_sin_deg(circuit.inputs[i]).0, 0.0)).norm() < 1e-15);
+    }
+}
+
+/// The crank turns by twice acos(g / r) in Whitworth's return stroke, and by twice acos(r / g) in that of the shaper, whose ram
+/// moves as far as the lever's end swings to either side.
+#[test]
+fn quick_returns_have_their_time_ratios() {
+    let ratio = |cos: f64| (180.0 - trig::degrees(trig::acos(cos))) / trig::degrees(trig::acos(cos));
+    for (g, r) in [(1.0, 2.0), (0.8, 2.5), (1.5, 1.7)] {
+        let value = measures(&linkage_with("whitworth", &[("g", g), ("r", r)]), 0, 12);
+        assert!((value("time_ratio") - ratio(g / r)).abs() < 1e-11, "{g} {r}: {}", value("time_ratio"));
+        assert!((value("output_stroke") - 3.0).abs() < 1e-12, "{}", value("output_stroke"));
+        let value = measures(&linkage_with("shaper", &[("g", r), ("r", g)]), 0, 12);
+        assert!((value("time_ratio") - ratio(g / r)).abs() < 1e-11, "{g} {r}: {}", value("time_ratio"));
+        assert!((value("output_stroke") - 8.0 * g / r).abs() < 1e-12, "{}", value("output_stroke"));
+    }
+    assert_eq!(measures(&default_linkage("whitworth"), 0, 12)("time_ratio"), 2.0);
+    assert_eq!(measures(&default_linkage("shaper"), 0, 12)("time_ratio"), 2.0);
+}
+
+/// With the bar at an angle t, its ends are at (l cos t, 0) and (0, l sin t): from a point of the bar follow the cosine and the sine,
+/// and their squares add up to 1.
+#[test]
+fn the_trammel_draws_ellipses() {
+    for [u, v] in [[1.0, 0.0], [2.0, 0.0], [1.2, 0.7], [-1.0, 0.4]] {
+        let l = 3.0;
+        let linkage = linkage_with("elliptic-trammel", &[("l", l), ("along", u), ("across", v)]);
+        let circuit = first_circuit(&linkage, 360);
+        assert!(circuit.is_closed);
+        let mut quadrants = [false; 4];
+        for m in circuit.points(linkage.traced[0]) {
+            // M = ((l - u) cos - v sin, u sin - v cos), solved for both.
+            let det = (l - u) * u - v * v;
+            let [cos, sin] = [(u * m.x + v * m.y) / det, (v * m.x + (l - u) * m.y) / det];
+            assert!((cos * cos + sin * sin - 1.0).abs() < 1e-12, "{u} {v}: {m}");
+            quadrants[usize::from(cos > 0.0) + 2 * usize::from(sin > 0.0)] = true;
+        }
+        assert_eq!(quadrants, [true; 4], "the whole ellipse");
+    }
+}
+
+/// The joints of the start pose of a linkage, moved by an input.
+fn pose_at(linkage: &Linkage, input: f64) -> Vec<Point> {
+    let motion = Motion::solve(linkage, &Sampler::new(Sampling::Samples(12)));
+    let pass = &motion.circuits[0].passes[0];
+    let low = pass.from.input.value.min(pass.to.input.value);
+    motion::pose(linkage, pass, input + 360.0 * ((low - input) / 360.0).ceil())
+}
+
+/// The ram is below the upper pivot by both links times the cosine of their angle. From the bottom, the knee moves as the square of
+/// the crank's angle, as at the dead centre of a slider-crank, and so the ram as its fourth power.
+#[test]
+fn the_toggle_press_rises_as_the_fourth_power() {
+    for (r, l, x) in [(0.75, 3.0, 5.0), (0.5, 2.0, 4.0)] {
+        let linkage = linkage_with("toggle-press", &[("r", r), ("l", l), ("x", x)]);
+        let [knee, ram] = ["K", "R"].map(|name| joint(&linkage, name));
+        let circuit = first_circuit(&linkage, 72);
+        assert!(circuit.is_closed);
+        for i in 0..circuit.len() {
+            let [knee, ram] = [knee, ram].map(|joint| circuit.positions.point(joint, i));
+            assert!((ram.y - 2.0 * l + 2.0 * (l * l - knee.x * knee.x).sqrt()).abs() < 1e-12);
+            assert!(ram.x.abs() < 1e-12 && ram.y > -1e-12 && knee.x < 1e-7, "{ram} {knee}");
+        }
+        // The coupler is as long as from the crank pin to the knee at the bottom.
+        let expected = square(0.5 * r * (1.0 + r / (x - r))) / l;
+        let fourth_power = square(square(trig::radians(2.0)));
+        let rise = 0.5 * (pose_at(&linkage, 2.0)[ram.index()].y + pose_at(&linkage, -2.0)[ram.index()].y);
+        assert!((rise / fourth_power / expected - 1.0).abs() < 5e-3, "{} {expected}", rise / fourth_power);
+    }
+}
+
+/// At the limit of a four-bar whose crank r and coupler a are in line, its rocker s, at an angle mu to the coupler, is from its
+/// limit by r (1 + r / a) / (2 s sin(mu)) times the square of the crank's angle. Three of them in series have an eighth power.
+#[test]
+fn the_dwell_of_the_eight_bar_is_an_eighth_power() {
+    let linkage = default_linkage("dwell-eight-bar");
+    let [g, s] = ["G", "S"].map(|name| joint(&linkage, name).index());
+    let drawn = trig::degrees(trig::atan2(0.6, 0.8));
+    let angle = |turn_deg: f64| {
+        let pose = pose_at(&linkage, drawn + turn_deg);
+        trig::atan2(pose[g].y - pose[s].y, pose[g].x - pose[s].x)
+    };
+    let of_square = |[r, a, s, sin]: [f64; 4]| r * (1.0 + r / a) / (2.0 * s * sin);
+    // The rocker from (4, 0) to (3.2, 2.4), seen from the line through the origin and its end.
+    let rocker = 6.4f64.sqrt();
+    let sin = (0.8 * 2.4 + 0.6 * 0.8) / rocker;
+    let [first, second, third] = [[1.0, 3.0, rocker, sin], [1.5, 2.5, 2.0, 1.0], [2.0, 3.0, 1.5, 1.0]].map(of_square);
+    let turn = 4.0f64;
+    let moved = 0.5 * (angle(turn).abs() + angle(-turn).abs());
+    let expected = third * square(second * square(first * square(trig::radians(turn))));
+    assert!((moved / expected - 1.0).abs() < 0.05, "{moved:e} {expected:e}");
+    // By samples of an independent evaluation.
+    let value = measures(&linkage, 0, 360);
+    assert!((value("output_swing_deg") - 11.65588).abs() < 1e-3, "{}", value("output_swing_deg"));
+    assert!((value("output_dwell_deg") - 123.79).abs() < 0.05, "{}", value("output_dwell_deg"));
+}
+
+/// The bucket by the law of cosines, over the stroke of its cylinder.
+#[test]
+fn the_excavators_bucket_follows_from_the_law_of_cosines() {
+    let linkage = default_linkage("excavator");
+    let circuit = first_circuit(&linkage, 100);
+    let [h, p, j] = [[-2.2, 0.45], [-0.45, 0.0], [0.0, 0.0]].map(Point::from);
+    let [k, l, t] = [[-0.6, 0.6], [0.05, 0.42], [1.15, -0.45]].map(Point::from);
+    let mut bucket: Vec<f64> = Vec::new();
+    for (i, tooth) in circuit.points(linkage.traced[0]).enumerate() {
+        let idler = third_corner(h, p, [circuit.inputs[i], (k - p).norm()], 1.0).0;
+        let pin = third_corner(idler, j, [(l - k).norm(), l.coords.norm()], 1.0).0;
+        let expected = third_corner(pin, j, [(t - l).norm(), t.coords.norm()], 1.0).0;
+        assert!((tooth - expected).norm() < 1e-12, "at {}: {tooth} {expected}", circuit.inputs[i]);
+        let angle = trig::degrees(trig::atan2(pin.y, pin.x));
+        assert!(bucket.last().is_none_or(|last| angle < *last), "the bucket curls as the cylinder extends");
+        bucket.push(angle);
+    }
+    let [from, to] = [circuit.inputs[0], circuit.inputs[circuit.len() - 1]];
+    assert!((from - 1.25).abs() < 1e-12 && (to - 2.25).abs() < 1e-12, "{from} {to}");
+    assert!((bucket[0] - bucket[bucket.len() - 1] - 165.556).abs() < 1e-3);
+}
+
+/// The jaws keep their direction, and the tips meet at the end of the slider's way.
+#[test]
+fn the_grippers_jaws_stay_parallel() {
+    let linkage = default_linkage("gripper");
+    let circuit = first_circuit(&linkage, 100);
+    let [c, u, m, n, s] = ["C", "U", "M", "N", "S"].map(|name| joint(&linkage, name));
+    for i in 0..circuit.len() {
+        let [c, u, m, n, s] = [c, u, m, n, s].map(|joint| circuit.positions.point(joint, i));
+        assert!((u - c - Vector::new(0.8, -0.6)).norm() < 1e-11 && (m - c - Vector::new(2.6, -1.0)).norm() < 1e-11);
+        assert!((m.x - n.x).abs() < 1e-11 && (m.y + n.y).abs() < 1e-11, "{m} {n}");
+        // The arm RD is ahead of RC, of length 2, by acos(0.6).
+        let link = (c - Point::new(0.0, 1.0)) * 0.45;
+        let arm = Vector::new(0.6 * link.x - 0.8 * link.y, 0.8 * link.x + 0.6 * link.y);
+        let expected = arm.x - (7.61 - square(1.0 + arm.y)).sqrt();
+        assert!((s.x - expected).abs() < 1e-12 && (s.x + 3.0 - circuit.inputs[i]).abs() < 1e-12, "{s} {expected}");
+    }
+    let last = circuit.positions.point(m, circuit.len() - 1);
+    assert!(last.y.abs() < 1e-12 && (last.x - 4.6).abs() < 1e-12, "{last}");
+    assert!(circuit.positions.point(m, 0).y > 1.9);
+}
+
+/// The second dyad of each form by the law of cosines.
+#[test]
+fn the_other_six_bars_follow_from_the_law_of_cosines() {
+    let (o, c) = (Point::new(0.0, 0.0), Point::new(4.0, 0.0));
+    let on = |p: Point, q: Point, [along, across]: [f64; 2]| {
+        let unit = (q - p).normalize();
+        p + unit * along + Vector::new(-unit.y, unit.x) * across
+    };
+    for id in ["watt-i-six-bar", "watt-i-six-bar-by-ternary", "stephenson-i-six-bar", "watt-ii-six-bar-by-ternary"] {
+        let linkage = default_linkage(id);
+        let circuit = first_circuit(&linkage, 90);
+        let end = joint(&linkage, if id.starts_with("watt-ii") { "E" } else { "F" });
+        assert!(circuit.is_closed);
+        for i in 0..circuit.len() {
+            let (cos, sin) = trig::cos_sin_deg(circuit.inputs[i]);
+            let crank = |r: f64| o + Vector::new(cos, sin) * r;
+            let a = crank(1.5);
+            let b = third_corner(a, c, [3.5, 3.0], 1.0).0;
+            let expected = match id {
+                "watt-i-six-bar" => third_corner(on(a, b, [1.75, 2.0]), on(c, b, [3.0, -1.5]), [3.0, 3.5], 1.0),
+                "watt-i-six-bar-by-ternary" => {
+                    third_corner(on(o, a, [1.0, 0.5]), on(a, b, [1.75, 2.0]), [2.5, 2.5], 1.0)
+                }
+                "stephenson-i-six-bar" => third_corner(on(o, a, [0.5, -1.0]), on(c, b, [2.5, -1.5]), [4.0, 3.5], 1.0),
+                _ => third_corner(on(o, crank(1.0), [-0.5, 1.0]), Point::new(-3.5, -1.0), [4.0, 2.5], -1.0),
+            };
+            let found = circuit.positions.point(end, i);
+            assert!((found - expected.0).norm() < 1e-11, "{id} at {}: {found} {}", circuit.inputs[i], expected.0);
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The kinds of six-bars.
 
 use coupler_curves::linkage::{
-    JointId, KinematicChain, Linkage, LinkageBuilder, MotionOptions, Side::Left, Side::Right, SixBar,
+    JointId, KinematicChain, Link, Linkage, LinkageBuilder, MotionOptions, Side::Left, Side::Right, SixBar,
 };
 
 use crate::catalogue::default_linkage;
@@ -28,14 +28,43 @@ fn the_six_bars_of_the_catalogue_are_named() {
         .filter_map(|template| Some((template.id.as_str(), kind(&default_linkage(&template.id))?.name())))
         .collect();
     let expected = [
+        ("excavator", "Watt II"),
         ("hart-inversor", "Watt I"),
         ("klann", "Stephenson III"),
+        ("shaper", "Watt II"),
+        ("stephenson-i-six-bar", "Stephenson I"),
         ("stephenson-six-bar", "Stephenson III"),
+        ("toggle-press", "Watt II"),
+        ("watt-i-six-bar", "Watt I"),
+        ("watt-i-six-bar-by-ternary", "Watt I"),
+        ("watt-ii-six-bar-by-ternary", "Watt II"),
         ("watt-six-bar", "Watt II"),
+        ("whitworth", "Watt II"),
     ];
     let mut sorted = named.clone();
     sorted.sort_unstable();
     assert_eq!(sorted, expected);
+}
+
+/// The inputs of a chain that differ are between the frame and its neighbours; for these six-bars the crank is a ternary link or a
+/// binary one, and the four-bar that it drives has the frame in common with it.
+#[test]
+fn the_cranks_of_the_six_bars_are_binary_or_ternary() {
+    for (id, degree) in [
+        ("watt-i-six-bar", 2),
+        ("watt-i-six-bar-by-ternary", 3),
+        ("watt-six-bar", 2),
+        ("watt-ii-six-bar-by-ternary", 3),
+        ("stephenson-i-six-bar", 3),
+        ("stephenson-six-bar", 2),
+    ] {
+        let linkage = default_linkage(id);
+        let crank = ["O", "A"].map(|name| linkage.find_joint(name).unwrap());
+        let has = |link: &Link| crank.iter().all(|&joint| link.position(joint).is_some());
+        let crank = linkage.links.iter().position(has).unwrap();
+        let chain = KinematicChain::from_linkage(&linkage).unwrap();
+        assert_eq!(chain.joints.iter().flatten().filter(|&&link| link == crank).count(), degree, "{id}");
+    }
 }
 
 #[test]
