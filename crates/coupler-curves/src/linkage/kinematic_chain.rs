@@ -78,7 +78,13 @@ impl KinematicChain {
                     add_block(from, yoke);
                     slides.push([link_with(line)?, yoke]);
                 }
-                JointKind::Slot { base: [pivot, through], .. } => add_block(through, link_with([pivot, id])?),
+                JointKind::Slot { base: [pivot, through], .. } => {
+                    let along = link_with([pivot, id])?;
+                    match block_with_points(linkage, [pivot, through], id) {
+                        Some(block) => slides.push([along, block]),
+                        None => add_block(through, along),
+                    }
+                }
                 JointKind::Piston { base: [_, pivot], .. } => {
                     // The cylinder is added directly after the crank, and the rod after the cylinder.
                     let cylinder = link_with([pivot, id])? + 1;
@@ -148,6 +154,16 @@ impl KinematicChain {
         }
         Some(path)
     }
+}
+
+/// The link of a block that has points: those of the slot with the foot `foot`, which slides through the second joint.
+fn block_with_points(linkage: &Linkage, [pivot, through]: [JointId; 2], foot: JointId) -> Option<usize> {
+    let is_on_block = |joint: JointId| match linkage.joints[joint].kind {
+        JointKind::Aligned { from, line, .. } => from == through && (line == [pivot, through] || line == [pivot, foot]),
+        _ => false,
+    };
+    let point = linkage.joint_ids().find(|&joint| is_on_block(joint))?;
+    linkage.links.iter().position(|link| link.position(point).is_some())
 }
 
 /// The number of joints between the fixed frame, link 0, and each link; the largest number for one that is not

@@ -341,8 +341,8 @@ fn check_grids(entries: &[Entry], placings: &[JointKindTemplate], parser: &mut T
     }
 }
 
-/// The joints each joint is placed from: those it names, and, for a point of the link that carries a slot's line, the
-/// slot's foot, which the point does not name but which creates that link. Actuators and sliders are named.
+/// The joints each joint is placed from: those it names, and, for a point of the link that carries a slot's line or of the block that the line
+/// slides through, the slot's foot, which the point does not name but which creates that link. Actuators and sliders are named.
 fn dependencies(placings: &[JointKindTemplate]) -> Vec<Vec<usize>> {
     let mut slots: HashMap<[usize; 2], usize> = HashMap::new();
     for (k, placing) in placings.iter().enumerate() {
@@ -353,7 +353,7 @@ fn dependencies(placings: &[JointKindTemplate]) -> Vec<Vec<usize>> {
     let needs = |placing: &JointKindTemplate| {
         let mut needs = placing.referenced_joints();
         if let JointKindTemplate::Point { base, .. } | JointKindTemplate::Distances { base, .. } = placing {
-            needs.extend(slots.get(base));
+            needs.extend(slots.get(base).or_else(|| slots.get(&[base[1], base[0]])));
         }
         needs
     };

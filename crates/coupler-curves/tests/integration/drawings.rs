@@ -542,3 +542,81 @@ G = { point = ["A", "B"], along = 1, across = { from = 0, to = 1, count = 3 } }
         }
     }
 }
+
+/// A bar on a crank pin, or on a slider, which slides through a pivot of the frame: its points are at a fixed distance from the circle, or
+/// the line, along lines through the pivot.
+#[test]
+fn bars_that_slide_through_a_pivot_draw_conchoids() {
+    // Limaçons of Pascal: from the pivot, on the circle of radius 1, at a distance of 2 cos + m; with m = 2 the cardioid.
+    let drawn = |m: f64| {
+        format!(
+            r#"
+[[linkage]]
+id = "a"
+trace = ["M"]
+[linkage.drawing]
+joints = {{ O = [0, 0], C = [-1, 0], A = [0, 1], M = ["{m} / sqrt(2)", "1 + {m} / sqrt(2)"] }}
+frame = ["O", "C"]
+links = [["O", "A"], ["A", "M"]]
+slides = {{ C = ["A", "M"] }}
+input = "O A"
+"#
+        )
+    };
+    // The same bar joint by joint, by its own pivot, and as the block on the pin through which a bar at the pivot slides.
+    let by_joints = |slot: &str, m: f64| {
+        format!(
+            r#"
+[[linkage]]
+id = "a"
+trace = ["M"]
+[linkage.joints]
+O = {{ fixed = [0, 0] }}
+C = {{ fixed = [-1, 0] }}
+A = {{ crank = "O", length = 1 }}
+B = {{ slot = {slot} }}
+M = {{ point = ["A", "C"], along = {:?} }}
+"#,
+            -m
+        )
+    };
+    for m in [0.5, 1.0, 2.0, 3.0] {
+        for text in [drawn(m), by_joints("[\"A\", \"C\"]", m), by_joints("[\"C\", \"A\"]", m)] {
+            let linkage = parse_templates(&text).unwrap().remove(0).linkage(&[]).unwrap();
+            let motion = solve(&linkage);
+            assert_eq!(motion.circuits.len(), 1);
+            for point in motion.circuits[0].points(linkage.traced[0]) {
+                let arm = point - Point::new(-1.0, 0.0);
+                let square = arm.norm_squared();
+                // (r^2 - 2 x)^2 = m^2 r^2, which the pivot, too, is on.
+                let on_circle = square - 2.0 * arm.x;
+                let residual = on_circle * on_circle - m * m * square;
+                assert!(residual.abs() < 1e-11, "{m}: {point}, {residual:e}\n{text}");
+            }
+        }
+    }
+    // The conchoid of Nicomedes: from the pivot, at a distance of h / sin + d.
+    for (h, d) in [(1.0, 0.5), (1.0, 1.0), (0.5, 2.0), (1.0, -1.5)] {
+        let text = format!(
+            r#"
+[[linkage]]
+id = "a"
+trace = ["M"]
+input = {{ from = -4, to = 4 }}
+[linkage.drawing]
+joints = {{ O = [0, 0], P = [0, {h}], Q = [1, {h}], A = [{h}, {h}], M = ["{h} + {d} / sqrt(2)", "{h} + {d} / sqrt(2)"] }}
+frame = ["O", "P", "Q"]
+links = [["A", "M"]]
+slides = {{ A = ["P", "Q"], O = ["A", "M"] }}
+input = {{ slider = "A" }}
+"#
+        );
+        let linkage = parse_templates(&text).unwrap().remove(0).linkage(&[]).unwrap();
+        let circuit = &solve(&linkage).circuits[0];
+        for (i, point) in circuit.points(linkage.traced[0]).enumerate() {
+            let bar = Vector::new(circuit.inputs[i], h);
+            let expected = Point::origin() + bar * (1.0 + d / bar.norm());
+            assert!((point - expected).norm() < 1e-12, "{h} {d}: {point} {expected}");
+        }
+    }
+}

@@ -265,6 +265,31 @@ fn points_of_a_block_move_with_it() {
     }
 }
 
+/// The block through which a slot's link slides keeps the direction of that link: its points are as by a parallelogram.
+#[test]
+fn points_of_a_slots_block_keep_its_direction() {
+    for (offset, side) in [(0.0, Side::Right), (0.4, Side::Right), (0.4, Side::Left)] {
+        let mut builder = LinkageBuilder::default();
+        let o = builder.fixed("O", [0.0, 0.0].into());
+        let c = builder.fixed("C", [2.0, 0.3].into());
+        let a = builder.crank("A", o, 1.0).unwrap();
+        builder.slot("B", [c, a], offset, side).unwrap();
+        let arm = builder.point("P", [c, a], 0.7, -0.2).unwrap();
+        let block = builder.point("K", [a, c], -0.7, 0.2).unwrap();
+        let linkage = builder.build(vec![arm, block], None, MotionOptions::default()).unwrap();
+        let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(12)));
+        let circuit = &motion.circuits[0];
+        for i in 0..circuit.len() {
+            let at = |joint| circuit.positions.point(joint, i);
+            let (on_arm, on_block) = (at(arm) - at(c), at(block) - at(a));
+            assert!((on_arm - on_block).norm() < 1e-13, "{offset}: {on_arm:?} {on_block:?}");
+            let jets = circuit.derivatives(&linkage, i);
+            let difference = jets.velocity(block) - jets.velocity(a) - jets.velocity(arm);
+            assert!(difference.norm() < 1e-12, "{offset}: {difference:?}");
+        }
+    }
+}
+
 /// The slide, its angles and their rates are McCarthy's for slots without offset, and for actuators, too.
 #[test]
 fn columns_cover_slots_without_offset_and_actuators() {

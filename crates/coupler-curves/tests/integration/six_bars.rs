@@ -143,6 +143,16 @@ fn blocks_in_slots_and_rods_of_actuators_are_links() {
         assert_eq!(KinematicChain::from_linkage(&linkage).unwrap().link_count, 6);
         assert_eq!(kind(&linkage), Some(SixBar::WattII), "offset {offset}");
     }
+    // A block is one link, also where it has points.
+    for offset in [0.0, 0.5] {
+        let mut builder = LinkageBuilder::default();
+        let [o, c] = [("O", 2.0), ("C", 0.0)].map(|(name, y)| builder.fixed(name, [0.0, y].into()));
+        let a = builder.crank("A", o, 1.0).unwrap();
+        builder.slot("B", [c, a], offset, Right).unwrap();
+        let points = [("K", 0.5), ("M", 0.7)].map(|(name, along)| builder.point(name, [a, c], along, 0.1).unwrap());
+        let chain = KinematicChain::from_linkage(&build(builder, points[0])).unwrap();
+        assert_eq!((chain.link_count, chain.joints.len()), (4, 4), "offset {offset}");
+    }
     // An actuator moves a crank, whose second pin drives a rocker: an excavator's bucket.
     let mut builder = LinkageBuilder::default();
     let fixed = [("O", 0.0, 0.0), ("C", 3.0, 0.0), ("Q", -2.0, 1.0)];

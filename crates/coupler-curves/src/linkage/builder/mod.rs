@@ -139,12 +139,15 @@ impl LinkageBuilder {
     ///
     /// On a sliding link it is measured from the first joint along the line, in the line's direction at the start,
     /// and to its left. A [`LinkageBuilder::slot`]'s link and an actuator are identified by their pivot and the joint
-    /// they slide through or drive, its rod by the same joints in the other order; a slider's block and a yoke by their
-    /// joint and a joint of their line, towards the first of which points are measured against the line's direction.
+    /// they slide through or drive, the block through which a slot's link slides and the rod by the same joints in the other order; a
+    /// slider's block and a yoke by their joint and a joint of their line, towards the first of which points are measured against the line's direction.
     ///
     /// # Errors
     /// One joint given twice, joints on no common link, joints that coincide.
     pub fn point(&mut self, name: &str, base: [JointId; 2], along: f64, across: f64) -> Result<JointId, Error> {
+        if self.sliding_bodies.iter().all(|body| body.base != base) {
+            self.add_block(base);
+        }
         let mut bodies = self.sliding_bodies.iter().filter(|body| body.base == base);
         if let Some(body) = bodies.next() {
             if bodies.next().is_some() {

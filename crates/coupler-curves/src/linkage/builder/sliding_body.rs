@@ -22,4 +22,7 @@ pub(super) enum BodyReference {
     Foot { foot: JointId, offset: f64 },
     /// By the direction of a line, as in [`JointKind::Aligned`].
     Line { line: [JointId; 2], offset: f64, direction: LineDirection },
+    /// By the direction of a line that slides through its joint, which is that from the line's pivot to its foot, turned as in
+    /// [`BodyReference::Foot`].
+    Block { line: [JointId; 2], offset: f64 },
 }

@@ -175,10 +175,36 @@ impl LinkageBuilder {
                 let kind = JointKind::Rigid { base: [base[0], foot], along, across };
                 (kind, Vector::new(along, across) * offset.abs())
             }
+            BodyReference::Block { line, offset } => {
+                let (along, across) = (-across * offset.signum(), along * offset.signum());
+                let direction = LineDirection::Towards;
+                let kind = JointKind::Aligned { from: base[0], line, offset: 0.0, direction, along, across };
+                (kind, Vector::new(along, across))
+            }
         };
         let id = self.add_joint(name, kind);
         self.links[link].joints.push((id, position));
         id
+    }
+
+    /// Adds the block on the joint `base[0]`, through which a slot's line slides that has its pivot at `base[1]`. It is a link of its own
+    /// only where it has points. Nothing is added where there is no such slot.
+    pub(super) fn add_block(&mut self, base: [JointId; 2]) {
+        let slot = self.joints.iter().enumerate().find_map(|(foot, joint)| match joint.kind {
+            JointKind::Slot { base: [pivot, through], dyad, .. } if [through, pivot] == base => Some((foot, dyad)),
+            _ => None,
+        });
+        let Some((foot, dyad)) = slot else { return };
+        let line = self.sliding_bodies.iter().find(|body| body.base == [base[1], base[0]]).map(|body| body.reference);
+        let reference = match line {
+            Some(BodyReference::Foot { offset, .. }) => {
+                BodyReference::Block { line: [base[1], JointId::new(foot)], offset }
+            }
+            _ => BodyReference::Line { line: [base[1], base[0]], offset: 0.0, direction: LineDirection::BySide(dyad) },
+        };
+        let link = LinkId::new(self.links.len());
+        self.sliding_bodies.push(SlidingBody { base, reference, link, is_backward: true });
+        self.links.push(Link { joints: vec![(base[0], Vector::zeros())] });
     }
 
     /// The output link that is the sliding body of two joints; `None` if there is none, or it is an actuator.
@@ -186,11 +212,12 @@ impl LinkageBuilder {
         let body = self.sliding_bodies.iter().find(|body| body.base == base)?;
         match body.reference {
             BodyReference::Foot { foot, .. } => Some(OutputLink::Link([base[0], foot])),
+            BodyReference::Line { direction: LineDirection::BySide(_), .. } if body.is_backward => None,
             BodyReference::Line { direction: LineDirection::BySide(dyad), .. } => Some(OutputLink::Slot { base, dyad }),
             BodyReference::Line { line, direction: LineDirection::Towards, .. } => {
                 Some(OutputLink::Slider { joint: base[0], line })
             }
-            BodyReference::Line { direction: LineDirection::Actuator, .. } => None,
+            BodyReference::Line { direction: LineDirection::Actuator, .. } | BodyReference::Block { .. } => None,
         }
     }
 
