@@ -111,6 +111,7 @@ fn check_joints(linkage: &Linkage) -> Result<(), PmksError> {
             JointKind::Slide { line, .. } if line.iter().all(is_fixed) => continue,
             JointKind::Slide { .. } => "slider on a moving link",
             JointKind::Gear { .. } => "gear",
+            JointKind::Rack { .. } => "rack",
             JointKind::Piston { .. } => "actuator between two links",
             JointKind::Slot { .. } => "slot",
             JointKind::Yoke { .. } => "yoke",

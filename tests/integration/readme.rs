@@ -41,10 +41,12 @@ fn the_joints_in_docs_manifest_can_be_parsed() {
     let document = include_str!("../../docs/manifest.md");
     let joints: Vec<&str> =
         document.lines().filter(|line| line.starts_with("| `{")).filter_map(|line| line.split('`').nth(1)).collect();
-    assert_eq!(joints.len(), 7);
+    assert_eq!(joints.len(), 8);
     for joint in joints {
         let is_input = joint.contains("piston") || joint.contains("slider");
         let a = if is_input { "A = { fixed = [1, 2] }" } else { "A = { crank = \"O\", length = 1 }" };
+        // A rack does not come back.
+        let range = if joint.contains("rack") { "input = { from = \"0 deg\", to = \"90 deg\" }\n" } else { "" };
         // Dyads on the joint use all joints that it does not use itself.
         let dyad = |name: &str, on: [&str; 2]| {
             format!("{name} = {{ dyad = [\"{}\", \"{}\"], lengths = [1, 1], side = \"left\" }}", on[0], on[1])
@@ -57,7 +59,7 @@ fn the_joints_in_docs_manifest_can_be_parsed() {
             })
             .collect();
         let text = format!(
-            "[atlas]\ntitle = \"T\"\n[[linkage]]\nid = \"mine\"\ntrace = [\"X\", \"Z5\"]\n[linkage.joints]\n\
+            "[atlas]\ntitle = \"T\"\n[[linkage]]\nid = \"mine\"\ntrace = [\"X\", \"Z5\"]\n{range}[linkage.joints]\n\
              O = {{ fixed = [0, 0] }}\nC = {{ fixed = [4, 0] }}\nP = {{ fixed = [5, 1] }}\nQ = {{ fixed = [6, 2] }}\n\
              {a}\nX = {joint}\n{}\n",
             rest.join("\n")

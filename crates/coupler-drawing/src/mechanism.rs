@@ -111,7 +111,7 @@ impl Slot {
     }
 }
 
-/// The pitch circles of gears, centred on the pivots of both cranks. Gears that turn in the same direction mesh over an
+/// The pitch circles of gears, centred on the pivots of both cranks, and of the pinions of racks. Gears that turn in the same direction mesh over an
 /// idler, which is not drawn, so there is a gap between them.
 fn pitch_circles(linkage: &Linkage, circuit: &Circuit) -> Vec<(JointId, f64)> {
     let crank = linkage.crank().map(|[pivot, _]| pivot);
@@ -124,6 +124,9 @@ fn pitch_circles(linkage: &Linkage, circuit: &Circuit) -> Vec<(JointId, f64)> {
             let [own, other] = [crank_turns.abs() as f64, turns.abs() as f64]
                 .map(|n| filled_part * distance * n / (turns.abs() + crank_turns.abs()) as f64);
             circles.extend([(pivot, own), (first, other)]);
+        }
+        if let (JointKind::Rack { radius, .. }, Some(first)) = (joint.kind, crank) {
+            circles.push((first, radius.abs()));
         }
     }
     circles

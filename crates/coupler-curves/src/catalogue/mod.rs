@@ -7,7 +7,7 @@ use std::sync::{Arc, LazyLock};
 use crate::linkage_format;
 use crate::template::Template;
 
-const FILES: [&str; 31] = [
+const FILES: [&str; 32] = [
     include_str!("four-bar.toml"),
     include_str!("evans.toml"),
     include_str!("chebyshev.toml"),
@@ -39,6 +39,7 @@ const FILES: [&str; 31] = [
     include_str!("watt-i-six-bar-by-ternary.toml"),
     include_str!("watt-ii-six-bar-by-ternary.toml"),
     include_str!("stephenson-i-six-bar.toml"),
+    include_str!("rack-steering.toml"),
 ];
 
 static TEMPLATES: LazyLock<Vec<Arc<Template>>> = LazyLock::new(|| {

@@ -47,7 +47,7 @@ impl Linkage {
                 let slider = slides_on_ground.then_some(OutputLink::Slider { joint, line });
                 slider.or_else(|| bar(from, joint))
             }
-            JointKind::Yoke { line, .. } => {
+            JointKind::Yoke { line, .. } | JointKind::Rack { line, .. } => {
                 line.into_iter().all(is_on_ground).then_some(OutputLink::Slider { joint, line })
             }
             JointKind::Slot { base: [pivot, _], offset, .. } if offset != 0.0 => bar(pivot, joint),

@@ -76,7 +76,22 @@ pub enum Error {
         /// The ratio.
         ratio: [f64; 2],
     },
-    /// The output link is given by a joint that is neither a slider's nor a yoke's.
+    /// A rack whose pinion has no radius.
+    #[error("the rack `{joint}` has a pinion of radius 0 and does not move")]
+    NoPitchRadius {
+        /// The joint to place.
+        joint: String,
+    },
+    /// A linkage with a rack, which does not come back after turns of its pinion, without a range of the input.
+    #[error(
+        "the rack `{joint}` does not come back as its pinion turns: the linkage has no range of the input of less than {} turns",
+        Error::MAX_RACK_TURNS
+    )]
+    RackWithoutRange {
+        /// The joint.
+        joint: String,
+    },
+    /// The output link is given by a joint that is neither a slider's nor a yoke's nor a rack's.
     #[error("`output_link` names `{joint}`, which is not a slider")]
     NotASlider {
         /// The joint.
@@ -100,6 +115,9 @@ impl Error {
     /// The greatest number in a gear ratio; a circuit may take that many turns.
     pub const MAX_GEAR_RATIO: u64 = 100;
 
+    /// The range of the input of a linkage with a rack has fewer turns.
+    pub const MAX_RACK_TURNS: u32 = 10;
+
     /// The joint that cannot be placed; `seen_from` where its joints define no frame, and `output_link` where its joints
     /// define no output.
     pub fn joint(&self) -> &str {
@@ -113,6 +131,8 @@ impl Error {
             | Error::NothingSlides { joint, .. }
             | Error::SlotParallelToGuide { joint }
             | Error::InvalidRatio { joint, .. }
+            | Error::NoPitchRadius { joint }
+            | Error::RackWithoutRange { joint }
             | Error::TooManyDyads { joint } => joint,
             Error::NotASlider { .. } | Error::OutputAtRest { .. } => "output_link",
         }
@@ -134,8 +154,12 @@ impl Error {
             Error::NothingSlides { .. } => "slide on a line of another link, or make one link of the two",
             Error::SlotParallelToGuide { .. } => "give an angle between 0 and 180 deg, as in angle = \"90 deg\"",
             Error::InvalidRatio { .. } => "write it like ratio = [2, 3]",
+            Error::NoPitchRadius { .. } => "give a radius that is not 0",
+            Error::RackWithoutRange { .. } => {
+                "add the range to the [[linkage]], as in input = { from = \"0 deg\", to = \"270 deg\" }"
+            }
             Error::NotASlider { .. } => {
-                "name a joint with `slide` or `yoke`, or two joints of the link, as in output_link = [\"C\", \"B\"]"
+                "name a joint with `slide`, `yoke` or `rack`, or two joints of the link, as in output_link = [\"C\", \"B\"]"
             }
             Error::OutputAtRest { .. } => "name two joints of a moving link",
             Error::TooManyDyads { .. } => "remove joints, or place some as points of links",

@@ -5,7 +5,7 @@
 pub enum Input {
     /// The angle of a crank, in degrees.
     Angle {
-        /// The turns of the crank after which every joint is back at its position.
+        /// The turns of the crank after which every joint is back at its position; with a rack, which never is, more than its range has.
         turns: u32,
     },
     /// The length of a linear actuator.

@@ -36,6 +36,17 @@ pub enum JointKind {
         /// Its angle in degrees when the first crank's is 0.
         phase_deg: f64,
     },
+    /// On a rack, a gear of infinite radius, that a pinion on the crank moves along a line: by the pitch radius times the crank's angle.
+    Rack {
+        /// Two joints of one link that the line is parallel to; it points from the first to the second.
+        line: [JointId; 2],
+        /// The distance of the line to the left of the two.
+        offset: f64,
+        /// The pitch radius of the pinion; negative where the rack moves against the line as the crank's angle rises.
+        radius: f64,
+        /// The distance from the first joint of the line, along it, where the crank's angle is 0.
+        start: f64,
+    },
     /// On a crank driven by a linear actuator, whose length s is the linkage's input (McCarthy 2.43).
     Piston {
         /// The actuator's pivot, and the crank's.
@@ -159,6 +170,7 @@ impl JointKind {
             JointKind::Slide { line, .. }
             | JointKind::Yoke { line, .. }
             | JointKind::DrivenSlider { line, .. }
+            | JointKind::Rack { line, .. }
             | JointKind::Aligned { line, .. } => Some(line),
             JointKind::Fixed(_)
             | JointKind::Crank { .. }
@@ -169,12 +181,13 @@ impl JointKind {
         }
     }
 
-    /// The two joints of the line on which the joint is a slider, a yoke or a driven slider; `None` if it is none of these.
+    /// The two joints of the line on which the joint is a slider, a yoke, a rack or a driven slider; `None` if it is none of these.
     pub fn slider_line(&self) -> Option<[JointId; 2]> {
         match *self {
-            JointKind::Slide { line, .. } | JointKind::Yoke { line, .. } | JointKind::DrivenSlider { line, .. } => {
-                Some(line)
-            }
+            JointKind::Slide { line, .. }
+            | JointKind::Yoke { line, .. }
+            | JointKind::Rack { line, .. }
+            | JointKind::DrivenSlider { line, .. } => Some(line),
             _ => None,
         }
     }
@@ -190,6 +203,7 @@ impl JointKind {
             JointKind::Fixed(_)
             | JointKind::Crank { .. }
             | JointKind::Gear { .. }
+            | JointKind::Rack { .. }
             | JointKind::DrivenSlider { .. }
             | JointKind::Yoke { .. }
             | JointKind::Parallelogram { .. }

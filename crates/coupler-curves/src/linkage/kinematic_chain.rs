@@ -44,7 +44,7 @@ pub enum SixBar {
 }
 
 impl KinematicChain {
-    /// The chain of a linkage; `None` if it has gears, whose contact is not a full joint, if a part slides along a line
+    /// The chain of a linkage; `None` if it has gears or racks, whose contact is not a full joint, if a part slides along a line
     /// of two links, or if a pin of three links has two that are equally near to the fixed frame.
     pub fn from_linkage(linkage: &Linkage) -> Option<KinematicChain> {
         let is_on = |link: usize, joint: JointId| linkage.links[link].position(joint).is_some();
@@ -69,7 +69,7 @@ impl KinematicChain {
                 link_count += 1;
             };
             match joint.kind {
-                JointKind::Gear { .. } => return None,
+                JointKind::Gear { .. } | JointKind::Rack { .. } => return None,
                 JointKind::Slide { line, .. } | JointKind::DrivenSlider { line, .. } => {
                     slides.push([link_with(line)?, part_at(id)?])
                 }

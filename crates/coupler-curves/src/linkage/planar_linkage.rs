@@ -1,6 +1,6 @@
 //! A linkage as a list of joints and links.
 
-use super::{DyadId, Group, Input, Joint, JointId, JointKind, Link, MotionOptions, OutputLink};
+use super::{DyadId, Error, Group, Input, Joint, JointId, JointKind, Link, MotionOptions, OutputLink};
 use crate::geometry::{Orientation, Point, trig};
 
 /// A linkage with numeric dimensions. All lengths are in one unit, which may be any.
@@ -32,6 +32,7 @@ impl Linkage {
     /// The kind of input that drives it.
     pub fn input(&self) -> Input {
         let mut turns = 1;
+        let mut has_rack = false;
         for joint in &self.joints {
             match joint.kind {
                 JointKind::Piston { .. } | JointKind::DrivenSlider { .. } => return Input::Length,
@@ -40,10 +41,12 @@ impl Linkage {
                     let crank_turns = crank_turns.unsigned_abs() as u32;
                     turns = turns / gcd(turns, crank_turns) * crank_turns;
                 }
+                // It never is back; the range of the input, which is less than these turns, does without a period.
+                JointKind::Rack { .. } => has_rack = true,
                 _ => {}
             }
         }
-        Input::Angle { turns }
+        Input::Angle { turns: if has_rack { turns.max(Error::MAX_RACK_TURNS) } else { turns } }
     }
 
     /// Whether a slider drives it.

@@ -44,7 +44,7 @@ pub(super) struct JointForm {
 }
 
 /// All forms: a joint has the first whose key is present.
-static FORMS: [JointForm; 12] = [
+static FORMS: [JointForm; 13] = [
     JointForm {
         key: "fixed",
         schema: TableSchema::new(
@@ -103,6 +103,44 @@ static FORMS: [JointForm; 12] = [
                 length: length?,
                 ratio: ratio?,
                 phase: phase?,
+            })
+        },
+    },
+    JointForm {
+        key: "rack",
+        schema: TableSchema::new(
+            "a joint with `rack`",
+            &[
+                KeySchema::required(
+                    "rack",
+                    JOINT_NAME,
+                    "A rack that a pinion on the crank moves along a line by its pitch radius times the crank's angle: the pin of that crank.",
+                ),
+                KeySchema::required(
+                    "radius",
+                    ValueSchema::Number,
+                    "The pitch radius of the pinion; negative if the rack moves against the line as the crank's angle rises.",
+                ),
+                LINE,
+                OFFSET,
+                KeySchema::new(
+                    "start",
+                    ValueSchema::Number,
+                    "Its distance from the first joint of the line when the input is 0.",
+                )
+                .with_default(|| "0".to_owned()),
+            ],
+        ),
+        parse: |joint, parser| {
+            let (crank, radius) = (joint.joint("rack", parser), joint.number("radius", "radius = 0.5", parser));
+            let (line, offset) = (joint.joint_pair("line", parser), joint.offset(parser));
+            let start = joint.number_or_zero("start", parser);
+            Some(JointKindTemplate::Rack {
+                crank: crank?,
+                line: line?,
+                offset: offset?,
+                radius: radius?,
+                start: start?,
             })
         },
     },

@@ -80,7 +80,18 @@ impl<'t> JointFields<'_, 't> {
 
     /// The offset of a line; 0 by default.
     pub fn offset(&self, parser: &mut TomlParser<'t>) -> Option<CompiledExpression> {
-        match self.fields.get("offset") {
+        self.number_or_zero("offset", parser)
+    }
+
+    /// A number that must be given.
+    pub fn number(&self, key: &str, example: &str, parser: &mut TomlParser<'t>) -> Option<CompiledExpression> {
+        let value = self.fields.required(key, example, parser)?;
+        parser.numeric_expression(value, self.scope)
+    }
+
+    /// A number; 0 by default.
+    pub fn number_or_zero(&self, key: &str, parser: &mut TomlParser<'t>) -> Option<CompiledExpression> {
+        match self.fields.get(key) {
             None => Some(CompiledExpression::constant(0.0)),
             Some(value) => parser.numeric_expression(value, self.scope),
         }

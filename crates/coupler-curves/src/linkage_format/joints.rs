@@ -279,7 +279,7 @@ fn output_joints(output: Option<OutputLinkTemplate>) -> Vec<usize> {
 
 /// Whether a joint is that of a slider or a yoke.
 fn is_sliding(kind: &JointKindTemplate) -> bool {
-    matches!(kind, JointKindTemplate::Slide { .. } | JointKindTemplate::Yoke { .. })
+    matches!(kind, JointKindTemplate::Slide { .. } | JointKindTemplate::Yoke { .. } | JointKindTemplate::Rack { .. })
 }
 
 /// Whether a joint is that of the input.
@@ -313,7 +313,10 @@ fn check_inputs(entries: &[Entry], parsed: &[Option<JointKindTemplate>], table: 
         parser.report(problem.with_help(help));
     }
     for (k, placing) in parsed.iter().enumerate() {
-        let Some(JointKindTemplate::Gear { crank, .. }) = placing else { continue };
+        let (Some(JointKindTemplate::Gear { crank, .. }) | Some(JointKindTemplate::Rack { crank, .. })) = placing
+        else {
+            continue;
+        };
         if !matches!(parsed[*crank], Some(JointKindTemplate::Crank { .. }) | None) {
             let message =
                 format!("`{}` is geared to `{}`, which is not a crank", entries[k].name, entries[*crank].name);
@@ -429,8 +432,8 @@ fn check_traced_joints_move(
     }
     let mut moves = vec![false; placings.len()];
     for &k in order {
-        let is_driven = is_input(&placings[k])
-            || matches!(placings[k], JointKindTemplate::Gear { .. } | JointKindTemplate::Grouped { .. });
+        let is_geared = matches!(placings[k], JointKindTemplate::Gear { .. } | JointKindTemplate::Rack { .. } | JointKindTemplate::Grouped { .. });
+        let is_driven = is_input(&placings[k]) || is_geared;
         moves[k] = is_driven || needs[k].iter().any(|&need| moves[need]);
     }
     for &k in traced.iter().filter(|&&k| !moves[k]) {

@@ -8,6 +8,7 @@ use super::quantities::InputKind;
 use super::schema::{KeySchema, TableSchema, ValueSchema, default_word, words};
 use super::toml_parser::{TomlParser, TomlValue};
 use crate::expression::{Dimension, Kind, Scope, Unit};
+use crate::linkage;
 use crate::problem::{Problem, Span};
 use crate::template::{
     CircuitSelection, CoincidentDyads, Continuation, InputValue, Orientation, Parameter, ParameterKind, Template,
@@ -231,7 +232,11 @@ pub fn parse_template<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) ->
             _ => {}
         }
     }
-    if let Some(error) = template.structural_error() {
+    // A range with a problem is one that is stated.
+    let is_stated = |error: &linkage::Error| {
+        matches!(error, linkage::Error::RackWithoutRange { .. }) && fields.get("input").is_some()
+    };
+    if let Some(error) = template.structural_error().filter(|error| !is_stated(error)) {
         let joint_span = joints.spans.iter().find(|(name, _)| name == error.joint()).map(|(_, span)| span.clone());
         let key = if error.joint() == "output_link" { "output_link" } else { "seen_from" };
         let span = joint_span.or_else(|| fields.get(key).map(TomlValue::span)).unwrap_or_else(|| fields.span.clone());

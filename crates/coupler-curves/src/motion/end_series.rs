@@ -229,6 +229,12 @@ impl Placing<'_> {
             }
             // Rates at the limits of groups are those of their tracks.
             JointKind::Grouped { .. } => return Err(Failure::Undefined),
+            JointKind::Rack { line, offset, radius, start } => {
+                let Base { unit, .. } = direction(line)?;
+                let mut turn = self.input();
+                turn.0[0] = trig::radians(turn.0[0]);
+                at(line[0]).moved(unit, turn.scaled(radius) + number(start), number(offset))
+            }
             JointKind::DrivenSlider { line, offset } => {
                 let Base { unit, .. } = direction(line)?;
                 at(line[0]).moved(unit, self.input(), number(offset))

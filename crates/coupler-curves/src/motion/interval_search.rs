@@ -163,6 +163,7 @@ fn reach(linkage: &Linkage) -> f64 {
         JointKind::Slot { offset, .. } | JointKind::Yoke { offset, .. } | JointKind::DrivenSlider { offset, .. } => {
             offset.abs()
         }
+        JointKind::Rack { offset, start, .. } => offset.abs() + start.abs(),
         JointKind::Aligned { offset, along, across, .. } => offset.abs() + along.abs() + across.abs(),
         JointKind::Grouped { .. } | JointKind::Parallelogram { .. } | JointKind::Rigid { .. } => 0.0,
     };

@@ -1,5 +1,7 @@
 //! The kernels of [`super::positions`] over Taylor series.
 
+use std::f64::consts::PI;
+
 use super::series::{Scalar, Series, VectorSeries};
 use crate::geometry::Vector;
 use crate::linkage::{DyadId, JointId, JointKind, LineDirection, Linkage};
@@ -46,6 +48,10 @@ pub(super) fn place_as_series<T: Scalar, const N: usize>(
             JointKind::Piston { base, length, offset, dyad } => {
                 let b = (Series::variable(input.value).square() + constant(offset * offset)).sqrt();
                 dyad_position(base.map(|j| at[j]), [b, constant(length)], sign(dyad))
+            }
+            JointKind::Rack { line: [p, q], offset, radius, start } => {
+                let turn = Series::variable(input.value * T::from(PI / 180.0));
+                at[p].moved(at[q].minus(at[p]).unit(), turn.scaled(radius) + constant(start), constant(offset))
             }
             JointKind::DrivenSlider { line: [p, q], offset } => {
                 at[p].moved(at[q].minus(at[p]).unit(), Series::variable(input.value), constant(offset))

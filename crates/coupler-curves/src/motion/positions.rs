@@ -153,6 +153,10 @@ impl WithSimd for Placement<'_> {
                         y,
                     );
                 }
+                JointKind::Rack { line, offset, radius, start } => {
+                    let ways: Vec<f64> = inputs.values.iter().map(|at| start + radius * trig::radians(*at)).collect();
+                    place_driven_slider((columns(line[0]), columns(line[1])), &ways, offset, x, y);
+                }
                 JointKind::DrivenSlider { line, offset } => {
                     place_driven_slider((columns(line[0]), columns(line[1])), inputs.values, offset, x, y);
                 }

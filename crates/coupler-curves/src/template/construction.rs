@@ -96,6 +96,13 @@ impl Template {
                     MathText::from_words(format!("slider that is driven, on a line along {}", between(*along)));
                 with_unless_zero(slider, ", to its left: ", offset, "")
             }
+            JointKindTemplate::Rack { crank, line: along, offset, radius, start } => {
+                let rack = MathText::from_words(format!("rack on a line along {}", between(*along)));
+                let rack = with_unless_zero(rack, ", to its left: ", offset, "");
+                let rack =
+                    rack.with_words(format!(", by a pinion on the crank of {}, its pitch radius = ", name(*crank)));
+                with_unless_zero(rack.with(radius.to_math_text()), ", at input 0 at ", start, "")
+            }
             JointKindTemplate::Dyad { base: [a, b], lengths: [first, second], .. } => {
                 length(*a, first).with_words(", ").with(length(*b, second))
             }
@@ -180,6 +187,7 @@ impl Template {
             JointKindTemplate::Slide { .. }
             | JointKindTemplate::Yoke { .. }
             | JointKindTemplate::DrivenSlider { .. }
+            | JointKindTemplate::Rack { .. }
             | JointKindTemplate::Point { .. }
             | JointKindTemplate::Distances { .. }
             | JointKindTemplate::Grouped { .. }

@@ -28,6 +28,19 @@ pub enum JointKindTemplate {
         /// Its angle when the first crank's is 0.
         phase: InputValue,
     },
+    /// On a rack that a pinion on the crank moves along a line.
+    Rack {
+        /// The pin of the crank.
+        crank: usize,
+        /// Two joints that the line is parallel to.
+        line: [usize; 2],
+        /// The distance of the line to the left of them.
+        offset: CompiledExpression,
+        /// The pitch radius of the pinion; negative where the rack moves against the line.
+        radius: CompiledExpression,
+        /// The distance from the first joint of the line where the crank's angle is 0.
+        start: CompiledExpression,
+    },
     /// On a crank driven by a linear actuator, whose length is the input.
     Piston {
         /// The actuator's pivot, and the crank's.
@@ -126,9 +139,9 @@ impl JointKindTemplate {
             JointKindTemplate::Crank { pivot, .. } => vec![*pivot],
             JointKindTemplate::Gear { crank, pivot, .. } => vec![*crank, *pivot],
             JointKindTemplate::Parallelogram { corners } => corners.to_vec(),
-            JointKindTemplate::Slide { from, line, .. } | JointKindTemplate::Yoke { from, line, .. } => {
-                vec![*from, line[0], line[1]]
-            }
+            JointKindTemplate::Slide { from, line, .. }
+            | JointKindTemplate::Yoke { from, line, .. }
+            | JointKindTemplate::Rack { crank: from, line, .. } => vec![*from, line[0], line[1]],
             JointKindTemplate::Dyad { base, .. }
             | JointKindTemplate::DrivenSlider { line: base, .. }
             | JointKindTemplate::Piston { base, .. }
@@ -146,7 +159,9 @@ impl JointKindTemplate {
             JointKindTemplate::Crank { pivot, .. } => *pivot = new_index(*pivot),
             JointKindTemplate::Gear { crank, pivot, .. } => (*crank, *pivot) = (new_index(*crank), new_index(*pivot)),
             JointKindTemplate::Parallelogram { corners } => *corners = corners.map(new_index),
-            JointKindTemplate::Slide { from, line, .. } | JointKindTemplate::Yoke { from, line, .. } => {
+            JointKindTemplate::Slide { from, line, .. }
+            | JointKindTemplate::Yoke { from, line, .. }
+            | JointKindTemplate::Rack { crank: from, line, .. } => {
                 (*from, *line) = (new_index(*from), line.map(new_index));
             }
             JointKindTemplate::Dyad { base, .. }

@@ -219,8 +219,11 @@ impl Template {
             Err(Error::Linkage(
                 linkage::Error::InvalidLength { .. }
                 | linkage::Error::NoTriangle { .. }
-                | linkage::Error::NoDirection { .. },
+                | linkage::Error::NoDirection { .. }
+                | linkage::Error::NoPitchRadius { .. },
             )) => None,
+            // The range, too, may depend on the numbers.
+            Err(Error::Linkage(linkage::Error::RackWithoutRange { .. })) if self.input.is_some() => None,
             Err(Error::Linkage(error)) => Some(error),
             _ => None,
         }
@@ -277,6 +280,11 @@ impl Template {
                 }
                 JointKindTemplate::DrivenSlider { line, offset } => {
                     vec![builder.driven_slider(name, (two(line), finite("`offset`", number(k, offset))?))?]
+                }
+                JointKindTemplate::Rack { line, offset, radius, start, .. } => {
+                    let line = (two(line), finite("`offset`", number(k, offset))?);
+                    let way = (finite("`radius`", number(k, radius))?, finite("`start`", number(k, start))?);
+                    vec![builder.rack(name, line, way)?]
                 }
                 JointKindTemplate::Dyad { base, lengths: [l0, l1], side: own } => {
                     vec![builder.dyad(name, two(base), [number(k, l0), number(k, l1)], side(own)?)?]

@@ -47,6 +47,7 @@ impl JointKindTemplate {
             JointKindTemplate::Piston { length, offset, .. } | JointKindTemplate::Slide { length, offset, .. } => {
                 vec![length, offset]
             }
+            JointKindTemplate::Rack { offset, radius, start, .. } => vec![radius, start, offset],
             JointKindTemplate::Dyad { lengths, .. } => lengths.iter().collect(),
             JointKindTemplate::Yoke { offset, .. }
             | JointKindTemplate::Slot { offset, .. }

@@ -351,6 +351,55 @@ fn the_grippers_jaws_stay_parallel() {
     assert!(circuit.positions.point(m, 0).y > 1.9);
 }
 
+/// The rack moves by the pitch radius times the column's angle, the knuckles follow by the law of cosines, and both sides are mirror
+/// images of each other with the angle reversed.
+#[test]
+fn the_rack_steers_both_wheels() {
+    let linkage = default_linkage("rack-steering");
+    let circuit = &Motion::solve(&linkage, &Sampler::new(Sampling::Step(5.0))).circuits[0];
+    let [left, right] = ["B", "D"].map(|name| joint(&linkage, name));
+    assert_eq!((circuit.inputs[0], circuit.inputs[circuit.len() - 1]), (-450.0, 450.0));
+    for i in 0..circuit.len() {
+        let way = 8.0 * trig::radians(circuit.inputs[i]);
+        let [b, d] = [left, right].map(|joint| circuit.positions.point(joint, i));
+        let expected = third_corner(Point::new(way + 300.0, -8.0), Point::new(620.0, 150.0), [300.0, 130.0], -1.0).0;
+        assert!((d - expected).norm() < 1e-10, "at {}: {d} {expected}", circuit.inputs[i]);
+        let opposite = circuit.positions.point(right, circuit.len() - 1 - i);
+        assert!((b.x + opposite.x).abs() < 1e-10 && (b.y - opposite.y).abs() < 1e-10, "{b} {opposite}");
+    }
+    // In curves the inner wheel turns further than the outer one: cot(outer) - cot(inner) is the track over the wheelbase.
+    let value = measures(&linkage, 0, 90);
+    let ahead = circuit.positions.point(right, 90) - Point::new(620.0, 150.0);
+    let straight = trig::degrees(trig::atan2(ahead.y, ahead.x));
+    let [inner, outer] = [straight - value("output_min"), value("output_max") - straight];
+    assert!((inner - 34.13).abs() < 5e-3 && (outer - 27.82).abs() < 5e-3, "{inner} {outer}");
+    let cot = |deg: f64| {
+        let (cos, sin) = trig::cos_sin_deg(deg);
+        cos / sin
+    };
+    assert!((1240.0 / (cot(outer) - cot(inner)) - 2952.0).abs() < 1.0);
+}
+
+/// Without a range, and with one of ten turns, a rack has no motion; a range with a problem is reported once.
+#[test]
+fn racks_need_a_range() {
+    let text = include_str!("../../src/catalogue/rack-steering.toml");
+    let range = "input = { from = \"-450 deg\", to = \"450 deg\" }";
+    assert!(text.contains(range));
+    for (other, expected) in [
+        ("", "the rack `R` does not come back as its pinion turns"),
+        ("input = { from = \"0 deg\", to = 450 }", "the unit is missing"),
+    ] {
+        let problems = coupler_curves::linkage_format::parse_templates(&text.replace(range, other)).unwrap_err();
+        assert!(problems.len() == 1 && problems[0].message.starts_with(expected), "{problems:?}");
+    }
+    let ten_turns = text.replace("450 deg", "1800 deg");
+    let template = coupler_curves::linkage_format::parse_templates(&ten_turns).unwrap().remove(0);
+    let values = [8.0, 300.0, 300.0, 130.0, 620.0, 150.0];
+    let error = template.linkage(&values).unwrap_err().to_string();
+    assert!(error.contains("no range of the input of less than 10 turns"), "{error}");
+}
+
 /// The second dyad of each form by the law of cosines.
 #[test]
 fn the_other_six_bars_follow_from_the_law_of_cosines() {

@@ -45,6 +45,9 @@ fn positions(linkage: &Linkage, input: Third, mode: AssemblyMode) -> Vec<[Third;
                 let reach = (input * input + n(offset * offset)).sqrt();
                 intersection(at[p], at[q], [reach, n(length)], side(dyad))
             }
+            JointKind::Rack { line: [p, q], offset, radius, start } => {
+                moved(at[p], unit(minus(at[q], at[p])), input * n(radius) + n(start), n(offset))
+            }
             JointKind::DrivenSlider { line: [p, q], offset } => {
                 moved(at[p], unit(minus(at[q], at[p])), input, n(offset))
             }
@@ -135,6 +138,19 @@ fn driven_slider(offset: f64) -> Linkage {
     builder.build(vec![m, k], None, MotionOptions::default()).unwrap()
 }
 
+/// A rack on a line that turns with the rocker of a four-bar, a dyad on it and a point of it.
+fn rack(offset: f64) -> Linkage {
+    let mut builder = LinkageBuilder::default();
+    let [o, c] = [("O", 0.0), ("C", 4.0)].map(|(name, x)| builder.fixed(name, [x, 0.1 * x].into()));
+    let a = builder.crank("A", o, 1.0).unwrap();
+    let b = builder.dyad("B", [a, c], [3.0, 3.5], Side::Left).unwrap();
+    let r = builder.rack("R", ([c, b], offset), (-0.4, 0.7)).unwrap();
+    let e = builder.dyad("E", [o, r], [4.0, 5.0], Side::Right).unwrap();
+    let k = builder.point("K", [r, b], 0.3, -0.1).unwrap();
+    let range = Some([-500.0, 300.0]);
+    builder.build(vec![e, k], None, MotionOptions { range, ..MotionOptions::default() }).unwrap()
+}
+
 /// Compares the derivatives at an input with dual numbers, relative to the greatest derivative of each joint.
 fn compare(linkage: &Linkage, input: InputPosition, variable: Third, mode: AssemblyMode) -> Result<(), TestCaseError> {
     let jets = JointDerivatives::new(linkage, input, mode);
@@ -171,12 +187,14 @@ proptest! {
         compare(&actuator, input, variable(s), actuator.motion_options.mode)?;
         let slider = driven_slider(offset);
         compare(&slider, input, variable(s), slider.motion_options.mode)?;
+        let rack = rack(offset);
+        compare(&rack, InputPosition::from_degrees(deg), variable(trig::radians(deg)), rack.motion_options.mode)?;
     }
 
     /// Sampling and derivatives place every joint alike, in every placement, which changes no shape.
     #[test]
     fn samples_and_derivatives_agree_in_every_placement(turn in -360.0f64..360.0, mirrored: bool, offset in 0.1f64..0.6) {
-        for linkage in [all_kinds([0.8, 3.5, 3.0, offset, 20.0]), actuator(offset)] {
+        for linkage in [all_kinds([0.8, 3.5, 3.0, offset, 20.0]), actuator(offset), rack(offset)] {
             let placement = Orientation::new(mirrored, turn);
             let placed = Linkage { placement, ..linkage.clone() };
             let sampler = Sampler::new(Sampling::Samples(20));
@@ -220,6 +238,81 @@ fn a_scotch_yoke_moves_as_the_cosine() {
         assert!((circuit.positions.point(y, i) - Point::new(2.0 * cos, 0.5)).norm() < 1e-15);
         assert!((circuit.positions.point(leaning, i) - Point::new(2.0 * cos - (2.0 * sin - 0.5), 0.5)).norm() < 1e-15);
         assert!((circuit.positions.point(arm, i) - Point::new(2.0 * cos + 3.0, 1.5)).norm() < 1e-14);
+    }
+}
+
+/// A rack moves by the pitch radius times the crank's angle, over several turns; seen from the rack, a point of the pinion traces a
+/// trochoid, and one on the pitch circle a cycloid.
+#[test]
+fn a_rack_moves_evenly_and_the_pinion_rolls_on_it() {
+    for (radius, arm, [from, to]) in [(0.5, 0.5, [0.0, 720.0]), (0.5, 0.8, [-400.0, 90.0]), (-0.7, 1.0, [10.0, 3600.0])]
+    {
+        let mut builder = LinkageBuilder::default();
+        let o = builder.fixed("O", [0.0, 0.0].into());
+        let x = builder.fixed("X", [2.0, 0.0].into());
+        let a = builder.crank("A", o, arm).unwrap();
+        // The lowest point of the pinion moves with the rack as the crank turns to the left; of a negative radius, the highest.
+        let r = builder.rack("R", ([o, x], -radius), (radius, 0.25)).unwrap();
+        let n = builder.point("N", [r, x], 1.0, 0.0).unwrap();
+        let options = MotionOptions { range: Some([from, to]), ..MotionOptions::default() };
+        let linkage = builder.clone().build(vec![a, r], None, options.clone()).unwrap();
+        let seen_from_rack = builder.clone().build(vec![a, r], Some([r, n]), options).unwrap();
+        let sampler = Sampler::new(Sampling::Step(10.0));
+        let [motion, seen] = [&linkage, &seen_from_rack].map(|linkage| Motion::solve(linkage, &sampler));
+        let [circuit, seen] = [&motion.circuits[0], &seen.circuits[0]];
+        let ends = [circuit.inputs[0], circuit.inputs[circuit.len() - 1]];
+        assert!(!circuit.is_closed && ends == [from, to], "{ends:?}");
+        for i in 0..circuit.len() {
+            let turn = trig::radians(circuit.inputs[i]);
+            let rack = circuit.positions.point(r, i);
+            assert!((rack - Point::new(0.25 + radius * turn, -radius)).norm() < 1e-13, "{rack}");
+            let jets = circuit.derivatives(&linkage, i);
+            assert!((jets.velocity(r) - Vector::new(radius, 0.0)).norm() < 1e-13);
+            assert!(jets.acceleration(r).norm() < 1e-13);
+            let (cos, sin) = trig::cos_sin_deg(circuit.inputs[i]);
+            let trochoid = Point::new(arm * cos - radius * turn - 0.25, arm * sin + radius);
+            assert!((seen.positions.point(a, i) - trochoid).norm() < 1e-12, "{}", seen.positions.point(a, i));
+            // The point of the pinion that touches the rack is at rest on it.
+            if arm == radius && (circuit.inputs[i] + 90.0) % 360.0 == 0.0 {
+                assert!(seen.derivatives(&seen_from_rack, i).velocity(a).norm() < 1e-13);
+            }
+        }
+        assert!(builder.build(vec![a], None, MotionOptions::default()).is_err(), "a range is needed");
+    }
+}
+
+/// A dyad on a rack closes while the rack is within its reach, on either side of its pivot and in another turn each.
+#[test]
+fn limits_of_a_dyad_on_a_rack_are_found_in_every_turn() {
+    let mut builder = LinkageBuilder::default();
+    let o = builder.fixed("O", [0.0, 0.0].into());
+    let x = builder.fixed("X", [1.0, 0.0].into());
+    let a = builder.crank("A", o, 1.0).unwrap();
+    let r = builder.rack("R", ([o, x], 0.0), (0.5, 2.0)).unwrap();
+    let b = builder.dyad("B", [o, r], [2.0, 3.0], Side::Left).unwrap();
+    let options = |circuits| MotionOptions { range: Some([-1700.0, 1700.0]), circuits, ..MotionOptions::default() };
+    let ends = |circuits| {
+        let linkage = builder.clone().build(vec![a, b], None, options(circuits)).unwrap();
+        let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Step(10.0)));
+        let mut ends: Vec<[f64; 2]> = Vec::new();
+        for circuit in &motion.circuits {
+            assert!(circuit.is_closed && circuit.passes.len() == 2);
+            let values = |low: fn(f64, f64) -> f64| circuit.inputs.iter().copied().reduce(low).unwrap();
+            ends.push([values(f64::min), values(f64::max)]);
+        }
+        ends.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        ends
+    };
+    let at = |x: f64| trig::degrees((x - 2.0) / 0.5);
+    for (circuits, expected) in [
+        (CircuitSelection::Start, vec![[at(1.0), at(5.0)]]),
+        (CircuitSelection::All, vec![[at(-5.0), at(-1.0)], [at(1.0), at(5.0)]]),
+    ] {
+        let found = ends(circuits);
+        assert_eq!(found.len(), expected.len(), "{found:?}");
+        for (found, expected) in found.iter().flatten().zip(expected.iter().flatten()) {
+            assert!((found - expected).abs() < 1e-9, "{found} {expected}");
+        }
     }
 }
 

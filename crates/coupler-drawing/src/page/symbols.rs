@@ -68,7 +68,7 @@ pub(super) fn of_joints(solved: &SolvedCell, ink: Color) -> Vec<Symbol> {
         add(Mark::Pivot, "fixed pivot".to_owned());
     }
     add(Mark::TracedPoint(ink), "traced point".to_owned());
-    let is_gear = |joint: &Joint| matches!(joint.kind, JointKind::Gear { .. });
+    let is_gear = |joint: &Joint| matches!(joint.kind, JointKind::Gear { .. } | JointKind::Rack { .. });
     if solved.linkage.joints.iter().any(is_gear) {
         add(Mark::PitchCircle, "pitch circle of a gear".to_owned());
     }

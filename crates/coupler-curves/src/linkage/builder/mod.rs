@@ -206,12 +206,14 @@ impl LinkageBuilder {
         Ok(())
     }
 
-    /// States that the output link is the slider or the yoke of a joint.
+    /// States that the output link is the slider, the yoke or the rack of a joint.
     ///
     /// # Errors
-    /// The joint was added neither by [`LinkageBuilder::slide`] nor by [`LinkageBuilder::yoke`].
+    /// The joint was added neither by [`LinkageBuilder::slide`] nor by [`LinkageBuilder::yoke`] or [`LinkageBuilder::rack`].
     pub fn set_output_slider(&mut self, joint: JointId) -> Result<(), Error> {
-        let (JointKind::Slide { line, .. } | JointKind::Yoke { line, .. }) = self.joints[joint].kind else {
+        let (JointKind::Slide { line, .. } | JointKind::Yoke { line, .. } | JointKind::Rack { line, .. }) =
+            self.joints[joint].kind
+        else {
             return Err(Error::NotASlider { joint: self.joints[joint].name.clone() });
         };
         self.output_link = Some(OutputLink::Slider { joint, line });
@@ -222,7 +224,8 @@ impl LinkageBuilder {
     /// `options` contains.
     ///
     /// # Errors
-    /// `seen_from` names joints on no common link, or joints that coincide; the output link is the ground.
+    /// `seen_from` names joints on no common link, or joints that coincide; the output link is the ground; a rack, and no range of the
+    /// input or one of [`Error::MAX_RACK_TURNS`].
     pub fn build(
         self,
         traced: Vec<JointId>,
@@ -246,6 +249,13 @@ impl LinkageBuilder {
             placement,
             motion_options,
         };
+        let is_rack = |joint: &&Joint| matches!(joint.kind, JointKind::Rack { .. });
+        if let Some(rack) = linkage.joints.iter().find(is_rack) {
+            let range = linkage.motion_options.range;
+            if range.is_none_or(|[from, to]| to - from >= linkage.input().period()) {
+                return Err(Error::RackWithoutRange { joint: rack.name.clone() });
+            }
+        }
         match output_link {
             Some(OutputLink::Link(pair)) if pair.iter().all(|&joint| linkage.ground().position(joint).is_some()) => {
                 Err(Error::OutputAtRest { base: pair.map(|joint| linkage.joints[joint].name.clone()) })

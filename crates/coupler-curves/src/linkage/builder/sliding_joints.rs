@@ -47,6 +47,27 @@ impl LinkageBuilder {
         Ok(id)
     }
 
+    /// Adds a rack that a pinion on the crank, of a pitch `radius`, moves along the line `offset` to the left of two joints of one link; where
+    /// the crank's angle is 0 it is at the distance `start` from the first of them. Of a negative radius it moves against the line.
+    ///
+    /// # Errors
+    /// One joint given twice for the line, joints that are on no common link, a radius of 0.
+    pub fn rack(
+        &mut self,
+        name: &str,
+        (line, offset): ([JointId; 2], f64),
+        (radius, start): (f64, f64),
+    ) -> Result<JointId, Error> {
+        self.check_line(name, line)?;
+        self.require_common_link(name, line)?;
+        if radius == 0.0 {
+            return Err(Error::NoPitchRadius { joint: name.to_owned() });
+        }
+        let id = self.add_joint(name, JointKind::Rack { line, offset, radius, start });
+        self.add_slider(id, line);
+        Ok(id)
+    }
+
     /// Adds the end of a link from the joint `from`, which slides on the line `offset` to the left of two others;
     /// `ahead` is [`Side::Left`] where it is ahead of `from` along the line, and [`Side::Right`] where it is behind.
     ///
