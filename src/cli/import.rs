@@ -11,8 +11,8 @@ use coupler_curves::problem;
 
 use super::{Failure, Outcome, choice, color, files, print_bytes, print_stderr, print_styled, printable};
 
-/// Print a manifest with a linkage of another program: an address of PMKS+, a mechanism of pylinkage, an expression of
-/// Pyslvs, a file of LINKS or LInK.
+/// Print a manifest with a linkage of another program: an address of PMKS+, a mechanism of pylinkage or linkage_sim, an
+/// expression of Pyslvs, a file of Linkage, LINKS or LInK, a table of joints and bars.
 ///
 /// The linkage is a drawing of joints by coordinates, with a family of one cell; what was left out is in comments. Nothing
 /// is fetched from a network. docs/import.md describes the formats.
@@ -21,7 +21,7 @@ pub struct Arguments {
     /// The file, or the address or expression itself; - for standard input.
     #[arg(value_name = "FILE|ADDRESS", value_hint = ValueHint::FilePath)]
     source: String,
-    /// The format, where it does not follow from the text: pmks, pylinkage, pyslvs, links.
+    /// The format, where it does not follow from the text: pmks, pylinkage, pyslvs, links, linkage2, linkage_sim, csv.
     #[arg(long, value_name = "NAME", value_parser = parse_format)]
     format: Option<Format>,
     /// What is driven, in place of the input in the text: a link on the frame by two of its joints, as in "A, B", or the

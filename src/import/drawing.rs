@@ -5,7 +5,7 @@ use coupler_curves::problem::suggestion;
 
 use super::error::{Error, quote};
 use super::names::Names;
-use super::sketch::{Sketch, SketchInput};
+use super::sketch::{Sketch, SketchInput, SliderLine};
 
 /// A linkage as a manifest draws it. Joints are named by their indices.
 #[derive(Clone, Debug)]
@@ -41,6 +41,8 @@ pub enum DrawingInput {
     Between([[usize; 2]; 2]),
     /// The way of a joint that slides.
     Slider(usize),
+    /// The distance of two joints.
+    Distance([usize; 2]),
 }
 
 impl Drawing {
@@ -74,14 +76,21 @@ impl Drawing {
         let half = helper_distance(extent);
         for slider in &sketch.sliders {
             let joint = index[slider.joint];
+            let (direction, carrier) = match slider.line {
+                SliderLine::Direction { direction, carrier } => (direction, carrier),
+                SliderLine::Joints(line) => {
+                    slides.push((joint, line.map(|joint| index[joint])));
+                    continue;
+                }
+            };
             let (name, [x, y]) = joints[joint].clone();
-            let [u, v] = slider.direction.map(|c| c * half);
+            let [u, v] = direction.map(|c| c * half);
             let mut add = |end: usize, position: [f64; 2]| {
                 joints.push((names.distinct(&format!("{name}{end}")), position));
                 joints.len() - 1
             };
             let line = [add(1, [x - u, y - v]), add(2, [x + u, y + v])];
-            slider.carrier.map_or(&mut frame, |link| &mut links[link]).extend(line);
+            carrier.map_or(&mut frame, |link| &mut links[link]).extend(line);
             slides.push((joint, line));
             // A link of which two joints slide on one line keeps its direction.
             if let Some(block) = slider.block.filter(|&block| links[block].len() > 1) {
@@ -139,6 +148,11 @@ fn merge_blocks(sketch: &mut Sketch, tolerance: f64) -> Vec<bool> {
         is_merged[slider] = true;
         sketch.joints[pin].is_traced |= sketch.joints[slider].is_traced;
         sketch.sliders.iter_mut().filter(|other| other.joint == slider).for_each(|other| other.joint = pin);
+        for other in &mut sketch.sliders {
+            if let SliderLine::Joints(line) = &mut other.line {
+                line.iter_mut().filter(|joint| **joint == slider).for_each(|joint| *joint = pin);
+            }
+        }
         for link in &mut sketch.links {
             let has_pin = link.joints.contains(&pin);
             match link.joints.iter().position(|&joint| joint == slider) {
@@ -158,7 +172,7 @@ fn merge_blocks(sketch: &mut Sketch, tolerance: f64) -> Vec<bool> {
 
 /// Takes the joints from links that do not move or have one joint only; a manifest does not need them.
 fn leave_out_links(sketch: &mut Sketch) {
-    let is_carrier = |link: usize| sketch.sliders.iter().any(|slider| slider.carrier == Some(link));
+    let is_carrier = |link: usize| sketch.sliders.iter().any(|slider| slider.carrier() == Some(link));
     let (mut fixed, mut single) = (Vec::new(), Vec::new());
     for (k, link) in sketch.links.iter().enumerate() {
         let is_fixed = link.joints.iter().all(|&joint| sketch.joints[joint].is_fixed);
@@ -180,7 +194,12 @@ fn leave_out_links(sketch: &mut Sketch) {
 
 /// The joints that are in a link or fixed.
 fn kept_joints(sketch: &mut Sketch, is_merged: &[bool]) -> Vec<usize> {
-    let is_needed = |joint: usize| sketch.joints[joint].is_fixed || !sketch.links_at(joint).is_empty();
+    let is_on_line = |joint: usize| sketch.sliders.iter().any(|slider| slider.line_joints().contains(&joint));
+    let driven = sketch.input.map_or(Vec::new(), SketchInput::joints);
+    let is_needed = |joint: usize| {
+        let is_fixed = sketch.joints[joint].is_fixed;
+        is_fixed || !sketch.links_at(joint).is_empty() || is_on_line(joint) || driven.contains(&joint)
+    };
     let (kept, lost): (Vec<usize>, Vec<usize>) =
         (0..sketch.joints.len()).filter(|&joint| !is_merged[joint]).partition(|&joint| is_needed(joint));
     sketch.sliders.retain(|slider| kept.contains(&slider.joint));
@@ -234,34 +253,47 @@ fn sketch_input(
 ) -> Result<(DrawingInput, Option<String>), Error> {
     let name = |joint: usize| format!("`{}`", joints[index[joint]].0);
     let fail = |message: String| Err(Error::new(sketch.origin, message, input_remedy(sketch, index, joints)));
+    // Another joint of a link, if possible one that moves.
+    let other = |link: usize, pivot: usize| {
+        let others = || sketch.links[link].joints.iter().copied().filter(|&joint| joint != pivot);
+        others().find(|&joint| !sketch.joints[joint].is_fixed).or(others().next())
+    };
+    let turn = |pivot: usize, links: [Option<usize>; 2]| {
+        let from = index[pivot];
+        let ends = links.map(|link| link.map(|link| other(link, pivot)));
+        match ends {
+            [Some(Some(a)), Some(Some(b))] => Ok(DrawingInput::Between([[index[a], from], [from, index[b]]])),
+            [None, Some(Some(end))] | [Some(Some(end)), None] if !sketch.joints[end].is_fixed => {
+                Ok(DrawingInput::Line([from, index[end]]))
+            }
+            _ => fail(format!("the links at {} cannot turn", name(pivot))),
+        }
+    };
     let pivot = match sketch.input {
-        None => return fail("the input is not known".to_owned()),
+        None => return fail("the input is not known".to_owned()).map(|input| (input, None)),
         Some(SketchInput::Line(line)) => return Ok((DrawingInput::Line(line.map(|joint| index[joint])), None)),
+        Some(SketchInput::Distance(ends)) => return Ok((DrawingInput::Distance(ends.map(|joint| index[joint])), None)),
+        Some(SketchInput::Turn { pivot, links }) => return Ok((turn(pivot, links)?, None)),
         Some(SketchInput::Pivot(pivot)) => pivot,
     };
     if sketch.sliders.iter().any(|slider| slider.joint == pivot) {
         return Ok((DrawingInput::Slider(index[pivot]), None));
     }
-    let links = sketch.links_at(pivot);
-    let other = |link: usize| {
-        let mut others =
-            sketch.links[link].joints.iter().filter(|&&joint| joint != pivot && !sketch.joints[joint].is_fixed);
-        others.next().map(|&joint| index[joint])
-    };
-    let from = index[pivot];
-    match (sketch.joints[pivot].is_fixed, &links[..]) {
+    match (sketch.joints[pivot].is_fixed, &sketch.links_at(pivot)[..]) {
         (true, [link, further @ ..]) => {
-            let Some(other) = other(*link) else { return fail(format!("the link on {} cannot turn", name(pivot))) };
-            let note = (!further.is_empty()).then(|| {
-                format!("{} drives several links; that to `{}` was taken for the input", name(pivot), joints[other].0)
-            });
-            Ok((DrawingInput::Line([from, other]), note))
+            let input = turn(pivot, [None, Some(*link)])?;
+            let note = match input {
+                DrawingInput::Line([_, end]) if !further.is_empty() => Some(format!(
+                    "{} drives several links; that to `{}` was taken for the input",
+                    name(pivot),
+                    joints[end].0
+                )),
+                _ => None,
+            };
+            Ok((input, note))
         }
-        (false, [first, second]) => match (other(*first), other(*second)) {
-            (Some(a), Some(b)) => Ok((DrawingInput::Between([[a, from], [from, b]]), None)),
-            _ => fail(format!("the links at {} cannot turn", name(pivot))),
-        },
-        _ => fail(format!("no link turns about {}, which is driven", name(pivot))),
+        (false, &[first, second]) => Ok((turn(pivot, [Some(first), Some(second)])?, None)),
+        _ => fail(format!("no link turns about {}, which is driven", name(pivot))).map(|input| (input, None)),
     }
 }
 

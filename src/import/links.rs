@@ -34,7 +34,7 @@ pub fn parse(object: &Map<String, Value>) -> Result<Sketch, Error> {
     };
     let (key, positions) = list(["positions", "x0"])?;
     for (k, value) in positions.iter().enumerate() {
-        sketch.add_joint(format!("J{k}"), position(value, &format!("`{key}`, entry {k}"))?)?;
+        sketch.add_joint(joint_name(k), position(value, &format!("`{key}`, entry {k}"))?)?;
     }
     let count = sketch.joints.len();
     let (key, fixed) = list(["fixed", "fixed_nodes"])?;
@@ -45,19 +45,9 @@ pub fn parse(object: &Map<String, Value>) -> Result<Sketch, Error> {
         Some(_) => listed_edges(list(["edges", "edges"])?.1, count)?,
         None => adjacent(list(["A", "A"])?.1, count)?,
     };
-    for joints in rigid_links(count, &edges) {
-        let name = joints.iter().map(|joint| format!("J{joint}")).collect::<Vec<_>>().join("-");
-        let link = sketch.add_link(name)?;
-        sketch.links[link].joints = joints;
-    }
+    add_bars(&edges, &mut sketch)?;
     if let Some(motor) = object.get("motor").and_then(Value::as_array) {
-        match indices(motor, "motor", count)?[..] {
-            [a, b] if a != b => sketch.input = Some(SketchInput::Line([a, b])),
-            _ => {
-                let message = "it does not name two joints";
-                return Err(Error::new("`motor`", message, "write the pivot of the crank and its pin, as in [0, 1]"));
-            }
-        }
+        sketch.input = Some(motor_input(&indices(motor, "motor", count)?, "`motor`")?);
     }
     match object.get("target") {
         None | Some(Value::Null) => {}
@@ -71,8 +61,53 @@ pub fn parse(object: &Map<String, Value>) -> Result<Sketch, Error> {
     Ok(sketch)
 }
 
-/// The edges of a list of pairs, each in ascending order and once.
-fn listed_edges(list: &[Value], count: usize) -> Result<Vec<[usize; 2]>, Error> {
+/// The name of a joint that has none.
+pub fn joint_name(index: usize) -> String {
+    format!("J{index}")
+}
+
+/// The input of a crank by its pivot and its pin.
+///
+/// # Errors
+/// There are other than two joints.
+pub fn motor_input(joints: &[usize], place: &str) -> Result<SketchInput, Error> {
+    match joints {
+        &[a, b] if a != b => Ok(SketchInput::Line([a, b])),
+        _ => {
+            let message = "it does not name two joints";
+            Err(Error::new(place, message, "write the pivot of the crank and its pin, as in [0, 1]"))
+        }
+    }
+}
+
+/// Adds the links that bars form.
+///
+/// # Errors
+/// There are too many.
+pub fn add_bars(edges: &BTreeSet<[usize; 2]>, sketch: &mut Sketch) -> Result<(), Error> {
+    let edges: Vec<[usize; 2]> = edges.iter().copied().collect();
+    for joints in rigid_links(sketch.joints.len(), &edges) {
+        let names: Vec<&str> = joints.iter().map(|joint| sketch.joints[*joint].name.as_str()).collect();
+        let link = sketch.add_link(names.join("-"))?;
+        sketch.links[link].joints = joints;
+    }
+    Ok(())
+}
+
+/// Adds a bar between two joints.
+///
+/// # Errors
+/// It is from a joint to itself.
+pub fn add_edge([a, b]: [usize; 2], place: &str, edges: &mut BTreeSet<[usize; 2]>) -> Result<(), Error> {
+    if a == b {
+        return Err(Error::new(place, format!("the bar is from joint {a} to itself"), "leave it out"));
+    }
+    edges.insert([a.min(b), a.max(b)]);
+    Ok(())
+}
+
+/// The edges of a list of pairs, each in ascending order.
+fn listed_edges(list: &[Value], count: usize) -> Result<BTreeSet<[usize; 2]>, Error> {
     let mut edges = BTreeSet::new();
     for (k, value) in list.iter().enumerate() {
         let place = format!("`edges`, entry {k}");
@@ -81,17 +116,13 @@ fn listed_edges(list: &[Value], count: usize) -> Result<Vec<[usize; 2]>, Error> 
             let message = format!("expected two joints, found {}", quote(&value.to_string()));
             return Err(Error::new(place, message, "write the two joints of a bar, as in [0, 1]"));
         };
-        let (a, b) = (index(a, &place, count)?, index(b, &place, count)?);
-        if a == b {
-            return Err(Error::new(place, format!("the bar is from joint {a} to itself"), "leave it out"));
-        }
-        edges.insert([a.min(b), a.max(b)]);
+        add_edge([index(a, &place, count)?, index(b, &place, count)?], &place, &mut edges)?;
     }
-    Ok(edges.into_iter().collect())
+    Ok(edges)
 }
 
 /// The edges of a matrix whose entries are not zero where two joints are joined.
-fn adjacent(rows: &[Value], count: usize) -> Result<Vec<[usize; 2]>, Error> {
+fn adjacent(rows: &[Value], count: usize) -> Result<BTreeSet<[usize; 2]>, Error> {
     let mut edges = BTreeSet::new();
     for (i, row) in rows.iter().enumerate() {
         let place = format!("`A`, row {i}");
@@ -115,7 +146,7 @@ fn adjacent(rows: &[Value], count: usize) -> Result<Vec<[usize; 2]>, Error> {
             }
         }
     }
-    Ok(edges.into_iter().collect())
+    Ok(edges)
 }
 
 /// The rigid links that bars form: three joints that are joined by three bars, and further ones that are so joined to two of a link.

@@ -29,6 +29,7 @@ pub fn manifest_text(drawing: &Drawing) -> String {
     let input = match drawing.input {
         DrawingInput::Line(joints) => line(joints),
         DrawingInput::Slider(joint) => format!("{{ slider = {} }}", name(joint)),
+        DrawingInput::Distance(joints) => format!("{{ distance = {} }}", list(&joints)),
         DrawingInput::Between(lines) => format!("{{ between = [{}] }}", lines.map(line).join(", ")),
     };
     let links: Vec<String> = drawing.links.iter().map(|link| list(link)).collect();

@@ -4,9 +4,13 @@
 //! text -> sketch -> drawing -> manifest
 //! ```
 
+mod assembly;
 mod drawing;
 mod error;
+mod joint_table;
 mod json_values;
+mod linkage2;
+mod linkage_sim;
 mod links;
 mod manifest_text;
 mod names;
@@ -14,6 +18,7 @@ mod pmks;
 mod pmks_address;
 mod pmks_short;
 mod pylinkage;
+mod pylinkage_components;
 mod pyslvs;
 mod sketch;
 
@@ -29,17 +34,31 @@ use sketch::Sketch;
 pub enum Format {
     /// An address of PMKS+, readable or short.
     Pmks,
-    /// The JSON of a mechanism of pylinkage 1.x.
+    /// The JSON of a mechanism of pylinkage, or of its components.
     Pylinkage,
     /// An expression of Pyslvs.
     Pyslvs,
     /// The lists or arrays of LINKS and LInK, in JSON.
     Links,
+    /// A file of Linkage, in XML.
+    Linkage2,
+    /// The JSON of linkage_sim.
+    LinkageSim,
+    /// A table of joints and the bars between them.
+    Csv,
 }
 
 impl Format {
     /// Every format.
-    pub const ALL: [Format; 4] = [Format::Pmks, Format::Pylinkage, Format::Pyslvs, Format::Links];
+    pub const ALL: [Format; 7] = [
+        Format::Pmks,
+        Format::Pylinkage,
+        Format::Pyslvs,
+        Format::Links,
+        Format::Linkage2,
+        Format::LinkageSim,
+        Format::Csv,
+    ];
 
     /// Its name on the command line.
     pub fn name(self) -> &'static str {
@@ -48,6 +67,9 @@ impl Format {
             Format::Pylinkage => "pylinkage",
             Format::Pyslvs => "pyslvs",
             Format::Links => "links",
+            Format::Linkage2 => "linkage2",
+            Format::LinkageSim => "linkage_sim",
+            Format::Csv => "csv",
         }
     }
 }
@@ -69,8 +91,11 @@ pub fn read(text: &str, format: Option<Format>, input: Option<&str>) -> Result<D
     let sketch = match format {
         Some(Format::Pmks) => parse_address(text),
         Some(Format::Pyslvs) => pyslvs::parse(text),
-        Some(Format::Pylinkage) => pylinkage::parse(&json_object(text)?),
+        Some(Format::Pylinkage) => parse_pylinkage(&json_object(text)?),
         Some(Format::Links) => links::parse(&json_object(text)?),
+        Some(Format::Linkage2) => linkage2::parse(text),
+        Some(Format::LinkageSim) => linkage_sim::parse(&json_object(text)?),
+        Some(Format::Csv) => joint_table::parse(text),
         None => parse_any(text),
     }?;
     Drawing::new(sketch, input)
@@ -84,27 +109,35 @@ pub fn is_text(word: &str) -> bool {
 /// Whether a text is that of another program, and not a manifest.
 pub fn is_foreign(text: &str) -> bool {
     let text = text.trim_start();
-    text.starts_with(['{', '?']) || text.starts_with("http") || pyslvs::is_pyslvs(text)
+    text.starts_with(['{', '?'])
+        || text.starts_with("http")
+        || pyslvs::is_pyslvs(text)
+        || linkage2::is_xml(text)
+        || joint_table::is_table(text)
 }
 
 fn parse_any(text: &str) -> Result<Sketch, Error> {
     if text.starts_with('{') {
         let object = json_object(text)?;
-        if pylinkage::is_pylinkage(&object) {
-            return pylinkage::parse(&object);
+        if pylinkage::is_pylinkage(&object) || pylinkage_components::is_components(&object) {
+            return parse_pylinkage(&object);
+        }
+        if linkage_sim::is_linkage_sim(&object) {
+            return linkage_sim::parse(&object);
         }
         if links::is_links(&object) {
             return links::parse(&object);
         }
-        let name =
-            if object.contains_key("bodies") { "that of linkage_sim, which is not read" } else { "of no known format" };
-        return Err(unknown(&format!("the JSON is {name}")));
+        return Err(unknown("the JSON is of no known format"));
     }
     if pyslvs::is_pyslvs(text) {
         return pyslvs::parse(text);
     }
-    if text.starts_with('<') {
-        return Err(unknown("XML, such as a .linkage2 file of Linkage, is not read"));
+    if linkage2::is_xml(text) {
+        return linkage2::parse(text);
+    }
+    if joint_table::is_table(text) {
+        return joint_table::parse(text);
     }
     if pmks_address::query(text).is_some() {
         return parse_address(text);
@@ -113,8 +146,16 @@ fn parse_any(text: &str) -> Result<Sketch, Error> {
 }
 
 fn unknown(message: &str) -> Error {
-    let remedy = "give an address of PMKS+, the JSON of pylinkage, an expression of Pyslvs, or the JSON of LINKS (docs/import.md)";
+    let remedy = "give an address of PMKS+, the JSON of pylinkage, of LINKS or of linkage_sim, an expression of Pyslvs, a file of Linkage, or a \
+                  table with the columns x, y and bars (docs/import.md)";
     Error::new("the text", message, remedy)
+}
+
+fn parse_pylinkage(object: &Map<String, Value>) -> Result<Sketch, Error> {
+    if pylinkage_components::is_components(object) {
+        return pylinkage_components::parse(object);
+    }
+    pylinkage::parse(object)
 }
 
 fn parse_address(text: &str) -> Result<Sketch, Error> {

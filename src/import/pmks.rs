@@ -3,7 +3,7 @@
 use coupler_curves::geometry::trig;
 
 use super::error::{Error, quote};
-use super::sketch::{Sketch, SketchInput, Slider};
+use super::sketch::{Sketch, SketchInput, Slider, SliderLine};
 
 /// What PMKS+ addresses are called in messages.
 pub const ORIGIN: &str = "a PMKS+ address";
@@ -52,7 +52,11 @@ pub fn sketch(joints: &[PmksJoint], links: &[PmksLink], rounding: f64) -> Result
         let has_pin =
             |link: &PmksLink| link.joints.iter().any(|&pin| pin != k && joints[pin].position == joint.position);
         let block = links.iter().position(|link| link.joints.contains(&k) && (link.is_piston || has_pin(link)));
-        sketch.sliders.push(Slider { joint: k, direction: direction(joint.angle, rounding), carrier, block });
+        sketch.sliders.push(Slider {
+            joint: k,
+            line: SliderLine::Direction { direction: direction(joint.angle, rounding), carrier },
+            block,
+        });
     }
     let inputs: Vec<usize> = (0..joints.len()).filter(|&k| joints[k].is_input).collect();
     if let [input, further @ ..] = &inputs[..] {

@@ -7,7 +7,7 @@ use serde_json::{Map, Value};
 
 use super::error::{Error, quote};
 use super::json_values::{position, unit};
-use super::sketch::{Sketch, SketchInput, Slider};
+use super::sketch::{Sketch, SketchInput, Slider, SliderLine};
 
 const ORIGIN: &str = "a mechanism of pylinkage";
 
@@ -112,7 +112,11 @@ fn add_joint(joint: &Map<String, Value>, id: &str, place: &str, sketch: &mut Ske
                 return Err(Error::new(place, "its axis has no direction", "write one, as in [1, 0]"));
             }
             let direction = [x / length, y / length];
-            sketch.sliders.push(Slider { joint: index, direction, carrier: None, block: None });
+            sketch.sliders.push(Slider {
+                joint: index,
+                line: SliderLine::Direction { direction, carrier: None },
+                block: None,
+            });
             if let Some(point) = joint.get("line_point").filter(|point| !point.is_null()) {
                 let [u, v] = position(point, &format!("{place}, `line_point`"))?;
                 let offset = direction[0] * (at[1] - v) - direction[1] * (at[0] - u);
@@ -159,17 +163,17 @@ fn attach_trackers(
     Ok(())
 }
 
-fn entries<'j>(object: &'j Map<String, Value>, key: &str) -> Result<&'j [Value], Error> {
+pub(super) fn entries<'j>(object: &'j Map<String, Value>, key: &str) -> Result<&'j [Value], Error> {
     let list = object.get(key).and_then(Value::as_array).map(Vec::as_slice);
     list.ok_or_else(|| Error::new(ORIGIN, format!("there is no list `{key}`"), "add it"))
 }
 
-fn not_an_object(place: &str) -> Error {
+pub(super) fn not_an_object(place: &str) -> Error {
     Error::new(place, "expected an object", "write it as { \"id\": … }")
 }
 
 /// An id, which may be a text or a number.
-fn id_text(value: &Value) -> Option<String> {
+pub(super) fn id_text(value: &Value) -> Option<String> {
     match value {
         Value::String(id) => Some(id.clone()),
         Value::Number(id) => Some(id.to_string()),

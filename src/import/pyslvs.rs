@@ -3,7 +3,7 @@
 use coupler_curves::geometry::trig;
 
 use super::error::{Error, quote};
-use super::sketch::{Sketch, Slider, parse_number};
+use super::sketch::{Sketch, Slider, SliderLine, parse_number};
 
 const ORIGIN: &str = "a Pyslvs expression";
 
@@ -80,7 +80,7 @@ fn add_joint(term: &Term, k: usize, sketch: &mut Sketch) -> Result<(), Error> {
         block = block.or((kind == "P").then_some(link));
     }
     let (x, y) = trig::cos_sin_deg(angle);
-    sketch.sliders.push(Slider { joint, direction: [x, y], carrier, block });
+    sketch.sliders.push(Slider { joint, line: SliderLine::Direction { direction: [x, y], carrier }, block });
     Ok(())
 }
 

@@ -50,12 +50,42 @@ pub struct SketchLink {
 pub struct Slider {
     /// The joint.
     pub joint: usize,
-    /// The direction of the line, a unit vector.
-    pub direction: [f64; 2],
-    /// The link that has the line; the frame if `None`.
-    pub carrier: Option<usize>,
+    /// The line.
+    pub line: SliderLine,
     /// The link that keeps the direction of the line; on the others the joint is a pin.
     pub block: Option<usize>,
+}
+
+/// A line on which a joint slides.
+#[derive(Clone, Copy, Debug)]
+pub enum SliderLine {
+    /// By its direction.
+    Direction {
+        /// A unit vector.
+        direction: [f64; 2],
+        /// The link that has the line; the frame if `None`.
+        carrier: Option<usize>,
+    },
+    /// By two joints of a link or of the frame.
+    Joints([usize; 2]),
+}
+
+impl Slider {
+    /// The link that has the line, if it is given by its direction and not on the frame.
+    pub fn carrier(&self) -> Option<usize> {
+        match self.line {
+            SliderLine::Direction { carrier, .. } => carrier,
+            SliderLine::Joints(_) => None,
+        }
+    }
+
+    /// The joints by which the line is given.
+    pub fn line_joints(&self) -> &[usize] {
+        match &self.line {
+            SliderLine::Direction { .. } => &[],
+            SliderLine::Joints(joints) => joints,
+        }
+    }
 }
 
 /// What is driven.
@@ -63,8 +93,27 @@ pub struct Slider {
 pub enum SketchInput {
     /// The link that turns about a joint.
     Pivot(usize),
+    /// The angle from a link to another about a joint of both; the frame if `None`.
+    Turn {
+        /// The joint.
+        pivot: usize,
+        /// The links.
+        links: [Option<usize>; 2],
+    },
     /// The link with two joints.
     Line([usize; 2]),
+    /// The distance of two joints, an actuator's length.
+    Distance([usize; 2]),
+}
+
+impl SketchInput {
+    /// The joints that it names.
+    pub fn joints(self) -> Vec<usize> {
+        match self {
+            SketchInput::Pivot(pivot) | SketchInput::Turn { pivot, .. } => vec![pivot],
+            SketchInput::Line(joints) | SketchInput::Distance(joints) => joints.to_vec(),
+        }
+    }
 }
 
 impl Sketch {
@@ -79,10 +128,15 @@ impl Sketch {
     /// Adds a joint, and returns its index.
     ///
     /// # Errors
-    /// There are too many.
+    /// There are too many; its place is not finite.
     pub fn add_joint(&mut self, name: impl Into<String>, position: [f64; 2]) -> Result<usize, Error> {
         self.check_count(self.joints.len(), "joints")?;
-        self.joints.push(SketchJoint { name: name.into(), position, is_fixed: false, is_traced: false });
+        let name = name.into();
+        if !position.iter().all(|coordinate| coordinate.is_finite()) {
+            let message = format!("the place of {} is too far away", quote(&name));
+            return Err(Error::new(self.origin, message, "give it smaller lengths and coordinates"));
+        }
+        self.joints.push(SketchJoint { name, position, is_fixed: false, is_traced: false });
         Ok(self.joints.len() - 1)
     }
 
