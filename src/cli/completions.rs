@@ -62,6 +62,7 @@ fn offered_values() -> Vec<Offer> {
         ("design", "types", LinkageKind::ALL.map(LinkageKind::id).to_vec()),
         ("render", "format", built_in.map(render::Format::name).collect()),
         ("export", "format", export::Format::ALL.map(export::Format::name).to_vec()),
+        ("export", "form", export::ManifestForm::ALL.map(export::ManifestForm::name).to_vec()),
         ("check", "report", check::REPORTS.map(|(name, _)| name).to_vec()),
         ("validate", "report", validate::REPORTS.map(|(name, _)| name).to_vec()),
         ("render", "only", vec![FAMILIES]),

@@ -1,7 +1,13 @@
-//! Exports single curves: as files of text, see [`coupler_drawing::curve_file`], as images of their plates, and as addresses of PMKS+.
+//! Exports single curves: as files of text, see [`coupler_drawing::curve_file`], as images of their plates, as addresses of PMKS+,
+//! and as manifests with their linkages in numbers.
 
+mod complete;
+mod drawing;
+mod drawn_links;
 mod pmks;
 
+pub use complete::{CompleteFamily, ManifestForm, complete_families, complete_manifest};
+pub use drawing::DrawingError;
 pub use pmks::PmksError;
 
 use coupler_curves::exchange::SelectedCurve;

@@ -6,6 +6,8 @@ use coupler_curves::exchange::SelectedCurve;
 use coupler_curves::geometry::{Point, trig};
 use coupler_curves::linkage::{JointId, JointKind, Linkage};
 
+use super::drawn_links::{missing, own_joints};
+
 /// Where PMKS+ is.
 const PROGRAM: &str = "https://app.pmksplus.com/";
 
@@ -47,12 +49,8 @@ pub(super) fn address(curve: &SelectedCurve) -> Result<String, PmksError> {
     let crank = linkage.crank();
     // The crank is the first link, which is the one that its pivot drives.
     let is_crank = |joints: &[JointId]| crank.is_some_and(|line| line.iter().all(|joint| joints.contains(joint)));
-    let mut links: Vec<Vec<JointId>> = linkage
-        .links
-        .iter()
-        .skip(1)
-        .map(|link| own_joints(link.joints.iter().map(|(joint, _)| *joint), linkage, traced))
-        .collect();
+    let mut links: Vec<Vec<JointId>> =
+        (1..linkage.links.len()).map(|link| own_joints(linkage, link, &[traced])).collect();
     links.retain(|joints| joints.len() > 1);
     links.sort_by_key(|joints| !is_crank(joints));
     let mut joints: Vec<JointId> =
@@ -90,13 +88,6 @@ pub(super) fn address(curve: &SelectedCurve) -> Result<String, PmksError> {
     Ok(write_address(&out, links.len() + blocks.len()))
 }
 
-/// The joints of a link without points that nothing else is connected to, but with the traced one.
-fn own_joints(joints: impl Iterator<Item = JointId>, linkage: &Linkage, traced: JointId) -> Vec<JointId> {
-    let count = |joint: JointId| linkage.links.iter().filter(|link| link.position(joint).is_some()).count();
-    let is_point = |joint: JointId| matches!(linkage.joints[joint].kind, JointKind::Rigid { .. }) && count(joint) == 1;
-    joints.filter(|&joint| joint == traced || !is_point(joint)).collect()
-}
-
 /// Checks that PMKS+ has all that a linkage is made of.
 fn check_joints(linkage: &Linkage) -> Result<(), PmksError> {
     let is_fixed = |joint: &JointId| linkage.links[0].position(*joint).is_some();
@@ -105,21 +96,14 @@ fn check_joints(linkage: &Linkage) -> Result<(), PmksError> {
     }
     for joint in &linkage.joints {
         let what = match joint.kind {
-            JointKind::Fixed(_) | JointKind::Crank { .. } | JointKind::Dyad { .. } | JointKind::Rigid { .. } => {
-                continue;
-            }
-            JointKind::Slide { line, .. } if line.iter().all(is_fixed) => continue,
-            JointKind::Slide { .. } => "slider on a moving link",
-            JointKind::Gear { .. } => "gear",
-            JointKind::Rack { .. } => "rack",
-            JointKind::Piston { .. } => "actuator between two links",
-            JointKind::Slot { .. } => "slot",
-            JointKind::Yoke { .. } => "yoke",
-            JointKind::Parallelogram { .. } => "parallelogram that is a joint",
-            JointKind::Aligned { .. } => "link that keeps the direction of a line",
-            _ => "joint of this kind",
+            JointKind::Slide { line, .. } if !line.iter().all(is_fixed) => Some("slider on a moving link"),
+            JointKind::Piston { .. } => Some("actuator between two links"),
+            JointKind::DrivenSlider { .. } => Some("driven slider"),
+            ref kind => missing(kind),
         };
-        return Err(PmksError { joint: joint.name.clone(), what });
+        if let Some(what) = what {
+            return Err(PmksError { joint: joint.name.clone(), what });
+        }
     }
     Ok(())
 }

@@ -26,6 +26,8 @@ pub struct Drawing {
     pub slides: Vec<(usize, [usize; 2])>,
     /// What is driven.
     pub input: DrawingInput,
+    /// The range of the input, as a manifest has its values; all of it if `None`.
+    pub range: Option<[String; 2]>,
     /// The joints whose curves are traced.
     pub trace: Vec<usize>,
     /// What was left out, and what had to be assumed.
@@ -109,7 +111,7 @@ impl Drawing {
         }
         sketch.notes.extend(note);
         let Sketch { origin, title, unit, notes, .. } = sketch;
-        Ok(Drawing { origin, title, unit, joints, frame, links, slides, input: chosen, trace, notes })
+        Ok(Drawing { origin, title, unit, joints, frame, links, slides, input: chosen, range: None, trace, notes })
     }
 }
 

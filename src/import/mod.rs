@@ -26,6 +26,9 @@ pub use drawing::{Drawing, DrawingInput};
 pub use error::Error;
 pub use manifest_text::manifest_text;
 
+// For `export`, which draws linkages, too.
+pub(crate) use self::{manifest_text::linkage_text, names::Names};
+
 use serde_json::{Map, Value};
 use sketch::Sketch;
 

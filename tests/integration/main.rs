@@ -11,6 +11,7 @@ mod case_tables;
 mod charts;
 mod check;
 mod command_line;
+mod complete_manifests;
 mod completions;
 mod conditions;
 mod corpus;

@@ -7,7 +7,7 @@ use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::export::{self, DEFAULT_DPI, Format, Options};
+use crate::export::{self, CompleteFamily, DEFAULT_DPI, Format, ManifestForm, Options};
 use crate::manifest::Plan;
 use clap::{Args, ValueHint};
 use coupler_curves::exchange::{CurveName, ParameterSet, SelectedCurve, manifest_fragment};
@@ -43,6 +43,11 @@ pub struct Arguments {
     /// all curves), pmks (the address by which PMKS+ opens the linkage).
     #[arg(long, value_name = "FORMATS", value_delimiter = ',', default_value = "svg", value_parser = parse_format)]
     format: Vec<Format>,
+    /// What the manifest of toml says of linkages: families names them and has the values of their parameters, for a manifest
+    /// that has them; joints and drawing make a manifest by itself, with the linkages in numbers, joint by joint or by
+    /// their drawing.
+    #[arg(long, value_name = "FORM", default_value = "families", value_parser = parse_form)]
+    form: ManifestForm,
     /// The file to write, or the folder if there are several files; - for standard output.
     #[arg(short, long, value_name = "PATH", value_hint = ValueHint::AnyPath)]
     output: Option<PathBuf>,
@@ -96,6 +101,10 @@ fn parse_format(name: &str) -> Result<Format, String> {
     choice::parse("format", name, &Format::ALL.map(|format| (format.name(), format)))
 }
 
+fn parse_form(name: &str) -> Result<ManifestForm, String> {
+    choice::parse("form", name, &ManifestForm::ALL.map(|form| (form.name(), form)))
+}
+
 fn parse_chord(text: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| "expected a number, as in --chord 1e-4".to_owned())?;
     let error = || {
@@ -113,6 +122,10 @@ fn parse_step(text: &str, template: &Template) -> Result<f64, String> {
 }
 
 pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
+    if arguments.form != ManifestForm::Families && !arguments.format.contains(&Format::TOML) {
+        let message = format!("--form {} is for manifests: add --format toml", arguments.form.name());
+        return Err(Failure::input(message));
+    }
     let (selections, plan) = match &arguments.linkage {
         Some(id) => (vec![select_from_linkage(id, arguments)?], None),
         None => {
@@ -128,12 +141,18 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         + usize::from(formats.contains(&Format::TOML));
     let options = export_options(arguments, plan.as_ref());
     let mut destination = Destination::from_path(arguments.output.as_deref(), files)?;
-    let mut cases = Vec::new();
+    let form = formats.contains(&Format::TOML).then_some(arguments.form);
+    let (mut cases, mut families) = (Vec::new(), Vec::new());
     for selection in &selections {
-        export_selection(selection, (&formats, &options), &mut destination, &mut cases)?;
+        let manifest = (&mut cases, &mut families);
+        export_selection(selection, (&formats, form, &options), &mut destination, manifest)?;
     }
-    if formats.contains(&Format::TOML) {
-        destination.write_file("curves.toml", manifest_fragment(&cases).as_bytes())?;
+    if let Some(form) = form {
+        let text = match form {
+            ManifestForm::Families => manifest_fragment(&cases),
+            ManifestForm::Joints | ManifestForm::Drawing => export::complete_manifest(&families),
+        };
+        destination.write_file("curves.toml", text.as_bytes())?;
     }
     if let Destination::Folder(folder) = destination {
         print(&format!("{} written to {}\n", pluralize(files, "file"), printable(folder.display())))?;
@@ -330,12 +349,12 @@ fn export_options(arguments: &Arguments, plan: Option<&Plan>) -> Options {
     Options { file: FileOptions { page, text_mode, chord_tolerance: arguments.chord }, dpi }
 }
 
-/// Writes the files of a selection, and appends its cells to `cases`.
+/// Writes the files of a selection, and appends its cells to what the manifest has of them.
 fn export_selection<'a>(
     selection: &'a CurveSelection,
-    (formats, options): (&[Format], &Options),
+    (formats, form, options): (&[Format], Option<ManifestForm>, &Options),
     destination: &mut Destination,
-    cases: &mut Vec<ParameterSet<'a>>,
+    (cases, families): (&mut Vec<ParameterSet<'a>>, &mut Vec<CompleteFamily>),
 ) -> Result<(), Failure> {
     let curve_formats = || formats.iter().filter(|format| **format != Format::TOML);
     let export_cell = |solved| {
@@ -351,10 +370,15 @@ fn export_selection<'a>(
                 files.push((format.file_name(curve), export::bytes(curve, format, options)));
             }
         }
-        (files, curves.iter().map(ParameterSet::from_curve).collect::<Vec<_>>())
+        let complete = form.map_or(Ok(Vec::new()), |form| {
+            let name = curves.first().map(SelectedCurve::name).unwrap_or_default();
+            export::complete_families(&curves, form).map_err(|error| format!("{name}: {error}"))
+        });
+        (files, complete, curves.iter().map(ParameterSet::from_curve).collect::<Vec<_>>())
     };
-    selection.solve_cells(true, export_cell, |(files, cell_cases)| {
+    selection.solve_cells(true, export_cell, |(files, complete, cell_cases)| {
         cases.extend(cell_cases);
+        families.extend(complete.map_err(Failure::input)?);
         for (file, bytes) in files {
             let bytes = bytes.map_err(|error| export_error(&file, &error))?;
             destination.write_file(&file, &bytes)?;

@@ -14,6 +14,7 @@ use coupler_curves::linkage::Linkage;
 use coupler_curves::motion::{self, Motion, Sampler};
 
 use crate::support::command::{folder_with, printed, program, result, run};
+use crate::support::curve_rows;
 use crate::support::plan::plan;
 use samples::{
     ARRAYS, LINKS, PYLINKAGE, PYLINKAGE_SLIDER, PYSLVS, PYSLVS_SLIDER, READABLE, SLIDER, short_address, short_slider,
@@ -346,33 +347,13 @@ cases = [{ g = 2, r = 0.75, e = 0.3 }]
         let address = printed(path, &["export", curve, "--format", "pmks"]);
         assert!(address.starts_with("https://") && address.lines().count() == 1, "{address}");
         let manifest = printed(path, &["import", address.trim()]);
-        std::fs::write(path.join("again.toml"), &manifest).unwrap();
-        let rows = |arguments: &[&str]| {
-            let table = printed(path, arguments);
-            let mut table = csv::Reader::from_reader(table.as_bytes());
-            let header = table.headers().unwrap().clone();
-            let column = ["input_deg", "x", "y"].map(|name| header.iter().position(|column| column == name).unwrap());
-            let rows =
-                table.records().map(|row| column.map(|column| row.as_ref().unwrap()[column].parse::<f64>().unwrap()));
-            rows.collect::<Vec<[f64; 3]>>()
-        };
-        let expected = rows(&["export", curve, "--format", "csv"]);
-        let (linkage, motion) = solved(&manifest);
-        let traced = linkage.traced[0];
-        let passes: Vec<_> = motion.circuits.iter().flat_map(|circuit| &circuit.passes).collect();
+        let expected = curve_rows::rows(path, &["export", curve]);
         // The input is measured from the x-axis in both, but a mirrored one turns the other way.
         let is_placed = curve.starts_with("slider");
-        for &[input, x, y] in expected.iter().step_by(7) {
-            let input = if is_placed { 30.0 - input } else { input };
-            let distance = passes.iter().flat_map(|pass| {
-                let (from, to) = (pass.from.input.value, pass.to.input.value);
-                let at = input + 360.0 * ((from.min(to) - input) / 360.0).ceil();
-                (at <= from.max(to))
-                    .then(|| (motion::pose(&linkage, pass, at)[traced.index()] - Point::new(x, y)).norm())
-            });
-            let distance = distance.fold(f64::INFINITY, f64::min);
-            assert!(distance < 1e-9, "{curve} at {input}: {distance}\n{manifest}");
-        }
+        let placed = |[input, x, y]: [f64; 3]| [if is_placed { 30.0 - input } else { input }, x, y];
+        let rows = expected.into_iter().map(placed);
+        let distance = curve_rows::distance_to_curve(&manifest, rows);
+        assert!(distance < 1e-9, "{curve}: {distance}\n{manifest}");
     }
     let (code, out, err) = run(path, &["export", "slot:1.1.1", "--format", "pmks"]);
     assert!(code == 2 && out.is_empty() && err.contains("PMKS+ has no actuator between two links"), "{err}");

@@ -1,6 +1,7 @@
 //! What tests of several topics share: the program, folders and atlases, manifests, and tables.
 
 pub mod command;
+pub mod curve_rows;
 pub mod folder;
 pub mod plan;
 pub mod table;

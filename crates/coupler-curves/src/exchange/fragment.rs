@@ -44,7 +44,7 @@ pub fn manifest_families(cases: &[ParameterSet], has_linkages: bool) -> String {
 }
 
 /// The id of the n-th family of a linkage: the linkage's id, shortened if needed, and a suffix.
-fn family_id(linkage: &str, number: usize) -> String {
+pub fn family_id(linkage: &str, number: usize) -> String {
     let stem: String = linkage.chars().take(50).collect();
     let stem = stem.trim_end_matches('-');
     if number == 1 { format!("{stem}-exported") } else { format!("{stem}-exported-{number}") }
@@ -91,34 +91,15 @@ fn is_built_in(template: &Template) -> bool {
 }
 
 /// The settings of a family other than its cells, which distinguish the families of one linkage.
-fn family_settings(family: &Family) -> String {
+pub fn family_settings(family: &Family) -> String {
     let template = &family.template;
-    let is_length = template.is_driven_by_length();
-    let input = |value: f64| if is_length { format_number(value) } else { format!("\"{} deg\"", format_number(value)) };
-    let sampling = match sampling_fields(family.sampling) {
-        ("step", step, _) => format!("step = {}", input(step)),
-        (key, number, None) => format!("{key} = {}", format_number(number)),
-        (key, number, Some(spacing)) => format!("{key} = {}, spacing = \"{spacing}\"", format_number(number)),
-    };
-    let mut out = format!("sampling = {{ {sampling} }}\n");
     let circuits = match template.circuits {
         CircuitSelection::Start => "start",
         CircuitSelection::All => "all",
     };
-    let continuation = match template.continuation {
-        Continuation::Smooth => "smooth",
-        Continuation::Branch => "branch",
-    };
-    let _ = write!(out, "circuits = \"{circuits}\"\ncontinuation = \"{continuation}\"\n");
-    let coincident = match template.coincident {
-        CoincidentDyads::Together => "together",
-        CoincidentDyads::First => "first",
-        CoincidentDyads::Last => "last",
-    };
-    // Every linkage of the catalogue has `together`.
-    if template.coincident != CoincidentDyads::Together || !is_built_in(template) {
-        let _ = writeln!(out, "coincident = \"{coincident}\"");
-    }
+    let mut out = sampling_setting(family);
+    let _ = writeln!(out, "circuits = \"{circuits}\"");
+    out += &continuation_settings(template);
     // A linkage that is not of the catalogue may trace others in its manifest.
     if catalogue::find(&template.id).is_none_or(|own| own.traced != template.traced) {
         let names: Vec<String> = template.traced.iter().map(|joint| quoted(&template.joints[*joint].name)).collect();
@@ -127,19 +108,62 @@ fn family_settings(family: &Family) -> String {
     if template.orientation != Orientation::default() {
         let _ = writeln!(out, "place = {}", placement_to_toml(&template.orientation));
     }
-    if family.straight != StraightCriterion::default() {
-        let straight = match family.straight {
-            StraightCriterion::Tolerance(tolerance) => format!("tolerance = {}", format_number(tolerance)),
-            StraightCriterion::Input(value) => format!("input = {}", input(value)),
-            StraightCriterion::Length(length) => format!("length = {}", format_number(length)),
-        };
-        let _ = writeln!(out, "straight = {{ {straight} }}");
-    }
+    out += &straight_setting(family);
     if !family.columns.is_empty() {
         let columns: Vec<String> = family.columns.iter().map(|column| format!("\"{}\"", column.name)).collect();
         let _ = writeln!(out, "columns = [{}]", columns.join(", "));
     }
     out
+}
+
+/// The settings of a family whose linkage is drawn as it is placed, in a pose of the only circuit.
+pub fn drawn_family_settings(family: &Family) -> String {
+    sampling_setting(family) + &continuation_settings(&family.template) + &straight_setting(family)
+}
+
+/// A value of the input, or a part of it.
+fn input_to_toml(family: &Family, value: f64) -> String {
+    let number = format_number(value);
+    if family.template.is_driven_by_length() { number } else { format!("\"{number} deg\"") }
+}
+
+fn sampling_setting(family: &Family) -> String {
+    let sampling = match sampling_fields(family.sampling) {
+        ("step", step, _) => format!("step = {}", input_to_toml(family, step)),
+        (key, number, None) => format!("{key} = {}", format_number(number)),
+        (key, number, Some(spacing)) => format!("{key} = {}, spacing = \"{spacing}\"", format_number(number)),
+    };
+    format!("sampling = {{ {sampling} }}\n")
+}
+
+fn continuation_settings(template: &Template) -> String {
+    let continuation = match template.continuation {
+        Continuation::Smooth => "smooth",
+        Continuation::Branch => "branch",
+    };
+    let coincident = match template.coincident {
+        CoincidentDyads::Together => "together",
+        CoincidentDyads::First => "first",
+        CoincidentDyads::Last => "last",
+    };
+    let mut out = format!("continuation = \"{continuation}\"\n");
+    // Every linkage of the catalogue has `together`.
+    if template.coincident != CoincidentDyads::Together || !is_built_in(template) {
+        let _ = writeln!(out, "coincident = \"{coincident}\"");
+    }
+    out
+}
+
+fn straight_setting(family: &Family) -> String {
+    if family.straight == StraightCriterion::default() {
+        return String::new();
+    }
+    let straight = match family.straight {
+        StraightCriterion::Tolerance(tolerance) => format!("tolerance = {}", format_number(tolerance)),
+        StraightCriterion::Input(value) => format!("input = {}", input_to_toml(family, value)),
+        StraightCriterion::Length(length) => format!("length = {}", format_number(length)),
+    };
+    format!("straight = {{ {straight} }}\n")
 }
 
 /// The `place` of a family.

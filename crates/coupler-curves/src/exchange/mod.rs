@@ -8,6 +8,7 @@ mod curve_name;
 mod dxf;
 mod fragment;
 mod json;
+mod linkage_in_numbers;
 mod number;
 mod points;
 mod pretty_json;
@@ -21,8 +22,9 @@ pub use selected_curve::SelectedCurve;
 // For the other crates of the workspace only.
 #[doc(hidden)]
 pub use self::{
-    fragment::{ParameterSet, manifest_families, manifest_fragment},
+    fragment::{ParameterSet, drawn_family_settings, family_id, family_settings, manifest_families, manifest_fragment},
     json::{Members, PassDocument},
+    linkage_in_numbers::linkage_in_numbers,
     number::{append_integer, append_number, format_significant},
     table::PointTable,
 };

@@ -30,6 +30,12 @@ pub fn quoted(text: &str) -> String {
     out
 }
 
+/// A name as a key of TOML: bare, or quoted where it has to be.
+pub fn toml_key(name: &str) -> String {
+    let is_bare = !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '_' | '-'));
+    if is_bare { name.to_owned() } else { quoted(name) }
+}
+
 /// A number as TOML in the fewest digits that read back to the same value, whole numbers up to 2^53 as integers.
 pub fn toml_number(value: f64) -> String {
     const MAX_WHOLE: f64 = 9_007_199_254_740_992.0;

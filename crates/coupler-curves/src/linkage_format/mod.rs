@@ -18,7 +18,7 @@ mod toml_parser;
 // For the other crates of the workspace only.
 #[doc(hidden)]
 pub use self::{
-    canonical::{canonical_toml, quoted, toml_number},
+    canonical::{canonical_toml, quoted, toml_key, toml_number},
     fields::{Fields, one_or_more},
     linkage::{
         CIRCUIT_SELECTIONS, CIRCUITS_KEY, COINCIDENT_DYADS, COINCIDENT_KEY, CONTINUATION_KEY, CONTINUATIONS,

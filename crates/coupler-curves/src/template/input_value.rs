@@ -12,7 +12,7 @@ pub struct InputValue {
 }
 
 impl InputValue {
-    pub(super) fn evaluate(&self, values: &[f64]) -> f64 {
+    pub(crate) fn evaluate(&self, values: &[f64]) -> f64 {
         let value = self.value.evaluate(|slot| values[slot]);
         self.unit.map_or(value, |unit| unit.to_base_unit(value))
     }

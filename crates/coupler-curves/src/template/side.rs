@@ -26,7 +26,7 @@ impl SideTemplate {
     }
 
     /// The side, with expressions evaluated by `number`; `None` if the joint is flat, where its side is not known.
-    pub(super) fn evaluate(&self, number: impl FnOnce(&CompiledExpression) -> f64) -> Option<Side> {
+    pub(crate) fn evaluate(&self, number: impl FnOnce(&CompiledExpression) -> f64) -> Option<Side> {
         match self {
             SideTemplate::Given(side) => Some(*side),
             SideTemplate::Drawn(sine) => match number(sine) {
