@@ -2,7 +2,7 @@
 
 use coupler_curves::exchange::SelectedCurve;
 use coupler_curves::geometry::{Point, trig};
-use coupler_curves::linkage::{JointId, JointKind, Linkage};
+use coupler_curves::linkage::{JointId, JointKind, LineDirection, Linkage};
 use coupler_curves::linkage_format::toml_number;
 use coupler_drawing::page;
 
@@ -29,6 +29,8 @@ pub(super) fn drawing(curves: &[&SelectedCurve]) -> Result<Option<Drawing>, Draw
     for joint in &linkage.joints {
         let what = match joint.kind {
             JointKind::Piston { offset, .. } if offset != 0.0 => Some("actuator with an offset"),
+            // On the link with a slot it is a point like others.
+            JointKind::Aligned { direction: LineDirection::BySide(_), .. } => None,
             ref kind => missing(kind),
         };
         if let Some(what) = what {
@@ -42,36 +44,82 @@ pub(super) fn drawing(curves: &[&SelectedCurve]) -> Result<Option<Drawing>, Draw
     let slides: Vec<(JointId, [JointId; 2])> =
         linkage.joint_ids().filter_map(|joint| Some((joint, linkage.joints[joint].kind.slider_line()?))).collect();
     let kept: Vec<JointId> = traced.iter().copied().chain(slides.iter().flat_map(|(_, line)| *line)).collect();
+    let slots = slots(linkage, &at);
+    // The foot of a line that passes through its pivot is the pivot.
+    let place = |joint: JointId| slots.iter().find(|slot| slot.foot == joint).map_or(joint, |slot| slot.from);
+    let on_link = |link: usize| {
+        let mut joints: Vec<JointId> = own_joints(linkage, link, &kept).into_iter().map(place).collect();
+        joints.sort_unstable();
+        joints.dedup();
+        joints
+    };
+    let has_slot = |link: usize| slots.iter().any(|slot| slot.link == link);
     let ground = linkage.links.iter().position(|link| std::ptr::eq(link, linkage.ground())).unwrap_or_default();
     let input = input(linkage, ground, &at);
-    let links: Vec<Vec<JointId>> = (0..linkage.links.len())
+    let links: Vec<(usize, Vec<JointId>)> = (0..linkage.links.len())
         .filter(|&link| link != ground)
-        .map(|link| own_joints(linkage, link, &kept))
-        .filter(|joints| joints.len() > 1)
+        .map(|link| (link, on_link(link)))
+        .filter(|(link, joints)| joints.len() > 1 || has_slot(*link))
         .collect();
-    let mut frame = own_joints(linkage, ground, &kept);
     let is_used = |joint: &JointId| {
-        kept.contains(joint) || links.iter().any(|link| link.contains(joint)) || input.joints().contains(joint)
+        kept.contains(joint)
+            || links.iter().any(|(_, joints)| joints.contains(joint))
+            || input.joints().contains(joint)
+            || slots.iter().any(|slot| slot.through == *joint)
     };
+    let mut frame = on_link(ground);
     frame.retain(is_used);
     let drawn: Vec<JointId> = linkage.joint_ids().filter(|joint| frame.contains(joint) || is_used(joint)).collect();
-    let index = |joint: JointId| drawn.iter().position(|other| *other == joint).unwrap_or_default();
+    let index = |joint: JointId| drawn.iter().position(|other| *other == place(joint)).unwrap_or_default();
     let indices = |joints: &[JointId]| joints.iter().map(|&joint| index(joint)).collect::<Vec<_>>();
+    // Each link with a slot has a further joint on its line, after all others.
+    let with_ends = |link: usize, joints: &[JointId]| {
+        let ends = slots.iter().enumerate().filter(|(_, slot)| slot.link == link).map(|(k, _)| drawn.len() + k);
+        indices(joints).into_iter().chain(ends).collect::<Vec<_>>()
+    };
+    let own = drawn.iter().map(|&joint| (linkage.joints[joint].name.clone(), at(joint)));
+    let ends = slots.iter().map(|slot| (format!("{}-line", linkage.joints[slot.through].name), slot.end));
     let mut names = Names::default();
-    let joints = drawn.iter().map(|&joint| (names.distinct(&linkage.joints[joint].name), at(joint).into())).collect();
+    let joints = own.chain(ends).map(|(name, position)| (names.distinct(&name), position.into())).collect();
+    let sliders = slides.iter().map(|(joint, line)| (index(*joint), line.map(index)));
+    let through = slots.iter().enumerate().map(|(k, slot)| (index(slot.through), [index(slot.from), drawn.len() + k]));
     Ok(Some(Drawing {
         origin: "a curve",
         title: None,
         unit: None,
         joints,
-        frame: indices(&frame),
-        links: links.iter().map(|link| indices(link)).collect(),
-        slides: slides.iter().map(|(joint, line)| (index(*joint), line.map(index))).collect(),
+        frame: with_ends(ground, &frame),
+        links: links.iter().map(|(link, joints)| with_ends(*link, joints)).collect(),
+        slides: sliders.chain(through).collect(),
         input: input.to_drawing(index),
         range: range(curve, &input, &pose),
         trace: indices(&traced),
         notes: Vec::new(),
     }))
+}
+
+/// A line of a link on which a joint slides, from its foot or, if it has no offset from it, its pivot.
+struct Slot {
+    foot: JointId,
+    from: JointId,
+    /// A further point of the line.
+    end: Point,
+    /// The link with the line.
+    link: usize,
+    /// The joint that slides.
+    through: JointId,
+}
+
+fn slots(linkage: &Linkage, at: &impl Fn(JointId) -> Point) -> Vec<Slot> {
+    let slot = |foot: JointId| {
+        let JointKind::Slot { base: [pivot, through], offset, .. } = linkage.joints[foot].kind else { return None };
+        let link = linkage.links.iter().position(|link| link.position(foot).is_some())?;
+        let from = if offset == 0.0 { pivot } else { foot };
+        // As far again, so that it is not at the joint that slides.
+        let end = at(through) + (at(through) - at(foot));
+        Some(Slot { foot, from, end, link, through })
+    };
+    linkage.joint_ids().filter_map(slot).collect()
 }
 
 /// What is driven, by joints of the linkage.

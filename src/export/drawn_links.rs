@@ -6,7 +6,6 @@ use coupler_curves::linkage::{JointId, JointKind, Linkage};
 pub(super) fn missing(kind: &JointKind) -> Option<&'static str> {
     match kind {
         JointKind::Gear { .. } => Some("gear"),
-        JointKind::Slot { .. } => Some("slot"),
         JointKind::Yoke { .. } => Some("yoke"),
         JointKind::Parallelogram { .. } => Some("parallelogram that is a joint"),
         JointKind::Aligned { .. } => Some("link that keeps the direction of a line"),
@@ -16,6 +15,7 @@ pub(super) fn missing(kind: &JointKind) -> Option<&'static str> {
         | JointKind::Rigid { .. }
         | JointKind::Slide { .. }
         | JointKind::Piston { .. }
+        | JointKind::Slot { .. }
         | JointKind::DrivenSlider { .. } => None,
         _ => Some("joint of this kind"),
     }

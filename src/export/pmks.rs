@@ -99,6 +99,7 @@ fn check_joints(linkage: &Linkage) -> Result<(), PmksError> {
             JointKind::Slide { line, .. } if !line.iter().all(is_fixed) => Some("slider on a moving link"),
             JointKind::Piston { .. } => Some("actuator between two links"),
             JointKind::DrivenSlider { .. } => Some("driven slider"),
+            JointKind::Slot { .. } => Some("slot"),
             ref kind => missing(kind),
         };
         if let Some(what) = what {

@@ -35,6 +35,10 @@ id = "slot"
 linkage = "linear-actuator"
 cases = [{ g = 2, r = 0.75, e = 0.3 }]
 [[family]]
+id = "inverted"
+linkage = "inverted-slider-crank"
+cases = [{}, { e = 0 }]
+[[family]]
 id = "placed"
 linkage = "slider"
 cases = [{ r = 1 }]
@@ -119,9 +123,18 @@ fn joints_in_numbers_make_the_same_curves() {
 fn drawings_make_the_same_curves() {
     let folder = folder_with(MANIFEST);
     let path = folder.path();
-    for curve in
-        ["evans:1.1.1", "evans:2.1.1", "chebyshev:1.1.1", "bars:1.10.1", "leg:1.1.1", "placed:1.1.1", "lift:1.1.1"]
-    {
+    for curve in [
+        "evans:1.1.1",
+        "evans:2.1.1",
+        "chebyshev:1.1.1",
+        "bars:1.10.1",
+        "leg:1.1.1",
+        "placed:1.1.1",
+        "lift:1.1.1",
+        "bar:1.1.1",
+        "inverted:1.1.1",
+        "inverted:2.1.1",
+    ] {
         let manifest = export(path, curve, "drawing");
         let expected = rows(path, &["export", curve]);
         // The input of a linkage that is placed is measured in its drawing.
