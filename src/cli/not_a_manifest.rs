@@ -3,6 +3,7 @@
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
+use crate::import;
 use crate::record;
 
 use super::files;
@@ -51,8 +52,13 @@ fn with_toml(path: &Path) -> PathBuf {
     PathBuf::from(name)
 }
 
-/// Why a text is no manifest but a path for `find`, with the remedy; `None` if it may be one.
+/// Why a text is no manifest but a linkage for `import` or a path for `find`, with the remedy; `None` if it may be one.
 pub(super) fn form(path: &Path, text: &str) -> Option<String> {
+    if import::is_linkage(text) {
+        let (name, given) = (files::input_name(path), path.display());
+        let remedy = format!("`coupler-atlas import {given}` prints a manifest with it");
+        return Some(format!("{name} is a linkage of another program, not a manifest: {remedy}"));
+    }
     let is_named_so = files::extension(path).is_some_and(|extension| OF_PATHS.contains(&extension.as_str()));
     let is_drawing = text.trim_start().starts_with('<');
     if !is_named_so && !is_drawing {

@@ -17,6 +17,12 @@ pub fn is_xml(text: &str) -> bool {
     text.starts_with('<')
 }
 
+/// Whether a text is XML that begins as a file of Linkage does.
+pub fn is_linkage2(text: &str) -> bool {
+    let root = text.split('<').find(|part| part.starts_with(|c: char| c.is_ascii_alphabetic()));
+    is_xml(text) && root.is_some_and(|root| root.starts_with("linkage2"))
+}
+
 /// Reads a linkage.
 ///
 /// # Errors

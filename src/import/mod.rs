@@ -119,19 +119,25 @@ pub fn is_foreign(text: &str) -> bool {
         || joint_table::is_table(text)
 }
 
+/// Whether a text is a linkage in one of the formats, as far as its beginning or its keys show it.
+pub fn is_linkage(text: &str) -> bool {
+    let text = text.trim_start();
+    let is_json = |object: Map<String, Value>| format_of_object(&object).is_some();
+    pyslvs::is_pyslvs(text)
+        || joint_table::is_table(text)
+        || linkage2::is_linkage2(text)
+        || text.starts_with('{') && json_object(text).is_ok_and(is_json)
+}
+
 fn parse_any(text: &str) -> Result<Sketch, Error> {
     if text.starts_with('{') {
         let object = json_object(text)?;
-        if pylinkage::is_pylinkage(&object) || pylinkage_components::is_components(&object) {
-            return parse_pylinkage(&object);
-        }
-        if linkage_sim::is_linkage_sim(&object) {
-            return linkage_sim::parse(&object);
-        }
-        if links::is_links(&object) {
-            return links::parse(&object);
-        }
-        return Err(unknown("the JSON is of no known format"));
+        return match format_of_object(&object) {
+            Some(Format::Pylinkage) => parse_pylinkage(&object),
+            Some(Format::LinkageSim) => linkage_sim::parse(&object),
+            Some(Format::Links) => links::parse(&object),
+            _ => Err(unknown("the JSON is of no known format")),
+        };
     }
     if pyslvs::is_pyslvs(text) {
         return pyslvs::parse(text);
@@ -146,6 +152,17 @@ fn parse_any(text: &str) -> Result<Sketch, Error> {
         return parse_address(text);
     }
     Err(unknown(if text.is_empty() { "it is empty" } else { "its format is not known" }))
+}
+
+/// The format of an object, by its keys.
+fn format_of_object(object: &Map<String, Value>) -> Option<Format> {
+    if pylinkage::is_pylinkage(object) || pylinkage_components::is_components(object) {
+        return Some(Format::Pylinkage);
+    }
+    if linkage_sim::is_linkage_sim(object) {
+        return Some(Format::LinkageSim);
+    }
+    links::is_links(object).then_some(Format::Links)
 }
 
 fn unknown(message: &str) -> Error {

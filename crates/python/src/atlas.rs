@@ -301,8 +301,8 @@ impl Cells {
 /// Parameters
 /// ----------
 /// manifest : path
-///     The manifest, a TOML file. Or an address of PMKS+, an expression of Pyslvs, or a file with one of them or with the JSON of pylinkage or LINKS,
-///     whose linkage is the family ``"imported"``, as ``coupler-atlas import`` prints it.
+///     The manifest, a TOML file. Or an address of PMKS+, an expression of Pyslvs, or a file with one of them, a file of Linkage, pylinkage, LINKS or
+///     linkage_sim, or a table of joints, whose linkage is the family ``"imported"``, as ``coupler-atlas import`` prints it.
 /// input : str, optional
 ///     What drives a linkage of another program, in place of what its text says: two joints of a link, as in ``"A, B"``.
 ///

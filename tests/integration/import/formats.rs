@@ -2,11 +2,13 @@
 
 use coupler_atlas::import;
 use coupler_curves::geometry::trig;
+use tempfile::TempDir;
 
 use super::samples::{
     COMPONENTS, COMPONENTS_SLIDER, LINKAGE_SIM, LINKAGE_SIM_SLIDER, LINKAGE2, LINKAGE2_SLIDER, LINKS, TABLE,
 };
 use super::{check, check_four_bar, manifest, solved};
+use crate::support::command::run;
 
 #[test]
 fn a_four_bar_is_the_same() {
@@ -52,6 +54,19 @@ fn sliders_keep_to_their_lines() {
             let cosine = rod.dot(&plate) / rod.norm() / plate.norm();
             assert!((plate.norm() - 2.0_f64.sqrt()).abs() < 1e-9 && (cosine - trig::cos(angle)).abs() < 1e-9);
         }
+    }
+}
+
+/// Where a manifest is expected, a linkage of another program is recognized.
+#[test]
+fn a_linkage_in_place_of_a_manifest_is_recognized() {
+    let folder = TempDir::new().unwrap();
+    for (file, text) in
+        [("a.linkage2", LINKAGE2), ("a.json", LINKAGE_SIM), ("b.json", COMPONENTS), ("c.json", LINKS), ("a.csv", TABLE)]
+    {
+        std::fs::write(folder.path().join(file), text).unwrap();
+        let (code, _, err) = run(folder.path(), &["validate", file]);
+        assert!(code == 2 && err.contains(&format!("`coupler-atlas import {file}` prints a manifest")), "{err}");
     }
 }
 
