@@ -4,8 +4,9 @@ use std::fmt::Write;
 
 use coupler_curves::exchange::{SelectedCurve, drawn_family_settings, family_id, family_settings, linkage_in_numbers};
 use coupler_curves::linkage_format::quoted;
+use coupler_curves::template::{JointKindTemplate, JointTemplate};
 
-use super::drawing::{DrawingError, drawing};
+use super::drawing::{FormError, drawing};
 use crate::import::linkage_text;
 
 /// What a manifest says of the linkages of exported curves.
@@ -50,8 +51,8 @@ pub struct CompleteFamily {
 /// The families of the curves of a cell: one joint by joint, or one drawing for each circuit.
 ///
 /// # Errors
-/// The linkage has a joint that a drawing cannot express.
-pub fn complete_families(curves: &[SelectedCurve], form: ManifestForm) -> Result<Vec<CompleteFamily>, DrawingError> {
+/// The linkage has a joint that the form cannot express.
+pub fn complete_families(curves: &[SelectedCurve], form: ManifestForm) -> Result<Vec<CompleteFamily>, FormError> {
     let family = |curves: &[&SelectedCurve], settings: String, linkage: String| CompleteFamily {
         linkage_id: curves[0].family.template.id.clone(),
         title: curves[0].family.title.clone(),
@@ -65,6 +66,11 @@ pub fn complete_families(curves: &[SelectedCurve], form: ManifestForm) -> Result
     match form {
         ManifestForm::Families => Ok(Vec::new()),
         ManifestForm::Joints => {
+            let is_grouped = |joint: &&JointTemplate| matches!(joint.kind, JointKindTemplate::Grouped { .. });
+            if let Some(joint) = source.template.joints.iter().find(is_grouped) {
+                let (what, form) = ("group of links that no dyads place", "a list of joints");
+                return Err(FormError { joint: joint.name.clone(), what, form, other: "drawing" });
+            }
             let values = source.parameter_values(&first.solved.cell);
             Ok(vec![family(&all, family_settings(source), linkage_in_numbers(&source.template, values))])
         }

@@ -9,21 +9,25 @@ use coupler_drawing::page;
 use super::drawn_links::{missing, own_joints};
 use crate::import::{Drawing, DrawingInput, Names};
 
-/// Why a linkage has no drawing.
+/// Why a linkage cannot be written in a form.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("a drawing has no {what}, which `{joint}` needs; export the linkage with --form joints")]
-pub struct DrawingError {
+#[error("{form} has no {what}, which `{joint}` needs; export the linkage with --form {other}")]
+pub struct FormError {
     /// The joint.
     pub joint: String,
-    /// What a drawing does not have.
+    /// What the form does not have.
     pub what: &'static str,
+    /// The form.
+    pub form: &'static str,
+    /// The one that has it.
+    pub other: &'static str,
 }
 
 /// The drawing of a linkage, as it is placed, in the clearest pose of a circuit, with the curves of that circuit that are given.
 ///
 /// # Errors
 /// It has a joint that a drawing cannot express.
-pub(super) fn drawing(curves: &[&SelectedCurve]) -> Result<Option<Drawing>, DrawingError> {
+pub(super) fn drawing(curves: &[&SelectedCurve]) -> Result<Option<Drawing>, FormError> {
     let Some(curve) = curves.first() else { return Ok(None) };
     let linkage = &curve.solved.linkage;
     for joint in &linkage.joints {
@@ -34,7 +38,7 @@ pub(super) fn drawing(curves: &[&SelectedCurve]) -> Result<Option<Drawing>, Draw
             ref kind => missing(kind),
         };
         if let Some(what) = what {
-            return Err(DrawingError { joint: joint.name.clone(), what });
+            return Err(FormError { joint: joint.name.clone(), what, form: "a drawing", other: "joints" });
         }
     }
     let Some(pose) = page::clearest_pose(&curve.solved) else { return Ok(None) };
@@ -42,7 +46,7 @@ pub(super) fn drawing(curves: &[&SelectedCurve]) -> Result<Option<Drawing>, Draw
     let mut traced: Vec<JointId> = curves.iter().map(|curve| curve.curve().joint).collect();
     traced.dedup();
     let slides: Vec<(JointId, [JointId; 2])> =
-        linkage.joint_ids().filter_map(|joint| Some((joint, linkage.joints[joint].kind.slider_line()?))).collect();
+        linkage.joint_ids().filter_map(|joint| Some((joint, linkage.slider_line(joint)?))).collect();
     let kept: Vec<JointId> = traced.iter().copied().chain(slides.iter().flat_map(|(_, line)| *line)).collect();
     let slots = slots(linkage, &at);
     // The foot of a line that passes through its pivot is the pivot.

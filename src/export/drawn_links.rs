@@ -6,12 +6,14 @@ use coupler_curves::linkage::{JointId, JointKind, Linkage};
 pub(super) fn missing(kind: &JointKind) -> Option<&'static str> {
     match kind {
         JointKind::Gear { .. } => Some("gear"),
+        JointKind::Rack { .. } => Some("rack"),
         JointKind::Yoke { .. } => Some("yoke"),
         JointKind::Parallelogram { .. } => Some("parallelogram that is a joint"),
         JointKind::Aligned { .. } => Some("link that keeps the direction of a line"),
         JointKind::Fixed(_)
         | JointKind::Crank { .. }
         | JointKind::Dyad { .. }
+        | JointKind::Grouped { .. }
         | JointKind::Rigid { .. }
         | JointKind::Slide { .. }
         | JointKind::Piston { .. }

@@ -7,7 +7,7 @@ mod drawn_links;
 mod pmks;
 
 pub use complete::{CompleteFamily, ManifestForm, complete_families, complete_manifest};
-pub use drawing::DrawingError;
+pub use drawing::FormError;
 pub use pmks::PmksError;
 
 use coupler_curves::exchange::SelectedCurve;

@@ -94,8 +94,11 @@ fn check_joints(linkage: &Linkage) -> Result<(), PmksError> {
     if let Some([origin, _]) = linkage.seen_from {
         return Err(PmksError { joint: linkage.joints[origin].name.clone(), what: "frame that is a moving link" });
     }
-    for joint in &linkage.joints {
+    for (id, joint) in linkage.joint_ids().zip(&linkage.joints) {
         let what = match joint.kind {
+            JointKind::Grouped { .. } => {
+                linkage.slider_line(id).map(|_| "slider of a group of links that no dyads place")
+            }
             JointKind::Slide { line, .. } if !line.iter().all(is_fixed) => Some("slider on a moving link"),
             JointKind::Piston { .. } => Some("actuator between two links"),
             JointKind::DrivenSlider { .. } => Some("driven slider"),

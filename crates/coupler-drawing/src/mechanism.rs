@@ -61,9 +61,7 @@ impl Mechanism {
     /// The parts of a linkage on a circuit.
     pub fn new(linkage: &Linkage, circuit: &Circuit) -> Mechanism {
         let joints = || linkage.joint_ids().zip(&linkage.joints);
-        let block = |(joint, placed): (JointId, &coupler_curves::linkage::Joint)| {
-            placed.kind.slider_line().map(|line| Block { joint, line })
-        };
+        let block = |joint: JointId| linkage.slider_line(joint).map(|line| Block { joint, line });
         let actuator = |(joint, placed): (JointId, &coupler_curves::linkage::Joint)| match placed.kind {
             JointKind::Piston { base: [pivot, _], .. } => Some([pivot, joint]),
             _ => None,
@@ -71,7 +69,7 @@ impl Mechanism {
         Mechanism {
             links: linkage.link_outlines(),
             pivots: linkage.pivots(),
-            blocks: joints().filter_map(block).collect(),
+            blocks: linkage.joint_ids().filter_map(block).collect(),
             slots: linkage.joint_ids().filter_map(|joint| find_slot(linkage, circuit, joint)).collect(),
             actuators: joints().filter_map(actuator).collect(),
             guides: linkage.joint_ids().filter_map(|joint| find_guide(linkage, circuit, joint)).collect(),
@@ -134,7 +132,7 @@ fn pitch_circles(linkage: &Linkage, circuit: &Circuit) -> Vec<(JointId, f64)> {
 
 /// The guide on the frame of a slider or a yoke.
 fn find_guide(linkage: &Linkage, circuit: &Circuit, joint: JointId) -> Option<Guide> {
-    let along = fixed_line_direction(linkage, circuit, linkage.joints[joint].kind.slider_line()?)?;
+    let along = fixed_line_direction(linkage, circuit, linkage.slider_line(joint)?)?;
     let by = |a: &Point, b: &Point| along.dot(&a.coords).total_cmp(&along.dot(&b.coords));
     Some(Guide { joint, ends: [circuit.points(joint).min_by(by)?, circuit.points(joint).max_by(by)?] })
 }

@@ -7,7 +7,7 @@ use std::sync::{Arc, LazyLock};
 use crate::linkage_format;
 use crate::template::Template;
 
-const FILES: [&str; 32] = [
+const FILES: [&str; 36] = [
     include_str!("four-bar.toml"),
     include_str!("evans.toml"),
     include_str!("chebyshev.toml"),
@@ -39,6 +39,10 @@ const FILES: [&str; 32] = [
     include_str!("watt-i-six-bar-by-ternary.toml"),
     include_str!("watt-ii-six-bar-by-ternary.toml"),
     include_str!("stephenson-i-six-bar.toml"),
+    include_str!("stephenson-ii-six-bar.toml"),
+    include_str!("stephenson-ii-six-bar-by-binary.toml"),
+    include_str!("stephenson-iii-six-bar-by-binary.toml"),
+    include_str!("eight-bar-class-iii.toml"),
     include_str!("rack-steering.toml"),
 ];
 

@@ -6,7 +6,8 @@ use crate::expression::CompiledExpression;
 use crate::linkage_format::{quoted, toml_key, toml_number};
 use crate::template::{Coordinate, InputValue, JointKindTemplate, OutputLinkTemplate, Side, SideTemplate, Template};
 
-/// The keys of a `[[linkage]]` but its id: the joints of a template with the values of its parameters, in numbers.
+/// The keys of a `[[linkage]]` but its id: the joints of a template with the values of its parameters, in numbers. Joints of a group cannot be
+/// written so; they have no keys.
 pub fn linkage_in_numbers(template: &Template, values: &[f64]) -> String {
     let text = Text { template, values };
     let traced = traced_joints(template);
@@ -164,6 +165,16 @@ impl Text<'_> {
                 self.pair(ratio),
                 self.input(phase)
             ),
+            JointKindTemplate::Rack { crank, line, offset: own, radius, start } => format!(
+                "rack = {}, radius = {}, line = {}, {}, start = {}",
+                self.name(*crank),
+                self.number(radius),
+                self.names(line),
+                offset(own),
+                self.number(start)
+            ),
+            // Only drawings have the links of a group.
+            JointKindTemplate::Grouped { .. } => String::new(),
             JointKindTemplate::Piston { base, length, offset: own, side } => format!(
                 "piston = {}, length = {}, {}, {}",
                 self.names(base),

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::{JointId, JointKind, Linkage};
+use super::{Closure, JointId, JointKind, Linkage};
 
 /// The links of a linkage, and its full joints: revolute and sliding joints, each of which leaves two links one degree
 /// of freedom.
@@ -97,6 +97,14 @@ impl KinematicChain {
                 | JointKind::Aligned { .. }
                 | JointKind::Parallelogram { .. }
                 | JointKind::Rigid { .. } => {}
+            }
+        }
+        for closure in linkage.group.iter().flat_map(|group| &group.closures) {
+            if let Closure::OnLine { joint, line, .. } = *closure {
+                // Its block is added after the links that it connects.
+                let starts =
+                    |link: &usize| linkage.links[*link].joints.first().is_some_and(|(first, _)| *first == joint);
+                slides.push([link_with(line)?, links.clone().rev().find(starts)?]);
             }
         }
         pins.retain(|links| links.len() > 1);

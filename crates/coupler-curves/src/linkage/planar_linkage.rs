@@ -1,12 +1,12 @@
 //! A linkage as a list of joints and links.
 
-use super::{DyadId, Error, Group, Input, Joint, JointId, JointKind, Link, MotionOptions, OutputLink};
+use super::{Closure, DyadId, Error, Group, Input, Joint, JointId, JointKind, Link, MotionOptions, OutputLink};
 use crate::geometry::{Orientation, Point, trig};
 
 /// A linkage with numeric dimensions. All lengths are in one unit, which may be any.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Linkage {
-    /// The joints in the order they are placed: each refers to earlier joints only.
+    /// The joints in the order they are placed: each refers to earlier joints only, but for those of the group.
     pub joints: Vec<Joint>,
     /// The links; the first is the frame, which carries the fixed joints.
     pub links: Vec<Link>,
@@ -52,6 +52,18 @@ impl Linkage {
     /// Whether a slider drives it.
     pub fn is_driven_by_slider(&self) -> bool {
         self.joints.iter().any(|joint| matches!(joint.kind, JointKind::DrivenSlider { .. }))
+    }
+
+    /// The two joints of the line on which a joint slides: of a slider, a yoke, a driven slider, or a joint of the group; `None` if it is
+    /// none of these.
+    pub fn slider_line(&self, joint: JointId) -> Option<[JointId; 2]> {
+        let in_group = || {
+            self.group.as_ref()?.closures.iter().find_map(|closure| match *closure {
+                Closure::OnLine { joint: own, line, .. } if own == joint => Some(line),
+                _ => None,
+            })
+        };
+        self.joints[joint].kind.slider_line().or_else(in_group)
     }
 
     /// The turns of its fastest crank for a turn of the driven one, at least 1.

@@ -432,7 +432,10 @@ fn check_traced_joints_move(
     }
     let mut moves = vec![false; placings.len()];
     for &k in order {
-        let is_geared = matches!(placings[k], JointKindTemplate::Gear { .. } | JointKindTemplate::Rack { .. } | JointKindTemplate::Grouped { .. });
+        let is_geared = matches!(
+            placings[k],
+            JointKindTemplate::Gear { .. } | JointKindTemplate::Rack { .. } | JointKindTemplate::Grouped { .. }
+        );
         let is_driven = is_input(&placings[k]) || is_geared;
         moves[k] = is_driven || needs[k].iter().any(|&need| moves[need]);
     }

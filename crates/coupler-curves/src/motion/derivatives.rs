@@ -20,7 +20,7 @@ type JointSeries = VectorSeries<f64, 4>;
 pub struct JointDerivatives(Vec<JointSeries>);
 
 impl JointDerivatives {
-    /// The derivatives at an input in an assembly mode in which no dyad is flat there.
+    /// The derivatives at an input in an assembly mode in which no dyad is flat there, of a linkage without a group.
     ///
     /// # Source
     /// The constraints of each dyad, differentiated as series.

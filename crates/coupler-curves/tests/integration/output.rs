@@ -274,6 +274,10 @@ fn every_linkage_of_the_catalogue_states_its_output() {
         let linkage = default_linkage(&template.id);
         let value = measures(&linkage, 0, 60);
         for name in ["output_dwell_deg", "toggles", "velocity_ratio_max", "mechanical_advantage_min", "mu_worst_deg"] {
+            // Of several links that drive the output together, none has a transmission angle.
+            if linkage.group.is_some() && name == "mu_worst_deg" {
+                continue;
+            }
             assert!(!value(name).is_nan(), "{}: {name}", template.id);
         }
         assert!(value("output_swing_deg").is_nan() != value("output_stroke").is_nan(), "{}", template.id);

@@ -33,6 +33,9 @@ fn the_six_bars_of_the_catalogue_are_named() {
         ("klann", "Stephenson III"),
         ("shaper", "Watt II"),
         ("stephenson-i-six-bar", "Stephenson I"),
+        ("stephenson-ii-six-bar", "Stephenson II"),
+        ("stephenson-ii-six-bar-by-binary", "Stephenson II"),
+        ("stephenson-iii-six-bar-by-binary", "Stephenson III"),
         ("stephenson-six-bar", "Stephenson III"),
         ("toggle-press", "Watt II"),
         ("watt-i-six-bar", "Watt I"),
@@ -56,10 +59,13 @@ fn the_cranks_of_the_six_bars_are_binary_or_ternary() {
         ("watt-six-bar", 2),
         ("watt-ii-six-bar-by-ternary", 3),
         ("stephenson-i-six-bar", 3),
+        ("stephenson-ii-six-bar", 3),
+        ("stephenson-ii-six-bar-by-binary", 2),
+        ("stephenson-iii-six-bar-by-binary", 2),
         ("stephenson-six-bar", 2),
     ] {
         let linkage = default_linkage(id);
-        let crank = ["O", "A"].map(|name| linkage.find_joint(name).unwrap());
+        let crank = linkage.crank().unwrap();
         let has = |link: &Link| crank.iter().all(|&joint| link.position(joint).is_some());
         let crank = linkage.links.iter().position(has).unwrap();
         let chain = KinematicChain::from_linkage(&linkage).unwrap();

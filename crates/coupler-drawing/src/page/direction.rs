@@ -106,7 +106,7 @@ fn output_arrows(mechanism: &PosedMechanism, circuit: &Circuit, least_radius: f6
 fn slider_arrows(mechanism: &PosedMechanism, joint: JointId, least_radius: f64) -> Option<Vec<Vec<Point>>> {
     /// Where they begin and end, in least radii from the slider's centre.
     const ENDS: [f64; 2] = [1.2, 2.6];
-    let guide = mechanism.linkage.joints[joint].kind.slider_line()?.map(|joint| mechanism.pose[joint]);
+    let guide = mechanism.linkage.slider_line(joint)?.map(|joint| mechanism.pose[joint]);
     let along = (guide[1] - guide[0]).try_normalize(0.0)? * least_radius;
     let aside = left_normal(along) * 0.6;
     let centre = mechanism.pose[joint] + aside;

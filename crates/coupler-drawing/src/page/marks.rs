@@ -36,7 +36,7 @@ pub fn cell_facts(family: &Family, solved: &SolvedCell) -> [String; 2] {
     }
     parts.extend(length_range(solved, first));
     // The path of a slider on its guide is straight by construction.
-    let is_of_slider = |curve: &&MeasuredCurve| solved.linkage.joints[curve.joint].kind.slider_line().is_some();
+    let is_of_slider = |curve: &&MeasuredCurve| solved.linkage.slider_line(curve.joint).is_some();
     let portions = solved.curves.iter().filter(|curve| !is_of_slider(curve));
     let portions = portions.filter_map(|curve| Some((curve, curve.straight.as_ref()?)));
     let longest = portions.max_by(|(_, a), (_, b)| a.length.total_cmp(&b.length));

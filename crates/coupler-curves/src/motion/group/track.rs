@@ -349,6 +349,6 @@ impl Equations {
             residuals.iter().fold(0.0, |most: f64, series| most.max(series.0[0].abs())) * self.size
         };
         let open = || AssemblyError::GroupOpen { input, gap: gap(&drawn) };
-        self.node(closed.ok_or_else(open)?).ok_or_else(|| AssemblyError::GroupNotFollowed { input })
+        self.node(closed.ok_or_else(open)?).ok_or(AssemblyError::GroupNotFollowed { input })
     }
 }
