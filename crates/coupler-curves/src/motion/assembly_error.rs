@@ -187,17 +187,19 @@ pub enum AssemblyError {
         gap: f64,
     },
     /// The driven link is held by a part that is rigid.
-    #[error("its input cannot move: {} held without it, a part of the links is rigid", were(joints))]
+    #[error("its input cannot move: {} held in place, as a part of the links is rigid", were(joints))]
     InputHeld {
-        /// The joints that do not move with the others.
+        /// The joint that is driven, and those that do not move with the others.
         joints: Vec<String>,
     },
     /// Links that no dyads place are closed by a joint on a gear.
     #[error("its links cannot be solved: they are closed by a joint on a gear, a slot or a yoke")]
     GroupOfGears,
-    /// All circuits are requested of a linkage that dyads place by no input.
-    #[error("not all of its circuits can be found, as dyads place its joints by no input: set `circuits` to \"start\"")]
-    NoOtherInput,
+    /// All circuits are requested of a linkage that dyads place by no input, and that has too many joints to find all its poses.
+    #[error(
+        "all of its circuits would be too many to find, as dyads place its joints by no input: set `circuits` to \"start\""
+    )]
+    TooManyPoses,
     /// The motion of links that no dyads place cannot be followed: there are other poses too close to it.
     #[error(
         "its motion cannot be followed at an input of {}: there its links can move in more than one way, or as good as",

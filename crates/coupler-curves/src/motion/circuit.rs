@@ -87,10 +87,9 @@ pub(super) fn trace_start_circuit(search: &mut IntervalSearch) -> Result<Vec<Uns
 /// Traces the circuits of a linkage with a group.
 fn trace_group(search: &mut IntervalSearch, group: &Group) -> Result<Vec<UnsampledCircuit>, AssemblyError> {
     let (linkage, all) = (search.linkage, CircuitSelection::All);
-    let poses = match (linkage.motion_options.circuits == all, &group.driven_elsewhere) {
-        (false, _) => Vec::new(),
-        (true, Some(other)) => poses_of_circuits(other)?,
-        (true, None) => return Err(AssemblyError::NoOtherInput),
+    let poses = match &group.driven_elsewhere {
+        Some(other) if linkage.motion_options.circuits == all => poses_of_circuits(other)?,
+        _ => Vec::new(),
     };
     let start = search.add_group(group, &poses)?;
     let mut seen = HashSet::new();

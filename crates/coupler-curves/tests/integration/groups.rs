@@ -4,7 +4,7 @@
 use coupler_curves::geometry::{Chebyshev, Point, trig};
 use coupler_curves::linkage::{Linkage, SixBar};
 use coupler_curves::linkage_format::parse_templates;
-use coupler_curves::motion::{self, AssemblyError, JointDerivatives, Motion, Sampler, Sampling};
+use coupler_curves::motion::{self, JointDerivatives, Motion, Sampler, Sampling};
 
 /// Linkages of one degree of freedom: the number of joints, the frame and the other links by their joints.
 struct Kind {
@@ -217,9 +217,46 @@ fn all_circuits_are_found() {
         }
     }
     assert!(counts.iter().any(|count| *count > 2), "{counts:?}");
-    let drawing = Drawing::random(&KINDS[4], &mut numbers);
-    let error = solve(&drawing.linkage(&crank([0, 3]), "all")).assembly_error;
-    assert_eq!(error, Some(AssemblyError::NoOtherInput));
+}
+
+/// By continuation from a system with known solutions, all poses at the start are found: all circuits that pass that input.
+#[test]
+fn all_circuits_at_the_start_are_found_without_another_input() {
+    let mut numbers = Numbers(23);
+    let mut counts = Vec::new();
+    for kind in &KINDS {
+        for _ in 0..2 {
+            let drawing = Drawing::random(kind, &mut numbers);
+            for &input in kind.inputs {
+                let mut linkage = drawing.linkage(&crank(input), "all");
+                let start = linkage.motion_options.start.unwrap();
+                let at_start = |motion: &Motion| {
+                    let passes = motion.circuits.iter().flat_map(|circuit| &circuit.passes);
+                    let is_there = |pass: &&motion::Pass| {
+                        let [low, high] = pass.input_range();
+                        low + (start - low).rem_euclid(360.0) <= high
+                    };
+                    passes.filter(is_there).count()
+                };
+                let group = linkage.group.as_mut().unwrap();
+                let other = group.driven_elsewhere.take();
+                let motion = solve(&linkage);
+                assert!(motion.is_assembled(), "{}: {:?}", kind.name, motion.assembly_error);
+                let [worst, _] = drawing.errors(&linkage, &motion);
+                assert!(worst < 1e-11, "{}: {worst:e}", kind.name);
+                // Modes are added and lost in pairs.
+                let modes = at_start(&motion);
+                assert!(modes.is_multiple_of(2), "{}: {modes}", kind.name);
+                assert!(kind.links.len() > 5 || modes <= 6, "{}: {modes}", kind.name);
+                counts.push(modes);
+                if other.is_some() {
+                    linkage.group.as_mut().unwrap().driven_elsewhere = other;
+                    assert_eq!(at_start(&solve(&linkage)), modes, "{}", kind.name);
+                }
+            }
+        }
+    }
+    assert!(counts.iter().any(|count| *count >= 4), "{counts:?}");
 }
 
 /// Velocity, acceleration and jerk are the derivatives of positions, by differences of eighth order.
@@ -305,4 +342,67 @@ fn six_bars_are_named() {
         let chain = coupler_curves::linkage::KinematicChain::from_linkage(&linkage).unwrap();
         assert_eq!(chain.six_bar(), Some(expected));
     }
+}
+
+/// A linkage by the text of its drawing.
+fn drawn(drawing: &str) -> Linkage {
+    let text = format!("[[linkage]]\nid = \"a\"\ntrace = [\"D\"]\n[linkage.drawing]\n{drawing}");
+    parse_templates(&text).unwrap_or_else(|problems| panic!("{problems:?}")).remove(0).linkage(&[]).unwrap()
+}
+
+/// A four-bar that is all but a parallelogram, driven at its coupler: where it is flat, the other circuit is a millionth of its size away, and steps that
+/// are not proven leave for it.
+#[test]
+fn no_step_leaves_for_a_circuit_that_is_near() {
+    for difference in [1e-6, -1e-6, 1e-9] {
+        let drawing = |input: &str| {
+            drawn(&format!(
+                "joints = {{ O = [2, -3], P = [0, 0], Q = [4, 0], A = [2, -2], E = [0.8, 0.6], F = [{}, 0.6], D = [2.5, 1] }}\n\
+                 frame = [\"O\", \"P\", \"Q\"]\n\
+                 links = [[\"O\", \"A\"], [\"A\", \"D\"], [\"P\", \"E\"], [\"Q\", \"F\"], [\"D\", \"E\", \"F\"]]\n\
+                 input = \"{input}\"\n",
+                4.8 + difference
+            ))
+        };
+        let (by_crank, by_dyads) = (drawing("O A"), drawing("P E"));
+        assert!(by_crank.group.is_some() && by_dyads.group.is_none());
+        let (found, expected) = (solve(&by_crank), solve(&by_dyads));
+        let [a, b] = [(&by_crank, &found), (&by_dyads, &expected)].map(|(linkage, motion)| areas(linkage, motion, 0));
+        assert!(a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 1e-6), "{difference:e}: {a:?} {b:?}");
+    }
+}
+
+/// What does not close, does not move, or moves in more than one way is said.
+#[test]
+fn what_is_wrong_with_a_group_is_said() {
+    const TRIAD: &str = "joints = { O = [0, 0], P = [3, -1], Q = [4.5, 0.5], A = [0.3, 0.4], D = [1.6, 1.8], E = [2.7, 1.1], F = [3.4, 2.3] }\n\
+        frame = [\"O\", \"P\", \"Q\"]\n\
+        links = [[\"O\", \"A\"], [\"A\", \"D\"], [\"P\", \"E\"], [\"Q\", \"F\"], [\"D\", \"E\", \"F\"]]\n\
+        input = \"O A\"\n";
+    let error =
+        |drawing: &str| solve(&drawn(drawing)).assembly_error.map(|error| error.to_string()).unwrap_or_default();
+    assert_eq!(error(TRIAD), "");
+    // Lengths that are nearly those of the drawing are closed by Newton's method.
+    assert_eq!(error(&format!("{TRIAD}lengths = {{ \"A D\" = 2 }}\n")), "");
+    let linkage = drawn(&format!("{TRIAD}lengths = {{ \"A D\" = 2, \"D F\" = 1.8 }}\n"));
+    let motion = solve(&linkage);
+    let at = |name: &str| motion.circuits[0].positions.point(linkage.find_joint(name).unwrap(), 10);
+    assert!(((at("A") - at("D")).norm() - 2.0).abs() < 1e-12 && ((at("D") - at("F")).norm() - 1.8).abs() < 1e-12);
+    let open = error(&format!("{TRIAD}lengths = {{ \"A D\" = 9 }}\n"));
+    assert!(open.contains("do not close at the start") && open.contains("a length misses by"), "{open}");
+    // A parallelogram that is driven at its coupler moves in two ways where it is flat.
+    let parallelogram = "joints = { O = [2, -3], P = [0, 0], Q = [4, 0], A = [2, -2], E = [0.8, 0.6], F = [4.8, 0.6], D = [2.5, 1] }\n\
+        frame = [\"O\", \"P\", \"Q\"]\n\
+        links = [[\"O\", \"A\"], [\"A\", \"D\"], [\"P\", \"E\"], [\"Q\", \"F\"], [\"D\", \"E\", \"F\"]]\n\
+        input = \"O A\"\n";
+    let crossing = error(parallelogram);
+    assert!(crossing.contains("its links can move in more than one way"), "{crossing}");
+    // The driven link slides on a line of the frame through its pivot, and cannot turn.
+    let held = "joints = { O = [2, 4], B = [-2, -4], Q = [2, -1], A = [3, 3], D = [-2, 1.5], E = [0, -1], S = [1, 0.5] }\n\
+        frame = [\"O\", \"B\", \"Q\"]\n\
+        links = [[\"A\", \"D\", \"O\"], [\"S\", \"Q\"], [\"E\", \"Q\"]]\n\
+        slides = { E = [\"D\", \"A\"], S = [\"Q\", \"O\"] }\n\
+        input = { between = [\"B Q\", \"Q S\"] }\n";
+    let stuck = error(held);
+    assert!(stuck.contains("its input cannot move: S is held in place"), "{stuck}");
 }

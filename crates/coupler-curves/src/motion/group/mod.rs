@@ -7,6 +7,7 @@
 
 mod equations;
 mod follow;
+mod homotopy;
 mod step;
 mod track;
 

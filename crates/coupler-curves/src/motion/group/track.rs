@@ -9,7 +9,7 @@ use super::equations::Equations;
 use super::follow::Curve;
 use super::step::Node;
 use crate::geometry::{Point, Vector, cross};
-use crate::linkage::{DyadId, Group, Input, JointId, Linkage, Side};
+use crate::linkage::{CircuitSelection, DyadId, Group, Input, Joint, JointId, JointKind, Linkage, Side};
 use crate::motion::assembly_error::AssemblyError;
 use crate::motion::interval::{EndCause, Interval, IntervalEnd, Span};
 use crate::motion::pass::InputPosition;
@@ -162,6 +162,9 @@ pub(in crate::motion) fn find_intervals(
             intervals.follow(&node)?;
         }
     }
+    if linkage.motion_options.circuits == CircuitSelection::All && group.driven_elsewhere.is_none() {
+        intervals.follow_all_at_start(linkage.motion_options.start.unwrap_or(0.0))?;
+    }
     let Some(range) = linkage.motion_options.range else { return Ok((intervals.found, 0)) };
     let start = linkage.motion_options.start.unwrap_or(0.0);
     let [first, rest @ ..] = &intervals.found[..] else { return Err(AssemblyError::NoStart) };
@@ -221,6 +224,18 @@ impl TrackIntervals<'_> {
             self.found.push(interval);
         }
         self.next_id += limits.max(1);
+        Ok(())
+    }
+
+    /// Adds the intervals of all circuits that pass the input at the start.
+    fn follow_all_at_start(&mut self, start: f64) -> Result<(), AssemblyError> {
+        let states = self.equations.poses_at(start).ok_or(AssemblyError::TooManyPoses)?;
+        for state in states {
+            let node = self.equations.node(state).filter(|node| !self.contains(node));
+            if let Some(node) = node {
+                self.follow(&node)?;
+            }
+        }
         Ok(())
     }
 
@@ -328,7 +343,10 @@ impl Equations {
         let ahead = self.corrected(node.ahead(AHEAD), node.parameter()).and_then(|state| self.node(state))?;
         let is_at_rest = |k: usize| [node, &ahead].iter().all(|node| node.tangent[k].abs() <= AT_REST);
         let at_rest = self.joints.iter().enumerate().filter(|(k, _)| is_at_rest(2 * k) && is_at_rest(2 * k + 1));
-        let joints = at_rest.map(|(_, joint)| linkage.joints[*joint].name.clone()).collect();
+        let is_driven = |joint: &&Joint| matches!(joint.kind, JointKind::Crank { .. } | JointKind::DrivenSlider { .. });
+        let driven = linkage.joints.iter().filter(is_driven);
+        let held = driven.chain(at_rest.map(|(_, joint)| &linkage.joints[*joint]));
+        let joints = held.map(|joint| joint.name.clone()).collect();
         is_at_rest(self.unknown_count()).then_some(AssemblyError::InputHeld { joints })
     }
 
