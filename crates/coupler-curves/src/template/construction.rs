@@ -138,7 +138,21 @@ impl Template {
                 let corners: Vec<&str> = corners.collect();
                 MathText::from_words(format!("parallelogram {}", join_names(&corners)))
             }
-            JointKindTemplate::Grouped { .. } => MathText::default(),
+            // The links that close loops at it are stated there, or at the joints after it.
+            JointKindTemplate::Grouped { .. } => {
+                let bars = self.closures.iter().filter_map(|closure| match closure {
+                    ClosureTemplate::Bar { joints, .. } if joints.contains(&joint) => Some(*joints),
+                    _ => None,
+                });
+                let is_stated = |joints: &[usize; 2]| joints.iter().max() == Some(&joint);
+                let bars: Vec<[usize; 2]> = bars.collect();
+                match bars.first() {
+                    Some(first) if !bars.iter().any(is_stated) => {
+                        MathText::from_words(format!("on the link {}", between(*first)))
+                    }
+                    _ => MathText::default(),
+                }
+            }
             JointKindTemplate::Point { base, along, across } => {
                 let place = match self.sliding_direction(*base) {
                     Some(direction) => format!("parallel to {direction}"),
