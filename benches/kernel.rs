@@ -5,10 +5,13 @@
 
 use std::hint::black_box;
 
+use coupler_curves::catalogue;
+use coupler_curves::family::{self, Family};
 use coupler_curves::linkage::{AssemblyMode, DyadSet, Linkage, LinkageBuilder, MotionOptions, Side};
 use coupler_curves::measure::{self, TracedCurve};
 use coupler_curves::motion::{
-    DyadSigns, InputPosition, InputSlices, JointPositions, Motion, Sampler, Sampling, place_leading_joints,
+    DyadSigns, InputColumns, InputPosition, InputSlices, JointPositions, Motion, Sampler, Sampling, find_circuits,
+    place_leading_joints, poses_in_columns,
 };
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
@@ -61,7 +64,29 @@ fn kernel(criterion: &mut Criterion) {
             black_box(&mut out);
         });
     });
+    // Links that no dyads place: Newton's method from the nodes of their circuits.
+    for id in GROUPS {
+        let linkage = of_catalogue(id);
+        let circuits = find_circuits(&linkage).circuits;
+        let pass = &circuits[0].passes[0];
+        let angles = (0..SAMPLES).map(|k| pass.from.input.value + 360.0 * k as f64 / SAMPLES as f64);
+        let inputs = InputColumns::from_values(linkage.input(), angles);
+        group.throughput(Throughput::Elements(SAMPLES as u64));
+        group.bench_function(id, |bencher| {
+            bencher.iter(|| black_box(poses_in_columns(black_box(&linkage), pass, &inputs)));
+        });
+    }
     group.finish();
+}
+
+/// Linkages with groups that no dyads place, whose cranks turn fully.
+const GROUPS: [&str; 2] = ["stephenson-ii-six-bar", "eight-bar-class-iii"];
+
+/// A linkage of the catalogue with its defaults.
+fn of_catalogue(id: &str) -> Linkage {
+    let template = catalogue::find(id).expect("a linkage of the catalogue");
+    let family = Family::single_cell(template, &[], family::Sampling::Samples(SAMPLES)).expect("its defaults");
+    family.template.linkage(&family.cell(0).values).expect("a linkage")
 }
 
 fn motion(criterion: &mut Criterion) {
@@ -72,6 +97,13 @@ fn motion(criterion: &mut Criterion) {
     group.bench_function("limits, circuits and samples of a crank-rocker", |bencher| {
         bencher.iter(|| black_box(Motion::solve(black_box(&linkage), &sampler)));
     });
+    for id in GROUPS {
+        let linkage = of_catalogue(id);
+        group.throughput(Throughput::Elements(1));
+        group.bench_function(format!("certified circuit of {id}"), |bencher| {
+            bencher.iter(|| black_box(find_circuits(black_box(&linkage))));
+        });
+    }
     group.finish();
 }
 

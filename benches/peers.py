@@ -124,6 +124,46 @@ def pylinkage_positions(fast):
     return SAMPLES / best(turn)
 
 
+@numba.njit
+def newton_solve(cos, sin, start, pairs, lengths, out):
+    """The joints D, E and F of a Stephenson II at each input, by Newton's method from the pose before: what a careful user compiles. `pairs` are the
+    ends of the links, of which those below 3 are fixed or on the crank."""
+    z = start.copy()
+    n = z.size
+    known = np.empty((3, 2))
+    for k in range(cos.size):
+        known[0] = (0.8 * cos[k] - 0.2 * sin[k], 0.8 * sin[k] + 0.2 * cos[k])
+        known[1] = (-0.2 * cos[k] - 0.7 * sin[k], -0.2 * sin[k] + 0.7 * cos[k])
+        known[2] = (4.0, 0.0)
+        for _ in range(20):
+            jacobian, residual = np.zeros((n, n)), np.empty(n)
+            for row in range(pairs.shape[0]):
+                a, b = pairs[row]
+                xa, ya = (known[a, 0], known[a, 1]) if a < 3 else (z[2 * a - 6], z[2 * a - 5])
+                xb, yb = z[2 * b - 6], z[2 * b - 5]
+                dx, dy = xb - xa, yb - ya
+                residual[row] = dx * dx + dy * dy - lengths[row] ** 2
+                jacobian[row, 2 * b - 6], jacobian[row, 2 * b - 5] = 2 * dx, 2 * dy
+                if a >= 3:
+                    jacobian[row, 2 * a - 6], jacobian[row, 2 * a - 5] = -2 * dx, -2 * dy
+            step = np.linalg.solve(jacobian, residual)
+            z -= step
+            if np.abs(step).max() < 1e-12:
+                break
+        out[k] = z
+
+
+def newton_positions():
+    """Positions per second of the Stephenson II of the catalogue by Newton's method, compiled by numba: with no proof that it stays on its circuit."""
+    turn = np.linspace(0.0, 2.0 * np.pi, SAMPLES, endpoint=False)
+    drawn = np.array([2.6, 2.4, 1.0, 3.2, 3.6, 3.4])
+    points = np.array([[0.8, 0.2], [-0.2, 0.7], [4.0, 0.0], [2.6, 2.4], [1.0, 3.2], [3.6, 3.4]])
+    pairs = np.array([[0, 3], [1, 4], [2, 5], [3, 4], [4, 5], [3, 5]])
+    lengths = np.array([np.hypot(*(points[a] - points[b])) for a, b in pairs])
+    out = np.empty((SAMPLES, 6))
+    return SAMPLES / best(lambda: newton_solve(np.cos(turn), np.sin(turn), drawn, pairs, lengths, out))
+
+
 def render(manifest, formats, dpi=None, measures=None):
     """Seconds and peak megabytes of a run into an empty folder, with the given measures or with all."""
     shutil.rmtree(OUT, ignore_errors=True)
@@ -242,6 +282,8 @@ def main():
     row("kernel, ten points on a dyad, one core: numba", ten, numba_positions(10), "positions/s", "ratio 4.8")
     part = criterion("1 coupler points over a limited range")
     row("kernel, one point, a range with its own sines: numpy", part, numpy_positions(1), "positions/s")
+    row("kernel, a Stephenson II by its crank: Newton, numba", criterion("stephenson-ii-six-bar"), newton_positions(), "positions/s", "1e5")
+    row("kernel, an eight-bar of class III", criterion("eight-bar-class-iii"), None, "positions/s", "1e5")
     row("kernel, one coupler point: pylinkage, compiled", one, pylinkage_positions(True), "positions/s")
     row("kernel, one coupler point: pylinkage, step by step", one, pylinkage_positions(False), "positions/s")
 

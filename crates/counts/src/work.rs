@@ -13,7 +13,9 @@ use coupler_curves::family::{Family, Sampling};
 use coupler_curves::geometry::Point;
 use coupler_curves::linkage::{AssemblyMode, DyadSet};
 use coupler_curves::measure::MeasureSet;
-use coupler_curves::motion::{DyadSigns, InputColumns, JointPositions, Sampler, place_leading_joints};
+use coupler_curves::motion::{
+    DyadSigns, InputColumns, JointPositions, Sampler, find_circuits, place_leading_joints, poses_in_columns,
+};
 use coupler_curves::solve::{SolvedCell, Solver};
 use coupler_curves::template::ParameterKind;
 use coupler_drawing::render::pdf::Book;
@@ -32,9 +34,11 @@ use super::composed::{coupler_grid, panels};
 pub type Benchmark = (&'static str, fn() -> Box<dyn FnMut()>);
 
 /// All of them. A number in a name is how many of a thing are made, solved or drawn.
-pub const ALL: [Benchmark; 15] = [
+pub const ALL: [Benchmark; 17] = [
     ("positions of 36000 coupler points", || positions(1)),
     ("positions of 36000 times 10 coupler points", || positions(10)),
+    ("positions of 3600 six-bars of Stephenson II", group_positions),
+    ("10 circuits of eight-bars of class III", group_circuits),
     ("60 four-bars, all measures", || measures("four-bar", 60, MeasureSet::ALL)),
     ("60 four-bars, without portions", || measures("four-bar", 60, without(&PORTIONS))),
     ("60 four-bars, without portions and symmetry", || {
@@ -113,6 +117,31 @@ fn positions(points: usize) -> Box<dyn FnMut()> {
         for _ in 0..100 {
             place_leading_joints(black_box(&linkage), joints, inputs.as_slices(), &signs, &mut out, 0..SAMPLES);
             black_box(&mut out);
+        }
+    })
+}
+
+/// The positions of a six-bar that no dyads place, ten times at 360 inputs.
+fn group_positions() -> Box<dyn FnMut()> {
+    let family = family("stephenson-ii-six-bar", &[]);
+    let linkage = family.template.linkage(&family.cell(0).values).expect("a six-bar");
+    let circuits = find_circuits(&linkage).circuits;
+    let turn = Sampler::new(Sampling::Samples(360)).full_turn().to_vec();
+    let inputs = InputColumns::from_values(linkage.input(), turn.iter().map(|at| at.value));
+    Box::new(move || {
+        for _ in 0..10 {
+            black_box(poses_in_columns(black_box(&linkage), &circuits[0].passes[0], &inputs));
+        }
+    })
+}
+
+/// The circuits of an eight-bar that no dyads place, with proof that there is no other near them.
+fn group_circuits() -> Box<dyn FnMut()> {
+    let family = family("eight-bar-class-iii", &[]);
+    let linkage = family.template.linkage(&family.cell(0).values).expect("an eight-bar");
+    Box::new(move || {
+        for _ in 0..10 {
+            black_box(find_circuits(black_box(&linkage)));
         }
     })
 }

@@ -1,6 +1,6 @@
 //! Groups of links that no dyads solve: the joints that are placed together, and the equations that place them.
 
-use super::{JointId, Linkage};
+use super::JointId;
 use crate::geometry::Point;
 
 /// An Assur group of a class higher than the dyads', or several with the dyads between them: joints that are placed
@@ -14,9 +14,6 @@ pub struct Group {
     pub joints: Vec<(JointId, Point)>,
     /// The equations.
     pub closures: Vec<Closure>,
-    /// The same linkage driven elsewhere, so that dyads place all its joints, by their names: its circuits are those of
-    /// the group. `None` if there is no such input, or only the circuit through the start is asked for.
-    pub driven_elsewhere: Option<Box<Linkage>>,
 }
 
 /// What closes a loop of links.

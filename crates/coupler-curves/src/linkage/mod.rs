@@ -33,7 +33,6 @@ pub use cognate::{Cognate, CognateError, Cognates, MovingLink, PlacedFourBar};
 pub use error::Error;
 pub(crate) use four_bar::length_tolerance;
 pub use four_bar::{FourBar, FourBarClass};
-pub use group::{Closure, Group};
 pub use id::{DyadId, JointId, LinkId};
 pub use input::Input;
 pub use joint::{Joint, JointKind, LineDirection};
@@ -48,6 +47,7 @@ pub use sextic::{DoublePoint, DoublePointKind, Sextic};
 #[doc(hidden)]
 pub use self::{
     assembly_mode::{DyadSet, MAX_DYADS},
+    group::{Closure, Group},
     kinematic_chain::KinematicChain,
     outline::{LinkOutline, is_plate},
     position_analysis::InvertedSliderCrank,

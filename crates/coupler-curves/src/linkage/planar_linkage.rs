@@ -12,6 +12,9 @@ pub struct Linkage {
     pub links: Vec<Link>,
     /// The joints that no dyads place, if there are any, and the equations that do.
     pub group: Option<Group>,
+    /// The same linkage driven elsewhere, so that dyads place all joints of the group, by their names: its circuits are those of this one. `None` if
+    /// there is no such input, or only the circuit through the start is asked for.
+    pub driven_elsewhere: Option<Box<Linkage>>,
     /// The joints whose curves are traced, in the order of the curves.
     pub traced: Vec<JointId>,
     /// Two joints of the link in whose frame everything is reported: the one at its origin and one on its positive
@@ -117,6 +120,7 @@ impl Linkage {
             joints: kept.iter().map(|&joint| self.joints[joint].clone()).collect(),
             links: self.links.iter().map(link).collect(),
             group: self.group.clone(),
+            driven_elsewhere: self.driven_elsewhere.clone(),
             traced: new_id(joint).into_iter().collect(),
             seen_from: self.seen_from,
             output_link: self.output_link,

@@ -87,7 +87,7 @@ pub(super) fn trace_start_circuit(search: &mut IntervalSearch) -> Result<Vec<Uns
 /// Traces the circuits of a linkage with a group.
 fn trace_group(search: &mut IntervalSearch, group: &Group) -> Result<Vec<UnsampledCircuit>, AssemblyError> {
     let (linkage, all) = (search.linkage, CircuitSelection::All);
-    let poses = match &group.driven_elsewhere {
+    let poses = match &linkage.driven_elsewhere {
         Some(other) if linkage.motion_options.circuits == all => poses_of_circuits(other)?,
         _ => Vec::new(),
     };

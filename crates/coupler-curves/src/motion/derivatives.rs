@@ -38,8 +38,8 @@ impl JointDerivatives {
         if let Some(track) = &pass.track {
             let is_limit =
                 [pass.from, pass.to].iter().any(|end| end.input.value == input && !end.flat_dyads.is_empty());
-            let group: HashMap<JointId, JointSeries> = track.series(position, is_limit).into_iter().collect();
             let input = SeriesInput { value: position.value, direction: [position.cos, position.sin] };
+            let group: HashMap<JointId, JointSeries> = track.series(input, is_limit).into_iter().collect();
             let placed = |joint, position, _: &[JointSeries]| group.get(&joint).copied().unwrap_or(position);
             let all = place_as_series(linkage, linkage.joints.len(), input, |_| 1.0, placed);
             return JointDerivatives(to_view_frame(linkage, all));

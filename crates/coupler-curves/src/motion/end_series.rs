@@ -6,8 +6,7 @@
 
 use super::AssemblyError;
 use super::pass::{Heading, PassEnd};
-use super::positions::geared_angle;
-use super::series::{Series, VectorSeries};
+use super::series::{Series, VectorSeries, geared_angle};
 use crate::geometry::{Point, Vector, trig};
 use crate::linkage::{AssemblyMode, DyadId, DyadSet, Joint, JointId, JointKind, LineDirection, Linkage};
 

@@ -44,7 +44,6 @@ mod spacing;
 
 pub use assembly_error::AssemblyError;
 pub use derivatives::JointDerivatives;
-pub use group::GroupTrack;
 pub use instantaneous_motion::InstantaneousMotion;
 pub use pass::{InputPosition, Pass, PassEnd};
 pub use positions::JointPositions;
@@ -54,6 +53,7 @@ pub use sampling::{Circuit, Sampler, Sampling};
 #[doc(hidden)]
 pub use self::{
     circuit::{CircuitSet, UnsampledCircuit, find_circuits},
+    group::GroupTrack,
     input_columns::{InputColumns, InputSlices},
     limits::{MAX_ASSEMBLY_MODES, MAX_CIRCUIT_BYTES, MAX_SAMPLES, SIZES},
     memory::estimate_bytes,

@@ -33,7 +33,9 @@ pub(super) fn place_on_pass(
     range: Range<usize>,
 ) {
     if let Some(track) = &pass.track {
-        track.place(inputs.values, out, range.start);
+        for (sample, input) in range.clone().zip(inputs.values) {
+            track.positions(*input).for_each(|(joint, at)| out.set_point(joint, sample, at));
+        }
     }
     let signs = DyadSigns::new(pass.mode, DyadSet::EMPTY);
     place_leading_joints(linkage, linkage.joints.len(), inputs, &signs, out, range.clone());

@@ -5,6 +5,7 @@ use std::ops::Range;
 use pulp::{Arch, Simd, WithSimd};
 
 use super::input_columns::InputSlices;
+use super::series::geared_angle;
 use crate::geometry::{Orientation, Point, cross, trig};
 use crate::linkage::{AssemblyMode, DyadId, DyadSet, JointId, JointKind, LineDirection, Linkage, MAX_DYADS};
 
@@ -276,12 +277,6 @@ fn place_slide(
         x[i] = ax[i] + along * ux - h * uy;
         y[i] = ay[i] + along * uy + h * ux;
     }
-}
-
-/// The angle in degrees of a crank geared to the input.
-pub(super) fn geared_angle(input_deg: f64, [turns, per]: [i64; 2], phase_deg: f64) -> f64 {
-    // Whole periods are removed first: the product of the remainder and the ratio is more accurate.
-    input_deg % (360.0 * per as f64) * turns as f64 / per as f64 + phase_deg
 }
 
 /// A crank driven by a linear actuator: an RRR dyad whose first link is `b = sqrt(s^2 + e^2)` long (McCarthy 2.40).

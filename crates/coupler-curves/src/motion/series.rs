@@ -6,8 +6,13 @@
 use std::array::from_fn;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::positions::geared_angle;
 use crate::geometry::{Vector, trig};
+
+/// The angle in degrees of a crank geared to the input.
+pub(super) fn geared_angle(input_deg: f64, [turns, per]: [i64; 2], phase_deg: f64) -> f64 {
+    // Whole periods are removed first: the product of the remainder and the ratio is more accurate.
+    input_deg % (360.0 * per as f64) * turns as f64 / per as f64 + phase_deg
+}
 
 /// The operations on the coefficients of a series.
 pub(super) trait Scalar:

@@ -205,8 +205,8 @@ impl Template {
     /// A number that is not finite, a length that is not positive, a joint that cannot be placed.
     pub fn linkage(&self, values: &[f64]) -> Result<Linkage, Error> {
         let mut linkage = self.build_with(values, |_, expression| expression.evaluate(|slot| values[slot]))?;
-        if let (Some(group), Some(other)) = (&mut linkage.group, &self.driven_elsewhere) {
-            group.driven_elsewhere = Some(Box::new(other.linkage(values)?));
+        if let Some(other) = &self.driven_elsewhere {
+            linkage.driven_elsewhere = Some(Box::new(other.linkage(values)?));
         }
         Ok(linkage)
     }

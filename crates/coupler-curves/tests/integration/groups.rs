@@ -238,8 +238,7 @@ fn all_circuits_at_the_start_are_found_without_another_input() {
                     };
                     passes.filter(is_there).count()
                 };
-                let group = linkage.group.as_mut().unwrap();
-                let other = group.driven_elsewhere.take();
+                let other = linkage.driven_elsewhere.take();
                 let motion = solve(&linkage);
                 assert!(motion.is_assembled(), "{}: {:?}", kind.name, motion.assembly_error);
                 let [worst, _] = drawing.errors(&linkage, &motion);
@@ -250,7 +249,7 @@ fn all_circuits_at_the_start_are_found_without_another_input() {
                 assert!(kind.links.len() > 5 || modes <= 6, "{}: {modes}", kind.name);
                 counts.push(modes);
                 if other.is_some() {
-                    linkage.group.as_mut().unwrap().driven_elsewhere = other;
+                    linkage.driven_elsewhere = other;
                     assert_eq!(at_start(&solve(&linkage)), modes, "{}", kind.name);
                 }
             }

@@ -64,7 +64,6 @@ impl LinkageBuilder {
     }
 
     fn group_mut(&mut self) -> &mut Group {
-        let empty = || Group { joints: Vec::new(), closures: Vec::new(), driven_elsewhere: None };
-        self.group.get_or_insert_with(empty)
+        self.group.get_or_insert_with(|| Group { joints: Vec::new(), closures: Vec::new() })
     }
 }

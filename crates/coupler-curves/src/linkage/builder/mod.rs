@@ -242,6 +242,7 @@ impl LinkageBuilder {
             joints,
             links,
             group: self.group,
+            driven_elsewhere: None,
             traced,
             seen_from,
             output_link,

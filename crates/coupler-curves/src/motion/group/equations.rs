@@ -6,7 +6,7 @@ use nalgebra::{Complex, DMatrix, DVector};
 
 use crate::geometry::{Point, Vector, left_normal, trig};
 use crate::linkage::{Closure, Group, Input, JointId, JointKind, Linkage};
-use crate::motion::pass::InputPosition;
+use crate::motion::joint_series::SeriesInput;
 use crate::motion::series::{Scalar, Series, VectorSeries};
 
 /// The equations of a group in `n` unknowns, the coordinates of its joints, and the input.
@@ -235,10 +235,10 @@ impl Equations {
     pub fn in_input<const N: usize>(
         &self,
         unknowns: Vec<VectorSeries<f64, N>>,
-        input: InputPosition,
+        input: SeriesInput<f64>,
     ) -> Vec<Series<f64, N>> {
         let state = if self.is_angle {
-            let direction = VectorSeries::rotating_unit([input.cos, input.sin], 1.0);
+            let direction = VectorSeries::rotating_unit(input.direction, 1.0);
             State { unknowns, direction, input_squared: Series::constant(0.0) }
         } else {
             self.state_series(unknowns, Series::variable(input.value).scaled(1.0 / self.size))

@@ -8,8 +8,9 @@
 mod equations;
 mod follow;
 mod homotopy;
+mod intervals;
 mod step;
 mod track;
 
+pub(super) use intervals::{NamedPose, find_intervals};
 pub use track::GroupTrack;
-pub(super) use track::{NamedPose, find_intervals};
