@@ -25,6 +25,10 @@ impl Traced {
     pub fn on_full_turn(linkage: Linkage, joint: JointId) -> Option<Traced> {
         let end = |value| PassEnd::regular(InputPosition::from_degrees(value));
         let Input::Angle { .. } = linkage.input() else { return None };
+        // The poses of a group are those of its circuit.
+        if linkage.group.is_some() {
+            return None;
+        }
         let mode = linkage.motion_options.mode.truncated(linkage.dyad_count());
         let pass = Pass { from: end(0.0), to: end(linkage.input().period()), mode, track: None };
         let circuit = UnsampledCircuit { passes: vec![pass], is_closed: true };
@@ -51,7 +55,7 @@ impl Traced {
 
     /// Whether the passes do not depend on the dimensions as long as the linkage can be assembled on them.
     pub fn has_fixed_passes(&self) -> bool {
-        self.is_regular() && self.linkage.motion_options.range.is_none()
+        self.is_regular() && self.linkage.motion_options.range.is_none() && self.linkage.group.is_none()
     }
 
     /// The same joint of another linkage of the same template on a circuit with the same passes, that nearest to this one.

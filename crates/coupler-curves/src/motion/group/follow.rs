@@ -52,7 +52,8 @@ impl Equations {
             }
             let closing = (curve.nodes.len() > 1).then(|| self.origin_in(&tube, node, origin)).flatten();
             let next = match &closing {
-                Some(state) => self.node(state.clone()),
+                // With the same direction, to the last bit: at a limit its sign is rounding.
+                Some(state) => Some(Node { state: state.clone(), tangent: origin.tangent.clone() }),
                 None => {
                     let corrected = self.corrected(node.ahead(length), tube.parameter);
                     corrected.filter(|state| tube.position_of(node, state).is_some()).and_then(|state| self.node(state))
