@@ -2,7 +2,7 @@
 
 use std::array::from_fn;
 
-use nalgebra::{Complex, DMatrix, DVector};
+use nalgebra::DMatrix;
 
 use crate::geometry::{Point, Vector, left_normal, trig};
 use crate::linkage::{Closure, Group, Input, JointId, JointKind, Linkage};
@@ -14,31 +14,32 @@ use crate::motion::series::{Scalar, Series, VectorSeries};
 /// A *state* has the unknowns, each two of a joint, and last the input. Lengths are divided by the size of the linkage;
 /// an input that is an angle is in radians.
 pub(super) struct Equations {
-    equations: Vec<Equation>,
+    pub equations: Vec<Equation>,
     /// The joints of the unknowns.
     pub joints: Vec<JointId>,
     /// The length that is 1.
     pub size: f64,
-    is_angle: bool,
+    /// Whether the input is an angle.
+    pub is_angle: bool,
 }
 
 /// A position that is linear in those of joints, with complex factors: a constant, a multiple of the input (of its
 /// direction, if it is an angle), and multiples of unknowns.
 #[derive(Clone, Debug)]
-struct Form {
-    constant: Vector,
-    input: Vector,
-    terms: Vec<(usize, Vector)>,
+pub(super) struct Form {
+    pub constant: Vector,
+    pub input: Vector,
+    pub terms: Vec<(usize, Vector)>,
 }
 
 /// `e . f = value` or `e x f = value`, times a factor for which the greatest derivatives are about 1.
-struct Equation {
-    e: Form,
-    f: Form,
-    is_cross: bool,
+pub(super) struct Equation {
+    pub e: Form,
+    pub f: Form,
+    pub is_cross: bool,
     /// The value, and the multiple of the square of the input that is added to it.
-    value: [f64; 2],
-    factor: f64,
+    pub value: [f64; 2],
+    pub factor: f64,
 }
 
 /// The product of complex numbers.
@@ -317,51 +318,6 @@ impl Equations {
             }
         }
         out
-    }
-
-    /// The equations at an input, and their derivatives, for positions z and their conjugates w as independent numbers, in this order. Each is of
-    /// the first degree in the z and in the w.
-    pub fn isotropic(&self, at: &[Complex<f64>], input: f64) -> (DVector<Complex<f64>>, DMatrix<Complex<f64>>) {
-        let m = self.joints.len();
-        let complex = |v: Vector| Complex::new(v.x, v.y);
-        let [direction, squared] = if self.is_angle {
-            let (cos, sin) = trig::cos_sin_deg(trig::degrees(input));
-            [Complex::new(cos, sin), Complex::from(0.0)]
-        } else {
-            [Complex::from(input), Complex::from(input * input)]
-        };
-        // A form, and that of the conjugate positions.
-        let pair = |form: &Form| {
-            let known = complex(form.constant) + complex(form.input) * direction;
-            let sum = |from: usize, of: &dyn Fn(Complex<f64>) -> Complex<f64>| {
-                form.terms.iter().fold(of(known), |sum, &(k, factor)| sum + of(complex(factor)) * at[from + k])
-            };
-            [sum(0, &|c| c), sum(m, &|c| c.conj())]
-        };
-        let mut values = DVector::zeros(2 * m);
-        let mut jacobian = DMatrix::zeros(2 * m, 2 * m);
-        for (row, equation) in self.equations.iter().enumerate() {
-            let ([e, e_bar], [f, f_bar]) = (pair(&equation.e), pair(&equation.f));
-            // Half the sum of both products, or half their difference over i.
-            let [plus, minus] = if equation.is_cross {
-                [Complex::new(0.0, -0.5), Complex::new(0.0, 0.5)]
-            } else {
-                [Complex::from(0.5); 2]
-            };
-            let factor = Complex::from(equation.factor);
-            let [value, of_square] = equation.value;
-            let known = Complex::from(value) + squared * of_square;
-            values[row] = (plus * e_bar * f + minus * e * f_bar - known) * factor;
-            let mut add = |form: &Form, [of_z, of_w]: [Complex<f64>; 2]| {
-                for &(k, own) in &form.terms {
-                    jacobian[(row, k)] += complex(own) * of_z * factor;
-                    jacobian[(row, m + k)] += complex(own).conj() * of_w * factor;
-                }
-            };
-            add(&equation.f, [plus * e_bar, minus * e]);
-            add(&equation.e, [minus * f_bar, plus * f]);
-        }
-        (values, jacobian)
     }
 
     /// The derivatives as a matrix, without the column of one unknown.

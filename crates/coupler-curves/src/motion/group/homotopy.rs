@@ -9,7 +9,8 @@
 
 use nalgebra::{Complex, DMatrix, DVector};
 
-use super::equations::Equations;
+use super::equations::{Equations, Form};
+use crate::geometry::{Vector, trig};
 
 type Number = Complex<f64>;
 
@@ -149,6 +150,53 @@ impl Equations {
     }
 }
 
+impl Equations {
+    /// The equations at an input, and their derivatives, for positions z and their conjugates w as independent numbers, in this order. Each is of
+    /// the first degree in the z and in the w.
+    fn isotropic(&self, at: &[Number], input: f64) -> (DVector<Number>, DMatrix<Number>) {
+        let m = self.joints.len();
+        let complex = |v: Vector| Number::new(v.x, v.y);
+        let [direction, squared] = if self.is_angle {
+            let (cos, sin) = trig::cos_sin_deg(trig::degrees(input));
+            [Number::new(cos, sin), Number::from(0.0)]
+        } else {
+            [Number::from(input), Number::from(input * input)]
+        };
+        // A form, and that of the conjugate positions.
+        let pair = |form: &Form| {
+            let known = complex(form.constant) + complex(form.input) * direction;
+            let sum = |from: usize, of: &dyn Fn(Number) -> Number| {
+                form.terms.iter().fold(of(known), |sum, &(k, factor)| sum + of(complex(factor)) * at[from + k])
+            };
+            [sum(0, &|c| c), sum(m, &|c| c.conj())]
+        };
+        let mut values = DVector::zeros(2 * m);
+        let mut jacobian = DMatrix::zeros(2 * m, 2 * m);
+        for (row, equation) in self.equations.iter().enumerate() {
+            let ([e, e_bar], [f, f_bar]) = (pair(&equation.e), pair(&equation.f));
+            // Half the sum of both products, or half their difference over i.
+            let [plus, minus] = if equation.is_cross {
+                [Number::new(0.0, -0.5), Number::new(0.0, 0.5)]
+            } else {
+                [Number::from(0.5); 2]
+            };
+            let factor = Number::from(equation.factor);
+            let [value, of_square] = equation.value;
+            let known = Number::from(value) + squared * of_square;
+            values[row] = (plus * e_bar * f + minus * e * f_bar - known) * factor;
+            let mut add = |form: &Form, [of_z, of_w]: [Number; 2]| {
+                for &(k, own) in &form.terms {
+                    jacobian[(row, k)] += complex(own) * of_z * factor;
+                    jacobian[(row, m + k)] += complex(own).conj() * of_w * factor;
+                }
+            };
+            add(&equation.f, [plus * e_bar, minus * e]);
+            add(&equation.e, [minus * f_bar, plus * f]);
+        }
+        (values, jacobian)
+    }
+}
+
 /// The greatest magnitude of a component.
 trait GreatestNorm {
     fn amax_norm(&self) -> f64;
@@ -166,7 +214,7 @@ impl StartSystem {
         let mut state = 0x9e37_79b9_7f4a_7c15_u64;
         let mut next = || {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            let (cos, sin) = crate::geometry::trig::cos_sin_deg((state >> 11) as f64 / (1u64 << 53) as f64 * 360.0);
+            let (cos, sin) = trig::cos_sin_deg((state >> 11) as f64 / (1u64 << 53) as f64 * 360.0);
             Number::new(cos, sin)
         };
         let factors = (0..2 * m).map(|_| [(); 2].map(|()| DVector::from_fn(m + 1, |_, _| next()))).collect();
