@@ -79,7 +79,7 @@ fn bash_offers_linkages_families_and_formats() {
     assert_eq!(offered_by_bash(folder.path(), &["in"]), ["init", "inspect"]);
     for (line, expected) in [
         (&["inspect", "ho"][..], &["hoeken"][..]),
-        (&["export", "--linkage", "watt-"], &["watt-six-bar"]),
+        (&["export", "--linkage", "watt-s"], &["watt-six-bar"]),
         (&["design", "--types", "e"], &["evans"]),
         (&["render", "--only", ""], &["mine", "other"]),
         (&["check", "--only", "o"], &["other"]),

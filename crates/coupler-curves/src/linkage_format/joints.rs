@@ -109,6 +109,9 @@ pub(super) fn parse_joints<'t>(
     check_inputs(&entries, &parsed, span, parser);
     let placings: Vec<JointKindTemplate> = parsed.into_iter().collect::<Option<_>>()?;
     check_grids(&entries, &placings, parser);
+    if placed.as_ref().is_some_and(|placed| !placed.closures.is_empty()) {
+        check_beside_group(&entries[drawn_count..], &placings[drawn_count..], parser);
+    }
     let needs = dependencies(&placings);
     let order = order_joints(&entries, &needs, parser)?;
     let traced = traced?;
@@ -322,6 +325,22 @@ fn check_inputs(entries: &[Entry], parsed: &[Option<JointKindTemplate>], table: 
                 format!("`{}` is geared to `{}`, which is not a crank", entries[k].name, entries[*crank].name);
             let problem = Problem::error(entries[k].span.clone(), message);
             parser.report(problem.with_help("name the pin of the crank that drives the linkage"));
+        }
+    }
+}
+
+/// Checks that no joint beside a drawing with joints that no dyads place is one that can be on two sides.
+fn check_beside_group(entries: &[Entry], placings: &[JointKindTemplate], parser: &mut TomlParser) {
+    for (entry, placing) in entries.iter().zip(placings) {
+        let has_sides = matches!(
+            placing,
+            JointKindTemplate::Dyad { .. } | JointKindTemplate::Slide { .. } | JointKindTemplate::Slot { .. }
+        );
+        if has_sides {
+            let message =
+                format!("`{}` is placed by a dyad, beside a drawing with joints that no dyads place", entry.name);
+            let problem = Problem::error(entry.span.clone(), message);
+            parser.report(problem.with_help("put the joint and its links into the drawing"));
         }
     }
 }

@@ -209,6 +209,12 @@ pub enum AssemblyError {
         /// The input.
         input: f64,
     },
+    /// The motion of links that no dyads place takes too many steps to follow, or leads to infinity.
+    #[error("its motion takes too many steps to follow, or goes too far: from the start to an input of {}", Short(*input))]
+    GroupTooLong {
+        /// The input.
+        input: f64,
+    },
     /// The input does not reach all of the range: some of the motion is missing.
     #[error(
         "the input goes from {} to {}{unit} only, of the requested {} to {}{unit}",

@@ -311,14 +311,19 @@ fn cut_at_zero(passes: Vec<Pass>, period: f64) -> Vec<Pass> {
     let mut cut = Vec::new();
     for pass in passes {
         let [low, high] = pass.input_range();
-        let zero = (high / period).ceil() * period - period;
-        if zero > low {
-            let end = PassEnd::regular(InputPosition::from_degrees(zero));
-            cut.push(Pass { to: end, ..pass.clone() });
-            cut.push(Pass { from: end, ..pass });
-        } else {
-            cut.push(pass);
+        let zeros =
+            (0..).map(|k| ((low / period).floor() + 1.0 + f64::from(k)) * period).take_while(|zero| *zero < high);
+        let ends = zeros.map(|zero| PassEnd::regular(InputPosition::from_degrees(zero)));
+        let mut ends: Vec<PassEnd> = ends.collect();
+        if pass.input_direction() < 0.0 {
+            ends.reverse();
         }
+        let mut rest = pass;
+        for end in ends {
+            cut.push(Pass { to: end, ..rest.clone() });
+            rest = Pass { from: end, ..rest };
+        }
+        cut.push(rest);
     }
     cut
 }

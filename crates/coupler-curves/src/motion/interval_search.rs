@@ -12,11 +12,11 @@ use std::ops::Range;
 
 use super::AssemblyError;
 use super::dyad_limits;
-use super::group::{NamedPose, find_intervals};
+use super::group::{GroupIntervals, NamedPose, find_intervals};
 use super::interval::{Interval, IntervalEnd, Span};
 use super::limits::MAX_ASSEMBLY_MODES;
 use super::pass::InputPosition;
-use crate::linkage::{AssemblyMode, DyadId, Group, Input, Joint, JointKind, Linkage, Side};
+use crate::linkage::{AssemblyMode, DyadId, DyadSet, Group, Input, Joint, JointKind, Linkage, Side};
 
 /// Finds the intervals of assembly modes within the requested range.
 pub(super) struct IntervalSearch<'a> {
@@ -96,15 +96,17 @@ impl<'a> IntervalSearch<'a> {
     /// # Errors
     /// The group does not close at the start, or its motion cannot be followed.
     pub fn add_group(&mut self, group: &Group, poses: &[NamedPose]) -> Result<usize, AssemblyError> {
-        let (found, start) = find_intervals(self.linkage, group, poses)?;
+        let GroupIntervals { intervals: found, start, missing } = find_intervals(self.linkage, group, poses)?;
+        if let Some(error) = missing {
+            self.end_motion(error);
+        }
         let start_mode = found[start].mode;
         // Those of a mode are together.
         let (of_start, others): (Vec<_>, Vec<_>) = found.into_iter().partition(|interval| interval.mode == start_mode);
         let split = of_start.len();
         self.ranges_by_mode.insert(start_mode, 0..split);
-        if let Some(other) = others.first() {
-            self.ranges_by_mode.insert(other.mode, split..split + others.len());
-        }
+        let other_mode = start_mode.flipped(DyadSet::single(DyadId::FIRST));
+        self.ranges_by_mode.insert(other_mode, split..split + others.len());
         self.intervals = of_start.into_iter().chain(others).collect();
         Ok(start)
     }

@@ -206,6 +206,7 @@ impl Sampler {
         if let [pass] = &circuit.passes[..]
             && circuit.is_closed
             && pass.from.flat_dyads.is_empty()
+            && pass.input_length() == input.period()
             && !matches!(self.sampling, Sampling::ArcLength(_))
         {
             // A full turn in one assembly mode: the table, repeated for every further turn.

@@ -19,6 +19,8 @@ pub(super) struct Equations {
     pub joints: Vec<JointId>,
     /// The length that is 1.
     pub size: f64,
+    /// The point of the fixed frame that positions are measured from: one of its joints, for few digits are lost there.
+    origin: Vector,
     /// Whether the input is an angle.
     pub is_angle: bool,
 }
@@ -102,6 +104,11 @@ impl Equations {
     /// unknowns, such as one on a gear.
     pub fn new(linkage: &Linkage, group: &Group) -> Option<Equations> {
         let size = size(linkage, group);
+        let fixed = linkage.joints.iter().find_map(|joint| match joint.kind {
+            JointKind::Fixed(at) => Some(at.coords),
+            _ => None,
+        });
+        let origin = fixed.unwrap_or_default();
         let mut joints = Vec::new();
         let mut closures = Vec::new();
         let mut forms: Vec<Option<Form>> = Vec::new();
@@ -109,7 +116,7 @@ impl Equations {
         for (id, joint) in linkage.joint_ids().zip(&linkage.joints) {
             let known = |joint: JointId| forms[joint.index()].clone();
             let form = match joint.kind {
-                JointKind::Fixed(at) => Some(Form::constant(at.coords / size)),
+                JointKind::Fixed(at) => Some(Form::constant((at.coords - origin) / size)),
                 JointKind::Crank { pivot, length } => known(pivot).map(|pivot| {
                     let arm = Form { input: unit * (length / size), ..Form::constant(Vector::zeros()) };
                     pivot.plus(&arm, unit)
@@ -179,7 +186,7 @@ impl Equations {
             }
         }
         let is_angle = linkage.input() != Input::Length;
-        Some(Equations { equations: closures, joints, size, is_angle })
+        Some(Equations { equations: closures, joints, size, origin, is_angle })
     }
 
     /// The number of unknowns.
@@ -210,14 +217,22 @@ impl Equations {
 
     /// The positions of the group's joints in a state.
     pub fn positions<'s>(&self, state: &'s [f64]) -> impl Iterator<Item = (JointId, Point)> + use<'_, 's> {
-        let at = |k: usize| Point::new(state[2 * k] * self.size, state[2 * k + 1] * self.size);
+        let at = |k: usize| Point::from(self.origin + Vector::new(state[2 * k], state[2 * k + 1]) * self.size);
         self.joints.iter().enumerate().map(move |(k, &joint)| (joint, at(k)))
+    }
+
+    /// A position of a state, and its rates, in the frame of the fixed joints.
+    pub fn placed<const N: usize>(&self, at: VectorSeries<f64, N>) -> VectorSeries<f64, N> {
+        let mut placed = VectorSeries { x: at.x.scaled(self.size), y: at.y.scaled(self.size) };
+        placed.x.0[0] += self.origin.x;
+        placed.y.0[0] += self.origin.y;
+        placed
     }
 
     /// The state of a pose.
     pub fn state(&self, position: impl Fn(JointId) -> Point, input: f64) -> Vec<f64> {
         let unknowns = self.joints.iter().flat_map(|&joint| {
-            let at = position(joint).coords / self.size;
+            let at = (position(joint).coords - self.origin) / self.size;
             [at.x, at.y]
         });
         unknowns.chain([self.input_in_state(input)]).collect()

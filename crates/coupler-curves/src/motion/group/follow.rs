@@ -4,8 +4,9 @@ use super::equations::Equations;
 use super::step::{Node, Tube};
 use crate::motion::assembly_error::AssemblyError;
 
-/// The most nodes of a curve.
+/// The most nodes of a curve, and the most numbers in them: 16 MB.
 const MAX_NODES: usize = 100_000;
+const MAX_NUMBERS: usize = 1_000_000;
 
 /// The length of the first step, relative to the size of the linkage and a radian.
 const FIRST_STEP: f64 = 0.05;
@@ -20,7 +21,7 @@ const LEAST_STEP: f64 = 1e-9;
 const LEAST_DISTANCE_FROM_LIMIT: f64 = 1e-7;
 
 /// Beyond this many times the size, the curve has left the linkage: a slider on a line that is parallel to another.
-const FARTHEST: f64 = 1e4;
+const FARTHEST: f64 = 1e3;
 
 /// A closed curve in the direction of its tangents: the last node is the first again, apart from whole turns of the input.
 #[derive(Debug, Default)]
@@ -47,8 +48,10 @@ impl Equations {
                 }
                 continue;
             };
-            if curve.nodes.len() > MAX_NODES || node.state.iter().any(|x| x.abs() > FARTHEST) {
-                return Err(self.error_at(node));
+            let unknowns = &node.state[..self.unknown_count()];
+            let is_full = curve.nodes.len() > MAX_NODES.min(MAX_NUMBERS / node.state.len());
+            if is_full || unknowns.iter().any(|x| x.abs() > FARTHEST) {
+                return Err(AssemblyError::GroupTooLong { input: self.input(&node.state) });
             }
             let closing = (curve.nodes.len() > 1).then(|| self.origin_in(&tube, node, origin)).flatten();
             let next = match &closing {
@@ -63,7 +66,10 @@ impl Equations {
             let Some(next) = next else { return Err(self.error_at(node)) };
             let before = node.clone();
             if (before.input_rate() > 0.0) != (next.input_rate() > 0.0) {
-                let limit = self.limit_between(&before, &next).ok_or_else(|| self.error_at(&before))?;
+                let limit = self.limit_between(&before, &next);
+                // Of this curve, and not of one that is near.
+                let limit = limit.filter(|limit| tube.position_of(&before, &limit.state).is_some());
+                let limit = limit.ok_or_else(|| self.error_at(&before))?;
                 curve.limits.push(curve.nodes.len());
                 curve.nodes.push(limit);
             }
@@ -144,7 +150,8 @@ impl Equations {
         let mut out: Vec<Node> = vec![limit.clone()];
         for next in nodes.into_iter().skip(1) {
             let far = distance(&next.state);
-            loop {
+            // Each is about four times as far as the one before.
+            for _ in 0..64 {
                 let last = &out[out.len() - 1];
                 let near = distance(&last.state);
                 let wanted = RATIO * near.max(LEAST_DISTANCE_FROM_LIMIT / RATIO);

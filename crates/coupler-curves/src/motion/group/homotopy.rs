@@ -1,7 +1,7 @@
 //! All poses of a group at one input, by continuation from a system whose solutions are known.
 //!
 //! Positions are complex numbers z and their conjugates w, which are taken as independent: each equation is of the first degree in the z and of
-//! the first in the w. So a system of m z and m w has at most (2m over m) solutions, 6 for the triad of class III, which is its bound.
+//! the first in the w. So a system of m unknown joints has at most (2m over m) solutions: 6 for the triad of class III, with two, which is its bound.
 //!
 //! # Source
 //! Wampler, Solving the kinematics of planar mechanisms, *Journal of Mechanical Design* 121 (1999), 387-391 (isotropic coordinates); Sommese and
@@ -22,6 +22,9 @@ const INFINITY: f64 = 1e6;
 
 /// The steps of a path are between these; a path that would need shorter ones ends at infinity, or where solutions coincide.
 const STEPS: [f64; 2] = [1e-10, 0.05];
+
+/// The most steps of a path: those that end at a solution take some hundreds.
+const MAX_STEPS: usize = 10_000;
 
 /// Of the predicted to the corrected position, relative to the size: below the distance of paths, so that none is left for another.
 const MAX_CORRECTION: f64 = 1e-3;
@@ -46,7 +49,7 @@ impl Equations {
             let Some(from) = start.solution(&subset) else { continue };
             let Some(end) = self.follow_path(&start, from, own) else { continue };
             // Real positions are those with w the conjugate of z.
-            /// A pair that misses by more is not real; it is corrected, and proven, where it does not.
+            /// A pair that misses by more is not real; where it does not, it is corrected.
             const REAL: f64 = 1e-6;
             if (0..m).any(|k| (end[k] - end[m + k].conj()).norm() > REAL) {
                 continue;
@@ -65,7 +68,10 @@ impl Equations {
     fn follow_path(&self, start: &StartSystem, from: DVector<Number>, input: f64) -> Option<DVector<Number>> {
         let (mut at, mut t, mut step) = (from, 0.0, STEPS[1]);
         let mut good = 0;
-        while t < 1.0 {
+        for _ in 0..MAX_STEPS {
+            if t >= 1.0 {
+                return Some(at);
+            }
             let next = (t + step).min(1.0);
             let accepted = self.predicted(start, &at, [t, next], input).and_then(|guess| {
                 let corrected = self.corrected_on_path(start, guess.clone(), next, input)?;
@@ -90,7 +96,7 @@ impl Equations {
                 }
             }
         }
-        Some(at)
+        None
     }
 
     /// The state at the next value of the parameter, by the method of Runge and Kutta of the fourth order.

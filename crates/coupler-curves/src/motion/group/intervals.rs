@@ -16,8 +16,16 @@ use crate::motion::pass::InputPosition;
 /// The positions of joints by their names, in any frame.
 pub(in crate::motion) type NamedPose<'a> = HashMap<&'a str, Point>;
 
-/// The intervals of the input on the circuits of a linkage with a group through the start pose and through others, and the
-/// index of the one with the start pose.
+/// What is found of the circuits of a group.
+pub(in crate::motion) struct GroupIntervals {
+    pub intervals: Vec<Interval>,
+    /// The index of the interval with the start pose.
+    pub start: usize,
+    /// Why a further circuit is not among them.
+    pub missing: Option<AssemblyError>,
+}
+
+/// The intervals of the input on the circuits of a linkage with a group through the start pose and through others.
 ///
 /// # Errors
 /// The group does not close at the start, or its motion cannot be followed.
@@ -25,52 +33,69 @@ pub(in crate::motion) fn find_intervals(
     linkage: &Linkage,
     group: &Group,
     poses: &[NamedPose],
-) -> Result<(Vec<Interval>, usize), AssemblyError> {
+) -> Result<GroupIntervals, AssemblyError> {
     let equations = Equations::new(linkage, group).ok_or(AssemblyError::GroupOfGears)?;
-    let start = equations.start(group, linkage.motion_options.start.unwrap_or(0.0))?;
+    let start_input = linkage.motion_options.start.unwrap_or(0.0);
+    let start = equations.start(group, start_input)?;
     if let Some(error) = equations.held_input(&start, linkage) {
         return Err(error);
     }
-    let mut intervals = TrackIntervals {
+    let mut all = TrackIntervals {
         linkage,
         equations: Arc::new(equations),
         start_rises: start.input_rate() > 0.0,
         found: Vec::new(),
         next_id: 2,
+        missing: None,
     };
-    intervals.follow(&start)?;
+    let turned = all.follow(&start)?;
     for pose in poses {
-        let Some(node) = intervals.node_of_pose(pose) else { continue };
-        if !intervals.contains(&node) {
-            intervals.follow(&node)?;
+        match all.node_of_pose(pose) {
+            Some(node) => all.follow_another(node),
+            None => all.miss(AssemblyError::GroupNotFollowed { input: start_input }),
         }
     }
     if linkage.motion_options.circuits == CircuitSelection::All && linkage.driven_elsewhere.is_none() {
-        intervals.follow_all_at_start(linkage.motion_options.start.unwrap_or(0.0))?;
+        let states = all.equations.poses_at(start_input).ok_or(AssemblyError::TooManyPoses)?;
+        for state in states {
+            match all.equations.node(state) {
+                Some(node) => all.follow_another(node),
+                None => all.miss(AssemblyError::GroupNotFollowed { input: start_input }),
+            }
+        }
     }
-    let Some(range) = linkage.motion_options.range else { return Ok((intervals.found, 0)) };
-    let start = linkage.motion_options.start.unwrap_or(0.0);
-    let [first, rest @ ..] = &intervals.found[..] else { return Err(AssemblyError::NoStart) };
-    let of_start = within(first, range, linkage.input());
+    let TrackIntervals { found, missing, .. } = all;
+    let Some(range) = linkage.motion_options.range else {
+        return Ok(GroupIntervals { intervals: found, start: 0, missing });
+    };
     let period = linkage.input().period();
-    let index = of_start.iter().position(|interval| interval.span.wrap(start, period).is_some());
-    let index = index.ok_or(AssemblyError::StartOutOfRange { start, range })?;
+    if (start_input - range[0]).rem_euclid(period) > range[1] - range[0] {
+        return Err(AssemblyError::StartOutOfRange { start: start_input, range });
+    }
+    let [first, rest @ ..] = &found[..] else { return Err(AssemblyError::NoStart) };
+    // The start pose is at the end of the curve, which is the first interval, or in it.
+    let own_start = start_input + turned;
+    let of_start = within(first, range, linkage.input());
+    let has_start = |(_, [low, high]): &(Interval, [f64; 2])| (*low..=*high).contains(&own_start);
+    let index = of_start.iter().position(has_start);
+    let start = index.ok_or(AssemblyError::StartOutOfRange { start: start_input, range })?;
     let others = rest.iter().flat_map(|interval| within(interval, range, linkage.input()));
-    Ok((of_start.into_iter().chain(others).collect(), index))
+    let intervals = of_start.into_iter().chain(others).map(|(interval, _)| interval).collect();
+    Ok(GroupIntervals { intervals, start, missing })
 }
 
-/// The parts of an interval within a range of the input.
-fn within(interval: &Interval, [from, to]: [f64; 2], input: Input) -> Vec<Interval> {
+/// The parts of an interval within a range of the input, whose turns they are moved to; and for each the least and the greatest input on the interval
+/// itself.
+fn within(interval: &Interval, [from, to]: [f64; 2], input: Input) -> Vec<(Interval, [f64; 2])> {
     let period = input.period();
+    let everything = [f64::NEG_INFINITY, f64::INFINITY];
+    if to - from >= period {
+        return vec![(interval.clone(), everything)];
+    }
     let end = |at: f64, id: usize| IntervalEnd::range_end(InputPosition::new(input, at), id);
-    let of_span = |span: Span| Interval { span, ..interval.clone() };
     let Span::Range { lower, upper } = interval.span else {
-        let is_part = to - from < period;
-        return vec![if is_part {
-            of_span(Span::Range { lower: end(from, 0), upper: end(to, 1) })
-        } else {
-            interval.clone()
-        }];
+        let span = Span::Range { lower: end(from, 0), upper: end(to, 1) };
+        return vec![(Interval { span, ..interval.clone() }, everything)];
     };
     let [low, high] = [lower.input.value, upper.input.value];
     // The range is met again every turn.
@@ -79,10 +104,13 @@ fn within(interval: &Interval, [from, to]: [f64; 2], input: Input) -> Vec<Interv
         Input::Length => 0..=0,
     };
     let part = |turn: i64| {
-        let [from, to] = [from, to].map(|at| if turn == 0 { at } else { at + turn as f64 * period });
-        let lower = if from > low { end(from, 0) } else { lower };
-        let upper = if to < high { end(to, 1) } else { upper };
-        (lower.input.value < upper.input.value).then(|| of_span(Span::Range { lower, upper }))
+        let by = if turn == 0 { 0.0 } else { turn as f64 * period };
+        let own = [low.max(from + by), high.min(to + by)];
+        let lower = if from + by > low { end(from, 0) } else { lower.shifted(-by) };
+        let upper = if to + by < high { end(to, 1) } else { upper.shifted(-by) };
+        let track = interval.track.as_ref().map(|track| track.shifted(-by));
+        let part = Interval { span: Span::Range { lower, upper }, mode: interval.mode, track };
+        (own[0] < own[1]).then_some((part, own))
     };
     turns.filter_map(part).collect()
 }
@@ -95,31 +123,38 @@ struct TrackIntervals<'a> {
     start_rises: bool,
     found: Vec<Interval>,
     next_id: usize,
+    missing: Option<AssemblyError>,
 }
 
 impl TrackIntervals<'_> {
-    /// Adds the intervals of the circuit through a node.
-    fn follow(&mut self, start: &Node) -> Result<(), AssemblyError> {
+    /// Adds the intervals of the circuit through a node, and returns by how much the input is greater at the end of the curve.
+    fn follow(&mut self, start: &Node) -> Result<f64, AssemblyError> {
         let curve = self.equations.follow(start)?;
         let limits = curve.limits.len();
+        let ends = [0, curve.nodes.len() - 1].map(|k| self.equations.input(&curve.nodes[k].state));
         for (nodes, ends) in monotonic_parts(curve) {
             let interval = self.interval(nodes, ends);
             self.found.push(interval);
         }
         self.next_id += limits.max(1);
-        Ok(())
+        // Without limits the interval begins at the start.
+        Ok(if limits == 0 { 0.0 } else { ends[1] - ends[0] })
     }
 
-    /// Adds the intervals of all circuits that pass the input at the start.
-    fn follow_all_at_start(&mut self, start: f64) -> Result<(), AssemblyError> {
-        let states = self.equations.poses_at(start).ok_or(AssemblyError::TooManyPoses)?;
-        for state in states {
-            let node = self.equations.node(state).filter(|node| !self.contains(node));
-            if let Some(node) = node {
-                self.follow(&node)?;
-            }
+    /// Adds the intervals of a further circuit, unless it is there already, or its input does not move.
+    fn follow_another(&mut self, node: Node) {
+        let tracks = || self.found.iter().filter_map(|interval| interval.track.as_ref());
+        if tracks().any(|track| track.passes(&node.state)) || self.equations.held_input(&node, self.linkage).is_some() {
+            return;
         }
-        Ok(())
+        if let Err(error) = self.follow(&node) {
+            self.miss(error);
+        }
+    }
+
+    /// Notes why a circuit is missing.
+    fn miss(&mut self, error: AssemblyError) {
+        self.missing.get_or_insert(error);
     }
 
     /// The interval of a part of a curve, which begins and ends at limits of these numbers or, if there are none, is all of it.
@@ -148,17 +183,29 @@ impl TrackIntervals<'_> {
             // Nothing happens where a curve of several turns begins and ends.
             None => IntervalEnd { cause: EndCause::ChangePoint, ..IntervalEnd::range_end(at, self.next_id) },
         };
-        let turns = (last.value - first.value) / input.period();
-        let span = match lower {
-            None if turns.round() == 1.0 => Span::FullTurn,
+        let is_closed = lower.is_none();
+        let span = match (is_closed, input) {
+            (true, Input::Angle { turns }) => {
+                // Joints on gears may be back after more turns than those of the group.
+                let own = ((last.value - first.value) / 360.0).round().max(1.0) as u64;
+                let all = least_common_multiple(own, u64::from(turns));
+                let after_all = InputPosition { value: first.value + all as f64 * 360.0, ..first };
+                match all == u64::from(turns) {
+                    true => Span::FullTurn,
+                    false => Span::Range { lower: end(first, None), upper: end(after_all, None) },
+                }
+            }
             _ => Span::Range { lower: end(first, lower), upper: end(last, upper) },
         };
-        Interval { span, mode, track: Some(GroupTrack::new(equations.clone(), nodes)) }
+        Interval { span, mode, track: Some(GroupTrack::new(equations.clone(), nodes, is_closed)) }
     }
 
     /// The node of a pose in any frame, by the names of joints; `None` if it is not one of this linkage, or at a singularity.
     fn node_of_pose(&self, pose: &NamedPose) -> Option<Node> {
         let at = |joint: JointId| pose.get(self.linkage.joints[joint].name.as_str()).copied();
+        if self.equations.joints.iter().any(|joint| at(*joint).is_none()) {
+            return None;
+        }
         // Two fixed joints show how the frame lies.
         let fixed = self.linkage.links[0].joints.iter().filter_map(|(joint, own)| Some((*own, at(*joint)?)));
         let fixed: Vec<(Vector, Point)> = fixed.collect();
@@ -174,20 +221,14 @@ impl TrackIntervals<'_> {
         let held = self.equations.node(state.clone())?.parameter();
         self.equations.node(self.equations.corrected(state, held)?)
     }
+}
 
-    /// Whether a node is on a circuit that has been followed.
-    fn contains(&self, node: &Node) -> bool {
-        /// States this close are one: that of a node is known to rounding, magnified next to limits.
-        const SAME: f64 = 1e-6;
-        let tracks = self.found.iter().filter_map(|interval| interval.track.as_ref());
-        let input = self.equations.input(&node.state);
-        let distance = |track: &GroupTrack| {
-            let own = track.state(input);
-            let unknowns = own.iter().zip(&node.state).take(own.len() - 1);
-            unknowns.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()))
-        };
-        tracks.into_iter().any(|track| track.has_input(input) && distance(track) < SAME)
+fn least_common_multiple(a: u64, b: u64) -> u64 {
+    let (mut x, mut y) = (a, b);
+    while y != 0 {
+        (x, y) = (y, x % y);
     }
+    a / x * b
 }
 
 /// The parts of a curve between limits, each with the numbers of the limits at which it begins and ends. The first has
@@ -203,7 +244,8 @@ fn monotonic_parts(curve: Curve) -> Vec<(Vec<Node>, [Option<usize>; 2])> {
     let input = nodes[0].state.len() - 1;
     let turns = nodes[nodes.len() - 1].state[input] - nodes[0].state[input];
     let mut whole = nodes.split_off(last);
-    let head = nodes.get(1..=first).map(<[Node]>::to_vec).unwrap_or_else(|| whole[1..=first].to_vec());
+    // Limits come in pairs: the first is not the last.
+    let head = nodes[1..=first].to_vec();
     whole.extend(head.into_iter().map(|mut node| {
         node.state[input] += turns;
         node

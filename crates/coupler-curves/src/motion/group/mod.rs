@@ -12,5 +12,5 @@ mod intervals;
 mod step;
 mod track;
 
-pub(super) use intervals::{NamedPose, find_intervals};
+pub(super) use intervals::{GroupIntervals, NamedPose, find_intervals};
 pub use track::GroupTrack;

@@ -24,6 +24,8 @@ struct Nodes {
     equations: Arc<Equations>,
     /// In the order of rising input.
     nodes: Vec<Node>,
+    /// Whether the last is the first again, some turns later, and the input never reverses.
+    is_closed: bool,
 }
 
 impl std::fmt::Debug for GroupTrack {
@@ -39,9 +41,9 @@ impl PartialEq for GroupTrack {
 }
 
 impl GroupTrack {
-    /// The poses between nodes in the order of rising input.
-    pub(super) fn new(equations: Arc<Equations>, nodes: Vec<Node>) -> GroupTrack {
-        GroupTrack { nodes: Arc::new(Nodes { equations, nodes }), shift: 0.0 }
+    /// The poses between nodes in the order of rising input; `is_closed` if the last is the first again, some turns later.
+    pub(super) fn new(equations: Arc<Equations>, nodes: Vec<Node>, is_closed: bool) -> GroupTrack {
+        GroupTrack { nodes: Arc::new(Nodes { equations, nodes, is_closed }), shift: 0.0 }
     }
 
     /// The same on a pass whose input is greater by that many degrees, a whole number of turns.
@@ -57,14 +59,17 @@ impl GroupTrack {
 
     /// Positions of the group's joints and their first Taylor coefficients per radian, or unit of length, at an input.
     ///
-    /// At a limit the rates of all joints that move there are infinite.
+    /// At a limit the rates of the coordinates that change there are infinite; those of others, such as across a fixed line, are 0.
     pub(in crate::motion) fn series<const N: usize>(
         &self,
         input: SeriesInput<f64>,
         is_limit: bool,
     ) -> Vec<(JointId, VectorSeries<f64, N>)> {
+        /// Slower than this, relative to the fastest, a coordinate does not change at a limit.
+        const AT_REST: f64 = 1e-12;
         let equations = &self.nodes.equations;
         let state = self.state(input.value);
+        let limit = self.end_at(self.own_input(input.value)).filter(|_| is_limit);
         let n = equations.unknown_count();
         let constant = |k: usize| Series::constant(state[k]);
         let mut unknowns: Vec<VectorSeries<f64, N>> =
@@ -75,56 +80,82 @@ impl GroupTrack {
             let known = DVector::from_iterator(n, residuals.iter().map(|series| -series.0[order]));
             let solved = if is_limit { None } else { lu.solve(&known) };
             for (k, unknown) in unknowns.iter_mut().enumerate() {
-                let rate = |k: usize| solved.as_ref().map_or(f64::INFINITY, |solved| solved[k]);
+                let rate = |k: usize| match (&solved, limit) {
+                    (Some(solved), _) => solved[k],
+                    (None, Some(limit)) if limit.tangent[k].abs() <= AT_REST => 0.0,
+                    (None, _) => f64::INFINITY,
+                };
                 (unknown.x.0[order], unknown.y.0[order]) = (rate(2 * k), rate(2 * k + 1));
             }
         }
-        let size = equations.size;
-        let scaled = |at: VectorSeries<f64, N>| VectorSeries { x: at.x.scaled(size), y: at.y.scaled(size) };
-        equations.joints.iter().copied().zip(unknowns.into_iter().map(scaled)).collect()
+        let placed = |at: VectorSeries<f64, N>| equations.placed(at);
+        equations.joints.iter().copied().zip(unknowns.into_iter().map(placed)).collect()
     }
 
     /// The state at an input: the one that Newton's method finds from the nodes next to it.
-    pub(super) fn state(&self, input: f64) -> Vec<f64> {
-        let Nodes { equations, nodes } = &*self.nodes;
+    fn state(&self, input: f64) -> Vec<f64> {
+        self.state_at_own(self.own_input(input))
+    }
+
+    /// The state at an input as it is on the nodes.
+    fn state_at_own(&self, input: f64) -> Vec<f64> {
+        let Nodes { equations, nodes, .. } = &*self.nodes;
         let n = equations.unknown_count();
-        let own = |node: &Node| node.state[n];
-        let last = nodes.len() - 1;
-        let input = self.own_input(equations.input_in_state(input - self.shift));
-        // At its ends the equations are singular, or all that is known.
-        for (node, is_beyond) in [(&nodes[0], input <= own(&nodes[0])), (&nodes[last], input >= own(&nodes[last]))] {
-            if is_beyond {
-                return node.state.clone();
-            }
+        if let Some(end) = self.end_at(input) {
+            return end.state.clone();
         }
-        let next = nodes.partition_point(|node| own(node) < input).clamp(1, last);
+        let next = nodes.partition_point(|node| node.state[n] < input).clamp(1, nodes.len() - 1);
         let (before, after) = (&nodes[next - 1], &nodes[next]);
         let mut guess = before.at_input(after, input);
         guess[n] = input;
         equations.corrected(guess.clone(), n).unwrap_or(guess)
     }
-}
 
-impl GroupTrack {
-    /// Whether an input is on the track, at whole turns from what it is called.
-    pub(super) fn has_input(&self, input: f64) -> bool {
-        let Nodes { equations, nodes } = &*self.nodes;
+    /// The end that an input of the nodes is at, or beyond: at a limit the equations are singular, and next to it a rounding of the input is some
+    /// 1e-8 of the pose.
+    fn end_at(&self, input: f64) -> Option<&Node> {
+        let Nodes { equations, nodes, .. } = &*self.nodes;
         let n = equations.unknown_count();
-        let own = self.own_input(equations.input_in_state(input));
-        (nodes[0].state[n]..=nodes[nodes.len() - 1].state[n]).contains(&own)
+        // Of degrees that have been radians, and are again.
+        let rounding = 8.0 * f64::EPSILON * (1.0 + input.abs());
+        let (first, last) = (&nodes[0], &nodes[nodes.len() - 1]);
+        match () {
+            () if input <= first.state[n] + rounding => Some(first),
+            () if input >= last.state[n] - rounding => Some(last),
+            () => None,
+        }
     }
 
-    /// An input as it is on the track, where it may be whole turns from what a pass calls it.
+    /// Whether a state is a pose of the track, at whole turns from its input or not.
+    pub(super) fn passes(&self, state: &[f64]) -> bool {
+        /// States this close are one: that of a node is known to rounding, magnified next to limits.
+        const SAME: f64 = 1e-6;
+        let Nodes { equations, nodes, .. } = &*self.nodes;
+        let n = equations.unknown_count();
+        let [low, high] = [nodes[0].state[n], nodes[nodes.len() - 1].state[n]];
+        let turn = equations.turn().unwrap_or(f64::INFINITY);
+        let first = if turn.is_finite() { low + (state[n] - low).rem_euclid(turn) } else { state[n] };
+        let mut inputs =
+            (0..).map(|k| first + if k == 0 { 0.0 } else { f64::from(k) * turn }).take_while(|at| *at <= high);
+        inputs.any(|at| {
+            let own = self.state_at_own(at);
+            low <= at && (0..n).all(|k| (own[k] - state[k]).abs() < SAME)
+        })
+    }
+
+    /// An input of a pass as it is on the nodes, where it may be whole turns from what the pass calls it.
     fn own_input(&self, input: f64) -> f64 {
         /// Beyond an end by less it is the end.
         const ROUNDING: f64 = 1e-9;
-        let Nodes { equations, nodes } = &*self.nodes;
+        let Nodes { equations, nodes, is_closed } = &*self.nodes;
         let n = equations.unknown_count();
+        let input = equations.input_in_state(input - self.shift);
         let Some(turn) = equations.turn() else { return input };
         let [low, high] = [nodes[0].state[n], nodes[nodes.len() - 1].state[n]];
         if (low - ROUNDING..=high + ROUNDING).contains(&input) {
             return input;
         }
-        input - ((input - low + ROUNDING) / turn).floor() * turn
+        let period = if *is_closed { high - low } else { turn };
+        input - ((input - low + ROUNDING) / period).floor() * period
     }
 }
