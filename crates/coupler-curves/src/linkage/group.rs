@@ -49,3 +49,15 @@ pub enum Closure {
         offset: f64,
     },
 }
+
+impl Closure {
+    /// The joints it refers to.
+    pub fn joints(&self) -> Vec<JointId> {
+        match *self {
+            Closure::Distance { joints, .. } => joints.to_vec(),
+            Closure::OnLink { joint, base: [a, b], .. } | Closure::OnLine { joint, line: [a, b], .. } => {
+                vec![joint, a, b]
+            }
+        }
+    }
+}

@@ -99,8 +99,10 @@ impl Linkage {
     /// one point of a grid does not place the others. All joints before them keep their indices.
     pub fn with_one_point(&self, joint: JointId) -> (Linkage, JointId) {
         let mut first = self.joints.len();
-        let output_joints = self.output_link.map(OutputLink::joints).unwrap_or_default();
-        let kept_joints = self.seen_from.into_iter().flatten().chain(output_joints);
+        let output_joints = self.output().map(OutputLink::joints).unwrap_or_default();
+        let closures = self.group.iter().flat_map(|group| &group.closures);
+        let of_group = closures.flat_map(|closure| closure.joints());
+        let kept_joints = self.seen_from.into_iter().flatten().chain(output_joints).chain(of_group);
         let mut base_of_all = kept_joints.map(JointId::index).max().unwrap_or(0);
         while let Some(JointKind::Rigid { base: [p, q], .. }) = first.checked_sub(1).map(|last| self.joints[last].kind)
         {

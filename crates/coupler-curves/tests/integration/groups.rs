@@ -2,8 +2,9 @@
 //! Newton's method.
 
 use coupler_curves::geometry::{Chebyshev, Point, trig};
-use coupler_curves::linkage::{Linkage, SixBar};
+use coupler_curves::linkage::{JointId, Linkage, SixBar};
 use coupler_curves::linkage_format::parse_templates;
+use coupler_curves::measure::{Measure, TracedCurve};
 use coupler_curves::motion::{self, JointDerivatives, Motion, Sampler, Sampling};
 
 /// Linkages of one degree of freedom: the number of joints, the frame and the other links by their joints.
@@ -404,4 +405,25 @@ fn what_is_wrong_with_a_group_is_said() {
         input = { between = [\"B Q\", \"Q S\"] }\n";
     let stuck = error(held);
     assert!(stuck.contains("its input cannot move: S is held in place"), "{stuck}");
+}
+
+/// The joints of a group's loops and of its output are kept where a computation leaves out other points.
+#[test]
+fn points_that_close_loops_are_kept() {
+    let linkage = drawn(
+        "joints = { O = [0, 0], P = [3, -1], Q = [5, 0], R = [6, 1], A = [0.3, 0.4], D = [1.6, 1.8], E = [2.7, 1.1], F = [3.8, 1.5] }\n\
+         frame = [\"O\", \"P\", \"Q\", \"R\"]\n\
+         links = [[\"O\", \"A\"], [\"A\", \"D\"], [\"P\", \"E\"], [\"D\", \"E\", \"F\"]]\n\
+         slides = { F = [\"Q\", \"R\"] }\n\
+         input = \"O A\"\n",
+    );
+    let last = JointId::new(linkage.joints.len() - 1);
+    assert_eq!(linkage.joints[last].name, "F");
+    let (single, _) = linkage.with_one_point(linkage.traced[0]);
+    assert_eq!(single.output(), linkage.output());
+    assert_eq!(single.slider_line(last), linkage.slider_line(last));
+    let motion = solve(&linkage);
+    let curve = TracedCurve::new(&linkage, &motion, &motion.circuits[0], linkage.traced[0]);
+    let value = |name: &str| Measure::find(name).map(|measure| (measure.compute)(&curve));
+    assert!(value("time_ratio").is_some() && value("output_stroke").is_some());
 }
