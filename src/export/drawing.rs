@@ -160,6 +160,9 @@ impl Input {
 
 /// The input of a linkage. A crank turns relative to the first link, which moves where another is the ground.
 fn input(linkage: &Linkage, ground: usize, at: &impl Fn(JointId) -> Point) -> Input {
+    if let Some(joints) = linkage.driven_distance() {
+        return Input::Distance(joints);
+    }
     for joint in linkage.joint_ids() {
         match linkage.joints[joint].kind {
             JointKind::DrivenSlider { .. } => return Input::Slider(joint),

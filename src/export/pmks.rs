@@ -94,6 +94,9 @@ fn check_joints(linkage: &Linkage) -> Result<(), PmksError> {
     if let Some([origin, _]) = linkage.seen_from {
         return Err(PmksError { joint: linkage.joints[origin].name.clone(), what: "frame that is a moving link" });
     }
+    if let Some([joint, _]) = linkage.driven_distance() {
+        return Err(PmksError { joint: linkage.joints[joint].name.clone(), what: "actuator between two links" });
+    }
     for (id, joint) in linkage.joint_ids().zip(&linkage.joints) {
         let what = match joint.kind {
             JointKind::Grouped { .. } => {

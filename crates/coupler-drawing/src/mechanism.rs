@@ -71,7 +71,7 @@ impl Mechanism {
             pivots: linkage.pivots(),
             blocks: linkage.joint_ids().filter_map(block).collect(),
             slots: linkage.joint_ids().filter_map(|joint| find_slot(linkage, circuit, joint)).collect(),
-            actuators: joints().filter_map(actuator).collect(),
+            actuators: joints().filter_map(actuator).chain(linkage.driven_distance()).collect(),
             guides: linkage.joint_ids().filter_map(|joint| find_guide(linkage, circuit, joint)).collect(),
             pitch_circles: pitch_circles(linkage, circuit),
         }

@@ -24,7 +24,7 @@ impl Linkage {
             Closure::OnLine { joint, line, .. } => {
                 line.into_iter().all(is_on_ground).then_some(OutputLink::Slider { joint, line })
             }
-            Closure::OnLink { .. } => None,
+            Closure::OnLink { .. } | Closure::Driven { .. } => None,
         })
     }
 

@@ -26,6 +26,11 @@ pub enum Closure {
         /// Their distance, positive.
         length: f64,
     },
+    /// The distance of two joints is the input, the length of an actuator: one equation.
+    Driven {
+        /// The joints.
+        joints: [JointId; 2],
+    },
     /// A joint is on a link, as a [`super::JointKind::Rigid`] is: two equations.
     OnLink {
         /// The joint.
@@ -54,7 +59,7 @@ impl Closure {
     /// The joints it refers to.
     pub fn joints(&self) -> Vec<JointId> {
         match *self {
-            Closure::Distance { joints, .. } => joints.to_vec(),
+            Closure::Distance { joints, .. } | Closure::Driven { joints } => joints.to_vec(),
             Closure::OnLink { joint, base: [a, b], .. } | Closure::OnLine { joint, line: [a, b], .. } => {
                 vec![joint, a, b]
             }

@@ -100,6 +100,14 @@ impl KinematicChain {
             }
         }
         for closure in linkage.group.iter().flat_map(|group| &group.closures) {
+            // Between its two joints an actuator has two links.
+            if let Closure::Driven { joints } = *closure {
+                for (end, joint) in joints.into_iter().enumerate() {
+                    pins[joint.index()].push(link_count + end);
+                }
+                slides.push([link_count, link_count + 1]);
+                link_count += 2;
+            }
             if let Closure::OnLine { joint, line, .. } = *closure {
                 // Its block is added after the links that it connects.
                 let starts =

@@ -34,6 +34,9 @@ pub struct Linkage {
 impl Linkage {
     /// The kind of input that drives it.
     pub fn input(&self) -> Input {
+        if self.driven_distance().is_some() {
+            return Input::Length;
+        }
         let mut turns = 1;
         let mut has_rack = false;
         for joint in &self.joints {
@@ -50,6 +53,14 @@ impl Linkage {
             }
         }
         Input::Angle { turns: if has_rack { turns.max(Error::MAX_RACK_TURNS) } else { turns } }
+    }
+
+    /// The two joints of a group between which an actuator drives it, if one does.
+    pub fn driven_distance(&self) -> Option<[JointId; 2]> {
+        self.group.as_ref()?.closures.iter().find_map(|closure| match *closure {
+            Closure::Driven { joints } => Some(joints),
+            _ => None,
+        })
     }
 
     /// Whether a slider drives it.
@@ -143,6 +154,9 @@ impl Linkage {
 
     /// The input in a pose, in the frame of the fixed joints: an angle in degrees, or a length.
     pub(crate) fn input_of_pose(&self, at: impl Fn(JointId) -> Point) -> Option<f64> {
+        if let Some([a, b]) = self.driven_distance() {
+            return Some((at(b) - at(a)).norm());
+        }
         self.joint_ids().find_map(|joint| match self.joints[joint].kind {
             JointKind::Crank { pivot, .. } => {
                 let arm = at(joint) - at(pivot);

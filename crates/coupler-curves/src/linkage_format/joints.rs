@@ -106,7 +106,9 @@ pub(super) fn parse_joints<'t>(
     let output_link = linkage.get("output_link").map(|value| parse_output_link(value, &names, &parsed, parser));
     let chains = linkage.get("chains").map_or(Some(Vec::new()), |value| parse_chains(value, &names, parser));
     let span = table.as_ref().map_or_else(|| linkage.span.clone(), |table| table.span.clone());
-    check_inputs(&entries, &parsed, span, parser);
+    if !placed.as_ref().is_some_and(PlacedDrawing::has_driven_distance) {
+        check_inputs(&entries, &parsed, span, parser);
+    }
     let placings: Vec<JointKindTemplate> = parsed.into_iter().collect::<Option<_>>()?;
     check_grids(&entries, &placings, parser);
     if placed.as_ref().is_some_and(|placed| !placed.closures.is_empty()) {

@@ -31,6 +31,11 @@ pub enum ClosureTemplate {
         /// The distance of the line to the left of them.
         offset: CompiledExpression,
     },
+    /// An actuator is between two joints; its length is the input.
+    Drive {
+        /// The joints.
+        joints: [usize; 2],
+    },
     /// A joint that an actuator drives is in the group, and at these coordinates at the start.
     Start {
         /// The joint.
@@ -44,7 +49,7 @@ impl ClosureTemplate {
     /// The joints it refers to.
     pub fn joints(&self) -> Vec<usize> {
         match self {
-            ClosureTemplate::Bar { joints, .. } => joints.to_vec(),
+            ClosureTemplate::Bar { joints, .. } | ClosureTemplate::Drive { joints } => joints.to_vec(),
             ClosureTemplate::Hold { joint, base: [a, b], .. } | ClosureTemplate::Guide { joint, line: [a, b], .. } => {
                 vec![*joint, *a, *b]
             }
@@ -56,7 +61,9 @@ impl ClosureTemplate {
     #[must_use]
     pub fn map_joints(mut self, new_index: impl Fn(usize) -> usize) -> ClosureTemplate {
         match &mut self {
-            ClosureTemplate::Bar { joints, .. } => *joints = joints.map(new_index),
+            ClosureTemplate::Bar { joints, .. } | ClosureTemplate::Drive { joints } => {
+                *joints = joints.map(new_index);
+            }
             ClosureTemplate::Hold { joint, base, .. } | ClosureTemplate::Guide { joint, line: base, .. } => {
                 (*joint, *base) = (new_index(*joint), base.map(new_index));
             }

@@ -135,9 +135,11 @@ impl Template {
 
     /// Whether its input is a length, of an actuator or of the way of a slider, rather than an angle.
     pub fn is_driven_by_length(&self) -> bool {
-        self.joints.iter().any(|joint| {
-            matches!(joint.kind, JointKindTemplate::Piston { .. } | JointKindTemplate::DrivenSlider { .. })
-        })
+        let is_by_closure = self.closures.iter().any(|closure| matches!(closure, ClosureTemplate::Drive { .. }));
+        is_by_closure
+            || self.joints.iter().any(|joint| {
+                matches!(joint.kind, JointKindTemplate::Piston { .. } | JointKindTemplate::DrivenSlider { .. })
+            })
     }
 
     /// What its input is, in words.
@@ -151,7 +153,14 @@ impl Template {
             }
             _ => None,
         });
-        driven.unwrap_or_else(|| "the angle of the crank".to_owned())
+        let by_closure = self.closures.iter().find_map(|closure| match closure {
+            ClosureTemplate::Drive { joints } => {
+                let [a, b] = joints.map(|joint| displayed_name(&self.joints[joint].name));
+                Some(format!("the length of the actuator from {a} to {b}"))
+            }
+            _ => None,
+        });
+        driven.or(by_closure).unwrap_or_else(|| "the angle of the crank".to_owned())
     }
 
     /// The number of curves that its traced joints trace on one circuit.
@@ -347,6 +356,7 @@ impl Template {
                     ClosureTemplate::Guide { joint, line, offset } => {
                         builder.guide(built[*joint][0], two(line), finite("`offset`", number(k, offset))?)?;
                     }
+                    ClosureTemplate::Drive { joints } => builder.drive(two(joints)),
                     ClosureTemplate::Start { joint, at: [x, y] } => {
                         let at = [finite("the x", number(k, x))?, finite("the y", number(k, y))?];
                         builder.start_at(built[*joint][0], at.into());

@@ -405,9 +405,11 @@ fn what_cannot_be_placed_is_named() {
         (["\"O A\"", "\"O B\""], "no link has both `O` and `B`"),
         (["\"O A\"", "\"OA\""], "`OA` does not name two joints"),
         (["\"O A\"", "{ between = [\"A B\", \"A M\"] }"], "both lines are on one link"),
-        (["\"O A\"", "{ between = [\"O A\", \"B C\"] }"], "the two links have no joint in common"),
         (["\"O A\"", "{ between = [\"O A\", \"B M\"] }"], "the line does not begin at `A`"),
-        (["\"O A\"", "{ distance = [\"A\", \"B\"] }"], "`A` and `B` are not on two links that have a joint in common"),
+        (
+            ["\"O A\"", "{ distance = [\"A\", \"B\"] }"],
+            "`A` and `B` are on one link, and their distance does not change",
+        ),
         (["\"O A\"", "{ }"], "the input is not said"),
         (["[0.6, 0.8]", "[0.6]"], "expected two values"),
         (["[0.6, 0.8]", "[\"q\", 0.8]"], "unknown name `q`"),

@@ -407,6 +407,53 @@ fn what_is_wrong_with_a_group_is_said() {
     assert!(stuck.contains("its input cannot move: S is held in place"), "{stuck}");
 }
 
+/// Any two links and any two joints may be driven, whether the links have a joint in common or not: the circuit is the same.
+#[test]
+fn links_without_a_common_joint_are_driven() {
+    let drawing = |input: &str| {
+        drawn(&format!(
+            "joints = {{ O = [0, 0], C = [4, 0], Q = [7, 1], A = [0.6, 0.8], B = [3.4, 2.6], D = [2.5, 3.4], E = [5, 4] }}\n\
+             frame = [\"O\", \"C\", \"Q\"]\n\
+             links = [[\"O\", \"A\"], [\"A\", \"B\", \"D\"], [\"B\", \"C\"], [\"D\", \"E\"], [\"E\", \"Q\"]]\n\
+             input = {input}\n"
+        ))
+    };
+    let by_crank = drawing("\"O A\"");
+    let expected = areas(&by_crank, &solve(&by_crank), 0);
+    for input in [
+        "{ between = [\"O A\", \"C B\"] }",
+        "{ between = [\"A B\", \"Q E\"] }",
+        "{ between = [\"C O\", \"D E\"] }",
+        "{ distance = [\"O\", \"D\"] }",
+        "{ distance = [\"A\", \"E\"] }",
+        "{ distance = [\"B\", \"Q\"] }",
+        "{ distance = [\"C\", \"E\"] }",
+    ] {
+        let linkage = drawing(input);
+        let motion = solve(&linkage);
+        assert!(motion.is_assembled(), "{input}: {:?}", motion.assembly_error);
+        assert!(are_equal(&areas(&linkage, &motion, 0), &expected), "{input}");
+        // The input is what it says, at every sample.
+        let circuit = &motion.circuits[0];
+        let names: Vec<&str> = input.split('"').skip(1).step_by(2).collect();
+        for sample in 0..circuit.len() {
+            let at = |name: &str| circuit.positions.point(linkage.find_joint(name).unwrap(), sample);
+            let own = match names[..] {
+                [a, b] if a.len() == 1 => (at(b) - at(a)).norm(),
+                [first, second] => {
+                    let line = |names: &str| at(&names[2..]) - at(&names[..1]);
+                    let (u, v) = (line(first), line(second));
+                    trig::degrees(trig::atan2(u.x * v.y - u.y * v.x, u.dot(&v)))
+                }
+                _ => panic!("{names:?}"),
+            };
+            let off = own - circuit.inputs[sample];
+            let off = if input.contains("between") { off - 360.0 * (off / 360.0).round() } else { off };
+            assert!(off.abs() < 1e-9, "{input}: {off:e}");
+        }
+    }
+}
+
 /// The joints of a group's loops and of its output are kept where a computation leaves out other points.
 #[test]
 fn points_that_close_loops_are_kept() {

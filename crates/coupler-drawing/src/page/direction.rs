@@ -4,7 +4,7 @@ use super::mechanism::PosedMechanism;
 use super::theme::Theme;
 use crate::scene::{Item, Path, Polyline};
 use coupler_curves::geometry::{Point, Similarity, Vector, cross, left_normal, trig};
-use coupler_curves::linkage::{JointId, JointKind, OutputLink};
+use coupler_curves::linkage::{JointId, OutputLink};
 use coupler_curves::motion::Circuit;
 
 /// The lines of the marks, in the plane of the linkage or on the page.
@@ -82,14 +82,12 @@ fn input_marks(mechanism: &PosedMechanism, least_radius: f64) -> Option<Directio
 fn actuator_arrows(mechanism: &PosedMechanism, least_radius: f64) -> Vec<Vec<Point>> {
     /// Where it begins and ends, in parts of the actuator.
     const ENDS: [f64; 2] = [0.35, 0.7];
-    let linkage = mechanism.linkage;
-    let arrow = |joint: JointId| {
-        let JointKind::Piston { base: [from, _], .. } = linkage.joints[joint].kind else { return None };
+    let arrow = |[from, joint]: [JointId; 2]| {
         let (start, along) = (mechanism.pose[from], mechanism.pose[joint] - mechanism.pose[from]);
         let aside = left_normal(along.try_normalize(0.0)?) * (0.6 * least_radius);
         Some(ENDS.map(|part| start + along * part + aside).to_vec())
     };
-    linkage.joint_ids().filter_map(arrow).collect()
+    mechanism.mechanism.actuators.iter().copied().filter_map(arrow).collect()
 }
 
 /// The arrows of the output.

@@ -10,7 +10,7 @@ use coupler_curves::linkage::{JointId, JointKind, LinkOutline, Linkage, is_plate
 /// A linkage in a pose.
 pub(super) struct PosedMechanism<'a> {
     pub linkage: &'a Linkage,
-    mechanism: Mechanism,
+    pub mechanism: Mechanism,
     /// The positions of all joints.
     pub pose: Vec<Point>,
 }

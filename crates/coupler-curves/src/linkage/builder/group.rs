@@ -50,6 +50,11 @@ impl LinkageBuilder {
         Ok(())
     }
 
+    /// Makes the distance of two joints the input: an actuator is between them.
+    pub fn drive(&mut self, joints: [JointId; 2]) {
+        self.group_mut().closures.push(Closure::Driven { joints });
+    }
+
     /// Makes a joint slide on the line `offset` to the left of two joints of a link.
     ///
     /// # Errors

@@ -24,6 +24,9 @@ impl Placer<'_, '_> {
         if let DrawnInput::Actuator { joints: [_, joint, _], .. } = drawing.input {
             closures.push(ClosureTemplate::Start { joint, at: self.position_on_ground(joint) });
         }
+        if let DrawnInput::Distance { joints } = drawing.input {
+            closures.push(ClosureTemplate::Drive { joints });
+        }
         // The links with the most joints first: the fewer joints are held.
         let mut links: Vec<usize> = (0..drawing.links.len()).filter(|link| !self.is_link_placed[*link]).collect();
         links.sort_by_key(|link| std::cmp::Reverse(drawing.links[*link].joints.len()));

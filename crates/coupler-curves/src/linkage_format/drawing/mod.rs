@@ -69,7 +69,7 @@ static FLOATING_INPUT: TableSchema = TableSchema::new(
             "between",
             ValueSchema::List(&LINE, [2, 2]),
             "The angle from the first line to the second, each by two joints of a link, as in [\"A B\", \"B C\"]; the second is from the joint \
-             of both links.",
+             of both links, if there is one.",
         ),
         KeySchema::new(
             "slider",
@@ -79,7 +79,7 @@ static FLOATING_INPUT: TableSchema = TableSchema::new(
         KeySchema::new(
             "distance",
             TWO_JOINTS,
-            "The distance of two joints, the length of an actuator, on two links that have a joint in common.",
+            "The distance of two joints, the length of an actuator, on two links.",
         ),
     ],
 )
@@ -127,7 +127,7 @@ struct Slide {
 /// What is driven.
 #[derive(Clone, Copy)]
 enum DrawnInput {
-    /// A link, in relation to another that has its pivot.
+    /// A link, in relation to another, which may have its pivot.
     Crank {
         /// The other link.
         ground: usize,
@@ -145,7 +145,12 @@ enum DrawnInput {
         /// Which of the slides.
         slide: usize,
     },
-    /// The distance of two joints.
+    /// The distance of two joints of links that have no joint in common.
+    Distance {
+        /// The two joints.
+        joints: [usize; 2],
+    },
+    /// The distance of two joints of links that turn about a joint of both.
     Actuator {
         /// The link with the first.
         ground: usize,
@@ -183,6 +188,7 @@ impl Drawing<'_> {
             DrawnInput::Crank { ground, .. }
             | DrawnInput::Slider { ground, .. }
             | DrawnInput::Actuator { ground, .. } => ground,
+            DrawnInput::Distance { .. } => 0,
         }
     }
 

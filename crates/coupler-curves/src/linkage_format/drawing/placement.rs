@@ -25,6 +25,13 @@ pub struct PlacedDrawing {
     pub seen_from: Option<[usize; 2]>,
 }
 
+impl PlacedDrawing {
+    /// Whether an actuator between two joints that are placed with the others drives it.
+    pub fn has_driven_distance(&self) -> bool {
+        self.closures.iter().any(|closure| matches!(closure, ClosureTemplate::Drive { .. }))
+    }
+}
+
 /// Places the joints of a drawing.
 ///
 /// # Errors
@@ -51,7 +58,8 @@ pub fn place(drawing: &Drawing) -> Result<PlacedDrawing, Problem> {
     let seen_from = match drawing.input {
         DrawnInput::Crank { ground: 0, from: None, .. }
         | DrawnInput::Slider { ground: 0, .. }
-        | DrawnInput::Actuator { ground: 0, .. } => None,
+        | DrawnInput::Actuator { ground: 0, .. }
+        | DrawnInput::Distance { .. } => None,
         _ => Some(seen_from(drawing, &mut placer)?),
     };
     let kinds = placer.kinds.into_iter().flatten().collect();
@@ -107,7 +115,9 @@ fn start(drawing: &Drawing) -> InputValue {
             let Slide { joint, line: [a, b], .. } = drawing.slides[slide];
             InputValue { value: drawing.vector(a, b).along(&drawing.vector(a, joint)), unit: None }
         }
-        DrawnInput::Actuator { joints: [a, b, _], .. } => InputValue { value: drawing.length(a, b), unit: None },
+        DrawnInput::Actuator { joints: [a, b, _], .. } | DrawnInput::Distance { joints: [a, b] } => {
+            InputValue { value: drawing.length(a, b), unit: None }
+        }
     }
 }
 

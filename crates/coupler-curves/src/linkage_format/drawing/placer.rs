@@ -57,6 +57,9 @@ impl<'d, 'v> Placer<'d, 'v> {
     /// A joint or a link cannot be placed.
     pub fn place_all(&mut self) -> Result<(), Obstacle> {
         self.place_ground();
+        if self.is_driven_within_group() {
+            return Err(Obstacle::Open);
+        }
         self.place_input()?;
         loop {
             self.check_links()?;
@@ -102,6 +105,15 @@ impl<'d, 'v> Placer<'d, 'v> {
         }
     }
 
+    /// Whether the joints of the input are not placed before the others: its links have no joint in common.
+    fn is_driven_within_group(&self) -> bool {
+        match self.drawing.input {
+            DrawnInput::Crank { line: [pivot, _], .. } => !self.is_placed(pivot),
+            DrawnInput::Distance { .. } => true,
+            DrawnInput::Slider { .. } | DrawnInput::Actuator { .. } => false,
+        }
+    }
+
     pub(super) fn place_input(&mut self) -> Result<(), Obstacle> {
         let drawing = self.drawing;
         let (link, line) = match drawing.input {
@@ -112,7 +124,11 @@ impl<'d, 'v> Placer<'d, 'v> {
                 self.is_slide_used[slide] = true;
                 return Ok(());
             }
+            DrawnInput::Distance { .. } => return Ok(()),
             DrawnInput::Crank { link, line: [pivot, joint], .. } => {
+                if !self.is_placed(pivot) {
+                    self.kinds[pivot] = Some(JointKindTemplate::Grouped { at: self.position_on_ground(pivot) });
+                }
                 self.kinds[joint] = Some(JointKindTemplate::Crank { pivot, length: drawing.length(pivot, joint) });
                 (link, [pivot, joint])
             }

@@ -30,7 +30,15 @@ impl Reader<'_, '_> {
                 let ground = self.link_with(from, links, first, parser);
                 let link = self.link_with(to, links, second, parser);
                 let (ground, link) = (ground?, link?);
-                let pivot = self.common_joint([ground, link], links, between, parser)?;
+                if ground == link {
+                    let problem = Problem::error(between.span(), "both lines are on one link");
+                    parser.report(problem.with_help("name lines of two links"));
+                    return None;
+                }
+                let common = links[ground].joints.iter().copied().find(|joint| links[link].joints.contains(joint));
+                let Some(pivot) = common else {
+                    return Some(DrawnInput::Crank { ground, from: Some(from), link, line: to });
+                };
                 match to.iter().find(|joint| **joint != pivot) {
                     Some(&other) if to.contains(&pivot) => {
                         Some(DrawnInput::Crank { ground, from: Some(from), link, line: [pivot, other] })
@@ -76,14 +84,16 @@ impl Reader<'_, '_> {
                 };
                 let found = candidates().find_map(|pair| Some((pair, common(pair)?)));
                 let Some(([first, second], pivot)) = found else {
+                    let is_one_link = links.iter().any(|link| link.joints.contains(&a) && link.joints.contains(&b));
+                    if !is_one_link {
+                        return Some(DrawnInput::Distance { joints: [a, b] });
+                    }
                     let [a, b] = [a, b].map(|joint| self.names.all()[joint]);
                     let problem = Problem::error(
                         distance.span(),
-                        format!("`{a}` and `{b}` are not on two links that have a joint in common"),
+                        format!("`{a}` and `{b}` are on one link, and their distance does not change"),
                     );
-                    parser.report(problem.with_help(
-                        "an actuator is between two links that turn about a joint of both: name a joint of each",
-                    ));
+                    parser.report(problem.with_help("an actuator is between two links: name a joint of each"));
                     return None;
                 };
                 // The frame is at rest if it is one of the two.
@@ -134,27 +144,5 @@ impl Reader<'_, '_> {
             )));
         }
         line.map(|line| DrawnInput::Crank { ground: 0, from: None, link, line })
-    }
-
-    /// The joint about which two links turn.
-    fn common_joint<'t>(
-        &self,
-        [a, b]: [usize; 2],
-        links: &[DrawnLink],
-        value: &TomlValue<'t>,
-        parser: &mut TomlParser<'t>,
-    ) -> Option<usize> {
-        let common = links[a].joints.iter().copied().find(|joint| links[b].joints.contains(joint));
-        match common {
-            Some(joint) if a != b => Some(joint),
-            _ => {
-                let what = if a == b { "both lines are on one link" } else { "the two links have no joint in common" };
-                parser.report(
-                    Problem::error(value.span(), what)
-                        .with_help("name lines of two links that turn about a joint of both"),
-                );
-                None
-            }
-        }
     }
 }

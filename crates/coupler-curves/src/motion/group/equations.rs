@@ -141,25 +141,21 @@ impl Equations {
             forms.push(form);
         }
         let form = |joint: JointId| forms[joint.index()].clone();
+        let at_start = linkage.motion_options.start.unwrap_or(size) / size;
+        let driven =
+            |rod: Form| Equation { e: rod.clone(), f: rod, is_cross: false, value: [0.0, 1.0], factor: 0.5 / at_start };
         for joint in &linkage.joints {
             let JointKind::Piston { base: [from, pivot], length, .. } = joint.kind else { continue };
             let own = linkage.joint_ids().find(|id| std::ptr::eq(&linkage.joints[*id], joint))?;
             closures.push(Equation::distance(form(own)?.minus(&form(pivot)?), length / size));
-            let rod = form(own)?.minus(&form(from)?);
-            let at_start = linkage.motion_options.start.unwrap_or(size) / size;
-            closures.push(Equation {
-                e: rod.clone(),
-                f: rod,
-                is_cross: false,
-                value: [0.0, 1.0],
-                factor: 0.5 / at_start,
-            });
+            closures.push(driven(form(own)?.minus(&form(from)?)));
         }
         for closure in &group.closures {
             match *closure {
                 Closure::Distance { joints: [a, b], length } => {
                     closures.push(Equation::distance(form(a)?.minus(&form(b)?), length / size));
                 }
+                Closure::Driven { joints: [a, b] } => closures.push(driven(form(a)?.minus(&form(b)?))),
                 Closure::OnLink { joint, base: [p, q], along, across } => {
                     let (p, q) = (form(p)?, form(q)?);
                     let place = p.plus(&q.minus(&p), Vector::new(along, across));
