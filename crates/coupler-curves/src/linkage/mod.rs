@@ -41,6 +41,7 @@ pub use link::Link;
 pub use motion_options::{BranchArc, CircuitSelection, CoincidentDyads, Continuation, MotionOptions};
 pub use output_link::OutputLink;
 pub use planar_linkage::Linkage;
+pub(crate) use planar_linkage::gcd;
 pub use sextic::{DoublePoint, DoublePointKind, Sextic};
 
 // For the other crates of the workspace only.

@@ -193,6 +193,6 @@ impl Linkage {
 }
 
 /// The greatest common divisor of two numbers that are not both zero.
-pub(super) fn gcd(a: u32, b: u32) -> u32 {
+pub(crate) fn gcd(a: u32, b: u32) -> u32 {
     if b == 0 { a } else { gcd(b, a % b) }
 }

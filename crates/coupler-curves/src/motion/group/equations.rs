@@ -202,7 +202,11 @@ impl Equations {
 
     /// The input of a state: an angle in degrees, or a length.
     pub fn input(&self, state: &[f64]) -> f64 {
-        let own = state[self.unknown_count()];
+        self.input_value(state[self.unknown_count()])
+    }
+
+    /// A value of the input as it is in a state, as an angle in degrees or a length.
+    pub fn input_value(&self, own: f64) -> f64 {
         if self.is_angle { trig::degrees(own) } else { own * self.size }
     }
 

@@ -17,6 +17,9 @@ const MAX_STEP: f64 = 0.25;
 /// Where steps become shorter than this two parts of the curve cross, or are closer to each other than that.
 const LEAST_STEP: f64 = 1e-9;
 
+/// How far from a crossing the curve is taken up again: far enough that Newton's method tells its parts apart.
+const REACH_OF_CHANGE: f64 = 1e-3;
+
 /// Within this of a limit, relative to the size, poses next to it are found from it.
 const LEAST_DISTANCE_FROM_LIMIT: f64 = 1e-7;
 
@@ -27,8 +30,8 @@ const FARTHEST: f64 = 1e3;
 #[derive(Debug, Default)]
 pub(super) struct Curve {
     pub nodes: Vec<Node>,
-    /// The indices of the nodes at which the input reverses.
-    pub limits: Vec<usize>,
+    /// The indices of the nodes at which the input reverses, and of those at which another part of the curve crosses it.
+    pub ends: Vec<usize>,
 }
 
 impl Equations {
@@ -44,7 +47,12 @@ impl Equations {
             let Some(tube) = self.certified_step(node, length) else {
                 length /= 2.0;
                 if length < LEAST_STEP {
-                    return Err(self.error_at(node));
+                    let crossed = self.crossed(&curve.nodes);
+                    let (kept, change, after) = crossed.ok_or_else(|| self.error_at(node))?;
+                    curve.nodes.truncate(kept);
+                    curve.ends.push(curve.nodes.len());
+                    curve.nodes.extend([change, after]);
+                    length = REACH_OF_CHANGE / 4.0;
                 }
                 continue;
             };
@@ -56,10 +64,11 @@ impl Equations {
             let closing = (curve.nodes.len() > 1).then(|| self.origin_in(&tube, node, origin)).flatten();
             let next = match &closing {
                 // With the same direction, to the last bit: at a limit its sign is rounding.
-                Some(state) => Some(Node { state: state.clone(), tangent: origin.tangent.clone() }),
+                Some(state) => Some(Node { state: state.clone(), ..origin.clone() }),
                 None => {
                     let corrected = self.corrected(node.ahead(length), tube.parameter);
-                    corrected.filter(|state| tube.position_of(node, state).is_some()).and_then(|state| self.node(state))
+                    let inside = corrected.filter(|state| tube.position_of(node, state).is_some());
+                    inside.and_then(|state| self.node(state)).map(|next| next.directed_as(node).0)
                 }
             };
             // In the tube there is a solution; that it is not found, or that its direction is not, is for lack of digits.
@@ -70,7 +79,7 @@ impl Equations {
                 // Of this curve, and not of one that is near.
                 let limit = limit.filter(|limit| tube.position_of(&before, &limit.state).is_some());
                 let limit = limit.ok_or_else(|| self.error_at(&before))?;
-                curve.limits.push(curve.nodes.len());
+                curve.ends.push(curve.nodes.len());
                 curve.nodes.push(limit);
             }
             curve.nodes.push(next);
@@ -80,6 +89,43 @@ impl Equations {
             let growth = if tube.contraction < 0.3 { 2.0 } else { 1.2 };
             length = (length * growth).min(MAX_STEP);
         }
+    }
+
+    /// The curve beyond a point where another part crosses it, which steps from the last node do not reach: how many nodes are kept, the node there,
+    /// and the first beyond it. The curve goes on as it came, in the direction of its cubic.
+    ///
+    /// This is not proven: parts of the curve that pass each other within [`LEAST_STEP`] are taken to cross.
+    fn crossed(&self, nodes: &[Node]) -> Option<(usize, Node, Node)> {
+        let last = nodes.last()?;
+        // The last nodes are so near that their directions are rounding: the cubic is that of two before them.
+        let node_at = |distance: f64| nodes.iter().rposition(|node| node.distance(last) >= distance);
+        let (kept, first) = (node_at(REACH_OF_CHANGE)?, node_at(3.0 * REACH_OF_CHANGE)?);
+        let (before, first) = (&nodes[kept], &nodes[first]);
+        let ahead = (before.distance(last) + REACH_OF_CHANGE) / first.distance(before);
+        let guess = first.towards(before, 1.0 + ahead);
+        let state = self.corrected(guess.clone(), last.parameter())?;
+        let miss = state.iter().zip(&guess).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
+        let (after, sense) = self.node(state)?.directed_as(last);
+        let sense_before = self.orientation(&before.state, &before.tangent);
+        // Beyond a crossing the determinant has the other sign; and the curve is smooth.
+        let is_smooth = miss < REACH_OF_CHANGE / 1000.0 && before.input_rate() * after.input_rate() > 0.0;
+        if sense == sense_before || !is_smooth {
+            return None;
+        }
+        let direction = |share: f64| {
+            let [a, b] = [share - 1e-3, share + 1e-3].map(|share| before.towards(&after, share));
+            let ahead: Vec<f64> = a.iter().zip(&b).map(|(a, b)| b - a).collect();
+            let norm = ahead.iter().map(|rate| rate * rate).sum::<f64>().sqrt();
+            ahead.into_iter().map(|rate| rate / norm).collect::<Vec<f64>>()
+        };
+        let [mut low, mut high] = [0.0, 1.0];
+        for _ in 0..50 {
+            let middle = (low + high) / 2.0;
+            let is_before = self.orientation(&before.towards(&after, middle), &direction(middle)) == sense_before;
+            if is_before { low = middle } else { high = middle }
+        }
+        let change = Node { state: before.towards(&after, low), tangent: direction(low), is_change: true };
+        Some((kept + 1, change, after))
     }
 
     /// A tube of that length on which the input has one limit at most.
@@ -119,7 +165,7 @@ impl Equations {
             let mut guess: Vec<f64> =
                 low.state.iter().zip(&high.state).map(|(low, high)| low + (high - low) * share).collect();
             guess[held] = at;
-            let middle = self.node(self.corrected(guess, held)?)?;
+            let middle = self.node(self.corrected(guess, held)?)?.directed_as(before).0;
             let rate = middle.input_rate();
             if rate == 0.0 {
                 return Some(middle);
@@ -143,24 +189,21 @@ impl Equations {
         /// How much farther.
         const RATIO: f64 = 4.0;
         let limit = nodes[0].clone();
-        let distance = |state: &[f64]| {
-            let squares = state.iter().zip(&limit.state).map(|(a, b)| (a - b) * (a - b));
-            squares.sum::<f64>().sqrt()
-        };
         let mut out: Vec<Node> = vec![limit.clone()];
         for next in nodes.into_iter().skip(1) {
-            let far = distance(&next.state);
+            let far = next.distance(&limit);
             // Each is about four times as far as the one before.
             for _ in 0..64 {
                 let last = &out[out.len() - 1];
-                let near = distance(&last.state);
+                let near = last.distance(&limit);
                 let wanted = RATIO * near.max(LEAST_DISTANCE_FROM_LIMIT / RATIO);
                 if far <= 1.5 * wanted {
                     break;
                 }
                 let guess = last.towards(&next, (wanted - near) / (far - near));
                 let between = self.corrected(guess, last.parameter()).and_then(|state| self.node(state));
-                match between.filter(|node| distance(&node.state) > near) {
+                let between = between.map(|node| node.directed_as(last).0);
+                match between.filter(|node| node.distance(&limit) > near) {
                     Some(node) => out.push(node),
                     None => break,
                 }

@@ -8,7 +8,7 @@ use super::follow::Curve;
 use super::step::Node;
 use super::track::GroupTrack;
 use crate::geometry::{Point, Vector, cross};
-use crate::linkage::{CircuitSelection, DyadId, Group, Input, Joint, JointId, JointKind, Linkage, Side};
+use crate::linkage::{CircuitSelection, DyadId, Group, Input, Joint, JointId, JointKind, Linkage, Side, gcd};
 use crate::motion::assembly_error::AssemblyError;
 use crate::motion::interval::{EndCause, Interval, IntervalEnd, Span};
 use crate::motion::pass::InputPosition;
@@ -130,15 +130,15 @@ impl TrackIntervals<'_> {
     /// Adds the intervals of the circuit through a node, and returns by how much the input is greater at the end of the curve.
     fn follow(&mut self, start: &Node) -> Result<f64, AssemblyError> {
         let curve = self.equations.follow(start)?;
-        let limits = curve.limits.len();
+        let count = curve.ends.len();
         let ends = [0, curve.nodes.len() - 1].map(|k| self.equations.input(&curve.nodes[k].state));
         for (nodes, ends) in monotonic_parts(curve) {
             let interval = self.interval(nodes, ends);
             self.found.push(interval);
         }
-        self.next_id += limits.max(1);
+        self.next_id += count.max(1);
         // Without limits the interval begins at the start.
-        Ok(if limits == 0 { 0.0 } else { ends[1] - ends[0] })
+        Ok(if count == 0 { 0.0 } else { ends[1] - ends[0] })
     }
 
     /// Adds the intervals of a further circuit, unless it is there already, or its input does not move.
@@ -163,7 +163,7 @@ impl TrackIntervals<'_> {
         let rises = nodes[nodes.len() / 2].input_rate() > 0.0;
         // Towards both ends.
         for end in ends {
-            if end.is_some() {
+            if end.is_some() && !nodes[0].is_change {
                 nodes = equations.graded(nodes);
             }
             nodes.reverse();
@@ -173,13 +173,20 @@ impl TrackIntervals<'_> {
             nodes.reverse();
             (lower, upper) = (upper, lower);
         }
-        let side = if rises == self.start_rises { Side::Left } else { Side::Right };
+        // Where the curve has been crossed once, derivatives have the other orientation.
+        let middle = &nodes[nodes.len() / 2];
+        let is_turned = equations.orientation(&middle.state, &middle.tangent) < 0.0;
+        let side = if (rises == self.start_rises) != is_turned { Side::Left } else { Side::Right };
         let mode = self.linkage.motion_options.mode.with_side(DyadId::FIRST, side);
         let input = self.linkage.input();
         let [first, last] =
             [&nodes[0], &nodes[nodes.len() - 1]].map(|node| InputPosition::new(input, equations.input(&node.state)));
-        let end = |at: InputPosition, limit: Option<usize>| match limit {
-            Some(limit) => IntervalEnd::from_flat_dyad(at, EndCause::Limit, DyadId::FIRST, self.next_id + limit),
+        let [is_lowest_change, is_highest_change] = [&nodes[0], &nodes[nodes.len() - 1]].map(|node| node.is_change);
+        let end = |at: InputPosition, number: Option<usize>, is_change: bool| match number {
+            Some(number) => {
+                let cause = if is_change { EndCause::ChangePoint } else { EndCause::Limit };
+                IntervalEnd::from_flat_dyad(at, cause, DyadId::FIRST, self.next_id + number)
+            }
             // Nothing happens where a curve of several turns begins and ends.
             None => IntervalEnd { cause: EndCause::ChangePoint, ..IntervalEnd::range_end(at, self.next_id) },
         };
@@ -187,15 +194,15 @@ impl TrackIntervals<'_> {
         let span = match (is_closed, input) {
             (true, Input::Angle { turns }) => {
                 // Joints on gears may be back after more turns than those of the group.
-                let own = ((last.value - first.value) / 360.0).round().max(1.0) as u64;
-                let all = least_common_multiple(own, u64::from(turns));
-                let after_all = InputPosition { value: first.value + all as f64 * 360.0, ..first };
-                match all == u64::from(turns) {
+                let own = ((last.value - first.value) / 360.0).round().max(1.0) as u32;
+                let all = own / gcd(own, turns) * turns;
+                let after_all = InputPosition { value: first.value + f64::from(all) * 360.0, ..first };
+                match all == turns {
                     true => Span::FullTurn,
-                    false => Span::Range { lower: end(first, None), upper: end(after_all, None) },
+                    false => Span::Range { lower: end(first, None, false), upper: end(after_all, None, false) },
                 }
             }
-            _ => Span::Range { lower: end(first, lower), upper: end(last, upper) },
+            _ => Span::Range { lower: end(first, lower, is_lowest_change), upper: end(last, upper, is_highest_change) },
         };
         Interval { span, mode, track: Some(GroupTrack::new(equations.clone(), nodes, is_closed)) }
     }
@@ -223,34 +230,26 @@ impl TrackIntervals<'_> {
     }
 }
 
-fn least_common_multiple(a: u64, b: u64) -> u64 {
-    let (mut x, mut y) = (a, b);
-    while y != 0 {
-        (x, y) = (y, x % y);
-    }
-    a / x * b
-}
-
-/// The parts of a curve between limits, each with the numbers of the limits at which it begins and ends. The first has
-/// the curve's first node.
+/// The parts of a curve between limits and change points, each with the numbers of those at which it begins and ends. The first has the
+/// curve's first node.
 fn monotonic_parts(curve: Curve) -> Vec<(Vec<Node>, [Option<usize>; 2])> {
-    let Curve { mut nodes, limits, .. } = curve;
-    let Some((&first, &last)) = limits.first().zip(limits.last()) else { return vec![(nodes, [None; 2])] };
+    let Curve { mut nodes, ends } = curve;
+    let Some((&first, &last)) = ends.first().zip(ends.last()) else { return vec![(nodes, [None; 2])] };
     let mut parts = Vec::new();
-    for (k, pair) in limits.windows(2).enumerate() {
+    for (k, pair) in ends.windows(2).enumerate() {
         parts.push((nodes[pair[0]..=pair[1]].to_vec(), [Some(k), Some(k + 1)]));
     }
     // The end of the curve is its beginning, but for whole turns.
     let input = nodes[0].state.len() - 1;
     let turns = nodes[nodes.len() - 1].state[input] - nodes[0].state[input];
     let mut whole = nodes.split_off(last);
-    // Limits come in pairs: the first is not the last.
-    let head = nodes[1..=first].to_vec();
+    // If there is one only, a change point, it is the last node of the head and the first of the rest.
+    let head = nodes.get(1..=first).map_or_else(|| [&nodes[1..], &whole[..1]].concat(), <[Node]>::to_vec);
     whole.extend(head.into_iter().map(|mut node| {
         node.state[input] += turns;
         node
     }));
-    parts.insert(0, (whole, [Some(limits.len() - 1), Some(0)]));
+    parts.insert(0, (whole, [Some(ends.len() - 1), Some(0)]));
     parts
 }
 
@@ -290,7 +289,11 @@ impl Equations {
             let residuals = self.along_line::<f64, 1>(state, &zero);
             residuals.iter().fold(0.0, |most: f64, series| most.max(series.0[0].abs())) * self.size
         };
-        let open = || AssemblyError::GroupOpen { input, gap: gap(&drawn) };
+        // Where it closes and is not found, it is singular.
+        let open = || match gap(&drawn) {
+            gap if gap <= 1e-9 * self.size => AssemblyError::GroupNotFollowed { input },
+            gap => AssemblyError::GroupOpen { input, gap },
+        };
         self.node(closed.ok_or_else(open)?).ok_or(AssemblyError::GroupNotFollowed { input })
     }
 }

@@ -26,12 +26,28 @@ const FARTHEST_FROM_TANGENT: f64 = 0.5;
 pub(super) struct Node {
     pub state: Vec<f64>,
     pub tangent: Vec<f64>,
+    /// Whether two parts of the curve cross there, a change point, so that its derivatives do not determine it.
+    pub is_change: bool,
 }
 
 impl Node {
     /// How fast the input changes along the curve.
     pub fn input_rate(&self) -> f64 {
         self.tangent[self.tangent.len() - 1]
+    }
+
+    /// The node with the direction of another that is next to it, and 1 where that is its own, -1 where it is the other one.
+    pub fn directed_as(mut self, other: &Node) -> (Node, f64) {
+        let along: f64 = self.tangent.iter().zip(&other.tangent).map(|(a, b)| a * b).sum();
+        let sense = if along < 0.0 { -1.0 } else { 1.0 };
+        self.tangent.iter_mut().for_each(|rate| *rate *= sense);
+        (self, sense)
+    }
+
+    /// The distance of two states, in all coordinates.
+    pub fn distance(&self, other: &Node) -> f64 {
+        let squares = self.state.iter().zip(&other.state).map(|(a, b)| (a - b) * (a - b));
+        squares.sum::<f64>().sqrt()
     }
 
     /// The state on the tangent, at a distance.
@@ -146,7 +162,15 @@ impl Equations {
             return None;
         }
         tangent.iter_mut().for_each(|rate| *rate /= norm);
-        Some(Node { state, tangent })
+        Some(Node { state, tangent, is_change: false })
+    }
+
+    /// The sign of the determinant of the derivatives and a direction, which changes where two parts of the curve cross.
+    pub fn orientation(&self, state: &[f64], tangent: &[f64]) -> f64 {
+        let n = self.unknown_count();
+        let jacobian = self.jacobian(state);
+        let entry = |row: usize, k: usize| if row < n { jacobian[row * (n + 1) + k] } else { tangent[k] };
+        DMatrix::from_fn(n + 1, n + 1, entry).lu().determinant().signum()
     }
 
     /// The column without which the derivatives are the best conditioned: the last that elimination with complete

@@ -6,7 +6,7 @@ use nalgebra::DVector;
 
 use super::equations::Equations;
 use super::step::Node;
-use crate::geometry::Point;
+use crate::geometry::{Point, trig};
 use crate::linkage::JointId;
 use crate::motion::joint_series::SeriesInput;
 use crate::motion::series::{Series, VectorSeries};
@@ -59,17 +59,21 @@ impl GroupTrack {
 
     /// Positions of the group's joints and their first Taylor coefficients per radian, or unit of length, at an input.
     ///
-    /// At a limit the rates of the coordinates that change there are infinite; those of others, such as across a fixed line, are 0.
+    /// At a change point they are those of the motion that continues. At a limit the rates of the coordinates that change there are infinite; those of others, such as across a fixed line, are 0.
     pub(in crate::motion) fn series<const N: usize>(
         &self,
         input: SeriesInput<f64>,
-        is_limit: bool,
+        is_end: bool,
     ) -> Vec<(JointId, VectorSeries<f64, N>)> {
         /// Slower than this, relative to the fastest, a coordinate does not change at a limit.
         const AT_REST: f64 = 1e-12;
         let equations = &self.nodes.equations;
         let state = self.state(input.value);
-        let limit = self.end_at(self.own_input(input.value)).filter(|_| is_limit);
+        let own = self.own_input(input.value);
+        let limit = self.end_at(own).filter(|_| is_end);
+        if limit.is_some_and(|node| node.is_change) {
+            return self.series_at_change(own);
+        }
         let n = equations.unknown_count();
         let constant = |k: usize| Series::constant(state[k]);
         let mut unknowns: Vec<VectorSeries<f64, N>> =
@@ -78,7 +82,7 @@ impl GroupTrack {
         for order in 1..N {
             let residuals = equations.in_input(unknowns.clone(), input);
             let known = DVector::from_iterator(n, residuals.iter().map(|series| -series.0[order]));
-            let solved = if is_limit { None } else { lu.solve(&known) };
+            let solved = if limit.is_some() { None } else { lu.solve(&known) };
             for (k, unknown) in unknowns.iter_mut().enumerate() {
                 let rate = |k: usize| match (&solved, limit) {
                     (Some(solved), _) => solved[k],
@@ -90,6 +94,36 @@ impl GroupTrack {
         }
         let placed = |at: VectorSeries<f64, N>| equations.placed(at);
         equations.joints.iter().copied().zip(unknowns.into_iter().map(placed)).collect()
+    }
+
+    /// The same at an end that is a change point: the series at an input beside it, expanded there. Velocities have about nine digits, accelerations
+    /// seven.
+    fn series_at_change<const N: usize>(&self, end: f64) -> Vec<(JointId, VectorSeries<f64, N>)> {
+        /// Of so many terms, at that distance, in radians or relative to the size.
+        const TERMS: usize = 16;
+        const BESIDE: f64 = 0.015;
+        let Nodes { equations, nodes, .. } = &*self.nodes;
+        let n = equations.unknown_count();
+        let [low, high] = [nodes[0].state[n], nodes[nodes.len() - 1].state[n]];
+        let inwards = BESIDE.min((high - low) / 4.0);
+        let beside = if end < (low + high) / 2.0 { low + inwards } else { high - inwards };
+        let unit = if equations.is_angle { 1.0 } else { equations.size };
+        let by = (end - beside) * unit;
+        let value = equations.input_value(beside) + self.shift;
+        let (cos, sin) = if equations.is_angle { trig::cos_sin_deg(value) } else { (0.0, 0.0) };
+        let input = SeriesInput { value, direction: [cos, sin] };
+        let series: Vec<(JointId, VectorSeries<f64, TERMS>)> = self.series(input, false);
+        let moved = |series: Series<f64, TERMS>| {
+            // Repeated division by (t - by), which leaves the coefficients about `by`.
+            let mut c = series.0;
+            for k in 0..TERMS {
+                for j in (k..TERMS - 1).rev() {
+                    c[j] += by * c[j + 1];
+                }
+            }
+            Series(std::array::from_fn(|k| c[k]))
+        };
+        series.into_iter().map(|(joint, at)| (joint, VectorSeries { x: moved(at.x), y: moved(at.y) })).collect()
     }
 
     /// The state at an input: the one that Newton's method finds from the nodes next to it.
@@ -107,6 +141,10 @@ impl GroupTrack {
         let next = nodes.partition_point(|node| node.state[n] < input).clamp(1, nodes.len() - 1);
         let (before, after) = (&nodes[next - 1], &nodes[next]);
         let mut guess = before.at_input(after, input);
+        // Next to a crossing the cubic is more exact than Newton's method, and cannot leave for the other part.
+        if before.is_change || after.is_change {
+            return guess;
+        }
         guess[n] = input;
         equations.corrected(guess.clone(), n).unwrap_or(guess)
     }
