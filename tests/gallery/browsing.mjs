@@ -12,7 +12,7 @@ addTest(
   startAt(atlas, "/"),
   async (g, page) => {
     const hasRead = (id) => g.requests.some((url) => url.endsWith(`/${id}/gallery.js`));
-    assert.equal(await page.locator(".families > li").count(), 26);
+    assert.equal(await page.locator(".families > li").count(), 38);
     await page.waitForSelector(".families li:first-child .tile-picture path");
     assert.equal(
       await page.locator(".families li:first-child .tile-picture path").count(),
@@ -48,10 +48,13 @@ addTest("1.2", "families can be searched by name", startAt(atlas, "/"), async (g
   assert.deepEqual(await page.locator(".families li:visible .name").allInnerTexts(), [
     "Watt linkage",
     "Watt six-bar linkage",
+    "Watt six-bar linkage, form I",
+    "Watt six-bar linkage, form I, by its ternary link",
+    "Watt six-bar linkage, form II, by its ternary link",
   ]);
-  assert.equal(await announced(page), "2 families");
+  assert.equal(await announced(page), "5 families");
   assert.equal(await g.fragment(), "/?q=watt");
-  await page.getByRole("link", { name: "Watt six-bar linkage" }).click();
+  await page.getByRole("link", { name: "Watt six-bar linkage", exact: true }).click();
   await page.waitForSelector(".family-view");
   await page.goBack();
   await eventually(async () => (await page.locator(".families li:visible").count()) === 2, "as it was left");
