@@ -106,9 +106,8 @@ pub(super) fn parse_joints<'t>(
     let output_link = linkage.get("output_link").map(|value| parse_output_link(value, &names, &parsed, parser));
     let chains = linkage.get("chains").map_or(Some(Vec::new()), |value| parse_chains(value, &names, parser));
     let span = table.as_ref().map_or_else(|| linkage.span.clone(), |table| table.span.clone());
-    if !placed.as_ref().is_some_and(PlacedDrawing::has_driven_distance) {
-        check_inputs(&entries, &parsed, span, parser);
-    }
+    let is_driven = placed.as_ref().is_some_and(PlacedDrawing::has_driven_distance);
+    check_inputs(&entries, &parsed, is_driven, span, parser);
     let placings: Vec<JointKindTemplate> = parsed.into_iter().collect::<Option<_>>()?;
     check_grids(&entries, &placings, parser);
     if placed.as_ref().is_some_and(|placed| !placed.closures.is_empty()) {
@@ -131,8 +130,7 @@ pub(super) fn parse_joints<'t>(
     if seen_from.is_none() {
         check_traced_joints_move(&entries, &placings, &needs, &order, &traced, parser);
     }
-    let mut new_indices = vec![0; order.len()];
-    order.iter().zip(0..).for_each(|(&joint, index)| new_indices[joint] = index);
+    let new_indices = places_in(&order);
     let new_index = |joint: usize| new_indices[joint];
     let drawn_at = |k: usize| {
         let (drawing, placed) = drawing.as_ref().zip(placed.as_ref())?;
@@ -170,14 +168,20 @@ pub(super) fn parse_joints<'t>(
     })
 }
 
+/// The place of each joint in an order of all.
+fn places_in(order: &[usize]) -> Vec<usize> {
+    let mut places = vec![0; order.len()];
+    order.iter().zip(0..).for_each(|(&joint, place)| places[joint] = place);
+    places
+}
+
 /// The joints of a drawing in an order in which each can be placed.
 fn joints_in_order(names: &[&str], placed: &PlacedDrawing) -> Option<Vec<JointTemplate>> {
     let further = placed.further.iter().map(|joint| &joint.kind);
     let kinds: Vec<JointKindTemplate> = placed.kinds.iter().chain(further).cloned().collect();
     let needs = dependencies(&kinds);
     let order = dependency_order(kinds.len(), |k| needs[k].clone()).ok()?;
-    let mut new_indices = vec![0; order.len()];
-    order.iter().zip(0..).for_each(|(&joint, index)| new_indices[joint] = index);
+    let new_indices = places_in(&order);
     let name = |k: usize| {
         names.get(k).copied().or_else(|| placed.further.get(k - names.len()).map(|joint| joint.name.as_str()))
     };
@@ -295,11 +299,17 @@ fn is_input(kind: &JointKindTemplate) -> bool {
     )
 }
 
-/// Checks that a linkage has one input, and that its gears are geared to it.
-fn check_inputs(entries: &[Entry], parsed: &[Option<JointKindTemplate>], table: Span, parser: &mut TomlParser) {
+/// Checks that a linkage has one input, which may be a distance in its drawing, and that its gears are geared to it.
+fn check_inputs(
+    entries: &[Entry],
+    parsed: &[Option<JointKindTemplate>],
+    is_driven: bool,
+    table: Span,
+    parser: &mut TomlParser,
+) {
     let inputs: Vec<usize> = (0..parsed.len()).filter(|&k| parsed[k].as_ref().is_some_and(is_input)).collect();
     // A joint that could not be parsed may be the input.
-    if inputs.is_empty() && parsed.iter().all(Option::is_some) {
+    if inputs.is_empty() && !is_driven && parsed.iter().all(Option::is_some) {
         let problem = Problem::error(table, "the linkage has no input");
         let help = match parsed.iter().flatten().any(is_sliding) {
             true => {
@@ -310,10 +320,13 @@ fn check_inputs(entries: &[Entry], parsed: &[Option<JointKindTemplate>], table: 
         };
         parser.report(problem.with_help(help));
     }
-    for &k in inputs.iter().skip(1) {
-        let (first, second) = (entries[inputs[0]].name, entries[k].name);
-        let problem =
-            Problem::error(entries[k].span.clone(), format!("`{second}` is a second input in addition to `{first}`"));
+    for &k in inputs.iter().skip(usize::from(!is_driven)) {
+        let first = match is_driven {
+            true => "the distance that drives the drawing".to_owned(),
+            false => format!("`{}`", entries[inputs[0]].name),
+        };
+        let message = format!("`{}` is a second input in addition to {first}", entries[k].name);
+        let problem = Problem::error(entries[k].span.clone(), message);
         let help = "a linkage of one degree of freedom has one input; place the other joints by dyads or gears";
         parser.report(problem.with_help(help));
     }

@@ -26,12 +26,7 @@ impl Template {
         let between = |[a, b]: [usize; 2]| join_names(&[a, b].map(|k| self.joints[k].name.as_str()));
         let closing = self.closures.iter().filter_map(|closure| match closure {
             ClosureTemplate::Bar { joints: [a, b], length } if *a.max(b) == joint => {
-                let link = between([*a.min(b), joint]);
-                Some(match length.constant_value() {
-                    Some(value) => MathText::from_words(format!("{link} {}", rounded_equation(value))),
-                    None if length.is_distance() => MathText::from_words(format!("link {link}")),
-                    None => equation(&link, length.to_math_text()),
-                })
+                Some(drawn_length(&between([*a.min(b), joint]), length))
             }
             ClosureTemplate::Hold { joint: held, base, .. } if *held == joint => {
                 Some(MathText::from_words(format!("on the link {}", between(*base))))
@@ -54,11 +49,7 @@ impl Template {
         let is_drawn = self.joints.iter().any(|joint| joint.drawn.is_some());
         let length = |from: usize, value: &CompiledExpression| {
             let link = between([from, joint]);
-            match (is_drawn, value.constant_value()) {
-                (true, Some(value)) => MathText::from_words(format!("{link} {}", rounded_equation(value))),
-                (true, None) if value.is_distance() => MathText::from_words(format!("link {link}")),
-                _ => equation(&link, value.to_math_text()),
-            }
+            if is_drawn { drawn_length(&link, value) } else { equation(&link, value.to_math_text()) }
         };
         match &placed.kind {
             JointKindTemplate::Fixed(position) => {
@@ -210,6 +201,15 @@ impl Template {
             .closures
             .iter()
             .any(|closure| matches!(closure, ClosureTemplate::Bar { joints, .. } if joints.contains(&joint)))
+    }
+}
+
+/// The length of a link of a drawing: "AB ≈ 1.41421", or "link AB" where it follows from coordinates that differ from cell to cell.
+fn drawn_length(link: &str, length: &CompiledExpression) -> MathText {
+    match length.constant_value() {
+        Some(value) => MathText::from_words(format!("{link} {}", rounded_equation(value))),
+        None if length.is_distance() => MathText::from_words(format!("link {link}")),
+        None => equation(link, length.to_math_text()),
     }
 }
 

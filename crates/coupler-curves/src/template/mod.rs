@@ -342,10 +342,6 @@ impl Template {
             built.push(ids);
             // A link is there before the points of it.
             for closure in self.closures.iter().filter(|closure| closure.joints().into_iter().max() == Some(k)) {
-                let finite = |what, value: f64| match value.is_finite() {
-                    true => Ok(value),
-                    false => Err(Error::NotFinite { joint: name.to_owned(), what, value }),
-                };
                 let two = |base: &[usize; 2]| base.map(|j| built[j][0]);
                 match closure {
                     ClosureTemplate::Bar { joints, length } => builder.grouped_bar(two(joints), number(k, length))?,

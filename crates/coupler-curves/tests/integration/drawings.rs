@@ -158,7 +158,7 @@ const KINDS: [Kind; 16] = [
 ];
 
 /// Random numbers from -1 to 1, by a linear congruential generator.
-fn random(state: &mut u64) -> f64 {
+pub fn random(state: &mut u64) -> f64 {
     *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
     (*state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
 }

@@ -1,6 +1,7 @@
 //! Links that no dyads place: their poses, rates, limits and circuits, against the same linkages driven so that dyads do, and against
 //! Newton's method.
 
+use crate::drawings::random;
 use coupler_curves::geometry::{Chebyshev, Point, trig};
 use coupler_curves::linkage::{JointId, Linkage, SixBar};
 use coupler_curves::linkage_format::parse_templates;
@@ -62,16 +63,6 @@ const KINDS: [Kind; 5] = [
     },
 ];
 
-/// Numbers from 0 to 1 that look random.
-struct Numbers(u64);
-
-impl Numbers {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-}
-
 /// A drawing with random coordinates.
 struct Drawing {
     positions: Vec<Point>,
@@ -79,8 +70,8 @@ struct Drawing {
 }
 
 impl Drawing {
-    fn random(kind: &'static Kind, numbers: &mut Numbers) -> Drawing {
-        let positions = (0..kind.joints).map(|_| Point::new(8.0 * numbers.next() - 4.0, 8.0 * numbers.next() - 4.0));
+    fn random(kind: &'static Kind, numbers: &mut u64) -> Drawing {
+        let positions = (0..kind.joints).map(|_| Point::new(4.0 * random(numbers), 4.0 * random(numbers)));
         Drawing { positions: positions.collect(), kind }
     }
 
@@ -164,7 +155,7 @@ fn are_equal(a: &[f64], b: &[f64]) -> bool {
 /// Whatever drives a linkage, its circuit is the same: curves by a group and by dyads have the same areas.
 #[test]
 fn a_circuit_is_that_of_the_same_linkage_driven_elsewhere() {
-    let mut numbers = Numbers(7);
+    let mut numbers = 7u64;
     let mut compared = 0;
     for kind in &KINDS {
         for _ in 0..4 {
@@ -194,7 +185,7 @@ fn a_circuit_is_that_of_the_same_linkage_driven_elsewhere() {
 /// All circuits of a linkage, whatever drives it.
 #[test]
 fn all_circuits_are_found() {
-    let mut numbers = Numbers(11);
+    let mut numbers = 11u64;
     let mut counts = Vec::new();
     for kind in &KINDS[..4] {
         for _ in 0..3 {
@@ -223,7 +214,7 @@ fn all_circuits_are_found() {
 /// By continuation from a system with known solutions, all poses at the start are found: all circuits that pass that input.
 #[test]
 fn all_circuits_at_the_start_are_found_without_another_input() {
-    let mut numbers = Numbers(23);
+    let mut numbers = 23u64;
     let mut counts = Vec::new();
     for kind in &KINDS {
         for _ in 0..2 {
@@ -265,7 +256,7 @@ fn rates_are_the_derivatives_of_poses() {
     /// Of the first derivative, for values on one side.
     const WEIGHTS: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
     const STEP: f64 = 0.004;
-    let mut numbers = Numbers(3);
+    let mut numbers = 3u64;
     let mut checked = 0;
     for kind in &KINDS {
         for &input in kind.inputs {
@@ -313,7 +304,7 @@ fn rates_are_the_derivatives_of_poses() {
 /// On a range of the input the motion is that part of the circuit, and ends there.
 #[test]
 fn a_range_is_a_part_of_the_circuit() {
-    let drawing = Drawing::random(&KINDS[1], &mut Numbers(5));
+    let drawing = Drawing::random(&KINDS[1], &mut 5u64);
     let mut linkage = drawing.linkage("\"J0 J3\"", "start");
     let whole = solve(&linkage);
     let start = linkage.motion_options.start.unwrap();
@@ -336,7 +327,7 @@ fn a_range_is_a_part_of_the_circuit() {
 /// The kinds of six-bars are recognised, though no dyads place them.
 #[test]
 fn six_bars_are_named() {
-    let mut numbers = Numbers(1);
+    let mut numbers = 1u64;
     for (kind, expected) in [(&KINDS[0], SixBar::StephensonII), (&KINDS[1], SixBar::StephensonIII)] {
         let linkage = Drawing::random(kind, &mut numbers).linkage(&crank(kind.inputs[0]), "start");
         let chain = coupler_curves::linkage::KinematicChain::from_linkage(&linkage).unwrap();
@@ -449,9 +440,9 @@ fn what_is_wrong_with_a_group_is_said() {
 fn links_without_a_common_joint_are_driven() {
     let drawing = |input: &str| {
         drawn(&format!(
-            "joints = {{ O = [0, 0], C = [4, 0], Q = [7, 1], A = [0.6, 0.8], B = [3.4, 2.6], D = [2.5, 3.4], E = [5, 4] }}\n\
+            "joints = {{ O = [0, 0], C = [4, 0], Q = [7, 1], A = [0.6, 0.8], B = [3.4, 2.6], D = [2.5, 3.4], E = [5, 4], M = [1.2, -0.3], N = [4, 5] }}\n\
              frame = [\"O\", \"C\", \"Q\"]\n\
-             links = [[\"O\", \"A\"], [\"A\", \"B\", \"D\"], [\"B\", \"C\"], [\"D\", \"E\"], [\"E\", \"Q\"]]\n\
+             links = [[\"O\", \"A\", \"M\"], [\"A\", \"B\", \"D\"], [\"B\", \"C\"], [\"D\", \"E\", \"N\"], [\"E\", \"Q\"]]\n\
              input = {input}\n"
         ))
     };
@@ -465,8 +456,12 @@ fn links_without_a_common_joint_are_driven() {
         "{ distance = [\"A\", \"E\"] }",
         "{ distance = [\"B\", \"Q\"] }",
         "{ distance = [\"C\", \"E\"] }",
+        "{ distance = [\"M\", \"E\"] }",
+        "{ distance = [\"N\", \"M\"] }",
     ] {
         let linkage = drawing(input);
+        // M is on no link that has a joint in common with one of E or N.
+        assert_eq!(linkage.driven_distance().is_some(), input.contains("distance") && input.contains('M'), "{input}");
         let motion = solve(&linkage);
         assert!(motion.is_assembled(), "{input}: {:?}", motion.assembly_error);
         assert!(are_equal(&areas(&linkage, &motion, 0), &expected), "{input}");
@@ -488,6 +483,25 @@ fn links_without_a_common_joint_are_driven() {
             let off = if input.contains("between") { off - 360.0 * (off / 360.0).round() } else { off };
             assert!(off.abs() < 1e-9, "{input}: {off:e}");
         }
+    }
+}
+
+/// A distance that drives a drawing is its only input, and nothing is geared to it.
+#[test]
+fn a_second_input_beside_a_driven_distance_is_named() {
+    for (joint, words) in [
+        ("{ crank = \"C\", length = 1 }", "a second input in addition to the distance that drives the drawing"),
+        ("{ gear = \"A\", about = \"C\", length = 1, ratio = [1, 2] }", "which is not a crank"),
+    ] {
+        let text = format!(
+            "[[linkage]]\nid = \"a\"\ntrace = [\"B\", \"X\"]\n[linkage.drawing]\n\
+             joints = {{ O = [0, 0], C = [4, 0], Q = [7, 1], A = [0.6, 0.8], B = [3.4, 2.6], D = [2.5, 3.4], E = [5, 4], M = [1.2, -0.3] }}\n\
+             frame = [\"O\", \"C\", \"Q\"]\n\
+             links = [[\"O\", \"A\", \"M\"], [\"A\", \"B\", \"D\"], [\"B\", \"C\"], [\"D\", \"E\"], [\"E\", \"Q\"]]\n\
+             input = {{ distance = [\"M\", \"E\"] }}\n[linkage.joints]\nX = {joint}\n"
+        );
+        let problems = parse_templates(&text).expect_err(joint);
+        assert!(problems.iter().any(|problem| problem.message.contains(words)), "{problems:?}");
     }
 }
 

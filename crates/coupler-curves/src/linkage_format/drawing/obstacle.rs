@@ -52,13 +52,10 @@ pub(super) fn describe(drawing: &Drawing, mobility: Mobility, placer: &Placer, o
             );
             problem.with_help(format!("add links or slides that hold {}", listed(unplaced())))
         }
-        Obstacle::Open if mobility.degrees() < 1 => {
+        // With one degree of freedom they are placed together.
+        Obstacle::Open => {
             let problem = Problem::error(drawing.span.clone(), format!("the drawing cannot move: {count}"));
             problem.with_help(format!("leave a link out; those with {} hold each other", listed(unplaced())))
-        }
-        Obstacle::Open => {
-            let message = format!("the driven link and the frame hold {} without the other links", listed(unplaced()));
-            Problem::error(drawing.input_span.clone(), message).with_help(format!("degrees of freedom: {count}"))
         }
     }
 }

@@ -3,6 +3,7 @@
 use super::equations::Equations;
 use super::step::{Node, Tube};
 use crate::motion::assembly_error::AssemblyError;
+use crate::numerical::{Bracket, border};
 
 /// The most nodes of a curve, and the most numbers in them: 16 MB.
 const MAX_NODES: usize = 100_000;
@@ -118,13 +119,10 @@ impl Equations {
             let norm = ahead.iter().map(|rate| rate * rate).sum::<f64>().sqrt();
             ahead.into_iter().map(|rate| rate / norm).collect::<Vec<f64>>()
         };
-        let [mut low, mut high] = [0.0, 1.0];
-        for _ in 0..50 {
-            let middle = (low + high) / 2.0;
-            let is_before = self.orientation(&before.towards(&after, middle), &direction(middle)) == sense_before;
-            if is_before { low = middle } else { high = middle }
-        }
-        let change = Node { state: before.towards(&after, low), tangent: direction(low), is_change: true };
+        let is_before =
+            |share: f64| self.orientation(&before.towards(&after, share), &direction(share)) == sense_before;
+        let [share, _] = border([0.0, 1.0], f64::EPSILON, is_before);
+        let change = Node { state: before.towards(&after, share), tangent: direction(share), is_change: true };
         Some((kept + 1, change, after))
     }
 
@@ -151,36 +149,14 @@ impl Equations {
     /// The node between two at which the input does not change.
     fn limit_between(&self, before: &Node, after: &Node) -> Option<Node> {
         let held = before.parameter();
-        let (mut low, mut high) = (before.clone(), after.clone());
-        // Secant steps, with those of the halved rate at an end that stays (Illinois); and halving where these are slow.
-        let (mut low_rate, mut high_rate) = (low.input_rate(), high.input_rate());
-        let mut last = 0;
-        for step in 0..100 {
-            let (a, b) = (low.state[held], high.state[held]);
-            let share = if step % 8 == 7 { 0.5 } else { low_rate / (low_rate - high_rate) };
-            let at = a + (b - a) * share;
-            if (b - a).abs() <= 2.0 * f64::EPSILON * a.abs().max(1.0) || at == a || at == b {
-                break;
-            }
-            let mut guess: Vec<f64> =
-                low.state.iter().zip(&high.state).map(|(low, high)| low + (high - low) * share).collect();
+        let places = [before, after].map(|node| node.state[held]);
+        let node_at = |at: f64| {
+            let mut guess = before.towards(after, (at - places[0]) / (places[1] - places[0]));
             guess[held] = at;
-            let middle = self.node(self.corrected(guess, held)?)?.directed_as(before).0;
-            let rate = middle.input_rate();
-            if rate == 0.0 {
-                return Some(middle);
-            }
-            if (rate > 0.0) == (low.input_rate() > 0.0) {
-                (low, low_rate) = (middle, rate);
-                high_rate = if last == 1 { high_rate / 2.0 } else { high.input_rate() };
-                last = 1;
-            } else {
-                (high, high_rate) = (middle, rate);
-                low_rate = if last == -1 { low_rate / 2.0 } else { low.input_rate() };
-                last = -1;
-            }
-        }
-        Some(if low.input_rate().abs() <= high.input_rate().abs() { low } else { high })
+            Some(self.node(self.corrected(guess, held)?)?.directed_as(before).0)
+        };
+        let bracket = Bracket::new(places, [before, after].map(Node::input_rate))?;
+        node_at(bracket.zero(0.0, |at| node_at(at).map_or(f64::NAN, |node| node.input_rate())))
     }
 
     /// Nodes from a limit on, with others between them so that each is at most a few times as far from the limit as the one before: next to

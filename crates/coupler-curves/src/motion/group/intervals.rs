@@ -7,7 +7,7 @@ use super::equations::Equations;
 use super::follow::Curve;
 use super::step::Node;
 use super::track::GroupTrack;
-use crate::geometry::{Point, Vector, cross};
+use crate::geometry::{Complex, Point, Similarity, Vector};
 use crate::linkage::{CircuitSelection, DyadId, Group, Input, Joint, JointId, JointKind, Linkage, Side, gcd};
 use crate::motion::assembly_error::AssemblyError;
 use crate::motion::interval::{EndCause, Interval, IntervalEnd, Span};
@@ -50,18 +50,11 @@ pub(in crate::motion) fn find_intervals(
     };
     let turned = all.follow(&start)?;
     for pose in poses {
-        match all.node_of_pose(pose) {
-            Some(node) => all.follow_another(node),
-            None => all.miss(AssemblyError::GroupNotFollowed { input: start_input }),
-        }
+        all.follow_another(all.node_of_pose(pose));
     }
     if linkage.motion_options.circuits == CircuitSelection::All && linkage.driven_elsewhere.is_none() {
-        let states = all.equations.poses_at(start_input).ok_or(AssemblyError::TooManyPoses)?;
-        for state in states {
-            match all.equations.node(state) {
-                Some(node) => all.follow_another(node),
-                None => all.miss(AssemblyError::GroupNotFollowed { input: start_input }),
-            }
+        for state in all.equations.poses_at(start_input).ok_or(AssemblyError::TooManyPoses)? {
+            all.follow_another(all.equations.node(state));
         }
     }
     let TrackIntervals { found, missing, .. } = all;
@@ -141,20 +134,18 @@ impl TrackIntervals<'_> {
         Ok(if count == 0 { 0.0 } else { ends[1] - ends[0] })
     }
 
-    /// Adds the intervals of a further circuit, unless it is there already, or its input does not move.
-    fn follow_another(&mut self, node: Node) {
+    /// Adds the intervals of the circuit through a further node, if there is one, unless the circuit is there already, or its input does not move.
+    fn follow_another(&mut self, node: Option<Node>) {
         let tracks = || self.found.iter().filter_map(|interval| interval.track.as_ref());
-        if tracks().any(|track| track.passes(&node.state)) || self.equations.held_input(&node, self.linkage).is_some() {
-            return;
+        let followed = match node {
+            Some(node) if tracks().any(|track| track.passes(&node.state)) => return,
+            Some(node) if self.equations.held_input(&node, self.linkage).is_some() => return,
+            Some(node) => self.follow(&node).err(),
+            None => Some(AssemblyError::GroupNotFollowed { input: self.linkage.motion_options.start.unwrap_or(0.0) }),
+        };
+        if let Some(error) = followed {
+            self.missing.get_or_insert(error);
         }
-        if let Err(error) = self.follow(&node) {
-            self.miss(error);
-        }
-    }
-
-    /// Notes why a circuit is missing.
-    fn miss(&mut self, error: AssemblyError) {
-        self.missing.get_or_insert(error);
     }
 
     /// The interval of a part of a curve, which begins and ends at limits of these numbers or, if there are none, is all of it.
@@ -217,12 +208,11 @@ impl TrackIntervals<'_> {
         let fixed = self.linkage.links[0].joints.iter().filter_map(|(joint, own)| Some((*own, at(*joint)?)));
         let fixed: Vec<(Vector, Point)> = fixed.collect();
         let ((a, a_there), (b, b_there)) = (fixed.first()?, fixed.get(1)?);
-        let (here, there) = (b - a, b_there - a_there);
-        let [cos, sin] = [there.dot(&here), cross(there, here)].map(|part| part / there.norm_squared());
-        let placed = |joint: JointId| {
-            let v = at(joint).map_or(Vector::zeros(), |at| at - a_there);
-            Point::from(a + Vector::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y))
-        };
+        let complex = |v: Vector| Complex::new(v.x, v.y);
+        let factor = complex(b - a) / complex(b_there - a_there);
+        let shift = complex(*a) - factor * complex(a_there.coords);
+        let here = Similarity { is_mirrored: false, factor, shift };
+        let placed = |joint: JointId| at(joint).map_or(Point::origin(), |there| here.apply(there));
         let input = self.linkage.input_of_pose(placed)?;
         let state = self.equations.state(placed, input);
         let held = self.equations.node(state.clone())?.parameter();

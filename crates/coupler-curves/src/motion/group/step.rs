@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::equations::Equations;
 use crate::motion::enclosure::Enclosure;
 use crate::motion::series::Series;
+use crate::numerical::Bracket;
 
 /// The most corrections of a state. Newton's method doubles the digits with each.
 const MAX_CORRECTIONS: usize = 8;
@@ -72,18 +73,19 @@ impl Node {
         let cubic = self.cubic(next);
         let last = self.state.len() - 1;
         // The cubic's input is all but monotonic, as that of the curve is.
-        let [mut low, mut high] = [0.0, 1.0];
-        for _ in 0..60 {
-            let middle = (low + high) / 2.0;
-            if cubic(last, middle) < input { low = middle } else { high = middle }
-        }
-        (0..=last).map(|k| cubic(k, low)).collect()
+        let misses = [self, next].map(|node| node.state[last] - input);
+        let share = match Bracket::new([0.0, 1.0], misses) {
+            Some(bracket) => bracket.zero(0.0, |share| cubic(last, share) - input),
+            // It is at an end.
+            None if misses[0].abs() < misses[1].abs() => 0.0,
+            None => 1.0,
+        };
+        (0..=last).map(|k| cubic(k, share)).collect()
     }
 
     /// The cubic from this node to another: of each coordinate, at a share of the way.
     fn cubic(&self, next: &Node) -> impl Fn(usize, f64) -> f64 {
-        let squares = self.state.iter().zip(&next.state).map(|(a, b)| (b - a) * (b - a));
-        let chord = squares.sum::<f64>().sqrt();
+        let chord = self.distance(next);
         // Nodes are in the order of the curve or against it.
         let ahead: f64 = (0..self.state.len()).map(|k| (next.state[k] - self.state[k]) * self.tangent[k]).sum();
         let chord = if ahead < 0.0 { -chord } else { chord };
