@@ -13,9 +13,9 @@ if ! command -v python3 >/dev/null || ! python3 -c 'import venv' 2>/dev/null; th
     exit 0
 fi
 place=target/peers
-if ! "$place/venv/bin/python" -c 'import matplotlib, numba, numpy, pylinkage' 2>/dev/null; then
+if ! "$place/venv/bin/python" -c 'import matplotlib, numba, numpy, pylinkage, scipy' 2>/dev/null; then
     python3 -m venv "$place/venv"
-    if ! "$place/venv/bin/pip" install --quiet numpy matplotlib numba pylinkage; then
+    if ! "$place/venv/bin/pip" install --quiet numpy matplotlib numba pylinkage scipy; then
         echo "the peers cannot be installed: skipped" >&2
         exit 0
     fi

@@ -8,9 +8,11 @@
 //! ```
 //!
 //! The modules are declared in reading order; none imports a later one. Each stage is one public function:
-//! [`manifest::parse`], [`sweep::process_groups`], [`design::straight_line`],
+//! [`manifest::parse`], [`sweep::process_groups`], [`design::straight_line`], [`design::by_wishes`],
 //! [`coupler_drawing::page::compose_panels`], [`coupler_drawing::render::svg`], [`coupler_drawing::render::png`],
 //! [`output::write_atlas`], [`check::check_atlas`].
+
+mod threads;
 
 pub mod sweep;
 

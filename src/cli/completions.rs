@@ -59,7 +59,8 @@ fn offered_values() -> Vec<Offer> {
         ("inspect", "linkage", linkages()),
         ("export", "linkage", linkages()),
         ("import", "format", import::Format::ALL.map(import::Format::name).to_vec()),
-        ("design", "types", LinkageKind::ALL.map(LinkageKind::id).to_vec()),
+        ("design", "linkage", linkages()),
+        ("design straight-line", "types", LinkageKind::ALL.map(LinkageKind::id).to_vec()),
         ("render", "format", built_in.map(render::Format::name).collect()),
         ("export", "format", export::Format::ALL.map(export::Format::name).to_vec()),
         ("export", "form", export::ManifestForm::ALL.map(export::ManifestForm::name).to_vec()),
@@ -78,5 +79,10 @@ fn offer(command: clap::Command, (name, id, values): Offer) -> clap::Command {
         true => argument.value_parser(PossibleValuesParser::new(values.clone())),
         false => argument,
     };
-    command.mut_subcommand(name, |command| command.mut_args(offer))
+    match name.split_once(' ') {
+        Some((name, of)) => {
+            command.mut_subcommand(name, |command| command.mut_subcommand(of, |command| command.mut_args(offer)))
+        }
+        None => command.mut_subcommand(name, |command| command.mut_args(offer)),
+    }
 }

@@ -12,9 +12,17 @@ use super::printing::print_stderr;
 /// How long a run may take to end after Ctrl-C before the process ends.
 const GRACE_PERIOD: Duration = Duration::from_millis(700);
 
+/// The same for a run that brings to an end what it has found.
+pub(super) const LONG_GRACE_PERIOD: Duration = Duration::from_secs(10);
+
 /// A flag that the first Ctrl-C sets; the second ends the program at once, and so does a run that does not look at it, with this
 /// error.
 pub(super) fn interrupt_flag(message: impl Display) -> Result<Arc<AtomicBool>, Failure> {
+    interrupt_flag_within(GRACE_PERIOD, message)
+}
+
+/// The same for a run that takes so long to end.
+pub(super) fn interrupt_flag_within(grace_period: Duration, message: impl Display) -> Result<Arc<AtomicBool>, Failure> {
     let message = message.to_string();
     let interrupt = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&interrupt);
@@ -26,7 +34,7 @@ pub(super) fn interrupt_flag(message: impl Display) -> Result<Arc<AtomicBool>, F
         // doing, files are complete and in the journal.
         let message = message.clone();
         std::thread::spawn(move || {
-            std::thread::sleep(GRACE_PERIOD);
+            std::thread::sleep(grace_period);
             print_stderr(&format!("error: {message}\n"));
             std::process::exit(EXIT_INTERRUPTED.into());
         });

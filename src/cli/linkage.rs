@@ -41,6 +41,17 @@ pub(super) fn find_template(name: &str, manifest: Option<&Path>) -> Result<Arc<T
     })
 }
 
+/// The text of a linkage, if it is of a manifest and none of the catalogue.
+///
+/// # Errors
+/// The manifest cannot be read.
+pub(super) fn own_text(manifest: Option<&Path>, template: &Template) -> Result<Option<String>, Failure> {
+    match (manifest, catalogue::find(&template.id)) {
+        (Some(path), None) => Ok(manifest::linkage_text(&source::read_text(path)?, &template.id)),
+        _ => Ok(None),
+    }
+}
+
 /// Errors in the parameters of a linkage, each with what to write where a value is missing.
 pub(super) fn parameter_errors(template: &Template, errors: &ParameterErrors) -> Vec<String> {
     let message = |error: &ParameterError| match error {

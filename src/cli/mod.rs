@@ -5,6 +5,7 @@ mod choice;
 mod color;
 mod completions;
 mod design;
+mod effort;
 mod export;
 mod failure;
 mod files;

@@ -1,4 +1,5 @@
-//! Synthesizes straight-line linkages for a designer's requirements, after chapter 10 of Natesan's thesis.
+//! Synthesizes linkages for a designer's requirements: any linkage by wishes on its measures ([`by_wishes`]), and straight-line linkages
+//! ([`straight_line`]) after chapter 10 of Natesan's thesis.
 //!
 //! *Type synthesis* (10.1.1) selects linkages by their input. A motor needs a link that turns fully: the crank of
 //! Evans's and Hoeken's linkages, or the coupler of Chebyshev's. A rocker drives Watt's, Roberts's and Chebyshev's
@@ -23,6 +24,7 @@ mod simplex;
 mod stroke;
 mod synthesis;
 mod trial;
+mod wishes;
 
 pub use kind::{DrivenLinkage, Driver, LinkageKind, P_RANGE};
 pub use requirements::{Requirement, Requirements, TOLERANCE_RANGE};
@@ -30,6 +32,7 @@ pub use result::{RejectedLinkage, Relaxation, SynthesisResult};
 pub use scaled_design::{Design, ProportionOrigin};
 pub use stroke::InputLink;
 pub use trial::Performance;
+pub use wishes::{Designs, by_wishes, describe};
 
 use search::Samplers;
 use synthesis::synthesize_all;

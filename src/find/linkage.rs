@@ -6,10 +6,11 @@ use coupler_curves::exchange::{ParameterSet, manifest_families};
 use coupler_curves::family::Family;
 use coupler_find::{
     LinkageAnswer, LinkageSearch, LinkageSpace, Options, Target, answers_manifest, manifest_head, nearest_miss_by,
+    title_for,
 };
 
-use super::threads::Threads;
 use super::{Error, Findings, description};
+use crate::threads::Threads;
 
 /// Finds the dimensions of a linkage for which its curves are nearest to a target, looked up in `samples` parameter sets or a number that
 /// depends on the linkage. Curves that are the same to a thousandth of the target's size are one. The answer does not depend on the number of
@@ -26,7 +27,7 @@ pub fn find_linkage(
     mut report_part: impl FnMut(f64),
 ) -> Result<Findings<LinkageAnswer>, Error> {
     let threads = Threads { interrupt };
-    let mut search = |target: &Target, options: &Options| {
+    let mut search = |target: &Target, options: &Options| -> Result<_, Error> {
         let mut search = LinkageSearch::new(space, target, options, samples);
         while search.step(&threads) {
             threads.proceed()?;
@@ -53,7 +54,7 @@ impl Findings<LinkageAnswer> {
         if self.answers.is_empty() {
             return answers_manifest(name, target.size(), &[]);
         }
-        let mut out = manifest_head(name);
+        let mut out = manifest_head("find", &title_for(name));
         out.extend(own_linkage.map(|text| format!("\n{text}")));
         out.push('\n');
         let placed = |(rank, answer): (usize, &LinkageAnswer)| {

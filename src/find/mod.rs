@@ -10,7 +10,6 @@ mod linkage;
 mod outline;
 mod request;
 mod target_file;
-mod threads;
 
 pub use atlas::{AtlasAnswer, AtlasQuery, find_in_atlas};
 pub use drawing::draw_four_bars;
@@ -19,6 +18,8 @@ pub use linkage::find_linkage;
 pub use outline::{Outline, ReadOptions, Reading};
 pub use request::{Notation, Request, RequestProblem, Searched, SearchedLinkage};
 pub use target_file::{MAX_POINTS, parse_outline};
+
+pub use crate::threads::Interrupted;
 
 use coupler_find::Constraint;
 
@@ -45,6 +46,6 @@ pub enum Error {
         error: String,
     },
     /// The search was told to end.
-    #[error("interrupted")]
-    Interrupted,
+    #[error(transparent)]
+    Interrupted(#[from] Interrupted),
 }

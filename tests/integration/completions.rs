@@ -80,7 +80,8 @@ fn bash_offers_linkages_families_and_formats() {
     for (line, expected) in [
         (&["inspect", "ho"][..], &["hoeken"][..]),
         (&["export", "--linkage", "watt-s"], &["watt-six-bar"]),
-        (&["design", "--types", "e"], &["evans"]),
+        (&["design", "straight-line", "--types", "e"], &["evans"]),
+        (&["design", "hr"], &["hrones-nelson"]),
         (&["render", "--only", ""], &["mine", "other"]),
         (&["check", "--only", "o"], &["other"]),
         (&["render", "--format", "p"], if cfg!(feature = "pdf") { &["pdf", "png"] } else { &["png"] }),

@@ -57,6 +57,7 @@ mod support;
 mod surroundings;
 mod themes;
 mod watching;
+mod wishes;
 
 /// The configuration of property tests, with the same random cases in every run; `PROPTEST_CASES=20000` sets their
 /// number, and `PROPTEST_RNG_SEED=…` the seed.

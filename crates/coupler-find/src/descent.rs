@@ -91,6 +91,11 @@ impl Default for Descent {
 }
 
 impl Descent {
+    /// A descent that begins near its end, with steps that are hardly damped.
+    pub fn near_the_end() -> Descent {
+        Descent { damping: 1e-9, is_done: false }
+    }
+
     /// Takes one step, with as much damping as it needs to lessen the objective.
     pub fn step<C: Candidate>(&mut self, candidate: &mut C, aim: &C::Aim<'_>)
     where

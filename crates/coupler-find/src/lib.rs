@@ -38,6 +38,10 @@
 //!
 //! A [`LinkageSearch`] finds the dimensions of any linkage, of the parameters of a [`LinkageSpace`]: the curves of samples are looked up by
 //! their shapes, placed and refined by differences of solved curves, with the same metric.
+//!
+//! # Wishes
+//!
+//! A [`DesignSearch`] finds the dimensions of any linkage, within the ranges of a [`DesignSpace`], that meet [`Wishes`] on its measures.
 
 mod complex;
 mod scatter;
@@ -65,6 +69,8 @@ mod curve;
 mod four_bar;
 mod linkage;
 
+mod design;
+
 mod answer;
 mod search;
 
@@ -74,6 +80,10 @@ pub use answer::Answer;
 pub use condition::Condition;
 pub use curve::{CurveFit, CurveFitter, CurveIndex, CurveLookup, CurveShape};
 pub use curve_fit_options::CurveFitOptions;
+pub use design::{
+    DesignAnswer, DesignMiss, DesignOptions, DesignSearch, DesignSpace, DesignSpaceError, Direction, Goal,
+    RangeRequest, Wish, WishError, WishValue, Wishes,
+};
 pub use deviation::Deviation;
 pub use distinct::distinct;
 pub use four_bar::{Index, IndexPart, Mechanism, placed_parameters};
@@ -84,6 +94,7 @@ pub use options::{Effort, Options};
 pub use quality::Quality;
 pub use report::{
     AnswerRecord, FitRecord, answer_families, answers_manifest, format_length, format_relative, manifest_head,
+    title_for,
 };
 pub use search::{Constraint, Ranking, Search, nearest_miss, nearest_miss_by};
 pub use target::{MAX_LENGTH_RATIO, PathKind, Target, TargetError};

@@ -1,6 +1,7 @@
 //! Random numbers.
 
 /// A sequence of random numbers, the same on every machine (xorshift, Marsaglia 2003).
+#[derive(Clone, Debug)]
 pub(crate) struct Scatter(u64);
 
 impl Scatter {

@@ -4,8 +4,9 @@ use std::path::PathBuf;
 
 use crate::find::{MAX_CURVES, Request};
 use clap::{Args, ValueEnum, ValueHint};
-use coupler_find::{Effort, Index, Options};
+use coupler_find::{Index, Options};
 
+use super::super::effort::EffortChoice;
 use super::super::files;
 
 /// Find the linkages whose coupler curves are nearest to a path, with their cognates.
@@ -126,24 +127,4 @@ pub(super) enum InputChoice {
     FullTurn,
     /// Any linkage.
     Any,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum EffortChoice {
-    /// A third of the normal effort.
-    Quick,
-    /// About half a second for a hundred points.
-    Normal,
-    /// Four times the normal effort.
-    Thorough,
-}
-
-impl From<EffortChoice> for Effort {
-    fn from(choice: EffortChoice) -> Effort {
-        match choice {
-            EffortChoice::Quick => Effort::Quick,
-            EffortChoice::Normal => Effort::Normal,
-            EffortChoice::Thorough => Effort::Thorough,
-        }
-    }
 }

@@ -26,7 +26,8 @@ use super::export::CurveSamples;
 use super::linkage::DEFAULT_SAMPLES;
 use super::{Failure, Outcome, export, files, print_stderr, source};
 pub use arguments::Arguments;
-use arguments::{EffortChoice, InputChoice};
+use arguments::InputChoice;
+
 use notes::Best;
 use report::{Report, title_of};
 use shown::{Shown, show};

@@ -6,8 +6,9 @@ use coupler_curves::family::Family;
 use coupler_curves::measure::parse_condition;
 use coupler_find::{Options, Quality};
 
+use super::super::effort::EffortChoice;
 use super::super::printable;
-use super::{Arguments, EffortChoice, InputChoice};
+use super::{Arguments, InputChoice};
 
 /// What a note depends on.
 pub(super) struct Best {

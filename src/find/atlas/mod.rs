@@ -10,7 +10,7 @@ use std::sync::atomic::AtomicBool;
 use coupler_curves::exchange::{ParameterSet, manifest_families};
 use coupler_find::{
     Answer, Condition, Constraint, Index, Mechanism, Options, Search, Target, answer_families, answers_manifest,
-    distinct, manifest_head,
+    distinct, manifest_head, title_for,
 };
 use rayon::prelude::*;
 
@@ -93,7 +93,7 @@ impl Findings<AtlasAnswer> {
             return answers_manifest(name, size, &refined);
         }
         let mut sets = Vec::new();
-        let mut out = manifest_head(name) + &answer_families(name, size, &refined) + "\n";
+        let mut out = manifest_head("find", &title_for(name)) + &answer_families(name, size, &refined) + "\n";
         for (rank, answer) in placed {
             let AtlasAnswer { place, name, curve, .. } = answer;
             let as_large = if curve.is_scalable { "as large as on the path" } else { "in its own size" };

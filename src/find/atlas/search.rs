@@ -1,5 +1,6 @@
 //! The curves of an atlas that are nearest to a path, where they are placed on it.
 
+use crate::threads::Interrupted;
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -198,7 +199,7 @@ fn solve_cells<T: Send>(
     let works = |_, solved: Vec<SolvedCell>| solved.into_iter().flat_map(&work).collect::<Vec<T>>();
     sweep::process_groups(family, groups, works, |found| {
         receive(found);
-        if interrupt.load(Ordering::Relaxed) { Err(Error::Interrupted) } else { Ok(()) }
+        if interrupt.load(Ordering::Relaxed) { Err(Interrupted.into()) } else { Ok(()) }
     })
 }
 

@@ -3,7 +3,32 @@
 use std::ops::Range;
 
 use super::program::{Instruction, Operator};
-use super::{CompiledExpression, Expression};
+use super::{CompiledExpression, Expression, Function};
+
+/// A condition that compares two numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Comparison {
+    /// The left one.
+    pub left: CompiledExpression,
+    /// The right one.
+    pub right: CompiledExpression,
+    /// How the left one is to be to the right one.
+    pub relation: Relation,
+}
+
+/// How a number is to be to another one; whether a bound is met by the bound itself is left to the condition.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Relation {
+    /// Equal, to a tolerance if the condition has one.
+    Equal {
+        /// The greatest difference.
+        tolerance: Option<CompiledExpression>,
+    },
+    /// As great at most.
+    AtMost,
+    /// As great at least.
+    AtLeast,
+}
 
 impl CompiledExpression {
     /// The conditions that it joins by `and`, in order: it is true if all of them are. Of a condition that joins none, itself.
@@ -28,21 +53,65 @@ impl CompiledExpression {
 
     /// The sides of a comparison that compute something of names; none of another condition.
     pub fn computed_sides(&self) -> Vec<CompiledExpression> {
-        use Operator::{Equal, Greater, GreaterOrEqual, Less, LessOrEqual, NotEqual};
         let program = &self.expression.program;
-        let Some((
-            (Instruction::Binary(Equal | NotEqual | Less | LessOrEqual | Greater | GreaterOrEqual), _),
-            operands,
-        )) = program.split_last()
-        else {
-            return Vec::new();
-        };
-        let starts = self.expression.operand_starts();
-        let middle = starts[operands.len() - 1];
         let is_computed = |range: &Range<usize>| {
             range.len() > 1 && program[range.clone()].iter().any(|(part, _)| matches!(part, Instruction::Load(_)))
         };
-        [0..middle, middle..operands.len()].into_iter().filter(is_computed).map(|range| self.part(range)).collect()
+        let sides = self.compared(program.len()).into_iter().flat_map(|(_, sides)| sides);
+        sides.filter(is_computed).map(|range| self.part(range)).collect()
+    }
+
+    /// The two sides of a condition that is met from one side's value on, or where they are equal; `None` of any other.
+    pub fn comparison(&self) -> Option<Comparison> {
+        use Operator::{Equal, Greater, GreaterOrEqual, LessOrEqual, NotEqual, Subtract};
+        let end = self.expression.program.len();
+        let (operator, sides) = self.compared(end)?;
+        let part = |range: &Range<usize>| self.part(range.clone());
+        let compared = |relation| {
+            let [left, right] = sides.each_ref().map(part);
+            Some(Comparison { left, right, relation })
+        };
+        match operator {
+            NotEqual => None,
+            Equal => compared(Relation::Equal { tolerance: None }),
+            Greater | GreaterOrEqual => compared(Relation::AtLeast),
+            LessOrEqual if self.is_at(sides[0].end, Instruction::Call(Function::Abs, 1)) => {
+                // What `x == 110 +- 0.5` is parsed to.
+                let difference = sides[0].end - 1;
+                match self.binary(difference) {
+                    Some((Subtract, [left, right])) => {
+                        let tolerance = Some(self.part(sides[1].clone()));
+                        let (left, right) = (self.part(left), self.part(right));
+                        Some(Comparison { left, right, relation: Relation::Equal { tolerance } })
+                    }
+                    _ => compared(Relation::AtMost),
+                }
+            }
+            _ => compared(Relation::AtMost),
+        }
+    }
+
+    /// The comparison before a place of the program and the places of its sides; `None` if no comparison ends there.
+    fn compared(&self, end: usize) -> Option<(Operator, [Range<usize>; 2])> {
+        use Operator::{Equal, Greater, GreaterOrEqual, Less, LessOrEqual, NotEqual};
+        let is_comparison =
+            |operator| matches!(operator, Equal | NotEqual | Less | LessOrEqual | Greater | GreaterOrEqual);
+        self.binary(end).filter(|(operator, _)| is_comparison(*operator))
+    }
+
+    /// The operator with two operands before a place of the program, and their places.
+    fn binary(&self, end: usize) -> Option<(Operator, [Range<usize>; 2])> {
+        let Some((Instruction::Binary(operator), _)) = self.expression.program.get(end.checked_sub(1)?) else {
+            return None;
+        };
+        let starts = self.expression.operand_starts();
+        let middle = starts[end - 2];
+        Some((*operator, [starts[middle - 1]..middle, middle..end - 1]))
+    }
+
+    /// Whether an instruction is just before a place of the program.
+    fn is_at(&self, end: usize, instruction: Instruction) -> bool {
+        self.expression.program[..end].last().is_some_and(|(other, _)| *other == instruction)
     }
 
     /// The expression as it is set in a message, with the names that it is written with.
@@ -118,6 +187,36 @@ mod tests {
         assert_eq!(sides("a + 1 <= max(a, b) * 2").len(), 2);
         for text in ["a > 2", "-1 < b", "sqrt(2) / 2 != a", "not (a + b > 2)", "a + b > 2 or a > 1"] {
             assert_eq!(sides(text), [""; 0], "{text}");
+        }
+    }
+
+    #[test]
+    fn comparisons_have_two_sides() {
+        let compared = |text: &str| {
+            let scope: Scope = ["a", "b"].into_iter().map(|name| (name, Kind::Number)).collect();
+            let whole = Expression::parse(text).unwrap().compile(&scope, Kind::Boolean).unwrap();
+            let Comparison { left, right, relation } = whole.comparison()?;
+            let relation = match relation {
+                Relation::Equal { tolerance: None } => "=".to_owned(),
+                Relation::Equal { tolerance: Some(tolerance) } => format!("= ± {}", tolerance.message_text()),
+                Relation::AtMost => "≤".to_owned(),
+                Relation::AtLeast => "≥".to_owned(),
+            };
+            Some(format!("{} {relation} {}", left.message_text(), right.message_text()))
+        };
+        for (text, expected) in [
+            ("a >= 35", "a ≥ 35"),
+            ("2 * a + 1 < b", "2 · a + 1 ≤ b"),
+            ("a == b", "a = b"),
+            ("a + b == 110 +- 0.5", "a + b = ± 0.5 110"),
+            ("abs(a - 110) <= b / 2", "a = ± b / 2 110"),
+            ("abs(a) <= 2", "|a| ≤ 2"),
+            ("abs(a - b) >= 2", "|a − b| ≥ 2"),
+        ] {
+            assert_eq!(compared(text).as_deref(), Some(expected), "{text}");
+        }
+        for text in ["a != b", "not a > b", "a > 1 or b > 1"] {
+            assert_eq!(compared(text), None, "{text}");
         }
     }
 

@@ -9,6 +9,8 @@ pub(super) enum Token<'a> {
     Name(&'a str),
     Plus,
     Minus,
+    /// Before the tolerance of `==`.
+    PlusMinus,
     Star,
     Slash,
     Caret,
@@ -55,6 +57,11 @@ pub(super) fn tokenize(text: &str) -> Result<Vec<(Token<'_>, Span)>, Error> {
                     "not" => Token::Not,
                     name => Token::Name(name),
                 }
+            }
+            '±' => Token::PlusMinus,
+            '+' if next == Some('-') => {
+                at += 1;
+                Token::PlusMinus
             }
             '+' => Token::Plus,
             '-' => Token::Minus,

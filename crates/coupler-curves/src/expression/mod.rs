@@ -14,7 +14,7 @@
 //! ```
 //!
 //! `^` is right-associative and binds tighter than unary minus: `-2^2` is -4 and `2^3^2` is 512. Angles are in
-//! radians. A missing value is NaN: it propagates through arithmetic, and every comparison with it is false. Booleans
+//! radians. `x == 110 +- 0.5`, also written `±`, is `abs(x - 110) <= 0.5`. A missing value is NaN: it propagates through arithmetic, and every comparison with it is false. Booleans
 //! are 1 and 0. No text makes the parser panic, and nesting beyond [`MAX_DEPTH`] is an error.
 
 mod angle_units;
@@ -40,6 +40,7 @@ pub use unit::Unit;
 // For the other crates of the workspace only.
 #[doc(hidden)]
 pub use self::{
+    conjuncts::{Comparison, Relation},
     function::Function,
     math_text::{MathPiece, MathText, displayed_name, join_names},
     program::PostfixToken,

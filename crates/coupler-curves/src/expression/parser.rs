@@ -97,6 +97,11 @@ impl<'a> Parser<'a> {
     fn unexpected(&self, span: Span) -> Error {
         match &self.text[span.clone()] {
             "" => Error::new(span, "unexpected end of the expression", "add a value after the last operator"),
+            sign @ ("+-" | "±") => Error::new(
+                span,
+                format!("unexpected `{sign}`"),
+                "it gives the tolerance of `==`, as in `x == 110 +- 0.5`; a sum with a negative number is written `a - b`",
+            ),
             word => {
                 let operator = ["and", "or", "not"].into_iter().find(|operator| word.eq_ignore_ascii_case(operator));
                 let help = match operator {
@@ -157,8 +162,21 @@ impl<'a> Parser<'a> {
             // The right operand is one tighter, as all of these are left-associative. The recursion is at most one
             // level for each tightness.
             self.parse_binary(tightness + 1)?;
-            self.emit(Instruction::Binary(operator), span);
+            match self.peek() {
+                (Token::PlusMinus, at) if operator == Operator::Equal => self.parse_tolerance(tightness, at)?,
+                _ => self.emit(Instruction::Binary(operator), span),
+            }
         }
+    }
+
+    /// Parses the tolerance of a comparison for equality, whose sides have been parsed: `x == 110 +- 0.5` is `abs(x - 110) <= 0.5`.
+    fn parse_tolerance(&mut self, tightness: u8, span: Span) -> Result<(), Error> {
+        self.position += 1;
+        self.emit(Instruction::Binary(Operator::Subtract), span.clone());
+        self.emit(Instruction::Call(Function::Abs, 1), span.clone());
+        self.parse_binary(tightness + 1)?;
+        self.emit(Instruction::Binary(Operator::LessOrEqual), span);
+        Ok(())
     }
 
     fn parse_unary(&mut self) -> Result<(), Error> {
@@ -305,6 +323,9 @@ mod tests {
             ("abs(-3) + sqrt(16)", 7.0),
             ("acos(1) + asin(0) + tan(0) + sin(0) + cos(0)", 1.0),
             (".5 + 1. + 1e1 + 2E-1", 11.7),
+            ("3 == 2 +- 1", 1.0),
+            ("3 == 2 + 0.5 ± 0.25 * 2 and 1 < 2", 1.0),
+            ("not 3 == 1 +- 1 or 1 > 2", 1.0),
         ];
         for (text, expected) in cases {
             assert_eq!(value(text), expected, "{text}");
@@ -336,6 +357,9 @@ mod tests {
             ("1..2", 2, "unexpected `.2`"),
             ("1e999", 0, "the number is too large"),
             (")", 0, "unexpected `)`"),
+            ("2 +-3", 2, "unexpected `+-`"),
+            ("x >= 2 ± 1", 7, "unexpected `±`"),
+            ("x == 2 +- 1 +- 1", 12, "unexpected `+-`"),
         ];
         for (text, at, message) in cases {
             let error = Expression::parse(text).expect_err(text);

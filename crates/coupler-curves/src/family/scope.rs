@@ -81,7 +81,13 @@ impl Family {
 
     /// The measures that an expression over [`Family::scope`] needs.
     pub fn measures_in(&self, expression: &CompiledExpression) -> MeasureSet {
-        self.names_in(expression).fold(MeasureSet::EMPTY, |set, name| set | name.measures())
+        Family::measures_of(expression, self.names.len())
+    }
+
+    /// The measures that an expression over the [`Family::scope`] of so many names of cells needs.
+    pub fn measures_of(expression: &CompiledExpression, own_count: usize) -> MeasureSet {
+        let names = expression.slots().iter().filter_map(|slot| ScopeName::at(*slot, own_count));
+        names.fold(MeasureSet::EMPTY, |set, name| set | name.measures())
     }
 
     /// The measures that `where` and `sort` need.

@@ -30,6 +30,9 @@ impl MeasureSet {
         MeasureSet(self.0 | 1 << key.index)
     }
 
+    /// The measures of the path of a joint; the others, which come before them, are of the motion of the linkage and the same for all joints.
+    pub const OF_PATHS: MeasureSet = MeasureSet(MeasureSet::ALL.0 & !((1 << Measure::LENGTH.index) - 1));
+
     /// The measures that a condition holds for.
     pub fn of(mut is_in: impl FnMut(&Measure) -> bool) -> MeasureSet {
         (0..ALL.len()).filter(|k| is_in(&ALL[*k])).collect()

@@ -136,7 +136,7 @@ pub(super) fn pivots_of(linkage: &Linkage) -> impl Iterator<Item = JointId> {
 }
 
 /// The greatest distance of two joints of a link.
-pub(super) fn longest_link(linkage: &Linkage) -> f64 {
+pub(crate) fn longest_link(linkage: &Linkage) -> f64 {
     linkage.links.iter().map(|link| longest(&link.joints)).fold(0.0, f64::max)
 }
 

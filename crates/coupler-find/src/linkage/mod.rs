@@ -28,3 +28,6 @@ pub use placed_curve::PlacedCurve;
 pub use scaling::{is_scalable, scaled_values};
 pub use search::LinkageSearch;
 pub use space::{LinkageSpace, LinkageSpaceError};
+
+pub(crate) use aim::longest_link;
+pub(crate) use space::{EvenSequence, VariationUnit};

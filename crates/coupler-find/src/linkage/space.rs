@@ -40,7 +40,7 @@ struct FreeParameter {
 
 /// How a parameter is varied.
 #[derive(Clone, Copy, Debug)]
-enum VariationUnit {
+pub(crate) enum VariationUnit {
     /// By a factor: the unit is e.
     Factor,
     /// By a shift in units of this many of the parameter's own.
@@ -228,9 +228,30 @@ impl LinkageSpace {
         self.kept.iter().filter(|slot| is_length(**slot)).all(follows)
     }
 
+    /// The parameters that vary, and how.
+    pub(crate) fn free(&self) -> impl Iterator<Item = (usize, VariationUnit)> {
+        self.free.iter().map(|free| (free.slot, free.unit))
+    }
+
+    /// The length that is the same in all samples, for a linkage of any size.
+    pub(crate) fn held(&self) -> Option<usize> {
+        self.held
+    }
+
+    /// The values that samples vary.
+    pub(crate) fn base(&self) -> &[f64] {
+        &self.base
+    }
+
     /// Computes the kept parameters from the others.
     fn complete(&self, values: &mut [f64]) {
-        for (slot, expression) in self.expressions.iter().filter(|(slot, _)| self.kept.contains(slot)) {
+        self.complete_with(&[], values);
+    }
+
+    /// Computes the kept parameters from the others, and further ones that have a default.
+    pub(crate) fn complete_with(&self, further: &[usize], values: &mut [f64]) {
+        let is_computed = |slot: &usize| self.kept.contains(slot) || further.contains(slot);
+        for (slot, expression) in self.expressions.iter().filter(|(slot, _)| is_computed(slot)) {
             values[*slot] = expression.evaluate(|slot| values[slot]);
         }
     }
@@ -301,7 +322,7 @@ impl LinkageSpace {
     }
 
     /// Whether all values are within their bounds.
-    pub(super) fn are_valid(&self, values: &[f64]) -> bool {
+    pub(crate) fn are_valid(&self, values: &[f64]) -> bool {
         self.template.parameters.iter().zip(values).all(|(parameter, value)| parameter.value_error(*value).is_none())
     }
 }
@@ -372,12 +393,12 @@ fn reflected(value: f64, parameter: &Parameter) -> f64 {
 /// The numbers of a sequence that fills a cube of a dimension evenly, the additive recurrence of Roberts: the powers of the inverse of the real
 /// root of x^(d+1) = x + 1, times the place in the sequence.
 #[derive(Clone, Debug)]
-struct EvenSequence {
+pub(crate) struct EvenSequence {
     powers: Vec<f64>,
 }
 
 impl EvenSequence {
-    fn new(dimension: usize) -> EvenSequence {
+    pub fn new(dimension: usize) -> EvenSequence {
         const ROUNDS: usize = 60;
         let mut root: f64 = 1.0;
         for _ in 0..ROUNDS {
@@ -393,7 +414,7 @@ impl EvenSequence {
     }
 
     /// Numbers from 0 to 1, one for each direction.
-    fn parts(&self, number: usize) -> impl Fn(usize) -> f64 + '_ {
+    pub fn parts(&self, number: usize) -> impl Fn(usize) -> f64 + '_ {
         move |direction| (0.5 + self.powers[direction] * (number as f64 + 1.0)).fract()
     }
 }

@@ -29,15 +29,15 @@ pub fn answers_manifest(name: &str, size: f64, answers: &[Answer]) -> String {
         [] => "\n# No linkage meets the constraints.\n".to_owned(),
         _ => answer_families(name, size, answers),
     };
-    manifest_head(name) + &rest
+    manifest_head("find", &title_for(name)) + &rest
 }
 
-/// The beginning of a manifest that renders what has been found for a path with a name, up to the linkages and families.
-pub fn manifest_head(name: &str) -> String {
+/// The beginning of a manifest that renders what a command has found, up to the linkages and families.
+pub fn manifest_head(command: &str, title: &str) -> String {
     format!(
-        "# Linkages found by `coupler-atlas find`; `coupler-atlas render` draws them.\n\n[atlas]\ntitle = {}\n\
+        "# Linkages found by `coupler-atlas {command}`; `coupler-atlas render` draws them.\n\n[atlas]\ntitle = {}\n\
          formats = [\"svg\"]\n\n[page]\npaper = \"a4\"\n",
-        quoted(&title_for(name))
+        quoted(title)
     )
 }
 
@@ -59,8 +59,8 @@ pub fn answer_families(name: &str, size: f64, answers: &[Answer]) -> String {
     out
 }
 
-/// The title of an atlas and of its families.
-fn title_for(name: &str) -> String {
+/// The title of an atlas and of its families, for a path with a name.
+pub fn title_for(name: &str) -> String {
     format!("Linkages for {name}")
 }
 

@@ -4,6 +4,6 @@ mod manifest;
 mod record;
 mod significant;
 
-pub use manifest::{answer_families, answers_manifest, manifest_head};
+pub use manifest::{answer_families, answers_manifest, manifest_head, title_for};
 pub use record::{AnswerRecord, FitRecord};
 pub use significant::{format_length, format_relative};

@@ -4,16 +4,14 @@ mod json;
 mod report;
 mod text;
 
-use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 use crate::find::{self, SearchedLinkage};
-use crate::manifest;
 use coupler_curves::family::Family;
 use coupler_find::{Constraint, LinkageSpace, Options, Target};
 
-use super::super::linkage::find_template;
-use super::super::{progress_bar, source};
+use super::super::linkage::{find_template, own_text};
+use super::super::progress_bar;
 use super::{Arguments, Best, Failure, Outcome, Shown, show, title_of};
 use report::LinkageReport;
 
@@ -44,17 +42,8 @@ pub(super) fn named(arguments: &Arguments) -> Result<Option<Named>, Failure> {
         Some((name, value)) => (name.trim().to_owned(), Some(value.trim().to_owned())),
         None => (text.trim().to_owned(), None),
     });
-    let own_linkage = match (&arguments.manifest, coupler_curves::catalogue::find(&template.id)) {
-        (Some(path), None) => own_text(path, &template.id)?,
-        _ => None,
-    };
+    let own_linkage = own_text(arguments.manifest.as_deref(), &template)?;
     Ok(Some(Named { searched: SearchedLinkage { template, kept: kept.collect() }, own_linkage }))
-}
-
-/// The text of a linkage of a manifest.
-fn own_text(path: &Path, id: &str) -> Result<Option<String>, Failure> {
-    let text = source::read_text(path)?;
-    Ok(manifest::linkage_text(&text, id))
 }
 
 pub(super) fn run(

@@ -6,7 +6,7 @@ use crate::design::{
     Design, DrivenLinkage, Driver, LinkageKind, ProportionOrigin, RejectedLinkage, Relaxation, Requirement,
 };
 
-use super::super::format::format_significant;
+use super::super::super::format::format_significant;
 use super::format::{format_ratio, proportions};
 use super::report::{Report, option_name};
 use super::trade_offs::trade_offs;

@@ -2,7 +2,7 @@
 
 use crate::design::Design;
 
-use super::super::format::format_significant;
+use super::super::super::format::format_significant;
 use super::format::format_ratio;
 
 /// A property by which designs are compared.

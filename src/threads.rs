@@ -5,15 +5,19 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use coupler_find::Workers;
 use rayon::prelude::*;
 
-use super::Error;
+/// A search was told to end.
+#[derive(Clone, Copy, Debug, thiserror::Error)]
+#[error("interrupted")]
+pub struct Interrupted;
 
 /// All threads, until a search is interrupted.
-pub(super) struct Threads<'a> {
+pub(crate) struct Threads<'a> {
     pub interrupt: &'a AtomicBool,
 }
 
 impl Threads<'_> {
-    fn is_interrupted(&self) -> bool {
+    /// Whether it is.
+    pub fn is_interrupted(&self) -> bool {
         self.interrupt.load(Ordering::Relaxed)
     }
 
@@ -21,8 +25,8 @@ impl Threads<'_> {
     ///
     /// # Errors
     /// It is.
-    pub fn proceed(&self) -> Result<(), Error> {
-        if self.is_interrupted() { Err(Error::Interrupted) } else { Ok(()) }
+    pub fn proceed(&self) -> Result<(), Interrupted> {
+        if self.is_interrupted() { Err(Interrupted) } else { Ok(()) }
     }
 }
 

@@ -1,0 +1,86 @@
+//! The table of designs, and the message where there are none.
+
+use std::fmt::Write;
+
+use crate::design::{Designs, describe};
+use coupler_curves::text::{pluralize, round_to_six_digits};
+use coupler_find::{DesignAnswer, DesignMiss, Wishes};
+
+use super::super::super::format::format_significant;
+use super::arguments::WishArguments;
+
+/// The digits of a dimension.
+const DIGITS: usize = 8;
+
+/// The designs, each with what is wished, its dimensions, and what else a designer asks first.
+pub(super) fn text(linkage: &str, designs: &Designs) -> String {
+    let mut out = format!(
+        "{linkage}, {} searched: {}\n",
+        pluralize(designs.searched.len(), "parameter"),
+        designs.searched.join(", ")
+    );
+    for (rank, answer) in (1..).zip(&designs.answers) {
+        out += &entry(&rank.to_string(), answer);
+    }
+    out
+}
+
+fn entry(rank: &str, answer: &DesignAnswer) -> String {
+    let curve = &answer.solved.curves[0];
+    let mut further = Vec::new();
+    let class = curve.measure(coupler_curves::measure::Measure::CLASS);
+    further.extend(class.map(str::to_owned));
+    further.extend(answer.mu_worst_deg().map(|mu| format!("mu worst {}°", format_significant(mu, 4))));
+    further.push(format!("longest link {}", format_significant(answer.longest_link, 6)));
+    let joint = &answer.solved.linkage.joints[curve.joint].name;
+    further.push(format!("{joint} (trace {}) on circuit {}", curve.trace, curve.circuit));
+    let mut out = String::new();
+    // Writing to a string cannot fail.
+    let _ = writeln!(out, "{rank:>3}  {}", describe(answer));
+    let _ = writeln!(out, "     {}", parameters(answer));
+    let _ = writeln!(out, "     {}", further.join(", "));
+    out
+}
+
+/// The dimensions: "p = 110, r = 17.674909".
+pub(super) fn parameters(answer: &DesignAnswer) -> String {
+    let named = answer.family.template.parameters.iter().zip(&answer.values);
+    let values = named.map(|(parameter, value)| format!("{} = {}", parameter.name, format_significant(*value, DIGITS)));
+    values.collect::<Vec<_>>().join(", ")
+}
+
+/// What was wished, in one line.
+pub(super) fn wished(arguments: &WishArguments) -> String {
+    let goals = |verb: &'static str, texts: &[String]| {
+        texts.iter().map(move |text| format!("{verb} {text}")).collect::<Vec<_>>()
+    };
+    let mut parts = Vec::new();
+    parts.extend(arguments.condition.clone());
+    parts.extend(goals("greatest", &arguments.maximize));
+    parts.extend(goals("least", &arguments.minimize));
+    parts.join(" · ")
+}
+
+/// The message where no linkage meets the wishes: what each comes to while the others are met.
+pub(super) fn no_design_message(linkage: &str, wishes: &Wishes, designs: &Designs) -> String {
+    let mut out = format!("no {linkage} was found that meets these wishes\n");
+    if designs.is_interrupted {
+        return out.trim_end().to_owned();
+    }
+    if !designs.is_any_assembled {
+        return out + "hint: no linkage within these ranges can be assembled: widen them, or fix fewer parameters";
+    }
+    for DesignMiss { wish, nearest } in &designs.misses {
+        let wished = wishes.wishes[*wish].text();
+        let comes_to = match &nearest.wishes[*wish].value {
+            Some((subject, value)) => format!("{subject} comes to {} at best", round_to_six_digits(*value)),
+            None => "it is not met".to_owned(),
+        };
+        let others = if wishes.wishes.len() > 1 { "while the others are met" } else { "in these ranges" };
+        let _ = writeln!(out, "hint: `{wished}`: {comes_to} {others}: {}", parameters(nearest));
+    }
+    if designs.misses.is_empty() {
+        out += "hint: leaving out one wish is not enough; leave out two of them, widen the ranges, or try --effort thorough";
+    }
+    out.trim_end().to_owned()
+}

@@ -1,0 +1,81 @@
+//! The dimensions of any linkage by wishes on its measures, on all threads.
+
+use std::sync::atomic::AtomicBool;
+
+use coupler_curves::exchange::{ParameterSet, manifest_families};
+use coupler_curves::text::round_to_six_digits;
+use coupler_find::{DesignAnswer, DesignMiss, DesignOptions, DesignSearch, DesignSpace, Wishes, manifest_head};
+
+use crate::threads::Threads;
+
+/// What a search by wishes has found.
+pub struct Designs {
+    /// The linkages that meet the wishes, the best first.
+    pub answers: Vec<DesignAnswer>,
+    /// If there is none, for each wish without which the others can be met, the linkage that comes nearest to it.
+    pub misses: Vec<DesignMiss>,
+    /// The names of the parameters that were varied.
+    pub searched: Vec<String>,
+    /// Whether any linkage within the ranges was assembled.
+    pub is_any_assembled: bool,
+    /// Whether the search was told to end, and these are the best so far.
+    pub is_interrupted: bool,
+}
+
+/// Searches the dimensions of a linkage for wishes, which must be those of its space. The answer does not depend on the number of threads,
+/// unless `interrupt` becomes true, which ends the search with what has been found so far. `report_part` receives which part of the search
+/// is done, from 0 to 1, after each step.
+pub fn by_wishes(
+    space: DesignSpace,
+    wishes: Wishes,
+    options: DesignOptions,
+    interrupt: &AtomicBool,
+    mut report_part: impl FnMut(f64),
+) -> Designs {
+    let threads = Threads { interrupt };
+    let mut search = DesignSearch::new(space, wishes, options);
+    while !threads.is_interrupted() && search.step(&threads) {
+        report_part(search.part_done());
+    }
+    let is_interrupted = threads.is_interrupted();
+    let answers = search.answers(&Threads { interrupt: &AtomicBool::new(false) });
+    let misses = if answers.is_empty() { search.misses() } else { Vec::new() };
+    let searched = search.space().free_names().map(str::to_owned).collect();
+    Designs { answers, misses, searched, is_any_assembled: search.is_any_assembled(), is_interrupted }
+}
+
+impl Designs {
+    /// A manifest that renders the linkages. `own_linkage` is the text of the linkage, if it is none of the catalogue.
+    pub fn manifest(&self, linkage: &str, own_linkage: Option<&str>) -> String {
+        let mut out = manifest_head(&format!("design {linkage}"), &format!("Designs of {linkage}"));
+        out.extend(own_linkage.map(|text| format!("\n{text}")));
+        let set = |(rank, answer): (usize, &'_ DesignAnswer)| (rank, answer.family.clone(), answer.values.clone());
+        let mut ranked: Vec<_> = (1..).zip(&self.answers).map(set).collect();
+        ranked.iter_mut().for_each(|(_, family, _)| family.title = format!("Designs of {linkage}"));
+        let sets: Vec<ParameterSet> = ranked
+            .iter()
+            .zip(&self.answers)
+            .map(|((rank, family, values), answer)| ParameterSet {
+                family,
+                values: values.clone(),
+                curve_name: format!("{rank}: {}", describe(answer)),
+            })
+            .collect();
+        out + &manifest_families(&sets, own_linkage.is_some())
+    }
+}
+
+/// What is wished of a linkage and what it has: "`mu worst deg` 67.48, `output swing deg` 110".
+pub fn describe(answer: &DesignAnswer) -> String {
+    let values = answer.goals.iter().map(|(text, value)| (text, *value));
+    let compared = answer.wishes.iter().filter_map(|wish| wish.value.as_ref()).map(|(text, value)| (text, *value));
+    let mut shown: Vec<(&String, f64)> = Vec::new();
+    for (text, value) in values.chain(compared) {
+        if shown.iter().all(|(other, _)| *other != text) {
+            shown.push((text, value));
+        }
+    }
+    let parts: Vec<String> =
+        shown.iter().map(|(text, value)| format!("{text} {}", round_to_six_digits(*value))).collect();
+    parts.join(", ")
+}
