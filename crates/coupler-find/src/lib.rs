@@ -44,6 +44,7 @@
 //! A [`DesignSearch`] finds the dimensions of any linkage, within the ranges of a [`DesignSpace`], that meet [`Wishes`] on its measures.
 
 mod complex;
+mod even_sequence;
 mod scatter;
 mod workers;
 
@@ -76,6 +77,8 @@ mod search;
 
 mod report;
 
+mod poses;
+
 pub use answer::Answer;
 pub use condition::Condition;
 pub use curve::{CurveFit, CurveFitter, CurveIndex, CurveLookup, CurveShape};
@@ -91,6 +94,10 @@ pub use linkage::{
     LinkageAnswer, LinkageSearch, LinkageSpace, LinkageSpaceError, PlacedCurve, is_scalable, scaled_values,
 };
 pub use options::{Effort, Options};
+pub use poses::{
+    BodyPose, Freedom, Guide, Misfit, PlacedDyad, PlacedSliderCrank, PoseAnswer, PoseCondition, PoseDeviation,
+    PoseError, PoseFindings, PoseOptions, PoseSet, exact_guides,
+};
 pub use quality::Quality;
 pub use report::{
     AnswerRecord, FitRecord, answer_families, answers_manifest, format_length, format_relative, manifest_head,

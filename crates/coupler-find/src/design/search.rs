@@ -8,7 +8,7 @@ use super::polish::{Measuring, Polished};
 use super::run::Run;
 use super::space::DesignSpace;
 use super::wish::{Direction, Wishes};
-use crate::linkage::EvenSequence;
+use crate::even_sequence::EvenSequence;
 use crate::options::Effort;
 use crate::workers::Workers;
 use coupler_curves::geometry::trig;

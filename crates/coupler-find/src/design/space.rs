@@ -8,7 +8,8 @@ use coupler_curves::problem::suggestion;
 use coupler_curves::template::{Parameter, ParameterKind, Template};
 
 use super::axes::{Axis, Range};
-use crate::linkage::{EvenSequence, LinkageSpace, LinkageSpaceError, VariationUnit, scaled_values};
+use crate::even_sequence::EvenSequence;
+use crate::linkage::{LinkageSpace, LinkageSpaceError, VariationUnit, scaled_values};
 
 /// The parameters of a linkage that vary, each within a range.
 ///

@@ -30,4 +30,4 @@ pub use search::LinkageSearch;
 pub use space::{LinkageSpace, LinkageSpaceError};
 
 pub(crate) use aim::longest_link;
-pub(crate) use space::{EvenSequence, VariationUnit};
+pub(crate) use space::VariationUnit;

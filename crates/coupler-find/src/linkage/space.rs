@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::scaling::is_scalable;
+use crate::even_sequence::EvenSequence;
 use crate::scatter::Scatter;
 use coupler_curves::expression::{self, CompiledExpression, Expression, Kind, Scope, Unit};
 use coupler_curves::family::sort_by_dependency;
@@ -387,34 +388,5 @@ fn reflected(value: f64, parameter: &Parameter) -> f64 {
         (Some(min), _) if value < min => 2.0 * min - value,
         (_, Some(max)) if value > max => 2.0 * max - value,
         _ => value,
-    }
-}
-
-/// The numbers of a sequence that fills a cube of a dimension evenly, the additive recurrence of Roberts: the powers of the inverse of the real
-/// root of x^(d+1) = x + 1, times the place in the sequence.
-#[derive(Clone, Debug)]
-pub(crate) struct EvenSequence {
-    powers: Vec<f64>,
-}
-
-impl EvenSequence {
-    pub fn new(dimension: usize) -> EvenSequence {
-        const ROUNDS: usize = 60;
-        let mut root: f64 = 1.0;
-        for _ in 0..ROUNDS {
-            // The root of order d + 1 of 1 + x is nearer to it.
-            root = trig::exp(trig::ln(1.0 + root) / (dimension as f64 + 1.0));
-        }
-        let mut power = 1.0;
-        let next = |_| {
-            power /= root;
-            power
-        };
-        EvenSequence { powers: (0..dimension).map(next).collect() }
-    }
-
-    /// Numbers from 0 to 1, one for each direction.
-    pub fn parts(&self, number: usize) -> impl Fn(usize) -> f64 + '_ {
-        move |direction| (0.5 + self.powers[direction] * (number as f64 + 1.0)).fract()
     }
 }

@@ -1,0 +1,117 @@
+//! Dyads that guide a body through poses: a pin of the body at a constant distance from a pivot, or on a straight line.
+//!
+//! With the pin W in the first pose, in pose k at W_k = a_k W + d_k, and the pivot G, the distances are equal if
+//! |d|²/2 + (conj(a) d) · W - G · d - G · ((a - 1) W) = 0 for each further pose (McCarthy and Soh, Geometric Design of Linkages, eq. 5.6): a form that is
+//! linear in G and in W. In homogeneous coordinates a pivot at infinity is the normal of a line on which the pin moves.
+
+use super::body::Placed;
+use crate::complex::{Complex, length};
+use nalgebra::{Matrix3, Vector3};
+
+/// What guides a pin of the body, in sizes of the poses from their middle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Dyad {
+    /// A link that turns about a pivot.
+    Revolute {
+        /// The pivot.
+        pivot: Complex,
+        /// The pin in the first pose.
+        pin: Complex,
+    },
+    /// A slider on a line.
+    Slider {
+        /// The normal of the line, of length 1.
+        normal: Complex,
+        /// The pin in the first pose.
+        pin: Complex,
+    },
+}
+
+/// The equations of the poses after the first one.
+#[derive(Clone, Debug)]
+pub(crate) struct Forms(Vec<Matrix3<f64>>);
+
+/// A homogeneous coordinate below which a point is at infinity, in units of the others.
+const AT_INFINITY: f64 = 1e-8;
+
+impl Forms {
+    /// The equations of some poses, each divided by its size.
+    pub fn new(placed: &[Placed]) -> Forms {
+        let form = |pose: &Placed| {
+            let a = pose.direction * placed[0].direction.conj();
+            let d = pose.point - a * placed[0].point;
+            let l = a.conj() * d;
+            let form = Matrix3::new(1.0 - a.re, a.im, -d.re, -a.im, 1.0 - a.re, -d.im, l.re, l.im, 0.5 * d.norm_sqr());
+            form / form.norm().max(f64::MIN_POSITIVE)
+        };
+        Forms(placed.iter().skip(1).map(form).collect())
+    }
+
+    /// The forms as matrices, the pivot on their left.
+    pub fn matrices(&self) -> &[Matrix3<f64>] {
+        &self.0
+    }
+
+    /// The equations of the pin for a pivot.
+    pub fn rows(&self, pivot: &Vector3<f64>) -> Vec<Vector3<f64>> {
+        self.0.iter().map(|form| form.tr_mul(pivot)).collect()
+    }
+
+    /// The greatest of the forms for a pivot and a pin of length 1.
+    pub fn residual(&self, pivot: &Vector3<f64>, pin: &Vector3<f64>) -> f64 {
+        self.0.iter().map(|form| pivot.dot(&(form * pin)).abs()).fold(0.0, f64::max)
+    }
+
+    /// The pin that the equations of two or three further poses leave for a pivot; `None` if they leave several.
+    pub fn pin(&self, pivot: &Vector3<f64>) -> Option<Vector3<f64>> {
+        /// Rows whose product is smaller are parallel, but for rounding.
+        const PARALLEL: f64 = 1e-12;
+        let rows = self.rows(pivot);
+        let pairs = (0..rows.len()).flat_map(|k| (0..k).map(move |m| (k, m)));
+        let products = pairs.map(|(k, m)| rows[k].cross(&rows[m]));
+        let best = products.max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()))?;
+        let norm = best.norm();
+        (norm > PARALLEL * pivot.norm_squared()).then(|| best / norm)
+    }
+}
+
+impl Dyad {
+    /// The dyad of a pivot and a pin in homogeneous coordinates; `None` if the pin is at infinity, or on the pivot.
+    pub fn from_homogeneous(pivot: &Vector3<f64>, pin: &Vector3<f64>) -> Option<Dyad> {
+        /// A link shorter than this, in sizes of the poses, is none: the pole of two poses satisfies the equations of both.
+        const SHORTEST: f64 = 1e-6;
+        let [g, w] = [pivot.normalize(), pin.normalize()];
+        if w.z.abs() <= AT_INFINITY {
+            return None;
+        }
+        let pin = Complex::new(w.x / w.z, w.y / w.z);
+        if g.z.abs() <= AT_INFINITY {
+            let normal = Complex::new(g.x, g.y);
+            return Some(Dyad::Slider { normal: normal / length(normal), pin });
+        }
+        let pivot = Complex::new(g.x / g.z, g.y / g.z);
+        (length(pin - pivot) > SHORTEST).then_some(Dyad::Revolute { pivot, pin })
+    }
+
+    /// The pin in the first pose.
+    pub fn pin(&self) -> Complex {
+        let (Dyad::Revolute { pin, .. } | Dyad::Slider { pin, .. }) = self;
+        *pin
+    }
+
+    /// Where the pin is in some poses.
+    pub fn pins(&self, placed: &[Placed]) -> Vec<Complex> {
+        let of_body = placed[0].of_body(self.pin());
+        placed.iter().map(|pose| pose.apply(of_body)).collect()
+    }
+
+    /// The greatest difference of the pin's distance from its pivot or line from that in the first pose.
+    pub fn error(&self, placed: &[Placed]) -> f64 {
+        let distance = |pin: &Complex| match self {
+            Dyad::Revolute { pivot, .. } => length(pin - pivot),
+            Dyad::Slider { normal, .. } => (pin * normal.conj()).re,
+        };
+        let pins = self.pins(placed);
+        pins.iter().map(|pin| (distance(pin) - distance(&pins[0])).abs()).fold(0.0, f64::max)
+    }
+}

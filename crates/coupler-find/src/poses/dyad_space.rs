@@ -1,0 +1,179 @@
+//! The dyads of some poses: a few, those of a curve of pivots, or those of any pivot.
+
+use super::body::{Placed, PoseSet};
+use super::centre_curve::CentreCurve;
+use super::dyad::{Dyad, Forms};
+use super::five;
+use crate::complex::{Complex, unit};
+use crate::even_sequence::EvenSequence;
+use coupler_curves::geometry::Bounds;
+use nalgebra::Vector3;
+
+/// How many dyads poses have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Freedom {
+    /// Finitely many: those of five poses.
+    Points,
+    /// Those of the pivots on a curve: of four poses, and of five that are special.
+    Curve,
+    /// One for each pivot: of three poses, and of translations along a circle.
+    Plane,
+    /// A line of pins for each pivot: of two poses.
+    Space,
+}
+
+/// The dyads of two to five poses.
+pub(super) struct DyadSpace {
+    forms: Forms,
+    kind: Kind,
+    /// The box of pivots, in sizes of the poses from their middle: least and greatest corner.
+    pivots: [Complex; 2],
+    /// Whether the box is asked for: otherwise only samples are within it.
+    is_bounded: bool,
+}
+
+enum Kind {
+    Points(Vec<Dyad>),
+    Curve(CentreCurve),
+    Plane,
+    Space,
+}
+
+/// Which dyad of a space: coordinates from 0 to 1, of which as many count as it has dimensions, and one of several at them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct DyadPlace {
+    pub coordinates: [f64; 3],
+    /// The number of a dyad of finitely many, or one of the two on a line, or 1 for a slider among those of pivots.
+    pub number: usize,
+}
+
+/// How far from the middle of the poses pivots are without a box, in sizes of the poses.
+const REACH: f64 = 3.0;
+
+impl DyadSpace {
+    /// The dyads of two to five poses; with the box of the pivots.
+    pub fn new(set: &PoseSet, pivots: Option<Bounds>) -> DyadSpace {
+        let placed = set.placed();
+        let forms = Forms::new(placed);
+        let curve = |of: &[Placed]| CentreCurve::new(of).map_or(Kind::Plane, Kind::Curve);
+        let kind = match placed.len() {
+            2 => Kind::Space,
+            3 => Kind::Plane,
+            4 => curve(placed),
+            _ => five::dyads(&forms).map_or_else(|| curve(&placed[..4]), Kind::Points),
+        };
+        let corner = Complex::new(REACH, REACH);
+        let is_bounded = pivots.is_some();
+        let pivots = pivots.map_or([-corner, corner], |within| [set.relative(within.min), set.relative(within.max)]);
+        DyadSpace { forms, kind, pivots, is_bounded }
+    }
+
+    /// How many dyads there are.
+    pub fn freedom(&self) -> Freedom {
+        match self.kind {
+            Kind::Points(_) => Freedom::Points,
+            Kind::Curve(_) => Freedom::Curve,
+            Kind::Plane => Freedom::Plane,
+            Kind::Space => Freedom::Space,
+        }
+    }
+
+    /// The number of coordinates.
+    pub fn dimension(&self) -> usize {
+        self.freedom() as usize
+    }
+
+    /// Places all over the space: all of finitely many dyads, and of others about as many as asked for.
+    pub fn places(&self, count: usize) -> Vec<DyadPlace> {
+        /// Of how many samples one is a slider, whose lines have one coordinate less.
+        const SLIDERS: usize = 8;
+        match &self.kind {
+            Kind::Points(dyads) => (0..dyads.len()).map(|number| DyadPlace { coordinates: [0.0; 3], number }).collect(),
+            Kind::Curve(_) => {
+                let on_line = |k: usize| {
+                    let angle = (k as f64 + 0.5) / (count / 2).max(1) as f64;
+                    [0, 1].map(|number| DyadPlace { coordinates: [angle, 0.0, 0.0], number })
+                };
+                let slider = DyadPlace { coordinates: [0.0; 3], number: 2 };
+                (0..count / 2).flat_map(on_line).chain([slider]).collect()
+            }
+            Kind::Plane | Kind::Space => {
+                let sequence = EvenSequence::new(self.dimension());
+                let place = |k: usize| {
+                    let part = sequence.parts(k);
+                    let coordinates = [0, 1, 2].map(|c| if c < self.dimension() { part(c) } else { 0.0 });
+                    DyadPlace { coordinates, number: usize::from(k % SLIDERS == SLIDERS - 1) }
+                };
+                (0..count).map(place).collect()
+            }
+        }
+    }
+
+    /// The dyad at a place; `None` if there is none, or its pivot is beyond the box.
+    pub fn dyad(&self, place: &DyadPlace) -> Option<Dyad> {
+        let DyadPlace { coordinates: [u, v, w], number } = *place;
+        let dyad = match (&self.kind, number) {
+            (Kind::Points(dyads), _) => *dyads.get(number)?,
+            (Kind::Curve(curve), 2) => curve.slider()?,
+            (Kind::Curve(curve), _) => curve.dyads(std::f64::consts::PI * u)[number]?,
+            (Kind::Plane, _) => {
+                let pivot = self.pivot(number, [u, v]);
+                Dyad::from_homogeneous(&pivot, &self.forms.pin(&pivot)?)?
+            }
+            (Kind::Space, 0) => self.on_line(&self.pivot(0, [u, v]), w)?,
+            (Kind::Space, _) => self.on_line(&self.pivot(1, [u, 0.0]), v)?,
+        };
+        let is_within = match dyad {
+            Dyad::Revolute { pivot, .. } => self.contains(pivot),
+            Dyad::Slider { .. } => true,
+        };
+        (is_within && self.is_exact(&dyad)).then_some(dyad)
+    }
+
+    /// A pivot in the box, or the normal of a line.
+    fn pivot(&self, number: usize, [u, v]: [f64; 2]) -> Vector3<f64> {
+        let [low, high] = self.pivots;
+        match number {
+            0 => Vector3::new(low.re + u * (high.re - low.re), low.im + v * (high.im - low.im), 1.0).normalize(),
+            _ => {
+                let normal = unit(std::f64::consts::PI * u);
+                Vector3::new(normal.re, normal.im, 0.0)
+            }
+        }
+    }
+
+    /// A pin on the line that the equation of two poses leaves for a pivot.
+    fn on_line(&self, pivot: &Vector3<f64>, part: f64) -> Option<Dyad> {
+        let row = self.forms.rows(pivot).first().copied()?;
+        let normal = Complex::new(row.x, row.y);
+        let square = normal.norm_sqr();
+        // The poses differ by a translation: there is no such line, or every pin is possible.
+        if square <= 1e-20 * row.norm_squared() {
+            return None;
+        }
+        let foot = normal * (-row.z / square);
+        let along = Complex::new(-normal.im, normal.re) / square.sqrt();
+        let pin = foot + along * (REACH * (2.0 * part - 1.0));
+        Dyad::from_homogeneous(pivot, &Vector3::new(pin.re, pin.im, 1.0))
+    }
+
+    /// Whether a pivot is in the box that is asked for.
+    fn contains(&self, pivot: Complex) -> bool {
+        let [low, high] = self.pivots;
+        let is_within = (low.re..=high.re).contains(&pivot.re) && (low.im..=high.im).contains(&pivot.im);
+        is_within || !self.is_bounded
+    }
+
+    /// Whether a dyad satisfies the equations of all poses, also of those that did not determine it.
+    fn is_exact(&self, dyad: &Dyad) -> bool {
+        /// The forms and the vectors have the size 1: of a double zero half of the digits are left.
+        const MOST: f64 = 1e-10;
+        let pin = dyad.pin();
+        let pin = Vector3::new(pin.re, pin.im, 1.0).normalize();
+        let pivot = match dyad {
+            Dyad::Revolute { pivot, .. } => Vector3::new(pivot.re, pivot.im, 1.0).normalize(),
+            Dyad::Slider { normal, .. } => Vector3::new(normal.re, normal.im, 0.0),
+        };
+        self.forms.residual(&pivot, &pin) <= MOST
+    }
+}

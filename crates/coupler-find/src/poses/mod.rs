@@ -1,0 +1,22 @@
+//! Linkages that guide a body through poses: four-bars and slider-cranks whose coupler is the body.
+
+mod answer;
+mod body;
+mod centre_curve;
+mod condition;
+mod dyad;
+mod dyad_space;
+mod five;
+mod guide;
+mod pair;
+#[cfg(test)]
+mod random_poses;
+mod search;
+
+pub use answer::{PoseAnswer, PoseDeviation};
+pub use body::{BodyPose, PoseError, PoseSet};
+pub use condition::PoseCondition;
+pub use dyad_space::Freedom;
+pub use guide::{Guide, PlacedSliderCrank};
+pub use pair::Misfit;
+pub use search::{PlacedDyad, PoseFindings, PoseOptions, exact_guides};

@@ -1,0 +1,424 @@
+//! The search for linkages that guide a body through poses.
+
+use std::collections::BTreeMap;
+
+use super::answer::{Candidate, PoseAnswer};
+use super::body::PoseSet;
+use super::condition::PoseCondition;
+use super::dyad::Dyad;
+use super::dyad_space::{DyadPlace, DyadSpace, Freedom};
+use super::pair::{Misfit, Passing, PosedDyad, Wish, passing};
+use crate::complex::{Complex, length};
+use crate::options::Effort;
+use crate::scatter::Scatter;
+use crate::workers::Workers;
+use coupler_curves::geometry::{Bounds, Point};
+
+/// What is asked of the linkages that guide a body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PoseOptions {
+    /// Whether the crank must turn fully.
+    pub full_turn: bool,
+    /// Whether the poses may be passed in any order.
+    pub any_order: bool,
+    /// Whether the poses may be on several circuits or branches.
+    pub any_circuit: bool,
+    /// The greatest distance of two joints of a link, in sizes of the poses; may be infinite.
+    pub max_link: f64,
+    /// The box of the fixed pivots, in the unit of the poses.
+    pub pivots: Option<Bounds>,
+    /// A condition on the linkage.
+    pub condition: Option<PoseCondition>,
+    /// How many dyads are tried where there are infinitely many.
+    pub effort: Effort,
+    /// The number from which the dyads follow that are tried near the best.
+    pub seed: u64,
+    /// The most answers.
+    pub most: usize,
+}
+
+/// A dyad in the plane of the poses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlacedDyad {
+    /// The fixed pivot; `None` for a slider.
+    pub pivot: Option<Point>,
+    /// The direction of a slider's line in degrees, 0 to 180.
+    pub line_deg: Option<f64>,
+    /// The pin at the first pose.
+    pub pin: Point,
+}
+
+/// What has been found for some poses.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PoseFindings {
+    /// How many dyads the poses have.
+    pub freedom: Freedom,
+    /// The dyads: all if they are finitely many, and otherwise the samples of which linkages were made.
+    pub dyads: Vec<PlacedDyad>,
+    /// How many pairs of a crank and another dyad were tried.
+    pub pairs: usize,
+    /// How many of them were left out for each reason.
+    pub left_out: BTreeMap<Misfit, usize>,
+    /// The answers, the best transmission angle first.
+    pub answers: Vec<PoseAnswer>,
+}
+
+/// A pair of dyads, and how it passes the poses.
+#[derive(Clone, Copy, Debug)]
+struct Scored {
+    places: [DyadPlace; 2],
+    worst_cosine: f64,
+}
+
+/// Finds linkages that guide a body through 2 to 5 poses exactly.
+pub fn exact_guides(set: &PoseSet, options: &PoseOptions, workers: &impl Workers) -> PoseFindings {
+    let space = DyadSpace::new(set, options.pivots);
+    let search = Search { set, options, space, wish: wish(options) };
+    search.run(workers)
+}
+
+/// The wishes that are checked of pairs of dyads.
+pub(super) fn wish(options: &PoseOptions) -> Wish {
+    let PoseOptions { full_turn, any_order, any_circuit, max_link, .. } = *options;
+    Wish { full_turn, any_order, any_circuit, max_link }
+}
+
+struct Search<'a> {
+    set: &'a PoseSet,
+    options: &'a PoseOptions,
+    space: DyadSpace,
+    wish: Wish,
+}
+
+impl Search<'_> {
+    fn run(&self, workers: &impl Workers) -> PoseFindings {
+        let places = self.space.places(self.sample_count());
+        let posed: Vec<(DyadPlace, PosedDyad)> =
+            places.into_iter().filter_map(|place| Some((place, self.posed(&place)?))).collect();
+        let (mut scored, mut left_out) = self.scored(&posed, workers);
+        scored.sort_by(|a, b| a.worst_cosine.total_cmp(&b.worst_cosine));
+        let is_finite = self.space.freedom() == Freedom::Points;
+        if !is_finite {
+            self.refine(&mut scored, workers);
+        }
+        if !is_finite && self.options.condition.is_some() {
+            scored = self.spread(scored);
+        }
+        let answers = self.solved(&scored, &mut left_out, workers);
+        let cranks = posed.iter().filter(|(_, dyad)| matches!(dyad.dyad, Dyad::Revolute { .. })).count();
+        PoseFindings {
+            freedom: self.space.freedom(),
+            dyads: posed.iter().map(|(_, dyad)| placed_dyad(self.set, &dyad.dyad)).collect(),
+            pairs: cranks * posed.len().saturating_sub(1),
+            left_out,
+            answers,
+        }
+    }
+
+    /// The number of samples of infinitely many dyads.
+    fn sample_count(&self) -> usize {
+        const NORMAL: usize = 1000;
+        match self.options.effort {
+            Effort::Quick => NORMAL / 2,
+            Effort::Normal => NORMAL,
+            Effort::Thorough => 2 * NORMAL,
+        }
+    }
+
+    fn posed(&self, place: &DyadPlace) -> Option<PosedDyad> {
+        let posed = PosedDyad::new(self.space.dyad(place)?, self.set.placed());
+        (posed.reach <= self.wish.max_link).then_some(posed)
+    }
+
+    /// Whether a pair passes the poses as asked for, as far as it is known before it is solved.
+    fn passing(&self, crank: &PosedDyad, follower: &PosedDyad) -> Result<Passing, Misfit> {
+        let is_slider_crank = matches!(follower.dyad, Dyad::Slider { .. });
+        match &self.options.condition {
+            Some(condition) if !condition.is_of(is_slider_crank) => Err(Misfit::Condition),
+            _ => passing(crank, follower, &self.wish),
+        }
+    }
+
+    /// The pairs that pass the poses as asked for, and the others by their reasons.
+    fn scored(
+        &self,
+        posed: &[(DyadPlace, PosedDyad)],
+        workers: &impl Workers,
+    ) -> (Vec<Scored>, BTreeMap<Misfit, usize>) {
+        let is_crank = |k: &usize| matches!(posed[*k].1.dyad, Dyad::Revolute { .. });
+        let of_crank = |k: usize| {
+            let mut found = Vec::new();
+            let mut left_out = BTreeMap::new();
+            for (_, (place, follower)) in posed.iter().enumerate().filter(|(m, _)| *m != k) {
+                match self.passing(&posed[k].1, follower) {
+                    Ok(passing) => {
+                        found.push(Scored { places: [posed[k].0, *place], worst_cosine: passing.worst_cosine });
+                    }
+                    Err(misfit) => *left_out.entry(misfit).or_insert(0) += 1,
+                }
+            }
+            // Of many, the best are enough: answers differ.
+            found.sort_by(|a, b| a.worst_cosine.total_cmp(&b.worst_cosine));
+            found.truncate(MOST_OF_CRANK);
+            (found, left_out)
+        };
+        let cranks: Vec<usize> = (0..posed.len()).filter(is_crank).collect();
+        let mut all = Vec::new();
+        let mut left_out = BTreeMap::new();
+        for (found, misfits) in workers.map(cranks, of_crank) {
+            all.extend(found);
+            misfits.into_iter().for_each(|(misfit, count)| *left_out.entry(misfit).or_insert(0) += count);
+        }
+        (all, left_out)
+    }
+
+    /// Moves the best pairs to better ones near them, each for itself.
+    fn refine(&self, scored: &mut Vec<Scored>, workers: &impl Workers) {
+        let mut starts: Vec<Scored> = Vec::new();
+        for pair in scored.iter() {
+            if starts.len() >= 2 * self.options.most {
+                break;
+            }
+            if starts.iter().all(|other| !are_near(&pair.places, &other.places)) {
+                starts.push(*pair);
+            }
+        }
+        let numbered: Vec<(u64, Scored)> = (0..).zip(starts).collect();
+        let refined = workers.map(numbered, |(number, start)| self.refined(start, self.options.seed + number));
+        scored.splice(0..0, refined);
+        scored.sort_by(|a, b| a.worst_cosine.total_cmp(&b.worst_cosine));
+    }
+
+    /// A pair after steps at random, of which those are kept that better it.
+    fn refined(&self, mut best: Scored, seed: u64) -> Scored {
+        const STEPS: usize = 300;
+        let mut scatter = Scatter::new(seed);
+        let mut spread = 0.05;
+        for _ in 0..STEPS {
+            let mut places = best.places;
+            for place in &mut places {
+                let free = place.coordinates.iter_mut().take(self.space.dimension());
+                free.for_each(|x| *x = (*x + scatter.normal(spread)).clamp(0.0, 1.0));
+            }
+            let [Some(crank), Some(follower)] = places.map(|place| self.posed(&place)) else { continue };
+            match self.passing(&crank, &follower) {
+                Ok(passing) if passing.worst_cosine < best.worst_cosine => {
+                    best = Scored { places, worst_cosine: passing.worst_cosine };
+                    spread *= 1.2;
+                }
+                _ => spread = (0.97 * spread).max(1e-4),
+            }
+        }
+        best
+    }
+
+    /// The same in another order: first the best of each neighbourhood, then the second of each, and so on, so that a condition is tried on
+    /// pairs of all kinds.
+    fn spread(&self, scored: Vec<Scored>) -> Vec<Scored> {
+        /// The width of a neighbourhood, in parts of the range of a coordinate.
+        const PARTS: f64 = 8.0;
+        let mut seen: BTreeMap<Vec<usize>, usize> = BTreeMap::new();
+        let key = |pair: &Scored| {
+            let of_place = |place: &DyadPlace| {
+                let parts = place.coordinates.map(|x| (PARTS * x) as usize);
+                [place.number, parts[0], parts[1], parts[2]]
+            };
+            pair.places.iter().flat_map(of_place).collect::<Vec<usize>>()
+        };
+        let mut numbered: Vec<(usize, Scored)> = Vec::with_capacity(scored.len());
+        for pair in scored {
+            let count = seen.entry(key(&pair)).or_insert(0);
+            numbered.push((*count, pair));
+            *count += 1;
+        }
+        numbered.sort_by_key(|(count, _)| *count);
+        numbered.into_iter().map(|(_, pair)| pair).collect()
+    }
+
+    /// The best that differ and pass the poses when they are solved.
+    fn solved(
+        &self,
+        scored: &[Scored],
+        left_out: &mut BTreeMap<Misfit, usize>,
+        workers: &impl Workers,
+    ) -> Vec<PoseAnswer> {
+        /// How many are solved at once, whatever the number of threads, so that the answer does not depend on it.
+        const AT_ONCE: usize = 16;
+        /// The most that are solved: with a condition that none meets it takes a few seconds.
+        const MOST: usize = 2000;
+        let is_finite = self.space.freedom() == Freedom::Points;
+        let mut answers: Vec<PoseAnswer> = Vec::new();
+        let mut solved = 0;
+        let mut rest = scored.iter();
+        while answers.len() < self.options.most && solved < MOST {
+            let is_new = |pair: &&Scored| is_finite || answers.iter().all(|other| self.differ(pair, other));
+            let next: Vec<Scored> = rest.by_ref().filter(is_new).take(AT_ONCE).copied().collect();
+            if next.is_empty() {
+                break;
+            }
+            solved += next.len();
+            for result in workers.map(next, |pair| self.solve(&pair)) {
+                match result {
+                    Ok(answer) => {
+                        let differs = is_finite || answers.iter().all(|other| are_different(self.set, &answer, other));
+                        if differs && answers.len() < self.options.most {
+                            answers.push(answer);
+                        }
+                    }
+                    Err(misfit) => *left_out.entry(misfit).or_insert(0) += 1,
+                }
+            }
+        }
+        answers
+    }
+
+    fn solve(&self, pair: &Scored) -> Result<PoseAnswer, Misfit> {
+        let [Some(crank), Some(follower)] = pair.places.map(|place| self.posed(&place)) else {
+            return Err(Misfit::NoLinkage);
+        };
+        let candidate = Candidate { set: self.set, passed: self.set.placed(), crank: &crank, follower: &follower };
+        PoseAnswer::solve(&candidate, &self.wish, self.options.condition.as_ref())
+    }
+
+    /// Whether a pair differs from an answer, by its pins at the first pose and its pivots.
+    fn differ(&self, pair: &Scored, answer: &PoseAnswer) -> bool {
+        let [Some(crank), Some(follower)] = pair.places.map(|place| self.space.dyad(&place)) else { return false };
+        let mut own = vec![crank.pin(), follower.pin()];
+        own.extend([crank, follower].iter().filter_map(|dyad| match dyad {
+            Dyad::Revolute { pivot, .. } => Some(*pivot),
+            Dyad::Slider { .. } => None,
+        }));
+        are_apart(&own, &joints(self.set, answer))
+    }
+}
+
+/// The most pairs that are kept of a crank.
+const MOST_OF_CRANK: usize = 200;
+
+/// Whether places of two pairs are near each other.
+fn are_near(a: &[DyadPlace; 2], b: &[DyadPlace; 2]) -> bool {
+    const NEAR: f64 = 0.05;
+    a.iter().zip(b).all(|(a, b)| {
+        a.number == b.number && a.coordinates.iter().zip(&b.coordinates).all(|(x, y)| (x - y).abs() < NEAR)
+    })
+}
+
+/// The pins at the first pose and the pivots of an answer, in sizes of the poses.
+fn joints(set: &PoseSet, answer: &PoseAnswer) -> Vec<Complex> {
+    let points = answer.pins[0].into_iter().chain(answer.guide.pivots());
+    points.map(|p| set.relative(p)).collect()
+}
+
+fn are_different(set: &PoseSet, a: &PoseAnswer, b: &PoseAnswer) -> bool {
+    are_apart(&joints(set, a), &joints(set, b))
+}
+
+/// Whether joints of linkages are not all near each other, also if the crank of one is the rocker of the other.
+fn are_apart(a: &[Complex], b: &[Complex]) -> bool {
+    /// In sizes of the poses.
+    const APART: f64 = 0.25;
+    let is_near = |order: [usize; 4]| {
+        let pairs = order.iter().enumerate().take(a.len());
+        pairs.into_iter().all(|(k, m)| length(a[k] - b[*m]) < APART)
+    };
+    a.len() != b.len() || !(is_near([0, 1, 2, 3]) || a.len() == 4 && is_near([1, 0, 3, 2]))
+}
+
+/// A dyad in the plane of the poses.
+pub(super) fn placed_dyad(set: &PoseSet, dyad: &Dyad) -> PlacedDyad {
+    let pin = set.place(dyad.pin());
+    match dyad {
+        Dyad::Revolute { pivot, .. } => PlacedDyad { pivot: Some(set.place(*pivot)), line_deg: None, pin },
+        Dyad::Slider { normal, .. } => {
+            use coupler_curves::geometry::trig;
+            let turn = trig::degrees(trig::atan2(normal.re, -normal.im)).rem_euclid(180.0);
+            PlacedDyad { pivot: None, line_deg: Some(turn), pin }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::body::BodyPose;
+    use super::super::guide::Guide;
+    use super::super::random_poses::random_poses;
+    use super::*;
+    use crate::workers::OneAtATime;
+
+    fn any() -> PoseOptions {
+        PoseOptions {
+            full_turn: false,
+            any_order: false,
+            any_circuit: false,
+            max_link: f64::INFINITY,
+            pivots: None,
+            condition: None,
+            effort: Effort::Quick,
+            seed: 1,
+            most: 12,
+        }
+    }
+
+    #[test]
+    fn the_four_bar_of_five_poses_is_found_and_passes_them() {
+        for seed in 1..=40 {
+            let (set, dyads) = random_poses(5, seed);
+            let found = exact_guides(&set, &any(), &OneAtATime);
+            let own = dyads.map(|[pivot, _]| set.place(pivot));
+            let is_own = |answer: &&PoseAnswer| {
+                let pivots = answer.guide.pivots();
+                pivots.len() == 2 && (0..2).all(|k| (pivots[k] - own[k]).norm_squared().sqrt() < 1e-7 * set.size())
+            };
+            let answer = found.answers.iter().find(is_own);
+            let answer = answer.unwrap_or_else(|| panic!("{seed}: {:?}", found.left_out));
+            assert!(answer.in_order && answer.on_one_branch);
+            let error = answer.greatest_error();
+            assert!(error.distance < 1e-8 * set.size() && error.angle_deg < 1e-6, "{seed}: {error:?}");
+            let left_out: usize = found.left_out.values().sum();
+            assert_eq!(found.answers.len() + left_out, found.pairs, "{seed}");
+        }
+    }
+
+    #[test]
+    fn families_have_linkages_that_pass_two_to_four_poses() {
+        for count in 2..=4 {
+            for seed in 1..=2 {
+                let (set, _) = random_poses(count, seed);
+                for full_turn in [false, true] {
+                    let options = PoseOptions { full_turn, max_link: 10.0, ..any() };
+                    let found = exact_guides(&set, &options, &OneAtATime);
+                    assert!(!found.answers.is_empty(), "{count} {seed} {full_turn}: {:?}", found.left_out);
+                    for answer in &found.answers {
+                        let error = answer.greatest_error();
+                        assert!(error.distance < 1e-7 * set.size() && error.angle_deg < 1e-5, "{answer:?}");
+                        assert!(answer.in_order && answer.on_one_branch && answer.is_full_turn >= full_turn);
+                        assert!(answer.longest_link <= 10.0 * set.size());
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn slider_cranks_are_found() {
+        let (set, _) = random_poses(3, 7);
+        let options =
+            PoseOptions { condition: Some(PoseCondition::new("offset > -1e9").unwrap()), max_link: 10.0, ..any() };
+        let found = exact_guides(&set, &options, &OneAtATime);
+        assert!(!found.answers.is_empty());
+        assert!(found.answers.iter().all(|answer| matches!(answer.guide, Guide::SliderCrank(_))));
+    }
+
+    #[test]
+    fn translations_along_a_circle_are_passed_by_parallelograms() {
+        use coupler_curves::geometry::trig;
+        let pose = |deg: f64| {
+            let (cos, sin) = trig::cos_sin_deg(deg);
+            BodyPose { point: Point::new(2.0 + 3.0 * cos, 1.0 + 3.0 * sin), angle_deg: 20.0 }
+        };
+        let set = PoseSet::new(&[0.0, 20.0, 50.0, 75.0, 90.0].map(pose)).unwrap();
+        let found = exact_guides(&set, &any(), &OneAtATime);
+        assert_eq!(found.freedom, Freedom::Plane);
+        assert!(!found.answers.is_empty(), "{:?}", found.left_out);
+    }
+}
