@@ -96,7 +96,7 @@ pub use linkage::{
 pub use options::{Effort, Options};
 pub use poses::{
     BodyPose, Freedom, Guide, Misfit, PlacedDyad, PlacedSliderCrank, PoseAnswer, PoseCondition, PoseDeviation,
-    PoseError, PoseFindings, PoseOptions, PoseSet, exact_guides,
+    PoseError, PoseFindings, PoseOptions, PoseSet, exact_guides, nearest_guides,
 };
 pub use quality::Quality;
 pub use report::{

@@ -149,6 +149,15 @@ impl PoseAnswer {
         })
     }
 
+    /// The root of the mean square of the errors, with angles in radians times a length.
+    pub fn rms(&self, angle_length: f64) -> f64 {
+        let square = |error: &PoseDeviation| {
+            let by_angle = angle_length * trig::radians(error.angle_deg);
+            error.distance * error.distance + by_angle * by_angle
+        };
+        (self.errors.iter().map(square).sum::<f64>() / self.errors.len() as f64).sqrt()
+    }
+
     /// The greatest error of the place, and of the angle in degrees.
     pub fn greatest_error(&self) -> PoseDeviation {
         let greatest = |value: fn(&PoseDeviation) -> f64| self.errors.iter().map(value).fold(0.0, f64::max);

@@ -8,6 +8,8 @@ mod dyad;
 mod dyad_space;
 mod five;
 mod guide;
+mod near;
+mod near_guide;
 mod pair;
 #[cfg(test)]
 mod random_poses;
@@ -18,5 +20,6 @@ pub use body::{BodyPose, PoseError, PoseSet};
 pub use condition::PoseCondition;
 pub use dyad_space::Freedom;
 pub use guide::{Guide, PlacedSliderCrank};
+pub use near::nearest_guides;
 pub use pair::Misfit;
 pub use search::{PlacedDyad, PoseFindings, PoseOptions, exact_guides};

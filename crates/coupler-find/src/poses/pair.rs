@@ -45,6 +45,8 @@ pub(super) struct Wish {
 pub enum Misfit {
     /// The first dyad is a slider, or they have a pivot or a pin in common, so that they are no linkage.
     NoLinkage,
+    /// A pivot is beyond the box that is asked for.
+    TooFar,
     /// A link is longer than asked for.
     TooLong,
     /// The crank does not turn fully.

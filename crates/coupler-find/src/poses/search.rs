@@ -309,7 +309,8 @@ fn joints(set: &PoseSet, answer: &PoseAnswer) -> Vec<Complex> {
     points.map(|p| set.relative(p)).collect()
 }
 
-fn are_different(set: &PoseSet, a: &PoseAnswer, b: &PoseAnswer) -> bool {
+/// Whether two answers have different joints.
+pub(super) fn are_different(set: &PoseSet, a: &PoseAnswer, b: &PoseAnswer) -> bool {
     are_apart(&joints(set, a), &joints(set, b))
 }
 
