@@ -63,6 +63,7 @@ fn page_of(title: &str, target: &Target, details: Vec<String>, curves: impl Iter
         target: target.points().to_vec(),
         target_label: format!("the path: {} points, S = {}", target.points().len(), number(size, size)),
         curves: curves.take(MAX_CURVES).collect(),
+        lines: Vec::new(),
     };
     let paper = Paper { width: 297.0, height: 210.0 };
     render::svg(&page::compose_answers(&page, &Options::for_paper(paper)), TextMode::Text)

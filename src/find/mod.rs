@@ -8,6 +8,7 @@ mod drawing;
 mod index_file;
 mod linkage;
 mod outline;
+mod poses;
 mod request;
 mod target_file;
 
@@ -16,6 +17,7 @@ pub use drawing::draw_four_bars;
 pub use index_file::{MAX_CURVES, load_index};
 pub use linkage::find_linkage;
 pub use outline::{Outline, ReadOptions, Reading};
+pub use poses::{FoundPoses, PoseReading, Relaxed, draw_poses, find_poses, read_poses};
 pub use request::{Notation, Request, RequestProblem, Searched, SearchedLinkage};
 pub use target_file::{MAX_POINTS, parse_outline};
 

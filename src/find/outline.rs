@@ -43,12 +43,14 @@ pub struct ReadOptions<'a> {
     pub outline: Option<&'a str>,
     /// What is written before it, as messages have it.
     pub outline_option: &'a str,
+    /// What the angles are of, as messages have it: `crank` or `body`.
+    pub angles_of: &'a str,
 }
 
 /// As the command without options reads.
 impl Default for ReadOptions<'_> {
     fn default() -> Self {
-        ReadOptions { is_timed: false, outline: None, outline_option: "--outline " }
+        ReadOptions { is_timed: false, outline: None, outline_option: "--outline ", angles_of: "crank" }
     }
 }
 

@@ -51,6 +51,8 @@ pub enum Searched {
     Linkage(SearchedLinkage),
     /// The curves of an atlas.
     Atlas,
+    /// Linkages that guide a body through poses.
+    Poses,
 }
 
 /// What is asked of a search.
@@ -68,7 +70,7 @@ pub struct Request<'a> {
     pub index: Option<usize>,
     /// The box of the fixed pivots: least x, least y, greatest x, greatest y.
     pub pivots: Option<[f64; 4]>,
-    /// A condition; on the linkages of an atlas, whose names are known to the search only, it is not checked.
+    /// A condition; on the linkages of an atlas, whose names are known to the search only, and for poses, it is not checked.
     pub condition: Option<&'a str>,
     /// The other options; their box and condition are not used.
     pub options: Options,
@@ -140,7 +142,7 @@ impl Request<'_> {
             let unit = if space.is_some() { "parameter sets" } else { "four-bars" };
             problems.push(wrong("index", &index, format!("it is the number of {unit}: give one from 1 to {most}")));
         }
-        if let Some(text) = self.condition.filter(|_| !matches!(self.searched, Searched::Atlas)) {
+        if let Some(text) = self.condition.filter(|_| !matches!(self.searched, Searched::Atlas | Searched::Poses)) {
             let own = Mechanism::template();
             let template = self.searched_linkage().map_or(&own, |linkage| &linkage.template);
             match Condition::new(template, text) {
@@ -158,7 +160,7 @@ impl Request<'_> {
     fn searched_linkage(&self) -> Option<&SearchedLinkage> {
         match &self.searched {
             Searched::Linkage(linkage) => Some(linkage).filter(|linkage| !linkage.is_free_four_bar()),
-            Searched::FourBars | Searched::Atlas => None,
+            Searched::FourBars | Searched::Atlas | Searched::Poses => None,
         }
     }
 
@@ -202,7 +204,7 @@ impl Request<'_> {
                     ),
                 );
             }
-            Searched::FourBars | Searched::Linkage(_) => {}
+            Searched::FourBars | Searched::Linkage(_) | Searched::Poses => {}
         }
         if let Searched::Linkage(SearchedLinkage { template, .. }) = &self.searched
             && self.is_timed

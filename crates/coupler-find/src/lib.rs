@@ -95,8 +95,9 @@ pub use linkage::{
 };
 pub use options::{Effort, Options};
 pub use poses::{
-    BodyPose, Freedom, Guide, Misfit, PlacedDyad, PlacedSliderCrank, PoseAnswer, PoseCondition, PoseDeviation,
-    PoseError, PoseFindings, PoseOptions, PoseSet, exact_guides, nearest_guides,
+    BodyPose, Freedom, Guide, Misfit, PairLeftOut, PlacedDyad, PlacedSliderCrank, PoseAnswer, PoseCondition,
+    PoseDeviation, PoseError, PoseFindings, PoseOptions, PoseSet, burmester_curves, exact_guides, nearest_guides,
+    poses_manifest,
 };
 pub use quality::Quality;
 pub use report::{

@@ -49,6 +49,16 @@ pub struct Arguments {
     /// `angle`; without angles a closed path has equal steps of a turn.
     #[arg(long)]
     pub(super) timed: bool,
+    /// The file has poses of a body, x, y and its angle (angle_deg or angle_rad): find four-bars and slider-cranks whose coupler passes 2 to 5 of
+    /// them exactly, and more as near as can be.
+    #[arg(long)]
+    pub(super) poses: bool,
+    /// With --poses, also linkages that pass the poses in another order.
+    #[arg(long, requires = "poses")]
+    pub(super) any_order: bool,
+    /// With --poses, also linkages that must be taken apart, or pass a limit of the crank, between poses.
+    #[arg(long, requires = "poses")]
+    pub(super) any_circuit: bool,
     /// Whether the crank must turn fully.
     #[arg(long, value_enum, default_value_t = InputChoice::FullTurn)]
     pub(super) input: InputChoice,

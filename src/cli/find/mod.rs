@@ -6,6 +6,7 @@ mod json;
 mod linkage;
 mod not_a_path;
 mod notes;
+mod poses;
 mod report;
 mod request;
 mod shown;
@@ -67,6 +68,9 @@ impl Shown for Report {
 pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let printed = [("--json", arguments.json), ("--toml", arguments.toml)];
     let is_drawing_printed = files::is_drawing_printed(arguments.svg.as_deref(), &printed)?;
+    if arguments.poses {
+        return poses::run(arguments, is_drawing_printed);
+    }
     let linkage = linkage::named(arguments)?;
     let searched = match (&linkage, &arguments.atlas) {
         (Some(named), _) => Searched::Linkage(named.searched.clone()),
@@ -161,7 +165,7 @@ fn read_path(arguments: &Arguments) -> Result<TracedPath, Failure> {
     })?;
     if outline.reading.has_unused_angles {
         print_stderr(&format!(
-            "note: the angles in {name} are not used: with --timed each point is reached at its own\n"
+            "note: the angles in {name} are not used: with --timed each point is reached at its own, and with --poses they are those of a body that a linkage guides\n"
         ));
     }
     TracedPath::new(name, outline, arguments)

@@ -12,6 +12,17 @@ use crate::find::{Notation, Request, Searched};
 /// # Errors
 /// All that is wrong with them.
 pub(super) fn check(arguments: &Arguments, searched: Searched) -> Result<(Options, Option<LinkageSpace>), Failure> {
+    check_all(arguments, searched).map_err(|messages| Failure::inputs(&messages))
+}
+
+/// The same, with a message for each problem.
+///
+/// # Errors
+/// All that is wrong with them.
+pub(super) fn check_all(
+    arguments: &Arguments,
+    searched: Searched,
+) -> Result<(Options, Option<LinkageSpace>), Vec<String>> {
     let default = Options::default();
     let max_link = parse_length(&arguments.max_link);
     let pivots = arguments.pivots.as_deref().map(parse_box).transpose();
@@ -39,7 +50,7 @@ pub(super) fn check(arguments: &Arguments, searched: Searched) -> Result<(Option
     };
     let unread = max_link.err().into_iter().chain(pivots.err());
     let messages: Vec<String> = unread.chain(problems.into_iter().map(|problem| problem.message)).collect();
-    checked.filter(|_| messages.is_empty()).ok_or_else(|| Failure::inputs(&messages))
+    checked.filter(|_| messages.is_empty()).ok_or(messages)
 }
 
 /// Reads a length in sizes of the path, or `inf`.

@@ -69,7 +69,8 @@ pub(super) fn parse_json(text: &str, options: &ReadOptions) -> Result<Outline, V
     }
     let angles_deg = has_angles.then_some(angles_deg);
     let mut outline = Outline::new(points, angles_deg, closed.and_then(Value::as_bool));
-    let angle = if has_angles { ", and angles of the crank, in degrees" } else { "" };
+    let angle =
+        if has_angles { format!(", and angles of the {}, in degrees", options.angles_of) } else { String::new() };
     let taken = format!("the points of JSON, x and y{angle}");
     outline.reading = Reading { taken, has_unused_angles: is_timed && !options.is_timed };
     Ok(outline)

@@ -7,9 +7,9 @@ use super::mechanism::PosedMechanism;
 use super::plot::Plot;
 use super::rect::Rect;
 use super::theme::Theme;
-use super::{AnswersPage, FoundCurve};
+use super::{AnswersPage, FoundCurve, FoundLine};
 use crate::mechanism::Mechanism;
-use crate::scene::{Anchor, Circle, Curve, Item, Path, Scene};
+use crate::scene::{Anchor, Circle, Curve, Item, Path, Polyline, Scene, Stroke};
 use coupler_curves::geometry::Similarity;
 use coupler_curves::geometry::{Bounds, Point, Vector};
 use coupler_curves::path;
@@ -29,7 +29,8 @@ pub(super) fn compose(scene: &mut Scene, page: &AnswersPage, theme: &Theme) {
     }
     let entries: Vec<&FoundCurve> = page.curves.iter().collect();
     let step = 1.45 * theme.note_size;
-    let foot = theme.border + theme.margin + step * (entries.len() + 1) as f64;
+    let labelled: Vec<&FoundLine> = page.lines.iter().filter(|line| !line.label.is_empty()).collect();
+    let foot = theme.border + theme.margin + step * (entries.len() + labelled.len() + 1) as f64;
     let frame = Rect { corner: at, size: Vector::new(width, (paper.y - foot - at.y).max(0.3 * paper.y)) };
     draw_figure(&root, frame, page, theme);
     // The target, then the curves with their ranks.
@@ -57,6 +58,25 @@ pub(super) fn compose(scene: &mut Scene, page: &AnswersPage, theme: &Theme) {
             &curve.label,
         );
     }
+    for line in labelled {
+        let ends = vec![place, place + Vector::new(3.0 * theme.note_size, 0.0)];
+        place = legend(Item::Path(Path::stroked(ends, line_stroke(line, theme))), &line.label);
+    }
+}
+
+/// The stroke of a line that is no curve of a linkage.
+fn line_stroke(line: &FoundLine, theme: &Theme) -> Stroke {
+    theme.stroke(if line.is_light { theme.hairline } else { theme.grey }, theme.fine_width)
+}
+
+/// The parts of a polyline within a rectangle: whole segments, for they are short.
+fn within(line: &[Point], frame: &Rect) -> Vec<Polyline> {
+    let is_within = |p: &Point| {
+        let far = p - frame.corner;
+        (0.0..=frame.size.x).contains(&far.x) && (0.0..=frame.size.y).contains(&far.y)
+    };
+    let parts = line.split(|p| !is_within(p)).filter(|part| part.len() > 1);
+    parts.map(|part| Polyline { points: part.to_vec(), is_closed: false }).collect()
 }
 
 /// The best curve is as broad as on other pages, and the others are finer.
@@ -81,6 +101,13 @@ fn draw_figure(area: &impl Area, frame: Rect, page: &AnswersPage, theme: &Theme)
     plot.draw_scale_bar(area, &[], theme);
     // A hundredth of a millimetre, as on other pages.
     let tolerance = 0.01 / plot.page_from_plane.scale();
+    for line in &page.lines {
+        let on_page =
+            |points: &Vec<Point>| -> Vec<Point> { points.iter().map(|p| plot.page_from_plane.apply(*p)).collect() };
+        let polylines = line.points.iter().flat_map(|points| within(&on_page(points), &frame)).collect();
+        let path = Path { polylines, stroke: Some(line_stroke(line, theme)), fill: None };
+        area.record(Drawing { class: "line", title: line.label.clone(), items: vec![Item::Path(path)] });
+    }
     // Behind the curves, which its plate would hide.
     if let Some(found) = first {
         let traced = found.solved.curves[0].joint;

@@ -45,7 +45,9 @@ pub use key::Key;
 pub use layout::Layout;
 pub use marks::cell_facts;
 pub use options::Options;
-pub use pages::{AnswersPage, ChartPage, CouplerGridPage, FoundCurve, LinkLabel, OverlayPage, PanelPage, PanelScale};
+pub use pages::{
+    AnswersPage, ChartPage, CouplerGridPage, FoundCurve, FoundLine, LinkLabel, OverlayPage, PanelPage, PanelScale,
+};
 pub use panel::{Panel, PoseChoice};
 pub use paper::Paper;
 pub use theme::{CurveStyle, NamedTheme, Theme};

@@ -120,6 +120,19 @@ pub struct AnswersPage<'a> {
     pub target_label: String,
     /// The curves, the best first.
     pub curves: Vec<FoundCurve>,
+    /// Further lines, behind the curves: they do not widen the view.
+    pub lines: Vec<FoundLine>,
+}
+
+/// Lines of a page of curves that are no curves of linkages: poses of a body, or places of pivots.
+#[derive(Clone, Debug)]
+pub struct FoundLine {
+    /// Its polylines.
+    pub points: Vec<Vec<Point>>,
+    /// What the legend says of it; if it is empty, the legend does not have it.
+    pub label: String,
+    /// Whether it is lighter than others.
+    pub is_light: bool,
 }
 
 /// A curve that is near a path.

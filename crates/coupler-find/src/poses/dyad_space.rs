@@ -20,6 +20,32 @@ pub enum Freedom {
     Plane,
     /// A line of pins for each pivot: of two poses.
     Space,
+    /// None that passes the poses exactly, in general: of more than five poses.
+    None,
+}
+
+impl Freedom {
+    /// In a few words: `infinitely many dyads, one for each pivot`.
+    pub fn description(self) -> &'static str {
+        match self {
+            Freedom::Points => "finitely many dyads",
+            Freedom::Curve => "infinitely many dyads, with their pivots on a curve",
+            Freedom::Plane => "infinitely many dyads, one for each pivot",
+            Freedom::Space => "infinitely many dyads, a line of pins for each pivot",
+            Freedom::None => "no dyads that pass them exactly, in general",
+        }
+    }
+
+    /// Its name in JSON.
+    pub fn name(self) -> &'static str {
+        match self {
+            Freedom::Points => "points",
+            Freedom::Curve => "curve",
+            Freedom::Plane => "plane",
+            Freedom::Space => "space",
+            Freedom::None => "none",
+        }
+    }
 }
 
 /// The dyads of two to five poses.
@@ -109,7 +135,7 @@ impl DyadSpace {
         }
     }
 
-    /// The dyad at a place; `None` if there is none, or its pivot is beyond the box.
+    /// The dyad at a place; `None` if there is none, or its pivot is beyond the box, where they are not finitely many.
     pub fn dyad(&self, place: &DyadPlace) -> Option<Dyad> {
         let DyadPlace { coordinates: [u, v, w], number } = *place;
         let dyad = match (&self.kind, number) {
@@ -123,11 +149,16 @@ impl DyadSpace {
             (Kind::Space, 0) => self.on_line(&self.pivot(0, [u, v]), w)?,
             (Kind::Space, _) => self.on_line(&self.pivot(1, [u, 0.0]), v)?,
         };
-        let is_within = match dyad {
-            Dyad::Revolute { pivot, .. } => self.contains(pivot),
-            Dyad::Slider { .. } => true,
-        };
-        (is_within && self.is_exact(&dyad)).then_some(dyad)
+        let is_finite = matches!(self.kind, Kind::Points(_));
+        (is_finite || self.contains(&dyad) && self.is_exact(&dyad)).then_some(dyad)
+    }
+
+    /// Whether the pivot of a dyad is in the box that is asked for.
+    pub fn contains(&self, dyad: &Dyad) -> bool {
+        let Dyad::Revolute { pivot, .. } = dyad else { return true };
+        let [low, high] = self.pivots;
+        let is_within = (low.re..=high.re).contains(&pivot.re) && (low.im..=high.im).contains(&pivot.im);
+        is_within || !self.is_bounded
     }
 
     /// A pivot in the box, or the normal of a line.
@@ -155,13 +186,6 @@ impl DyadSpace {
         let along = Complex::new(-normal.im, normal.re) / square.sqrt();
         let pin = foot + along * (REACH * (2.0 * part - 1.0));
         Dyad::from_homogeneous(pivot, &Vector3::new(pin.re, pin.im, 1.0))
-    }
-
-    /// Whether a pivot is in the box that is asked for.
-    fn contains(&self, pivot: Complex) -> bool {
-        let [low, high] = self.pivots;
-        let is_within = (low.re..=high.re).contains(&pivot.re) && (low.im..=high.im).contains(&pivot.im);
-        is_within || !self.is_bounded
     }
 
     /// Whether a dyad satisfies the equations of all poses, also of those that did not determine it.

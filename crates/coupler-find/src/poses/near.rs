@@ -52,10 +52,11 @@ pub fn nearest_guides(set: &PoseSet, options: &PoseOptions, workers: &impl Worke
     let answers = solved(set, &guides, options, &mut left_out, workers);
     left_out.retain(|_, count| *count > 0);
     PoseFindings {
-        freedom: Freedom::Points,
+        freedom: Freedom::None,
         dyads: dyads.iter().map(|(_, near)| placed_dyad(set, &near.dyad.at(&placed[0]))).collect(),
         pairs: 2 * count,
         left_out,
+        pairs_left_out: Vec::new(),
         answers,
     }
 }

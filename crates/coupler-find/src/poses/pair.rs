@@ -63,6 +63,38 @@ pub enum Misfit {
     Unsolved,
 }
 
+impl Misfit {
+    /// In a few words, as the end of "3 pairs:".
+    pub fn description(self) -> &'static str {
+        match self {
+            Misfit::NoLinkage => "no linkage, for they share a pivot or a pin, or both slide",
+            Misfit::TooFar => "a pivot is beyond --pivots",
+            Misfit::TooLong => "a link is longer than --max-link",
+            Misfit::NoFullTurn => "the crank does not turn fully (--input any)",
+            Misfit::Circuits => "the poses are on several circuits",
+            Misfit::Branches => "the crank passes a limit between poses",
+            Misfit::Order => "the poses are passed in another order",
+            Misfit::Condition => "--where is not met",
+            Misfit::Unsolved => "too near a limit or a change point to be solved",
+        }
+    }
+
+    /// Its name in JSON.
+    pub fn name(self) -> &'static str {
+        match self {
+            Misfit::NoLinkage => "no_linkage",
+            Misfit::TooFar => "pivots",
+            Misfit::TooLong => "max_link",
+            Misfit::NoFullTurn => "full_turn",
+            Misfit::Circuits => "circuits",
+            Misfit::Branches => "branches",
+            Misfit::Order => "order",
+            Misfit::Condition => "where",
+            Misfit::Unsolved => "unsolved",
+        }
+    }
+}
+
 /// How a linkage passes the poses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Passing {
@@ -193,6 +225,24 @@ pub(super) fn passing(crank: &PosedDyad, follower: &PosedDyad, wish: &Wish) -> R
         }
         None => Err(Misfit::Order),
     }
+}
+
+/// The numbers of the poses, from 1, in the order in which the crank passes them as it turns from that of the first one on a full turn, or else
+/// from one limit to the other, in the direction in which the second comes before the last.
+pub(super) fn order(crank: &PosedDyad, follower: &PosedDyad) -> Vec<usize> {
+    let Some(closure) = Closure::new(crank, follower) else { return Vec::new() };
+    let angles: Vec<f64> = crank.pins.iter().map(|pin| closure.angle(*pin)).collect();
+    let key = |k: usize| if closure.is_full_turn() { (angles[k] - angles[0]).rem_euclid(TAU) } else { angles[k] };
+    let mut order: Vec<usize> = (0..angles.len()).collect();
+    order.sort_by(|a, b| key(*a).total_cmp(&key(*b)));
+    let place = |number: usize| order.iter().position(|k| *k == number);
+    if place(1) > place(angles.len() - 1) {
+        match closure.is_full_turn() {
+            true => order[1..].reverse(),
+            false => order.reverse(),
+        }
+    }
+    order.into_iter().map(|k| k + 1).collect()
 }
 
 /// The angles from the first pose to the last, if those between are passed in order in either direction; on a full turn within one.

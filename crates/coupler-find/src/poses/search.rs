@@ -7,7 +7,7 @@ use super::body::PoseSet;
 use super::condition::PoseCondition;
 use super::dyad::Dyad;
 use super::dyad_space::{DyadPlace, DyadSpace, Freedom};
-use super::pair::{Misfit, Passing, PosedDyad, Wish, passing};
+use super::pair::{Misfit, Passing, PosedDyad, Wish, order, passing};
 use crate::complex::{Complex, length};
 use crate::options::Effort;
 use crate::scatter::Scatter;
@@ -59,8 +59,21 @@ pub struct PoseFindings {
     pub pairs: usize,
     /// How many of them were left out for each reason.
     pub left_out: BTreeMap<Misfit, usize>,
-    /// The answers, the best transmission angle first.
+    /// Of finitely many dyads, each pair that was left out.
+    pub pairs_left_out: Vec<PairLeftOut>,
+    /// The answers, the best transmission angle first; of poses that are not passed exactly, the nearest first.
     pub answers: Vec<PoseAnswer>,
+}
+
+/// Two of finitely many dyads that make no linkage that passes the poses as asked for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PairLeftOut {
+    /// The numbers of the dyad of the crank and of the other, from 1.
+    pub dyads: [usize; 2],
+    /// Why it is left out.
+    pub misfit: Misfit,
+    /// If it is for the order of the poses, the one in which they are passed.
+    pub order: Vec<usize>,
 }
 
 /// A pair of dyads, and how it passes the poses.
@@ -104,15 +117,31 @@ impl Search<'_> {
         if !is_finite && self.options.condition.is_some() {
             scored = self.spread(scored);
         }
-        let answers = self.solved(&scored, &mut left_out, workers);
-        let cranks = posed.iter().filter(|(_, dyad)| matches!(dyad.dyad, Dyad::Revolute { .. })).count();
+        let mut pairs_left_out = if is_finite { self.pairs_left_out(&posed) } else { Vec::new() };
+        let answers = self.solved(&scored, (&mut left_out, &mut pairs_left_out), workers);
+        let cranks = posed.iter().filter(|(_, dyad)| is_crank(dyad)).count();
         PoseFindings {
             freedom: self.space.freedom(),
             dyads: posed.iter().map(|(_, dyad)| placed_dyad(self.set, &dyad.dyad)).collect(),
             pairs: cranks * posed.len().saturating_sub(1),
             left_out,
+            pairs_left_out,
             answers,
         }
+    }
+
+    /// The pairs of finitely many dyads that are known not to pass the poses before they are solved.
+    fn pairs_left_out(&self, posed: &[(DyadPlace, PosedDyad)]) -> Vec<PairLeftOut> {
+        let mut found = Vec::new();
+        for (k, (_, crank)) in posed.iter().enumerate().filter(|(_, (_, crank))| is_crank(crank)) {
+            for (m, (_, follower)) in posed.iter().enumerate().filter(|(m, _)| *m != k) {
+                if let Err(misfit) = self.passing(crank, follower) {
+                    let order = if misfit == Misfit::Order { order(crank, follower) } else { Vec::new() };
+                    found.push(PairLeftOut { dyads: [k + 1, m + 1], misfit, order });
+                }
+            }
+        }
+        found
     }
 
     /// The number of samples of infinitely many dyads.
@@ -127,13 +156,15 @@ impl Search<'_> {
 
     fn posed(&self, place: &DyadPlace) -> Option<PosedDyad> {
         let posed = PosedDyad::new(self.space.dyad(place)?, self.set.placed());
-        (posed.reach <= self.wish.max_link).then_some(posed)
+        let is_finite = self.space.freedom() == Freedom::Points;
+        (is_finite || posed.reach <= self.wish.max_link).then_some(posed)
     }
 
     /// Whether a pair passes the poses as asked for, as far as it is known before it is solved.
     fn passing(&self, crank: &PosedDyad, follower: &PosedDyad) -> Result<Passing, Misfit> {
         let is_slider_crank = matches!(follower.dyad, Dyad::Slider { .. });
         match &self.options.condition {
+            _ if !self.space.contains(&crank.dyad) || !self.space.contains(&follower.dyad) => Err(Misfit::TooFar),
             Some(condition) if !condition.is_of(is_slider_crank) => Err(Misfit::Condition),
             _ => passing(crank, follower, &self.wish),
         }
@@ -145,7 +176,6 @@ impl Search<'_> {
         posed: &[(DyadPlace, PosedDyad)],
         workers: &impl Workers,
     ) -> (Vec<Scored>, BTreeMap<Misfit, usize>) {
-        let is_crank = |k: &usize| matches!(posed[*k].1.dyad, Dyad::Revolute { .. });
         let of_crank = |k: usize| {
             let mut found = Vec::new();
             let mut left_out = BTreeMap::new();
@@ -162,7 +192,7 @@ impl Search<'_> {
             found.truncate(MOST_OF_CRANK);
             (found, left_out)
         };
-        let cranks: Vec<usize> = (0..posed.len()).filter(is_crank).collect();
+        let cranks: Vec<usize> = (0..posed.len()).filter(|k| is_crank(&posed[*k].1)).collect();
         let mut all = Vec::new();
         let mut left_out = BTreeMap::new();
         for (found, misfits) in workers.map(cranks, of_crank) {
@@ -239,7 +269,7 @@ impl Search<'_> {
     fn solved(
         &self,
         scored: &[Scored],
-        left_out: &mut BTreeMap<Misfit, usize>,
+        (left_out, pairs_left_out): (&mut BTreeMap<Misfit, usize>, &mut Vec<PairLeftOut>),
         workers: &impl Workers,
     ) -> Vec<PoseAnswer> {
         /// How many are solved at once, whatever the number of threads, so that the answer does not depend on it.
@@ -257,7 +287,7 @@ impl Search<'_> {
                 break;
             }
             solved += next.len();
-            for result in workers.map(next, |pair| self.solve(&pair)) {
+            for (pair, result) in workers.map(next, |pair| (pair, self.solve(&pair))) {
                 match result {
                     Ok(answer) => {
                         let differs = is_finite || answers.iter().all(|other| are_different(self.set, &answer, other));
@@ -265,7 +295,13 @@ impl Search<'_> {
                             answers.push(answer);
                         }
                     }
-                    Err(misfit) => *left_out.entry(misfit).or_insert(0) += 1,
+                    Err(misfit) => {
+                        *left_out.entry(misfit).or_insert(0) += 1;
+                        if is_finite {
+                            let dyads = pair.places.map(|place| place.number + 1);
+                            pairs_left_out.push(PairLeftOut { dyads, misfit, order: Vec::new() });
+                        }
+                    }
                 }
             }
         }
@@ -290,6 +326,10 @@ impl Search<'_> {
         }));
         are_apart(&own, &joints(self.set, answer))
     }
+}
+
+fn is_crank(posed: &PosedDyad) -> bool {
+    matches!(posed.dyad, Dyad::Revolute { .. })
 }
 
 /// The most pairs that are kept of a crank.

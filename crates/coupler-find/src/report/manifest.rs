@@ -91,7 +91,7 @@ fn append_family((form, title): (&str, &str), ranked: &[(usize, &Answer)], size:
 }
 
 /// A dimension, rounded to a ten-thousandth of a millionth of the path: a linkage near a change point hardly bears more.
-fn rounded(value: f64, size: f64) -> f64 {
+pub(crate) fn rounded(value: f64, size: f64) -> f64 {
     // "2.5e-3" has the exponent -3.
     let exponent: i32 = format!("{size:e}").split('e').nth(1).and_then(|exponent| exponent.parse().ok()).unwrap_or(0);
     let digits = (10 - exponent).clamp(0, 300) as usize;

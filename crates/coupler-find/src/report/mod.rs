@@ -1,6 +1,6 @@
 //! Answers in JSON, as a manifest and in words.
 
-mod manifest;
+pub(crate) mod manifest;
 mod record;
 mod significant;
 

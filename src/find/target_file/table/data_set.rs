@@ -64,7 +64,7 @@ impl DataSet<'_, '_> {
     /// # Errors
     /// Every line that cannot be read, or why the columns are not known.
     pub fn outline(&self, dialect: Dialect, options: &ReadOptions) -> Result<Outline, Vec<String>> {
-        let columns = self.columns(dialect, options.is_timed).map_err(|problem| vec![problem])?;
+        let columns = self.columns(dialect, options).map_err(|problem| vec![problem])?;
         let degrees = match (self.header, columns.angle.filter(|_| options.is_timed)) {
             (Some(header), Some(angle)) => {
                 degrees_in(header.names[angle].unit.as_deref()).map_err(|problem| vec![problem])?
@@ -84,7 +84,7 @@ impl DataSet<'_, '_> {
             return Err(limited(problems, "lines"));
         }
         outline.angles_deg = (!angles_deg.is_empty()).then_some(angles_deg);
-        let taken = self.describe_taken(dialect, columns, options.is_timed, unit.as_deref(), left_out);
+        let taken = self.describe_taken(dialect, columns, options, unit.as_deref(), left_out);
         outline.reading = Reading { taken, has_unused_angles: !options.is_timed && self.has_angles(columns) };
         Ok(outline)
     }
@@ -97,7 +97,8 @@ impl DataSet<'_, '_> {
         rows.iter().all(|row| value(row) == Some(first)).then_some(first == 1.0)
     }
 
-    fn columns(&self, dialect: Dialect, is_timed: bool) -> Result<Columns, String> {
+    fn columns(&self, dialect: Dialect, options: &ReadOptions) -> Result<Columns, String> {
+        let is_timed = options.is_timed;
         let [x, y] = self.coordinates;
         let Some(header) = self.header else {
             let has_third = self.rows.first().is_some_and(|row| row.cells.len() == 3);
@@ -112,7 +113,8 @@ impl DataSet<'_, '_> {
             [first, second, ..] if is_timed => {
                 let [first, second] = [first, second].map(|k| &header.names[k].text);
                 Err(format!(
-                    "the columns `{first}` and `{second}` may both be the angle of the crank: name one of them `angle`"
+                    "the columns `{first}` and `{second}` may both be the angle of the {}: name one of them `angle`",
+                    options.angles_of
                 ))
             }
             [..] => Ok(Columns { x, y, angle: None }),
@@ -171,7 +173,7 @@ impl DataSet<'_, '_> {
         &self,
         dialect: Dialect,
         columns: Columns,
-        is_timed: bool,
+        options: &ReadOptions,
         unit: Option<&str>,
         left_out: usize,
     ) -> String {
@@ -181,9 +183,14 @@ impl DataSet<'_, '_> {
         };
         let mut reading = format!("x is column {}, y column {}", name(columns.x), name(columns.y));
         match columns.angle {
-            Some(angle) if is_timed => {
+            Some(angle) if options.is_timed => {
                 let own = self.header.and_then(|header| header.names[angle].unit.as_deref());
-                reading += &format!(", the angle of the crank column {}, in {}", name(angle), own.unwrap_or("degrees"));
+                reading += &format!(
+                    ", the angle of the {} column {}, in {}",
+                    options.angles_of,
+                    name(angle),
+                    own.unwrap_or("degrees")
+                );
             }
             Some(angle) => reading += &format!("; column {} is not used without --timed", name(angle)),
             None => {}

@@ -1,0 +1,54 @@
+//! The curves of the pivots and of the pins of four poses, for drawings.
+
+use super::body::PoseSet;
+use super::centre_curve::CentreCurve;
+use super::dyad::Dyad;
+use crate::complex::{Complex, length};
+use coupler_curves::geometry::Point;
+
+/// The centre-point curve of four poses and the circle-point curve at the first of them, each as polylines, as far as they are within 20 sizes of the
+/// poses; `None` of another number of poses, and of translations, which have no such curves.
+pub fn burmester_curves(set: &PoseSet) -> Option<[Vec<Vec<Point>>; 2]> {
+    const LINES: usize = 2880;
+    let placed = set.placed();
+    let curve = (placed.len() == 4).then(|| CentreCurve::new(placed))??;
+    let on_lines: Vec<[Option<Dyad>; 2]> =
+        (0..=LINES).map(|k| curve.dyads(std::f64::consts::PI * k as f64 / LINES as f64)).collect();
+    let points = |side: usize, of: fn(&Dyad) -> Option<Complex>| {
+        on_lines.iter().map(move |dyads| dyads[side].as_ref().and_then(of)).collect::<Vec<_>>()
+    };
+    let pivot = |dyad: &Dyad| match dyad {
+        Dyad::Revolute { pivot, .. } => Some(*pivot),
+        Dyad::Slider { .. } => None,
+    };
+    let pin = |dyad: &Dyad| Some(dyad.pin());
+    let lines = |of: fn(&Dyad) -> Option<Complex>| {
+        (0..2)
+            .flat_map(|side| polylines(&points(side, of)))
+            .map(|line| line.into_iter().map(|z| set.place(z)).collect())
+            .collect()
+    };
+    Some([lines(pivot), lines(pin)])
+}
+
+/// Polylines through points, divided where one is missing, far away, or far from the one before.
+fn polylines(points: &[Option<Complex>]) -> Vec<Vec<Complex>> {
+    /// In sizes of the poses.
+    const FAR: f64 = 20.0;
+    const NEAR: f64 = 0.005;
+    let mut lines: Vec<Vec<Complex>> = vec![Vec::new()];
+    let mut last: Option<Complex> = None;
+    for point in points.iter().map(|point| point.filter(|z| z.norm_sqr() < FAR * FAR)) {
+        let is_joined = point.zip(last).is_some_and(|(z, before)| length(z - before) < 0.05 * (1.0 + length(z)));
+        if !is_joined {
+            lines.push(Vec::new());
+        }
+        last = point;
+        if let (Some(z), Some(line)) = (point, lines.last_mut())
+            && line.last().is_none_or(|before| length(z - before) > NEAR)
+        {
+            line.push(z);
+        }
+    }
+    lines.into_iter().filter(|line| line.len() > 1).collect()
+}

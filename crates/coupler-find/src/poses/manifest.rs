@@ -1,0 +1,89 @@
+//! A manifest that renders the linkages that guide a body.
+
+use std::fmt::Write;
+
+use super::answer::PoseAnswer;
+use super::body::PoseSet;
+use super::guide::Guide;
+use crate::report::manifest::rounded;
+use crate::report::{format_length, manifest_head};
+use coupler_curves::linkage_format::quoted;
+
+/// A complete manifest that renders linkages where they are at the poses, which are in its comments; of none, one that says so.
+pub fn poses_manifest(name: &str, set: &PoseSet, answers: &[PoseAnswer]) -> String {
+    let mut out = manifest_head(name);
+    out.push_str("\n# The traced point is that of the body, which passes these poses:\n");
+    for (number, pose) in (1..).zip(set.poses()) {
+        // Writing to a string cannot fail.
+        let _ = writeln!(out, "#   {number}: x = {}, y = {}, angle = {}°", pose.point.x, pose.point.y, pose.angle_deg);
+    }
+    if answers.is_empty() {
+        return out + "\n# No linkage passes them as asked for.\n";
+    }
+    let mut forms: Vec<(String, Vec<(usize, &PoseAnswer)>)> = Vec::new();
+    for (rank, answer) in (1..).zip(answers) {
+        let form = form_of(answer);
+        match forms.iter_mut().find(|(known, _)| *known == form) {
+            Some((_, ranked)) => ranked.push((rank, answer)),
+            None => forms.push((form, vec![(rank, answer)])),
+        }
+    }
+    for (form, ranked) in &forms {
+        append_family(form, name, set, ranked, &mut out);
+    }
+    out
+}
+
+/// The linkage of a family: a crank that turns fully has a circuit for each branch, and of others all circuits are drawn.
+fn form_of(answer: &PoseAnswer) -> String {
+    let branch = match (&answer.guide, answer.branch > 0) {
+        _ if !answer.is_full_turn => "rocking",
+        (Guide::FourBar(_), true) => "left",
+        (Guide::FourBar(_), false) => "right",
+        (Guide::SliderCrank(_), true) => "ahead",
+        (Guide::SliderCrank(_), false) => "behind",
+    };
+    format!("{}-{branch}", answer.guide.name())
+}
+
+fn append_family(form: &str, name: &str, set: &PoseSet, ranked: &[(usize, &PoseAnswer)], out: &mut String) {
+    let guide = &ranked[0].1.guide;
+    let id = &guide.template().id;
+    let mut linkage = guide.template_toml().replace(&format!("id = \"{id}\""), &format!("id = \"guide-{form}\""));
+    if ranked[0].1.is_full_turn {
+        linkage = linkage.replace("circuits = \"all\"", "circuits = \"start\"");
+        linkage = linkage
+            .replace("side = \"left\"", &format!("side = \"{}\"", &form[form.rfind('-').map_or(0, |at| at + 1)..]));
+        linkage = linkage
+            .replace("side = \"ahead\"", &format!("side = \"{}\"", &form[form.rfind('-').map_or(0, |at| at + 1)..]));
+    }
+    let columns = ranked.len().min(3);
+    let rows = ranked.len().div_ceil(columns).min(3);
+    let words = form.replace("four-bar-", "four-bars, ").replace("slider-crank-", "slider-cranks, ");
+    let title = quoted(&format!("Linkages that guide a body: {name}, {words}"));
+    let _ = write!(
+        out,
+        "\n{linkage}\n[[family]]\nid = \"found-{form}\"\nlinkage = \"guide-{form}\"\ntitle = {title}\npanels = [{columns}, {rows}]\n\
+         caption = \"{{rank:.0}}: μ ≥ {{mu_poses:.1}}° at the poses\"\ncases = [\n"
+    );
+    for (rank, answer) in ranked {
+        let error = answer.greatest_error();
+        let inputs: Vec<String> = answer.inputs_deg.iter().map(|input| format!("{input:.3}°")).collect();
+        let values = answer
+            .guide
+            .parameters()
+            .into_iter()
+            .map(|(name, value)| format!("{name} = {}", rounded(value, set.size())));
+        let values: Vec<String> = values.collect();
+        let _ = writeln!(
+            out,
+            "    # {rank}: crank at {}; greatest error {} and {}°\n    {{ rank = {rank}, mu_poses = {:.3}, {} }},",
+            inputs.join(", "),
+            format_length(error.distance, set.size()),
+            format_length(error.angle_deg, 1.0),
+            answer.mu_worst_deg[0],
+            values.join(", ")
+        );
+    }
+    out.push_str("]\n");
+}
