@@ -1,6 +1,7 @@
 //! The poses that a body is to pass.
 
 use crate::complex::{Complex, unit};
+use coupler_curves::exchange::format_significant;
 use coupler_curves::geometry::{Point, trig};
 
 /// A pose of a body: the place of its point, and the angle by which it is turned from the x-axis, in degrees, counterclockwise.
@@ -57,11 +58,16 @@ pub enum PoseError {
         /// Their numbers.
         numbers: [usize; 2],
     },
-    /// All points are in one place.
+    /// The body only turns about a point, which no coupler does.
     #[error(
-        "the point of the body is at the same place in all poses, so that the body only turns about it: a pivot there does it; or choose another point of the body"
+        "the body only turns about ({}, {}), from each pose to the others: a pivot there does it, and no coupler",
+        format_significant(about.x, 6, 0.0),
+        format_significant(about.y, 6, 0.0)
     )]
-    OnlyTurns,
+    OnlyTurns {
+        /// The point.
+        about: Point,
+    },
     /// Lengths are so great or so small that their squares are beyond double precision.
     #[error("the poses are {size:e} apart: choose another unit")]
     Size {
@@ -92,6 +98,15 @@ impl Placed {
     pub fn of_body(&self, place: Complex) -> Complex {
         self.direction.conj() * (place - self.point)
     }
+}
+
+/// The pole of two poses: the place about which the body turns from one to the other; `None` if it does not turn.
+pub(super) fn pole([a, b]: [&Placed; 2]) -> Option<Complex> {
+    /// The pole of a smaller turn is as good as at infinity.
+    const NO_TURN: f64 = 1e-9;
+    let turn = b.direction * a.direction.conj();
+    let rest = Complex::new(1.0, 0.0) - turn;
+    (rest.norm_sqr() > NO_TURN * NO_TURN).then(|| (b.point - turn * a.point) / rest)
 }
 
 impl PoseSet {
@@ -135,7 +150,7 @@ impl PoseSet {
         let extent = points.iter().flat_map(|p| [p.re.abs(), p.im.abs()]).fold(0.0, f64::max);
         // Places that differ in the last digits only are the same.
         if greatest <= 1e-14 * extent || greatest == 0.0 {
-            return Err(vec![PoseError::OnlyTurns]);
+            return Err(vec![PoseError::OnlyTurns { about: poses[0].point }]);
         }
         let squares = points.iter().map(|p| ((p - centre) / greatest).norm_sqr()).sum::<f64>() / count as f64;
         let size = greatest * squares.sqrt();
@@ -146,7 +161,32 @@ impl PoseSet {
             point: (p - centre) / size,
             direction: unit(trig::radians(pose.angle_deg.rem_euclid(360.0))),
         });
-        Ok(PoseSet { placed: placed.collect(), poses: poses.to_vec(), centre, size })
+        let set = PoseSet { placed: placed.collect(), poses: poses.to_vec(), centre, size };
+        match set.common_pole() {
+            Some(about) => Err(vec![PoseError::OnlyTurns { about }]),
+            None => Ok(set),
+        }
+    }
+
+    /// The point about which the body turns from each pose to all others, if there are three or more.
+    fn common_pole(&self) -> Option<Point> {
+        /// In sizes of the poses.
+        const SAME: f64 = 1e-9;
+        let first = self.placed.first().filter(|_| self.placed.len() > 2)?;
+        let turned = self.placed.iter().map(|pose| (pose.direction - first.direction).norm_sqr());
+        let farthest = turned.enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?.0;
+        let about = pole([first, &self.placed[farthest]])?;
+        let of_body = first.of_body(about);
+        let rests = |pose: &Placed| (pose.apply(of_body) - about).norm_sqr() <= SAME * SAME;
+        self.placed.iter().all(rests).then(|| self.place(about))
+    }
+
+    /// Whether the body has one direction in all poses.
+    pub fn is_translation(&self) -> bool {
+        /// In radians.
+        const SAME: f64 = 1e-9;
+        let first = self.placed[0].direction;
+        self.placed.iter().all(|pose| (pose.direction - first).norm_sqr() <= SAME * SAME)
     }
 
     /// The poses.
@@ -186,4 +226,33 @@ fn equal_pairs(poses: &[BodyPose]) -> Vec<[usize; 2]> {
     let later = |k: usize| (k + 1..poses.len()).map(move |m| [k, m]);
     let pairs = (0..poses.len()).flat_map(later).filter(|[k, m]| are_equal(&poses[*k], &poses[*m]));
     pairs.map(|pair| pair.map(|k| k + 1)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn errors(poses: &[[f64; 3]]) -> Vec<String> {
+        let poses = poses.iter().map(|[x, y, angle_deg]| BodyPose { point: Point::new(*x, *y), angle_deg: *angle_deg });
+        let result = PoseSet::new(&poses.collect::<Vec<_>>());
+        result.map_or_else(|errors| errors.iter().map(ToString::to_string).collect(), |_| Vec::new())
+    }
+
+    #[test]
+    fn poses_that_cannot_be_searched_for_are_named() {
+        assert_eq!(errors(&[]), ["it has no pose: give 2 or more"]);
+        assert_eq!(errors(&[[1.0, 2.0, 3.0]]), ["it has 1 pose: give 2 or more"]);
+        assert_eq!(errors(&[[0.0, 0.0, 0.0]; 1001]), ["it has 1001 poses: give at most 1000"]);
+        let several = [[1.0, 2.0, 3.0], [1.0, 2.0, 723.0], [f64::NAN, 0.0, 0.0], [0.0, 0.0, 1e7]];
+        let found = errors(&several);
+        assert_eq!(found.len(), 3, "{found:?}");
+        assert!(found[0].starts_with("pose 3 is NaN") && found[1].starts_with("pose 4 is"), "{found:?}");
+        assert_eq!(found[2], "poses 1 and 2 are the same: leave one out");
+        let turns =
+            "the body only turns about (1, 2), from each pose to the others: a pivot there does it, and no coupler";
+        assert_eq!(errors(&[[1.0, 2.0, 0.0], [1.0, 2.0, 40.0], [1.0, 2.0, 70.0]]), [turns]);
+        assert_eq!(errors(&[[4.0, 2.0, 0.0], [1.0, 5.0, 90.0], [-2.0, 2.0, 180.0]]), [turns]);
+        assert!(errors(&[[4.0, 2.0, 0.0], [1.0, 5.0, 90.0], [-2.0, 2.0, 181.0]]).is_empty());
+        assert!(errors(&[[1e70, 0.0, 0.0], [-1e70, 0.0, 90.0]])[0].contains("choose another unit"));
+    }
 }

@@ -4,7 +4,7 @@
 //! further points, so that the pencil of these lines passes all of it, both parts of one that has two (Bottema and Roth, Theoretical
 //! Kinematics, chapter VIII).
 
-use super::body::Placed;
+use super::body::{Placed, pole};
 use super::dyad::{Dyad, Forms};
 use crate::complex::{Complex, unit};
 use nalgebra::{Matrix3, Vector3};
@@ -88,11 +88,53 @@ impl CentreCurve {
     }
 }
 
-/// The pole of two poses: the place about which the body turns from one to the other; `None` if it does not turn.
-pub(super) fn pole([a, b]: [&Placed; 2]) -> Option<Complex> {
-    /// The pole of a smaller turn is as good as at infinity.
-    const NO_TURN: f64 = 1e-9;
-    let turn = b.direction * a.direction.conj();
-    let rest = Complex::new(1.0, 0.0) - turn;
-    (rest.norm_sqr() > NO_TURN * NO_TURN).then(|| (b.point - turn * a.point) / rest)
+#[cfg(test)]
+mod tests {
+    use super::super::random_poses::random_poses;
+    use super::*;
+    use crate::complex::length;
+
+    #[test]
+    fn all_dyads_keep_their_lengths_and_those_of_the_four_bar_are_among_them() {
+        for seed in 1..=50 {
+            let (set, own) = random_poses(4, seed);
+            let placed = set.placed();
+            let curve = CentreCurve::new(placed).unwrap();
+            for k in 0..90 {
+                for dyad in curve.dyads(f64::from(k) * 0.035).into_iter().flatten() {
+                    // Far pivots and pins have as many digits less.
+                    let extent = match dyad {
+                        Dyad::Revolute { pivot, pin } => 1.0 + length(pivot) + length(pin),
+                        Dyad::Slider { pin, .. } => 1.0 + length(pin),
+                    };
+                    assert!(dyad.error(placed) < 1e-9 * extent * extent * extent, "{seed}: {dyad:?}");
+                }
+            }
+            for [pivot, pin] in own {
+                let along = pivot - curve.pole;
+                let found = curve.dyads(coupler_curves::geometry::trig::atan2(along.im, along.re));
+                let is_own = |dyad: &Dyad| match dyad {
+                    Dyad::Revolute { pivot: g, pin: w } => length(g - pivot) < 1e-7 && length(w - pin) < 1e-6,
+                    Dyad::Slider { .. } => false,
+                };
+                assert!(found.iter().flatten().any(is_own), "{seed}: {pivot} {pin} among {found:?}");
+            }
+            let slider = curve.slider().unwrap();
+            assert!(slider.error(placed) < 1e-9 * (1.0 + length(slider.pin())), "{seed}");
+        }
+    }
+
+    #[test]
+    fn the_poles_are_on_the_curve() {
+        let (set, _) = random_poses(4, 11);
+        let placed = set.placed();
+        let curve = CentreCurve::new(placed).unwrap();
+        for k in 0..4 {
+            for m in 0..k {
+                let pole = pole([&placed[k], &placed[m]]).unwrap();
+                let (_, determinant) = curve.determinant(&[Vector3::new(pole.re, pole.im, 1.0).normalize()]);
+                assert!(determinant.abs() < 1e-13, "{k} {m}: {determinant}");
+            }
+        }
+    }
 }

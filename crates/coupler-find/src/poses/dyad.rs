@@ -105,6 +105,7 @@ impl Dyad {
         placed.iter().map(|pose| pose.apply(of_body)).collect()
     }
 
+    #[cfg(test)]
     /// The greatest difference of the pin's distance from its pivot or line from that in the first pose.
     pub fn error(&self, placed: &[Placed]) -> f64 {
         let distance = |pin: &Complex| match self {

@@ -11,7 +11,7 @@ use super::near_guide::{FreeDyad, NearDyad, NearGuide, PoseAim};
 use super::pair::{Misfit, PosedDyad};
 use super::search::{PoseFindings, PoseOptions, are_different, placed_dyad, wish};
 use crate::complex::{Complex, length, unit};
-use crate::descent::Descent;
+use crate::descent::{Candidate as _, Descent};
 use crate::even_sequence::EvenSequence;
 use crate::options::Effort;
 use crate::workers::Workers;
@@ -87,6 +87,8 @@ fn near_dyads(few: &[Placed], options: &PoseOptions, workers: &impl Workers) -> 
     const STEPS: usize = 60;
     const SAMPLES: usize = 600;
     const MOST: usize = 40;
+    /// Longer links, in sizes of the poses, are as good as sliders.
+    const FAR: f64 = 1e3;
     let aim = PoseAim { placed: few, angle_length: ANGLE_LENGTH };
     let forms = Forms::new(few);
     let sequence = EvenSequence::new(2);
@@ -102,41 +104,42 @@ fn near_dyads(few: &[Placed], options: &PoseOptions, workers: &impl Workers) -> 
     };
     let mut starts: Vec<Dyad> = (0..SAMPLES).filter_map(sample).collect();
     starts.extend(of_five(few));
-    let moved = workers.map(starts, |dyad| {
-        let mut near = NearDyad::new(FreeDyad::new(&dyad, few), &aim);
-        let mut descent = Descent::default();
-        // Neither all the way, so that those of other places stay there, nor none.
-        for _ in 0..STEPS {
-            descent.step(&mut near, &aim);
-        }
-        near
-    });
-    let largest = options.max_link.min(1e3);
-    let mut found: Vec<(f64, NearDyad)> = moved
-        .into_iter()
-        .filter(|near| PosedDyad::new(near.dyad.at(&few[0]), few).reach <= largest)
-        .map(|near| ((crate::descent::Candidate::objective(&near) / few.len() as f64).sqrt(), near))
-        .collect();
-    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let moved = |steps: usize| {
+        let near = |dyad: &Dyad| {
+            let mut near = NearDyad::new(FreeDyad::new(dyad, few), &aim);
+            let mut descent = Descent::default();
+            (0..steps).for_each(|_| descent.step(&mut near, &aim));
+            near
+        };
+        let mut found: Vec<(f64, NearDyad)> = workers
+            .map(starts.iter().collect(), near)
+            .into_iter()
+            .filter(|near| PosedDyad::new(near.dyad.at(&few[0]), few).reach <= options.max_link.min(FAR))
+            .map(|near| ((near.objective() / few.len() as f64).sqrt(), near))
+            .collect();
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        found
+    };
     let mut kept: Vec<(f64, NearDyad)> = Vec::new();
-    for near in found {
-        if kept.len() < MOST && kept.iter().all(|(_, other)| are_apart(&near.1.dyad, &other.dyad, &few[0])) {
-            kept.push(near);
+    // The least, then those that are on the way there: the least alone may be no linkage that passes the poses as asked for.
+    for (steps, apart, most) in [(STEPS, 0.02, MOST / 2), (3, 0.3, MOST)] {
+        for near in moved(steps) {
+            if kept.len() < most && kept.iter().all(|(_, other)| are_apart(&near.1.dyad, &other.dyad, &few[0], apart)) {
+                kept.push(near);
+            }
         }
     }
     kept
 }
 
-/// Whether two dyads are not the same.
-fn are_apart(a: &FreeDyad, b: &FreeDyad, first: &Placed) -> bool {
-    /// In sizes of the poses.
-    const APART: f64 = 0.02;
+/// Whether two dyads are not the same, up to a distance in sizes of the poses.
+fn are_apart(a: &FreeDyad, b: &FreeDyad, first: &Placed, apart: f64) -> bool {
     match [a.at(first), b.at(first)] {
         [Dyad::Revolute { pivot: g, pin: w }, Dyad::Revolute { pivot: h, pin: v }] => {
-            length(g - h).max(length(w - v)) > APART * (1.0 + length(g))
+            length(g - h).max(length(w - v)) > apart * (1.0 + length(g))
         }
         [Dyad::Slider { normal: n, pin: w }, Dyad::Slider { normal: m, pin: v }] => {
-            length(n - m).min(length(n + m)).max(length(w - v)) > APART
+            length(n - m).min(length(n + m)).max(length(w - v)) > apart
         }
         _ => true,
     }

@@ -100,6 +100,8 @@ impl Misfit {
 pub(super) struct Passing {
     /// The greatest size of the cosine of the transmission angle from the first pose to the last.
     pub worst_cosine: f64,
+    /// The same by which linkages are ranked: over the whole turn if the crank is to turn fully.
+    pub ranked_cosine: f64,
 }
 
 /// The closure of a linkage.
@@ -209,19 +211,23 @@ pub(super) fn passing(crank: &PosedDyad, follower: &PosedDyad, wish: &Wish) -> R
     };
     let is_divided = closure.limits() == [true, true] && has_both(&mut angles.iter().copied());
     let changes_side = has_both(&mut sides(crank, follower));
+    let passing = |worst_cosine| {
+        let ranked_cosine = if wish.full_turn { closure.worst([0.0, TAU]) } else { worst_cosine };
+        Passing { worst_cosine, ranked_cosine }
+    };
     let at_poses = || angles.iter().map(|angle| closure.worst([*angle; 2])).fold(0.0, f64::max);
     if is_divided || changes_side {
         return match wish.any_circuit {
-            true => Ok(Passing { worst_cosine: at_poses() }),
+            true => Ok(passing(at_poses())),
             false if is_divided || is_full_turn => Err(Misfit::Circuits),
             false => Err(Misfit::Branches),
         };
     }
     match ordered_range(&angles, is_full_turn) {
-        Some(range) => Ok(Passing { worst_cosine: closure.worst(range) }),
+        Some(range) => Ok(passing(closure.worst(range))),
         None if wish.any_order => {
             let range = angles.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(*x), b.max(*x)]);
-            Ok(Passing { worst_cosine: closure.worst(if is_full_turn { [0.0, TAU] } else { range }) })
+            Ok(passing(closure.worst(if is_full_turn { [0.0, TAU] } else { range })))
         }
         None => Err(Misfit::Order),
     }
@@ -266,4 +272,97 @@ pub(super) fn ordered_range(angles: &[f64], is_full_turn: bool) -> Option<[f64; 
     let found = [turn(1.0), turn(-1.0)].into_iter().flatten();
     let by = found.min_by(|a, b| a.abs().total_cmp(&b.abs()))?;
     Some([angles[0], angles[0] + by])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::dyad::Forms;
+    use super::super::five;
+    use super::super::random_poses::random_poses;
+    use super::*;
+    use crate::complex::unit;
+
+    /// The position of the second pin for an angle of the crank on a side, by the intersection of circles.
+    fn second_pin(crank: &PosedDyad, follower: &PosedDyad, angle: f64, side: f64) -> Option<[Complex; 2]> {
+        let (Dyad::Revolute { pivot: o, .. }, Dyad::Revolute { pivot: c, .. }) = (crank.dyad, follower.dyad) else {
+            return None;
+        };
+        let [a0, b0] = [crank.pins[0], follower.pins[0]];
+        let a = o + unit(angle) * length(a0 - o);
+        let (rod, rocker, base) = (length(b0 - a0), length(b0 - c), c - a);
+        let along = (rod * rod - rocker * rocker + base.norm_sqr()) / (2.0 * base.norm_sqr());
+        let height = rod * rod / base.norm_sqr() - along * along;
+        (height >= 0.0).then(|| [a, a + base * Complex::new(along, side * height.sqrt())])
+    }
+
+    /// The poses, as their numbers, that are passed as the crank turns from the first one in a direction on its branch, and whether it comes
+    /// back there.
+    fn walked(crank: &PosedDyad, follower: &PosedDyad, direction: f64) -> (Vec<usize>, bool) {
+        const STEPS: usize = 20_000;
+        let Dyad::Revolute { pivot, .. } = crank.dyad else { return (Vec::new(), false) };
+        let side = sides(crank, follower).next().unwrap_or(0.0);
+        let arm = crank.pins[0] - pivot;
+        let start = trig::atan2(arm.im, arm.re);
+        let mut passed = vec![1];
+        let step = TAU / STEPS as f64;
+        for k in 0..STEPS {
+            let at = |side| second_pin(crank, follower, start + direction * step * (k as f64 + 0.5), side);
+            let (Some([_, b]), Some([_, other])) = (at(side), at(-side)) else { return (passed, false) };
+            // The poses whose crank pins are within half a step, if the other pin is there, too.
+            for number in 1..crank.pins.len() {
+                let own = crank.pins[number] - pivot;
+                let from = direction * (trig::atan2(own.im, own.re) - start);
+                let is_here = (from.rem_euclid(TAU) / step) as usize == k;
+                if is_here && length(follower.pins[number] - b) < length(follower.pins[number] - other) {
+                    passed.push(number + 1);
+                }
+            }
+        }
+        (passed, true)
+    }
+
+    #[test]
+    fn what_passes_the_poses_does_so_when_it_is_moved_in_small_steps() {
+        let wish = Wish { full_turn: false, any_order: false, any_circuit: false, max_link: f64::INFINITY };
+        let mut counts = std::collections::BTreeMap::new();
+        for seed in 1..=60 {
+            let (set, _) = random_poses(5, seed);
+            // In another order for some of them.
+            let mut placed = set.placed().to_vec();
+            if seed % 3 == 0 {
+                placed.swap(2, 3);
+            }
+            let dyads = five::dyads(&Forms::new(&placed)).unwrap();
+            let posed: Vec<PosedDyad> = dyads.into_iter().map(|dyad| PosedDyad::new(dyad, &placed)).collect();
+            for (k, crank) in posed.iter().enumerate() {
+                for (_, follower) in posed.iter().enumerate().filter(|(m, _)| *m != k) {
+                    let (forward, is_full) = walked(crank, follower, 1.0);
+                    let (backward, _) = walked(crank, follower, -1.0);
+                    // All that are reached on the branch of the first, from the limit on one side to that on the other.
+                    let mut row: Vec<usize> = backward.iter().skip(1).rev().copied().collect();
+                    row.extend(&forward);
+                    let rising = |row: &[usize]| row.windows(2).all(|pair| pair[0] < pair[1]);
+                    let falling = |row: &[usize]| row.windows(2).all(|pair| pair[0] > pair[1]);
+                    let expected = match is_full {
+                        true => forward.len() == 5 && (rising(&forward) || falling(&forward[1..])),
+                        false => row.len() == 5 && (rising(&row) || falling(&row)),
+                    };
+                    let found = passing(crank, follower, &wish);
+                    // A pose at a limit is beyond the last step.
+                    if found.is_ok_and(|passing| passing.worst_cosine > 0.9999) {
+                        continue;
+                    }
+                    assert_eq!(found.is_ok(), expected, "{seed}: {found:?}, {forward:?} {backward:?} {is_full}");
+                    if found == Err(Misfit::Order) {
+                        let all = if is_full { forward.len() } else { row.len() };
+                        assert_eq!(all, 5, "{seed}: all are on the branch");
+                    }
+                    *counts.entry(found.err()).or_insert(0) += 1;
+                }
+            }
+        }
+        for expected in [None, Some(Misfit::Order), Some(Misfit::Circuits), Some(Misfit::Branches)] {
+            assert!(counts.get(&expected).is_some_and(|count| *count >= 10), "{expected:?}: {counts:?}");
+        }
+    }
 }

@@ -80,7 +80,7 @@ pub struct PairLeftOut {
 #[derive(Clone, Copy, Debug)]
 struct Scored {
     places: [DyadPlace; 2],
-    worst_cosine: f64,
+    ranked_cosine: f64,
 }
 
 /// Finds linkages that guide a body through 2 to 5 poses exactly.
@@ -109,7 +109,7 @@ impl Search<'_> {
         let posed: Vec<(DyadPlace, PosedDyad)> =
             places.into_iter().filter_map(|place| Some((place, self.posed(&place)?))).collect();
         let (mut scored, mut left_out) = self.scored(&posed, workers);
-        scored.sort_by(|a, b| a.worst_cosine.total_cmp(&b.worst_cosine));
+        scored.sort_by(|a, b| a.ranked_cosine.total_cmp(&b.ranked_cosine));
         let is_finite = self.space.freedom() == Freedom::Points;
         if !is_finite {
             self.refine(&mut scored, workers);
@@ -146,7 +146,7 @@ impl Search<'_> {
 
     /// The number of samples of infinitely many dyads.
     fn sample_count(&self) -> usize {
-        const NORMAL: usize = 1000;
+        const NORMAL: usize = 2000;
         match self.options.effort {
             Effort::Quick => NORMAL / 2,
             Effort::Normal => NORMAL,
@@ -182,13 +182,13 @@ impl Search<'_> {
             for (_, (place, follower)) in posed.iter().enumerate().filter(|(m, _)| *m != k) {
                 match self.passing(&posed[k].1, follower) {
                     Ok(passing) => {
-                        found.push(Scored { places: [posed[k].0, *place], worst_cosine: passing.worst_cosine });
+                        found.push(Scored { places: [posed[k].0, *place], ranked_cosine: passing.ranked_cosine });
                     }
                     Err(misfit) => *left_out.entry(misfit).or_insert(0) += 1,
                 }
             }
             // Of many, the best are enough: answers differ.
-            found.sort_by(|a, b| a.worst_cosine.total_cmp(&b.worst_cosine));
+            found.sort_by(|a, b| a.ranked_cosine.total_cmp(&b.ranked_cosine));
             found.truncate(MOST_OF_CRANK);
             (found, left_out)
         };
@@ -216,7 +216,7 @@ impl Search<'_> {
         let numbered: Vec<(u64, Scored)> = (0..).zip(starts).collect();
         let refined = workers.map(numbered, |(number, start)| self.refined(start, self.options.seed + number));
         scored.splice(0..0, refined);
-        scored.sort_by(|a, b| a.worst_cosine.total_cmp(&b.worst_cosine));
+        scored.sort_by(|a, b| a.ranked_cosine.total_cmp(&b.ranked_cosine));
     }
 
     /// A pair after steps at random, of which those are kept that better it.
@@ -232,8 +232,8 @@ impl Search<'_> {
             }
             let [Some(crank), Some(follower)] = places.map(|place| self.posed(&place)) else { continue };
             match self.passing(&crank, &follower) {
-                Ok(passing) if passing.worst_cosine < best.worst_cosine => {
-                    best = Scored { places, worst_cosine: passing.worst_cosine };
+                Ok(passing) if passing.ranked_cosine < best.ranked_cosine => {
+                    best = Scored { places, ranked_cosine: passing.ranked_cosine };
                     spread *= 1.2;
                 }
                 _ => spread = (0.97 * spread).max(1e-4),
@@ -356,11 +356,14 @@ pub(super) fn are_different(set: &PoseSet, a: &PoseAnswer, b: &PoseAnswer) -> bo
 
 /// Whether joints of linkages are not all near each other, also if the crank of one is the rocker of the other.
 fn are_apart(a: &[Complex], b: &[Complex]) -> bool {
-    /// In sizes of the poses.
+    /// In sizes of the poses, and in parts of the distance of the joints.
     const APART: f64 = 0.25;
+    const PART: f64 = 0.15;
+    let extent = a.iter().map(|z| length(z - a[0])).fold(0.0, f64::max);
+    let apart = APART.max(PART * extent);
     let is_near = |order: [usize; 4]| {
         let pairs = order.iter().enumerate().take(a.len());
-        pairs.into_iter().all(|(k, m)| length(a[k] - b[*m]) < APART)
+        pairs.into_iter().all(|(k, m)| length(a[k] - b[*m]) < apart)
     };
     a.len() != b.len() || !(is_near([0, 1, 2, 3]) || a.len() == 4 && is_near([1, 0, 3, 2]))
 }

@@ -156,7 +156,10 @@ fn left_out(findings: &PoseFindings) -> String {
 
 fn nothing_found(relaxed: Option<&Relaxed>, poses: &PoseSet) -> String {
     let Some(Relaxed { options, findings }) = relaxed else {
-        return "no linkage passes the poses, whatever the options\n".to_owned();
+        const NO_TURN: &str =
+            "; the body does not turn: the links of parallelograms move it so, and pass only points of one circle";
+        let why = if poses.is_translation() { NO_TURN } else { "" };
+        return format!("no linkage was found that passes the poses, whatever the options{why}\n");
     };
     let best = findings.answers.first().map_or(String::new(), |best| entry("-", best, poses));
     format!(
@@ -164,7 +167,7 @@ fn nothing_found(relaxed: Option<&Relaxed>, poses: &PoseSet) -> String {
         options.join(" and "),
         match findings.answers.len() {
             1 => "is 1".to_owned(),
-            count => format!("are {count} or more"),
+            count => format!("are {count}"),
         }
     )
 }
