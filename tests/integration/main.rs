@@ -28,6 +28,7 @@ mod find;
 mod find_atlas;
 mod find_files;
 mod find_linkage;
+mod find_poses;
 mod formats;
 mod gallery;
 mod golden;

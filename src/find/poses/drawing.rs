@@ -25,12 +25,12 @@ pub fn draw_poses(title: &str, set: &PoseSet, answers: &[PoseAnswer]) -> Vec<u8>
         let label = format!("{rank}: {}, μ ≥ {at_poses:.1}° at the poses, {}", answer.guide.name(), values.join(", "));
         Some(FoundCurve { solved, placement: Similarity::IDENTITY, pose, label })
     });
-    let mut lines = vec![FoundLine { points: frames(set), label: String::new(), is_light: false }];
+    let mut lines = vec![FoundLine { points: frames(set), texts: numbers(set), label: String::new(), is_light: false }];
     if let Some([centres, circles]) = burmester_curves(set) {
         let label = "the pivots of all dyads, the centre-point curve".to_owned();
-        lines.push(FoundLine { points: centres, label, is_light: false });
+        lines.push(FoundLine { points: centres, texts: Vec::new(), label, is_light: false });
         let label = "their pins at the first pose, the circle-point curve".to_owned();
-        lines.push(FoundLine { points: circles, label, is_light: true });
+        lines.push(FoundLine { points: circles, texts: Vec::new(), label, is_light: true });
     }
     let page = AnswersPage {
         title,
@@ -59,4 +59,13 @@ fn frames(set: &PoseSet) -> Vec<Vec<Point>> {
         vec![at(0.0, 0.6), at(0.0, 0.0), at(1.0, 0.0), at(0.85, 0.08), at(0.85, -0.08), at(1.0, 0.0)]
     };
     set.poses().iter().map(frame).collect()
+}
+
+/// The numbers of the poses, beside the body's point; of many, of the first and the last.
+fn numbers(set: &PoseSet) -> Vec<(Point, String)> {
+    const MOST: usize = 12;
+    let count = set.poses().len();
+    let is_shown = |number: &usize| count <= MOST || [1, count].contains(number);
+    let numbered = (1..).zip(set.poses()).filter(|(number, _)| is_shown(number));
+    numbered.map(|(number, pose)| (pose.point, number.to_string())).collect()
 }

@@ -107,6 +107,10 @@ fn draw_figure(area: &impl Area, frame: Rect, page: &AnswersPage, theme: &Theme)
         let polylines = line.points.iter().flat_map(|points| within(&on_page(points), &frame)).collect();
         let path = Path { polylines, stroke: Some(line_stroke(line, theme)), fill: None };
         area.record(Drawing { class: "line", title: line.label.clone(), items: vec![Item::Path(path)] });
+        for (place, text) in &line.texts {
+            let at = plot.page_from_plane.apply(*place) + Vector::new(0.5, -0.25) * theme.note_size;
+            area.record(theme.text_line(text, at, Anchor::Start, theme.note_size, theme.grey));
+        }
     }
     // Behind the curves, which its plate would hide.
     if let Some(found) = first {

@@ -129,6 +129,8 @@ pub struct AnswersPage<'a> {
 pub struct FoundLine {
     /// Its polylines.
     pub points: Vec<Vec<Point>>,
+    /// What is written beside it, to the right of a place.
+    pub texts: Vec<(Point, String)>,
     /// What the legend says of it; if it is empty, the legend does not have it.
     pub label: String,
     /// Whether it is lighter than others.

@@ -178,7 +178,10 @@ impl PoseSet {
         let about = pole([first, &self.placed[farthest]])?;
         let of_body = first.of_body(about);
         let rests = |pose: &Placed| (pose.apply(of_body) - about).norm_sqr() <= SAME * SAME;
-        self.placed.iter().all(rests).then(|| self.place(about))
+        // What is 0 but for rounding is 0, for people to read.
+        let rounded = |value: f64| if value.abs() <= SAME * self.size { 0.0 } else { value };
+        let place = self.place(about);
+        self.placed.iter().all(rests).then(|| Point::new(rounded(place.x), rounded(place.y)))
     }
 
     /// Whether the body has one direction in all poses.

@@ -298,7 +298,7 @@ mod tests {
     /// The poses, as their numbers, that are passed as the crank turns from the first one in a direction on its branch, and whether it comes
     /// back there.
     fn walked(crank: &PosedDyad, follower: &PosedDyad, direction: f64) -> (Vec<usize>, bool) {
-        const STEPS: usize = 20_000;
+        const STEPS: usize = 40_000;
         let Dyad::Revolute { pivot, .. } = crank.dyad else { return (Vec::new(), false) };
         let side = sides(crank, follower).next().unwrap_or(0.0);
         let arm = crank.pins[0] - pivot;

@@ -139,15 +139,21 @@ fn left_out(findings: &PoseFindings) -> String {
     if total == 0 {
         return String::new();
     }
-    let mut out = String::new();
     if findings.freedom == Freedom::Points {
+        let mut reasons: Vec<(String, Vec<String>)> = Vec::new();
         for PairLeftOut { dyads: [crank, other], misfit, order } in &findings.pairs_left_out {
             let order: Vec<String> = order.iter().map(usize::to_string).collect();
-            let order = if order.is_empty() { String::new() } else { format!(": {}", order.join(" ")) };
-            let _ =
-                writeln!(out, "     left out: crank dyad {crank} with dyad {other}: {}{order}", misfit.description());
+            let order = if order.is_empty() { String::new() } else { format!(", {}", order.join(" ")) };
+            let reason = misfit.description().to_owned() + &order;
+            let pair = format!("{crank}-{other}");
+            match reasons.iter_mut().find(|(known, _)| *known == reason) {
+                Some((_, pairs)) => pairs.push(pair),
+                None => reasons.push((reason, vec![pair])),
+            }
         }
-        return out;
+        let reasons: Vec<String> =
+            reasons.iter().map(|(reason, pairs)| format!("{}: {reason}", pairs.join(", "))).collect();
+        return format!("     left out, by their dyads, that of the crank first: {}\n", reasons.join("; "));
     }
     let reasons = findings.left_out.iter().map(|(misfit, count)| format!("{count}: {}", misfit.description()));
     let reasons: Vec<String> = reasons.collect();
