@@ -268,7 +268,7 @@ fn every_mistake_is_named() {
         let (code, out, error) = run(folder.path(), &["find", "wrong.csv", "--poses"]);
         assert!(code == 2 && out.is_empty() && error.contains(expected), "{text}: {error}");
     }
-    fs::write(folder.path().join("moved.csv"), "x,y,angle\n0,0,0\n1,0,0\n3,1,0\n4,4,0\n").unwrap();
+    fs::write(folder.path().join("moved.csv"), "x,y,angle\n0,0,0\n1,0,0\n3,1,0\n4,5,0\n").unwrap();
     let (code, out, error) = run(folder.path(), &["find", "moved.csv", "--poses"]);
     assert!(code == 0 && out.contains("the body does not turn") && error.contains("in degrees"), "{out} {error}");
     // Without the option it is named.

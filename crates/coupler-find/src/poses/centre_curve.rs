@@ -90,7 +90,7 @@ impl CentreCurve {
 
 #[cfg(test)]
 mod tests {
-    use super::super::random_poses::random_poses;
+    use super::super::body::random::random_poses;
     use super::*;
     use crate::complex::length;
 

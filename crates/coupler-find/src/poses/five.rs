@@ -173,8 +173,8 @@ fn refined(forms: &Forms, [mut pivot, mut pin]: [Vector3<f64>; 2]) -> Option<[Ve
 
 #[cfg(test)]
 mod tests {
+    use super::super::body::random::random_poses;
     use super::super::body::{BodyPose, PoseSet};
-    use super::super::random_poses::random_poses;
     use super::*;
     use crate::complex::{Complex, length};
     use coupler_curves::geometry::{Point, trig};

@@ -13,8 +13,6 @@ mod manifest;
 mod near;
 mod near_guide;
 mod pair;
-#[cfg(test)]
-mod random_poses;
 mod search;
 
 pub use answer::{PoseAnswer, PoseDeviation};

@@ -248,7 +248,7 @@ fn is_within(set: &PoseSet, options: &PoseOptions, pivot: Complex) -> bool {
 #[cfg(test)]
 mod tests {
     use super::super::body::BodyPose;
-    use super::super::random_poses::random_poses;
+    use super::super::body::random::random_poses;
     use super::*;
     use crate::scatter::Scatter;
     use crate::workers::OneAtATime;

@@ -276,9 +276,9 @@ pub(super) fn ordered_range(angles: &[f64], is_full_turn: bool) -> Option<[f64; 
 
 #[cfg(test)]
 mod tests {
+    use super::super::body::random::random_poses;
     use super::super::dyad::Forms;
     use super::super::five;
-    use super::super::random_poses::random_poses;
     use super::*;
     use crate::complex::unit;
 

@@ -80,7 +80,18 @@ pub struct PairLeftOut {
 #[derive(Clone, Copy, Debug)]
 struct Scored {
     places: [DyadPlace; 2],
-    ranked_cosine: f64,
+    passing: Passing,
+}
+
+impl Scored {
+    /// Which of two is better: of two that jam alike but for rounding, as parallelograms do where all links are in line, the one that
+    /// transmits better from the first pose to the last.
+    fn cmp(&self, other: &Scored) -> std::cmp::Ordering {
+        const ROUNDING: f64 = 1e-9;
+        let key = |pair: &Scored| ((pair.passing.ranked_cosine / ROUNDING).round(), pair.passing.worst_cosine);
+        let [(a, b), (c, d)] = [key(self), key(other)];
+        a.total_cmp(&c).then(b.total_cmp(&d))
+    }
 }
 
 /// Finds linkages that guide a body through 2 to 5 poses exactly.
@@ -109,7 +120,7 @@ impl Search<'_> {
         let posed: Vec<(DyadPlace, PosedDyad)> =
             places.into_iter().filter_map(|place| Some((place, self.posed(&place)?))).collect();
         let (mut scored, mut left_out) = self.scored(&posed, workers);
-        scored.sort_by(|a, b| a.ranked_cosine.total_cmp(&b.ranked_cosine));
+        scored.sort_by(Scored::cmp);
         let is_finite = self.space.freedom() == Freedom::Points;
         if !is_finite {
             self.refine(&mut scored, workers);
@@ -182,13 +193,13 @@ impl Search<'_> {
             for (_, (place, follower)) in posed.iter().enumerate().filter(|(m, _)| *m != k) {
                 match self.passing(&posed[k].1, follower) {
                     Ok(passing) => {
-                        found.push(Scored { places: [posed[k].0, *place], ranked_cosine: passing.ranked_cosine });
+                        found.push(Scored { places: [posed[k].0, *place], passing });
                     }
                     Err(misfit) => *left_out.entry(misfit).or_insert(0) += 1,
                 }
             }
             // Of many, the best are enough: answers differ.
-            found.sort_by(|a, b| a.ranked_cosine.total_cmp(&b.ranked_cosine));
+            found.sort_by(Scored::cmp);
             found.truncate(MOST_OF_CRANK);
             (found, left_out)
         };
@@ -216,7 +227,7 @@ impl Search<'_> {
         let numbered: Vec<(u64, Scored)> = (0..).zip(starts).collect();
         let refined = workers.map(numbered, |(number, start)| self.refined(start, self.options.seed + number));
         scored.splice(0..0, refined);
-        scored.sort_by(|a, b| a.ranked_cosine.total_cmp(&b.ranked_cosine));
+        scored.sort_by(Scored::cmp);
     }
 
     /// A pair after steps at random, of which those are kept that better it.
@@ -232,8 +243,8 @@ impl Search<'_> {
             }
             let [Some(crank), Some(follower)] = places.map(|place| self.posed(&place)) else { continue };
             match self.passing(&crank, &follower) {
-                Ok(passing) if passing.ranked_cosine < best.ranked_cosine => {
-                    best = Scored { places, ranked_cosine: passing.ranked_cosine };
+                Ok(passing) if Scored { places, passing }.cmp(&best).is_lt() => {
+                    best = Scored { places, passing };
                     spread *= 1.2;
                 }
                 _ => spread = (0.97 * spread).max(1e-4),
@@ -384,8 +395,8 @@ pub(super) fn placed_dyad(set: &PoseSet, dyad: &Dyad) -> PlacedDyad {
 #[cfg(test)]
 mod tests {
     use super::super::body::BodyPose;
+    use super::super::body::random::random_poses;
     use super::super::guide::Guide;
-    use super::super::random_poses::random_poses;
     use super::*;
     use crate::workers::OneAtATime;
 
