@@ -21,7 +21,7 @@ const ZERO: f64 = 1e-13;
 impl CentreCurve {
     /// The curve of four poses; `None` if every point of the plane, or none, is the pivot of a dyad, as of translations.
     pub fn new(placed: &[Placed]) -> Option<CentreCurve> {
-        let forms = Forms::new(placed);
+        let forms = Some(Forms::new(placed).independent()).filter(|forms| forms.matrices().len() == 3)?;
         let pairs = (0..placed.len()).flat_map(|k| (0..k).map(move |m| (k, m)));
         let poles = pairs.filter_map(|(k, m)| pole([&placed[k], &placed[m]]));
         let pole = poles.min_by(|a, b| a.norm_sqr().total_cmp(&b.norm_sqr()))?;

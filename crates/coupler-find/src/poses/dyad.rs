@@ -37,14 +37,43 @@ const AT_INFINITY: f64 = 1e-8;
 impl Forms {
     /// The equations of some poses, each divided by its size.
     pub fn new(placed: &[Placed]) -> Forms {
+        let first = &placed[0];
         let form = |pose: &Placed| {
-            let a = pose.direction * placed[0].direction.conj();
-            let d = pose.point - a * placed[0].point;
+            let a = pose.direction * first.direction.conj();
+            // 1 - cos of a small angle, with all digits of its sine.
+            let versine = if a.re > 0.0 { a.im * a.im / (1.0 + a.re) } else { 1.0 - a.re };
+            let d = pose.point - first.point + first.point * Complex::new(versine, -a.im);
             let l = a.conj() * d;
-            let form = Matrix3::new(1.0 - a.re, a.im, -d.re, -a.im, 1.0 - a.re, -d.im, l.re, l.im, 0.5 * d.norm_sqr());
+            let form = Matrix3::new(versine, a.im, -d.re, -a.im, versine, -d.im, l.re, l.im, 0.5 * d.norm_sqr());
             form / form.norm().max(f64::MIN_POSITIVE)
         };
         Forms(placed.iter().skip(1).map(form).collect())
+    }
+
+    /// Combinations of the forms that are perpendicular to each other, as many as are independent: those of poses near each other differ little, and
+    /// would lose the digits in which they do.
+    pub fn independent(&self) -> Forms {
+        /// The part of a form that is left by the others, if it is rounding.
+        const DEPENDENT: f64 = 3e-13;
+        let mut rest = self.0.clone();
+        let mut found: Vec<Matrix3<f64>> = Vec::new();
+        while let Some(next) = (0..rest.len()).max_by(|a, b| rest[*a].norm().total_cmp(&rest[*b].norm())) {
+            let mut form = rest.swap_remove(next);
+            // Once more, for what rounding has left.
+            for other in &found {
+                form -= other * other.dot(&form);
+            }
+            let norm = form.norm();
+            if norm <= DEPENDENT || norm.is_nan() {
+                break;
+            }
+            form /= norm;
+            for other in &mut rest {
+                *other -= form * form.dot(other);
+            }
+            found.push(form);
+        }
+        Forms(found)
     }
 
     /// The forms as matrices, the pivot on their left.

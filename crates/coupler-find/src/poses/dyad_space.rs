@@ -80,7 +80,7 @@ impl DyadSpace {
     /// The dyads of two to five poses; with the box of the pivots.
     pub fn new(set: &PoseSet, pivots: Option<Bounds>) -> DyadSpace {
         let placed = set.placed();
-        let forms = Forms::new(placed);
+        let forms = Forms::new(placed).independent();
         let curve = |of: &[Placed]| CentreCurve::new(of).map_or(Kind::Plane, Kind::Curve);
         let kind = match placed.len() {
             2 => Kind::Space,

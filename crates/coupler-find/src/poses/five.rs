@@ -70,8 +70,11 @@ fn shifts(null: &DMatrix<f64>) -> [DMatrix<f64>; 3] {
     })
 }
 
-/// All real dyads of five poses, sliders among them; `None` if there are infinitely many, as of translations.
+/// All real dyads of five poses, sliders among them, from their independent forms; `None` if there are infinitely many, as of translations.
 pub(super) fn dyads(forms: &Forms) -> Option<Vec<Dyad>> {
+    if forms.matrices().len() != 4 {
+        return None;
+    }
     Some(zeros(forms)?.iter().filter_map(|[pivot, pin]| Dyad::from_homogeneous(pivot, pin)).collect())
 }
 
@@ -180,7 +183,7 @@ mod tests {
     use coupler_curves::geometry::{Point, trig};
 
     fn dyads_of(set: &PoseSet) -> Vec<Dyad> {
-        dyads(&Forms::new(set.placed())).expect("there are finitely many")
+        dyads(&Forms::new(set.placed()).independent()).expect("there are finitely many")
     }
 
     fn has(found: &[Dyad], [pivot, pin]: [Complex; 2], accuracy: f64) -> bool {
@@ -259,6 +262,6 @@ mod tests {
         let at =
             |k: i32| BodyPose { point: Point::new(trig::cos(f64::from(k)), trig::sin(f64::from(k))), angle_deg: 30.0 };
         let set = PoseSet::new(&[0, 1, 2, 3, 4].map(at)).unwrap();
-        assert_eq!(dyads(&Forms::new(set.placed())), None);
+        assert_eq!(dyads(&Forms::new(set.placed()).independent()), None);
     }
 }

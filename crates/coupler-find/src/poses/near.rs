@@ -170,7 +170,7 @@ fn of_five(few: &[Placed]) -> Vec<Dyad> {
         }
         let five: Option<Vec<Placed>> = indices.iter().map(|k| few.get(*k).copied()).collect();
         let five = five?;
-        let dyads = five::dyads(&Forms::new(&five))?;
+        let dyads = five::dyads(&Forms::new(&five).independent())?;
         // Their pins are given in the first of the five poses.
         let to_first = |dyad: &Dyad| {
             let pin = few[0].apply(five[0].of_body(dyad.pin()));

@@ -332,7 +332,7 @@ mod tests {
             if seed % 3 == 0 {
                 placed.swap(2, 3);
             }
-            let dyads = five::dyads(&Forms::new(&placed)).unwrap();
+            let dyads = five::dyads(&Forms::new(&placed).independent()).unwrap();
             let posed: Vec<PosedDyad> = dyads.into_iter().map(|dyad| PosedDyad::new(dyad, &placed)).collect();
             for (k, crank) in posed.iter().enumerate() {
                 for (_, follower) in posed.iter().enumerate().filter(|(m, _)| *m != k) {
