@@ -258,6 +258,31 @@ mod tests {
     }
 
     #[test]
+    fn poses_near_each_other_have_the_dyads_of_their_four_bar() {
+        // Of a crank-rocker, at steps of half a degree of its crank: its pivots at the origin and at (4, 0), in exact closed form.
+        let pose = |k: i32| {
+            let (cos, sin) = trig::cos_sin_deg(40.0 + 0.5 * f64::from(k));
+            let a = Complex::new(1.5 * cos, 1.5 * sin);
+            let base = Complex::new(4.0, 0.0) - a;
+            let along = (9.0 - 12.25 + base.norm_sqr()) / (2.0 * base.norm_sqr());
+            let coupler = base * Complex::new(along, (9.0 / base.norm_sqr() - along * along).sqrt()) / 3.0;
+            let point = a + coupler * Complex::new(2.0, 1.0);
+            let angle_deg = trig::degrees(trig::atan2(coupler.im, coupler.re));
+            BodyPose { point: Point::new(point.re, point.im), angle_deg }
+        };
+        let set = PoseSet::new(&[0, 1, 2, 3, 4].map(pose)).unwrap();
+        let found = dyads_of(&set);
+        for pivot in [0.0, 4.0] {
+            let expected = set.relative(Point::new(pivot, 0.0));
+            let is_near = |dyad: &Dyad| match dyad {
+                Dyad::Revolute { pivot, .. } => length(pivot - expected) < 1e-4 * length(expected),
+                Dyad::Slider { .. } => false,
+            };
+            assert!(found.iter().any(is_near), "{expected}: {found:?}");
+        }
+    }
+
+    #[test]
     fn translations_have_infinitely_many() {
         let at =
             |k: i32| BodyPose { point: Point::new(trig::cos(f64::from(k)), trig::sin(f64::from(k))), angle_deg: 30.0 };

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use coupler_find::{PlacedDyad, PoseAnswer, PoseFindings, PoseSet};
+use coupler_find::{Freedom, PlacedDyad, PoseAnswer, PoseFindings, PoseSet};
 use serde::Serialize;
 
 use super::super::super::{Failure, report};
@@ -31,6 +31,9 @@ struct Target {
 #[derive(Serialize)]
 struct Found {
     freedom: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    samples: Option<usize>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     dyads: Vec<Dyad>,
     pairs: usize,
     left_out: BTreeMap<&'static str, usize>,
@@ -111,9 +114,12 @@ fn found(findings: &PoseFindings, poses: &PoseSet) -> Found {
         reason: left_out.misfit.name(),
         order: left_out.order.clone(),
     });
+    let are_samples = matches!(findings.freedom, Freedom::Curve | Freedom::Plane | Freedom::Space);
+    let listed = if are_samples { &[] } else { &findings.dyads[..] };
     Found {
         freedom: findings.freedom.name(),
-        dyads: findings.dyads.iter().map(dyad).collect(),
+        samples: are_samples.then_some(findings.dyads.len()),
+        dyads: listed.iter().map(dyad).collect(),
         pairs: findings.pairs,
         left_out: findings.left_out.iter().map(|(misfit, count)| (misfit.name(), *count)).collect(),
         pairs_left_out: left_out.collect(),
