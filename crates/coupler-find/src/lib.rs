@@ -42,6 +42,11 @@
 //! # Wishes
 //!
 //! A [`DesignSearch`] finds the dimensions of any linkage, within the ranges of a [`DesignSpace`], that meet [`Wishes`] on its measures.
+//!
+//! # Guided bodies
+//!
+//! [`exact_guides`] finds the four-bars and slider-cranks whose coupler passes 2 to 5 poses of a [`PoseSet`], by Burmester's theory, and
+//! [`nearest_guides`] those that pass near more, by least squares of the distances in the space of place and angle.
 
 mod complex;
 mod even_sequence;

@@ -1,7 +1,7 @@
 //! Dyads that guide a body through poses: a pin of the body at a constant distance from a pivot, or on a straight line.
 //!
 //! With the pin W in the first pose, in pose k at W_k = a_k W + d_k, and the pivot G, the distances are equal if
-//! |d|²/2 + (conj(a) d) · W - G · d - G · ((a - 1) W) = 0 for each further pose (McCarthy and Soh, Geometric Design of Linkages, eq. 5.6): a form that is
+//! |d|²/2 + (conj(a) d) · W - G · d - G · ((a - 1) W) = 0 for each further pose (McCarthy and Soh, Geometric Design of Linkages, chapter 5): a form that is
 //! linear in G and in W. In homogeneous coordinates a pivot at infinity is the normal of a line on which the pin moves.
 
 use super::body::Placed;

@@ -4,12 +4,14 @@ use std::collections::BTreeMap;
 
 use super::answer::{Candidate, PoseAnswer};
 use super::body::{Placed, PoseSet};
+use super::difference::are_different;
 use super::dyad::{Dyad, Forms};
 use super::dyad_space::Freedom;
+use super::findings::{PoseFindings, PoseOptions, placed_dyad, wish};
 use super::five;
 use super::near_guide::{FreeDyad, NearDyad, NearGuide, PoseAim};
 use super::pair::{Misfit, PosedDyad};
-use super::search::{PoseFindings, PoseOptions, are_different, placed_dyad, wish};
+
 use crate::complex::{Complex, length, unit};
 use crate::descent::{Candidate as _, Descent};
 use crate::even_sequence::EvenSequence;

@@ -4,77 +4,14 @@ use std::collections::BTreeMap;
 
 use super::answer::{Candidate, PoseAnswer};
 use super::body::PoseSet;
-use super::condition::PoseCondition;
+use super::difference::{are_apart, are_different, joints};
 use super::dyad::Dyad;
 use super::dyad_space::{DyadPlace, DyadSpace, Freedom};
+use super::findings::{PairLeftOut, PoseFindings, PoseOptions, placed_dyad, wish};
 use super::pair::{Misfit, Passing, PosedDyad, Wish, order, passing};
-use crate::complex::{Complex, length};
 use crate::options::Effort;
 use crate::scatter::Scatter;
 use crate::workers::Workers;
-use coupler_curves::geometry::{Bounds, Point};
-
-/// What is asked of the linkages that guide a body.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PoseOptions {
-    /// Whether the crank must turn fully.
-    pub full_turn: bool,
-    /// Whether the poses may be passed in any order.
-    pub any_order: bool,
-    /// Whether the poses may be on several circuits or branches.
-    pub any_circuit: bool,
-    /// The greatest distance of two joints of a link, in sizes of the poses; may be infinite.
-    pub max_link: f64,
-    /// The box of the fixed pivots, in the unit of the poses.
-    pub pivots: Option<Bounds>,
-    /// A condition on the linkage.
-    pub condition: Option<PoseCondition>,
-    /// How many dyads are tried where there are infinitely many.
-    pub effort: Effort,
-    /// The number from which the dyads follow that are tried near the best.
-    pub seed: u64,
-    /// The most answers.
-    pub most: usize,
-}
-
-/// A dyad in the plane of the poses.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PlacedDyad {
-    /// The fixed pivot; `None` for a slider.
-    pub pivot: Option<Point>,
-    /// The direction of a slider's line in degrees, 0 to 180.
-    pub line_deg: Option<f64>,
-    /// The pin at the first pose.
-    pub pin: Point,
-}
-
-/// What has been found for some poses.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PoseFindings {
-    /// How many dyads the poses have.
-    pub freedom: Freedom,
-    /// The dyads: all if they are finitely many, and otherwise the samples of which linkages were made.
-    pub dyads: Vec<PlacedDyad>,
-    /// How many pairs of a crank and another dyad were tried.
-    pub pairs: usize,
-    /// How many of them were left out for each reason.
-    pub left_out: BTreeMap<Misfit, usize>,
-    /// Of finitely many dyads, each pair that was left out.
-    pub pairs_left_out: Vec<PairLeftOut>,
-    /// The answers, the best transmission angle first; of poses that are not passed exactly, the nearest first.
-    pub answers: Vec<PoseAnswer>,
-}
-
-/// Two of finitely many dyads that make no linkage that passes the poses as asked for.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct PairLeftOut {
-    /// The numbers of the dyad of the crank and of the other, from 1.
-    pub dyads: [usize; 2],
-    /// Why it is left out.
-    pub misfit: Misfit,
-    /// If it is for the order of the poses, the one in which they are passed.
-    pub order: Vec<usize>,
-}
 
 /// A pair of dyads, and how it passes the poses.
 #[derive(Clone, Copy, Debug)]
@@ -99,12 +36,6 @@ pub fn exact_guides(set: &PoseSet, options: &PoseOptions, workers: &impl Workers
     let space = DyadSpace::new(set, options.pivots);
     let search = Search { set, options, space, wish: wish(options) };
     search.run(workers)
-}
-
-/// The wishes that are checked of pairs of dyads.
-pub(super) fn wish(options: &PoseOptions) -> Wish {
-    let PoseOptions { full_turn, any_order, any_circuit, max_link, .. } = *options;
-    Wish { full_turn, any_order, any_circuit, max_link }
 }
 
 struct Search<'a> {
@@ -354,51 +285,15 @@ fn are_near(a: &[DyadPlace; 2], b: &[DyadPlace; 2]) -> bool {
     })
 }
 
-/// The pins at the first pose and the pivots of an answer, in sizes of the poses.
-fn joints(set: &PoseSet, answer: &PoseAnswer) -> Vec<Complex> {
-    let points = answer.pins[0].into_iter().chain(answer.guide.pivots());
-    points.map(|p| set.relative(p)).collect()
-}
-
-/// Whether two answers have different joints.
-pub(super) fn are_different(set: &PoseSet, a: &PoseAnswer, b: &PoseAnswer) -> bool {
-    are_apart(&joints(set, a), &joints(set, b))
-}
-
-/// Whether joints of linkages are not all near each other, also if the crank of one is the rocker of the other.
-fn are_apart(a: &[Complex], b: &[Complex]) -> bool {
-    /// In sizes of the poses, and in parts of the distance of the joints.
-    const APART: f64 = 0.25;
-    const PART: f64 = 0.15;
-    let extent = a.iter().map(|z| length(z - a[0])).fold(0.0, f64::max);
-    let apart = APART.max(PART * extent);
-    let is_near = |order: [usize; 4]| {
-        let pairs = order.iter().enumerate().take(a.len());
-        pairs.into_iter().all(|(k, m)| length(a[k] - b[*m]) < apart)
-    };
-    a.len() != b.len() || !(is_near([0, 1, 2, 3]) || a.len() == 4 && is_near([1, 0, 3, 2]))
-}
-
-/// A dyad in the plane of the poses.
-pub(super) fn placed_dyad(set: &PoseSet, dyad: &Dyad) -> PlacedDyad {
-    let pin = set.place(dyad.pin());
-    match dyad {
-        Dyad::Revolute { pivot, .. } => PlacedDyad { pivot: Some(set.place(*pivot)), line_deg: None, pin },
-        Dyad::Slider { normal, .. } => {
-            use coupler_curves::geometry::trig;
-            let turn = trig::degrees(trig::atan2(normal.re, -normal.im)).rem_euclid(180.0);
-            PlacedDyad { pivot: None, line_deg: Some(turn), pin }
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::body::BodyPose;
     use super::super::body::random::random_poses;
+    use super::super::condition::PoseCondition;
     use super::super::guide::Guide;
     use super::*;
     use crate::workers::OneAtATime;
+    use coupler_curves::geometry::Point;
 
     fn any() -> PoseOptions {
         PoseOptions {
