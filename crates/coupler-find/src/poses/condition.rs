@@ -3,13 +3,39 @@
 use super::guide::{Guide, PlacedSliderCrank};
 use crate::condition::Condition;
 use crate::four_bar::mechanism::Mechanism;
-use coupler_curves::expression;
+use coupler_curves::expression::{self, CompiledExpression};
+use coupler_curves::template::Template;
 
 /// A condition in the language of `where`. It leaves out linkages that do not have its names.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PoseCondition {
-    four_bar: Option<Condition>,
-    slider_crank: Option<Condition>,
+    four_bar: Option<OwnCondition>,
+    slider_crank: Option<OwnCondition>,
+}
+
+/// A condition on linkages of one kind.
+#[derive(Clone, Debug)]
+struct OwnCondition {
+    whole: Condition,
+    /// The parts that all must be true and need no solved linkage.
+    of_parameters: Vec<CompiledExpression>,
+}
+
+impl PartialEq for OwnCondition {
+    fn eq(&self, other: &OwnCondition) -> bool {
+        self.whole == other.whole
+    }
+}
+
+impl OwnCondition {
+    fn new(template: &Template, text: &str) -> Result<OwnCondition, expression::Error> {
+        let whole = Condition::new(template, text)?;
+        // The parameters are the first names of the scope.
+        let count = template.parameters.len();
+        let needs_parameters = |part: &CompiledExpression| part.slots().iter().all(|slot| *slot < count);
+        let of_parameters = whole.compiled().conjuncts().into_iter().filter(needs_parameters).collect();
+        Ok(OwnCondition { whole, of_parameters })
+    }
 }
 
 impl PoseCondition {
@@ -18,8 +44,8 @@ impl PoseCondition {
     /// # Errors
     /// It is not a condition over the names of either; the error is that of four-bars.
     pub fn new(text: &str) -> Result<PoseCondition, expression::Error> {
-        let slider_crank = Condition::new(&PlacedSliderCrank::template(), text).ok();
-        match Condition::new(&Mechanism::template(), text) {
+        let slider_crank = OwnCondition::new(&PlacedSliderCrank::template(), text).ok();
+        match OwnCondition::new(&Mechanism::template(), text) {
             Ok(four_bar) => Ok(PoseCondition { four_bar: Some(four_bar), slider_crank }),
             Err(error) if slider_crank.is_none() => Err(error),
             Err(_) => Ok(PoseCondition { four_bar: None, slider_crank }),
@@ -33,9 +59,46 @@ impl PoseCondition {
 
     /// The condition on a linkage; `None` if it has other names.
     pub(super) fn of(&self, guide: &Guide) -> Option<&Condition> {
+        self.own(guide).map(|own| &own.whole)
+    }
+
+    /// Whether the parameters of a linkage satisfy what depends on nothing else.
+    pub(super) fn admits(&self, guide: &Guide) -> bool {
+        let Some(own) = self.own(guide) else { return false };
+        let values = guide.parameters();
+        own.of_parameters.iter().all(|part| part.evaluate(|slot| values[slot].1) == 1.0)
+    }
+
+    fn own(&self, guide: &Guide) -> Option<&OwnCondition> {
         match guide {
             Guide::FourBar(_) => self.four_bar.as_ref(),
             Guide::SliderCrank(_) => self.slider_crank.as_ref(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coupler_curves::geometry::{Point, Vector};
+    use coupler_curves::linkage::{FourBar, PlacedFourBar};
+
+    #[test]
+    fn parameters_are_asked_before_a_linkage_is_solved() {
+        let guide = Guide::FourBar(PlacedFourBar {
+            pivots: [Point::origin(), Point::new(4.0, 0.0)],
+            lengths: FourBar { frame: 4.0, crank: 1.5, coupler: 3.0, rocker: 3.5 },
+            coupler_point: Vector::new(2.0, 1.0),
+        });
+        for (text, expected) in [
+            ("frame > 3 and mu_worst_deg > 89", true),
+            ("frame > 5 and mu_worst_deg > 0", false),
+            ("frame > 5 or mu_worst_deg > 0", true),
+            ("offset > 0", false),
+            ("across == 1 and turn == 0 and along > x", true),
+        ] {
+            assert_eq!(PoseCondition::new(text).unwrap().admits(&guide), expected, "{text}");
+        }
+        assert!(PoseCondition::new("frame > offset").is_err());
     }
 }

@@ -52,10 +52,8 @@ impl Freedom {
 pub(super) struct DyadSpace {
     forms: Forms,
     kind: Kind,
-    /// The box of pivots, in sizes of the poses from their middle: least and greatest corner.
-    pivots: [Complex; 2],
-    /// Whether the box is asked for: otherwise only samples are within it.
-    is_bounded: bool,
+    /// The box of pivots that is asked for, in sizes of the poses from their middle: least and greatest corner.
+    pivots: Option<[Complex; 2]>,
 }
 
 enum Kind {
@@ -73,8 +71,15 @@ pub(super) struct DyadPlace {
     pub number: usize,
 }
 
-/// How far from the middle of the poses pivots are without a box, in sizes of the poses.
-const REACH: f64 = 3.0;
+/// How far from the middle of the poses pivots and pins are without a box, in sizes of the poses: half of them in the inner sixth, for those that are near
+/// make smaller linkages.
+fn reach(part: f64) -> f64 {
+    const INNER: f64 = 2.5;
+    /// The greatest is four times as far as even parts would be.
+    const STRETCH: f64 = 0.75;
+    let centred = 2.0 * part - 1.0;
+    INNER * centred / (1.0 - STRETCH * centred * centred)
+}
 
 impl DyadSpace {
     /// The dyads of two to five poses; with the box of the pivots.
@@ -88,10 +93,8 @@ impl DyadSpace {
             4 => curve(placed),
             _ => five::dyads(&forms).map_or_else(|| curve(&placed[..4]), Kind::Points),
         };
-        let corner = Complex::new(REACH, REACH);
-        let is_bounded = pivots.is_some();
-        let pivots = pivots.map_or([-corner, corner], |within| [set.relative(within.min), set.relative(within.max)]);
-        DyadSpace { forms, kind, pivots, is_bounded }
+        let pivots = pivots.map(|within| [set.relative(within.min), set.relative(within.max)]);
+        DyadSpace { forms, kind, pivots }
     }
 
     /// How many dyads there are.
@@ -156,16 +159,17 @@ impl DyadSpace {
     /// Whether the pivot of a dyad is in the box that is asked for.
     pub fn contains(&self, dyad: &Dyad) -> bool {
         let Dyad::Revolute { pivot, .. } = dyad else { return true };
-        let [low, high] = self.pivots;
-        let is_within = (low.re..=high.re).contains(&pivot.re) && (low.im..=high.im).contains(&pivot.im);
-        is_within || !self.is_bounded
+        self.pivots
+            .is_none_or(|[low, high]| (low.re..=high.re).contains(&pivot.re) && (low.im..=high.im).contains(&pivot.im))
     }
 
     /// A pivot in the box, or the normal of a line.
     fn pivot(&self, number: usize, [u, v]: [f64; 2]) -> Vector3<f64> {
-        let [low, high] = self.pivots;
-        match number {
-            0 => Vector3::new(low.re + u * (high.re - low.re), low.im + v * (high.im - low.im), 1.0).normalize(),
+        match (number, self.pivots) {
+            (0, Some([low, high])) => {
+                Vector3::new(low.re + u * (high.re - low.re), low.im + v * (high.im - low.im), 1.0).normalize()
+            }
+            (0, None) => Vector3::new(reach(u), reach(v), 1.0).normalize(),
             _ => {
                 let normal = unit(std::f64::consts::PI * u);
                 Vector3::new(normal.re, normal.im, 0.0)
@@ -184,7 +188,7 @@ impl DyadSpace {
         }
         let foot = normal * (-row.z / square);
         let along = Complex::new(-normal.im, normal.re) / square.sqrt();
-        let pin = foot + along * (REACH * (2.0 * part - 1.0));
+        let pin = foot + along * reach(part);
         Dyad::from_homogeneous(pivot, &Vector3::new(pin.re, pin.im, 1.0))
     }
 

@@ -8,10 +8,12 @@ use super::difference::{are_apart, are_different, joints};
 use super::dyad::Dyad;
 use super::dyad_space::{DyadPlace, DyadSpace, Freedom};
 use super::findings::{PairLeftOut, PoseFindings, PoseOptions, placed_dyad, wish};
+use super::guide::Guide;
 use super::pair::{Misfit, Passing, PosedDyad, Wish, order, passing};
 use crate::options::Effort;
 use crate::scatter::Scatter;
 use crate::workers::Workers;
+use coupler_curves::linkage::{FourBar, PlacedFourBar};
 
 /// A pair of dyads, and how it passes the poses.
 #[derive(Clone, Copy, Debug)]
@@ -108,7 +110,12 @@ impl Search<'_> {
         match &self.options.condition {
             _ if !self.space.contains(&crank.dyad) || !self.space.contains(&follower.dyad) => Err(Misfit::TooFar),
             Some(condition) if !condition.is_of(is_slider_crank) => Err(Misfit::Condition),
-            _ => passing(crank, follower, &self.wish),
+            Some(condition) => {
+                let passing = passing(crank, follower, &self.wish)?;
+                let guide = Guide::new(self.set, &self.set.placed()[0], crank, follower).ok_or(Misfit::NoLinkage)?;
+                if condition.admits(&guide) { Ok(passing) } else { Err(Misfit::Condition) }
+            }
+            None => passing(crank, follower, &self.wish),
         }
     }
 
@@ -188,14 +195,15 @@ impl Search<'_> {
     /// pairs of all kinds.
     fn spread(&self, scored: Vec<Scored>) -> Vec<Scored> {
         /// The width of a neighbourhood, in parts of the range of a coordinate.
-        const PARTS: f64 = 8.0;
+        const PARTS: f64 = 3.0;
         let mut seen: BTreeMap<Vec<usize>, usize> = BTreeMap::new();
         let key = |pair: &Scored| {
             let of_place = |place: &DyadPlace| {
                 let parts = place.coordinates.map(|x| (PARTS * x) as usize);
                 [place.number, parts[0], parts[1], parts[2]]
             };
-            pair.places.iter().flat_map(of_place).collect::<Vec<usize>>()
+            let places = pair.places.iter().flat_map(of_place);
+            places.chain([self.shortest_link(pair)]).collect::<Vec<usize>>()
         };
         let mut numbered: Vec<(usize, Scored)> = Vec::with_capacity(scored.len());
         for pair in scored {
@@ -205,6 +213,18 @@ impl Search<'_> {
         }
         numbered.sort_by_key(|(count, _)| *count);
         numbered.into_iter().map(|(_, pair)| pair).collect()
+    }
+
+    /// The number of the shortest link, on which the class depends.
+    fn shortest_link(&self, pair: &Scored) -> usize {
+        let [Some(crank), Some(follower)] = pair.places.map(|place| self.posed(&place)) else { return 0 };
+        match Guide::new(self.set, &self.set.placed()[0], &crank, &follower) {
+            Some(Guide::FourBar(PlacedFourBar { lengths: FourBar { frame, crank, coupler, rocker }, .. })) => {
+                let lengths = [frame, crank, coupler, rocker];
+                (0..4).min_by(|a, b| lengths[*a].total_cmp(&lengths[*b])).unwrap_or(0)
+            }
+            _ => 0,
+        }
     }
 
     /// The best that differ and pass the poses when they are solved.
@@ -217,7 +237,7 @@ impl Search<'_> {
         /// How many are solved at once, whatever the number of threads, so that the answer does not depend on it.
         const AT_ONCE: usize = 16;
         /// The most that are solved: with a condition that none meets it takes a few seconds.
-        const MOST: usize = 2000;
+        const MOST: usize = 4000;
         let is_finite = self.space.freedom() == Freedom::Points;
         let mut answers: Vec<PoseAnswer> = Vec::new();
         let mut solved = 0;
@@ -275,7 +295,7 @@ fn is_crank(posed: &PosedDyad) -> bool {
 }
 
 /// The most pairs that are kept of a crank.
-const MOST_OF_CRANK: usize = 200;
+const MOST_OF_CRANK: usize = 100;
 
 /// Whether places of two pairs are near each other.
 fn are_near(a: &[DyadPlace; 2], b: &[DyadPlace; 2]) -> bool {
@@ -290,7 +310,6 @@ mod tests {
     use super::super::body::BodyPose;
     use super::super::body::random::random_poses;
     use super::super::condition::PoseCondition;
-    use super::super::guide::Guide;
     use super::*;
     use crate::workers::OneAtATime;
     use coupler_curves::geometry::Point;
