@@ -5,6 +5,7 @@ mod atlas;
 mod closing;
 pub mod description;
 mod drawing;
+pub mod function;
 mod index_file;
 mod linkage;
 mod outline;
@@ -19,7 +20,7 @@ pub use linkage::find_linkage;
 pub use outline::{Outline, ReadOptions, Reading};
 pub use poses::{FoundPoses, PoseReading, Relaxed, draw_poses, find_poses, read_poses};
 pub use request::{Notation, Request, RequestProblem, Searched, SearchedLinkage};
-pub use target_file::{MAX_POINTS, parse_outline};
+pub use target_file::{FunctionRows, MAX_POINTS, parse_function, parse_outline};
 
 pub use crate::threads::Interrupted;
 

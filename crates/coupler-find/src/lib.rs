@@ -34,6 +34,11 @@
 //! Those of an atlas, of any linkages, are looked up by their shapes in a [`CurveIndex`], and placed on the target by a [`CurveFitter`],
 //! with the same metric.
 //!
+//! # Functions
+//!
+//! [`generate_function`] finds four-bars and slider-cranks whose output is a wanted function of their input, at precision points or over a whole
+//! range.
+//!
 //! # Other linkages
 //!
 //! A [`LinkageSearch`] finds the dimensions of any linkage, of the parameters of a [`LinkageSpace`]: the curves of samples are looked up by
@@ -73,6 +78,7 @@ mod distinct;
 
 mod curve;
 mod four_bar;
+mod function;
 mod linkage;
 
 mod design;
@@ -95,6 +101,10 @@ pub use design::{
 pub use deviation::Deviation;
 pub use distinct::distinct;
 pub use four_bar::{Index, IndexPart, Mechanism, placed_parameters};
+pub use function::{
+    Defect, FunctionAnswer, FunctionFindings, FunctionMethod, FunctionOptions, FunctionTarget, FunctionTargetError,
+    GeneratorKind, Law, LawError, LeftOut, StructuralError, generate_function,
+};
 pub use linkage::{
     LinkageAnswer, LinkageSearch, LinkageSpace, LinkageSpaceError, PlacedCurve, is_scalable, scaled_values,
 };

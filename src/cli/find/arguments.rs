@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::find::function::FunctionFit;
 use crate::find::{MAX_CURVES, Request};
 use clap::{Args, ValueEnum, ValueHint};
 use coupler_find::{Index, Options};
@@ -11,13 +12,15 @@ use super::super::files;
 
 /// Find the linkages whose coupler curves are nearest to a path, with their cognates.
 ///
+/// With --function, find the linkages that generate a function instead.
+///
 /// The path is a table of points (x, y on each line), JSON or a drawing in SVG or DXF, of which the longest line is read, with y
 /// pointing up; - for standard input. What was read is said on standard error. Curves are compared by E, the root of the mean square of the distances of its points from the
 /// continuous curve, in their order along one circuit, relative to the path's size S, the root of the mean square of their
 /// distances from their centroid. docs/find.md describes the search and its limits.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// The file of the path.
+    /// The file of the path; with --function, that of the function, or the function itself.
     #[arg(value_name = "PATH", value_hint = ValueHint::FilePath, required_unless_present = "like")]
     pub(super) path: Option<PathBuf>,
     /// Take a curve of an atlas as the path, by its name, as in evans:3.1.1 or "evans:3.1.1?p=2.5".
@@ -59,17 +62,42 @@ pub struct Arguments {
     /// With --poses, also linkages that must be taken apart, or pass a limit of the crank, between poses.
     #[arg(long, requires = "poses")]
     pub(super) any_circuit: bool,
-    /// Whether the crank must turn fully.
-    #[arg(long, value_enum, default_value_t = InputChoice::FullTurn)]
-    pub(super) input: InputChoice,
+    /// Find four-bars or slider-cranks whose output is a function of their input: a table with the columns input,output in degrees, or
+    /// "y = log10(x) for x = 1..10 over 60 deg of input and 90 deg of output"; of a slider-crank the output is a length.
+    #[arg(
+        long,
+        requires = "path",
+        conflicts_with_all = [
+            "like", "outline", "closed", "open", "part", "timed", "pivots", "index", "atlas", "fixed", "no_refine", "keep", "manifest",
+            "effort", "seed",
+        ]
+    )]
+    pub(super) function: bool,
+    /// With --function, how: exact at precision points, or with the least error everywhere, in the mean square or the greatest [default: points
+    /// for a formula and tables of few rows, and otherwise least-squares].
+    #[arg(long, value_enum, requires = "function")]
+    pub(super) fit: Option<FitChoice>,
+    /// With --function, the number of precision points of a formula, 3 to 5, in Chebyshev's spacing [default: the most that have an answer].
+    #[arg(long, value_name = "N", requires = "function")]
+    pub(super) points: Option<usize>,
+    /// With --function, the input at the start, in degrees from the frame, or from the slider's line.
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true, requires = "function")]
+    pub(super) input_start: Option<String>,
+    /// With --function, the output at the start: in degrees from the frame, or the slider's distance from the foot of the crank's pivot.
+    #[arg(long, value_name = "DEG|X", allow_hyphen_values = true, requires = "function")]
+    pub(super) output_start: Option<String>,
+    /// Whether the crank must turn fully [default: full-turn, and with --function any].
+    #[arg(long, value_enum, hide_default_value = true)]
+    pub(super) input: Option<InputChoice>,
     /// A condition on the linkage, as in `where` of a manifest: "is_crank_rocker and mu_worst_deg >= 30". Its names are frame, crank,
     /// coupler, rocker, along and across, the crank's pivot x and y, turn, the frame's angle, and all measures; with --linkage the
     /// parameters of that linkage and all measures.
     #[arg(long = "where", value_name = "EXPR")]
     pub(super) condition: Option<String>,
-    /// The greatest distance of two joints of a link, in sizes S of the path; inf for any.
-    #[arg(long, value_name = "X", default_value = "10", allow_hyphen_values = true)]
-    pub(super) max_link: String,
+    /// The greatest distance of two joints of a link, in sizes S of the path; with --function, how many times the longest link is as long as the
+    /// shortest; inf for any [default: 10, and with --function 20].
+    #[arg(long, value_name = "X", allow_hyphen_values = true)]
+    pub(super) max_link: Option<String>,
     /// The box in which both fixed pivots must be, in the unit of the path: XMIN,YMIN,XMAX,YMAX.
     #[arg(long, value_name = "BOX", allow_hyphen_values = true)]
     pub(super) pivots: Option<String>,
@@ -137,4 +165,36 @@ pub(super) enum InputChoice {
     FullTurn,
     /// Any linkage.
     Any,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum FitChoice {
+    /// Exact at three to five precision points.
+    Points,
+    /// The least mean square of the error.
+    LeastSquares,
+    /// The least greatest error.
+    Minimax,
+}
+
+impl From<FitChoice> for FunctionFit {
+    fn from(choice: FitChoice) -> FunctionFit {
+        match choice {
+            FitChoice::Points => FunctionFit::Points,
+            FitChoice::LeastSquares => FunctionFit::LeastSquares,
+            FitChoice::Minimax => FunctionFit::Minimax,
+        }
+    }
+}
+
+impl Arguments {
+    /// Whether the crank of a linkage for a path must turn fully.
+    pub(super) fn input_or_default(&self) -> InputChoice {
+        self.input.unwrap_or(InputChoice::FullTurn)
+    }
+
+    /// The longest link for a path.
+    pub(super) fn max_link_or_default(&self) -> &str {
+        self.max_link.as_deref().unwrap_or("10")
+    }
 }

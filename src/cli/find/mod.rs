@@ -2,6 +2,7 @@
 
 mod arguments;
 mod atlas;
+mod function;
 mod json;
 mod linkage;
 mod not_a_path;
@@ -70,6 +71,9 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let is_drawing_printed = files::is_drawing_printed(arguments.svg.as_deref(), &printed)?;
     if arguments.poses {
         return poses::run(arguments, is_drawing_printed);
+    }
+    if arguments.function {
+        return function::run(arguments, is_drawing_printed);
     }
     let linkage = linkage::named(arguments)?;
     let searched = match (&linkage, &arguments.atlas) {

@@ -23,21 +23,28 @@ const JAMS_BELOW_DEG: f64 = 10.0;
 /// The notes on the best answer, a line each.
 pub(super) fn notes(best: &Best, arguments: &Arguments) -> String {
     let mut out = String::new();
-    if best.mu_worst_deg < JAMS_BELOW_DEG {
-        let condition = match &arguments.condition {
-            None => "mu_worst_deg >= 30".to_owned(),
-            Some(condition) => format!("({condition}) and mu_worst_deg >= 30"),
-        };
-        out += &format!(
-            "note: the best linkage jams, or nearly so: its worst transmission angle is {}; leave such linkages out: --where \"{}\"\n",
-            super::text::angle(best.mu_worst_deg),
-            printable(condition)
-        );
-    }
+    out += &jams(best.mu_worst_deg, arguments);
     if best.quality == Quality::Poor {
         out += &format!("note: the best fit is poor; what may help: {}\n", remedies(arguments).join(", "));
     }
     out
+}
+
+/// A note that the best answer jams, if it does, with the condition that leaves such linkages out.
+pub(super) fn jams(mu_worst_deg: f64, arguments: &Arguments) -> String {
+    // One that is not a number is none.
+    if mu_worst_deg >= JAMS_BELOW_DEG || mu_worst_deg.is_nan() {
+        return String::new();
+    }
+    let condition = match &arguments.condition {
+        None => "mu_worst_deg >= 30".to_owned(),
+        Some(condition) => format!("({condition}) and mu_worst_deg >= 30"),
+    };
+    format!(
+        "note: the best linkage jams, or nearly so: its worst transmission angle is {}; leave such linkages out: --where \"{}\"\n",
+        super::text::angle(mu_worst_deg),
+        printable(condition)
+    )
 }
 
 /// Which conditions a cell of a family does not meet, and its values, or why the condition has no meaning there.
@@ -55,8 +62,8 @@ pub(super) fn unmet(family: Family, cell: usize, condition: &str) -> String {
 
 /// What may lead to a better fit than with these arguments.
 fn remedies(arguments: &Arguments) -> Vec<&'static str> {
-    let has_link_limit = arguments.max_link.trim() != "inf";
-    let is_short = has_link_limit && arguments.max_link.trim() != Options::default().max_link.to_string();
+    let has_link_limit = arguments.max_link_or_default().trim() != "inf";
+    let is_short = has_link_limit && arguments.max_link_or_default().trim() != Options::default().max_link.to_string();
     let candidates = [
         (arguments.condition.is_some(), "a weaker --where"),
         (arguments.pivots.is_some(), "a larger --pivots"),
@@ -65,7 +72,7 @@ fn remedies(arguments: &Arguments) -> Vec<&'static str> {
         (arguments.no_refine, "no --no-refine"),
         (arguments.effort != EffortChoice::Thorough, "--effort thorough"),
         (!arguments.part, "--part, if the path is a part of the curve"),
-        (arguments.input == InputChoice::FullTurn, "--input any, if the crank need not turn fully"),
+        (arguments.input_or_default() == InputChoice::FullTurn, "--input any, if the crank need not turn fully"),
         (arguments.atlas.is_some(), "a search of all four-bars, without --atlas"),
         (arguments.linkage.is_some(), "another --linkage"),
     ];

@@ -24,7 +24,7 @@ pub(super) fn check_all(
     searched: Searched,
 ) -> Result<(Options, Option<LinkageSpace>), Vec<String>> {
     let default = Options::default();
-    let max_link = parse_length(&arguments.max_link);
+    let max_link = parse_length(arguments.max_link_or_default());
     let pivots = arguments.pivots.as_deref().map(parse_box).transpose();
     let request = Request {
         notation: Notation::CommandLine,
@@ -35,7 +35,7 @@ pub(super) fn check_all(
         pivots: pivots.clone().unwrap_or_default(),
         condition: arguments.condition.as_deref(),
         options: Options {
-            full_turn: arguments.input == InputChoice::FullTurn,
+            full_turn: arguments.input_or_default() == InputChoice::FullTurn,
             max_link: *max_link.as_ref().unwrap_or(&default.max_link),
             effort: arguments.effort.into(),
             refine: !arguments.no_refine,
@@ -53,8 +53,8 @@ pub(super) fn check_all(
     checked.filter(|_| messages.is_empty()).ok_or(messages)
 }
 
-/// Reads a length in sizes of the path, or `inf`.
-fn parse_length(text: &str) -> Result<f64, String> {
+/// Reads a length in sizes of the path, or how many times a link may be as long as another, or `inf`.
+pub(super) fn parse_length(text: &str) -> Result<f64, String> {
     if text.trim() == "inf" {
         return Ok(f64::INFINITY);
     }

@@ -14,15 +14,23 @@ pub(super) trait Shown {
     /// A manifest that renders the linkages.
     fn manifest(&self) -> String;
     fn text(&self) -> String;
-    /// The best answer, if there is one.
-    fn best(&self) -> Option<Best>;
+    /// The best answer, if there is one that notes say something of.
+    fn best(&self) -> Option<Best> {
+        None
+    }
     /// The family of the nearest miss and the index of its cell, if there is one that does not meet the condition.
-    fn miss(&self) -> Option<(Family, usize)>;
+    fn miss(&self) -> Option<(Family, usize)> {
+        None
+    }
+    /// What to know of the answers, a line each.
+    fn notes(&self, arguments: &Arguments) -> String {
+        self.best().map_or(String::new(), |best| notes::notes(&best, arguments))
+    }
 }
 
 /// Writes the drawing that the arguments ask for, and prints what they ask for unless that is the drawing.
 pub(super) fn show(report: &impl Shown, arguments: &Arguments, is_drawing_printed: bool) -> Result<Outcome, Failure> {
-    let mut notes = report.best().map_or(String::new(), |best| notes::notes(&best, arguments));
+    let mut notes = report.notes(arguments);
     if let Some(((family, cell), condition)) = report.miss().zip(arguments.condition.as_deref()) {
         notes += &notes::unmet(family, cell, condition);
     }

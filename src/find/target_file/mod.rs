@@ -8,6 +8,7 @@ mod svg;
 mod table;
 
 use super::outline::{Outline, ReadOptions};
+pub use table::FunctionRows;
 
 /// The most points of a path: the time of a search grows with them.
 pub const MAX_POINTS: usize = 5000;
@@ -31,6 +32,22 @@ pub fn parse_outline(bytes: &[u8], options: &ReadOptions) -> Result<Outline, Vec
         }
         _ => Ok(outline),
     }
+}
+
+/// Reads the function in a file: a table with the columns `input` and `output`, whose rows are at most as many as the points of a path.
+///
+/// # Errors
+/// Every problem, with its line where it has one.
+pub fn parse_function(bytes: &[u8]) -> Result<FunctionRows, Vec<String>> {
+    const FORM: &str = "a function is a table with the columns input,output";
+    let text = encoding::decode(bytes).map_err(|_| vec![format!("it is no text: {FORM}")])?;
+    let form = match text.trim_start().chars().next() {
+        Some('<') => "SVG",
+        Some('{' | '[') => "JSON",
+        _ if dxf::is_dxf(&text) => "DXF",
+        _ => return table::parse_function_table(&text),
+    };
+    Err(vec![format!("it is {form}: {FORM}")])
 }
 
 #[cfg(test)]

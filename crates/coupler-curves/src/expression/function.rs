@@ -20,6 +20,12 @@ pub enum Function {
     Acos,
     /// `atan2(y, x)`: the direction of the vector (x, y), in radians from -pi to pi.
     Atan2,
+    /// The exponential, e to a power.
+    Exp,
+    /// The natural logarithm.
+    Ln,
+    /// The logarithm to base 10.
+    Log10,
     /// Magnitude.
     Abs,
     /// The least of one or more numbers.
@@ -36,7 +42,7 @@ pub enum Function {
 
 impl Function {
     /// Every function by the name it is called with.
-    pub const ALL: [(&'static str, Function); 13] = [
+    pub const ALL: [(&'static str, Function); 16] = [
         ("sqrt", Function::Sqrt),
         ("sin", Function::Sin),
         ("cos", Function::Cos),
@@ -44,6 +50,9 @@ impl Function {
         ("asin", Function::Asin),
         ("acos", Function::Acos),
         ("atan2", Function::Atan2),
+        ("exp", Function::Exp),
+        ("ln", Function::Ln),
+        ("log10", Function::Log10),
         ("abs", Function::Abs),
         ("min", Function::Min),
         ("max", Function::Max),
@@ -100,6 +109,9 @@ impl Function {
             Function::Asin => trig::asin(x),
             Function::Acos => trig::acos(x),
             Function::Atan2 => trig::atan2(x, arguments[1]),
+            Function::Exp => trig::exp(x),
+            Function::Ln => trig::ln(x),
+            Function::Log10 => trig::log10(x),
             Function::Abs => x.abs(),
             Function::Min => arguments.iter().copied().fold(f64::INFINITY, min_or_nan),
             Function::Max => -arguments.iter().map(|x| -x).fold(f64::INFINITY, min_or_nan),

@@ -6,12 +6,12 @@ use super::answer::PoseAnswer;
 use super::body::PoseSet;
 use super::guide::Guide;
 use crate::report::manifest::rounded;
-use crate::report::{format_length, manifest_head};
+use crate::report::{format_length, manifest_head, title_for};
 use coupler_curves::linkage_format::quoted;
 
 /// A complete manifest that renders linkages where they are at the poses, which are in its comments; of none, one that says so.
 pub fn poses_manifest(name: &str, set: &PoseSet, answers: &[PoseAnswer]) -> String {
-    let mut out = manifest_head(name);
+    let mut out = manifest_head("find", &title_for(name));
     out.push_str("\n# The traced point is that of the body, which passes these poses:\n");
     for (number, pose) in (1..).zip(set.poses()) {
         // Writing to a string cannot fail.

@@ -4,6 +4,7 @@ mod block;
 mod columns;
 mod data_set;
 mod dialect;
+mod function;
 mod line;
 mod name;
 mod number;
@@ -12,6 +13,8 @@ use super::super::outline::{Outline, ReadOptions, choose, limited};
 use block::{Blocks, Row};
 use data_set::{DataSet, data_sets, not_a_number};
 use dialect::{Dialect, detect};
+pub use function::FunctionRows;
+use function::function_rows;
 use line::{Divider, Line, lines};
 use name::ColumnName;
 
@@ -31,24 +34,7 @@ const MAX_DIVIDERS: usize = 2_000_000;
 /// # Errors
 /// Every line that cannot be read; or why the columns or the path are not known.
 pub(super) fn parse_table(text: &str, options: &ReadOptions) -> Result<Outline, Vec<String>> {
-    let mut lines: Vec<Line> = lines(text).take(MAX_LINES + 1).collect();
-    if lines.len() > MAX_LINES {
-        return Err(vec![format!("it has more than {MAX_LINES} lines: leave some out")]);
-    }
-    if let Some(line) = lines.iter().find(|line| line.text.len() > MAX_LINE) {
-        return Err(vec![format!(
-            "line {}: it has more than {MAX_LINE} bytes: write a point on each line",
-            line.number
-        )]);
-    }
-    let dividers = |line: &Line| line.text.bytes().filter(|byte| b",;|\t ".contains(byte)).count();
-    if lines.iter().map(dividers).sum::<usize>() > MAX_DIVIDERS {
-        return Err(vec![format!("it has more than {MAX_DIVIDERS} fields and blanks: leave some out")]);
-    }
-    let declared = lines.first().and_then(|line| divider_line(line.text));
-    if declared.is_some() {
-        lines.remove(0);
-    }
+    let (lines, declared) = read_lines(text)?;
     let dialect = detect(&lines, declared);
     check_commas(&lines, dialect)?;
     let Blocks { blocks, others } = Blocks::of(&lines, dialect);
@@ -70,6 +56,42 @@ pub(super) fn parse_table(text: &str, options: &ReadOptions) -> Result<Outline, 
         *taken = format!("path {}{id} of {}; {taken}", index + 1, sets.len());
     }
     Ok(outline)
+}
+
+/// Reads a table of a function: an input and an output on each line, in columns of these names, or two without names.
+///
+/// # Errors
+/// Every line that cannot be read; or why the columns are not known.
+pub(super) fn parse_function_table(text: &str) -> Result<FunctionRows, Vec<String>> {
+    let (lines, declared) = read_lines(text)?;
+    check_commas(&lines, detect(&lines, declared))?;
+    function_rows(&lines, declared)
+}
+
+/// The lines of a table, and the divider that it names itself.
+///
+/// # Errors
+/// It is too large.
+fn read_lines(text: &str) -> Result<(Vec<Line<'_>>, Option<char>), Vec<String>> {
+    let mut lines: Vec<Line> = lines(text).take(MAX_LINES + 1).collect();
+    if lines.len() > MAX_LINES {
+        return Err(vec![format!("it has more than {MAX_LINES} lines: leave some out")]);
+    }
+    if let Some(line) = lines.iter().find(|line| line.text.len() > MAX_LINE) {
+        return Err(vec![format!(
+            "line {}: it has more than {MAX_LINE} bytes: write a point on each line",
+            line.number
+        )]);
+    }
+    let dividers = |line: &Line| line.text.bytes().filter(|byte| b",;|\t ".contains(byte)).count();
+    if lines.iter().map(dividers).sum::<usize>() > MAX_DIVIDERS {
+        return Err(vec![format!("it has more than {MAX_DIVIDERS} fields and blanks: leave some out")]);
+    }
+    let declared = lines.first().and_then(|line| divider_line(line.text));
+    if declared.is_some() {
+        lines.remove(0);
+    }
+    Ok((lines, declared))
 }
 
 /// The divider that a first line `sep=;` names, as spreadsheets write it.

@@ -10,9 +10,9 @@ pub use double_point::{DoublePoint, DoublePointKind};
 
 use crate::geometry::{Point, Vector, cross};
 use crate::linkage::FourBar;
+use crate::numerical::real_roots;
 use change_points::change_points;
 use polynomial::{Polynomial, binomial_powers, exponents, has_circular_factor, monomials};
-use roots::real_roots;
 
 /// The coupler curve of a four-bar as an algebraic curve, in the frame with its origin at the crank's pivot and x
 /// towards the rocker's. It includes all circuits and branches.
