@@ -25,6 +25,8 @@ pub(super) fn by_fit(
     /// The linkages that are refined, those that are made minimax, and the steps of each.
     const REFINED: usize = 80;
     const MINIMAX: usize = 16;
+    /// How many times fewer with a least transmission angle, of which there are many.
+    const FEWER: usize = 3;
     const STEPS: usize = 200;
     /// Starts that differ by less lead to the same minimum, mostly.
     const APART: f64 = 0.05;
@@ -35,20 +37,24 @@ pub(super) fn by_fit(
     let aim = FitAim { samples: &samples, free: free_unknowns(starts), limits, power: 2.0, reference: target.size() };
     let mut begun = grid_starts(&aim, options.kind, starts, workers);
     begun.extend(exact_starts(&aim, options.kind, starts));
-    let begun = apart(sorted(begun), APART, REFINED);
+    let begun = sorted(begun);
+    // What a condition asks for besides may hold far from all minima.
+    let mut found = if options.condition.is_some() { apart(begun.clone(), DISTANCE, MOST) } else { Vec::new() };
+    let begun = apart(begun, APART, REFINED);
     // A condition may ask for a transmission angle, which the nearest linkages do not have.
     let levels = if options.condition.is_some() { TRANSMISSION_DEG } else { &TRANSMISSION_DEG[..1] };
-    let mut found = Vec::new();
     for level in levels {
         let limits = Limits { least_transmission: trig::radians(*level), ..limits };
         let aim = FitAim { limits, ..aim.clone() };
-        let refined = workers.map(begun.clone(), |linkage| {
+        let fewer = if *level > 0.0 { FEWER } else { 1 };
+        let some: Vec<Generator> = begun.iter().copied().take(REFINED / fewer).collect();
+        let refined = workers.map(some, |linkage| {
             let linkage = fitted(linkage, &aim, STEPS)?;
             Some((mean_square(linkage, &aim)?, linkage))
         });
         let mut linkages = apart(sorted(refined.into_iter().flatten().collect()), SAME, REFINED);
         if options.method == FunctionMethod::Minimax {
-            linkages.truncate(MINIMAX);
+            linkages.truncate(MINIMAX / fewer);
             let near = |linkage| least_greatest(linkage, &aim);
             let nearest: Vec<Generator> = workers.map(linkages, near).into_iter().flatten().collect();
             // What an exchange makes equal may be beyond the limits.

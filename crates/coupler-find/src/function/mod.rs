@@ -22,6 +22,10 @@ mod options;
 
 mod candidates;
 
+mod problem;
+
+mod open_starts;
+
 mod by_fit;
 mod by_points;
 

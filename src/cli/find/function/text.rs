@@ -112,10 +112,6 @@ fn remedy(report: &FunctionReport, method: FunctionMethod) -> String {
 /// A note on a method that had no answer, before another one.
 pub(super) fn tried(attempt: &FunctionAttempt, next: FunctionMethod) -> String {
     let said = findings_in_words(&attempt.findings);
-    let why = if said.is_empty() { "no answer".to_owned() } else { said };
-    format!(
-        "note: with {} {why}; with {} there is more choice\n",
-        method_in_words(attempt.method),
-        method_in_words(next)
-    )
+    let why = if said.is_empty() { "no linkage reaches them".to_owned() } else { said };
+    format!("note: {} have no answer, {why}; so {} are taken\n", method_in_words(attempt.method), method_in_words(next))
 }
