@@ -27,6 +27,7 @@ mod faults;
 mod find;
 mod find_atlas;
 mod find_files;
+mod find_function;
 mod find_linkage;
 mod find_poses;
 mod formats;
