@@ -2,7 +2,7 @@
 
 use coupler_curves::linkage::{FourBar, PlacedFourBar};
 use coupler_curves::linkage_format::toml_number;
-use coupler_curves::template::ParameterKind;
+use coupler_curves::template::{ParameterKind, Template};
 use coupler_find::{
     Deviation, LinkageSpace, Mechanism, PlacedCurve, format_length as number, format_relative as relative,
 };
@@ -30,7 +30,16 @@ pub fn dimensions(mechanism: &Mechanism, size: f64) -> String {
 /// The parameters of a linkage, in six significant digits.
 pub fn parameters(space: &LinkageSpace, curve: &PlacedCurve, size: f64) -> String {
     let scale = if curve.is_scalable { size } else { 1.0 };
-    let values = space.template().parameters.iter().zip(&curve.values).map(|(parameter, value)| {
+    values_in_words(space.template(), &curve.values, scale)
+}
+
+/// The same of values, of which lengths have the unit 1.
+pub fn named_values(template: &Template, values: &[f64]) -> String {
+    values_in_words(template, values, 1.0)
+}
+
+fn values_in_words(template: &Template, values: &[f64], scale: f64) -> String {
+    let values = template.parameters.iter().zip(values).map(|(parameter, value)| {
         let unit = if parameter.kind == ParameterKind::Length { scale } else { 1.0 };
         format!("{} = {}", parameter.name, number(*value, unit))
     });

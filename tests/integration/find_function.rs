@@ -110,7 +110,7 @@ fn the_chart_has_the_function_the_outputs_and_the_errors() {
     for wanted in ["output from the start", "structural error"] {
         for line in ["wanted", "linkage 1", "no error of linkage 1"] {
             let is_line = |title: &&str| title.contains(wanted) && title.ends_with(line);
-            assert!(titles.iter().any(|title| is_line(&title)), "{wanted}, {line}: {titles:?}");
+            assert!(titles.iter().any(is_line), "{wanted}, {line}: {titles:?}");
         }
     }
 }
@@ -150,6 +150,48 @@ fn rows_of_a_table_are_points_or_are_fitted() {
     fs::write(at.join("slider.csv"), "input,output [mm]\n0,0\n20,4\n45,12\n60,18\n").unwrap();
     let found = json(&folder, &["slider.csv", "--input-start", "20"]);
     assert_eq!(found["results"][0]["linkage"].as_str(), Some("slider-crank"), "{found}");
+}
+
+/// A Scotch yoke generates a cosine, and an oscillating slide the function of its own formula.
+#[test]
+fn the_dimensions_of_any_linkage_are_found() {
+    let folder = folder();
+    let at = folder.path();
+    let cosine = "y = cos(x) for x = 0.3..2.1 over 103.1324031235482 deg of input and 50 of output";
+    let found = json(&folder, &[cosine, "--linkage", "scotch-yoke", "--top", "1"]);
+    let best = &found["results"][0];
+    assert!(number(&best["error_greatest"]).abs() < 1e-6, "{found}");
+    // An oscillating slide: of an inverted slider-crank without offset, with the crank 1 and the frame 2.5, tan ψ = sin θ / (cos θ - 2.5).
+    let slide =
+        |input: f64| trig::degrees(trig::atan2(trig::sin(trig::radians(input)), trig::cos(trig::radians(input)) - 2.5));
+    let lines = (0..20).map(|k| 40.0 + 5.0 * f64::from(k)).map(|input| format!("{input},{}\n", slide(input)));
+    fs::write(at.join("slide.csv"), format!("input,output\n{}", lines.collect::<String>())).unwrap();
+    let keep = ["slide.csv", "--linkage", "inverted-slider-crank", "--keep", "e=0", "--keep", "r=1"];
+    let found = json(&folder, &keep);
+    let best = &found["results"][0];
+    assert!((number(&best["parameters"]["g"]) - 2.5).abs() < 1e-4, "{found}");
+    assert!(number(&best["error_greatest"]).abs() < 1e-5 && number(&best["parameters"]["r"]) == 1.0);
+    let toml = printed(at, &[&["find"], &keep[..], &["--function", "--top", "1", "--toml"]].concat());
+    fs::write(at.join("slide.toml"), toml).unwrap();
+    printed(at, &["render", "slide.toml", "-q"]);
+    let cells = fs::read_to_string(at.join("slide/found-1/cells.csv")).unwrap();
+    let swings = rows(&cells).into_iter().map(|row| numbers(&row, ["output_swing_deg"])[0]);
+    let outputs: Vec<f64> = (0..=9500).map(|k| slide(40.0 + 0.01 * f64::from(k)).rem_euclid(360.0)).collect();
+    let span = outputs.iter().fold(0.0, |most: f64, x| most.max(*x))
+        - outputs.iter().fold(360.0, |least: f64, x| least.min(*x));
+    assert!(swings.into_iter().any(|swing| (swing - span).abs() < 1e-3), "{span}");
+    printed(at, &["find", cosine, "--function", "--linkage", "scotch-yoke", "--svg", "yoke.svg"]);
+    for (arguments, told) in [
+        (&[LOG, "--linkage", "scotch-yoke"][..], "its output is a length"),
+        (&[LOG, "--linkage", "excavator"], "its input is a length"),
+        (&[LOG, "--linkage", "evans", "--points", "3"], "precision points are solved for four-bars"),
+        (&[LOG, "--linkage", "evans", "--keep", "q"], "--keep: evans has no parameter `q`"),
+        (&[LOG, "--linkage", "evan"], "evan"),
+        (&[LOG, "--effort", "thorough"], "--effort is of --linkage NAME"),
+    ] {
+        let (code, _, err) = run(at, &[&["find", "--function"], arguments].concat());
+        assert!(code == 2 && err.contains(told), "{arguments:?}: {err}");
+    }
 }
 
 #[test]
@@ -202,8 +244,8 @@ fn every_slip_is_an_error_with_its_place_and_a_remedy() {
             &["the table has 4 rows", "least-squares or minimax"],
         ),
         (
-            &["good.csv", "--max-link", "0.5", "--where", "mu_wrst > 3", "--linkage", "watt"],
-            &["--max-link 0.5", "--where: `mu_wrst > 3`", "--linkage watt"],
+            &["good.csv", "--max-link", "0.5", "--where", "mu_wrst > 3", "--points", "3"],
+            &["--max-link 0.5", "--where: `mu_wrst > 3`", "--points is of a formula"],
         ),
         (&[LOG, "--linkage", "slider-crank"], &["the output of a slider-crank is a length"]),
     ];

@@ -106,7 +106,8 @@ pub use function::{
     GeneratorKind, Law, LawError, LeftOut, StructuralError, generate_function,
 };
 pub use linkage::{
-    LinkageAnswer, LinkageSearch, LinkageSpace, LinkageSpaceError, PlacedCurve, is_scalable, scaled_values,
+    LinkageAnswer, LinkageFunctionAnswer, LinkageFunctionError, LinkageFunctionOptions, LinkageSearch, LinkageSpace,
+    LinkageSpaceError, PlacedCurve, generate_function_by, is_scalable, scaled_values,
 };
 pub use options::{Effort, Options};
 pub use poses::{

@@ -68,8 +68,7 @@ pub struct Arguments {
         long,
         requires = "path",
         conflicts_with_all = [
-            "like", "outline", "closed", "open", "part", "timed", "pivots", "index", "atlas", "fixed", "no_refine", "keep", "manifest",
-            "effort", "seed",
+            "like", "outline", "closed", "open", "part", "timed", "pivots", "index", "atlas", "fixed", "no_refine",
         ]
     )]
     pub(super) function: bool,

@@ -2,13 +2,15 @@
 
 mod drawing;
 mod formula;
+mod linkage;
 mod manifest;
 mod request;
 mod search;
 pub mod words;
 
-pub use drawing::draw_function;
+pub use drawing::{draw_function, draw_linkage_function};
 pub use formula::{FORMULA_EXAMPLE, is_formula, parse_formula};
+pub use linkage::{find_function_by, linkage_error_in_words, linkage_function_manifest, linkage_motion_in_words};
 pub use manifest::function_manifest;
 pub use request::{FunctionFit, FunctionRequest};
 pub use search::{FunctionAttempt, find_function};

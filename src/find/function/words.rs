@@ -5,12 +5,14 @@ use coupler_find::{
     Defect, FunctionAnswer, FunctionFindings, FunctionMethod, GeneratorKind, LeftOut, format_length, format_relative,
 };
 
-/// An output, or a difference of outputs, with its unit: degrees, or a length.
+/// An output with its unit: degrees, or a length.
+pub fn linkage_output_in_words(is_length: bool, value: f64) -> String {
+    if is_length { format_length(value, 1.0) } else { degrees(value) }
+}
+
+/// The same of a linkage in closed form.
 pub fn output_in_words(kind: GeneratorKind, value: f64) -> String {
-    match kind {
-        GeneratorKind::FourBar => degrees(value),
-        GeneratorKind::SliderCrank => format_length(value, 1.0),
-    }
+    linkage_output_in_words(kind == GeneratorKind::SliderCrank, value)
 }
 
 /// An angle in degrees, to a hundredth.
@@ -20,17 +22,18 @@ pub fn degrees(value: f64) -> String {
 }
 
 /// An error of an output in three significant digits with its unit; 0 for what is rounding.
-pub fn error_value(kind: GeneratorKind, value: f64) -> String {
+pub fn error_value(is_length: bool, value: f64) -> String {
     /// Degrees, or lengths.
     const ROUNDING: f64 = 1e-9;
-    let unit = if kind == GeneratorKind::FourBar { "°" } else { "" };
+    let unit = if is_length { "" } else { "°" };
     let shown = if value.abs() < ROUNDING { "0".to_owned() } else { format_relative(value) };
     format!("{shown}{unit}")
 }
 
 /// The error of a linkage: "greatest error 0.0827° at input 21.16°, root mean square 0.0581°".
 pub fn error_in_words(answer: &FunctionAnswer) -> String {
-    let [greatest, rms] = [answer.error.greatest, answer.error.rms].map(|value| error_value(answer.kind, value));
+    let [greatest, rms] = [answer.error.greatest, answer.error.rms]
+        .map(|value| error_value(answer.kind == GeneratorKind::SliderCrank, value));
     format!("greatest error {greatest} at input {}, root mean square {rms}", degrees(answer.error.at))
 }
 

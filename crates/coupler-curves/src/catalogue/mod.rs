@@ -62,6 +62,13 @@ pub fn find(id: &str) -> Option<Arc<Template>> {
     all().iter().find(|template| template.id == id).cloned()
 }
 
+/// The file of the built-in linkage with an id.
+#[doc(hidden)]
+pub fn source_text(id: &str) -> Option<&'static str> {
+    let at = all().iter().position(|template| template.id == id)?;
+    FILES.get(at).copied()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

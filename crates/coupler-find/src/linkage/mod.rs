@@ -11,6 +11,7 @@ mod answer;
 mod circuit;
 mod feet;
 mod fitting;
+mod function;
 mod measured;
 mod placed_curve;
 mod poses;
@@ -24,6 +25,7 @@ mod state;
 mod timed;
 
 pub use answer::LinkageAnswer;
+pub use function::{LinkageFunctionAnswer, LinkageFunctionError, LinkageFunctionOptions, generate_function_by};
 pub use placed_curve::PlacedCurve;
 pub use scaling::{is_scalable, scaled_values};
 pub use search::LinkageSearch;

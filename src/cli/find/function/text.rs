@@ -48,10 +48,11 @@ pub(super) fn text(report: &FunctionReport) -> String {
 }
 
 fn row(answer: &FunctionAnswer) -> [String; 6] {
+    let is_length = answer.kind == GeneratorKind::SliderCrank;
     [
-        error_value(answer.kind, answer.error.greatest),
+        error_value(is_length, answer.error.greatest),
         degrees(answer.error.at),
-        error_value(answer.kind, answer.error.rms),
+        error_value(is_length, answer.error.rms),
         answer.class.to_owned(),
         super::super::text::angle(answer.mu_worst_deg),
         format!("{:.2}", answer.ratio),

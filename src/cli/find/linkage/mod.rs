@@ -19,7 +19,7 @@ use report::LinkageReport;
 pub(super) struct Named {
     pub searched: SearchedLinkage,
     /// Its text, if it is of a manifest.
-    own_linkage: Option<String>,
+    pub own_linkage: Option<String>,
 }
 
 /// The linkage that the arguments name, if they name one.

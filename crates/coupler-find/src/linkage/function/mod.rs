@@ -1,0 +1,9 @@
+//! The dimensions of any linkage with an output link for which its output is a wanted function of its input.
+
+mod answer;
+mod fitting;
+mod search;
+mod track;
+
+pub use answer::LinkageFunctionAnswer;
+pub use search::{LinkageFunctionError, LinkageFunctionOptions, generate_function_by};
