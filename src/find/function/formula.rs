@@ -224,9 +224,8 @@ mod tests {
         assert!((law.wanted(law.travel()) - trig::radians(90.0)).abs() < 1e-15);
         let slider = parse_formula("s=sin(t)for t=-pi/4..pi/4 over 1.5 rad of input and 20 of output").unwrap();
         assert!(slider.is_length() && (slider.size() - 20.0).abs() < 1e-9);
-        for text in ["y = x^2 for x = 0.5..2 over -90° of input and -45 degrees of output"] {
-            assert!(is_formula(text) && parse_formula(text).is_ok(), "{text}");
-        }
+        let text = "y = x^2 for x = 0.5..2 over -90° of input and -45 degrees of output";
+        assert!(is_formula(text) && parse_formula(text).is_ok(), "{text}");
         for text in ["points.csv", "a=b.csv", "over.csv", "-"] {
             assert!(!is_formula(text), "{text}");
         }
