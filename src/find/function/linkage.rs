@@ -7,12 +7,13 @@ use coupler_curves::catalogue;
 use coupler_curves::linkage_format::{quoted, toml_number};
 use coupler_find::{
     FunctionTarget, LinkageFunctionAnswer, LinkageFunctionOptions, LinkageSpace, generate_function_by, manifest_head,
+    title_for,
 };
 
 use super::super::Error;
-use super::super::threads::Threads;
 use super::words::{degrees, error_value, linkage_output_in_words};
 use crate::manifest;
+use crate::threads::Threads;
 
 /// Finds dimensions of a linkage for which its output is a function of its input, on all threads, with an answer that does not depend on their
 /// number.
@@ -53,7 +54,7 @@ pub fn linkage_function_manifest(
     answers: &[LinkageFunctionAnswer],
     own_linkage: Option<&str>,
 ) -> String {
-    let mut out = manifest_head(name);
+    let mut out = manifest_head("find", &title_for(name));
     if answers.is_empty() {
         return out + "\n# No linkage meets the constraints.\n";
     }

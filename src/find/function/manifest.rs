@@ -3,13 +3,13 @@
 use std::fmt::Write;
 
 use coupler_curves::linkage_format::{quoted, toml_number};
-use coupler_find::{FunctionAnswer, manifest_head};
+use coupler_find::{FunctionAnswer, manifest_head, title_for};
 
 use super::words::error_in_words;
 
 /// A manifest with a linkage for each side on which some are assembled, and their cases over the range of the input, in order of rank.
 pub fn function_manifest(name: &str, answers: &[FunctionAnswer]) -> String {
-    let mut out = manifest_head(name);
+    let mut out = manifest_head("find", &title_for(name));
     if answers.is_empty() {
         return out + "\n# No linkage meets the constraints.\n";
     }

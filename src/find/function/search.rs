@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 use coupler_find::{FunctionFindings, FunctionMethod, FunctionOptions, FunctionTarget, generate_function};
 
 use super::super::Error;
-use super::super::threads::Threads;
+use crate::threads::Threads;
 
 /// What has been found by a method.
 #[derive(Clone, Debug, PartialEq)]

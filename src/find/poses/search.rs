@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 use coupler_find::{PoseFindings, PoseOptions, PoseSet, exact_guides, nearest_guides};
 
 use super::super::Error;
-use super::super::threads::Threads;
+use crate::threads::Threads;
 
 /// The most poses that are passed exactly.
 const MOST_EXACT: usize = 5;

@@ -16,7 +16,8 @@ use coupler_curves::linkage::OutputLink;
 use coupler_curves::problem;
 use coupler_find::{FunctionMethod, FunctionOptions, FunctionTarget, GeneratorKind, Options};
 
-use super::arguments::{EffortChoice, InputChoice};
+use super::super::effort::EffortChoice;
+use super::arguments::InputChoice;
 use super::linkage::named;
 use super::request::parse_length;
 use super::{Arguments, Failure, Outcome, Shown, files, not_a_path, notes, show};
