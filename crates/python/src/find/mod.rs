@@ -98,8 +98,12 @@ pub fn find_linkages(py: Python, path: Bound<PyAny>, keywords: Option<&Bound<PyD
     let keywords = Keywords::from_dict(py, keywords)?;
     let linkage = keywords.named_linkage(py)?;
     let (options, space) = keywords.request(linkage.as_ref()).check().map_err(request_error)?;
-    let read_options =
-        ReadOptions { is_timed: keywords.timed, outline: keywords.outline.as_deref(), outline_option: "outline=" };
+    let read_options = ReadOptions {
+        is_timed: keywords.timed,
+        outline: keywords.outline.as_deref(),
+        outline_option: "outline=",
+        ..ReadOptions::default()
+    };
     let mut path = Path::read(py, &path, &read_options)?;
     let kind = path.kind(keywords.closed, keywords.part)?;
     let target = match path.angles(kind, keywords.angles, keywords.timed)? {

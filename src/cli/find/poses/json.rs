@@ -33,8 +33,8 @@ struct Found {
     freedom: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     samples: Option<usize>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    dyads: Vec<Dyad>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    dyads: Option<Vec<Dyad>>,
     pairs: usize,
     left_out: BTreeMap<&'static str, usize>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -115,11 +115,10 @@ fn found(findings: &PoseFindings, poses: &PoseSet) -> Found {
         order: left_out.order.clone(),
     });
     let are_samples = matches!(findings.freedom, Freedom::Curve | Freedom::Plane | Freedom::Space);
-    let listed = if are_samples { &[] } else { &findings.dyads[..] };
     Found {
         freedom: findings.freedom.name(),
         samples: are_samples.then_some(findings.dyads.len()),
-        dyads: listed.iter().map(dyad).collect(),
+        dyads: (!are_samples).then(|| findings.dyads.iter().map(dyad).collect()),
         pairs: findings.pairs,
         left_out: findings.left_out.iter().map(|(misfit, count)| (misfit.name(), *count)).collect(),
         pairs_left_out: left_out.collect(),
