@@ -10,6 +10,7 @@ use super::options::{FunctionMethod, FunctionOptions};
 use super::precision::{GivenStarts, exact, nearest};
 use super::structural_error::ErrorCurve;
 use super::target::FunctionTarget;
+use crate::scatter::Scatter;
 use crate::workers::Workers;
 use coupler_curves::geometry::trig;
 
@@ -37,6 +38,7 @@ pub(super) fn by_fit(
     let aim = FitAim { samples: &samples, free: free_unknowns(starts), limits, power: 2.0, reference: target.size() };
     let mut begun = grid_starts(&aim, options.kind, starts, workers);
     begun.extend(exact_starts(&aim, options.kind, starts));
+    begun.extend(other_starts(&aim, options.kind, starts));
     let begun = sorted(begun);
     // What a condition asks for besides may hold far from all minima.
     let mut found = if options.condition.is_some() { apart(begun.clone(), DISTANCE, MOST) } else { Vec::new() };
@@ -129,4 +131,35 @@ fn exact_starts(aim: &FitAim, kind: GeneratorKind, starts: GivenStarts) -> Vec<(
         }
     }
     found
+}
+
+/// Random linkages, and parallelograms, which no equation leads to where the output is the input: with the output at the start that is best.
+fn other_starts(aim: &FitAim, kind: GeneratorKind, [input, output]: GivenStarts) -> Vec<(f64, Generator)> {
+    const RANDOM: usize = 400;
+    const PARALLELOGRAMS: usize = 36;
+    /// The deviation of the logarithms of lengths and of offsets in sizes of the output.
+    const SPREAD: f64 = 0.7;
+    let mut scatter = Scatter::new(1);
+    let mut lengths: Vec<([f64; 3], f64)> = Vec::new();
+    for _ in 0..RANDOM {
+        let mut length = || trig::exp(scatter.normal(SPREAD));
+        let [a, b, c] = [length(), length(), length()];
+        let third = if kind == GeneratorKind::SliderCrank { scatter.normal(SPREAD) } else { c };
+        lengths.push(([a, a.max(b), third], scatter.normal(PI)));
+    }
+    if kind == GeneratorKind::FourBar {
+        let angles = (0..PARALLELOGRAMS).map(|k| 2.0 * PI * k as f64 / PARALLELOGRAMS as f64);
+        lengths.extend(angles.map(|angle| ([0.8, 1.0, 0.8], angle)));
+    }
+    let placed = |([a, b, third], angle): ([f64; 3], f64), side: f64| {
+        let start = input.unwrap_or(angle);
+        let linkage = Generator { kind, lengths: [a, b, third], starts: [start, 0.0], side };
+        let outputs: Option<Vec<f64>> = aim.samples.iter().map(|[x, y]| Some(linkage.output(start + x)? - y)).collect();
+        let outputs = outputs?;
+        let best = outputs.iter().sum::<f64>() / outputs.len() as f64;
+        let linkage = Generator { starts: [start, output.unwrap_or(best)], ..linkage };
+        Some((mean_square(linkage, aim)?, linkage))
+    };
+    let both = lengths.into_iter().flat_map(|linkage| [(linkage, 1.0), (linkage, -1.0)]);
+    both.filter_map(|(linkage, side)| placed(linkage, side)).collect()
 }

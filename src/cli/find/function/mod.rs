@@ -29,7 +29,7 @@ pub(super) fn run(arguments: &Arguments, is_drawing_printed: bool) -> Result<Out
     check_linkage_options(arguments, named.is_some())?;
     let output = named.as_ref().and_then(|named| named.searched.template.structure().ok()?.output());
     let is_length = output.map_or(closed_form == Some(GeneratorKind::SliderCrank), OutputLink::is_slider);
-    let (name, target) = read_target(arguments, is_length)?;
+    let Read { name, target, first } = read_target(arguments, is_length)?;
     if let Some(jobs) = arguments.jobs {
         rayon::ThreadPoolBuilder::new().num_threads(jobs.into()).build_global()?;
     }
@@ -44,7 +44,7 @@ pub(super) fn run(arguments: &Arguments, is_drawing_printed: bool) -> Result<Out
     let kind = closed_form.unwrap_or(of_target);
     let (options, methods) = check(arguments, &target, kind, (numbers, problems))?;
     let attempts = find_function(&target, &options, &methods, &AtomicBool::new(false)).map_err(Failure::input)?;
-    let report = FunctionReport { name, target, options, attempts };
+    let report = FunctionReport { name, target, first, options, attempts };
     show(&report, arguments, is_drawing_printed)
 }
 
@@ -78,16 +78,24 @@ fn check_linkage_options(arguments: &Arguments, has_linkage: bool) -> Result<(),
     if problems.is_empty() { Ok(()) } else { Err(Failure::inputs(&problems)) }
 }
 
-/// The function that the arguments name, and what it is called.
+/// A function that has been read.
+struct Read {
+    name: String,
+    target: FunctionTarget,
+    /// The first row of a table.
+    first: Option<[f64; 2]>,
+}
+
+/// The function that the arguments name.
 ///
 /// # Errors
 /// It cannot be read, or is none.
-fn read_target(arguments: &Arguments, is_length: bool) -> Result<(String, FunctionTarget), Failure> {
+fn read_target(arguments: &Arguments, is_length: bool) -> Result<Read, Failure> {
     let path = arguments.path.as_deref().unwrap_or(Path::new("-"));
     let text = path.to_string_lossy();
     if function::is_formula(&text) && !path.exists() {
         return match function::parse_formula(&text) {
-            Ok(target) => Ok((text.trim().to_owned(), target)),
+            Ok(target) => Ok(Read { name: text.trim().to_owned(), target, first: None }),
             Err(problems) => {
                 let report = problem::report(&problems, "the function", &text, false);
                 let report = report.trim_end().strip_prefix("error: ").unwrap_or(&report).to_owned();
@@ -111,7 +119,7 @@ fn read_target(arguments: &Arguments, is_length: bool) -> Result<(String, Functi
         };
         in_file(&problems.iter().map(with_line).collect::<Vec<_>>())
     })?;
-    Ok((name, target))
+    Ok(Read { name, target, first: found.rows.first().copied() })
 }
 
 /// The numbers of the arguments.
@@ -192,6 +200,7 @@ impl Shown for FunctionReport {
         for (before, attempt) in self.attempts.iter().zip(self.attempts.iter().skip(1)) {
             out += &text::tried(before, attempt.method);
         }
+        out += &text::any_zero(self);
         out += &self.answers().first().map_or(String::new(), |best| notes::jams(best.mu_worst_deg, arguments));
         out
     }

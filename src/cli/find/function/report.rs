@@ -12,6 +12,8 @@ pub(super) struct FunctionReport {
     /// The name of its file, or the function as it is written.
     pub name: String,
     pub target: FunctionTarget,
+    /// The first row of a table, in degrees or as a length.
+    pub first: Option<[f64; 2]>,
     pub options: FunctionOptions,
     /// What has been tried, of which the last is what has been found.
     pub attempts: Vec<FunctionAttempt>,

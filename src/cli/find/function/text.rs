@@ -116,3 +116,16 @@ pub(super) fn tried(attempt: &FunctionAttempt, next: FunctionMethod) -> String {
     let why = if said.is_empty() { "no linkage reaches them".to_owned() } else { said };
     format!("note: {} have no answer, {why}; so {} are taken\n", method_in_words(attempt.method), method_in_words(next))
 }
+
+/// A note on the zero of a table's few rows, whose starts are searched though their numbers may be those of the linkage.
+pub(super) fn any_zero(report: &FunctionReport) -> String {
+    let FunctionReport { first, options, attempts, .. } = report;
+    let are_searched = options.input_start_deg.is_none() && options.output_start.is_none();
+    let is_of_points = attempts.iter().any(|attempt| matches!(attempt.method, FunctionMethod::Points(..5)));
+    match first {
+        Some([input, output]) if are_searched && is_of_points => format!(
+            "note: the rows count from any zero, and the starts are searched; as they are: --input-start={input} --output-start={output}\n"
+        ),
+        _ => String::new(),
+    }
+}
