@@ -17,6 +17,7 @@ mod import;
 mod init;
 mod inspect;
 mod interrupt;
+mod jams;
 mod linkage;
 mod list;
 mod manual;

@@ -18,6 +18,8 @@ pub struct Designs {
     pub searched: Vec<String>,
     /// Whether any linkage within the ranges was assembled.
     pub is_any_assembled: bool,
+    /// Whether nothing holds the size of the linkages, and the best would be smaller or greater without end.
+    pub is_size_unbounded: bool,
     /// Whether the search was told to end, and these are the best so far.
     pub is_interrupted: bool,
 }
@@ -41,7 +43,8 @@ pub fn by_wishes(
     let answers = search.answers(&Threads { interrupt: &AtomicBool::new(false) });
     let misses = if answers.is_empty() { search.misses() } else { Vec::new() };
     let searched = search.space().free_names().map(str::to_owned).collect();
-    Designs { answers, misses, searched, is_any_assembled: search.is_any_assembled(), is_interrupted }
+    let (is_any_assembled, is_size_unbounded) = (search.is_any_assembled(), search.is_size_unbounded());
+    Designs { answers, misses, searched, is_any_assembled, is_size_unbounded, is_interrupted }
 }
 
 impl Designs {

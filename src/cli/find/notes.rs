@@ -7,6 +7,7 @@ use coupler_curves::measure::parse_condition;
 use coupler_find::{Options, Quality};
 
 use super::super::effort::EffortChoice;
+use super::super::jams::jams;
 use super::super::printable;
 use super::{Arguments, InputChoice};
 
@@ -17,34 +18,14 @@ pub(super) struct Best {
     pub mu_worst_deg: f64,
 }
 
-/// The worst transmission angle below which a linkage is said to jam, in degrees.
-const JAMS_BELOW_DEG: f64 = 10.0;
-
 /// The notes on the best answer, a line each.
 pub(super) fn notes(best: &Best, arguments: &Arguments) -> String {
     let mut out = String::new();
-    out += &jams(best.mu_worst_deg, arguments);
+    out += &jams(best.mu_worst_deg, arguments.condition.as_deref());
     if best.quality == Quality::Poor {
         out += &format!("note: the best fit is poor; what may help: {}\n", remedies(arguments).join(", "));
     }
     out
-}
-
-/// A note that the best answer jams, if it does, with the condition that leaves such linkages out.
-pub(super) fn jams(mu_worst_deg: f64, arguments: &Arguments) -> String {
-    // One that is not a number is none.
-    if mu_worst_deg >= JAMS_BELOW_DEG || mu_worst_deg.is_nan() {
-        return String::new();
-    }
-    let condition = match &arguments.condition {
-        None => "mu_worst_deg >= 30".to_owned(),
-        Some(condition) => format!("({condition}) and mu_worst_deg >= 30"),
-    };
-    format!(
-        "note: the best linkage jams, or nearly so: its worst transmission angle is {}; leave such linkages out: --where \"{}\"\n",
-        super::text::angle(mu_worst_deg),
-        printable(condition)
-    )
 }
 
 /// Which conditions a cell of a family does not meet, and its values, or why the condition has no meaning there.

@@ -6,6 +6,7 @@ use coupler_find::{Answer, Constraint, Mechanism, Target, format_length as numbe
 
 use crate::find::description::dimensions;
 
+use super::super::format::angle;
 use super::Report;
 use coupler_curves::text::pluralize;
 
@@ -78,11 +79,6 @@ pub(super) fn place(mechanism: &Mechanism, size: f64) -> String {
 fn summary(mechanism: &Mechanism) -> String {
     let constraints = if mechanism.meets_constraints { "" } else { ", outside the constraints" };
     format!("{}, mu worst {}{constraints}", mechanism.class, angle(mechanism.mu_worst_deg))
-}
-
-pub(super) fn angle(degrees: f64) -> String {
-    // Without the sign of -0.0.
-    format!("{:.1}°", (10.0 * degrees).round() / 10.0 + 0.0)
 }
 
 /// The message when no linkage meets the constraints: the nearest one, and what to relax for it.

@@ -119,7 +119,8 @@ impl Units {
             Objective::Goal(k) => known(assessment.goals[*k] / self.goals[*k]),
             Objective::Wish(k) => {
                 let value = self.scaled(*k, assessment.excesses[*k]);
-                if self.are_equal[*k] { value.abs() } else { value }
+                // What meets the wish is as good as can be.
+                if self.are_equal[*k] { value.abs() } else { value.max(0.0) }
             }
             Objective::Weighted { weights, least } => {
                 let above = assessment.goals.iter().zip(least).zip(&self.goals).zip(weights);

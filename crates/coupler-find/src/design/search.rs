@@ -143,6 +143,11 @@ impl DesignSearch {
         !self.samples.is_empty()
     }
 
+    /// Whether nothing holds the size of the linkages, and the best would be smaller or greater without end.
+    pub fn is_size_unbounded(&self) -> bool {
+        self.found.iter().any(|polished| self.meter.space.is_size_at_its_end(&polished.place))
+    }
+
     /// Takes a step; false if nothing is left to do.
     pub fn step(&mut self, workers: &impl Workers) -> bool {
         self.stage = match self.stage {
@@ -238,7 +243,7 @@ impl DesignSearch {
             return self.best_curve(place, self.meter.assess(&measured));
         }
         /// Factors of the size, and the accuracy of their logarithm.
-        const SIZES: i32 = 24;
+        const SIZES: i32 = 60;
         const ACCURACY: f64 = 1e-3;
         let at = |logarithm: f64| {
             let factor = trig::exp(logarithm);
@@ -368,8 +373,18 @@ impl DesignSearch {
         if round > 0 || goals == 0 {
             return Stage::Done;
         }
-        self.runs = if goals == 1 { self.near_the_best() } else { self.between_goals(goals) };
-        Stage::Evolve { round: round + 1, slice: 0 }
+        self.go_on_from_found()
+    }
+
+    /// The last round for goals.
+    fn go_on_from_found(&mut self) -> Stage {
+        let goals = self.meter.wishes.goals.len();
+        self.runs = match goals {
+            0 => return Stage::Done,
+            1 => self.near_the_best(),
+            _ => self.between_goals(goals),
+        };
+        Stage::Evolve { round: 1, slice: 0 }
     }
 
     /// The found places, those first for which an objective is least.
@@ -451,9 +466,16 @@ impl DesignSearch {
         }
         for (objective, polished) in self.finish_runs(workers) {
             let Objective::Wish(wish) = objective else { continue };
+            if polished.assessment.is_met {
+                self.found.push(polished.clone());
+            }
             if self.units.violation(&polished.assessment, &objective) <= MET {
                 self.misses.push((wish, polished));
             }
+        }
+        // What comes as near as can be may meet the wish.
+        if !self.found.is_empty() {
+            return self.go_on_from_found();
         }
         if round > 0 {
             return Stage::Done;

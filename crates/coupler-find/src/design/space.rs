@@ -178,6 +178,12 @@ impl DesignSpace {
         reduced
     }
 
+    /// Whether the size of a place is at the end of what is searched.
+    pub(super) fn is_size_at_its_end(&self, place: &[f64]) -> bool {
+        const NEAR: f64 = 0.9;
+        self.is_scaled && place.last().is_some_and(|size| size.abs() > NEAR * MAX_SIZE)
+    }
+
     /// Whether some parameters vary in steps.
     pub(super) fn has_steps(&self) -> bool {
         self.axes.iter().any(|axis| axis.step.is_some())
@@ -235,10 +241,11 @@ impl DesignSpace {
     }
 }
 
+/// Beyond this size, in logarithms of [`SCALE_UNIT`], there is nothing to be found.
+const MAX_SIZE: f64 = 4.0;
+
 fn size_of(part: f64) -> f64 {
-    /// Beyond this size there is nothing to be found.
-    const MOST: f64 = 4.0;
-    trig::exp(part.clamp(-MOST, MOST) * trig::ln(SCALE_UNIT))
+    trig::exp(part.clamp(-MAX_SIZE, MAX_SIZE) * trig::ln(SCALE_UNIT))
 }
 
 /// How many times greater than their defaults the lengths with a range or a value are: the geometric mean.

@@ -83,8 +83,7 @@ impl Aim {
         if self.max_link.is_finite() {
             let most = (self.max_link - margin).max(0.5 * self.max_link);
             let scale = placed.scale();
-            let links = linkage.links.iter().map(|link| longest(&link.joints));
-            all.extend(links.map(|longest| scale * longest - most));
+            all.extend(link_lengths(linkage).map(|longest| scale * longest - most));
         }
         if let Some([low, high]) = self.pivots {
             let margin = margin.min(0.25 * (high.re - low.re).min(high.im - low.im));
@@ -137,10 +136,17 @@ pub(super) fn pivots_of(linkage: &Linkage) -> impl Iterator<Item = JointId> {
 
 /// The greatest distance of two joints of a link.
 pub(crate) fn longest_link(linkage: &Linkage) -> f64 {
-    linkage.links.iter().map(|link| longest(&link.joints)).fold(0.0, f64::max)
+    link_lengths(linkage).fold(0.0, f64::max)
 }
 
-fn longest(joints: &[(JointId, Vector)]) -> f64 {
-    let pairs = joints.iter().enumerate().flat_map(|(k, (_, a))| joints[k + 1..].iter().map(move |(_, b)| (a, b)));
-    pairs.map(|(a, b)| (b - a).norm_squared()).fold(0.0, f64::max).sqrt()
+/// The greatest distance of two joints of each link. A joint of the frame that no other link has only gives a direction, at any distance.
+fn link_lengths(linkage: &Linkage) -> impl Iterator<Item = f64> {
+    let pivots: Vec<JointId> = pivots_of(linkage).collect();
+    linkage.links.iter().map(move |link| {
+        let is_ground = std::ptr::eq(link, linkage.ground());
+        let joints = link.joints.iter().filter(|(joint, _)| !is_ground || pivots.contains(joint));
+        let places: Vec<&Vector> = joints.map(|(_, place)| place).collect();
+        let pairs = places.iter().enumerate().flat_map(|(k, a)| places[k + 1..].iter().map(move |b| (a, b)));
+        pairs.map(|(a, b)| (*b - *a).norm_squared()).fold(0.0, f64::max).sqrt()
+    })
 }

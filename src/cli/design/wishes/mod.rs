@@ -29,9 +29,7 @@ pub fn run(arguments: &WishArguments) -> Result<Outcome, Failure> {
         bar.set_position((1000.0 * part) as u64);
     });
     bar.finish_and_clear();
-    if designs.is_interrupted {
-        print_stderr("note: interrupted: these are the best so far\n");
-    }
+    print_stderr(&text::notes(arguments, &designs));
     if designs.answers.is_empty() {
         if arguments.json {
             print_bytes(json::json(&linkage, &wishes, &designs)?.as_bytes())?;

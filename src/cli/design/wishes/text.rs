@@ -7,6 +7,7 @@ use coupler_curves::text::{pluralize, round_to_six_digits};
 use coupler_find::{DesignAnswer, DesignMiss, Wishes};
 
 use super::super::super::format::format_significant;
+use super::super::super::jams::jams;
 use super::arguments::WishArguments;
 
 /// The digits of a dimension.
@@ -61,6 +62,22 @@ pub(super) fn wished(arguments: &WishArguments) -> String {
     parts.join(" · ")
 }
 
+/// What to know about the designs.
+pub(super) fn notes(arguments: &WishArguments, designs: &Designs) -> String {
+    let mut out = String::new();
+    if designs.is_interrupted && !designs.answers.is_empty() {
+        out += "note: interrupted: these are the best so far\n";
+    }
+    if designs.is_size_unbounded {
+        out += "note: nothing holds the size of these linkages, and better ones are smaller or greater without end: give a length a value or a \
+                range (--fix, --range), or --max-link\n";
+    }
+    if let Some(mu_worst_deg) = designs.answers.first().and_then(DesignAnswer::mu_worst_deg) {
+        out += &jams(mu_worst_deg, arguments.condition.as_deref());
+    }
+    out
+}
+
 /// The message where no linkage meets the wishes: what each comes to while the others are met.
 pub(super) fn no_design_message(linkage: &str, wishes: &Wishes, designs: &Designs) -> String {
     let mut out = format!("no {linkage} was found that meets these wishes\n");
@@ -73,6 +90,7 @@ pub(super) fn no_design_message(linkage: &str, wishes: &Wishes, designs: &Design
     for DesignMiss { wish, nearest } in &designs.misses {
         let wished = wishes.wishes[*wish].text();
         let comes_to = match &nearest.wishes[*wish].value {
+            Some((subject, value)) if value.is_nan() => format!("{subject} has no value"),
             Some((subject, value)) => format!("{subject} comes to {} at best", round_to_six_digits(*value)),
             None => "it is not met".to_owned(),
         };

@@ -11,11 +11,13 @@ use crate::find::function::{
 use coupler_find::{Condition, FunctionTarget, LinkageFunctionAnswer, LinkageFunctionOptions, LinkageSpace};
 use serde::Serialize;
 
+use super::super::super::format::angle;
+use super::super::super::jams::jams;
 use super::super::super::report as reports;
 use super::super::arguments::{FitChoice, InputChoice};
 use super::super::json::FORMAT;
 use super::super::linkage::Named;
-use super::super::{Arguments, Failure, Outcome, Shown, notes, show, title_of};
+use super::super::{Arguments, Failure, Outcome, Shown, show, title_of};
 
 /// A function, and the dimensions of a linkage that have been found for it.
 struct LinkageFunctionReport {
@@ -147,7 +149,7 @@ impl Shown for LinkageFunctionReport {
         let is_length = self.target.is_length();
         for (rank, answer) in (1..).zip(&self.answers) {
             let mu = match answer.mu_worst_deg {
-                mu if mu.is_finite() => format!(", mu worst {}", super::super::text::angle(mu)),
+                mu if mu.is_finite() => format!(", mu worst {}", angle(mu)),
                 _ => String::new(),
             };
             let _ = writeln!(out, "{rank:>3}  {}{mu}", linkage_error_in_words(answer, is_length));
@@ -158,6 +160,6 @@ impl Shown for LinkageFunctionReport {
     }
 
     fn notes(&self, arguments: &Arguments) -> String {
-        self.answers.first().map_or(String::new(), |best| notes::jams(best.mu_worst_deg, arguments))
+        self.answers.first().map_or(String::new(), |best| jams(best.mu_worst_deg, arguments.condition.as_deref()))
     }
 }

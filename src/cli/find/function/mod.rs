@@ -17,10 +17,11 @@ use coupler_curves::problem;
 use coupler_find::{FunctionMethod, FunctionOptions, FunctionTarget, GeneratorKind, Options};
 
 use super::super::effort::EffortChoice;
+use super::super::jams::jams;
 use super::arguments::InputChoice;
 use super::linkage::named;
 use super::request::parse_length;
-use super::{Arguments, Failure, Outcome, Shown, files, not_a_path, notes, show};
+use super::{Arguments, Failure, Outcome, Shown, files, not_a_path, show};
 use report::FunctionReport;
 
 pub(super) fn run(arguments: &Arguments, is_drawing_printed: bool) -> Result<Outcome, Failure> {
@@ -201,7 +202,10 @@ impl Shown for FunctionReport {
             out += &text::tried(before, attempt.method);
         }
         out += &text::any_zero(self);
-        out += &self.answers().first().map_or(String::new(), |best| notes::jams(best.mu_worst_deg, arguments));
+        out += &self
+            .answers()
+            .first()
+            .map_or(String::new(), |best| jams(best.mu_worst_deg, arguments.condition.as_deref()));
         out
     }
 }

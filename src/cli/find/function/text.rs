@@ -9,6 +9,7 @@ use crate::find::function::words::{
 use coupler_curves::geometry::trig;
 use coupler_find::{FunctionAnswer, FunctionMethod, GeneratorKind, format_length};
 
+use super::super::super::format::angle;
 use super::report::FunctionReport;
 
 /// A table of the answers, each row followed by the dimensions and the places of the linkage; and what is left out.
@@ -54,7 +55,7 @@ fn row(answer: &FunctionAnswer) -> [String; 6] {
         degrees(answer.error.at),
         error_value(is_length, answer.error.rms),
         answer.class.to_owned(),
-        super::super::text::angle(answer.mu_worst_deg),
+        angle(answer.mu_worst_deg),
         format!("{:.2}", answer.ratio),
     ]
 }

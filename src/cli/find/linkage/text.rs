@@ -6,7 +6,8 @@ use crate::find::Findings;
 use crate::find::description::{deviation, parameters, placement};
 use coupler_find::{LinkageAnswer, LinkageSpace, format_length as number};
 
-use super::super::text::{angle, describe_target, relaxed};
+use super::super::super::format::angle;
+use super::super::text::{describe_target, relaxed};
 use super::LinkageReport;
 use coupler_curves::text::pluralize;
 

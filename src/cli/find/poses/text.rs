@@ -9,7 +9,7 @@ use coupler_find::{
     format_relative as relative,
 };
 
-use super::super::text::angle;
+use super::super::super::format::angle;
 use super::report::PoseReport;
 use crate::find::Relaxed;
 
