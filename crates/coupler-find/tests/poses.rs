@@ -24,17 +24,7 @@ fn crank_rocker(inputs_deg: &[f64]) -> Vec<BodyPose> {
 const INPUTS: [f64; 5] = [30.0, 60.0, 110.0, 150.0, 200.0];
 
 fn options() -> PoseOptions {
-    PoseOptions {
-        full_turn: false,
-        any_order: false,
-        any_circuit: false,
-        max_link: f64::INFINITY,
-        pivots: None,
-        condition: None,
-        effort: Effort::Quick,
-        seed: 1,
-        most: 20,
-    }
+    PoseOptions { full_turn: false, max_link: f64::INFINITY, effort: Effort::Quick, most: 20, ..PoseOptions::default() }
 }
 
 fn answers(poses: &[BodyPose]) -> Vec<PoseAnswer> {

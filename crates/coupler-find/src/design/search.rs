@@ -2,17 +2,17 @@
 
 use super::answer::{DesignAnswer, DesignMiss};
 use super::assessment::Assessment;
+use super::idle::idle_axes;
 use super::measured::Meter;
 use super::merit::{Objective, Units};
 use super::polish::{Measuring, Polished};
 use super::run::Run;
+use super::sample::{Sample, Sampling};
 use super::space::DesignSpace;
 use super::wish::{Direction, Wishes};
 use crate::even_sequence::EvenSequence;
 use crate::options::Effort;
 use crate::workers::Workers;
-use coupler_curves::geometry::trig;
-use coupler_curves::numerical::maximum;
 
 /// How a search goes.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,14 +57,6 @@ pub struct DesignSearch {
     /// The linkages that come nearest without one of the wishes, by its number.
     misses: Vec<(usize, Polished)>,
     stage: Stage,
-}
-
-/// A sample, the best first.
-#[derive(Clone, Debug)]
-struct Sample {
-    merit: f64,
-    place: Vec<f64>,
-    assessment: Assessment,
 }
 
 /// What the next step does.
@@ -221,13 +213,13 @@ impl DesignSearch {
         let has_goals = !self.meter.wishes.goals.is_empty();
         // Of samples without goals those that are worse than all kept ones need not be measured to the end.
         let most = if has_goals { f64::INFINITY } else { worst * worst };
-        let measured = workers.map((next..end).collect(), |number| self.sampled(number, most));
+        let measured = workers.map((next..end).collect(), |number| self.sampling().sampled(number, most));
         self.samples.extend(measured.into_iter().flatten());
         if next == 0 {
             let all: Vec<Assessment> = self.samples.iter().map(|sample| sample.assessment.clone()).collect();
             self.units = Units::of_samples(&self.meter.wishes, &all);
             for k in 0..self.samples.len() {
-                self.samples[k].merit = self.merit(&self.samples[k].assessment);
+                self.samples[k].merit = self.sampling().merit(&self.samples[k].assessment);
             }
         }
         self.samples.sort_by(|a, b| a.merit.total_cmp(&b.merit));
@@ -235,44 +227,8 @@ impl DesignSearch {
         if end < self.sample_count() { Stage::Sample { next: end } } else { Stage::Meet }
     }
 
-    /// A sample in the size that suits the wishes best.
-    fn sampled(&self, number: usize, most: f64) -> Option<Sample> {
-        let place = self.meter.space.sample(number);
-        let measured = self.meter.screened(&place, &self.units, most)?;
-        if !self.meter.space.is_scaled {
-            return self.best_curve(place, self.meter.assess(&measured));
-        }
-        /// Factors of the size, and the accuracy of their logarithm.
-        const SIZES: i32 = 60;
-        const ACCURACY: f64 = 1e-3;
-        let at = |logarithm: f64| {
-            let factor = trig::exp(logarithm);
-            let place = self.meter.space.resized(&place, factor);
-            let assessments = match self.meter.resized(&measured, factor) {
-                Some(resized) => self.meter.assess(&resized),
-                None => self.meter.assess_at(&place),
-            };
-            self.best_curve(place, assessments)
-        };
-        let merit = |logarithm: f64| at(logarithm).map_or(f64::NEG_INFINITY, |sample| -sample.merit);
-        let coarse = (-SIZES..=SIZES).map(|k| f64::from(k) / 3.0).map(|logarithm| (logarithm, merit(logarithm)));
-        let (best, _) = coarse.reduce(|best, other| if other.1 > best.1 { other } else { best })?;
-        let fine = maximum([best - 1.0 / 3.0, best + 1.0 / 3.0], ACCURACY, merit);
-        at(fine.place)
-    }
-
-    fn best_curve(&self, place: Vec<f64>, assessments: Vec<Assessment>) -> Option<Sample> {
-        let merits = assessments.into_iter().map(|assessment| (self.merit(&assessment), assessment));
-        let (merit, assessment) = merits.reduce(|best, other| if other.0 < best.0 { other } else { best })?;
-        Some(Sample { merit, place, assessment })
-    }
-
-    /// How good a sample is to start from: what it violates, and a part of its goals.
-    fn merit(&self, assessment: &Assessment) -> f64 {
-        const PART_OF_GOALS: f64 = 0.3;
-        let goals: f64 =
-            (0..assessment.goals.len()).map(|k| self.units.objective(assessment, &Objective::Goal(k))).sum();
-        self.units.violation(assessment, &Objective::Nothing) + PART_OF_GOALS * goals
+    fn sampling(&self) -> Sampling<'_> {
+        Sampling { meter: &self.meter, units: &self.units }
     }
 
     fn measuring<'a>(&'a self, objective: &'a Objective) -> Measuring<'a> {
@@ -559,42 +515,4 @@ fn spread_over(answers: Vec<DesignAnswer>, most: usize, is_evenly: bool) -> Vec<
 /// The greatest difference of two places, in parts of the ranges.
 fn distance(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
-}
-
-/// The axes that change nothing that is wished for, which can keep their default.
-fn idle_axes(meter: &Meter) -> Vec<usize> {
-    /// The samples on which it is tried, the changes of an axis, which are great, as counts change in steps; and the change of measures which
-    /// is rounding.
-    const SAMPLES: usize = 8;
-    const CHANGES: [f64; 3] = [0.13, 0.37, 0.61];
-    const ROUNDING: f64 = 1e-9;
-    // Any parameter may move a path.
-    if meter.is_of_paths() {
-        return Vec::new();
-    }
-    let unlimited = |mut assessments: Vec<Assessment>| {
-        assessments.iter_mut().for_each(|assessment| assessment.link_excess = 0.0);
-        assessments
-    };
-    let assessed = |place: &[f64]| unlimited(meter.assess_at(place));
-    let samples: Vec<(Vec<f64>, Vec<Assessment>)> =
-        meter.assembled_samples(SAMPLES).into_iter().map(|place| (place.clone(), assessed(&place))).collect();
-    let is_idle = |axis: &usize| {
-        let changes = |(place, assessments)| CHANGES.map(|change| (place, assessments, change));
-        samples.iter().map(|(place, assessments)| (place, assessments)).flat_map(changes).all(
-            |(place, assessments, change)| {
-                let mut moved: Vec<f64> = place.clone();
-                moved[*axis] += change;
-                let others = assessed(&moved);
-                let alike = |(a, b): (&Assessment, &Assessment)| {
-                    let numbers = |assessment: &Assessment| [&assessment.excesses[..], &assessment.goals].concat();
-                    numbers(a).iter().zip(numbers(b)).all(|(a, b)| {
-                        (a - b).abs() <= ROUNDING * a.abs().max(b.abs()) || a.is_nan() && b.is_nan() || *a == b
-                    })
-                };
-                others.len() == assessments.len() && others.iter().zip(assessments).all(alike)
-            },
-        )
-    };
-    if samples.is_empty() { Vec::new() } else { (0..meter.space.axes.len()).filter(is_idle).collect() }
 }

@@ -8,7 +8,7 @@ use super::condition::PoseCondition;
 use super::dyad::Dyad;
 use super::dyad_space::Freedom;
 use super::pair::{Misfit, Wish};
-use crate::options::Effort;
+use crate::options::{Effort, Options};
 use coupler_curves::geometry::{Bounds, Point, trig};
 
 /// What is asked of the linkages that guide a body.
@@ -32,6 +32,24 @@ pub struct PoseOptions {
     pub seed: u64,
     /// The most answers.
     pub most: usize,
+}
+
+impl Default for PoseOptions {
+    /// As of a search for a path, with the poses in order on one branch.
+    fn default() -> PoseOptions {
+        let Options { full_turn, max_link, pivots, effort, seed, most, .. } = Options::default();
+        PoseOptions {
+            full_turn,
+            any_order: false,
+            any_circuit: false,
+            max_link,
+            pivots,
+            condition: None,
+            effort,
+            seed,
+            most,
+        }
+    }
 }
 
 /// A dyad in the plane of the poses.

@@ -259,14 +259,10 @@ mod tests {
     fn any() -> PoseOptions {
         PoseOptions {
             full_turn: false,
-            any_order: false,
-            any_circuit: false,
             max_link: f64::INFINITY,
-            pivots: None,
-            condition: None,
             effort: Effort::Quick,
-            seed: 1,
             most: 3,
+            ..PoseOptions::default()
         }
     }
 

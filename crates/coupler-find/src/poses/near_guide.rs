@@ -240,7 +240,9 @@ impl Candidate for NearGuide {
     }
 
     fn is_exact(&self, aim: &PoseAim) -> bool {
-        self.objective <= 1e-26 * aim.placed.len() as f64
+        /// Of an error of the size of the poses, squared.
+        const ROUNDING: f64 = 1e-26;
+        self.objective <= ROUNDING * aim.placed.len() as f64
     }
 
     fn equations(&self, aim: &PoseAim) -> Option<Equations<Dyn>> {
