@@ -3,9 +3,7 @@
 use coupler_curves::linkage::{FourBar, PlacedFourBar};
 use coupler_curves::linkage_format::toml_number;
 use coupler_curves::template::{ParameterKind, Template};
-use coupler_find::{
-    Deviation, LinkageSpace, Mechanism, PlacedCurve, format_length as number, format_relative as relative,
-};
+use coupler_find::{Deviation, Mechanism, PlacedCurve, format_length as number, format_relative as relative};
 
 /// How near a curve is to a target of a size: "E = 0.0052 S = 0.12, close".
 pub fn deviation(deviation: &Deviation, size: f64) -> String {
@@ -28,9 +26,9 @@ pub fn dimensions(mechanism: &Mechanism, size: f64) -> String {
 }
 
 /// The parameters of a linkage, in six significant digits.
-pub fn parameters(space: &LinkageSpace, curve: &PlacedCurve, size: f64) -> String {
+pub fn parameters(template: &Template, curve: &PlacedCurve, size: f64) -> String {
     let scale = if curve.is_scalable { size } else { 1.0 };
-    values_in_words(space.template(), &curve.values, scale)
+    values_in_words(template, &curve.values, scale)
 }
 
 /// The same of values, of which lengths have the unit 1.

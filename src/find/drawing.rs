@@ -6,9 +6,7 @@ use coupler_curves::linkage_format::quoted;
 use coupler_curves::solve::Solver;
 use coupler_drawing::page::{self, AnswersPage, FoundCurve, Options, Paper};
 use coupler_drawing::render::{self, TextMode};
-use coupler_find::{
-    Answer, LinkageAnswer, LinkageSpace, PlacedCurve, Target, format_length as number, format_relative as relative,
-};
+use coupler_find::{Answer, LinkageAnswer, PlacedCurve, Target, format_length as number, format_relative as relative};
 
 use super::description::{deviation, dimensions, parameters, placement};
 use super::{AtlasAnswer, Findings};
@@ -87,14 +85,19 @@ impl Findings<AtlasAnswer> {
 
 impl Findings<LinkageAnswer> {
     /// A page with the path and the best curves, as SVG.
-    pub fn drawing(&self, name: &str, target: &Target, space: &LinkageSpace) -> Vec<u8> {
+    pub fn drawing(&self, name: &str, target: &Target, linkage: &str) -> Vec<u8> {
         let size = target.size();
         let curves = (1..).zip(&self.answers).filter_map(|(rank, answer)| {
             let curve = &answer.curve;
-            let label =
-                format!("{rank}: {}, {}", deviation(&curve.fit.deviation, size), parameters(space, curve, size));
+            let template = &answer.family.template;
+            let own = if template.id == linkage { String::new() } else { format!("{}, ", template.id) };
+            let label = format!(
+                "{rank}: {own}{}, {}",
+                deviation(&curve.fit.deviation, size),
+                parameters(template, curve, size)
+            );
             placed(curve, &answer.family, 0, label)
         });
-        page_of(&format!("{name}: {}", space.template().id), target, Vec::new(), curves)
+        page_of(&format!("{name}: {linkage}"), target, Vec::new(), curves)
     }
 }

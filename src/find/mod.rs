@@ -11,6 +11,7 @@ mod linkage;
 mod outline;
 mod poses;
 mod request;
+mod several;
 mod target_file;
 
 pub use atlas::{AtlasAnswer, AtlasQuery, find_in_atlas};
@@ -20,6 +21,7 @@ pub use linkage::find_linkage;
 pub use outline::{Outline, ReadOptions, Reading};
 pub use poses::{FoundPoses, PoseReading, Relaxed, draw_poses, find_poses, read_poses};
 pub use request::{Notation, Request, RequestProblem, Searched, SearchedLinkage};
+pub use several::{Several, find_among, simplest};
 pub use target_file::{FunctionRows, MAX_POINTS, parse_function, parse_outline};
 
 pub use crate::threads::Interrupted;

@@ -8,6 +8,7 @@ use coupler_curves::template::Template;
 use coupler_find::{Condition, LinkageSearch, LinkageSpace, Mechanism, Options};
 
 use super::index_file::MAX_CURVES;
+use super::several::Several;
 
 /// How users write an option.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,6 +50,8 @@ pub enum Searched {
     FourBars,
     /// The dimensions of a linkage.
     Linkage(SearchedLinkage),
+    /// Several linkages.
+    Several(Several),
     /// The curves of an atlas.
     Atlas,
     /// Linkages that guide a body through poses.
@@ -137,15 +140,23 @@ impl Request<'_> {
                 problems.push(wrong("pivots", &format!("({numbers})"), what));
             }
         }
-        let most = if space.is_some() { LinkageSearch::MAX_SAMPLES } else { MAX_CURVES };
+        let (unit, most) = match self.searched {
+            Searched::Several(_) => ("curves of six-bars", LinkageSearch::MAX_SAMPLES),
+            _ if space.is_some() => ("parameter sets", LinkageSearch::MAX_SAMPLES),
+            _ => ("four-bars", MAX_CURVES),
+        };
         if let Some(index) = self.index.filter(|index| !(1..=most).contains(index)) {
-            let unit = if space.is_some() { "parameter sets" } else { "four-bars" };
             problems.push(wrong("index", &index, format!("it is the number of {unit}: give one from 1 to {most}")));
         }
         if let Some(text) = self.condition.filter(|_| !matches!(self.searched, Searched::Atlas | Searched::Poses)) {
-            let own = Mechanism::template();
-            let template = self.searched_linkage().map_or(&own, |linkage| &linkage.template);
-            match Condition::new(template, text) {
+            let templates = match (&self.searched, self.searched_linkage()) {
+                (Searched::Several(several), _) => {
+                    several.spaces().iter().map(|space| space.template().clone()).collect()
+                }
+                (_, Some(linkage)) => vec![linkage.template.clone()],
+                (_, None) => vec![Mechanism::template()],
+            };
+            match Condition::of_any(templates.iter().map(|template| &**template), text) {
                 Ok(condition) => options.condition = Some(condition),
                 Err(error) => {
                     let message = format!("{}: `{text}`: {}", self.notation.name("where"), error.message_with_help());
@@ -160,7 +171,7 @@ impl Request<'_> {
     fn searched_linkage(&self) -> Option<&SearchedLinkage> {
         match &self.searched {
             Searched::Linkage(linkage) => Some(linkage).filter(|linkage| !linkage.is_free_four_bar()),
-            Searched::FourBars | Searched::Atlas | Searched::Poses => None,
+            Searched::FourBars | Searched::Several(_) | Searched::Atlas | Searched::Poses => None,
         }
     }
 
@@ -196,7 +207,7 @@ impl Request<'_> {
                     format!("{fixed} compares the curves of an atlas where they are: name one, {atlas}{example}"),
                 );
             }
-            Searched::Linkage(_) if self.is_fixed => {
+            Searched::Linkage(_) | Searched::Several(_) if self.is_fixed => {
                 add(
                     "fixed",
                     format!(
@@ -204,7 +215,7 @@ impl Request<'_> {
                     ),
                 );
             }
-            Searched::FourBars | Searched::Linkage(_) | Searched::Poses => {}
+            Searched::FourBars | Searched::Linkage(_) | Searched::Several(_) | Searched::Poses => {}
         }
         if let Searched::Linkage(SearchedLinkage { template, .. }) = &self.searched
             && self.is_timed

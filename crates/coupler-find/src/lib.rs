@@ -106,8 +106,9 @@ pub use function::{
     GeneratorKind, Law, LawError, LeftOut, StructuralError, generate_function,
 };
 pub use linkage::{
-    LinkageAnswer, LinkageFunctionAnswer, LinkageFunctionError, LinkageFunctionOptions, LinkageSearch, LinkageSpace,
-    LinkageSpaceError, PlacedCurve, generate_function_by, is_scalable, scaled_values,
+    JAM_DEG, LinkageAnswer, LinkageFunctionAnswer, LinkageFunctionError, LinkageFunctionOptions, LinkageIndex,
+    LinkageIndexPart, LinkageSampler, LinkageSearch, LinkageSpace, LinkageSpaceError, PlacedCurve,
+    generate_function_by, is_scalable, scaled_values, simpler_spaces, six_bar_spaces,
 };
 pub use options::{Effort, Options};
 pub use poses::{

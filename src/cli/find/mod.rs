@@ -75,11 +75,13 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     if arguments.function {
         return function::run(arguments, is_drawing_printed);
     }
-    let linkage = linkage::named(arguments)?;
-    let searched = match (&linkage, &arguments.atlas) {
-        (Some(named), _) => Searched::Linkage(named.searched.clone()),
-        (None, Some(_)) => Searched::Atlas,
-        (None, None) => Searched::FourBars,
+    let several = linkage::several(arguments);
+    let linkage = if several.is_none() { linkage::named(arguments)? } else { None };
+    let searched = match (&linkage, &arguments.atlas, several) {
+        (_, _, Some(several)) => Searched::Several(several),
+        (Some(named), ..) => Searched::Linkage(named.searched.clone()),
+        (None, Some(_), None) => Searched::Atlas,
+        (None, None, None) => Searched::FourBars,
     };
     let (options, space) = request::check(arguments, searched)?;
     // Before a curve of an atlas is solved on these threads.
@@ -97,6 +99,9 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let target = target.map_err(|error| Failure::input(format!("{name}: {error}")))?;
     if let Some(atlas) = &arguments.atlas {
         return atlas::run((arguments, atlas), &options, (name, reading, target), is_drawing_printed);
+    }
+    if let Some(several) = several {
+        return linkage::run_several(arguments, several, &options, (name, reading, target), is_drawing_printed);
     }
     if let Some((space, named)) = space.zip(linkage) {
         return linkage::run(arguments, (space, named), &options, (name, reading, target), is_drawing_printed);

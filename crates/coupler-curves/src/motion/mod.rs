@@ -53,7 +53,7 @@ pub use sampling::{Circuit, Sampler, Sampling};
 #[doc(hidden)]
 pub use self::{
     circuit::{CircuitSet, UnsampledCircuit, find_circuits},
-    group::GroupTrack,
+    group::{GroupTrack, follow_full_turn},
     input_columns::{InputColumns, InputSlices},
     limits::{MAX_ASSEMBLY_MODES, MAX_CIRCUIT_BYTES, MAX_SAMPLES, SIZES},
     memory::estimate_bytes,

@@ -18,6 +18,19 @@ use coupler_curves::geometry::Point;
 pub struct CurveShape(Shape);
 
 impl CurveShape {
+    /// Its length in bytes.
+    pub(crate) const BYTES: usize = Shape::BYTES;
+
+    /// The shape as bytes, the same on every machine.
+    pub(crate) fn to_bytes(self) -> [u8; Shape::BYTES] {
+        self.0.to_bytes()
+    }
+
+    /// The shape with these bytes.
+    pub(crate) fn from_bytes(bytes: &[u8; Shape::BYTES]) -> CurveShape {
+        CurveShape(Shape::from_bytes(bytes))
+    }
+
     /// The shape of the curve through points. An open curve is one that is passed there and back. The points may be in any unit; of
     /// points without extent, or with a coordinate that is not finite, the shape is one that is like no target.
     pub fn new(points: &[Point], is_closed: bool) -> CurveShape {

@@ -3,10 +3,10 @@
 use super::circuit::Traced;
 use super::space::LinkageSpace;
 use crate::complex::Complex;
-use crate::condition::Condition;
 use crate::options::Options;
 use crate::target::Target;
 use crate::timing::TimedPoints;
+use coupler_curves::expression::CompiledExpression;
 use coupler_curves::family::{Family, Sampling};
 use coupler_curves::geometry::{Similarity, Vector};
 use coupler_curves::linkage::{JointId, Linkage};
@@ -30,7 +30,7 @@ pub(super) struct Aim {
     max_link: f64,
     /// The corners of the box of the fixed pivots.
     pivots: Option<[Complex; 2]>,
-    condition: Option<Condition>,
+    condition: Option<CompiledExpression>,
     template: Arc<coupler_curves::template::Template>,
 }
 
@@ -56,7 +56,7 @@ impl Aim {
             full_turn: options.full_turn,
             max_link: options.max_link,
             pivots: options.pivots.map(|b| [corner(b.min.x, b.min.y), corner(b.max.x, b.max.y)]),
-            condition: options.condition.clone(),
+            condition: options.condition.as_ref().and_then(|condition| condition.on(&space.template.id)).cloned(),
             template: space.template.clone(),
             target: target.clone(),
         }
@@ -115,12 +115,12 @@ impl Aim {
         let Ok(mut family) = Family::single_cell(self.template.clone(), &given, Sampling::Samples(180)) else {
             return false;
         };
-        let requested = family.measures_in(condition.compiled());
+        let requested = family.measures_in(condition);
         let Some(solved) = Solver::new(&family).measuring(requested).solve(0) else { return false };
-        family.filter = Some(condition.compiled().clone());
+        family.filter = Some(condition.clone());
         solved.curves.iter().any(|curve| {
             let passes = &solved.circuit(curve).passes;
-            curve.joint == traced.joint && *passes == traced.circuit.passes && family.keeps(&solved.cell, &curve.values)
+            curve.joint == traced.joint && traced.is_on(passes) && family.keeps(&solved.cell, &curve.values)
         })
     }
 }

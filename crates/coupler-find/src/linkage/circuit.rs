@@ -2,10 +2,10 @@
 
 use super::poses::{PassPlaces, Places, Poses};
 use crate::complex::Complex;
-use coupler_curves::linkage::{Input, JointId, Linkage};
+use coupler_curves::linkage::{CircuitSelection, Input, JointId, Linkage};
 use coupler_curves::motion::{
     InputColumns, InputPosition, Pass, PassEnd, UnsampledCircuit, eased_fraction, eased_input, find_circuits,
-    poses_in_columns,
+    follow_full_turn, poses_in_columns,
 };
 
 /// A traced joint of a linkage on one of its circuits.
@@ -25,9 +25,9 @@ impl Traced {
     pub fn on_full_turn(linkage: Linkage, joint: JointId) -> Option<Traced> {
         let end = |value| PassEnd::regular(InputPosition::from_degrees(value));
         let Input::Angle { .. } = linkage.input() else { return None };
-        // The poses of a group are those of its circuit.
         if linkage.group.is_some() {
-            return None;
+            let circuit = follow_full_turn(&linkage)?;
+            return Some(Traced { linkage, circuit, joint });
         }
         let mode = linkage.motion_options.mode.truncated(linkage.dyad_count());
         let pass = Pass { from: end(0.0), to: end(linkage.input().period()), mode, track: None };
@@ -53,9 +53,22 @@ impl Traced {
         passes.iter().all(|pass| pass.from.flat_dyads.is_empty() && pass.to.flat_dyads.is_empty())
     }
 
-    /// Whether the passes do not depend on the dimensions as long as the linkage can be assembled on them.
+    /// Whether the inputs of the passes do not depend on the dimensions as long as the linkage can be assembled at them.
     pub fn has_fixed_passes(&self) -> bool {
-        self.is_regular() && self.linkage.motion_options.range.is_none() && self.linkage.group.is_none()
+        let Linkage { motion_options, group, .. } = &self.linkage;
+        // Of several circuits of a group it is not known which one Newton's method follows.
+        let is_group_followed = || self.is_full_turn() && motion_options.circuits == CircuitSelection::Start;
+        self.is_regular() && motion_options.range.is_none() && (group.is_none() || is_group_followed())
+    }
+
+    /// Whether the passes of a circuit of the same linkage are these. Where a group's are found by Newton's method, it has no other circuit.
+    pub fn is_on(&self, passes: &[Pass]) -> bool {
+        let own = &self.circuit.passes;
+        let is_same = |(a, b): (&Pass, &Pass)| a.from == b.from && a.to == b.to && a.mode == b.mode;
+        match self.linkage.group.is_some() && self.has_fixed_passes() {
+            true => own.len() == passes.len() && own.iter().zip(passes).all(is_same),
+            false => own == passes,
+        }
     }
 
     /// The same joint of another linkage of the same template on a circuit with the same passes, that nearest to this one.
@@ -86,10 +99,23 @@ impl Traced {
         Some(Traced { linkage, circuit, joint: self.joint })
     }
 
+    /// The same joint of a linkage that differs next to nothing, at the same positions.
+    pub fn perturbed(&self, linkage: Linkage) -> Option<Traced> {
+        if !self.has_fixed_passes() {
+            return self.followed(linkage);
+        }
+        let passes = match linkage.group.is_some() {
+            true => self.circuit.passes.iter().map(|pass| pass.of_neighbour(&linkage)).collect::<Option<_>>()?,
+            false => self.circuit.passes.clone(),
+        };
+        Some(Traced { circuit: UnsampledCircuit { passes, ..self.circuit }, linkage, joint: self.joint })
+    }
+
     /// The same joint of a linkage that differs little, at the same positions: on a circuit without limits the same inputs, where it is
     /// not certain that it can be assembled at them.
-    pub fn perturbed(&self, linkage: Linkage) -> Option<Traced> {
+    pub fn moved(&self, linkage: Linkage) -> Option<Traced> {
         match self.has_fixed_passes() {
+            true if linkage.group.is_some() => Traced::on_full_turn(linkage, self.joint),
             true => Some(Traced { linkage, circuit: self.circuit.clone(), joint: self.joint }),
             false => self.followed(linkage),
         }

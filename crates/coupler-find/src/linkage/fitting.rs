@@ -23,6 +23,8 @@ use coupler_curves::geometry::Similarity;
 
 /// A target that linkages with free parameters are fitted to.
 pub(super) struct LinkageFitting {
+    /// Its number among those of the search, from 0.
+    number: usize,
     pub sampled: SampledSpace,
     aim: Aim,
     query: Query,
@@ -49,8 +51,9 @@ const LEAST_PORTION: f64 = 0.05;
 
 impl LinkageFitting {
     /// The condition of the options must be one of the linkage's.
-    pub fn new(space: &LinkageSpace, target: &Target, options: &Options) -> LinkageFitting {
+    pub fn new(number: usize, space: &LinkageSpace, target: &Target, options: &Options) -> LinkageFitting {
         LinkageFitting {
+            number,
             sampled: SampledSpace::new(space, options.full_turn),
             aim: Aim::new(space, target, options),
             query: Query::new(target.kind(), &target.normalized()),
@@ -61,11 +64,6 @@ impl LinkageFitting {
     /// The linkage and its parameters.
     pub fn space(&self) -> &LinkageSpace {
         &self.sampled.space
-    }
-
-    /// What the linkages are fitted to.
-    pub fn target(&self) -> &Target {
-        &self.aim.target
     }
 
     /// The curves of a parameter set that satisfy what does not depend on their place, without the condition: it may take long.
@@ -80,7 +78,8 @@ impl LinkageFitting {
                 }
                 Some(_) => timed::best(&self.aim, &traced).map(|(_, place)| SampleShape::Timed(place.sum)),
             };
-            let curve = SampleCurve { sample: sample as u32, trace: trace as u32, circuit: circuit as u32 };
+            let [linkage, sample, trace, circuit] = [self.number, sample, trace, circuit].map(|number| number as u32);
+            let curve = SampleCurve { linkage, sample, trace, circuit };
             found.extend(shape.map(|shape| (curve, shape)));
         }
         found
@@ -116,6 +115,16 @@ impl LinkageFitting {
         }
         let placed = self.placed(&points?)?;
         LinkageRefinement::new(&self.aim, values, (trace, traced), placed)
+    }
+
+    /// Begins with a linkage that is placed on the target with its centroid at 0 and its size 1, on the circuit and with the traced joint whose curve is
+    /// nearest to it.
+    pub fn begin_at(&self, values: &[f64], placed: Similarity) -> Option<LinkageRefinement> {
+        let curves = self.sampled.traced(values).into_iter().filter_map(|OnCircuit { trace, traced, .. }| {
+            let may_begin = self.aim.meets_condition(values, &traced);
+            may_begin.then(|| LinkageRefinement::new(&self.aim, values.to_vec(), (trace, traced), placed))?
+        });
+        curves.min_by(|a, b| a.sum().total_cmp(&b.sum()))
     }
 
     /// Begins again from dimensions near others, at random, with a number that chooses them.

@@ -86,7 +86,7 @@ impl LinkageRefinement {
             self.step((space, space.dimension()), aim);
         }
         let traced = &self.state.traced;
-        let is_kept = |found: Traced| found.circuit.passes == traced.circuit.passes;
+        let is_kept = |found: Traced| traced.is_on(&found.circuit.passes);
         if traced.has_fixed_passes() && !traced.followed(traced.linkage.clone()).is_some_and(is_kept) {
             (self.values, self.state) = before;
             self.descent.is_done = true;
@@ -220,7 +220,7 @@ impl Candidate for LinkageRefinement {
             _ => {
                 let linkage = space.template.linkage(&values).ok().filter(|_| space.are_valid(&values))?;
                 // All circuits are found in the end of several steps only: of a chain of dyads that takes long.
-                let traced = self.state.traced.perturbed(linkage)?;
+                let traced = self.state.traced.moved(linkage)?;
                 let are_closed =
                     || traced.poses(&traced.places(&traced.positions(CHECKED))).are_closed(&traced.linkage);
                 let is_closed = !traced.has_fixed_passes() || are_closed();

@@ -4,14 +4,14 @@ use super::circuit::Traced;
 use super::poses::Places;
 use super::space::LinkageSpace;
 use crate::complex::Complex;
-use coupler_curves::linkage::CircuitSelection;
+use coupler_curves::linkage::{CircuitSelection, JointId};
 use coupler_curves::motion::find_circuits;
 
 /// A space whose curves are sampled.
 pub(super) struct SampledSpace {
     pub space: LinkageSpace,
     /// Whether the input must turn fully.
-    full_turn: bool,
+    pub full_turn: bool,
     /// The places of a turn, if the input must turn fully and, where it does, it has no change points and the circuit is the only one.
     turn: Option<Turn>,
 }
@@ -51,11 +51,22 @@ impl SampledSpace {
         const ENOUGH: usize = 16;
         const MOST: usize = 200;
         let template = self.space.template();
+        let is_group = self.is_group();
         if !self.full_turn || template.circuits != CircuitSelection::Start || template.input.is_some() {
             return None;
         }
-        let turning = |sample| Some(self.traced(&self.space.sample(sample)?).into_iter().next()?.traced);
-        let turning: Vec<Traced> = (0..MOST).filter_map(turning).take(ENOUGH).collect();
+        let turning = |sample| {
+            let values = self.space.sample(sample)?;
+            if is_group {
+                // It has no change points where Newton's method follows it all around.
+                let linkage = template.linkage(&values).ok()?;
+                let joint = *linkage.traced.first()?;
+                return Traced::on_full_turn(linkage, joint);
+            }
+            Some(self.traced(&values).into_iter().next()?.traced)
+        };
+        let enough = if is_group { 1 } else { ENOUGH };
+        let turning: Vec<Traced> = (0..MOST).filter_map(turning).take(enough).collect();
         let first = turning.first().filter(|_| turning.iter().all(Traced::has_fixed_passes))?;
         let [few, all] = [FEW, POINTS].map(|count| first.places(&first.positions(count)));
         Some(Turn { period: first.linkage.input().period(), few, all })
@@ -88,14 +99,19 @@ impl SampledSpace {
         self.turn.is_none() && dyads > 1
     }
 
+    /// Whether joints are placed together, by Newton's method.
+    pub fn is_group(&self) -> bool {
+        self.space.template().structure().is_ok_and(|linkage| linkage.group.is_some())
+    }
+
     /// The traced joints on the circuits of a parameter set.
     pub fn traced(&self, values: &[f64]) -> Vec<OnCircuit> {
         let Ok(linkage) = self.space.template().linkage(values) else { return Vec::new() };
         let circuits = find_circuits(&linkage).circuits;
         let mut found = Vec::new();
-        for (trace, joint) in linkage.traced.iter().enumerate() {
+        for (trace, joint) in self.compared(&linkage.traced) {
             for (number, circuit) in circuits.iter().enumerate() {
-                let traced = Traced { linkage: linkage.clone(), circuit: circuit.clone(), joint: *joint };
+                let traced = Traced { linkage: linkage.clone(), circuit: circuit.clone(), joint };
                 if !self.full_turn || traced.is_full_turn() {
                     found.push(OnCircuit { trace, circuit: number, traced });
                 }
@@ -132,6 +148,12 @@ impl SampledSpace {
             let on = OnCircuit { trace, circuit: 0, traced: Traced { joint, ..traced.clone() } };
             (on, poses.points(joint))
         };
-        Some(joints.into_iter().enumerate().map(of_joint).collect())
+        Some(self.compared(&joints).map(of_joint).collect())
+    }
+
+    /// The traced joints whose curves are compared, with their numbers, from 0.
+    fn compared(&self, joints: &[JointId]) -> impl Iterator<Item = (usize, JointId)> {
+        let is_compared = |(number, _): &(usize, JointId)| self.space.trace.is_none_or(|trace| trace == *number);
+        joints.iter().copied().enumerate().filter(is_compared)
     }
 }

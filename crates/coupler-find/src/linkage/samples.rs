@@ -2,9 +2,11 @@
 
 use crate::curve::index::{CurveIndex, CurveShape};
 
-/// A curve of the samples of a search: the number of the parameter set, from 0, the traced joint and the circuit, from 0.
+/// A curve of the samples of a search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct SampleCurve {
+    /// The number of the linkage among those that are searched, from 0.
+    pub linkage: u32,
     /// The number of the parameter set, from 0.
     pub sample: u32,
     /// The number of the traced joint, from 0.

@@ -2,7 +2,9 @@
 
 use super::answer::LinkageAnswer;
 use super::fitting::{LinkageFit, LinkageFitting};
+use super::index::LinkageIndex;
 use super::placed_curve::PlacedCurve;
+use super::ranking::ranked;
 use super::refinement::LinkageRefinement;
 use super::samples::{SampleCurve, SampleIndex, SampleShape};
 use super::space::LinkageSpace;
@@ -11,6 +13,8 @@ use crate::options::{Effort, Options};
 use crate::target::{PathKind, Target};
 use crate::workers::Workers;
 use coupler_curves::family::{Family, Sampling};
+use coupler_curves::geometry::{Complex, Similarity};
+use coupler_curves::linkage::{FourBar, PlacedFourBar};
 use coupler_curves::solve::{SolvedCell, Solver};
 
 /// A search for the dimensions of a linkage for which its curve is nearest to a target, in steps. The answers do not depend on how many
@@ -29,22 +33,32 @@ use coupler_curves::solve::{SolvedCell, Solver};
 /// println!("{:.4} of the path's size", search.answers(&OneAtATime)[0].curve.fit.deviation.rms_relative);
 /// ```
 pub struct LinkageSearch {
-    fitting: LinkageFitting,
+    target: Target,
+    /// One for each linkage; at least one.
+    fittings: Vec<LinkageFitting>,
     options: Options,
-    /// The parameter sets that are wanted, and those that are found to have a curve.
-    samples: usize,
+    /// The parameter sets of each linkage that are wanted, and those of the present one that are found to have a curve.
+    samples: Vec<usize>,
     found: usize,
     index: SampleIndex,
     curves: usize,
     starts: usize,
-    refinements: Vec<LinkageRefinement>,
+    refinements: Vec<Refinement>,
     stage: Stage,
+}
+
+/// A refinement, and the number of its linkage, from 0.
+#[derive(Clone)]
+struct Refinement {
+    linkage: usize,
+    own: LinkageRefinement,
 }
 
 /// What the next step does.
 enum Stage {
-    /// Takes samples, from a number on.
+    /// Takes samples of a linkage, from a number on.
     Sample {
+        linkage: usize,
         next: usize,
     },
     /// Begins with the curves that are most like the target.
@@ -60,17 +74,26 @@ enum Stage {
     Refine {
         round: usize,
         next: usize,
-        refined: Vec<LinkageRefinement>,
+        refined: Vec<Refinement>,
     },
     /// Begins again near the best in a round.
     Restart {
         round: u64,
         next: usize,
-        from: Vec<LinkageRefinement>,
+        from: Vec<Refinement>,
         best: f64,
     },
     Done,
 }
+
+/// Several linkages have so many times the starts of one.
+const STARTS_OF_SEVERAL: usize = 4;
+
+/// Of several linkages, the nearest of each that are kept however near others are.
+const KEPT_OF_EACH: usize = 3;
+
+/// Of several linkages, the nearest that are ranked.
+const MOST_RANKED: usize = 150;
 
 /// The most curves of all parameter sets together.
 const MAX_CURVES: usize = 8_000_000;
@@ -108,27 +131,98 @@ impl LinkageSearch {
     /// Begins a search in a number of parameter sets, or in one that depends on the linkage. The condition of the options must be one of
     /// the linkage's.
     pub fn new(space: &LinkageSpace, target: &Target, options: &Options, samples: Option<usize>) -> LinkageSearch {
-        let fitting = LinkageFitting::new(space, target, options);
+        let fitting = LinkageFitting::new(0, space, target, options);
         let samples = samples.unwrap_or_else(|| fitting.sampled.default_count()).min(LinkageSearch::MAX_SAMPLES);
         // Few parameters have few minima.
         let starts = start_count(target, options).min(samples / 10);
+        let starts = if fitting.sampled.is_slow() { starts.div_ceil(SLOWER) } else { starts };
+        LinkageSearch::with(vec![fitting], vec![samples], starts, target, options)
+    }
+
+    /// Begins a search among several linkages, whose refinements all compete. The condition of the options may be one of several of them, and those that it
+    /// does not apply to are left out. Curves are those of an index, of a path without angles, and of `samples` parameter sets of each linkage that it does not
+    /// have.
+    pub fn among(
+        spaces: &[LinkageSpace],
+        index: Option<&LinkageIndex>,
+        target: &Target,
+        options: &Options,
+        samples: usize,
+    ) -> LinkageSearch {
+        let applies = |space: &LinkageSpace| {
+            options.condition.as_ref().is_none_or(|condition| condition.on(&space.template().id).is_some())
+        };
+        let index = index.filter(|_| target.angles_deg().is_none());
+        let has = |space: usize| index.is_some_and(|index| space < index.linkage_count());
+        let kept: Vec<usize> = (0..spaces.len()).filter(|space| applies(&spaces[*space])).collect();
+        let begin = |(number, space): (usize, &usize)| LinkageFitting::new(number, &spaces[*space], target, options);
+        let fittings: Vec<LinkageFitting> = kept.iter().enumerate().map(begin).collect();
+        let wanted = |(space, fitting): (&usize, &LinkageFitting)| {
+            let own = fitting.sampled.default_count().min(samples).min(LinkageSearch::MAX_SAMPLES);
+            if has(*space) { 0 } else { own }
+        };
+        let samples = kept.iter().zip(&fittings).map(wanted).collect();
+        let starts = STARTS_OF_SEVERAL * start_count(target, options);
+        let mut search = LinkageSearch::with(fittings, samples, starts, target, options);
+        if let Some(index) = index {
+            let number_of = |space: usize| kept.iter().position(|kept| *kept == space);
+            let curves: Vec<(SampleCurve, SampleShape)> = index
+                .curves()
+                .filter_map(|(curve, shape)| {
+                    let linkage = number_of(curve.linkage as usize)?;
+                    let trace = search.fittings[linkage].space().trace.unwrap_or(0);
+                    let [linkage, trace] = [linkage, trace].map(|number| number as u32);
+                    Some((SampleCurve { linkage, trace, ..curve }, SampleShape::Free(shape)))
+                })
+                .collect();
+            search.index.extend(curves);
+        }
+        search
+    }
+
+    fn with(
+        fittings: Vec<LinkageFitting>,
+        samples: Vec<usize>,
+        starts: usize,
+        target: &Target,
+        options: &Options,
+    ) -> LinkageSearch {
         LinkageSearch {
-            starts: if fitting.sampled.is_slow() { starts.div_ceil(SLOWER) } else { starts },
+            target: target.clone(),
+            fittings,
             options: options.clone(),
             samples,
             found: 0,
             index: SampleIndex::default(),
             curves: 0,
+            starts,
             refinements: Vec::new(),
-            stage: Stage::Sample { next: 0 },
-            fitting,
+            stage: Stage::Sample { linkage: 0, next: 0 },
         }
+    }
+
+    /// Begins, besides, with a four-bar that another search has found, if the catalogue's is among the linkages.
+    pub fn add_four_bar(&mut self, four_bar: &PlacedFourBar) {
+        let is_four_bar = |fitting: &LinkageFitting| fitting.space().template().id == "four-bar";
+        let Some(linkage) = self.fittings.iter().position(is_four_bar) else { return };
+        let FourBar { frame, crank, coupler, rocker } = four_bar.lengths;
+        let at = four_bar.coupler_point;
+        let [from, to] = four_bar.pivots.map(|pivot| Complex::new(pivot.x, pivot.y));
+        // With the rocker pin on either side at first.
+        let begun = [false, true].into_iter().filter_map(|is_mirrored| {
+            let own = Similarity { is_mirrored, factor: (to - from) / frame, shift: from };
+            let placed = self.target.placement().inverse().after(&own);
+            let across = if is_mirrored { -at.y } else { at.y };
+            self.fittings[linkage].begin_at(&[frame, crank, coupler, rocker, at.x, across], placed)
+        });
+        let nearest = begun.min_by(|a, b| a.sum().total_cmp(&b.sum()));
+        self.refinements.extend(nearest.map(|own| Refinement { linkage, own }));
     }
 
     /// Takes a step, of some milliseconds for each part; false if nothing is left to do.
     pub fn step(&mut self, workers: &impl Workers) -> bool {
         self.stage = match std::mem::replace(&mut self.stage, Stage::Done) {
-            Stage::Sample { next } => self.sample(next, workers),
+            Stage::Sample { linkage, next } => self.sample((linkage, next), workers),
             Stage::Begin { candidates, next } => self.begin(candidates, next, workers),
             Stage::Place { next } => self.place(next, workers),
             Stage::Refine { round, next, refined } => self.refine(round, next, refined, workers),
@@ -144,7 +238,13 @@ impl LinkageSearch {
         const STAGES: [f64; 6] = [0.0, 0.4, 0.5, 0.55, 0.8, 1.0];
         let part = |done: usize, of: usize| done as f64 / of.max(1) as f64;
         let (stage, within) = match &self.stage {
-            Stage::Sample { next } => (0, part(self.found, self.samples).max(part(*next, self.tries()))),
+            Stage::Sample { linkage, next } => {
+                let within = match self.samples.get(*linkage) {
+                    Some(samples) => part(self.found, *samples).max(part(*next, self.tries(*linkage))),
+                    None => 0.0,
+                };
+                (0, (*linkage as f64 + within) / self.samples.len() as f64)
+            }
             Stage::Begin { candidates, next } => {
                 (1, part(*next, candidates.len()).max(part(self.refinements.len(), self.starts)))
             }
@@ -161,9 +261,13 @@ impl LinkageSearch {
         from + (to - from) * within.min(1.0)
     }
 
-    /// How many parameter sets are tried at most.
-    fn tries(&self) -> usize {
-        self.samples * if self.fitting.sampled.is_slow() { SLOW_TRIES } else { TRIES }
+    /// How many parameter sets of a linkage are tried at most.
+    fn tries(&self, linkage: usize) -> usize {
+        self.samples[linkage] * if self.fittings[linkage].sampled.is_slow() { SLOW_TRIES } else { TRIES }
+    }
+
+    fn fitting(&self, refinement: &Refinement) -> &LinkageFitting {
+        &self.fittings[refinement.linkage]
     }
 
     /// The number of curves in which the target has been looked up.
@@ -173,35 +277,53 @@ impl LinkageSearch {
 
     /// The answers that have been found so far, the nearest first. Those whose curves are the same to a thousandth of the target's size are one.
     pub fn answers(&self, workers: &impl Workers) -> Vec<LinkageAnswer> {
-        let mut refinements: Vec<&LinkageRefinement> = self.refinements.iter().collect();
-        refinements.sort_by(|a, b| a.sum().total_cmp(&b.sum()));
-        let fits = workers.map(refinements, |refinement| self.fitting.fit(refinement));
-        let mut fits: Vec<LinkageFit> = fits.into_iter().flatten().collect();
-        fits.sort_by(|a, b| a.fit.deviation.rms.total_cmp(&b.fit.deviation.rms));
-        let answers = fits.into_iter().filter_map(|fit| answer(fit, self.fitting.space()));
-        distinct(answers, |answer| &answer.curve.outline, self.fitting.target().size(), self.options.most)
+        let mut refinements: Vec<&Refinement> = self.refinements.iter().collect();
+        refinements.sort_by(|a, b| a.own.sum().total_cmp(&b.own.sum()));
+        let fit = |refinement: &Refinement| Some((refinement.linkage, self.fitting(refinement).fit(&refinement.own)?));
+        let fits = workers.map(refinements, fit);
+        let mut fits: Vec<(usize, LinkageFit)> = fits.into_iter().flatten().collect();
+        fits.sort_by(|a, b| a.1.fit.deviation.rms.total_cmp(&b.1.fit.deviation.rms));
+        let answer = |(linkage, fit): (usize, LinkageFit)| answer(fit, self.fittings[linkage].space());
+        let size = self.target.size();
+        if self.fittings.len() == 1 {
+            return distinct(
+                fits.into_iter().filter_map(answer),
+                |answer| &answer.curve.outline,
+                size,
+                self.options.most,
+            );
+        }
+        fits.truncate(MOST_RANKED.max(self.options.most));
+        let answers: Vec<LinkageAnswer> = workers.map(fits, answer).into_iter().flatten().collect();
+        ranked(answers, size, self.options.most)
     }
 
-    fn sample(&mut self, next: usize, workers: &impl Workers) -> Stage {
-        let tries = self.tries();
-        if next < tries && self.found < self.samples && self.index.len() < MAX_CURVES {
-            let most = (CURVES_PER_STEP / self.fitting.space().template().curve_count().max(1)).max(1);
+    fn sample(&mut self, (linkage, next): (usize, usize), workers: &impl Workers) -> Stage {
+        if linkage < self.fittings.len() {
+            let (tries, samples) = (self.tries(linkage), self.samples[linkage]);
+            if next >= tries || self.found >= samples || self.index.len() >= MAX_CURVES {
+                self.found = 0;
+                return Stage::Sample { linkage: linkage + 1, next: 0 };
+            }
+            let fitting = &self.fittings[linkage];
+            let most = (CURVES_PER_STEP / fitting.space().template().curve_count().max(1)).max(1);
             let end = (next + most.min(workers.most_at_once())).min(tries);
             let curves: Vec<Vec<(SampleCurve, SampleShape)>> =
-                workers.map((next..end).collect(), |sample| self.fitting.curves(sample));
+                workers.map((next..end).collect(), |sample| fitting.curves(sample));
             for curves in curves {
-                if self.found < self.samples && self.index.len() < MAX_CURVES {
+                if self.found < samples && self.index.len() < MAX_CURVES {
                     self.found += usize::from(!curves.is_empty());
                     self.index.extend(curves);
                 }
             }
-            return Stage::Sample { next: end };
+            return Stage::Sample { linkage, next: end };
         }
         // Many do not satisfy a condition.
         let most = if self.options.condition.is_some() { 20 * self.starts } else { self.starts };
         let index = std::mem::take(&mut self.index);
         self.curves = index.len();
-        Stage::Begin { candidates: self.fitting.most_alike(&index, most), next: 0 }
+        let candidates = self.fittings.first().map(|fitting| fitting.most_alike(&index, most));
+        Stage::Begin { candidates: candidates.unwrap_or_default(), next: 0 }
     }
 
     /// Begins with the likeliest curves that satisfy the condition, as many as are wanted.
@@ -211,7 +333,11 @@ impl LinkageSearch {
             return Stage::Place { next: 0 };
         }
         let end = (next + BEGUN_PER_STEP.min(workers.most_at_once())).min(candidates.len());
-        let begun = workers.map(candidates[next..end].to_vec(), |curve| self.fitting.begin(curve));
+        let begin = |curve: SampleCurve| {
+            let linkage = curve.linkage as usize;
+            Some(Refinement { linkage, own: self.fittings[linkage].begin(curve)? })
+        };
+        let begun = workers.map(candidates[next..end].to_vec(), begin);
         self.refinements.extend(begun.into_iter().flatten());
         Stage::Begin { candidates, next: end }
     }
@@ -221,8 +347,9 @@ impl LinkageSearch {
             return if self.options.refine { self.next_round(0) } else { Stage::Done };
         }
         let end = self.refinements.len().min(next.saturating_add(workers.most_at_once()));
-        let placed = workers.map(self.refinements.drain(next..end).collect(), |mut refinement: LinkageRefinement| {
-            self.fitting.place(&mut refinement, PLACING_STEPS);
+        let fittings = &self.fittings;
+        let placed = workers.map(self.refinements.drain(next..end).collect(), |mut refinement: Refinement| {
+            fittings[refinement.linkage].place(&mut refinement.own, PLACING_STEPS);
             refinement
         });
         self.refinements.splice(next..next, placed);
@@ -240,13 +367,7 @@ impl LinkageSearch {
     }
 
     /// Takes steps of refinements, and leaves out those whose curves have not the length of the target.
-    fn refine(
-        &mut self,
-        round: usize,
-        next: usize,
-        mut refined: Vec<LinkageRefinement>,
-        workers: &impl Workers,
-    ) -> Stage {
+    fn refine(&mut self, round: usize, next: usize, mut refined: Vec<Refinement>, workers: &impl Workers) -> Stage {
         if next == self.refinements.len() {
             self.refinements = refined;
             return self.next_round(round + 1);
@@ -254,8 +375,9 @@ impl LinkageSearch {
         let end = self.refinements.len().min(next.saturating_add(workers.most_at_once()));
         let (_, steps) = ROUNDS[round];
         let advanced = workers.map(self.refinements[next..end].to_vec(), |mut refinement| {
-            self.fitting.advance(&mut refinement, steps);
-            self.fitting.has_valid_length(&refinement).then_some(refinement)
+            let fitting = &self.fittings[refinement.linkage];
+            fitting.advance(&mut refinement.own, steps);
+            fitting.has_valid_length(&refinement.own).then_some(refinement)
         });
         refined.extend(advanced.into_iter().flatten());
         Stage::Refine { round, next: end, refined }
@@ -267,8 +389,8 @@ impl LinkageSearch {
         const EXACT: f64 = 1e-16;
         let count = self.refinements.len();
         keep_nearest(&mut self.refinements, count);
-        match self.refinements.first().map(LinkageRefinement::sum) {
-            Some(best) if round < RESTART_ROUNDS && best > EXACT * self.fitting.target().points().len() as f64 => {
+        match self.refinements.first().map(|refinement| refinement.own.sum()) {
+            Some(best) if round < RESTART_ROUNDS && best > EXACT * self.target.points().len() as f64 => {
                 let from = self.refinements.iter().take(NEAREST).cloned().collect();
                 Stage::Restart { round, next: 0, from, best }
             }
@@ -279,7 +401,7 @@ impl LinkageSearch {
     fn restart(
         &mut self,
         (round, next): (u64, usize),
-        from: Vec<LinkageRefinement>,
+        from: Vec<Refinement>,
         best: f64,
         workers: &impl Workers,
     ) -> Stage {
@@ -296,13 +418,15 @@ impl LinkageSearch {
         let begun = |k: usize| {
             let number = round * count as u64 + k as u64 + 1;
             let seed = self.options.seed.wrapping_add(number.wrapping_mul(0x5851_F42D_4C95_7F2D));
-            let mut refinement = self.fitting.begin_near(&from[k % from.len()], seed, SPREADS[k % SPREADS.len()])?;
-            self.fitting.advance(&mut refinement, PROMISING_STEPS);
-            if refinement.sum() > PROMISING_SUM * best {
+            let Refinement { linkage, own } = &from[k % from.len()];
+            let fitting = &self.fittings[*linkage];
+            let mut own = fitting.begin_near(own, seed, SPREADS[k % SPREADS.len()])?;
+            fitting.advance(&mut own, PROMISING_STEPS);
+            if own.sum() > PROMISING_SUM * best {
                 return None;
             }
-            self.fitting.advance(&mut refinement, STEPS - PROMISING_STEPS);
-            self.fitting.has_valid_length(&refinement).then_some(refinement)
+            fitting.advance(&mut own, STEPS - PROMISING_STEPS);
+            fitting.has_valid_length(&own).then_some(Refinement { linkage: *linkage, own })
         };
         let end = count.min(next.saturating_add(workers.most_at_once()));
         let found = workers.map((next..end).collect(), begun);
@@ -325,12 +449,23 @@ fn start_count(target: &Target, options: &Options) -> usize {
 }
 
 /// Keeps the nearest that are not alike.
-fn keep_nearest(refinements: &mut Vec<LinkageRefinement>, most: usize) {
+fn keep_nearest(refinements: &mut Vec<Refinement>, most: usize) {
     /// Refinements that have found the same linkage differ by less than this.
     const ALIKE: f64 = 1e-6;
-    refinements.sort_by(|a, b| a.sum().total_cmp(&b.sum()));
-    refinements.dedup_by(|a, b| a.sum() - b.sum() <= ALIKE * b.sum() && a.is_done() && b.is_done());
-    refinements.truncate(most.max(1));
+    refinements.sort_by(|a, b| a.own.sum().total_cmp(&b.own.sum()));
+    refinements.dedup_by(|Refinement { own: a, linkage }, Refinement { own: b, linkage: other }| {
+        linkage == other && a.sum() - b.sum() <= ALIKE * b.sum() && a.is_done() && b.is_done()
+    });
+    // Of several linkages some of each, for the nearest in the beginning need not be in the end.
+    let mut kept = vec![0; refinements.iter().map(|refinement| refinement.linkage + 1).max().unwrap_or(0)];
+    let several = kept.len() > 1;
+    let mut count = 0;
+    refinements.retain(|Refinement { linkage, .. }| {
+        let own = &mut kept[*linkage];
+        let is_kept = count < most.max(1) || (several && *own < KEPT_OF_EACH);
+        (count, *own) = (count + usize::from(is_kept), *own + usize::from(is_kept));
+        is_kept
+    });
 }
 
 fn answer(fit: LinkageFit, space: &LinkageSpace) -> Option<LinkageAnswer> {

@@ -31,6 +31,8 @@ pub struct LinkageSpace {
     pub(super) is_scalable: bool,
     /// The length that is the same in all samples, for a linkage of any size.
     held: Option<usize>,
+    /// The number of the traced joint, from 0, whose curves alone are compared; `None` for all.
+    pub(super) trace: Option<usize>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -188,6 +190,7 @@ impl LinkageSpace {
             expressions,
             is_scalable: false,
             held: None,
+            trace: None,
             template: template.clone(),
         };
         space.is_scalable = is_scalable(&template, &space.base) && space.keeps_scale();
@@ -196,6 +199,13 @@ impl LinkageSpace {
         };
         space.held = space.free.iter().find(is_held).map(|free| free.slot).filter(|_| space.is_scalable);
         Ok(space)
+    }
+
+    /// The same space with the curves of one of its traced joints only; `None` if it is none of them.
+    pub fn tracing(mut self, joint: &str) -> Option<LinkageSpace> {
+        let is_named = |traced: &usize| self.template.joints[*traced].name == joint;
+        self.trace = Some(self.template.traced.iter().position(is_named)?);
+        Some(self)
     }
 
     /// The linkage.

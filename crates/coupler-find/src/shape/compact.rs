@@ -89,7 +89,7 @@ impl Shape {
         shape
     }
 
-    fn to_bytes(self) -> [u8; Shape::BYTES] {
+    pub fn to_bytes(self) -> [u8; Shape::BYTES] {
         let low = self.low.iter().flat_map(|value| value.to_le_bytes());
         let high = self.high.iter().flat_map(|value| value.to_le_bytes());
         let units = [self.high_unit, self.rest].into_iter().flat_map(f32::to_le_bytes);
@@ -98,7 +98,7 @@ impl Shape {
         std::array::from_fn(|_| bytes.next().unwrap_or_default())
     }
 
-    fn from_bytes(bytes: &[u8; Shape::BYTES]) -> Shape {
+    pub fn from_bytes(bytes: &[u8; Shape::BYTES]) -> Shape {
         let (low, rest) = bytes.split_at(16);
         let (high, rest) = rest.split_at(32);
         let mut next = rest.as_chunks::<4>().0.iter().copied();

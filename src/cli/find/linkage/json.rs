@@ -22,7 +22,7 @@ struct Entry {
 
 /// The path and the linkages, as indented JSON.
 pub(super) fn json(report: &LinkageReport) -> Result<String, Failure> {
-    let entry = |(rank, answer): (usize, &LinkageAnswer)| entry(report, rank, answer);
+    let entry = |(rank, answer): (usize, &LinkageAnswer)| entry(rank, answer);
     let miss = report
         .findings
         .nearest_miss
@@ -31,15 +31,15 @@ pub(super) fn json(report: &LinkageReport) -> Result<String, Failure> {
     let document = Document {
         target: json::target(&report.target, &report.reading),
         curves: Some(report.findings.curves),
-        searched: Some(report.space.free_names().map(str::to_owned).collect()),
+        searched: report.searched.clone(),
         results: (1..).zip(&report.findings.answers).map(entry).collect(),
         nearest_miss: miss,
     };
     report::json(FORMAT, &document)
 }
 
-fn entry(report: &LinkageReport, rank: usize, answer: &LinkageAnswer) -> Entry {
-    let template = report.space.template();
+fn entry(rank: usize, answer: &LinkageAnswer) -> Entry {
+    let template = &answer.family.template;
     let is_length = template.is_driven_by_length();
     Entry {
         placed: PlacedRecord::new(rank, template, &answer.curve),

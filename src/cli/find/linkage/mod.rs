@@ -6,9 +6,9 @@ mod text;
 
 use std::sync::atomic::AtomicBool;
 
-use crate::find::{self, SearchedLinkage};
+use crate::find::{self, Findings, SearchedLinkage, Several};
 use coupler_curves::family::Family;
-use coupler_find::{Constraint, LinkageSpace, Options, Target};
+use coupler_find::{Constraint, LinkageAnswer, LinkageSpace, Options, Target};
 
 use super::super::linkage::{find_template, own_text};
 use super::super::progress_bar;
@@ -54,13 +54,45 @@ pub(super) fn run(
     is_drawing_printed: bool,
 ) -> Result<Outcome, Failure> {
     let samples = arguments.index.map(|count| count as usize);
-    let bar = progress_bar::of_parts(&space.template().id);
-    let report_part = |part: f64| bar.set_position((1000.0 * part) as u64);
-    let findings = find::find_linkage(&space, &target, options, samples, &AtomicBool::new(false), report_part);
-    bar.finish_and_clear();
-    let findings = findings.map_err(Failure::input)?;
-    let report = LinkageReport { name, reading, target, space, findings, own_linkage };
+    let linkage = space.template().id.clone();
+    let findings = with_bar(&linkage, |report_part| {
+        find::find_linkage(&space, &target, options, samples, &AtomicBool::new(false), report_part)
+    })?;
+    let searched = Some(space.free_names().map(str::to_owned).collect());
+    let report = LinkageReport { name, reading, target, linkage, searched, findings, own_linkage };
     show(&report, arguments, is_drawing_printed)
+}
+
+/// The several linkages that the arguments name, if they do and no manifest has a linkage of this name.
+pub(super) fn several(arguments: &Arguments) -> Option<Several> {
+    arguments.linkage.as_deref().filter(|_| arguments.manifest.is_none()).and_then(Several::named)
+}
+
+pub(super) fn run_several(
+    arguments: &Arguments,
+    several: Several,
+    options: &Options,
+    (name, reading, target): (String, String, Target),
+    is_drawing_printed: bool,
+) -> Result<Outcome, Failure> {
+    let count = arguments.index.map(|count| count as usize);
+    let linkage = several.name().to_owned();
+    let findings = with_bar(&linkage, |report_part| {
+        find::find_among(several, &target, options, count, &AtomicBool::new(false), report_part)
+    })?;
+    let report = LinkageReport { name, reading, target, linkage, searched: None, findings, own_linkage: None };
+    show(&report, arguments, is_drawing_printed)
+}
+
+/// What a search finds that reports which part of it is done.
+fn with_bar(
+    name: &str,
+    search: impl FnOnce(&mut dyn FnMut(f64)) -> Result<Findings<LinkageAnswer>, find::Error>,
+) -> Result<Findings<LinkageAnswer>, Failure> {
+    let bar = progress_bar::of_parts(name);
+    let findings = search(&mut |part| bar.set_position((1000.0 * part) as u64));
+    bar.finish_and_clear();
+    findings.map_err(Failure::input)
 }
 
 impl Shown for LinkageReport {
@@ -87,6 +119,6 @@ impl Shown for LinkageReport {
     }
 
     fn drawing(&self) -> Vec<u8> {
-        self.findings.drawing(&title_of(&self.name), &self.target, &self.space)
+        self.findings.drawing(&title_of(&self.name), &self.target, &self.linkage)
     }
 }

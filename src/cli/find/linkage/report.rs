@@ -1,7 +1,7 @@
 //! What is shown of a search for the dimensions of a linkage.
 
 use crate::find::Findings;
-use coupler_find::{LinkageAnswer, LinkageSpace, Target};
+use coupler_find::{LinkageAnswer, Target};
 
 /// What has been found for a linkage.
 pub(super) struct LinkageReport {
@@ -9,7 +9,10 @@ pub(super) struct LinkageReport {
     /// What of its file was taken.
     pub(super) reading: String,
     pub(super) target: Target,
-    pub(super) space: LinkageSpace,
+    /// The linkage, or what several are named together.
+    pub(super) linkage: String,
+    /// The parameters that were searched; none of several linkages.
+    pub(super) searched: Option<Vec<String>>,
     pub(super) findings: Findings<LinkageAnswer>,
     /// The text of the linkage, if it is none of the catalogue.
     pub(super) own_linkage: Option<String>,

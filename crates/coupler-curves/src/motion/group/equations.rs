@@ -238,6 +238,16 @@ impl Equations {
         unknowns.chain([self.input_in_state(input)]).collect()
     }
 
+    /// The state of the pose of another linkage's state, with the same joints and an angle as the input.
+    pub fn state_of(&self, other: &Equations, mut state: Vec<f64>) -> Vec<f64> {
+        let n = self.unknown_count();
+        let shift = other.origin - self.origin;
+        for (k, own) in state[..n].iter_mut().enumerate() {
+            *own = (shift[k % 2] + *own * other.size) / self.size;
+        }
+        state
+    }
+
     /// How far the equations are from holding on a line through a state, as series along it.
     pub fn along_line<T: Scalar, const N: usize>(&self, state: &[T], direction: &[T]) -> Vec<Series<T, N>> {
         let n = self.unknown_count();

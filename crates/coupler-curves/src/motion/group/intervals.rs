@@ -264,7 +264,7 @@ impl Equations {
     }
 
     /// The node of the start pose.
-    fn start(&self, group: &Group, input: f64) -> Result<Node, AssemblyError> {
+    pub fn start(&self, group: &Group, input: f64) -> Result<Node, AssemblyError> {
         let drawn =
             |joint: JointId| group.joints.iter().find(|(id, _)| *id == joint).map_or(Point::origin(), |(_, at)| *at);
         let drawn = self.state(drawn, input);

@@ -12,6 +12,8 @@ mod homotopy;
 mod intervals;
 mod step;
 mod track;
+mod turn;
 
 pub(super) use intervals::{GroupIntervals, NamedPose, find_intervals};
 pub use track::GroupTrack;
+pub use turn::follow_full_turn;

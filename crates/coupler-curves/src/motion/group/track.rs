@@ -17,6 +17,8 @@ pub struct GroupTrack {
     nodes: Arc<Nodes>,
     /// What the input of a pass is greater by than that of the nodes, a whole number of turns, in degrees.
     shift: f64,
+    /// The equations of a linkage that differs little from that of the nodes, if the poses are those of one.
+    neighbour: Option<Arc<Equations>>,
 }
 
 /// What tracks share.
@@ -36,25 +38,39 @@ impl std::fmt::Debug for GroupTrack {
 
 impl PartialEq for GroupTrack {
     fn eq(&self, other: &GroupTrack) -> bool {
-        self.shift == other.shift && self.nodes.nodes == other.nodes.nodes
+        self.shift == other.shift
+            && self.nodes.nodes == other.nodes.nodes
+            && self.neighbour.is_none()
+            && other.neighbour.is_none()
     }
 }
 
 impl GroupTrack {
     /// The poses between nodes in the order of rising input; `is_closed` if the last is the first again, some turns later.
     pub(super) fn new(equations: Arc<Equations>, nodes: Vec<Node>, is_closed: bool) -> GroupTrack {
-        GroupTrack { nodes: Arc::new(Nodes { equations, nodes, is_closed }), shift: 0.0 }
+        GroupTrack { nodes: Arc::new(Nodes { equations, nodes, is_closed }), shift: 0.0, neighbour: None }
     }
 
     /// The same on a pass whose input is greater by that many degrees, a whole number of turns.
     pub(in crate::motion) fn shifted(&self, deg: f64) -> GroupTrack {
-        GroupTrack { nodes: self.nodes.clone(), shift: self.shift + deg }
+        GroupTrack { shift: self.shift + deg, ..self.clone() }
+    }
+
+    /// The poses of a linkage that differs little, at the same inputs; `None` if they do not go all around, so that they may end at others.
+    pub(super) fn of_neighbour(&self, equations: Equations) -> Option<GroupTrack> {
+        let is_alike = self.nodes.is_closed && self.nodes.equations.joints == equations.joints && equations.is_angle;
+        is_alike.then(|| GroupTrack { neighbour: Some(Arc::new(equations)), ..self.clone() })
+    }
+
+    /// The equations of the linkage whose poses these are.
+    fn equations(&self) -> &Equations {
+        self.neighbour.as_ref().unwrap_or(&self.nodes.equations)
     }
 
     /// The positions of the joints of the group at an input.
     pub(in crate::motion) fn positions(&self, input: f64) -> impl Iterator<Item = (JointId, Point)> + use<> {
         let state = self.state(input);
-        self.nodes.equations.positions(&state).collect::<Vec<_>>().into_iter()
+        self.equations().positions(&state).collect::<Vec<_>>().into_iter()
     }
 
     /// Positions of the group's joints and their first Taylor coefficients per radian, or unit of length, at an input.
@@ -67,7 +83,7 @@ impl GroupTrack {
     ) -> Vec<(JointId, VectorSeries<f64, N>)> {
         /// Slower than this, relative to the fastest, a coordinate does not change at a limit.
         const AT_REST: f64 = 1e-12;
-        let equations = &self.nodes.equations;
+        let equations = self.equations();
         let state = self.state(input.value);
         let own = self.own_input(input.value);
         let limit = self.end_at(own).filter(|_| is_end);
@@ -128,7 +144,21 @@ impl GroupTrack {
 
     /// The state at an input: the one that Newton's method finds from the nodes next to it.
     fn state(&self, input: f64) -> Vec<f64> {
-        self.state_at_own(self.own_input(input))
+        let own = self.own_input(input);
+        let Some(other) = &self.neighbour else { return self.state_at_own(own) };
+        let n = other.unknown_count();
+        let mut guess = self.guess(own);
+        guess[n] = own;
+        let guess = other.state_of(&self.nodes.equations, guess);
+        other.corrected(guess.clone(), n).unwrap_or(guess)
+    }
+
+    /// About the state at an input of the nodes.
+    fn guess(&self, own: f64) -> Vec<f64> {
+        let Nodes { equations, nodes, .. } = &*self.nodes;
+        let n = equations.unknown_count();
+        let next = nodes.partition_point(|node| node.state[n] < own).clamp(1, nodes.len() - 1);
+        nodes[next - 1].at_input(&nodes[next], own)
     }
 
     /// The state at an input as it is on the nodes.
