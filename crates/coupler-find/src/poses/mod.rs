@@ -15,6 +15,7 @@ mod manifest;
 mod near;
 mod near_guide;
 mod pair;
+mod passed;
 mod search;
 
 pub use answer::{PoseAnswer, PoseDeviation};
@@ -27,4 +28,5 @@ pub use guide::{Guide, PlacedSliderCrank};
 pub use manifest::poses_manifest;
 pub use near::nearest_guides;
 pub use pair::Misfit;
+pub use passed::{PassedPose, passed_poses};
 pub use search::exact_guides;
