@@ -184,7 +184,11 @@ fn the_dimensions_of_any_linkage_are_found() {
     for (arguments, told) in [
         (&[LOG, "--linkage", "scotch-yoke"][..], "its output is a length"),
         (&[LOG, "--linkage", "excavator"], "its input is a length"),
-        (&[LOG, "--linkage", "evans", "--points", "3"], "precision points are solved for four-bars"),
+        (&[LOG, "--linkage", "evans", "--points", "2"], "free parameters and starts: give from 3 to"),
+        (&[LOG, "--linkage", "evans", "--points", "30"], "30 precision points"),
+        (&[LOG, "--linkage", "evans", "--points", "3", "--fit", "minimax"], "leave one out"),
+        (&["slide.csv", "--linkage", "evans", "--points", "3"], "it has 20 rows: leave it out"),
+        (&[LOG, "--linkage", "evans", "--max-link", "0.5"], "--max-link 0.5: give how many times"),
         (&[LOG, "--linkage", "evans", "--keep", "q"], "--keep: evans has no parameter `q`"),
         (&[LOG, "--linkage", "evan"], "evan"),
         (&[LOG, "--effort", "thorough"], "--effort is of --linkage NAME"),
@@ -192,6 +196,40 @@ fn the_dimensions_of_any_linkage_are_found() {
         let (code, _, err) = run(at, &[&["find", "--function"], arguments].concat());
         assert!(code == 2 && err.contains(told), "{arguments:?}: {err}");
     }
+}
+
+/// An oscillating slide has as many unknowns as there are points here: its frame and both starts.
+#[test]
+fn any_linkage_is_exact_at_precision_points() {
+    const SQUARE: &str = "y = x^2 for x = 0..1 over 60 deg of input and 12 deg of output";
+    let folder = folder();
+    let slide = ["--linkage", "inverted-slider-crank", "--keep", "e=0", "--keep", "r=1"];
+    let found = json(&folder, &[&[SQUARE, "--points", "3", "--max-link", "5"][..], &slide].concat());
+    let results = found["results"].as_array().unwrap();
+    assert!(!results.is_empty(), "{found}");
+    let mut last = 0.0;
+    for result in results {
+        let g = number(&result["parameters"]["g"]);
+        let [input, output] = ["input_deg", "output"].map(|key| number(&result[key][0]));
+        for x in [0.5 - 0.25 * 3.0_f64.sqrt(), 0.5, 0.5 + 0.25 * 3.0_f64.sqrt()] {
+            let (cos, sin) = trig::cos_sin_deg(input + 60.0 * x);
+            let there = trig::degrees(trig::atan2(sin, cos - g));
+            let error = (there - output - 12.0 * x * x + 180.0).rem_euclid(360.0) - 180.0;
+            assert!(error.abs() < 1e-6, "{x}: {error} {result}");
+        }
+        assert!((0.2..=5.0).contains(&g), "{g}");
+        let greatest = number(&result["error_greatest"]).abs();
+        assert!(greatest >= last && greatest > 1e-4, "{found}");
+        last = greatest;
+    }
+    // Its point does not move the output.
+    let kept = ["--keep", "along=0", "--keep", "across=0"];
+    let four = ["find", SQUARE, "--function", "--points", "4"];
+    let (code, _, error) = run(folder.path(), &[&four[..], &slide, &kept].concat());
+    assert!(
+        code == 2 && error.contains("at most 3 can be exact with so many free parameters and starts: give 3,"),
+        "{error}"
+    );
 }
 
 #[test]

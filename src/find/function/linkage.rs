@@ -16,7 +16,7 @@ use crate::manifest;
 use crate::threads::Threads;
 
 /// Finds dimensions of a linkage for which its output is a function of its input, on all threads, with an answer that does not depend on their
-/// number.
+/// number. `progress` is called with the part that is done.
 ///
 /// # Errors
 /// The linkage has no such output or input, in words; or `interrupt` is true.
@@ -25,9 +25,10 @@ pub fn find_function_by(
     target: &FunctionTarget,
     options: &LinkageFunctionOptions,
     interrupt: &AtomicBool,
+    progress: impl FnMut(f64),
 ) -> Result<Result<Vec<LinkageFunctionAnswer>, String>, Error> {
     let threads = Threads { interrupt };
-    let found = generate_function_by(space, target, options, &threads);
+    let found = generate_function_by(space, target, options, &threads, progress);
     threads.proceed()?;
     Ok(found.map_err(|error| format!("{}: {error}", space.template().id)))
 }

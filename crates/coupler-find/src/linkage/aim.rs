@@ -139,6 +139,13 @@ pub(crate) fn longest_link(linkage: &Linkage) -> f64 {
     link_lengths(linkage).fold(0.0, f64::max)
 }
 
+/// How many times the longest link is as long as the shortest; links of one joint have no length.
+pub(super) fn link_ratio(linkage: &Linkage) -> f64 {
+    let lengths = || link_lengths(linkage).filter(|length| *length > 0.0);
+    let least = lengths().fold(f64::INFINITY, f64::min);
+    lengths().fold(1.0, |most: f64, length| most.max(length / least))
+}
+
 /// The greatest distance of two joints of each link. A joint of the frame that no other link has only gives a direction, at any distance.
 fn link_lengths(linkage: &Linkage) -> impl Iterator<Item = f64> {
     let pivots: Vec<JointId> = pivots_of(linkage).collect();

@@ -28,7 +28,9 @@ mod state;
 mod timed;
 
 pub use answer::LinkageAnswer;
-pub use function::{LinkageFunctionAnswer, LinkageFunctionError, LinkageFunctionOptions, generate_function_by};
+pub use function::{
+    LinkageFunctionAnswer, LinkageFunctionError, LinkageFunctionOptions, generate_function_by, most_precision_points,
+};
 pub use index::{LinkageIndex, LinkageIndexPart, LinkageSampler};
 pub use placed_curve::PlacedCurve;
 pub use ranking::JAM_DEG;

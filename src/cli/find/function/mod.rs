@@ -39,7 +39,7 @@ pub(super) fn run(arguments: &Arguments, is_drawing_printed: bool) -> Result<Out
         if !problems.is_empty() {
             return Err(Failure::inputs(&problems));
         }
-        return linkage::run(arguments, named, (name, target), numbers.starts, is_drawing_printed);
+        return linkage::run(arguments, named, (name, target), (numbers.starts, numbers.max_link), is_drawing_printed);
     }
     let of_target = if target.is_length() { GeneratorKind::SliderCrank } else { GeneratorKind::FourBar };
     let kind = closed_form.unwrap_or(of_target);

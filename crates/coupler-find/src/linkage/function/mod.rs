@@ -6,4 +6,4 @@ mod search;
 mod track;
 
 pub use answer::LinkageFunctionAnswer;
-pub use search::{LinkageFunctionError, LinkageFunctionOptions, generate_function_by};
+pub use search::{LinkageFunctionError, LinkageFunctionOptions, generate_function_by, most_precision_points};

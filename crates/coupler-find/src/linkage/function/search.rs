@@ -1,5 +1,6 @@
 //! The search for the dimensions of a linkage whose output is a function.
 
+use super::super::aim::link_ratio;
 use super::super::circuit::Traced;
 use super::super::sampled_space::SampledSpace;
 use super::super::space::LinkageSpace;
@@ -18,12 +19,17 @@ use coupler_curves::geometry::trig;
 pub struct LinkageFunctionOptions {
     /// Whether the greatest error is made least, and not the mean square.
     pub minimax: bool,
+    /// The number of precision points at which all answers are exact: of a law in Chebyshev's spacing, or all rows. At most as many as
+    /// [`most_precision_points`].
+    pub points: Option<usize>,
     /// The input at the start in degrees, if it is given.
     pub input_start_deg: Option<f64>,
     /// The output at the start in degrees or as a length, if it is given.
     pub output_start: Option<f64>,
     /// Whether the input must turn fully.
     pub full_turn: bool,
+    /// How many times the longest link may be as long as the shortest; may be infinite.
+    pub max_ratio: f64,
     /// A condition over the parameters and the measures, over the range of the input.
     pub condition: Option<Condition>,
     /// How many linkages are tried.
@@ -51,9 +57,16 @@ pub enum LinkageFunctionError {
     AngleOutput,
 }
 
+/// The most precision points at which a linkage can be exact in general: as many as unknowns, its free parameters and the starts that are not given;
+/// the size of a linkage does not change the angle of its output.
+pub fn most_precision_points(space: &LinkageSpace, target: &FunctionTarget, open_starts: usize) -> usize {
+    let idle = usize::from(space.is_scalable && !target.is_length());
+    (space.dimension() + open_starts).saturating_sub(idle)
+}
+
 /// Finds the dimensions of a linkage whose output is a function of its input: samples of its parameters are compared with the function from inputs all
 /// around, the nearest refined by Levenberg and Marquardt's method, and linkages at random near the best again. The best of many local minima; the same with
-/// any number of threads.
+/// any number of threads. With precision points those that are exact there, the least error elsewhere first. `progress` is called with the part that is done.
 ///
 /// # Errors
 /// The linkage has no such output or input.
@@ -62,19 +75,19 @@ pub fn generate_function_by(
     target: &FunctionTarget,
     options: &LinkageFunctionOptions,
     workers: &impl Workers,
+    mut progress: impl FnMut(f64),
 ) -> Result<Vec<LinkageFunctionAnswer>, LinkageFunctionError> {
     check(space, target)?;
-    /// The samples of a target that are compared in the search.
-    const SAMPLES: usize = 41;
     /// The linkages that are refined, and those from which others begin, with how many near each.
     const REFINED: usize = 40;
     const RESTARTED: usize = 6;
     const NEAR: usize = 6;
     const STEPS: usize = 60;
-    let all = target.samples();
-    let stride = all.len().div_ceil(SAMPLES);
-    let last = all.len() - 1;
-    let samples: Vec<[f64; 2]> = (0..all.len()).filter(|k| k % stride == 0 || *k == last).map(|k| all[k]).collect();
+    /// In how many steps samples are compared, and about which part of the time that, and refining the nearest, takes.
+    const BATCHES: usize = 20;
+    const SAMPLED: f64 = 0.4;
+    const NEAREST: f64 = 0.7;
+    let samples = compared(target, options.points);
     let travels: Vec<f64> = samples.iter().map(|[x, _]| trig::degrees(*x)).collect();
     let wanted: Vec<f64> = samples.iter().map(|[_, y]| *y).collect();
     let track = Track::new(&travels);
@@ -91,10 +104,18 @@ pub fn generate_function_by(
     let sampled = SampledSpace::new(space, options.full_turn);
     let count = sample_count(&sampled, options.effort);
     let travel = trig::degrees(target.travel());
-    let found = workers.map((0..count).collect(), |number| best_of_sample(&aim, &sampled, number, travel));
-    let begun = nearest(found.into_iter().flatten().collect(), REFINED);
+    let mut found = Vec::new();
+    for batch in 0..BATCHES {
+        let numbers = (batch * count / BATCHES..(batch + 1) * count / BATCHES).collect();
+        found.extend(workers.map(numbers, |number| best_of_sample(&aim, &sampled, number, travel)));
+        progress(SAMPLED * (batch + 1) as f64 / BATCHES as f64);
+    }
+    let is_admitted = |fit: &LinkageFit| link_ratio(&fit.traced.linkage) <= options.max_ratio;
+    let begun = nearest(found.into_iter().flatten().filter(is_admitted).collect(), REFINED);
     let refine = |fit: LinkageFit| fit.refined(&aim, STEPS);
     let mut refined = nearest(workers.map(begun, refine), REFINED);
+    refined.retain(is_admitted);
+    progress(NEAREST);
     let mut scatter = Scatter::new(options.seed);
     let mut near = Vec::new();
     for fit in refined.iter().take(RESTARTED) {
@@ -105,22 +126,46 @@ pub fn generate_function_by(
         let traced = fit.traced.followed(linkage)?;
         Some(aim.begun(values, traced, fit.pass, fit.starts[0])?.refined(&aim, STEPS))
     });
-    refined.extend(again.into_iter().flatten());
+    refined.extend(again.into_iter().flatten().filter(is_admitted));
+    progress(1.0);
     let mut fits = nearest(refined, REFINED);
     if options.minimax {
         fits = workers.map(fits, |fit| least_greatest(fit, &aim));
+        fits.retain(is_admitted);
         fits.sort_by(|a, b| a.greatest().total_cmp(&b.greatest()));
+    }
+    if options.points.is_some() {
+        fits.retain(|fit| fit.greatest() <= EXACT * target.size());
     }
     let mut answers: Vec<LinkageFunctionAnswer> = Vec::new();
     for fit in fits {
-        if answers.len() == options.most {
+        if answers.len() == options.most && options.points.is_none() {
             break;
         }
         if answers.iter().all(|other| !is_same(&other.fit, &fit)) {
             answers.extend(LinkageFunctionAnswer::new(fit, space.template(), target, options.condition.as_ref()));
         }
     }
+    if options.points.is_some() {
+        answers.sort_by(|a, b| a.error.greatest.abs().total_cmp(&b.error.greatest.abs()));
+        answers.truncate(options.most);
+    }
     Ok(answers)
+}
+
+/// The error at precision points that is rounding, in sizes of the function.
+const EXACT: f64 = 1e-9;
+
+/// The samples of a target that are compared in the search: its precision points, or others all over it.
+fn compared(target: &FunctionTarget, points: Option<usize>) -> Vec<[f64; 2]> {
+    const SAMPLES: usize = 41;
+    if let Some(count) = points {
+        return target.precision_points(count);
+    }
+    let all = target.samples();
+    let stride = all.len().div_ceil(SAMPLES);
+    let last = all.len() - 1;
+    (0..all.len()).filter(|k| k % stride == 0 || *k == last).map(|k| all[k]).collect()
 }
 
 fn check(space: &LinkageSpace, target: &FunctionTarget) -> Result<(), LinkageFunctionError> {
