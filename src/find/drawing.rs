@@ -4,7 +4,7 @@ use coupler_curves::family::Family;
 use coupler_curves::geometry::Similarity;
 use coupler_curves::linkage_format::quoted;
 use coupler_curves::solve::Solver;
-use coupler_drawing::page::{self, AnswersPage, FoundCurve, Options, Paper};
+use coupler_drawing::page::{self, AnswersPage, FoundCurve, GuidedBody, Options, Paper};
 use coupler_drawing::render::{self, TextMode};
 use coupler_find::{Answer, LinkageAnswer, PlacedCurve, Target, format_length as number, format_relative as relative};
 
@@ -61,7 +61,7 @@ fn page_of(title: &str, target: &Target, details: Vec<String>, curves: impl Iter
         target: target.points().to_vec(),
         target_label: format!("the path: {} points, S = {}", target.points().len(), number(size, size)),
         curves: curves.take(MAX_CURVES).collect(),
-        lines: Vec::new(),
+        body: GuidedBody::default(),
     };
     let paper = Paper { width: 297.0, height: 210.0 };
     render::svg(&page::compose_answers(&page, &Options::for_paper(paper)), TextMode::Text)

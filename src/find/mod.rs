@@ -19,7 +19,7 @@ pub use drawing::draw_four_bars;
 pub use index_file::{MAX_CURVES, load_index};
 pub use linkage::find_linkage;
 pub use outline::{Outline, ReadOptions, Reading};
-pub use poses::{FoundPoses, PoseReading, Relaxed, draw_poses, find_poses, read_poses};
+pub use poses::{FoundPoses, PoseReading, Relaxed, draw_poses, find_poses, guided_body, passing, read_poses};
 pub use request::{Notation, Request, RequestProblem, Searched, SearchedLinkage};
 pub use several::{Several, find_among, simplest};
 pub use target_file::{FunctionRows, MAX_POINTS, parse_function, parse_outline};

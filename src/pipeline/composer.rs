@@ -4,8 +4,10 @@ use std::cell::LazyCell;
 use std::rc::Rc;
 
 use super::Captions;
+use crate::find;
 use crate::manifest::{Plan, PlannedFamily};
 use coupler_curves::family::Family;
+use coupler_curves::geometry::Point;
 use coupler_curves::linkage::FourBar;
 use coupler_curves::solve::{MovablePoint, SolvedCell, Solver};
 use coupler_drawing::chart::{Chart, ChartData};
@@ -13,6 +15,7 @@ use coupler_drawing::page::{
     self, ChartPage, CouplerGridPage, Heading, Key, Layout, LinkLabel, Panel, PanelPage, PoseChoice,
 };
 use coupler_drawing::scene::Scene;
+use coupler_find::BodyPose;
 
 /// The labels of the links of a cell: the names of their lengths.
 fn link_labels(family: &Family, solved: &SolvedCell) -> Vec<LinkLabel> {
@@ -78,7 +81,21 @@ impl<'a> Composer<'a> {
     fn panel<'s>(&self, solved: &'s SolvedCell) -> Panel<'s> {
         let [caption, note] = self.captions.of_cell(&solved.cell, solved.first_curve_values());
         let panel = Panel::new(solved).with_caption(caption).with_note(note);
-        panel.with_facts(page::cell_facts(&self.planned.family, solved)).with_ghosts(self.planned.ghosts)
+        let panel = panel.with_facts(page::cell_facts(&self.planned.family, solved)).with_ghosts(self.planned.ghosts);
+        if self.planned.poses.is_empty() { panel } else { self.with_poses(panel) }
+    }
+
+    /// The panel with the poses of the family, and by how much its linkage misses them. A page of poses shows the linkage at the first of them.
+    fn with_poses<'s>(&self, panel: Panel<'s>) -> Panel<'s> {
+        let is_page_of_poses = self.planned.layout == Layout::Poses;
+        let pose = |&[x, y, angle_deg]: &[f64; 3]| BodyPose { point: Point::new(x, y), angle_deg };
+        let poses: Vec<BodyPose> = self.planned.poses.iter().map(pose).collect();
+        let passing = find::passing(&poses, panel.solved_cell, is_page_of_poses);
+        let panel = panel.with_body(find::guided_body(&poses, is_page_of_poses));
+        let Some((text, joints)) = passing else { return panel };
+        let note = if panel.note.is_empty() { text } else { format!("{} · {text}", panel.note) };
+        let panel = panel.with_note(note);
+        if is_page_of_poses { panel.with_pose(PoseChoice::Fixed(joints)) } else { panel }
     }
 
     /// Composes a page of panels; pages are counted from 1.

@@ -165,6 +165,43 @@ fn wishes_are_kept() {
 }
 
 #[test]
+fn given_pivots_are_kept() {
+    let lines: Vec<&str> = POSES.lines().collect();
+    let folder = folder_with("poses.csv", &lines[..5].join("\n"));
+    // Those of the linkage of which the poses were taken, which passes them up to their rounding.
+    let given = ["--input", "any", "--max-link", "inf", "--pivot=0,0", "--pivot=80,0"];
+    let found = json(&folder, &given);
+    // With the other one as the crank it passes a limit.
+    assert_eq!((&found["pairs"], check(&found, 1e-9)), (&Json::from(2), 1));
+    for result in found["results"].as_array().unwrap() {
+        let mut pivots = [&result["crank_pivot"], &result["rocker_pivot"]].map(|at| [number(&at[0]), number(&at[1])]);
+        pivots.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let error = [pivots[0][0], pivots[0][1], pivots[1][0] - 80.0, pivots[1][1]];
+        assert!(error.iter().all(|error| error.abs() < 1e-12), "{result}");
+    }
+    let lengths = ["crank", "coupler", "rocker"].map(|name| number(&found["results"][0]["parameters"][name]));
+    assert!(lengths.iter().zip([30.0, 60.0, 70.0]).all(|(own, there)| (own / there - 1.0).abs() < 0.1), "{lengths:?}");
+    // Outside the box of the other one, and of four poses not at all.
+    let one = json(&folder, &["--input", "any", "--pivot=0,0", "--pivots=10,-50,200,50", "--effort", "quick"]);
+    assert!(check(&one, 1e-9) > 0);
+    let is_given = |at: &Json| number(&at[0]).abs() < 1e-12 && number(&at[1]).abs() < 1e-12;
+    for result in one["results"].as_array().unwrap() {
+        assert!(is_given(&result["crank_pivot"]) || is_given(&result["rocker_pivot"]), "{result}");
+    }
+    let far = printed(folder.path(), &["find", "poses.csv", "--poses", "--pivot=0,0", "--pivot=80,0"]);
+    assert!(far.contains("2: a link is longer than --max-link") && far.contains("--max-link"), "{far}");
+    let wrong = ["find", "poses.csv", "--poses", "--pivot=0,0", "--pivot=0,0", "--pivot=x,1", "--pivot=inf,1"];
+    let (code, _, error) = run(folder.path(), &wrong);
+    assert_eq!(code, 2);
+    for expected in ["`0,0` is given twice", "`x` is not a number", "`inf,1` is not finite", "given 4 times"] {
+        assert!(error.contains(expected), "{expected}: {error}");
+    }
+    fs::write(folder.path().join("poses.csv"), lines[..6].join("\n")).unwrap();
+    let (code, _, error) = run(folder.path(), &["find", "poses.csv", "--poses", "--pivot=0,0"]);
+    assert!(code == 2 && error.contains("the pivots of 4 are on a curve"), "{error}");
+}
+
+#[test]
 fn poses_in_another_order_are_left_out() {
     let mut lines: Vec<&str> = POSES.lines().collect();
     lines.swap(3, 4);
@@ -190,6 +227,34 @@ fn the_manifest_renders_and_the_page_is_drawn() {
     for text in ["the centre-point curve", "the circle-point curve", "the poses: 4"] {
         assert!(page.contains(text), "{text}");
     }
+    let pages: Vec<String> = fs::read_dir(folder.path().join("found"))
+        .unwrap()
+        .flat_map(|entry| fs::read_dir(entry.unwrap().path()).into_iter().flatten())
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "svg"))
+        .map(|path| fs::read_to_string(path).unwrap())
+        .collect();
+    assert_eq!(pages.len(), manifest.matches("{ rank = ").count());
+    for page in &pages {
+        for text in
+            ["passes the 4 poses; input ", "the centre-point curve", "the circle-point curve", "pose of the body"]
+        {
+            assert!(page.contains(text), "{text}");
+        }
+    }
+    // Another pose is missed, by as much as another linkage of the same curve would: in panels, too.
+    let missed = manifest.replacen("    [29.8, 59.6, 8.6],\n", "    [29.8, 59.6, 8.6],\n    [29.8, 60.6, 8.6],\n", 8);
+    let missed = missed.replace("layout = \"poses\"", "layout = \"panels\"\npanels = [1, 1]");
+    assert_ne!(missed, manifest);
+    fs::write(folder.path().join("missed.toml"), missed).unwrap();
+    printed(folder.path(), &["render", "missed.toml", "--strict"]);
+    let family = fs::read_dir(folder.path().join("missed")).unwrap().find_map(|entry| {
+        let entry = entry.unwrap();
+        let name = entry.file_name().into_string().unwrap();
+        fs::read_to_string(entry.path().join(format!("{name}-001.svg"))).ok()
+    });
+    let family = family.unwrap();
+    assert!(family.contains("misses the poses by up to ") && !family.contains("; input "), "{family}");
     // A curve of the manifest passes the body's places.
     let family = manifest.lines().find_map(|line| line.strip_prefix("id = \"found-")).unwrap().trim_end_matches('"');
     let curve = |circuit: usize| {

@@ -384,6 +384,18 @@ fn each_mistake_in_a_linkage_has_its_message() {
             "[[family]]\nghosts = true\nlayout = \"coupler-grid\"",
             "a page of a coupler grid has no `ghosts`",
         ),
+        ("[[family]]", "[[family]]\nlayout = \"poses\"", "the layout is `poses`, but there are no `poses`"),
+        ("[[family]]", "[[family]]\npanels = [1, 1]\nlayout = \"poses\"", "a page of poses has one cell and no panels"),
+        ("[[family]]", "[[family]]\nposes = []", "`poses` has 0 poses: give 1 to 1000"),
+        ("[[family]]", "[[family]]\nposes = [[1, 2]]", "expected x, y and an angle, found 2 values"),
+        ("[[family]]", "[[family]]\nposes = [[1, 2, \"1 / 0\"]]", "its value is inf, which is not a finite number"),
+        ("[[family]]", "[[family]]\nposes = [1, 2, 3]", "expected a list, found a number"),
+        ("[[family]]", "[[family]]\nposes = \"poses.csv\"", "expected a list, found a string"),
+        (
+            "[[family]]",
+            "[[family]]\nposes = [[1, 2, 3]]\nlayout = \"coupler-grid\"",
+            "a page of a coupler grid has no `poses`",
+        ),
     ];
     for (from, to, message) in cases {
         let mut text = OWN.replacen(from, to, 1);

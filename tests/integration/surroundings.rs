@@ -40,6 +40,13 @@ grid = { p = { from = 2, to = 4, step = 0.1 } }
 let = { a = "(1 + p)^1.5 / 2" }
 layout = "chart"
 chart = { x = "p", y = ["length"] }
+[[family]]
+id = "poses"
+linkage = "four-bar"
+layout = "poses"
+poses = [[1, 2, 0], [1.5, 2.25, 10], [0.5, 2.5, 20], [0, 2, 24.5]]
+sampling = { step = "5 deg" }
+cases = [{ frame = 4, crank = 1.5, coupler = 3, rocker = 3.5, along = 1.5, across = 1 }]
 "#;
 
 /// The messages and files of a run in a subfolder, with a umask and environment variables.
@@ -75,7 +82,7 @@ type Surroundings<'a> = (&'a str, &'a str, &'a str, &'a [(&'a str, &'a str)]);
 fn assert_same_output(surroundings: &[Surroundings]) {
     let first = render("", "022", "1", &[]);
     let kind = |kind: &str| first.1.keys().filter(|name| name.ends_with(kind)).count();
-    assert_eq!(["svg", "png", "pdf", "csv", "json"].map(kind), [6, 6, 1, 6, 2]);
+    assert_eq!(["svg", "png", "pdf", "csv", "json"].map(kind), [7, 7, 1, 8, 2]);
     for (subfolder, mask, jobs, variables) in surroundings {
         let (messages, files) = render(subfolder, mask, jobs, variables);
         assert!(messages == first.0, "{subfolder}: {}", String::from_utf8_lossy(&messages));

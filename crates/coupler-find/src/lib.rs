@@ -112,9 +112,9 @@ pub use linkage::{
 };
 pub use options::{Effort, Options};
 pub use poses::{
-    BodyPose, Freedom, Guide, Misfit, PairLeftOut, PassedPose, PlacedDyad, PlacedSliderCrank, PoseAnswer, PoseCondition,
-    PoseDeviation, PoseError, PoseFindings, PoseOptions, PoseSet, burmester_curves, exact_guides, nearest_guides,
-    passed_poses, poses_manifest,
+    BodyPose, Freedom, Guide, Misfit, PairLeftOut, PassedPose, PlacedDyad, PlacedSliderCrank, PoseAnswer,
+    PoseCondition, PoseDeviation, PoseError, PoseFindings, PoseOptions, PoseSet, burmester_curves, burmester_dyads,
+    exact_guides, nearest_guides, passed_poses, poles, poses_manifest,
 };
 pub use quality::Quality;
 pub use report::{

@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use crate::bounded_number::read_within;
 use crate::cells::{self, AtlasTotals, Purpose};
 use crate::files::FileReader;
 use crate::inputs::ManifestInputs;
@@ -10,18 +9,17 @@ use crate::names::{check_expression_syntax, read_names};
 use crate::parameter_sets::read_space;
 use crate::plan::{CaseFile, PlannedFamily};
 use crate::schema::{
-    DEFAULT_LAYOUT, DEFAULT_PLACE, FAMILY, MIN_TOLERANCE, PANEL_SCALES, PLACE, SAMPLING, SPACINGS, STRAIGHT, Spacing,
-    default_sampling,
+    DEFAULT_PLACE, FAMILY, MIN_TOLERANCE, PLACE, SAMPLING, SPACINGS, STRAIGHT, Spacing, default_sampling,
 };
 use crate::templates::Templates;
-use crate::{applicability, chart, settings, tolerance};
+use crate::{applicability, chart, layout, settings, tolerance};
 use coupler_curves::expression::{Caption, Dimension, Expression, Scope};
 use coupler_curves::family::{COLUMNS, Column, Family, MAX_SAMPLES, MEASURES, Sampling, StraightCriterion};
 use coupler_curves::linkage_format::{self, Fields, TomlParser, TomlValue};
 use coupler_curves::measure::MeasureSet;
 use coupler_curves::problem::{Problem, suggestion};
 use coupler_curves::template::{Orientation, Template};
-use coupler_drawing::page::{Layout, Options, PanelScale};
+use coupler_drawing::page::Options;
 use coupler_drawing::render::Format;
 
 /// What families share.
@@ -102,9 +100,10 @@ pub(crate) fn read<'t>(
     };
     let charts = chart.as_ref().and_then(Option::as_ref).map_or(1, |chart| chart.y.len());
     let cells = names.as_ref().map_or(1, |names| names.space.count());
-    let layout = layout(&fields, page, [charts, cells], parser);
-    let scale = panel_scale(&fields, layout, parser);
-    let ghosts = ghosts(&fields, layout, parser);
+    let layout = layout::read(&fields, page, [charts, cells], parser);
+    let scale = layout::panel_scale(&fields, layout, parser);
+    let ghosts = layout::ghosts(&fields, layout, parser);
+    let poses = layout::poses(&fields, layout, parser);
     let (id, template, names, sampling, columns, straight) = (id?, template?, names?, sampling?, columns?, straight?);
     let mut family = Family {
         title: title.unwrap_or_else(|| default_title.unwrap_or(&id).to_owned()),
@@ -148,6 +147,7 @@ pub(crate) fn read<'t>(
         layout,
         scale: scale?,
         ghosts: ghosts?,
+        poses: poses?,
         chart,
         formats,
         source,
@@ -364,80 +364,4 @@ fn name_indices<'t>(
         all_read = false;
     }
     all_read.then_some(indices)
-}
-
-/// Reports a key that pages of a family's layout do not have.
-fn check_has_layout<'t>(
-    key: &str,
-    value: &TomlValue<'t>,
-    (layout, applies): (Option<Layout>, impl Fn(Layout) -> bool),
-    parser: &mut TomlParser<'t>,
-) -> Option<()> {
-    let Some(layout) = layout.filter(|layout| !applies(*layout)) else { return Some(()) };
-    let name = if layout == Layout::CouplerGrid { "a coupler grid" } else { "charts" };
-    let problem = Problem::error(value.span(), format!("a page of {name} has no `{key}`"));
-    parser.report(problem.with_help(format!("leave `{key}` out, or write layout = \"panels\"")));
-    None
-}
-
-/// Reads whether pages of panels show the linkages at their limits.
-fn ghosts<'t>(fields: &Fields<'_, 't>, layout: Option<Layout>, parser: &mut TomlParser<'t>) -> Option<bool> {
-    let Some(value) = fields.get("ghosts") else { return Some(false) };
-    check_has_layout("ghosts", value, (layout, |layout| matches!(layout, Layout::Panels { .. })), parser)?;
-    parser.boolean(value)
-}
-
-/// Reads the scale of the linkages on pages of panels and of coupler grids.
-fn panel_scale<'t>(fields: &Fields<'_, 't>, layout: Option<Layout>, parser: &mut TomlParser<'t>) -> Option<PanelScale> {
-    /// The least and the greatest length of a unit on paper, in millimetres: a curve of a thousandth of a unit is seen at
-    /// the greatest, a linkage of a million units fits the largest paper at the least.
-    const RANGE: [f64; 2] = [0.001, 100_000.0];
-    let Some(value) = fields.get("scale") else { return Some(PanelScale::default()) };
-    check_has_layout("scale", value, (layout, |layout| !matches!(layout, Layout::Chart { .. })), parser)?;
-    let text = value.get_ref().as_str();
-    if let Some((_, scale)) = PANEL_SCALES.iter().find(|(name, _)| Some(*name) == text) {
-        return Some(*scale);
-    }
-    if text.is_some_and(|text| text.chars().all(char::is_alphabetic)) {
-        return parser.word(value, &PANEL_SCALES);
-    }
-    let read =
-        |value: &TomlValue<'t>, parser: &mut TomlParser<'t>| parser.constant_quantity(value, Dimension::PaperLength);
-    read_within(value, parser, read, RANGE, "mm").map(PanelScale::Fixed)
-}
-
-/// Reads the layout. Where `panels` is absent, the grid is chosen for the number of charts or cells.
-fn layout<'t>(
-    fields: &Fields<'_, 't>,
-    page: Option<&Options>,
-    [charts, cells]: [usize; 2],
-    parser: &mut TomlParser<'t>,
-) -> Option<Layout> {
-    let words = Layout::ALL.map(|(name, _)| (name, name));
-    let name = match fields.get("layout") {
-        Some(value) => parser.word(value, &words)?,
-        None => DEFAULT_LAYOUT,
-    };
-    let is_chart = name == "chart";
-    chart::check_layout(fields, is_chart, parser);
-    // A page that could not be parsed sets no limit.
-    let most = if is_chart { Layout::max_charts } else { Layout::max_panels };
-    let [most_columns, most_rows] = page.map_or([100, 100], most);
-    if name == "coupler-grid" {
-        if let Some(value) = fields.get("panels") {
-            let problem = Problem::error(value.span(), "a page of a coupler grid has one cell and no panels");
-            parser.report(problem.with_help("leave `panels` out, or write layout = \"panels\""));
-        }
-        return Some(Layout::CouplerGrid);
-    }
-    let Some(value) = fields.get("panels") else {
-        return match page {
-            Some(page) if is_chart => Some(Layout::for_charts(page, charts)),
-            page => page.map(|page| Layout::for_panels(page, cells)),
-        };
-    };
-    let [columns, rows] = parser.pair(value, "[1, 2]")?;
-    let (columns, rows) = (parser.integer(columns, 1, most_columns), parser.integer(rows, 1, most_rows));
-    let (columns, rows) = (columns?, rows?);
-    Some(if is_chart { Layout::Chart { columns, rows } } else { Layout::Panels { columns, rows } })
 }

@@ -51,6 +51,7 @@ mod book;
 mod schema;
 
 mod cells;
+mod layout;
 mod templates;
 
 mod family;

@@ -118,6 +118,8 @@ pub struct PlannedFamily {
     pub scale: page::PanelScale,
     /// Whether its pages of panels show the linkages at their limits as well.
     pub ghosts: bool,
+    /// The poses of a body that its linkages are to guide, each x, y and the angle in degrees; may be empty.
+    pub poses: Vec<[f64; 3]>,
     /// What its charts show; `None` unless its layout is charts.
     pub chart: Option<Chart>,
     /// The formats of its pages.

@@ -72,6 +72,11 @@ pub(crate) static FAMILY: TableSchema = TableSchema::new(
         )
         .with_default(|| "false".to_owned()),
         KeySchema::new(
+            "poses",
+            ValueSchema::List(&ValueSchema::List(&ValueSchema::Number, [3, 3]), [1, MAX_POSES]),
+            "Poses of a body that its linkages are to guide, drawn on pages of panels and of poses: each x, y and the angle in degrees.",
+        ),
+        KeySchema::new(
             "sampling",
             ValueSchema::Table(&SAMPLING),
             "How circuits are sampled; by default in steps of 2 deg, or at 180 samples if an actuator drives the linkage.",
@@ -170,6 +175,9 @@ fn default_straight() -> String {
     };
     format!("{{ \"{key}\": {value} }}")
 }
+
+/// The most poses of a body: as many as linkages are searched for.
+pub(crate) const MAX_POSES: usize = 1000;
 
 /// The words for the scale of linkages on pages of panels.
 pub(crate) const PANEL_SCALES: [(&str, PanelScale); 2] = [("panel", PanelScale::Panel), ("page", PanelScale::Page)];

@@ -100,6 +100,9 @@ pub struct Arguments {
     /// The box in which both fixed pivots must be, in the unit of the path: XMIN,YMIN,XMAX,YMAX.
     #[arg(long, value_name = "BOX", allow_hyphen_values = true)]
     pub(super) pivots: Option<String>,
+    /// With --poses of 2 or 3 poses, a fixed pivot that every linkage has: X,Y; may be given twice, for both.
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, requires = "poses")]
+    pub(super) pivot: Vec<String>,
     #[arg(
         long,
         value_name = "N",

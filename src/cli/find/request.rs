@@ -64,11 +64,21 @@ pub(super) fn parse_length(text: &str) -> Result<f64, String> {
 
 /// Reads the numbers of a box: `XMIN,YMIN,XMAX,YMAX`.
 fn parse_box(text: &str) -> Result<[f64; 4], String> {
-    const EXAMPLE: &str = "write it like --pivots=-50,-20,50,0";
+    parse_numbers(text, "--pivots", "four", "-50,-20,50,0")
+}
+
+/// Reads numbers between commas, the value of an option that has them in words.
+pub(super) fn parse_numbers<const N: usize>(
+    text: &str,
+    option: &str,
+    count: &str,
+    example: &str,
+) -> Result<[f64; N], String> {
     let number = |part: &str| {
         let value = part.trim().parse::<f64>();
-        value.map_err(|_| format!("--pivots: `{part}` is not a number; {EXAMPLE}"))
+        value.map_err(|_| format!("{option}: `{part}` is not a number; write it like {option}={example}"))
     };
     let values: Vec<f64> = text.split(',').map(number).collect::<Result<_, String>>()?;
-    values.try_into().map_err(|_| format!("--pivots: `{text}` does not have four numbers; {EXAMPLE}"))
+    let wrong = |_| format!("{option}: `{text}` does not have {count} numbers; write it like {option}={example}");
+    values.try_into().map_err(wrong)
 }

@@ -58,13 +58,14 @@ pub fn find_poses(set: &PoseSet, options: &PoseOptions, interrupt: &AtomicBool) 
 /// Weaker options, each alone, then more and more of them together.
 fn relaxations(options: &PoseOptions) -> Vec<(Vec<&'static str>, PoseOptions)> {
     type Relax = fn(&mut PoseOptions);
-    let all: [(bool, &str, Relax); 6] = [
+    let all: [(bool, &str, Relax); 7] = [
         (options.full_turn, "--input any", |o| o.full_turn = false),
         (options.condition.is_some(), "another --where", |o| o.condition = None),
         (options.pivots.is_some(), "a larger --pivots", |o| o.pivots = None),
         (options.max_link.is_finite(), "a greater --max-link", |o| o.max_link = f64::INFINITY),
         (!options.any_order, "--any-order", |o| o.any_order = true),
         (!options.any_circuit, "--any-circuit", |o| o.any_circuit = true),
+        (!options.given_pivots.is_empty(), "another --pivot", |o| o.given_pivots.clear()),
     ];
     let used: Vec<_> = all.into_iter().filter(|(is_set, ..)| *is_set).collect();
     let relaxed = |chosen: &[(bool, &'static str, Relax)]| {

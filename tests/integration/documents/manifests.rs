@@ -105,6 +105,7 @@ fn places() -> Vec<String> {
         format!("{ATLAS}{grid}grid = {{ p = @ }}\n"),
         format!("{ATLAS}{grid}grid = {{ k = @, p = 2 }}\n"),
         format!("{ATLAS}{grid}{chart}@\n"),
+        format!("{ATLAS}{grid}grid = {{ p = 2 }}\nposes = [[0, 0, 0]]\n@\n"),
         format!("{ATLAS}{grid}grid = {{ p = [2, 3] }}\nchart = {{ x = \"p\", y = [\"straight_length\"] }}\n@\n"),
         format!("{ATLAS}{grid}{chart}chart = {{ x = \"p\", y = [\"straight_length\"], @ }}\n"),
         format!("{ATLAS}{grid}{chart}chart = {{ x = \"straight_deviation\", y = [\"mu_min_deg\"], @ }}\n"),

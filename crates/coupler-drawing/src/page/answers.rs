@@ -1,17 +1,20 @@
 //! A page of the curves that a search has found for a path, with the linkage that traces the best of them.
 
 use super::area::{self, Area};
+use super::body::{self, BodyDrawing};
 use super::element::Drawing;
 use super::heading;
+use super::labels::{LabelPlacer, Obstacles};
 use super::mechanism::PosedMechanism;
 use super::plot::Plot;
 use super::rect::Rect;
+use super::symbols::{self, Symbol};
 use super::theme::Theme;
-use super::{AnswersPage, FoundCurve, FoundLine};
+use super::{AnswersPage, FoundCurve};
 use crate::mechanism::Mechanism;
-use crate::scene::{Anchor, Circle, Curve, Item, Path, Polyline, Scene, Stroke};
+use crate::scene::{Anchor, Curve, Item, Path, Scene};
 use coupler_curves::geometry::Similarity;
-use coupler_curves::geometry::{Bounds, Point, Vector};
+use coupler_curves::geometry::{Bounds, Point, Spline, Vector};
 use coupler_curves::path;
 
 pub(super) fn compose(scene: &mut Scene, page: &AnswersPage, theme: &Theme) {
@@ -29,13 +32,13 @@ pub(super) fn compose(scene: &mut Scene, page: &AnswersPage, theme: &Theme) {
     }
     let entries: Vec<&FoundCurve> = page.curves.iter().collect();
     let step = 1.45 * theme.note_size;
-    let labelled: Vec<&FoundLine> = page.lines.iter().filter(|line| !line.label.is_empty()).collect();
-    let foot = theme.border + theme.margin + step * (entries.len() + labelled.len() + 1) as f64;
+    let of_body = symbols::of_body(&page.body, theme);
+    let foot = theme.border + theme.margin + step * (entries.len() + of_body.len() + 1) as f64;
     let frame = Rect { corner: at, size: Vector::new(width, (paper.y - foot - at.y).max(0.3 * paper.y)) };
     draw_figure(&root, frame, page, theme);
     // The target, then the curves with their ranks.
     let mut baseline = frame.corner.y + frame.size.y + step;
-    let mut legend = |item: Item, text: &str| {
+    let mut legend = |items: Vec<Item>, text: &str| {
         let line = theme.text_line(
             text,
             Point::new(at.x + 4.0 * theme.note_size, baseline),
@@ -43,40 +46,25 @@ pub(super) fn compose(scene: &mut Scene, page: &AnswersPage, theme: &Theme) {
             theme.note_size,
             theme.ink,
         );
-        root.record(Drawing { class: "legend", title: String::new(), items: vec![item] });
+        root.record(Drawing { class: "legend", title: String::new(), items });
         root.record(line.fit_width(width - 4.0 * theme.note_size));
         baseline += step;
         Point::new(at.x, baseline - 0.35 * theme.note_size)
     };
     let mut place = Point::new(at.x, frame.corner.y + frame.size.y + step - 0.35 * theme.note_size);
     let centre = |place: Point| place + Vector::new(1.5 * theme.note_size, 0.0);
-    place = legend(dot(centre(place), theme), &page.target_label);
+    let dot = |centre: Point| body::mark_item(centre, theme.ink, theme);
+    place = legend(vec![dot(centre(place))], &page.target_label);
     for (k, curve) in entries.iter().enumerate() {
         let ends = vec![place, place + Vector::new(3.0 * theme.note_size, 0.0)];
         place = legend(
-            Item::Path(Path::stroked(ends, theme.stroke(theme.curve_ink(k), curve_width(k, theme)))),
+            vec![Item::Path(Path::stroked(ends, theme.stroke(theme.curve_ink(k), curve_width(k, theme))))],
             &curve.label,
         );
     }
-    for line in labelled {
-        let ends = vec![place, place + Vector::new(3.0 * theme.note_size, 0.0)];
-        place = legend(Item::Path(Path::stroked(ends, line_stroke(line, theme))), &line.label);
+    for Symbol { mark, meaning } in of_body {
+        place = legend(mark.items(centre(place), theme), &meaning);
     }
-}
-
-/// The stroke of a line that is no curve of a linkage.
-fn line_stroke(line: &FoundLine, theme: &Theme) -> Stroke {
-    theme.stroke(if line.is_light { theme.hairline } else { theme.grey }, theme.fine_width)
-}
-
-/// The parts of a polyline within a rectangle: whole segments, for they are short.
-fn within(line: &[Point], frame: &Rect) -> Vec<Polyline> {
-    let is_within = |p: &Point| {
-        let far = p - frame.corner;
-        (0.0..=frame.size.x).contains(&far.x) && (0.0..=frame.size.y).contains(&far.y)
-    };
-    let parts = line.split(|p| !is_within(p)).filter(|part| part.len() > 1);
-    parts.map(|part| Polyline { points: part.to_vec(), is_closed: false }).collect()
 }
 
 /// The best curve is as broad as on other pages, and the others are finer.
@@ -84,12 +72,9 @@ fn curve_width(rank: usize, theme: &Theme) -> f64 {
     if rank == 0 { theme.curve_width } else { theme.fine_width }
 }
 
-/// A point of the target.
-fn dot(centre: Point, theme: &Theme) -> Item {
-    Item::Circle(Circle { centre, radius: 0.45 * theme.joint_radius, stroke: None, fill: Some(theme.ink) })
-}
-
 fn draw_figure(area: &impl Area, frame: Rect, page: &AnswersPage, theme: &Theme) {
+    /// Of the curves that labels avoid, in millimetres.
+    const FLATNESS: f64 = 0.05;
     let samples = page.curves.iter().flat_map(|found| {
         let curve = &found.solved.curves[0];
         found.solved.circuit(curve).points(curve.joint).map(|p| found.placement.apply(p))
@@ -97,21 +82,15 @@ fn draw_figure(area: &impl Area, frame: Rect, page: &AnswersPage, theme: &Theme)
     let first = page.curves.first().filter(|found| found.placement == Similarity::IDENTITY);
     let joints = first.iter().flat_map(|curve| curve.pose.iter().copied());
     let plot = Plot::new(frame, theme);
-    let plot = plot.fitted_to(Bounds::from_points(page.target.iter().copied().chain(samples).chain(joints)));
+    let plot =
+        plot.fitted_to(page.body.bounds(Bounds::from_points(page.target.iter().copied().chain(samples).chain(joints))));
     plot.draw_scale_bar(area, &[], theme);
     // A hundredth of a millimetre, as on other pages.
     let tolerance = 0.01 / plot.page_from_plane.scale();
-    for line in &page.lines {
-        let on_page =
-            |points: &Vec<Point>| -> Vec<Point> { points.iter().map(|p| plot.page_from_plane.apply(*p)).collect() };
-        let polylines = line.points.iter().flat_map(|points| within(&on_page(points), &frame)).collect();
-        let path = Path { polylines, stroke: Some(line_stroke(line, theme)), fill: None };
-        area.record(Drawing { class: "line", title: line.label.clone(), items: vec![Item::Path(path)] });
-        for (place, text) in &line.texts {
-            let at = plot.page_from_plane.apply(*place) + Vector::new(0.5, -0.25) * theme.note_size;
-            area.record(theme.text_line(text, at, Anchor::Start, theme.note_size, theme.grey));
-        }
-    }
+    let mut body = BodyDrawing::new(&page.body, &plot, theme);
+    let mut obstacles = Obstacles::default();
+    body.add_to(&mut obstacles);
+    body.draw(area);
     // Behind the curves, which its plate would hide.
     if let Some(found) = first {
         let traced = found.solved.curves[0].joint;
@@ -123,6 +102,7 @@ fn draw_figure(area: &impl Area, frame: Rect, page: &AnswersPage, theme: &Theme)
             theme,
             |joint| if joint == traced { theme.curve_ink(0) } else { theme.ink },
         ));
+        obstacles.add(&items, false);
         area.record(Drawing { class: "linkage", title: "the linkage of the first curve".to_owned(), items });
     }
     for (k, found) in page.curves.iter().enumerate().rev() {
@@ -130,7 +110,8 @@ fn draw_figure(area: &impl Area, frame: Rect, page: &AnswersPage, theme: &Theme)
         let tolerance = tolerance / found.placement.scale();
         let splines = path::joint_splines(&solved.linkage, solved.circuit(curve), curve.joint, tolerance);
         let on_page = |p: Point| plot.page_from_plane.apply(found.placement.apply(p));
-        let splines = splines.iter().map(|spline| spline.map(on_page)).collect();
+        let splines: Vec<Spline> = splines.iter().map(|spline| spline.map(on_page)).collect();
+        splines.iter().for_each(|spline| obstacles.add_points(&spline.flatten(FLATNESS), theme.curve_width, false));
         let stroke = theme.stroke(theme.curve_ink(k), curve_width(k, theme));
         area.record(Drawing {
             class: "found",
@@ -138,6 +119,9 @@ fn draw_figure(area: &impl Area, frame: Rect, page: &AnswersPage, theme: &Theme)
             items: vec![Item::Curve(Curve { splines, stroke })],
         });
     }
-    let dots = page.target.iter().map(|p| dot(plot.page_from_plane.apply(*p), theme)).collect();
+    let dot = |p: &Point| body::mark_item(plot.page_from_plane.apply(*p), theme.ink, theme);
+    let dots: Vec<Item> = page.target.iter().map(dot).collect();
+    obstacles.add(&dots, false);
     area.record(Drawing { class: "target", title: page.target_label.clone(), items: dots });
+    body.draw_labels(area, &mut LabelPlacer::new(&obstacles, frame, theme), theme);
 }

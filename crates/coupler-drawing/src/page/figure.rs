@@ -2,8 +2,9 @@
 
 use super::area::Area;
 use super::arrangement::{Arrangement, Extents};
+use super::body::BodyDrawing;
 use super::element::{CouplerCurve, Drawing, TextLine};
-use super::labels::{Obstacles, label_line};
+use super::labels::{LabelPlacer, Obstacles, label_line};
 use super::marks;
 use super::mechanism::PosedMechanism;
 use super::motion_marks::{MotionMarks, TickPoses, TickSteps};
@@ -141,6 +142,7 @@ impl<'a> Figure<'a> {
         let curves = groups.iter().fold(Bounds::EMPTY, |whole, (_, bounds)| whole.union(*bounds));
         let linkage =
             mechanisms.iter().chain(&ghosts).fold(curves, |linkage, mechanism| linkage.union(mechanism.bounds()));
+        let linkage = panel.body.bounds(linkage);
         let curves = groups.iter().map(|(_, bounds)| without_rounding(*bounds, linkage)).collect();
         let groups = groups.into_iter().map(|(circuits, _)| circuits).collect();
         let extents = Extents { curves, linkage };
@@ -157,6 +159,21 @@ impl<'a> Figure<'a> {
         match &self.mechanisms[..] {
             [only] => items(only),
             all => vec![Item::Animation(Animation { frames: all.iter().map(items).collect(), seconds: self.seconds })],
+        }
+    }
+
+    /// The arrangement of the figure if the one of its page is this: poses are drawn with curve and linkage at one scale.
+    pub fn arrangement(
+        &self,
+        of_page: Arrangement,
+        frame: Rect,
+        scale: Option<f64>,
+        themes: [&Theme; 2],
+    ) -> Arrangement {
+        if self.panel.body.poses.is_empty() {
+            of_page.if_enlarging(frame, scale, themes, &self.extents)
+        } else {
+            Arrangement::Combined
         }
     }
 
@@ -188,12 +205,15 @@ impl<'a> Figure<'a> {
     ) {
         let [frame, key] = arrangement.rects(whole);
         let key = Plot::new(key, theme);
-        let in_dashes = |plot: &Plot, curves: &[&MeasuredCurve], mut avoided: Obstacles, theme: &Theme| {
+        let in_dashes = |plot: &Plot,
+                         curves: &[&MeasuredCurve],
+                         (mut avoided, body): (Obstacles, Option<&BodyDrawing>),
+                         theme: &Theme| {
             let paths = self.paths(plot, curves, period, theme);
             let axes = marks::symmetry_axis_items(self.solved_cell, curves, plot, theme);
             avoided.add(&axes, false);
             self.draw_marks(area, plot, curves, axes, theme);
-            self.draw_motion_marks(area, plot, curves, (&paths, period), avoided, theme);
+            self.draw_motion_marks(area, plot, curves, (&paths, period), (avoided, body), theme);
             self.draw_curves(area, plot, page, curves, (paths, period), theme);
         };
         let (key, remark) = key.at_scale(self.extents.linkage, scale);
@@ -209,7 +229,11 @@ impl<'a> Figure<'a> {
             obstacles.add(&linkage, false);
             // Numbers in small panels would be on the line of the frame.
             obstacles.add(&self.posed_items(|mechanism| mechanism.underlay_items(&key, theme)), false);
-            in_dashes(&key, &self.solved_cell.curves.iter().collect::<Vec<_>>(), obstacles, theme);
+            let mut body = BodyDrawing::new(&self.panel.body, &key, theme);
+            body.add_to(&mut obstacles);
+            body.draw(area);
+            let curves: Vec<&MeasuredCurve> = self.solved_cell.curves.iter().collect();
+            in_dashes(&key, &curves, (obstacles, Some(&body)), theme);
             draw_linkage(area, linkage);
         } else {
             self.draw_key_curves(area, &key, theme);
@@ -224,7 +248,12 @@ impl<'a> Figure<'a> {
                 let remarks = [format!(", enlarged × {factor}"), format!(", × {factor}")];
                 plot.draw_scale_bar(area, &remarks, curve_theme);
                 let curves = self.solved_cell.curves.iter().filter(|curve| circuits.contains(&curve.circuit));
-                in_dashes(&plot, &curves.collect::<Vec<_>>(), obstacles.take().unwrap_or_default(), curve_theme);
+                in_dashes(
+                    &plot,
+                    &curves.collect::<Vec<_>>(),
+                    (obstacles.take().unwrap_or_default(), None),
+                    curve_theme,
+                );
             }
         }
     }
@@ -295,14 +324,14 @@ impl<'a> Figure<'a> {
     }
 
     /// Draws the start, the direction and the ticks of each curve, with numbers where they are clear of the `obstacles`
-    /// and the curves.
+    /// and the curves, after those of a body.
     fn draw_motion_marks(
         &self,
         area: &impl Area,
         plot: &Plot,
         curves: &[&MeasuredCurve],
         (paths, period): (&[JointPath], f64),
-        mut obstacles: Obstacles,
+        (mut obstacles, body): (Obstacles, Option<&BodyDrawing>),
         theme: &Theme,
     ) {
         let solved = self.solved_cell;
@@ -324,11 +353,17 @@ impl<'a> Figure<'a> {
             area.record(Drawing { class: "motion", title: String::new(), items });
         }
         let frame = plot.rect_above_scale_bar(theme);
+        let mut placer = LabelPlacer::new(&obstacles, frame, theme);
+        if let Some(body) = body.filter(|body| !body.is_empty()) {
+            // Numbers of poses and inputs next to each other would read as one.
+            placer = placer.with_placed(Vec::new(), 0.6 * theme.joint_radius);
+            body.draw_labels(area, &mut placer, theme);
+        }
         let least = MIN_NUMBERED_FRAME.map(|ems| ems * theme.small_size());
         if frame.size.x >= least[0] && frame.size.y >= least[1] {
             let marks = marks.into_iter().zip(is_numbered).filter(|(_, is_numbered)| *is_numbered);
             let marks = marks.map(|(marks, _)| marks).collect();
-            area.record(MotionMarks::place_numbers(marks, &obstacles, frame, theme));
+            area.record(MotionMarks::place_numbers(marks, &mut placer, theme));
         }
     }
 
@@ -437,6 +472,7 @@ impl<'a> Figure<'a> {
         if marks::has_symmetry_axis(solved) {
             add(Mark::Axis, "axis of symmetry");
         }
+        symbols.extend(symbols::of_body(&self.panel.body, theme));
         symbols
     }
 }

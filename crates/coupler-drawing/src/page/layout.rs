@@ -19,6 +19,8 @@ pub enum Layout {
     },
     /// A page for every ten traced points of a cell, as in the atlas of Hrones and Nelson.
     CouplerGrid,
+    /// A page for each cell, with the poses of a body that it is to guide and the places of pivots and pins.
+    Poses,
 }
 
 impl Layout {
@@ -26,9 +28,10 @@ impl Layout {
     pub const POINTS_PER_PAGE: usize = 10;
 
     /// The name and a description of every layout.
-    pub const ALL: [(&'static str, &'static str); 3] = [
+    pub const ALL: [(&'static str, &'static str); 4] = [
         ("panels", "a grid of panels, each with a cell's linkage, its curves and its caption"),
         ("coupler-grid", "a page for every ten coupler points of a cell, drawn on the grid they lie on"),
+        ("poses", "a page for each cell, with the family's `poses` of a body and where pivots and pins can be"),
         ("chart", "a grid of charts, each of one quantity over another, as the family's `chart` names them"),
     ];
 
@@ -36,7 +39,7 @@ impl Layout {
     pub fn grid(self) -> [usize; 2] {
         match self {
             Layout::Panels { columns, rows } | Layout::Chart { columns, rows } => [columns, rows],
-            Layout::CouplerGrid => [1, 1],
+            Layout::CouplerGrid | Layout::Poses => [1, 1],
         }
     }
 

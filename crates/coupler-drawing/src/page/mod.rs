@@ -8,6 +8,7 @@ mod answers;
 mod area;
 mod arrangement;
 mod balanced_grid;
+mod body;
 pub mod book;
 #[cfg(feature = "plotters")]
 mod chart;
@@ -16,6 +17,7 @@ mod coupler_grid;
 mod direction;
 mod element;
 mod figure;
+mod guided_body;
 mod heading;
 mod key;
 mod key_drawing;
@@ -40,14 +42,13 @@ mod typography;
 #[cfg(feature = "plotters")]
 pub use chart::compose_charts;
 pub use figure::dash_period;
+pub use guided_body::{BodyFrame, BodyPlaces, GuidedBody};
 pub use heading::Heading;
 pub use key::Key;
 pub use layout::Layout;
 pub use marks::cell_facts;
 pub use options::Options;
-pub use pages::{
-    AnswersPage, ChartPage, CouplerGridPage, FoundCurve, FoundLine, LinkLabel, OverlayPage, PanelPage, PanelScale,
-};
+pub use pages::{AnswersPage, ChartPage, CouplerGridPage, FoundCurve, LinkLabel, OverlayPage, PanelPage, PanelScale};
 pub use panel::{Panel, PoseChoice};
 pub use paper::Paper;
 pub use theme::{CurveStyle, NamedTheme, Theme};

@@ -1,9 +1,8 @@
 //! Marks of the motion along a curve: its start with an arrowhead, and ticks at equal steps of the input.
 
 use super::element::Drawing;
-use super::labels::{LabelPlacer, Obstacles};
+use super::labels::LabelPlacer;
 use super::plot::Plot;
-use super::rect::Rect;
 use super::theme::Theme;
 use crate::scene::{Anchor, Color, Item, Path, Polyline};
 
@@ -78,11 +77,10 @@ impl MotionMarks {
         marks
     }
 
-    /// The numbers, placed in a frame where they are clear of obstacles.
-    pub fn place_numbers(all: Vec<MotionMarks>, obstacles: &Obstacles, frame: Rect, theme: &Theme) -> Drawing {
+    /// The numbers, where they are clear of everything.
+    pub fn place_numbers(all: Vec<MotionMarks>, placer: &mut LabelPlacer, theme: &Theme) -> Drawing {
         let line =
             |number: &str| theme.text_line(number, Point::origin(), Anchor::Middle, theme.small_size(), theme.grey);
-        let mut placer = LabelPlacer::new(obstacles, frame, theme);
         let numbers = all.iter().flat_map(|marks| &marks.numbers);
         let items = numbers.filter_map(|(at, number)| placer.place_if_clear(*at, line(number).text)).collect();
         Drawing { class: "input", title: String::new(), items }

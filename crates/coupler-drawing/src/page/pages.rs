@@ -1,5 +1,6 @@
 //! What is on a page, of each kind.
 
+use super::guided_body::GuidedBody;
 use super::heading::Heading;
 use super::key::Key;
 use super::layout::Layout;
@@ -120,21 +121,8 @@ pub struct AnswersPage<'a> {
     pub target_label: String,
     /// The curves, the best first.
     pub curves: Vec<FoundCurve>,
-    /// Further lines, behind the curves: they do not widen the view.
-    pub lines: Vec<FoundLine>,
-}
-
-/// Lines of a page of curves that are no curves of linkages: poses of a body, or places of pivots.
-#[derive(Clone, Debug)]
-pub struct FoundLine {
-    /// Its polylines.
-    pub points: Vec<Vec<Point>>,
-    /// What is written beside it, to the right of a place.
-    pub texts: Vec<(Point, String)>,
-    /// What the legend says of it; if it is empty, the legend does not have it.
-    pub label: String,
-    /// Whether it is lighter than others.
-    pub is_light: bool,
+    /// The body that they are to guide, behind the curves; of a path it has no poses.
+    pub body: GuidedBody,
 }
 
 /// A curve that is near a path.

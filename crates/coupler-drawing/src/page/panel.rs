@@ -1,5 +1,6 @@
 //! A panel of a page: a solved cell, the texts under it, and the pose its linkage is drawn in.
 
+use super::guided_body::GuidedBody;
 use coupler_curves::geometry::Point;
 use coupler_curves::solve::SolvedCell;
 
@@ -21,6 +22,8 @@ pub struct Panel<'a> {
     pub pose: PoseChoice,
     /// Whether the linkage is also drawn, in fine lines, at the limits of its input or else of its output.
     pub has_ghosts: bool,
+    /// The body that it is to guide; without poses if there is none.
+    pub body: GuidedBody,
 }
 
 impl<'a> Panel<'a> {
@@ -33,6 +36,7 @@ impl<'a> Panel<'a> {
             facts: Default::default(),
             pose: PoseChoice::default(),
             has_ghosts: false,
+            body: GuidedBody::default(),
         }
     }
 
@@ -54,6 +58,11 @@ impl<'a> Panel<'a> {
     /// The panel with or without the linkage in fine lines at the limits of its input or else of its output.
     pub fn with_ghosts(self, has_ghosts: bool) -> Panel<'a> {
         Panel { has_ghosts, ..self }
+    }
+
+    /// The panel with the poses of a body that its linkage is to guide, and with curve and linkage at one scale.
+    pub fn with_body(self, body: GuidedBody) -> Panel<'a> {
+        Panel { body, ..self }
     }
 
     /// The panel with its linkage in another pose.

@@ -177,7 +177,7 @@ fn draw_panels<A: Area>(
     let arrangement = Arrangement::best(figure_rect(&areas[0]), page_scale, theme, &extents);
     let fitting_scale = |(figure, area): (&Figure, &A)| {
         let frame = figure_rect(area);
-        figure.fitting_scale(frame, arrangement.if_enlarging(frame, page_scale, [theme; 2], &figure.extents), theme)
+        figure.fitting_scale(frame, figure.arrangement(arrangement, frame, page_scale, [theme; 2]), theme)
     };
     let drawn = || figures.iter().zip(&areas).filter_map(|(figure, area)| Some((figure.as_ref()?, area)));
     let scale = match page.scale {
@@ -200,7 +200,7 @@ fn draw_panels<A: Area>(
                 // Ticks on an enlarged curve are as long as without such a crank.
                 let curve_theme = &Theme { joint_radius: theme.joint_radius, ..figure_theme.clone() };
                 let themes = [curve_theme, figure_theme];
-                let arrangement = arrangement.if_enlarging(frame, scale, themes, &figure.extents);
+                let arrangement = figure.arrangement(arrangement, frame, scale, themes);
                 has_enlarged |= arrangement != Arrangement::Combined;
                 figure.draw(area, frame, (arrangement, scale, period), page, themes);
             }

@@ -1,13 +1,15 @@
 //! The line at the foot of a page that explains the symbols on it.
 
+use super::GuidedBody;
 use super::area::Area;
+use super::body::{self, Axes};
 use super::element::{Drawing, TextLine};
 use super::heading::{Heading, foot_baseline, margins};
 use super::marks;
 use super::mechanism;
 use super::motion_marks::{self, TickSteps};
 use super::theme::Theme;
-use crate::scene::{Anchor, Circle, Color, Item, Path, Polyline, Text};
+use crate::scene::{Anchor, Circle, Color, Item, Path, Polyline, Stroke, Text};
 use coupler_curves::expression::join_names;
 use coupler_curves::geometry::{Point, Vector};
 use coupler_curves::linkage::{Joint, JointId, JointKind, LinkOutline, Linkage};
@@ -49,6 +51,12 @@ pub(super) enum Mark {
     Ghost,
     /// An axis of symmetry.
     Axis,
+    /// A pose of a body.
+    Pose,
+    /// A line in a stroke.
+    Line(Stroke),
+    /// A single place in an ink.
+    Place(Color),
     /// A scale bar.
     ScaleBar,
     /// A letter or a sign in the text of the page.
@@ -108,6 +116,21 @@ pub(super) fn of_chains(linkage: &Linkage, theme: &Theme) -> Vec<Symbol> {
     let first = (!linkage.chains.is_empty() && !others.is_empty()).then(|| symbol(&others, theme.ink));
     let chains = linkage.chains.iter().enumerate();
     first.into_iter().chain(chains.map(|(k, chain)| symbol(chain, mechanism::chain_ink(k, theme)))).collect()
+}
+
+/// The poses of a body, and the places that belong to them.
+pub(super) fn of_body(body: &GuidedBody, theme: &Theme) -> Vec<Symbol> {
+    let meaning = match body.step() {
+        1 => "pose of the body".to_owned(),
+        step => format!("pose of the body, one of each {step}"),
+    };
+    let pose = (!body.poses.is_empty()).then_some(Symbol { mark: Mark::Pose, meaning });
+    let places = body.places.iter().map(|places| {
+        let stroke = places.stroke(theme);
+        let mark = if places.lines.is_empty() { Mark::Place(stroke.color) } else { Mark::Line(stroke) };
+        Symbol { mark, meaning: places.label.clone() }
+    });
+    pose.into_iter().chain(places).collect()
 }
 
 /// The scale bar, which says what length on paper the crank has, or else a unit, if that is common to all figures, in millimetres to
@@ -192,7 +215,7 @@ fn mark_width(mark: Mark, theme: &Theme) -> f64 {
         Mark::CrankPivot | Mark::Pivot => 3.0 * theme.joint_radius,
         Mark::TracedPoint(_) => 2.0 * theme.joint_radius,
         Mark::PitchCircle => 3.0 * theme.joint_radius,
-        Mark::Limit(_) => theme.joint_radius,
+        Mark::Limit(_) | Mark::Place(_) => theme.joint_radius,
         Mark::Start(_) => 2.0 * theme.joint_radius,
         Mark::Tick(_) => 0.9 * em,
         Mark::Dashes(_)
@@ -201,14 +224,16 @@ fn mark_width(mark: Mark, theme: &Theme) -> f64 {
         | Mark::Band(_)
         | Mark::Ghost
         | Mark::Axis
+        | Mark::Line(_)
         | Mark::ScaleBar => 2.0 * em,
+        Mark::Pose => 1.2 * em,
         Mark::Letter(letter) => theme.typeface.regular().width(letter, em),
     }
 }
 
 impl Mark {
     /// The items of the mark about its middle.
-    fn items(self, middle: Point, theme: &Theme) -> Vec<Item> {
+    pub fn items(self, middle: Point, theme: &Theme) -> Vec<Item> {
         let half = mark_width(self, theme) / 2.0;
         let along = |x: f64| middle + Vector::new(x * half, 0.0);
         let line = |from: f64, to: f64| Polyline { points: vec![along(from), along(to)], is_closed: false };
@@ -252,6 +277,11 @@ impl Mark {
                 let lines = vec![line(-1.0, -0.4), line(-0.15, -0.05), line(0.2, 1.0)];
                 vec![stroked(lines, theme.stroke(theme.grey, theme.hair_width))]
             }
+            Mark::Pose => {
+                Axes::new(along(-1.0) + Vector::new(0.0, 0.3 * half), 0.0, 1.8 * half).items(theme.ink, theme)
+            }
+            Mark::Line(stroke) => vec![stroked(vec![line(-1.0, 1.0)], stroke)],
+            Mark::Place(ink) => vec![body::mark_item(middle, ink, theme)],
             Mark::ScaleBar => {
                 let tick = Vector::new(0.0, 0.25 * theme.note_size);
                 let end = |x: f64| Polyline { points: vec![along(x) - tick, along(x) + tick], is_closed: false };

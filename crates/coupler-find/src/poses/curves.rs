@@ -1,8 +1,10 @@
-//! The curves of the pivots and of the pins of four poses, for drawings.
+//! The curves of the pivots and of the pins of four poses, the dyads of five and the poles of fewer, for drawings.
 
-use super::body::PoseSet;
+use super::body::{PoseSet, pole};
 use super::centre_curve::CentreCurve;
-use super::dyad::Dyad;
+use super::dyad::{Dyad, Forms};
+use super::findings::{PlacedDyad, placed_dyad};
+use super::five;
 use crate::complex::{Complex, length};
 use coupler_curves::geometry::Point;
 
@@ -29,6 +31,22 @@ pub fn burmester_curves(set: &PoseSet) -> Option<[Vec<Vec<Point>>; 2]> {
             .collect()
     };
     Some([lines(pivot), lines(pin)])
+}
+
+/// All real dyads of five poses, at most four; none of another number of poses.
+pub fn burmester_dyads(set: &PoseSet) -> Vec<PlacedDyad> {
+    let placed = set.placed();
+    let dyads = (placed.len() == 5).then(|| five::dyads(&Forms::new(placed).independent())).flatten();
+    dyads.unwrap_or_default().iter().map(|dyad| placed_dyad(set, dyad)).collect()
+}
+
+/// The poles of two or three poses, with the numbers of the two poses: the places about which the body turns from one to the other. None of a
+/// pair between which it does not turn, and of more poses.
+pub fn poles(set: &PoseSet) -> Vec<([usize; 2], Point)> {
+    let placed = if set.placed().len() > 3 { &[] } else { set.placed() };
+    let pairs = (0..placed.len()).flat_map(|k| (k + 1..placed.len()).map(move |m| [k, m]));
+    let pole_of = |[k, m]: [usize; 2]| Some(([k + 1, m + 1], set.place(pole([&placed[k], &placed[m]])?)));
+    pairs.filter_map(pole_of).collect()
 }
 
 /// Polylines through points, divided where one is missing, far away, or far from the one before.

@@ -6,7 +6,7 @@ use super::dyad::{Dyad, Forms};
 use super::five;
 use crate::complex::{Complex, unit};
 use crate::even_sequence::EvenSequence;
-use coupler_curves::geometry::Bounds;
+use coupler_curves::geometry::{Bounds, Point};
 use nalgebra::Vector3;
 
 /// How many dyads poses have.
@@ -54,6 +54,8 @@ pub(super) struct DyadSpace {
     kind: Kind,
     /// The box of pivots that is asked for, in sizes of the poses from their middle: least and greatest corner.
     pivots: Option<[Complex; 2]>,
+    /// The pivots that linkages are to have, in the same units.
+    given: Vec<Complex>,
 }
 
 enum Kind {
@@ -67,9 +69,13 @@ enum Kind {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct DyadPlace {
     pub coordinates: [f64; 3],
-    /// The number of a dyad of finitely many, or one of the two on a line, or 1 for a slider among those of pivots.
+    /// The number of a dyad of finitely many, or one of the two on a line, or 1 for a slider among those of pivots, from [`FIRST_GIVEN`] on those
+    /// of given pivots.
     pub number: usize,
 }
+
+/// The number of the dyads of the first given pivot, among those of any pivot.
+const FIRST_GIVEN: usize = 2;
 
 /// How far from the middle of the poses pivots and pins are without a box, in sizes of the poses: half of them in the inner sixth, for those that are near
 /// make smaller linkages.
@@ -82,8 +88,8 @@ fn reach(part: f64) -> f64 {
 }
 
 impl DyadSpace {
-    /// The dyads of two to five poses; with the box of the pivots.
-    pub fn new(set: &PoseSet, pivots: Option<Bounds>) -> DyadSpace {
+    /// The dyads of two to five poses; with the box of the pivots, and those that are given.
+    pub fn new(set: &PoseSet, pivots: Option<Bounds>, given: &[Point]) -> DyadSpace {
         let placed = set.placed();
         let forms = Forms::new(placed).independent();
         let curve = |of: &[Placed]| CentreCurve::new(of).map_or(Kind::Plane, Kind::Curve);
@@ -94,7 +100,7 @@ impl DyadSpace {
             _ => five::dyads(&forms).map_or_else(|| curve(&placed[..4]), Kind::Points),
         };
         let pivots = pivots.map(|within| [set.relative(within.min), set.relative(within.max)]);
-        DyadSpace { forms, kind, pivots }
+        DyadSpace { forms, kind, pivots, given: given.iter().map(|pivot| set.relative(*pivot)).collect() }
     }
 
     /// How many dyads there are.
@@ -133,9 +139,47 @@ impl DyadSpace {
                     let coordinates = [0, 1, 2].map(|c| if c < self.dimension() { part(c) } else { 0.0 });
                     DyadPlace { coordinates, number: usize::from(k % SLIDERS == SLIDERS - 1) }
                 };
-                (0..count).map(place).collect()
+                // Two given pivots leave no other.
+                let others = if self.given.len() < 2 { (0..count).map(place).collect() } else { Vec::new() };
+                self.given_places(count).into_iter().chain(others).collect()
             }
         }
+    }
+
+    /// The places of the dyads of given pivots: of three poses one for each, of two a line of pins.
+    fn given_places(&self, count: usize) -> Vec<DyadPlace> {
+        /// The most pins of a pivot: every pair of two pivots is tried.
+        const MOST: usize = 500;
+        let pins = if self.freedom() == Freedom::Space { count.min(MOST) } else { 1 };
+        let pin = |number: usize, k: usize| {
+            let part = (k as f64 + 0.5) / pins as f64;
+            DyadPlace { coordinates: [part, 0.0, 0.0], number: FIRST_GIVEN + number }
+        };
+        (0..self.given.len()).flat_map(|number| (0..pins).map(move |k| pin(number, k))).collect()
+    }
+
+    /// Whether two dyads have all the given pivots.
+    pub fn has_given(&self, places: [&DyadPlace; 2]) -> bool {
+        (0..self.given.len()).all(|number| places.iter().any(|place| self.is_given(place, number)))
+    }
+
+    fn is_given(&self, place: &DyadPlace, number: usize) -> bool {
+        self.is_of_given(place) && place.number == FIRST_GIVEN + number
+    }
+
+    /// Whether a dyad has a given pivot.
+    pub fn is_of_given(&self, place: &DyadPlace) -> bool {
+        matches!(self.kind, Kind::Plane | Kind::Space) && place.number >= FIRST_GIVEN
+    }
+
+    /// The dyad of a given pivot, which is exactly there.
+    fn at_given(&self, pivot: Complex, part: f64) -> Option<Dyad> {
+        let homogeneous = Vector3::new(pivot.re, pivot.im, 1.0).normalize();
+        let dyad = match self.kind {
+            Kind::Space => self.on_line(&homogeneous, part)?,
+            _ => Dyad::from_homogeneous(&homogeneous, &self.forms.pin(&homogeneous)?)?,
+        };
+        Some(Dyad::Revolute { pivot, pin: dyad.pin() })
     }
 
     /// The dyad at a place; `None` if there is none, or its pivot is beyond the box, where they are not finitely many.
@@ -145,6 +189,7 @@ impl DyadSpace {
             (Kind::Points(dyads), _) => *dyads.get(number)?,
             (Kind::Curve(curve), 2) => curve.slider()?,
             (Kind::Curve(curve), _) => curve.dyads(std::f64::consts::PI * u)[number]?,
+            (Kind::Plane | Kind::Space, FIRST_GIVEN..) => self.at_given(*self.given.get(number - FIRST_GIVEN)?, u)?,
             (Kind::Plane, _) => {
                 let pivot = self.pivot(number, [u, v]);
                 Dyad::from_homogeneous(&pivot, &self.forms.pin(&pivot)?)?
@@ -159,8 +204,10 @@ impl DyadSpace {
     /// Whether the pivot of a dyad is in the box that is asked for.
     pub fn contains(&self, dyad: &Dyad) -> bool {
         let Dyad::Revolute { pivot, .. } = dyad else { return true };
-        self.pivots
-            .is_none_or(|[low, high]| (low.re..=high.re).contains(&pivot.re) && (low.im..=high.im).contains(&pivot.im))
+        self.given.contains(pivot)
+            || self.pivots.is_none_or(|[low, high]| {
+                (low.re..=high.re).contains(&pivot.re) && (low.im..=high.im).contains(&pivot.im)
+            })
     }
 
     /// A pivot in the box, or the normal of a line.

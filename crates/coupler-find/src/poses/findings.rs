@@ -24,6 +24,8 @@ pub struct PoseOptions {
     pub max_link: f64,
     /// The box of the fixed pivots, in the unit of the poses.
     pub pivots: Option<Bounds>,
+    /// Fixed pivots that every linkage has, at most two and of two or three poses, in the unit of the poses: they may be outside the box.
+    pub given_pivots: Vec<Point>,
     /// A condition on the linkage.
     pub condition: Option<PoseCondition>,
     /// How many dyads are tried where there are infinitely many.
@@ -44,6 +46,7 @@ impl Default for PoseOptions {
             any_circuit: false,
             max_link,
             pivots,
+            given_pivots: Vec::new(),
             condition: None,
             effort,
             seed,

@@ -3,23 +3,21 @@
 use std::fmt::Write;
 
 use super::answer::PoseAnswer;
-use super::body::PoseSet;
+use super::body::{BodyPose, PoseSet};
 use super::guide::Guide;
 use crate::report::manifest::rounded;
 use crate::report::{format_length, manifest_head, title_for};
-use coupler_curves::linkage_format::quoted;
+use coupler_curves::linkage_format::{quoted, toml_number};
 
-/// A complete manifest that renders linkages where they are at the poses, which are in its comments; of none, one that says so.
+/// A complete manifest that renders linkages where they are with the poses, each on a page; of none, one that says so.
 pub fn poses_manifest(name: &str, set: &PoseSet, answers: &[PoseAnswer]) -> String {
     let mut out = manifest_head("find", &title_for(name));
-    out.push_str("\n# The traced point is that of the body, which passes these poses:\n");
-    for (number, pose) in (1..).zip(set.poses()) {
-        // Writing to a string cannot fail.
-        let _ = writeln!(out, "#   {number}: x = {}, y = {}, angle = {}°", pose.point.x, pose.point.y, pose.angle_deg);
-    }
     if answers.is_empty() {
-        return out + "\n# No linkage passes them as asked for.\n";
+        return out + "\n# No linkage passes the poses as asked for.\n";
     }
+    out.push_str(
+        "\n# Each linkage has a page with the poses of the body, which is fixed to the link of the traced point; layout = \"panels\" puts several on one.\n",
+    );
     let mut forms: Vec<(String, Vec<(usize, &PoseAnswer)>)> = Vec::new();
     for (rank, answer) in (1..).zip(answers) {
         let form = form_of(answer);
@@ -57,14 +55,14 @@ fn append_family(form: &str, name: &str, set: &PoseSet, ranked: &[(usize, &PoseA
         linkage = linkage
             .replace("side = \"ahead\"", &format!("side = \"{}\"", &form[form.rfind('-').map_or(0, |at| at + 1)..]));
     }
-    let columns = ranked.len().min(3);
-    let rows = ranked.len().div_ceil(columns).min(3);
     let words = form.replace("four-bar-", "four-bars, ").replace("slider-crank-", "slider-cranks, ");
     let title = quoted(&format!("Linkages that guide a body: {name}, {words}"));
+    // Writing to a string cannot fail.
     let _ = write!(
         out,
-        "\n{linkage}\n[[family]]\nid = \"found-{form}\"\nlinkage = \"guide-{form}\"\ntitle = {title}\npanels = [{columns}, {rows}]\n\
-         caption = \"{{rank:.0}}: μ ≥ {{mu_poses:.1}}° at the poses\"\ncases = [\n"
+        "\n{linkage}\n[[family]]\nid = \"found-{form}\"\nlinkage = \"guide-{form}\"\ntitle = {title}\nlayout = \"poses\"\nposes = [\n{}]\n\
+         caption = \"{{rank:.0}}: μ ≥ {{mu_poses:.1}}° at the poses\"\ncases = [\n",
+        pose_lines(set)
     );
     for (rank, answer) in ranked {
         let error = answer.greatest_error();
@@ -86,4 +84,13 @@ fn append_family(form: &str, name: &str, set: &PoseSet, ranked: &[(usize, &PoseA
         );
     }
     out.push_str("]\n");
+}
+
+/// The poses as items of a list: x, y and the angle in degrees, with all digits.
+fn pose_lines(set: &PoseSet) -> String {
+    let line = |pose: &BodyPose| {
+        let [x, y, angle_deg] = [pose.point.x, pose.point.y, pose.angle_deg].map(toml_number);
+        format!("    [{x}, {y}, {angle_deg}],\n")
+    };
+    set.poses().iter().map(line).collect()
 }

@@ -21,7 +21,7 @@ mod search;
 pub use answer::{PoseAnswer, PoseDeviation};
 pub use body::{BodyPose, PoseError, PoseSet};
 pub use condition::PoseCondition;
-pub use curves::burmester_curves;
+pub use curves::{burmester_curves, burmester_dyads, poles};
 pub use dyad_space::Freedom;
 pub use findings::{PairLeftOut, PlacedDyad, PoseFindings, PoseOptions};
 pub use guide::{Guide, PlacedSliderCrank};

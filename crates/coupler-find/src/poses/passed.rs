@@ -166,9 +166,9 @@ impl<'a> Guided<'a> {
             some_aims.iter().map(least).sum::<f64>()
         };
         let turns = (0..360).map(|k| unit(trig::radians(f64::from(k))));
-        let mut best = turns.map(|turn| (sum(turn), turn)).fold((f64::INFINITY, Complex::new(1.0, 0.0)), |a, b| {
-            if b.0 < a.0 { b } else { a }
-        });
+        let mut best = turns
+            .map(|turn| (sum(turn), turn))
+            .fold((f64::INFINITY, Complex::new(1.0, 0.0)), |a, b| if b.0 < a.0 { b } else { a });
         best.0 = f64::INFINITY;
         let mut turn = best.1;
         for _ in 0..STEPS {
@@ -220,7 +220,8 @@ impl<'a> Guided<'a> {
         /// Of the input: the square of an error that is not zero has half as many digits.
         const ACCURACY: f64 = 1e-10;
         let squares = stations.iter().map(|station| self.square(&station.state, aim, turn));
-        let (k, _) = squares.enumerate().fold((0, f64::INFINITY), |best, next| if next.1 < best.1 { next } else { best });
+        let (k, _) =
+            squares.enumerate().fold((0, f64::INFINITY), |best, next| if next.1 < best.1 { next } else { best });
         let Station { number, circuit, sample, .. } = stations[k];
         let inputs = &circuit.inputs;
         let neighbours = [sample.saturating_sub(1), (sample + 1).min(circuit.len() - 1)];

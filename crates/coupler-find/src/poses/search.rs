@@ -35,7 +35,7 @@ impl Scored {
 
 /// Finds linkages that guide a body through 2 to 5 poses exactly.
 pub fn exact_guides(set: &PoseSet, options: &PoseOptions, workers: &impl Workers) -> PoseFindings {
-    let space = DyadSpace::new(set, options.pivots);
+    let space = DyadSpace::new(set, options.pivots, &options.given_pivots);
     let search = Search { set, options, space, wish: wish(options) };
     search.run(workers)
 }
@@ -63,11 +63,12 @@ impl Search<'_> {
         }
         let mut pairs_left_out = if is_finite { self.pairs_left_out(&posed) } else { Vec::new() };
         let answers = self.solved(&scored, (&mut left_out, &mut pairs_left_out), workers);
-        let cranks = posed.iter().filter(|(_, dyad)| is_crank(dyad)).count();
+        let cranks = (0..posed.len()).filter(|k| is_crank(&posed[*k].1));
+        let pairs = cranks.map(|k| self.followers(&posed, k).count()).sum();
         PoseFindings {
             freedom: self.space.freedom(),
             dyads: posed.iter().map(|(_, dyad)| placed_dyad(self.set, &dyad.dyad)).collect(),
-            pairs: cranks * posed.len().saturating_sub(1),
+            pairs,
             left_out,
             pairs_left_out,
             answers,
@@ -88,6 +89,16 @@ impl Search<'_> {
         found
     }
 
+    /// The dyads with which a crank is tried.
+    fn followers<'p>(
+        &self,
+        posed: &'p [(DyadPlace, PosedDyad)],
+        crank: usize,
+    ) -> impl Iterator<Item = &'p (DyadPlace, PosedDyad)> {
+        let others = posed.iter().enumerate().filter(move |(m, _)| *m != crank).map(|(_, other)| other);
+        others.filter(move |(place, _)| self.space.has_given([&posed[crank].0, place]))
+    }
+
     /// The number of samples of infinitely many dyads.
     fn sample_count(&self) -> usize {
         const NORMAL: usize = 2000;
@@ -100,8 +111,9 @@ impl Search<'_> {
 
     fn posed(&self, place: &DyadPlace) -> Option<PosedDyad> {
         let posed = PosedDyad::new(self.space.dyad(place)?, self.set.placed());
-        let is_finite = self.space.freedom() == Freedom::Points;
-        (is_finite || posed.reach <= self.wish.max_link).then_some(posed)
+        // Of infinitely many those with longer links are none; of others it is said that they are left out.
+        let is_one_of_few = self.space.freedom() == Freedom::Points || self.space.is_of_given(place);
+        (is_one_of_few || posed.reach <= self.wish.max_link).then_some(posed)
     }
 
     /// Whether a pair passes the poses as asked for, as far as it is known before it is solved.
@@ -128,7 +140,7 @@ impl Search<'_> {
         let of_crank = |k: usize| {
             let mut found = Vec::new();
             let mut left_out = BTreeMap::new();
-            for (_, (place, follower)) in posed.iter().enumerate().filter(|(m, _)| *m != k) {
+            for (place, follower) in self.followers(posed, k) {
                 match self.passing(&posed[k].1, follower) {
                     Ok(passing) => {
                         found.push(Scored { places: [posed[k].0, *place], passing });
@@ -321,6 +333,42 @@ mod tests {
             effort: Effort::Quick,
             most: 12,
             ..PoseOptions::default()
+        }
+    }
+
+    #[test]
+    fn given_pivots_are_those_of_all_linkages() {
+        for (count, freedom) in [(2, Freedom::Space), (3, Freedom::Plane)] {
+            let mut found_any = [0, 0];
+            for seed in 1..=6 {
+                let (set, dyads) = random_poses(count, seed);
+                let own = dyads.map(|[pivot, _]| set.place(pivot));
+                for given in [&own[..1], &own[..]] {
+                    let options = PoseOptions { given_pivots: given.to_vec(), ..any() };
+                    let found = exact_guides(&set, &options, &OneAtATime);
+                    assert_eq!(found.freedom, freedom);
+                    let left_out: usize = found.left_out.values().sum();
+                    assert!(left_out <= found.pairs);
+                    for answer in &found.answers {
+                        let pivots = answer.guide.pivots();
+                        let has = |given: &Point| pivots.iter().any(|own| (own - given).norm() <= 1e-14 * set.size());
+                        assert!(given.iter().all(has), "{seed}: {pivots:?} and {given:?}");
+                        let error = answer.greatest_error();
+                        assert!(error.distance < 1e-8 * set.size() && error.angle_deg < 1e-6, "{seed}: {error:?}");
+                    }
+                    found_any[given.len() - 1] += found.answers.len();
+                }
+                // Both pivots of three poses leave one linkage, with either of them as that of the crank.
+                if count == 3 {
+                    let options = PoseOptions { given_pivots: own.to_vec(), ..any() };
+                    let found = exact_guides(&set, &options, &OneAtATime);
+                    assert_eq!((found.dyads.len(), found.pairs), (2, 2));
+                    for (dyad, [_, pin]) in found.dyads.iter().zip(dyads) {
+                        assert!((dyad.pin - set.place(pin)).norm() < 1e-7 * set.size(), "{seed}: {dyad:?}");
+                    }
+                }
+            }
+            assert!(found_any.iter().all(|count| *count > 3), "{found_any:?}");
         }
     }
 

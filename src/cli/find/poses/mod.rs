@@ -37,6 +37,7 @@ pub(super) fn run(arguments: &Arguments, is_drawing_printed: bool) -> Result<Out
     if !taken.is_empty() {
         print_stderr(&format!("note: {name}: {taken}\n"));
     }
+    request::check_given_pivots(&name, &poses, &options)?;
     let found = find::find_poses(&poses, &options, &AtomicBool::new(false)).map_err(Failure::input)?;
     let report = PoseReport { name, reading: taken, poses, found };
     show(&report, arguments, is_drawing_printed)

@@ -1,0 +1,141 @@
+//! Reads how the pages of a family are laid out, and the keys that only some layouts have.
+
+use crate::bounded_number::read_within;
+use crate::chart;
+use crate::schema::{DEFAULT_LAYOUT, MAX_POSES, PANEL_SCALES};
+use coupler_curves::expression::Dimension;
+use coupler_curves::linkage_format::{Fields, TomlParser, TomlValue};
+use coupler_curves::problem::Problem;
+use coupler_drawing::page::{Layout, Options, PanelScale};
+
+/// Reports a key that pages of a family's layout do not have.
+fn check_has_layout<'t>(
+    key: &str,
+    value: &TomlValue<'t>,
+    (layout, applies): (Option<Layout>, impl Fn(Layout) -> bool),
+    parser: &mut TomlParser<'t>,
+) -> Option<()> {
+    let Some(layout) = layout.filter(|layout| !applies(*layout)) else { return Some(()) };
+    let name = if layout == Layout::CouplerGrid { "a coupler grid" } else { "charts" };
+    let problem = Problem::error(value.span(), format!("a page of {name} has no `{key}`"));
+    parser.report(problem.with_help(format!("leave `{key}` out, or write layout = \"panels\"")));
+    None
+}
+
+/// Reads whether pages of panels show the linkages at their limits.
+pub(crate) fn ghosts<'t>(fields: &Fields<'_, 't>, layout: Option<Layout>, parser: &mut TomlParser<'t>) -> Option<bool> {
+    let Some(value) = fields.get("ghosts") else { return Some(false) };
+    check_has_layout("ghosts", value, (layout, has_panels), parser)?;
+    parser.boolean(value)
+}
+
+/// Whether pages of a layout have panels, if only one.
+fn has_panels(layout: Layout) -> bool {
+    matches!(layout, Layout::Panels { .. } | Layout::Poses)
+}
+
+/// Reads the poses of a body: each x, y and the angle in degrees; none if there are none.
+pub(crate) fn poses<'t>(
+    fields: &Fields<'_, 't>,
+    layout: Option<Layout>,
+    parser: &mut TomlParser<'t>,
+) -> Option<Vec<[f64; 3]>> {
+    const EXAMPLE: &str = "poses = [[0, 0, 0], [40, 10, 30]]: each x, y and the angle in degrees";
+    let Some(value) = fields.get("poses") else {
+        return match (layout, fields.get("layout")) {
+            (Some(Layout::Poses), Some(value)) => {
+                let problem = Problem::error(value.span(), "the layout is `poses`, but there are no `poses`");
+                parser.report(problem.with_help(format!("give them: {EXAMPLE}")));
+                None
+            }
+            _ => Some(Vec::new()),
+        };
+    };
+    check_has_layout("poses", value, (layout, has_panels), parser)?;
+    let items = parser.list(value)?;
+    if items.is_empty() || items.len() > MAX_POSES {
+        let message = format!("`poses` has {} poses: give 1 to {MAX_POSES}", items.len());
+        parser.report(Problem::error(value.span(), message).with_help(format!("write {EXAMPLE}")));
+        return None;
+    }
+    // All of them are read, so that all problems are reported.
+    let read: Vec<Option<[f64; 3]>> = items.iter().map(|item| pose(item, parser)).collect();
+    read.into_iter().collect()
+}
+
+/// Reads x, y and an angle in degrees.
+fn pose<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<[f64; 3]> {
+    let list = parser.list(value)?;
+    let numbers: Vec<Option<f64>> = list.iter().map(|item| parser.constant(item)).collect();
+    if let Ok(numbers) = <[Option<f64>; 3]>::try_from(numbers) {
+        let [x, y, angle_deg] = numbers;
+        return Some([x?, y?, angle_deg?]);
+    }
+    let problem = Problem::error(value.span(), format!("expected x, y and an angle, found {} values", list.len()));
+    parser.report(problem.with_help("write them like [40, 10, 30], with the angle in degrees"));
+    None
+}
+
+/// Reads the scale of the linkages on pages of panels and of coupler grids.
+pub(crate) fn panel_scale<'t>(
+    fields: &Fields<'_, 't>,
+    layout: Option<Layout>,
+    parser: &mut TomlParser<'t>,
+) -> Option<PanelScale> {
+    /// The least and the greatest length of a unit on paper, in millimetres: a curve of a thousandth of a unit is seen at
+    /// the greatest, a linkage of a million units fits the largest paper at the least.
+    const RANGE: [f64; 2] = [0.001, 100_000.0];
+    let Some(value) = fields.get("scale") else { return Some(PanelScale::default()) };
+    check_has_layout("scale", value, (layout, |layout| !matches!(layout, Layout::Chart { .. })), parser)?;
+    let text = value.get_ref().as_str();
+    if let Some((_, scale)) = PANEL_SCALES.iter().find(|(name, _)| Some(*name) == text) {
+        return Some(*scale);
+    }
+    if text.is_some_and(|text| text.chars().all(char::is_alphabetic)) {
+        return parser.word(value, &PANEL_SCALES);
+    }
+    let read =
+        |value: &TomlValue<'t>, parser: &mut TomlParser<'t>| parser.constant_quantity(value, Dimension::PaperLength);
+    read_within(value, parser, read, RANGE, "mm").map(PanelScale::Fixed)
+}
+
+/// Reads the layout. Where `panels` is absent, the grid is chosen for the number of charts or cells.
+pub(crate) fn read<'t>(
+    fields: &Fields<'_, 't>,
+    page: Option<&Options>,
+    [charts, cells]: [usize; 2],
+    parser: &mut TomlParser<'t>,
+) -> Option<Layout> {
+    let words = Layout::ALL.map(|(name, _)| (name, name));
+    let name = match fields.get("layout") {
+        Some(value) => parser.word(value, &words)?,
+        None => DEFAULT_LAYOUT,
+    };
+    let is_chart = name == "chart";
+    chart::check_layout(fields, is_chart, parser);
+    // A page that could not be parsed sets no limit.
+    let most = if is_chart { Layout::max_charts } else { Layout::max_panels };
+    let [most_columns, most_rows] = page.map_or([100, 100], most);
+    let of_one_cell = match name {
+        "coupler-grid" => Some((Layout::CouplerGrid, "a page of a coupler grid")),
+        "poses" => Some((Layout::Poses, "a page of poses")),
+        _ => None,
+    };
+    if let Some((layout, what)) = of_one_cell {
+        if let Some(value) = fields.get("panels") {
+            let problem = Problem::error(value.span(), format!("{what} has one cell and no panels"));
+            parser.report(problem.with_help("leave `panels` out, or write layout = \"panels\""));
+        }
+        return Some(layout);
+    }
+    let Some(value) = fields.get("panels") else {
+        return match page {
+            Some(page) if is_chart => Some(Layout::for_charts(page, charts)),
+            page => page.map(|page| Layout::for_panels(page, cells)),
+        };
+    };
+    let [columns, rows] = parser.pair(value, "[1, 2]")?;
+    let (columns, rows) = (parser.integer(columns, 1, most_columns), parser.integer(rows, 1, most_rows));
+    let (columns, rows) = (columns?, rows?);
+    Some(if is_chart { Layout::Chart { columns, rows } } else { Layout::Panels { columns, rows } })
+}
