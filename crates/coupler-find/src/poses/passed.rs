@@ -4,7 +4,7 @@ use super::answer::PoseDeviation;
 use super::body::BodyPose;
 use crate::complex::{Complex, dot, length, mean, times_i, unit};
 use coupler_curves::geometry::{Point, trig};
-use coupler_curves::linkage::{Input, JointId, JointKind};
+use coupler_curves::linkage::{Input, JointId, Linkage};
 use coupler_curves::motion::{Circuit, JointPositions, Pass, poses as positions_at};
 use coupler_curves::numerical::maximum_with_ends;
 use coupler_curves::solve::SolvedCell;
@@ -26,8 +26,7 @@ pub struct PassedPose {
 /// has no curve.
 ///
 /// The body is fixed to the link of the traced joint, turned so that the sum of the squares of the errors is least, with angles in radians times
-/// the root mean square distance of the places from their middle. A joint that is no point of a link, such as a pin that two links share, has no
-/// angle: its angles are those of the poses.
+/// the root mean square distance of the places from their middle. A pin of two links has no angle: its angles are those of the poses.
 pub fn passed_poses(poses: &[BodyPose], solved: &SolvedCell) -> Vec<PassedPose> {
     let Some(guided) = Guided::new(poses, solved) else { return Vec::new() };
     let stations = guided.stations();
@@ -88,15 +87,22 @@ struct Guided<'a> {
     period: Option<f64>,
 }
 
+/// Another joint of the link of a joint, the farthest; `None` if it is on several links or alone.
+fn other_joint(linkage: &Linkage, joint: JointId) -> Option<JointId> {
+    let mut links = linkage.links.iter().filter_map(|link| Some((link, link.position(joint)?)));
+    let (link, own) = links.next()?;
+    if links.next().is_some() {
+        return None;
+    }
+    let distances = link.joints.iter().map(|(other, place)| (*other, (place - own).norm_squared()));
+    let (other, _) = distances.filter(|(_, distance)| *distance > 0.0).max_by(|a, b| a.1.total_cmp(&b.1))?;
+    Some(other)
+}
+
 impl<'a> Guided<'a> {
     fn new(poses: &[BodyPose], solved: &'a SolvedCell) -> Option<Guided<'a>> {
         let first = solved.curves.first()?;
-        let base = match solved.linkage.joints[first.joint].kind {
-            JointKind::Rigid { base, .. } => Some(base),
-            JointKind::Aligned { line: [_, through], from, .. } => Some([from, through]),
-            JointKind::Crank { pivot, .. } | JointKind::Gear { pivot, .. } => Some([pivot, first.joint]),
-            _ => None,
-        };
+        let base = other_joint(&solved.linkage, first.joint).map(|other| [other, first.joint]);
         let points: Vec<Complex> = poses.iter().map(|pose| Complex::new(pose.point.x, pose.point.y)).collect();
         let spread = |points: &[Complex]| {
             let middle = mean(points);
@@ -282,6 +288,9 @@ mod tests {
     use super::*;
     use crate::scatter::Scatter;
     use crate::workers::OneAtATime;
+    use coupler_curves::family::{Family, Sampling};
+    use coupler_curves::measure::MeasureSet;
+    use coupler_curves::solve::Solver;
 
     fn guides(seed: u64, count: usize) -> (Vec<BodyPose>, Vec<SolvedCell>) {
         let (set, _) = random_poses(count, seed);
@@ -308,6 +317,34 @@ mod tests {
             }
         }
         assert!(count >= 12, "{count}");
+    }
+
+    #[test]
+    fn a_link_that_slides_through_a_pin_passes_its_poses() {
+        // The line through the crank pin and the pivot at (2, 0): its direction is that of the pin from the pivot.
+        let template = coupler_curves::catalogue::find("inverted-slider-crank").unwrap();
+        let values = [("g", 2.0), ("r", 1.0), ("e", 0.0), ("along", 1.5), ("across", 0.5)];
+        let values = values.map(|(name, value)| (name.to_owned(), value));
+        let family = Family::single_cell(template, &values, Sampling::Samples(90)).unwrap();
+        let solved = Solver::new(&family).measuring(MeasureSet::EMPTY).solve(0).unwrap();
+        let pose = |input: f64| {
+            let (cos, sin) = trig::cos_sin_deg(input);
+            let along = Complex::new(cos - 2.0, sin);
+            let unit = along / length(along);
+            let at = Complex::new(2.0, 0.0) + unit * Complex::new(1.5, 0.5);
+            BodyPose { point: Point::new(at.re, at.im), angle_deg: 30.0 + trig::degrees(trig::atan2(unit.im, unit.re)) }
+        };
+        let poses = [10.3, 77.7, 130.1, 255.5, 359.2].map(pose);
+        for (pose, passed) in poses.iter().zip(passed_poses(&poses, &solved)) {
+            let PoseDeviation { distance, angle_deg } = passed.deviation;
+            assert!(distance < 1e-7 && angle_deg.abs() < 1e-5, "{pose:?}: {passed:?}");
+        }
+        // A pin of two links has places only.
+        let four_bar = coupler_curves::catalogue::find("four-bar").unwrap();
+        let linkage = four_bar.linkage(&[4.0, 1.5, 3.0, 3.5, 1.0, 1.0]).unwrap();
+        let joint = |name: &str| linkage.find_joint(name).unwrap();
+        assert_eq!(other_joint(&linkage, joint("B")), None);
+        assert!(other_joint(&linkage, joint("M")).is_some());
     }
 
     #[test]
