@@ -17,6 +17,10 @@ pub(super) struct BodyDrawing {
     labels: Vec<(Vec<Point>, String)>,
 }
 
+/// The parts of the length of axes that are tried in turn.
+const SHORTER: [f64; 4] = [1.0, 0.8, 0.6, 0.45];
+const SHORTEST: f64 = 0.3;
+
 impl BodyDrawing {
     /// The drawing of a body in a plot, as far as it is in its frame.
     pub fn new(body: &GuidedBody, plot: &Plot, theme: &Theme) -> BodyDrawing {
@@ -37,12 +41,18 @@ impl BodyDrawing {
             }
             drawings.push(Drawing { class: "places", title: places.label.clone(), items });
         }
-        let length = axis_length(&body.poses, plot.page_from_plane.scale(), theme);
         let (count, step) = (body.poses.len(), body.step());
         let shown = (1..).zip(&body.poses).filter(|(number, _)| (number - 1) % step == 0 || *number == count);
-        let axes =
-            |(number, pose): (usize, &BodyFrame)| (number, Axes::new(on_page(&pose.origin), pose.angle_deg, length));
-        let axes: Vec<(usize, Axes)> = shown.map(axes).collect();
+        let shown: Vec<(usize, &BodyFrame)> = shown.collect();
+        let of_length = |length: f64| -> Vec<(usize, Axes)> {
+            let axes = |pose: &BodyFrame| Axes::new(on_page(&pose.origin), pose.angle_deg, length);
+            shown.iter().map(|(number, pose)| (*number, axes(pose))).collect()
+        };
+        let longest = axis_length(&body.poses, plot.page_from_plane.scale(), theme);
+        let fits = |axes: &Vec<(usize, Axes)>| axes.iter().all(|(_, axes)| axes.is_within(&frame));
+        // Shorter ones if they would leave the frame, where texts are.
+        let mut choices = SHORTER.into_iter().map(|part| of_length(part * longest));
+        let axes = choices.find(fits).unwrap_or_else(|| of_length(SHORTEST * longest));
         let items = axes.iter().flat_map(|(_, axes)| axes.items(theme.ink, theme)).collect();
         drawings.push(Drawing { class: "pose", title: "the poses of the body".to_owned(), items });
         let numbered = axes.iter().filter(|(number, _)| is_numbered(*number, count));
@@ -105,11 +115,16 @@ pub(super) struct Axes {
 impl Axes {
     /// Axes of a length in millimetres; that of y is shorter, so that the two differ.
     pub fn new(origin: Point, angle_deg: f64, length: f64) -> Axes {
-        const SHORTER: f64 = 0.6;
+        const OF_Y: f64 = 0.6;
         let (cos, sin) = trig::cos_sin_deg(angle_deg.rem_euclid(360.0));
         // y points down on a page.
         let directions = [Vector::new(cos, -sin) * length, Vector::new(-sin, -cos) * length];
-        Axes { origin, x: origin + directions[0], y: origin + directions[1] * SHORTER, directions }
+        Axes { origin, x: origin + directions[0], y: origin + directions[1] * OF_Y, directions }
+    }
+
+    /// Whether both ends are in a rectangle.
+    fn is_within(&self, frame: &Rect) -> bool {
+        is_within(&self.x, frame) && is_within(&self.y, frame)
     }
 
     /// The axes as lines, that of x with an arrowhead, and the body's point as a dot.

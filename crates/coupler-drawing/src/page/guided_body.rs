@@ -1,6 +1,6 @@
 //! A body that a linkage is to guide, as pages show it.
 
-use coupler_curves::geometry::{Bounds, Point, Vector};
+use coupler_curves::geometry::{Bounds, Point, Vector, left_normal, trig};
 
 /// A body that a linkage is to guide.
 #[derive(Clone, Debug, Default)]
@@ -44,7 +44,16 @@ impl GuidedBody {
     pub(super) fn bounds(&self, of_linkage: Bounds) -> Bounds {
         /// Of the size of the drawing without them.
         const FAR: f64 = 0.6;
+        /// About the length of axes, of that size.
+        const AXES: f64 = 0.05;
         let bounds = of_linkage.union(Bounds::from_points(self.poses.iter().map(|pose| pose.origin)));
+        let length = AXES * bounds.size().max();
+        let ends = |pose: &BodyFrame| {
+            let (cos, sin) = trig::cos_sin_deg(pose.angle_deg.rem_euclid(360.0));
+            let along = Vector::new(cos, sin) * length;
+            [pose.origin + along, pose.origin + left_normal(along) * 0.6]
+        };
+        let bounds = bounds.union(Bounds::from_points(self.poses.iter().flat_map(ends)));
         let reach = Vector::repeat(FAR * bounds.size().max());
         let (low, high) = (bounds.min - reach, bounds.max + reach);
         let is_near = |p: &Point| p.x >= low.x && p.y >= low.y && p.x <= high.x && p.y <= high.y;
