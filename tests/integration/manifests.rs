@@ -389,6 +389,8 @@ fn each_mistake_in_a_linkage_has_its_message() {
         ("[[family]]", "[[family]]\nposes = []", "`poses` has 0 poses: give 1 to 1000"),
         ("[[family]]", "[[family]]\nposes = [[1, 2]]", "expected x, y and an angle, found 2 values"),
         ("[[family]]", "[[family]]\nposes = [[1, 2, \"1 / 0\"]]", "its value is inf, which is not a finite number"),
+        ("[[family]]", "[[family]]\nposes = [[1, 2, 1e7]]", "10000000 deg is out of range"),
+        ("[[family]]", "[[family]]\nposes = [[-1e61, 2, 3]]", "units of length is out of range"),
         ("[[family]]", "[[family]]\nposes = [1, 2, 3]", "expected a list, found a number"),
         ("[[family]]", "[[family]]\nposes = \"poses.csv\"", "expected a list, found a string"),
         (

@@ -65,10 +65,16 @@ pub(crate) fn poses<'t>(
 
 /// Reads x, y and an angle in degrees.
 fn pose<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<[f64; 3]> {
+    /// As large as linkages may be, and turns whose digits are not lost.
+    const LARGEST: f64 = 1e60;
+    const LARGEST_DEG: f64 = 1e6;
     let list = parser.list(value)?;
-    let numbers: Vec<Option<f64>> = list.iter().map(|item| parser.constant(item)).collect();
-    if let Ok(numbers) = <[Option<f64>; 3]>::try_from(numbers) {
-        let [x, y, angle_deg] = numbers;
+    if let [x, y, angle_deg] = list {
+        let mut read = |item: &TomlValue<'t>, most: f64, what: &str| {
+            read_within(item, parser, |item, parser| parser.constant(item), [-most, most], what)
+        };
+        let [x, y] = [x, y].map(|item| read(item, LARGEST, "units of length"));
+        let angle_deg = read(angle_deg, LARGEST_DEG, "deg");
         return Some([x?, y?, angle_deg?]);
     }
     let problem = Problem::error(value.span(), format!("expected x, y and an angle, found {} values", list.len()));
