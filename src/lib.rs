@@ -12,6 +12,7 @@
 //! [`coupler_drawing::page::compose_panels`], [`coupler_drawing::render::svg`], [`coupler_drawing::render::png`],
 //! [`output::write_atlas`], [`check::check_atlas`].
 
+mod notation;
 mod threads;
 
 pub mod sweep;

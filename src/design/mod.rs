@@ -12,9 +12,13 @@
 //! its size at the tolerance. If a motor drives, size and transmission angle are those of a whole turn; if a rocker
 //! drives, those of the straight stroke, since the linkage need not move further.
 
+mod drawing;
 mod extent;
 mod kind;
+mod plate;
+mod record;
 mod relaxation;
+mod request;
 mod requirements;
 mod result;
 mod rounding;
@@ -26,7 +30,11 @@ mod synthesis;
 mod trial;
 mod wishes;
 
+pub use drawing::{dimensions, draw_designs};
 pub use kind::{DrivenLinkage, Driver, LinkageKind, P_RANGE};
+pub use plate::{ShownDesign, designs_plate};
+pub use record::DesignRecord;
+pub use request::DesignRequest;
 pub use requirements::{Requirement, Requirements, TOLERANCE_RANGE};
 pub use result::{RejectedLinkage, Relaxation, SynthesisResult};
 pub use scaled_design::{Design, ProportionOrigin};

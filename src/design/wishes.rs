@@ -51,6 +51,9 @@ impl Designs {
     /// A manifest that renders the linkages. `own_linkage` is the text of the linkage, if it is none of the catalogue.
     pub fn manifest(&self, linkage: &str, own_linkage: Option<&str>) -> String {
         let mut out = manifest_head(&format!("design {linkage}"), &format!("Designs of {linkage}"));
+        if self.answers.is_empty() {
+            return out + "\n# No linkage meets the wishes.\n";
+        }
         out.extend(own_linkage.map(|text| format!("\n{text}")));
         let set = |(rank, answer): (usize, &'_ DesignAnswer)| (rank, answer.family.clone(), answer.values.clone());
         let mut ranked: Vec<_> = (1..).zip(&self.answers).map(set).collect();

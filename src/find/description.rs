@@ -3,7 +3,9 @@
 use coupler_curves::linkage::{FourBar, PlacedFourBar};
 use coupler_curves::linkage_format::toml_number;
 use coupler_curves::template::{ParameterKind, Template};
-use coupler_find::{Deviation, Mechanism, PlacedCurve, format_length as number, format_relative as relative};
+use coupler_find::{
+    Deviation, LinkageAnswer, Mechanism, PlacedCurve, format_length as number, format_relative as relative,
+};
 
 /// How near a curve is to a target of a size: "E = 0.0052 S = 0.12, close".
 pub fn deviation(deviation: &Deviation, size: f64) -> String {
@@ -55,6 +57,11 @@ pub fn placement(curve: &PlacedCurve, size: f64) -> String {
         number(placement.shift.re, size),
         number(placement.shift.im, size)
     )
+}
+
+/// The branch at the first point of the path, as it is numbered: 1 left, 2 right.
+pub fn branch(answer: &LinkageAnswer) -> u8 {
+    if answer.branch > 0 { 1 } else { 2 }
 }
 
 /// How near a curve is, and where it is placed with all digits, for a family that is drawn in its direction.

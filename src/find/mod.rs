@@ -10,6 +10,7 @@ mod index_file;
 mod linkage;
 mod outline;
 mod poses;
+mod record;
 mod request;
 mod several;
 mod target_file;
@@ -19,11 +20,16 @@ pub use drawing::draw_four_bars;
 pub use index_file::{MAX_CURVES, load_index};
 pub use linkage::find_linkage;
 pub use outline::{Outline, ReadOptions, Reading};
-pub use poses::{FoundPoses, PoseReading, Relaxed, draw_poses, find_poses, guided_body, passing, read_poses};
-pub use request::{Notation, Request, RequestProblem, Searched, SearchedLinkage};
+pub use poses::{
+    FoundPoses, PoseFindingsRecord, PoseReading, PoseRecord, PoseRequest, Relaxed, check_given_pivots, draw_poses,
+    find_poses, guided_body, passing, read_poses,
+};
+pub use record::{AtlasAnswerRecord, LinkageAnswerRecord};
+pub use request::{Request, RequestProblem, Searched, SearchedLinkage};
 pub use several::{Several, find_among, simplest};
 pub use target_file::{FunctionRows, MAX_POINTS, parse_function, parse_outline};
 
+pub use crate::notation::Notation;
 pub use crate::threads::Interrupted;
 
 use coupler_find::Constraint;

@@ -9,30 +9,7 @@ use coupler_find::{Condition, LinkageSearch, LinkageSpace, Mechanism, Options};
 
 use super::index_file::MAX_CURVES;
 use super::several::Several;
-
-/// How users write an option.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Notation {
-    /// `--max-link 3`
-    CommandLine,
-    /// `max_link=3`
-    Python,
-}
-
-impl Notation {
-    /// An option without its value.
-    pub fn name(self, option: &str) -> String {
-        match self {
-            Notation::CommandLine => format!("--{}", option.replace('_', "-")),
-            Notation::Python => option.to_owned(),
-        }
-    }
-
-    fn with_value(self, option: &str, value: impl Display) -> String {
-        let between = if self == Notation::Python { "=" } else { " " };
-        format!("{}{between}{value}", self.name(option))
-    }
-}
+use crate::notation::Notation;
 
 /// A linkage whose dimensions are searched.
 #[derive(Clone, Debug)]

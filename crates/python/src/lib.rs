@@ -6,6 +6,7 @@
 mod argument;
 mod error;
 mod file;
+mod keywords;
 
 mod arrays;
 mod task;
@@ -13,13 +14,17 @@ mod task;
 mod linkage;
 
 mod manifest;
+mod results;
 
 mod atlas;
 
 mod arrow;
 mod check;
+mod design;
 mod find;
+mod function;
 mod pickle;
+mod poses;
 mod render;
 mod sweep;
 
@@ -49,8 +54,15 @@ fn _core(module: &Bound<PyModule>) -> PyResult<()> {
     module.add_class::<atlas::Cells>()?;
     module.add_class::<sweep::Sweep>()?;
     module.add_class::<arrow::Batch>()?;
+    module.add_class::<results::Results>()?;
     module.add_class::<find::Found>()?;
     module.add_class::<find::Answer>()?;
+    module.add_class::<poses::FoundPoses>()?;
+    module.add_class::<poses::PoseAnswer>()?;
+    module.add_class::<function::FoundFunction>()?;
+    module.add_class::<function::FunctionAnswer>()?;
+    module.add_class::<design::Designs>()?;
+    module.add_class::<design::Design>()?;
     module.add_class::<render::Rendering>()?;
     module.add_class::<check::Report>()?;
     module.add_function(wrap_pyfunction!(linkage::make_linkage, module)?)?;
@@ -58,6 +70,9 @@ fn _core(module: &Bound<PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(atlas::read, module)?)?;
     module.add_function(wrap_pyfunction!(sweep::sweep, module)?)?;
     module.add_function(wrap_pyfunction!(find::find_linkages, module)?)?;
+    module.add_function(wrap_pyfunction!(poses::find_guides, module)?)?;
+    module.add_function(wrap_pyfunction!(function::find_generators, module)?)?;
+    module.add_function(wrap_pyfunction!(design::design_linkage, module)?)?;
     module.add_function(wrap_pyfunction!(render::render, module)?)?;
     module.add_function(wrap_pyfunction!(check::check_atlas, module)?)?;
     // What pickles call.

@@ -40,6 +40,19 @@ impl Task {
         self.done.fetch_add(steps, Ordering::Relaxed);
     }
 
+    /// Begins work that reports which part of it is done, from 0 to 1; what it does again does not count.
+    pub fn report_parts(&self, name: &str) -> impl FnMut(f64) {
+        /// The steps that are shown of the whole work.
+        const STEPS: usize = 1000;
+        self.begin(name, STEPS);
+        let mut done = 0;
+        move |part: f64| {
+            let steps = (part * STEPS as f64) as usize;
+            self.advance(steps.saturating_sub(done));
+            done = done.max(steps);
+        }
+    }
+
     /// Whether the work is to end soon.
     pub fn is_interrupted(&self) -> bool {
         self.interrupt.load(Ordering::Relaxed)

@@ -1,6 +1,5 @@
 //! `design`: finds the dimensions of linkages for what is wished of them.
 
-mod plate;
 mod straight_line;
 mod wishes;
 

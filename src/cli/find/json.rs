@@ -1,9 +1,6 @@
 //! The JSON that `find --json` prints.
 
-use std::collections::BTreeMap;
-
-use coupler_curves::template::Template;
-use coupler_find::{AnswerRecord, FitRecord, PathKind, PlacedCurve, scaled_values};
+use coupler_find::{AnswerRecord, PathKind};
 use serde::Serialize;
 
 use super::super::{Failure, report};
@@ -45,67 +42,6 @@ pub(super) struct Target {
     closed: bool,
     kind: &'static str,
     size: f64,
-}
-
-/// A curve of any linkage, where it is placed on the path.
-#[derive(Serialize)]
-pub(super) struct PlacedRecord {
-    #[serde(flatten)]
-    fit: FitRecord,
-    direction: &'static str,
-    ends: [f64; 2],
-    linkage: String,
-    trace: usize,
-    joint: String,
-    circuit: usize,
-    pivots: BTreeMap<String, [f64; 2]>,
-    parameters: BTreeMap<String, f64>,
-    scaled: bool,
-    placement: PlacementRecord,
-    full_turn: bool,
-    class: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    mu_worst_deg: Option<f64>,
-    longest_link: f64,
-}
-
-#[derive(Serialize)]
-struct PlacementRecord {
-    mirrored: bool,
-    scale: f64,
-    rotation_deg: f64,
-    shift: [f64; 2],
-}
-
-impl PlacedRecord {
-    pub(super) fn new(rank: usize, template: &Template, curve: &PlacedCurve) -> PlacedRecord {
-        let fit = &curve.fit;
-        let scale = fit.placement.scale();
-        let values = scaled_values(template, &curve.values, if curve.is_scalable { scale } else { 1.0 });
-        let names = template.parameters.iter().map(|parameter| parameter.name.clone());
-        PlacedRecord {
-            fit: FitRecord::new(rank, &fit.deviation),
-            direction: if fit.is_reversed { "backward" } else { "forward" },
-            ends: fit.ends,
-            linkage: template.id.clone(),
-            trace: curve.numbers[0],
-            joint: curve.joint.clone(),
-            circuit: curve.numbers[1],
-            pivots: curve.pivots.iter().map(|(name, p)| (name.clone(), [p.x, p.y])).collect(),
-            parameters: names.zip(values).collect(),
-            scaled: curve.is_scalable,
-            placement: PlacementRecord {
-                mirrored: fit.placement.is_mirrored,
-                scale,
-                rotation_deg: fit.placement.rotation_deg(),
-                shift: [fit.placement.shift.re, fit.placement.shift.im],
-            },
-            full_turn: curve.is_full_turn,
-            class: curve.class,
-            mu_worst_deg: curve.mu_worst_deg.is_finite().then_some(curve.mu_worst_deg),
-            longest_link: curve.longest_link,
-        }
-    }
 }
 
 pub(super) fn target(target: &coupler_find::Target, reading: &str) -> Target {

@@ -76,6 +76,11 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         return function::run(arguments, is_drawing_printed);
     }
     let several = linkage::several(arguments);
+    if several.is_some() && !arguments.keep.is_empty() {
+        return Err(Failure::input(
+            "--keep keeps parameters of one linkage, and --linkage names several: leave it out",
+        ));
+    }
     let linkage = if several.is_none() { linkage::named(arguments)? } else { None };
     let searched = match (&linkage, &arguments.atlas, several) {
         (_, _, Some(several)) => Searched::Several(several),

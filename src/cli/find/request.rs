@@ -12,17 +12,18 @@ use crate::find::{Notation, Request, Searched};
 /// # Errors
 /// All that is wrong with them.
 pub(super) fn check(arguments: &Arguments, searched: Searched) -> Result<(Options, Option<LinkageSpace>), Failure> {
-    check_all(arguments, searched).map_err(|messages| Failure::inputs(&messages))
+    let (request, mut messages) = read(arguments, searched);
+    match request.check() {
+        Ok(checked) if messages.is_empty() => Ok(checked),
+        checked => {
+            messages.extend(checked.err().into_iter().flatten().map(|problem| problem.message));
+            Err(Failure::inputs(&messages))
+        }
+    }
 }
 
-/// The same, with a message for each problem.
-///
-/// # Errors
-/// All that is wrong with them.
-pub(super) fn check_all(
-    arguments: &Arguments,
-    searched: Searched,
-) -> Result<(Options, Option<LinkageSpace>), Vec<String>> {
+/// What is asked, and a message for each option that cannot be read.
+pub(super) fn read(arguments: &Arguments, searched: Searched) -> (Request<'_>, Vec<String>) {
     let default = Options::default();
     let max_link = parse_length(arguments.max_link_or_default());
     let pivots = arguments.pivots.as_deref().map(parse_box).transpose();
@@ -44,13 +45,7 @@ pub(super) fn check_all(
             ..default
         },
     };
-    let (checked, problems) = match request.check() {
-        Ok(checked) => (Some(checked), Vec::new()),
-        Err(problems) => (None, problems),
-    };
-    let unread = max_link.err().into_iter().chain(pivots.err());
-    let messages: Vec<String> = unread.chain(problems.into_iter().map(|problem| problem.message)).collect();
-    checked.filter(|_| messages.is_empty()).ok_or(messages)
+    (request, max_link.err().into_iter().chain(pivots.err()).collect())
 }
 
 /// Reads a length in sizes of the path, or how many times a link may be as long as another, or `inf`.

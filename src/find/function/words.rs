@@ -2,8 +2,11 @@
 
 use coupler_curves::text::pluralize;
 use coupler_find::{
-    Defect, FunctionAnswer, FunctionFindings, FunctionMethod, GeneratorKind, LeftOut, format_length, format_relative,
+    Defect, FunctionAnswer, FunctionFindings, FunctionMethod, FunctionTarget, GeneratorKind, LeftOut, LinkageSpace,
+    format_length, format_relative,
 };
+
+use crate::notation::Notation;
 
 /// An output with its unit: degrees, or a length.
 pub fn linkage_output_in_words(is_length: bool, value: f64) -> String {
@@ -53,8 +56,25 @@ pub fn method_in_words(method: FunctionMethod) -> String {
     }
 }
 
+/// What is searched, and how: "four-bars, 5 precision points".
+pub fn details_in_words(target: &FunctionTarget, kind: GeneratorKind, method: Option<FunctionMethod>) -> String {
+    let kind = match kind {
+        GeneratorKind::FourBar => "four-bars",
+        GeneratorKind::SliderCrank => "slider-cranks",
+    };
+    let rows = target.row_count().map(|rows| pluralize(rows, "row"));
+    let parts = [rows, Some(kind.to_owned()), method.map(method_in_words)];
+    parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
+}
+
+/// The same of any linkage, with the names of the parameters that are searched.
+pub fn linkage_details_in_words(space: &LinkageSpace) -> String {
+    let free: Vec<&str> = space.free_names().collect();
+    format!("{}, parameters searched: {}", space.template().id, free.join(", "))
+}
+
 /// Why so many linkages are left out.
-fn left_out_in_words(why: LeftOut, count: usize) -> String {
+fn left_out_in_words(why: LeftOut, count: usize, notation: Notation) -> String {
     let verb = |one: &str, many: &str| if count == 1 { one.to_owned() } else { many.to_owned() };
     let what = match why {
         LeftOut::Defect(Defect::Branch([a, b])) => {
@@ -71,20 +91,22 @@ fn left_out_in_words(why: LeftOut, count: usize) -> String {
         }
         LeftOut::Imaginary => format!("{} a link of imaginary length", verb("has", "have")),
         LeftOut::Infinite => format!("{} links of infinite length", verb("has", "have")),
-        LeftOut::MaxRatio => format!("{} longer links than --max-link allows", verb("has", "have")),
+        LeftOut::MaxRatio => {
+            format!("{} longer links than {} allows", verb("has", "have"), notation.name("max_link"))
+        }
         LeftOut::FullTurn => format!("{} a crank that does not turn fully", verb("has", "have")),
-        LeftOut::Condition => format!("{} not meet --where", verb("does", "do")),
+        LeftOut::Condition => format!("{} not meet {}", verb("does", "do"), notation.name("where")),
     };
     format!("{count} {what}")
 }
 
 /// What is left out, in a line: "of 3 solutions, 2 are left out: 1 changes branch between points 2 and 3, …"; empty if there is nothing to say.
-pub fn findings_in_words(findings: &FunctionFindings) -> String {
+pub fn findings_in_words(findings: &FunctionFindings, notation: Notation) -> String {
     if findings.is_degenerate {
         return "the points do not determine a linkage: their equations depend on each other, as where the output is the input".to_owned();
     }
     let reasons = || {
-        let all = findings.left_out.iter().map(|(why, count)| left_out_in_words(*why, *count));
+        let all = findings.left_out.iter().map(|(why, count)| left_out_in_words(*why, *count, notation));
         all.collect::<Vec<_>>().join(", ")
     };
     let left_out: usize = findings.left_out.iter().map(|(_, count)| count).sum();
@@ -99,4 +121,10 @@ pub fn findings_in_words(findings: &FunctionFindings) -> String {
         None if findings.answers.is_empty() && left_out > 0 => format!("of the nearest linkages, {}", reasons()),
         None => String::new(),
     }
+}
+
+/// Why there is no answer.
+pub fn none_in_words(findings: &FunctionFindings, notation: Notation) -> String {
+    let said = findings_in_words(findings, notation);
+    if said.is_empty() { "none can be assembled over the whole range".to_owned() } else { said }
 }

@@ -22,7 +22,7 @@ pub struct FoundPoses {
 /// Options without which there are linkages.
 #[derive(Clone, Debug)]
 pub struct Relaxed {
-    /// The options, as the command line has them: `--input any`.
+    /// The options, with words between underscores: `full_turn`, `where`, `pivots`, `max_link`, `any_order`, `any_circuit`.
     pub options: Vec<&'static str>,
     /// What is found without them.
     pub findings: PoseFindings,
@@ -59,13 +59,13 @@ pub fn find_poses(set: &PoseSet, options: &PoseOptions, interrupt: &AtomicBool) 
 fn relaxations(options: &PoseOptions) -> Vec<(Vec<&'static str>, PoseOptions)> {
     type Relax = fn(&mut PoseOptions);
     let all: [(bool, &str, Relax); 7] = [
-        (options.full_turn, "--input any", |o| o.full_turn = false),
-        (options.condition.is_some(), "another --where", |o| o.condition = None),
-        (options.pivots.is_some(), "a larger --pivots", |o| o.pivots = None),
-        (options.max_link.is_finite(), "a greater --max-link", |o| o.max_link = f64::INFINITY),
-        (!options.any_order, "--any-order", |o| o.any_order = true),
-        (!options.any_circuit, "--any-circuit", |o| o.any_circuit = true),
-        (!options.given_pivots.is_empty(), "another --pivot", |o| o.given_pivots.clear()),
+        (options.full_turn, "full_turn", |o| o.full_turn = false),
+        (options.condition.is_some(), "where", |o| o.condition = None),
+        (options.pivots.is_some(), "pivots", |o| o.pivots = None),
+        (options.max_link.is_finite(), "max_link", |o| o.max_link = f64::INFINITY),
+        (!options.any_order, "any_order", |o| o.any_order = true),
+        (!options.any_circuit, "any_circuit", |o| o.any_circuit = true),
+        (!options.given_pivots.is_empty(), "pivot", |o| o.given_pivots.clear()),
     ];
     let used: Vec<_> = all.into_iter().filter(|(is_set, ..)| *is_set).collect();
     let relaxed = |chosen: &[(bool, &'static str, Relax)]| {

@@ -1,7 +1,7 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import Any, Literal, SupportsFloat, SupportsIndex, TypeAlias, TypeVar, final, overload
+from typing import Any, Generic, Literal, SupportsFloat, SupportsIndex, TypeAlias, TypeVar, final, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -14,22 +14,32 @@ __all__ = [
     "Batch",
     "Circuit",
     "Curve",
+    "Design",
+    "Designs",
     "Error",
     "Family",
     "Found",
+    "FoundFunction",
+    "FoundPoses",
     "FourBar",
+    "FunctionAnswer",
     "Linkage",
     "LinkageError",
     "ManifestError",
     "ManifestWarning",
     "OutputError",
+    "PoseAnswer",
     "Rendering",
     "Report",
+    "Results",
     "Sextic",
     "Sweep",
     "__version__",
     "check",
+    "design",
     "find",
+    "find_function",
+    "find_poses",
     "linkage",
     "linkages",
     "read",
@@ -38,12 +48,16 @@ __all__ = [
 ]
 
 _Default = TypeVar("_Default")
+_Answer = TypeVar("_Answer", covariant=True)
 
 _Floats: TypeAlias = npt.NDArray[np.float64]
 _Sides: TypeAlias = npt.NDArray[np.int8]
 _Path: TypeAlias = str | PathLike[str]
 _Manifest: TypeAlias = Atlas | _Path
 _Number: TypeAlias = SupportsFloat | SupportsIndex
+_Effort: TypeAlias = Literal["quick", "normal", "thorough"]
+_Kept: TypeAlias = Sequence[str] | Mapping[str, float | str | None] | None
+_Expressions: TypeAlias = str | Sequence[str] | None
 _Progress: TypeAlias = bool | Callable[[int, int, str], object] | None
 
 __version__: str
@@ -276,8 +290,23 @@ class Batch:
     def __arrow_c_schema__(self) -> object: ...
     def __arrow_c_array__(self, requested_schema: object | None = None) -> tuple[object, object]: ...
 
+@disjoint_base
+class Results(Generic[_Answer]):
+    def records(self) -> list[dict[str, Any]]: ...
+    def toml(self) -> str: ...
+    def svg(self) -> str: ...
+    def save(self, path: _Path) -> None: ...
+    def _repr_svg_(self) -> str | None: ...
+    def __len__(self) -> int: ...
+    @overload
+    def __getitem__(self, index: int, /) -> _Answer: ...
+    @overload
+    def __getitem__(self, index: slice, /) -> list[_Answer]: ...
+    def __iter__(self) -> Iterator[_Answer]: ...
+    def __reversed__(self) -> Iterator[_Answer]: ...
+
 @final
-class Found:
+class Found(Results[Answer]):
     @property
     def points(self) -> _Floats: ...
     @property
@@ -290,17 +319,6 @@ class Found:
     def nearest_miss(self) -> Answer | None: ...
     @property
     def relax(self) -> list[str]: ...
-    def toml(self) -> str: ...
-    def svg(self) -> str: ...
-    def save(self, path: _Path) -> None: ...
-    def _repr_svg_(self) -> str: ...
-    def __len__(self) -> int: ...
-    @overload
-    def __getitem__(self, index: int, /) -> Answer: ...
-    @overload
-    def __getitem__(self, index: slice, /) -> list[Answer]: ...
-    def __iter__(self) -> Iterator[Answer]: ...
-    def __reversed__(self) -> Iterator[Answer]: ...
 
 @final
 class Answer:
@@ -336,8 +354,128 @@ class Answer:
     def mu_worst_deg(self) -> float | None: ...
     def curve(self) -> _Floats: ...
     def _repr_svg_(self) -> str | None: ...
-    def __eq__(self, other: object, /) -> bool: ...
-    def __hash__(self) -> int: ...
+
+@final
+class FoundPoses(Results[PoseAnswer]):
+    @property
+    def poses(self) -> _Floats: ...
+    @property
+    def size(self) -> float: ...
+    @property
+    def read(self) -> str | None: ...
+    @property
+    def dyads(self) -> list[dict[str, Any]] | None: ...
+    @property
+    def left_out(self) -> dict[str, int]: ...
+    @property
+    def nearest_miss(self) -> PoseAnswer | None: ...
+    @property
+    def relax(self) -> list[str]: ...
+
+@final
+class PoseAnswer:
+    @property
+    def linkage(self) -> Linkage: ...
+    @property
+    def crank_pins(self) -> _Floats: ...
+    @property
+    def other_pins(self) -> _Floats: ...
+    @property
+    def inputs(self) -> _Floats: ...
+    @property
+    def errors(self) -> _Floats: ...
+    @property
+    def deviation(self) -> float: ...
+    @property
+    def circuit(self) -> int: ...
+    @property
+    def one_branch(self) -> bool: ...
+    @property
+    def in_order(self) -> bool: ...
+    @property
+    def full_turn(self) -> bool: ...
+    @property
+    def class_(self) -> str | None: ...
+    @property
+    def mu_worst_poses_deg(self) -> float: ...
+    @property
+    def mu_worst_deg(self) -> float | None: ...
+    @property
+    def longest_link(self) -> float: ...
+    def _repr_svg_(self) -> str | None: ...
+
+@final
+class FoundFunction(Results[FunctionAnswer]):
+    @property
+    def method(self) -> Literal["points", "least-squares", "minimax"]: ...
+    @property
+    def precision_points(self) -> int | None: ...
+    @property
+    def solutions(self) -> int | None: ...
+    @property
+    def left_out(self) -> str: ...
+    @property
+    def output_is_length(self) -> bool: ...
+
+@final
+class FunctionAnswer:
+    @property
+    def linkage(self) -> Linkage: ...
+    @property
+    def inputs(self) -> tuple[float, float]: ...
+    @property
+    def outputs(self) -> tuple[float, float]: ...
+    @property
+    def greatest(self) -> float: ...
+    @property
+    def greatest_at(self) -> float: ...
+    @property
+    def rms(self) -> float: ...
+    @property
+    def zeros(self) -> _Floats: ...
+    @property
+    def side(self) -> Literal["left", "right", "ahead", "behind"] | None: ...
+    @property
+    def class_(self) -> str | None: ...
+    @property
+    def mu_worst_deg(self) -> float | None: ...
+    def output(self, inputs: npt.ArrayLike) -> _Floats: ...
+    def _repr_svg_(self) -> str | None: ...
+
+@final
+class Designs(Results[Design]):
+    @property
+    def searched(self) -> list[str]: ...
+    @property
+    def misses(self) -> dict[str, Design]: ...
+    @property
+    def assembled(self) -> bool: ...
+    @property
+    def unbounded(self) -> bool: ...
+
+@final
+class Design:
+    @property
+    def linkage(self) -> Linkage: ...
+    @property
+    def parameters(self) -> dict[str, float]: ...
+    @property
+    def goals(self) -> dict[str, float]: ...
+    @property
+    def wishes(self) -> dict[str, float | bool]: ...
+    @property
+    def trace(self) -> int: ...
+    @property
+    def circuit(self) -> int: ...
+    @property
+    def class_(self) -> str | None: ...
+    @property
+    def mu_worst_deg(self) -> float | None: ...
+    @property
+    def longest_link(self) -> float: ...
+    def measures(self) -> dict[str, Any]: ...
+    def curve(self) -> _Floats: ...
+    def _repr_svg_(self) -> str | None: ...
 
 @final
 class Rendering:
@@ -399,15 +537,66 @@ def find(
     top: int = 10,
     index: int | None = None,
     refine: bool = True,
-    effort: Literal["quick", "normal", "thorough"] = "normal",
+    effort: _Effort = "normal",
     atlas: _Manifest | None = None,
     fixed: bool = False,
     linkage: str | None = None,
     manifest: _Path | None = None,
-    keep: Sequence[str] | Mapping[str, float | str | None] | None = None,
+    keep: _Kept = None,
     seed: int = 1,
     progress: _Progress = None,
 ) -> Found: ...
+def find_poses(
+    poses: npt.ArrayLike | _Path,
+    *,
+    radians: bool = False,
+    outline: str | int | None = None,
+    where: str | None = None,
+    full_turn: bool = True,
+    any_order: bool = False,
+    any_circuit: bool = False,
+    max_link: float = 10.0,
+    pivots: Sequence[float] | _Floats | None = None,
+    pivot: Sequence[Sequence[float]] | _Floats | None = None,
+    top: int = 10,
+    effort: _Effort = "normal",
+    seed: int = 1,
+    progress: _Progress = None,
+) -> FoundPoses: ...
+def find_function(
+    function: npt.ArrayLike | _Path,
+    *,
+    radians: bool = False,
+    linkage: str | None = None,
+    manifest: _Path | None = None,
+    keep: _Kept = None,
+    fit: Literal["points", "least-squares", "minimax"] | None = None,
+    points: int | None = None,
+    input_start: float | None = None,
+    output_start: float | None = None,
+    full_turn: bool = False,
+    max_link: float | None = None,
+    where: str | None = None,
+    top: int = 10,
+    effort: _Effort | None = None,
+    seed: int | None = None,
+    progress: _Progress = None,
+) -> FoundFunction: ...
+def design(
+    linkage: str,
+    *,
+    where: str | None = None,
+    maximize: _Expressions = None,
+    minimize: _Expressions = None,
+    ranges: Mapping[str, str | Sequence[float]] | None = None,
+    fix: _Kept = None,
+    max_link: float | None = None,
+    manifest: _Path | None = None,
+    best: int = 5,
+    effort: _Effort = "normal",
+    seed: int = 0,
+    progress: _Progress = None,
+) -> Designs: ...
 def sweep(
     manifest: _Manifest,
     *,

@@ -1,8 +1,5 @@
 //! What a search has found.
 
-use std::path::PathBuf;
-use std::sync::Arc;
-
 use coupler_atlas::find::AtlasAnswer;
 use coupler_atlas::manifest::Plan;
 use coupler_curves::family::Family;
@@ -13,25 +10,47 @@ use coupler_curves::solve::{SolvedCell, Solver};
 use coupler_find::{Constraint, Deviation, LinkageAnswer, PlacedCurve, Target};
 use numpy::PyArray2;
 use pyo3::prelude::*;
-use pyo3::types::PyIterator;
 
-use crate::argument::Index;
 use crate::arrays;
-use crate::file::save_svg;
 use crate::linkage::{FourBar, Linkage, Recipe, into_object};
+use crate::results::{Results, Shown};
 
 /// The linkages found for a path: a sequence of answers, the nearest first.
-#[pyclass(frozen, module = "coupler_atlas")]
+#[pyclass(frozen, extends = Results, module = "coupler_atlas")]
 pub struct Found {
-    pub(super) target: Target,
-    pub(super) answers: Vec<Arc<Entry>>,
-    pub(super) nearest_miss: Option<(Vec<Constraint>, Arc<Entry>)>,
-    /// A manifest that renders the answers.
-    pub(super) manifest: String,
-    /// A page with the path and the best curves, as SVG.
-    pub(super) drawing: String,
+    target: Target,
+    nearest_miss: Option<(Vec<Constraint>, Py<Answer>)>,
     /// What of a file was taken.
-    pub(super) read: Option<String>,
+    read: Option<String>,
+}
+
+/// A path that is searched for.
+#[derive(Clone)]
+pub(super) struct Sought {
+    pub name: String,
+    pub target: Target,
+    /// What of a file was taken, if it is of one.
+    pub read: Option<String>,
+}
+
+impl Found {
+    /// What has been found for a path.
+    pub(super) fn make(
+        py: Python,
+        Sought { target, read, .. }: Sought,
+        answers: impl IntoIterator<Item = Entry>,
+        nearest_miss: Option<(Vec<Constraint>, Entry)>,
+        shown: Shown,
+    ) -> PyResult<Py<Found>> {
+        let answer = |entry| Py::new(py, Answer(entry));
+        let answers: Vec<Py<Answer>> = answers.into_iter().map(answer).collect::<PyResult<_>>()?;
+        let nearest_miss = match nearest_miss {
+            Some((constraints, entry)) => Some((constraints, answer(entry)?)),
+            None => None,
+        };
+        let results = Results::new(py, &answers, shown)?;
+        Py::new(py, PyClassInitializer::from(results).add_subclass(Found { target, nearest_miss, read }))
+    }
 }
 
 #[pymethods]
@@ -63,8 +82,8 @@ impl Found {
 
     /// Where no linkage meets the constraints, the nearest one without those in `relax`; otherwise None.
     #[getter]
-    fn nearest_miss(&self) -> Option<Answer> {
-        self.nearest_miss.as_ref().map(|(_, entry)| Answer(entry.clone()))
+    fn nearest_miss(&self, py: Python) -> Option<Py<Answer>> {
+        self.nearest_miss.as_ref().map(|(_, answer)| answer.clone_ref(py))
     }
 
     /// The arguments to relax where no linkage was found; otherwise empty.
@@ -80,52 +99,13 @@ impl Found {
         self.nearest_miss.iter().flat_map(|(constraints, _)| constraints.iter().map(argument)).collect()
     }
 
-    /// A manifest that renders the linkages, as TOML.
-    fn toml(&self) -> &str {
-        &self.manifest
-    }
-
-    /// A page with the path, the best curves and the linkage of the best, as SVG.
-    fn svg(&self) -> &str {
-        &self.drawing
-    }
-
-    /// Write that page to a file, as SVG.
-    fn save(&self, path: PathBuf) -> PyResult<()> {
-        save_svg(&path, &self.drawing)
-    }
-
-    /// The page that a notebook shows.
-    fn _repr_svg_(&self) -> &str {
-        &self.drawing
-    }
-
-    fn __len__(&self) -> usize {
-        self.answers.len()
-    }
-
-    fn __getitem__<'py>(&self, py: Python<'py>, index: Index<'py>) -> PyResult<Bound<'py, PyAny>> {
-        index.of(py, self.answers.len(), "answer", |index| Ok(Answer(self.answers[index].clone())))
-    }
-
-    fn __iter__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyIterator>> {
-        let answers: Vec<Answer> = self.answers.iter().map(|entry| Answer(entry.clone())).collect();
-        answers.into_pyobject(py)?.try_iter()
-    }
-
-    fn __reversed__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyIterator>> {
-        let answers: Vec<Answer> = self.answers.iter().rev().map(|entry| Answer(entry.clone())).collect();
-        answers.into_pyobject(py)?.try_iter()
-    }
-
-    fn __repr__(&self) -> String {
-        match (self.answers.first(), &self.relax()[..]) {
+    fn __repr__(this: &Bound<Found>) -> String {
+        let (py, results) = (this.py(), this.as_super().get());
+        match (results.first::<Answer>(py), &this.get().relax()[..]) {
             (Some(best), _) => {
-                let count = self.answers.len();
-                format!(
-                    "<coupler_atlas.Found: linkages: {count}, the nearest within {:.3e} S>",
-                    best.deviation().rms_relative
-                )
+                let count = results.count(py);
+                let deviation = best.get().0.deviation().rms_relative;
+                format!("<coupler_atlas.Found: linkages: {count}, the nearest within {deviation:.3e} S>")
             }
             (None, []) => "<coupler_atlas.Found: no linkage is like the path>".to_owned(),
             (None, relax) => format!("<coupler_atlas.Found: no linkage; relax {}>", relax.join(", ")),
@@ -214,7 +194,7 @@ impl Entry {
 
 /// A linkage whose curve is near a path.
 #[pyclass(frozen, module = "coupler_atlas")]
-pub struct Answer(Arc<Entry>);
+pub struct Answer(Entry);
 
 #[pymethods]
 impl Answer {
@@ -364,15 +344,6 @@ impl Answer {
 
     fn _repr_svg_<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.linkage(py)?.call_method0("_repr_svg_")
-    }
-
-    /// Whether the other is the same answer of the same search.
-    fn __eq__(&self, other: &Bound<PyAny>) -> bool {
-        other.cast::<Answer>().is_ok_and(|other| Arc::ptr_eq(&self.0, &other.get().0))
-    }
-
-    fn __hash__(&self) -> usize {
-        Arc::as_ptr(&self.0).addr()
     }
 
     fn __repr__(&self, py: Python) -> PyResult<String> {

@@ -2,18 +2,16 @@
 
 use std::path::PathBuf;
 
-use coupler_atlas::find::{Notation, Request, Searched, SearchedLinkage};
-use coupler_atlas::manifest;
-use coupler_find::{Effort, Options};
+use coupler_atlas::find::{Notation, Request, Searched, Several};
+use coupler_find::Options;
 use numpy::{AllowTypeChange, PyArrayLike1};
-use pyo3::conversion::FromPyObjectOwned;
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::argument::natural;
 use crate::atlas::ManifestArgument;
-use crate::linkage::named_template;
+use crate::keywords::{Kept, Unread};
+use crate::linkage::NamedLinkage;
 
 /// The keywords of `find`, as they are given or with their defaults.
 pub(super) struct Keywords<'py> {
@@ -29,97 +27,45 @@ pub(super) struct Keywords<'py> {
     pub progress: Option<Bound<'py, PyAny>>,
     linkage: Option<String>,
     manifest: Option<PathBuf>,
-    keep: Option<Bound<'py, PyAny>>,
+    keep: Vec<Kept>,
     pivots: Option<[f64; 4]>,
     options: Options,
-}
-
-/// The linkage that the keywords name, with its text if it is of a manifest.
-pub(super) struct NamedLinkage {
-    searched: SearchedLinkage,
-    pub own_text: Option<String>,
-}
-
-/// What `outline` names.
-#[derive(FromPyObject)]
-enum OutlineName {
-    /// A number, from 1.
-    Number(i64),
-    /// An id.
-    Id(String),
-}
-
-/// Keywords that have not been read.
-struct Unread<'py>(Bound<'py, PyDict>);
-
-impl<'py> Unread<'py> {
-    /// The value of a keyword, if it is given.
-    fn take<T: FromPyObjectOwned<'py>>(&self, name: &str) -> PyResult<Option<T>> {
-        let Some(value) = self.0.get_item(name)? else { return Ok(None) };
-        self.0.del_item(name)?;
-        value.extract::<T>().map(Some).map_err(|error| {
-            let (py, error): (_, PyErr) = (value.py(), error.into());
-            match error.is_instance_of::<PyTypeError>(py) {
-                true => PyTypeError::new_err(format!("{name}: {}", error.value(py))),
-                false => error,
-            }
-        })
-    }
-
-    /// The value of a keyword that may be None.
-    fn take_optional<T>(&self, name: &str) -> PyResult<Option<T>>
-    where
-        Option<T>: FromPyObjectOwned<'py>,
-    {
-        Ok(self.take::<Option<T>>(name)?.flatten())
-    }
 }
 
 impl<'py> Keywords<'py> {
     /// # Errors
     /// A keyword is unknown, or has a value of another type.
     pub fn from_dict(py: Python<'py>, keywords: Option<&Bound<'py, PyDict>>) -> PyResult<Keywords<'py>> {
-        let keywords = Unread(keywords.map_or_else(|| Ok(PyDict::new(py)), |keywords| keywords.copy())?);
+        let keywords = Unread::new(py, "find", keywords)?;
         let default = Options::default();
-        let whole = |name: &str, value: Option<i64>| value.map(|value| natural(name, value)).transpose();
-        let effort: Option<String> = keywords.take("effort")?;
         let options = Options {
             full_turn: keywords.take("full_turn")?.unwrap_or(default.full_turn),
             max_link: keywords.take("max_link")?.unwrap_or(default.max_link),
-            most: whole("top", keywords.take("top")?)?.unwrap_or(default.most),
+            most: keywords.take_whole("top")?.unwrap_or(default.most),
             refine: keywords.take("refine")?.unwrap_or(default.refine),
-            seed: whole("seed", keywords.take("seed")?)?.map_or(default.seed, |seed| seed as u64),
-            effort: effort.map_or(Ok(default.effort), |name| effort_of(&name))?,
+            seed: keywords.take_whole("seed")?.map_or(default.seed, |seed| seed as u64),
+            effort: keywords.take_effort()?.unwrap_or(default.effort),
             ..default
         };
-        let outline = keywords.take_optional("outline")?.map(|name| match name {
-            OutlineName::Number(number) => number.to_string(),
-            OutlineName::Id(id) => id,
-        });
         let read = Keywords {
-            outline,
+            outline: keywords.take_outline()?,
             closed: keywords.take_optional("closed")?,
             part: keywords.take("part")?.unwrap_or_default(),
             angles: keywords.take_optional("angles")?,
             timed: keywords.take("timed")?.unwrap_or_default(),
             condition: keywords.take_optional("where")?,
-            index: whole("index", keywords.take_optional("index")?)?,
+            index: keywords.take_optional_whole("index")?,
             atlas: keywords.take_optional("atlas")?,
             fixed: keywords.take("fixed")?.unwrap_or_default(),
             progress: keywords.take_optional("progress")?,
             linkage: keywords.take_optional("linkage")?,
             manifest: keywords.take_optional("manifest")?,
-            keep: keywords.take_optional("keep")?,
+            keep: keywords.take_kept("keep")?,
             pivots: keywords.take_optional("pivots")?,
             options,
         };
-        match keywords.0.keys().iter().next() {
-            Some(name) => {
-                let message = format!("find() got an unexpected keyword argument '{name}'");
-                Err(PyTypeError::new_err(message))
-            }
-            None => Ok(read),
-        }
+        keywords.finish()?;
+        Ok(read)
     }
 
     /// The linkage that they name, if they name one.
@@ -130,17 +76,21 @@ impl<'py> Keywords<'py> {
         let wrong = |message: &str| Err(PyValueError::new_err(message.to_owned()));
         match &self.linkage {
             Some(_) if self.atlas.is_some() => wrong("atlas and linkage are two ways to search: give one of them"),
-            None if self.manifest.is_some() || self.keep.is_some() => {
+            None if self.manifest.is_some() || !self.keep.is_empty() => {
                 wrong("manifest and keep are about a linkage: give linkage=…")
             }
             None => Ok(None),
-            Some(name) => {
-                let (template, text) = named_template(py, name, self.manifest.as_deref())?;
-                let kept = self.keep.as_ref().map(kept_parameters).transpose()?.unwrap_or_default();
-                let own_text = text.and_then(|text| manifest::linkage_text(&text, name));
-                Ok(Some(NamedLinkage { searched: SearchedLinkage { template, kept }, own_text }))
-            }
+            Some(_) if self.several().is_some() => match self.keep.is_empty() {
+                true => Ok(None),
+                false => wrong("keep keeps parameters of one linkage, and linkage names several: leave it out"),
+            },
+            Some(name) => NamedLinkage::find(py, name, self.manifest.as_deref(), self.keep.clone()).map(Some),
         }
+    }
+
+    /// The several linkages that they name, if they do and no manifest has a linkage of this name.
+    pub fn several(&self) -> Option<Several> {
+        self.linkage.as_deref().filter(|_| self.manifest.is_none()).and_then(Several::named)
     }
 
     /// What they ask for, of a linkage that they may name.
@@ -148,7 +98,7 @@ impl<'py> Keywords<'py> {
         let searched = match linkage {
             Some(linkage) => Searched::Linkage(linkage.searched.clone()),
             None if self.atlas.is_some() => Searched::Atlas,
-            None => Searched::FourBars,
+            None => self.several().map_or(Searched::FourBars, Searched::Several),
         };
         Request {
             notation: Notation::Python,
@@ -161,37 +111,4 @@ impl<'py> Keywords<'py> {
             options: self.options.clone(),
         }
     }
-}
-
-fn effort_of(name: &str) -> PyResult<Effort> {
-    match name {
-        "quick" => Ok(Effort::Quick),
-        "normal" => Ok(Effort::Normal),
-        "thorough" => Ok(Effort::Thorough),
-        other => {
-            let message = format!("effort={other:?}: give \"quick\", \"normal\" or \"thorough\"");
-            Err(PyValueError::new_err(message))
-        }
-    }
-}
-
-/// The parameters that are not searched, each with its value if it has another than its default.
-fn kept_parameters(keep: &Bound<PyAny>) -> PyResult<Vec<(String, Option<String>)>> {
-    if let Ok(values) = keep.cast::<PyDict>() {
-        return values
-            .iter()
-            .map(|(name, value)| {
-                let value = if value.is_none() { None } else { Some(value.str()?.to_string()) };
-                Ok((name.extract()?, value))
-            })
-            .collect();
-    }
-    // A string is a sequence of its letters.
-    let names = keep.extract::<Vec<String>>().ok().filter(|_| keep.extract::<String>().is_err());
-    let Some(names) = names else {
-        let kind = keep.get_type().name()?;
-        let message = format!("keep: give a list of names or a dict of names and values, and not a {kind}");
-        return Err(PyTypeError::new_err(message));
-    };
-    Ok(names.into_iter().map(|name| (name, None)).collect())
 }

@@ -6,23 +6,22 @@ mod path;
 
 pub use found::{Answer, Found};
 
-use std::sync::Arc;
-
 use coupler_atlas::find::{
-    AtlasQuery, ReadOptions, RequestProblem, draw_four_bars, find_in_atlas, find_linkage, load_index,
+    AtlasAnswerRecord, AtlasQuery, LinkageAnswerRecord, ReadOptions, RequestProblem, Several, draw_four_bars,
+    find_among, find_in_atlas, find_linkage, load_index,
 };
 use coupler_atlas::record::{check_families, manifest_of};
-use coupler_find::{Index, LinkageSpace, Options, Search, Target, answers_manifest, nearest_miss_by};
+use coupler_find::{AnswerRecord, Index, LinkageSpace, Options, Search, Target, answers_manifest, nearest_miss_by};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::atlas::ManifestArgument;
 use crate::error::{LinkageError, OutputError};
-use crate::linkage::into_text;
 use crate::manifest::Manifest;
+use crate::results::Shown;
 use crate::task::{self, Task};
-use found::Entry;
+use found::{Entry, Sought};
 use keywords::Keywords;
 use path::Path;
 
@@ -65,7 +64,7 @@ use path::Path;
 /// fixed : bool
 ///     With `atlas`, compare its curves where they are: position, size and rotation count.
 /// linkage : str, optional
-///     Search the dimensions of a linkage, of the catalogue or of `manifest`, in place of a four-bar.
+///     Search the dimensions of a linkage, of the catalogue or of `manifest`, in place of a four-bar; or among several, ``"six-bar"`` or ``"any"``.
 /// manifest : path, optional
 ///     A manifest whose linkages `linkage` can name, too.
 /// keep : list of str or dict, optional
@@ -94,7 +93,7 @@ use path::Path;
                       pivots=None, top=10, index=None, refine=True, effort='normal', atlas=None, fixed=False, linkage=None, manifest=None, \
                       keep=None, seed=1, progress=None)"
 )]
-pub fn find_linkages(py: Python, path: Bound<PyAny>, keywords: Option<&Bound<PyDict>>) -> PyResult<Found> {
+pub fn find_linkages(py: Python, path: Bound<PyAny>, keywords: Option<&Bound<PyDict>>) -> PyResult<Py<Found>> {
     let keywords = Keywords::from_dict(py, keywords)?;
     let linkage = keywords.named_linkage(py)?;
     let (options, space) = keywords.request(linkage.as_ref()).check().map_err(request_error)?;
@@ -112,20 +111,31 @@ pub fn find_linkages(py: Python, path: Bound<PyAny>, keywords: Option<&Bound<PyD
     };
     let target = target.map_err(|error| PyValueError::new_err(error.to_string()))?;
     let read = Some(path.outline.reading.taken).filter(|taken| !taken.is_empty());
-    let sought = (path.name, target);
+    let sought = Sought { name: path.name, target, read };
     let progress = keywords.progress.as_ref();
-    let found = match (keywords.atlas, space) {
+    let several = keywords.several();
+    match (keywords.atlas, space) {
         (Some(atlas), _) => {
             let query = (options, keywords.condition.as_deref(), keywords.fixed);
             search_atlas(py, atlas, sought, query, progress)
         }
         (None, Some(space)) => {
             let own_text = linkage.and_then(|named| named.own_text);
-            search_linkage(py, (space, own_text), sought, options, keywords.index, progress)
+            search_linkage(py, (Linkages::One(space), own_text), sought, options, keywords.index, progress)
         }
-        (None, None) => search_four_bars(py, sought, options, keywords.index, progress),
-    };
-    found.map(|found| Found { read, ..found })
+        (None, None) => match several {
+            Some(several) => {
+                search_linkage(py, (Linkages::Several(several), None), sought, options, keywords.index, progress)
+            }
+            None => search_four_bars(py, sought, options, keywords.index, progress),
+        },
+    }
+}
+
+/// The linkages whose dimensions are searched.
+enum Linkages {
+    One(LinkageSpace),
+    Several(Several),
 }
 
 fn request_error(problems: Vec<RequestProblem>) -> PyErr {
@@ -137,12 +147,12 @@ fn request_error(problems: Vec<RequestProblem>) -> PyErr {
 
 fn search_four_bars(
     py: Python,
-    (name, target): (String, Target),
+    sought: Sought,
     options: Options,
     index: Option<usize>,
     progress: Option<&Bound<PyAny>>,
-) -> PyResult<Found> {
-    let sought = target.clone();
+) -> PyResult<Py<Found>> {
+    let target = sought.target.clone();
     let (answers, nearest_miss) = task::run(py, progress, move |task: &Task| {
         task.begin("index", 0);
         let index = load_index(index.unwrap_or(Index::DEFAULT_COUNT));
@@ -155,54 +165,53 @@ fn search_four_bars(
             // Nobody waits for the answers of an interrupted search.
             if task.is_interrupted() { Vec::new() } else { search.answers() }
         };
-        let answers = search(&sought, &options);
+        let answers = search(&target, &options);
         let nearest = |target: &Target, options: &Options| search(target, options).into_iter().next();
         let miss = answers
             .is_empty()
-            .then(|| nearest_miss_by(&sought, &options, nearest, |answer| answer.deviation.rms))
+            .then(|| nearest_miss_by(&target, &options, nearest, |answer| answer.deviation.rms))
             .flatten();
         (answers, miss)
     })?;
-    let manifest = answers_manifest(&name, target.size(), &answers);
-    let drawing = into_text(draw_four_bars(&name, &target, &answers));
-    let entry = |answer| Arc::new(Entry::of_four_bar(answer));
-    Ok(Found {
-        answers: answers.into_iter().map(entry).collect(),
-        nearest_miss: nearest_miss.map(|(constraints, answer)| (constraints, entry(answer))),
-        target,
-        manifest,
-        drawing,
-        read: None,
-    })
+    let records: Vec<_> = (1..).zip(&answers).map(|(rank, answer)| AnswerRecord::new(rank, answer)).collect();
+    let shown = Shown {
+        records: serde_json::to_string(&records),
+        manifest: answers_manifest(&sought.name, sought.target.size(), &answers),
+        drawing: Some(draw_four_bars(&sought.name, &sought.target, &answers)),
+    };
+    let answers = answers.into_iter().map(Entry::of_four_bar);
+    let nearest_miss = nearest_miss.map(|(constraints, answer)| (constraints, Entry::of_four_bar(answer)));
+    Found::make(py, sought, answers, nearest_miss, shown)
 }
 
 fn search_atlas(
     py: Python,
     atlas: ManifestArgument,
-    (name, target): (String, Target),
+    sought: Sought,
     (options, condition, is_fixed): (Options, Option<&str>, bool),
     progress: Option<&Bound<PyAny>>,
-) -> PyResult<Found> {
+) -> PyResult<Py<Found>> {
     let Manifest { plan, .. } = read_atlas(py, atlas)?;
     let condition = condition.map(str::to_owned);
-    let (sought, own_plan) = (target.clone(), plan.clone());
+    let (target, own_plan) = (sought.target.clone(), plan.clone());
     let findings = task::run(py, progress, move |task: &Task| {
         task.begin("find", 0);
         let query = AtlasQuery { options: &options, condition: condition.as_deref(), is_fixed };
-        find_in_atlas(&own_plan, &sought, &query, &task.interrupt)
+        find_in_atlas(&own_plan, &target, &query, &task.interrupt)
     })?;
     let findings = findings.map_err(|error| PyValueError::new_err(format!("where: {error}")))?;
-    let manifest = findings.manifest(&name, &target, &plan);
-    let drawing = into_text(findings.drawing(&name, &target, &plan));
-    let entry = |answer| Entry::of_atlas(&plan, answer).map(Arc::new);
-    Ok(Found {
-        answers: findings.answers.into_iter().filter_map(entry).collect(),
-        nearest_miss: findings.nearest_miss.and_then(|(constraints, answer)| Some((constraints, entry(answer)?))),
-        target,
-        manifest,
-        drawing,
-        read: None,
-    })
+    let Sought { name, target, .. } = &sought;
+    let record = |(rank, answer)| AtlasAnswerRecord::new(rank, answer, &plan);
+    let records: Vec<_> = (1..).zip(&findings.answers).map(record).collect();
+    let shown = Shown {
+        records: serde_json::to_string(&records),
+        manifest: findings.manifest(name, target, &plan),
+        drawing: Some(findings.drawing(name, target, &plan)),
+    };
+    let entry = |answer| Entry::of_atlas(&plan, answer);
+    let answers = findings.answers.into_iter().filter_map(entry);
+    let nearest_miss = findings.nearest_miss.and_then(|(constraints, answer)| Some((constraints, entry(answer)?)));
+    Found::make(py, sought, answers, nearest_miss, shown)
 }
 
 /// The manifest of an atlas, or that beside the folder of a rendered one.
@@ -219,36 +228,34 @@ fn read_atlas(py: Python, atlas: ManifestArgument) -> PyResult<Manifest> {
 
 fn search_linkage(
     py: Python,
-    (space, own_text): (LinkageSpace, Option<String>),
-    (name, target): (String, Target),
+    (linkages, own_text): (Linkages, Option<String>),
+    sought: Sought,
     options: Options,
-    samples: Option<usize>,
+    index: Option<usize>,
     progress: Option<&Bound<PyAny>>,
-) -> PyResult<Found> {
-    let (sought, own_space) = (target.clone(), space.clone());
+) -> PyResult<Py<Found>> {
+    let target = sought.target.clone();
+    let linkage = match &linkages {
+        Linkages::One(space) => space.template().id.clone(),
+        Linkages::Several(several) => several.name().to_owned(),
+    };
     let findings = task::run(py, progress, move |task: &Task| {
-        /// The steps that are shown of the whole search.
-        const STEPS: usize = 1000;
-        task.begin("find", STEPS);
-        let mut done = 0;
-        // A search without an answer is followed by others, for the nearest miss.
-        let report_part = |part: f64| {
-            let steps = (part * STEPS as f64) as usize;
-            task.advance(steps.saturating_sub(done));
-            done = done.max(steps);
-        };
-        find_linkage(&own_space, &sought, &options, samples, &task.interrupt, report_part)
+        let report_part = task.report_parts("find");
+        match &linkages {
+            Linkages::One(space) => find_linkage(space, &target, &options, index, &task.interrupt, report_part),
+            Linkages::Several(several) => find_among(*several, &target, &options, index, &task.interrupt, report_part),
+        }
     })?;
     let findings = findings.map_err(|error| PyValueError::new_err(error.to_string()))?;
-    let manifest = findings.manifest(&name, &target, own_text.as_deref());
-    let drawing = into_text(findings.drawing(&name, &target, &space));
-    let entry = |answer| Arc::new(Entry::of_linkage(answer));
-    Ok(Found {
-        answers: findings.answers.into_iter().map(entry).collect(),
-        nearest_miss: findings.nearest_miss.map(|(constraints, answer)| (constraints, entry(answer))),
-        target,
-        manifest,
-        drawing,
-        read: None,
-    })
+    let Sought { name, target, .. } = &sought;
+    let records: Vec<_> =
+        (1..).zip(&findings.answers).map(|(rank, answer)| LinkageAnswerRecord::new(rank, answer)).collect();
+    let shown = Shown {
+        records: serde_json::to_string(&records),
+        manifest: findings.manifest(name, target, own_text.as_deref()),
+        drawing: Some(findings.drawing(name, target, &linkage)),
+    };
+    let answers = findings.answers.into_iter().map(Entry::of_linkage);
+    let nearest_miss = findings.nearest_miss.map(|(constraints, answer)| (constraints, Entry::of_linkage(answer)));
+    Found::make(py, sought, answers, nearest_miss, shown)
 }

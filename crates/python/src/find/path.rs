@@ -7,10 +7,11 @@ use coupler_atlas::find::{MAX_POINTS, Outline, ReadOptions, parse_outline};
 use coupler_curves::geometry::Point;
 use coupler_find::PathKind;
 use numpy::ndarray::ArrayView2;
-use numpy::{AllowTypeChange, PyArrayLike1, PyArrayLike2};
+use numpy::{AllowTypeChange, PyArrayLike1};
 use pyo3::exceptions::{PyTypeError, PyUserWarning, PyValueError};
 use pyo3::prelude::*;
 
+use crate::arrays;
 use crate::file::read_bytes;
 use crate::linkage::Curve;
 
@@ -35,17 +36,11 @@ impl Path {
             let outline = Outline::new(points, Some(inputs), Some(is_closed));
             return Ok(Path { name: "curve".to_owned(), outline });
         }
-        // NumPy would leave out the imaginary parts.
-        let is_complex = path.getattr("dtype").and_then(|dtype| dtype.getattr("kind")?.eq("c")).unwrap_or(false);
-        if !is_complex && let Ok(array) = path.extract::<PyArrayLike2<f64, AllowTypeChange>>() {
+        if let Some(array) = arrays::real_rows(path) {
             return Ok(Path { name: "path".to_owned(), outline: outline_of(array.as_array(), options.is_timed)? });
         }
         let Ok(file) = path.extract::<PathBuf>() else {
-            let kind = match path.getattr("shape") {
-                Ok(shape) => format!("an array of shape {shape} of {}", path.getattr("dtype")?),
-                Err(_) if path.len().is_ok_and(|length| length == 0) => "an empty sequence".to_owned(),
-                Err(_) => format!("a {}", path.get_type().name()?),
-            };
+            let kind = arrays::described(path)?;
             let message =
                 format!("path: give real numbers of shape (n, 2), a curve, or the path of a file, and not {kind}");
             return Err(PyTypeError::new_err(message));

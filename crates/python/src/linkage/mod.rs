@@ -5,6 +5,7 @@ mod catalogue;
 mod circuit;
 mod curve;
 mod four_bar;
+mod named;
 mod numeric_linkage;
 mod recipe;
 mod sextic;
@@ -16,11 +17,12 @@ pub use catalogue::{linkages, make_linkage};
 pub use circuit::Circuit;
 pub use curve::Curve;
 pub use four_bar::{FourBar, into_object};
-pub use numeric_linkage::Linkage;
+pub use named::NamedLinkage;
+pub use numeric_linkage::{DEFAULT_SAMPLES, Linkage};
 pub use recipe::Recipe;
 pub use sextic::Sextic;
 pub use solution::into_text;
-pub use templates::{named_template, template_of_text};
+pub use templates::template_of_text;
 
 use std::path::PathBuf;
 

@@ -16,7 +16,7 @@ use super::solution::Solution;
 use crate::error::LinkageError;
 
 /// The number of samples of a circuit where none is given, as in `inspect`.
-pub(super) const DEFAULT_SAMPLES: usize = 360;
+pub const DEFAULT_SAMPLES: usize = 360;
 
 /// A linkage with numeric dimensions.
 ///

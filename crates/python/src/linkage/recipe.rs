@@ -21,7 +21,7 @@ pub enum Recipe {
     /// A cell of an atlas, by the path and the text of its manifest, its family, and its number. If the manifest names tables, the text is that of the
     /// family alone, see [`coupler_atlas::manifest::PlannedFamily::excerpt`], and the values are given that the cell has.
     Cell { path: PathBuf, text: Arc<str>, family: String, number: usize, values: Option<Vec<(String, f64)>> },
-    /// A linkage that was found in an atlas: it is equal to itself only.
+    /// A linkage that was found and placed, or over a range of its input: it is equal to itself only.
     Found,
 }
 
@@ -43,7 +43,7 @@ impl Recipe {
                 Ok((Some(path.clone()), Some(text.to_string()), family.clone(), *number, None, values.clone()))
             }
             Recipe::Found => Err(PyTypeError::new_err(
-                "a linkage that was found in an atlas cannot be pickled: take its cell, or keep the manifest that toml() writes",
+                "a linkage that a search has found and placed cannot be pickled: take the cell of its atlas, or keep the manifest that toml() writes",
             )),
         }
     }

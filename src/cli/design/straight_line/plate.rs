@@ -1,10 +1,9 @@
 //! A drawing of the designs.
 
-use crate::design::Design;
+use crate::design::{Design, ShownDesign, designs_plate};
 use coupler_drawing::page::PoseChoice;
 
 use super::super::super::format::format_significant;
-use super::super::plate::{ShownDesign, designs_plate};
 use super::format::proportions;
 use super::report::Report;
 

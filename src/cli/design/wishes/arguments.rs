@@ -2,14 +2,15 @@
 
 use std::path::PathBuf;
 
+use crate::design::DesignRequest;
 use clap::{Args, ValueHint};
 use coupler_find::DesignOptions;
 
 use super::super::super::effort::EffortChoice;
 use super::super::super::files;
 
-/// The greatest number of designs that `--best` accepts.
-const MAX_BEST: i64 = 50;
+/// The greatest `--best`.
+const MAX_BEST: i64 = DesignRequest::MAX_BEST as i64;
 
 #[derive(Debug, Args)]
 pub struct WishArguments {

@@ -2,16 +2,13 @@
 
 use std::fmt::Write;
 
-use crate::design::{Designs, describe};
+use crate::design::{Designs, describe, dimensions};
 use coupler_curves::text::{pluralize, round_to_six_digits};
 use coupler_find::{DesignAnswer, DesignMiss, Wishes};
 
 use super::super::super::format::format_significant;
 use super::super::super::jams::jams;
 use super::arguments::WishArguments;
-
-/// The digits of a dimension.
-const DIGITS: usize = 8;
 
 /// The designs, each with what is wished, its dimensions, and what else a designer asks first.
 pub(super) fn text(linkage: &str, designs: &Designs) -> String {
@@ -38,28 +35,9 @@ fn entry(rank: &str, answer: &DesignAnswer) -> String {
     let mut out = String::new();
     // Writing to a string cannot fail.
     let _ = writeln!(out, "{rank:>3}  {}", describe(answer));
-    let _ = writeln!(out, "     {}", parameters(answer));
+    let _ = writeln!(out, "     {}", dimensions(answer));
     let _ = writeln!(out, "     {}", further.join(", "));
     out
-}
-
-/// The dimensions: "p = 110, r = 17.674909".
-pub(super) fn parameters(answer: &DesignAnswer) -> String {
-    let named = answer.family.template.parameters.iter().zip(&answer.values);
-    let values = named.map(|(parameter, value)| format!("{} = {}", parameter.name, format_significant(*value, DIGITS)));
-    values.collect::<Vec<_>>().join(", ")
-}
-
-/// What was wished, in one line.
-pub(super) fn wished(arguments: &WishArguments) -> String {
-    let goals = |verb: &'static str, texts: &[String]| {
-        texts.iter().map(move |text| format!("{verb} {text}")).collect::<Vec<_>>()
-    };
-    let mut parts = Vec::new();
-    parts.extend(arguments.condition.clone());
-    parts.extend(goals("greatest", &arguments.maximize));
-    parts.extend(goals("least", &arguments.minimize));
-    parts.join(" · ")
 }
 
 /// What to know about the designs.
@@ -95,7 +73,7 @@ pub(super) fn no_design_message(linkage: &str, wishes: &Wishes, designs: &Design
             None => "it is not met".to_owned(),
         };
         let others = if wishes.wishes.len() > 1 { "while the others are met" } else { "in these ranges" };
-        let _ = writeln!(out, "hint: `{wished}`: {comes_to} {others}: {}", parameters(nearest));
+        let _ = writeln!(out, "hint: `{wished}`: {comes_to} {others}: {}", dimensions(nearest));
     }
     if designs.misses.is_empty() {
         out += "hint: leaving out one wish is not enough; leave out two of them, widen the ranges, or try --effort thorough";

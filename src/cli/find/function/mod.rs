@@ -8,13 +8,14 @@ mod text;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
-use crate::find::function::{self, FunctionRequest, draw_function, find_function, function_manifest};
-use crate::find::{self, Notation};
+use crate::find::Notation;
+use crate::find::function::{
+    self, FunctionLinkage, FunctionRequest, FunctionSearch, draw_function, find_function, function_manifest,
+};
 use crate::output;
 use coupler_curves::expression::Expression;
-use coupler_curves::linkage::OutputLink;
 use coupler_curves::problem;
-use coupler_find::{FunctionMethod, FunctionOptions, FunctionTarget, GeneratorKind, Options};
+use coupler_find::{FunctionTarget, Options};
 
 use super::super::effort::EffortChoice;
 use super::super::jams::jams;
@@ -25,58 +26,25 @@ use super::{Arguments, Failure, Outcome, Shown, files, not_a_path, show};
 use report::FunctionReport;
 
 pub(super) fn run(arguments: &Arguments, is_drawing_printed: bool) -> Result<Outcome, Failure> {
-    let closed_form = closed_form(arguments);
-    let named = if closed_form.is_some() || arguments.linkage.is_none() { None } else { named(arguments)? };
-    check_linkage_options(arguments, named.is_some())?;
-    let output = named.as_ref().and_then(|named| named.searched.template.structure().ok()?.output());
-    let is_length = output.map_or(closed_form == Some(GeneratorKind::SliderCrank), OutputLink::is_slider);
-    let Read { name, target, first } = read_target(arguments, is_length)?;
+    let named = if arguments.linkage.is_some() { named(arguments)? } else { None };
+    let (searched, own_linkage) = named.map(|named| (named.searched, named.own_linkage)).unzip();
+    let linkage = FunctionLinkage::of(searched, arguments.manifest.is_some());
+    let Read { name, target, first } = read_target(arguments, linkage.is_length())?;
     if let Some(jobs) = arguments.jobs {
         rayon::ThreadPoolBuilder::new().num_threads(jobs.into()).build_global()?;
     }
-    let (numbers, problems) = read_numbers(arguments);
-    if let Some(named) = named {
-        if !problems.is_empty() {
-            return Err(Failure::inputs(&problems));
+    match check(arguments, &target, linkage)? {
+        FunctionSearch::Any(space, options) => {
+            let own_linkage = own_linkage.flatten();
+            linkage::run(arguments, (space, options), own_linkage, (name, target), is_drawing_printed)
         }
-        return linkage::run(arguments, named, (name, target), (numbers.starts, numbers.max_link), is_drawing_printed);
+        FunctionSearch::Closed(options, methods) => {
+            let attempts =
+                find_function(&target, &options, &methods, &AtomicBool::new(false)).map_err(Failure::input)?;
+            let report = FunctionReport { name, target, first, options, attempts };
+            show(&report, arguments, is_drawing_printed)
+        }
     }
-    let of_target = if target.is_length() { GeneratorKind::SliderCrank } else { GeneratorKind::FourBar };
-    let kind = closed_form.unwrap_or(of_target);
-    let (options, methods) = check(arguments, &target, kind, (numbers, problems))?;
-    let attempts = find_function(&target, &options, &methods, &AtomicBool::new(false)).map_err(Failure::input)?;
-    let report = FunctionReport { name, target, first, options, attempts };
-    show(&report, arguments, is_drawing_printed)
-}
-
-/// The linkage that is named, if it is solved in closed form with all its lengths free.
-fn closed_form(arguments: &Arguments) -> Option<GeneratorKind> {
-    match arguments.linkage.as_deref() {
-        _ if !arguments.keep.is_empty() || arguments.manifest.is_some() => None,
-        Some("four-bar") => Some(GeneratorKind::FourBar),
-        Some("slider-crank") => Some(GeneratorKind::SliderCrank),
-        _ => None,
-    }
-}
-
-/// Refuses options of the search for any linkage where there is none.
-///
-/// # Errors
-/// One of them is given.
-fn check_linkage_options(arguments: &Arguments, has_linkage: bool) -> Result<(), Failure> {
-    let is_effort = arguments.effort != EffortChoice::Normal;
-    let given = [
-        ("--manifest", arguments.manifest.is_some()),
-        ("--effort", is_effort),
-        ("--seed", arguments.seed != Options::default().seed),
-    ];
-    let unused = given.iter().filter(|(_, is_given)| *is_given && !has_linkage);
-    let problems: Vec<String> = unused
-        .map(|(option, _)| {
-            format!("{option} is of --linkage NAME, the dimensions of any linkage: name one, or leave it out")
-        })
-        .collect();
-    if problems.is_empty() { Ok(()) } else { Err(Failure::inputs(&problems)) }
 }
 
 /// A function that has been read.
@@ -107,20 +75,11 @@ fn read_target(arguments: &Arguments, is_length: bool) -> Result<Read, Failure> 
     files::protect(path, "the function");
     let name = files::input_name(path);
     let bytes = output::read_bytes(path).map_err(|error| not_a_path::unreadable_function(path, error))?;
-    let in_file = |problems: &[String]| {
+    let (target, first) = function::read_function(&bytes, is_length).map_err(|problems| {
         let problems: Vec<String> = problems.iter().map(|problem| format!("{name}: {problem}")).collect();
         Failure::inputs(&problems)
-    };
-    let found = find::parse_function(&bytes).map_err(|problems| in_file(&problems))?;
-    let is_length = found.is_length.unwrap_or(is_length);
-    let target = FunctionTarget::rows(&found.rows, is_length).map_err(|problems| {
-        let with_line = |problem: &coupler_find::FunctionTargetError| {
-            let line = problem.row().and_then(|row| found.lines.get(row - 1));
-            line.map_or(problem.to_string(), |line| format!("line {line}: {problem}"))
-        };
-        in_file(&problems.iter().map(with_line).collect::<Vec<_>>())
     })?;
-    Ok(Read { name, target, first: found.rows.first().copied() })
+    Ok(Read { name, target, first })
 }
 
 /// The numbers of the arguments.
@@ -145,35 +104,32 @@ fn read_numbers(arguments: &Arguments) -> (Numbers, Vec<String>) {
     (Numbers { starts, max_link }, problems)
 }
 
-/// What the arguments ask for of a linkage in closed form.
+/// The search that the arguments ask for.
 ///
 /// # Errors
 /// All that is wrong with them.
-fn check(
-    arguments: &Arguments,
-    target: &FunctionTarget,
-    kind: GeneratorKind,
-    (numbers, mut problems): (Numbers, Vec<String>),
-) -> Result<(FunctionOptions, Vec<FunctionMethod>), Failure> {
-    let [input_start_deg, output_start] = numbers.starts;
+fn check(arguments: &Arguments, target: &FunctionTarget, linkage: FunctionLinkage) -> Result<FunctionSearch, Failure> {
+    let (Numbers { starts: [input_start_deg, output_start], max_link }, mut problems) = read_numbers(arguments);
     let request = FunctionRequest {
         notation: Notation::CommandLine,
         target,
-        kind,
+        linkage,
+        has_manifest: arguments.manifest.is_some(),
         fit: arguments.fit.map(Into::into),
         points: arguments.points,
         input_start_deg,
         output_start,
         full_turn: arguments.input == Some(InputChoice::FullTurn),
-        max_link: numbers.max_link.unwrap_or(FunctionRequest::MAX_LINK),
+        max_link,
         condition: arguments.condition.as_deref(),
+        effort: Some(arguments.effort).filter(|effort| *effort != EffortChoice::Normal).map(Into::into),
+        seed: Some(arguments.seed).filter(|seed| *seed != Options::default().seed),
         most: arguments.top.into(),
     };
     match request.check() {
         Ok(checked) if problems.is_empty() => Ok(checked),
-        Ok(_) => Err(Failure::inputs(&problems)),
-        Err(others) => {
-            problems.extend(others);
+        checked => {
+            problems.extend(checked.err().into_iter().flatten());
             Err(Failure::inputs(&problems))
         }
     }

@@ -1,9 +1,8 @@
 //! What is shown of a search for a function.
 
 use crate::find::function::FunctionAttempt;
-use crate::find::function::words::method_in_words;
-use coupler_curves::text::pluralize;
-use coupler_find::{FunctionAnswer, FunctionOptions, FunctionTarget, GeneratorKind};
+use crate::find::function::words::details_in_words;
+use coupler_find::{FunctionAnswer, FunctionOptions, FunctionTarget};
 
 use super::super::title_of;
 
@@ -31,12 +30,7 @@ impl FunctionReport {
 
     /// The linkages, and how they were found: "four-bars, 5 precision points".
     pub fn details(&self) -> String {
-        let kind = match self.options.kind {
-            GeneratorKind::FourBar => "four-bars",
-            GeneratorKind::SliderCrank => "slider-cranks",
-        };
-        let rows = self.target.row_count().map(|rows| pluralize(rows, "row"));
-        let method = self.attempts.last().map(|attempt| method_in_words(attempt.method));
-        [rows, Some(kind.to_owned()), method].into_iter().flatten().collect::<Vec<_>>().join(", ")
+        let method = self.attempts.last().map(|attempt| attempt.method);
+        details_in_words(&self.target, self.options.kind, method)
     }
 }

@@ -2,9 +2,10 @@
 
 use std::fmt::Write;
 
+use crate::find::Notation;
 use crate::find::function::FunctionAttempt;
 use crate::find::function::words::{
-    degrees, dimensions_in_words, error_value, findings_in_words, method_in_words, output_in_words,
+    degrees, dimensions_in_words, error_value, findings_in_words, method_in_words, none_in_words, output_in_words,
 };
 use coupler_curves::geometry::trig;
 use coupler_find::{FunctionAnswer, FunctionMethod, GeneratorKind, format_length};
@@ -38,11 +39,13 @@ pub(super) fn text(report: &FunctionReport) -> String {
         out += &zeros(report, answer);
     }
     let Some(last) = report.attempts.last() else { return out };
-    let said = findings_in_words(&last.findings);
     if answers.is_empty() {
-        let why = if said.is_empty() { "none can be assembled over the whole range".to_owned() } else { said };
+        let why = none_in_words(&last.findings, Notation::CommandLine);
         out += &format!("no linkage was found: {why}{}\n", remedy(report, last.method));
-    } else if !said.is_empty() {
+        return out;
+    }
+    let said = findings_in_words(&last.findings, Notation::CommandLine);
+    if !said.is_empty() {
         out += &format!("{said}\n");
     }
     out
@@ -113,7 +116,7 @@ fn remedy(report: &FunctionReport, method: FunctionMethod) -> String {
 
 /// A note on a method that had no answer, before another one.
 pub(super) fn tried(attempt: &FunctionAttempt, next: FunctionMethod) -> String {
-    let said = findings_in_words(&attempt.findings);
+    let said = findings_in_words(&attempt.findings, Notation::CommandLine);
     let why = if said.is_empty() { "no linkage reaches them".to_owned() } else { said };
     format!("note: {} have no answer, {why}; so {} are taken\n", method_in_words(attempt.method), method_in_words(next))
 }

@@ -1,28 +1,16 @@
 //! The JSON of linkages with their dimensions.
 
+use crate::find::LinkageAnswerRecord;
 use coupler_find::LinkageAnswer;
-use serde::Serialize;
 
 use super::super::super::{Failure, report};
-use super::super::json::{self, Document, FORMAT, NearestMiss, PlacedRecord};
+use super::super::json::{self, Document, FORMAT, NearestMiss};
 use super::super::text::options_of;
 use super::LinkageReport;
-use super::text::branch;
-
-#[derive(Serialize)]
-struct Entry {
-    #[serde(flatten)]
-    placed: PlacedRecord,
-    branch: u8,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    input_deg: Option<[f64; 2]>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    input_length: Option<[f64; 2]>,
-}
 
 /// The path and the linkages, as indented JSON.
 pub(super) fn json(report: &LinkageReport) -> Result<String, Failure> {
-    let entry = |(rank, answer): (usize, &LinkageAnswer)| entry(rank, answer);
+    let entry = |(rank, answer): (usize, &LinkageAnswer)| LinkageAnswerRecord::new(rank, answer);
     let miss = report
         .findings
         .nearest_miss
@@ -36,15 +24,4 @@ pub(super) fn json(report: &LinkageReport) -> Result<String, Failure> {
         nearest_miss: miss,
     };
     report::json(FORMAT, &document)
-}
-
-fn entry(rank: usize, answer: &LinkageAnswer) -> Entry {
-    let template = &answer.family.template;
-    let is_length = template.is_driven_by_length();
-    Entry {
-        placed: PlacedRecord::new(rank, template, &answer.curve),
-        branch: branch(answer),
-        input_deg: (!is_length).then_some(answer.inputs),
-        input_length: is_length.then_some(answer.inputs),
-    }
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::find::description::{deviation, parameters, placement};
+use crate::find::description::{branch, deviation, parameters, placement};
 use crate::find::{Findings, simplest};
 use coupler_find::{LinkageAnswer, format_length as number, format_relative as relative};
 
@@ -85,9 +85,4 @@ fn entry(rank: &str, answer: &LinkageAnswer, is_one: bool, size: f64) -> String 
     );
     let _ = writeln!(out, "     {pivots}{}", placement(curve, size));
     out
-}
-
-/// The branch at the first point of the path, as it is numbered: 1 left, 2 right.
-pub(super) fn branch(answer: &LinkageAnswer) -> u8 {
-    if answer.branch > 0 { 1 } else { 2 }
 }

@@ -8,7 +8,7 @@ mod text;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
-use crate::find::{self, PoseReading};
+use crate::find::{self, Notation, PoseReading};
 use crate::output;
 use coupler_curves::family::Family;
 use coupler_find::{Quality, poses_manifest};
@@ -37,7 +37,8 @@ pub(super) fn run(arguments: &Arguments, is_drawing_printed: bool) -> Result<Out
     if !taken.is_empty() {
         print_stderr(&format!("note: {name}: {taken}\n"));
     }
-    request::check_given_pivots(&name, &poses, &options)?;
+    let wrong = |message: String| Failure::input(format!("{name}: {message}"));
+    find::check_given_pivots(Notation::CommandLine, &poses, &options).map_err(wrong)?;
     let found = find::find_poses(&poses, &options, &AtomicBool::new(false)).map_err(Failure::input)?;
     let report = PoseReport { name, reading: taken, poses, found };
     show(&report, arguments, is_drawing_printed)

@@ -1,11 +1,11 @@
 //! What the arguments ask of a search for linkages that guide a body.
 
 use coupler_curves::geometry::Point;
-use coupler_find::{Options, PoseCondition, PoseOptions, PoseSet};
+use coupler_find::PoseOptions;
 
 use super::super::request;
 use super::{Arguments, Failure};
-use crate::find::Searched;
+use crate::find::{PoseRequest, Searched};
 
 /// The options of the search.
 ///
@@ -13,79 +13,21 @@ use crate::find::Searched;
 /// All that is wrong with them, in one failure.
 pub(super) fn check(arguments: &Arguments) -> Result<PoseOptions, Failure> {
     let mut messages = contradictions(arguments);
-    let condition = arguments.condition.as_deref().map(|text| {
-        PoseCondition::new(text).map_err(|error| format!("--where: `{text}`: {}", error.message_with_help()))
+    let (request, unread) = request::read(arguments, Searched::Poses);
+    messages.extend(unread);
+    let given_pivots = arguments.pivot.iter().filter_map(|text| {
+        let read = request::parse_numbers(text, "--pivot", "two", "10,-20");
+        read.map(|[x, y]| Point::new(x, y)).map_err(|message| messages.push(message)).ok()
     });
-    let condition = condition.transpose().unwrap_or_else(|message| {
-        messages.push(message);
-        None
-    });
-    let options = match request::check_all(arguments, Searched::Poses) {
-        Ok((options, _)) => options,
-        Err(problems) => {
-            messages.extend(problems);
-            Options::default()
-        }
-    };
-    let given_pivots = given_pivots(arguments).unwrap_or_else(|problems| {
-        messages.extend(problems);
-        Vec::new()
-    });
-    if !messages.is_empty() {
-        return Err(Failure::inputs(&messages));
-    }
-    let Options { full_turn, max_link, pivots, effort, seed, most, .. } = options;
+    let given_pivots = given_pivots.collect();
     let Arguments { any_order, any_circuit, .. } = *arguments;
-    Ok(PoseOptions { full_turn, any_order, any_circuit, max_link, pivots, given_pivots, condition, effort, seed, most })
-}
-
-/// The pivots that are given.
-///
-/// # Errors
-/// All that is wrong with them.
-fn given_pivots(arguments: &Arguments) -> Result<Vec<Point>, Vec<String>> {
-    /// A linkage has no more.
-    const MOST: usize = 2;
-    let mut problems = Vec::new();
-    let mut pivots: Vec<Point> = Vec::new();
-    for text in &arguments.pivot {
-        match request::parse_numbers(text, "--pivot", "two", "10,-20") {
-            Ok([x, y]) if !x.is_finite() || !y.is_finite() => {
-                problems.push(format!("--pivot: `{text}` is not finite; write it like --pivot=10,-20"));
-            }
-            Ok([x, y]) if pivots.contains(&Point::new(x, y)) => {
-                problems.push(format!("--pivot: `{text}` is given twice: leave one out"));
-            }
-            Ok([x, y]) => pivots.push(Point::new(x, y)),
-            Err(problem) => problems.push(problem),
+    match (PoseRequest { request, any_order, any_circuit, given_pivots }).check() {
+        Ok(options) if messages.is_empty() => Ok(options),
+        checked => {
+            messages.extend(checked.err().into_iter().flatten());
+            Err(Failure::inputs(&messages))
         }
     }
-    if arguments.pivot.len() > MOST {
-        let count = arguments.pivot.len();
-        problems.push(format!("--pivot is given {count} times, and a linkage has two fixed pivots: give one or two"));
-    }
-    if problems.is_empty() { Ok(pivots) } else { Err(problems) }
-}
-
-/// Checks that some poses have linkages with given pivots.
-///
-/// # Errors
-/// They are more than three.
-pub(super) fn check_given_pivots(name: &str, poses: &PoseSet, options: &PoseOptions) -> Result<(), Failure> {
-    /// Of more poses the pivots are on a curve, or are a few points.
-    const MOST: usize = 3;
-    let count = poses.poses().len();
-    if options.given_pivots.is_empty() || count <= MOST {
-        return Ok(());
-    }
-    let which = match count {
-        4 => "are on a curve",
-        5 => "are at most four points",
-        _ => "are where the linkage is nearest to the poses",
-    };
-    Err(Failure::input(format!(
-        "{name}: --pivot is of 2 or 3 poses, and the pivots of {count} {which}: leave poses out, or give a box in its place, --pivots XMIN,YMIN,XMAX,YMAX"
-    )))
 }
 
 /// The options that have no meaning for poses.

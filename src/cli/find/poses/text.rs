@@ -10,7 +10,7 @@ use coupler_find::{
 };
 
 use super::super::super::format::angle;
-use super::report::PoseReport;
+use super::report::{PoseReport, options_of};
 use crate::find::Relaxed;
 
 /// The answers, each with its dimensions and its place; then what was left out.
@@ -161,17 +161,18 @@ fn left_out(findings: &PoseFindings) -> String {
 }
 
 fn nothing_found(relaxed: Option<&Relaxed>, poses: &PoseSet) -> String {
-    let Some(Relaxed { options, findings }) = relaxed else {
+    let Some(relaxed) = relaxed else {
         const NO_TURN: &str =
             "; the body does not turn: the links of parallelograms move it so, and pass only points of one circle";
         let why = if poses.is_translation() { NO_TURN } else { "" };
         return format!("no linkage was found that passes the poses, whatever the options{why}\n");
     };
-    let best = findings.answers.first().map_or(String::new(), |best| entry("-", best, poses));
+    let answers = &relaxed.findings.answers;
+    let best = answers.first().map_or(String::new(), |best| entry("-", best, poses));
     format!(
         "no linkage passes the poses as asked for; with {} there {}, the best of them:\n{best}",
-        options.join(" and "),
-        match findings.answers.len() {
+        options_of(relaxed).join(" and "),
+        match answers.len() {
             1 => "is 1".to_owned(),
             count => format!("are {count}"),
         }

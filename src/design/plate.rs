@@ -5,20 +5,19 @@ use coupler_drawing::page::{self, Heading, Layout, Options, Panel, PanelPage, Pa
 use coupler_drawing::render::{self, TextMode};
 
 /// A design as it is drawn.
-pub(super) struct ShownDesign {
+pub struct ShownDesign {
+    /// The linkage with the curve that is shown.
     pub solved: SolvedCell,
+    /// The line under it.
     pub caption: String,
+    /// The line under that.
     pub note: String,
+    /// In which pose it is drawn.
     pub pose: PoseChoice,
 }
 
-/// An SVG with one panel for each design, in order of rank, under a title and a line on what was wished.
-pub(super) fn designs_plate(
-    title: &str,
-    wished: String,
-    mut symbols: Vec<String>,
-    mut designs: Vec<ShownDesign>,
-) -> Vec<u8> {
+/// An SVG with one panel for each design, in order of rank, under a title and a line on what was wished; there must be one.
+pub fn designs_plate(title: &str, wished: String, mut symbols: Vec<String>, mut designs: Vec<ShownDesign>) -> Vec<u8> {
     let columns = [1, 2, 3, 2, 3, 3].get(designs.len() - 1).copied().unwrap_or(4);
     let rows = designs.len().div_ceil(columns);
     // A panel shows the number of its cell; here that is the rank.

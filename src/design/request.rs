@@ -1,0 +1,80 @@
+//! What is asked of a search by wishes, as users give it, and all that is wrong with it.
+
+use std::sync::Arc;
+
+use coupler_curves::template::Template;
+use coupler_find::{DesignOptions, DesignSpace, Direction, RangeRequest, Wishes};
+
+use crate::notation::Notation;
+
+/// What is asked of a search by wishes.
+#[derive(Clone, Debug)]
+pub struct DesignRequest {
+    /// How the options are written.
+    pub notation: Notation,
+    /// The linkage.
+    pub template: Arc<Template>,
+    /// The conditions, joined by `and`.
+    pub condition: Option<String>,
+    /// Expressions that are to be as great as possible.
+    pub maximize: Vec<String>,
+    /// Expressions that are to be as small as possible.
+    pub minimize: Vec<String>,
+    /// The ranges of parameters.
+    pub ranges: Vec<RangeRequest>,
+    /// The parameters that are kept, each with its value if it has another than its default.
+    pub fixed: Vec<(String, Option<String>)>,
+    /// The greatest distance of two joints of a link, in the unit of the lengths; may be infinite.
+    pub max_link: f64,
+    /// How the search goes.
+    pub options: DesignOptions,
+}
+
+impl DesignRequest {
+    /// The greatest number of designs.
+    pub const MAX_BEST: usize = 50;
+
+    /// What varies, and what is wished.
+    ///
+    /// # Errors
+    /// All problems of the request.
+    pub fn check(&self) -> Result<(DesignSpace, Wishes), Vec<String>> {
+        let mut problems = Vec::new();
+        if self.max_link.is_nan() || self.max_link <= 0.0 {
+            let option = self.notation.name("max_link");
+            problems.push(format!("{option}: {} is not positive; give a length, as in 250, or inf", self.max_link));
+        }
+        let most = self.options.most;
+        if !(1..=DesignRequest::MAX_BEST).contains(&most) {
+            let option = self.notation.with_value("best", most);
+            problems.push(format!("{option}: give a number from 1 to {}", DesignRequest::MAX_BEST));
+        }
+        let all_goals = [(Direction::Greatest, &self.maximize), (Direction::Least, &self.minimize)];
+        let goals: Vec<(Direction, String)> = all_goals
+            .into_iter()
+            .flat_map(|(direction, texts)| texts.iter().map(move |text| (direction, text.clone())))
+            .collect();
+        let wishes = Wishes::new(&self.template, self.condition.as_deref(), &goals, self.max_link);
+        let space = DesignSpace::new(self.template.clone(), &self.fixed, &self.ranges);
+        match (space, wishes) {
+            (Ok(space), Ok(wishes)) if problems.is_empty() => Ok((space, wishes)),
+            (space, wishes) => {
+                problems.extend(space.err().into_iter().flatten().map(|error| error.to_string()));
+                problems.extend(wishes.err().into_iter().flatten().map(|error| error.to_string()));
+                Err(problems)
+            }
+        }
+    }
+
+    /// What is wished, in one line.
+    pub fn in_words(&self) -> String {
+        let goals = |verb: &'static str, texts: &[String]| {
+            texts.iter().map(move |text| format!("{verb} {text}")).collect::<Vec<_>>()
+        };
+        let mut parts = Vec::new();
+        parts.extend(self.condition.clone());
+        parts.extend(goals("greatest", &self.maximize));
+        parts.extend(goals("least", &self.minimize));
+        parts.join(" · ")
+    }
+}
