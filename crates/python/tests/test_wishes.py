@@ -36,6 +36,21 @@ def complete(records: list[dict]) -> list[dict]:
     return [{key: value for key, value in record.items() if value is not None} for record in records]
 
 
+def test_paths_have_the_records_of_the_command(tmp_path) -> None:
+    file, atlas = tmp_path / "path.csv", tmp_path / "atlas.toml"
+    points = ca.linkage("slider-crank", coupler=2.5, along=1, across=0.8, samples=60).curve()
+    np.savetxt(file, points, delimiter=",", fmt="%.17g")
+    atlas.write_text('atlas.title = "Sliders"\n[[family]]\nid = "sliders"\nlinkage = "slider-crank"\ngrid = { coupler = [2, 2.6], across = [0.5, 0.7] }\n')
+    for arguments, options in [
+        (["--index", "2000"], {"index": 2000}),
+        (["--linkage", "slider-crank"], {"linkage": "slider-crank"}),
+        (["--atlas", str(atlas)], {"atlas": atlas}),
+    ]:
+        found = ca.find(file, closed=True, effort="quick", top=2, **options)
+        printed = command("find", str(file), "--closed", "--effort", "quick", "--top", "2", *arguments)
+        assert len(found) > 0 and found.records() == printed["results"]
+
+
 def test_designs_are_those_of_the_command() -> None:
     designs = ca.design("slider-crank", where=STROKE, maximize="mu_worst_deg", effort="quick", best=3, seed=7)
     printed = command("design", "slider-crank", "--where", STROKE, "--maximize", "mu_worst_deg", "--effort", "quick", "--best", "3", "--seed", "7")
