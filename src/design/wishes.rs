@@ -2,7 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
-use coupler_curves::exchange::{ParameterSet, manifest_families};
+use coupler_curves::exchange::{ParameterSet, format_significant, manifest_families};
 use coupler_curves::text::round_to_six_digits;
 use coupler_find::{DesignAnswer, DesignMiss, DesignOptions, DesignSearch, DesignSpace, Wishes, manifest_head};
 
@@ -84,4 +84,14 @@ pub fn describe(answer: &DesignAnswer) -> String {
     let parts: Vec<String> =
         shown.iter().map(|(text, value)| format!("{text} {}", round_to_six_digits(*value))).collect();
     parts.join(", ")
+}
+
+/// The dimensions: "p = 110, r = 17.674909".
+pub fn parameters(answer: &DesignAnswer) -> String {
+    /// The digits of a dimension, and the least number that is a decimal.
+    const FORM: (usize, f64) = (8, 1e-5);
+    let named = answer.family.template.parameters.iter().zip(&answer.values);
+    let values =
+        named.map(|(parameter, value)| format!("{} = {}", parameter.name, format_significant(*value, FORM.0, FORM.1)));
+    values.collect::<Vec<_>>().join(", ")
 }

@@ -205,7 +205,7 @@ impl Design {
     }
 
     fn __repr__(&self) -> String {
-        let dimensions = design::dimensions(&self.answer);
-        format!("<coupler_atlas.Design: {}: {dimensions}>", describe(&self.answer))
+        let parameters = design::parameters(&self.answer);
+        format!("<coupler_atlas.Design: {}: {parameters}>", describe(&self.answer))
     }
 }

@@ -6,14 +6,14 @@ pub use designs::{Design, Designs};
 
 use std::path::PathBuf;
 
-use coupler_atlas::design::{DesignRecord, DesignRequest, by_wishes, draw_designs};
+use coupler_atlas::design::{DesignRecord, WishRequest, by_wishes, draw_designs};
 use coupler_atlas::find::Notation;
-use coupler_find::{DesignOptions, RangeRequest};
+use coupler_find::DesignOptions;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::keywords::Unread;
+use crate::keywords::{Kept, Unread};
 use crate::linkage::NamedLinkage;
 use crate::results::Shown;
 use crate::task::{self, Task};
@@ -89,7 +89,11 @@ pub fn design_linkage(py: Python, linkage: &str, keywords: Option<&Bound<PyDict>
     let keywords = Unread::new(py, "design", keywords)?;
     let manifest: Option<PathBuf> = keywords.take_optional("manifest")?;
     let progress: Option<Bound<PyAny>> = keywords.take_optional("progress")?;
-    let kept = keywords.take_kept("fix")?;
+    let fix = |(name, value): Kept| match value {
+        Some(value) => format!("{name} = {value}"),
+        None => name,
+    };
+    let fix = keywords.take_kept("fix")?.into_iter().map(fix).collect();
     let default = DesignOptions::default();
     let options = DesignOptions {
         most: keywords.take_whole("best")?.unwrap_or(default.most),
@@ -98,18 +102,18 @@ pub fn design_linkage(py: Python, linkage: &str, keywords: Option<&Bound<PyDict>
     };
     let condition = keywords.take_optional("where")?;
     let [maximize, minimize] = [take_expressions(&keywords, "maximize")?, take_expressions(&keywords, "minimize")?];
-    let ranges = take_ranges(&keywords)?;
+    let range = take_ranges(&keywords)?;
     let max_link = keywords.take_optional("max_link")?.unwrap_or(f64::INFINITY);
     keywords.finish()?;
-    let NamedLinkage { searched, own_text } = NamedLinkage::find(py, linkage, manifest.as_deref(), kept)?;
-    let request = DesignRequest {
+    let NamedLinkage { searched, own_text } = NamedLinkage::find(py, linkage, manifest.as_deref(), Vec::new())?;
+    let request = WishRequest {
         notation: Notation::Python,
         template: searched.template,
         condition,
         maximize,
         minimize,
-        ranges,
-        fixed: searched.kept,
+        range,
+        fix,
         max_link,
         options,
     };
@@ -138,20 +142,20 @@ fn take_expressions(keywords: &Unread, name: &str) -> PyResult<Vec<String>> {
     })
 }
 
-fn take_ranges(keywords: &Unread) -> PyResult<Vec<RangeRequest>> {
+/// The ranges, as texts.
+fn take_ranges(keywords: &Unread) -> PyResult<Vec<String>> {
     let Some(ranges) = keywords.take_optional::<Bound<PyDict>>("ranges")? else { return Ok(Vec::new()) };
     let range = |(name, range): (Bound<PyAny>, Bound<PyAny>)| {
         let name: String = name.extract()?;
-        let text = match range.extract() {
-            Ok(Range::Text(text)) => text,
-            Ok(Range::Ends([from, to])) => format!("{from}..{to}"),
-            Ok(Range::Steps([from, to, step])) => format!("{from}..{to} by {step}"),
+        match range.extract() {
+            Ok(Range::Text(text)) => Ok(format!("{name} = {text}")),
+            Ok(Range::Ends([from, to])) => Ok(format!("{name} = {from}..{to}")),
+            Ok(Range::Steps([from, to, step])) => Ok(format!("{name} = {from}..{to} by {step}")),
             Err(_) => {
                 let message = "give (least, greatest), (least, greatest, step) or a text like \"20..60 by 1\"";
-                return Err(PyTypeError::new_err(format!("ranges: {name}: {message}")));
+                Err(PyTypeError::new_err(format!("ranges: {name}: {message}")))
             }
-        };
-        Ok(RangeRequest { name, text })
+        }
     };
     ranges.iter().map(range).collect()
 }

@@ -101,7 +101,7 @@ impl FoundFunction {
 /// A linkage of one of two kinds.
 pub(super) enum Entry {
     /// A four-bar or a slider-crank.
-    Closed(coupler_find::FunctionAnswer),
+    Closed(Box<coupler_find::FunctionAnswer>),
     /// Any linkage.
     Any(Box<LinkageFunctionAnswer>),
 }

@@ -172,7 +172,7 @@ fn search_closed(
         manifest: function_manifest(&wanted.name, &answers),
         drawing: Some(draw_function(&wanted.name, &details, &wanted.target, &answers)),
     };
-    FoundFunction::make(py, wanted, method, answers.into_iter().map(Entry::Closed), shown)
+    FoundFunction::make(py, wanted, method, answers.into_iter().map(|answer| Entry::Closed(Box::new(answer))), shown)
 }
 
 fn search_any(

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::design::DesignRequest;
+use crate::design::WishRequest;
 use clap::{Args, ValueHint};
 use coupler_find::DesignOptions;
 
@@ -10,7 +10,7 @@ use super::super::super::effort::EffortChoice;
 use super::super::super::files;
 
 /// The greatest `--best`.
-const MAX_BEST: i64 = DesignRequest::MAX_BEST as i64;
+const MAX_BEST: i64 = WishRequest::MAX_BEST as i64;
 
 #[derive(Debug, Args)]
 pub struct WishArguments {

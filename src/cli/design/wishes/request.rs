@@ -1,19 +1,19 @@
 //! What is asked of `design LINKAGE`, checked.
 
 use coupler_curves::expression::Expression;
-use coupler_find::{DesignOptions, RangeRequest};
+use coupler_find::DesignOptions;
 
 use super::super::super::Failure;
 use super::super::super::linkage::{find_template, own_text};
 use super::arguments::WishArguments;
-use crate::design::DesignRequest;
+use crate::design::WishRequest;
 use crate::find::Notation;
 
 /// What the arguments ask for, and the text of the linkage, if it is of a manifest.
 ///
 /// # Errors
 /// Everything in them that cannot be read.
-pub(super) fn read(arguments: &WishArguments) -> Result<(DesignRequest, Option<String>), Failure> {
+pub(super) fn read(arguments: &WishArguments) -> Result<(WishRequest, Option<String>), Failure> {
     let name = arguments.linkage.as_deref().unwrap_or_default();
     let template = find_template(name, arguments.manifest.as_deref())?;
     let own_linkage = own_text(arguments.manifest.as_deref(), &template)?;
@@ -26,26 +26,14 @@ pub(super) fn read(arguments: &WishArguments) -> Result<(DesignRequest, Option<S
         problems.push(format!("--max-link: `{}`: {}", arguments.max_link, error.message_with_help()));
         f64::INFINITY
     });
-    let named = |text: &str| {
-        let (name, value) = text.split_once('=')?;
-        Some((name.trim().to_owned(), value.trim().to_owned()))
-    };
-    let fix = |text: &String| named(text).map_or((text.trim().to_owned(), None), |(name, value)| (name, Some(value)));
-    let mut ranges = Vec::new();
-    for text in &arguments.range {
-        match named(text) {
-            Some((name, text)) => ranges.push(RangeRequest { name, text }),
-            None => problems.push(format!("--range: `{text}` has no `=`; write it like \"r = 20..60 by 1\"")),
-        }
-    }
-    let request = DesignRequest {
+    let request = WishRequest {
         notation: Notation::CommandLine,
         template,
         condition: arguments.condition.clone(),
         maximize: arguments.maximize.clone(),
         minimize: arguments.minimize.clone(),
-        ranges,
-        fixed: arguments.fix.iter().map(fix).collect(),
+        range: arguments.range.clone(),
+        fix: arguments.fix.clone(),
         max_link,
         options: DesignOptions { most: arguments.best.into(), effort: arguments.effort.into(), seed: arguments.seed },
     };

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::design::{Designs, describe, dimensions};
+use crate::design::{Designs, describe, parameters};
 use coupler_curves::text::{pluralize, round_to_six_digits};
 use coupler_find::{DesignAnswer, DesignMiss, Wishes};
 
@@ -35,7 +35,7 @@ fn entry(rank: &str, answer: &DesignAnswer) -> String {
     let mut out = String::new();
     // Writing to a string cannot fail.
     let _ = writeln!(out, "{rank:>3}  {}", describe(answer));
-    let _ = writeln!(out, "     {}", dimensions(answer));
+    let _ = writeln!(out, "     {}", parameters(answer));
     let _ = writeln!(out, "     {}", further.join(", "));
     out
 }
@@ -73,7 +73,7 @@ pub(super) fn no_design_message(linkage: &str, wishes: &Wishes, designs: &Design
             None => "it is not met".to_owned(),
         };
         let others = if wishes.wishes.len() > 1 { "while the others are met" } else { "in these ranges" };
-        let _ = writeln!(out, "hint: `{wished}`: {comes_to} {others}: {}", dimensions(nearest));
+        let _ = writeln!(out, "hint: `{wished}`: {comes_to} {others}: {}", parameters(nearest));
     }
     if designs.misses.is_empty() {
         out += "hint: leaving out one wish is not enough; leave out two of them, widen the ranges, or try --effort thorough";

@@ -9,7 +9,7 @@ use crate::notation::Notation;
 
 /// What is asked of a search by wishes.
 #[derive(Clone, Debug)]
-pub struct DesignRequest {
+pub struct WishRequest {
     /// How the options are written.
     pub notation: Notation,
     /// The linkage.
@@ -20,17 +20,17 @@ pub struct DesignRequest {
     pub maximize: Vec<String>,
     /// Expressions that are to be as small as possible.
     pub minimize: Vec<String>,
-    /// The ranges of parameters.
-    pub ranges: Vec<RangeRequest>,
-    /// The parameters that are kept, each with its value if it has another than its default.
-    pub fixed: Vec<(String, Option<String>)>,
+    /// The ranges of parameters, and the steps of their values: "r = 20..60 by 1".
+    pub range: Vec<String>,
+    /// The parameters that keep their default, "s", or a value, "p = 100".
+    pub fix: Vec<String>,
     /// The greatest distance of two joints of a link, in the unit of the lengths; may be infinite.
     pub max_link: f64,
     /// How the search goes.
     pub options: DesignOptions,
 }
 
-impl DesignRequest {
+impl WishRequest {
     /// The greatest number of designs.
     pub const MAX_BEST: usize = 50;
 
@@ -45,9 +45,26 @@ impl DesignRequest {
             problems.push(format!("{option}: {} is not positive; give a length, as in 250, or inf", self.max_link));
         }
         let most = self.options.most;
-        if !(1..=DesignRequest::MAX_BEST).contains(&most) {
+        if !(1..=WishRequest::MAX_BEST).contains(&most) {
             let option = self.notation.with_value("best", most);
-            problems.push(format!("{option}: give a number from 1 to {}", DesignRequest::MAX_BEST));
+            problems.push(format!("{option}: give a number from 1 to {}", WishRequest::MAX_BEST));
+        }
+        let named = |text: &str| {
+            let (name, value) = text.split_once('=')?;
+            Some((name.trim().to_owned(), value.trim().to_owned()))
+        };
+        let fix =
+            |text: &String| named(text).map_or((text.trim().to_owned(), None), |(name, value)| (name, Some(value)));
+        let fixed: Vec<_> = self.fix.iter().map(fix).collect();
+        let mut ranges = Vec::new();
+        for text in &self.range {
+            match named(text) {
+                Some((name, text)) => ranges.push(RangeRequest { name, text }),
+                None => {
+                    let option = self.notation.name("range");
+                    problems.push(format!("{option}: `{text}` has no `=`; write it like \"r = 20..60 by 1\""));
+                }
+            }
         }
         let all_goals = [(Direction::Greatest, &self.maximize), (Direction::Least, &self.minimize)];
         let goals: Vec<(Direction, String)> = all_goals
@@ -55,7 +72,7 @@ impl DesignRequest {
             .flat_map(|(direction, texts)| texts.iter().map(move |text| (direction, text.clone())))
             .collect();
         let wishes = Wishes::new(&self.template, self.condition.as_deref(), &goals, self.max_link);
-        let space = DesignSpace::new(self.template.clone(), &self.fixed, &self.ranges);
+        let space = DesignSpace::new(self.template.clone(), &fixed, &ranges);
         match (space, wishes) {
             (Ok(space), Ok(wishes)) if problems.is_empty() => Ok((space, wishes)),
             (space, wishes) => {
