@@ -69,17 +69,17 @@ def test_designs_are_those_of_the_command() -> None:
 
 def test_designs_are_an_atlas_and_a_table(tmp_path) -> None:
     goals = ["mu_worst_deg", "time_ratio"]
-    swing = "is_crank_rocker and output_swing_deg == 60"
-    ranges = {"crank": (10, 40), "coupler": "60..160 by 2", "rocker": (50, 150, 5)}
-    designs = ca.design("four-bar", where=swing, maximize=goals, fix={"frame": 100}, ranges=ranges, effort="quick", best=4)
-    texts = ["--range", "crank = 10..40", "--range", "coupler = 60..160 by 2", "--range", "rocker = 50..150 by 5", "--fix", "frame = 100"]
+    swing = "is_crank_rocker and output_swing_deg == 60 +- 2"
+    ranges = {"crank": (10, 40), "coupler": "60..160 by 5", "rocker": (50, 150, 5)}
+    designs = ca.design("four-bar", where=swing, maximize=goals, fix={"frame": 100}, ranges=ranges, effort="quick", best=3)
+    texts = ["--range", "crank = 10..40", "--range", "coupler = 60..160 by 5", "--range", "rocker = 50..150 by 5", "--fix", "frame = 100"]
     both = [part for goal in goals for part in ("--maximize", goal)]
-    printed = command("design", "four-bar", "--where", swing, *both, *texts, "--effort", "quick", "--best", "4")
+    printed = command("design", "four-bar", "--where", swing, *both, *texts, "--effort", "quick", "--best", "3")
     assert complete(designs.records()) == complete(printed["designs"]) and len(designs) > 1
     for design in designs:
         own = design.parameters
-        assert own["frame"] == 100 and 10 <= own["crank"] <= 40 and own["coupler"] % 2 == 0 and own["rocker"] % 5 == 0
-        assert design.wishes == pytest.approx({"is_crank_rocker": True, "output_swing_deg": 60}, rel=1e-4)
+        assert own["frame"] == 100 and 10 <= own["crank"] <= 40 and own["coupler"] % 5 == 0 and own["rocker"] % 5 == 0
+        assert design.wishes == pytest.approx({"is_crank_rocker": True, "output_swing_deg": 60}, abs=2)
     first, second = (design.goals for design in designs[:2])
     assert (first["mu_worst_deg"] - second["mu_worst_deg"]) * (first["time_ratio"] - second["time_ratio"]) < 0
     (tmp_path / "designs.toml").write_text(designs.toml(), encoding="utf-8")
