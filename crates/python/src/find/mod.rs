@@ -96,6 +96,7 @@ use path::Path;
 pub fn find_linkages(py: Python, path: Bound<PyAny>, keywords: Option<&Bound<PyDict>>) -> PyResult<Py<Found>> {
     let keywords = Keywords::from_dict(py, keywords)?;
     let linkage = keywords.named_linkage(py)?;
+    let several = keywords.several();
     let (options, space) = keywords.request(linkage.as_ref()).check().map_err(request_error)?;
     let read_options = ReadOptions {
         is_timed: keywords.timed,
@@ -113,7 +114,6 @@ pub fn find_linkages(py: Python, path: Bound<PyAny>, keywords: Option<&Bound<PyD
     let read = Some(path.outline.reading.taken).filter(|taken| !taken.is_empty());
     let sought = Sought { name: path.name, target, read };
     let progress = keywords.progress.as_ref();
-    let several = keywords.several();
     match (keywords.atlas, space) {
         (Some(atlas), _) => {
             let query = (options, keywords.condition.as_deref(), keywords.fixed);
