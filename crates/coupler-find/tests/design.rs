@@ -202,6 +202,17 @@ fn several_goals_are_traded_off() {
 }
 
 #[test]
+#[ignore = "thorough"]
+fn trade_offs_have_a_value_of_each_goal() {
+    let goals = [(Direction::Greatest, "mu_worst_deg"), (Direction::Greatest, "time_ratio")];
+    let asked =
+        Asked { conditions: "output_stroke == 100", goals: &goals, max_link: Some(250.0), most: 3, ..Asked::default() };
+    let found = answers("slider-crank", &asked);
+    // Where the linkage jams the time ratio grows without end, and has no value beyond.
+    assert!(found.len() > 1 && found.iter().all(|answer| answer.goals.iter().all(|(_, value)| value.is_finite())));
+}
+
+#[test]
 fn parameters_that_change_nothing_keep_their_defaults() {
     let asked = Asked { conditions: "output_swing_deg == 40", ..Asked::default() };
     let search = search("watt-six-bar", &Asked { conditions: "output_swing_deg >= 1", ..asked }, &OneAtATime);

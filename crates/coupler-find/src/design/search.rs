@@ -478,6 +478,11 @@ impl DesignSearch {
         let answers = distinct.into_iter().filter_map(|polished| self.answer(polished));
         let mut answers: Vec<DesignAnswer> =
             answers.filter(|answer| answer.is_met(self.meter.wishes.max_link)).collect();
+        // Without a value of a goal an answer cannot be compared: it is one only if there is no other.
+        let has_goals = |answer: &DesignAnswer| answer.goals.iter().all(|(_, value)| !value.is_nan());
+        if answers.iter().any(has_goals) {
+            answers.retain(has_goals);
+        }
         let directions: Vec<Direction> = goals.iter().map(|goal| goal.direction).collect();
         if goals.len() > 1 {
             let all = answers.clone();
