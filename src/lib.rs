@@ -17,11 +17,11 @@ mod threads;
 
 pub mod sweep;
 
+pub use coupler_manifest as manifest;
+
 pub mod design;
 
 pub mod find;
-
-pub use coupler_manifest as manifest;
 
 pub mod record;
 

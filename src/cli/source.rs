@@ -1,5 +1,6 @@
 //! Reads a manifest, and prints the problems in it.
 
+use std::cell::RefCell;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -9,8 +10,9 @@ use crate::output;
 use crate::record::RunRecord;
 use coupler_curves::family::Family;
 use coupler_curves::problem::{self, Problem, suggestion};
+use indicatif::ProgressBar;
 
-use super::{Failure, color, files, not_a_manifest, print_stderr, print_styled};
+use super::{Failure, color, files, not_a_manifest, print_stderr, print_styled, progress_bar};
 use coupler_curves::text::pluralize;
 
 /// A manifest with its path and text, for messages.
@@ -50,10 +52,22 @@ pub fn parse(path: &Path, text: &str) -> Result<ParseOutcome, output::Error> {
 
 /// Reads the files that a manifest names while it is parsed. That one is missing or wrong is a problem of the manifest.
 fn with_files(path: &Path, parse: impl FnOnce(FileReader) -> ParseOutcome) -> Result<ParseOutcome, output::Error> {
-    let named = ManifestFiles::new(path);
+    let named = ManifestFiles::new(path).with_progress(search_bar());
     let outcome = parse(Some(&named));
     files::set_named(named.take_named());
     named.take_failure().map_or(Ok(outcome), Err)
+}
+
+/// Shows of a search which part of it is done.
+fn search_bar() -> impl Fn(&str, f64) {
+    let shown: RefCell<Option<ProgressBar>> = RefCell::default();
+    move |name, part| {
+        let mut shown = shown.borrow_mut();
+        shown.get_or_insert_with(|| progress_bar::of_parts(name)).set_position((1000.0 * part) as u64);
+        if part >= 1.0 {
+            shown.take().iter().for_each(ProgressBar::finish_and_clear);
+        }
+    }
 }
 
 /// Reads a manifest, and prints every problem in it to standard error.

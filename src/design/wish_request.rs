@@ -3,8 +3,10 @@
 use std::sync::Arc;
 
 use coupler_curves::template::Template;
-use coupler_find::{DesignOptions, DesignSpace, Direction, RangeRequest, Wishes};
+use coupler_find::{DesignOptions, DesignSpace, Wishes};
 
+use super::request::check_wishes;
+use crate::manifest::{MAX_DESIGNS, WishTexts};
 use crate::notation::Notation;
 
 /// What is asked of a search by wishes.
@@ -32,7 +34,7 @@ pub struct WishRequest {
 
 impl WishRequest {
     /// The greatest number of designs.
-    pub const MAX_BEST: usize = 50;
+    pub const MAX_BEST: usize = MAX_DESIGNS;
 
     /// What varies, and what is wished.
     ///
@@ -49,35 +51,17 @@ impl WishRequest {
             let option = self.notation.with_value("best", most);
             problems.push(format!("{option}: give a number from 1 to {}", WishRequest::MAX_BEST));
         }
-        let named = |text: &str| {
-            let (name, value) = text.split_once('=')?;
-            Some((name.trim().to_owned(), value.trim().to_owned()))
+        let texts = WishTexts {
+            condition: self.condition.clone(),
+            maximize: self.maximize.clone(),
+            minimize: self.minimize.clone(),
+            range: self.range.clone(),
+            fix: self.fix.clone(),
         };
-        let fix =
-            |text: &String| named(text).map_or((text.trim().to_owned(), None), |(name, value)| (name, Some(value)));
-        let fixed: Vec<_> = self.fix.iter().map(fix).collect();
-        let mut ranges = Vec::new();
-        for text in &self.range {
-            match named(text) {
-                Some((name, text)) => ranges.push(RangeRequest { name, text }),
-                None => {
-                    let option = self.notation.name("range");
-                    problems.push(format!("{option}: `{text}` has no `=`; write it like \"r = 20..60 by 1\""));
-                }
-            }
-        }
-        let all_goals = [(Direction::Greatest, &self.maximize), (Direction::Least, &self.minimize)];
-        let goals: Vec<(Direction, String)> = all_goals
-            .into_iter()
-            .flat_map(|(direction, texts)| texts.iter().map(move |text| (direction, text.clone())))
-            .collect();
-        let wishes = Wishes::new(&self.template, self.condition.as_deref(), &goals, self.max_link);
-        let space = DesignSpace::new(self.template.clone(), &fixed, &ranges);
-        match (space, wishes) {
-            (Ok(space), Ok(wishes)) if problems.is_empty() => Ok((space, wishes)),
-            (space, wishes) => {
-                problems.extend(space.err().into_iter().flatten().map(|error| error.to_string()));
-                problems.extend(wishes.err().into_iter().flatten().map(|error| error.to_string()));
+        match check_wishes(&self.template, &texts, self.max_link) {
+            Ok(checked) if problems.is_empty() => Ok(checked),
+            checked => {
+                problems.extend(checked.err().into_iter().flatten().map(|problem| problem.message));
                 Err(problems)
             }
         }

@@ -48,6 +48,28 @@ pub fn by_wishes(
 }
 
 impl Designs {
+    /// What to do where no linkage meets the wishes: what each comes to while the others are met.
+    pub fn remedies(&self, wishes: &Wishes) -> Vec<String> {
+        if !self.is_any_assembled {
+            let remedy = "no linkage within these ranges can be assembled: widen them, or fix fewer parameters";
+            return vec![remedy.to_owned()];
+        }
+        if self.misses.is_empty() {
+            let remedy = "leaving out one wish is not enough; leave out two of them, widen the ranges, or try the thorough effort";
+            return vec![remedy.to_owned()];
+        }
+        let others = if wishes.wishes.len() > 1 { "while the others are met" } else { "in these ranges" };
+        let remedy = |DesignMiss { wish, nearest }: &DesignMiss| {
+            let comes_to = match &nearest.wishes[*wish].value {
+                Some((subject, value)) if value.is_nan() => format!("{subject} has no value"),
+                Some((subject, value)) => format!("{subject} comes to {} at best", round_to_six_digits(*value)),
+                None => "it is not met".to_owned(),
+            };
+            format!("`{}`: {comes_to} {others}: {}", wishes.wishes[*wish].text(), parameters(nearest))
+        };
+        self.misses.iter().map(remedy).collect()
+    }
+
     /// A manifest that renders the linkages. `own_linkage` is the text of the linkage, if it is none of the catalogue.
     pub fn manifest(&self, linkage: &str, own_linkage: Option<&str>) -> String {
         let mut out = manifest_head(&format!("design {linkage}"), &format!("Designs of {linkage}"));

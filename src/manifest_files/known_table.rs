@@ -1,4 +1,4 @@
-//! Tables of cases that have been read before.
+//! Tables of cases that have been read or found before.
 
 use std::io;
 use std::sync::Arc;
@@ -7,10 +7,11 @@ use super::case_rows::CaseRows;
 use crate::manifest::{Plan, PlannedFamily};
 use coupler_curves::family::ParameterSpace;
 
-/// A table of cases that has been read before: a manifest may be parsed again without it, where there is no such file, or another.
+/// A table of cases that has been read or found before: a manifest may be parsed again without it, where there is no such file, or another,
+/// and without the search.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KnownTable {
-    /// Its path, as the manifest has it.
+    /// Its path, as the manifest has it, or what the answers of a search are called.
     pub path: String,
     /// The names of its columns, at least one.
     pub names: Vec<String>,

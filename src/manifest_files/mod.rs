@@ -1,7 +1,8 @@
-//! The files that a manifest names: fonts, and tables of cases as CSV or Parquet.
+//! What a manifest needs besides its text: the fonts and tables of cases that it names, as CSV or Parquet, and the answers of its searches.
 
 mod case_rows;
 mod csv_table;
+mod designs;
 mod known_table;
 mod parquet_table;
 
@@ -10,9 +11,11 @@ use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use crate::manifest::{CaseTable, FileProblem, Files};
+use crate::manifest::{CaseTable, DesignRequest, FileProblem, Files, WishPlace};
 use crate::output::{self, Error};
 use case_rows::{CaseRows, MAX_TABLE_BYTES};
+use coupler_curves::template::Template;
+use designs::Progress;
 
 pub use known_table::KnownTable;
 
@@ -25,6 +28,7 @@ pub struct ManifestFiles {
     known: Vec<KnownTable>,
     named: RefCell<Vec<NamedFile>>,
     failure: RefCell<Option<Error>>,
+    report_part: Box<Progress>,
 }
 
 /// A file that a manifest names, as it was before it was read.
@@ -38,7 +42,13 @@ impl ManifestFiles {
     /// Those of the manifest at a path; of one from standard input they are relative to the current folder.
     pub fn new(manifest: &Path) -> ManifestFiles {
         let folder = manifest.parent().unwrap_or(Path::new("")).to_owned();
-        ManifestFiles { folder, known: Vec::new(), named: RefCell::default(), failure: RefCell::default() }
+        let (named, failure) = (RefCell::default(), RefCell::default());
+        ManifestFiles { folder, known: Vec::new(), named, failure, report_part: Box::new(|_, _| {}) }
+    }
+
+    /// The same that says of a search, by what its answers are called, which part of it is done, from 0 to 1.
+    pub fn with_progress(self, report_part: impl Fn(&str, f64) + 'static) -> ManifestFiles {
+        ManifestFiles { report_part: Box::new(report_part), ..self }
     }
 
     /// The same with tables that have been read before, and are not read again.
@@ -103,6 +113,16 @@ impl Files for ManifestFiles {
             return None;
         }
         rows.into_table()
+    }
+
+    fn designs(
+        &self,
+        template: &Template,
+        request: &DesignRequest,
+        report: &mut dyn FnMut(WishPlace, FileProblem),
+    ) -> Option<CaseTable> {
+        let known = self.known.iter().find(|known| known.path == request.name);
+        designs::search(template, request, (known, &self.report_part), report)
     }
 }
 

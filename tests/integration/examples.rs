@@ -70,7 +70,8 @@ fn every_example_is_valid_and_documented() {
 }
 
 /// A family of each example that takes little time, with the number of its pages.
-const PARTS: [(&str, &str, usize); 6] = [
+const PARTS: [(&str, &str, usize); 7] = [
+    ("designs", "dwell", 1),
     ("drawings", "press", 1),
     ("offset-slider-crank", "slider", 1),
     ("inverted-slider-crank", "conchoids", 1),

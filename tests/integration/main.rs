@@ -22,6 +22,7 @@ mod documents;
 mod drawn;
 mod examples;
 mod export;
+mod family_designs;
 mod family_measures;
 mod faults;
 mod find;

@@ -74,7 +74,7 @@ fn all_that_is_wrong_is_said_in_one_run() {
         "`2 +`: unexpected end of the expression",
         "`crnk = 1..2`: four-bar has no parameter `crnk`; did you mean `crank`?",
         "`crank = 3..2`: 3 is not below 2",
-        "--range: `coupler` has no `=`",
+        "`coupler` is no range of a parameter; write it like",
         "`rocker` has no default",
         "`frame` is -1, and must be more than 0",
         "--max-link: -3 is not positive",

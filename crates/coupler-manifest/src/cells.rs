@@ -221,9 +221,9 @@ fn given_values(family: &Family, cell: &Cell) -> String {
     named.join(", ")
 }
 
-/// The place of the grid or the cases; that of the family if it has neither.
+/// The place of the grid, the cases or the wishes; that of the family if it has none.
 fn space_span(fields: &Fields) -> Span {
-    let space = ["grid", "cases"].into_iter().find_map(|key| fields.get(key));
+    let space = ["grid", "cases", "design"].into_iter().find_map(|key| fields.get(key));
     space.map_or_else(|| fields.span.clone(), TomlValue::span)
 }
 
@@ -258,9 +258,9 @@ fn value_span(family: &Family, fields: &Fields, k: usize, slot: usize) -> Option
     Some(value.span())
 }
 
-/// The place of the k-th case, if the family has cases; of one in a file, that of the file's name.
+/// The place of the k-th case, if the family has cases; of one in a file, that of the file's name, and of an answer that of the wishes.
 fn case_span(fields: &Fields, k: usize) -> Option<Span> {
-    let cases = fields.get("cases")?;
+    let cases = fields.get("cases").or_else(|| fields.get("design"))?;
     match cases.get_ref().as_array() {
         Some(list) => Some(list.get(k)?.span()),
         None => Some(cases.span()),

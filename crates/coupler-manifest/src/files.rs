@@ -1,6 +1,10 @@
-//! What reads the files that a manifest names.
+//! What a manifest needs besides its text: the files that it names, and the answers of its searches.
 
-/// Reads the files that a manifest names, by their paths relative to the manifest.
+use coupler_curves::template::Template;
+
+use crate::wishes::{DesignRequest, WishPlace};
+
+/// Reads the files that a manifest names, by their paths relative to the manifest, and searches for the linkages that it wishes.
 pub trait Files {
     /// The bytes of a font file. The error says why it cannot be read.
     fn font(&self, path: &str) -> Result<Vec<u8>, String>;
@@ -8,9 +12,18 @@ pub trait Files {
     /// The cases in a table, of which the first `limit` are kept. Everything that is wrong in it is reported, and names the file; `None` if
     /// not even its columns are known.
     fn cases(&self, path: &str, limit: usize, report: &mut dyn FnMut(FileProblem)) -> Option<CaseTable>;
+
+    /// The values of the parameters of a linkage that meet wishes, the best first. Everything that is wrong with the wishes is reported, each with
+    /// its place, or that nothing meets them; `None` then, or if the answers are not wanted.
+    fn designs(
+        &self,
+        template: &Template,
+        request: &DesignRequest,
+        report: &mut dyn FnMut(WishPlace, FileProblem),
+    ) -> Option<CaseTable>;
 }
 
-/// What reads the files of a manifest; `None` if files are not read.
+/// What reads the files of a manifest, and searches for it; `None` if neither is done.
 pub type FileReader<'a> = Option<&'a dyn Files>;
 
 /// What is wrong in a file.

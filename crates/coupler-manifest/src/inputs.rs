@@ -56,9 +56,9 @@ const IGNORED_ATLAS_KEYS: [&str; 4] = ["format", "output", "formats", "volume_pa
 /// Keys of a family that do not change the contents of its files.
 const IGNORED_FAMILY_KEYS: [&str; 3] = ["formats", "limit", "check"];
 /// [`IGNORED_FAMILY_KEYS`], and the keys of the parameter sets.
-const IGNORED_SETTINGS: [&str; 5] = ["formats", "limit", "check", "grid", "cases"];
+const IGNORED_SETTINGS: [&str; 6] = ["formats", "limit", "check", "grid", "cases", "design"];
 /// [`IGNORED_FAMILY_KEYS`], and the keys that determine the values of cells, their curves and their order.
-const IGNORED_PAGE_KEYS: [&str; 8] = ["formats", "limit", "check", "grid", "cases", "let", "where", "sort"];
+const IGNORED_PAGE_KEYS: [&str; 9] = ["formats", "limit", "check", "grid", "cases", "design", "let", "where", "sort"];
 
 /// The keys of a family that determine neither the cells, nor their curves, nor the columns of tables.
 const IGNORED_TABLE_KEYS: [&str; 14] = [
@@ -90,7 +90,8 @@ impl SharedInputs {
     }
 
     /// The inputs of the family with this table of the manifest, with what depends on the whole manifest: its layout, and its title if it states
-    /// none, which a manifest of the family alone would not have. A file with its cases counts by what is in it, whatever its name.
+    /// none, which a manifest of the family alone would not have. A file with its cases counts by what is in it, whatever its name, and
+    /// wishes by what is found.
     pub fn of_family(
         &self,
         family: &TomlValue,
@@ -106,7 +107,7 @@ impl SharedInputs {
         let case_digest = case_digest.map(quoted);
         let with_cases = |ignored: &[&str]| match &case_digest {
             Some(digest) if !ignored.contains(&"cases") => {
-                with_key(canonical_toml(family, &[ignored, &["cases"]].concat()), "cases", Some(digest))
+                with_key(canonical_toml(family, &[ignored, &["cases", "design"]].concat()), "cases", Some(digest))
             }
             _ => canonical_toml(family, ignored),
         };

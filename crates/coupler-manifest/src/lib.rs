@@ -2,7 +2,7 @@
 //!
 //! [`parse`] turns a text into a validated [`Plan`], or reports every problem in it with its place and a remedy. It uses
 //! no files, threads or clocks, and what it returns depends on the text alone; [`parse_with_files`] has the files that the manifest
-//! may name read, the font file of a theme and tables of cases.
+//! may name read, the font file of a theme and tables of cases, and the linkages searched that it wishes.
 //!
 //! ```
 //! let text = r#"
@@ -27,6 +27,8 @@ mod format_version;
 mod inputs;
 mod tolerance;
 
+mod wishes;
+
 mod files;
 
 mod theme;
@@ -37,6 +39,7 @@ mod settings;
 
 mod grid;
 
+mod design;
 mod parameter_sets;
 mod unused_names;
 
@@ -69,5 +72,7 @@ pub use inputs::ManifestInputs;
 pub use plan::{BookPlan, CaseFile, FindingCharts, ListCriteria, Plan, PlannedChapter, PlannedFamily, PlannedList};
 pub use schema::MANIFEST;
 pub use tolerance::{PartialTolerances, Tolerances};
+
+pub use wishes::{DesignEffort, DesignRequest, MAX_DESIGNS, WishPlace, WishTexts};
 
 pub use coupler_curves::linkage_format::{KeySchema, TableSchema, ValueSchema};

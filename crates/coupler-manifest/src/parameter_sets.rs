@@ -1,7 +1,8 @@
-//! The parameter sets of a family: its `grid` or its `cases`, which may be in a file.
+//! The parameter sets of a family: its `grid`, its `cases`, which may be in a file, or what its `design` finds.
 
 use std::sync::Arc;
 
+use crate::design;
 use crate::files::{CaseTable, FileProblem, FileReader, RowPlaces};
 use crate::grid::{self, GridValues};
 use coupler_curves::family::{Axis, AxisValues, Case, MAX_CELLS, ParameterSpace};
@@ -12,11 +13,11 @@ use coupler_curves::template::{ParameterKind, Template};
 /// The most cells that `limit` may allow; their numbers have 32 bits.
 pub(crate) const MAX_LIMIT: usize = 4_000_000_000;
 
-/// The values of `grid` or `cases`, by name.
+/// The values of `grid`, `cases` or `design`, by name.
 pub(crate) enum NamedSpace {
     Grid(Vec<(String, Span, AxisValues)>),
     Cases(Vec<Vec<(String, Span, f64)>>),
-    /// Those of a file, with the place of its name.
+    /// Those of a file or of a search, with the place of its name.
     Table(TableColumns, Vec<f64>, Span),
 }
 
@@ -49,7 +50,7 @@ pub(crate) fn kind_of(template: Option<&Template>, name: &str) -> ParameterKind 
     parameter.map(|parameter| parameter.kind).unwrap_or_default()
 }
 
-/// Reads `grid` or `cases` of a family of a linkage; `None` if it is not known which.
+/// Reads `grid`, `cases` or `design` of a family of a linkage; `None` if it is not known which.
 pub(crate) fn read_space<'t>(
     fields: &Fields<'_, 't>,
     template: Option<&Template>,
@@ -60,17 +61,23 @@ pub(crate) fn read_space<'t>(
         None => MAX_CELLS,
         Some(value) => parser.integer(value, 1, MAX_LIMIT)?,
     };
-    match (fields.get("grid"), fields.get("cases")) {
-        (Some(value), None) => read_grid(value, limit, template, parser),
-        (None, Some(value)) if value.get_ref().is_str() => read_table(value, limit, files, parser),
-        (None, Some(value)) => read_cases(value, limit, template, parser),
+    match (fields.get("grid"), fields.get("cases"), fields.get("design")) {
+        (Some(value), None, None) => read_grid(value, limit, template, parser),
+        (None, Some(value), None) if value.get_ref().is_str() => read_table(value, limit, files, parser),
+        (None, Some(value), None) => read_cases(value, limit, template, parser),
+        (None, None, Some(value)) => {
+            let id = fields.get("id").and_then(|id| id.get_ref().as_str()).unwrap_or_default();
+            let name = format!("the designs of {id}");
+            let (table, is_complete) = design::read(value, &name, template, files, parser)?;
+            into_space(name, table, is_complete, (value, limit), parser)
+        }
         // One may be in an entry that could not be read.
-        (None, None) if parser.has_syntax_error() => None,
-        (grid, _) => {
-            let message = if grid.is_some() {
-                "a family has a grid or cases, not both"
-            } else {
-                "a [[family]] has no `grid` and no `cases`"
+        (None, None, None) if parser.has_syntax_error() => None,
+        (grid, cases, design) => {
+            let message = match (grid, cases, design) {
+                (None, None, None) => "a [[family]] has no `grid`, no `cases` and no `design`",
+                (Some(_), Some(_), None) => "a family has a grid or cases, not both",
+                _ => "a family has a `design` or parameter sets of its own, not both",
             };
             let problem = Problem::error(fields.span.clone(), message);
             let help = match template.map(|template| (&template.id, &template.parameters[..])) {
@@ -177,7 +184,7 @@ fn is_within_limit(count: usize, limit: usize, value: &TomlValue, parser: &mut T
 
 /// What is known of the table that the cases of a family are from, besides their values.
 pub(crate) struct TableColumns {
-    /// The path, as the manifest has it.
+    /// The path, as the manifest has it, or what the answers of a search are called.
     pub path: String,
     /// The names of the columns.
     pub names: Vec<String>,
@@ -225,24 +232,34 @@ fn read_table<'t>(
     let table = files.cases(&path, limit, &mut |FileProblem { message, help }| {
         parser.report(Problem::error(value.span(), message).with_help(help));
     });
-    let CaseTable { names, values, count, digest, rows } = table?;
+    let table = table?;
     let shown = path.escape_debug();
-    for (k, name) in names.iter().enumerate() {
+    for (k, name) in table.names.iter().enumerate() {
         if let Some(message) = linkage_format::identifier_error(name) {
             let problem = Problem::error(value.span(), format!("in `{shown}`, column {}: {message}", k + 1));
             parser.report(problem.with_help(linkage_format::IDENTIFIER_HELP));
-        } else if names[..k].contains(name) {
+        } else if table.names[..k].contains(name) {
             let problem = Problem::error(value.span(), format!("in `{shown}`, there are two columns `{name}`"));
             parser.report(problem.with_help("remove one of them, or name it otherwise"));
         }
     }
-    if count == 0 {
+    if table.count == 0 {
         let problem = Problem::error(value.span(), "there are no cases");
         parser.report(problem.with_help(format!("give at least one, in a row below the names in `{shown}`")));
-    }
-    if count == 0 || !is_within_limit(count, limit, value, parser) {
         return None;
     }
     let is_complete = parser.problem_count() == before;
-    Some(NamedSpace::Table(TableColumns { path, names, is_complete, digest, rows }, values, value.span()))
+    into_space(path, table, is_complete, (value, limit), parser)
+}
+
+/// The cases of a table at a place in the manifest, if they are not more than the limit.
+fn into_space(
+    path: String,
+    CaseTable { names, values, count, digest, rows }: CaseTable,
+    is_complete: bool,
+    (value, limit): (&TomlValue, usize),
+    parser: &mut TomlParser,
+) -> Option<NamedSpace> {
+    let columns = TableColumns { path, names, is_complete, digest, rows };
+    is_within_limit(count, limit, value, parser).then(|| NamedSpace::Table(columns, values, value.span()))
 }

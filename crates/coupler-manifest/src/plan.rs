@@ -128,7 +128,7 @@ pub struct PlannedFamily {
     pub source: String,
     /// The caption of its cells, if neither the manifest nor the linkage gives one: the parameters that vary.
     pub automatic_caption: Option<String>,
-    /// The file that its cases are from, if they are.
+    /// The file or the search that its cases are from, if they are.
     pub case_file: Option<CaseFile>,
     /// What the manifest contributes to its files.
     pub manifest_inputs: ManifestInputs,
@@ -140,10 +140,10 @@ pub struct PlannedFamily {
     pub filter_span: Option<Span>,
 }
 
-/// The file that the cases of a family are from.
+/// The file or the search that the cases of a family are from.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CaseFile {
-    /// Its path, as the manifest has it.
+    /// Its path, as the manifest has it, or what the answers are called.
     pub path: String,
     /// A digest of the names and values in it.
     pub digest: String,

@@ -3,6 +3,7 @@
 use crate::book::BOOK;
 use crate::chart::{CHART, measure_names, numeric_measures};
 use crate::default_value;
+use crate::design::DESIGN;
 use crate::grid::VALUES_FORM;
 use crate::parameter_sets::MAX_LIMIT;
 use crate::settings::{ATLAS, FORMATS, PAGE};
@@ -95,6 +96,11 @@ pub(crate) static FAMILY: TableSchema = TableSchema::new(
             ]),
             "The values of parameters, case by case; or a table in CSV with a row for each case, relative to the manifest's folder.",
         ),
+        KeySchema::new(
+            "design",
+            ValueSchema::Table(&DESIGN),
+            "Wishes on measures and parameters: the cases are the linkages that a search finds for them, the best first.",
+        ),
         KeySchema::new("let", ValueSchema::IdentifierMap(&ValueSchema::Number), "Values that are derived from others.")
             .with_default(default_value::empty_table),
         KeySchema::new(
@@ -147,7 +153,7 @@ pub(crate) static FAMILY: TableSchema = TableSchema::new(
             .with_default(default_value::empty_table),
     ],
 )
-.with_one_of(&["grid", "cases"]);
+.with_one_of(&["grid", "cases", "design"]);
 
 fn linkage_ids() -> Vec<&'static str> {
     catalogue::all().iter().map(|template| template.id.as_str()).collect()

@@ -8,8 +8,8 @@ use coupler_drawing::scene::{FontFamily, Typeface};
 /// The most texts that are reported: a remedy for one is one for all.
 const MAX_PROBLEMS: usize = 10;
 
-/// Keys whose texts are not printed: the names of files, and names that every typeface has the letters of.
-const UNPRINTED: [&str; 3] = ["output", "fallback_face", "cases"];
+/// Keys whose texts are not printed: the names of files, wishes, and names that every typeface has the letters of.
+const UNPRINTED: [&str; 4] = ["output", "fallback_face", "cases", "design"];
 
 /// The texts of a manifest with characters that a typeface does not have, names of tables among them.
 pub(crate) fn undrawable_texts(document: &TomlValue, typeface: Typeface) -> Vec<Problem> {

@@ -114,15 +114,16 @@ fn parse_tolerance(text: &str) -> Result<f64, String> {
 }
 
 pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
+    // Before the manifest is read, which may have designs to search for.
+    if let Some(jobs) = arguments.jobs {
+        rayon::ThreadPoolBuilder::new().num_threads(jobs.into()).build_global()?;
+    }
     let source = source::read(&arguments.manifest)?;
     source.require_families(&arguments.only)?;
     if arguments.bless && !arguments.only.is_empty() {
         let message =
             "--bless records all families: leave out --only, or use `render --force --only` for a single family";
         return Err(Failure::input(message));
-    }
-    if let Some(jobs) = arguments.jobs {
-        rayon::ThreadPoolBuilder::new().num_threads(jobs.into()).build_global()?;
     }
     let Arguments { atol, rtol, measure_rtol, .. } = *arguments;
     let tolerances = PartialTolerances { atol, rtol, measure_rtol };

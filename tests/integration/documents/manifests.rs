@@ -1,7 +1,11 @@
 //! The examples in TOML are valid: whole manifests, parts of them, and single values in prose.
 
-use coupler_atlas::manifest::{self, CaseTable, FileProblem, Files, RowPlaces};
+use std::path::Path;
+
+use coupler_atlas::manifest::{self, CaseTable, DesignRequest, FileProblem, Files, RowPlaces, WishPlace};
+use coupler_atlas::manifest_files::ManifestFiles;
 use coupler_curves::problem::report;
+use coupler_curves::template::Template;
 use coupler_drawing::scene::{FontFamily, Typeface};
 
 use super::text::Block;
@@ -29,6 +33,15 @@ impl Files for Tables {
         let names = rows[0].iter().map(|name| (*name).to_owned()).collect();
         let values = rows[1..].iter().flatten().map(|value| value.parse().unwrap()).collect();
         Some(CaseTable { names, values, count: rows.len() - 1, digest: String::new(), rows: RowPlaces::Numbered })
+    }
+
+    fn designs(
+        &self,
+        template: &Template,
+        request: &DesignRequest,
+        report: &mut dyn FnMut(WishPlace, FileProblem),
+    ) -> Option<CaseTable> {
+        ManifestFiles::new(Path::new("")).designs(template, request, report)
     }
 }
 

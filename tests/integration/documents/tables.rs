@@ -61,6 +61,7 @@ fn the_keys_of_manifests_are_those_of_the_schema() {
         ("docs/manifest.md", "Linkages"),
         ("docs/manifest.md", "Drawings"),
         ("docs/manifest.md", "Families"),
+        ("docs/manifest.md", "Designs"),
         ("docs/themes.md", "Themes"),
     ] {
         for name in names(file, section, "key") {

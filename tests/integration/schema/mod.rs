@@ -8,8 +8,9 @@ use std::fmt::Write;
 use std::path::Path;
 use std::sync::LazyLock;
 
-use coupler_atlas::manifest::{self, CaseTable, FileProblem, Files, ParseOutcome};
-use coupler_atlas::manifest_files::ManifestFiles;
+use coupler_atlas::manifest::{self, CaseTable, DesignRequest, FileProblem, Files, ParseOutcome, WishPlace};
+use coupler_atlas::manifest_files::{KnownTable, ManifestFiles};
+use coupler_curves::template::Template;
 use coupler_drawing::scene::{FontFamily, Typeface};
 use jsonschema::Validator;
 use serde_json::{Map, Number, Value};
@@ -39,10 +40,19 @@ fn schema_errors(manifest: &Value) -> String {
     VALIDATOR.iter_errors(manifest).map(|error| format!("{}: {error}\n", error.instance_path())).collect()
 }
 
-/// Parses a manifest with the files that [`EVERY_KEY`] names.
+/// Parses a manifest with the files that [`EVERY_KEY`] names, and what its search finds.
 fn parse(text: &str) -> ParseOutcome {
+    /// Found once, and not in each of some thousand changed manifests.
+    static FOUND: LazyLock<Vec<KnownTable>> = LazyLock::new(|| {
+        let plan = parse_with(EVERY_KEY, Vec::new()).plan.unwrap();
+        KnownTable::of_plan(&plan).into_iter().filter(|table| table.path == "the designs of designs").collect()
+    });
+    parse_with(text, FOUND.clone())
+}
+
+fn parse_with(text: &str, known: Vec<KnownTable>) -> ParseOutcome {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/integration/schema/every-key.toml");
-    manifest::parse_with_files(text, Some(&OwnFont(ManifestFiles::new(&path))))
+    manifest::parse_with_files(text, Some(&OwnFont(ManifestFiles::new(&path).with_tables(known))))
 }
 
 /// The files of a manifest, but for the font.
@@ -55,6 +65,15 @@ impl Files for OwnFont {
 
     fn cases(&self, path: &str, limit: usize, report: &mut dyn FnMut(FileProblem)) -> Option<CaseTable> {
         self.0.cases(path, limit, report)
+    }
+
+    fn designs(
+        &self,
+        template: &Template,
+        request: &DesignRequest,
+        report: &mut dyn FnMut(WishPlace, FileProblem),
+    ) -> Option<CaseTable> {
+        self.0.designs(template, request, report)
     }
 }
 

@@ -6,7 +6,7 @@ use super::{EVERY_KEY, collect_pointers, is_valid, json, parser_errors, schema_e
 
 /// Replacements in the manifest that has every key, at least one in each table: unknown keys, wrong types, unknown
 /// words, numbers out of range.
-const SLIPS: [(&str, &str); 62] = [
+const SLIPS: [(&str, &str); 68] = [
     ("[atlas]\n", "[atlass]\n[atlas]\n"),
     ("[atlas]\n", "families = 3\n[atlas]\n"),
     ("title = \"Every key\"", "titel = \"Every key\""),
@@ -60,6 +60,12 @@ const SLIPS: [(&str, &str); 62] = [
     ("chart = { x = \"p\"", "chart = { over = \"p\""),
     ("straight_length = [0, 3]", "straight_length = [0]"),
     ("cases = [{ g = 4, r = 1 }", "cases = [{ g = [4], r = 1 }"),
+    ("[family.design]", "grid = { crank = 2 }\n[family.design]"),
+    ("maximize = [", "maximise = ["),
+    ("max_link = 250", "max_link = 0"),
+    ("best = 1", "best = 0"),
+    ("effort = \"quick\"", "effort = \"fast\""),
+    ("range = [\"p = 2..3 by 0.5\"]", "range = [2, 3]"),
     ("g = { min = 0, max = 10, example = 4 }", "g = { least = 0, max = 10 }"),
     ("branch = 1", "branch = \"left\", side = 3"),
     ("input = { from = \"0 deg\", to", "input = { form = \"0 deg\", to"),

@@ -82,6 +82,11 @@ impl<'t> TomlParser<'t> {
         self.problem_count
     }
 
+    /// Whether an error has been reported, and not only warnings.
+    pub fn has_error(&self) -> bool {
+        self.problem_count > self.problems.len() || self.problems.iter().any(Problem::is_error)
+    }
+
     /// The problems reported; if there are more than [`MAX_PROBLEMS`], the last states how many more.
     pub fn into_problems(self) -> Vec<Problem> {
         let mut problems = self.problems;

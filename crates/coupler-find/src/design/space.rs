@@ -53,7 +53,7 @@ pub enum DesignSpaceError {
     },
     /// A parameter has neither a default nor bounds, from which its range could follow.
     #[error(
-        "`{name}` has no default and no bounds, from which a range would follow: give a range, as in {name} = 1..5, or a value"
+        "`{name}` has no default and no bounds, from which a range would follow; give a range, as in {name} = 1..5, or a value"
     )]
     NoRange {
         /// The parameter.
@@ -98,9 +98,9 @@ impl DesignSpace {
                 continue;
             };
             if given[slot].is_some() {
-                errors.push(wrong("the parameter has two ranges: leave one out".to_owned()));
+                errors.push(wrong("the parameter has two ranges; leave one out".to_owned()));
             } else if fixed.iter().any(|(name, _)| *name == request.name) {
-                errors.push(wrong("the parameter is fixed: leave the range or the value out".to_owned()));
+                errors.push(wrong("the parameter is fixed; leave the range or the value out".to_owned()));
             }
             match parse_range(&parameters[slot], &request.text) {
                 Ok(range) => given[slot] = Some(range),
@@ -121,7 +121,7 @@ impl DesignSpace {
                 errors.push(DesignSpaceError::Range {
                     name: request.name.clone(),
                     text: request.text.clone(),
-                    message: "the parameter must be a whole number and is not varied: give it a value".to_owned(),
+                    message: "the parameter must be a whole number and is not varied; give it a value".to_owned(),
                 });
             }
         }

@@ -69,7 +69,7 @@ pub enum WishError {
         subject: &'static str,
     },
     /// Two conditions exclude each other.
-    #[error("`{first}` and `{second}` exclude each other: leave one out")]
+    #[error("`{first}` and `{second}` exclude each other; leave one out")]
     Contradiction {
         /// One of them.
         first: String,
@@ -77,10 +77,10 @@ pub enum WishError {
         second: String,
     },
     /// A condition does not depend on the linkage.
-    #[error("`{0}` is the same for all linkages: compare a measure or a parameter")]
+    #[error("`{0}` is the same for all linkages; compare a measure or a parameter")]
     Constant(String),
     /// Neither a condition nor a goal is given.
-    #[error("nothing is wished: give a condition or a goal")]
+    #[error("nothing is wished; give a condition or a goal")]
     None,
 }
 
@@ -268,7 +268,7 @@ mod tests {
         let found = messages("slider-crank", "output_swing_deg > 3 and is_crank_rocker", &[]);
         assert!(found[0].starts_with("`slider-crank` has no `output_swing_deg`, which is defined for "), "{found:?}");
         assert_eq!(found.len(), 2);
-        assert_eq!(messages("four-bar", "", &[]), ["nothing is wished: give a condition or a goal"]);
+        assert_eq!(messages("four-bar", "", &[]), ["nothing is wished; give a condition or a goal"]);
         assert_eq!(messages("four-bar", "1 < 2 and mu_worst_deg > 3", &[]).len(), 1);
     }
 

@@ -73,7 +73,7 @@ pub enum LinkageSpaceError {
         name: String,
     },
     /// A parameter without a default is kept without a value.
-    #[error("`{name}` has no default: give its value, as in {name}=2")]
+    #[error("`{name}` has no default; give its value, as in {name}=2")]
     NoValue {
         /// The name.
         name: String,
@@ -81,6 +81,8 @@ pub enum LinkageSpaceError {
     /// The value of a parameter is no expression of the others, or out of bounds.
     #[error("{message}")]
     Value {
+        /// The parameter.
+        name: String,
         /// What is wrong with it.
         message: String,
     },
@@ -166,8 +168,8 @@ impl LinkageSpace {
         let out_of_bounds = (0..names.len()).filter(|slot| is_kept[*slot]);
         errors.extend(
             out_of_bounds
-                .filter_map(|slot| parameters[slot].value_error(base[slot]))
-                .map(|message| LinkageSpaceError::Value { message }),
+                .filter_map(|slot| Some((names[slot].to_owned(), parameters[slot].value_error(base[slot])?)))
+                .map(|(name, message)| LinkageSpaceError::Value { name, message }),
         );
         if !errors.is_empty() {
             return Err(errors);
@@ -342,6 +344,7 @@ impl LinkageSpace {
 fn parsed(parameter: &Parameter, text: &str, scope: &Scope) -> Result<Expression, LinkageSpaceError> {
     let name = &parameter.name;
     let described = |error: expression::Error| LinkageSpaceError::Value {
+        name: name.clone(),
         message: format!("`{name}` = `{text}`: {}", error.message_with_help()),
     };
     let expression = parameter.kind.parse_value(name, text).map_err(described)?;

@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use crate::design::{Designs, describe, parameters};
-use coupler_curves::text::{pluralize, round_to_six_digits};
-use coupler_find::{DesignAnswer, DesignMiss, Wishes};
+use coupler_curves::text::pluralize;
+use coupler_find::{DesignAnswer, Wishes};
 
 use super::super::super::format::format_significant;
 use super::super::super::jams::jams;
@@ -62,21 +62,6 @@ pub(super) fn no_design_message(linkage: &str, wishes: &Wishes, designs: &Design
     if designs.is_interrupted {
         return out.trim_end().to_owned();
     }
-    if !designs.is_any_assembled {
-        return out + "hint: no linkage within these ranges can be assembled: widen them, or fix fewer parameters";
-    }
-    for DesignMiss { wish, nearest } in &designs.misses {
-        let wished = wishes.wishes[*wish].text();
-        let comes_to = match &nearest.wishes[*wish].value {
-            Some((subject, value)) if value.is_nan() => format!("{subject} has no value"),
-            Some((subject, value)) => format!("{subject} comes to {} at best", round_to_six_digits(*value)),
-            None => "it is not met".to_owned(),
-        };
-        let others = if wishes.wishes.len() > 1 { "while the others are met" } else { "in these ranges" };
-        let _ = writeln!(out, "hint: `{wished}`: {comes_to} {others}: {}", parameters(nearest));
-    }
-    if designs.misses.is_empty() {
-        out += "hint: leaving out one wish is not enough; leave out two of them, widen the ranges, or try --effort thorough";
-    }
+    out.extend(designs.remedies(wishes).into_iter().map(|remedy| format!("hint: {remedy}\n")));
     out.trim_end().to_owned()
 }
