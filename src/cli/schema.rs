@@ -95,10 +95,10 @@ fn list(item: &ValueSchema, range: [usize; 2]) -> Value {
     schema
 }
 
-/// A type with its bounds; 0 and `usize::MAX` are no bounds.
+/// A type with its bounds; `usize::MAX` is none, and 0 only one of numbers, for there are no fewer items.
 fn bounded(kind: &str, minimum: &str, maximum: &str, [least, most]: [usize; 2]) -> Value {
     let mut schema = json!({ "type": kind });
-    if least > 0 {
+    if least > 0 || kind == "integer" {
         schema[minimum] = json!(least);
     }
     if most < usize::MAX {
