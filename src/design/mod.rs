@@ -42,7 +42,7 @@ pub use scaled_design::{Design, ProportionOrigin};
 pub use stroke::InputLink;
 pub use trial::Performance;
 pub use wish_request::WishRequest;
-pub use wishes::{Designs, by_wishes, describe, parameters};
+pub use wishes::{Designs, UNBOUNDED_SIZE, by_wishes, describe, parameters};
 
 use search::Samplers;
 use synthesis::synthesize_all;

@@ -24,6 +24,10 @@ pub struct Designs {
     pub is_interrupted: bool,
 }
 
+/// What is said of designs whose size nothing holds.
+pub const UNBOUNDED_SIZE: &str =
+    "nothing holds the size of these linkages, and better ones are smaller or greater without end";
+
 /// Searches the dimensions of a linkage for wishes, which must be those of its space. The answer does not depend on the number of threads,
 /// unless `interrupt` becomes true, which ends the search with what has been found so far. `report_part` receives which part of the search
 /// is done, from 0 to 1, after each step.

@@ -39,17 +39,15 @@ impl<'r> CaseRows<'r> {
     /// Reports a problem at a place in the file, if it has one there.
     pub fn problem(&mut self, place: &str, message: &str, help: &str) {
         let comma = if place.is_empty() { "" } else { ", " };
-        (self.report)(FileProblem {
-            message: format!("`{}`{comma}{place}: {message}", self.name),
-            help: help.to_owned(),
-        });
+        let message = format!("`{}`{comma}{place}: {message}", self.name);
+        (self.report)(FileProblem::error(message, help.to_owned()));
     }
 
     /// Reports that the file cannot be read.
     pub fn report_unreadable(&mut self, why: &str) {
         let message = format!("cannot read `{}`: {why}", self.name);
         let help = "give the path of a table as .csv or .parquet, relative to the manifest".to_owned();
-        (self.report)(FileProblem { message, help });
+        (self.report)(FileProblem::error(message, help));
     }
 
     /// Takes the names of the columns.

@@ -8,7 +8,7 @@ use coupler_find::{DesignOptions, Effort};
 
 use super::case_rows::CaseRows;
 use super::known_table::KnownTable;
-use crate::design::{WishProblem, by_wishes, check_wishes};
+use crate::design::{UNBOUNDED_SIZE, WishProblem, by_wishes, check_wishes};
 use crate::manifest::{CaseTable, DesignEffort, DesignRequest, FileProblem, WishPlace};
 
 /// What says of a search, by what its answers are called, which part of it is done, from 0 to 1.
@@ -45,8 +45,12 @@ pub(super) fn search(
     report_part(name, 1.0);
     if designs.answers.is_empty() {
         let message = format!("no {} was found that meets these wishes", template.id);
-        report(WishPlace::All, FileProblem { message, help: designs.remedies(&wishes).join("; ") });
+        report(WishPlace::All, FileProblem::error(message, designs.remedies(&wishes).join("; ")));
         return None;
+    }
+    if designs.is_size_unbounded {
+        let help = "give a length a value or a range (`fix`, `range`), or `max_link`".to_owned();
+        report(WishPlace::All, FileProblem { message: UNBOUNDED_SIZE.to_owned(), help, is_warning: true });
     }
     rows.set_names(template.parameters.iter().map(|parameter| parameter.name.clone()).collect());
     designs.answers.iter().try_for_each(|answer| rows.push(&answer.values, 0)).ok()?;
@@ -71,7 +75,7 @@ fn options(request: &DesignRequest) -> DesignOptions {
 /// A message of which what is after the last semicolon is the remedy.
 fn with_help(message: String) -> FileProblem {
     match message.rsplit_once("; ") {
-        Some((message, help)) => FileProblem { message: message.to_owned(), help: help.to_owned() },
-        None => FileProblem { message, help: "correct it, or leave it out".to_owned() },
+        Some((message, help)) => FileProblem::error(message.to_owned(), help.to_owned()),
+        None => FileProblem::error(message, "correct it, or leave it out".to_owned()),
     }
 }

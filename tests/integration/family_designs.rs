@@ -232,3 +232,13 @@ fn wishes_that_nothing_meets_say_what_comes_nearest() {
     assert!(err.contains("no slider-crank was found that meets these wishes"), "{err}");
     assert!(err.contains("`mu_worst_deg ≥ 89`: mu_worst_deg comes to ") && err.contains("atlas.toml:7:"), "{err}");
 }
+
+#[test]
+fn a_size_that_nothing_holds_is_a_warning() {
+    let keys = "where = \"time_ratio == 1.2\"\nminimize = \"crank\"\nfix = \"offset = 0.5 * crank\"\nbest = 1\neffort = \"quick\"\n";
+    let outcome = parse(&with_design("slider-crank", keys), ManifestFiles::new(Path::new("")));
+    assert!(outcome.plan.is_some());
+    let [warning] = &outcome.problems[..] else { panic!("{:?}", outcome.problems) };
+    assert!(!warning.is_error() && warning.message.starts_with("nothing holds the size"), "{warning:?}");
+    assert!(warning.help.contains("`max_link`"), "{warning:?}");
+}

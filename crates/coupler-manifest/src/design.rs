@@ -60,9 +60,8 @@ pub(crate) fn read<'t>(
         }
         return Some((unknown(), false));
     };
-    let found = files.designs(template, &request, &mut |place, FileProblem { message, help }| {
-        parser.report(Problem::error(places.span(place), message).with_help(help));
-    });
+    let mut report = |place, problem: FileProblem| parser.report(problem.at(places.span(place)));
+    let found = files.designs(template, &request, &mut report);
     Some(found.map_or_else(|| (unknown(), false), |table| (table, true)))
 }
 

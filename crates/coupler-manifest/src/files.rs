@@ -1,5 +1,6 @@
 //! What a manifest needs besides its text: the files that it names, and the answers of its searches.
 
+use coupler_curves::problem::{Problem, Span};
 use coupler_curves::template::Template;
 
 use crate::wishes::{DesignRequest, WishPlace};
@@ -26,13 +27,28 @@ pub trait Files {
 /// What reads the files of a manifest, and searches for it; `None` if neither is done.
 pub type FileReader<'a> = Option<&'a dyn Files>;
 
-/// What is wrong in a file.
+/// What is wrong in a file, or with wishes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FileProblem {
     /// The message, with the place in the file.
     pub message: String,
     /// How to fix it.
     pub help: String,
+    /// Whether the cases can be used all the same.
+    pub is_warning: bool,
+}
+
+impl FileProblem {
+    /// One with which the cases cannot be used.
+    pub fn error(message: String, help: String) -> FileProblem {
+        FileProblem { message, help, is_warning: false }
+    }
+
+    /// It at a place of the manifest.
+    pub(crate) fn at(self, span: Span) -> Problem {
+        let problem = if self.is_warning { Problem::warning } else { Problem::error }(span, self.message);
+        problem.with_help(self.help)
+    }
 }
 
 /// The cases in a file.

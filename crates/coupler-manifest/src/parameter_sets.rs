@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::design;
-use crate::files::{CaseTable, FileProblem, FileReader, RowPlaces};
+use crate::files::{CaseTable, FileReader, RowPlaces};
 use crate::grid::{self, GridValues};
 use coupler_curves::family::{Axis, AxisValues, Case, MAX_CELLS, ParameterSpace};
 use coupler_curves::linkage_format::{self, Fields, TomlParser, TomlValue};
@@ -229,9 +229,7 @@ fn read_table<'t>(
         return None;
     };
     let before = parser.problem_count();
-    let table = files.cases(&path, limit, &mut |FileProblem { message, help }| {
-        parser.report(Problem::error(value.span(), message).with_help(help));
-    });
+    let table = files.cases(&path, limit, &mut |problem| parser.report(problem.at(value.span())));
     let table = table?;
     let shown = path.escape_debug();
     for (k, name) in table.names.iter().enumerate() {

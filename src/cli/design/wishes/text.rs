@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::design::{Designs, describe, parameters};
+use crate::design::{Designs, UNBOUNDED_SIZE, describe, parameters};
 use coupler_curves::text::pluralize;
 use coupler_find::{DesignAnswer, Wishes};
 
@@ -47,8 +47,8 @@ pub(super) fn notes(arguments: &WishArguments, designs: &Designs) -> String {
         out += "note: interrupted: these are the best so far\n";
     }
     if designs.is_size_unbounded {
-        out += "note: nothing holds the size of these linkages, and better ones are smaller or greater without end: give a length a value or a \
-                range (--fix, --range), or --max-link\n";
+        let remedy = "give a length a value or a range (--fix, --range), or --max-link";
+        out += &format!("note: {UNBOUNDED_SIZE}: {remedy}\n");
     }
     if let Some(mu_worst_deg) = designs.answers.first().and_then(DesignAnswer::mu_worst_deg) {
         out += &jams(mu_worst_deg, arguments.condition.as_deref());
