@@ -3,8 +3,8 @@
 use std::sync::atomic::AtomicBool;
 
 use coupler_find::{
-    Index, LinkageAnswer, LinkageIndex, LinkageSearch, LinkageSpace, Options, Search, Target, nearest_miss_by,
-    simpler_spaces, six_bar_spaces,
+    Index, JAM_DEG, LinkageAnswer, LinkageIndex, LinkageSearch, LinkageSpace, Options, Search, Target, nearest_miss_by,
+    ranked, simpler_spaces, six_bar_spaces,
 };
 
 use super::index_file::load_six_bars;
@@ -79,8 +79,9 @@ pub fn find_among(
         }
         Some(_) => None,
     };
-    let mut search = |target: &Target, options: &Options| -> Result<_, Error> {
-        let mut search = LinkageSearch::among(&spaces, index.as_ref(), target, options, SAMPLES);
+    let mut curves = 0;
+    let mut search_with = |(target, options): (&Target, &Options), least_mu_deg: f64, half: f64| -> Result<_, Error> {
+        let mut search = LinkageSearch::among(&spaces, index.as_ref(), (target, options), SAMPLES, least_mu_deg);
         if several == Several::Any && options.condition.is_none() {
             let own = Options { most: FOUR_BARS, ..options.clone() };
             let found = Search::new(target, own).run(&load_index(Index::DEFAULT_COUNT));
@@ -88,16 +89,23 @@ pub fn find_among(
         }
         while search.step(&threads) {
             threads.proceed()?;
-            report_part(INDEX_PART + (1.0 - INDEX_PART) * search.part_done());
+            report_part(INDEX_PART + (1.0 - INDEX_PART) * 0.5 * (half + search.part_done()));
         }
         let answers = search.answers(&threads);
         threads.proceed()?;
-        Ok((answers, search.curve_count()))
+        curves = search.curve_count();
+        Ok(answers)
     };
-    let (answers, curves) = search(target, options)?;
+    // Those that do not jam are not the same as the nearest of all that happen not to.
+    let mut search = |target: &Target, options: &Options| -> Result<_, Error> {
+        let mut answers = search_with((target, options), JAM_DEG, 0.0)?;
+        answers.extend(search_with((target, options), 0.0, 1.0)?);
+        Ok(ranked(answers, target.size(), options.most))
+    };
+    let answers = search(target, options)?;
     let mut nearest_miss = None;
     if answers.is_empty() {
-        let nearest = |target: &Target, options: &Options| search(target, options).ok()?.0.into_iter().next();
+        let nearest = |target: &Target, options: &Options| search(target, options).ok()?.into_iter().next();
         nearest_miss = nearest_miss_by(target, options, nearest, |answer| answer.curve.fit.deviation.rms);
         threads.proceed()?;
     }

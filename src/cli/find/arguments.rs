@@ -117,7 +117,7 @@ pub struct Arguments {
         value_parser = clap::value_parser!(u64).range(1..=MAX_CURVES as u64),
         help = format!(
             "How many four-bars to look the path up in, 1 to {MAX_CURVES}; the index of each number is kept in the user's cache folder \
-             [default: {}]. With --linkage, the number of its parameter sets, which are not kept",
+             [default: {}]. With --linkage, the number of its parameter sets, which are not kept; of six-bar and any that of curves of six-bars, which are",
             Index::DEFAULT_COUNT
         )
     )]
@@ -126,7 +126,8 @@ pub struct Arguments {
     /// Four-bars are refined, others only placed on the path.
     #[arg(long, value_name = "MANIFEST|DIR", value_hint = ValueHint::AnyPath)]
     pub(super) atlas: Option<PathBuf>,
-    /// Search the dimensions of a linkage, a built-in one (coupler-atlas list linkages) or one of --manifest, in place of a four-bar.
+    /// Search the dimensions of a linkage, a built-in one (coupler-atlas list linkages) or one of --manifest, in place of a four-bar; six-bar for all six-bars, any for
+    /// these and simpler linkages.
     #[arg(long, value_name = "NAME", conflicts_with = "atlas")]
     pub(super) linkage: Option<String>,
     /// With --linkage, keep a parameter at its default or at a value, which may use others; may be repeated: --keep s --keep "k=2".

@@ -14,6 +14,7 @@ use serde_json::Value as Json;
 use tempfile::TempDir;
 
 pub mod random_curves;
+mod several;
 
 use random_curves::{Random, answers, deviations, placed, random_curve, search};
 

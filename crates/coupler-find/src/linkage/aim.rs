@@ -10,11 +10,13 @@ use coupler_curves::expression::CompiledExpression;
 use coupler_curves::family::{Family, Sampling};
 use coupler_curves::geometry::{Similarity, Vector};
 use coupler_curves::linkage::{JointId, Linkage};
+use coupler_curves::measure::{Measure, MeasureSet};
 use coupler_curves::motion::poses;
 use coupler_curves::solve::Solver;
 use std::sync::Arc;
 
 /// A target and the constraints of a search.
+#[derive(Clone)]
 pub(super) struct Aim {
     pub target: Target,
     /// The points of the target with centroid 0 and size 1, forward and backward.
@@ -31,6 +33,10 @@ pub(super) struct Aim {
     /// The corners of the box of the fixed pivots.
     pivots: Option<[Complex; 2]>,
     condition: Option<CompiledExpression>,
+    /// The least transmission angle, of linkages that have one, in degrees.
+    least_mu_deg: f64,
+    /// Whether it has only few of the points of the target.
+    pub has_few_points: bool,
     template: Arc<coupler_curves::template::Template>,
 }
 
@@ -57,9 +63,31 @@ impl Aim {
             max_link: options.max_link,
             pivots: options.pivots.map(|b| [corner(b.min.x, b.min.y), corner(b.max.x, b.max.y)]),
             condition: options.condition.as_ref().and_then(|condition| condition.on(&space.template.id)).cloned(),
+            least_mu_deg: 0.0,
+            has_few_points: false,
             template: space.template.clone(),
             target: target.clone(),
         }
+    }
+
+    /// The same with a least transmission angle, of linkages that have one, in degrees.
+    pub fn with_least_mu(mut self, least_mu_deg: f64) -> Aim {
+        self.least_mu_deg = least_mu_deg;
+        self
+    }
+
+    /// The same with few of the points of the target, evenly spread from the first to the last; `None` if it has few, or is timed.
+    pub fn with_few_points(&self) -> Option<Aim> {
+        /// So many tell the curves of linkages apart.
+        const FEW: usize = 80;
+        let count = self.points[0].len();
+        let few = |points: &Vec<Complex>| (0..FEW).map(|k| points[k * (count - 1) / (FEW - 1)]).collect();
+        let is_many = count > FEW + FEW / 4 && self.angles_deg.is_none();
+        is_many.then(|| Aim {
+            points: [few(&self.points[0]), few(&self.points[1])],
+            has_few_points: true,
+            ..self.clone()
+        })
     }
 
     /// The points in the direction of positions, or against it.
@@ -109,18 +137,26 @@ impl Aim {
 
     /// Whether a linkage satisfies the condition with the curve of a circuit.
     pub fn meets_condition(&self, values: &[f64], traced: &Traced) -> bool {
-        let Some(condition) = &self.condition else { return true };
+        if self.condition.is_none() && self.least_mu_deg <= 0.0 {
+            return true;
+        }
         let names = self.template.parameters.iter().map(|parameter| parameter.name.clone());
         let given: Vec<(String, f64)> = names.zip(values.iter().copied()).collect();
         let Ok(mut family) = Family::single_cell(self.template.clone(), &given, Sampling::Samples(180)) else {
             return false;
         };
-        let requested = family.measures_in(condition);
+        let own = if self.least_mu_deg > 0.0 { MeasureSet::EMPTY.with(Measure::MU_WORST) } else { MeasureSet::EMPTY };
+        let requested = self.condition.as_ref().map_or(own, |condition| own | family.measures_in(condition));
         let Some(solved) = Solver::new(&family).measuring(requested).solve(0) else { return false };
-        family.filter = Some(condition.clone());
+        family.filter.clone_from(&self.condition);
         solved.curves.iter().any(|curve| {
             let passes = &solved.circuit(curve).passes;
-            curve.joint == traced.joint && traced.is_on(passes) && family.keeps(&solved.cell, &curve.values)
+            let transmits =
+                || curve.measure(Measure::MU_WORST).is_none_or(|mu: f64| mu.is_nan() || mu >= self.least_mu_deg);
+            curve.joint == traced.joint
+                && traced.is_on(passes)
+                && transmits()
+                && family.keeps(&solved.cell, &curve.values)
         })
     }
 }

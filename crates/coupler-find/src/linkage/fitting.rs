@@ -27,6 +27,8 @@ pub(super) struct LinkageFitting {
     number: usize,
     pub sampled: SampledSpace,
     aim: Aim,
+    /// The same with few points of the target, for the beginning of a search.
+    rough: Option<Aim>,
     query: Query,
     transform: Transform,
 }
@@ -56,9 +58,31 @@ impl LinkageFitting {
             number,
             sampled: SampledSpace::new(space, options.full_turn),
             aim: Aim::new(space, target, options),
+            rough: None,
             query: Query::new(target.kind(), &target.normalized()),
             transform: Transform::new(),
         }
+    }
+
+    /// The same for linkages with a least transmission angle, in degrees, beginning with few points of the target.
+    pub fn beginning_roughly(self, least_mu_deg: f64) -> LinkageFitting {
+        let aim = self.aim.with_least_mu(least_mu_deg);
+        LinkageFitting { rough: aim.with_few_points(), aim, ..self }
+    }
+
+    /// What a refinement begins with.
+    fn first_aim(&self) -> &Aim {
+        self.rough.as_ref().unwrap_or(&self.aim)
+    }
+
+    /// What a refinement aims at.
+    fn aim_of(&self, refinement: &LinkageRefinement) -> &Aim {
+        if refinement.has_few_points { self.first_aim() } else { &self.aim }
+    }
+
+    /// A refinement on all points of the target; `None` if it cannot be matched with them.
+    pub fn on_all_points(&self, refinement: LinkageRefinement) -> Option<LinkageRefinement> {
+        if refinement.has_few_points { refinement.on_all_points(&self.aim) } else { Some(refinement) }
     }
 
     /// The linkage and its parameters.
@@ -114,7 +138,7 @@ impl LinkageFitting {
             return LinkageRefinement::timed(&self.aim, values, (trace, traced), place.placed, followed);
         }
         let placed = self.placed(&points?)?;
-        LinkageRefinement::new(&self.aim, values, (trace, traced), placed)
+        LinkageRefinement::new(self.first_aim(), values, (trace, traced), placed)
     }
 
     /// Begins with a linkage that is placed on the target with its centroid at 0 and its size 1, on the circuit and with the traced joint whose curve is
@@ -122,9 +146,9 @@ impl LinkageFitting {
     pub fn begin_at(&self, values: &[f64], placed: Similarity) -> Option<LinkageRefinement> {
         let curves = self.sampled.traced(values).into_iter().filter_map(|OnCircuit { trace, traced, .. }| {
             let may_begin = self.aim.meets_condition(values, &traced);
-            may_begin.then(|| LinkageRefinement::new(&self.aim, values.to_vec(), (trace, traced), placed))?
+            may_begin.then(|| LinkageRefinement::new(self.first_aim(), values.to_vec(), (trace, traced), placed))?
         });
-        curves.min_by(|a, b| a.sum().total_cmp(&b.sum()))
+        curves.min_by(|a, b| a.mean_square().total_cmp(&b.mean_square()))
     }
 
     /// Begins again from dimensions near others, at random, with a number that chooses them.
@@ -144,19 +168,20 @@ impl LinkageFitting {
                 state.placed,
                 (from.is_reversed, start),
             ),
-            None => LinkageRefinement::new(&self.aim, values, (from.trace, traced), state.placed),
+            None => LinkageRefinement::new(self.first_aim(), values, (from.trace, traced), state.placed),
         }
     }
 
     /// Moves the curve of a refinement without changing the linkage.
     pub fn place(&self, refinement: &mut LinkageRefinement, steps: usize) {
-        refinement.place(self.space(), &self.aim, steps);
+        refinement.place(self.space(), self.aim_of(refinement), steps);
     }
 
     /// Takes some steps of a refinement.
     pub fn advance(&self, refinement: &mut LinkageRefinement, steps: usize) {
-        refinement.advance(self.space(), &self.aim, steps);
-        refinement.match_again(&self.aim, 2 * FINAL_ROUNDS / 3);
+        let aim = self.aim_of(refinement);
+        refinement.advance(self.space(), aim, steps);
+        refinement.match_again(aim, 2 * FINAL_ROUNDS / 3);
     }
 
     /// Whether the curve has no long detours from a closed target, and the portion none from a part.

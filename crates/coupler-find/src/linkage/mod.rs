@@ -33,7 +33,7 @@ pub use function::{
 };
 pub use index::{LinkageIndex, LinkageIndexPart, LinkageSampler};
 pub use placed_curve::PlacedCurve;
-pub use ranking::JAM_DEG;
+pub use ranking::{JAM_DEG, ranked};
 pub use scaling::{is_scalable, scaled_values};
 pub use search::LinkageSearch;
 pub use six_bars::{simpler_spaces, six_bar_spaces};

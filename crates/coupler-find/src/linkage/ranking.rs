@@ -26,7 +26,7 @@ impl LinkageAnswer {
 
 /// Those that do not jam before those that do; of these the nearest first, and of those that are exact the one with the fewest links. Of those whose
 /// curves are the same for a target of a size only the one with the fewest links is kept; at most so many.
-pub(super) fn ranked(mut answers: Vec<LinkageAnswer>, size: f64, most: usize) -> Vec<LinkageAnswer> {
+pub fn ranked(mut answers: Vec<LinkageAnswer>, size: f64, most: usize) -> Vec<LinkageAnswer> {
     let deviation = |answer: &LinkageAnswer| answer.curve.fit.deviation.rms_relative;
     let nearest = |a: &LinkageAnswer, b: &LinkageAnswer| deviation(a).total_cmp(&deviation(b));
     answers.sort_by(|a, b| (a.jams(), a.link_count()).cmp(&(b.jams(), b.link_count())).then_with(|| nearest(a, b)));

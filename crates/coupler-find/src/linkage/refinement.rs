@@ -21,6 +21,8 @@ pub(super) struct LinkageRefinement {
     /// Whether the target is followed against the positions on the curve.
     pub(super) is_reversed: bool,
     pub(super) state: State,
+    /// Whether its distances are those of few points of the target.
+    pub(super) has_few_points: bool,
     descent: Descent,
 }
 
@@ -40,7 +42,8 @@ impl LinkageRefinement {
         placed: Similarity,
     ) -> Option<LinkageRefinement> {
         let (is_reversed, state) = aim.matched_either_way(&traced, placed, ROUNDS)?;
-        Some(LinkageRefinement { values, trace, is_reversed, state, descent: Descent::default() })
+        let has_few_points = aim.has_few_points;
+        Some(LinkageRefinement { values, trace, is_reversed, state, has_few_points, descent: Descent::default() })
     }
 
     /// Begins with a curve at the inputs of a timed target.
@@ -52,12 +55,21 @@ impl LinkageRefinement {
         (is_reversed, start): (bool, (usize, f64)),
     ) -> Option<LinkageRefinement> {
         let state = aim.timed_state(traced, placed, is_reversed, start)?;
-        Some(LinkageRefinement { values, trace, is_reversed, state, descent: Descent::default() })
+        let has_few_points = aim.has_few_points;
+        Some(LinkageRefinement { values, trace, is_reversed, state, has_few_points, descent: Descent::default() })
     }
 
-    /// The sum of the squares of the distances, in sizes of the target.
-    pub fn sum(&self) -> f64 {
-        self.state.sum
+    /// The mean of the squares of the distances, in sizes of the target.
+    pub fn mean_square(&self) -> f64 {
+        let count = self.state.blocks.last().map_or(1, |block| block.points.end);
+        self.state.sum / count as f64
+    }
+
+    /// The same curve on all points of the target. `None` if it cannot be matched with them.
+    pub(super) fn on_all_points(self, aim: &Aim) -> Option<LinkageRefinement> {
+        let State { traced, placed, .. } = self.state;
+        let state = aim.matched(traced, placed, self.is_reversed, ROUNDS)?;
+        Some(LinkageRefinement { state, has_few_points: false, descent: Descent::default(), ..self })
     }
 
     /// Whether no step improves it.

@@ -87,7 +87,7 @@ enum Stage {
 }
 
 /// Several linkages have so many times the starts of one.
-const STARTS_OF_SEVERAL: usize = 4;
+const STARTS_OF_SEVERAL: usize = 3;
 
 /// Of several linkages, the nearest of each that are kept however near others are.
 const KEPT_OF_EACH: usize = 3;
@@ -121,6 +121,10 @@ const RESTART_ROUNDS: u64 = 3;
 const RESTART_PART: usize = 5;
 const NEAREST: usize = 6;
 
+/// Of several linkages, the nearest of each that are begun from, and the rounds.
+const NEAREST_OF_EACH: usize = 2;
+const RESTART_ROUNDS_OF_SEVERAL: u64 = 6;
+
 /// The samples of a circuit of an answer, as a family has them.
 const SAMPLES: usize = 360;
 
@@ -141,21 +145,25 @@ impl LinkageSearch {
 
     /// Begins a search among several linkages, whose refinements all compete. The condition of the options may be one of several of them, and those that it
     /// does not apply to are left out. Curves are those of an index, of a path without angles, and of `samples` parameter sets of each linkage that it does not
-    /// have.
+    /// have. If `least_mu_deg` is not 0, all have transmission angles, and none is less.
     pub fn among(
         spaces: &[LinkageSpace],
         index: Option<&LinkageIndex>,
-        target: &Target,
-        options: &Options,
+        (target, options): (&Target, &Options),
         samples: usize,
+        least_mu_deg: f64,
     ) -> LinkageSearch {
         let applies = |space: &LinkageSpace| {
-            options.condition.as_ref().is_none_or(|condition| condition.on(&space.template().id).is_some())
+            let has_mu = || !space.template().structure().is_ok_and(|linkage| linkage.group.is_some());
+            let meets = options.condition.as_ref().is_none_or(|condition| condition.on(&space.template().id).is_some());
+            meets && (least_mu_deg <= 0.0 || has_mu())
         };
         let index = index.filter(|_| target.angles_deg().is_none());
         let has = |space: usize| index.is_some_and(|index| space < index.linkage_count());
         let kept: Vec<usize> = (0..spaces.len()).filter(|space| applies(&spaces[*space])).collect();
-        let begin = |(number, space): (usize, &usize)| LinkageFitting::new(number, &spaces[*space], target, options);
+        let begin = |(number, space): (usize, &usize)| {
+            LinkageFitting::new(number, &spaces[*space], target, options).beginning_roughly(least_mu_deg)
+        };
         let fittings: Vec<LinkageFitting> = kept.iter().enumerate().map(begin).collect();
         let wanted = |(space, fitting): (&usize, &LinkageFitting)| {
             let own = fitting.sampled.default_count().min(samples).min(LinkageSearch::MAX_SAMPLES);
@@ -215,7 +223,7 @@ impl LinkageSearch {
             let across = if is_mirrored { -at.y } else { at.y };
             self.fittings[linkage].begin_at(&[frame, crank, coupler, rocker, at.x, across], placed)
         });
-        let nearest = begun.min_by(|a, b| a.sum().total_cmp(&b.sum()));
+        let nearest = begun.min_by(|a, b| a.mean_square().total_cmp(&b.mean_square()));
         self.refinements.extend(nearest.map(|own| Refinement { linkage, own }));
     }
 
@@ -253,7 +261,7 @@ impl LinkageSearch {
                 (3, (*round as f64 + part(*next, self.refinements.len())) / ROUNDS.len() as f64)
             }
             Stage::Restart { round, next, .. } => {
-                (4, (*round as f64 + part(*next, self.starts / RESTART_PART)) / RESTART_ROUNDS as f64)
+                (4, (*round as f64 + part(*next, self.starts / RESTART_PART)) / self.restart_rounds() as f64)
             }
             Stage::Done => return 1.0,
         };
@@ -278,7 +286,7 @@ impl LinkageSearch {
     /// The answers that have been found so far, the nearest first. Those whose curves are the same to a thousandth of the target's size are one.
     pub fn answers(&self, workers: &impl Workers) -> Vec<LinkageAnswer> {
         let mut refinements: Vec<&Refinement> = self.refinements.iter().collect();
-        refinements.sort_by(|a, b| a.own.sum().total_cmp(&b.own.sum()));
+        refinements.sort_by(|a, b| a.own.mean_square().total_cmp(&b.own.mean_square()));
         let fit = |refinement: &Refinement| Some((refinement.linkage, self.fitting(refinement).fit(&refinement.own)?));
         let fits = workers.map(refinements, fit);
         let mut fits: Vec<(usize, LinkageFit)> = fits.into_iter().flatten().collect();
@@ -376,6 +384,9 @@ impl LinkageSearch {
         let (_, steps) = ROUNDS[round];
         let advanced = workers.map(self.refinements[next..end].to_vec(), |mut refinement| {
             let fitting = &self.fittings[refinement.linkage];
+            if round + 1 == ROUNDS.len() {
+                refinement.own = fitting.on_all_points(refinement.own)?;
+            }
             fitting.advance(&mut refinement.own, steps);
             fitting.has_valid_length(&refinement.own).then_some(refinement)
         });
@@ -389,13 +400,29 @@ impl LinkageSearch {
         const EXACT: f64 = 1e-16;
         let count = self.refinements.len();
         keep_nearest(&mut self.refinements, count);
-        match self.refinements.first().map(|refinement| refinement.own.sum()) {
-            Some(best) if round < RESTART_ROUNDS && best > EXACT * self.target.points().len() as f64 => {
-                let from = self.refinements.iter().take(NEAREST).cloned().collect();
+        match self.refinements.first().map(|refinement| refinement.own.mean_square()) {
+            Some(best) if round < self.restart_rounds() && best > EXACT => {
+                let from = self.nearest_of_each();
                 Stage::Restart { round, next: 0, from, best }
             }
             _ => Stage::Done,
         }
+    }
+
+    /// The nearest, of several linkages few of each.
+    fn nearest_of_each(&self) -> Vec<Refinement> {
+        let mut kept = vec![0; self.fittings.len()];
+        let most_of_each = if kept.len() > 1 { NEAREST_OF_EACH } else { NEAREST };
+        let is_kept = |refinement: &&Refinement| {
+            let own = &mut kept[refinement.linkage];
+            *own += 1;
+            *own <= most_of_each
+        };
+        self.refinements.iter().filter(is_kept).take(NEAREST).cloned().collect()
+    }
+
+    fn restart_rounds(&self) -> u64 {
+        if self.fittings.len() > 1 { RESTART_ROUNDS_OF_SEVERAL } else { RESTART_ROUNDS }
     }
 
     fn restart(
@@ -422,17 +449,30 @@ impl LinkageSearch {
             let fitting = &self.fittings[*linkage];
             let mut own = fitting.begin_near(own, seed, SPREADS[k % SPREADS.len()])?;
             fitting.advance(&mut own, PROMISING_STEPS);
-            if own.sum() > PROMISING_SUM * best {
+            if own.mean_square() > PROMISING_SUM * best {
                 return None;
             }
             fitting.advance(&mut own, STEPS - PROMISING_STEPS);
-            fitting.has_valid_length(&own).then_some(Refinement { linkage: *linkage, own })
+            let own = finished(fitting, own)?;
+            fitting.has_valid_length(&own).then(|| Refinement { linkage: *linkage, own })
         };
         let end = count.min(next.saturating_add(workers.most_at_once()));
         let found = workers.map((next..end).collect(), begun);
         self.refinements.extend(found.into_iter().flatten());
         Stage::Restart { round, next: end, from, best }
     }
+}
+
+/// A refinement on all points of the target, if it has begun on few of them.
+fn finished(fitting: &LinkageFitting, refinement: LinkageRefinement) -> Option<LinkageRefinement> {
+    /// Few points tell where the curve is to a few steps.
+    const STEPS: usize = 20;
+    if !refinement.has_few_points {
+        return Some(refinement);
+    }
+    let mut refinement = fitting.on_all_points(refinement)?;
+    fitting.advance(&mut refinement, STEPS);
+    Some(refinement)
 }
 
 fn start_count(target: &Target, options: &Options) -> usize {
@@ -452,9 +492,9 @@ fn start_count(target: &Target, options: &Options) -> usize {
 fn keep_nearest(refinements: &mut Vec<Refinement>, most: usize) {
     /// Refinements that have found the same linkage differ by less than this.
     const ALIKE: f64 = 1e-6;
-    refinements.sort_by(|a, b| a.own.sum().total_cmp(&b.own.sum()));
+    refinements.sort_by(|a, b| a.own.mean_square().total_cmp(&b.own.mean_square()));
     refinements.dedup_by(|Refinement { own: a, linkage }, Refinement { own: b, linkage: other }| {
-        linkage == other && a.sum() - b.sum() <= ALIKE * b.sum() && a.is_done() && b.is_done()
+        linkage == other && a.mean_square() - b.mean_square() <= ALIKE * b.mean_square() && a.is_done() && b.is_done()
     });
     // Of several linkages some of each, for the nearest in the beginning need not be in the end.
     let mut kept = vec![0; refinements.iter().map(|refinement| refinement.linkage + 1).max().unwrap_or(0)];

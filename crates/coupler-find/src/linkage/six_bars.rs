@@ -57,6 +57,7 @@ pub fn simpler_spaces() -> Vec<LinkageSpace> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::sampled_space::SampledSpace;
     use super::*;
 
     #[test]
@@ -65,6 +66,36 @@ mod tests {
         assert_eq!((six.len(), simpler.len()), (TRACED.len(), SIMPLER.len()));
         for space in six.iter().chain(&simpler) {
             assert!(space.is_scalable(), "{}", space.template().id);
+        }
+    }
+
+    /// Newton's method, which is not proven to stay on a circuit, against circuits that are.
+    #[test]
+    #[ignore = "thorough"]
+    fn turns_of_groups_are_those_that_are_proven() {
+        const SAMPLES: usize = 400;
+        for space in six_bar_spaces().iter().filter(|space| SampledSpace::new(space, true).is_group()) {
+            let sampled = SampledSpace::new(space, true);
+            let [mut both, mut missed] = [0, 0];
+            for values in (0..SAMPLES).filter_map(|sample| space.sample(sample)) {
+                let proven = sampled.traced(&values).into_iter().next().map(|on| on.traced);
+                let found = sampled.curves(&values).into_iter().next().map(|(on, _)| on.traced);
+                let id = &space.template().id;
+                match (proven, found) {
+                    (Some(proven), Some(found)) => {
+                        both += 1;
+                        let positions: Vec<f64> = (0..50).map(|k| f64::from(k) / 50.0).collect();
+                        let [own, other] = [proven, found].map(|traced| traced.points(&positions));
+                        let pairs = own.iter().flatten().zip(other.iter().flatten());
+                        let apart = pairs.map(|(a, b)| (a - b).norm_sqr().sqrt()).fold(0.0, f64::max);
+                        assert!(apart < 1e-8, "{id} {values:?}: {apart}");
+                    }
+                    (Some(_), None) => missed += 1,
+                    (None, Some(_)) => panic!("{id} {values:?} does not turn"),
+                    (None, None) => {}
+                }
+            }
+            assert!(both >= 10 && missed <= both / 20, "{}: {both} found, {missed} missed", space.template().id);
         }
     }
 }

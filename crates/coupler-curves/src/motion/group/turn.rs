@@ -11,7 +11,7 @@ use crate::motion::circuit::UnsampledCircuit;
 use crate::motion::interval::{Interval, Span};
 use crate::motion::pass::Pass;
 
-/// The steps of a turn: of 2000 random linkages whose input turns, all but a few are found, and none that does not.
+/// The steps of a turn.
 const STEPS: usize = 60;
 
 /// A pose may be this many times as far from where its tangent leads as the step is long, or the step is halved, this often.
