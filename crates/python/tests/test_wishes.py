@@ -209,7 +209,7 @@ def test_progress_is_shown() -> None:
 @pytest.mark.parametrize(
     ("options", "error", "message"),
     [
-        ({}, ValueError, "nothing is wished: give a condition or a goal"),
+        ({}, ValueError, "nothing is wished; give a condition or a goal"),
         ({"where": "mu_wurst > 3", "best": 0, "max_link": -1, "ranges": {"x": (1, 2)}}, ValueError, "max_link: -1 is not positive"),
         ({"where": "mu_wurst > 3", "best": 0, "ranges": {"x": (1, 2)}}, ValueError, "best=0: give a number from 1 to 50\n`x = 1..2`: "),
         ({"where": "mu_worst_deg > 50 and mu_worst_deg < 40"}, ValueError, "exclude each other"),
