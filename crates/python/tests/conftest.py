@@ -1,6 +1,10 @@
 """What the tests have in common: the repository, a small manifest, and no progress bars."""
 
 import pathlib
+import signal
+import subprocess
+import sys
+import time
 from collections.abc import Callable
 
 import pytest
@@ -29,6 +33,22 @@ grid = { p = [3, 40], r = [2, 2.5], a = [1, 1.5, 2] }
 @pytest.fixture
 def root() -> pathlib.Path:
     return ROOT
+
+
+@pytest.fixture
+def interrupted() -> Callable[[str, float], tuple[int, str, float]]:
+    """Runs a program, and sends it Ctrl-C so many seconds after it has printed "begun": its exit code, its errors, and the seconds until it ended."""
+
+    def run(program: str, after: float) -> tuple[int, str, float]:
+        process = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        assert process.stdout is not None and process.stdout.readline() == "begun\n"
+        time.sleep(after)
+        process.send_signal(signal.SIGINT)
+        begin = time.monotonic()
+        _, errors = process.communicate(timeout=60)
+        return process.returncode, errors, time.monotonic() - begin
+
+    return run
 
 
 @pytest.fixture

@@ -1,10 +1,5 @@
 """The search, on curves whose linkage is known."""
 
-import signal
-import subprocess
-import sys
-import time
-
 import numpy as np
 import pytest
 
@@ -135,7 +130,7 @@ def test_the_dimensions_of_a_linkage_are_found() -> None:
     assert isinstance(same.linkage, ca.FourBar)
 
 
-def test_ctrl_c_ends_a_search() -> None:
+def test_ctrl_c_ends_a_search(interrupted) -> None:
     code = (
         "import coupler_atlas as ca, sys\n"
         "bar = ca.FourBar(frame=4, crank=1.5, coupler=3, rocker=3.5, along=1.5, across=1)\n"
@@ -144,13 +139,8 @@ def test_ctrl_c_ends_a_search() -> None:
         "try:\n    while True:\n        ca.find(points, closed=True, effort='thorough', index=20000)\n"
         "except KeyboardInterrupt:\n    sys.exit(3)\n"
     )
-    process = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
-    assert process.stdout is not None and process.stdout.readline() == "begun\n"
-    time.sleep(1.0)
-    process.send_signal(signal.SIGINT)
-    begin = time.monotonic()
-    process.communicate(timeout=60)
-    assert process.returncode == 3 and time.monotonic() - begin < 3
+    returncode, _, elapsed = interrupted(code, 1.0)
+    assert returncode == 3 and elapsed < 3
 
 
 @pytest.mark.parametrize(

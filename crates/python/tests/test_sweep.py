@@ -3,7 +3,6 @@
 import gc
 import os
 import pickle
-import signal
 import subprocess
 import sys
 import threading
@@ -129,7 +128,7 @@ def test_progress_is_reported(manifest) -> None:
 
 
 @pytest.mark.parametrize(("read", "code"), [("list(sweep.batches())", 3), ("pa.table(sweep)", 1), ("pl.DataFrame(sweep)", 1)])
-def test_ctrl_c_ends_a_sweep(manifest, read, code) -> None:
+def test_ctrl_c_ends_a_sweep(manifest, interrupted, read, code) -> None:
     program = (
         # pyarrow imports pandas when it is first asked for a table.
         "import coupler_atlas as ca, pandas, pyarrow as pa, polars as pl, sys\n"
@@ -138,15 +137,10 @@ def test_ctrl_c_ends_a_sweep(manifest, read, code) -> None:
         f"try:\n    {read}\n"
         "except KeyboardInterrupt:\n    print('interrupted', file=sys.stderr)\n    sys.exit(3)\n"
     )
-    process = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    assert process.stdout is not None and process.stdout.readline() == "begun\n"
-    time.sleep(0.5)
-    process.send_signal(signal.SIGINT)
-    begin = time.monotonic()
-    _, errors = process.communicate(timeout=60)
-    assert time.monotonic() - begin < 2, errors
+    returncode, errors, elapsed = interrupted(program, 0.5)
+    assert elapsed < 2, errors
     # Readers of Arrow data raise an exception of their own.
-    assert process.returncode == code and "interrupted" in errors, errors
+    assert returncode == code and "interrupted" in errors, errors
 
 
 def test_only_what_the_table_has_is_computed(manifest) -> None:
