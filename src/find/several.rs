@@ -80,26 +80,25 @@ pub fn find_among(
         Some(_) => None,
     };
     let mut curves = 0;
-    let mut search_with = |(target, options): (&Target, &Options), least_mu_deg: f64, half: f64| -> Result<_, Error> {
-        let mut search = LinkageSearch::among(&spaces, index.as_ref(), (target, options), SAMPLES, least_mu_deg);
+    let mut search = |target: &Target, options: &Options| -> Result<_, Error> {
+        let mut four_bars = Vec::new();
         if several == Several::Any && options.condition.is_none() {
             let own = Options { most: FOUR_BARS, ..options.clone() };
-            let found = Search::new(target, own).run(&load_index(Index::DEFAULT_COUNT));
-            found.iter().for_each(|answer| search.add_four_bar(&answer.mechanism.four_bar));
+            four_bars = Search::new(target, own).run(&load_index(Index::DEFAULT_COUNT));
         }
-        while search.step(&threads) {
+        let mut answers = Vec::new();
+        // Those that do not jam are not the same as the nearest of all that happen not to.
+        for (half, least_mu_deg) in [(0.0, JAM_DEG), (1.0, 0.0)] {
+            let mut search = LinkageSearch::among(&spaces, index.as_ref(), (target, options), SAMPLES, least_mu_deg);
+            four_bars.iter().for_each(|answer| search.add_four_bar(&answer.mechanism.four_bar));
+            while search.step(&threads) {
+                threads.proceed()?;
+                report_part(INDEX_PART + (1.0 - INDEX_PART) * 0.5 * (half + search.part_done()));
+            }
+            answers.extend(search.answers(&threads));
             threads.proceed()?;
-            report_part(INDEX_PART + (1.0 - INDEX_PART) * 0.5 * (half + search.part_done()));
+            curves = search.curve_count();
         }
-        let answers = search.answers(&threads);
-        threads.proceed()?;
-        curves = search.curve_count();
-        Ok(answers)
-    };
-    // Those that do not jam are not the same as the nearest of all that happen not to.
-    let mut search = |target: &Target, options: &Options| -> Result<_, Error> {
-        let mut answers = search_with((target, options), JAM_DEG, 0.0)?;
-        answers.extend(search_with((target, options), 0.0, 1.0)?);
         Ok(ranked(answers, target.size(), options.most))
     };
     let answers = search(target, options)?;

@@ -55,7 +55,7 @@ impl LinkageSampler {
     /// How many of the curves of an index of about that many are those of each linkage, at most.
     pub fn quotas(&self, count: usize) -> Vec<usize> {
         let weights: Vec<usize> =
-            self.sampled.iter().map(|sampled| if sampled.is_group() { 1 } else { FEWER_OF_GROUPS }).collect();
+            self.sampled.iter().map(|sampled| if sampled.space.is_group() { 1 } else { FEWER_OF_GROUPS }).collect();
         let whole: usize = weights.iter().sum::<usize>().max(1);
         let fewer = if self.sampled.iter().all(|sampled| sampled.full_turn) { 1 } else { FEWER_WITH_LIMITS };
         weights.into_iter().map(|weight| (count * weight / (whole * fewer)).max(1)).collect()

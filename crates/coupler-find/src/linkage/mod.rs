@@ -18,6 +18,7 @@ mod placed_curve;
 mod poses;
 mod ranking;
 mod refinement;
+mod refinements;
 mod sampled_space;
 mod samples;
 mod scaling;

@@ -51,7 +51,7 @@ impl SampledSpace {
         const ENOUGH: usize = 16;
         const MOST: usize = 200;
         let template = self.space.template();
-        let is_group = self.is_group();
+        let is_group = self.space.is_group();
         if !self.full_turn || template.circuits != CircuitSelection::Start || template.input.is_some() {
             return None;
         }
@@ -97,11 +97,6 @@ impl SampledSpace {
     pub fn is_slow(&self) -> bool {
         let dyads = self.space.template().structure().map_or(0, |linkage| linkage.dyad_count());
         self.turn.is_none() && dyads > 1
-    }
-
-    /// Whether joints are placed together, by Newton's method.
-    pub fn is_group(&self) -> bool {
-        self.space.template().structure().is_ok_and(|linkage| linkage.group.is_some())
     }
 
     /// The traced joints on the circuits of a parameter set.

@@ -5,7 +5,7 @@ use super::fitting::{LinkageFit, LinkageFitting};
 use super::index::LinkageIndex;
 use super::placed_curve::PlacedCurve;
 use super::ranking::ranked;
-use super::refinement::LinkageRefinement;
+use super::refinements::{Refinement, finished, keep_nearest};
 use super::samples::{SampleCurve, SampleIndex, SampleShape};
 use super::space::LinkageSpace;
 use crate::distinct::distinct;
@@ -47,13 +47,6 @@ pub struct LinkageSearch {
     stage: Stage,
 }
 
-/// A refinement, and the number of its linkage, from 0.
-#[derive(Clone)]
-struct Refinement {
-    linkage: usize,
-    own: LinkageRefinement,
-}
-
 /// What the next step does.
 enum Stage {
     /// Takes samples of a linkage, from a number on.
@@ -88,9 +81,6 @@ enum Stage {
 
 /// Several linkages have so many times the starts of one.
 const STARTS_OF_SEVERAL: usize = 3;
-
-/// Of several linkages, the nearest of each that are kept however near others are.
-const KEPT_OF_EACH: usize = 3;
 
 /// Of several linkages, the nearest that are ranked.
 const MOST_RANKED: usize = 150;
@@ -154,9 +144,8 @@ impl LinkageSearch {
         least_mu_deg: f64,
     ) -> LinkageSearch {
         let applies = |space: &LinkageSpace| {
-            let has_mu = || !space.template().structure().is_ok_and(|linkage| linkage.group.is_some());
             let meets = options.condition.as_ref().is_none_or(|condition| condition.on(&space.template().id).is_some());
-            meets && (least_mu_deg <= 0.0 || has_mu())
+            meets && (least_mu_deg <= 0.0 || !space.is_group())
         };
         let index = index.filter(|_| target.angles_deg().is_none());
         let has = |space: usize| index.is_some_and(|index| space < index.linkage_count());
@@ -463,18 +452,6 @@ impl LinkageSearch {
     }
 }
 
-/// A refinement on all points of the target, if it has begun on few of them.
-fn finished(fitting: &LinkageFitting, refinement: LinkageRefinement) -> Option<LinkageRefinement> {
-    /// Few points tell where the curve is to a few steps.
-    const STEPS: usize = 20;
-    if !refinement.has_few_points {
-        return Some(refinement);
-    }
-    let mut refinement = fitting.on_all_points(refinement)?;
-    fitting.advance(&mut refinement, STEPS);
-    Some(refinement)
-}
-
 fn start_count(target: &Target, options: &Options) -> usize {
     /// The number of points for which an effort is measured; paths of fewer points have more minima that are not the least.
     const POINTS_OF_EFFORT: usize = 100;
@@ -486,26 +463,6 @@ fn start_count(target: &Target, options: &Options) -> usize {
     };
     let count = if target.kind() == PathKind::Closed { count } else { 2 * count };
     count * (POINTS_OF_EFFORT / target.points().len()).clamp(1, MAX_MORE)
-}
-
-/// Keeps the nearest that are not alike.
-fn keep_nearest(refinements: &mut Vec<Refinement>, most: usize) {
-    /// Refinements that have found the same linkage differ by less than this.
-    const ALIKE: f64 = 1e-6;
-    refinements.sort_by(|a, b| a.own.mean_square().total_cmp(&b.own.mean_square()));
-    refinements.dedup_by(|Refinement { own: a, linkage }, Refinement { own: b, linkage: other }| {
-        linkage == other && a.mean_square() - b.mean_square() <= ALIKE * b.mean_square() && a.is_done() && b.is_done()
-    });
-    // Of several linkages some of each, for the nearest in the beginning need not be in the end.
-    let mut kept = vec![0; refinements.iter().map(|refinement| refinement.linkage + 1).max().unwrap_or(0)];
-    let several = kept.len() > 1;
-    let mut count = 0;
-    refinements.retain(|Refinement { linkage, .. }| {
-        let own = &mut kept[*linkage];
-        let is_kept = count < most.max(1) || (several && *own < KEPT_OF_EACH);
-        (count, *own) = (count + usize::from(is_kept), *own + usize::from(is_kept));
-        is_kept
-    });
 }
 
 fn answer(fit: LinkageFit, space: &LinkageSpace) -> Option<LinkageAnswer> {

@@ -215,6 +215,11 @@ impl LinkageSpace {
         &self.template
     }
 
+    /// Whether joints are placed together, by Newton's method. Such a linkage has no transmission angle.
+    pub(super) fn is_group(&self) -> bool {
+        self.template.structure().is_ok_and(|linkage| linkage.group.is_some())
+    }
+
     /// Whether the linkage is as many times greater if all its free lengths are: its dimensions are then found in the unit of the target.
     pub fn is_scalable(&self) -> bool {
         self.is_scalable
