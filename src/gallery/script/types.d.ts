@@ -44,7 +44,7 @@ type App = {
   atlas: Atlas;
   kernel: import("./kernel/kernel.js").KernelLoader;
   pins: import("./view/pins.js").Pins;
-} & Record<"announce" | "go" | "replace", (text: string) => void>;
+} & Record<"announce" | "go" | "replace" | "commit", (text: string) => void>;
 type Query = Map<string, string>;
 type Target = { path: string[]; query: Query };
 /** A view of the gallery; `update` returns whether it handles a further address of its route. */

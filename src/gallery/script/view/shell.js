@@ -2,6 +2,7 @@
 
 import { address, parseAddress } from "../data/address.js";
 import { fill, h, setAttributes } from "./dom.js";
+import { Gestures, gestureOfKey } from "./gestures.js";
 import { themeSelect } from "./settings.js";
 import { scrollMemory } from "./scroll-memory.js";
 import { formatBytes, formatCount } from "./labels.js";
@@ -30,6 +31,11 @@ export function openShell(parts, routes, root) {
       window.history.replaceState(window.history.state, "", fragment);
       router.fragment = window.location.hash;
     },
+    commit: (fragment) => {
+      const before = router.fragment;
+      app.replace(fragment);
+      if (router.fragment !== before) router.gestures.record(before);
+    },
   };
   const nav = navigation(app, routes);
   const skip = (event) => {
@@ -48,6 +54,12 @@ export function openShell(parts, routes, root) {
   );
   const router = new Router(app, routes, { main, nav, scroll: scrollMemory() });
   window.addEventListener("hashchange", () => router.navigate());
+  window.addEventListener("keydown", (event) => {
+    const way = gestureOfKey(event);
+    if (way === 0) return;
+    event.preventDefault();
+    router.retrace(way);
+  });
   return router.navigate();
 }
 
@@ -87,6 +99,8 @@ class Router {
   /** @type {{ route: Route, view: View } | null} */ shown = null;
   turn = 0;
   fragment = "";
+  /** What can be undone in the view that is shown. */
+  gestures = new Gestures();
 
   constructor(/** @type {App} */ app, /** @type {Route[]} */ routes, { main, nav, scroll }) {
     this.app = app;
@@ -108,6 +122,7 @@ class Router {
     }
     this.turn += 1;
     const turn = this.turn;
+    this.gestures.clear();
     // The previous view stays visible until the next one is ready.
     this.shown?.view.leave?.();
     this.shown = null;
@@ -124,6 +139,19 @@ class Router {
       window.clearTimeout(waiting);
       if (turn === this.turn) this.main.removeAttribute("aria-busy");
     }
+  }
+
+  /** Undoes (-1) or repeats (1) a gesture: shows the address before or after it. */
+  retrace(way) {
+    const { gestures, app } = this;
+    const fragment = way < 0 ? gestures.undo(this.fragment) : gestures.redo(this.fragment);
+    if (fragment === undefined) {
+      app.announce(way < 0 ? "Nothing to undo" : "Nothing to redo");
+      return;
+    }
+    window.history.replaceState(window.history.state, "", fragment);
+    app.announce(way < 0 ? "Undone" : "Redone");
+    this.navigate();
   }
 
   showBusy() {
