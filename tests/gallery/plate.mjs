@@ -9,7 +9,8 @@ import { KERNEL } from "./plate-kernel.mjs";
 import { MOTION } from "./plate-motion.mjs";
 import { PARAMETERS } from "./plate-parameters.mjs";
 import { READINGS } from "./plate-readings.mjs";
+import { STATE } from "./plate-state.mjs";
 
 const [folder] = process.argv.slice(2);
 
-await runTests([...MOTION, ...READINGS, ...PARAMETERS, ...ACCESSIBILITY, ...KERNEL], { folder });
+await runTests([...MOTION, ...READINGS, ...PARAMETERS, ...ACCESSIBILITY, ...KERNEL, ...STATE], { folder });

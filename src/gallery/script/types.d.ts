@@ -15,6 +15,13 @@ type Atlas = ReturnType<typeof import("./data/atlas.js").openAtlas>;
 type Kernel = import("./kernel/kernel.js").Kernel;
 type KernelStudy = import("./kernel/study.js").KernelStudy;
 type Place = { pass: number; input: number; isBeyond?: boolean };
+/** What the address of a plate says of it (view/plate/plate-query.js). */
+type PlateState = {
+  changes: Map<string, number>;
+  requestedCircuit: number | null;
+  on: Set<string>;
+  at: Place | null;
+};
 type Timeline = ReturnType<typeof import("./view/plate/timeline.js").timelineOf>;
 type Parameter = ReturnType<typeof import("./view/plate/parameters.js").changeableParameters>[number];
 type Shape = NonNullable<ReturnType<typeof import("./shape/query-shape.js").queryShape>>;

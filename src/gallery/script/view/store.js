@@ -7,10 +7,12 @@
 export class Store {
   /** @type {Set<(state: S, before: S | null) => void>} */ listeners = new Set();
   writing = 0;
+  /** Whether a gesture has not ended. */
+  isOpen = false;
 
   /**
    * `address` gives the address of a state.
-   * @param {Pick<App, "commit">} app @param {S} state @param {(state: S) => string} address
+   * @param {Pick<App, "commit" | "replace">} app @param {S} state @param {(state: S) => string} address
    */
   constructor(app, state, address) {
     this.app = app;
@@ -26,7 +28,8 @@ export class Store {
 
   /** Changes a part of the state; the address stays until the end of the gesture, `commit()`. @param {Partial<S>} changes */
   preview(changes) {
-    this.show(Object.assign({}, this.state, changes));
+    this.isOpen = true;
+    this.#set(Object.assign({}, this.state, changes));
   }
 
   /** Changes a part of the state, as a gesture of its own. @param {Partial<S>} changes */
@@ -37,6 +40,17 @@ export class Store {
 
   /** Shows the state of another address, which is written already. */
   show(/** @type {S} */ state) {
+    this.#end();
+    this.#set(state);
+  }
+
+  /** Changes what is no gesture, and is not undone. @param {Partial<S>} changes */
+  note(changes) {
+    this.#set(Object.assign({}, this.state, changes));
+    if (!this.isOpen) this.app.replace(this.address(this.state));
+  }
+
+  #set(/** @type {S} */ state) {
     const before = this.state;
     this.state = state;
     this.listeners.forEach((listener) => listener(state, before));
@@ -44,9 +58,14 @@ export class Store {
 
   /** Ends a gesture. */
   commit() {
-    window.clearTimeout(this.writing);
-    this.writing = 0;
+    if (!this.isOpen) return;
+    this.#end();
     this.app.commit(this.address(this.state));
+  }
+
+  #end() {
+    window.clearTimeout(this.writing);
+    this.isOpen = false;
   }
 
   /** Ends a gesture when nothing has followed for a time in milliseconds. */
@@ -55,8 +74,8 @@ export class Store {
     this.writing = window.setTimeout(() => this.commit(), after);
   }
 
-  /** Ends a gesture that has not ended: before the view is left. */
+  /** Before the view is left: its address is not written any more. */
   leave() {
-    if (this.writing) this.commit();
+    this.#end();
   }
 }

@@ -51,9 +51,10 @@ export function enableDragging(/** @type {Stage} */ stage, /** @type {Plate} */ 
   const up = (event) => {
     if (!pointers.delete(event.pointerId)) return;
     if (pointers.size > 0) return;
-    drag = null;
     stage.element.classList.remove("dragging");
     plate.drive.place.isBeyond = false;
+    if (drag) plate.moved();
+    drag = null;
   };
   let scrolled = -Infinity;
   const scroll = () => {

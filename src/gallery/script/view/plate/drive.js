@@ -30,11 +30,16 @@ export class Drive {
       this.begin();
       return;
     }
-    const { passes } = timeline;
-    this.place.pass = Math.min(this.place.pass, passes.length - 1);
-    const { from, to } = passes[this.place.pass];
-    this.place.input = Math.min(Math.max(this.place.input, Math.min(from, to)), Math.max(from, to));
+    this.#put(this.place);
     this.part = partOfInput(timeline, this.place.pass, this.place.input);
+  }
+
+  // Sets the place to an input of a pass, or to the nearest that there is.
+  #put(/** @type {Place} */ { pass, input }) {
+    const { passes } = this.timeline;
+    this.place.pass = Math.min(pass, passes.length - 1);
+    const { from, to } = passes[this.place.pass];
+    this.place.input = Math.min(Math.max(input, Math.min(from, to)), Math.max(from, to));
   }
 
   /** Moves to the initial position of a plate, where links seldom overlap. */
@@ -73,11 +78,19 @@ export class Drive {
     this.plate.draw();
   }
 
+  /** Moves to an input of a pass, or to the nearest that there is. @param {Place} place */
+  moveTo(place) {
+    if (this.isHalted) return;
+    this.#put(place);
+    this.move();
+  }
+
   /** Pauses and moves to a part of the timeline. */
   seekAndPause(part) {
     if (this.isHalted) return;
     this.pause();
     this.seek(part);
+    this.plate.moved();
   }
 
   /** Steps by degrees, or by 1/200 of a stroke, along the timeline, and over limits. */
@@ -91,10 +104,10 @@ export class Drive {
     if (isInside) {
       this.place.input = next;
       this.move();
-      return;
     }
     // A step over a limit continues beyond it.
-    this.seek(clampPart(this.timeline, this.part + by / this.timeline.whole));
+    else this.seek(clampPart(this.timeline, this.part + by / this.timeline.whole));
+    this.plate.moved();
   }
 
   /** Moves to the next limit position, or, for a full rotation, to its start. */
@@ -109,6 +122,7 @@ export class Drive {
     if (ahead.length === 0) return;
     const next = direction > 0 ? Math.min(...ahead) : Math.max(...ahead);
     this.seek(closed ? next - Math.floor(next) : next);
+    this.plate.moved();
   }
 
   #advance(seconds) {

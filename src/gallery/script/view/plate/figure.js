@@ -23,10 +23,8 @@ export class PlateFigure {
   study = null;
   /** Why what was asked for cannot be drawn. @type {string | null} */
   reason = null;
-  /** Changed values by their names. @type {Map<string, number>} */
-  changes = new Map();
-  /** The names of the overlays that are on. @type {Set<string>} */
-  on = new Set();
+  /** What its address says. @type {PlateState} */
+  state = { changes: new Map(), requestedCircuit: null, on: new Set(), at: null };
   /** The measures, if they are not those of the atlas. @type {Measured | null} */
   measured = null;
   /** @type {StraightPortion | null} */ portion = null;
@@ -38,11 +36,21 @@ export class PlateFigure {
     this.family = family;
     this.curve = curve;
     this.drive = new Drive(this);
-    this.transport = new Transport(this.drive, this.stage);
+    this.transport = new Transport(this);
     this.overlays = new Overlays(this.stage);
     this.dial = new DialView();
     this.speed = new SpeedView((part) => this.drive.seekAndPause(part));
     this.stage.onview = () => this.draw();
+  }
+
+  /** Changed values by their names. */
+  get changes() {
+    return this.state.changes;
+  }
+
+  /** The names of the overlays that are on. */
+  get on() {
+    return this.state.on;
   }
 
   /** Whether the atlas contains what is shown. */
@@ -95,6 +103,14 @@ export class PlateFigure {
     speed.update(part, Math.hypot(...pose.velocity));
     const frame = { top: speed.top, size: stage.size, heading: Math.sign(pass.to - pass.from) };
     stage.moving.speed(this.on.has("velocity") ? velocityArrow(pose.velocity, frame) : null);
+  }
+
+  /** After a gesture that has moved the linkage. */
+  moved() {}
+
+  /** Plays or pauses the motion. */
+  play() {
+    this.drive.toggle();
   }
 
   // Runs `work`; whether it succeeded. If the kernel fails, the linkage stands still until something is changed.

@@ -95,7 +95,7 @@ function handlePlateKey(/** @type {Plate} */ plate, event) {
   const isField = target.matches?.("input:not([type=range]):not([type=checkbox]), select, textarea");
   if (isField) return;
   const isPressed = target.matches?.("button, a, summary, input[type=checkbox]");
-  if (event.key === " " && !isPressed) drive.toggle();
+  if (event.key === " " && !isPressed) plate.play();
   else if (event.key === "0") stage.fit();
   else if (event.key === "+" || event.key === "=") stage.zoom(1.3);
   else if (event.key === "-") stage.zoom(1 / 1.3);

@@ -1,4 +1,4 @@
-// The query of a plate's address: changed parameters, the circuit, and the overlays.
+// The query of a plate's address: changed parameters, the circuit, the overlays, and the input.
 
 import { address } from "../../data/address.js";
 import { findCurve, curveKey } from "../../data/family.js";
@@ -7,27 +7,31 @@ import { parseChanges } from "./parameters.js";
 
 /**
  * Parses the query of a curve with a movable traced point or null; `requestedCircuit` is the index of a circuit
- * among all, or null, `on` are the names of overlays.
- * @param {Family} family @param {MovablePoint | null} point @param {Query} query
+ * among all, or null, `on` are the names of overlays; `at` is the input, "63.5", perhaps with the number of its
+ * pass, "63.5,2".
+ * @param {Family} family @param {MovablePoint | null} point @param {Query} query @returns {PlateState}
  */
 export function readPlateQuery(family, point, query) {
   const circuit = Number(query.get("circuit"));
   const shown = query.get("show");
+  const [input, pass = 1] = (query.get("at") || "?").split(",").map(Number);
   const isOn = (overlay) => (shown === undefined ? overlay.isOn : shown.split(",").includes(overlay.name));
   return {
     changes: parseChanges(family, point, query),
     requestedCircuit: Number.isInteger(circuit) && circuit > 0 ? circuit - 1 : null,
     on: new Set(OVERLAYS.filter(isOn).map(({ name }) => name)),
+    at: Number.isFinite(input) && pass >= 1 ? { input, pass: Math.floor(pass) - 1 } : null,
   };
 }
 
-/** The shortest address of a plate; defaults are left out. @param {Plate} _ */
-export function plateAddress({ family, curve, changes, requestedCircuit, on, study }) {
+/** The shortest address of a plate in a state; defaults are left out. @param {Plate} _ @param {PlateState} state */
+export function plateAddress({ family, curve, study }, { changes, requestedCircuit, on, at }) {
   const query = new Map([...changes].map(([name, value]) => [name, String(value)]));
   if (requestedCircuit !== null && requestedCircuit !== study?.home)
     query.set("circuit", String(requestedCircuit + 1));
   const isUsual = OVERLAYS.every(({ name, isOn }) => on.has(name) === isOn);
   if (!isUsual) query.set("show", [...on].join(",") || "nothing");
+  if (at) query.set("at", `${Number(at.input.toPrecision(10))}${at.pass > 0 ? `,${at.pass + 1}` : ""}`);
   return address([family.id, "curve", curveKey(family, curve)], query);
 }
 

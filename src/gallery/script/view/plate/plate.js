@@ -9,9 +9,11 @@ import { plateCurveName, isExtraCircuit, plateAddress, readPlateQuery } from "./
 import { Sliders } from "./sliders.js";
 import { recordedValues, studyOf, summaryOfStudy } from "./study.js";
 import { Switches } from "./switches.js";
+import { Store } from "../store.js";
 
-// The time in milliseconds after which a slider has rested.
+// The times in milliseconds after which a slider, and the input, have rested.
 const REST_MILLISECONDS = 160;
+const INPUT_MILLISECONDS = 400;
 
 /**
  * The plate of a curve of a family, with the query of its address. Put `element` into the document, then call
@@ -20,8 +22,6 @@ const REST_MILLISECONDS = 160;
 export class Plate extends PlateFigure {
   /** The circuits of what was asked for. @type {Candidates} */
   candidates;
-  /** The index of a circuit among all. @type {number | null} */
-  requestedCircuit;
   resting = 0;
   waiting = 0;
 
@@ -36,11 +36,12 @@ export class Plate extends PlateFigure {
     this.sliders = new Sliders(family.legend, this);
     this.switches = new Switches(this);
     this.measures = new MeasureTable(app, family, curve);
+    this.store = new Store(app, this.#stateOf(query), (state) => plateAddress(this, state));
+    this.store.watch((state, before) => this.#stateChanged(state, before));
     this.layout = plateLayout(this);
     this.element = this.layout.element;
     const releases = [enableDragging(this.stage, this), watchKeys(this)];
     this.release = () => releases.forEach((release) => release());
-    this.#readQuery(query);
     this.#restudy(false);
     if (!this.study) this.#showRecorded();
     this.#settle();
@@ -48,17 +49,19 @@ export class Plate extends PlateFigure {
 
   /**
    * Called when the element is in the document: measures the frame, and starts the motion unless reduced
-   * motion is preferred.
+   * motion is preferred, or the address says the input.
    */
   shown() {
     this.stage.observe();
     this.stage.fit();
     const isStill = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
-    if (!isStill) this.drive.toggle(true);
+    if (this.state.at) this.drive.moveTo(this.state.at);
+    else if (!isStill) this.drive.toggle(true);
   }
 
   leave() {
     this.drive.toggle(false);
+    this.store.leave();
     this.stage.leave();
     this.release();
     this.layout.leave();
@@ -69,17 +72,40 @@ export class Plate extends PlateFigure {
 
   /** Handles another query of the same curve's address. @param {Query} query */
   setQuery(query) {
-    this.#readQuery(query);
-    this.#restudy(false);
-    this.#settle(false);
+    const { requestedCircuit } = this.state;
+    this.store.show(this.#stateOf(query));
+    this.#rest();
+    const { at } = this.state;
+    if (at) {
+      this.drive.pause();
+      this.drive.moveTo(at);
+    } else if (this.state.requestedCircuit !== requestedCircuit) this.#beginCircuit();
     return true;
   }
 
-  #readQuery(/** @type {Query} */ query) {
-    const { changes, requestedCircuit, on } = readPlateQuery(this.family, this.recorded.point, query);
-    this.changes = changes;
-    this.requestedCircuit = requestedCircuit;
-    this.on = on;
+  /** The state of an address, without values that are those of the atlas. @param {Query} query */
+  #stateOf(query) {
+    const state = readPlateQuery(this.family, this.recorded.point, query);
+    const isOwn = ([name, value]) => this.#isRecordedValue(name, value);
+    return { ...state, changes: new Map([...state.changes].filter((change) => !isOwn(change))) };
+  }
+
+  /** Whether a value of a name that no expression gives is that of the atlas. */
+  #isRecordedValue(name, value) {
+    const { point, values } = this.recorded;
+    const way = point && name.startsWith(`${point.name}.`) ? point[name.slice(point.name.length + 1)] : null;
+    if (way) return way.is_constant && way.value === value;
+    const derived = this.description.names.find((known) => known.name === name)?.is_derived;
+    return !derived && values[name] === value;
+  }
+
+  /** Shows what a gesture has changed. @param {PlateState} state @param {PlateState | null} before */
+  #stateChanged(state, before) {
+    this.state = state;
+    if (before === null) return;
+    if (state.changes !== before.changes) this.#changed();
+    else if (state.requestedCircuit !== before.requestedCircuit) this.#circuitChosen();
+    else if (state.on !== before.on) this.#overlaysChosen(before.on);
   }
 
   /** The name of the curve, with its family and changes. */
@@ -89,12 +115,10 @@ export class Plate extends PlateFigure {
 
   // If the address cannot be assembled, the linkage of the atlas is shown behind the message.
   #showRecorded() {
-    const { changes, requestedCircuit } = this;
-    this.changes = new Map();
-    this.requestedCircuit = null;
+    const { state } = this;
+    this.state = { ...state, changes: new Map(), requestedCircuit: null };
     this.#restudy(false);
-    this.changes = changes;
-    this.requestedCircuit = requestedCircuit;
+    this.state = state;
     this.#restudy(false);
   }
 
@@ -102,7 +126,7 @@ export class Plate extends PlateFigure {
   #restudy(isRough) {
     const { family, kernel, changes, description, recorded } = this;
     const curve = kernel.curve(family, this.curve, changes);
-    const study = studyOf(kernel, curve, this.requestedCircuit, isRough);
+    const study = studyOf(kernel, curve, this.state.requestedCircuit, isRough);
     if (study.values) this.current = { values: study.values, point: study.point ?? null };
     this.sliders.show(changeableParameters(family, description.names, recorded, this.current, changes));
     this.reason = study.reason;
@@ -119,14 +143,24 @@ export class Plate extends PlateFigure {
     this.guarded(() => this.show(study, isRough));
   }
 
+  /** Changes a value; that of the atlas is no change. */
   change(name, value) {
-    this.changes.set(name, value);
-    this.#changed();
+    const changes = new Map(this.changes);
+    if (this.#isRecordedValue(name, value)) changes.delete(name);
+    else changes.set(name, value);
+    this.store.preview({ changes });
   }
 
   clear(name) {
-    this.changes.delete(name);
-    this.#changed();
+    const changes = new Map(this.changes);
+    changes.delete(name);
+    this.store.preview({ changes });
+  }
+
+  reset() {
+    this.store.preview({ changes: new Map(), requestedCircuit: null });
+    this.#rest();
+    this.stage.fit();
   }
 
   /** At the end of a change. */
@@ -146,58 +180,79 @@ export class Plate extends PlateFigure {
   #settleSoon(after) {
     window.clearTimeout(this.resting);
     this.stage.element.setAttribute("aria-busy", "true");
-    this.resting = window.setTimeout(() => {
-      this.stage.element.removeAttribute("aria-busy");
-      window.cancelAnimationFrame(this.waiting);
-      this.waiting = 0;
-      this.#restudy(false);
-      this.#settle();
-    }, after);
+    this.resting = window.setTimeout(() => this.#rest(), after);
   }
 
-  // Updates the measures, the address and the texts after a change.
-  #settle(isAddressed = true) {
+  // Studies closely what has been changed.
+  #rest() {
+    window.clearTimeout(this.resting);
+    this.stage.element.removeAttribute("aria-busy");
+    window.cancelAnimationFrame(this.waiting);
+    this.waiting = 0;
+    this.#restudy(false);
+    this.#settle();
+  }
+
+  // Updates the measures, the texts, and the address after a change.
+  #settle() {
     const { family, curve, study } = this;
     this.measures.show(this.reason ? null : this.measured);
-    this.switches.show(this.candidates, study, this.on, isExtraCircuit(this));
+    this.#showSwitches();
     this.layout.refresh();
     if (this.reason) this.app.announce(`Cannot be assembled: ${this.reason}`);
     this.stage.summary.textContent = study ? summaryOfStudy(family, curve, study, this.isRecorded) : "";
-    if (isAddressed && this.element.isConnected) this.app.replace(plateAddress(this));
+    this.store.commit();
   }
 
-  reset() {
-    this.changes.clear();
-    this.requestedCircuit = null;
-    this.#restudy(false);
-    this.stage.fit();
-    this.#settle();
+  #showSwitches() {
+    this.switches.show(this.candidates, this.study, this.on, isExtraCircuit(this));
+  }
+
+  /** Plays or pauses the motion; the address has the input of a linkage that stands still. */
+  play() {
+    this.drive.toggle();
+    this.store.note({ at: this.drive.player.isPlaying ? null : { ...this.drive.place } });
+  }
+
+  /** After a gesture that has moved the linkage: its address has the input. */
+  moved() {
+    this.store.preview({ at: { ...this.drive.place } });
+    this.store.commitSoon(INPUT_MILLISECONDS);
   }
 
   /** Shows or hides an overlay. */
   overlay(name, isOn) {
-    if (isOn) this.on.add(name);
-    else this.on.delete(name);
+    const on = new Set(this.on);
+    if (isOn) on.add(name);
+    else on.delete(name);
+    this.store.change({ on });
+  }
+
+  #overlaysChosen(/** @type {Set<string>} */ before) {
     const { study, on } = this;
     if (!study) return;
-    const before = this.stage.box;
-    if (name === "others") this.stage.show(study, this.pathsOf(study, false));
+    const { box } = this.stage;
+    if (on.has("others") !== before.has("others")) this.stage.show(study, this.pathsOf(study, false));
     this.overlays.show(study, on, false);
-    if (before !== this.stage.box && !this.stage.isZoomed) this.stage.fit();
-    this.switches.show(this.candidates, study, on, isExtraCircuit(this));
+    if (box !== this.stage.box && !this.stage.isZoomed) this.stage.fit();
+    this.#showSwitches();
     this.draw();
-    this.app.replace(plateAddress(this));
   }
 
   /** Chooses a circuit. */
   circuit(k) {
-    this.requestedCircuit = k;
-    this.#restudy(false);
-    if (!this.reason) {
-      this.drive.begin();
-      if (!this.stage.isZoomed) this.stage.fit();
-      this.draw();
-    }
-    this.#settle();
+    this.store.preview({ requestedCircuit: k });
+  }
+
+  #circuitChosen() {
+    this.#rest();
+    this.#beginCircuit();
+  }
+
+  #beginCircuit() {
+    if (this.reason) return;
+    this.drive.begin();
+    if (!this.stage.isZoomed) this.stage.fit();
+    this.draw();
   }
 }

@@ -13,12 +13,13 @@ const PLAY_RATES = [
 ];
 
 /**
- * The controls below a stage, for a drive and the stage's view. `show(study, title)`, `update(part, input)`
+ * The controls below the stage of a plate, for its drive and the stage's view. `show(study, title)`, `update(part, input)`
  * and `playing(isPlaying)` update them.
  */
 export class Transport {
-  constructor(/** @type {Drive} */ drive, /** @type {Stage} */ stage) {
-    this.play = buttonOf("", () => drive.toggle(), { class: "play", "aria-keyshortcuts": "Space" });
+  constructor(/** @type {PlateFigure} */ plate) {
+    const { drive, stage } = plate;
+    this.play = buttonOf("", () => plate.play(), { class: "play", "aria-keyshortcuts": "Space" });
     this.scrub = h("input.scrub", {
       type: "range",
       min: "0",
