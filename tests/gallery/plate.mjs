@@ -5,6 +5,7 @@
 
 import { runTests } from "./browser.mjs";
 import { ACCESSIBILITY } from "./plate-accessibility.mjs";
+import { HANDLES } from "./plate-handles.mjs";
 import { KERNEL } from "./plate-kernel.mjs";
 import { MOTION } from "./plate-motion.mjs";
 import { PARAMETERS } from "./plate-parameters.mjs";
@@ -13,4 +14,6 @@ import { STATE } from "./plate-state.mjs";
 
 const [folder] = process.argv.slice(2);
 
-await runTests([...MOTION, ...READINGS, ...PARAMETERS, ...ACCESSIBILITY, ...KERNEL, ...STATE], { folder });
+await runTests([...MOTION, ...READINGS, ...PARAMETERS, ...ACCESSIBILITY, ...KERNEL, ...STATE, ...HANDLES], {
+  folder,
+});

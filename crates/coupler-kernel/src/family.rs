@@ -23,6 +23,20 @@ pub(crate) struct OpenFamily {
     pub options: FileOptions,
 }
 
+/// A name of a family: of a parameter of its linkage, or of a helper.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Name<'a> {
+    /// Its index among all.
+    pub slot: usize,
+    pub name: &'a str,
+    /// The least and the greatest value; 0 is exclusive.
+    pub min: Option<f64>,
+    pub max: Option<f64>,
+    pub is_whole: bool,
+    /// Whether an expression of other names gives its value.
+    pub is_derived: bool,
+}
+
 impl OpenFamily {
     /// Opens the first family of a manifest.
     ///
@@ -44,8 +58,8 @@ impl OpenFamily {
         Ok(OpenFamily { planned, options })
     }
 
-    /// What the page has to know of the family.
-    pub fn description(&self) -> Value {
+    /// The names whose values may be changed, and what these may be.
+    pub fn names<'n>(&'n self) -> Vec<Name<'n>> {
         let Family { names, template, derived, .. } = &self.planned.family;
         let is_whole = |name: &str| {
             template.joints.iter().any(|joint| match &joint.kind {
@@ -55,15 +69,22 @@ impl OpenFamily {
                 _ => false,
             })
         };
-        let name = |(slot, name): (usize, &String)| {
+        let name = |(slot, name): (usize, &'n String)| {
             let bounds = template.parameters.get(slot).map(|parameter| [parameter.min, parameter.max]);
             let [min, max] = bounds.unwrap_or_default();
             let expression = derived.iter().find(|(other, _)| *other == slot).map(|(_, expression)| expression);
             let is_derived = expression.is_some_and(|expression: &CompiledExpression| !expression.slots().is_empty());
-            json!({ "name": name, "min": min, "max": max, "is_whole": is_whole(name), "is_derived": is_derived })
+            Name { slot, name, min, max, is_whole: is_whole(name), is_derived }
         };
+        names.iter().enumerate().map(name).collect()
+    }
+
+    /// What the page has to know of the family.
+    pub fn description(&self) -> Value {
+        let template = &self.planned.family.template;
+        let name = |Name { name, min, max, is_whole, is_derived, .. }: &Name| json!({ "name": name, "min": min, "max": max, "is_whole": is_whole, "is_derived": is_derived });
         json!({
-            "names": names.iter().enumerate().map(name).collect::<Vec<_>>(),
+            "names": self.names().iter().map(name).collect::<Vec<_>>(),
             "is_length": template.is_driven_by_length(),
             "has_all_circuits": template.circuits == CircuitSelection::All,
         })

@@ -9,6 +9,7 @@ use coupler_find::{CurveIndex, Index};
 
 use crate::curves::{ShapeSearch, add_curves, deviation};
 use crate::description::{opened_json, study_json};
+use crate::dragging::Dragging;
 use crate::family::{OpenFamily, fragment};
 use crate::finder::{FourBarSearch, grow_index};
 use crate::overlays::{centrodes_json, cognate_pins, cognates, cognates_json};
@@ -32,7 +33,7 @@ pub struct Kernel {
 /// A study with what is computed once for all its poses.
 #[derive(Debug)]
 struct OpenStudy {
-    family: usize,
+    curve: CurveRequest,
     study: Study,
     cognates: Option<Cognates>,
 }
@@ -70,8 +71,8 @@ impl Kernel {
             Request::OpenStudy { curve, shown, is_rough } => self.open_study(&curve, shown, is_rough, numbers)?,
             Request::CloseStudy { study } => json!({ "closed": self.studies.remove(study) }),
             Request::Path { study, tolerance } => {
-                let OpenStudy { family, study, .. } = self.studies.get(study)?;
-                path_json(study, &self.families.get(*family)?.options.page, tolerance, numbers)
+                let OpenStudy { curve, study, .. } = self.studies.get(study)?;
+                path_json(study, &self.families.get(curve.family)?.options.page, tolerance, numbers)
             }
             Request::Speeds { study, count } => speeds_json(self.study(study)?, count, numbers),
             Request::Measures { study } => measures_json(self.study(study)?, numbers),
@@ -82,6 +83,15 @@ impl Kernel {
                 nearest_place(study, Point::new(x, y)).map_or(Value::Null, |place| reading_json(study, place))
             }
             Request::Reading { study, pass, input } => reading_json(self.study(study)?, Place { pass, input }),
+            Request::Handles { study } => {
+                let pass = self.study(study)?.passes().first().ok_or("the study has no pass")?;
+                // Not where a joint may be at rest.
+                let input = pass.from.input.value + 0.37 * (pass.to.input.value - pass.from.input.value);
+                self.dragging(study, Place { pass: 0, input })?.handles()?
+            }
+            Request::Drag { study, joint, to: [x, y], pass, input, unlocked } => {
+                self.dragging(study, Place { pass, input })?.drag(joint, Point::new(x, y), &unlocked)?
+            }
             Request::Export { curve, format } => self.families.get(curve.family)?.export(&curve, &format)?,
             Request::Fragment { curves } => {
                 let curves = curves
@@ -133,9 +143,15 @@ impl Kernel {
         let found = opened_json(family, curve, &opened);
         let Ok(study) = opened.study else { return Ok(found) };
         let description = study_json(&study, numbers);
-        let open = OpenStudy { family: curve.family, cognates: cognates(&study), study };
+        let open = OpenStudy { curve: curve.clone(), cognates: cognates(&study), study };
         let handle = json!({ "study": self.studies.insert(open) });
         Ok(merge(merge(handle, found), description))
+    }
+
+    fn dragging(&self, study: usize, place: Place) -> Result<Dragging<'_>, String> {
+        let OpenStudy { curve, study, .. } = self.studies.get(study)?;
+        let family = self.families.get(curve.family)?;
+        Dragging::new(family, curve, study, place).ok_or_else(|| format!("there is no pass {}", place.pass))
     }
 
     fn study(&self, handle: usize) -> Result<&Study, String> {

@@ -37,6 +37,7 @@ mod paths;
 mod reading;
 
 mod description;
+mod dragging;
 
 mod finder;
 

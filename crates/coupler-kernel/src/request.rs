@@ -83,6 +83,28 @@ pub enum Request {
         /// The input.
         input: f64,
     },
+    /// The joints of a study that dimensions move: `handles`, each with `joint`, the `names` of the dimensions, and `nearest`, those by which it is moved
+    /// if none is locked.
+    Handles {
+        /// The handle of the study.
+        study: usize,
+    },
+    /// Moves a joint to a place by the nearest of some dimensions, the input held, or as near to it as they can: `changes`, names with their values; `distance`,
+    /// how far the joint remains from the place; `is_held`, false if there is no such pose.
+    Drag {
+        /// The handle of the study.
+        study: usize,
+        /// The index of the joint.
+        joint: usize,
+        /// The place.
+        to: [f64; 2],
+        /// The index of the pass.
+        pass: usize,
+        /// The input.
+        input: f64,
+        /// The names of the dimensions.
+        unlocked: Vec<String>,
+    },
     /// A curve as a file.
     Export {
         /// The curve.
@@ -240,6 +262,17 @@ impl Request {
             "reading" => {
                 Request::Reading { study: of.index("study")?, pass: of.index("pass")?, input: of.number("input")? }
             }
+            "handles" => Request::Handles { study: of.index("study")? },
+            "drag" => Request::Drag {
+                study: of.index("study")?,
+                joint: of.index("joint")?,
+                to: of.pair("to", number)?,
+                pass: of.index("pass")?,
+                input: of.number("input")?,
+                unlocked: of.list("unlocked", |name| {
+                    name.as_str().map(str::to_owned).ok_or_else(|| format!("`{name}` is not a name"))
+                })?,
+            },
             "export" => {
                 Request::Export { curve: CurveRequest::from_value(of.member("curve")?)?, format: of.text("format")? }
             }

@@ -21,7 +21,12 @@ type PlateState = {
   requestedCircuit: number | null;
   on: Set<string>;
   at: Place | null;
+  locked: Set<string>;
 };
+/** A joint that dimensions move, with their names (crates/coupler-kernel/src/request.rs). */
+type HandleAnswer = { joint: number; names: string[]; nearest: string[] };
+type Handle = HandleAnswer & { element: SVGElement };
+type DragAnswer = { changes: [string, number][]; distance: number; is_held: boolean };
 type Timeline = ReturnType<typeof import("./view/plate/timeline.js").timelineOf>;
 type Parameter = ReturnType<typeof import("./view/plate/parameters.js").changeableParameters>[number];
 type Shape = NonNullable<ReturnType<typeof import("./shape/query-shape.js").queryShape>>;

@@ -54,6 +54,24 @@ impl JointPositions {
         self.x.iter().chain(&self.y).fold(0.0, |most: f64, value| most.max(value.abs()))
     }
 
+    /// Whether all links keep their lengths, to half of a billionth: where a linkage cannot be assembled, its joints are placed otherwise.
+    pub fn keep_lengths(&self, linkage: &Linkage) -> bool {
+        /// Relative to the square of the length of a link: of the length it is half as much.
+        const ROUNDING: f64 = 2e-9;
+        linkage.links.iter().all(|link| {
+            let Some((first, from)) = link.joints.first() else { return true };
+            link.joints[1..].iter().all(|(joint, to)| {
+                let own = (to - from).norm_squared();
+                let [from, to] = [first, joint].map(|joint| self.x(*joint).iter().zip(self.y(*joint)));
+                from.zip(to).all(|((ax, ay), (bx, by))| {
+                    let (dx, dy) = (bx - ax, by - ay);
+                    let square = dx * dx + dy * dy;
+                    (square - own).abs() <= ROUNDING * own.max(square)
+                })
+            })
+        })
+    }
+
     pub(super) fn set_point(&mut self, joint: JointId, sample: usize, at: Point) {
         self.x[joint.index() * self.len + sample] = at.x;
         self.y[joint.index() * self.len + sample] = at.y;

@@ -42,25 +42,8 @@ impl Poses<'_> {
         points.iter().all(|z| z.re.is_finite() && z.im.is_finite()).then_some(points)
     }
 
-    /// Whether the links keep their lengths: where a linkage cannot be assembled, its joints are placed otherwise. A circuit on which no dyad
-    /// is flat has the same passes then, up to what is between the places.
+    /// Whether the links keep their lengths. A circuit on which no dyad is flat has the same passes then, up to what is between the places.
     pub fn are_closed(&self, linkage: &Linkage) -> bool {
-        /// Relative to the square of the length of a link: of the length it is half as much.
-        const ROUNDING: f64 = 2e-9;
-        linkage.links.iter().all(|link| {
-            let Some((first, from)) = link.joints.first() else { return true };
-            link.joints[1..].iter().all(|(joint, to)| {
-                let own = (to - from).norm_squared();
-                let is_kept = |placed: &JointPositions| {
-                    let [from, to] = [first, joint].map(|joint| placed.x(*joint).iter().zip(placed.y(*joint)));
-                    from.zip(to).all(|((ax, ay), (bx, by))| {
-                        let (dx, dy) = (bx - ax, by - ay);
-                        let square = dx * dx + dy * dy;
-                        (square - own).abs() <= ROUNDING * own.max(square)
-                    })
-                };
-                self.of_passes.iter().all(is_kept)
-            })
-        })
+        self.of_passes.iter().all(|placed| placed.keep_lengths(linkage))
     }
 }

@@ -55,6 +55,19 @@ export class KernelStudy {
     return this.#ask("centrodes", { samples });
   }
 
+  /** The joints that dimensions move. @returns {HandleAnswer[]} */
+  handles() {
+    return this.#ask("handles").handles;
+  }
+
+  /**
+   * Moves a joint to a place, the input held, by the names that are unlocked.
+   * @param {{ joint: number, to: Point, pass: number, input: number, unlocked: string[] }} drag @returns {DragAnswer}
+   */
+  drag({ joint, to, pass, input, unlocked }) {
+    return this.#ask("drag", { joint, to, pass, input, unlocked });
+  }
+
   /** The reading at the nearest point of the curve. */
   nearest(x, y) {
     return readingOf(this.#ask("nearest", { point: [x, y] }));

@@ -12,7 +12,7 @@ const LIMIT_SLACK = 3;
  * drive. Returns a function that removes the listeners.
  */
 export function enableDragging(/** @type {Stage} */ stage, /** @type {Plate} */ plate) {
-  const { picture } = stage;
+  const { element: frame, picture } = stage;
   /** @type {Map<number, Point>} */ const pointers = new Map();
   let drag = null;
   let dragPointer = null;
@@ -26,14 +26,16 @@ export function enableDragging(/** @type {Stage} */ stage, /** @type {Plate} */ 
     const at = pointOf(event);
     pointers.set(event.pointerId, at);
     const joint = event.target.closest?.("[data-joint]")?.dataset.joint;
-    if (joint !== undefined && pointers.size === 1) {
+    const handle = event.target.closest?.("[data-handle]")?.dataset.handle;
+    const held = handle ?? joint;
+    if (held !== undefined && pointers.size === 1) {
       plate.drive.pause();
       dragPointer = event.pointerId;
-      drag = startDrag(plate, plate.study, Number(joint), planePoint(stage.view, at));
+      drag = startDrag(plate, { handle, joint }, planePoint(stage.view, at));
       stage.element.classList.add("dragging");
     }
-    if (joint !== undefined || event.pointerType === "mouse") {
-      picture.setPointerCapture(event.pointerId);
+    if (held !== undefined || event.pointerType === "mouse") {
+      frame.setPointerCapture(event.pointerId);
       event.preventDefault();
     }
   };
@@ -43,7 +45,7 @@ export function enableDragging(/** @type {Stage} */ stage, /** @type {Plate} */ 
     const at = pointOf(event);
     if (drag) {
       // Only the pointer that started the drag moves the joint.
-      if (event.pointerId === dragPointer) drag(planePoint(stage.view, at));
+      if (event.pointerId === dragPointer) drag.move(planePoint(stage.view, at), event.altKey);
     } else if (pointers.size === 2) pinch(stage, pointers, event.pointerId, at);
     else if (event.pointerType === "mouse") stage.pan(at[0] - before[0], at[1] - before[1]);
     pointers.set(event.pointerId, at);
@@ -53,7 +55,7 @@ export function enableDragging(/** @type {Stage} */ stage, /** @type {Plate} */ 
     if (pointers.size > 0) return;
     stage.element.classList.remove("dragging");
     plate.drive.place.isBeyond = false;
-    if (drag) plate.moved();
+    drag?.end();
     drag = null;
   };
   let scrolled = -Infinity;
@@ -68,7 +70,7 @@ export function enableDragging(/** @type {Stage} */ stage, /** @type {Plate} */ 
   };
   const listeners = { pointerdown: down, pointermove: moved, pointerup: up, pointercancel: up, wheel };
   for (const [name, listener] of Object.entries(listeners))
-    picture.addEventListener(name, listener, { passive: false });
+    frame.addEventListener(name, listener, { passive: false });
   window.addEventListener("scroll", scroll, { passive: true });
   return () => window.removeEventListener("scroll", scroll);
 }
@@ -83,10 +85,14 @@ function pinch(/** @type {Stage} */ stage, pointers, id, at) {
   stage.pan((at[0] - before[0]) / 2, (at[1] - before[1]) / 2);
 }
 
-// Starts a drag; returns a function that takes the pointer's positions in the plane.
-function startDrag(/** @type {Plate} */ plate, /** @type {Study} */ { crank }, joint, pointer) {
-  if (crank && crank.pin === joint && crank.can_turn) return dragCrank(plate, crank.pivot, joint, pointer);
-  return dragJoint(plate, joint, pointer);
+// Starts a drag of a handle or of a joint, whose `move` takes the pointer's positions in the plane.
+function startDrag(/** @type {Plate} */ plate, { handle, joint }, pointer) {
+  if (handle !== undefined) return plate.handles.drag(Number(handle), pointer);
+  const number = Number(joint);
+  const crank = plate.study?.crank;
+  const isCrank = crank && crank.pin === number && crank.can_turn;
+  const move = isCrank ? dragCrank(plate, crank.pivot, number, pointer) : dragJoint(plate, number, pointer);
+  return { move, end: () => plate.moved() };
 }
 
 // The crank follows the direction of the pointer about its pivot, over several turns and over limits.

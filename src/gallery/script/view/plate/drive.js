@@ -23,6 +23,7 @@ export class Drive {
   /** Sets the study; keeps the input, or the nearest one possible. @param {Study} _ */
   setStudy({ timeline, is_length: isLength }) {
     const isFirst = this.timeline === undefined;
+    const sides = isFirst ? "" : String(this.pass.sides);
     this.timeline = timeline;
     this.isLength = isLength;
     this.isHalted = false;
@@ -30,7 +31,12 @@ export class Drive {
       this.begin();
       return;
     }
-    this.#put(this.place);
+    // On the branch that it was on, if there is one with the input.
+    const { pass, input } = this.place;
+    const has = ({ from, to }) => (input - from) * (input - to) <= 0;
+    const same = timeline.passes.findIndex((one) => String(one.sides) === sides && has(one));
+    const isSame = String(timeline.passes[pass]?.sides) === sides;
+    this.#put({ pass: isSame || same < 0 ? pass : same, input });
     this.part = partOfInput(timeline, this.place.pass, this.place.input);
   }
 

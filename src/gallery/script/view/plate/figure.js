@@ -24,7 +24,7 @@ export class PlateFigure {
   /** Why what was asked for cannot be drawn. @type {string | null} */
   reason = null;
   /** What its address says. @type {PlateState} */
-  state = { changes: new Map(), requestedCircuit: null, on: new Set(), at: null };
+  state = { changes: new Map(), requestedCircuit: null, on: new Set(), at: null, locked: new Set() };
   /** The measures, if they are not those of the atlas. @type {Measured | null} */
   measured = null;
   /** @type {StraightPortion | null} */ portion = null;

@@ -19,6 +19,8 @@ export class MovingLayer {
   /** @type {Placement} */ view = { scale: 1, x: 0, y: 0 };
   /** The velocity of the traced point in pixels. @type {number[] | null} */
   arrow = null;
+  /** Called with the places of the joints on the screen. */
+  onpose = (/** @type {Float64Array} */ _) => {};
 
   constructor() {
     this.links = s("g");
@@ -83,6 +85,7 @@ export class MovingLayer {
     putCircle(this.tracer, at, this.study.joint);
     this.#otherPoints();
     this.names.pose(at);
+    this.onpose(at);
     this.#arrow();
   }
 

@@ -26,6 +26,11 @@ export function pathsOfStudy(study, path, portion, { on, isRough }) {
   };
 }
 
+/** Path data of a whole path, without the pauses between its dashes. */
+export function pathData(/** @type {CurvePath} */ path) {
+  return polylineData(path.lead);
+}
+
 function dashesData(/** @type {CurvePath} */ { dashes, starts }) {
   const dash = (first, k) => polylineData(dashes, { first, last: starts[k + 1] ?? dashes.length / 2 });
   return Array.from(starts, dash).join("");

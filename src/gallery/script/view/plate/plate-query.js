@@ -7,7 +7,8 @@ import { parseChanges } from "./parameters.js";
 
 /**
  * Parses the query of a curve with a movable traced point or null; `requestedCircuit` is the index of a circuit
- * among all, or null, `on` are the names of overlays; `at` is the input, "63.5", perhaps with the number of its
+ * among all, or null, `on` are the names of overlays; `locked` are the names that handles
+ * leave; `at` is the input, "63.5", perhaps with the number of its
  * pass, "63.5,2".
  * @param {Family} family @param {MovablePoint | null} point @param {Query} query @returns {PlateState}
  */
@@ -20,17 +21,19 @@ export function readPlateQuery(family, point, query) {
     changes: parseChanges(family, point, query),
     requestedCircuit: Number.isInteger(circuit) && circuit > 0 ? circuit - 1 : null,
     on: new Set(OVERLAYS.filter(isOn).map(({ name }) => name)),
+    locked: new Set(query.get("lock")?.split(",").filter(Boolean)),
     at: Number.isFinite(input) && pass >= 1 ? { input, pass: Math.floor(pass) - 1 } : null,
   };
 }
 
 /** The shortest address of a plate in a state; defaults are left out. @param {Plate} _ @param {PlateState} state */
-export function plateAddress({ family, curve, study }, { changes, requestedCircuit, on, at }) {
+export function plateAddress({ family, curve, study }, { changes, requestedCircuit, on, at, locked }) {
   const query = new Map([...changes].map(([name, value]) => [name, String(value)]));
   if (requestedCircuit !== null && requestedCircuit !== study?.home)
     query.set("circuit", String(requestedCircuit + 1));
   const isUsual = OVERLAYS.every(({ name, isOn }) => on.has(name) === isOn);
   if (!isUsual) query.set("show", [...on].join(",") || "nothing");
+  if (locked.size) query.set("lock", [...locked].join(","));
   if (at) query.set("at", `${Number(at.input.toPrecision(10))}${at.pass > 0 ? `,${at.pass + 1}` : ""}`);
   return address([family.id, "curve", curveKey(family, curve)], query);
 }

@@ -3,8 +3,10 @@
 import { enableDragging } from "./dragging.js";
 import { MeasureTable } from "./facts.js";
 import { PlateFigure } from "./figure.js";
+import { Handles } from "./handles.js";
 import { plateLayout, watchKeys } from "./layout.js";
 import { changeableParameters } from "./parameters.js";
+import { pathData } from "./paths.js";
 import { plateCurveName, isExtraCircuit, plateAddress, readPlateQuery } from "./plate-query.js";
 import { Sliders } from "./sliders.js";
 import { recordedValues, studyOf, summaryOfStudy } from "./study.js";
@@ -14,6 +16,8 @@ import { Store } from "../store.js";
 // The times in milliseconds after which a slider, and the input, have rested.
 const REST_MILLISECONDS = 160;
 const INPUT_MILLISECONDS = 400;
+// The chord error of the curve behind a changed one, relative to the size of the linkage.
+const GHOST_PATH = 2e-4;
 
 /**
  * The plate of a curve of a family, with the query of its address. Put `element` into the document, then call
@@ -22,6 +26,8 @@ const INPUT_MILLISECONDS = 400;
 export class Plate extends PlateFigure {
   /** The circuits of what was asked for. @type {Candidates} */
   candidates;
+  /** The path data of the curve of the atlas, once it is needed. @type {string | null} */
+  ghost = null;
   resting = 0;
   waiting = 0;
 
@@ -38,6 +44,8 @@ export class Plate extends PlateFigure {
     this.measures = new MeasureTable(app, family, curve);
     this.store = new Store(app, this.#stateOf(query), (state) => plateAddress(this, state));
     this.store.watch((state, before) => this.#stateChanged(state, before));
+    this.handles = new Handles(this);
+    this.stage.moving.onpose = (at) => this.handles.pose(at);
     this.layout = plateLayout(this);
     this.element = this.layout.element;
     const releases = [enableDragging(this.stage, this), watchKeys(this)];
@@ -106,6 +114,7 @@ export class Plate extends PlateFigure {
     if (state.changes !== before.changes) this.#changed();
     else if (state.requestedCircuit !== before.requestedCircuit) this.#circuitChosen();
     else if (state.on !== before.on) this.#overlaysChosen(before.on);
+    if (state.locked !== before.locked) this.sliders.showLocked(state.locked);
   }
 
   /** The name of the curve, with its family and changes. */
@@ -140,15 +149,52 @@ export class Plate extends PlateFigure {
     }
     this.study?.kernel.close();
     this.study = study;
-    this.guarded(() => this.show(study, isRough));
+    this.guarded(() => {
+      this.show(study, isRough);
+      if (!isRough) this.handles.show(study);
+    });
+    this.#showGhost();
+  }
+
+  // The curve of the atlas behind one with changes.
+  #showGhost() {
+    const { family, kernel, curve, changes, stage } = this;
+    if (changes.size && this.ghost === null) {
+      const study = kernel.study(kernel.curve(family, curve), { isRough: true });
+      const { size } = this.study ?? { size: 0 };
+      this.ghost = study.exists ? pathData(study.path(GHOST_PATH * size)) : "";
+      study.close();
+    }
+    stage.still.ghost(changes.size ? (this.ghost ?? "") : "");
+  }
+
+  /** The study of a circuit as it is now, once more; close it. */
+  studyAgain(shown) {
+    const { family, kernel, curve, changes } = this;
+    return kernel.study(kernel.curve(family, curve, changes), { shown });
   }
 
   /** Changes a value; that of the atlas is no change. */
   change(name, value) {
+    this.changeAll([[name, value]]);
+  }
+
+  /** Changes some values at once. @param {Iterable<[string, number]>} values */
+  changeAll(values) {
     const changes = new Map(this.changes);
-    if (this.#isRecordedValue(name, value)) changes.delete(name);
-    else changes.set(name, value);
+    for (const [name, value] of values) {
+      if (this.#isRecordedValue(name, value)) changes.delete(name);
+      else changes.set(name, value);
+    }
     this.store.preview({ changes });
+  }
+
+  /** Locks a value, which handles leave as it is then, or unlocks it. */
+  lock(name, isLocked) {
+    const locked = new Set(this.state.locked);
+    if (isLocked) locked.add(name);
+    else locked.delete(name);
+    this.store.change({ locked });
   }
 
   clear(name) {
@@ -201,7 +247,8 @@ export class Plate extends PlateFigure {
     this.layout.refresh();
     if (this.reason) this.app.announce(`Cannot be assembled: ${this.reason}`);
     this.stage.summary.textContent = study ? summaryOfStudy(family, curve, study, this.isRecorded) : "";
-    this.store.commit();
+    // A handle that rests while it is held has not ended its gesture.
+    if (!this.stage.isHeld) this.store.commit();
   }
 
   #showSwitches() {

@@ -21,7 +21,7 @@ export class Sliders {
     this.rows = new Map();
     this.free = h("div.parameters");
     this.locked = h("div.parameters");
-    this.more = h("details.locked-parameters", h("summary", "Locked parameters"), this.locked);
+    this.more = h("details.locked-parameters", h("summary", "Constant and derived parameters"), this.locked);
     this.reset = buttonOf("Reset all", () => on.reset(), { class: "reset" });
     const words = [h("h3", "Parameters"), legend ? h("p.note", legend) : null];
     this.element = h("section.gauge.sliders", words, this.free, this.more, this.reset);
@@ -33,6 +33,12 @@ export class Sliders {
     this.names = names;
     for (const parameter of parameters) this.#refresh(parameter);
     this.reset.disabled = !parameters.some((parameter) => isChangedParameter(parameter));
+  }
+
+  /** Marks the values that handles leave as they are. @param {Set<string>} locked */
+  showLocked(locked) {
+    for (const [name, { name: button }] of this.rows)
+      button.setAttribute("aria-pressed", String(locked.has(name)));
   }
 
   /** Updates a row and marks a value that is out of bounds. @param {Parameter} parameter */
@@ -72,6 +78,7 @@ export class Sliders {
     fill(this.free, free);
     fill(this.locked, locked);
     this.more.hidden = locked.length === 0;
+    this.showLocked(this.on.state.locked);
     this.more.open = parameters.length <= 6 || free.length === 0;
   }
 
@@ -101,7 +108,12 @@ export class Sliders {
       },
     });
     row.button = buttonOf("", () => toggleLink(row.parameter, on), { class: "quiet tie" });
-    row.element = h("div.parameter", h("span.parameter-name", name), row.range, row.field, row.button);
+    const locks = () => on.lock(name, row.name.getAttribute("aria-pressed") !== "true");
+    const title = "Lock: handles leave it as it is";
+    row.name = buttonOf(name, locks, { class: "quiet parameter-name", title, "aria-label": `Lock ${name}` });
+    row.element = h("div.parameter", row.name, row.range, row.field, row.button);
+    row.field.addEventListener("focus", () => on.handles.mark(name));
+    row.field.addEventListener("blur", () => on.handles.mark(null));
     this.rows.set(name, row);
     return row;
   }

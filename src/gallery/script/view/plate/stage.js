@@ -16,6 +16,8 @@ export class Stage {
     this.size = { width: 0, height: 0 };
     this.view = { scale: 1, x: 0, y: 0 };
     this.isZoomed = false;
+    /** Whether the view stays while a handle is dragged. */
+    this.isHeld = false;
     this.box = null;
     this.study = null;
     this.still = new StaticLayer();
@@ -83,7 +85,7 @@ export class Stage {
 
   /** While lengths are changing, the view stays unless the linkage leaves it or becomes small in it. */
   keepInFrame() {
-    if (this.isZoomed || !this.box) return;
+    if (this.isZoomed || this.isHeld || !this.box) return;
     const fitted = fittedView(this.box, { ...this.size, margin: this.#margin() });
     const [x0, y0, x1, y1] = this.box;
     const { scale, x, y } = this.view;
@@ -147,8 +149,8 @@ export class Stage {
     if (width === 0 || height === 0 || (width === this.size.width && height === this.size.height)) return;
     const before = this.size;
     this.size = { width, height };
-    for (const sheet of [this.still, this.moving])
-      sheet.element.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    for (const sheet of this.element.querySelectorAll(".sheet"))
+      sheet.setAttribute("viewBox", `0 0 ${width} ${height}`);
     if (this.isZoomed) this.pan((width - before.width) / 2, (height - before.height) / 2);
     else this.fit();
   }

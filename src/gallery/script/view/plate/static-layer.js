@@ -17,6 +17,7 @@ export class StaticLayer {
       "wheels",
       "guides",
       "crank-range",
+      "ghost",
       "others",
       "centrode fixed",
       "band",
@@ -48,6 +49,11 @@ export class StaticLayer {
     this.#data("band", band);
     this.#data("lead", lead);
     this.#data("dashes", dashes);
+  }
+
+  /** Sets the curve behind a changed one, as path data in the plane. */
+  ghost(data) {
+    this.#data("ghost", data);
   }
 
   /** Sets the fixed centrode, as path data in the plane. */

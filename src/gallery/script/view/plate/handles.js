@@ -1,0 +1,186 @@
+// The square handles of a plate, which change dimensions: one beside each joint that they move.
+
+import { pixel } from "../../draw/path-data.js";
+import { roundBelow } from "../../draw/plane-view.js";
+import { h, s } from "../dom.js";
+import { formatInputNumber } from "./sliders.js";
+import { roundedToGrain } from "./parameters.js";
+
+// How far a handle is from its joint, and its half side, in pixels: beside the grip, which moves the mechanism.
+const HANDLE_OFFSET = 17;
+const HANDLE_HALF = 5;
+// The half side of what takes the pointer.
+const HANDLE_REACH = 12;
+// A step by a key, in pixels, and with Shift.
+const HANDLE_STEP = 2;
+const HANDLE_LONG_STEP = 20;
+// From this distance, in pixels, between the joint and where it was to go, the handle says so.
+const UNREACHED = 6;
+
+/** The handles of the joints of a plate's study. */
+export class Handles {
+  /** @type {Handle[]} */ all = [];
+  /** The handle that is dragged, or was last. @type {Handle | null} */ held = null;
+
+  constructor(/** @type {Plate} */ plate) {
+    this.plate = plate;
+    const label = "Handles: arrow keys move a joint, Page Up and Page Down choose another";
+    this.group = s("g", { role: "group", "aria-label": label });
+    this.element = s("svg.sheet.squares", this.group);
+    this.numbers = h("div.handle-numbers", { hidden: true });
+    plate.stage.picture.after(this.element);
+    plate.stage.element.addEventListener("pointerover", ({ target }) => this.#pointed(target));
+    plate.stage.element.append(this.numbers);
+  }
+
+  /** Makes the handles of a study; those of a linkage of the same structure stay. */
+  show(/** @type {Study} */ study) {
+    if (this.held) return;
+    const joints = study.kernel.handles();
+    const likeness = JSON.stringify(joints);
+    if (likeness === this.likeness) return;
+    this.likeness = likeness;
+    this.all = joints.map((joint) => this.#handle(joint, study));
+    this.group.replaceChildren(...this.all.map(({ element }) => element));
+    this.all[0]?.element.setAttribute("tabindex", "0");
+    this.held = null;
+  }
+
+  /** Moves the handles beside their joints, at `at` on the screen, [X0, Y0, …]. */
+  pose(/** @type {Float64Array} */ at) {
+    for (const { joint, element } of this.all) {
+      const [x, y] = [at[2 * joint], at[2 * joint + 1]];
+      if (Number.isFinite(x + y)) element.setAttribute("transform", `translate(${pixel(x)} ${pixel(y)})`);
+    }
+    this.#placeNumbers(at);
+  }
+
+  /** Marks the handles that move with a parameter, whose field has the focus; null for none. */
+  mark(/** @type {string | null} */ name) {
+    for (const { element, names } of this.all)
+      element.classList.toggle("marked", name !== null && names.includes(name));
+  }
+
+  // The handle of the joint that the pointer rests on is shown.
+  #pointed(/** @type {EventTarget | null} */ target) {
+    const on = target instanceof Element ? target.closest("[data-joint], [data-handle]") : null;
+    const joint = on?.getAttribute("data-joint") ?? on?.getAttribute("data-handle");
+    for (const one of this.all) one.element.classList.toggle("near", String(one.joint) === joint);
+  }
+
+  /**
+   * Begins to drag the handle of a joint; `move` takes the pointer's places in the plane, and whether values are not
+   * to be round. All are found from the linkage as it is now, so that what is dragged back is as it was.
+   * @param {number} joint @param {Point} pointer
+   */
+  drag(joint, pointer) {
+    const { plate } = this;
+    const handle = this.all.find((one) => one.joint === joint);
+    const from = plate.study && {
+      study: plate.studyAgain(plate.study.shown),
+      place: { ...plate.drive.place },
+    };
+    const { joints } = plate.pose;
+    const off = [joints[2 * joint] - pointer[0], joints[2 * joint + 1] - pointer[1]];
+    this.held = handle ?? null;
+    handle?.element.classList.add("held");
+    plate.stage.isHeld = true;
+    const move = (/** @type {Point} */ [x, y], isFree = false) =>
+      handle && from && this.#move(handle, from, [x + off[0], y + off[1]], isFree);
+    const end = () => {
+      from?.study.close();
+      plate.stage.isHeld = false;
+      this.release();
+      plate.settle();
+    };
+    return { move, end };
+  }
+
+  /** After a drag, or a step by keys. */
+  release() {
+    this.held?.element.classList.remove("held", "unreached");
+    this.held = null;
+    this.numbers.hidden = true;
+  }
+
+  /**
+   * Moves a joint to a place: a request of the kernel, whose answer is a change of parameters.
+   * @param {Handle} handle @param {{ study: KernelStudy, place: Place }} from @param {Point} to
+   */
+  #move(handle, { study, place }, to, isFree) {
+    const { plate, numbers } = this;
+    const unlocked = handle.names.filter((name) => !plate.state.locked.has(name));
+    const found = study.drag({ joint: handle.joint, to, ...place, unlocked });
+    const { scale } = plate.stage.view;
+    handle.element.classList.toggle("unreached", !found.is_held || scale * found.distance > UNREACHED);
+    if (!found.is_held) return;
+    // A pixel is about a step of a value, unless it is to be free.
+    const grain = roundBelow(1 / scale);
+    /** @returns {[string, number]} */
+    const rounded = ([name, value]) => [name, isFree ? value : roundedToGrain(value, grain)];
+    const changes = new Map(found.changes.map(rounded));
+    numbers.hidden = changes.size === 0;
+    const words = Array.from(changes, ([name, value]) => `${name} = ${formatInputNumber(value)}`);
+    numbers.textContent = words.join("  ");
+    plate.changeAll(changes);
+  }
+
+  /** @param {HandleAnswer} answer @param {Study} study @returns {Handle} */
+  #handle({ joint, names, nearest }, { joints, mechanism }) {
+    const [o, a, r] = [HANDLE_OFFSET, HANDLE_HALF, HANDLE_REACH];
+    const label = `Move ${joints[joint]}: changes ${nearest.join(", ")}`;
+    const attributes = { tabindex: "-1", role: "button", "aria-label": label, "data-handle": joint };
+    const element = s("g.square", attributes, [
+      // A fixed pivot has no grip.
+      mechanism.fixed.includes(joint) ? s("circle.square-reach", { r: o }) : [],
+      s("path.square-reach", { d: `M${o - r} ${o - r}h${2 * r}v${2 * r}h${-2 * r}Z` }),
+      s("path.square-line", { d: `M3 3L${o - a} ${o - a}` }),
+      s("path.square-mark", { d: `M${o - a} ${o - a}h${2 * a}v${2 * a}h${-2 * a}Z` }),
+    ]);
+    const handle = { joint, names, nearest, element };
+    element.addEventListener("keydown", (event) => this.#stepped(event, handle));
+    element.addEventListener("keyup", () => this.plate.settle());
+    element.addEventListener("blur", () => this.release());
+    return handle;
+  }
+
+  // Arrow keys move the joint on the screen.
+  #stepped(/** @type {KeyboardEvent} */ event, /** @type {Handle} */ handle) {
+    /** @type {Record<string, Point>} */
+    const ways = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+    const way = ways[event.key];
+    const next = { PageDown: 1, PageUp: -1 }[event.key];
+    if ((!way && !next) || event.ctrlKey || event.metaKey) return;
+    event.preventDefault();
+    event.stopPropagation();
+    if (next) {
+      this.#focus(this.all.indexOf(handle) + next);
+      return;
+    }
+    const { joints } = this.plate.pose;
+    const by = (event.shiftKey ? HANDLE_LONG_STEP : HANDLE_STEP) / this.plate.stage.view.scale;
+    this.plate.drive.pause();
+    this.held = handle;
+    const k = 2 * handle.joint;
+    /** @type {Point} */ const to = [joints[k] + by * way[0], joints[k + 1] + by * way[1]];
+    const { study, drive } = this.plate;
+    if (study) this.#move(handle, { study: study.kernel, place: drive.place }, to, event.altKey);
+  }
+
+  // One of them is reached by Tab: that which had the focus last.
+  #focus(/** @type {number} */ number) {
+    const { all } = this;
+    const one = all[(number + all.length) % all.length];
+    for (const { element } of all) element.setAttribute("tabindex", element === one.element ? "0" : "-1");
+    one.element.focus({ preventScroll: true });
+  }
+
+  #placeNumbers(/** @type {Float64Array} */ at) {
+    if (this.numbers.hidden || !this.held) return;
+    const { joint } = this.held;
+    // Beside the handle, and inside of the frame.
+    const right = this.plate.stage.size.width - this.numbers.offsetWidth - 4;
+    const [x, y] = [Math.min(at[2 * joint] + 30, right), at[2 * joint + 1] + 24];
+    this.numbers.style.translate = `${pixel(x)}px ${pixel(y)}px`;
+  }
+}
