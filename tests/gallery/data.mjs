@@ -4,6 +4,7 @@ import assert from "node:assert/strict";
 
 import { pageFile } from "../../src/gallery/script/data/atlas.js";
 import { outlineCache } from "../../src/gallery/script/data/atlas.js";
+import { parseNumber } from "../../src/gallery/script/data/number.js";
 import { holdPieces, needPieces } from "../../src/gallery/script/data/needs.js";
 import { unpackColumn, unpackInto } from "../../src/gallery/script/data/packed.js";
 import { Series } from "../../src/gallery/script/data/series.js";
@@ -32,6 +33,30 @@ import { searchedParts } from "../../src/gallery/script/view/shape/indexes.js";
   assert.equal(file("most", 999), "most/000001-001000/most-999.svg");
   assert.equal(file("most", 123456), "most/123001-123456/most-123456.svg");
   assert.equal(file("none", 1), null);
+}
+
+// Numbers as they are typed: with a point or a comma, and what could be two numbers is none.
+
+{
+  const value = (text, units) => parseNumber(text, units).value;
+  const right = {
+    "3,5": 3.5,
+    3.5: 3.5,
+    "−2": -2,
+    "1e-3": 0.001,
+    ",5": 0.5,
+    "0,125": 0.125,
+    "+4": 4,
+    "-2,": -2,
+  };
+  for (const [text, number] of Object.entries(right)) assert.equal(value(text), number, text);
+  const grouped = { "1,234.5": 1234.5, "1.234,5": 1234.5, "1,234,567": 1234567, "12 345,6": 12345.6 };
+  for (const [text, number] of Object.entries(grouped)) assert.equal(value(text), number, text);
+  for (const text of ["", "abc", "3,5,6", "1.2.3", "--3", ".", "0x10", "Infinity", "1e999", "3 mm"])
+    assert.ok(parseNumber(text).reason?.includes(text), text);
+  assert.match(parseNumber("1,234").reason, /could be 1\.234 or 1234/);
+  assert.equal(value("45°", ["°", "deg"]), 45);
+  assert.equal(value("45 deg", ["°", "deg"]), 45);
 }
 
 // Columns.

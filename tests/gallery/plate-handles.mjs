@@ -43,7 +43,7 @@ export const HANDLES = [
       // Values are round to about a pixel.
       assertNear(at[0] - before[0], 40, 3, "to the right");
       assertNear(at[1] - before[1], -20, 3, "up");
-      assert.match(await page.locator(".handle-numbers").innerText(), /^k = [\d.]+ +M\.across = -?[\d.]+$/);
+      assert.match(await page.getByLabel("k at the handle").inputValue(), /^\d\.\d+$/);
       assert.equal(await plate.fragment(), EVANS, "a handle that is held has not ended its gesture");
       await page.mouse.up();
       await plateIsUpdated(page);
@@ -52,6 +52,20 @@ export const HANDLES = [
         "no address",
       );
       assertNear(await inputNow(page), 46.8, 1e-9, "the input is held");
+      // What is next to the handle can be typed.
+      await page.getByLabel("k at the handle").fill("2,25");
+      await page.keyboard.press("Enter");
+      await plateIsUpdated(page);
+      await eventually(
+        async () => /\?k=2\.25&M\.across=-?[\d.]+&at=46\.8$/.test(await plate.fragment()),
+        "not typed",
+      );
+      assert.ok(!(await page.getByLabel("k at the handle").evaluate((one) => one.matches(":invalid"))));
+      await page.getByLabel("k at the handle").fill("2,2,5");
+      assert.ok(await page.getByLabel("k at the handle").evaluate((one) => one.matches(":invalid")));
+      await page.locator("h1").evaluate(() => document.activeElement.blur());
+      await page.keyboard.press("Control+z");
+      await plateIsUpdated(page);
       // The curve of the atlas is behind it, and the numbers of both are in the table.
       assert.ok((await page.locator(".ghost").getAttribute("d")).length > 100);
       assert.ok(await page.locator("table.measures.with-changes").isVisible());

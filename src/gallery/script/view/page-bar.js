@@ -1,5 +1,6 @@
 // The toolbar of a page: page number and zoom.
 
+import { parseNumber } from "../data/number.js";
 import { address } from "../data/address.js";
 import { curveKey } from "../data/family.js";
 import { buttonOf, h } from "./dom.js";
@@ -68,11 +69,12 @@ export function pageAddress({ family, page, highlight, zoom }) {
 
 /** A form { element, field } for one of the `pages` of a family; calls `go(page)` with a valid number. */
 export function pageField(/** @type {ListedFamily} */ { pages }, label, go) {
-  const field = h("input", { type: "number", min: 1, max: pages, step: 1, "aria-label": "Page" });
+  const field = h("input", { type: "text", inputmode: "numeric", role: "spinbutton", "aria-label": "Page" });
   const submit = (event) => {
     event.preventDefault();
-    const page = Math.round(Number(field.value));
-    if (page >= 1 && page <= pages) go(page);
+    const found = parseNumber(field.value);
+    const page = "value" in found ? found.value : NaN;
+    if (Number.isInteger(page) && page >= 1 && page <= pages) go(page);
     else field.setAttribute("aria-invalid", "true");
   };
   const words = h("span", label);

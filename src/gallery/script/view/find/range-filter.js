@@ -3,6 +3,7 @@
 import { BINS, binCounts, histogramOf, formatBound } from "../../find/histogram.js";
 import { buttonOf, h, s, setAttributes } from "../dom.js";
 import { columnLabel } from "../labels.js";
+import { NumberField } from "../number-field.js";
 
 /** Calls `changed(filter)` with { low, high } or null when a bound is changed. */
 export class RangeFilter {
@@ -28,7 +29,7 @@ export class RangeFilter {
     this.clear = buttonOf("×", () => this.setFilter({}), attributes);
     const log = this.scale.isLog ? h("span.note", " log") : null;
     const title = `${column.name}: ${column.definition}`;
-    const [low, high] = this.inputs;
+    const [low, high] = this.inputs.map(({ element }) => element);
     this.element = h(
       "fieldset.range",
       h("legend", { title }, words, column.unit ? " °" : "", log),
@@ -50,18 +51,20 @@ export class RangeFilter {
   }
 
   createInput(end, words) {
-    return h("input", {
-      type: "text",
-      inputmode: "decimal",
+    /** What has been typed, and not entered. @type {{ value?: number } | null} */ let typed = null;
+    const units = this.column.unit === "deg" ? ["°", "deg"] : [];
+    const type = (value) => {
+      typed = { value };
+    };
+    const settle = () => {
+      if (typed && typed.value !== this.filter[end]) this.setFilter({ ...this.filter, [end]: typed.value });
+      typed = null;
+    };
+    const attributes = {
       "aria-label": `${words}, ${end === "low" ? "at least" : "at most"}`,
       placeholder: formatBound(this.scale[end]),
-      onchange: (event) => {
-        const text = event.target.value.trim().replace(",", ".");
-        const isNumber = text === "" || Number.isFinite(Number(text));
-        event.target.setAttribute("aria-invalid", String(!isNumber));
-        if (isNumber) this.setFilter({ ...this.filter, [end]: text === "" ? undefined : Number(text) });
-      },
-    });
+    };
+    return new NumberField(attributes, { units, change: type, empty: () => type(undefined), settle });
   }
 
   /** Sets the filter, positions the handles and reports the change. @param {Bounds} _ */
@@ -82,8 +85,7 @@ export class RangeFilter {
       ends[k].style.left = `${100 * places[k]}%`;
       const [min, max, now] = [scale.low, scale.high, value].map(formatBound);
       setAttributes(ends[k], { "aria-valuemin": min, "aria-valuemax": max, "aria-valuenow": now });
-      if (document.activeElement !== inputs[k])
-        inputs[k].value = filter[end] === undefined ? "" : String(filter[end]);
+      inputs[k].show(filter[end]);
     });
     this.track.style.setProperty("--from", String(places[0]));
     this.track.style.setProperty("--to", String(places[1]));

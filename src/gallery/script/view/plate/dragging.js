@@ -22,7 +22,7 @@ export function enableDragging(/** @type {Stage} */ stage, /** @type {Plate} */ 
     return [event.clientX - box.left, event.clientY - box.top];
   };
   const down = (event) => {
-    if (event.button !== 0 || !plate.study || plate.reason) return;
+    if (event.button !== 0 || !plate.study || plate.reason || event.target.closest?.("input")) return;
     const at = pointOf(event);
     pointers.set(event.pointerId, at);
     const joint = event.target.closest?.("[data-joint]")?.dataset.joint;

@@ -2,7 +2,8 @@
 
 import { pixel } from "../../draw/path-data.js";
 import { roundBelow } from "../../draw/plane-view.js";
-import { h, s } from "../dom.js";
+import { fill, h, s } from "../dom.js";
+import { NumberField } from "../number-field.js";
 import { formatInputNumber } from "./sliders.js";
 import { roundedToGrain } from "./parameters.js";
 
@@ -20,17 +21,23 @@ const UNREACHED = 6;
 /** The handles of the joints of a plate's study. */
 export class Handles {
   /** @type {Handle[]} */ all = [];
-  /** The handle that is dragged, or was last. @type {Handle | null} */ held = null;
+  /** The handle that is dragged. @type {Handle | null} */ held = null;
+  /** The handle whose values are shown, or were last. @type {Handle | null} */ shown = null;
 
   constructor(/** @type {Plate} */ plate) {
     this.plate = plate;
     const label = "Handles: arrow keys move a joint, Page Up and Page Down choose another";
     this.group = s("g", { role: "group", "aria-label": label });
     this.element = s("svg.sheet.squares", this.group);
-    this.numbers = h("div.handle-numbers", { hidden: true });
+    /** The values of the handle that has the focus, or was dragged last, to be typed. */
+    this.numbers = h("div.handle-numbers", { hidden: true, onfocusout: (event) => this.#left(event) });
+    /** @type {Map<string, NumberField>} */ this.fields = new Map();
     plate.stage.picture.after(this.element);
     plate.stage.element.addEventListener("pointerover", ({ target }) => this.#pointed(target));
-    plate.stage.element.append(this.numbers);
+    this.element.after(this.numbers);
+    plate.stage.element.addEventListener("pointerdown", ({ target }) => {
+      if (target instanceof Node && !this.numbers.contains(target)) this.numbers.hidden = true;
+    });
   }
 
   /** Makes the handles of a study; those of a linkage of the same structure stay. */
@@ -83,6 +90,7 @@ export class Handles {
     const { joints } = plate.pose;
     const off = [joints[2 * joint] - pointer[0], joints[2 * joint + 1] - pointer[1]];
     this.held = handle ?? null;
+    if (handle) this.#showNumbers(handle);
     handle?.element.classList.add("held");
     plate.stage.isHeld = true;
     const move = (/** @type {Point} */ [x, y], isFree = false) =>
@@ -100,7 +108,6 @@ export class Handles {
   release() {
     this.held?.element.classList.remove("held", "unreached");
     this.held = null;
-    this.numbers.hidden = true;
   }
 
   /**
@@ -108,7 +115,7 @@ export class Handles {
    * @param {Handle} handle @param {{ study: KernelStudy, place: Place }} from @param {Point} to
    */
   #move(handle, { study, place }, to, isFree) {
-    const { plate, numbers } = this;
+    const { plate } = this;
     const unlocked = handle.names.filter((name) => !plate.state.locked.has(name));
     const found = study.drag({ joint: handle.joint, to, ...place, unlocked });
     const { scale } = plate.stage.view;
@@ -119,9 +126,6 @@ export class Handles {
     /** @returns {[string, number]} */
     const rounded = ([name, value]) => [name, isFree ? value : roundedToGrain(value, grain)];
     const changes = new Map(found.changes.map(rounded));
-    numbers.hidden = changes.size === 0;
-    const words = Array.from(changes, ([name, value]) => `${name} = ${formatInputNumber(value)}`);
-    numbers.textContent = words.join("  ");
     plate.changeAll(changes);
   }
 
@@ -140,7 +144,8 @@ export class Handles {
     const handle = { joint, names, nearest, element };
     element.addEventListener("keydown", (event) => this.#stepped(event, handle));
     element.addEventListener("keyup", () => this.plate.settle());
-    element.addEventListener("blur", () => this.release());
+    element.addEventListener("focus", () => this.#showNumbers(handle));
+    element.addEventListener("blur", (event) => this.#left(event));
     return handle;
   }
 
@@ -160,7 +165,6 @@ export class Handles {
     const { joints } = this.plate.pose;
     const by = (event.shiftKey ? HANDLE_LONG_STEP : HANDLE_STEP) / this.plate.stage.view.scale;
     this.plate.drive.pause();
-    this.held = handle;
     const k = 2 * handle.joint;
     /** @type {Point} */ const to = [joints[k] + by * way[0], joints[k + 1] + by * way[1]];
     const { study, drive } = this.plate;
@@ -175,9 +179,48 @@ export class Handles {
     one.element.focus({ preventScroll: true });
   }
 
+  /** Shows the values by which a handle moves its joint. @param {Handle} handle */
+  #showNumbers(handle) {
+    const { plate, numbers, fields } = this;
+    this.shown = handle;
+    fields.clear();
+    for (const name of handle.nearest) {
+      const on = {
+        change: (/** @type {number} */ value) => plate.change(name, value),
+        settle: () => plate.settle(),
+      };
+      fields.set(name, new NumberField({ "aria-label": `${name} at the handle`, size: 8 }, on));
+    }
+    fill(
+      numbers,
+      Array.from(fields, ([name, { element }]) => h("label", h("span", name), element)),
+    );
+    numbers.hidden = false;
+    this.showValues(plate.sliders.values());
+    this.pose(plate.stage.moving.at);
+  }
+
+  /** Shows the values of names next to the handle. @param {Map<string, number>} values */
+  showValues(values) {
+    for (const [name, field] of this.fields) {
+      const value = values.get(name);
+      if (value !== undefined) field.show(value, formatInputNumber(value));
+    }
+  }
+
+  // The values stay while they are being typed.
+  #left(/** @type {FocusEvent} */ { relatedTarget }) {
+    if (
+      relatedTarget instanceof Node &&
+      (this.numbers.contains(relatedTarget) || this.group.contains(relatedTarget))
+    )
+      return;
+    this.numbers.hidden = true;
+  }
+
   #placeNumbers(/** @type {Float64Array} */ at) {
-    if (this.numbers.hidden || !this.held) return;
-    const { joint } = this.held;
+    if (this.numbers.hidden || !this.shown) return;
+    const { joint } = this.shown;
     // Beside the handle, and inside of the frame.
     const right = this.plate.stage.size.width - this.numbers.offsetWidth - 4;
     const [x, y] = [Math.min(at[2 * joint] + 30, right), at[2 * joint + 1] + 24];

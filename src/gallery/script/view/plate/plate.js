@@ -138,6 +138,7 @@ export class Plate extends PlateFigure {
     const study = studyOf(kernel, curve, this.state.requestedCircuit, isRough);
     if (study.values) this.current = { values: study.values, point: study.point ?? null };
     this.sliders.show(changeableParameters(family, description.names, recorded, this.current, changes));
+    this.handles?.showValues(this.sliders.values());
     this.reason = study.reason;
     this.candidates = { ...study, is_length: family.is_length };
     this.stage.impossible(this.reason);

@@ -1,6 +1,7 @@
 // The parameters of a linkage, each with a slider and a number field.
 
 import { buttonOf, fill, h, isShortcut } from "../dom.js";
+import { NumberField } from "../number-field.js";
 import { roundedToGrain } from "./parameters.js";
 
 const PARAMETER_KINDS = {
@@ -35,6 +36,11 @@ export class Sliders {
     this.reset.disabled = !parameters.some((parameter) => isChangedParameter(parameter));
   }
 
+  /** The values by their names. @returns {Map<string, number>} */
+  values() {
+    return new Map(Array.from(this.rows, ([name, { parameter }]) => [name, parameter.value]));
+  }
+
   /** Marks the values that handles leave as they are. @param {Set<string>} locked */
   showLocked(locked) {
     for (const [name, { name: button }] of this.rows)
@@ -53,14 +59,10 @@ export class Sliders {
     if (Number(row.range.value) !== value) row.range.value = value;
     row.range.disabled = kind === "derived";
     row.range.setAttribute("aria-valuetext", formatInputNumber(value));
-    row.field.readOnly = kind === "derived";
     // What is being typed stays; a derived value cannot be typed, and follows also where it has the focus.
-    if (document.activeElement !== row.field || row.field.readOnly)
-      row.field.value = formatInputNumber(value);
-    const { min, max } = parameter;
-    const isOut =
-      (min !== null && (value < min || (min === 0 && value === 0))) || (max !== null && value > max);
-    row.field.setAttribute("aria-invalid", String(isOut));
+    row.field.readOnly = kind === "derived";
+    row.number.show(value, formatInputNumber(value));
+    row.number.mark(outOfBounds(parameter));
     const isDependent = kind === "derived" || kind === "unlinked";
     const label = kind === "derived" ? "Unlink" : kind === "unlinked" ? "Relink" : "Reset";
     row.button.textContent = label;
@@ -94,19 +96,19 @@ export class Sliders {
       onchange: () => on.settle(),
       onkeydown: (event) => stepSlider(event, row, on),
     });
-    row.field = h("input", {
-      type: "number",
-      step: "any",
-      "aria-label": `Value of ${name}`,
-      oninput: () => {
-        const value = row.field.valueAsNumber;
-        if (Number.isFinite(value) && !row.field.readOnly) on.change(name, value);
+    row.number = new NumberField(
+      { "aria-label": `Value of ${name}` },
+      {
+        change: (value) => on.change(name, value),
+        settle: () => on.settle(),
+        step: (by) =>
+          on.change(
+            name,
+            roundedToGrain(row.parameter.value + by * row.parameter.grain, row.parameter.grain),
+          ),
       },
-      onchange: () => {
-        on.settle();
-        row.field.value = formatInputNumber(row.parameter.value);
-      },
-    });
+    );
+    row.field = row.number.element;
     row.button = buttonOf("", () => toggleLink(row.parameter, on), { class: "quiet tie" });
     const locks = () => on.lock(name, row.name.getAttribute("aria-pressed") !== "true");
     const title = "Lock: handles leave it as it is";
@@ -117,6 +119,13 @@ export class Sliders {
     this.rows.set(name, row);
     return row;
   }
+}
+
+// Why a value is beyond its bounds, of which 0 is exclusive; null if it is not.
+function outOfBounds(/** @type {Parameter} */ { name, value, min, max }) {
+  if (min !== null && (value < min || (min === 0 && value === 0)))
+    return `${name} is ${min === 0 ? "more than 0" : `at least ${min}`}`;
+  return max !== null && value > max ? `${name} is at most ${max}` : null;
 }
 
 // Steps of the slider by keys: one grain, with Shift ten.

@@ -1,0 +1,43 @@
+// Numbers as people type them.
+
+/**
+ * Parses a number with a point or a comma, perhaps grouped, and perhaps with one of some units behind it: { value }, or
+ * { reason } where it is none, or could be two.
+ * @param {string} text @param {string[]} [units] @returns {{ value: number } | { reason: string }}
+ */
+export function parseNumber(text, units = []) {
+  // Other minus signs, and spaces of all widths.
+  let word = text.trim().replaceAll("−", "-").replace(/\s+/gu, " ");
+  const unit = units.find((one) => word.toLowerCase().endsWith(one.toLowerCase()));
+  if (unit) word = word.slice(0, -unit.length).trim();
+  const parts = /^([+-]?)([\d., ]*)((?:e[+-]?\d+)?)$/i.exec(word);
+  const digits = parts && plainDigits(parts[2]);
+  if (!digits) return { reason: `“${text.trim()}” is not a number${unitsSentence(units)}` };
+  if (digits.length === 2) {
+    const [one, other] = digits.map((way) => Number(`${parts[1]}${way}${parts[3]}`));
+    return { reason: `“${text.trim()}” could be ${one} or ${other}: write it without a comma` };
+  }
+  const value = Number(`${parts[1]}${digits[0]}${parts[3]}`);
+  return Number.isFinite(value) ? { value } : { reason: `“${text.trim()}” is too large` };
+}
+
+function unitsSentence(/** @type {string[]} */ units) {
+  return units.length ? ` (in ${units[0]})` : "";
+}
+
+/** What digits with points, commas and spaces can be, with a point: nothing, one number, or two. @returns {string[] | null} */
+function plainDigits(/** @type {string} */ text) {
+  const [, whole, part = ""] = /^(.*?)(?:[.,](\d*))?$/.exec(text) ?? [];
+  const isGrouped = /^\d{1,3}(?:([ ,.])\d{3})(?:\1\d{3})*$/.test(whole);
+  const mark = text.at(-part.length - 1);
+  const isPlain = /^\d*$/.test(whole) && (whole !== "" || part !== "");
+  if (isPlain && mark === "," && /^[1-9]\d{0,2}$/.test(whole) && part.length === 3)
+    return [`${whole}.${part}`, `${whole}${part}`];
+  if (isPlain) return [`${whole || "0"}.${part || "0"}`];
+  if (!isGrouped) return null;
+  const group = whole[whole.search(/[ ,.]/)];
+  const plain = whole.replaceAll(group, "");
+  // The same mark twice only groups: 1,234,567.
+  if (text !== whole && mark === group) return part.length === 3 ? [`${plain}${part}`] : null;
+  return [`${plain}.${part || "0"}`];
+}
