@@ -99,6 +99,16 @@ struct State<T, const N: usize> {
     input_squared: Series<T, N>,
 }
 
+/// The equations linearized in a state: in memory that is used again for the next.
+#[derive(Default)]
+pub(super) struct Linearization {
+    /// How far the equations are from holding.
+    pub residuals: Vec<f64>,
+    /// A row for each equation, with a column for each unknown and one for the input.
+    pub jacobian: Vec<f64>,
+    unknowns: Vec<VectorSeries<f64, 1>>,
+}
+
 impl Equations {
     /// The equations of a linkage's group; `None` if a closure needs a joint whose position is not linear in the
     /// unknowns, such as one on a gear.
@@ -293,14 +303,7 @@ impl Equations {
     }
 
     fn residuals<T: Scalar, const N: usize>(&self, state: &State<T, N>) -> Vec<Series<T, N>> {
-        let residual = |equation: &Equation| {
-            let (e, f) = (equation.e.at(state), equation.f.at(state));
-            let product = if equation.is_cross { e.cross(f) } else { e.dot(f) };
-            let [value, squared] = equation.value;
-            let excess = product - Series::constant(value) - state.input_squared.scaled(squared);
-            excess.scaled(equation.factor)
-        };
-        self.equations.iter().map(residual).collect()
+        self.equations.iter().map(|equation| equation.residual(equation.forms_at(state), state)).collect()
     }
 
     /// The derivatives of the equations: a row for each, with a column for each unknown and one for the input.
@@ -309,12 +312,44 @@ impl Equations {
         let constant = |k: usize| Series([state[k]]);
         let unknowns = (0..n / 2).map(|k| VectorSeries { x: constant(2 * k), y: constant(2 * k + 1) }).collect();
         let at: State<T, 1> = self.state_series(unknowns, constant(n));
+        let mut out = vec![T::from(0.0); self.count() * (n + 1)];
+        self.add_jacobian(&at, state[n], &mut out, |_, _| ());
+        out
+    }
+
+    /// How far the equations are from holding in a state, with their derivatives as of [`Equations::jacobian`].
+    pub fn linearized(&self, state: &[f64], at: &mut Linearization) {
+        let n = self.unknown_count();
+        at.jacobian.clear();
+        at.jacobian.resize(self.count() * (n + 1), 0.0);
+        at.residuals.clear();
+        let constant = |k: usize| Series([state[k]]);
+        let mut unknowns = std::mem::take(&mut at.unknowns);
+        unknowns.clear();
+        unknowns.extend((0..n / 2).map(|k| VectorSeries { x: constant(2 * k), y: constant(2 * k + 1) }));
+        let there: State<f64, 1> = self.state_series(unknowns, constant(n));
+        let residuals = &mut at.residuals;
+        self.add_jacobian(&there, state[n], &mut at.jacobian, |equation, forms| {
+            residuals.push(equation.residual(forms, &there).0[0]);
+        });
+        at.unknowns = there.unknowns;
+    }
+
+    /// Adds the derivatives in a state to rows of zeros, and gives each equation with its forms there.
+    fn add_jacobian<T: Scalar>(
+        &self,
+        at: &State<T, 1>,
+        input: T,
+        out: &mut [T],
+        mut each: impl FnMut(&Equation, [VectorSeries<T, 1>; 2]),
+    ) {
+        let n = self.unknown_count();
         let (cos, sin) = (at.direction.x.0[0], at.direction.y.0[0]);
         // The derivative of the direction of an angle, or of a length.
         let turning = if self.is_angle { [-sin, cos] } else { [T::from(1.0), T::from(0.0)] };
-        let mut out = vec![T::from(0.0); self.count() * (n + 1)];
         for (equation, row) in self.equations.iter().zip(out.chunks_exact_mut(n + 1)) {
-            let (e, f) = (equation.e.at(&at), equation.f.at(&at));
+            let [e, f] = equation.forms_at(at);
+            each(equation, [e, f]);
             let factor = T::from(equation.factor);
             // The product changes by the real part of the conjugate of `along` times the change of a form.
             let mut add = |form: &Form, [u, v]: [T; 2]| {
@@ -339,10 +374,9 @@ impl Equations {
             }
             let squared = equation.value[1];
             if squared != 0.0 {
-                row[n] = row[n] - T::from(2.0 * squared) * state[n] * factor;
+                row[n] = row[n] - T::from(2.0 * squared) * input * factor;
             }
         }
-        out
     }
 
     /// The derivatives as a matrix, without the column of one unknown.
@@ -353,6 +387,22 @@ impl Equations {
 }
 
 impl Equation {
+    fn forms_at<T: Scalar, const N: usize>(&self, state: &State<T, N>) -> [VectorSeries<T, N>; 2] {
+        [self.e.at(state), self.f.at(state)]
+    }
+
+    /// How far it is from holding in a state with these forms.
+    fn residual<T: Scalar, const N: usize>(
+        &self,
+        [e, f]: [VectorSeries<T, N>; 2],
+        state: &State<T, N>,
+    ) -> Series<T, N> {
+        let product = if self.is_cross { e.cross(f) } else { e.dot(f) };
+        let [value, squared] = self.value;
+        let excess = product - Series::constant(value) - state.input_squared.scaled(squared);
+        excess.scaled(self.factor)
+    }
+
     fn distance(between: Form, length: f64) -> Equation {
         Equation {
             e: between.clone(),

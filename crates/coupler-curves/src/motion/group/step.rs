@@ -1,8 +1,8 @@
 //! Certified steps along the curve on which the equations of a group hold.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Const, DMatrix, DVector, DimMin, SMatrix, SVector, ToTypenum};
 
-use super::equations::Equations;
+use super::equations::{Equations, Linearization};
 use crate::motion::enclosure::Enclosure;
 use crate::motion::series::Series;
 use crate::numerical::Bracket;
@@ -118,12 +118,16 @@ impl Equations {
     /// method finds none.
     pub fn corrected(&self, mut state: Vec<f64>, held: usize) -> Option<Vec<f64>> {
         let mut last = f64::INFINITY;
+        let mut at = Linearization::default();
+        let mut correction = Vec::with_capacity(state.len());
         for _ in 0..MAX_CORRECTIONS {
-            let correction = self.correction(&state, held)?;
-            let change = correction.amax();
-            if !change.is_finite() {
+            self.linearized(&state, &mut at);
+            correction.clear();
+            self.correct(&at, held, &mut correction)?;
+            if correction.iter().any(|change| !change.is_finite()) {
                 return None;
             }
+            let change = correction.iter().fold(0.0, |most: f64, change| most.max(change.abs()));
             // Next to a limit rounding is magnified: corrections that were small and grow are that.
             if change >= last && last < MAGNIFIED_ROUNDING {
                 return Some(state);
@@ -138,12 +142,28 @@ impl Equations {
         (last < MAGNIFIED_ROUNDING).then_some(state)
     }
 
-    /// The step of Newton's method.
-    fn correction(&self, state: &[f64], held: usize) -> Option<DVector<f64>> {
-        let matrix = self.matrix_without(&self.jacobian(state), held);
-        let zero = vec![0.0; state.len()];
-        let residuals = self.along_line::<f64, 1>(state, &zero).into_iter().map(|series| series.0[0]);
-        matrix.lu().solve(&DVector::from_iterator(self.count(), residuals))
+    /// The step of Newton's method with one unknown, or the input, held: without allocations for the usual numbers of unknowns.
+    fn correct(&self, at: &Linearization, held: usize, out: &mut Vec<f64>) -> Option<()> {
+        match self.unknown_count() {
+            4 => self.correct_by::<4>(at, held, out),
+            6 => self.correct_by::<6>(at, held, out),
+            8 => self.correct_by::<8>(at, held, out),
+            _ => {
+                let matrix = self.matrix_without(&at.jacobian, held);
+                out.extend(matrix.lu().solve(&DVector::from_column_slice(&at.residuals))?.iter());
+                Some(())
+            }
+        }
+    }
+
+    fn correct_by<const N: usize>(&self, at: &Linearization, held: usize, out: &mut Vec<f64>) -> Option<()>
+    where
+        Const<N>: DimMin<Const<N>, Output = Const<N>> + ToTypenum,
+    {
+        let entry = |row: usize, k: usize| at.jacobian[row * (N + 1) + k + usize::from(k >= held)];
+        let residuals = SVector::<f64, N>::from_column_slice(&at.residuals);
+        out.extend(SMatrix::<f64, N, N>::from_fn(entry).lu().solve(&residuals)?.iter());
+        Some(())
     }
 
     /// The node at a state on the curve; `None` where the curve is not regular. Its direction is the one from which the
