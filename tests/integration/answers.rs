@@ -61,6 +61,10 @@ fn whether_a_linkage_has_a_measure_follows_from_its_joints() {
     for subject in subjects {
         let count = structures.iter().filter(|linkage| subject.includes(linkage)).count();
         let is_general = matches!(subject, Subject::Any | Subject::WithOutput | Subject::WithDyad);
+        // Linkages of the catalogue have no loads.
+        if subject == Subject::WithLoad {
+            continue;
+        }
         assert!(count > 0 && (is_general || count < structures.len()), "{subject:?}: {count}");
     }
 }

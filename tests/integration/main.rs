@@ -41,6 +41,7 @@ mod inputs;
 mod inspect_output;
 mod lettering;
 mod limits;
+mod loads;
 mod manifests;
 mod ownership;
 mod plates;

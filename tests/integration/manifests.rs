@@ -240,7 +240,8 @@ fn every_measure_can_be_used_in_where_sort_and_texts() {
             assert!(report.contains(&format!("`evans` has no `{name}`")), "{report}");
             continue;
         }
-        let uses = format!("where = \"{name} > 0\"\nsort = \"-{name}\"\nnote = \"{{{name}:.3}}\"\n");
+        let load = if name.starts_with("torque") { "load = { joint = \"M\", force = 1 }\n" } else { "" };
+        let uses = format!("{load}where = \"{name} > 0\"\nsort = \"-{name}\"\nnote = \"{{{name}:.3}}\"\n");
         if coupler_curves::measure::BOOLEANS.iter().any(|boolean| boolean.name == name) {
             plan(&format!("{GOOD}where = \"{name} or not {name}\"\ncaption = \"{{{name}}}\"\n"));
             let report = problems(&format!("{GOOD}where = \"{name} > 0\"\nsort = \"{name}\"\n"));

@@ -79,6 +79,11 @@ impl CheckedLinkage<'_> {
         let message = format!("`{id}` has no `{name}`, which is defined for {} only", subject.description());
         // Only a column has this name.
         let measures = measures && measure.is_some();
+        if subject == Subject::WithLoad {
+            let help = "give the family a load, as in load = { joint = \"C\", force = 100, direction = \"-90 deg\" }";
+            parser.report(Problem::error(span, message).with_help(help));
+            return;
+        }
         let of_linkage = if measures { self.own_measures() } else { self.own_columns() };
         let help = match (of_linkage.is_empty(), measures) {
             (true, true) => format!("`{id}` has the measures of a curve, such as `length`"),

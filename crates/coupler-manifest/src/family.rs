@@ -170,8 +170,10 @@ fn apply_overrides<'t>(template: Arc<Template>, fields: &Fields<'_, 't>, parser:
     let continuation = fields.get("continuation").and_then(|value| parser.word(value, &linkage_format::CONTINUATIONS));
     let coincident = fields.get("coincident").and_then(|value| parser.word(value, &linkage_format::COINCIDENT_DYADS));
     let placement = fields.get("place").and_then(|value| placement(value, parser));
+    let load = fields.get("load").and_then(|value| linkage_format::parse_load(value, &template.joints, parser));
     let traced = fields.get("trace").and_then(|value| traced_joints(value, &template, parser));
-    if traced.is_none() && circuits.is_none() && continuation.is_none() && coincident.is_none() && placement.is_none() {
+    let has_settings = traced.is_some() || circuits.is_some() || continuation.is_some() || coincident.is_some();
+    if !has_settings && placement.is_none() && load.is_none() {
         return template;
     }
     let mut changed = Template::clone(&template);
@@ -180,6 +182,7 @@ fn apply_overrides<'t>(template: Arc<Template>, fields: &Fields<'_, 't>, parser:
     changed.coincident = coincident.unwrap_or(changed.coincident);
     changed.orientation = placement.unwrap_or(changed.orientation);
     changed.traced = traced.unwrap_or(changed.traced);
+    changed.load = load.or(changed.load);
     Arc::new(changed)
 }
 

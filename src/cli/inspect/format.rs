@@ -1,7 +1,7 @@
 //! Numbers, points and circuits, as text.
 
 use coupler_curves::geometry::Point;
-use coupler_curves::linkage::{DyadId, JointId, Linkage, OutputLink};
+use coupler_curves::linkage::{DyadId, Input, JointId, Linkage, OutputLink};
 use coupler_curves::motion::{Circuit, Pass};
 
 use super::super::format::format_significant;
@@ -25,6 +25,21 @@ pub(super) fn describe_output(linkage: &Linkage) -> Option<String> {
         }
         OutputLink::Slider { joint, .. } => format!("slider {}", name(joint)),
     })
+}
+
+/// The load, as it is given: "100 on C at -90°", or "100 on C against its motion".
+pub(super) fn describe_load(linkage: &Linkage) -> Option<String> {
+    let load = linkage.load?;
+    let direction = match load.direction_deg {
+        Some(deg) => format!("at {}°", format_significant(deg, 10)),
+        None => "against its motion".to_owned(),
+    };
+    Some(format!("{} on {} {direction}", format_significant(load.force, 10), linkage.joints[load.joint].name))
+}
+
+/// What drives the input: a torque, or a force where the input is a length.
+pub(super) fn drive_word(linkage: &Linkage) -> &'static str {
+    if linkage.input() == Input::Length { "force" } else { "torque" }
 }
 
 /// The input over a circuit, pass by pass: "a full turn on branch 1", "from 28.96° on branch 1 to 97.18° (B flat), on

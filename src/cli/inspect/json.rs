@@ -4,7 +4,7 @@ use coupler_curves::exchange::{Members, PassDocument};
 use coupler_curves::geometry::{Point, Vector};
 use coupler_curves::linkage::{DyadId, FourBar, Input, JointId, Linkage, MovingLink, OutputLink, PlacedFourBar};
 use coupler_curves::measure;
-use coupler_curves::motion::{Circuit, InstantaneousMotion};
+use coupler_curves::motion::{Circuit, InstantaneousMotion, LinkRotation};
 use coupler_curves::solve::MeasuredCurve;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use super::super::Failure;
 use super::cognate_set::{CognateMember, CognateSet};
 use super::equation::{self, EquationJson};
-use super::pose::{LinkRotation, Pose, instant_geometries, link_rotations};
+use super::pose::{Pose, instant_geometries};
 use super::ranges::{ArcJson, Ranges, RockerLimitsJson, SliderJson};
 use super::report::Report;
 
@@ -31,6 +31,7 @@ struct Document<'a> {
     arc: Option<ArcJson>,
     inverted_slider_crank: Option<SliderJson>,
     output_link: Value,
+    load: Option<LoadJson<'a>>,
     input: &'static str,
     status: &'static str,
     reason: Option<String>,
@@ -39,6 +40,13 @@ struct Document<'a> {
     poses: Vec<PoseJson<'a>>,
     equations: Vec<EquationJson>,
     cognates: Option<CognatesJson<'a>>,
+}
+
+#[derive(Serialize)]
+struct LoadJson<'a> {
+    joint: &'a str,
+    force: f64,
+    direction: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -62,6 +70,7 @@ struct PoseJson<'a> {
     branch: i8,
     joints: Vec<JointJson<'a>>,
     links: Vec<LinkJson<'a>>,
+    torque: Option<f64>,
     instants: Vec<InstantJson<'a>>,
 }
 
@@ -134,6 +143,11 @@ pub(super) fn json(report: &Report) -> Result<String, Failure> {
         arc: ranges.arc_json(),
         inverted_slider_crank: ranges.slider_json(),
         output_link: output_link(linkage),
+        load: linkage.load.map(|load| LoadJson {
+            joint: &linkage.joints[load.joint].name,
+            force: load.force,
+            direction: load.direction_deg,
+        }),
         input: if linkage.input() == Input::Length { "length" } else { "deg" },
         status: solved.status().name(),
         reason: solved.motion.assembly_error.as_ref().map(ToString::to_string),
@@ -221,7 +235,8 @@ impl<'a> PoseJson<'a> {
             circuit: pose.circuit,
             branch: pose.pass.mode.sign(DyadId::FIRST),
             joints: solved.linkage.joint_ids().map(joint).collect(),
-            links: link_rotations(solved, pose).into_iter().map(link).collect(),
+            links: LinkRotation::of_links(&solved.linkage, jets).into_iter().map(link).collect(),
+            torque: pose.torque(solved),
             instants: instant_geometries(solved, pose).filter_map(instant).collect(),
         }
     }

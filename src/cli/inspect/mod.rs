@@ -47,6 +47,10 @@ pub struct Arguments {
     /// not only of the one through the start pose.
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = ["1", "-1"], requires = "at")]
     branch: Option<String>,
+    /// A force on a joint, for the torque with which the input moves it: "100 on C at -90 deg", from the x-axis, or "100 on C" against the
+    /// motion of C.
+    #[arg(long, value_name = "LOAD", allow_hyphen_values = true)]
+    load: Option<String>,
     /// Print the coefficients of the equations of the coupler curves, with the crank pivot at the origin and the x axis
     /// towards the rocker pivot, and again with the origin in the middle of the two.
     #[arg(long, conflicts_with = "toml")]
@@ -77,6 +81,11 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let printed = [("--json", arguments.json), ("--toml", arguments.toml), ("--sextic", arguments.sextic)];
     let is_drawing_printed = files::is_drawing_printed(arguments.svg.as_deref(), &printed)?;
     let mut template = linkage::find_template(&arguments.linkage, arguments.manifest.as_deref())?;
+    if let Some(text) = &arguments.load {
+        let load = template.parse_load(text);
+        let load = load.map_err(|error| Failure::input(format!("--load: {}: {error}", template.id)))?;
+        Arc::make_mut(&mut template).load = Some(load);
+    }
     let given = |text: &String| {
         let parameter = ParameterText::parse(text).map_err(Failure::input)?;
         parameter.resolve(&template).map_err(|error| Failure::input(format!("{}: {error}", arguments.linkage)))

@@ -1,7 +1,7 @@
 //! The poses of a linkage at one input, and the motion of its links there.
 
-use coupler_curves::geometry::{Vector, cross};
 use coupler_curves::linkage::{DyadId, JointId};
+use coupler_curves::measure::input_torque;
 use coupler_curves::motion::{InstantaneousMotion, JointDerivatives, Pass};
 use coupler_curves::solve::SolvedCell;
 
@@ -13,6 +13,13 @@ pub(super) struct Pose<'a> {
     /// The input, in the turn in which the pass has it.
     pub input: f64,
     pub jets: JointDerivatives,
+}
+
+impl Pose<'_> {
+    /// The input torque against the load of its linkage, if it has one.
+    pub fn torque(&self, solved: &SolvedCell) -> Option<f64> {
+        input_torque(&solved.linkage, self.pass, &self.jets)
+    }
 }
 
 /// Every pose at an input, circuit by circuit; with `branch`, only those whose first dyad is on that side.
@@ -35,36 +42,6 @@ pub(super) fn poses(solved: &SolvedCell, at: f64, branch: Option<i8>) -> Vec<Pos
         }
     }
     poses
-}
-
-/// The rotation of a moving link.
-pub(super) struct LinkRotation<'a> {
-    /// The names of its joints.
-    pub joints: Vec<&'a str>,
-    /// Radians per radian of input, or per unit of length of an actuator.
-    pub angular_velocity: f64,
-    /// The derivative of the angular velocity by the input.
-    pub angular_acceleration: f64,
-}
-
-/// The rotations of the moving links that have two distinct joints.
-pub(super) fn link_rotations<'a>(solved: &'a SolvedCell, pose: &Pose) -> Vec<LinkRotation<'a>> {
-    let linkage = &solved.linkage;
-    let jets = &pose.jets;
-    let moving = linkage.links.iter().filter(|link| !std::ptr::eq(*link, linkage.ground()));
-    let rotation = |link: &'a coupler_curves::linkage::Link| {
-        let (first, position) = *link.joints.first()?;
-        let (second, _) = *link.joints.iter().find(|(_, other)| *other != position)?;
-        let relative = |rate: fn(&JointDerivatives, JointId) -> Vector| rate(jets, second) - rate(jets, first);
-        let arm = jets.position(second) - jets.position(first);
-        let angular = |rate: Vector| cross(arm, rate) / arm.norm_squared();
-        Some(LinkRotation {
-            joints: link.joints.iter().map(|(joint, _)| linkage.joints[*joint].name.as_str()).collect(),
-            angular_velocity: angular(relative(JointDerivatives::velocity)),
-            angular_acceleration: angular(relative(JointDerivatives::acceleration)),
-        })
-    };
-    moving.filter_map(rotation).collect()
 }
 
 /// The instantaneous motion of the link of each traced joint; `None` where the link does not rotate.

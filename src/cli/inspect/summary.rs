@@ -7,7 +7,7 @@ use coupler_curves::motion::Circuit;
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 
 use super::super::format::format_significant;
-use super::format::input_unit;
+use super::format::{drive_word, input_unit};
 
 /// The number of circuits that are described one by one.
 const MAX_CIRCUITS: usize = 4;
@@ -20,7 +20,14 @@ pub(super) fn append_text(solved: &SolvedCell, out: &mut String) {
     let limits = per_circuit(circuits.len(), |k| Some(describe_limits(curve(k)?, &circuits[k], unit)));
     let angles = per_circuit(circuits.len(), |k| describe_transmission(curve(k)?));
     let straight = (!solved.curves.is_empty()).then(|| describe_straight(solved, unit));
-    let lines = [("limits of the input", limits), ("transmission angle", angles), ("straight portion", straight)];
+    let torques = per_circuit(circuits.len(), |k| describe_torque(curve(k)?, unit));
+    let torque_title = format!("input {}", drive_word(&solved.linkage));
+    let lines = [
+        ("limits of the input", limits),
+        ("transmission angle", angles),
+        (&torque_title, torques),
+        ("straight portion", straight),
+    ];
     for (title, line) in lines {
         if let Some(line) = line {
             // Writing to a string cannot fail.
@@ -66,6 +73,14 @@ fn describe_transmission(curve: &MeasuredCurve) -> Option<String> {
         .zip(curve.measure(Measure::MU_MAX))
         .map(|(least, most)| format!(", from {}° to {}°", format_significant(least, 4), format_significant(most, 4)));
     Some(format!("worst {worst}°{}", range.unwrap_or_default()))
+}
+
+/// "at most 104.2, at 73.1°; from -104.2 to 104.2"; `None` without a load.
+fn describe_torque(curve: &MeasuredCurve, unit: &str) -> Option<String> {
+    let value = |key| curve.measure(key).map(|value| format_significant(value, 7));
+    let [peak, least, most] = [Measure::TORQUE_PEAK, Measure::TORQUE_MIN, Measure::TORQUE_MAX].map(value);
+    let (peak, at) = (peak?, value(Measure::TORQUE_PEAK_DEG)?);
+    Some(format!("at most {peak}, at {at}{unit}; from {} to {}", least?, most?))
 }
 
 /// The straight portion of the curve on which it is longest for the size of the curve.

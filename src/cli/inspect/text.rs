@@ -3,11 +3,12 @@
 use std::fmt::Write;
 
 use coupler_curves::linkage::{DyadId, FourBar};
+use coupler_curves::motion::LinkRotation;
 use coupler_curves::solve::SolvedCell;
 
 use super::super::format::format_significant;
-use super::format::{describe_circuit, describe_output, format_point, input_unit};
-use super::pose::{Pose, instant_geometries, link_rotations};
+use super::format::{describe_circuit, describe_load, describe_output, drive_word, format_point, input_unit};
+use super::pose::{Pose, instant_geometries};
 use super::ranges::Ranges;
 use super::{Report, cognates, equation, summary};
 
@@ -41,6 +42,9 @@ pub(super) fn text(report: &Report) -> String {
     ranges.append_text(&mut out);
     if let Some(output) = describe_output(&solved.linkage) {
         let _ = writeln!(out, "output: {output}");
+    }
+    if let Some(load) = describe_load(&solved.linkage) {
+        let _ = writeln!(out, "load: {load}");
     }
     for (number, circuit) in (1..).zip(&solved.motion.circuits) {
         let _ = writeln!(out, "circuit {number}: {}", describe_circuit(&solved.linkage, circuit));
@@ -99,11 +103,14 @@ fn describe_pose(solved: &SolvedCell, pose: &Pose, out: &mut String) {
             vectors(joint).into_iter().zip(greatest).flat_map(|(v, g)| [v.x, v.y].map(|c| format_cleared(c, g)));
         row(out, &named.name, &cells.collect::<Vec<String>>());
     }
-    for link in link_rotations(solved, pose) {
+    for link in LinkRotation::of_links(&solved.linkage, &pose.jets) {
         let name = link.joints.join("-");
         let velocity = format_cleared(link.angular_velocity, 1.0);
         let acceleration = format_cleared(link.angular_acceleration, 1.0);
         let _ = writeln!(out, "link {name}: angular velocity {velocity}, angular acceleration {acceleration}");
+    }
+    if let Some(torque) = pose.torque(solved) {
+        let _ = writeln!(out, "input {}: {}", drive_word(&solved.linkage), format_significant(torque, 7));
     }
     for (joint, instant) in instant_geometries(solved, pose) {
         let name = &solved.linkage.joints[joint].name;

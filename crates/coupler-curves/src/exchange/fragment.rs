@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use std::fmt::Write;
 
 use super::SelectedCurve;
+use super::linkage_in_numbers::load_to_toml;
 use super::number::format_number;
 use super::sampling_fields::sampling_fields;
 use crate::catalogue;
@@ -109,6 +110,9 @@ pub fn family_settings(family: &Family) -> String {
         let _ = writeln!(out, "place = {}", placement_to_toml(&template.orientation));
     }
     out += &straight_setting(family);
+    if let Some(load) = template.load {
+        let _ = writeln!(out, "load = {}", load_to_toml(template, load));
+    }
     if !family.columns.is_empty() {
         let columns: Vec<String> = family.columns.iter().map(|column| format!("\"{}\"", column.name)).collect();
         let _ = writeln!(out, "columns = [{}]", columns.join(", "));

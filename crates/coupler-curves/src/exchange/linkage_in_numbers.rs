@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use crate::expression::CompiledExpression;
+use crate::linkage::Load;
 use crate::linkage_format::{quoted, toml_key, toml_number};
 use crate::template::{Coordinate, InputValue, JointKindTemplate, OutputLinkTemplate, Side, SideTemplate, Template};
 
@@ -38,6 +39,9 @@ pub fn linkage_in_numbers(template: &Template, values: &[f64]) -> String {
         Some(OutputLinkTemplate::Link(joints)) => line("output_link", text.names(joints)),
         Some(OutputLinkTemplate::Slider(joint)) => line("output_link", text.name(*joint)),
     }
+    if let Some(load) = template.load {
+        line("load", load_to_toml(template, load));
+    }
     if !template.chains.is_empty() {
         let chains: Vec<String> = template.chains.iter().map(|joints| text.names(joints)).collect();
         line("chains", format!("[{}]", chains.join(", ")));
@@ -47,6 +51,13 @@ pub fn linkage_in_numbers(template: &Template, values: &[f64]) -> String {
         let _ = writeln!(out, "{} = {{ {} }}", toml_key(&placed.name), text.kind(&placed.kind));
     }
     out
+}
+
+/// The `load` of a template.
+pub(super) fn load_to_toml(template: &Template, load: Load<usize>) -> String {
+    let direction = load.direction_deg.map(|deg| format!(", direction = \"{} deg\"", toml_number(deg)));
+    let joint = quoted(&template.joints[load.joint].name);
+    format!("{{ joint = {joint}, force = {}{} }}", toml_number(load.force), direction.unwrap_or_default())
 }
 
 /// The joints that are traced, and those that nothing is placed from but whose links limit the motion: a manifest has no others
@@ -74,7 +85,8 @@ fn needed_joints(template: &Template, named: &[usize]) -> Vec<bool> {
         Some(OutputLinkTemplate::Slider(joint)) => vec![joint],
     };
     let other = template.seen_from.iter().flatten().chain(&output).chain(template.chains.iter().flatten());
-    named.iter().chain(other).for_each(|&joint| is_needed[joint] = true);
+    let loaded = template.load.map(|load| load.joint);
+    named.iter().chain(other).chain(&loaded).for_each(|&joint| is_needed[joint] = true);
     // Each joint is placed from joints before it.
     for (k, joint) in template.joints.iter().enumerate().rev() {
         is_needed[k] |= drives(&joint.kind);

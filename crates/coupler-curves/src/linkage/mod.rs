@@ -19,6 +19,7 @@ mod input;
 mod joint;
 mod kinematic_chain;
 mod link;
+mod load;
 mod motion_options;
 mod outline;
 mod output_link;
@@ -50,6 +51,7 @@ pub use self::{
     assembly_mode::{DyadSet, MAX_DYADS},
     group::{Closure, Group},
     kinematic_chain::KinematicChain,
+    load::Load,
     outline::{LinkOutline, is_plate},
     position_analysis::InvertedSliderCrank,
     symmetrical_four_bar::SymmetricalFourBar,

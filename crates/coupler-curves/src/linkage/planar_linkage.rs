@@ -1,6 +1,6 @@
 //! A linkage as a list of joints and links.
 
-use super::{Closure, DyadId, Error, Group, Input, Joint, JointId, JointKind, Link, MotionOptions, OutputLink};
+use super::{Closure, DyadId, Error, Group, Input, Joint, JointId, JointKind, Link, Load, MotionOptions, OutputLink};
 use crate::geometry::{Orientation, Point, trig};
 
 /// A linkage with numeric dimensions. All lengths are in one unit, which may be any.
@@ -22,6 +22,8 @@ pub struct Linkage {
     pub seen_from: Option<[JointId; 2]>,
     /// The output link that is stated; where there is none, [`Linkage::output`] is the default.
     pub output_link: Option<OutputLink>,
+    /// The force that it moves against, if there is one.
+    pub load: Option<Load>,
     /// The chains it is composed of in addition to the first, such as the cognates of a four-bar, each by its joints: the
     /// links between them are a part of the linkage that a figure distinguishes.
     pub chains: Vec<Vec<JointId>>,
@@ -113,7 +115,8 @@ impl Linkage {
         let output_joints = self.output().map(OutputLink::joints).unwrap_or_default();
         let closures = self.group.iter().flat_map(|group| &group.closures);
         let of_group = closures.flat_map(|closure| closure.joints());
-        let kept_joints = self.seen_from.into_iter().flatten().chain(output_joints).chain(of_group);
+        let loaded = self.load.map(|load| load.joint);
+        let kept_joints = self.seen_from.into_iter().flatten().chain(output_joints).chain(of_group).chain(loaded);
         let mut base_of_all = kept_joints.map(JointId::index).max().unwrap_or(0);
         while let Some(JointKind::Rigid { base: [p, q], .. }) = first.checked_sub(1).map(|last| self.joints[last].kind)
         {
@@ -137,6 +140,7 @@ impl Linkage {
             traced: new_id(joint).into_iter().collect(),
             seen_from: self.seen_from,
             output_link: self.output_link,
+            load: self.load,
             chains: Vec::new(),
             placement: self.placement,
             motion_options: self.motion_options.clone(),

@@ -125,7 +125,9 @@ pub(super) fn parse_joints<'t>(
         Some(output) => Some(output?),
     };
     let chains = chains?;
-    let named: Vec<usize> = seen_from.into_iter().flatten().chain(output_joints(output_link)).collect();
+    let loaded = linkage.get("load").and_then(|load| load.get_ref().as_table()?.get("joint")?.get_ref().as_str());
+    let loaded = loaded.and_then(|name| names.index_of(name));
+    let named: Vec<usize> = seen_from.into_iter().flatten().chain(output_joints(output_link)).chain(loaded).collect();
     check_unused(&entries, &placings, &needs, &traced, &named, parser);
     if seen_from.is_none() {
         check_traced_joints_move(&entries, &placings, &needs, &order, &traced, parser);
@@ -423,7 +425,7 @@ fn order_joints(entries: &[Entry], needs: &[Vec<usize>], parser: &mut TomlParser
     }
 }
 
-/// Checks that every joint is traced, is in `seen_from` or `output_link` (the joints `named`), carries another joint, or
+/// Checks that every joint is traced, is in `seen_from`, `output_link` or `load` (the joints `named`), carries another joint, or
 /// has a link: a parallelogram may be there for its links alone.
 fn check_unused(
     entries: &[Entry],

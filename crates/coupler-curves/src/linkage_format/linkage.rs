@@ -4,6 +4,7 @@ use super::drawing::DRAWING;
 use super::fields::Fields;
 use super::joint_forms::joint_schemas;
 use super::joints;
+use super::load::{LOAD_KEY, parse_load};
 use super::quantities::InputKind;
 use super::schema::{KeySchema, TableSchema, ValueSchema, default_word, words};
 use super::toml_parser::{TomlParser, TomlValue};
@@ -68,6 +69,7 @@ pub(super) static LINKAGE: TableSchema = TableSchema::new(
             ValueSchema::AnyOf(&[JOINT_NAME, ValueSchema::Set(&JOINT_NAME, [2, 2])]),
             "The link that it drives, by two of its joints, or the slider, by its joint; the last driven link on the frame by default.",
         ),
+        LOAD_KEY,
         KeySchema::new(
             "chains",
             ValueSchema::List(&ValueSchema::Set(&JOINT_NAME, [2, usize::MAX]), [0, usize::MAX]),
@@ -199,6 +201,7 @@ pub fn parse_template<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) ->
         traced: joints.traced,
         seen_from: joints.seen_from,
         output_link: joints.output_link,
+        load: None,
         chains: joints.chains,
         orientation: Orientation::default(),
         circuits,
@@ -223,6 +226,7 @@ pub fn parse_template<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) ->
             ..template.clone()
         }));
     }
+    template.load = fields.get("load").and_then(|value| parse_load(value, &template.joints, parser));
     for ((kind, states_unit), parameter) in
         template.infer_kinds().into_iter().zip(states_unit).zip(&mut template.parameters)
     {

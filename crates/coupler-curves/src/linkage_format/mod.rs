@@ -9,6 +9,7 @@ mod joint_id;
 mod joint_values;
 mod joints;
 mod linkage;
+mod load;
 mod names;
 mod quantities;
 mod schema;
@@ -24,6 +25,7 @@ pub use self::{
         CIRCUIT_SELECTIONS, CIRCUITS_KEY, COINCIDENT_DYADS, COINCIDENT_KEY, CONTINUATION_KEY, CONTINUATIONS,
         IDENTIFIER_HELP, check_identifier, identifier_error, parse_slug, parse_template,
     },
+    load::{LOAD_KEY, parse_load},
     schema::{KeySchema, TableSchema, ValueSchema, words},
     toml_parser::{MAX_PROBLEMS, TomlParser, TomlValue},
 };

@@ -1,9 +1,9 @@
 //! Quantities of a single sample: the optional columns of `points.csv`.
 
-use super::Subject;
+use super::{Subject, torque};
 use crate::geometry::{Vector, cross, curvature, trig};
-use crate::linkage::{AssemblyMode, FourBar, JointId, JointKind, Linkage};
-use crate::motion::{Circuit, InstantaneousMotion, JointDerivatives};
+use crate::linkage::{FourBar, JointId, JointKind, Linkage};
+use crate::motion::{Circuit, InstantaneousMotion, JointDerivatives, Pass};
 
 /// A quantity of a traced joint, or of its linkage, at a sample.
 #[derive(Clone, Copy, Debug)]
@@ -50,11 +50,11 @@ struct Sample<'a> {
     joint: JointId,
     derivatives: JointDerivatives,
     input: f64,
-    assembly_mode: AssemblyMode,
+    pass: &'a Pass,
 }
 
 /// All columns. Derivatives are per radian of input, or per unit of length; unbounded ones are infinite.
-pub static COLUMNS: [Column; 24] = [
+pub static COLUMNS: [Column; 25] = [
     Column::new("vx", "velocity along x", "velocity along x", |s| s.velocity().x).in_unit("per radian"),
     Column::new("vy", "velocity along y", "velocity along y", |s| s.velocity().y).in_unit("per radian"),
     Column::new("ax", "acceleration along x", "acceleration along x", |s| s.acceleration().x).in_unit("per radian²"),
@@ -105,6 +105,13 @@ pub static COLUMNS: [Column; 24] = [
         "inflection pole: on the inflection circle opposite the instant centre",
         |s| s.instant_value(|i| i.inflection_pole().y),
     ),
+    Column::new(
+        "torque",
+        "input torque",
+        "input torque against the load, or the force of an input that is a length, without friction and masses",
+        |s| torque::input_torque(s.linkage, s.pass, &s.derivatives).unwrap_or(f64::NAN),
+    )
+    .of(Subject::WithLoad),
     Column::new("psi_deg", "output angle", "output angle, deg: McCarthy (2.52), of a slot (2.45)", |s| s.psi())
         .in_unit("deg")
         .of(Subject::FourBarOrInvertedSliderCrank),
@@ -155,9 +162,8 @@ pub fn compute_columns(
     if columns.is_empty() {
         return Vec::new();
     }
-    let (derivatives, input, assembly_mode) =
-        (circuit.derivatives(linkage, sample), circuit.inputs[sample], circuit.mode_at(sample));
-    let sample = Sample { linkage, joint, derivatives, input, assembly_mode };
+    let (derivatives, input) = (circuit.derivatives(linkage, sample), circuit.inputs[sample]);
+    let sample = Sample { linkage, joint, derivatives, input, pass: &circuit.passes[circuit.pass_at(sample)] };
     columns.iter().map(|column| (column.compute)(&sample)).collect()
 }
 
@@ -232,7 +238,7 @@ impl Sample<'_> {
                 let [o, crank] = self.linkage.crank()?;
                 // McCarthy draws the foot to the right of C -> A: there the slide is positive.
                 let arm = self.vector(c, a);
-                let side = -f64::from(self.assembly_mode.sign(dyad)) * if offset < 0.0 { -1.0 } else { 1.0 };
+                let side = -f64::from(self.pass.mode.sign(dyad)) * if offset < 0.0 { -1.0 } else { 1.0 };
                 let slide = side * (arm.norm_squared() - offset * offset).max(0.0).sqrt();
                 let rate = arm
                     .dot(&self.without_mirroring(self.derivatives.velocity(a) - self.derivatives.velocity(c)))

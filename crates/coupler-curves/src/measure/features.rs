@@ -111,3 +111,14 @@ impl SymmetryAxis {
         if (1e-9..180.0 - 1e-9).contains(&deg) { deg } else { 0.0 }
     }
 }
+
+/// The extremes of the input torque over a circuit.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct InputTorque {
+    /// The least and the greatest.
+    pub range: [f64; 2],
+    /// The greatest magnitude.
+    pub peak: f64,
+    /// The input there.
+    pub peak_input: f64,
+}

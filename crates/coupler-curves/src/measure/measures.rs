@@ -5,7 +5,7 @@ use std::ops::Deref;
 use super::definition::{Measure, MeasureKey, MeasureValue, Value};
 use super::{
     TracedCurve, class, dwell, four_bar_type, input_range, output, path, shape, six_bar, speed_ratio, straight,
-    symmetry, transmission,
+    symmetry, torque, transmission,
 };
 
 impl Measure {
@@ -63,6 +63,10 @@ measures! {
     VELOCITY_RATIO_MAX: f64 = output::VELOCITY_RATIO_MAX,
     MECHANICAL_ADVANTAGE_MIN: f64 = output::MECHANICAL_ADVANTAGE_MIN,
     MECHANICAL_ADVANTAGE_MAX: f64 = output::MECHANICAL_ADVANTAGE_MAX,
+    TORQUE_PEAK: f64 = torque::TORQUE_PEAK,
+    TORQUE_PEAK_DEG: f64 = torque::TORQUE_PEAK_INPUT,
+    TORQUE_MIN: f64 = torque::TORQUE_MIN,
+    TORQUE_MAX: f64 = torque::TORQUE_MAX,
     LENGTH: f64 = path::LENGTH,
     AREA: f64 = path::AREA,
     BBOX_X_MIN: f64 = path::BOUNDING_BOX[0],

@@ -25,6 +25,7 @@ mod straight;
 mod subject;
 mod symmetry;
 mod symmetry_axis;
+mod torque;
 mod traced_curve;
 mod transmission;
 mod word_comparison;
@@ -44,6 +45,7 @@ pub use self::{
     measures::{BOOLEANS, Boolean},
     output::output_limit_poses,
     path::cumulative_lengths,
+    torque::input_torque,
     transmission::transmission_angle,
     word_comparison::parse_condition,
 };

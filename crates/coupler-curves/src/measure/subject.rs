@@ -25,6 +25,8 @@ pub enum Subject {
     WithTurningOutput,
     /// A linkage whose output is a slider.
     WithSlidingOutput,
+    /// A linkage with a load.
+    WithLoad,
     /// A linkage driven by an angle.
     DrivenByAngle,
 }
@@ -47,6 +49,7 @@ impl Subject {
             Subject::WithOutput => linkage.output().is_some(),
             Subject::WithTurningOutput => linkage.output().is_some_and(|output| !output.is_slider()),
             Subject::WithSlidingOutput => linkage.output().is_some_and(|output| output.is_slider()),
+            Subject::WithLoad => linkage.load.is_some(),
             Subject::DrivenByAngle => linkage.input() != Input::Length,
         }
     }
@@ -66,6 +69,7 @@ impl Subject {
             Subject::WithOutput => "linkages with an output link",
             Subject::WithTurningOutput => "linkages whose output link turns",
             Subject::WithSlidingOutput => "linkages whose output is a slider",
+            Subject::WithLoad => "linkages with a `load`",
             Subject::DrivenByAngle => "linkages driven by an angle",
         }
     }

@@ -6,7 +6,7 @@ use std::rc::Rc;
 use super::budget::TooManySteps;
 use super::circuit_function::{CircuitFunction, NoFunction, Quantity};
 use super::curve::{ArcLength, Crossings, SmoothCurve, Stop};
-use super::features::{Dwell, StraightCriterion, StraightPortion, Symmetry};
+use super::features::{Dwell, InputTorque, StraightCriterion, StraightPortion, Symmetry};
 use super::output::motion::OutputMotion;
 use super::portion::{Row, SPACING};
 use super::rounding::{within_period, without_rounding};
@@ -174,6 +174,7 @@ impl<'a> TracedCurve<'a> {
             || !self.arc_length().is_known()
             || self.crossings().is_cut_short
             || self.counted_max_curvature().is_err()
+            || self.input_torque().is_err()
             || has_portion_too_close()
     }
 
@@ -198,6 +199,7 @@ pub(super) struct CircuitResults(pub(super) Rc<SharedResults>);
 pub(super) struct SharedResults {
     pub output: OnceCell<Option<OutputMotion>>,
     pub worst_transmission_angle: OnceCell<Option<f64>>,
+    pub input_torque: OnceCell<Result<Option<InputTorque>, TooManySteps>>,
     /// Whether a function along the circuit that has been asked for is too close to tell.
     pub has_function_too_close: Cell<bool>,
 }

@@ -32,6 +32,7 @@ mod interval;
 mod interval_search;
 mod joint_series;
 mod limits;
+mod link_rotation;
 mod memory;
 mod pass;
 mod pass_ends;
@@ -56,6 +57,7 @@ pub use self::{
     group::{GroupTrack, follow_full_turn},
     input_columns::{InputColumns, InputSlices},
     limits::{MAX_ASSEMBLY_MODES, MAX_CIRCUIT_BYTES, MAX_SAMPLES, SIZES},
+    link_rotation::LinkRotation,
     memory::estimate_bytes,
     pieces::{CircuitPiece, CircuitPieces, InputMap},
     positions::{DyadSigns, place_leading_joints},

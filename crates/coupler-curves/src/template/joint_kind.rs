@@ -132,6 +132,14 @@ pub enum JointKindTemplate {
 }
 
 impl JointKindTemplate {
+    /// The number of joints built from it: several of a grid of points.
+    pub fn point_count(&self) -> usize {
+        match self {
+            JointKindTemplate::Point { along, across, .. } => along.count() * across.count(),
+            _ => 1,
+        }
+    }
+
     /// The joints it refers to.
     pub fn referenced_joints(&self) -> Vec<usize> {
         match self {

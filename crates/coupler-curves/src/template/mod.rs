@@ -4,6 +4,7 @@ mod closure;
 mod construction;
 mod input_value;
 mod joint_kind;
+mod load_text;
 mod order;
 mod parameter;
 mod parameter_kinds;
@@ -18,11 +19,12 @@ pub use side::SideTemplate;
 #[doc(hidden)]
 pub use self::{
     input_value::InputValue,
+    load_text::LoadTextError,
     order::{DependencyCycle, dependency_order},
 };
 
 use crate::expression::{Caption, CompiledExpression, displayed_name};
-use crate::linkage::{self, BranchArc, JointId, LinkageBuilder, MotionOptions};
+use crate::linkage::{self, BranchArc, JointId, LinkageBuilder, Load, MotionOptions};
 
 pub use crate::linkage::{CircuitSelection, CoincidentDyads, Continuation, Linkage, Orientation, Side};
 
@@ -53,6 +55,8 @@ pub struct Template {
     pub seen_from: Option<[usize; 2]>,
     /// The output link; `None` for the default of [`Linkage::output`].
     pub output_link: Option<OutputLinkTemplate>,
+    /// The force that it moves against, on a joint by its index in `joints`.
+    pub load: Option<Load<usize>>,
     /// The chains it is composed of in addition to the first, each by its joints.
     pub chains: Vec<Vec<usize>>,
     /// The orientation applied to everything reported, after `seen_from`.
@@ -165,11 +169,7 @@ impl Template {
 
     /// The number of curves that its traced joints trace on one circuit.
     pub fn curve_count(&self) -> usize {
-        let points = |kind: &JointKindTemplate| match kind {
-            JointKindTemplate::Point { along, across, .. } => along.count() * across.count(),
-            _ => 1,
-        };
-        self.traced.iter().map(|&joint| points(&self.joints[joint].kind)).sum()
+        self.traced.iter().map(|&joint| self.joints[joint].kind.point_count()).sum()
     }
 
     /// The labels of link lengths that are a single name or number: the names of the joints at both ends, and the
@@ -370,7 +370,8 @@ impl Template {
         let linkage = builder.build(traced, seen_from, self.motion_options(values)?)?;
         let chain = |joints: &Vec<usize>| joints.iter().flat_map(|&k| built[k].clone()).collect();
         let chains = self.chains.iter().map(chain).collect();
-        let linkage = Linkage { placement: self.orientation, chains, ..linkage };
+        let load = self.load.map(|load| load.map_joint(|k| built[k][0]));
+        let linkage = Linkage { placement: self.orientation, load, chains, ..linkage };
         match linkage.motion_options.range {
             Some([from, to]) if to - from > linkage.input().period() => {
                 let why = "which is more than a period from `from`";

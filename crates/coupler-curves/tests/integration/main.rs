@@ -29,6 +29,7 @@ mod six_bars;
 mod straight_line;
 mod symmetry;
 mod thesis;
+mod torque;
 
 /// The configuration of the property tests: the same random cases in every run. `PROPTEST_CASES=20000` runs more of
 /// them, and `PROPTEST_RNG_SEED=…` others.

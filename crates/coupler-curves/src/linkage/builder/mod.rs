@@ -246,6 +246,7 @@ impl LinkageBuilder {
             traced,
             seen_from,
             output_link,
+            load: None,
             chains: Vec::new(),
             placement,
             motion_options,

@@ -288,7 +288,7 @@ impl SmoothCurve {
     }
 
     /// Rounding of the first three derivatives on an arc, for the signs of functions of them.
-    fn derivative_rounding(&self) -> [f64; 3] {
+    pub fn derivative_rounding(&self) -> [f64; 3] {
         // Differentiation of a series of n terms magnifies the rounding of its values by up to n^2 at the ends, twice by
         // up to n^4 / 3, three times by up to n^6 / 15.
         let n2 = (TERMS * TERMS) as f64;
