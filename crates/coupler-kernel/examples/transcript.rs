@@ -127,6 +127,7 @@ impl<'a, W: Write> Session<'a, W> {
                 json!({ "method": "measures", "study": study }),
                 json!({ "method": "path", "study": study, "tolerance": 1e-2 }),
                 json!({ "method": "speeds", "study": study, "count": 50 }),
+                json!({ "method": "joint_motion", "study": study, "joint": 1, "count": 50, "place": null, "load": null }),
                 json!({ "method": "cognates", "study": study }),
                 json!({ "method": "centrodes", "study": study, "samples": 50 }),
                 json!({ "method": "nearest", "study": study, "point": [1.5, 0.5] }),

@@ -12,6 +12,7 @@ use crate::description::{opened_json, study_json};
 use crate::dragging::Dragging;
 use crate::family::{OpenFamily, fragment};
 use crate::finder::{FourBarSearch, grow_index};
+use crate::joint_motion::joint_motion_json;
 use crate::overlays::{centrodes_json, cognate_pins, cognates, cognates_json};
 use crate::paths::{measures_json, path_json, speeds_json};
 use crate::reading::{nearest_place, reading_json};
@@ -75,6 +76,14 @@ impl Kernel {
                 path_json(study, &self.families.get(curve.family)?.options.page, tolerance, numbers)
             }
             Request::Speeds { study, count } => speeds_json(self.study(study)?, count, numbers),
+            Request::JointMotion { study, joint, count, place, load } => {
+                let study = self.study(study)?;
+                let places = match place {
+                    Some((pass, input)) => vec![Place { pass, input }],
+                    None => study.places(count).collect(),
+                };
+                joint_motion_json(study, joint, &places, load.as_deref(), numbers)?
+            }
             Request::Measures { study } => measures_json(self.study(study)?, numbers),
             Request::Cognates { study } => json!(cognates_json(self.study(study)?, numbers)),
             Request::Centrodes { study, samples } => json!(centrodes_json(self.study(study)?, samples, numbers)),

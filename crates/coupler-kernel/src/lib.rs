@@ -32,6 +32,7 @@ mod family;
 
 mod study;
 
+mod joint_motion;
 mod overlays;
 mod paths;
 mod reading;

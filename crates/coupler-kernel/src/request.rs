@@ -50,6 +50,23 @@ pub enum Request {
         /// The number of places in each pass.
         count: usize,
     },
+    /// The motion of a joint and of the links: `passes` and `inputs` of places, arrays, and there `positions`, `velocities` and
+    /// `accelerations` of the joint, arrays `[x, y, x, y, …]`; `links`, a list with the names of the `joints` of each moving link and the arrays
+    /// of its angular `velocities` and `accelerations`; `transmission_angles` in degrees, an array, null but for four-bars; and `torques`, an
+    /// array, with `torque`, an object of their extremes over the circuit: `peak`, the greatest magnitude, at `peak_input`, `min` and `max`,
+    /// infinite ones as words. Both are null without a load.
+    JointMotion {
+        /// The handle of the study.
+        study: usize,
+        /// The index of the joint.
+        joint: usize,
+        /// About the number of places over the circuit, if `place` is null.
+        count: usize,
+        /// One place, `{"pass": 0, "input": 30}`, by the index of its pass; or null.
+        place: Option<(usize, f64)>,
+        /// The load, as `100 on C at -90 deg`, or `100 on C` for a force against the motion of C; null for the family's, if it has one.
+        load: Option<String>,
+    },
     /// The measures of the curve, and its straight portion.
     Measures {
         /// The handle of the study.
@@ -255,6 +272,16 @@ impl Request {
             "close_study" => Request::CloseStudy { study: of.index("study")? },
             "path" => Request::Path { study: of.index("study")?, tolerance: of.number("tolerance")? },
             "speeds" => Request::Speeds { study: of.index("study")?, count: of.index("count")? },
+            "joint_motion" => Request::JointMotion {
+                study: of.index("study")?,
+                joint: of.index("joint")?,
+                count: of.index("count")?,
+                place: match of.member("place")? {
+                    Value::Null => None,
+                    place => Some((Object(place).index("pass")?, Object(place).number("input")?)),
+                },
+                load: if of.member("load")?.is_null() { None } else { Some(of.text("load")?) },
+            },
             "measures" => Request::Measures { study: of.index("study")? },
             "cognates" => Request::Cognates { study: of.index("study")? },
             "centrodes" => Request::Centrodes { study: of.index("study")?, samples: of.index("samples")? },

@@ -305,3 +305,42 @@ fn requests_that_cannot_be_answered_have_an_error() {
     assert_eq!(about["sources"].as_str().unwrap().len(), 64);
     assert!(about["compiler"].as_str().unwrap().starts_with("rustc "));
 }
+
+/// The motion of a joint is that of the core, and the torque against a load is its measure.
+#[test]
+fn the_motion_of_a_joint_has_torques_against_a_load() {
+    let manifest = "[atlas]\ntitle = \"T\"\n[[family]]\nid = \"f\"\nlinkage = \"slider-crank\"\nsampling = { samples = 36 }\ncases = [{}]\n";
+    let plan = parse_for_formats(manifest, &Format::ALL, None).plan.unwrap();
+    let planned = &plan.families[0];
+    let mut kernel = Kernel::default();
+    let family = open_family(&mut kernel, planned);
+    let curve = curve_request(planned, family, 0, [1, 1], &[]);
+    let opened = json!({ "method": "open_study", "curve": curve, "shown": null, "is_rough": false });
+    let study = answer(&mut kernel, &opened).0["study"].clone();
+    let linkage = planned.family.linkage(&planned.family.cell(0)).unwrap();
+    let joint = linkage.find_joint("B").unwrap();
+    let request = |count: usize, place: Value, load: Value| json!({ "method": "joint_motion", "study": study, "joint": joint.index(), "count": count, "place": place, "load": load });
+    let (series, numbers) = answer(&mut kernel, &request(90, Value::Null, json!("50 on B at 180 deg")));
+    let at = |key: &str| array(&series[key], &numbers);
+    let (inputs, velocities, torques) = (at("inputs"), at("velocities"), at("torques"));
+    assert!(inputs.len() >= 90 && at("accelerations").len() == 2 * inputs.len());
+    for k in 0..inputs.len() {
+        assert!((torques[k] - 50.0 * velocities[2 * k]).abs() < 1e-9, "{k}");
+    }
+    let peak = series["torque"]["peak"].as_f64().unwrap();
+    let sampled = torques.iter().fold(0.0f64, |most, torque| most.max(torque.abs()));
+    assert!(peak >= sampled && peak < 1.01 * sampled, "{peak} {sampled}");
+    let links = series["links"].as_array().unwrap();
+    let crank = links.iter().find(|link| link["joints"] == json!(["O", "A"])).unwrap();
+    assert!(array(&crank["velocities"], &numbers).iter().all(|rate| (rate - 1.0).abs() < 1e-12));
+    // At the input of the greatest torque it is the torque.
+    let place = json!({ "pass": 0, "input": series["torque"]["peak_input"] });
+    let (one, numbers) = answer(&mut kernel, &request(0, place, json!("50 on B at 180 deg")));
+    assert!((array(&one["torques"], &numbers)[0].abs() - peak).abs() < 1e-9);
+    let (without, _) = answer(&mut kernel, &request(9, Value::Null, Value::Null));
+    assert!(without["torques"].is_null() && without["torque"].is_null());
+    for (load, message) in [("50 on Z", "no single joint `Z`"), ("50", "is no load")] {
+        let (refused, _) = call(&mut kernel, &request(9, Value::Null, json!(load)));
+        assert!(refused["error"].as_str().unwrap().contains(message), "{refused}");
+    }
+}
