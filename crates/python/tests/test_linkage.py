@@ -57,6 +57,17 @@ def test_velocities_are_derivatives_of_points() -> None:
     assert np.allclose(np.hypot(*circuit.velocities("A").T), 1.0)
 
 
+def test_torques_are_those_of_virtual_work() -> None:
+    press = ca.linkage("slider-crank", samples=360)
+    curve = next(curve for curve in press.curves if curve.joint == "B")
+    assert np.allclose(curve.torques("50 on B at 180 deg"), 50 * curve.velocities[:, 0])
+    assert np.allclose(curve.torques("50 on B"), 50 * np.abs(curve.velocities[:, 0]))
+    with pytest.raises(ValueError, match="it has no load"):
+        curve.torques()
+    with pytest.raises(ValueError, match="no single joint"):
+        curve.torques("50 on Z")
+
+
 def test_accelerations_are_derivatives_of_velocities() -> None:
     curve = bar().curves[0]
     fine = ca.FourBar(**BAR, samples=36000).curves[0].velocities

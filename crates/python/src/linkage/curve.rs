@@ -6,7 +6,8 @@ use std::sync::Arc;
 use coupler_atlas::export::{self, DEFAULT_DPI, Format};
 use coupler_curves::exchange::SelectedCurve;
 use coupler_curves::geometry::Vector;
-use coupler_curves::linkage::{DyadId, JointId};
+use coupler_curves::linkage::{DyadId, JointId, Linkage};
+use coupler_curves::measure::input_torque;
 use coupler_curves::motion;
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 use coupler_drawing::curve_file::{CurveFormat, FileOptions};
@@ -183,6 +184,38 @@ impl Curve {
             Ok::<_, PyErr>(arrays::rows(py, values, 2)?.unbind())
         };
         Ok(own.accelerations.get_or_try_init(py, make)?.clone_ref(py))
+    }
+
+    /// The input torques against a load at the points: an array of shape (n,), the force times a length, or forces where the input is a length;
+    /// infinite at limits that the joint of the load passes. Friction and masses are left out.
+    ///
+    /// Parameters
+    /// ----------
+    /// load : str, optional
+    ///     A force on a joint, ``"100 on C at -90 deg"``, or ``"100 on C"`` against the motion of C; by default the linkage's own, which its
+    ///     manifest gives it.
+    #[pyo3(signature = (load=None))]
+    fn torques<'py>(&self, py: Python<'py>, load: Option<&str>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let (solved, _, circuit) = self.parts()?;
+        let (id, template) = (&self.solution.family.id, &self.solution.family.template);
+        let load = match load {
+            Some(text) => {
+                let load = template.parse_load(text);
+                let load = load.map_err(|error| PyValueError::new_err(format!("load={text:?}: {error}")))?;
+                solved.linkage.find_joint(&template.joints[load.joint].name).map(|joint| load.map_joint(|_| joint))
+            }
+            None => solved.linkage.load,
+        };
+        let load = load.ok_or_else(|| {
+            PyValueError::new_err(format!("{id}: it has no load: give one, as in torques(\"100 on C at -90 deg\")"))
+        })?;
+        let linkage = Linkage { load: Some(load), ..solved.linkage.clone() };
+        let torque = |sample: usize| {
+            let pass = &circuit.passes[circuit.pass_at(sample)];
+            input_torque(&linkage, pass, &circuit.derivatives(&linkage, sample)).unwrap_or(f64::NAN)
+        };
+        let values = py.detach(|| (0..circuit.len()).map(torque).collect());
+        Ok(arrays::column(py, values))
     }
 
     /// All measures of the curve by name, as of ``Linkage.measures``.
