@@ -50,8 +50,8 @@
 //!
 //! # Guided bodies
 //!
-//! [`exact_guides`] finds the four-bars and slider-cranks whose coupler passes 2 to 5 poses of a [`PoseSet`], by Burmester's theory, and
-//! [`nearest_guides`] those that pass near more, by least squares of the distances in the space of place and angle.
+//! [`exact_guides`] finds the four-bars, slider-cranks and inverted slider-cranks whose coupler passes 2 to 5 poses of a [`PoseSet`], by
+//! Burmester's theory, and [`nearest_guides`] those that pass near more, by least squares of the distances in the space of place and angle.
 
 mod complex;
 mod even_sequence;
@@ -112,9 +112,9 @@ pub use linkage::{
 };
 pub use options::{Effort, Options};
 pub use poses::{
-    BodyPose, Freedom, Guide, Misfit, PairLeftOut, PassedPose, PlacedDyad, PlacedSliderCrank, PoseAnswer,
-    PoseCondition, PoseDeviation, PoseError, PoseFindings, PoseOptions, PoseSet, burmester_curves, burmester_dyads,
-    exact_guides, nearest_guides, passed_poses, poles, poses_manifest,
+    BodyPose, Freedom, Guide, Misfit, PairLeftOut, PassedPose, PlacedDyad, PlacedInvertedSliderCrank,
+    PlacedSliderCrank, PoseAnswer, PoseCondition, PoseDeviation, PoseError, PoseFindings, PoseOptions, PoseSet,
+    burmester_curves, burmester_dyads, exact_guides, nearest_guides, passed_poses, poles, poses_manifest,
 };
 pub use quality::Quality;
 pub use report::{

@@ -40,6 +40,7 @@ fn lengths(answer: &PoseAnswer) -> [f64; 4] {
             [lengths.frame, lengths.crank, lengths.coupler, lengths.rocker]
         }
         Guide::SliderCrank(_) => panic!("it has two pivots"),
+        Guide::InvertedSliderCrank(_) => panic!("it is a four-bar"),
     }
 }
 

@@ -52,7 +52,7 @@ pub struct Arguments {
     /// `angle`; without angles a closed path has equal steps of a turn.
     #[arg(long)]
     pub(super) timed: bool,
-    /// The file has poses of a body, x, y and its angle (angle_deg or angle_rad): find four-bars and slider-cranks whose coupler passes 2 to 5 of
+    /// The file has poses of a body, x, y and its angle (angle_deg or angle_rad): find four-bars, slider-cranks and inverted ones whose coupler passes 2 to 5 of
     /// them exactly, and more as near as can be.
     #[arg(long)]
     pub(super) poses: bool,

@@ -5,8 +5,7 @@ use coupler_curves::linkage::Input;
 use coupler_curves::solve::SolvedCell;
 use coupler_drawing::page::{BodyFrame, BodyPlaces, GuidedBody};
 use coupler_find::{
-    BodyPose, PassedPose, PlacedDyad, PoseSet, burmester_curves, burmester_dyads, format_length as number,
-    passed_poses, poles,
+    BodyPose, PassedPose, PoseSet, burmester_curves, burmester_dyads, format_length as number, passed_poses, poles,
 };
 
 /// Poses for a page; with the places that poses in general have: the poles of 2 and 3, the curves of the pivots and pins of 4, the dyads of 5.
@@ -26,9 +25,9 @@ fn places(set: &PoseSet) -> Vec<BodyPlaces> {
         all.push(BodyPlaces { lines: pins, label, is_light: true, ..BodyPlaces::default() });
     }
     let dyads = burmester_dyads(set);
-    let links = dyads.iter().filter_map(|dyad| Some(link(dyad, dyad.pivot?))).collect::<Vec<_>>();
+    let links = dyads.iter().filter_map(|dyad| Some(link(dyad.pin?, dyad.pivot?))).collect::<Vec<_>>();
     if !links.is_empty() {
-        let marks = dyads.iter().flat_map(|dyad| dyad.pivot.into_iter().chain([dyad.pin]));
+        let marks = dyads.iter().flat_map(|dyad| dyad.pivot.into_iter().chain(dyad.pin));
         let marks = marks.map(|place| (place, String::new())).collect();
         let label = "all dyads of the poses, from the pivot to the pin at pose 1".to_owned();
         all.push(BodyPlaces { lines: links, marks, label, ..BodyPlaces::default() });
@@ -43,9 +42,9 @@ fn places(set: &PoseSet) -> Vec<BodyPlaces> {
 }
 
 /// The link of a dyad, in short parts.
-fn link(dyad: &PlacedDyad, pivot: Point) -> Vec<Point> {
+fn link(pin: Point, pivot: Point) -> Vec<Point> {
     const PARTS: usize = 100;
-    (0..=PARTS).map(|k| pivot + (dyad.pin - pivot) * (k as f64 / PARTS as f64)).collect()
+    (0..=PARTS).map(|k| pivot + (pin - pivot) * (k as f64 / PARTS as f64)).collect()
 }
 
 /// How a linkage passes poses, in words, and the positions of its joints at the first; `None` if it has no curve. With `has_inputs` the inputs at

@@ -27,7 +27,8 @@ struct Dyad {
     pivot: Option<[f64; 2]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     line_deg: Option<f64>,
-    pin: [f64; 2],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pin: Option<[f64; 2]>,
 }
 
 #[derive(Debug, Serialize)]
@@ -87,7 +88,8 @@ impl PoseFindingsRecord {
 }
 
 fn dyad(dyad: &PlacedDyad) -> Dyad {
-    Dyad { pivot: dyad.pivot.map(|p| [p.x, p.y]), line_deg: dyad.line_deg, pin: [dyad.pin.x, dyad.pin.y] }
+    let [pivot, pin] = [dyad.pivot, dyad.pin].map(|place| place.map(|p| [p.x, p.y]));
+    Dyad { pivot, line_deg: dyad.line_deg, pin }
 }
 
 impl PoseRecord {

@@ -2,9 +2,9 @@
 
 use super::body::{Placed, PoseSet};
 use super::condition::PoseCondition;
-use super::guide::Guide;
-use super::pair::{Misfit, PosedDyad, Wish, ordered_range, passing};
-use crate::complex::Complex;
+use super::guide::{Form, Guide};
+use super::pair::{Misfit, PosedDyad, Wish, ordered_range, passing, pins};
+use crate::complex::{Complex, length};
 use coupler_curves::geometry::{Point, trig};
 use coupler_curves::linkage::{DyadId, Linkage};
 use coupler_curves::measure::{Measure, MeasureSet};
@@ -16,7 +16,8 @@ use coupler_curves::solve::{SolvedCell, Solver};
 pub struct PoseAnswer {
     /// The linkage.
     pub guide: Guide,
-    /// The crank pin, and the pin of the rocker or slider, at each pose as it is passed.
+    /// The crank pin, and the pin of the rocker or slider, or the foot of the perpendicular from the block's pivot to the coupler's line, at each
+    /// pose as it is passed.
     pub pins: Vec<[Point; 2]>,
     /// The angle from the x-axis to the crank at each pose in degrees, continuous along the motion.
     pub inputs_deg: Vec<f64>,
@@ -25,13 +26,13 @@ pub struct PoseAnswer {
     pub errors: Vec<PoseDeviation>,
     /// The number of the circuit at the first pose, from 1, among those of [`Guide::template`].
     pub circuit: usize,
-    /// The branch at the first pose: 1 left or ahead, -1 right or behind.
+    /// The branch at the first pose: 1 left or ahead, -1 right or behind; of an inverted slider-crank, that of the foot from the block's pivot towards the crank pin.
     pub branch: i8,
     /// Whether all poses are on one branch of one circuit.
     pub on_one_branch: bool,
     /// Whether the poses are passed in their order.
     pub in_order: bool,
-    /// The class of a four-bar; empty for a slider-crank.
+    /// The class of a four-bar; empty for the others.
     pub class: &'static str,
     /// Whether the crank turns fully.
     pub is_full_turn: bool,
@@ -116,7 +117,10 @@ impl PoseAnswer {
             }
             _ => at.input,
         };
-        let to_body = Guide::coupler_of_body(crank, follower, &passed[0]);
+        // From the direction of the second pin from that of the crank, which a slot reverses on its other branch.
+        let [a, b] = pins(crank, follower, 0);
+        let to_body = (b - a) * passed[0].direction.conj() / length(b - a);
+        let is_reversed = |at: &Located| guide.form() == Form::InvertedSliderCrank && at.branch != first.branch;
         Ok(PoseAnswer {
             inputs_deg: located.iter().map(turned).collect(),
             pins: located.iter().map(|at| [at.points[0], at.points[1]]).collect(),
@@ -126,6 +130,7 @@ impl PoseAnswer {
                 .map(|(at, pose)| {
                     let [a, b, m] = at.points;
                     let direction = Complex::new(b.x - a.x, b.y - a.y) * to_body.conj();
+                    let direction = if is_reversed(at) { -direction } else { direction };
                     let turned = trig::degrees(trig::atan2(direction.im, direction.re)) - pose.angle_deg;
                     let away = m - pose.point;
                     PoseDeviation {
@@ -201,7 +206,8 @@ impl Candidate<'_> {
         let joints = ["O", "A", "B", "M"].map(|name| linkage.find_joint(name));
         let [Some(pivot), Some(crank_pin), Some(other_pin), Some(point)] = joints else { return None };
         let locate = |k: usize| {
-            let own = [self.crank.pins[k], self.follower.pins[k], self.passed[k].point].map(|z| self.set.place(z));
+            let [a, b] = pins(self.crank, self.follower, k);
+            let own = [a, b, self.passed[k].point].map(|z| self.set.place(z));
             let mut best: Option<(f64, Located)> = None;
             for (number, circuit) in (1..).zip(&circuits) {
                 for pass in &circuit.passes {

@@ -50,13 +50,14 @@ impl CentreCurve {
 
     /// The slider of the poses, whose pivot is where the curve is at infinity.
     pub fn slider(&self) -> Option<Dyad> {
-        let at = |x: f64, y: f64| self.determinant(&[Vector3::new(x, y, 0.0)]).1;
-        // At infinity the cubic is (x² + y²)(αx + βy).
-        let [alpha, beta] = [at(1.0, 0.0), at(0.0, 1.0)];
-        let pivot = Vector3::new(beta, -alpha, 0.0);
-        let norm = pivot.norm();
-        let pivot = (norm > ZERO).then(|| pivot / norm)?;
-        Dyad::from_homogeneous(&pivot, &self.forms.pin(&pivot)?)
+        let [pivot, pin] = at_infinity(&self.forms)?;
+        Dyad::from_homogeneous(&pivot, &pin)
+    }
+
+    /// The slot of the poses, whose line is where the curve of the pins, the circle-point curve, is at infinity.
+    pub fn slot(&self) -> Option<Dyad> {
+        let [pin, pivot] = at_infinity(&self.forms.exchanged())?;
+        Dyad::from_homogeneous(&pivot, &pin)
     }
 
     /// A dyad at `above` / `below` from the pole.
@@ -66,12 +67,6 @@ impl CentreCurve {
         let norm = pivot.norm();
         let pivot = (norm > f64::MIN_POSITIVE && norm.is_finite()).then(|| pivot / norm)?;
         Dyad::from_homogeneous(&pivot, &self.forms.pin(&pivot)?)
-    }
-
-    fn determinant(&self, at: &[Vector3<f64>]) -> (Vec<Vector3<f64>>, f64) {
-        let rows = self.forms.rows(&at[0]);
-        let determinant = Matrix3::from_columns(&[rows[0], rows[1], rows[2]]).determinant();
-        (rows, determinant)
     }
 
     /// The coefficients of the determinant by the distance from the pole in a direction, from that of power 0, which is zero.
@@ -86,6 +81,21 @@ impl CentreCurve {
         }
         coefficients
     }
+}
+
+/// Where the determinant of three forms is zero at infinity, and the pin there.
+fn at_infinity(forms: &Forms) -> Option<[Vector3<f64>; 2]> {
+    let at = |x: f64, y: f64| determinant(forms, &Vector3::new(x, y, 0.0));
+    // At infinity the cubic is (x² + y²)(αx + βy).
+    let [alpha, beta] = [at(1.0, 0.0), at(0.0, 1.0)];
+    let pivot = Vector3::new(beta, -alpha, 0.0);
+    let norm = pivot.norm();
+    let pivot = (norm > ZERO).then(|| pivot / norm)?;
+    Some([pivot, forms.pin(&pivot)?])
+}
+
+fn determinant(forms: &Forms, pivot: &Vector3<f64>) -> f64 {
+    Matrix3::from_columns(&forms.rows(pivot)).determinant()
 }
 
 #[cfg(test)]
@@ -103,10 +113,7 @@ mod tests {
             for k in 0..90 {
                 for dyad in curve.dyads(f64::from(k) * 0.035).into_iter().flatten() {
                     // Far pivots and pins have as many digits less.
-                    let extent = match dyad {
-                        Dyad::Revolute { pivot, pin } => 1.0 + length(pivot) + length(pin),
-                        Dyad::Slider { pin, .. } => 1.0 + length(pin),
-                    };
+                    let extent = 1.0 + dyad.pivot().map_or(0.0, length) + dyad.pin().map_or(0.0, length);
                     assert!(dyad.error(placed) < 1e-9 * extent * extent * extent, "{seed}: {dyad:?}");
                 }
             }
@@ -115,12 +122,14 @@ mod tests {
                 let found = curve.dyads(coupler_curves::geometry::trig::atan2(along.im, along.re));
                 let is_own = |dyad: &Dyad| match dyad {
                     Dyad::Revolute { pivot: g, pin: w } => length(g - pivot) < 1e-7 && length(w - pin) < 1e-6,
-                    Dyad::Slider { .. } => false,
+                    Dyad::Slider { .. } | Dyad::Slot { .. } => false,
                 };
                 assert!(found.iter().flatten().any(is_own), "{seed}: {pivot} {pin} among {found:?}");
             }
-            let slider = curve.slider().unwrap();
-            assert!(slider.error(placed) < 1e-9 * (1.0 + length(slider.pin())), "{seed}");
+            for dyad in [curve.slider().unwrap(), curve.slot().unwrap()] {
+                let extent = 1.0 + dyad.pivot().or(dyad.pin()).map_or(0.0, length);
+                assert!(dyad.error(placed) < 1e-9 * extent, "{seed}: {dyad:?}");
+            }
         }
     }
 
@@ -132,7 +141,7 @@ mod tests {
         for k in 0..4 {
             for m in 0..k {
                 let pole = pole([&placed[k], &placed[m]]).unwrap();
-                let (_, determinant) = curve.determinant(&[Vector3::new(pole.re, pole.im, 1.0).normalize()]);
+                let determinant = determinant(&curve.forms, &Vector3::new(pole.re, pole.im, 1.0).normalize());
                 assert!(determinant.abs() < 1e-13, "{k} {m}: {determinant}");
             }
         }

@@ -1,16 +1,15 @@
-//! A condition on four-bars and slider-cranks.
+//! A condition on four-bars, slider-cranks and inverted slider-cranks.
 
-use super::guide::{Guide, PlacedSliderCrank};
+use super::guide::{Form, Guide};
 use crate::condition::Condition;
-use crate::four_bar::mechanism::Mechanism;
 use coupler_curves::expression::{self, CompiledExpression};
 use coupler_curves::template::Template;
 
 /// A condition in the language of `where`. It leaves out linkages that do not have its names.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PoseCondition {
-    four_bar: Option<OwnCondition>,
-    slider_crank: Option<OwnCondition>,
+    /// Of each form, where it has a meaning.
+    of_forms: [Option<OwnCondition>; Form::ALL.len()],
 }
 
 /// A condition on linkages of one kind.
@@ -39,22 +38,21 @@ impl OwnCondition {
 }
 
 impl PoseCondition {
-    /// Compiles a condition over the parameters of four-bars or of slider-cranks, and the measures.
+    /// Compiles a condition over the parameters of four-bars, of slider-cranks or of inverted ones, and the measures.
     ///
     /// # Errors
-    /// It is not a condition over the names of either; the error is that of four-bars.
+    /// It is not a condition over the names of any; the error is that of four-bars.
     pub fn new(text: &str) -> Result<PoseCondition, expression::Error> {
-        let slider_crank = OwnCondition::new(&PlacedSliderCrank::template(), text).ok();
-        match OwnCondition::new(&Mechanism::template(), text) {
-            Ok(four_bar) => Ok(PoseCondition { four_bar: Some(four_bar), slider_crank }),
-            Err(error) if slider_crank.is_none() => Err(error),
-            Err(_) => Ok(PoseCondition { four_bar: None, slider_crank }),
+        let compiled = Form::ALL.map(|form| OwnCondition::new(&form.template(), text));
+        match compiled {
+            [Err(error), Err(_), Err(_)] => Err(error),
+            compiled => Ok(PoseCondition { of_forms: compiled.map(Result::ok) }),
         }
     }
 
-    /// Whether it has a meaning for slider-cranks, or else for four-bars.
-    pub(super) fn is_of(&self, is_slider_crank: bool) -> bool {
-        if is_slider_crank { self.slider_crank.is_some() } else { self.four_bar.is_some() }
+    /// Whether it has a meaning for the linkages of a form.
+    pub(super) fn is_of(&self, form: Form) -> bool {
+        self.of_forms[form as usize].is_some()
     }
 
     /// The condition on a linkage; `None` if it has other names.
@@ -70,10 +68,7 @@ impl PoseCondition {
     }
 
     fn own(&self, guide: &Guide) -> Option<&OwnCondition> {
-        match guide {
-            Guide::FourBar(_) => self.four_bar.as_ref(),
-            Guide::SliderCrank(_) => self.slider_crank.as_ref(),
-        }
+        self.of_forms[guide.form() as usize].as_ref()
     }
 }
 
@@ -95,10 +90,11 @@ mod tests {
             ("frame > 5 and mu_worst_deg > 0", false),
             ("frame > 5 or mu_worst_deg > 0", true),
             ("offset > 0", false),
+            ("frame > offset", false),
             ("across == 1 and turn == 0 and along > x", true),
         ] {
             assert_eq!(PoseCondition::new(text).unwrap().admits(&guide), expected, "{text}");
         }
-        assert!(PoseCondition::new("frame > offset").is_err());
+        assert!(PoseCondition::new("rocker > offset").is_err());
     }
 }

@@ -19,18 +19,13 @@ pub fn burmester_curves(set: &PoseSet) -> Option<[Vec<Vec<Point>>; 2]> {
     let points = |side: usize, of: fn(&Dyad) -> Option<Complex>| {
         on_lines.iter().map(move |dyads| dyads[side].as_ref().and_then(of)).collect::<Vec<_>>()
     };
-    let pivot = |dyad: &Dyad| match dyad {
-        Dyad::Revolute { pivot, .. } => Some(*pivot),
-        Dyad::Slider { .. } => None,
-    };
-    let pin = |dyad: &Dyad| Some(dyad.pin());
     let lines = |of: fn(&Dyad) -> Option<Complex>| {
         (0..2)
             .flat_map(|side| polylines(&points(side, of)))
             .map(|line| line.into_iter().map(|z| set.place(z)).collect())
             .collect()
     };
-    Some([lines(pivot), lines(pin)])
+    Some([lines(Dyad::pivot), lines(Dyad::pin)])
 }
 
 /// All real dyads of five poses, at most four; none of another number of poses.

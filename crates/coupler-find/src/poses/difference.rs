@@ -10,9 +10,9 @@ pub(super) fn joints(set: &PoseSet, answer: &PoseAnswer) -> Vec<Complex> {
     points.map(|p| set.relative(p)).collect()
 }
 
-/// Whether two answers have different joints.
+/// Whether two answers are of different forms, or have different joints.
 pub(super) fn are_different(set: &PoseSet, a: &PoseAnswer, b: &PoseAnswer) -> bool {
-    are_apart(&joints(set, a), &joints(set, b))
+    a.guide.form() != b.guide.form() || are_apart(&joints(set, a), &joints(set, b))
 }
 
 /// Whether joints of linkages are not all near each other, also if the crank of one is the rocker of the other.

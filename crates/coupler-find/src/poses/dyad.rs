@@ -1,8 +1,10 @@
-//! Dyads that guide a body through poses: a pin of the body at a constant distance from a pivot, or on a straight line.
+//! Dyads that guide a body through poses: a pin of the body at a constant distance from a pivot, or on a straight line, or a line of the body
+//! at a constant distance from a pivot.
 //!
 //! With the pin W in the first pose, in pose k at W_k = a_k W + d_k, and the pivot G, the distances are equal if
 //! |d|²/2 + (conj(a) d) · W - G · d - G · ((a - 1) W) = 0 for each further pose (McCarthy and Soh, Geometric Design of Linkages, chapter 5): a form that is
-//! linear in G and in W. In homogeneous coordinates a pivot at infinity is the normal of a line on which the pin moves.
+//! linear in G and in W. In homogeneous coordinates a pivot at infinity is the normal of a line on which the pin moves, and a pin at infinity that of
+//! a line of the body which slides through a block that turns about the pivot: the same with the body and the frame exchanged.
 
 use super::body::Placed;
 use crate::complex::{Complex, length};
@@ -24,6 +26,13 @@ pub(crate) enum Dyad {
         normal: Complex,
         /// The pin in the first pose.
         pin: Complex,
+    },
+    /// A straight slot of the body, or a bar, that slides on a block which turns about a pivot.
+    Slot {
+        /// The pivot.
+        pivot: Complex,
+        /// The normal of the slot's line in the first pose, of length 1.
+        normal: Complex,
     },
 }
 
@@ -76,6 +85,11 @@ impl Forms {
         Forms(found)
     }
 
+    /// The same with the pivot in place of the pin, and the pin in place of the pivot.
+    pub fn exchanged(&self) -> Forms {
+        Forms(self.0.iter().map(Matrix3::transpose).collect())
+    }
+
     /// The forms as matrices, the pivot on their left.
     pub fn matrices(&self) -> &[Matrix3<f64>] {
         &self.0
@@ -105,43 +119,75 @@ impl Forms {
 }
 
 impl Dyad {
-    /// The dyad of a pivot and a pin in homogeneous coordinates; `None` if the pin is at infinity, or on the pivot.
+    /// The dyad of a pivot and a pin in homogeneous coordinates; `None` if both are at infinity, or at one place.
     pub fn from_homogeneous(pivot: &Vector3<f64>, pin: &Vector3<f64>) -> Option<Dyad> {
         /// A link shorter than this, in sizes of the poses, is none: the pole of two poses satisfies the equations of both.
         const SHORTEST: f64 = 1e-6;
+        let place = |v: Vector3<f64>| (v.z.abs() > AT_INFINITY).then(|| Complex::new(v.x / v.z, v.y / v.z));
+        let direction = |v: Vector3<f64>| {
+            let direction = Complex::new(v.x, v.y);
+            direction / length(direction)
+        };
         let [g, w] = [pivot.normalize(), pin.normalize()];
-        if w.z.abs() <= AT_INFINITY {
-            return None;
+        match (place(g), place(w)) {
+            (Some(pivot), Some(pin)) => (length(pin - pivot) > SHORTEST).then_some(Dyad::Revolute { pivot, pin }),
+            (None, Some(pin)) => Some(Dyad::Slider { normal: direction(g), pin }),
+            (Some(pivot), None) => Some(Dyad::Slot { pivot, normal: direction(w) }),
+            (None, None) => None,
         }
-        let pin = Complex::new(w.x / w.z, w.y / w.z);
-        if g.z.abs() <= AT_INFINITY {
-            let normal = Complex::new(g.x, g.y);
-            return Some(Dyad::Slider { normal: normal / length(normal), pin });
-        }
-        let pivot = Complex::new(g.x / g.z, g.y / g.z);
-        (length(pin - pivot) > SHORTEST).then_some(Dyad::Revolute { pivot, pin })
     }
 
-    /// The pin in the first pose.
-    pub fn pin(&self) -> Complex {
-        let (Dyad::Revolute { pin, .. } | Dyad::Slider { pin, .. }) = self;
-        *pin
+    /// The pivot and the pin in homogeneous coordinates, of length 1.
+    pub fn homogeneous(&self) -> [Vector3<f64>; 2] {
+        let place = |z: Complex| Vector3::new(z.re, z.im, 1.0).normalize();
+        let direction = |z: Complex| Vector3::new(z.re, z.im, 0.0);
+        match *self {
+            Dyad::Revolute { pivot, pin } => [place(pivot), place(pin)],
+            Dyad::Slider { normal, pin } => [direction(normal), place(pin)],
+            Dyad::Slot { pivot, normal } => [place(pivot), direction(normal)],
+        }
     }
 
-    /// Where the pin is in some poses.
+    /// The fixed pivot; `None` of a slider.
+    pub fn pivot(&self) -> Option<Complex> {
+        match *self {
+            Dyad::Revolute { pivot, .. } | Dyad::Slot { pivot, .. } => Some(pivot),
+            Dyad::Slider { .. } => None,
+        }
+    }
+
+    /// The pin in the first pose; `None` of a slot.
+    pub fn pin(&self) -> Option<Complex> {
+        match *self {
+            Dyad::Revolute { pin, .. } | Dyad::Slider { pin, .. } => Some(pin),
+            Dyad::Slot { .. } => None,
+        }
+    }
+
+    /// Where the pin is in some poses; of a slot, the normals of its line.
     pub fn pins(&self, placed: &[Placed]) -> Vec<Complex> {
-        let of_body = placed[0].of_body(self.pin());
-        placed.iter().map(|pose| pose.apply(of_body)).collect()
+        let first = &placed[0];
+        match *self {
+            Dyad::Revolute { pin, .. } | Dyad::Slider { pin, .. } => {
+                let of_body = first.of_body(pin);
+                placed.iter().map(|pose| pose.apply(of_body)).collect()
+            }
+            Dyad::Slot { normal, .. } => {
+                placed.iter().map(|pose| normal * pose.direction * first.direction.conj()).collect()
+            }
+        }
     }
 
     #[cfg(test)]
-    /// The greatest difference of the pin's distance from its pivot or line from that in the first pose.
+    /// The greatest difference of the pin's distance from its pivot or line, or of the pivot's from the slot, from that in the first pose.
     pub fn error(&self, placed: &[Placed]) -> f64 {
-        let distance = |pin: &Complex| match self {
+        let distance = |(pin, pose): (&Complex, &Placed)| match self {
             Dyad::Revolute { pivot, .. } => length(pin - pivot),
             Dyad::Slider { normal, .. } => (pin * normal.conj()).re,
+            Dyad::Slot { pivot, .. } => ((pivot - pose.point) * pin.conj()).re,
         };
         let pins = self.pins(placed);
-        pins.iter().map(|pin| (distance(pin) - distance(&pins[0])).abs()).fold(0.0, f64::max)
+        let distances: Vec<f64> = pins.iter().zip(placed).map(distance).collect();
+        distances.iter().map(|other| (other - distances[0]).abs()).fold(0.0, f64::max)
     }
 }

@@ -4,7 +4,7 @@ use super::body::{Placed, PoseSet};
 use super::centre_curve::CentreCurve;
 use super::dyad::{Dyad, Forms};
 use super::five;
-use crate::complex::{Complex, unit};
+use crate::complex::{Complex, times_i, unit};
 use crate::even_sequence::EvenSequence;
 use coupler_curves::geometry::{Bounds, Point};
 use nalgebra::Vector3;
@@ -69,13 +69,18 @@ enum Kind {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct DyadPlace {
     pub coordinates: [f64; 3],
-    /// The number of a dyad of finitely many, or one of the two on a line, or 1 for a slider among those of pivots, from [`FIRST_GIVEN`] on those
-    /// of given pivots.
+    /// The number of a dyad of finitely many, or one of the two on a line, [`SLIDER`], [`SLOT`], or from [`FIRST_GIVEN`] on those of given pivots.
     pub number: usize,
 }
 
+/// The number of sliders.
+const SLIDER: usize = 2;
+
+/// The number of slots.
+const SLOT: usize = 3;
+
 /// The number of the dyads of the first given pivot, among those of any pivot.
-const FIRST_GIVEN: usize = 2;
+const FIRST_GIVEN: usize = 4;
 
 /// How far from the middle of the poses pivots and pins are without a box, in sizes of the poses: half of them in the inner sixth, for those that are near
 /// make smaller linkages.
@@ -120,8 +125,8 @@ impl DyadSpace {
 
     /// Places all over the space: all of finitely many dyads, and of others about as many as asked for.
     pub fn places(&self, count: usize) -> Vec<DyadPlace> {
-        /// Of how many samples one is a slider, whose lines have one coordinate less.
-        const SLIDERS: usize = 8;
+        /// Of how many samples one is a slider and one a slot, whose lines have one coordinate less.
+        const LINES: usize = 8;
         match &self.kind {
             Kind::Points(dyads) => (0..dyads.len()).map(|number| DyadPlace { coordinates: [0.0; 3], number }).collect(),
             Kind::Curve(_) => {
@@ -129,15 +134,20 @@ impl DyadSpace {
                     let angle = (k as f64 + 0.5) / (count / 2).max(1) as f64;
                     [0, 1].map(|number| DyadPlace { coordinates: [angle, 0.0, 0.0], number })
                 };
-                let slider = DyadPlace { coordinates: [0.0; 3], number: 2 };
-                (0..count / 2).flat_map(on_line).chain([slider]).collect()
+                let at_infinity = [SLIDER, SLOT].map(|number| DyadPlace { coordinates: [0.0; 3], number });
+                (0..count / 2).flat_map(on_line).chain(at_infinity).collect()
             }
             Kind::Plane | Kind::Space => {
                 let sequence = EvenSequence::new(self.dimension());
                 let place = |k: usize| {
                     let part = sequence.parts(k);
                     let coordinates = [0, 1, 2].map(|c| if c < self.dimension() { part(c) } else { 0.0 });
-                    DyadPlace { coordinates, number: usize::from(k % SLIDERS == SLIDERS - 1) }
+                    let number = match k % LINES {
+                        3 => SLOT,
+                        7 => SLIDER,
+                        _ => 0,
+                    };
+                    DyadPlace { coordinates, number }
                 };
                 // Two given pivots leave no other.
                 let others = if self.given.len() < 2 { (0..count).map(place).collect() } else { Vec::new() };
@@ -146,13 +156,13 @@ impl DyadSpace {
         }
     }
 
-    /// The places of the dyads of given pivots: of three poses one for each, of two a line of pins.
+    /// The places of the dyads of given pivots: of three poses one for each, of two a line of pins, and the slot that is its end.
     fn given_places(&self, count: usize) -> Vec<DyadPlace> {
         /// The most pins of a pivot: every pair of two pivots is tried.
         const MOST: usize = 500;
         let pins = if self.freedom() == Freedom::Space { count.min(MOST) } else { 1 };
         let pin = |number: usize, k: usize| {
-            let part = (k as f64 + 0.5) / pins as f64;
+            let part = (k as f64 + 0.5) / (pins as f64 - 0.5);
             DyadPlace { coordinates: [part, 0.0, 0.0], number: FIRST_GIVEN + number }
         };
         (0..self.given.len()).flat_map(|number| (0..pins).map(move |k| pin(number, k))).collect()
@@ -175,11 +185,24 @@ impl DyadSpace {
     /// The dyad of a given pivot, which is exactly there.
     fn at_given(&self, pivot: Complex, part: f64) -> Option<Dyad> {
         let homogeneous = Vector3::new(pivot.re, pivot.im, 1.0).normalize();
-        let dyad = match self.kind {
-            Kind::Space => self.on_line(&homogeneous, part)?,
-            _ => Dyad::from_homogeneous(&homogeneous, &self.forms.pin(&homogeneous)?)?,
+        let pin = match self.kind {
+            Kind::Space => on_line(&self.forms, &homogeneous, part)?,
+            _ => self.forms.pin(&homogeneous)?,
         };
-        Some(Dyad::Revolute { pivot, pin: dyad.pin() })
+        Some(match Dyad::from_homogeneous(&homogeneous, &pin)? {
+            Dyad::Slot { normal, .. } => Dyad::Slot { pivot, normal },
+            Dyad::Revolute { pin, .. } | Dyad::Slider { pin, .. } => Dyad::Revolute { pivot, pin },
+        })
+    }
+
+    /// The slot whose line has a normal at the first pose.
+    fn slot(&self, [u, v]: [f64; 2]) -> Option<Dyad> {
+        let (forms, normal) = (self.forms.exchanged(), normal(u));
+        let pivot = match self.kind {
+            Kind::Space => on_line(&forms, &normal, v)?,
+            _ => forms.pin(&normal)?,
+        };
+        Dyad::from_homogeneous(&pivot, &normal)
     }
 
     /// The dyad at a place; `None` if there is none, or its pivot is beyond the box, where they are not finitely many.
@@ -187,15 +210,19 @@ impl DyadSpace {
         let DyadPlace { coordinates: [u, v, w], number } = *place;
         let dyad = match (&self.kind, number) {
             (Kind::Points(dyads), _) => *dyads.get(number)?,
-            (Kind::Curve(curve), 2) => curve.slider()?,
+            (Kind::Curve(curve), SLIDER) => curve.slider()?,
+            (Kind::Curve(curve), SLOT) => curve.slot()?,
             (Kind::Curve(curve), _) => curve.dyads(std::f64::consts::PI * u)[number]?,
-            (Kind::Plane | Kind::Space, FIRST_GIVEN..) => self.at_given(*self.given.get(number - FIRST_GIVEN)?, u)?,
+            (_, FIRST_GIVEN..) => self.at_given(*self.given.get(number - FIRST_GIVEN)?, u)?,
+            (_, SLOT) => self.slot([u, v])?,
             (Kind::Plane, _) => {
                 let pivot = self.pivot(number, [u, v]);
                 Dyad::from_homogeneous(&pivot, &self.forms.pin(&pivot)?)?
             }
-            (Kind::Space, 0) => self.on_line(&self.pivot(0, [u, v]), w)?,
-            (Kind::Space, _) => self.on_line(&self.pivot(1, [u, 0.0]), v)?,
+            (Kind::Space, _) => {
+                let (pivot, part) = if number == SLIDER { (normal(u), v) } else { (self.pivot(number, [u, v]), w) };
+                Dyad::from_homogeneous(&pivot, &on_line(&self.forms, &pivot, part)?)?
+            }
         };
         let is_finite = matches!(self.kind, Kind::Points(_));
         (is_finite || self.contains(&dyad) && self.is_exact(&dyad)).then_some(dyad)
@@ -203,52 +230,52 @@ impl DyadSpace {
 
     /// Whether the pivot of a dyad is in the box that is asked for.
     pub fn contains(&self, dyad: &Dyad) -> bool {
-        let Dyad::Revolute { pivot, .. } = dyad else { return true };
-        self.given.contains(pivot)
+        let Some(pivot) = dyad.pivot() else { return true };
+        self.given.contains(&pivot)
             || self.pivots.is_none_or(|[low, high]| {
                 (low.re..=high.re).contains(&pivot.re) && (low.im..=high.im).contains(&pivot.im)
             })
     }
 
-    /// A pivot in the box, or the normal of a line.
+    /// A pivot in the box, or the normal of a slider's line.
     fn pivot(&self, number: usize, [u, v]: [f64; 2]) -> Vector3<f64> {
-        match (number, self.pivots) {
-            (0, Some([low, high])) => {
+        match self.pivots {
+            _ if number == SLIDER => normal(u),
+            Some([low, high]) => {
                 Vector3::new(low.re + u * (high.re - low.re), low.im + v * (high.im - low.im), 1.0).normalize()
             }
-            (0, None) => Vector3::new(reach(u), reach(v), 1.0).normalize(),
-            _ => {
-                let normal = unit(std::f64::consts::PI * u);
-                Vector3::new(normal.re, normal.im, 0.0)
-            }
+            None => Vector3::new(reach(u), reach(v), 1.0).normalize(),
         }
-    }
-
-    /// A pin on the line that the equation of two poses leaves for a pivot.
-    fn on_line(&self, pivot: &Vector3<f64>, part: f64) -> Option<Dyad> {
-        let row = self.forms.rows(pivot).first().copied()?;
-        let normal = Complex::new(row.x, row.y);
-        let square = normal.norm_sqr();
-        // The poses differ by a translation: there is no such line, or every pin is possible.
-        if square <= 1e-20 * row.norm_squared() {
-            return None;
-        }
-        let foot = normal * (-row.z / square);
-        let along = Complex::new(-normal.im, normal.re) / square.sqrt();
-        let pin = foot + along * reach(part);
-        Dyad::from_homogeneous(pivot, &Vector3::new(pin.re, pin.im, 1.0))
     }
 
     /// Whether a dyad satisfies the equations of all poses, also of those that did not determine it.
     fn is_exact(&self, dyad: &Dyad) -> bool {
         /// The forms and the vectors have the size 1: of a double zero half of the digits are left.
         const MOST: f64 = 1e-10;
-        let pin = dyad.pin();
-        let pin = Vector3::new(pin.re, pin.im, 1.0).normalize();
-        let pivot = match dyad {
-            Dyad::Revolute { pivot, .. } => Vector3::new(pivot.re, pivot.im, 1.0).normalize(),
-            Dyad::Slider { normal, .. } => Vector3::new(normal.re, normal.im, 0.0),
-        };
+        let [pivot, pin] = dyad.homogeneous();
         self.forms.residual(&pivot, &pin) <= MOST
     }
+}
+
+/// The normal of a line, as a point at infinity.
+fn normal(part: f64) -> Vector3<f64> {
+    let normal = unit(std::f64::consts::PI * part);
+    Vector3::new(normal.re, normal.im, 0.0)
+}
+
+/// A pin on the line that the equation of two poses leaves for a pivot; of the part 1 where it is at infinity.
+fn on_line(forms: &Forms, pivot: &Vector3<f64>, part: f64) -> Option<Vector3<f64>> {
+    let row = forms.rows(pivot).first().copied()?;
+    let normal = Complex::new(row.x, row.y);
+    let square = normal.norm_sqr();
+    // The poses differ by a translation: there is no such line, or every pin is possible.
+    if square <= 1e-20 * row.norm_squared() {
+        return None;
+    }
+    let along = times_i(normal) / square.sqrt();
+    if part >= 1.0 {
+        return Some(Vector3::new(along.re, along.im, 0.0));
+    }
+    let pin = normal * (-row.z / square) + along * reach(part);
+    Some(Vector3::new(pin.re, pin.im, 1.0))
 }

@@ -8,6 +8,7 @@ use super::condition::PoseCondition;
 use super::dyad::Dyad;
 use super::dyad_space::Freedom;
 use super::pair::{Misfit, Wish};
+use crate::complex::Complex;
 use crate::options::{Effort, Options};
 use coupler_curves::geometry::{Bounds, Point, trig};
 
@@ -60,10 +61,10 @@ impl Default for PoseOptions {
 pub struct PlacedDyad {
     /// The fixed pivot; `None` for a slider.
     pub pivot: Option<Point>,
-    /// The direction of a slider's line in degrees, 0 to 180.
+    /// The direction of a slider's line, or of a slot's at the first pose, in degrees, 0 to 180.
     pub line_deg: Option<f64>,
-    /// The pin at the first pose.
-    pub pin: Point,
+    /// The pin at the first pose; `None` for a slot.
+    pub pin: Option<Point>,
 }
 
 /// What has been found for some poses.
@@ -102,12 +103,12 @@ pub(super) fn wish(options: &PoseOptions) -> Wish {
 
 /// A dyad in the plane of the poses.
 pub(super) fn placed_dyad(set: &PoseSet, dyad: &Dyad) -> PlacedDyad {
-    let pin = set.place(dyad.pin());
-    match dyad {
-        Dyad::Revolute { pivot, .. } => PlacedDyad { pivot: Some(set.place(*pivot)), line_deg: None, pin },
-        Dyad::Slider { normal, .. } => {
-            let turn = trig::degrees(trig::atan2(normal.re, -normal.im)).rem_euclid(180.0);
-            PlacedDyad { pivot: None, line_deg: Some(turn), pin }
+    let line_deg = match dyad {
+        Dyad::Slider { normal, .. } | Dyad::Slot { normal, .. } => {
+            Some(trig::degrees(trig::atan2(normal.re, -normal.im)).rem_euclid(180.0))
         }
-    }
+        Dyad::Revolute { .. } => None,
+    };
+    let place = |z: Option<Complex>| z.map(|z| set.place(z));
+    PlacedDyad { pivot: place(dyad.pivot()), line_deg, pin: place(dyad.pin()) }
 }

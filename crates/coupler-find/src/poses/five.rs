@@ -70,7 +70,7 @@ fn shifts(null: &DMatrix<f64>) -> [DMatrix<f64>; 3] {
     })
 }
 
-/// All real dyads of five poses, sliders among them, from their independent forms; `None` if there are infinitely many, as of translations.
+/// All real dyads of five poses, sliders and slots among them, from their independent forms; `None` if there are infinitely many, as of translations.
 pub(super) fn dyads(forms: &Forms) -> Option<Vec<Dyad>> {
     if forms.matrices().len() != 4 {
         return None;
@@ -192,7 +192,7 @@ mod tests {
                 length(g - pivot) <= accuracy * (1.0 + length(pivot))
                     && length(w - pin) <= accuracy * (1.0 + length(pin))
             }
-            Dyad::Slider { .. } => false,
+            Dyad::Slider { .. } | Dyad::Slot { .. } => false,
         })
     }
 
@@ -276,7 +276,7 @@ mod tests {
             let expected = set.relative(Point::new(pivot, 0.0));
             let is_near = |dyad: &Dyad| match dyad {
                 Dyad::Revolute { pivot, .. } => length(pivot - expected) < 1e-4 * length(expected),
-                Dyad::Slider { .. } => false,
+                Dyad::Slider { .. } | Dyad::Slot { .. } => false,
             };
             assert!(found.iter().any(is_near), "{expected}: {found:?}");
         }

@@ -36,8 +36,8 @@ pub fn poses_manifest(name: &str, set: &PoseSet, answers: &[PoseAnswer]) -> Stri
 fn form_of(answer: &PoseAnswer) -> String {
     let branch = match (&answer.guide, answer.branch > 0) {
         _ if !answer.is_full_turn => "rocking",
-        (Guide::FourBar(_), true) => "left",
-        (Guide::FourBar(_), false) => "right",
+        (Guide::FourBar(_) | Guide::InvertedSliderCrank(_), true) => "left",
+        (Guide::FourBar(_) | Guide::InvertedSliderCrank(_), false) => "right",
         (Guide::SliderCrank(_), true) => "ahead",
         (Guide::SliderCrank(_), false) => "behind",
     };
@@ -55,7 +55,7 @@ fn append_family(form: &str, name: &str, set: &PoseSet, ranked: &[(usize, &PoseA
         linkage = linkage
             .replace("side = \"ahead\"", &format!("side = \"{}\"", &form[form.rfind('-').map_or(0, |at| at + 1)..]));
     }
-    let words = form.replace("four-bar-", "four-bars, ").replace("slider-crank-", "slider-cranks, ");
+    let words = form.replace(guide.name(), &format!("{}s,", guide.name())).replace(",-", ", ");
     let title = quoted(&format!("Linkages that guide a body: {name}, {words}"));
     // Writing to a string cannot fail.
     let _ = write!(

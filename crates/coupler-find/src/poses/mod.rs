@@ -1,4 +1,4 @@
-//! Linkages that guide a body through poses: four-bars and slider-cranks whose coupler is the body.
+//! Linkages that guide a body through poses: four-bars, slider-cranks and inverted slider-cranks whose coupler is the body.
 
 mod answer;
 mod body;
@@ -24,7 +24,7 @@ pub use condition::PoseCondition;
 pub use curves::{burmester_curves, burmester_dyads, poles};
 pub use dyad_space::Freedom;
 pub use findings::{PairLeftOut, PlacedDyad, PoseFindings, PoseOptions};
-pub use guide::{Guide, PlacedSliderCrank};
+pub use guide::{Guide, PlacedInvertedSliderCrank, PlacedSliderCrank};
 pub use manifest::poses_manifest;
 pub use near::nearest_guides;
 pub use pair::Misfit;

@@ -38,8 +38,8 @@ pub fn nearest_guides(set: &PoseSet, options: &PoseOptions, workers: &impl Worke
     let mut pairs: Vec<(f64, [NearDyad; 2])> = Vec::new();
     for (k, (error, a)) in dyads.iter().enumerate() {
         for (other_error, b) in &dyads[..k] {
-            let are_sliders = [a, b].iter().all(|near| matches!(near.dyad, FreeDyad::Slider { .. }));
-            if !are_sliders {
+            let has_link = [a, b].iter().any(|near| matches!(near.dyad, FreeDyad::Revolute { .. }));
+            if has_link {
                 pairs.push((error + other_error, [a.clone(), b.clone()]));
             }
         }
@@ -93,12 +93,17 @@ fn near_dyads(few: &[Placed], options: &PoseOptions, workers: &impl Workers) -> 
     const FAR: f64 = 1e3;
     let aim = PoseAim { placed: few, angle_length: ANGLE_LENGTH };
     let forms = Forms::new(few);
+    let exchanged = forms.exchanged();
     let sequence = EvenSequence::new(2);
     let sample = |k: usize| {
         let part = sequence.parts(k);
+        let normal = unit(std::f64::consts::PI * part(0));
+        let normal = Vector3::new(normal.re, normal.im, 0.0);
+        if k % 6 == 4 {
+            return Dyad::from_homogeneous(&nearest_pin(&exchanged, &normal)?, &normal);
+        }
         let pivot = if k % 6 == 5 {
-            let normal = unit(std::f64::consts::PI * part(0));
-            Vector3::new(normal.re, normal.im, 0.0)
+            normal
         } else {
             Vector3::new(REACH * (2.0 * part(0) - 1.0), REACH * (2.0 * part(1) - 1.0), 1.0).normalize()
         };
@@ -143,6 +148,9 @@ fn are_apart(a: &FreeDyad, b: &FreeDyad, first: &Placed, apart: f64) -> bool {
         [Dyad::Slider { normal: n, pin: w }, Dyad::Slider { normal: m, pin: v }] => {
             length(n - m).min(length(n + m)).max(length(w - v)) > apart
         }
+        [Dyad::Slot { pivot: g, normal: n }, Dyad::Slot { pivot: h, normal: m }] => {
+            length(n - m).min(length(n + m)).max(length(g - h)) > apart
+        }
         _ => true,
     }
 }
@@ -174,11 +182,12 @@ fn of_five(few: &[Placed]) -> Vec<Dyad> {
         let five = five?;
         let dyads = five::dyads(&Forms::new(&five).independent())?;
         // Their pins are given in the first of the five poses.
-        let to_first = |dyad: &Dyad| {
-            let pin = few[0].apply(five[0].of_body(dyad.pin()));
-            match *dyad {
-                Dyad::Revolute { pivot, .. } => Dyad::Revolute { pivot, pin },
-                Dyad::Slider { normal, .. } => Dyad::Slider { normal, pin },
+        let of_first = |pin: Complex| few[0].apply(five[0].of_body(pin));
+        let to_first = |dyad: &Dyad| match *dyad {
+            Dyad::Revolute { pivot, pin } => Dyad::Revolute { pivot, pin: of_first(pin) },
+            Dyad::Slider { normal, pin } => Dyad::Slider { normal, pin: of_first(pin) },
+            Dyad::Slot { pivot, normal } => {
+                Dyad::Slot { pivot, normal: normal * few[0].direction * five[0].direction.conj() }
             }
         };
         Some(dyads.iter().map(to_first).collect::<Vec<_>>())
@@ -216,10 +225,7 @@ fn solved(
             posed.reverse();
         }
         let [crank, follower] = &posed;
-        let pivots = posed.iter().filter_map(|dyad| match dyad.dyad {
-            Dyad::Revolute { pivot, .. } => Some(pivot),
-            Dyad::Slider { .. } => None,
-        });
+        let pivots = posed.iter().filter_map(|posed| posed.dyad.pivot());
         if !pivots.into_iter().all(|pivot| is_within(set, options, pivot)) {
             return Err(Misfit::TooFar);
         }

@@ -17,6 +17,9 @@ pub(super) enum FreeDyad {
     Revolute { pivot: Complex, length: f64, of_body: Complex },
     /// A slider: the angle of the normal of its line and the distance of that from the middle.
     Slider { angle: f64, distance: f64, of_body: Complex },
+    /// A slot: its pivot, the angle of the normal of its line in the body, and the distance of the pivot from the line's parallel through the body's
+    /// point.
+    Slot { pivot: Complex, angle: f64, distance: f64 },
 }
 
 /// A constraint of a dyad at a pose: its value, and its derivatives.
@@ -24,26 +27,37 @@ struct Constraint {
     value: f64,
     /// By the place and the angle of the body.
     by_pose: [f64; 3],
-    /// By the numbers of the dyad, of which a slider has one less.
+    /// By the numbers of the dyad, of which a slider and a slot have one less.
     by_dyad: [f64; 5],
 }
 
 impl FreeDyad {
     /// The dyad that has its length on the mean of the poses.
     pub fn new(dyad: &Dyad, placed: &[Placed]) -> FreeDyad {
-        let of_body = placed[0].of_body(dyad.pin());
-        let mean = |distance: &dyn Fn(Complex) -> f64| {
-            placed.iter().map(|pose| distance(pose.apply(of_body))).sum::<f64>() / placed.len() as f64
+        let pins = dyad.pins(placed);
+        let mean = |distance: &dyn Fn(Complex, &Placed) -> f64| {
+            let distances = pins.iter().zip(placed).map(|(pin, pose)| distance(*pin, pose));
+            distances.sum::<f64>() / placed.len() as f64
         };
-        match dyad {
-            Dyad::Revolute { pivot, .. } => {
-                FreeDyad::Revolute { pivot: *pivot, length: mean(&|pin| length(pin - pivot)), of_body }
-            }
-            Dyad::Slider { normal, .. } => FreeDyad::Slider {
-                angle: trig::atan2(normal.im, normal.re),
-                distance: mean(&|pin| dot(*normal, pin)),
-                of_body,
+        match *dyad {
+            Dyad::Revolute { pivot, pin } => FreeDyad::Revolute {
+                pivot,
+                length: mean(&|pin, _| length(pin - pivot)),
+                of_body: placed[0].of_body(pin),
             },
+            Dyad::Slider { normal, pin } => FreeDyad::Slider {
+                angle: trig::atan2(normal.im, normal.re),
+                distance: mean(&|pin, _| dot(normal, pin)),
+                of_body: placed[0].of_body(pin),
+            },
+            Dyad::Slot { pivot, normal } => {
+                let of_body = normal * placed[0].direction.conj();
+                FreeDyad::Slot {
+                    pivot,
+                    angle: trig::atan2(of_body.im, of_body.re),
+                    distance: mean(&|normal, pose| dot(normal, pivot - pose.point)),
+                }
+            }
         }
     }
 
@@ -52,35 +66,45 @@ impl FreeDyad {
         if matches!(self, FreeDyad::Revolute { .. }) { 5 } else { 4 }
     }
 
-    /// The dyad with the pin where it is in a pose.
+    /// The dyad with its pin, or the line of its slot, where it is in a pose.
     pub fn at(&self, first: &Placed) -> Dyad {
         match *self {
             FreeDyad::Revolute { pivot, of_body, .. } => Dyad::Revolute { pivot, pin: first.apply(of_body) },
             FreeDyad::Slider { angle, of_body, .. } => Dyad::Slider { normal: unit(angle), pin: first.apply(of_body) },
+            FreeDyad::Slot { pivot, angle, .. } => Dyad::Slot { pivot, normal: first.direction * unit(angle) },
         }
     }
 
     fn constraint(&self, pose: &Placed) -> Constraint {
-        let (FreeDyad::Revolute { of_body, .. } | FreeDyad::Slider { of_body, .. }) = *self;
-        let turned = pose.direction * of_body;
-        let pin = pose.point + turned;
         let [along, across] = [pose.direction, times_i(pose.direction)];
         match *self {
-            FreeDyad::Revolute { pivot, length: own, .. } => {
-                let distance = length(pin - pivot);
-                let u = (pin - pivot) / distance.max(f64::MIN_POSITIVE);
+            FreeDyad::Revolute { pivot, length: own, of_body } => {
+                let turned = pose.direction * of_body;
+                let arm = pose.point + turned - pivot;
+                let distance = length(arm);
+                let u = arm / distance.max(f64::MIN_POSITIVE);
                 Constraint {
                     value: distance - own,
                     by_pose: [u.re, u.im, dot(u, times_i(turned))],
                     by_dyad: [dot(u, along), dot(u, across), -1.0, -u.re, -u.im],
                 }
             }
-            FreeDyad::Slider { angle, distance, .. } => {
-                let n = unit(angle);
+            FreeDyad::Slider { angle, distance, of_body } => {
+                let turned = pose.direction * of_body;
+                let (n, pin) = (unit(angle), pose.point + turned);
                 Constraint {
                     value: dot(n, pin) - distance,
                     by_pose: [n.re, n.im, dot(n, times_i(turned))],
                     by_dyad: [dot(n, along), dot(n, across), -1.0, dot(times_i(n), pin), 0.0],
+                }
+            }
+            FreeDyad::Slot { pivot, angle, distance } => {
+                let (n, arm) = (pose.direction * unit(angle), pivot - pose.point);
+                let by_angle = dot(times_i(n), arm);
+                Constraint {
+                    value: dot(n, arm) - distance,
+                    by_pose: [-n.re, -n.im, by_angle],
+                    by_dyad: [n.re, n.im, -1.0, by_angle, 0.0],
                 }
             }
         }
@@ -88,15 +112,18 @@ impl FreeDyad {
 
     /// The dyad with its numbers changed.
     pub fn moved(&self, by: &[f64]) -> FreeDyad {
-        let to_body = Complex::new(by[0], by[1]);
+        let by_place = Complex::new(by[0], by[1]);
         match *self {
             FreeDyad::Revolute { pivot, length, of_body } => FreeDyad::Revolute {
-                of_body: of_body + to_body,
+                of_body: of_body + by_place,
                 length: length + by[2],
                 pivot: pivot + Complex::new(by[3], by[4]),
             },
             FreeDyad::Slider { angle, distance, of_body } => {
-                FreeDyad::Slider { of_body: of_body + to_body, distance: distance + by[2], angle: angle + by[3] }
+                FreeDyad::Slider { of_body: of_body + by_place, distance: distance + by[2], angle: angle + by[3] }
+            }
+            FreeDyad::Slot { pivot, angle, distance } => {
+                FreeDyad::Slot { pivot: pivot + by_place, distance: distance + by[2], angle: angle + by[3] }
             }
         }
     }

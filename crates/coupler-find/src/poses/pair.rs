@@ -1,7 +1,8 @@
 //! Two dyads as a linkage that is driven by the first: whether it passes the poses, from its closure.
 //!
 //! The cosine of the transmission angle is k0 + k1 cos β with the angle β of the crank from the frame or, if the second dyad is a
-//! slider, from the normal of its line: the linkage can be assembled where that is from -1 to 1, on one branch for each sign of its sine.
+//! slider, from the normal of its line; if it is a slot, the offset of its line over the distance of the crank pin from the block, the root of
+//! k0 + k1 cos β. The linkage can be assembled where that is from -1 to 1, on one branch for each sign of its sine.
 
 use super::body::Placed;
 use super::dyad::Dyad;
@@ -13,18 +14,19 @@ use std::f64::consts::{PI, TAU};
 #[derive(Clone, Debug)]
 pub(super) struct PosedDyad {
     pub dyad: Dyad,
-    pub pins: Vec<Complex>,
-    /// The greatest distance of its joints from each other and from the body's point.
+    /// Of a slot the normals of its line.
+    pins: Vec<Complex>,
+    /// The greatest distance of its joints from each other and from the body's point; 0 of a slot.
     pub reach: f64,
 }
 
 impl PosedDyad {
     pub fn new(dyad: Dyad, placed: &[Placed]) -> PosedDyad {
         let pins = dyad.pins(placed);
-        let to_point = length(pins[0] - placed[0].point);
         let reach = match dyad {
-            Dyad::Revolute { pivot, .. } => to_point.max(length(pins[0] - pivot)),
-            Dyad::Slider { .. } => to_point,
+            Dyad::Revolute { pivot, pin } => length(pin - placed[0].point).max(length(pin - pivot)),
+            Dyad::Slider { pin, .. } => length(pin - placed[0].point),
+            Dyad::Slot { .. } => 0.0,
         };
         PosedDyad { dyad, pins, reach }
     }
@@ -43,7 +45,7 @@ pub(super) struct Wish {
 /// Why two dyads make no linkage that passes the poses as it should.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Misfit {
-    /// The first dyad is a slider, or they have a pivot or a pin in common, so that they are no linkage.
+    /// Neither dyad is a link, or they have a pivot or a pin in common, so that they are no linkage.
     NoLinkage,
     /// A pivot is beyond the box that is asked for.
     TooFar,
@@ -104,10 +106,22 @@ pub(super) struct Passing {
     pub ranked_cosine: f64,
 }
 
+/// The two pins of a linkage in a pose: that of the crank, and that of the other dyad or, of a slot, the foot of the perpendicular from the
+/// pivot to the parallel to its line through the crank pin.
+pub(super) fn pins(crank: &PosedDyad, follower: &PosedDyad, pose: usize) -> [Complex; 2] {
+    let [a, b] = [crank, follower].map(|dyad| dyad.pins[pose]);
+    match follower.dyad {
+        Dyad::Slot { pivot, .. } => [a, pivot - b * dot(b, pivot - a)],
+        Dyad::Revolute { .. } | Dyad::Slider { .. } => [a, b],
+    }
+}
+
 /// The closure of a linkage.
 struct Closure {
     constant: f64,
     slope: f64,
+    /// Of a slot, the distance of its line from the pivot.
+    offset: Option<f64>,
     /// The direction from which the crank's angle is counted.
     from: Complex,
     pivot: Complex,
@@ -120,34 +134,48 @@ impl Closure {
     fn new(crank: &PosedDyad, follower: &PosedDyad) -> Option<Closure> {
         /// Shorter links, in sizes of the poses, are none.
         const SHORTEST: f64 = 1e-6;
-        let Dyad::Revolute { pivot, .. } = crank.dyad else { return None };
-        let [a, b] = [crank, follower].map(|dyad| dyad.pins[0]);
-        let (arm, rod) = (length(a - pivot), length(b - a));
-        if rod < SHORTEST {
-            return None;
-        }
-        match follower.dyad {
-            Dyad::Revolute { pivot: other, .. } => {
-                let (rocker, frame) = (length(b - other), length(other - pivot));
+        let Dyad::Revolute { pivot, pin: a } = crank.dyad else { return None };
+        let arm = length(a - pivot);
+        let frame = |other: Complex| Some(length(other - pivot)).filter(|frame| *frame > SHORTEST);
+        let rod = |b: Complex| Some(length(b - a)).filter(|rod| *rod >= SHORTEST);
+        Some(match follower.dyad {
+            Dyad::Revolute { pivot: other, pin: b } => {
+                let (rod, rocker, frame) = (rod(b)?, length(b - other), frame(other)?);
                 let twice = 2.0 * rod * rocker;
                 let constant = (rod * rod + rocker * rocker - frame * frame - arm * arm) / twice;
                 let slope = 2.0 * frame * arm / twice;
-                (frame > SHORTEST).then(|| Closure { constant, slope, from: (other - pivot) / frame, pivot })
+                Closure { constant, slope, offset: None, from: (other - pivot) / frame, pivot }
             }
-            Dyad::Slider { normal, .. } => {
-                Some(Closure { constant: dot(normal, pivot - b) / rod, slope: arm / rod, from: normal, pivot })
+            Dyad::Slider { normal, pin: b } => {
+                let rod = rod(b)?;
+                let constant = dot(normal, pivot - b) / rod;
+                Closure { constant, slope: arm / rod, offset: None, from: normal, pivot }
             }
+            Dyad::Slot { pivot: other, normal } => {
+                let frame = frame(other)?;
+                let (constant, slope) = (frame * frame + arm * arm, -2.0 * frame * arm);
+                let offset = Some(dot(normal, other - a).abs());
+                Closure { constant, slope, offset, from: (other - pivot) / frame, pivot }
+            }
+        })
+    }
+
+    /// The cosine of the transmission angle, which falls or rises from β = 0 to π, for that of β.
+    fn cosine(&self, of_crank: f64) -> f64 {
+        let value = self.constant + self.slope * of_crank;
+        match self.offset {
+            Some(offset) => offset / value.max(f64::MIN_POSITIVE).sqrt(),
+            None => value,
         }
     }
 
     /// Whether the crank does not reach β = 0, and β = π.
     fn limits(&self) -> [bool; 2] {
-        [self.constant + self.slope > 1.0 + ROUNDING, self.constant - self.slope < -1.0 - ROUNDING]
+        [self.cosine(1.0) > 1.0 + ROUNDING, self.cosine(-1.0) < -1.0 - ROUNDING]
     }
 
     fn is_full_turn(&self) -> bool {
-        let [near, far] = [self.constant + self.slope, self.constant - self.slope];
-        near.abs() <= 1.0 + ROUNDING && far.abs() <= 1.0 + ROUNDING
+        [1.0, -1.0].into_iter().all(|of_crank| self.cosine(of_crank).abs() <= 1.0 + ROUNDING)
     }
 
     /// The angle of the crank, where it has no limit at 0 from -π to π, and otherwise from 0 to 2π.
@@ -159,10 +187,10 @@ impl Closure {
 
     /// The greatest size of the cosine over a range of angles.
     fn worst(&self, [from, to]: [f64; 2]) -> f64 {
-        let at = |angle: f64| (self.constant + self.slope * trig::cos(angle)).abs();
+        let at = |angle: f64| self.cosine(trig::cos(angle)).abs();
         let [low, high] = [from.min(to), from.max(to)];
         let extremes = ((low / PI).ceil() as i64..=(high / PI).floor() as i64).take(3);
-        let within = extremes.map(|k| (self.constant + if k % 2 == 0 { self.slope } else { -self.slope }).abs());
+        let within = extremes.map(|k| self.cosine(if k % 2 == 0 { 1.0 } else { -1.0 }).abs());
         within.fold(at(from).max(at(to)), f64::max).min(1.0)
     }
 }
@@ -172,23 +200,21 @@ fn sides<'a>(crank: &'a PosedDyad, follower: &'a PosedDyad) -> impl Iterator<Ite
     /// The sine of a transmission angle at a limit.
     const AT_LIMIT: f64 = 1e-9;
     crank.pins.iter().zip(&follower.pins).map(|(a, b)| {
-        let rod = b - a;
-        let across = match follower.dyad {
-            Dyad::Revolute { pivot, .. } => times_i(pivot - a),
-            Dyad::Slider { normal, .. } => times_i(normal),
+        let (across, rod) = match follower.dyad {
+            Dyad::Revolute { pivot, .. } => (times_i(pivot - a), b - a),
+            Dyad::Slider { normal, .. } => (times_i(normal), b - a),
+            Dyad::Slot { pivot, .. } => (times_i(*b), pivot - a),
         };
         let side = dot(across, rod);
         if side.abs() <= AT_LIMIT * length(across) * length(rod) { 0.0 } else { side.signum() }
     })
 }
 
-/// The greatest distance of two joints of a link.
+/// The greatest distance of two joints of a link; of a bar that slides on a block, its part from the crank pin to the block counts as one.
 pub(super) fn longest_link(crank: &PosedDyad, follower: &PosedDyad) -> f64 {
-    let frame = match [&crank.dyad, &follower.dyad] {
-        [Dyad::Revolute { pivot: a, .. }, Dyad::Revolute { pivot: b, .. }] => length(a - b),
-        _ => 0.0,
-    };
-    crank.reach.max(follower.reach).max(length(crank.pins[0] - follower.pins[0])).max(frame)
+    let frame = crank.dyad.pivot().zip(follower.dyad.pivot()).map_or(0.0, |(a, b)| length(a - b));
+    let couplers = (0..crank.pins.len()).map(|pose| pins(crank, follower, pose)).map(|[a, b]| length(a - b));
+    couplers.fold(crank.reach.max(follower.reach).max(frame), f64::max)
 }
 
 /// Whether a linkage passes the poses as asked for.

@@ -71,8 +71,8 @@ impl FoundPoses {
         self.read.as_deref()
     }
 
-    /// The dyads that pass five poses, or come near more, as dictionaries: the ``pivot``, or the direction of the slider's line as ``line_deg``, and
-    /// the ``pin`` at the first pose. None where there are infinitely many.
+    /// The dyads that pass five poses, or come near more, as dictionaries: the ``pivot`` and the ``pin`` at the first pose, of which a
+    /// slider has no pivot and a slot of the body no pin, but the direction of their lines as ``line_deg``. None where there are infinitely many.
     #[getter]
     fn dyads<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         let dyads = from_json(py, &self.findings)?.cast_into::<PyDict>()?.get_item("dyads")?;
@@ -128,7 +128,7 @@ impl PoseAnswer {
 
 #[pymethods]
 impl PoseAnswer {
-    /// The linkage where it is among the poses: a four-bar or a slider-crank, whose traced joint is the point of the body.
+    /// The linkage where it is among the poses: a four-bar, a slider-crank or an inverted one, whose traced joint is the point of the body.
     #[getter]
     fn linkage<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         if let Guide::FourBar(four_bar) = &self.inner.guide {
@@ -147,7 +147,8 @@ impl PoseAnswer {
         self.pins(py, 0)
     }
 
-    /// The pin of the rocker, or the slider, at each pose: an array of shape (n, 2).
+    /// The pin of the rocker, the slider, or the foot of the perpendicular from the block's pivot to the coupler's line, at each pose: an array of shape
+    /// (n, 2).
     #[getter]
     fn other_pins<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         self.pins(py, 1)
@@ -196,7 +197,7 @@ impl PoseAnswer {
         self.inner.is_full_turn
     }
 
-    /// The class of a four-bar: ``crank-rocker`` and so on; None for a slider-crank.
+    /// The class of a four-bar: ``crank-rocker`` and so on; None for the others.
     #[getter]
     fn class_(&self) -> Option<&'static str> {
         Some(self.inner.class).filter(|class| !class.is_empty())

@@ -22,7 +22,7 @@ use crate::keywords::Unread;
 use crate::results::Shown;
 use crate::task::{self, Task};
 
-/// Find the four-bars and slider-cranks whose coupler takes given poses: two to five exactly, more as near as can be.
+/// Find the four-bars, slider-cranks and inverted slider-cranks whose coupler takes given poses: two to five exactly, more as near as can be.
 ///
 /// Parameters
 /// ----------

@@ -44,7 +44,7 @@ fn contradictions(arguments: &Arguments) -> Vec<String> {
         (
             arguments.linkage.is_some(),
             "--linkage",
-            "searches one linkage for a path, and poses are passed by four-bars and slider-cranks",
+            "searches one linkage for a path, and poses are passed by four-bars, slider-cranks and inverted slider-cranks",
         ),
         (!arguments.keep.is_empty(), "--keep", SEARCH),
         (arguments.fixed, "--fixed", SEARCH),

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use coupler_curves::geometry::Point;
+use coupler_curves::geometry::{Point, trig};
 use coupler_curves::text::pluralize;
 use coupler_find::{
     Freedom, Guide, PairLeftOut, PlacedDyad, PoseAnswer, PoseFindings, PoseSet, format_length as number,
@@ -56,10 +56,11 @@ fn point(p: &Point, size: f64) -> String {
 }
 
 fn describe_dyad(dyad: &PlacedDyad, size: f64) -> String {
-    let pin = point(&dyad.pin, size);
-    match (&dyad.pivot, dyad.line_deg) {
-        (Some(pivot), _) => format!("pivot {}, pin {pin} at pose 1", point(pivot, size)),
-        (None, line) => format!("slider on a line at {}, pin {pin} at pose 1", angle(line.unwrap_or(0.0))),
+    let [pivot, pin] = [dyad.pivot, dyad.pin].map(|place| place.map_or(String::new(), |p| point(&p, size)));
+    match dyad.line_deg.map(angle) {
+        None => format!("pivot {pivot}, pin {pin} at pose 1"),
+        Some(line) if dyad.pivot.is_none() => format!("slider on a line at {line}, pin {pin} at pose 1"),
+        Some(line) => format!("slot on a block, pivot {pivot}, its line at {line} at pose 1"),
     }
 }
 
@@ -114,6 +115,11 @@ fn entry(rank: &str, answer: &PoseAnswer, poses: &PoseSet) -> String {
                 format!("crank pivot {}, slider's line at {line}", point(&slider.pivot, size)),
                 format!("slider {}", point(&b, size)),
             )
+        }
+        Guide::InvertedSliderCrank(inverted) => {
+            let [crank, block] = inverted.pivots.map(|p| point(&p, size));
+            let from_crank = angle(trig::degrees(trig::atan2(b.y - a.y, b.x - a.x)));
+            (format!("crank pivot {crank}, block pivot {block}"), format!("coupler's line at {from_crank}"))
         }
     };
     let _ = writeln!(out, "     {fixed}; at pose 1 crank pin {}, {other}", point(&a, size));
