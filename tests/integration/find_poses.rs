@@ -30,26 +30,35 @@ fn number(value: &Json) -> f64 {
 fn body(result: &Json, input_deg: f64) -> ([f64; 2], f64) {
     let parameter = |name: &str| number(&result["parameters"][name]);
     let side = if result["branch"] == 1 { 1.0 } else { -1.0 };
-    let [o_x, o_y, crank, rod] = ["x", "y", "crank", "coupler"].map(parameter);
+    let [o_x, o_y, crank] = ["x", "y", "crank"].map(parameter);
     let (cos, sin) = trig::cos_sin_deg(input_deg);
     let a = [o_x + crank * cos, o_y + crank * sin];
     let (tc, ts) = trig::cos_sin_deg(parameter("turn"));
-    let b = match result["linkage"].as_str().unwrap() {
+    let to_frame = |frame: f64| [o_x + frame * tc - a[0], o_y + frame * ts - a[1]];
+    let [ux, uy] = match result["linkage"].as_str().unwrap() {
         "four-bar" => {
-            let (frame, rocker) = (parameter("frame"), parameter("rocker"));
-            let [dx, dy] = [o_x + frame * tc - a[0], o_y + frame * ts - a[1]];
+            let (rod, rocker) = (parameter("coupler"), parameter("rocker"));
+            let [dx, dy] = to_frame(parameter("frame"));
             let square = dx * dx + dy * dy;
             let along = (rod * rod - rocker * rocker + square) / (2.0 * square);
             let across = side * (rod * rod / square - along * along).max(0.0).sqrt();
-            [a[0] + dx * along - dy * across, a[1] + dy * along + dx * across]
+            [(dx * along - dy * across) / rod, (dy * along + dx * across) / rod]
         }
-        _ => {
+        "slider-crank" => {
+            let rod = parameter("coupler");
             let height = parameter("offset") - ((a[1] - o_y) * tc - (a[0] - o_x) * ts);
             let along = side * (rod * rod - height * height).max(0.0).sqrt();
-            [a[0] + tc * along - ts * height, a[1] + ts * along + tc * height]
+            [(tc * along - ts * height) / rod, (ts * along + tc * height) / rod]
+        }
+        _ => {
+            // From the crank pin towards the block, whose pivot is to the right.
+            let offset = parameter("offset");
+            let [dx, dy] = to_frame(parameter("frame"));
+            let square = dx * dx + dy * dy;
+            let slide = (square - offset * offset).max(0.0).sqrt();
+            [(dx * slide - dy * offset) / square, (dy * slide + dx * offset) / square]
         }
     };
-    let [ux, uy] = [(b[0] - a[0]) / rod, (b[1] - a[1]) / rod];
     let [along, across] = ["along", "across"].map(parameter);
     ([a[0] + along * ux - across * uy, a[1] + along * uy + across * ux], trig::degrees(trig::atan2(uy, ux)))
 }
@@ -141,7 +150,7 @@ fn wishes_are_kept() {
         "--max-link",
         "6",
         "--where",
-        "mu_worst_deg >= 30 and frame > 0",
+        "mu_worst_deg >= 30 and rocker > 0",
         "--effort",
         "quick",
     ];
@@ -155,11 +164,14 @@ fn wishes_are_kept() {
             assert!((0..2).all(|k| number(&result[pivot][k]).abs() <= 50.0), "{result}");
         }
     }
-    let sliders = json(&folder, &["--where", "abs(offset) < 100", "--effort", "quick"]);
-    assert!(check(&sliders, 1e-9) > 0);
-    assert!(sliders["results"].as_array().unwrap().iter().all(|result| result["linkage"] == "slider-crank"));
+    for (condition, linkage) in [("coupler", "slider-crank"), ("frame", "inverted-slider-crank")] {
+        let condition = format!("abs(offset) < 100 and {condition} > 0");
+        let found = json(&folder, &["--where", &condition, "--effort", "quick"]);
+        assert!(check(&found, 1e-9) > 0);
+        assert!(found["results"].as_array().unwrap().iter().all(|result| result["linkage"] == linkage));
+    }
     // What cannot be met is named.
-    let none = json(&folder, &["--where", "mu_worst_deg > 89.9", "--effort", "quick"]);
+    let none = json(&folder, &["--where", "mu_worst_deg > 90", "--effort", "quick"]);
     assert_eq!(none["results"].as_array().unwrap().len(), 0);
     assert_eq!(none["nearest_miss"]["relax"][0], "another --where");
 }
