@@ -144,8 +144,8 @@ def test_poses_are_passed_as_by_the_command(tmp_path) -> None:
 
 
 def test_poses_that_are_not_passed_say_what_to_relax() -> None:
-    found = ca.find_poses(POSES, where="mu_worst_deg > 89.9", effort="quick")
-    assert len(found) == 0 and found.relax == ["where"] and found.nearest_miss is not None and found.nearest_miss.mu_worst_deg < 89.9
+    found = ca.find_poses(POSES, where="mu_worst_deg > 90", effort="quick")
+    assert len(found) == 0 and found.relax == ["where"] and found.nearest_miss is not None and found.nearest_miss.mu_worst_deg <= 90
     assert "relax where" in repr(found) and found.svg().startswith("<svg")
 
 
