@@ -105,6 +105,24 @@ export class PlateFigure {
     stage.moving.speed(this.on.has("velocity") ? velocityArrow(pose.velocity, frame) : null);
   }
 
+  /** Shows the overlays that are on, and not those that were only `before`. */
+  showOverlays(/** @type {Set<string>} */ before) {
+    const { study, stage, on } = this;
+    if (!study) return;
+    const { box } = stage;
+    if (on.has("others") !== before.has("others")) stage.show(study, this.pathsOf(study, false));
+    this.overlays.show(study, on, false);
+    if (box !== stage.box && !stage.isZoomed) stage.fit();
+    this.draw();
+  }
+
+  /** Begins on another circuit. */
+  beginCircuit() {
+    this.drive.begin();
+    if (!this.stage.isZoomed) this.stage.fit();
+    this.draw();
+  }
+
   /** After a gesture that has moved the linkage. */
   moved() {}
 

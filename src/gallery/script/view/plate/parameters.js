@@ -61,6 +61,16 @@ function sliderRange(recorded, [least, most], { min, max }, size, isWhole = fals
   return { low, high, grain: roundBelow((high - low) / 400) || 0.01 };
 }
 
+/**
+ * Whether a value of a name is that of the atlas, which no expression gives.
+ * @param {FamilyDescription["names"]} names @param {CurveValues} recorded
+ */
+export function isRecordedValue(names, { point, values }, name, value) {
+  const way = point && name.startsWith(`${point.name}.`) ? point[name.slice(point.name.length + 1)] : null;
+  if (way) return way.is_constant && way.value === value;
+  return values[name] === value && !names.find((known) => known.name === name)?.is_derived;
+}
+
 /** Rounds a value to a multiple of `grain`, with no more decimals than it has. */
 export function roundedToGrain(value, grain) {
   const decimals = Math.max(0, -Math.floor(Math.log10(grain) + 1e-9));

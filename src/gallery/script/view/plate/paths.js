@@ -6,6 +6,8 @@ import { formatDecimals, formatLength } from "../labels.js";
 
 // With more other points than this, fewer of their samples are drawn.
 const MANY_POINTS = 12;
+// The chord error of the curve of the atlas behind a changed one, relative to the size of the linkage.
+const RECORDED_PATH = 2e-4;
 
 /**
  * Path data of a study's curve, from its path and its straight portion. `on` has the names of the selected
@@ -26,9 +28,15 @@ export function pathsOfStudy(study, path, portion, { on, isRough }) {
   };
 }
 
-/** Path data of a whole path, without the pauses between its dashes. */
-export function pathData(/** @type {CurvePath} */ path) {
-  return polylineData(path.lead);
+/** Path data of a curve as the atlas has it. @param {Kernel} kernel @param {Family} family @param {number} curve */
+export function recordedPath(kernel, family, curve) {
+  const study = kernel.study(kernel.curve(family, curve), { isRough: true });
+  const [x0, y0, x1, y1] = "box" in study.answer ? study.answer.box : [0, 0, 0, 0];
+  const data = study.exists
+    ? polylineData(study.path(RECORDED_PATH * Math.hypot(x1 - x0, y1 - y0)).lead)
+    : "";
+  study.close();
+  return data;
 }
 
 function dashesData(/** @type {CurvePath} */ { dashes, starts }) {

@@ -5,19 +5,17 @@ import { MeasureTable } from "./facts.js";
 import { PlateFigure } from "./figure.js";
 import { Handles } from "./handles.js";
 import { plateLayout, watchKeys } from "./layout.js";
-import { changeableParameters } from "./parameters.js";
-import { pathData } from "./paths.js";
+import { changeableParameters, isRecordedValue } from "./parameters.js";
+import { recordedPath } from "./paths.js";
 import { plateCurveName, isExtraCircuit, plateAddress, readPlateQuery } from "./plate-query.js";
+import { Resting } from "./resting.js";
 import { Sliders } from "./sliders.js";
 import { recordedValues, studyOf, summaryOfStudy } from "./study.js";
 import { Switches } from "./switches.js";
 import { Store } from "../store.js";
 
-// The times in milliseconds after which a slider, and the input, have rested.
-const REST_MILLISECONDS = 160;
+// The time in milliseconds after which the input has rested.
 const INPUT_MILLISECONDS = 400;
-// The chord error of the curve behind a changed one, relative to the size of the linkage.
-const GHOST_PATH = 2e-4;
 
 /**
  * The plate of a curve of a family, with the query of its address. Put `element` into the document, then call
@@ -28,8 +26,6 @@ export class Plate extends PlateFigure {
   candidates;
   /** The path data of the curve of the atlas, once it is needed. @type {string | null} */
   ghost = null;
-  resting = 0;
-  waiting = 0;
 
   /** @param {App} app @param {Kernel} kernel @param {Family} family @param {number} curve @param {Query} query */
   constructor(app, kernel, family, curve, query) {
@@ -45,6 +41,10 @@ export class Plate extends PlateFigure {
     this.store = new Store(app, this.#stateOf(query), (state) => plateAddress(this, state));
     this.store.watch((state, before) => this.#stateChanged(state, before));
     this.handles = new Handles(this);
+    this.resting = new Resting(this.stage.element, (isRough) => {
+      this.#restudy(isRough);
+      if (!isRough) this.#settle();
+    });
     this.stage.moving.onpose = (at) => this.handles.pose(at);
     this.layout = plateLayout(this);
     this.element = this.layout.element;
@@ -74,46 +74,48 @@ export class Plate extends PlateFigure {
     this.release();
     this.layout.leave();
     this.study?.kernel.close();
-    window.clearTimeout(this.resting);
-    window.cancelAnimationFrame(this.waiting);
+    this.resting.end();
   }
 
   /** Handles another query of the same curve's address. @param {Query} query */
   setQuery(query) {
     const { requestedCircuit } = this.state;
     this.store.show(this.#stateOf(query));
-    this.#rest();
+    this.resting.now();
     const { at } = this.state;
     if (at) {
       this.drive.pause();
       this.drive.moveTo(at);
-    } else if (this.state.requestedCircuit !== requestedCircuit) this.#beginCircuit();
+    } else if (this.state.requestedCircuit !== requestedCircuit && !this.reason) this.beginCircuit();
     return true;
   }
 
   /** The state of an address, without values that are those of the atlas. @param {Query} query */
   #stateOf(query) {
     const state = readPlateQuery(this.family, this.recorded.point, query);
-    const isOwn = ([name, value]) => this.#isRecordedValue(name, value);
-    return { ...state, changes: new Map([...state.changes].filter((change) => !isOwn(change))) };
+    return { ...state, changes: this.#changesWith([], state.changes) };
   }
 
-  /** Whether a value of a name that no expression gives is that of the atlas. */
-  #isRecordedValue(name, value) {
-    const { point, values } = this.recorded;
-    const way = point && name.startsWith(`${point.name}.`) ? point[name.slice(point.name.length + 1)] : null;
-    if (way) return way.is_constant && way.value === value;
-    const derived = this.description.names.find((known) => known.name === name)?.is_derived;
-    return !derived && values[name] === value;
+  /** Some changes with others; the values of the atlas are none. @param {Iterable<[string, number]>} more */
+  #changesWith(/** @type {Iterable<[string, number]>} */ before, more) {
+    const changes = new Map(before);
+    for (const [name, value] of more) {
+      if (isRecordedValue(this.description.names, this.recorded, name, value)) changes.delete(name);
+      else changes.set(name, value);
+    }
+    return changes;
   }
 
   /** Shows what a gesture has changed. @param {PlateState} state @param {PlateState | null} before */
   #stateChanged(state, before) {
     this.state = state;
     if (before === null) return;
-    if (state.changes !== before.changes) this.#changed();
+    if (state.changes !== before.changes) this.resting.changed();
     else if (state.requestedCircuit !== before.requestedCircuit) this.#circuitChosen();
-    else if (state.on !== before.on) this.#overlaysChosen(before.on);
+    else if (state.on !== before.on) {
+      this.showOverlays(before.on);
+      this.#showSwitches();
+    }
     if (state.locked !== before.locked) this.sliders.showLocked(state.locked);
   }
 
@@ -154,19 +156,8 @@ export class Plate extends PlateFigure {
       this.show(study, isRough);
       if (!isRough) this.handles.show(study);
     });
-    this.#showGhost();
-  }
-
-  // The curve of the atlas behind one with changes.
-  #showGhost() {
-    const { family, kernel, curve, changes, stage } = this;
-    if (changes.size && this.ghost === null) {
-      const study = kernel.study(kernel.curve(family, curve), { isRough: true });
-      const { size } = this.study ?? { size: 0 };
-      this.ghost = study.exists ? pathData(study.path(GHOST_PATH * size)) : "";
-      study.close();
-    }
-    stage.still.ghost(changes.size ? (this.ghost ?? "") : "");
+    if (this.changes.size) this.ghost ??= recordedPath(kernel, family, this.curve);
+    this.stage.still.ghost(this.changes.size ? (this.ghost ?? "") : "");
   }
 
   /** The study of a circuit as it is now, once more; close it. */
@@ -180,14 +171,9 @@ export class Plate extends PlateFigure {
     this.changeAll([[name, value]]);
   }
 
-  /** Changes some values at once. @param {Iterable<[string, number]>} values */
+  /** @param {Iterable<[string, number]>} values */
   changeAll(values) {
-    const changes = new Map(this.changes);
-    for (const [name, value] of values) {
-      if (this.#isRecordedValue(name, value)) changes.delete(name);
-      else changes.set(name, value);
-    }
-    this.store.preview({ changes });
+    this.store.preview({ changes: this.#changesWith(this.changes, values) });
   }
 
   /** Locks a value, which handles leave as it is then, or unlocks it. */
@@ -206,38 +192,13 @@ export class Plate extends PlateFigure {
 
   reset() {
     this.store.preview({ changes: new Map(), requestedCircuit: null });
-    this.#rest();
+    this.resting.now();
     this.stage.fit();
   }
 
   /** At the end of a change. */
   settle() {
-    this.#settleSoon(0);
-  }
-
-  #changed() {
-    this.#settleSoon(REST_MILLISECONDS);
-    // At most one study per frame.
-    this.waiting ||= window.requestAnimationFrame(() => {
-      this.waiting = 0;
-      this.#restudy(true);
-    });
-  }
-
-  #settleSoon(after) {
-    window.clearTimeout(this.resting);
-    this.stage.element.setAttribute("aria-busy", "true");
-    this.resting = window.setTimeout(() => this.#rest(), after);
-  }
-
-  // Studies closely what has been changed.
-  #rest() {
-    window.clearTimeout(this.resting);
-    this.stage.element.removeAttribute("aria-busy");
-    window.cancelAnimationFrame(this.waiting);
-    this.waiting = 0;
-    this.#restudy(false);
-    this.#settle();
+    this.resting.soon(0);
   }
 
   // Updates the measures, the texts, and the address after a change.
@@ -276,31 +237,13 @@ export class Plate extends PlateFigure {
     this.store.change({ on });
   }
 
-  #overlaysChosen(/** @type {Set<string>} */ before) {
-    const { study, on } = this;
-    if (!study) return;
-    const { box } = this.stage;
-    if (on.has("others") !== before.has("others")) this.stage.show(study, this.pathsOf(study, false));
-    this.overlays.show(study, on, false);
-    if (box !== this.stage.box && !this.stage.isZoomed) this.stage.fit();
-    this.#showSwitches();
-    this.draw();
-  }
-
   /** Chooses a circuit. */
   circuit(k) {
     this.store.preview({ requestedCircuit: k });
   }
 
   #circuitChosen() {
-    this.#rest();
-    this.#beginCircuit();
-  }
-
-  #beginCircuit() {
-    if (this.reason) return;
-    this.drive.begin();
-    if (!this.stage.isZoomed) this.stage.fit();
-    this.draw();
+    this.resting.now();
+    if (!this.reason) this.beginCircuit();
   }
 }
