@@ -91,13 +91,13 @@ pub fn index_html(run: &RunRecord, families: &[GalleryFamily]) -> String {
     page
 }
 
-/// The policy by which the page may only run its own script, the scripts in its folder and modules for WebAssembly, and
-/// show images.
+/// The policy by which the page may only run its own script, the scripts in its folder and modules for WebAssembly, make
+/// workers of its own, and show images.
 fn content_security_policy(style: &str, scripts: [&str; 2]) -> String {
     let digest = |text: &str| format!("'sha256-{}'", BASE64_STANDARD.encode(Sha256::digest(text.as_bytes())));
     format!(
         "default-src 'none'; script-src 'self' 'wasm-unsafe-eval' {}; style-src {}; img-src 'self' data: blob:; \
-         base-uri 'none'; form-action 'none'",
+         worker-src blob:; base-uri 'none'; form-action 'none'",
         scripts.map(digest).join(" "),
         digest(style)
     )

@@ -86,4 +86,27 @@ export const FOUR_BARS = [
       await gallery.close();
     },
   ],
+  [
+    "4.15",
+    "without its shape the view has no answers, and undoing brings both back",
+    async ({ browser }) => {
+      const gallery = await openGallery(browser, small, "/shape?like=evans:2.1.1");
+      const { page } = gallery;
+      const answers = () => page.locator(".four-bars > li, .matches > li").count();
+      const isCleared = async () => (await answers()) === 0 && (await gallery.fragment()).endsWith("/shape");
+      await searchedToEnd(page);
+      await page.getByRole("button", { name: "Clear" }).click();
+      await eventually(isCleared, "Clear leaves no answers");
+      assert.ok(await page.locator(".four-bar-section").isHidden());
+      await page.keyboard.press("Control+z");
+      await eventually(async () => (await gallery.fragment()).includes("like=evans:2.1.1"), "it is undone");
+      // A search that is running is stopped.
+      await eventually(async () => (await answers()) > 0, "there are answers again", 20000);
+      await page.locator(".pad").press("Escape");
+      await eventually(isCleared, "Escape leaves no answers");
+      await page.waitForTimeout(1000);
+      assert.ok(await isCleared(), "no answers come later");
+      await gallery.close();
+    },
+  ],
 ];

@@ -238,7 +238,7 @@ const NOT_FOUND = "geared-five-bar:6.1.1";
 
 /** Searches families for a shape with a kernel. */
 function searchFor(kernel, parts, shape, options) {
-  const app = { kernel: { load: async () => kernel }, announce: assert.fail };
+  const app = { kernel: { load: async () => ({ curveSearch: kernel }) }, announce: assert.fail };
   const slices = new Slices(() => false);
   return nearestCurves(
     app,
@@ -276,13 +276,13 @@ async function trial(kernel, parts, families, { label, tries, part, ...disturban
     const name = `${family.id}:${curveKey(family, curve)}`;
     // Cognates and overlapping families draw the same curve, and many curves have a third that is as near: what is
     // found in the place of the curve must be as near as the curve itself.
-    const search = new ShapeSearch(kernel, searchedPath(shape, part < 1), {
+    const search = await ShapeSearch.open(kernel, searchedPath(shape, part < 1), {
       mirror: true,
       least: isWhole ? WHOLE : LEAST,
     });
     // A curve that does not fit a portion of itself, through a sharp turn between two of its points, is not found.
-    const deviation = (search.fit({ points: own, closed })?.rms ?? -Infinity) + AS_NEAR;
-    search.close();
+    const deviation = ((await search.fit({ points: own, closed }))?.rms ?? -Infinity) + AS_NEAR;
+    await search.close();
     const at = found.findIndex((one) => one.name === name);
     if (at === 0) alone += 1;
     if (found[0]?.rms <= deviation) first += 1;

@@ -13,6 +13,9 @@ type Similarity = { mirror: boolean; re: number; im: number; x: number; y: numbe
 type Matrix = [number, number, number, number, number, number];
 type Atlas = ReturnType<typeof import("./data/atlas.js").openAtlas>;
 type Kernel = import("./kernel/kernel.js").Kernel;
+/** A kernel whose answers may be promises (kernel/worker.js). */
+type SearchKernel = { readonly instance: object; call(request: object): any };
+type Waiting = { resolve: (answer: any) => void; reject: (error: Error) => void };
 type KernelStudy = import("./kernel/study.js").KernelStudy;
 type Place = { pass: number; input: number; isBeyond?: boolean };
 /** What the address of a plate says of it (view/plate/plate-query.js). */

@@ -8,14 +8,14 @@ const REPORT_MS = 2000;
 /** The most answers of a search. */
 export const MAX_FOUR_BARS = 5;
 
-/** The search for four-bars of a kernel. One search is made at a time: its index does not grow meanwhile. */
+/** The search for four-bars of a kernel in a worker. One search is made at a time: its index does not grow meanwhile. */
 export class FourBarFinder {
   /** @type {Promise<unknown>} */ running = Promise.resolve();
 
   /** The curves of the index. */
   count = 0;
 
-  constructor(/** @type {Kernel} */ kernel) {
+  constructor(/** @type {SearchKernel} */ kernel) {
     this.kernel = kernel;
   }
 
@@ -53,7 +53,7 @@ export class FourBarFinder {
   async #grow(slices, until) {
     for (;;) {
       if (!(await slices.goOn()) || performance.now() > until) return false;
-      const { count, full_count: full } = this.kernel.call({ method: "grow_index" });
+      const { count, full_count: full } = await this.kernel.call({ method: "grow_index" });
       this.count = count;
       if (count === full) return true;
     }
@@ -62,7 +62,7 @@ export class FourBarFinder {
   async #search({ points, closed, name }, { fullTurn, maxLink }, slices, reportAt, report) {
     const { kernel } = this;
     const { instance } = kernel;
-    const { search } = kernel.call({
+    const { search } = await kernel.call({
       method: "open_search",
       points,
       kind: closed ? "closed" : "part",
@@ -75,12 +75,12 @@ export class FourBarFinder {
         let found = null;
         do {
           if (!(await slices.goOn())) return;
-          found = kernel.call({ method: "answers", search, name });
+          found = await kernel.call({ method: "answers", search, name });
         } while (!found.is_complete);
         report({ ...found, index_count: this.count }, isDone);
       };
       let at = reportAt;
-      while (!kernel.call({ method: "step_search", search }).is_done) {
+      while (!(await kernel.call({ method: "step_search", search })).is_done) {
         if (!(await slices.goOn())) return;
         if (performance.now() > at) {
           at = Infinity;
@@ -90,7 +90,7 @@ export class FourBarFinder {
       await reported(true);
     } finally {
       // A kernel that has failed is replaced, and has no searches.
-      if (kernel.instance === instance) kernel.call({ method: "close_search", search });
+      if (kernel.instance === instance) await kernel.call({ method: "close_search", search });
     }
   }
 }

@@ -129,7 +129,7 @@ export class KernelInstance {
   }
 }
 
-// The kernel reads numbers as strings to the last bit, which it does not do with those of JSON.
-function exactNumbers(_, value) {
+/** The kernel reads numbers as strings to the last bit, which it does not do with those of JSON. */
+export function exactNumbers(_, value) {
   return typeof value === "number" && !Number.isInteger(value) ? String(value) : value;
 }

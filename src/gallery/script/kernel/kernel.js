@@ -6,6 +6,7 @@
 import { FourBarFinder } from "./finder.js";
 import { KernelFailure, KernelInstance } from "./instance.js";
 import { KernelStudy } from "./study.js";
+import { KernelWorker } from "./worker.js";
 
 // What does not work without the kernel.
 const WITHOUT_KERNEL = "linkages are not moved, changed, compared in detail, found by shape or exported";
@@ -46,7 +47,9 @@ export class Kernel {
     this.module = module;
     this.instance = new KernelInstance(module);
     /** @type {Map<string, KernelFamily>} */ this.families = new Map();
-    this.fourBars = new FourBarFinder(this);
+    // The two searches have kernels of their own, in workers: studies need this one sixty times a second.
+    this.curveSearch = new KernelWorker(module);
+    this.fourBars = new FourBarFinder(new KernelWorker(module));
   }
 
   /**

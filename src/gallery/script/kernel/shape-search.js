@@ -5,15 +5,22 @@ export const WHOLE = 0.85;
 
 /** A path to which curves are compared. Closed ones are compared with whole curves, open ones with portions. */
 export class ShapeSearch {
-  /** @param {Kernel} kernel @param {Outline} path @param {{ mirror: boolean, least: number, wanted?: number }} options */
-  constructor(kernel, { points, closed }, { mirror, least, wanted = 1 }) {
+  /**
+   * @param {SearchKernel} kernel @param {Outline} path
+   * @param {{ mirror: boolean, least: number, wanted?: number }} options
+   */
+  static async open(kernel, path, { mirror, least, wanted = 1 }) {
+    const { instance } = kernel;
+    return new ShapeSearch(kernel, instance, await kernel.call(openRequest(path, mirror, least, wanted)));
+  }
+
+  /** @param {SearchKernel} kernel @param {object} instance @param {{ shape: number, most: number }} opened */
+  constructor(kernel, instance, { shape, most }) {
     this.kernel = kernel;
-    this.instance = kernel.instance;
-    const kind = closed ? "closed" : "part";
-    const opened = kernel.call({ method: "open_shape", points, kind, mirror, least, wanted });
-    this.shape = opened.shape;
+    this.instance = instance;
+    this.shape = shape;
     /** The most candidates; if these are more than are wanted, they are to be compared closely. */
-    this.most = opened.most;
+    this.most = most;
   }
 
   /**
@@ -22,7 +29,7 @@ export class ShapeSearch {
    */
   async candidates({ family, first, curves }, slices) {
     for (let from = 0; ;) {
-      const found = this.kernel.call({ method: "compare_shape", shape: this.shape, curves, from });
+      const found = await this.kernel.call({ method: "compare_shape", shape: this.shape, curves, from });
       if (found.next === null) {
         const { numbers, likenesses } = found;
         return Array.from(numbers, (number, k) => ({
@@ -36,31 +43,38 @@ export class ShapeSearch {
     }
   }
 
-  /** How much a curve is like the path, compared closely; null if it is not. @param {Outline} curve @returns {number | null} */
-  likeness({ points, closed }) {
-    return this.kernel.call({ method: "compare_closely", shape: this.shape, points, closed }).likeness;
+  /** How much a curve is like the path, compared closely; null if it is not. @param {Outline} curve @returns {Promise<number | null>} */
+  async likeness({ points, closed }) {
+    const { shape } = this;
+    return (await this.kernel.call({ method: "compare_closely", shape, points, closed })).likeness;
   }
 
-  /** How a curve fits the path; null if it does not. @param {Outline} curve @returns {Fit | null} */
-  fit({ points, closed }) {
-    return fitOf(this.kernel.call({ method: "fit_shape", shape: this.shape, points, closed }));
+  /** How a curve fits the path; null if it does not. @param {Outline} curve @returns {Promise<Fit | null>} */
+  async fit({ points, closed }) {
+    return fitOf(await this.kernel.call({ method: "fit_shape", shape: this.shape, points, closed }));
   }
 
   /** Releases it. */
-  close() {
+  async close() {
     if (this.kernel.instance === this.instance)
-      this.kernel.call({ method: "close_shape", shape: this.shape });
+      await this.kernel.call({ method: "close_shape", shape: this.shape });
   }
 }
 
 /** The best fit of a curve to another one; null if there is none. @param {Outline} to @param {Outline} curve */
 export function bestFit(/** @type {Kernel} */ kernel, to, curve, mirror) {
-  const search = new ShapeSearch(kernel, to, { mirror, least: WHOLE });
+  const { shape } = kernel.call(openRequest(to, mirror, WHOLE, 1));
+  const { instance } = kernel;
+  const { points, closed } = curve;
   try {
-    return search.fit(curve);
+    return fitOf(kernel.call({ method: "fit_shape", shape, points, closed }));
   } finally {
-    search.close();
+    if (kernel.instance === instance) kernel.call({ method: "close_shape", shape });
   }
+}
+
+function openRequest(/** @type {Outline} */ { points, closed }, mirror, least, wanted) {
+  return { method: "open_shape", points, kind: closed ? "closed" : "part", mirror, least, wanted };
 }
 
 /** The deviation of a curve from another one where both are. @param {Outline} from @param {Outline} curve */

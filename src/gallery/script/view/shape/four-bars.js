@@ -59,6 +59,12 @@ export class FourBarSection {
     );
   }
 
+  /** Without a shape there are no answers. */
+  clear() {
+    this.element.hidden = true;
+    [this.status, this.list, this.acts].forEach((part) => fill(part));
+  }
+
   /** Searches for a shape in slices. @param {Shape} shape @param {Slices} slices */
   async search(shape, slices) {
     const { fullTurn, maxLink, part, like } = this.query;

@@ -63,30 +63,31 @@ export function needPart({ family, pieces }) {
 /**
  * The index of the curves of a part, whose data must be loaded; null if stopped. One that is not kept is released by
  * `releaseIndex`.
- * @param {Kernel} kernel @param {SearchedPart} _ @param {Slices} slices @returns {Promise<ShapeIndex | null>}
+ * @param {SearchKernel} kernel @param {SearchedPart} _ @param {Slices} slices @returns {Promise<ShapeIndex | null>}
  */
 export async function shapeIndex(kernel, { family, first, count, isKept }, slices) {
   const known = keptIndexes(kernel, family);
   const kept = known.get(first);
   if (kept?.count === count) return kept;
-  if (kept) releaseIndex(kernel, kept);
+  if (kept) await releaseIndex(kernel, kept);
   const { instance } = kernel;
-  const index = { family, first, count, curves: kernel.call({ method: "open_curves" }).curves };
+  const { curves } = await kernel.call({ method: "open_curves" });
+  const index = { family, first, count, curves };
   let isComplete = false;
   try {
     for (let from = first; from < first + count; from += CURVES_PER_CALL) {
-      addCurves(kernel, index, from, Math.min(from + CURVES_PER_CALL, first + count));
+      await addCurves(kernel, index, from, Math.min(from + CURVES_PER_CALL, first + count));
       if (!(await slices.goOn())) return null;
     }
     isComplete = kernel.instance === instance;
   } finally {
-    if (!isComplete && kernel.instance === instance) releaseIndex(kernel, index);
+    if (!isComplete && kernel.instance === instance) await releaseIndex(kernel, index);
   }
   if (isKept) known.set(first, index);
   return index;
 }
 
-/** Adds the curves from one to before another to an index. @param {Kernel} kernel @param {ShapeIndex} _ */
+/** Adds the curves from one to before another to an index. @param {SearchKernel} kernel @param {ShapeIndex} _ */
 function addCurves(kernel, { family, curves }, from, to) {
   const outlines = [];
   for (let curve = from; curve < to; curve += 1) outlines.push(curvePoints(family, curve));
@@ -98,11 +99,11 @@ function addCurves(kernel, { family, curves }, from, to) {
   }
   const counts = Float64Array.from(outlines, ({ length }) => length / 2);
   const closed = Float64Array.from(family.curves.closed.subarray(from, to));
-  kernel.call({ method: "add_curves", curves, points, counts, closed });
+  return kernel.call({ method: "add_curves", curves, points, counts, closed });
 }
 
 /** @returns {Map<number, ShapeIndex>} */
-function keptIndexes(/** @type {Kernel} */ { instance }, /** @type {Family} */ family) {
+function keptIndexes(/** @type {SearchKernel} */ { instance }, /** @type {Family} */ family) {
   const families = KEPT_INDEXES.get(instance) ?? new Map();
   KEPT_INDEXES.set(instance, families);
   const known = families.get(family) ?? new Map();
@@ -110,16 +111,19 @@ function keptIndexes(/** @type {Kernel} */ { instance }, /** @type {Family} */ f
   return known;
 }
 
-/** Releases an index. @param {Kernel} kernel @param {ShapeIndex} _ */
+/** Releases an index. @param {SearchKernel} kernel @param {ShapeIndex} _ */
 export function releaseIndex(kernel, { curves }) {
-  kernel.call({ method: "close_curves", curves });
+  return kernel.call({ method: "close_curves", curves });
 }
 
 /** Releases the indexes of families that are not searched as a whole: they would take too much memory. */
-export function releaseIndexes(/** @type {Kernel} */ kernel, /** @type {SearchedPart[]} */ parts) {
+export async function releaseIndexes(
+  /** @type {SearchKernel} */ kernel,
+  /** @type {SearchedPart[]} */ parts,
+) {
   for (const { family } of parts) {
     const known = keptIndexes(kernel, family);
-    for (const index of known.values()) releaseIndex(kernel, index);
+    for (const index of known.values()) await releaseIndex(kernel, index);
     known.clear();
   }
 }

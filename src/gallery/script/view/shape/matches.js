@@ -18,9 +18,9 @@ const WANTED = 120;
  */
 export async function nearestCurves(app, parts, shape, options, slices, progress) {
   const { isPart, mirror, least, by } = options;
-  const kernel = await app.kernel.load();
+  const { curveSearch: kernel } = await app.kernel.load();
   const path = searchedPath(shape, isPart);
-  const search = new ShapeSearch(kernel, path, {
+  const search = await ShapeSearch.open(kernel, path, {
     mirror,
     least: isPart ? least : WHOLE,
     wanted: WANTED,
@@ -32,14 +32,14 @@ export async function nearestCurves(app, parts, shape, options, slices, progress
     if (!candidates) return null;
     /** @type {Match[]} */ const matches = [];
     for (const { family, curve } of candidates) {
-      const fit = search.fit(await loadedOutline(family, curve));
+      const fit = await search.fit(await loadedOutline(family, curve));
       const name = `${family.id}:${curveKey(family, curve)}`;
       if (fit) matches.push({ ...fit, family, curve, name });
       if (!(await slices.goOn())) return null;
     }
     return matches.sort((a, b) => a[by] - b[by]);
   } finally {
-    search.close();
+    await search.close();
   }
 }
 
@@ -58,7 +58,7 @@ async function candidatesOf(app, kernel, search, parts, slices, progress) {
     if (slices.stopped()) return null;
     const index = await shapeIndex(kernel, part, slices);
     const found = index && (await search.candidates(index, slices));
-    if (index && !part.isKept) releaseIndex(kernel, index);
+    if (index && !part.isKept) await releaseIndex(kernel, index);
     if (!found) return null;
     candidates = likeliest([...candidates, ...found], search.most);
     searched += part.count;
@@ -70,7 +70,7 @@ async function candidatesOf(app, kernel, search, parts, slices, progress) {
 async function nearestCandidates(search, candidates, slices) {
   /** @type {Candidate[]} */ const compared = [];
   for (const { family, curve } of candidates) {
-    const likeness = search.likeness(await loadedOutline(family, curve));
+    const likeness = await search.likeness(await loadedOutline(family, curve));
     if (likeness !== null) compared.push({ family, curve, likeness });
     if (!(await slices.goOn())) return null;
   }

@@ -10,7 +10,7 @@ const PAD_HEIGHT = 300;
 // The arrow keys move the pen by this much, with Shift by five times as much.
 const PEN_STEP = 5;
 
-/** A pad of 400 × 300; calls `ondrawn(points, closed)` with a finished shape, y up. */
+/** A pad of 400 × 300; calls `ondrawn(points, closed)` with a finished shape, y up, and `oncleared()` when there is none any more. */
 export class DrawingPad {
   /** @type {Point[]} */ points = [];
   /** @type {Point} */ pen = [PAD_WIDTH / 2, PAD_HEIGHT / 2];
@@ -18,9 +18,13 @@ export class DrawingPad {
   /** Whether the points were set by keys. */
   isByKeys = false;
 
-  /** @param {(points: Float64Array, closed: boolean) => void} ondrawn @param {App["announce"]} announce */
-  constructor(ondrawn, announce) {
+  /**
+   * @param {(points: Float64Array, closed: boolean) => void} ondrawn @param {() => void} oncleared
+   * @param {App["announce"]} announce
+   */
+  constructor(ondrawn, oncleared, announce) {
     this.ondrawn = ondrawn;
+    this.oncleared = oncleared;
     this.announce = announce;
     this.line = s("path.drawn");
     this.dots = s("g.dots");
@@ -60,6 +64,7 @@ export class DrawingPad {
   clear() {
     [this.points, this.closed] = [[], false];
     this.render();
+    this.oncleared();
   }
 
   render() {
@@ -146,6 +151,7 @@ export class DrawingPad {
     this.closed = false;
     this.render();
     if (this.points.length > 2) this.finish(false);
+    else this.oncleared();
   }
 }
 

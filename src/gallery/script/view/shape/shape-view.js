@@ -18,6 +18,7 @@ import { matchesRoute, routeAddress } from "../../data/address.js";
 import { watchPins } from "../pins.js";
 
 const MAX_RESULTS = 36;
+const WITHOUT_SHAPE = "Draw or paste a curve, or start from a curve of the atlas";
 
 /** The route `#/shape?d=…` or `?like=evans:12.1.1`, with `part`, `least`, `mirror=no`, `by=greatest`, `family`, `input=any`, `max-link`. */
 export const shapeRoute = {
@@ -50,8 +51,9 @@ export class ShapeView {
       this.limit = Infinity;
       this.open();
     });
-    this.pad = new DrawingPad((points, closed) => this.setDrawnShape(points, closed), app.announce);
-    this.status = h("p.counted", "Draw or paste a curve, or start from a curve of the atlas");
+    const drawn = (points, closed) => this.setDrawnShape(points, closed);
+    this.pad = new DrawingPad(drawn, () => this.clearShape(WITHOUT_SHAPE), app.announce);
+    this.status = h("p.counted", WITHOUT_SHAPE);
     this.results = h("ol.matches");
     this.families = h("div");
     this.query = parseShapeQuery(query);
@@ -150,10 +152,25 @@ export class ShapeView {
 
   setDrawnShape(/** @type {Float64Array} */ points, closed) {
     this.shape = queryShape(points, closed);
-    if (!this.shape) return;
+    if (!this.shape) return this.clearShape("This is too small to be a curve: draw a longer one");
     Object.assign(this.query, { d: encodeShape(this.shape.points, closed), like: null, part: !closed });
     this.options.mark();
     this.submit();
+  }
+
+  /** Leaves no shape and no answers, and says why. */
+  clearShape(why) {
+    // Before all is opened, no search is running.
+    if (this.state.done) this.turn += 1;
+    this.fourBarTurn += 1;
+    this.shape = null;
+    Object.assign(this.query, { d: null, like: null, part: null });
+    this.options.mark();
+    this.fourBars.clear();
+    fill(this.results);
+    this.results.removeAttribute("aria-busy");
+    fill(this.status, why);
+    this.writeAddress();
   }
 
   /** Searches for curves of the atlas, and for four-bars; a later search stops an earlier one. */
@@ -226,8 +243,9 @@ export class ShapeView {
     this.search();
   }
 
+  /** A change of the query is a gesture: undoing it opens the address before. */
   writeAddress() {
-    this.app.replace(routeAddress("shape", formatShapeQuery(this.query), this.app));
+    this.app.commit(routeAddress("shape", formatShapeQuery(this.query), this.app));
   }
 
   leave() {
@@ -237,6 +255,6 @@ export class ShapeView {
     // The index of a large family is built again when it is searched again.
     const isLarge = this.parts.some(({ isKept }) => !isKept) || this.state.curves < this.state.total;
     const { kernel } = this.app.kernel;
-    if (isLarge && kernel) releaseIndexes(kernel, this.parts);
+    if (isLarge && kernel) releaseIndexes(kernel.curveSearch, this.parts);
   }
 }
