@@ -232,6 +232,8 @@ type CurveOfFamily = { family: Family; curve: number };
 /** How a curve fits a path: deviations relative to its size, and the part of the curve's length that it matches. */
 type Fit = { rms: number; greatest: number; similarity: Similarity; from: number; to: number };
 type Match = CurveOfFamily & Fit & { name: string };
+/** A match with the others that are the same curve. */
+type MergedMatch = { match: Match; others: Match[] };
 /** The answers of a search for four-bars so far, and how many curves of the index it looked the path up in. */
 type FoundFourBars = Record<"size" | "index_count", number> & { answers: FourBarAnswer[]; manifest: string };
 /** A four-bar of `find --json` (docs/find.md) with its curve, and its joints at the first point of the path. */

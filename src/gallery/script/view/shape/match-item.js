@@ -9,12 +9,14 @@ import { h, s, setAttributes, thumbnailFrame } from "../dom.js";
 import { address } from "../../data/address.js";
 import { formatCaption } from "../labels.js";
 import { pinButton } from "../pins.js";
+import { familiesText } from "./merged.js";
 
 /**
- * The list item of a result of `nearestCurves` for a shape with the options of a query (query.js).
- * @param {App} app @param {Match} one @param {Shape} shape
+ * The list item of a result of `mergedMatches` for a shape with the options of a query (query.js).
+ * @param {App} app @param {MergedMatch} merged @param {Shape} shape
  */
-export function matchItem(app, one, shape, /** @type {ShapeQuery} */ { by, part }) {
+export function matchItem(app, merged, shape, /** @type {ShapeQuery} */ { by, part }) {
+  const { match: one, others } = merged;
   const { family, curve, name } = one;
   const caption = curveCaption(family, curve);
   const other = by === "rms" ? "greatest" : "rms";
@@ -24,10 +26,12 @@ export function matchItem(app, one, shape, /** @type {ShapeQuery} */ { by, part 
   const picture = matchPicture(one, shape, { width: 220, height: 170 });
   const deviations = h("span.label", h("b", percent(by)), ` ${percent(other)}${share}`);
   const label = h("span.label", formatCaption(caption || name));
+  const title = [one, ...others].map((same) => same.name).join(", ");
+  const families = h("span.label", { title }, familiesText(merged));
   const words = ["Pin", h("span.visually-hidden", ` ${name}`)];
   const pin = pinButton(app, name, { class: "quiet" }, ...words);
   const similar = h("a", { href: address(["shape"], { like: name }) }, "Find similar");
-  const link = h("a", { href, "data-name": name }, picture, deviations, label);
+  const link = h("a", { href, "data-name": name }, picture, deviations, families, label);
   return h("li", link, h("span.acts", similar, pin));
 }
 

@@ -12,6 +12,7 @@ import { needPart, releaseIndexes, searchedParts } from "./indexes.js";
 import { shapeLayout } from "./layout.js";
 import { matchItem } from "./match-item.js";
 import { nearestCurves } from "./matches.js";
+import { mergedMatches } from "./merged.js";
 import { DrawingPad } from "./pad.js";
 import { formatShapeQuery, parseShapeQuery, shapeOptions } from "./query.js";
 import { matchesRoute, routeAddress } from "../../data/address.js";
@@ -197,11 +198,13 @@ export class ShapeView {
       const options = { isPart: part === true, least, mirror, by };
       const found = await nearestCurves(this.app, this.parts, shape, options, slices, progress);
       if (!found) return;
+      const merged = await mergedMatches(this.app, found, MAX_RESULTS, mirror, slices);
+      if (!merged) return;
       this.element.dataset.milliseconds = (performance.now() - began).toFixed(0);
       const items = [];
       // Each is drawn as soon as its points are loaded: those of all may be more than are kept.
-      for (const one of found.slice(0, MAX_RESULTS)) {
-        await needCurves(one.family, [one.curve]);
+      for (const one of merged) {
+        await needCurves(one.match.family, [one.match.curve]);
         if (slices.stopped()) return;
         items.push(matchItem(this.app, one, shape, this.query));
       }
@@ -225,7 +228,7 @@ export class ShapeView {
   /** Shows list items of results. */
   show(items) {
     const { by } = this.query;
-    const ranked = `ranked by ${by} deviation in % of the shape’s size`;
+    const ranked = `equal ones together, ranked by ${by} deviation in % of the shape’s size`;
     const nearest = items.length === 1 ? "nearest" : `${items.length} nearest`;
     const sentence = items.length
       ? `The ${nearest} of ${this.state.curves.toLocaleString("en")} curves, ${ranked}`

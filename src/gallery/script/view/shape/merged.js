@@ -1,0 +1,56 @@
+// Matches that are the same curve: cognates and families that overlap draw it again.
+
+import { curveOutline } from "../../data/family.js";
+import { needCurves } from "../../data/needs.js";
+import { ShapeSearch, WHOLE } from "../../kernel/shape-search.js";
+
+// Whole curves are the same to this part of their size, as four-bars of `find`.
+const SAME = 1e-3;
+
+/**
+ * The nearest matches (matches.js), at most `most`, each with the others whose whole curves are similar to it; null if
+ * stopped.
+ * @param {App} app @param {Match[]} matches the nearest first @param {boolean} mirror whether mirror images are the same
+ * @param {Slices} slices @returns {Promise<MergedMatch[] | null>}
+ */
+export async function mergedMatches(app, matches, most, mirror, slices) {
+  const { curveSearch: kernel } = await app.kernel.load();
+  /** @type {(MergedMatch & { outline: Outline, search: ShapeSearch })[]} */ const merged = [];
+  try {
+    for (const match of matches) {
+      await needCurves(match.family, [match.curve]);
+      const outline = curveOutline(match.family, match.curve);
+      const same = await sameAmong(merged, match, outline);
+      if (same) same.others.push(match);
+      else if (merged.length < most) {
+        // A shape with symmetries is fitted in several ways: curves are compared wherever they are.
+        const search = await ShapeSearch.open(kernel, outline, { mirror, least: WHOLE });
+        merged.push({ match, outline, search, others: [] });
+      }
+      if (!(await slices.goOn())) return null;
+    }
+    return merged;
+  } finally {
+    for (const { search } of merged) await search.close();
+  }
+}
+
+async function sameAmong(merged, match, outline) {
+  for (const one of merged) {
+    // The same curve deviates as much from the path.
+    const { rms, greatest } = one.match;
+    if (Math.abs(rms - match.rms) > SAME || Math.abs(greatest - match.greatest) > 3 * SAME) continue;
+    if (one.outline.closed !== outline.closed) continue;
+    const fit = await one.search.fit(outline);
+    if (fit && fit.rms < SAME && Math.abs(fit.to - fit.from) > 1 - SAME) return one;
+  }
+  return null;
+}
+
+/** The families of a match, "Evans; Chebyshev and 5 more curves". */
+export function familiesText(/** @type {MergedMatch} */ { match, others }) {
+  const [first, second] = new Set([match, ...others].map(({ family }) => family.title));
+  const rest = others.length - (second ? 1 : 0);
+  const named = second ? `${first}; ${second}` : first;
+  return rest ? `${named} and ${rest} more ${rest === 1 ? "curve" : "curves"}` : named;
+}
