@@ -15,7 +15,7 @@ function newFamily(/** @type {FamilyHead} */ { pieces, measures, words, ...head 
   return {
     ...head,
     cells: tableOfCells(0, table.cells, 0),
-    curves: tableOfCurves(0, table.curves, measures, words),
+    curves: tableOfCurves(0, table.curves, words),
     table,
     outlines,
     pageCount: outlines.pages,
@@ -44,7 +44,7 @@ function tableOfCells(room, count, width) {
 }
 
 /** The columns of `count` curves, with room for `room`. @returns {Curves} */
-function tableOfCurves(room, count, measures, words) {
+function tableOfCurves(room, count, words) {
   const wordsOf = (name) => [name, { values: [], codes: new Uint8Array(room).fill(NO_WORD) }];
   return {
     count,
@@ -52,7 +52,8 @@ function tableOfCurves(room, count, measures, words) {
     trace: new Uint16Array(room),
     circuit: new Uint16Array(room),
     closed: new Uint8Array(room),
-    measures: Object.fromEntries(measures.map((name) => [name, new Float64Array(room)])),
+    // Measures that no curve has take no room.
+    measures: {},
     words: Object.fromEntries(words.map(wordsOf)),
   };
 }
@@ -61,7 +62,7 @@ function tableOfCurves(room, count, measures, words) {
 function allocateTable(/** @type {Family} */ { cells, curves, names, measureNames }) {
   if (cells.number.length === cells.count) return;
   Object.assign(cells, tableOfCells(cells.count, cells.count, names.length));
-  Object.assign(curves, tableOfCurves(curves.count, curves.count, measureNames.numbers, measureNames.words));
+  Object.assign(curves, tableOfCurves(curves.count, curves.count, measureNames.words));
 }
 
 /** Collects the statements of a family's head; `finish()` returns the family. */
@@ -127,9 +128,13 @@ export class PieceReader {
     }
     const all = end - this.curve;
     for (const name of ["trace", "circuit", "closed"]) unpackInto(curves[name], this.curve, all, rows[name]);
-    measureNames.numbers.forEach((name, k) =>
-      unpackInto(curves.measures[name], this.curve, all, rows.measures[k]),
-    );
+    measureNames.numbers.forEach((name, k) => {
+      const { measures } = curves;
+      const column = rows.measures[k];
+      if (column === null && !measures[name]) return;
+      measures[name] ??= new Float64Array(curves.cell.length).fill(NaN);
+      unpackInto(measures[name], this.curve, all, column);
+    });
     measureNames.words.forEach((name, k) => {
       const { codes, values } = rows.words[k];
       addWords(curves.words[name], this.curve, unpackColumn(Uint8Array, all, codes), values);
