@@ -88,10 +88,10 @@ const TESTS = [
     "the plate moves by itself, by the slider and by dragging, and is recomputed by a parameter",
     async (firefox) => {
       await at(firefox, atlas, "/evans/curve/1.1.1");
-      const input = () => document.querySelector(".input-now").textContent;
+      const input = () => document.querySelector(".input-now").value;
       const first = await firefox.evaluate(input);
       await firefox.eventually(
-        (was) => document.querySelector(".input-now").textContent !== was,
+        (was) => document.querySelector(".input-now").value !== was,
         "it does not move",
         first,
       );
@@ -101,7 +101,7 @@ const TESTS = [
       });
       // Home, and the arrow to the right.
       await firefox.keys("\uE011\uE014");
-      await firefox.eventually(() => document.querySelector(".input-now").textContent === "1.0°", "no step");
+      await firefox.eventually(() => document.querySelector(".input-now").value === "1.0°", "no step");
       const crank = await boxOf(firefox, '.grip[data-joint="2"]:not(.crank-grip)');
       const pin = [crank.left + crank.width / 2, crank.top + crank.height / 2];
       await firefox.mouse([pin, [pin[0], pin[1] - 8], [pin[0] - 8, pin[1] - 25]], true);

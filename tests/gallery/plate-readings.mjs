@@ -32,7 +32,7 @@ export const READINGS = [
     async ({ browser, folder }) => {
       const plate = await openGallery(browser, folder, "/scotch-yoke/curve/1.1.1", REDUCED_MOTION);
       const { page } = plate;
-      assert.ok((await page.locator(".speed-line").getAttribute("d")).length > 200);
+      assert.ok((await page.locator(".graph-line").getAttribute("d")).length > 200);
       assert.equal(await page.locator(".moving .velocity").getAttribute("d"), "");
       await page.getByRole("checkbox", { name: "Velocity" }).check();
       assert.match(await page.locator(".moving .velocity").getAttribute("d"), /^M.*L/);

@@ -13,7 +13,7 @@ export const gripAt = (page, joint) =>
 
 /** The input that the plate shows, in degrees or as a length. */
 export const inputNow = async (page) =>
-  Number((await page.locator(".input-now").textContent()).replace("−", "-").replace("°", ""));
+  Number((await page.locator(".input-now").inputValue()).replace("−", "-").replace("°", ""));
 
 export const fieldOf = (page, name) =>
   page.getByRole("spinbutton", { name: `Value of ${name}`, exact: true });

@@ -8,12 +8,16 @@ import { ACCESSIBILITY } from "./plate-accessibility.mjs";
 import { HANDLES } from "./plate-handles.mjs";
 import { KERNEL } from "./plate-kernel.mjs";
 import { MOTION } from "./plate-motion.mjs";
+import { MOVEMENT } from "./plate-movement.mjs";
 import { PARAMETERS } from "./plate-parameters.mjs";
 import { READINGS } from "./plate-readings.mjs";
 import { STATE } from "./plate-state.mjs";
 
 const [folder] = process.argv.slice(2);
 
-await runTests([...MOTION, ...READINGS, ...PARAMETERS, ...ACCESSIBILITY, ...KERNEL, ...STATE, ...HANDLES], {
-  folder,
-});
+await runTests(
+  [...MOTION, ...READINGS, ...PARAMETERS, ...ACCESSIBILITY, ...KERNEL, ...STATE, ...HANDLES, ...MOVEMENT],
+  {
+    folder,
+  },
+);

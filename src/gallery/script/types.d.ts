@@ -25,6 +25,16 @@ type PlateState = {
   on: Set<string>;
   at: Place | null;
   locked: Set<string>;
+  motion: MotionState;
+};
+/** What a plate shows of the motion: of a joint, a graph, at a speed of the input, against a load. */
+type MotionState = { joint: string | null; graph: string; rpm: number | null; load: string | null };
+/** The motion of a joint at places (crates/coupler-kernel/src/request.rs). */
+type JointMotion = Record<"passes" | "inputs" | "positions" | "velocities" | "accelerations", Float64Array> & {
+  links: { joints: string[]; velocities: Float64Array; accelerations: Float64Array }[];
+  transmission_angles: Float64Array | null;
+  torques: Float64Array | null;
+  torque: Record<"peak" | "peak_input" | "min" | "max", number | string> | null;
 };
 /** A joint that dimensions move, with their names (crates/coupler-kernel/src/request.rs). */
 type HandleAnswer = { joint: number; names: string[]; nearest: string[] };

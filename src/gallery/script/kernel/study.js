@@ -55,6 +55,15 @@ export class KernelStudy {
     return this.#ask("centrodes", { samples });
   }
 
+  /**
+   * The motion of a joint at a place, or about so many places of the circuit, perhaps against a load.
+   * @param {{ joint: number, count: number, place: Place | null, load: string | null }} of @returns {JointMotion}
+   */
+  motion({ joint, count, place, load }) {
+    const at = place && { pass: place.pass, input: place.input };
+    return this.#ask("joint_motion", { joint, count, place: at, load });
+  }
+
   /** The joints that dimensions move. @returns {HandleAnswer[]} */
   handles() {
     return this.#ask("handles").handles;

@@ -91,6 +91,15 @@ export class Drive {
     this.move();
   }
 
+  /** Moves to an input, on this pass if it has it, or to the nearest that there is. */
+  moveToInput(/** @type {number} */ input) {
+    const beyond = ({ from, to }) => Math.max(Math.min(from, to) - input, input - Math.max(from, to), 0);
+    const all = this.timeline.passes.map(beyond);
+    const own = all[this.place.pass];
+    const least = Math.min(...all);
+    this.moveTo({ pass: own === least ? this.place.pass : all.indexOf(least), input });
+  }
+
   /** Pauses and moves to a part of the timeline. */
   seekAndPause(part) {
     if (this.isHalted) return;

@@ -5,7 +5,8 @@ import { DialView } from "./dial-view.js";
 import { Drive } from "./drive.js";
 import { Overlays } from "./overlays.js";
 import { pathsOfStudy, straightSummary, visibleStraightPortion } from "./paths.js";
-import { SpeedView } from "./speed-view.js";
+import { shownRange } from "./motion-graph.js";
+import { MotionView } from "./motion-view.js";
 import { Stage } from "./stage.js";
 import { Pose, circuitTitle, velocityArrow } from "./study.js";
 import { clampPart, partOfInput } from "./timeline.js";
@@ -14,8 +15,11 @@ import { Transport } from "./transport.js";
 // Chord errors of a path relative to its size: rough while a slider is being moved, fine when it has rested.
 const ROUGH_PATH = 3e-4;
 const FINE_PATH = 2e-5;
-// The number of places of the graph of the speed.
-const SPEED_PLACES = 400;
+// The number of places at which the speed of the traced point is known, for its arrow.
+const SPEED_PLACES = 100;
+
+/** What is shown of the motion, unless the address says otherwise. @type {MotionState} */
+export const STILL = { joint: null, graph: "speed", rpm: null, load: null };
 
 /** The drawing of the linkage of a curve, with its playback controls and its readings. */
 export class PlateFigure {
@@ -24,7 +28,14 @@ export class PlateFigure {
   /** Why what was asked for cannot be drawn. @type {string | null} */
   reason = null;
   /** What its address says. @type {PlateState} */
-  state = { changes: new Map(), requestedCircuit: null, on: new Set(), at: null, locked: new Set() };
+  state = {
+    changes: new Map(),
+    requestedCircuit: null,
+    on: new Set(),
+    at: null,
+    locked: new Set(),
+    motion: STILL,
+  };
   /** The measures, if they are not those of the atlas. @type {Measured | null} */
   measured = null;
   /** @type {StraightPortion | null} */ portion = null;
@@ -39,7 +50,8 @@ export class PlateFigure {
     this.transport = new Transport(this);
     this.overlays = new Overlays(this.stage);
     this.dial = new DialView();
-    this.speed = new SpeedView((part) => this.drive.seekAndPause(part));
+    this.motion = new MotionView(this);
+    /** The greatest speed of the traced point that is shown. */ this.topSpeed = 1;
     this.stage.onview = () => this.draw();
   }
 
@@ -68,12 +80,20 @@ export class PlateFigure {
     this.overlays.show(study, this.on, isRough);
     this.transport.show(study, circuitTitle(study.is_length, study.circuits[study.shown]));
     this.dial.show(study);
-    const { timeline } = study;
-    const partOf = (/** @type {Place} */ at) => clampPart(timeline, partOfInput(timeline, at.pass, at.input));
-    const parts = this.portion && [partOf(this.portion.from), partOf(this.portion.to)];
-    this.speed.show(study, study.kernel.speeds(SPEED_PLACES), parts);
+    [, this.topSpeed] = shownRange([...study.kernel.speeds(SPEED_PLACES).speeds]);
+    this.showMotion(isRough);
     this.stage.keepInFrame();
     this.draw();
+  }
+
+  /** Shows the motion of the joint that is chosen, with the straight portion of the curve. */
+  showMotion(isRough = false) {
+    const { study, portion } = this;
+    if (!study) return;
+    const { timeline } = study;
+    const partOf = (/** @type {Place} */ at) => clampPart(timeline, partOfInput(timeline, at.pass, at.input));
+    this.motion.show(study, isRough, portion && [partOf(portion.from), partOf(portion.to)]);
+    this.motion.update(this.drive.part, this.drive.place);
   }
 
   // The measures of the atlas, or computed ones if something is changed.
@@ -92,7 +112,7 @@ export class PlateFigure {
 
   /** Draws the linkage at the place of the drive. */
   draw() {
-    const { study, drive, pose, stage, speed } = this;
+    const { study, drive, pose, stage } = this;
     if (!study) return;
     const { pass, part, place } = drive;
     if (!this.guarded(() => pose.move(study, place.pass, place.input))) return;
@@ -100,8 +120,8 @@ export class PlateFigure {
     this.overlays.pose(pose.joints, stage.view, pose.instant);
     this.dial.pose(pose.transmission);
     this.transport.update(part, place.input);
-    speed.update(part, Math.hypot(...pose.velocity));
-    const frame = { top: speed.top, size: stage.size, heading: Math.sign(pass.to - pass.from) };
+    this.motion.update(part, place);
+    const frame = { top: this.topSpeed, size: stage.size, heading: Math.sign(pass.to - pass.from) };
     stage.moving.speed(this.on.has("velocity") ? velocityArrow(pose.velocity, frame) : null);
   }
 
@@ -122,6 +142,9 @@ export class PlateFigure {
     if (!this.stage.isZoomed) this.stage.fit();
     this.draw();
   }
+
+  /** Changes what is shown of the motion. */
+  changeMotion(/** @type {Partial<MotionState>} */ _) {}
 
   /** After a gesture that has moved the linkage. */
   moved() {}

@@ -15,14 +15,14 @@ const STILL_PLATE = { width: 640, height: 420 };
 
 /** The element of a plate, { element, refresh(), leave() }. @param {Plate} plate */
 export function plateLayout(plate) {
-  const { app, family, curve, stage, transport, dial, speed, sliders, switches, measures } = plate;
+  const { app, family, curve, stage, transport, dial, motion, sliders, switches, measures } = plate;
   const changed = h("span.tag.changed-tag", { hidden: true }, "parameters changed");
   const pin = pinButton(app, `${family.id}:${curveKey(family, curve)}`, { class: "pin" });
   const take = exportMenu(app, () => [plate.name]);
   const side = h(
     "aside.panel.plate-panel",
     { "aria-label": "Readings and parameters" },
-    [dial, speed, sliders, switches].map((part) => part.element),
+    [dial, motion, sliders, switches].map((part) => part.element),
     switches.circuitSection,
   );
   const element = h(

@@ -2,6 +2,7 @@
 
 import { address } from "../../data/address.js";
 import { findCurve, curveKey } from "../../data/family.js";
+import { STILL } from "./figure.js";
 import { OVERLAYS } from "./overlays.js";
 import { parseChanges } from "./parameters.js";
 
@@ -21,18 +22,35 @@ export function readPlateQuery(family, point, query) {
     changes: parseChanges(family, point, query),
     requestedCircuit: Number.isInteger(circuit) && circuit > 0 ? circuit - 1 : null,
     on: new Set(OVERLAYS.filter(isOn).map(({ name }) => name)),
+    motion: motionOfQuery(query),
     locked: new Set(query.get("lock")?.split(",").filter(Boolean)),
     at: Number.isFinite(input) && pass >= 1 ? { input, pass: Math.floor(pass) - 1 } : null,
   };
 }
 
+/** What is shown of the motion. @param {Query} query @returns {MotionState} */
+function motionOfQuery(query) {
+  const rpm = Number(query.get("rpm"));
+  return {
+    joint: query.get("joint") || STILL.joint,
+    graph: query.get("graph") || STILL.graph,
+    rpm: query.get("rpm") && Number.isFinite(rpm) ? rpm : STILL.rpm,
+    load: query.get("load") || STILL.load,
+  };
+}
+
 /** The shortest address of a plate in a state; defaults are left out. @param {Plate} _ @param {PlateState} state */
-export function plateAddress({ family, curve, study }, { changes, requestedCircuit, on, at, locked }) {
+export function plateAddress(
+  { family, curve, study },
+  { changes, requestedCircuit, on, at, locked, motion },
+) {
   const query = new Map([...changes].map(([name, value]) => [name, String(value)]));
   if (requestedCircuit !== null && requestedCircuit !== study?.home)
     query.set("circuit", String(requestedCircuit + 1));
   const isUsual = OVERLAYS.every(({ name, isOn }) => on.has(name) === isOn);
   if (!isUsual) query.set("show", [...on].join(",") || "nothing");
+  for (const [name, value] of Object.entries(motion))
+    if (value !== null && value !== STILL[name]) query.set(name, String(value));
   if (locked.size) query.set("lock", [...locked].join(","));
   if (at) query.set("at", `${Number(at.input.toPrecision(10))}${at.pass > 0 ? `,${at.pass + 1}` : ""}`);
   return address([family.id, "curve", curveKey(family, curve)], query);

@@ -114,8 +114,8 @@ export class Plate extends PlateFigure {
     else if (state.requestedCircuit !== before.requestedCircuit) this.#circuitChosen();
     else if (state.on !== before.on) {
       this.showOverlays(before.on);
-      this.#showSwitches();
-    }
+      this.switches.show(this.candidates, this.study, this.on, isExtraCircuit(this));
+    } else if (state.motion !== before.motion) this.showMotion();
     if (state.locked !== before.locked) this.sliders.showLocked(state.locked);
   }
 
@@ -205,16 +205,12 @@ export class Plate extends PlateFigure {
   #settle() {
     const { family, curve, study } = this;
     this.measures.show(this.reason ? null : this.measured);
-    this.#showSwitches();
+    this.switches.show(this.candidates, this.study, this.on, isExtraCircuit(this));
     this.layout.refresh();
     if (this.reason) this.app.announce(`Cannot be assembled: ${this.reason}`);
     this.stage.summary.textContent = study ? summaryOfStudy(family, curve, study, this.isRecorded) : "";
     // A handle that rests while it is held has not ended its gesture.
     if (!this.stage.isHeld) this.store.commit();
-  }
-
-  #showSwitches() {
-    this.switches.show(this.candidates, this.study, this.on, isExtraCircuit(this));
   }
 
   /** Plays or pauses the motion; the address has the input of a linkage that stands still. */
@@ -235,6 +231,10 @@ export class Plate extends PlateFigure {
     if (isOn) on.add(name);
     else on.delete(name);
     this.store.change({ on });
+  }
+
+  changeMotion(/** @type {Partial<MotionState>} */ changes) {
+    this.store.change({ motion: { ...this.state.motion, ...changes } });
   }
 
   /** Chooses a circuit. */

@@ -2,6 +2,7 @@
 
 import { buttonOf, h, isShortcut, selectOf } from "../dom.js";
 import { formatDecimals } from "../labels.js";
+import { NumberField } from "../number-field.js";
 
 /** Playback rates, in degrees of input per second, and their labels. */
 const PLAY_RATES = [
@@ -30,7 +31,14 @@ export class Transport {
       oninput: () => drive.seekAndPause(Number(this.scrub.value)),
       onkeydown: (event) => stepByKey(event, drive),
     });
-    this.input = h("span.input-now");
+    const type = (/** @type {number} */ input) => {
+      drive.pause();
+      drive.moveToInput(input);
+    };
+    this.input = new NumberField(
+      { class: "input-now", "aria-label": "Input" },
+      { units: ["°", "deg"], change: type, settle: () => plate.moved(), step: (by) => drive.step(1, by) },
+    );
     this.ends = h("p.note.ends");
     this.straight = h("p.note.straight-note");
     const rates = PLAY_RATES.map(([rate, label]) => [rate, `${label} ×`]);
@@ -50,7 +58,7 @@ export class Transport {
     this.element = h(
       "div.transport",
       { role: "group", "aria-label": "Motion" },
-      h("div.drive", this.play, this.toLimits[0], this.scrub, this.toLimits[1], this.input),
+      h("div.drive", this.play, this.toLimits[0], this.scrub, this.toLimits[1], this.input.element),
       h("div.toolbar", notes, h("span.end.zooms", this.rate, zooms)),
     );
     this.announced = 0;
@@ -93,7 +101,7 @@ export class Transport {
 
   update(part, input) {
     const text = this.isLength ? formatDecimals(input, 4) : `${formatDecimals(input, 1)}°`;
-    this.input.textContent = text;
+    this.input.show(input, text);
     if (document.activeElement !== this.scrub || this.isPlaying || Number(this.scrub.value) !== part)
       this.scrub.value = part;
     // Limits announcements to screen readers to two per second.
