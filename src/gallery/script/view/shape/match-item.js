@@ -1,6 +1,7 @@
 // A result of the search by shape: a curve with the best fit of the shape overlaid.
 
 import { curvePoints, curveCaption, curveKey } from "../../data/family.js";
+import { needCurves } from "../../data/needs.js";
 import { inverted, transformed } from "../../draw/similarity.js";
 import { portion } from "../../shape/outline.js";
 import { placedData } from "../../draw/path-data.js";
@@ -15,7 +16,7 @@ import { familiesText } from "./merged.js";
  * The list item of a result of `mergedMatches` for a shape with the options of a query (query.js).
  * @param {App} app @param {MergedMatch} merged @param {Shape} shape
  */
-export function matchItem(app, merged, shape, /** @type {ShapeQuery} */ { by, part }) {
+function matchItem(app, merged, shape, /** @type {ShapeQuery} */ { by, part }) {
   const { match: one, others } = merged;
   const { family, curve, name } = one;
   const caption = curveCaption(family, curve);
@@ -33,6 +34,29 @@ export function matchItem(app, merged, shape, /** @type {ShapeQuery} */ { by, pa
   const similar = h("a", { href: address(["shape"], { like: name }) }, "Find similar");
   const link = h("a", { href, "data-name": name }, picture, deviations, families, label);
   return h("li", link, h("span.acts", similar, pin));
+}
+
+/**
+ * The list items of results; null if stopped. Each is drawn as soon as its points are loaded: those of all may be more than
+ * are kept.
+ * @param {App} app @param {MergedMatch[]} merged @param {Shape} shape @param {ShapeQuery} query @param {Slices} slices
+ */
+export async function matchItems(app, merged, shape, query, slices) {
+  const items = [];
+  for (const one of merged) {
+    await needCurves(one.match.family, [one.match.curve]);
+    if (slices.stopped()) return null;
+    items.push(matchItem(app, one, shape, query));
+  }
+  return items;
+}
+
+/** A sentence on the results among so many curves. @param {number} count @param {number} curves @param {string} by */
+export function matchesText(count, curves, by) {
+  if (count === 0) return "No similar curve found";
+  const nearest = count === 1 ? "nearest" : `${count} nearest`;
+  const ranked = `equal ones together, ranked by ${by} deviation in % of the shape’s size`;
+  return `The ${nearest} of ${curves.toLocaleString("en")} curves, ${ranked}`;
 }
 
 const MATCH_INSET = 6;

@@ -10,7 +10,7 @@ import { Slices } from "../slices.js";
 import { FourBarSection } from "./four-bars.js";
 import { needPart, releaseIndexes, searchedParts } from "./indexes.js";
 import { shapeLayout } from "./layout.js";
-import { matchItem } from "./match-item.js";
+import { matchItems, matchesText } from "./match-item.js";
 import { nearestCurves } from "./matches.js";
 import { mergedMatches } from "./merged.js";
 import { DrawingPad } from "./pad.js";
@@ -123,8 +123,12 @@ export class ShapeView {
   /** Says what is not searched, or that there is nothing to search. */
   showState() {
     this.loadAll.show(this.state);
-    if (this.state.curves > 0) return;
-    fill(this.status, "No curves are loaded; select families");
+    if (this.state.curves === 0) this.showNone("No curves are loaded; select families");
+  }
+
+  /** Says why there are no results. */
+  showNone(why) {
+    fill(this.status, why);
     fill(this.results);
     this.results.removeAttribute("aria-busy");
   }
@@ -164,13 +168,11 @@ export class ShapeView {
     // Before all is opened, no search is running.
     if (this.state.done) this.turn += 1;
     this.fourBarTurn += 1;
+    this.fourBars.clear();
     this.shape = null;
     Object.assign(this.query, { d: null, like: null, part: null });
     this.options.mark();
-    this.fourBars.clear();
-    fill(this.results);
-    this.results.removeAttribute("aria-busy");
-    fill(this.status, why);
+    this.showNone(why);
     this.writeAddress();
   }
 
@@ -201,23 +203,13 @@ export class ShapeView {
       const merged = await mergedMatches(this.app, found, MAX_RESULTS, mirror, slices);
       if (!merged) return;
       this.element.dataset.milliseconds = (performance.now() - began).toFixed(0);
-      const items = [];
-      // Each is drawn as soon as its points are loaded: those of all may be more than are kept.
-      for (const one of merged) {
-        await needCurves(one.match.family, [one.match.curve]);
-        if (slices.stopped()) return;
-        items.push(matchItem(this.app, one, shape, this.query));
-      }
-      this.show(items);
+      const items = await matchItems(this.app, merged, shape, this.query, slices);
+      if (items) this.show(items);
     } catch (error) {
-      if (slices.stopped()) return;
-      fill(this.status, error.message);
-      fill(this.results);
-      this.results.removeAttribute("aria-busy");
+      if (!slices.stopped()) this.showNone(error.message);
     }
   }
 
-  /** Searches for four-bars. */
   findFourBars() {
     this.fourBarTurn += 1;
     const turn = this.fourBarTurn;
@@ -227,12 +219,7 @@ export class ShapeView {
 
   /** Shows list items of results. */
   show(items) {
-    const { by } = this.query;
-    const ranked = `equal ones together, ranked by ${by} deviation in % of the shape’s size`;
-    const nearest = items.length === 1 ? "nearest" : `${items.length} nearest`;
-    const sentence = items.length
-      ? `The ${nearest} of ${this.state.curves.toLocaleString("en")} curves, ${ranked}`
-      : "No similar curve found";
+    const sentence = matchesText(items.length, this.state.curves, this.query.by);
     const rest = this.state.curves < this.state.total ? `; ${this.loadAll.text(this.state)}` : "";
     fill(this.status, sentence);
     this.app.announce(`${sentence}${rest}`);
@@ -240,7 +227,6 @@ export class ShapeView {
     fill(this.results, items);
   }
 
-  /** Updates the address and the results after a change of the query. */
   submit() {
     this.writeAddress();
     this.search();
