@@ -1,25 +1,21 @@
-//! The search for linkages whose curves are nearest to a path, on all threads: in an atlas, and for the dimensions of any linkage; and what a
-//! search reads from files, the path and the index of curves.
+//! The search for linkages whose curves are nearest to a path, on all threads: in an atlas, and for the dimensions of any linkage; and the
+//! index of curves in a file.
 
 mod atlas;
-mod closing;
 pub mod description;
 mod drawing;
 pub mod function;
 mod index_file;
 mod linkage;
-mod outline;
 mod poses;
 mod record;
 mod request;
 mod several;
-mod target_file;
 
 pub use atlas::{AtlasAnswer, AtlasQuery, find_in_atlas};
 pub use drawing::draw_four_bars;
 pub use index_file::{MAX_CURVES, load_index};
 pub use linkage::find_linkage;
-pub use outline::{Outline, ReadOptions, Reading};
 pub use poses::{
     FoundPoses, PoseFindingsRecord, PoseReading, PoseRecord, PoseRequest, Relaxed, check_given_pivots, draw_poses,
     find_poses, guided_body, passing, read_poses,
@@ -27,7 +23,8 @@ pub use poses::{
 pub use record::{AtlasAnswerRecord, LinkageAnswerRecord};
 pub use request::{Request, RequestProblem, Searched, SearchedLinkage};
 pub use several::{Several, find_among, simplest};
-pub use target_file::{FunctionRows, MAX_POINTS, parse_function, parse_outline};
+
+pub use coupler_paths::{FunctionRows, MAX_POINTS, Outline, ReadOptions, Reading, parse_function, parse_outline};
 
 pub use crate::notation::Notation;
 pub use crate::threads::Interrupted;

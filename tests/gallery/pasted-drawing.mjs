@@ -1,9 +1,7 @@
 // A drawing to paste, with its outlines as drawn by Chromium and as read by the page.
 
-import { svgOutlines } from "../../src/gallery/script/shape/svg-outlines.js";
-
 /** A drawing with transforms of every kind, and outlines of every kind. */
-export const DRAWING = `<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink">
+export const DRAWING = `<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" stroke="black">
   <defs><path id="loop" d="M0 0C30-40 80-10 50 20S-20 30 0 0Z"/></defs>
   <g transform="translate(40 30) rotate(-20)"><g transform="matrix(1.2 .3 -.4 .8 10 5),scale(1.5,.7)">
     <path transform="skewX(15)"
@@ -40,10 +38,15 @@ export function browserBoxes(page, svg) {
   }, svg);
 }
 
-/** The same boxes as read by the page. */
-export function parsedBoxes(svg) {
-  return svgOutlines(svg).map(({ points }) => {
-    const [xs, ys] = [0, 1].map((axis) => points.filter((_, k) => k % 2 === axis));
+/** The same boxes as read by the kernel of the page. */
+export function readBoxes(kernel, svg, count) {
+  const bytes = Float64Array.from(new TextEncoder().encode(svg));
+  return Array.from({ length: count }, (_, k) => {
+    const { points } = kernel.call({ method: "read_path", bytes, outline: String(k + 1) });
+    // y points up in the page.
+    const [xs, ys] = [0, 1].map((axis) =>
+      points.filter((_, at) => at % 2 === axis).map((value) => (axis ? -value : value)),
+    );
     return [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
   });
 }

@@ -191,7 +191,8 @@ fn unsafe_code_is_forbidden() {
     let find = parsed(include_str!("../../crates/coupler-find/Cargo.toml"));
     let drawing = parsed(include_str!("../../crates/coupler-drawing/Cargo.toml"));
     let manifest = parsed(include_str!("../../crates/coupler-manifest/Cargo.toml"));
-    for member in [&cargo, &curves, &find, &drawing, &manifest] {
+    let paths = parsed(include_str!("../../crates/coupler-paths/Cargo.toml"));
+    for member in [&cargo, &curves, &find, &drawing, &manifest, &paths] {
         let inherits = table(member, "lints").get("workspace").and_then(|value| value.get_ref().as_bool());
         assert_eq!(inherits, Some(true));
     }

@@ -69,6 +69,8 @@ mod timing;
 mod shape;
 mod target;
 
+mod hindrance;
+
 mod query;
 
 mod quality;
@@ -105,6 +107,7 @@ pub use function::{
     Defect, FunctionAnswer, FunctionFindings, FunctionMethod, FunctionOptions, FunctionTarget, FunctionTargetError,
     GeneratorKind, Law, LawError, LeftOut, StructuralError, generate_function,
 };
+pub use hindrance::Hindrance;
 pub use linkage::{
     JAM_DEG, LinkageAnswer, LinkageFunctionAnswer, LinkageFunctionError, LinkageFunctionOptions, LinkageIndex,
     LinkageIndexPart, LinkageSampler, LinkageSearch, LinkageSpace, LinkageSpaceError, PlacedCurve,

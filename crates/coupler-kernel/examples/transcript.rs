@@ -152,7 +152,10 @@ impl<'a, W: Write> Session<'a, W> {
         };
         let points: Vec<f64> = (0..24).flat_map(point).collect();
         let array = json!({ "$": [0, points.len()] });
-        let options = json!({ "points": array, "kind": "closed", "full_turn": false, "max_link": "inf", "most": 1 });
+        let options = json!({
+            "points": array, "kind": "closed", "full_turn": false, "max_link": "inf", "most": 1,
+            "pivots": null, "condition": "mu_worst_deg >= 1", "refine": true, "start": null,
+        });
         let with_options = |method: &str, more: &Value| {
             let mut request = json!({ "method": method });
             let members = [&options, more].into_iter().flat_map(|part| part.as_object().unwrap().clone());
@@ -171,6 +174,11 @@ impl<'a, W: Write> Session<'a, W> {
             }
         };
         assert_eq!(found["answers"].as_array().unwrap().len(), 1, "{found}");
+        for file in ["<svg><path d='M0 0C1 2 3 4 9 0' stroke='red'/></svg>", "x,y\n1,2\n3,4\n5,1", "[[1, 2], 3]"] {
+            let bytes: Vec<f64> = file.bytes().map(f64::from).collect();
+            let request = json!({ "method": "read_path", "bytes": { "$": [0, bytes.len()] }, "outline": null });
+            self.ask_with_numbers(&request, &bytes)?;
+        }
         // The path itself, and a curve like nothing.
         self.ask(&json!({ "method": "open_curves" }))?;
         let other = [0.0, 0.0, 1.0, 0.0, 2.0, 0.0, 24.0, 3.0, 1.0, 0.0];

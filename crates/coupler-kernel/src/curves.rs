@@ -108,6 +108,7 @@ fn fit_json(fit: &CurveFit, target: &Target) -> Value {
     let placement = fit.placement;
     json!({
         "rms": fit.deviation.rms_relative,
+        "quality": fit.deviation.quality().name(),
         "greatest": fit.deviation.greatest / target.size(),
         "similarity": {
             "mirror": placement.is_mirrored,

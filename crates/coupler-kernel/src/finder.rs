@@ -2,7 +2,8 @@
 
 use serde_json::{Value, json};
 
-use coupler_curves::geometry::Point;
+use coupler_curves::geometry::{Point, Vector, cross};
+use coupler_curves::linkage::{FourBar, PlacedFourBar};
 use coupler_find::{Answer, AnswerRecord, Index, Options, PathKind, Ranking, Search, Target, answers_manifest};
 
 use crate::response::Numbers;
@@ -27,6 +28,17 @@ pub(crate) fn target_of(points: &[Point], kind: &str) -> Result<Target, String> 
     Target::new(points, kind).map_err(|error| error.to_string())
 }
 
+/// The four-bar with these pivots of crank and rocker, their pins, and its coupler point.
+fn placed([o, c, a, b, m]: [Point; 5]) -> PlacedFourBar {
+    let coupler = (b - a).norm();
+    let along = (b - a) / coupler;
+    PlacedFourBar {
+        pivots: [o, c],
+        lengths: FourBar { frame: (c - o).norm(), crank: (a - o).norm(), coupler, rocker: (b - c).norm() },
+        coupler_point: Vector::new(along.dot(&(m - a)), cross(along, m - a)),
+    }
+}
+
 /// Adds the next curves to the index, up to the number that the program searches by default; how many there are, and how many there
 /// will be.
 pub(crate) fn grow_index(index: &mut Index) -> Value {
@@ -43,14 +55,27 @@ pub(crate) struct FourBarSearch {
 }
 
 impl FourBarSearch {
-    /// Begins a search.
+    /// Begins a search in the index, or with a four-bar.
     ///
     /// # Errors
     /// The points are no path.
-    pub fn new(points: &[Point], kind: &str, options: Options) -> Result<FourBarSearch, String> {
+    pub fn new(
+        points: &[Point],
+        kind: &str,
+        options: Options,
+        start: Option<[Point; 5]>,
+    ) -> Result<FourBarSearch, String> {
         let target = target_of(points, kind)?;
-        let search = Search::new(&target, options);
+        let search = match start {
+            Some(joints) => Search::from_four_bar(&target, options, &placed(joints)),
+            None => Search::new(&target, options),
+        };
         Ok(FourBarSearch { search, target, ranking: Ranking::default() })
+    }
+
+    /// What of the path keeps four-bars away from it, as clauses.
+    pub fn hindrances(&self) -> Vec<String> {
+        self.target.hindrances(false).iter().map(ToString::to_string).collect()
     }
 
     /// Takes a step of bounded work; whether nothing is left to do.
@@ -75,6 +100,7 @@ impl FourBarSearch {
             });
             json!({
                 "record": AnswerRecord::new(rank, answer),
+                "degeneracy": answer.mechanism.degeneracy(),
                 "curve": curve,
                 "pose": numbers.points(answer.mechanism.pose()),
                 "manifest": answers_manifest(name, size, std::slice::from_ref(answer)),

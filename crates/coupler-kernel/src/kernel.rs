@@ -10,10 +10,12 @@ use coupler_find::{CurveIndex, Index};
 use crate::curves::{ShapeSearch, add_curves, deviation};
 use crate::description::{opened_json, study_json};
 use crate::dragging::Dragging;
+use crate::drawn_path::drawn_path_json;
 use crate::family::{OpenFamily, fragment};
 use crate::finder::{FourBarSearch, grow_index};
 use crate::joint_motion::joint_motion_json;
 use crate::overlays::{centrodes_json, cognate_pins, cognates, cognates_json};
+use crate::path_file::path_file_json;
 use crate::paths::{measures_json, path_json, speeds_json};
 use crate::reading::{nearest_place, reading_json};
 use crate::request::{CurveRequest, Request};
@@ -109,10 +111,12 @@ impl Kernel {
                     .collect::<Result<Vec<_>, String>>()?;
                 json!({ "text": fragment(&curves)? })
             }
+            Request::ReadPath { bytes, outline } => path_file_json(&bytes, outline.as_deref(), numbers)?,
+            Request::DrawnPath { points, closed, is_part } => drawn_path_json(&points, closed, is_part, numbers)?,
             Request::GrowIndex => grow_index(&mut self.index),
-            Request::OpenSearch { points, kind, options } => {
-                let search = FourBarSearch::new(&points, &kind, options)?;
-                json!({ "search": self.searches.insert(search) })
+            Request::OpenSearch { points, kind, options, start } => {
+                let search = FourBarSearch::new(&points, &kind, options, start)?;
+                json!({ "hindrances": search.hindrances(), "search": self.searches.insert(search) })
             }
             Request::StepSearch { search } => json!({ "is_done": self.searches.get_mut(search)?.step(&self.index) }),
             Request::Answers { search, name } => self.searches.get_mut(search)?.answers_json(&name, numbers),

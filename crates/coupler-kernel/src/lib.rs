@@ -40,7 +40,9 @@ mod reading;
 mod description;
 mod dragging;
 
+mod drawn_path;
 mod finder;
+mod path_file;
 
 mod curves;
 

@@ -2,8 +2,8 @@
 
 use serde_json::Value;
 
-use coupler_curves::geometry::Point;
-use coupler_find::Options;
+use coupler_curves::geometry::{Bounds, Point};
+use coupler_find::{Condition, Effort, Mechanism, Options};
 
 /// A request. As JSON it is an object with its name in snake case as `method`, and with its fields. Numbers may be given as
 /// strings: these are read to the last bit, as numbers of JSON need not be. `{"$": [start, length]}` is an array of the numbers
@@ -134,6 +134,22 @@ pub enum Request {
         /// The curves.
         curves: Vec<CurveRequest>,
     },
+    /// Reads the path in a file.
+    ReadPath {
+        /// The bytes of the file, an array of numbers.
+        bytes: Vec<f64>,
+        /// The outline to take of several: its id, or its number from 1; by default the most likely.
+        outline: Option<String>,
+    },
+    /// The path to search for of a shape: without noise, and with points enough for its form to be seen.
+    DrawnPath {
+        /// The points of the shape, an array `[x, y, x, y, …]`.
+        points: Vec<Point>,
+        /// Whether it is closed.
+        closed: bool,
+        /// Whether it is to be a part of curves.
+        is_part: bool,
+    },
     /// Adds some four-bars to the index that searches look their paths up in.
     GrowIndex,
     /// Begins to search the index for the four-bars whose curves are nearest to a path.
@@ -142,9 +158,12 @@ pub enum Request {
         points: Vec<Point>,
         /// What a curve has in common with it: `closed`, `open` or `part`.
         kind: String,
-        /// Whether the crank must turn fully, the greatest distance of two joints of a link in sizes of the path, and the most
-        /// answers.
+        /// Whether the crank must turn fully, the greatest distance of two joints of a link in sizes of the path, a condition, the box of the
+        /// fixed pivots as two of its corners, the most answers, and whether they are refined: if not, fewer are tried.
         options: Options,
+        /// The four-bar to begin with in place of those of the index, by the pivots of its crank and its rocker, their pins, and its coupler
+        /// point, an array of ten numbers.
+        start: Option<[Point; 5]>,
     },
     /// Takes a step of a search.
     StepSearch {
@@ -266,7 +285,7 @@ impl Request {
             "close_family" => Request::CloseFamily { family: of.index("family")? },
             "open_study" => Request::OpenStudy {
                 curve: CurveRequest::from_value(of.member("curve")?)?,
-                shown: if of.member("shown")?.is_null() { None } else { Some(of.index("shown")?) },
+                shown: of.optional("shown", Object::index)?,
                 is_rough: of.flag("is_rough")?,
             },
             "close_study" => Request::CloseStudy { study: of.index("study")? },
@@ -280,7 +299,7 @@ impl Request {
                     Value::Null => None,
                     place => Some((Object(place).index("pass")?, Object(place).number("input")?)),
                 },
-                load: if of.member("load")?.is_null() { None } else { Some(of.text("load")?) },
+                load: of.optional("load", Object::text)?,
             },
             "measures" => Request::Measures { study: of.index("study")? },
             "cognates" => Request::Cognates { study: of.index("study")? },
@@ -304,6 +323,15 @@ impl Request {
                 Request::Export { curve: CurveRequest::from_value(of.member("curve")?)?, format: of.text("format")? }
             }
             "fragment" => Request::Fragment { curves: of.list("curves", CurveRequest::from_value)? },
+            "read_path" => Request::ReadPath {
+                bytes: of.array("bytes", numbers)?.to_vec(),
+                outline: of.optional("outline", Object::text)?,
+            },
+            "drawn_path" => Request::DrawnPath {
+                points: of.points("points", numbers)?,
+                closed: of.flag("closed")?,
+                is_part: of.flag("is_part")?,
+            },
             "grow_index" => Request::GrowIndex,
             "open_search" => Request::OpenSearch {
                 points: of.points("points", numbers)?,
@@ -311,9 +339,18 @@ impl Request {
                 options: Options {
                     full_turn: of.flag("full_turn")?,
                     max_link: of.number("max_link")?,
+                    pivots: of.optional("pivots", |of, key| of.points(key, numbers))?.map(Bounds::from_points),
+                    condition: of.optional("condition", |of, key| condition(&of.text(key)?))?,
+                    effort: if of.flag("refine")? { Effort::Normal } else { Effort::Quick },
+                    refine: of.flag("refine")?,
                     most: of.index("most")?,
                     ..Options::default()
                 },
+                start: of.optional("start", |of, key| {
+                    of.points(key, numbers)?
+                        .try_into()
+                        .map_err(|_| "`start` of the request is not five points".to_owned())
+                })?,
             },
             "step_search" => Request::StepSearch { search: of.index("search")? },
             "answers" => Request::Answers { search: of.index("search")?, name: of.text("name")? },
@@ -385,6 +422,11 @@ impl<'v> Object<'v> {
         read(self.member(key)?).ok_or_else(|| format!("`{key}` of the request has another form"))
     }
 
+    /// A member that may be null.
+    fn optional<T>(&self, key: &str, read: impl Fn(&Self, &str) -> Result<T, String>) -> Result<Option<T>, String> {
+        if self.member(key)?.is_null() { Ok(None) } else { read(self, key).map(Some) }
+    }
+
     fn text(&self, key: &str) -> Result<String, String> {
         self.read(key, |value| value.as_str().map(str::to_owned))
     }
@@ -440,6 +482,11 @@ fn number(value: &Value) -> Option<f64> {
 
 fn index(value: &Value) -> Option<usize> {
     usize::try_from(value.as_u64()?).ok()
+}
+
+/// A condition on four-bars.
+fn condition(text: &str) -> Result<Condition, String> {
+    Condition::new(&Mechanism::template(), text).map_err(|error| format!("`{text}`: {error}"))
 }
 
 /// A name with a number, as `["p", 2.5]`.

@@ -51,6 +51,10 @@ fn open_request(numbers: &[f64], kind: &str, full_turn: bool) -> Value {
         "kind": kind,
         "full_turn": full_turn,
         "max_link": 10,
+        "pivots": null,
+        "condition": null,
+        "refine": true,
+        "start": null,
         "most": 3,
     })
 }
@@ -159,6 +163,94 @@ fn there_are_answers_before_the_end() {
         }
     }
     assert!(known.is_some());
+}
+
+/// The deviation of the best answer of a search, relative to the size of the path, the answer's pose and the record.
+fn best(kernel: &mut Kernel, request: &Value, numbers: &[f64]) -> (f64, Vec<f64>, Value) {
+    let (text, out, _) = search(kernel, request, numbers);
+    let found: Value = serde_json::from_str(&text).unwrap();
+    let best = &found["answers"][0];
+    let start = best["pose"]["$"][0].as_u64().unwrap() as usize;
+    (best["record"]["rms_relative"].as_f64().unwrap(), out[start..start + 10].to_vec(), best["record"].clone())
+}
+
+#[test]
+fn a_search_looks_up_without_refining_and_begins_with_a_four_bar() {
+    let (mut kernel, _) = kernel_with_index(3000);
+    let mut numbers = path(60, 1.0);
+    let mut request = open_request(&numbers, "closed", true);
+    request["refine"] = json!(false);
+    let (rough, pose, _) = best(&mut kernel, &request, &numbers);
+    request["refine"] = json!(true);
+    request["start"] = json!({ "$": [numbers.len(), 10] });
+    numbers.extend(pose);
+    // Another kernel has no index at all.
+    let (warm, _, _) = best(&mut Kernel::default(), &request, &numbers);
+    assert!(warm < 0.75 * rough && warm < 0.03, "{warm} after {rough}");
+    request["start"] = json!({ "$": [0, 8] });
+    assert!(error(&mut kernel, &request, &numbers).contains("not five points"));
+}
+
+#[test]
+fn drawn_paths_have_no_noise_and_points_enough() {
+    let mut kernel = Kernel::default();
+    let circle = |count: usize, noise: f64| -> Vec<f64> {
+        let radius = |k: usize| 1.0 + noise * (f64::from((k * 7919 % 101) as u32) / 50.0 - 1.0);
+        let angle = |k: usize| std::f64::consts::TAU * k as f64 / count as f64;
+        (0..count).flat_map(|k| [radius(k) * trig::cos(angle(k)), radius(k) * trig::sin(angle(k))]).collect()
+    };
+    let mut drawn = |points: &[f64], closed: bool, is_part: bool| {
+        let array = json!({ "$": [0, points.len()] });
+        let request = json!({ "method": "drawn_path", "points": array, "closed": closed, "is_part": is_part });
+        let (path, numbers) = answer(&mut kernel, &request, points);
+        (path["kind"].as_str().unwrap().to_owned(), numbers)
+    };
+    let length = |numbers: &[f64]| -> f64 {
+        let points = numbers.as_chunks::<2>().0;
+        let step = |k: usize| {
+            let [a, b] = [points[k], points[(k + 1) % points.len()]];
+            ((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1])).sqrt()
+        };
+        (0..points.len()).map(step).sum::<f64>() / std::f64::consts::TAU
+    };
+    // Without noise, few points are even ones along them, and enough are taken as they are.
+    assert_eq!(drawn(&circle(60, 0.0), true, false), ("closed".to_owned(), circle(60, 0.0)));
+    let (kind, few) = drawn(&circle(12, 0.0), true, true);
+    assert_eq!((kind.as_str(), few.len()), ("part", 202));
+    assert_eq!(few[..2], few[200..]);
+    for count in [100, 200, 400] {
+        let noisy = circle(count, 0.02);
+        let (_, quiet) = drawn(&noisy, true, false);
+        assert!(
+            length(&noisy) > 1.02 && (length(&quiet) - 1.0).abs() < 0.02,
+            "{} of {}",
+            length(&quiet),
+            length(&noisy)
+        );
+    }
+    let (kind, line) = drawn(&[0.0, 0.0, 3.0, 0.0, 3.0, f64::NAN, 3.0, 0.0, 3.0, 1.0], false, false);
+    assert_eq!((kind.as_str(), line.len(), &line[..2], &line[198..]), ("part", 200, &[0.0, 0.0][..], &[3.0, 1.0][..]));
+    let request = json!({ "method": "drawn_path", "points": { "$": [0, 4] }, "closed": true, "is_part": false });
+    assert!(error(&mut kernel, &request, &[1.0; 4]).contains("too small"));
+}
+
+#[test]
+fn pivots_and_conditions_are_kept() {
+    let (mut kernel, _) = kernel_with_index(3000);
+    let mut numbers = path(60, 1.0);
+    let mut request = open_request(&numbers, "closed", true);
+    request["pivots"] = json!({ "$": [numbers.len(), 4] });
+    request["condition"] = json!("mu_worst_deg >= 25");
+    let corners = [14.0, 8.0, 2.0, -9.0];
+    numbers.extend(corners);
+    let (_, _, record) = best(&mut kernel, &request, &numbers);
+    assert!(record["mu_worst_deg"].as_f64().unwrap() >= 25.0 - 1e-6, "{record}");
+    for pivot in ["crank_pivot", "rocker_pivot"] {
+        let [x, y] = [0, 1].map(|k| record[pivot][k].as_f64().unwrap());
+        assert!((1.99..=14.01).contains(&x) && (-9.01..=8.01).contains(&y), "{record}");
+    }
+    request["condition"] = json!("nothing >= 25");
+    assert!(error(&mut kernel, &request, &numbers).contains("nothing"));
 }
 
 #[test]

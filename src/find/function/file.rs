@@ -2,7 +2,7 @@
 
 use coupler_find::{FunctionTarget, FunctionTargetError};
 
-use super::super::target_file::{FunctionRows, parse_function};
+use coupler_paths::{FunctionRows, parse_function};
 
 /// A function that has been read, and its first row, in degrees or as a length.
 pub type ReadFunction = (FunctionTarget, Option<[f64; 2]>);

@@ -2,8 +2,7 @@
 
 use coupler_find::{BodyPose, PoseSet};
 
-use super::super::outline::{ReadOptions, Reading};
-use super::super::target_file::parse_outline;
+use coupler_paths::{ReadOptions, Reading, parse_outline};
 
 /// Poses of a file.
 #[derive(Clone, Debug)]

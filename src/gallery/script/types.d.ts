@@ -42,7 +42,6 @@ type Handle = HandleAnswer & { element: SVGElement };
 type DragAnswer = { changes: [string, number][]; distance: number; is_held: boolean };
 type Timeline = ReturnType<typeof import("./view/plate/timeline.js").timelineOf>;
 type Parameter = ReturnType<typeof import("./view/plate/parameters.js").changeableParameters>[number];
-type Shape = NonNullable<ReturnType<typeof import("./shape/query-shape.js").queryShape>>;
 type Histogram = ReturnType<typeof import("./find/histogram.js").histogramOf>;
 type DrawnCurve = ReturnType<typeof import("./view/page-picture.js").curvesOnPaper>[number];
 type SolvedCurve = NonNullable<ReturnType<typeof import("./view/curve-reading.js").solveCurve>>;
@@ -62,7 +61,7 @@ type PageView = import("./view/page.js").PageView;
 type CurveTable = import("./find/table.js").CurveTable;
 type Filters = import("./find/filter.js").Filters;
 type Series = import("./data/series.js").Series;
-type Slices = import("./view/slices.js").Slices;
+type Store<S extends object> = import("./view/store.js").Store<S>;
 
 /** What all views share; an address is opened, or replaced without opening it. */
 type App = {
@@ -240,14 +239,20 @@ type Candidate = CurveOfFamily & { likeness: number };
 type SearchOptions = { isPart: boolean; mirror: boolean; least: number; by: "rms" | "greatest" };
 type CurveOfFamily = { family: Family; curve: number };
 /** How a curve fits a path: deviations relative to its size, and the part of the curve's length that it matches. */
-type Fit = { rms: number; greatest: number; similarity: Similarity; from: number; to: number };
+type Fit = { quality: string; rms: number; greatest: number; similarity: Similarity; from: number; to: number };
 type Match = CurveOfFamily & Fit & { name: string };
 /** A match with the others that are the same curve. */
 type MergedMatch = { match: Match; others: Match[] };
 /** The answers of a search for four-bars so far, and how many curves of the index it looked the path up in. */
-type FoundFourBars = Record<"size" | "index_count", number> & { answers: FourBarAnswer[]; manifest: string };
+type FoundFourBars = Record<"size" | "index_count", number> & { answers: FourBarAnswer[]; manifest: string } & {
+  hindrances: string[];
+};
+/** A shape to search four-bars for, and a path to compare curves with, of the kinds of `find`. */
+type NamedPath = { shape: Outline; isPart: boolean; name: string };
+type SearchedPath = { points: Float64Array; kind: string };
 /** A four-bar of `find --json` (docs/find.md) with its curve, and its joints at the first point of the path. */
 type FourBarAnswer = { record: FourBarRecord; manifest: string; pose: Float64Array } & {
+  degeneracy: string | null;
   curve: { closed: boolean; points: Float64Array } | null;
 };
 type FourBarRecord = FoundLinkage & { quality: string; in_order: boolean; cognates: FoundLinkage[] } & Record<
@@ -263,7 +268,6 @@ type FoundLinkage = { parameters: Lengths; class: string; mu_worst_deg: number |
 /** A curve to compare; one with changes has what the kernel draws instead. */
 type ComparedCurve = CurveOfFamily & ChangedCurve & { name: string; key: string; release(): void };
 type ChangedCurve = { changes: Map<string, number>; requested?: KernelCurve; shown?: number | null };
-type Markup = { name: string; attributes: Query; children: Markup[]; parent: Markup | null };
 type TypedArray = Uint8Array | Uint16Array | Uint32Array | Float64Array;
 type PackedColumn = string | number | null;
 type TypedArrayKind = { new (of: number | ArrayBuffer): TypedArray };

@@ -4,6 +4,7 @@ mod closing;
 mod drawings;
 mod hostile;
 mod own_formats;
+mod page;
 mod tables;
 
 use coupler_atlas::find::{Outline, ReadOptions, parse_outline};

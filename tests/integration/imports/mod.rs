@@ -12,11 +12,12 @@ use std::path::Path;
 use names::Names;
 
 /// The source folders of the crates: of those without files, threads and clocks, of the program, and of the Python package.
-pub const CRATES: [&str; 7] = [
+pub const CRATES: [&str; 8] = [
     "crates/coupler-curves/src",
     "crates/coupler-find/src",
     "crates/coupler-drawing/src",
     "crates/coupler-manifest/src",
+    "crates/coupler-paths/src",
     "crates/coupler-kernel/src",
     "src",
     "crates/python/src",

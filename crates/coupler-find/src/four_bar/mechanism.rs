@@ -73,6 +73,25 @@ impl Mechanism {
         placed_parameters(&self.four_bar)
     }
 
+    /// What its links are if lengths that differ by less than a thousandth of the longest are the same, and it is then at a change point: its class
+    /// is decided by less than links are made to.
+    pub fn degeneracy(&self) -> Option<&'static str> {
+        const SAME: f64 = 1e-3;
+        let FourBar { frame, crank, coupler, rocker } = self.four_bar.lengths;
+        let mut lengths = [frame, crank, coupler, rocker];
+        lengths.sort_by(f64::total_cmp);
+        let [shortest, short, long, longest] = lengths;
+        let are_same = |a: f64, b: f64| (a - b).abs() <= SAME * longest;
+        match (are_same(frame, coupler), are_same(crank, rocker)) {
+            _ if are_same(shortest, 0.0) => Some("a link without length"),
+            _ if are_same(shortest, longest) => Some("four equal links: change point"),
+            (true, true) => Some("equal opposite links: change point"),
+            _ if are_same(shortest, short) && are_same(long, longest) => Some("equal neighbouring links: change point"),
+            _ if are_same(shortest + longest, short + long) => Some("all but a change point"),
+            _ => None,
+        }
+    }
+
     /// The direction in which the crank turns as the target is followed: `forward` if the input rises at its first point.
     pub fn direction(&self) -> &'static str {
         if self.is_reversed { "backward" } else { "forward" }

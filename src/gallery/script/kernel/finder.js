@@ -1,12 +1,18 @@
 // Searches for four-bars whose coupler curves are nearest to a path, in the kernel.
 
+import { drawnPath } from "./shape-search.js";
+
 // The time, in milliseconds, after which the index does not grow before a search, and after which the search says what it
 // has found so far.
 const GROW_MS = 1000;
 const REPORT_MS = 2000;
+// The time for the index before a first look, and for a four-bar that follows a path.
+const FIRST_MS = 150;
+const FOLLOW_MS = 80;
 
-/** The most answers of a search. */
-export const MAX_FOUR_BARS = 5;
+/** The most answers of a search, and of a look while the path changes. */
+const MAX_FOUR_BARS = 5;
+export const MAX_LIVE = 3;
 
 /** The search for four-bars of a kernel in a worker. One search is made at a time: its index does not grow meanwhile. */
 export class FourBarFinder {
@@ -20,68 +26,101 @@ export class FourBarFinder {
   }
 
   /**
-   * Searches for a path in slices (view/slices.js), and calls `report(found, isDone)` with what there is after two
+   * Searches for a path, and calls `report(found, isDone)` with what there is after two
    * seconds and at the end. In an index that is not complete by then, it searches again when it is.
-   * @param {{ points: Float64Array, closed: boolean, name: string }} path
-   * @param {{ fullTurn: boolean, maxLink: number }} options
-   * @param {Slices} slices @param {(found: FoundFourBars, isDone: boolean) => void} report
+   * @param {NamedPath} path @param {object} options @param {AbortSignal} signal @param {(found: FoundFourBars, isDone: boolean) => void} report
    */
-  find(path, options, slices, report) {
+  find(path, options, signal, report) {
     return this.#after(async () => {
-      if (slices.stopped()) return;
+      if (signal.aborted) return;
       const began = performance.now();
-      const isComplete = await this.#grow(slices, began + GROW_MS);
-      await this.#search(path, options, slices, began + REPORT_MS, (found, isDone) =>
+      const refined = { ...options, refine: true, start: null, most: MAX_FOUR_BARS };
+      const isComplete = await this.#grow(signal, began + GROW_MS);
+      const first = { report: began + REPORT_MS, end: Infinity };
+      await this.#search(path, refined, signal, first, (found, isDone) =>
         report(found, isDone && isComplete),
       );
-      if (isComplete || !(await this.#grow(slices, Infinity))) return;
-      await this.#search(path, options, slices, Infinity, report);
+      if (isComplete || !(await this.#grow(signal, Infinity))) return;
+      await this.#search(path, refined, signal, { report: Infinity, end: Infinity }, report);
+    });
+  }
+
+  /** Looks a path that is being drawn up in what there is of the index. Resolves to the answers. @param {NamedPath} path @param {object} options @param {AbortSignal} signal */
+  lookUp(path, options, signal) {
+    return this.#after(async () => {
+      if (this.count === 0) await this.#grow(signal, performance.now() + FIRST_MS);
+      return this.#answers(
+        path,
+        { ...options, refine: false, start: null, most: MAX_LIVE },
+        signal,
+        Infinity,
+      );
+    });
+  }
+
+  /** Refines four-bars, by their poses, to a path that has changed since. Resolves to the answers. @param {NamedPath} path @param {object} options @param {Float64Array[]} poses @param {AbortSignal} signal */
+  follow(path, options, poses, signal) {
+    return this.#after(async () => {
+      const answers = [];
+      for (const start of poses) {
+        const end = performance.now() + FOLLOW_MS;
+        answers.push(
+          ...(await this.#answers(path, { ...options, refine: true, start, most: 1 }, signal, end)),
+        );
+      }
+      return answers.sort((a, b) => a.record.rms_relative - b.record.rms_relative);
     });
   }
 
   /** Completes the index while nothing is searched. */
-  prepare(/** @type {Slices} */ slices) {
-    return this.#after(() => this.#grow(slices, Infinity));
+  prepare(/** @type {AbortSignal} */ signal) {
+    return this.#after(() => this.#grow(signal, Infinity));
   }
 
+  /** @template T @param {() => Promise<T>} work @returns {Promise<T>} */
   #after(work) {
-    this.running = this.running.catch(() => {}).then(work);
-    return this.running;
+    const next = this.running.catch(() => {}).then(work);
+    this.running = next;
+    return next;
   }
 
   /** Grows the index until it is complete, or a time; whether it is complete. */
-  async #grow(slices, until) {
+  async #grow(signal, until) {
     for (;;) {
-      if (!(await slices.goOn()) || performance.now() > until) return false;
+      if (signal.aborted || performance.now() > until) return false;
       const { count, full_count: full } = await this.kernel.call({ method: "grow_index" });
       this.count = count;
       if (count === full) return true;
     }
   }
 
-  async #search({ points, closed, name }, { fullTurn, maxLink }, slices, reportAt, report) {
+  /** @returns {Promise<FourBarAnswer[]>} */
+  async #answers(path, options, signal, end) {
+    /** @type {FourBarAnswer[]} */ let answers = [];
+    if (signal.aborted) return answers;
+    await this.#search(path, options, signal, { report: Infinity, end }, (found) => ({ answers } = found));
+    return answers;
+  }
+
+  /** Searches until the time `end`, and reports what there is at the time `report` and at the end. */
+  async #search({ shape, isPart, name }, options, signal, times, report) {
     const { kernel } = this;
+    const { points, kind } = await drawnPath(kernel, shape, isPart);
     const { instance } = kernel;
-    const { search } = await kernel.call({
-      method: "open_search",
-      points,
-      kind: closed ? "closed" : "part",
-      full_turn: fullTurn,
-      max_link: maxLink,
-      most: MAX_FOUR_BARS,
-    });
+    const { search, hindrances } = await kernel.call({ method: "open_search", points, kind, ...options });
     try {
       const reported = async (isDone) => {
         let found = null;
         do {
-          if (!(await slices.goOn())) return;
+          if (signal.aborted) return;
           found = await kernel.call({ method: "answers", search, name });
         } while (!found.is_complete);
-        report({ ...found, index_count: this.count }, isDone);
+        report({ ...found, hindrances, index_count: this.count }, isDone);
       };
-      let at = reportAt;
+      let at = times.report;
       while (!(await kernel.call({ method: "step_search", search })).is_done) {
-        if (!(await slices.goOn())) return;
+        if (signal.aborted) return;
+        if (performance.now() > times.end) break;
         if (performance.now() > at) {
           at = Infinity;
           await reported(false);

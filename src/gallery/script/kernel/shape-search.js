@@ -6,7 +6,7 @@ export const WHOLE = 0.85;
 /** A path to which curves are compared. Closed ones are compared with whole curves, open ones with portions. */
 export class ShapeSearch {
   /**
-   * @param {SearchKernel} kernel @param {Outline} path
+   * @param {SearchKernel} kernel @param {SearchedPath} path
    * @param {{ mirror: boolean, least: number, wanted?: number }} options
    */
   static async open(kernel, path, { mirror, least, wanted = 1 }) {
@@ -25,9 +25,9 @@ export class ShapeSearch {
 
   /**
    * The curves of an index that are most like the path, the likeliest first; null if stopped.
-   * @param {ShapeIndex} index @param {Slices} slices @returns {Promise<Candidate[] | null>}
+   * @param {ShapeIndex} index @param {AbortSignal} signal @returns {Promise<Candidate[] | null>}
    */
-  async candidates({ family, first, curves }, slices) {
+  async candidates({ family, first, curves }, signal) {
     for (let from = 0; ;) {
       const found = await this.kernel.call({ method: "compare_shape", shape: this.shape, curves, from });
       if (found.next === null) {
@@ -38,7 +38,7 @@ export class ShapeSearch {
           likeness: likenesses[k],
         }));
       }
-      if (!(await slices.goOn())) return null;
+      if (signal.aborted) return null;
       from = found.next;
     }
   }
@@ -61,9 +61,18 @@ export class ShapeSearch {
   }
 }
 
+/**
+ * The path to search for of a shape, { points, kind }: without noise, and with points enough for its form to be seen.
+ * @param {SearchKernel} kernel @param {Outline} shape @returns {Promise<SearchedPath>}
+ */
+export function drawnPath(kernel, { points, closed }, isPart) {
+  return kernel.call({ method: "drawn_path", points, closed, is_part: isPart });
+}
+
 /** The best fit of a curve to another one; null if there is none. @param {Outline} to @param {Outline} curve */
 export function bestFit(/** @type {Kernel} */ kernel, to, curve, mirror) {
-  const { shape } = kernel.call(openRequest(to, mirror, WHOLE, 1));
+  const path = { points: to.points, kind: to.closed ? "closed" : "part" };
+  const { shape } = kernel.call(openRequest(path, mirror, WHOLE, 1));
   const { instance } = kernel;
   const { points, closed } = curve;
   try {
@@ -73,8 +82,8 @@ export function bestFit(/** @type {Kernel} */ kernel, to, curve, mirror) {
   }
 }
 
-function openRequest(/** @type {Outline} */ { points, closed }, mirror, least, wanted) {
-  return { method: "open_shape", points, kind: closed ? "closed" : "part", mirror, least, wanted };
+function openRequest(/** @type {SearchedPath} */ { points, kind }, mirror, least, wanted) {
+  return { method: "open_shape", points, kind, mirror, least, wanted };
 }
 
 /** The deviation of a curve from another one where both are. @param {Outline} from @param {Outline} curve */

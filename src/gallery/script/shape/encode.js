@@ -1,15 +1,14 @@
 // Encodes a drawn shape as a word of an address.
 
 import { boxOfPoints } from "../draw/plane-view.js";
-import { lengthOf } from "./outline.js";
 
 const LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
 // Twelve bits of a coordinate: one in 4,096 of the greater side of the shape's box.
 const COORDINATE_MAX = 4095;
 
 /**
- * A shape, simplified to at most `most` points, in letters of base64url: "c" if it is closed or "o", then
- * four letters for each point.
+ * A shape, simplified to at most `most` points: { word, place }. The word is in letters of base64url: "c" if it is closed or "o", then
+ * four letters for each point in the box of the shape; the place is the corner of that box and its greater side.
  */
 export function encodeShape(/** @type {Float64Array} */ points, closed, most = 48) {
   const few = simplified(points, closed, most);
@@ -20,16 +19,18 @@ export function encodeShape(/** @type {Float64Array} */ points, closed, most = 4
     const whole = Math.round(((value - (k % 2 ? y0 : x0)) / side) * COORDINATE_MAX);
     word += LETTERS[whole >> 6] + LETTERS[whole & 63];
   });
-  return word;
+  return { word, place: [x0, y0, side].map((value) => Number(value.toPrecision(6))) };
 }
 
-/** The shape of such a word, { points, closed }, with a side of 100; null if it is not valid. */
-export function decodeShape(word) {
+/** The shape of such a word, { points, closed }, at a place, usually with a side of 100; null if it is not valid. @param {number[] | null} place */
+export function decodeShape(word, place = null) {
   if (!/^[co](?:[\w-]{4}){2,}$/.test(word)) return null;
+  const [x0, y0, side] = place ?? [0, 0, 100];
   const points = new Float64Array((word.length - 1) / 2);
   for (let k = 0; k < points.length; k += 1) {
     const at = 1 + 2 * k;
-    points[k] = (100 * (64 * LETTERS.indexOf(word[at]) + LETTERS.indexOf(word[at + 1]))) / COORDINATE_MAX;
+    const whole = 64 * LETTERS.indexOf(word[at]) + LETTERS.indexOf(word[at + 1]);
+    points[k] = (k % 2 ? y0 : x0) + (side * whole) / COORDINATE_MAX;
   }
   return { points, closed: word[0] === "c" };
 }
@@ -57,9 +58,4 @@ export function simplified(/** @type {Float64Array} */ points, closed, most) {
     kept.splice(which, 1);
   }
   return Float64Array.from(kept.flatMap((k) => [points[2 * k], points[2 * k + 1]]));
-}
-
-/** Whether an outline has a length. */
-export function hasLength(/** @type {Float64Array} */ points) {
-  return points.length >= 4 && lengthOf(points, false) > 0;
 }

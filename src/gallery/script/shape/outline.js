@@ -1,23 +1,6 @@
 // Outlines: polylines, open or closed, as flat arrays [x0, y0, x1, y1, …] without a repeated first point.
 
-/**
- * The finite points of an outline without repetitions of the point before; of a closed one also without
- * repetitions of the first point at its end.
- */
-export function withoutDuplicates(/** @type {Points} */ points, closed) {
-  const kept = [];
-  for (let k = 0; k + 1 < points.length; k += 2) {
-    const [x, y] = [points[k], points[k + 1]];
-    const n = kept.length;
-    if (Number.isFinite(x) && Number.isFinite(y) && !(n && kept[n - 2] === x && kept[n - 1] === y))
-      kept.push(x, y);
-  }
-  if (closed) {
-    while (kept.length > 2 && kept[0] === kept[kept.length - 2] && kept[1] === kept[kept.length - 1])
-      kept.length -= 2;
-  }
-  return Float64Array.from(kept);
-}
+import { boxOfPoints } from "../draw/plane-view.js";
 
 /** The length of an outline up to each of its points; of a closed one also round to its first. */
 export function lengthsAlong(/** @type {Points} */ points, closed) {
@@ -32,62 +15,28 @@ export function lengthsAlong(/** @type {Points} */ points, closed) {
 }
 
 /**
- * `count` points spaced evenly along an outline: of an open one with both ends, of a closed one from its
- * first point round. An outline without length gives the same point throughout.
+ * `count` points spaced evenly along an outline: of an open one with both ends, of a closed one from its first point round.
+ * @param {Points} points @param {boolean} closed
  */
-export function resampled(/** @type {Points} */ points, closed, count) {
-  const along = lengthsAlong(points, closed);
-  const whole = along[along.length - 1];
-  const vertices = points.length / 2;
-  const out = new Float64Array(2 * count);
-  const step = whole / Math.max(closed ? count : count - 1, 1);
-  let k = 0;
-  for (let n = 0; n < count; n += 1) {
-    const s = n * step;
-    while (k + 2 < along.length && along[k + 1] < s) k += 1;
-    const [a, b] = [2 * k, 2 * ((k + 1) % vertices)];
-    const span = along.length > 1 ? along[k + 1] - along[k] : 0;
-    const t = span > 0 ? Math.min((s - along[k]) / span, 1) : 0;
-    out[2 * n] = points[a] + t * (points[b] - points[a]);
-    out[2 * n + 1] = points[a + 1] + t * (points[b + 1] - points[a + 1]);
-  }
-  return out;
-}
-
-/** The length of an outline. @param {Float64Array} points @param {boolean} closed */
-export function lengthOf(points, closed) {
-  const along = lengthsAlong(points, closed);
-  return along[along.length - 1];
-}
-
-/** The greatest distance between two points of an outline: its extent, which no turning changes. */
-export function extentOf(/** @type {Points} */ points) {
-  let greatest = 0;
-  // Two hundred points along it miss less than one in ten thousand of the extent of a smooth curve.
-  const few = points.length > 400 ? resampled(points, false, 200) : points;
-  for (let i = 0; i < few.length; i += 2) {
-    for (let k = i + 2; k < few.length; k += 2) {
-      const [dx, dy] = [few[i] - few[k], few[i + 1] - few[k + 1]];
-      greatest = Math.max(greatest, dx * dx + dy * dy);
-    }
-  }
-  return Math.sqrt(greatest);
+export function resampled(points, closed, count) {
+  return portion(points, closed, 0, closed ? 1 - 1 / count : 1, count).points;
 }
 
 /**
- * Whether an outline ends so near to its start, within 12 % of its extent, that it is probably meant to be
+ * Whether an outline ends so near to its start, within 12 % of the greater side of its box, that it is probably meant to be
  * closed.
  */
 export function looksClosed(/** @type {Points} */ points) {
+  const [x0, y0, x1, y1] = boxOfPoints(points);
   const end = points.length - 2;
   const gap = Math.hypot(points[end] - points[0], points[end + 1] - points[1]);
-  return points.length >= 12 && gap <= 0.12 * extentOf(points);
+  return points.length >= 12 && gap <= 0.12 * Math.max(x1 - x0, y1 - y0);
 }
 
 /**
  * The portion of an outline between two fractions of its length as `count` even points; on a closed one it may
  * continue over the first point, on an open one it ends at the ends: `from` and `to` are the actual fractions.
- * @param {Float64Array | Float32Array} points @param {boolean} closed
+ * @param {Points} points @param {boolean} closed
  */
 export function portion(points, closed, from, to, count) {
   const along = lengthsAlong(points, closed);

@@ -1,84 +1,117 @@
-// The section with the four-bars whose coupler curves are nearest to a shape.
+// The section with the four-bars whose coupler curves are nearest to a shape, three of which are on the target.
 
-import { MAX_FOUR_BARS } from "../../kernel/finder.js";
-import { searchedPath } from "../../shape/query-shape.js";
-import { buttonOf, choiceBox, fill, h, selectOf } from "../dom.js";
-import { saveFile, copyText } from "../export/save.js";
-import { fourBarItem } from "./four-bar-item.js";
+import { MAX_LIVE } from "../../kernel/finder.js";
+import { buttonOf, fill, h } from "../dom.js";
+import { saveFile } from "../export/save.js";
+import { copyButton, fourBarItem } from "./four-bar-item.js";
+import { fourBarOptions } from "./query.js";
 
-const LONGEST_LINKS = [3, 5, 10, 20, 50, Infinity];
+// While a shape changes, four-bars are looked up at most so often, in milliseconds.
+const LIVE_MS = 300;
 
-/** The section and its options, which change the query before `changed()` is called. */
+/** The section; `onFound(answers)` is called with those for the target. */
 export class FourBarSection {
-  /** @param {App} app @param {ShapeQuery} query @param {() => void} changed */
-  constructor(app, query, changed) {
+  /** Stopped by what is searched for next. */
+  searching = new AbortController();
+  /** The last answers, with which the next begin while the shape is dragged. @type {FourBarAnswer[]} */
+  answers = [];
+  /** The shape to look up next. @type {{ shape: Outline, state: ShapeQuery, isDragged: boolean } | null} */
+  next = null;
+  isLooking = false;
+
+  /** @param {App} app @param {(answers: FourBarAnswer[], isAtRest: boolean) => void} onFound */
+  constructor(app, onFound) {
     this.app = app;
-    this.query = query;
+    this.onFound = onFound;
+    this.live = h("p.note.live");
     this.status = h("p.counted");
+    this.reasons = h("p.note.reasons");
     this.list = h("ol.four-bars");
     this.acts = h("div.toolbar");
-    const fullTurn = choiceBox(
-      "checkbox",
-      {
-        name: "full-turn",
-        checked: query.fullTurn,
-        onchange: ({ target }) => {
-          query.fullTurn = target.checked;
-          changed();
-        },
-      },
-      "The crank turns fully",
-    );
-    const choose = {
-      id: "max-link",
-      onchange: ({ target }) => {
-        query.maxLink = Number(target.value);
-        changed();
-      },
-    };
-    const lengths = [...new Set([...LONGEST_LINKS, query.maxLink])].sort((a, b) => a - b);
-    const options = lengths.map((length) => [
-      length,
-      length === Infinity ? "of any length" : `up to ${length} S`,
-    ]);
-    const longest = selectOf(choose, options, query.maxLink);
-    const label = h("label", { for: "max-link" }, "Links");
-    const tools = h("div.toolbar", fullTurn.element, h("span.field.row", label, longest));
     const note =
       "Four-bars found in an index of random ones and fitted to the path, as by coupler-atlas find. E is the root mean " +
-      "square distance of the path from the curve, S the size of the path.";
+      "square distance of the path from the curve, S the size of the path: up to 0.0001 S is exact, 0.01 S close, 0.05 S fair, and more poor.";
     this.element = h(
       "section.four-bar-section",
       { hidden: true },
       h("h2", "Four-bars for this path"),
       h("p.note", note),
-      tools,
       this.status,
       this.list,
       this.acts,
     );
   }
 
-  /** Without a shape there are no answers. */
-  clear() {
-    this.element.hidden = true;
-    [this.status, this.list, this.acts].forEach((part) => fill(part));
+  /** Stops what is searched for; the signal for what follows. */
+  stop() {
+    this.next = null;
+    this.searching.abort();
+    this.searching = new AbortController();
+    return this.searching.signal;
   }
 
-  /** Searches for a shape in slices. @param {Shape} shape @param {Slices} slices */
-  async search(shape, slices) {
-    const { fullTurn, maxLink, part, like } = this.query;
+  /** Without a shape there are no answers. */
+  clear() {
+    this.stop();
+    this.#found([]);
+    this.element.hidden = true;
+    [this.status, this.reasons, this.list, this.acts].forEach((part) => fill(part));
+  }
+
+  /** Looks a shape that is being changed up, at most every 0.3 seconds; one that is dragged is followed by the answers before. */
+  follow(/** @type {Outline} */ shape, /** @type {ShapeQuery} */ state, isDragged) {
+    this.next = { shape, state, isDragged };
+    if (!this.isLooking) this.#look();
+  }
+
+  async #look() {
+    this.isLooking = true;
+    while (this.next) {
+      const { shape, state, isDragged } = this.next;
+      const signal = this.stop();
+      const pause = new Promise((resume) => setTimeout(resume, LIVE_MS));
+      const path = { shape, isPart: !shape.closed, name: "" };
+      const options = fourBarOptions(state);
+      try {
+        const { fourBars } = await this.app.kernel.load();
+        const poses = this.answers.slice(0, MAX_LIVE).map(({ pose }) => pose);
+        const found = await (isDragged && poses.length
+          ? fourBars.follow(path, options, poses, signal)
+          : fourBars.lookUp(path, options, signal));
+        if (!signal.aborted) this.#found(found);
+      } catch {
+        // A stroke that has just begun is no path; of a kernel that fails, the search at the end says so.
+      }
+      await pause;
+    }
+    this.isLooking = false;
+  }
+
+  #found(/** @type {FourBarAnswer[]} */ answers, isAtRest = false) {
+    this.answers = answers;
+    const { record } = answers[0] ?? {};
+    fill(
+      this.live,
+      record ? `The nearest four-bar is ${record.quality}: E = ${record.rms_relative.toPrecision(2)} S` : "",
+    );
+    this.onFound(answers.slice(0, MAX_LIVE), isAtRest);
+  }
+
+  /** Searches for a shape. @param {Outline} shape @param {ShapeQuery} state */
+  async search(shape, state, name) {
+    const signal = this.stop();
     this.element.hidden = false;
     this.list.setAttribute("aria-busy", "true");
     fill(this.status, "Searching");
+    fill(this.reasons);
     try {
       const kernel = await this.app.kernel.load();
-      const path = { ...searchedPath(shape, part === true), name: like ?? "the drawn path" };
-      await kernel.fourBars.find(path, { fullTurn, maxLink }, slices, (found, isDone) =>
-        this.show(found, path, isDone),
+      const path = { shape, isPart: state.part === true, name };
+      await kernel.fourBars.find(path, fourBarOptions(state), signal, (found, isDone) =>
+        this.show(found, shape, isDone),
       );
     } catch (error) {
-      if (slices.stopped()) return;
+      if (signal.aborted) return;
       fill(this.list);
       fill(this.acts);
       fill(this.status, `No four-bar is searched for: ${error.message}`);
@@ -86,32 +119,39 @@ export class FourBarSection {
     }
   }
 
-  /** Shows the answers so far. @param {FoundFourBars} found @param {Outline} path */
-  show(found, path, isDone) {
-    const { answers, manifest, size, index_count: count } = found;
+  /** Shows the answers so far. @param {FoundFourBars} found @param {Outline} shape */
+  show(found, shape, isDone) {
+    const { answers, manifest, size, index_count: count, hindrances } = found;
     const among = `among ${count.toLocaleString("en")} four-bars and what is near them`;
-    const none = "No four-bar meets these conditions: allow cranks that do not turn fully, or longer links";
+    const none = "No four-bar meets these conditions";
     const nearest = answers.length === 1 ? "The nearest" : `The ${answers.length} nearest`;
-    const sentence = answers.length ? `${nearest} ${among}` : isDone ? none : "None yet";
+    const isPoor = answers[0]?.record.quality === "poor";
+    const poor = isPoor ? ", all of them poor" : "";
+    const sentence = answers.length ? `${nearest} ${among}${poor}` : isDone ? none : "None yet";
     fill(this.status, sentence, isDone ? "" : "; the search goes on");
     if (isDone) {
       this.list.removeAttribute("aria-busy");
+      fill(this.reasons, answers.length && !isPoor ? null : reasonText(hindrances));
       this.app.announce(sentence);
     }
+    this.#found(answers, isDone);
     fill(
       this.list,
-      answers.slice(0, MAX_FOUR_BARS).map((answer) => fourBarItem(this.app, answer, path, size)),
+      answers.map((answer) => fourBarItem(this.app, answer, shape, size)),
     );
     const save = () =>
       saveFile({ name: "found.toml", type: "application/toml", bytes: new TextEncoder().encode(manifest) });
-    const copy = async () => {
-      if (await copyText("manifest", manifest)) this.app.announce("Manifest copied");
-    };
     fill(
       this.acts,
       answers.length
-        ? [buttonOf("Save manifest of all", save), buttonOf("Copy manifest of all", copy)]
+        ? [buttonOf("Save manifest of all", save), copyButton(this.app, "Copy manifest of all", manifest)]
         : null,
     );
   }
+}
+
+/** Why there is no near curve. @param {string[]} hindrances */
+function reasonText(hindrances) {
+  if (hindrances.length) return `What hinders is the path: ${hindrances.join("; ")}.`;
+  return "Nothing of the path is known to hinder: allow cranks that do not turn fully, longer links, smaller transmission angles or other pivots.";
 }

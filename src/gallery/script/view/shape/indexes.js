@@ -2,7 +2,6 @@
 // memory.
 
 import { curvePoints } from "../../data/family.js";
-import { needPieces } from "../../data/needs.js";
 
 // The number of curves of a part, 60 bytes each.
 const PART_CURVES = 20_000;
@@ -27,8 +26,9 @@ export function searchedParts(/** @type {Family[]} */ families, limit) {
     for (const piece of family.outlines.pieces) {
       if (piece.curves === 0) continue;
       const tables = tablesOf(family, piece);
-      const added =
-        piece.bytes + tables.reduce((sum, { bytes: size }) => sum + size, 0) * tableShare(tables, piece);
+      // A piece of points takes a share of those of the table.
+      const sum = (name) => tables.reduce((total, table) => total + table[name], 0);
+      const added = piece.bytes + (sum("bytes") * piece.curves) / sum("curves");
       if (parts.length > 0 && bytes + added > limit) return parts;
       bytes += added;
       curves += piece.curves;
@@ -50,22 +50,12 @@ function tablesOf({ table }, { firstCurve, curves }) {
   return table.pieces.slice((first?.number ?? 1) - 1, last?.number);
 }
 
-/** The share of some pieces of a table that a piece of points takes. */
-function tableShare(/** @type {Piece[]} */ tables, /** @type {Piece} */ { curves }) {
-  return curves / tables.reduce((sum, table) => sum + table.curves, 0);
-}
-
-/** Loads the data of a part; null if they are loaded. @param {SearchedPart} _ */
-export function needPart({ family, pieces }) {
-  return needPieces(family, pieces);
-}
-
 /**
  * The index of the curves of a part, whose data must be loaded; null if stopped. One that is not kept is released by
  * `releaseIndex`.
- * @param {SearchKernel} kernel @param {SearchedPart} _ @param {Slices} slices @returns {Promise<ShapeIndex | null>}
+ * @param {SearchKernel} kernel @param {SearchedPart} _ @param {AbortSignal} signal @returns {Promise<ShapeIndex | null>}
  */
-export async function shapeIndex(kernel, { family, first, count, isKept }, slices) {
+export async function shapeIndex(kernel, { family, first, count, isKept }, signal) {
   const known = keptIndexes(kernel, family);
   const kept = known.get(first);
   if (kept?.count === count) return kept;
@@ -77,7 +67,7 @@ export async function shapeIndex(kernel, { family, first, count, isKept }, slice
   try {
     for (let from = first; from < first + count; from += CURVES_PER_CALL) {
       await addCurves(kernel, index, from, Math.min(from + CURVES_PER_CALL, first + count));
-      if (!(await slices.goOn())) return null;
+      if (signal.aborted) return null;
     }
     isComplete = kernel.instance === instance;
   } finally {

@@ -14,7 +14,7 @@ import { familiesText } from "./merged.js";
 
 /**
  * The list item of a result of `mergedMatches` for a shape with the options of a query (query.js).
- * @param {App} app @param {MergedMatch} merged @param {Shape} shape
+ * @param {App} app @param {MergedMatch} merged @param {Outline} shape
  */
 function matchItem(app, merged, shape, /** @type {ShapeQuery} */ { by, part }) {
   const { match: one, others } = merged;
@@ -25,7 +25,13 @@ function matchItem(app, merged, shape, /** @type {ShapeQuery} */ { by, part }) {
   const share = part ? `, ${Math.round(100 * Math.abs(one.to - one.from))} % of the curve` : "";
   const href = address([family.id, "curve", curveKey(family, curve)]);
   const picture = matchPicture(one, shape, { width: 220, height: 170 });
-  const deviations = h("span.label", h("b", percent(by)), ` ${percent(other)}${share}`);
+  const deviations = h(
+    "span.label",
+    qualityMark(one.quality),
+    " ",
+    h("b", percent(by)),
+    ` ${percent(other)}${share}`,
+  );
   const label = h("span.label", formatCaption(caption || name));
   const title = [one, ...others].map((same) => same.name).join(", ");
   const families = h("span.label", { title }, familiesText(merged));
@@ -39,31 +45,38 @@ function matchItem(app, merged, shape, /** @type {ShapeQuery} */ { by, part }) {
 /**
  * The list items of results; null if stopped. Each is drawn as soon as its points are loaded: those of all may be more than
  * are kept.
- * @param {App} app @param {MergedMatch[]} merged @param {Shape} shape @param {ShapeQuery} query @param {Slices} slices
+ * @param {App} app @param {MergedMatch[]} merged @param {Outline} shape @param {ShapeQuery} query @param {AbortSignal} signal
  */
-export async function matchItems(app, merged, shape, query, slices) {
+export async function matchItems(app, merged, shape, query, signal) {
   const items = [];
   for (const one of merged) {
     await needCurves(one.match.family, [one.match.curve]);
-    if (slices.stopped()) return null;
+    if (signal.aborted) return null;
     items.push(matchItem(app, one, shape, query));
   }
   return items;
 }
 
-/** A sentence on the results among so many curves. @param {number} count @param {number} curves @param {string} by */
-export function matchesText(count, curves, by) {
+/** How near a curve is in a word, as `find` has it (crates/coupler-find/src/quality.rs). */
+export function qualityMark(quality) {
+  return h(`span.quality.${quality}`, quality);
+}
+
+/** A sentence on the results among so many curves. @param {MergedMatch[]} merged @param {number} curves @param {string} by */
+export function matchesText(merged, curves, by) {
+  const count = merged.length;
   if (count === 0) return "No similar curve found";
+  const poor = merged[0].match.quality === "poor" ? ", all of them poor" : "";
   const nearest = count === 1 ? "nearest" : `${count} nearest`;
   const ranked = `equal ones together, ranked by ${by} deviation in % of the shape’s size`;
-  return `The ${nearest} of ${curves.toLocaleString("en")} curves, ${ranked}`;
+  return `The ${nearest} of ${curves.toLocaleString("en")} curves${poor}, ${ranked}`;
 }
 
 const MATCH_INSET = 6;
 
 /**
  * The picture of a result of `nearestCurves` with the shape overlaid, `width` × `height` pixels.
- * @param {Match} _ @param {Shape} shape @param {Size} _2
+ * @param {Match} _ @param {Outline} shape @param {Size} _2
  */
 export function matchPicture({ family, curve, similarity, from, to }, shape, { width, height }) {
   const points = curvePoints(family, curve);

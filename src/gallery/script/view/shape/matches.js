@@ -1,10 +1,9 @@
 // Finds the curves of the atlas that are nearest to a path.
 
 import { curveKey, curveOutline } from "../../data/family.js";
-import { needCurves } from "../../data/needs.js";
-import { searchedPath } from "../../shape/query-shape.js";
-import { ShapeSearch, WHOLE } from "../../kernel/shape-search.js";
-import { needPart, releaseIndex, shapeIndex } from "./indexes.js";
+import { needCurves, needPieces } from "../../data/needs.js";
+import { drawnPath, ShapeSearch, WHOLE } from "../../kernel/shape-search.js";
+import { releaseIndex, shapeIndex } from "./indexes.js";
 
 // The number of curves that are compared exactly.
 const WANTED = 120;
@@ -13,29 +12,29 @@ const WANTED = 120;
  * The curves of some parts of families that are most like a shape, the nearest first; null if stopped. A closed shape
  * has whole curves near it, unless it is a part; an open one has open curves as wholes, and portions of others that are
  * as long as almost all of them. `progress(part, searched)` is called before each part.
- * @param {App} app @param {SearchedPart[]} parts @param {Shape} shape @param {SearchOptions} options
- * @param {Slices} slices @param {(part: SearchedPart, searched: number) => void} progress
+ * @param {App} app @param {SearchedPart[]} parts @param {Outline} shape @param {SearchOptions} options
+ * @param {AbortSignal} signal @param {(part: SearchedPart, searched: number) => void} progress
  */
-export async function nearestCurves(app, parts, shape, options, slices, progress) {
+export async function nearestCurves(app, parts, shape, options, signal, progress) {
   const { isPart, mirror, least, by } = options;
   const { curveSearch: kernel } = await app.kernel.load();
-  const path = searchedPath(shape, isPart);
+  const path = await drawnPath(kernel, shape, isPart);
   const search = await ShapeSearch.open(kernel, path, {
     mirror,
     least: isPart ? least : WHOLE,
     wanted: WANTED,
   });
   try {
-    const found = await candidatesOf(app, kernel, search, parts, slices, progress);
+    const found = await candidatesOf(app, kernel, search, parts, signal, progress);
     const candidates =
-      found && found.length > WANTED ? await nearestCandidates(search, found, slices) : found;
+      found && found.length > WANTED ? await nearestCandidates(search, found, signal) : found;
     if (!candidates) return null;
     /** @type {Match[]} */ const matches = [];
     for (const { family, curve } of candidates) {
       const fit = await search.fit(await loadedOutline(family, curve));
       const name = `${family.id}:${curveKey(family, curve)}`;
       if (fit) matches.push({ ...fit, family, curve, name });
-      if (!(await slices.goOn())) return null;
+      if (signal.aborted) return null;
     }
     return matches.sort((a, b) => a[by] - b[by]);
   } finally {
@@ -44,20 +43,20 @@ export async function nearestCurves(app, parts, shape, options, slices, progress
 }
 
 /** The likeliest curves of all parts; null if stopped. */
-async function candidatesOf(app, kernel, search, parts, slices, progress) {
+async function candidatesOf(app, kernel, search, parts, signal, progress) {
   /** @type {Candidate[]} */ let candidates = [];
   let searched = 0;
   for (const part of parts) {
     progress(part, searched);
     try {
-      await needPart(part);
+      await needPieces(part.family, part.pieces);
     } catch (error) {
       app.announce(error.message);
       continue;
     }
-    if (slices.stopped()) return null;
-    const index = await shapeIndex(kernel, part, slices);
-    const found = index && (await search.candidates(index, slices));
+    if (signal.aborted) return null;
+    const index = await shapeIndex(kernel, part, signal);
+    const found = index && (await search.candidates(index, signal));
     if (index && !part.isKept) await releaseIndex(kernel, index);
     if (!found) return null;
     candidates = likeliest([...candidates, ...found], search.most);
@@ -67,12 +66,12 @@ async function candidatesOf(app, kernel, search, parts, slices, progress) {
 }
 
 /** Those that are wanted of the candidates, compared closely; null if stopped. */
-async function nearestCandidates(search, candidates, slices) {
+async function nearestCandidates(search, candidates, signal) {
   /** @type {Candidate[]} */ const compared = [];
   for (const { family, curve } of candidates) {
     const likeness = await search.likeness(await loadedOutline(family, curve));
     if (likeness !== null) compared.push({ family, curve, likeness });
-    if (!(await slices.goOn())) return null;
+    if (signal.aborted) return null;
   }
   return likeliest(compared, WANTED);
 }

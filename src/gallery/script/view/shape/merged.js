@@ -11,9 +11,9 @@ const SAME = 1e-3;
  * The nearest matches (matches.js), at most `most`, each with the others whose whole curves are similar to it; null if
  * stopped.
  * @param {App} app @param {Match[]} matches the nearest first @param {boolean} mirror whether mirror images are the same
- * @param {Slices} slices @returns {Promise<MergedMatch[] | null>}
+ * @param {AbortSignal} signal @returns {Promise<MergedMatch[] | null>}
  */
-export async function mergedMatches(app, matches, most, mirror, slices) {
+export async function mergedMatches(app, matches, most, mirror, signal) {
   const { curveSearch: kernel } = await app.kernel.load();
   /** @type {(MergedMatch & { outline: Outline, search: ShapeSearch })[]} */ const merged = [];
   try {
@@ -24,10 +24,11 @@ export async function mergedMatches(app, matches, most, mirror, slices) {
       if (same) same.others.push(match);
       else if (merged.length < most) {
         // A shape with symmetries is fitted in several ways: curves are compared wherever they are.
-        const search = await ShapeSearch.open(kernel, outline, { mirror, least: WHOLE });
+        const path = { points: outline.points, kind: outline.closed ? "closed" : "part" };
+        const search = await ShapeSearch.open(kernel, path, { mirror, least: WHOLE });
         merged.push({ match, outline, search, others: [] });
       }
-      if (!(await slices.goOn())) return null;
+      if (signal.aborted) return null;
     }
     return merged;
   } finally {

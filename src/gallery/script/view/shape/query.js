@@ -1,91 +1,65 @@
-// The options of the search by shape: whole or partial curves, mirror images, ranking; and its address,
-// `?d=…` or `?like=evans:12.1.1`, and options; what the four-bars for it must be.
+// The state of the search by shape as its address says it: the shape, how it is compared, and what four-bars must be.
 
-import { choiceBox, h, selectOf } from "../dom.js";
+const USUAL = { least: 0.15, maxLink: 10 };
 
-const DEFAULT_MIN_SHARE = 0.15;
-const DEFAULT_MAX_LINK = 10;
-
-/** Parses a query: `d` is a drawn shape, `like` the name of a curve; without `part` it is not known. */
+/** `d` is a drawn shape with the `place` of its box, `like` the name of a curve; without `part` it is not known. */
 export function parseShapeQuery(/** @type {Query} */ query) {
   /** @type {SearchOptions["by"]} */ const by = query.get("by") === "greatest" ? "greatest" : "rms";
   const least = Number(query.get("least"));
   const link = query.get("max-link");
   const maxLink = link === "inf" ? Infinity : Number(link);
+  const mu = Number(query.get("mu"));
   return {
-    d: query.get("d"),
-    like: query.get("like"),
+    d: query.get("d") ?? null,
+    place: numbersOf(query.get("at"), 3),
+    like: query.get("like") ?? null,
     part: query.has("part") ? query.get("part") !== "no" : null,
-    least: least > 0 && least <= 1 ? least : DEFAULT_MIN_SHARE,
+    least: least > 0 && least <= 1 ? least : USUAL.least,
     mirror: query.get("mirror") !== "no",
     by,
     families: query.get("family")?.split(",").filter(Boolean) ?? null,
     fullTurn: query.get("input") !== "any",
-    maxLink: maxLink > 0 ? maxLink : DEFAULT_MAX_LINK,
+    maxLink: maxLink > 0 ? maxLink : USUAL.maxLink,
+    mu: mu > 0 && mu < 90 ? mu : 0,
+    pivots: numbersOf(query.get("pivots"), 4),
   };
 }
 
-/** The inverse of parseShapeQuery. @param {ShapeQuery} _ */
-export function formatShapeQuery({ d, like, part, least, mirror, by, families, fullTurn, maxLink }) {
+/** The inverse of parseShapeQuery. @param {ShapeQuery} state */
+export function formatShapeQuery(state) {
+  const { d, place, like, part, least, mirror, by, families, fullTurn, maxLink, mu, pivots } = state;
   return {
     d,
+    at: d && place?.join(","),
     like,
     part: part === null ? null : part ? "yes" : "no",
-    least: part && least !== DEFAULT_MIN_SHARE ? least : null,
+    least: part && least !== USUAL.least ? least : null,
     mirror: mirror ? null : "no",
     by: by === "rms" ? null : by,
     family: families?.join(","),
     input: fullTurn ? null : "any",
-    "max-link": maxLink === DEFAULT_MAX_LINK ? null : maxLink === Infinity ? "inf" : maxLink,
+    "max-link": maxLink === USUAL.maxLink ? null : maxLink === Infinity ? "inf" : maxLink,
+    mu: mu || null,
+    pivots: pivots?.join(","),
   };
 }
 
-const MIN_SHARES = [0.05, 0.1, 0.15, 0.25, 0.5];
-
-/** The controls of a query (query.js), which they change before calling `changed()`: { element, mark() }. */
-export function shapeOptions(/** @type {ShapeQuery} */ query, changed) {
-  const set = (name, value) => {
-    query[name] = value;
-    changed();
-  };
-  const isPart = (value) => ({ name: "shape-part", onchange: () => set("part", value) });
-  const whole = choiceBox("radio", isPart(false), "a whole curve");
-  const part = choiceBox("radio", isPart(true), "a part of a curve, at least");
-  const mark = () => {
-    whole.input.checked = !query.part;
-    part.input.checked = query.part === true;
-  };
-  mark();
-  const onchange = ({ target }) => set("mirror", target.checked);
-  const mirror = choiceBox(
-    "checkbox",
-    { name: "mirror", checked: query.mirror, onchange },
-    "Include mirror images",
-  );
-  const element = h(
-    "fieldset.shape-options",
-    h("legend", "The shape is"),
-    whole.element,
-    h(
-      "div.toolbar",
-      part.element,
-      minShareSelect(query.least, (least) => set("least", least)),
-    ),
-    mirror.element,
-    rankingSelect(query.by, (by) => set("by", by)),
-  );
-  return { element, mark };
+/** So many numbers with commas or blanks between them; null if they are others. @param {string | undefined} text */
+export function numbersOf(text, count) {
+  const numbers =
+    text
+      ?.trim()
+      .split(/[\s,;]+/)
+      .map(Number) ?? [];
+  return numbers.length === count && numbers.every(Number.isFinite) ? numbers : null;
 }
 
-function minShareSelect(least, choose) {
-  const values = [...new Set([...MIN_SHARES, least])].sort((a, b) => a - b);
-  const onchange = ({ target }) => choose(Number(target.value));
-  const options = values.map((value) => [value, `${Math.round(100 * value)} %`]);
-  return selectOf({ "aria-label": "Minimum part of a curve", onchange }, options, least);
-}
-
-function rankingSelect(by, choose) {
-  const attributes = { id: "shape-by", onchange: ({ target }) => choose(target.value) };
-  const options = ["rms", "greatest"].map((name) => [name, `${name} deviation`]);
-  return h("span.field.row", h("label", { for: "shape-by" }, "Rank by"), selectOf(attributes, options, by));
+/** What a search for four-bars is asked, for the kernel. @param {ShapeQuery} state */
+export function fourBarOptions({ fullTurn, maxLink, mu, pivots }) {
+  return {
+    full_turn: fullTurn,
+    max_link: maxLink,
+    condition: mu ? `mu_worst_deg >= ${mu}` : null,
+    pivots: pivots && Float64Array.from(pivots),
+  };
 }

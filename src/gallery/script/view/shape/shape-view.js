@@ -1,27 +1,27 @@
 // The view that finds curves by shape.
 
 import { curveOutline } from "../../data/family.js";
-import { needCurveWithKey, needCurves } from "../../data/needs.js";
-import { queryShape } from "../../shape/query-shape.js";
+import { needCurveWithKey, needCurves, needPieces } from "../../data/needs.js";
 import { decodeShape, encodeShape } from "../../shape/encode.js";
+import { boxOfPoints } from "../../draw/plane-view.js";
 import { fill, h } from "../dom.js";
 import { MAX_AUTOLOAD_BYTES, requestedFamilies, loadAllLine, familyChooser } from "../find/loading.js";
-import { Slices } from "../slices.js";
+import { Store } from "../store.js";
 import { FourBarSection } from "./four-bars.js";
-import { needPart, releaseIndexes, searchedParts } from "./indexes.js";
+import { releaseIndexes, searchedParts } from "./indexes.js";
 import { shapeLayout } from "./layout.js";
 import { matchItems, matchesText } from "./match-item.js";
 import { nearestCurves } from "./matches.js";
 import { mergedMatches } from "./merged.js";
-import { DrawingPad } from "./pad.js";
-import { formatShapeQuery, parseShapeQuery, shapeOptions } from "./query.js";
+import { formatShapeQuery, parseShapeQuery } from "./query.js";
+import { TargetPlane } from "./target.js";
 import { matchesRoute, routeAddress } from "../../data/address.js";
 import { watchPins } from "../pins.js";
 
 const MAX_RESULTS = 36;
 const WITHOUT_SHAPE = "Draw or paste a curve, or start from a curve of the atlas";
 
-/** The route `#/shape?d=…` or `?like=evans:12.1.1`, with `part`, `least`, `mirror=no`, `by=greatest`, `family`, `input=any`, `max-link`. */
+/** The route `#/shape?d=…` or `?like=evans:12.1.1`, with what parseShapeQuery reads. */
 export const shapeRoute = {
   name: "shape",
   label: "By shape",
@@ -36,53 +36,81 @@ export const shapeRoute = {
 
 export class ShapeView {
   title = "By shape";
-  /** @type {Shape | null} */ shape = null;
+  /** @type {Outline | null} */ shape = null;
+  /** The last shape that was drawn or read, with its word: the address has it with fewer points. */
+  given = { word: "", outline: /** @type {Outline | null} */ (null), name: "the drawn path" };
   /** What is searched, and how much of all that is. @type {SearchedPart[]} */
   parts = [];
-  /** @type {LoadState} */ state = { done: false, curves: 0, total: 0, bytes: 0 };
-  /** A later turn stops what an earlier one does. */
-  turn = 0;
-  fourBarTurn = 0;
+  /** @type {LoadState} */ loaded = { done: false, curves: 0, total: 0, bytes: 0 };
+  /** Stopped by what is opened or searched for next. */
+  searching = new AbortController();
   limit = MAX_AUTOLOAD_BYTES;
   unwatch = () => {};
 
   constructor(/** @type {App} */ app, /** @type {Query} */ query) {
     this.app = app;
+    const address = (state) => routeAddress("shape", formatShapeQuery(state), app);
+    this.store = new Store(app, parseShapeQuery(query), address);
     this.loadAll = loadAllLine(() => {
       this.limit = Infinity;
       this.open();
     });
-    const drawn = (points, closed) => this.setDrawnShape(points, closed);
-    this.pad = new DrawingPad(drawn, () => this.clearShape(WITHOUT_SHAPE), app.announce);
+    const live = (outline, isDragged) => {
+      this.fourBars.follow(outline, this.store.state, isDragged);
+    };
+    const drawn = (outline) => this.setShape(outline, "the drawn path");
+    this.target = new TargetPlane({ drawn, live, cleared: () => this.clear() }, app.announce);
+    this.fourBars = new FourBarSection(app, (...found) => this.target.showFound(...found));
     this.status = h("p.counted", WITHOUT_SHAPE);
     this.results = h("ol.matches");
     this.families = h("div");
-    this.query = parseShapeQuery(query);
-    this.options = shapeOptions(this.query, () => this.submit());
-    this.fourBars = new FourBarSection(app, this.query, () => {
-      this.writeAddress();
-      this.findFourBars();
-    });
     this.element = shapeLayout(this);
+    this.store.watch((state, before) => this.#changed(state, before));
   }
 
   async start() {
-    await this.loadShape();
+    await this.#loadShape();
     this.unwatch = watchPins(this.app, this.element);
     this.open();
   }
 
+  /** Shows the state of another address. */
+  update(/** @type {Target} */ { query }) {
+    this.store.show(parseShapeQuery(query));
+    return true;
+  }
+
+  /** Shows a state, and searches again for what has changed. @param {ShapeQuery} state @param {ShapeQuery | null} before */
+  #changed(state, before) {
+    this.target.showBox(state.pivots);
+    if (!before) return;
+    const isOther = (...names) => names.some((name) => String(state[name]) !== String(before[name]));
+    if (isOther("d", "place", "like")) {
+      this.#loadShape().then(
+        () => (isOther("families") ? this.open() : this.search()),
+        (error) => this.showNone(error.message),
+      );
+    } else {
+      const isOtherPart = before.part !== null && isOther("part");
+      if (isOtherPart || isOther("fullTurn", "maxLink", "mu", "pivots")) this.findFourBars();
+      if (isOther("families")) this.open();
+      else if (isOtherPart || isOther("least", "mirror", "by")) this.findCurves();
+    }
+  }
+
+  /** Stops what is searched for; the signal for what follows. */
+  #begin() {
+    this.searching.abort();
+    this.searching = new AbortController();
+    return this.searching.signal;
+  }
+
   /** Opens the requested families and searches them; a later call, or leaving, stops it. */
   async open() {
-    const { app, query } = this;
-    this.turn += 1;
-    const turn = this.turn;
-    const listed = requestedFamilies(app.atlas, query.families);
-    const choose = (ids) => {
-      query.families = ids;
-      this.writeAddress();
-      this.open();
-    };
+    const { app } = this;
+    const signal = this.#begin();
+    const listed = requestedFamilies(app.atlas, this.store.state.families);
+    const choose = (families) => this.store.change({ families });
     fill(this.families, familyChooser(app.atlas, listed, choose));
     const families = [];
     for (const { id } of listed) {
@@ -91,158 +119,147 @@ export class ShapeView {
       } catch (error) {
         app.announce(error.message);
       }
-      if (turn !== this.turn) return;
+      if (signal.aborted) return;
     }
     this.parts = searchedParts(families, this.limit);
-    this.state = {
+    this.loaded = {
       done: true,
       curves: this.parts.reduce((sum, { count }) => sum + count, 0),
       total: listed.reduce((sum, { curves }) => sum + curves, 0),
       bytes: listed.reduce((sum, { bytes }) => sum + bytes, 0),
     };
     if (this.shape) await this.search();
-    else await this.prepare();
+    else await this.prepare(signal);
   }
 
   /** Loads what will be searched, and prepares the search for four-bars, before there is a shape. */
-  async prepare() {
+  async prepare(/** @type {AbortSignal} */ signal) {
     this.showState();
-    const turn = this.turn;
     for (const part of this.parts.filter(({ isKept }) => isKept)) {
-      await needPart(part)?.catch((error) => this.app.announce(error.message));
-      if (turn !== this.turn) return;
+      await needPieces(part.family, part.pieces)?.catch((error) => this.app.announce(error.message));
+      if (signal.aborted) return;
     }
-    const slices = new Slices(() => turn !== this.turn);
     // Without the kernel, a search says so.
     await this.app.kernel.load().then(
-      (kernel) => kernel.fourBars.prepare(slices),
+      (kernel) => kernel.fourBars.prepare(signal),
       () => {},
     );
   }
 
   /** Says what is not searched, or that there is nothing to search. */
   showState() {
-    this.loadAll.show(this.state);
-    if (this.state.curves === 0) this.showNone("No curves are loaded; select families");
+    this.loadAll.show(this.loaded);
+    if (this.loaded.curves === 0) this.showNone("No curves are loaded; select families");
   }
 
-  /** Says why there are no results. */
+  /** Leaves no results, and says why. */
   showNone(why) {
     fill(this.status, why);
     fill(this.results);
     this.results.removeAttribute("aria-busy");
   }
 
-  /** Loads the shape of the address: a drawn one, or a curve of the atlas. */
-  async loadShape() {
-    const { query, app } = this;
-    const drawn = query.d && decodeShape(query.d);
-    if (drawn) this.setShape(drawn.points, drawn.closed);
-    if (drawn || !query.like) return;
-    const [id, key] = query.like.split(":");
-    const family = await app.atlas.family(id);
+  /** Takes the shape of the state: a drawn one, or a curve of the atlas. */
+  async #loadShape() {
+    const { state } = this.store;
+    const outline = await this.#outlineOf(state);
+    if (state !== this.store.state) return;
+    this.shape = outline;
+    if (!outline) return this.#showNoShape();
+    if (this.target.outline !== outline) this.target.show(outline);
+    this.target.render();
+    if (state.part === null) this.store.note({ part: !outline.closed });
+  }
+
+  /** @param {ShapeQuery} state @returns {Promise<Outline | null>} */
+  async #outlineOf({ d, place, like }) {
+    if (d) return d === this.given.word ? this.given.outline : decodeShape(d, place);
+    if (!like) return null;
+    const [id, key] = like.split(":");
+    const family = await this.app.atlas.family(id);
     const curve = await needCurveWithKey(family, key ?? "");
     if (curve === undefined) throw new Error(`There is no curve ${key} in the family ${id}.`);
     await needCurves(family, [curve]);
-    const { points, closed } = curveOutline(family, curve);
-    this.setShape(points, closed);
+    return curveOutline(family, curve);
   }
 
-  setShape(/** @type {Float64Array} */ points, closed) {
-    this.pad.show(points, closed);
-    this.shape = queryShape(points, closed);
-    this.query.part ??= !closed;
-    this.options.mark();
-  }
-
-  setDrawnShape(/** @type {Float64Array} */ points, closed) {
-    this.shape = queryShape(points, closed);
-    if (!this.shape) return this.clearShape("This is too small to be a curve: draw a longer one");
-    Object.assign(this.query, { d: encodeShape(this.shape.points, closed), like: null, part: !closed });
-    this.options.mark();
-    this.submit();
-  }
-
-  /** Leaves no shape and no answers, and says why. */
-  clearShape(why) {
+  #showNoShape() {
     // Before all is opened, no search is running.
-    if (this.state.done) this.turn += 1;
-    this.fourBarTurn += 1;
+    if (this.loaded.done) this.#begin();
     this.fourBars.clear();
-    this.shape = null;
-    Object.assign(this.query, { d: null, like: null, part: null });
-    this.options.mark();
-    this.showNone(why);
-    this.writeAddress();
+    if (!this.target.isByKeys) this.target.show(null);
+    this.showNone(WITHOUT_SHAPE);
+  }
+
+  /** Searches for a shape that was drawn or read. @param {Outline} outline */
+  setShape(outline, name) {
+    const [x0, y0, x1, y1] = boxOfPoints(outline.points);
+    if (!(Math.max(x1 - x0, y1 - y0) > 0)) {
+      this.clear();
+      return this.showNone("This is too small to be a curve: draw a longer one");
+    }
+    const { word, place } = encodeShape(outline.points, outline.closed);
+    this.given = { word, outline, name };
+    this.store.change({ d: word, place, like: null, part: !outline.closed });
+  }
+
+  /** Leaves no shape and no answers. */
+  clear() {
+    this.target.show(null);
+    this.store.change({ d: null, place: null, like: null, part: null });
   }
 
   /** Searches for curves of the atlas, and for four-bars; a later search stops an earlier one. */
-  search() {
-    if (!this.shape || !this.state.done) return;
-    return Promise.all([this.findCurves(this.shape), this.findFourBars()]);
+  async search() {
+    if (this.loaded.done) await Promise.all([this.findCurves(), this.findFourBars()]);
   }
 
   /** Searches all parts, one after another. */
-  async findCurves(/** @type {Shape} */ shape) {
-    this.turn += 1;
-    const turn = this.turn;
-    const slices = new Slices(() => turn !== this.turn);
+  async findCurves() {
+    const { shape } = this;
+    if (!shape || !this.loaded.done) return;
+    const signal = this.#begin();
     this.showState();
-    if (this.state.curves === 0) return;
-    const { part, least, mirror, by } = this.query;
+    if (this.loaded.curves === 0) return;
+    const { state } = this.store;
+    const { part, least, mirror, by } = state;
     this.results.setAttribute("aria-busy", "true");
     const began = performance.now();
     const progress = ({ family }, searched) => {
-      const share = `${searched.toLocaleString("en")} of ${this.state.curves.toLocaleString("en")} curves`;
+      const share = `${searched.toLocaleString("en")} of ${this.loaded.curves.toLocaleString("en")} curves`;
       fill(this.status, "Searching ", family.title, this.parts.length > 1 ? `: ${share}` : "");
     };
     try {
       const options = { isPart: part === true, least, mirror, by };
-      const found = await nearestCurves(this.app, this.parts, shape, options, slices, progress);
+      const found = await nearestCurves(this.app, this.parts, shape, options, signal, progress);
       if (!found) return;
-      const merged = await mergedMatches(this.app, found, MAX_RESULTS, mirror, slices);
+      const merged = await mergedMatches(this.app, found, MAX_RESULTS, mirror, signal);
       if (!merged) return;
       this.element.dataset.milliseconds = (performance.now() - began).toFixed(0);
-      const items = await matchItems(this.app, merged, shape, this.query, slices);
-      if (items) this.show(items);
+      const items = await matchItems(this.app, merged, shape, state, signal);
+      if (!items) return;
+      const sentence = matchesText(merged, this.loaded.curves, by);
+      this.showNone(sentence);
+      fill(this.results, items);
+      const isAll = this.loaded.curves >= this.loaded.total;
+      this.app.announce(isAll ? sentence : `${sentence}; ${this.loadAll.text(this.loaded)}`);
     } catch (error) {
-      if (!slices.stopped()) this.showNone(error.message);
+      if (!signal.aborted) this.showNone(error.message);
     }
   }
 
   findFourBars() {
-    this.fourBarTurn += 1;
-    const turn = this.fourBarTurn;
-    if (!this.shape) return undefined;
-    return this.fourBars.search(this.shape, new Slices(() => turn !== this.fourBarTurn));
-  }
-
-  /** Shows list items of results. */
-  show(items) {
-    const sentence = matchesText(items.length, this.state.curves, this.query.by);
-    const rest = this.state.curves < this.state.total ? `; ${this.loadAll.text(this.state)}` : "";
-    fill(this.status, sentence);
-    this.app.announce(`${sentence}${rest}`);
-    this.results.removeAttribute("aria-busy");
-    fill(this.results, items);
-  }
-
-  submit() {
-    this.writeAddress();
-    this.search();
-  }
-
-  /** A change of the query is a gesture: undoing it opens the address before. */
-  writeAddress() {
-    this.app.commit(routeAddress("shape", formatShapeQuery(this.query), this.app));
+    const { state } = this.store;
+    if (this.shape) this.fourBars.search(this.shape, state, state.like ?? this.given.name);
   }
 
   leave() {
-    this.turn += 1;
-    this.fourBarTurn += 1;
+    this.searching.abort();
+    this.fourBars.stop();
+    this.store.leave();
     this.unwatch();
     // The index of a large family is built again when it is searched again.
-    const isLarge = this.parts.some(({ isKept }) => !isKept) || this.state.curves < this.state.total;
+    const isLarge = this.parts.some(({ isKept }) => !isKept) || this.loaded.curves < this.loaded.total;
     const { kernel } = this.app.kernel;
     if (isLarge && kernel) releaseIndexes(kernel.curveSearch, this.parts);
   }

@@ -11,8 +11,8 @@ use std::f64::consts::TAU;
 
 use coupler_curves::geometry::{Bounds, Point, Vector};
 
-use super::super::outline::{Outline, ReadOptions};
-use super::drawing::{Kind, Piece, outline_of};
+use crate::drawing::{Kind, Piece, outline_of};
+use crate::outline::{Outline, ReadOptions};
 use curves::{bulge_to, ellipse, spline};
 use groups::{Group, Record, groups};
 
@@ -20,7 +20,7 @@ use groups::{Group, Record, groups};
 const MAX_POINTS: usize = 2_000_000;
 
 /// Whether a text is DXF: it begins with a section, or with comments.
-pub(super) fn is_dxf(text: &str) -> bool {
+pub(crate) fn is_dxf(text: &str) -> bool {
     let mut lines = text.lines().map(str::trim).skip_while(|line| line.is_empty());
     match (lines.next(), lines.next()) {
         (Some("0"), Some("SECTION")) => true,
@@ -33,7 +33,7 @@ pub(super) fn is_dxf(text: &str) -> bool {
 ///
 /// # Errors
 /// The drawing cannot be read, or has no such outline.
-pub(super) fn parse_dxf(text: &str, options: &ReadOptions) -> Result<Outline, String> {
+pub(crate) fn parse_dxf(text: &str, options: &ReadOptions) -> Result<Outline, String> {
     let groups = groups(text)?;
     let is_own = groups.first().is_some_and(|first| first.code == 999 && first.value.starts_with("coupler-atlas"));
     let records = Record::all(&groups);

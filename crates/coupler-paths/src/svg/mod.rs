@@ -7,20 +7,24 @@ mod tree;
 
 use kurbo::Affine;
 
-use super::super::outline::{Outline, ReadOptions};
-use super::drawing::{Kind, Piece, outline_of, polylines, shorten};
+use crate::drawing::{Kind, Piece, outline_of, polylines, shorten};
+use crate::outline::{Outline, ReadOptions};
 use length::{MILLIMETRES, Side, Viewport, length, view_box, viewport_transform};
 use style::{Style, Styles};
 use tree::{Element, Tree};
 
 /// The path in a drawing, as points at equal distances: of what is shown, the outline that is chosen, or the most likely. It is in the drawing's
 /// unit, which its view box has, with all transforms. Its y points up, so that that of the drawing changes its sign. A plate of this program
-/// has the unit and the origin of its linkage.
+/// has the unit and the origin of its linkage. Elements without a drawing around them are one.
 ///
 /// # Errors
 /// The drawing cannot be read, or has no such outline.
-pub(super) fn parse_svg(text: &str, options: &ReadOptions) -> Result<Outline, String> {
+pub(crate) fn parse_svg(text: &str, options: &ReadOptions) -> Result<Outline, String> {
     let tree = Tree::parse(text)?;
+    let is_drawn = |name: &str| SHAPES.contains(&name) || name == "g" || name == "use";
+    if tree.elements.first().is_some_and(|first| is_drawn(&first.name)) {
+        return parse_svg(&format!("<svg>{text}</svg>"), options);
+    }
     let root =
         tree.elements.first().filter(|root| root.name == "svg").ok_or("it is no drawing in SVG: it has no <svg>")?;
     let (stretch, viewport, unit) = root_viewport(root)?;
@@ -48,6 +52,21 @@ pub(super) fn parse_svg(text: &str, options: &ReadOptions) -> Result<Outline, St
     *taken += "; ";
     *taken += if is_plate && taken.contains("of this program") { "in the unit of its linkage" } else { &unit };
     Ok(outline)
+}
+
+/// Whether a text is the data of a path, as `M0 0L3 4`.
+pub(crate) fn is_path_data(text: &str) -> bool {
+    let text = text.trim();
+    let is_of_data = |c: char| c.is_ascii_whitespace() || "MmLlHhVvCcSsQqTtAaZzEe0123456789+-.,".contains(c);
+    text.starts_with(['M', 'm']) && text.len() > 1 && text.chars().all(is_of_data)
+}
+
+/// The path with this data, as of a drawing with nothing else.
+///
+/// # Errors
+/// They cannot be read, or draw nothing.
+pub(crate) fn parse_path_data(text: &str, options: &ReadOptions) -> Result<Outline, String> {
+    parse_svg(&format!("<svg><path d=\"{}\" stroke=\"black\"/></svg>", text.trim()), options)
 }
 
 /// The transform that undoes a distortion of the root's viewport, what lengths in per cent are relative to, and the drawing's unit in words.
@@ -100,6 +119,9 @@ const MAX_DRAWN: usize = 400_000;
 /// The most links within links.
 const MAX_LINKS: usize = 20;
 
+/// Elements that have an outline.
+const SHAPES: [&str; 7] = ["path", "polyline", "polygon", "line", "rect", "circle", "ellipse"];
+
 /// Elements whose contents are drawn in their place.
 const CONTAINERS: [&str; 3] = ["g", "a", "svg"];
 
@@ -132,7 +154,7 @@ impl Walk<'_> {
         }
         let element = &self.tree.elements[index];
         let name = element.name.as_str();
-        let is_shape = matches!(name, "path" | "polyline" | "polygon" | "line" | "rect" | "circle" | "ellipse");
+        let is_shape = SHAPES.contains(&name);
         if !is_shape && !CONTAINERS.contains(&name) && name != "use" && name != "switch" {
             return Ok(());
         }

@@ -19,7 +19,7 @@ const NEAR: [f64; 2] = [1.25, 0.5];
 
 /// The gap from the last point of a path to its first, compared with the steps of the path.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Gap {
+pub(crate) struct Gap {
     /// 0 if there is none, at most 1 if it is like the steps beside it.
     ratio: f64,
 }

@@ -5,8 +5,8 @@ use std::str::FromStr;
 use kurbo::Affine;
 use svgtypes::{Align, AspectRatio, Length, LengthUnit, ViewBox};
 
-use super::super::drawing::shorten;
 use super::tree::Element;
+use crate::drawing::shorten;
 
 /// What lengths are relative to.
 #[derive(Clone, Copy, Debug)]

@@ -5,7 +5,7 @@
 ///
 /// # Errors
 /// They are no text.
-pub(super) fn decode(bytes: &[u8]) -> Result<String, String> {
+pub(crate) fn decode(bytes: &[u8]) -> Result<String, String> {
     const NO_TEXT: &str = "it is no table of points, JSON, SVG or DXF";
     let (is_little_endian, units) = match bytes {
         [0xff, 0xfe, rest @ ..] => (true, rest),

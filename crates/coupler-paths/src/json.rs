@@ -3,7 +3,7 @@
 use coupler_curves::geometry::Point;
 use serde_json::Value;
 
-use super::super::outline::{Outline, ReadOptions, Reading, limited};
+use crate::outline::{Outline, ReadOptions, Reading, limited};
 
 /// Reads JSON: a list of points, or an object with one as `points`, and perhaps `closed`. A point is a list of x and y and perhaps an
 /// angle, or an object with `x`, `y` and perhaps `angle`. Also read are what `find --json` and `export --format json` print, and an object
@@ -11,7 +11,7 @@ use super::super::outline::{Outline, ReadOptions, Reading, limited};
 ///
 /// # Errors
 /// Every point that cannot be read.
-pub(super) fn parse_json(text: &str, options: &ReadOptions) -> Result<Outline, Vec<String>> {
+pub(crate) fn parse_json(text: &str, options: &ReadOptions) -> Result<Outline, Vec<String>> {
     if let Some(outline) = options.outline {
         return Err(vec![format!(
             "{}{outline}: JSON has only one path; a drawing or a table may have several",

@@ -3,7 +3,7 @@
 use coupler_curves::geometry::Point;
 use coupler_find::PathKind;
 
-use super::closing::Gap;
+use crate::closing::Gap;
 
 /// A path.
 #[derive(Clone, Debug, PartialEq)]
@@ -97,10 +97,10 @@ impl Outline {
 }
 
 /// The most problems of a file that are listed.
-pub(super) const MAX_PROBLEMS: usize = 20;
+pub(crate) const MAX_PROBLEMS: usize = 20;
 
 /// The first problems, and the number of the others.
-pub(super) fn limited(mut problems: Vec<String>, what: &str) -> Vec<String> {
+pub(crate) fn limited(mut problems: Vec<String>, what: &str) -> Vec<String> {
     if problems.len() > MAX_PROBLEMS {
         let more = problems.len() - MAX_PROBLEMS;
         problems.truncate(MAX_PROBLEMS);
@@ -113,7 +113,7 @@ pub(super) fn limited(mut problems: Vec<String>, what: &str) -> Vec<String> {
 ///
 /// # Errors
 /// There is none, or its id is that of several.
-pub(super) fn choose([option, chosen]: [&str; 2], ids: &[Option<&str>], what: &str) -> Result<usize, String> {
+pub(crate) fn choose([option, chosen]: [&str; 2], ids: &[Option<&str>], what: &str) -> Result<usize, String> {
     let with_id: Vec<usize> = (0..ids.len()).filter(|k| ids[*k] == Some(chosen)).collect();
     let number = chosen.parse::<usize>().ok().filter(|number| (1..=ids.len()).contains(number));
     match (&with_id[..], number) {

@@ -2,13 +2,13 @@
 
 use coupler_curves::geometry::Point;
 
-use super::super::super::outline::{Outline, ReadOptions, Reading, limited};
 use super::block::{Block, Row};
 use super::columns::{Columns, Header};
 use super::dialect::Dialect;
 use super::line::Divider;
 use super::name::degrees_in;
 use super::number::{is_missing, parse_number};
+use crate::outline::{Outline, ReadOptions, Reading, limited};
 
 /// A path in a table.
 pub(super) struct DataSet<'t, 'a> {

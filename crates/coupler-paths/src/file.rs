@@ -1,19 +1,13 @@
 //! Paths in files: tables, JSON, and drawings.
 
-mod drawing;
-mod dxf;
-mod encoding;
-mod json;
-mod svg;
-mod table;
-
-use super::outline::{Outline, ReadOptions};
-pub use table::FunctionRows;
+use crate::outline::{Outline, ReadOptions};
+use crate::table::FunctionRows;
+use crate::{dxf, encoding, json, svg, table};
 
 /// The most points of a path: the time of a search grows with them.
 pub const MAX_POINTS: usize = 5000;
 
-/// Reads the path in a file: a drawing in SVG or DXF, JSON, or a table of points; and the angles of its points if it is timed. What was taken
+/// Reads the path in a file: a drawing in SVG or DXF, or a piece of SVG, as one copies it; JSON, or a table of points; and the angles of its points if it is timed. What was taken
 /// is in [`Outline::reading`].
 ///
 /// # Errors
@@ -23,6 +17,7 @@ pub fn parse_outline(bytes: &[u8], options: &ReadOptions) -> Result<Outline, Vec
     let outline = match text.trim_start().chars().next() {
         Some('<') => svg::parse_svg(&text, options).map_err(|problem| vec![problem])?,
         Some('{' | '[') => json::parse_json(&text, options)?,
+        _ if svg::is_path_data(&text) => svg::parse_path_data(&text, options).map_err(|problem| vec![problem])?,
         _ if dxf::is_dxf(&text) => dxf::parse_dxf(&text, options).map_err(|problem| vec![problem])?,
         _ => table::parse_table(&text, options)?,
     };
@@ -52,8 +47,8 @@ pub fn parse_function(bytes: &[u8]) -> Result<FunctionRows, Vec<String>> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::outline::MAX_PROBLEMS;
     use super::*;
+    use crate::outline::MAX_PROBLEMS;
 
     fn parse(text: &str, is_timed: bool) -> Result<Outline, Vec<String>> {
         parse_outline(text.as_bytes(), &ReadOptions { is_timed, ..ReadOptions::default() })

@@ -6,7 +6,7 @@ use coupler_curves::geometry::{Bounds, Point, Vector, cross};
 use coupler_curves::numerical::equal_parts;
 use kurbo::{Affine, BezPath, PathEl};
 
-use super::super::outline::{Outline, ReadOptions, Reading, choose};
+use crate::outline::{Outline, ReadOptions, Reading, choose};
 
 /// Points at equal distances along an outline: as many as are needed to see its shape.
 const POINTS: usize = 100;
@@ -28,7 +28,7 @@ const RANGE: std::ops::RangeInclusive<f64> = 1e-140..=1e140;
 
 /// How surely a stroke is the path, from what is drawn: the most likely first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Kind {
+pub(crate) enum Kind {
     /// What this program marks as the curve.
     Curve,
     /// A line.
@@ -39,7 +39,7 @@ pub(super) enum Kind {
 
 /// A stroke or the border of an area.
 #[derive(Clone, Debug)]
-pub(super) struct Piece {
+pub(crate) struct Piece {
     /// At least two points; of a closed one the first is repeated.
     pub points: Vec<Point>,
     pub kind: Kind,
@@ -103,7 +103,7 @@ fn corners(points: &[Point], tolerance: f64) -> Vec<Point> {
 ///
 /// # Errors
 /// It has coordinates that are too large or too small, or there are too many points.
-pub(super) fn polylines(path: &BezPath, transform: Affine, count: &mut usize) -> Result<Vec<Vec<Point>>, String> {
+pub(crate) fn polylines(path: &BezPath, transform: Affine, count: &mut usize) -> Result<Vec<Vec<Point>>, String> {
     let path = transform * path;
     let bounds = path.control_box();
     let extent = bounds.width().max(bounds.height());
@@ -160,7 +160,7 @@ fn length(path: &[Point]) -> f64 {
 ///
 /// # Errors
 /// There is no outline, or not the one that is chosen.
-pub(super) fn outline_of(pieces: Vec<Piece>, options: &ReadOptions) -> Result<Outline, String> {
+pub(crate) fn outline_of(pieces: Vec<Piece>, options: &ReadOptions) -> Result<Outline, String> {
     let pieces = join(pieces);
     let order = |piece: &Piece| (piece.is_frame(), piece.kind);
     let index = match options.outline {
@@ -322,7 +322,7 @@ fn spaced_evenly(path: &[Point], is_closed: bool) -> Vec<Point> {
 }
 
 /// A part of a text for a message.
-pub(super) fn shorten(text: &str) -> String {
+pub(crate) fn shorten(text: &str) -> String {
     const LENGTH: usize = 40;
     match text.char_indices().nth(LENGTH) {
         Some((end, _)) => format!("{}…", &text[..end]),

@@ -9,7 +9,7 @@ mod line;
 mod name;
 mod number;
 
-use super::super::outline::{Outline, ReadOptions, choose, limited};
+use crate::outline::{Outline, ReadOptions, choose, limited};
 use block::{Blocks, Row};
 use data_set::{DataSet, data_sets, not_a_number};
 use dialect::{Dialect, detect};
@@ -33,7 +33,7 @@ const MAX_DIVIDERS: usize = 2_000_000;
 ///
 /// # Errors
 /// Every line that cannot be read; or why the columns or the path are not known.
-pub(super) fn parse_table(text: &str, options: &ReadOptions) -> Result<Outline, Vec<String>> {
+pub(crate) fn parse_table(text: &str, options: &ReadOptions) -> Result<Outline, Vec<String>> {
     let (lines, declared) = read_lines(text)?;
     let dialect = detect(&lines, declared);
     check_commas(&lines, dialect)?;
@@ -62,7 +62,7 @@ pub(super) fn parse_table(text: &str, options: &ReadOptions) -> Result<Outline, 
 ///
 /// # Errors
 /// Every line that cannot be read; or why the columns are not known.
-pub(super) fn parse_function_table(text: &str) -> Result<FunctionRows, Vec<String>> {
+pub(crate) fn parse_function_table(text: &str) -> Result<FunctionRows, Vec<String>> {
     let (lines, declared) = read_lines(text)?;
     check_commas(&lines, detect(&lines, declared))?;
     function_rows(&lines, declared)

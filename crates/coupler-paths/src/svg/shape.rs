@@ -3,9 +3,9 @@
 use kurbo::{Affine, Arc, BezPath, Circle, Point, Shape, SvgArc, Vec2};
 use svgtypes::{PathParser, PathSegment, PointsParser};
 
-use super::super::drawing::shorten;
 use super::length::{Side, Viewport, length};
 use super::tree::Element;
+use crate::drawing::shorten;
 
 /// How near to a circle its curves are, relative to its radius.
 const ACCURACY: f64 = 1e-6;

@@ -1,10 +1,10 @@
 //! Functions in tables: an input and an output on each line.
 
-use super::super::super::outline::limited;
 use super::dialect::{Dialect, detect};
 use super::line::{Line, cells};
 use super::name::{ColumnName, degrees_in};
 use super::number::parse_number;
+use crate::outline::limited;
 
 /// The rows of a function in a table.
 #[derive(Clone, Debug, PartialEq)]

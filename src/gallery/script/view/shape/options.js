@@ -1,0 +1,90 @@
+// The controls of the search by shape: how curves are compared, and what four-bars must be.
+
+import { boxOfPoints } from "../../draw/plane-view.js";
+import { choiceBox, fill, h, selectOf } from "../dom.js";
+import { numbersOf } from "./query.js";
+
+const percents = (value) => `${Math.round(100 * value)} %`;
+
+/** How curves of the atlas are compared with the shape. @param {Store<ShapeQuery>} store */
+export function shapeOptions(store) {
+  const isPart = (part) => ({ name: "shape-part", onchange: () => store.change({ part }) });
+  const whole = choiceBox("radio", isPart(false), "a whole curve");
+  const part = choiceBox("radio", isPart(true), "a part of a curve, at least");
+  const least = selectBox(store, "least", "Minimum part of a curve", [0.05, 0.1, 0.15, 0.25, 0.5], percents);
+  const mirror = checkBox(store, "mirror", "Include mirror images");
+  const by = selectBox(store, "by", "Rank by", ["rms", "greatest"], (name) => `by ${name} deviation`);
+  store.watch((state) => {
+    whole.input.checked = state.part === false;
+    part.input.checked = state.part === true;
+  });
+  return h(
+    "fieldset.shape-options",
+    h("legend", "The shape is"),
+    h("div.toolbar", whole.element, part.element, least),
+    h("div.toolbar", mirror, by),
+  );
+}
+
+/** What four-bars must be, as `find` has it: chips that are on or off. @param {Store<ShapeQuery>} store @param {() => Outline | null} shape */
+export function fourBarChips(store, shape) {
+  const anyMu = (mu) => (mu ? `μ at least ${mu}°` : "any μ");
+  const links = (length) => (length === Infinity ? "links of any length" : `links up to ${length} S`);
+  const onBox = ({ target }) => store.change({ pivots: target.checked ? boxAround(shape()) : null });
+  const box = choiceBox("checkbox", { onchange: onBox }, "Pivots in a box");
+  const onCorners = ({ target }) => {
+    const pivots = numbersOf(target.value, 4);
+    target.setAttribute("aria-invalid", String(!pivots));
+    if (pivots) store.change({ pivots });
+  };
+  const corners = h("input", {
+    "aria-label": "Corners of the box, x, y, x, y",
+    size: 18,
+    onchange: onCorners,
+  });
+  store.watch(({ pivots }) => {
+    box.input.checked = pivots !== null;
+    corners.hidden = pivots === null;
+    corners.value = pivots?.join(", ") ?? "";
+  });
+  return h(
+    "div.toolbar.chips",
+    checkBox(store, "fullTurn", "The crank turns fully"),
+    selectBox(store, "mu", "Least transmission angle", [0, 20, 30, 40, 45, 50], anyMu),
+    selectBox(store, "maxLink", "Longest link", [3, 5, 10, 20, 50, Infinity], links),
+    box.element,
+    corners,
+  );
+}
+
+/** The box of a shape, half as large again on each side, in round numbers. @param {Outline | null} shape */
+function boxAround(shape) {
+  const [x0, y0, x1, y1] = shape ? boxOfPoints(shape.points) : [0, 0, 100, 100];
+  const by = Math.max(x1 - x0, y1 - y0) / 2;
+  return [x0 - by, y0 - by, x1 + by, y1 + by].map((value) => Number(value.toPrecision(3)));
+}
+
+function checkBox(/** @type {Store<any>} */ store, name, label) {
+  const onchange = ({ target }) => store.change({ [name]: target.checked });
+  const { input, element } = choiceBox("checkbox", { name, onchange }, label);
+  store.watch((state) => {
+    input.checked = state[name];
+  });
+  return element;
+}
+
+/** A choice of some values, and of the one that the address has. */
+function selectBox(/** @type {Store<any>} */ store, name, label, values, text) {
+  const isNumber = typeof values[0] === "number";
+  const onchange = ({ target }) => store.change({ [name]: isNumber ? Number(target.value) : target.value });
+  const element = selectOf({ "aria-label": label, onchange }, [], null);
+  store.watch((state) => {
+    const all = [...new Set([...values, state[name]])];
+    if (isNumber) all.sort((a, b) => a - b);
+    fill(
+      element,
+      all.map((value) => h("option", { value, selected: value === state[name] }, text(value))),
+    );
+  });
+  return element;
+}

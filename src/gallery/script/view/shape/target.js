@@ -1,0 +1,250 @@
+// The target: the shape that is searched for, drawn and changed here, with axes and the four-bars that are found for it.
+
+import { looksClosed, resampled } from "../../shape/outline.js";
+import { simplified } from "../../shape/encode.js";
+import { placedData } from "../../draw/path-data.js";
+import {
+  boxOfPoints,
+  fittedView,
+  planePoint,
+  pointPairs,
+  roundBelow,
+  screenPoint,
+} from "../../draw/plane-view.js";
+import { fill, h, s, isShortcut } from "../dom.js";
+import { formatNumber } from "../labels.js";
+import { fourBarDrawing } from "./four-bar-item.js";
+
+const FRAME = { width: 520, height: 420 };
+const MARGIN = 90;
+// What is seen before there is a shape, in units of the plane.
+const EMPTY_BOX = [0, 0, 100, 80];
+// A shape of more points is changed by so many handles, each of which moves the points up to the next two.
+const MOST_HANDLES = 12;
+const POINTS_PER_HANDLE = 8;
+const BEND_REACH = 12;
+
+/** The plane of the shape. `on.drawn(outline)` is called with a finished shape, `on.live(outline, isDragged)` while it changes, `on.cleared()` when there is none any more. */
+export class TargetPlane {
+  /** @type {Outline} */ outline = { points: new Float64Array(), closed: false };
+  view = fittedView(EMPTY_BOX, FRAME);
+  /** @type {Point} */ pen = [50, 40];
+  /** The box of the pivots. @type {number[] | null} */ corners = null;
+  /** Whether the points are set by keys. */
+  isByKeys = false;
+
+  /** @param {{ drawn(outline: Outline): void, live(outline: Outline, isDragged: boolean): void, cleared(): void }} on @param {App["announce"]} announce */
+  constructor(on, announce) {
+    this.on = on;
+    this.announce = announce;
+    const [axes, box, found, dots] = ["axes", "pivot-box", "found", "dots"].map((name) => s(`g.${name}`));
+    this.parts = { axes, box, found, dots };
+    this.line = s("path.drawn");
+    this.cross = s("path.pen", { d: "M-7 0h14M0-7v14" });
+    this.element = s(
+      "svg.pad",
+      {
+        viewBox: `0 0 ${FRAME.width} ${FRAME.height}`,
+        tabindex: "0",
+        role: "application",
+        "aria-label": "Drawing pad",
+        "aria-describedby": "pad-help",
+        onpointerdown: (event) => this.#press(event),
+        onkeydown: (event) => this.#key(event),
+      },
+      [axes, box, found, this.line, dots, this.cross],
+    );
+    const keys =
+      "Draw in one stroke, and drag the dots. Lengths are in the unit of the points. Keys: arrows move the pen (Shift: " +
+      "further), Enter adds a point, Backspace removes the last point, C closes the curve, Escape clears it.";
+    this.help = h("p.note", { id: "pad-help" }, keys);
+    this.render();
+  }
+
+  /** Shows a shape, or none: null. */
+  show(/** @type {Outline | null} */ outline) {
+    this.outline = outline ?? { points: new Float64Array(), closed: false };
+    this.isByKeys = false;
+    const box = outline ? boxOfPoints(outline.points) : EMPTY_BOX;
+    this.view = fittedView(box, { ...FRAME, margin: outline ? MARGIN : 0 });
+    this.showFound([]);
+    this.render();
+  }
+
+  /** Shows the box of the pivots, or none. @param {number[] | null} corners */
+  showBox(corners) {
+    this.corners = corners;
+    if (!corners) return fill(this.parts.box);
+    const [x0, y0, x1, y1] = boxOfPoints(corners);
+    const [[x, y], [right, bottom]] = [screenPoint(this.view, [x0, y1]), screenPoint(this.view, [x1, y0])];
+    return fill(this.parts.box, s("rect", { x, y, width: right - x, height: bottom - y }));
+  }
+
+  /** Shows four-bars with their curves, the nearest last; at rest its joints are in view, if they are not far. @param {FourBarAnswer[]} answers */
+  showFound(answers, isAtRest = false) {
+    const { points } = this.outline;
+    if (isAtRest && points.length && !this.element.onpointermove) {
+      const frame = { ...FRAME, margin: MARGIN / 3 };
+      const joints = fittedView(boxOfPoints(points, answers[0]?.pose ?? []), frame);
+      const alone = fittedView(boxOfPoints(points), { ...FRAME, margin: MARGIN });
+      this.view = joints.scale < alone.scale / 3 ? alone : joints;
+      this.render();
+    }
+    const drawings = answers.map((answer, k) => fourBarDrawing(answer, this.view, k + 1));
+    fill(this.parts.found, drawings.reverse());
+  }
+
+  render() {
+    const { points, closed } = this.outline;
+    this.line.setAttribute("d", placedData(points, closed && points.length > 4, this.view));
+    const dot = (point, k) => {
+      const [cx, cy] = screenPoint(this.view, point);
+      return s("circle", { cx, cy, r: 5, "data-handle": k });
+    };
+    fill(this.parts.dots, this.#handles().map(dot));
+    const [x, y] = screenPoint(this.view, this.pen);
+    this.cross.setAttribute("transform", `translate(${x} ${y})`);
+    fill(this.parts.axes, axisLines(this.view));
+    this.showBox(this.corners);
+  }
+
+  /** @returns {Point[]} */
+  #handles() {
+    const { points, closed } = this.outline;
+    if (points.length < 4) return pointPairs(points);
+    return pointPairs(points.length > 2 * MOST_HANDLES ? resampled(points, closed, MOST_HANDLES) : points);
+  }
+
+  /** @param {PointerEvent} _ @returns {Point} */
+  #placeOf({ clientX, clientY }) {
+    const { left, top, width, height } = this.element.getBoundingClientRect();
+    const scale = Math.min(width / FRAME.width, height / FRAME.height);
+    const [x, y] = planePoint(this.view, [
+      (clientX - left - (width - scale * FRAME.width) / 2) / scale,
+      (clientY - top - (height - scale * FRAME.height) / 2) / scale,
+    ]);
+    return [x, y];
+  }
+
+  /** Begins a stroke, or to drag a handle. */
+  #press(event) {
+    if (event.button) return;
+    event.preventDefault();
+    this.element.focus({ preventScroll: true });
+    this.element.setPointerCapture(event.pointerId);
+    const handle = event.target.dataset.handle;
+    const move = handle === undefined ? this.#stroke(event) : this.#drag(event, Number(handle));
+    this.element.onpointermove = (moved) => {
+      move(moved);
+      this.render();
+      this.on.live(this.outline, handle !== undefined);
+    };
+    this.element.onlostpointercapture = () => {
+      [this.element.onpointermove, this.element.onlostpointercapture] = [null, null];
+      this.#finish(handle === undefined ? null : this.outline.closed);
+    };
+  }
+
+  #stroke(event) {
+    const stroke = [...this.#placeOf(event)];
+    this.isByKeys = false;
+    this.showFound([]);
+    return (moved) => {
+      const seen = moved.getCoalescedEvents?.() ?? [];
+      for (const one of seen.length ? seen : [moved]) stroke.push(...this.#placeOf(one));
+      this.outline = { points: Float64Array.from(stroke), closed: false };
+    };
+  }
+
+  #drag(event, handle) {
+    const [x, y] = this.#placeOf(event);
+    const { points, closed } = this.outline;
+    const isFew = points.length <= 2 * MOST_HANDLES;
+    const count = MOST_HANDLES * POINTS_PER_HANDLE - (closed ? 0 : POINTS_PER_HANDLE - 1);
+    const base = isFew ? points : resampled(points, closed, count);
+    const [at, reach] = isFew ? [handle, 1] : [handle * POINTS_PER_HANDLE, BEND_REACH];
+    return (moved) => {
+      const [toX, toY] = this.#placeOf(moved);
+      const bent = base.map((value, k) => {
+        const apart = Math.abs((k >> 1) - at);
+        const from = closed ? Math.min(apart, base.length / 2 - apart) : apart;
+        const share = from < reach ? Math.cos((Math.PI * from) / (2 * reach)) ** 2 : 0;
+        return value + share * (k % 2 ? toY - y : toX - x);
+      });
+      this.outline = { points: bent, closed };
+    };
+  }
+
+  /** Ends a change; a stroke is closed if it looks so. */
+  #finish(/** @type {boolean | null} */ closed) {
+    const { points } = this.outline;
+    if (points.length < 4) return;
+    const isClosed = closed ?? looksClosed(points);
+    this.outline = {
+      points: points.length > 600 ? simplified(points, isClosed, 300) : points,
+      closed: isClosed,
+    };
+    this.on.drawn(this.outline);
+  }
+
+  #key(event) {
+    const step = roundBelow(30 / this.view.scale) * (event.shiftKey ? 5 : 1) * 0.5;
+    const move = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, step], ArrowDown: [0, -step] }[
+      event.key
+    ];
+    const acts = {
+      Enter: () => this.#addPoint(),
+      " ": () => this.#addPoint(),
+      Backspace: () => this.#removePoint(),
+      Escape: () => this.on.cleared(),
+      c: () => this.#finish(true),
+    };
+    if (isShortcut(event) || (!move && !acts[event.key])) return;
+    event.preventDefault();
+    if (!move) return void acts[event.key]();
+    this.pen = [this.pen[0] + move[0], this.pen[1] + move[1]];
+    this.announce(this.pen.map((value) => formatNumber(value)).join(", "));
+    this.render();
+  }
+
+  #addPoint() {
+    const before = this.isByKeys ? this.outline.points : [];
+    this.isByKeys = true;
+    this.#setKeyed([...before, ...this.pen]);
+    this.announce(`Point ${this.outline.points.length / 2}`);
+  }
+
+  #removePoint() {
+    this.#setKeyed([...this.outline.points].slice(0, -2));
+    if (this.outline.points.length === 4) this.on.cleared();
+  }
+
+  /** Shows points that keys set; a shape has three of them. @param {number[]} points */
+  #setKeyed(points) {
+    this.outline = { points: Float64Array.from(points), closed: false };
+    this.render();
+    if (points.length > 4) this.#finish(false);
+  }
+}
+
+/** The lines of the axes, at round numbers, with these. @param {Placement} view */
+function axisLines(view) {
+  const { width, height } = FRAME;
+  const step = roundBelow(110 / view.scale);
+  const [x0, y0] = planePoint(view, [0, height]);
+  const [x1, y1] = planePoint(view, [width, 0]);
+  const lines = (from, to, draw) =>
+    Array.from({ length: Math.floor(to / step) - Math.ceil(from / step) + 1 }, (_, k) =>
+      draw((Math.ceil(from / step) + k) * step),
+    );
+  const text = (x, y, value) => s("text", { x, y }, formatNumber(value));
+  const across = lines(x0, x1, (value) => {
+    const [x] = screenPoint(view, [value, 0]);
+    return [s("path.grid", { d: `M${x} 0V${height}` }), text(x + 3, height - 4, value)];
+  });
+  const up = lines(y0, y1, (value) => {
+    const [, y] = screenPoint(view, [0, value]);
+    return [s("path.grid", { d: `M0 ${y}H${width}` }), text(3, y - 3, value)];
+  });
+  return [across, up];
+}
