@@ -170,7 +170,7 @@ export const FOUR_BARS = [
       await eventually(async () => /at=0,0,8/.test(await gallery.fragment()), "its place is in the address");
       assert.match(await page.locator(".shape-view .field").innerText(), /zigzag.csv: x is column 1/);
       await searchedToEnd(page);
-      assert.match(await page.locator(".reasons").innerText(), /7 corners of up to 143°.*meets it 8 times/);
+      assert.match(await page.locator(".reasons").innerText(), /7 corners of up to 1\d\d°.*meets it 8 times/);
       assert.match(
         await page.locator(".four-bar-section .counted").innerText(),
         /all of them poor|No four-bar/,

@@ -255,8 +255,8 @@ const tests = [
       );
       await page.getByLabel("Paste points or a path").fill("M0 0L100 0A50 20 0 0 1 0 0Z");
       await page.getByRole("button", { name: "Use pasted shape" }).click();
+      await eventually(async () => (await page.getByRole("alert").innerText()) === "", "it is read");
       await ranked(page);
-      assert.equal(await page.getByRole("alert").innerText(), "");
       await gallery.close();
     },
   ],

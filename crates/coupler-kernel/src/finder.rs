@@ -11,6 +11,9 @@ use crate::response::Numbers;
 /// The most curves that are added to the index in a step, some 5 ms of work.
 const CURVES_PER_STEP: usize = 128;
 
+/// The curves in which a path is looked up while it changes: portions of all would take a second.
+const FIRST_CURVES: usize = 15_000;
+
 /// The most points of a path that is searched for: the time of a step grows with them.
 const MAX_POINTS: usize = 400;
 
@@ -41,14 +44,18 @@ fn placed([o, c, a, b, m]: [Point; 5]) -> PlacedFourBar {
 
 /// Adds the next curves to the index, up to the number that the program searches by default; how many there are, and how many there
 /// will be.
-pub(crate) fn grow_index(index: &mut Index) -> Value {
+/// `first` gets the first of them.
+pub(crate) fn grow_index(index: &mut Index, first: &mut Index) -> Value {
     index.extend(CURVES_PER_STEP.min(Index::DEFAULT_COUNT - index.len()));
+    first.extend(FIRST_CURVES.min(index.len()) - first.len());
     json!({ "count": index.len(), "full_count": Index::DEFAULT_COUNT })
 }
 
 /// A search for the four-bars whose curves are nearest to a path.
 pub(crate) struct FourBarSearch {
     search: Search,
+    /// Whether it looks the path up in the first curves, and refines nothing.
+    is_quick: bool,
     target: Target,
     /// The answers so far that are being made.
     ranking: Ranking,
@@ -66,11 +73,12 @@ impl FourBarSearch {
         start: Option<[Point; 5]>,
     ) -> Result<FourBarSearch, String> {
         let target = target_of(points, kind)?;
+        let is_quick = !options.refine;
         let search = match start {
             Some(joints) => Search::from_four_bar(&target, options, &placed(joints)),
             None => Search::new(&target, options),
         };
-        Ok(FourBarSearch { search, target, ranking: Ranking::default() })
+        Ok(FourBarSearch { search, is_quick, target, ranking: Ranking::default() })
     }
 
     /// What of the path keeps four-bars away from it, as clauses.
@@ -79,9 +87,9 @@ impl FourBarSearch {
     }
 
     /// Takes a step of bounded work; whether nothing is left to do.
-    pub fn step(&mut self, index: &Index) -> bool {
+    pub fn step(&mut self, index: &Index, first: &Index) -> bool {
         self.ranking = Ranking::default();
-        !self.search.step(index)
+        !self.search.step(if self.is_quick { first } else { index })
     }
 
     /// Takes a step towards the answers so far, or has them: those of `find --json` with their curves, and the manifest

@@ -28,6 +28,8 @@ pub struct Kernel {
     families: Slots<OpenFamily>,
     studies: Slots<OpenStudy>,
     index: Index,
+    /// The first curves of the index, in which paths are looked up while they change.
+    first: Index,
     searches: Slots<FourBarSearch>,
     curves: Slots<CurveIndex>,
     shapes: Slots<ShapeSearch>,
@@ -113,12 +115,14 @@ impl Kernel {
             }
             Request::ReadPath { bytes, outline } => path_file_json(&bytes, outline.as_deref(), numbers)?,
             Request::DrawnPath { points, closed, is_part } => drawn_path_json(&points, closed, is_part, numbers)?,
-            Request::GrowIndex => grow_index(&mut self.index),
+            Request::GrowIndex => grow_index(&mut self.index, &mut self.first),
             Request::OpenSearch { points, kind, options, start } => {
                 let search = FourBarSearch::new(&points, &kind, options, start)?;
                 json!({ "hindrances": search.hindrances(), "search": self.searches.insert(search) })
             }
-            Request::StepSearch { search } => json!({ "is_done": self.searches.get_mut(search)?.step(&self.index) }),
+            Request::StepSearch { search } => {
+                json!({ "is_done": self.searches.get_mut(search)?.step(&self.index, &self.first) })
+            }
             Request::Answers { search, name } => self.searches.get_mut(search)?.answers_json(&name, numbers),
             Request::CloseSearch { search } => json!({ "closed": self.searches.remove(search) }),
             Request::OpenCurves => json!({ "curves": self.curves.insert(CurveIndex::new()) }),

@@ -44,6 +44,13 @@ export function searchedParts(/** @type {Family[]} */ families, limit) {
   return parts;
 }
 
+/** How much of what is listed is searched. @param {ListedFamily[]} listed @param {{ count: number }[]} parts @returns {LoadState} */
+export function loadStateOf(listed, parts) {
+  const curves = parts.reduce((sum, { count }) => sum + count, 0);
+  const [total, bytes] = ["curves", "bytes"].map((name) => listed.reduce((sum, one) => sum + one[name], 0));
+  return { done: true, curves, total, bytes };
+}
+
 /** The pieces of the table with the curves of a piece of points. @param {Family} _ @param {Piece} _1 */
 function tablesOf({ table }, { firstCurve, curves }) {
   const [first, last] = [table.ofCurve(firstCurve), table.ofCurve(firstCurve + curves - 1)];

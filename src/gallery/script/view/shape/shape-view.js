@@ -1,19 +1,19 @@
 // The view that finds curves by shape.
 
-import { curveOutline } from "../../data/family.js";
-import { needCurveWithKey, needCurves, needPieces } from "../../data/needs.js";
-import { decodeShape, encodeShape } from "../../shape/encode.js";
-import { boxOfPoints } from "../../draw/plane-view.js";
+import { needPieces } from "../../data/needs.js";
+import { encodeShape } from "../../shape/encode.js";
+import { lengthsAlong } from "../../shape/outline.js";
 import { fill, h } from "../dom.js";
 import { MAX_AUTOLOAD_BYTES, requestedFamilies, loadAllLine, familyChooser } from "../find/loading.js";
 import { Store } from "../store.js";
 import { FourBarSection } from "./four-bars.js";
-import { releaseIndexes, searchedParts } from "./indexes.js";
+import { loadStateOf, releaseIndexes, searchedParts } from "./indexes.js";
 import { shapeLayout } from "./layout.js";
 import { matchItems, matchesText } from "./match-item.js";
 import { nearestCurves } from "./matches.js";
 import { mergedMatches } from "./merged.js";
 import { formatShapeQuery, parseShapeQuery } from "./query.js";
+import { outlineOfState } from "./state-outline.js";
 import { TargetPlane } from "./target.js";
 import { matchesRoute, routeAddress } from "../../data/address.js";
 import { watchPins } from "../pins.js";
@@ -122,12 +122,7 @@ export class ShapeView {
       if (signal.aborted) return;
     }
     this.parts = searchedParts(families, this.limit);
-    this.loaded = {
-      done: true,
-      curves: this.parts.reduce((sum, { count }) => sum + count, 0),
-      total: listed.reduce((sum, { curves }) => sum + curves, 0),
-      bytes: listed.reduce((sum, { bytes }) => sum + bytes, 0),
-    };
+    this.loaded = loadStateOf(listed, this.parts);
     if (this.shape) await this.search();
     else await this.prepare(signal);
   }
@@ -162,25 +157,14 @@ export class ShapeView {
   /** Takes the shape of the state: a drawn one, or a curve of the atlas. */
   async #loadShape() {
     const { state } = this.store;
-    const outline = await this.#outlineOf(state);
+    const { word, outline: given } = this.given;
+    const outline = state.d && state.d === word ? given : await outlineOfState(this.app, state);
     if (state !== this.store.state) return;
     this.shape = outline;
     if (!outline) return this.#showNoShape();
     if (this.target.outline !== outline) this.target.show(outline);
     this.target.render();
     if (state.part === null) this.store.note({ part: !outline.closed });
-  }
-
-  /** @param {ShapeQuery} state @returns {Promise<Outline | null>} */
-  async #outlineOf({ d, place, like }) {
-    if (d) return d === this.given.word ? this.given.outline : decodeShape(d, place);
-    if (!like) return null;
-    const [id, key] = like.split(":");
-    const family = await this.app.atlas.family(id);
-    const curve = await needCurveWithKey(family, key ?? "");
-    if (curve === undefined) throw new Error(`There is no curve ${key} in the family ${id}.`);
-    await needCurves(family, [curve]);
-    return curveOutline(family, curve);
   }
 
   #showNoShape() {
@@ -193,8 +177,7 @@ export class ShapeView {
 
   /** Searches for a shape that was drawn or read. @param {Outline} outline */
   setShape(outline, name) {
-    const [x0, y0, x1, y1] = boxOfPoints(outline.points);
-    if (!(Math.max(x1 - x0, y1 - y0) > 0)) {
+    if (!((lengthsAlong(outline.points, false).at(-1) ?? 0) > 0)) {
       this.clear();
       return this.showNone("This is too small to be a curve: draw a longer one");
     }

@@ -1,7 +1,6 @@
 // The target: the shape that is searched for, drawn and changed here, with axes and the four-bars that are found for it.
 
 import { looksClosed, resampled } from "../../shape/outline.js";
-import { simplified } from "../../shape/encode.js";
 import { placedData } from "../../draw/path-data.js";
 import {
   boxOfPoints,
@@ -13,6 +12,7 @@ import {
 } from "../../draw/plane-view.js";
 import { fill, h, s, isShortcut } from "../dom.js";
 import { formatNumber } from "../labels.js";
+import { axisLines } from "./axes.js";
 import { fourBarDrawing } from "./four-bar-item.js";
 
 const FRAME = { width: 520, height: 420 };
@@ -66,6 +66,7 @@ export class TargetPlane {
     this.outline = outline ?? { points: new Float64Array(), closed: false };
     this.isByKeys = false;
     const box = outline ? boxOfPoints(outline.points) : EMPTY_BOX;
+    this.pen = [(box[0] + box[2]) / 2, (box[1] + box[3]) / 2];
     this.view = fittedView(box, { ...FRAME, margin: outline ? MARGIN : 0 });
     this.showFound([]);
     this.render();
@@ -104,11 +105,10 @@ export class TargetPlane {
     fill(this.parts.dots, this.#handles().map(dot));
     const [x, y] = screenPoint(this.view, this.pen);
     this.cross.setAttribute("transform", `translate(${x} ${y})`);
-    fill(this.parts.axes, axisLines(this.view));
+    fill(this.parts.axes, axisLines(this.view, FRAME));
     this.showBox(this.corners);
   }
 
-  /** @returns {Point[]} */
   #handles() {
     const { points, closed } = this.outline;
     if (points.length < 4) return pointPairs(points);
@@ -180,10 +180,8 @@ export class TargetPlane {
     const { points } = this.outline;
     if (points.length < 4) return;
     const isClosed = closed ?? looksClosed(points);
-    this.outline = {
-      points: points.length > 600 ? simplified(points, isClosed, 300) : points,
-      closed: isClosed,
-    };
+    const few = points.length > 600 ? resampled(points, isClosed, 300) : points;
+    this.outline = { points: few, closed: isClosed };
     this.on.drawn(this.outline);
   }
 
@@ -225,26 +223,4 @@ export class TargetPlane {
     this.render();
     if (points.length > 4) this.#finish(false);
   }
-}
-
-/** The lines of the axes, at round numbers, with these. @param {Placement} view */
-function axisLines(view) {
-  const { width, height } = FRAME;
-  const step = roundBelow(110 / view.scale);
-  const [x0, y0] = planePoint(view, [0, height]);
-  const [x1, y1] = planePoint(view, [width, 0]);
-  const lines = (from, to, draw) =>
-    Array.from({ length: Math.floor(to / step) - Math.ceil(from / step) + 1 }, (_, k) =>
-      draw((Math.ceil(from / step) + k) * step),
-    );
-  const text = (x, y, value) => s("text", { x, y }, formatNumber(value));
-  const across = lines(x0, x1, (value) => {
-    const [x] = screenPoint(view, [value, 0]);
-    return [s("path.grid", { d: `M${x} 0V${height}` }), text(x + 3, height - 4, value)];
-  });
-  const up = lines(y0, y1, (value) => {
-    const [, y] = screenPoint(view, [0, value]);
-    return [s("path.grid", { d: `M0 ${y}H${width}` }), text(3, y - 3, value)];
-  });
-  return [across, up];
 }
