@@ -1,6 +1,7 @@
 //! What keeps curves away from a path is named, and nothing of curves that four-bars draw.
 
 use coupler_curves::geometry::{Point, trig};
+use coupler_curves::linkage::FourBar;
 use coupler_find::{Hindrance, Index, Options, Search, Target};
 
 fn points(count: usize, point: impl Fn(f64) -> [f64; 2]) -> Vec<Point> {
@@ -60,7 +61,18 @@ fn curves_of_four_bars_have_no_hindrance() {
     let target = Target::closed(&eight).unwrap();
     assert_eq!(target.hindrances(true), []);
     let answers = Search::new(&target, Options { most: 3, ..Options::default() }).run(&Index::with_count(3000));
-    assert!(!answers.is_empty());
+    let mut mechanism = answers[0].mechanism.clone();
+    for (frame, crank, coupler, rocker, expected) in [
+        (2.0, 2.0, 2.001, 2.0, Some("four equal links: change point")),
+        (3.0, 1.0, 3.001, 1.0, Some("equal opposite links: change point")),
+        (3.0, 3.0, 1.0, 1.001, Some("equal neighbouring links: change point")),
+        (4.0, 1.0, 3.0, 2.001, Some("all but a change point")),
+        (4.0, 1e-4, 3.0, 2.5, Some("a link without length")),
+        (4.0, 1.0, 3.0, 2.5, None),
+    ] {
+        mechanism.four_bar.lengths = FourBar { frame, crank, coupler, rocker };
+        assert_eq!(mechanism.degeneracy(), expected, "{frame} {crank} {coupler} {rocker}");
+    }
     let ellipse =
         points(60, |t| [4.0 * trig::cos(std::f64::consts::TAU * t), 2.0 * trig::sin(std::f64::consts::TAU * t)]);
     assert_eq!(Target::closed(&ellipse).unwrap().hindrances(true), []);
