@@ -11,7 +11,9 @@ type Outline = { points: Float64Array; closed: boolean };
 /** z → (re + i·im) z̃ + (x + iy), where z̃ is the conjugate of z if mirrored, else z. */
 type Similarity = { mirror: boolean; re: number; im: number; x: number; y: number };
 type Matrix = [number, number, number, number, number, number];
-type Atlas = ReturnType<typeof import("./data/atlas.js").openAtlas>;
+type Atlas = ReturnType<typeof import("./kernel/linkages.js").withLinkages>;
+/** A linkage that a plate can begin with: of the catalogue with a manifest, or of a family of the atlas. */
+type NewLinkage = { id: string; legend: string; manifest?: string; family?: string };
 type Kernel = import("./kernel/kernel.js").Kernel;
 /** A kernel whose answers may be promises (kernel/worker.js). */
 type SearchKernel = { readonly instance: object; call(request: object): any };
@@ -265,7 +267,7 @@ type ComparedCurve = CurveOfFamily & ChangedCurve & { name: string; key: string;
 type ChangedCurve = { changes: Map<string, number>; requested?: KernelCurve; shown?: number | null };
 type Markup = { name: string; attributes: Query; children: Markup[]; parent: Markup | null };
 type TypedArray = Uint8Array | Uint16Array | Uint32Array | Float64Array;
-type PackedColumn = string | number | null;
+type PackedColumn = string | number | Float64Array | null;
 type TypedArrayKind = { new (of: number | ArrayBuffer): TypedArray };
 type Base64Decoder = { fromBase64(data: string): Uint8Array<ArrayBuffer> };
 type Chunk = Pick<PieceData, "box" | "points" | "caption" | "note" | "reason"> & { counts: Uint16Array };

@@ -8,6 +8,11 @@
 //   #/find?family=evans&mu_min_deg=30..    the curves that pass the filters
 //   #/shape?d=…                            the curves similar to a shape
 //   #/compare?c=evans:12.1.1,watt:3.1.1    curves compared
+//   #/new                                  the linkages that plates begin with
+//   #/new/four-bar?crank=1.2               the plate of one, which is in no family
+
+// The first curve of a family, of which the plate of a linkage in no atlas has the short address.
+const FIRST_KEY = "1.1.1";
 
 /** Parses a fragment. @returns {Target} */
 export function parseAddress(fragment) {
@@ -58,8 +63,36 @@ export function address(path, query = {}) {
   const pairs = entries
     .filter(([, value]) => value !== undefined && value !== null && value !== "")
     .map(([name, value]) => `${plain(name)}=${plain(String(value))}`);
-  const fragment = `#/${path.map(plain).join("/")}`;
+  // The id of a linkage's family, "new/four-bar", is two words of a path.
+  const fragment = `#/${path.map(plain).join("/").replaceAll("%2F", "/")}`;
   return pairs.length ? `${fragment}?${pairs.join("&")}` : fragment;
+}
+
+/** The linkage of a family that is in no atlas, "new/four-bar"; null if an id is that of another. */
+export function newLinkage(/** @type {string} */ id) {
+  return id.startsWith("new/") ? id.slice(4) : null;
+}
+
+/**
+ * The address of the plate of a linkage with values by their names, in no family: `#/new/four-bar?crank=1.2`.
+ * @param {string} linkage @param {Map<string, unknown> | Record<string, unknown>} [values]
+ */
+export function newAddress(linkage, values) {
+  return address(["new", linkage], values);
+}
+
+/** The family and the key of the curve of a plate; null if a path is that of no plate. @param {string[]} path */
+export function curveOfPath(path) {
+  const isNew = path[0] === "new" && path.length % 2 === 0 && !/^[0-9]+$/.test(path[1]);
+  const [id, word, key] = isNew ? [`new/${path[1]}`, ...path.slice(2)] : path;
+  if (isNew && path.length === 2) return { id, key: FIRST_KEY };
+  return word === "curve" && path.length === (isNew ? 4 : 3) ? { id, key } : null;
+}
+
+/** The address of the plate of a curve. @param {Map<string, unknown> | Record<string, unknown>} [query] */
+export function curveAddress(/** @type {string} */ id, /** @type {string} */ key, query) {
+  const isShort = newLinkage(id) !== null && key === FIRST_KEY;
+  return address(isShort ? [id] : [id, "curve", key], query);
 }
 
 /**

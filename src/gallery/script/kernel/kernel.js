@@ -70,11 +70,16 @@ export class Kernel {
     return this.use((instance) => instance.call(request));
   }
 
-  /** A family of the atlas (data/reader.js), opened. @param {Family} _ */
+  /** A family of the atlas (data/reader.js), opened. @param {Pick<Family, "id" | "manifest">} _ */
   family({ id, manifest }) {
     const family = this.families.get(id) ?? new KernelFamily(this, manifest);
     this.families.set(id, family);
     return family;
+  }
+
+  /** The data of the first cell of a manifest's family, as an atlas has them. */
+  firstCell(id, manifest) {
+    return this.call({ method: "first_cell", family: this.family({ id, manifest }).handle });
   }
 
   /**

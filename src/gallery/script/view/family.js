@@ -1,6 +1,6 @@
 // A family: its description, and its pages or curves as a grid of thumbnails.
 
-import { address } from "../data/address.js";
+import { address, curveAddress } from "../data/address.js";
 import { curveCaption, curveKey } from "../data/family.js";
 import { isFullyLoaded, isScattered, needCurveWithKey, needCurves, needPage } from "../data/needs.js";
 import { elementIn, fill, h } from "./dom.js";
@@ -144,7 +144,7 @@ function curveTiles(/** @type {App} */ app, /** @type {Family} */ family) {
     isLoaded: () => isFullyLoaded(family),
     fillTile: (element, k) => {
       const link = elementIn(element, "a");
-      link.setAttribute("href", address([family.id, "curve", curveKey(family, k)]));
+      link.setAttribute("href", curveAddress(family.id, curveKey(family, k)));
       link.removeAttribute("tabindex");
       const caption = formatCaption(curveCaption(family, k));
       fill(elementIn(element, ".label"), h("b", curveKey(family, k)), " ", caption);

@@ -1,6 +1,6 @@
 // The view of a page, with zoom and the curve under the pointer highlighted.
 
-import { address } from "../data/address.js";
+import { address, curveAddress } from "../data/address.js";
 import { findCurve, curveKey, pageViews } from "../data/family.js";
 import { loadPage } from "../data/needs.js";
 import { fill, h } from "./dom.js";
@@ -189,7 +189,7 @@ export class PageView {
     if (!found) this.deselect();
     else if (event.pointerType !== "touch" || this.highlight.selected === found.curve) {
       this.choose(found.curve);
-      this.app.go(address([this.family.id, "curve", curveKey(this.family, found.curve)]));
+      this.app.go(curveAddress(this.family.id, curveKey(this.family, found.curve)));
     } else this.choose(found.curve, place);
   }
 

@@ -1,6 +1,6 @@
 // The view that compares pinned curves.
 
-import { address, matchesRoute, routeAddress } from "../../data/address.js";
+import { curveAddress, matchesRoute, routeAddress } from "../../data/address.js";
 import { curveCaption } from "../../data/family.js";
 import { buttonOf, fill, h, selectOf } from "../dom.js";
 import { formatCaption, formatChanges } from "../labels.js";
@@ -163,7 +163,7 @@ class CompareView {
     const named = [
       h("b", letter),
       " ",
-      h("a", { href: address([family.id, "curve", key], changes) }, `${family.title}, ${key}`),
+      h("a", { href: curveAddress(family.id, key, changes) }, `${family.title}, ${key}`),
       h("p.caption", formatCaption(curveCaption(family, curve))),
       changes.size ? h("p.tag", formatCaption(formatChanges(changes))) : null,
       k > 0 && away ? h("p.deviation", away) : null,

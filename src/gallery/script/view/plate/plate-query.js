@@ -1,6 +1,6 @@
 // The query of a plate's address: changed parameters, the circuit, the overlays, and the input.
 
-import { address } from "../../data/address.js";
+import { curveAddress } from "../../data/address.js";
 import { findCurve, curveKey } from "../../data/family.js";
 import { STILL } from "./figure.js";
 import { OVERLAYS } from "./overlays.js";
@@ -53,7 +53,7 @@ export function plateAddress(
     if (value !== null && value !== STILL[name]) query.set(name, String(value));
   if (locked.size) query.set("lock", [...locked].join(","));
   if (at) query.set("at", `${Number(at.input.toPrecision(10))}${at.pass > 0 ? `,${at.pass + 1}` : ""}`);
-  return address([family.id, "curve", curveKey(family, curve)], query);
+  return curveAddress(family.id, curveKey(family, curve), query);
 }
 
 /**

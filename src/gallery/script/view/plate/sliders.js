@@ -5,8 +5,8 @@ import { NumberField } from "../number-field.js";
 import { roundedToGrain } from "./parameters.js";
 
 const PARAMETER_KINDS = {
-  free: "varied in the atlas",
-  fixed: "constant in the atlas",
+  free: "free",
+  fixed: "constant",
   derived: "derived from other parameters",
   unlinked: "unlinked",
 };

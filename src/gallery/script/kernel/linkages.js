@@ -1,0 +1,42 @@
+// The linkages that plates begin with: those of the kernel's catalogue, and those of the families of the atlas.
+
+import { newLinkage } from "../data/address.js";
+import { FamilyReader } from "../data/reader.js";
+
+/**
+ * An atlas with `linkages()`, which resolves to the linkages, and whose `family("new/four-bar")` resolves to a family of one, with a
+ * single cell: its values are those of the catalogue, or those that a family of the atlas begins with.
+ * @param {ReturnType<typeof import("../data/atlas.js").openAtlas>} atlas
+ * @param {import("./kernel.js").KernelLoader} kernel
+ */
+export function withLinkages(atlas, kernel) {
+  /** @type {Map<string, Promise<Family>>} */ const opened = new Map();
+  const linkages = async () => {
+    /** @type {NewLinkage[]} */ const known = (await kernel.load()).call({ method: "catalogue" }).linkages;
+    const isKnown = new Set(known.map(({ id }) => id));
+    const others = atlas.families.filter(({ linkage, script }) => script && !isKnown.has(linkage));
+    // The first family of each.
+    const own = new Map(
+      others.reverse().map(({ linkage, title, id }) => [linkage, { legend: title, family: id }]),
+    );
+    return known.concat(Array.from(own, ([id, one]) => ({ id, ...one })));
+  };
+  const open = async (/** @type {string} */ id, /** @type {string} */ linkage) => {
+    const found = (await linkages()).find((one) => one.id === linkage);
+    if (!found) throw new Error(`there is no linkage “${linkage}” in the catalogue or in this atlas`);
+    const manifest = found.family ? (await atlas.family(found.family)).manifest : found.manifest;
+    const { head, cells, curves } = (await kernel.load()).firstCell(id, manifest);
+    const reader = new FamilyReader({ ...head, id, manifest, title: linkage });
+    reader.cells(cells);
+    reader.curves(curves);
+    return reader.finish();
+  };
+  const family = (/** @type {string} */ id) => {
+    const linkage = newLinkage(id);
+    if (linkage === null) return atlas.family(id);
+    const one = opened.get(id) ?? open(id, linkage);
+    opened.set(id, one);
+    return one;
+  };
+  return { ...atlas, family, linkages };
+}
