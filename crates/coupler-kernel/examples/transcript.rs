@@ -137,6 +137,7 @@ impl<'a, W: Write> Session<'a, W> {
                 self.ask(&request)?;
             }
         }
+        self.ask(&json!({ "method": "curve_data", "curve": curve }))?;
         let format = CurveFormat::ALL[(self.families + seed) % CurveFormat::ALL.len()];
         self.families += 1;
         self.ask(&json!({ "method": "export", "curve": curve, "format": format.name() }))?;

@@ -19,7 +19,7 @@ use crate::reading::{nearest_place, reading_json};
 use crate::request::{CurveRequest, Request};
 use crate::response::{Numbers, Response};
 use crate::study::{Opened, Place, Study};
-use crate::tables::{catalogue_json, first_cell_json};
+use crate::tables::{catalogue_json, curve_json, first_cell_json};
 
 /// What the page has opened, by handles from 0; the handle of what is closed is used again.
 #[derive(Default)]
@@ -71,6 +71,7 @@ impl Kernel {
             }
             Request::Catalogue => catalogue_json(),
             Request::FirstCell { family } => first_cell_json(self.families.get(family)?, numbers)?,
+            Request::CurveData { curve } => curve_json(self.families.get(curve.family)?, &curve, numbers)?,
             Request::CloseFamily { family } => json!({ "closed": self.families.remove(family) }),
             Request::OpenStudy { curve, shown, is_rough } => self.open_study(&curve, shown, is_rough, numbers)?,
             Request::CloseStudy { study } => json!({ "closed": self.studies.remove(study) }),

@@ -24,6 +24,11 @@ pub enum Request {
         /// The handle.
         family: usize,
     },
+    /// A curve with its changes, as statements of the data of a family of this curve alone.
+    CurveData {
+        /// The curve.
+        curve: CurveRequest,
+    },
     /// Closes a family; the next family that is opened may have its handle.
     CloseFamily {
         /// The handle.
@@ -272,6 +277,7 @@ impl Request {
             "open_family" => Request::OpenFamily { manifest: of.text("manifest")? },
             "catalogue" => Request::Catalogue,
             "first_cell" => Request::FirstCell { family: of.index("family")? },
+            "curve_data" => Request::CurveData { curve: CurveRequest::from_value(of.member("curve")?)? },
             "close_family" => Request::CloseFamily { family: of.index("family")? },
             "open_study" => Request::OpenStudy {
                 curve: CurveRequest::from_value(of.member("curve")?)?,

@@ -5,12 +5,14 @@ use std::sync::Arc;
 use serde_json::{Value, json};
 
 use coupler_curves::catalogue;
+use coupler_curves::family::Family;
 use coupler_curves::geometry::Bounds;
 use coupler_curves::measure::Value as Measured;
 use coupler_curves::solve::{MeasuredCurve, SolvedCell, Solver, Status};
 use coupler_curves::template::Template;
 
 use crate::family::OpenFamily;
+use crate::request::CurveRequest;
 use crate::response::Numbers;
 
 /// The code of a curve without a word.
@@ -35,7 +37,21 @@ pub(crate) fn first_cell_json(open: &OpenFamily, numbers: &mut Numbers) -> Resul
     if solved.curves.is_empty() {
         return Err(format!("`{}` has no curve: {}", family.id, solved.reason()));
     }
-    let SolvedCell { cell, curves, .. } = &solved;
+    Ok(statements_json(family, &open.planned.source, &solved, numbers))
+}
+
+/// A curve of a family with its changes: the statements of the script of a family of this curve alone.
+///
+/// # Errors
+/// Why there is no such curve.
+pub(crate) fn curve_json(open: &OpenFamily, curve: &CurveRequest, numbers: &mut Numbers) -> Result<Value, String> {
+    let (family, solved) = open.solve(curve)?;
+    Ok(statements_json(&family, &open.planned.source, &solved, numbers))
+}
+
+/// The statements of the script of a family of a single cell, from a source.
+fn statements_json(family: &Family, source: &str, solved: &SolvedCell, numbers: &mut Numbers) -> Value {
+    let SolvedCell { cell, curves, .. } = solved;
     let mut slots: Vec<usize> = family.space.slots_of(0).collect();
     slots.sort_unstable();
     let measures = |is_word| family.computed_measures().filter(move |(_, measure)| measure.is_word == is_word);
@@ -51,7 +67,7 @@ pub(crate) fn first_cell_json(open: &OpenFamily, numbers: &mut Numbers) -> Resul
     });
     let head = json!({
         "title": family.title,
-        "source": open.planned.source,
+        "source": source,
         "legend": family.template.legend,
         "linkage": family.template.id,
         "layout": "panels",
@@ -82,7 +98,7 @@ pub(crate) fn first_cell_json(open: &OpenFamily, numbers: &mut Numbers) -> Resul
         "measures": measures(false).map(|(k, _)| numbers.array(number(k))).collect::<Vec<_>>(),
         "words": measures(true).map(|(k, _)| words_json(curves, k, numbers)).collect::<Vec<_>>(),
     });
-    Ok(json!({ "head": head, "cells": cells, "curves": outlines_json(open, &solved, numbers) }))
+    json!({ "head": head, "cells": cells, "curves": outlines_json(family, solved, numbers) })
 }
 
 /// The distinct words of the `k`-th measure, and the index of the word of each curve.
@@ -102,8 +118,8 @@ fn words_json(curves: &[MeasuredCurve], k: usize, numbers: &mut Numbers) -> Valu
 }
 
 /// The captions of the cell, and the points of its curves to 1/65,535 of their bounds.
-fn outlines_json(open: &OpenFamily, solved: &SolvedCell, numbers: &mut Numbers) -> Value {
-    let [caption, note] = open.planned.family.format_captions(&solved.cell, solved.first_curve_values());
+fn outlines_json(family: &Family, solved: &SolvedCell, numbers: &mut Numbers) -> Value {
+    let [caption, note] = family.format_captions(&solved.cell, solved.first_curve_values());
     let (mut boxes, mut counts, mut points): ([Vec<f64>; 4], Vec<f64>, Vec<f64>) = Default::default();
     for curve in &solved.curves {
         let own: Vec<_> = solved.circuit(curve).points(curve.joint).collect();

@@ -72,6 +72,37 @@ fn every_linkage_of_the_catalogue_has_a_first_cell_with_its_own_values() {
     }
 }
 
+/// The data of a curve with changes have its own values, measures and bounds, under the number that its cell has.
+#[test]
+fn a_changed_curve_is_a_family_of_its_own() {
+    let mut kernel = Kernel::default();
+    let manifest =
+        "[atlas]\ntitle = \"T\"\n[[family]]\nid = \"h\"\nlinkage = \"hoeken\"\ngrid = { r = [1, 1.1, 1.2] }\n";
+    let (family, _) = answer(&mut kernel, &json!({ "method": "open_family", "manifest": manifest }));
+    let mut data = |changes: Value| {
+        let curve = json!({
+            "family": family["family"], "cell": 3, "curve": [1, 1], "values": [["r", "1.2"]], "changes": changes,
+        });
+        answer(&mut kernel, &json!({ "method": "curve_data", "curve": curve }))
+    };
+    let (plain, plain_numbers) = data(json!([]));
+    let (twice, twice_numbers) = data(json!([["p", 4], ["r", "2.4"], ["a", 5]]));
+    let slot = |name: &str| plain["head"]["names"].as_array().unwrap().iter().position(|known| known == name).unwrap();
+    assert_eq!([&plain["cells"]["number"], &twice["cells"]["number"]], [3, 3]);
+    assert_eq!([&plain["cells"]["values"][slot("r")], &twice["cells"]["values"][slot("r")]], [1.2, 2.4]);
+    assert_eq!(plain["cells"]["curves"], 1);
+    // Twice the linkage has twice the curve.
+    for side in 0..4 {
+        let [one, other] = [(&plain, &plain_numbers), (&twice, &twice_numbers)]
+            .map(|(data, numbers)| array(&data["curves"]["box"][side], numbers)[0]);
+        assert!((2.0 * one - other).abs() < 1e-9, "{one} {other}");
+    }
+    let length = plain["head"]["measures"].as_array().unwrap().iter().position(|name| name == "length").unwrap();
+    let [one, other] = [(&plain, &plain_numbers), (&twice, &twice_numbers)]
+        .map(|(data, numbers)| array(&data["cells"]["measures"][length], numbers)[0]);
+    assert!(one > 1.0 && (2.0 * one - other).abs() < 1e-6 * other, "{one} {other}");
+}
+
 #[test]
 fn a_family_without_a_curve_says_why() {
     let mut kernel = Kernel::default();

@@ -4,7 +4,7 @@ import { openAtlas } from "./data/atlas.js";
 import { KernelLoader } from "./kernel/kernel.js";
 import { withLinkages } from "./kernel/linkages.js";
 import { elementIn } from "./view/dom.js";
-import { tabPins } from "./view/pins.js";
+import { storedPins } from "./view/pins.js";
 import { openShell } from "./view/shell.js";
 import { findRoute } from "./view/find/find-view.js";
 import { shapeRoute } from "./view/shape/shape-view.js";
@@ -20,7 +20,7 @@ const kernel = new KernelLoader(files);
 const shared = {
   atlas: withLinkages(files, kernel),
   kernel,
-  pins: tabPins(window),
+  pins: storedPins(window),
 };
 
 /** The routes, the more specific first. */

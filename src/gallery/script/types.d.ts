@@ -13,7 +13,7 @@ type Similarity = { mirror: boolean; re: number; im: number; x: number; y: numbe
 type Matrix = [number, number, number, number, number, number];
 type Atlas = ReturnType<typeof import("./kernel/linkages.js").withLinkages>;
 /** A linkage that a plate can begin with: of the catalogue with a manifest, or of a family of the atlas. */
-type NewLinkage = { id: string; legend: string; manifest?: string; family?: string };
+type NewLinkage = Record<"id" | "legend" | "manifest", string> & { family?: string };
 type Kernel = import("./kernel/kernel.js").Kernel;
 /** A kernel whose answers may be promises (kernel/worker.js). */
 type SearchKernel = { readonly instance: object; call(request: object): any };
@@ -73,9 +73,10 @@ type App = {
   pins: import("./view/pins.js").Pins;
 } & Record<"announce" | "go" | "replace" | "commit", (text: string) => void>;
 type Query = Map<string, string>;
-type Target = { path: string[]; query: Query };
+type AddressQuery = import("./data/query.js").AddressQuery;
+type Target = { path: string[]; query: AddressQuery };
 /** A view of the gallery; `update` returns whether it handles a further address of its route. */
-type View = { element: Element; title: string; update?(target: Target): boolean } & ViewEvents;
+type View = { element: Element; title: string; update?(target: Target, isRetraced?: boolean): boolean } & ViewEvents;
 type ViewEvents = Partial<Record<"shown" | "leave", () => void>>;
 /** A route with a label is in the navigation; one without belongs to its `parent`. */
 type Route = Partial<Record<"label" | "parent", string>> & {

@@ -11,13 +11,22 @@
 //   #/new                                  the linkages that plates begin with
 //   #/new/four-bar?crank=1.2               the plate of one, which is in no family
 
+import { AddressQuery } from "./query.js";
+
 // The first curve of a family, of which the plate of a linkage in no atlas has the short address.
 const FIRST_KEY = "1.1.1";
 
-/** Parses a fragment. @returns {Target} */
+/** Parses a fragment, also one that a mail program has encoded once more, or a value of which has lost its escapes. @returns {Target} */
 export function parseAddress(fragment) {
-  const [path, query = ""] = fragment.replace(/^#?\/?/, "").split("?", 2);
-  return { path: path.split("/").filter(Boolean).map(decodedWord), query: new Map(queryPairs(query)) };
+  const plain = fragment.includes("?") ? fragment : decodedWord(fragment.replace(/%(?!3F|26|3D)/gi, "%25"));
+  const [, path, words = ""] = /^#?\/?([^?]*)\??(.*)$/s.exec(plain) ?? [];
+  // The changes of compared curves, "c=evans:1.1.1?p=2&k=3".
+  const lost = /\?.*?(?=&(?:view|align)=|$)/s;
+  const query = words.replace(lost, (text) => text.replace(/[?&=]/g, (sign) => encodeURIComponent(sign)));
+  return {
+    path: path.split("/").filter(Boolean).map(decodedWord),
+    query: new AddressQuery(queryPairs(query)),
+  };
 }
 
 function decodedWord(text) {
@@ -105,7 +114,11 @@ export function matchesRoute(word, /** @type {Target} */ { path, query }, /** @t
 }
 
 /** The address of a route with a query, which is never empty if a family has the same id. */
-export function routeAddress(word, /** @type {Query | Record<string, unknown>} */ query, { atlas }) {
+export function routeAddress(
+  word,
+  /** @type {Map<string, unknown> | Record<string, unknown>} */ query,
+  { atlas },
+) {
   const short = address([word], query);
   const isTaken = !short.includes("?") && isFamily(atlas, word);
   return isTaken ? address([word], { show: "room" }) : short;
@@ -115,6 +128,6 @@ function isFamily(/** @type {Atlas} */ { families }, word) {
   return families.some(({ id }) => id === word);
 }
 
-function isFamilyQuery(/** @type {Query} */ query) {
+function isFamilyQuery(/** @type {AddressQuery} */ query) {
   return query.size === 0 || query.has("page") || query.has("curve") || query.get("show") === "curves";
 }

@@ -78,8 +78,13 @@ export class Kernel {
   }
 
   /** The data of the first cell of a manifest's family, as an atlas has them. */
-  firstCell(id, manifest) {
-    return this.call({ method: "first_cell", family: this.family({ id, manifest }).handle });
+  firstCell(/** @type {Pick<Family, "id" | "manifest">} */ family) {
+    return this.call({ method: "first_cell", family: this.family(family).handle });
+  }
+
+  /** The data of a curve, as an atlas of it alone has them. @param {KernelCurve} requested */
+  curveData(requested) {
+    return this.call({ method: "curve_data", curve: withHandle(requested) });
   }
 
   /**

@@ -1,7 +1,7 @@
 // The linkages that plates begin with: those of the kernel's catalogue, and those of the families of the atlas.
 
 import { newLinkage } from "../data/address.js";
-import { FamilyReader } from "../data/reader.js";
+import { familyOfCell } from "../data/reader.js";
 
 /**
  * An atlas with `linkages()`, which resolves to the linkages, and whose `family("new/four-bar")` resolves to a family of one, with a
@@ -17,19 +17,18 @@ export function withLinkages(atlas, kernel) {
     const others = atlas.families.filter(({ linkage, script }) => script && !isKnown.has(linkage));
     // The first family of each.
     const own = new Map(
-      others.reverse().map(({ linkage, title, id }) => [linkage, { legend: title, family: id }]),
+      others
+        .reverse()
+        .map(({ linkage, title, id }) => [linkage, { legend: title, manifest: "", family: id }]),
     );
     return known.concat(Array.from(own, ([id, one]) => ({ id, ...one })));
   };
   const open = async (/** @type {string} */ id, /** @type {string} */ linkage) => {
     const found = (await linkages()).find((one) => one.id === linkage);
     if (!found) throw new Error(`there is no linkage “${linkage}” in the catalogue or in this atlas`);
-    const manifest = found.family ? (await atlas.family(found.family)).manifest : found.manifest;
-    const { head, cells, curves } = (await kernel.load()).firstCell(id, manifest);
-    const reader = new FamilyReader({ ...head, id, manifest, title: linkage });
-    reader.cells(cells);
-    reader.curves(curves);
-    return reader.finish();
+    const { manifest } = found.family ? await atlas.family(found.family) : found;
+    const known = { id, title: linkage, manifest };
+    return familyOfCell((await kernel.load()).firstCell(known), known);
   };
   const family = (/** @type {string} */ id) => {
     const linkage = newLinkage(id);

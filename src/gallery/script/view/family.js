@@ -26,11 +26,13 @@ export const familyRoute = {
     const listed = app.atlas.families.find((candidate) => candidate.id === id);
     // Pages are shown if they are written as files, or their layouts are in the data.
     const hasPages = listed.pages > 0 && (listed.page_format !== null || family.pageCount > 0);
-    const hasCurves = query.get("show") === "curves" || !hasPages;
+    const hasCurves = query.word("show", ["curves", "pages"]) === "curves" || !hasPages;
     const tiles = hasCurves ? curveTiles(app, family) : pageTiles(app, family, listed);
     const found = hasCurves
       ? await needCurveWithKey(family, query.get("curve"))
-      : Number(query.get("page")) - 1;
+      : (query.number("page", 1) ?? 0) - 1;
+    query.expect("page", "curve");
+    if (found === undefined && query.has("curve")) query.ignore("curve", "there is no such curve");
     const goal = found ?? -1;
     if (goal >= 0) tiles.element.dataset.goal = String(goal);
     return {

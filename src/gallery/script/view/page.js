@@ -3,6 +3,7 @@
 import { address, curveAddress } from "../data/address.js";
 import { findCurve, curveKey, pageViews } from "../data/family.js";
 import { loadPage } from "../data/needs.js";
+import { AddressQuery } from "../data/query.js";
 import { fill, h } from "./dom.js";
 import { CurveHighlight } from "./curve-highlight.js";
 import { pageAddress, pageBar } from "./page-bar.js";
@@ -33,7 +34,7 @@ export class PageView {
   /** The number of the page. */
   page = 0;
   title = "";
-  /** @type {Query} */ query = new Map();
+  query = new AddressQuery();
   /** @type {DrawnCurve[]} */ drawn = [];
   /** @type {ReturnType<typeof pageOverlay> | null} */ overlay = null;
   hasLeft = false;
@@ -84,6 +85,7 @@ export class PageView {
   }
 
   async open(/** @type {Target} */ { path, query }) {
+    query.expect("curve", "zoom", "at");
     const page = Number(path[1]);
     const isOther = page !== this.page;
     this.page = page;
@@ -131,16 +133,19 @@ export class PageView {
     prefetchPages(this.app, this.family, this.page);
   }
 
-  /** Applies the rest of the address: a curve, and the zoom position. @param {Query} query */
+  /** Applies the rest of the address: a curve, and the zoom position. @param {AddressQuery} query */
   applyQuery(query) {
-    const near = Number(query.get("zoom"));
+    const near = query.number("zoom", 1) ?? 0;
     const [x, y, ...more] = (query.get("at") ?? "").split(",").map(Number);
-    if (near > 1 && Number.isFinite(x) && Number.isFinite(y) && !more.length) this.zoom.showAt(near, [x, y]);
+    const hasPlace = Number.isFinite(x) && Number.isFinite(y) && !more.length;
+    if (query.get("at") && !hasPlace) query.ignore("at", "not a place");
+    if (near > 1 && hasPlace) this.zoom.showAt(near, [x, y]);
     else if (!this.hasPosition) this.zoom.fit();
     this.hasPosition = true;
     const curve = findCurve(this.family, query.get("curve"));
     if (this.drawn.some((candidate) => candidate.curve === curve)) this.highlight.select(curve);
     else {
+      if (query.has("curve")) query.ignore("curve", "not on this page");
       this.highlight.select(null);
       this.showPanel();
     }

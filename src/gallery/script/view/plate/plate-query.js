@@ -4,38 +4,39 @@ import { curveAddress } from "../../data/address.js";
 import { findCurve, curveKey } from "../../data/family.js";
 import { STILL } from "./figure.js";
 import { OVERLAYS } from "./overlays.js";
-import { parseChanges } from "./parameters.js";
+import { QUANTITIES } from "./motion-view.js";
+import { changeableNames, parseChanges } from "./parameters.js";
 
 /**
  * Parses the query of a curve with a movable traced point or null; `requestedCircuit` is the index of a circuit
  * among all, or null, `on` are the names of overlays; `locked` are the names that handles
  * leave; `at` is the input, "63.5", perhaps with the number of its
  * pass, "63.5,2".
- * @param {Family} family @param {MovablePoint | null} point @param {Query} query @returns {PlateState}
+ * @param {Family} family @param {MovablePoint | null} point @param {AddressQuery} query @returns {PlateState}
  */
 export function readPlateQuery(family, point, query) {
-  const circuit = Number(query.get("circuit"));
-  const shown = query.get("show");
+  const circuit = query.number("circuit", 1);
   const [input, pass = 1] = (query.get("at") || "?").split(",").map(Number);
-  const isOn = (overlay) => (shown === undefined ? overlay.isOn : shown.split(",").includes(overlay.name));
+  const hasPlace = Number.isFinite(input) && pass >= 1;
+  if (query.get("at") && !hasPlace) query.ignore("at", "not an input");
+  const shown = query.list(
+    "show",
+    (word) => word === "nothing" || OVERLAYS.some(({ name }) => name === word),
+  );
+  const isOn = (overlay) => (shown ? shown.includes(overlay.name) : overlay.isOn);
+  const isName = (/** @type {string} */ name) => changeableNames(family, point).includes(name);
   return {
     changes: parseChanges(family, point, query),
-    requestedCircuit: Number.isInteger(circuit) && circuit > 0 ? circuit - 1 : null,
+    requestedCircuit: circuit === undefined ? null : Math.floor(circuit) - 1,
     on: new Set(OVERLAYS.filter(isOn).map(({ name }) => name)),
-    motion: motionOfQuery(query),
-    locked: new Set(query.get("lock")?.split(",").filter(Boolean)),
-    at: Number.isFinite(input) && pass >= 1 ? { input, pass: Math.floor(pass) - 1 } : null,
-  };
-}
-
-/** What is shown of the motion. @param {Query} query @returns {MotionState} */
-function motionOfQuery(query) {
-  const rpm = Number(query.get("rpm"));
-  return {
-    joint: query.get("joint") || STILL.joint,
-    graph: query.get("graph") || STILL.graph,
-    rpm: query.get("rpm") && Number.isFinite(rpm) ? rpm : STILL.rpm,
-    load: query.get("load") || STILL.load,
+    motion: {
+      joint: query.get("joint") || STILL.joint,
+      graph: query.word("graph", Object.keys(QUANTITIES)) ?? STILL.graph,
+      rpm: query.number("rpm") ?? STILL.rpm,
+      load: query.get("load") || STILL.load,
+    },
+    locked: new Set(query.list("lock", isName)),
+    at: hasPlace ? { input, pass: Math.floor(pass) - 1 } : null,
   };
 }
 

@@ -27,7 +27,7 @@ export class Plate extends PlateFigure {
   /** The path data of the curve of the atlas, once it is needed. @type {string | null} */
   ghost = null;
 
-  /** @param {App} app @param {Kernel} kernel @param {Family} family @param {number} curve @param {Query} query */
+  /** @param {App} app @param {Kernel} kernel @param {Family} family @param {number} curve @param {AddressQuery} query */
   constructor(app, kernel, family, curve, query) {
     super(family, curve);
     this.app = app;
@@ -38,6 +38,7 @@ export class Plate extends PlateFigure {
     this.sliders = new Sliders(family.legend, this);
     this.switches = new Switches(this);
     this.measures = new MeasureTable(app, family, curve);
+    this.query = query;
     this.store = new Store(app, this.#stateOf(query), (state) => plateAddress(this, state));
     this.store.watch((state, before) => this.#stateChanged(state, before));
     this.handles = new Handles(this);
@@ -64,7 +65,8 @@ export class Plate extends PlateFigure {
     this.stage.fit();
     const isStill = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
     if (this.state.at) this.drive.moveTo(this.state.at);
-    else if (!isStill) this.drive.toggle(true);
+    this.#checkQuery();
+    if (!this.state.at && !isStill) this.drive.toggle(true);
   }
 
   leave() {
@@ -77,9 +79,10 @@ export class Plate extends PlateFigure {
     this.resting.end();
   }
 
-  /** Handles another query of the same curve's address. @param {Query} query */
+  /** Handles another query of the same curve's address. @param {AddressQuery} query */
   setQuery(query) {
     const { requestedCircuit } = this.state;
+    this.query = query;
     this.store.show(this.#stateOf(query));
     this.resting.now();
     const { at } = this.state;
@@ -87,10 +90,24 @@ export class Plate extends PlateFigure {
       this.drive.pause();
       this.drive.moveTo(at);
     } else if (this.state.requestedCircuit !== requestedCircuit && !this.reason) this.beginCircuit();
+    this.#checkQuery();
     return true;
   }
 
-  /** The state of an address, without values that are those of the atlas. @param {Query} query */
+  // What of an address a linkage does not have is known when it has been solved.
+  #checkQuery() {
+    const { study, query, state } = this;
+    if (!study || this.reason) return;
+    const { requestedCircuit: circuit, at, motion } = state;
+    if (circuit !== null && circuit !== study.shown) query.ignore("circuit", `of ${study.circuits.length}`);
+    if (motion.joint !== null && !study.joints.includes(motion.joint))
+      query.ignore("joint", "there is no such joint");
+    const { pass, input } = this.drive.place;
+    if (at && (at.pass !== pass || Math.abs(at.input - input) > 1e-6))
+      query.ignore("at", "outside of the circuit");
+  }
+
+  /** The state of an address, without values that are those of the atlas. @param {AddressQuery} query */
   #stateOf(query) {
     const state = readPlateQuery(this.family, this.recorded.point, query);
     return { ...state, changes: this.#changesWith([], state.changes) };

@@ -42,7 +42,7 @@ export const newPlateRoute = {
 
 /**
  * The plate of a curve; without the kernel, one that stands still and says so.
- * @param {App} app @param {Family} family @param {Query} query
+ * @param {App} app @param {Family} family @param {AddressQuery} query
  */
 async function openPlate(app, family, curve, query) {
   try {
