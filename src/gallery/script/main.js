@@ -17,11 +17,7 @@ import { familyRoute } from "./view/family.js";
 
 const files = openAtlas(document, window);
 const kernel = new KernelLoader(files);
-const shared = {
-  atlas: withLinkages(files, kernel),
-  kernel,
-  pins: storedPins(window),
-};
+const shared = { atlas: withLinkages(files, kernel), kernel, pins: storedPins(window) };
 
 /** The routes, the more specific first. */
 const found = [overviewRoute, findRoute, shapeRoute, compareRoute, newRoute];

@@ -11,11 +11,6 @@ export class AddressQuery extends Map {
     return super.get(name);
   }
 
-  /** Marks names as those that the view reads later. */
-  expect(/** @type {string[]} */ ...names) {
-    names.forEach((name) => this.read.add(name));
-  }
-
   /** A value is ignored, for a reason. */
   ignore(/** @type {string} */ name, /** @type {string} */ why) {
     this.wrong.set(name, why);

@@ -35,10 +35,8 @@ export function formatFindQuery({ families, filters, sort, show }) {
   const query = new Map();
   if (families) query.set("family", families.join(","));
   for (const [name, filter] of filters) {
-    query.set(
-      name,
-      filter instanceof Set ? [...filter].join(",") : `${filter.low ?? ""}..${filter.high ?? ""}`,
-    );
+    const { low = "", high = "" } = filter instanceof Set ? {} : filter;
+    query.set(name, filter instanceof Set ? [...filter].join(",") : `${low}..${high}`);
   }
   if (sort.name) query.set("sort", `${sort.down ? "-" : ""}${sort.name}`);
   if (show === "table") query.set("show", "table");

@@ -77,11 +77,6 @@ export class Kernel {
     return family;
   }
 
-  /** The data of the first cell of a manifest's family, as an atlas has them. */
-  firstCell(/** @type {Pick<Family, "id" | "manifest">} */ family) {
-    return this.call({ method: "first_cell", family: this.family(family).handle });
-  }
-
   /** The data of a curve, as an atlas of it alone has them. @param {KernelCurve} requested */
   curveData(requested) {
     return this.call({ method: "curve_data", curve: withHandle(requested) });

@@ -28,7 +28,8 @@ export function withLinkages(atlas, kernel) {
     if (!found) throw new Error(`there is no linkage “${linkage}” in the catalogue or in this atlas`);
     const { manifest } = found.family ? await atlas.family(found.family) : found;
     const known = { id, title: linkage, manifest };
-    return familyOfCell((await kernel.load()).firstCell(known), known);
+    const loaded = await kernel.load();
+    return familyOfCell(loaded.call({ method: "first_cell", family: loaded.family(known).handle }), known);
   };
   const family = (/** @type {string} */ id) => {
     const linkage = newLinkage(id);

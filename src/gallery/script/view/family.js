@@ -28,11 +28,9 @@ export const familyRoute = {
     const hasPages = listed.pages > 0 && (listed.page_format !== null || family.pageCount > 0);
     const hasCurves = query.word("show", ["curves", "pages"]) === "curves" || !hasPages;
     const tiles = hasCurves ? curveTiles(app, family) : pageTiles(app, family, listed);
-    const found = hasCurves
-      ? await needCurveWithKey(family, query.get("curve"))
-      : (query.number("page", 1) ?? 0) - 1;
-    query.expect("page", "curve");
-    if (found === undefined && query.has("curve")) query.ignore("curve", "there is no such curve");
+    const [page = 0, key] = [query.number("page", 1), query.get("curve")];
+    const found = hasCurves ? await needCurveWithKey(family, key) : page - 1;
+    if (found === undefined && key !== undefined) query.ignore("curve", "there is no such curve");
     const goal = found ?? -1;
     if (goal >= 0) tiles.element.dataset.goal = String(goal);
     return {
@@ -60,17 +58,14 @@ function familyHeader(/** @type {Family} */ family, /** @type {ListedFamily} */ 
     samplingLabel(sampling),
     formatBytes(listed.bytes),
   ];
-  return h(
-    "div.head",
-    h(
-      "div",
-      h("h1", family.title),
-      h("p.lede", familySource(family)),
-      family.legend ? h("p.lede", family.legend) : null,
-      h("p.note", facts.join(" · ")),
-      notAssembledSummary(family, listed),
-    ),
-  );
+  const parts = [
+    h("h1", family.title),
+    h("p.lede", familySource(family)),
+    family.legend ? h("p.lede", family.legend) : null,
+    h("p.note", facts.join(" · ")),
+    notAssembledSummary(family, listed),
+  ];
+  return h("div.head", h("div", parts));
 }
 
 function samplingLabel(/** @type {Family["sampling"]} */ { step, samples, spacing }) {

@@ -85,7 +85,8 @@ export class PageView {
   }
 
   async open(/** @type {Target} */ { path, query }) {
-    query.expect("curve", "zoom", "at");
+    // They are read when the page is there.
+    ["curve", "zoom", "at"].forEach((name) => query.get(name));
     const page = Number(path[1]);
     const isOther = page !== this.page;
     this.page = page;

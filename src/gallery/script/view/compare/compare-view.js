@@ -2,16 +2,11 @@
 
 import { curveAddress, matchesRoute, routeAddress } from "../../data/address.js";
 import { curveCaption } from "../../data/family.js";
-import { buttonOf, fill, h, selectOf } from "../dom.js";
+import { buttonOf, fill, h, keepFocus, selectOf } from "../dom.js";
 import { formatCaption, formatChanges } from "../labels.js";
 import { exportMenu } from "../export/menu.js";
-import {
-  alignCurve,
-  ALIGNMENTS,
-  parseComparisonQuery,
-  formatComparisonQuery,
-  MAX_COMPARED,
-} from "./align.js";
+import { alignCurve, ALIGNMENTS, MAX_COMPARED } from "./align.js";
+import { formatComparisonQuery, parseComparisonQuery } from "./align.js";
 import { loadComparedCurve } from "./load-curve.js";
 import { factsTable } from "./facts.js";
 import { Store } from "../store.js";
@@ -29,22 +24,6 @@ export const compareRoute = {
     return view;
   },
 };
-
-/**
- * Returns a function that restores the focus to the control with the same name after an element's content has
- * been replaced.
- */
-function keepFocus(element) {
-  const nameOf = (control) => control.id || control.getAttribute("aria-label") || control.textContent;
-  const focused = element.contains(document.activeElement) ? nameOf(document.activeElement) : null;
-  return () => {
-    if (focused === null || element.contains(document.activeElement)) return;
-    const again = [...element.querySelectorAll("button, select, a")].find(
-      (control) => nameOf(control) === focused && !control.disabled,
-    );
-    (again ?? element.querySelector("select, button"))?.focus();
-  };
-}
 
 class CompareView {
   title = "Compare";
@@ -175,13 +154,8 @@ class CompareView {
     ];
   }
 
-  entry(
-    /** @type {ComparedCurve} */ { name, family, curve, key, changes },
-    k,
-    count,
-    /** @type {Fit | null} */ fit,
-    picture,
-  ) {
+  entry(/** @type {ComparedCurve} */ one, k, count, /** @type {Fit | null} */ fit, picture) {
+    const { name, family, curve, key, changes } = one;
     const letter = letterOf(k);
     const leave = this.isOwn ? "Unpin" : "Remove";
     const act = (label, words, onclick, disabled = false) =>

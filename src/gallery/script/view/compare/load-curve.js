@@ -11,12 +11,8 @@ import { familyOfCell } from "../../data/reader.js";
  */
 export async function loadComparedCurve(app, name) {
   try {
-    const {
-      family: id,
-      key,
-      changes,
-    } = parseCurveName(name) ?? { family: name, key: "", changes: new Map() };
-    const family = await app.atlas.family(id);
+    const { key, changes, ...named } = parseCurveName(name) ?? { family: name, key: "", changes: new Map() };
+    const family = await app.atlas.family(named.family);
     const curve = await needCurveWithKey(family, key);
     if (curve === undefined) return { name, reason: "not in this atlas" };
     await needCurves(family, [curve]);

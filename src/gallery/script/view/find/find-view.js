@@ -4,7 +4,7 @@ import { filterColumns } from "../../find/columns.js";
 import { Filters, Orders, passingRows } from "../../find/filter.js";
 import { formatFindQuery, parseFindQuery } from "../../find/query.js";
 import { CurveTable } from "../../find/table.js";
-import { buttonOf, fill, h } from "../dom.js";
+import { buttonOf, fill, h, keepFocus } from "../dom.js";
 import { MAX_AUTOLOAD_BYTES, familyChooser, loadAllLine } from "./loading.js";
 import { loadTables, loadedCurves, requestedFamilies } from "./loading.js";
 import { findLayout, noResults } from "./layout.js";
@@ -90,8 +90,11 @@ export class FindView {
   /** Shows what a gesture, or another address, has changed. @param {FindQuery} state @param {FindQuery} before */
   changed(state, before) {
     if (String(state.families) !== String(before.families)) this.load();
-    else if (state.filters !== before.filters && !this.isFiltering && this.isLoaded) this.applyQuery();
-    else this.show();
+    else if (state.filters !== before.filters && !this.isFiltering && this.isLoaded) {
+      const focused = keepFocus(this.panel.element);
+      this.applyQuery();
+      focused();
+    } else this.show();
   }
 
   /** Loads the tables of the requested families, up to the limit, and applies the query as they arrive. */
@@ -150,10 +153,6 @@ export class FindView {
 
   sortBy(name, down) {
     this.store.change({ sort: { name, down } });
-  }
-
-  showAs(name) {
-    this.store.change({ show: name });
   }
 
   /** Replaces all filters; the focus moves to the results, since the button that was pressed may be removed. */

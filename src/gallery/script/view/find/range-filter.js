@@ -51,15 +51,10 @@ export class RangeFilter {
   }
 
   createInput(end, words) {
-    /** What has been typed, and not entered. @type {{ value?: number } | null} */ let typed = null;
     const units = this.column.unit === "deg" ? ["°", "deg"] : [];
-    const type = (value) => {
-      typed = { value };
-    };
-    const settle = () => {
-      if (typed && typed.value !== this.filter[end]) this.setFilter({ ...this.filter, [end]: typed.value });
-      typed = null;
-    };
+    const type = (/** @type {number | undefined} */ value) =>
+      this.setFilter({ ...this.filter, [end]: value }, true);
+    const settle = () => this.setFilter(this.filter);
     const attributes = {
       "aria-label": `${words}, ${end === "low" ? "at least" : "at most"}`,
       placeholder: formatBound(this.scale[end]),

@@ -38,10 +38,7 @@ export class MeasureTable {
     this.rows = app.atlas.measures.map((measure) =>
       measureRow(measure, measureValue(family, curve, measure.name), family.is_length),
     );
-    const body = h(
-      "tbody",
-      this.rows.map(({ element }) => element),
-    );
+    const rows = this.rows.map(({ element }) => element);
     // A linkage in no atlas has values to start from.
     const [from, words] =
       newLinkage(family.id) === null ? ["Atlas", "of the atlas"] : ["Start", "at the start"];
@@ -50,7 +47,7 @@ export class MeasureTable {
       h("th", { scope: "col", class: ["text", "", "now", "now"][k] }, word),
     );
     this.note = h("p.note");
-    this.table = figures(".measures", "Measures of the curve", headings, body);
+    this.table = figures(".measures", "Measures of the curve", headings, h("tbody", rows));
     this.element = h("section.measures-section", h("h2", "Measures"), this.note, h("div.scroll", this.table));
     this.show(null);
   }
