@@ -343,6 +343,8 @@ const tests = [
         for (const address of [
           "/find",
           "/find?show=table",
+          "/new",
+          "/new/four-bar?crank=1.2&ignored=1",
           "/shape?like=evans:2.1.1",
           "/compare?c=evans:2.1.1,watt:3.1.1&view=over",
         ]) {

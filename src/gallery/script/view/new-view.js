@@ -20,3 +20,13 @@ export const newRoute = {
     };
   },
 };
+
+/**
+ * The address of the plate of a four-bar that has been found, on its circuit; of one whose crank does not turn fully, on the first.
+ * @param {Pick<FourBarAnswer, "record" | "pose">} _
+ */
+export function fourBarAddress({ record: { parameters, class: kind }, pose: [, , cx, cy, ax, ay, bx, by] }) {
+  const isRight = (cx - ax) * (by - ay) < (cy - ay) * (bx - ax);
+  const turns = kind === "crank-rocker" || kind === "drag-link";
+  return newAddress("four-bar", { ...parameters, circuit: turns && isRight ? 2 : null });
+}

@@ -244,10 +244,6 @@ export class FindView {
     window.clearTimeout(this.saying);
     // A browser may keep form controls that were removed, and with them this view: its data are released.
     this.panel.release();
-    this.release();
-  }
-
-  release() {
     this.table = new CurveTable([]);
     this.orders = new Orders(this.table);
     this.filters = new Filters(this.table);

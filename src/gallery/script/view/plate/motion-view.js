@@ -29,16 +29,8 @@ export const QUANTITIES = {
   },
   x: { label: "Position x", power: 0, of: ({ positions }, k) => positions[2 * k] },
   y: { label: "Position y", power: 0, of: ({ positions }, k) => positions[2 * k + 1] },
-  mu: {
-    label: "Transmission angle",
-    power: 0,
-    of: ({ transmission_angles: angles }, k) => angles?.[k] ?? NaN,
-  },
-  advantage: {
-    label: "Mechanical advantage",
-    power: 0,
-    of: (motion, k) => 1 / QUANTITIES.speed.of(motion, k),
-  },
+  mu: { label: "Transmission angle", power: 0, of: ({ transmission_angles: of }, k) => of?.[k] ?? NaN },
+  advantage: { label: "Mechanical advantage", power: 0, of: (of, k) => 1 / QUANTITIES.speed.of(of, k) },
   torque: { label: "Input torque", power: 0, of: ({ torques }, k) => torques?.[k] ?? NaN },
 };
 

@@ -41,12 +41,8 @@ export class Switches {
 
   /** @param {Candidates} _ @param {Circuit} circuit @param {number} k */
   #circuit({ is_length: isLength, home, shown }, circuit, k) {
-    const attributes = {
-      name: "circuit",
-      value: k + 1,
-      checked: k === shown,
-      onchange: () => this.on.circuit(k),
-    };
+    const onchange = () => this.on.circuit(k);
+    const attributes = { name: "circuit", value: k + 1, checked: k === shown, onchange };
     const words = `${k + 1}: ${circuitTitle(isLength, circuit)}`;
     const label = h("span", words, k === home ? h("span.note", " · this curve") : null);
     return choiceBox("radio", attributes, label).element;
