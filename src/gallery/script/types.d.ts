@@ -11,6 +11,7 @@ type Outline = { points: Float64Array; closed: boolean };
 /** z → (re + i·im) z̃ + (x + iy), where z̃ is the conjugate of z if mirrored, else z. */
 type Similarity = { mirror: boolean; re: number; im: number; x: number; y: number };
 type Matrix = [number, number, number, number, number, number];
+type AtlasFiles = ReturnType<typeof import("./data/atlas.js").openAtlas>;
 type Atlas = ReturnType<typeof import("./kernel/linkages.js").withLinkages>;
 /** A linkage that a plate can begin with: of the catalogue with a manifest, or of a family of the atlas. */
 type NewLinkage = Record<"id" | "legend" | "manifest", string> & { family?: string };

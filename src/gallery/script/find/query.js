@@ -17,7 +17,8 @@ export function parseFindQuery(query, isFamily = (/** @type {string} */ _) => tr
     families: families ?? null,
     filters,
     sort: { name: sort.replace(/^-/, ""), down: sort.startsWith("-") },
-    show: query.word("show", ["table", "sheet"]) ?? "sheet",
+    // "room" is that of an address that would be a family's otherwise (routeAddress).
+    show: query.word("show", ["table", "sheet", "room"]) === "table" ? "table" : "sheet",
   };
 }
 

@@ -6,8 +6,7 @@ import { familyOfCell } from "../data/reader.js";
 /**
  * An atlas with `linkages()`, which resolves to the linkages, and whose `family("new/four-bar")` resolves to a family of one, with a
  * single cell: its values are those of the catalogue, or those that a family of the atlas begins with.
- * @param {ReturnType<typeof import("../data/atlas.js").openAtlas>} atlas
- * @param {import("./kernel.js").KernelLoader} kernel
+ * @param {AtlasFiles} atlas @param {App["kernel"]} kernel
  */
 export function withLinkages(atlas, kernel) {
   /** @type {Map<string, Promise<Family>>} */ const opened = new Map();

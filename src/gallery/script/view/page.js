@@ -3,10 +3,9 @@
 import { address, curveAddress } from "../data/address.js";
 import { findCurve, curveKey, pageViews } from "../data/family.js";
 import { loadPage } from "../data/needs.js";
-import { AddressQuery } from "../data/query.js";
 import { fill, h } from "./dom.js";
 import { CurveHighlight } from "./curve-highlight.js";
-import { pageAddress, pageBar } from "./page-bar.js";
+import { pageAddress, pageBar, readPageZoom } from "./page-bar.js";
 import { handlePageKey, keyHelp } from "./page-keys.js";
 import { curvePanel, curveListPanel } from "./page-panel.js";
 import { pageOverlay, pagePicture, prefetchPages, curvesOnPaper, nearestCurve } from "./page-picture.js";
@@ -34,7 +33,7 @@ export class PageView {
   /** The number of the page. */
   page = 0;
   title = "";
-  query = new AddressQuery();
+  /** @type {AddressQuery} */ query;
   /** @type {DrawnCurve[]} */ drawn = [];
   /** @type {ReturnType<typeof pageOverlay> | null} */ overlay = null;
   hasLeft = false;
@@ -85,7 +84,6 @@ export class PageView {
   }
 
   async open(/** @type {Target} */ { path, query }) {
-    // They are read when the page is there.
     ["curve", "zoom", "at"].forEach((name) => query.get(name));
     const page = Number(path[1]);
     const isOther = page !== this.page;
@@ -108,10 +106,7 @@ export class PageView {
     if (this.element.isConnected) this.applyQuery(query);
   }
 
-  /**
-   * Called when the view is in the document and has a size: sets the position and takes the focus, so that
-   * keys work.
-   */
+  /** Called when the view has a size: sets the position and takes the focus, so that keys work. */
   shown() {
     this.applyQuery(this.query);
     this.viewport.focus({ preventScroll: true });
@@ -136,11 +131,8 @@ export class PageView {
 
   /** Applies the rest of the address: a curve, and the zoom position. @param {AddressQuery} query */
   applyQuery(query) {
-    const near = query.number("zoom", 1) ?? 0;
-    const [x, y, ...more] = (query.get("at") ?? "").split(",").map(Number);
-    const hasPlace = Number.isFinite(x) && Number.isFinite(y) && !more.length;
-    if (query.get("at") && !hasPlace) query.ignore("at", "not a place");
-    if (near > 1 && hasPlace) this.zoom.showAt(near, [x, y]);
+    const enlarged = readPageZoom(query);
+    if (enlarged) this.zoom.showAt(enlarged.near, enlarged.place);
     else if (!this.hasPosition) this.zoom.fit();
     this.hasPosition = true;
     const curve = findCurve(this.family, query.get("curve"));

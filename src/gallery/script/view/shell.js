@@ -37,7 +37,7 @@ export function openShell(parts, routes, root) {
       app.replace(fragment);
       if (router.fragment === before) return;
       router.gestures.record(before);
-      // The address has no more than what is shown.
+      router.query = null;
       fill(ignored);
     },
   };

@@ -51,9 +51,10 @@ export class FindView {
     );
     this.panel = new FilterPanel((name, filter, isHeld) => this.setFilter(name, filter, isHeld));
     this.tiles = new ResultTiles(app);
+    const sortBy = (name, down) => this.store.change({ sort: { name, down } });
     this.list = new ResultRows(app, (name) => {
       const { sort } = this.query;
-      this.sortBy(name, sort.name === name && !sort.down);
+      sortBy(name, sort.name === name && !sort.down);
     });
     this.countLabel = h("p.counted", "Loading");
     this.loadAll = loadAllLine(() => {
@@ -66,9 +67,9 @@ export class FindView {
     this.results = h("div.found", { tabindex: "-1" });
     this.sorter = h("select", {
       id: "find-sort",
-      onchange: (event) => this.sortBy(event.target.value, this.query.sort.down),
+      onchange: (event) => sortBy(event.target.value, this.query.sort.down),
     });
-    this.direction = buttonOf("", () => this.sortBy(this.query.sort.name, !this.query.sort.down));
+    this.direction = buttonOf("", () => sortBy(this.query.sort.name, !this.query.sort.down));
     this.families = h("div.family-choice");
     const { element, displayButtons, clear } = findLayout(this);
     this.element = element;
@@ -151,10 +152,6 @@ export class FindView {
     if (!isHeld) this.store.commitSoon(ADDRESS_DELAY);
   }
 
-  sortBy(name, down) {
-    this.store.change({ sort: { name, down } });
-  }
-
   /** Replaces all filters; the focus moves to the results, since the button that was pressed may be removed. */
   setFilters(/** @type {Map<string, Filter>} */ filters) {
     this.store.change({ filters });
@@ -217,10 +214,6 @@ export class FindView {
   showMessage(sentence) {
     this.message.hidden = false;
     fill(this.message, sentence);
-  }
-
-  names() {
-    return Array.from(this.rows ?? [], (row) => this.table.curveOf(row).name);
   }
 
   /** Handles another address of this route. */

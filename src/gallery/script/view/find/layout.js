@@ -14,7 +14,7 @@ export function findLayout(/** @type {FindView} */ view) {
   const heading = h("div", h("h1", "Find"), view.countLabel, view.loadAll.element, view.message);
   const sorter = h("span.field.row", h("label", { for: "find-sort" }, "Sort by"), view.sorter);
   const display = h("div.segments.end", { role: "group", "aria-label": "Show as" }, displayButtons);
-  const take = exportMenu(view.app, () => view.names());
+  const take = exportMenu(view.app, () => Array.from(view.rows, (row) => view.table.curveOf(row).name));
   const panel = [h("summary", "Filters"), view.families, view.panel.element];
   const element = h(
     "div.view.wide.find-view",

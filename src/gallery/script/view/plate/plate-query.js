@@ -40,6 +40,22 @@ export function readPlateQuery(family, point, query) {
   };
 }
 
+/** Says what of an address the linkage does not have, which is known when it has been solved. @param {AddressQuery} query */
+export function ignoreUnused(query, /** @type {Plate} */ { study, reason, state, drive: { place } }) {
+  const { requestedCircuit: circuit, at, motion } = state;
+  if (!study || reason) return;
+  if (circuit !== null && circuit !== study.shown) query.ignore("circuit", `of ${study.circuits.length}`);
+  if (motion.joint !== null && !study.joints.includes(motion.joint)) query.ignore("joint", "unknown");
+  if (at && (at.pass !== place.pass || Math.abs(at.input - place.input) > 1e-6))
+    query.ignore("at", "outside of the circuit");
+}
+
+/** A set with a member, or without it. @param {Set<string>} set @param {string} member @param {boolean} isIn */
+export function withMember(set, member, isIn) {
+  const others = [...set].filter((one) => one !== member);
+  return new Set(isIn ? [...others, member] : others);
+}
+
 /** The shortest address of a plate in a state; defaults are left out. @param {Plate} _ @param {PlateState} state */
 export function plateAddress(
   { family, curve, study },

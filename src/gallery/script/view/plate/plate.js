@@ -7,7 +7,8 @@ import { Handles } from "./handles.js";
 import { plateLayout, watchKeys } from "./layout.js";
 import { changeableParameters, isRecordedValue } from "./parameters.js";
 import { recordedPath } from "./paths.js";
-import { plateCurveName, isExtraCircuit, plateAddress, readPlateQuery } from "./plate-query.js";
+import { ignoreUnused, plateAddress, readPlateQuery, withMember } from "./plate-query.js";
+import { isExtraCircuit, plateCurveName } from "./plate-query.js";
 import { Resting } from "./resting.js";
 import { Sliders } from "./sliders.js";
 import { recordedValues, studyOf, summaryOfStudy } from "./study.js";
@@ -65,7 +66,7 @@ export class Plate extends PlateFigure {
     this.stage.fit();
     const isStill = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
     if (this.state.at) this.drive.moveTo(this.state.at);
-    this.#checkQuery();
+    ignoreUnused(this.query, this);
     if (!this.state.at && !isStill) this.drive.toggle(true);
   }
 
@@ -90,21 +91,8 @@ export class Plate extends PlateFigure {
       this.drive.pause();
       this.drive.moveTo(at);
     } else if (this.state.requestedCircuit !== requestedCircuit && !this.reason) this.beginCircuit();
-    this.#checkQuery();
+    ignoreUnused(this.query, this);
     return true;
-  }
-
-  // What of an address a linkage does not have is known when it has been solved.
-  #checkQuery() {
-    const { study, query, state } = this;
-    if (!study || this.reason) return;
-    const { requestedCircuit: circuit, at, motion } = state;
-    if (circuit !== null && circuit !== study.shown) query.ignore("circuit", `of ${study.circuits.length}`);
-    if (motion.joint !== null && !study.joints.includes(motion.joint))
-      query.ignore("joint", "there is no such joint");
-    const { pass, input } = this.drive.place;
-    if (at && (at.pass !== pass || Math.abs(at.input - input) > 1e-6))
-      query.ignore("at", "outside of the circuit");
   }
 
   /** The state of an address, without values that are those of the atlas. @param {AddressQuery} query */
@@ -195,10 +183,7 @@ export class Plate extends PlateFigure {
 
   /** Locks a value, which handles leave as it is then, or unlocks it. */
   lock(name, isLocked) {
-    const locked = new Set(this.state.locked);
-    if (isLocked) locked.add(name);
-    else locked.delete(name);
-    this.store.change({ locked });
+    this.store.change({ locked: withMember(this.state.locked, name, isLocked) });
   }
 
   clear(name) {
@@ -244,10 +229,7 @@ export class Plate extends PlateFigure {
 
   /** Shows or hides an overlay. */
   overlay(name, isOn) {
-    const on = new Set(this.on);
-    if (isOn) on.add(name);
-    else on.delete(name);
-    this.store.change({ on });
+    this.store.change({ on: withMember(this.on, name, isOn) });
   }
 
   changeMotion(/** @type {Partial<MotionState>} */ changes) {
