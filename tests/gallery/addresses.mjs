@@ -25,7 +25,7 @@ const undo = (page, keys = "Control+z") =>
 
 export const ADDRESSES = [
   [
-    "6.1",
+    "5.6",
     "a view says what it ignores of its address, until a gesture",
     async ({ browser }) => {
       const gallery = await openGallery(
@@ -69,7 +69,7 @@ export const ADDRESSES = [
     },
   ],
   [
-    "6.2",
+    "5.7",
     "an address that has lost escapes, or has one too many, is read as it was meant",
     async ({ browser }) => {
       const gallery = await openGallery(browser, small, "/evans/curve/3.1.1%3Fp=3.5%26r=1.1", {
@@ -87,7 +87,7 @@ export const ADDRESSES = [
     },
   ],
   [
-    "6.3",
+    "5.8",
     "gestures of Find are undone one by one, and done again",
     async ({ browser }) => {
       const gallery = await openGallery(browser, small, "/find?family=evans");
@@ -129,7 +129,7 @@ export const ADDRESSES = [
     },
   ],
   [
-    "6.4",
+    "5.9",
     "gestures of Compare are undone, with their pins; a link of others leaves one's own pins",
     async ({ browser }) => {
       const gallery = await openGallery(browser, small, "/compare");
@@ -165,7 +165,7 @@ export const ADDRESSES = [
     },
   ],
   [
-    "6.5",
+    "5.10",
     "all tabs have the same pins, and a page without storage has its own",
     async ({ browser }) => {
       const gallery = await openGallery(browser, small, "/evans/curve/3.1.1", { reducedMotion: "reduce" });
