@@ -14,13 +14,9 @@ export function withLinkages(atlas, kernel) {
     /** @type {NewLinkage[]} */ const known = (await kernel.load()).call({ method: "catalogue" }).linkages;
     const isKnown = new Set(known.map(({ id }) => id));
     const others = atlas.families.filter(({ linkage, script }) => script && !isKnown.has(linkage));
+    const own = others.map((one) => ({ id: one.linkage, legend: one.title, manifest: "", family: one.id }));
     // The first family of each.
-    const own = new Map(
-      others
-        .reverse()
-        .map(({ linkage, title, id }) => [linkage, { legend: title, manifest: "", family: id }]),
-    );
-    return known.concat(Array.from(own, ([id, one]) => ({ id, ...one })));
+    return known.concat(own.filter(({ id }, k) => own.findIndex((one) => one.id === id) === k));
   };
   const open = async (/** @type {string} */ id, /** @type {string} */ linkage) => {
     const found = (await linkages()).find((one) => one.id === linkage);

@@ -48,15 +48,9 @@ export function openShell(parts, routes, root) {
   };
   const { atlas } = app;
   const title = h("a.title", { href: address([]) }, atlas.title);
-  fill(
-    root,
-    h("a.skip", { href: "#content", onclick: skip }, "Skip to content"),
-    h("header.masthead", title, nav.element, themeSelect()),
-    ignored,
-    main,
-    footer(atlas),
-    status,
-  );
+  const masthead = h("header.masthead", title, nav.element, themeSelect());
+  const toContent = h("a.skip", { href: "#content", onclick: skip }, "Skip to content");
+  fill(root, toContent, masthead, ignored, main, footer(atlas), status);
   const router = new Router(app, routes, { main, nav, ignored, scroll: scrollMemory() });
   window.addEventListener("hashchange", () => router.navigate());
   window.addEventListener("keydown", (event) => {
