@@ -16,7 +16,7 @@ const BUSY_DELAY = 250;
  */
 export function openShell(parts, routes, root) {
   const main = h("main", { id: "content", tabindex: "-1" });
-  const ignored = h("p.note.ignored", { role: "status" });
+  const ignored = h("output.note.ignored");
   const status = h("p.visually-hidden", { role: "status", "aria-live": "polite" });
   /** @type {App} */ const app = {
     ...parts,
