@@ -8,7 +8,7 @@ use coupler_curves::catalogue;
 use coupler_curves::expression::{Dimension, Error, Expression, Quantity, Scope};
 use coupler_curves::family::{CellError, ParameterError, ParameterErrors};
 use coupler_curves::problem::suggestion;
-use coupler_curves::template::Template;
+use coupler_curves::template::{Parameter, Template};
 
 use super::{Failure, source};
 
@@ -57,7 +57,7 @@ pub(super) fn parameter_errors(template: &Template, errors: &ParameterErrors) ->
     let message = |error: &ParameterError| match error {
         ParameterError::Cell(CellError::Missing(name)) => {
             let parameter = template.parameters.iter().find(|parameter| parameter.name == *name);
-            let example = parameter.and_then(|parameter| parameter.example).unwrap_or(1.0);
+            let example = parameter.map_or(1.0, Parameter::starting_value);
             format!("{}: {error}: add it, as in {name}={example}", template.id)
         }
         error => format!("{}: {error}", template.id),

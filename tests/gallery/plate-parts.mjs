@@ -21,6 +21,9 @@ import { pathsOfStudy, straightSummary } from "../../src/gallery/script/view/pla
 import { summaryOfStudy } from "../../src/gallery/script/view/plate/study.js";
 import { changeableParameters, roundedToGrain } from "../../src/gallery/script/view/plate/parameters.js";
 import { plateCurveName } from "../../src/gallery/script/view/plate/plate-query.js";
+import { fourBarAddress } from "../../src/gallery/script/view/new-view.js";
+import { parseAddress } from "../../src/gallery/script/data/address.js";
+import { withLinkages } from "../../src/gallery/script/kernel/linkages.js";
 import { Pose, recordedValues, studyOf } from "../../src/gallery/script/view/plate/study.js";
 import { familyOf } from "./export-data.mjs";
 import { kernelOf } from "./kernel.mjs";
@@ -59,7 +62,30 @@ const firstParameters = (family, changes = new Map()) => {
   return changeableParameters(family, names, recorded, firstStudy(family, changes), changes);
 };
 
+const linkages = withLinkages({ families: [] }, { load: async () => kernel });
+const newFourBar = await linkages.family("new/four-bar");
+
 const tests = [
+  [
+    "the address of a four-bar that has been found leads to the circuit that it was found on",
+    () => {
+      const parameters = { frame: 4, crank: 1.2, coupler: 3, rocker: 3.4, along: 1.7, across: 0.8 };
+      const record = { parameters, class: "crank-rocker" };
+      for (const shown of [0, 1]) {
+        const found = studyOf(kernel, kernel.curve(newFourBar, 0, Object.entries(parameters)), shown);
+        const pose = new Pose();
+        pose.move(found, 0, found.circuits[shown].passes[0].from + 40);
+        const joint = (name) => [...pose.joints.slice(2 * found.joints.indexOf(name)).subarray(0, 2)];
+        const { path, query } = parseAddress(
+          fourBarAddress({ record, pose: Float64Array.from(["O", "C", "A", "B", "M"].flatMap(joint)) }),
+        );
+        assert.deepEqual(path, ["new", "four-bar"]);
+        assert.equal(Number(query.get("circuit") ?? 1) - 1, shown);
+        for (const [name, value] of Object.entries(parameters)) assert.equal(query.number(name), value);
+        found.kernel.close();
+      }
+    },
+  ],
   [
     "a dash covers 3 of every 5 degrees, and the dashes are on the path",
     () => {

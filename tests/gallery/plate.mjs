@@ -9,6 +9,7 @@ import { HANDLES } from "./plate-handles.mjs";
 import { KERNEL } from "./plate-kernel.mjs";
 import { MOTION } from "./plate-motion.mjs";
 import { MOVEMENT } from "./plate-movement.mjs";
+import { NEW_PLATES } from "./new-plates.mjs";
 import { PARAMETERS } from "./plate-parameters.mjs";
 import { READINGS } from "./plate-readings.mjs";
 import { STATE } from "./plate-state.mjs";
@@ -16,7 +17,17 @@ import { STATE } from "./plate-state.mjs";
 const [folder] = process.argv.slice(2);
 
 await runTests(
-  [...MOTION, ...READINGS, ...PARAMETERS, ...ACCESSIBILITY, ...KERNEL, ...STATE, ...HANDLES, ...MOVEMENT],
+  [
+    ...MOTION,
+    ...READINGS,
+    ...PARAMETERS,
+    ...ACCESSIBILITY,
+    ...KERNEL,
+    ...STATE,
+    ...HANDLES,
+    ...MOVEMENT,
+    ...NEW_PLATES,
+  ],
   {
     folder,
   },

@@ -110,6 +110,7 @@ impl<'a, W: Write> Session<'a, W> {
         let cell = family.cell(0);
         let handle = self.ask(&json!({ "method": "open_family", "manifest": planned.excerpt() }))?["family"].clone();
         assert!(handle.is_number(), "{}", planned.excerpt());
+        self.ask(&json!({ "method": "first_cell", "family": handle }))?;
         // As strings, which the kernel reads to the last bit.
         let value = |slot: usize| (family.names[slot].as_str(), cell.values[slot].to_string());
         let values: Vec<(&str, String)> = family.space.slots_of(0).map(value).collect();
@@ -136,6 +137,7 @@ impl<'a, W: Write> Session<'a, W> {
                 self.ask(&request)?;
             }
         }
+        self.ask(&json!({ "method": "curve_data", "curve": curve }))?;
         let format = CurveFormat::ALL[(self.families + seed) % CurveFormat::ALL.len()];
         self.families += 1;
         self.ask(&json!({ "method": "export", "curve": curve, "format": format.name() }))?;
@@ -143,8 +145,9 @@ impl<'a, W: Write> Session<'a, W> {
         Ok(())
     }
 
-    /// A search for four-bars, and one for curves by their shape.
+    /// The catalogue, a search for four-bars, and one for curves by their shape.
     fn search(&mut self) -> io::Result<()> {
+        self.ask(&json!({ "method": "catalogue" }))?;
         self.ask(&json!({ "method": "grow_index" }))?;
         let point = |k: usize| {
             let t = std::f64::consts::TAU * k as f64 / 24.0;

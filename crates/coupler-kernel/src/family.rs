@@ -6,7 +6,7 @@ use coupler_curves::exchange::{CurveName, ParameterSet, SelectedCurve, manifest_
 use coupler_curves::expression::CompiledExpression;
 use coupler_curves::family::{Case, Family};
 use coupler_curves::problem::Problem;
-use coupler_curves::solve::{ChangedCell, Solver};
+use coupler_curves::solve::{ChangedCell, SolvedCell, Solver};
 use coupler_curves::template::{CircuitSelection, JointKindTemplate};
 use coupler_drawing::curve_file::{self, CurveFormat, FileOptions};
 use coupler_drawing::plate::PAPER;
@@ -106,7 +106,26 @@ impl OpenFamily {
             .map_err(|errors| errors.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))
     }
 
-    /// Solves a curve as the program does, and calls `work` with it.
+    /// Solves the cell of a curve as the program does: a family of the cell alone, and the cell with this curve alone.
+    ///
+    /// # Errors
+    /// Why there is no such curve.
+    pub fn solve(&self, request: &CurveRequest) -> Result<(Family, SolvedCell), String> {
+        let ChangedCell { family, numbers, circuit } = self.changed_cell(request)?;
+        let solved = Solver::new(&family).solve(0).ok_or("it has no linkage")?;
+        let reason = solved.reason();
+        let mut solved = numbers.restore(solved);
+        let [trace, named] = request.curve;
+        let wanted = [trace, circuit.unwrap_or(named)];
+        solved.curves.retain(|curve| [curve.trace, curve.circuit] == wanted);
+        match solved.curves.is_empty() {
+            true if reason.is_empty() => Err("this circuit no longer exists".to_owned()),
+            true => Err(reason),
+            false => Ok((family, solved)),
+        }
+    }
+
+    /// Solves a curve, and calls `work` with it.
     ///
     /// # Errors
     /// Why there is no such curve.
@@ -115,16 +134,9 @@ impl OpenFamily {
         request: &CurveRequest,
         work: impl FnOnce(&SelectedCurve) -> T,
     ) -> Result<T, String> {
-        let ChangedCell { family, numbers, circuit } = self.changed_cell(request)?;
-        let solved = Solver::new(&family).solve(0).ok_or("it has no linkage")?;
-        let reason = solved.reason();
-        let mut solved = numbers.restore(solved);
-        let [trace, named] = request.curve;
-        let wanted = [trace, circuit.unwrap_or(named)];
-        solved.curves.retain(|curve| [curve.trace, curve.circuit] == wanted);
+        let (family, solved) = self.solve(request)?;
         let curves = SelectedCurve::all_from_cell(&family, &self.planned.source, &request.changes, &solved);
-        let missing = || if reason.is_empty() { "this circuit no longer exists".to_owned() } else { reason };
-        curves.first().map(work).ok_or_else(missing)
+        curves.first().map(work).ok_or_else(|| "there is no such curve".to_owned())
     }
 
     /// The name of a curve, which is solved only if its number may have changed.

@@ -21,6 +21,7 @@ use crate::reading::{nearest_place, reading_json};
 use crate::request::{CurveRequest, Request};
 use crate::response::{Numbers, Response};
 use crate::study::{Opened, Place, Study};
+use crate::tables::{catalogue_json, curve_json, first_cell_json};
 
 /// What the page has opened, by handles from 0; the handle of what is closed is used again.
 #[derive(Default)]
@@ -72,6 +73,9 @@ impl Kernel {
                 let description = family.description();
                 merge(json!({ "family": self.families.insert(family) }), description)
             }
+            Request::Catalogue => catalogue_json(),
+            Request::FirstCell { family } => first_cell_json(self.families.get(family)?, numbers)?,
+            Request::CurveData { curve } => curve_json(self.families.get(curve.family)?, &curve, numbers)?,
             Request::CloseFamily { family } => json!({ "closed": self.families.remove(family) }),
             Request::OpenStudy { curve, shown, is_rough } => self.open_study(&curve, shown, is_rough, numbers)?,
             Request::CloseStudy { study } => json!({ "closed": self.studies.remove(study) }),

@@ -39,6 +39,7 @@ mod reading;
 
 mod description;
 mod dragging;
+mod tables;
 
 mod drawn_path;
 mod finder;

@@ -17,6 +17,18 @@ pub enum Request {
         /// The manifest, as TOML.
         manifest: String,
     },
+    /// The linkages of the catalogue: `linkages`, each with its `id`, its `legend`, and a `manifest` with a family of it to start from.
+    Catalogue,
+    /// The first cell of a family: the statements `head`, `cells` and `curves` of the data of a family of this cell alone.
+    FirstCell {
+        /// The handle.
+        family: usize,
+    },
+    /// A curve with its changes, as statements of the data of a family of this curve alone.
+    CurveData {
+        /// The curve.
+        curve: CurveRequest,
+    },
     /// Closes a family; the next family that is opened may have its handle.
     CloseFamily {
         /// The handle.
@@ -282,6 +294,9 @@ impl Request {
         Ok(match of.text("method")?.as_str() {
             "about" => Request::About,
             "open_family" => Request::OpenFamily { manifest: of.text("manifest")? },
+            "catalogue" => Request::Catalogue,
+            "first_cell" => Request::FirstCell { family: of.index("family")? },
+            "curve_data" => Request::CurveData { curve: CurveRequest::from_value(of.member("curve")?)? },
             "close_family" => Request::CloseFamily { family: of.index("family")? },
             "open_study" => Request::OpenStudy {
                 curve: CurveRequest::from_value(of.member("curve")?)?,

@@ -87,36 +87,20 @@ fn parameter_row(parameter: &Parameter) -> [String; 4] {
     [parameter.name.clone(), parameter.kind.name().to_owned(), default, range]
 }
 
-/// A family with the numbers that are defaults, or examples where there are none.
+/// Its [`Template::starting_family`], with a comment if it cannot be assembled.
 fn family(template: &Arc<Template>) -> String {
-    let value = |parameter: &Parameter| {
-        let number: f64 = match &parameter.default_text[..] {
-            "" => parameter.example.unwrap_or(1.0),
-            // One that follows from other parameters is left to do so.
-            text => text.parse().ok()?,
-        };
-        Some(match parameter.kind {
-            ParameterKind::Angle(unit) => format!("{} = \"{number} {}\"", parameter.name, unit.name()),
-            _ => format!("{} = {number}", parameter.name),
-        })
-    };
-    let values: Vec<String> = template.parameters.iter().filter_map(|parameter: &Parameter| value(parameter)).collect();
-    let space = match values.is_empty() {
-        true => "cases = [{}]".to_owned(),
-        false => format!("grid = {{ {} }}", values.join(", ")),
-    };
     let comment = match assembly_error(template) {
         Some(error) => format!("# Change the numbers, with which it cannot be assembled: {error}\n"),
         None => String::new(),
     };
-    format!("{comment}[[family]]\nid = \"{0}\"\nlinkage = \"{0}\"\n{space}\n", template.id)
+    comment + &template.starting_family()
 }
 
 /// Why the linkage cannot be assembled with its defaults and examples, and 1 for other parameters.
 fn assembly_error(template: &Arc<Template>) -> Option<String> {
     let without_default = template.parameters.iter().filter(|parameter| parameter.default.is_none());
     let values: Vec<(String, f64)> =
-        without_default.map(|parameter| (parameter.name.clone(), parameter.example.unwrap_or(1.0))).collect();
+        without_default.map(|parameter| (parameter.name.clone(), parameter.starting_value())).collect();
     let family = match Family::single_cell(Arc::clone(template), &values, Sampling::Samples(2)) {
         Ok(family) => family,
         Err(errors) => return Some(errors.to_string().replace('\n', "; ")),

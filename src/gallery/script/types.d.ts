@@ -11,7 +11,10 @@ type Outline = { points: Float64Array; closed: boolean };
 /** z → (re + i·im) z̃ + (x + iy), where z̃ is the conjugate of z if mirrored, else z. */
 type Similarity = { mirror: boolean; re: number; im: number; x: number; y: number };
 type Matrix = [number, number, number, number, number, number];
-type Atlas = ReturnType<typeof import("./data/atlas.js").openAtlas>;
+type AtlasFiles = ReturnType<typeof import("./data/atlas.js").openAtlas>;
+type Atlas = ReturnType<typeof import("./kernel/linkages.js").withLinkages>;
+/** A linkage that a plate can begin with: of the catalogue with a manifest, or of a family of the atlas. */
+type NewLinkage = Record<"id" | "legend" | "manifest", string> & { family?: string };
 type Kernel = import("./kernel/kernel.js").Kernel;
 /** A kernel whose answers may be promises (kernel/worker.js). */
 type SearchKernel = { readonly instance: object; call(request: object): any };
@@ -70,9 +73,10 @@ type App = {
   pins: import("./view/pins.js").Pins;
 } & Record<"announce" | "go" | "replace" | "commit", (text: string) => void>;
 type Query = Map<string, string>;
-type Target = { path: string[]; query: Query };
+type AddressQuery = import("./data/query.js").AddressQuery;
+type Target = { path: string[]; query: AddressQuery };
 /** A view of the gallery; `update` returns whether it handles a further address of its route. */
-type View = { element: Element; title: string; update?(target: Target): boolean } & ViewEvents;
+type View = { element: Element; title: string; update?(target: Target, isRetraced?: boolean): boolean } & ViewEvents;
 type ViewEvents = Partial<Record<"shown" | "leave", () => void>>;
 /** A route with a label is in the navigation; one without belongs to its `parent`. */
 type Route = Partial<Record<"label" | "parent", string>> & {
@@ -269,7 +273,7 @@ type FoundLinkage = { parameters: Lengths; class: string; mu_worst_deg: number |
 type ComparedCurve = CurveOfFamily & ChangedCurve & { name: string; key: string; release(): void };
 type ChangedCurve = { changes: Map<string, number>; requested?: KernelCurve; shown?: number | null };
 type TypedArray = Uint8Array | Uint16Array | Uint32Array | Float64Array;
-type PackedColumn = string | number | null;
+type PackedColumn = string | number | Float64Array | null;
 type TypedArrayKind = { new (of: number | ArrayBuffer): TypedArray };
 type Base64Decoder = { fromBase64(data: string): Uint8Array<ArrayBuffer> };
 type Chunk = Pick<PieceData, "box" | "points" | "caption" | "note" | "reason"> & { counts: Uint16Array };

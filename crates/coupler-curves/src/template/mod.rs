@@ -9,6 +9,7 @@ mod order;
 mod parameter;
 mod parameter_kinds;
 mod side;
+mod starting_family;
 
 pub use closure::ClosureTemplate;
 pub use joint_kind::{Coordinate, JointKindTemplate};

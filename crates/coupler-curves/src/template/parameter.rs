@@ -22,6 +22,11 @@ pub struct Parameter {
 }
 
 impl Parameter {
+    /// A value to start from where there is no default: the example, or 1 without one.
+    pub fn starting_value(&self) -> f64 {
+        self.example.unwrap_or(1.0)
+    }
+
     /// The error in a value: not finite, or out of the bounds.
     pub fn value_error(&self, value: f64) -> Option<String> {
         let name = &self.name;

@@ -8,11 +8,25 @@
 //   #/find?family=evans&mu_min_deg=30..    the curves that pass the filters
 //   #/shape?d=…                            the curves similar to a shape
 //   #/compare?c=evans:12.1.1,watt:3.1.1    curves compared
+//   #/new                                  the linkages that plates begin with
+//   #/new/four-bar?crank=1.2               the plate of one, which is in no family
 
-/** Parses a fragment. @returns {Target} */
+import { AddressQuery } from "./query.js";
+
+// The first curve of a family, of which the plate of a linkage in no atlas has the short address.
+const FIRST_KEY = "1.1.1";
+
+/** Parses a fragment, also one that a mail program has encoded once more, or a value of which has lost its escapes. @returns {Target} */
 export function parseAddress(fragment) {
-  const [path, query = ""] = fragment.replace(/^#?\/?/, "").split("?", 2);
-  return { path: path.split("/").filter(Boolean).map(decodedWord), query: new Map(queryPairs(query)) };
+  const plain = fragment.includes("?") ? fragment : decodedWord(fragment.replace(/%(?!3F|26|3D)/gi, "%25"));
+  const [, path, words = ""] = /^#?\/?([^?]*)\??(.*)$/s.exec(plain) ?? [];
+  // The changes of compared curves, "c=evans:1.1.1?p=2&k=3".
+  const lost = /\?.*?(?=&(?:view|align)=|$)/s;
+  const query = words.replace(lost, (text) => text.replace(/[?&=]/g, (sign) => encodeURIComponent(sign)));
+  return {
+    path: path.split("/").filter(Boolean).map(decodedWord),
+    query: new AddressQuery(queryPairs(query)),
+  };
 }
 
 function decodedWord(text) {
@@ -58,8 +72,36 @@ export function address(path, query = {}) {
   const pairs = entries
     .filter(([, value]) => value !== undefined && value !== null && value !== "")
     .map(([name, value]) => `${plain(name)}=${plain(String(value))}`);
-  const fragment = `#/${path.map(plain).join("/")}`;
+  // The id of a linkage's family, "new/four-bar", is two words of a path.
+  const fragment = `#/${path.map(plain).join("/").replaceAll("%2F", "/")}`;
   return pairs.length ? `${fragment}?${pairs.join("&")}` : fragment;
+}
+
+/** The linkage of a family that is in no atlas, "new/four-bar"; null if an id is that of another. */
+export function newLinkage(/** @type {string} */ id) {
+  return id.startsWith("new/") ? id.slice(4) : null;
+}
+
+/**
+ * The address of the plate of a linkage with values by their names, in no family: `#/new/four-bar?crank=1.2`.
+ * @param {string} linkage @param {Map<string, unknown> | Record<string, unknown>} [values]
+ */
+export function newAddress(linkage, values) {
+  return address(["new", linkage], values);
+}
+
+/** The family and the key of the curve of a plate; null if a path is that of no plate. @param {string[]} path */
+export function curveOfPath(path) {
+  const isNew = path[0] === "new" && path.length % 2 === 0 && !/^[0-9]+$/.test(path[1]);
+  const [id, word, key] = isNew ? [`new/${path[1]}`, ...path.slice(2)] : path;
+  if (isNew && path.length === 2) return { id, key: FIRST_KEY };
+  return word === "curve" && path.length === (isNew ? 4 : 3) ? { id, key } : null;
+}
+
+/** The address of the plate of a curve. @param {Map<string, unknown> | Record<string, unknown>} [query] */
+export function curveAddress(/** @type {string} */ id, /** @type {string} */ key, query) {
+  const isShort = newLinkage(id) !== null && key === FIRST_KEY;
+  return address(isShort ? [id] : [id, "curve", key], query);
 }
 
 /**
@@ -72,7 +114,11 @@ export function matchesRoute(word, /** @type {Target} */ { path, query }, /** @t
 }
 
 /** The address of a route with a query, which is never empty if a family has the same id. */
-export function routeAddress(word, /** @type {Query | Record<string, unknown>} */ query, { atlas }) {
+export function routeAddress(
+  word,
+  /** @type {Map<string, unknown> | Record<string, unknown>} */ query,
+  { atlas },
+) {
   const short = address([word], query);
   const isTaken = !short.includes("?") && isFamily(atlas, word);
   return isTaken ? address([word], { show: "room" }) : short;
@@ -82,6 +128,6 @@ function isFamily(/** @type {Atlas} */ { families }, word) {
   return families.some(({ id }) => id === word);
 }
 
-function isFamilyQuery(/** @type {Query} */ query) {
+function isFamilyQuery(/** @type {AddressQuery} */ query) {
   return query.size === 0 || query.has("page") || query.has("curve") || query.get("show") === "curves";
 }

@@ -1,9 +1,9 @@
 // Columns of numbers as the program encodes them: a single number if all are equal, null if all are missing,
-// otherwise the bytes of a typed array, little-endian, in base64.
+// otherwise the bytes of a typed array, little-endian, in base64; as the kernel returns them, an array.
 
 /** Decodes a column of `count` numbers into a typed array of its kind, from index `at` on. */
 export function unpackInto(/** @type {TypedArray} */ array, at, count, /** @type {PackedColumn} */ column) {
-  if (typeof column !== "string") array.fill(column ?? NaN, at, at + count);
+  if (typeof column === "number" || column === null) array.fill(column ?? NaN, at, at + count);
   else array.set(unpackColumn(/** @type {TypedArrayKind} */ (array.constructor), count, column), at);
 }
 
@@ -15,7 +15,8 @@ export function unpackInto(/** @type {TypedArray} */ array, at, count, /** @type
 export function unpackColumn(kind, count, column) {
   if (typeof column === "string") return new kind(decodeBase64(column).buffer);
   const array = new kind(count);
-  array.fill(column ?? NaN);
+  if (column instanceof Float64Array) array.set(column);
+  else array.fill(column ?? NaN);
   return array;
 }
 

@@ -194,7 +194,7 @@ function emptyPiece() {
 }
 
 /** The points of curves as a loaded piece has them, without texts. @param {Float64Array} box @param {Uint16Array} counts */
-export function packedPoints(box, counts, /** @type {Uint16Array} */ points) {
+function packedPoints(box, counts, /** @type {Uint16Array} */ points) {
   const start = new Uint32Array(counts.length + 1);
   counts.forEach((count, k) => {
     start[k + 1] = start[k] + count;
@@ -214,17 +214,12 @@ function addWords(/** @type {Words} */ column, at, codes, values) {
 }
 
 /**
- * A family like another one with a single curve: its tables and its piece of points.
- * @param {Family} family @param {Cells} cells @param {Curves} curves @param {PieceData} data @returns {Family}
+ * A family of a single cell, from the statements of the kernel and what else there is to know of it.
+ * @param {{ head: FamilyHead, cells: object, curves: any }} _ @param {Pick<Family, "id" | "title" | "manifest">} known @returns {Family}
  */
-export function singleCurveFamily(family, cells, curves, data) {
-  const [number] = cells.number;
-  /** @type {PieceEntry} */ const entry = { bytes: 0, cells: 1, curves: 1, numbers: [number, number] };
-  const [table, outlines] = [
-    new Series(family.id, "table", [entry]),
-    new Series(family.id, "curves", [entry]),
-  ];
-  table.pieces[0].data = emptyPiece();
-  outlines.pieces[0].data = data;
-  return { ...family, cells, curves, table, outlines, pageCount: 0 };
+export function familyOfCell({ head, cells, curves }, { id, title, manifest }) {
+  const reader = new FamilyReader({ ...head, id, title, manifest });
+  reader.cells(cells);
+  reader.curves(curves);
+  return reader.finish();
 }

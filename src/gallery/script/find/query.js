@@ -1,31 +1,34 @@
 // The query of the Find view and its address:
 // `?family=evans,watt&class=crank-rocker&mu_worst_deg=30..&sort=-length&show=table`.
 
-const OTHER_KEYS = new Set(["family", "sort", "show"]);
+const OTHER_KEYS = ["family", "sort", "show"];
 
-/** Parses the query of an address. @param {Query} query */
-export function parseFindQuery(/** @type {Query} */ query) {
-  const families = query.get("family");
+/** Parses the query of an address; families are those that `isFamily` says. @param {AddressQuery} query */
+export function parseFindQuery(query, isFamily = (/** @type {string} */ _) => true) {
+  const families = query.list("family", isFamily);
   const sort = query.get("sort") ?? "";
-  const filters = new Map();
-  for (const [name, text] of query) {
-    const filter = OTHER_KEYS.has(name) ? null : parseFilter(text);
+  /** @type {Map<string, Filter>} */ const filters = new Map();
+  for (const name of query.keys()) {
+    const filter = OTHER_KEYS.includes(name) ? null : parseFilter(query.get(name) ?? "");
     if (filter) filters.set(name, filter);
+    else if (!OTHER_KEYS.includes(name)) query.ignore(name, "neither a range, as 30..60, nor words");
   }
   return {
-    families: families ? families.split(",").filter(Boolean) : null,
+    families: families ?? null,
     filters,
     sort: { name: sort.replace(/^-/, ""), down: sort.startsWith("-") },
-    show: query.get("show") === "table" ? "table" : "sheet",
+    // "room" is that of an address that would be a family's otherwise (routeAddress).
+    show: query.word("show", ["table", "sheet", "room"]) === "table" ? "table" : "sheet",
   };
 }
 
+/** @returns {Filter | null} */
 function parseFilter(text) {
   const range = text.match(/^([^.]*(?:\.\d+(?:e[+-]?\d+)?)?)\.\.(.*)$/i);
   if (!range) return text ? new Set(text.split(",")) : null;
-  const bound = (word) => (word.trim() !== "" && Number.isFinite(Number(word)) ? Number(word) : undefined);
-  const [low, high] = [bound(range[1]), bound(range[2])];
-  return low === undefined && high === undefined ? null : { low, high };
+  const [low, high] = range.slice(1).map((word) => (word.trim() === "" ? undefined : Number(word)));
+  const isNone = Number.isNaN(low) || Number.isNaN(high) || (low === undefined && high === undefined);
+  return isNone ? null : { low, high };
 }
 
 /** The inverse of parseFindQuery, as data/address.js writes it. @param {FindQuery} _ */
@@ -33,10 +36,8 @@ export function formatFindQuery({ families, filters, sort, show }) {
   const query = new Map();
   if (families) query.set("family", families.join(","));
   for (const [name, filter] of filters) {
-    query.set(
-      name,
-      filter instanceof Set ? [...filter].join(",") : `${filter.low ?? ""}..${filter.high ?? ""}`,
-    );
+    const { low = "", high = "" } = filter instanceof Set ? {} : filter;
+    query.set(name, filter instanceof Set ? [...filter].join(",") : `${low}..${high}`);
   }
   if (sort.name) query.set("sort", `${sort.down ? "-" : ""}${sort.name}`);
   if (show === "table") query.set("show", "table");

@@ -70,11 +70,16 @@ export class Kernel {
     return this.use((instance) => instance.call(request));
   }
 
-  /** A family of the atlas (data/reader.js), opened. @param {Family} _ */
+  /** A family of the atlas (data/reader.js), opened. @param {Pick<Family, "id" | "manifest">} _ */
   family({ id, manifest }) {
     const family = this.families.get(id) ?? new KernelFamily(this, manifest);
     this.families.set(id, family);
     return family;
+  }
+
+  /** The data of a curve, as an atlas of it alone has them. @param {KernelCurve} requested */
+  curveData(requested) {
+    return this.call({ method: "curve_data", curve: withHandle(requested) });
   }
 
   /**

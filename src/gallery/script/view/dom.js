@@ -107,3 +107,18 @@ export function focusedElement() {
   const element = document.activeElement;
   return element instanceof HTMLElement || element instanceof SVGElement ? element : null;
 }
+
+/**
+ * Returns a function that restores the focus to the control with the same name after an element's content has
+ * been replaced.
+ */
+export function keepFocus(/** @type {Element} */ element) {
+  const nameOf = (control) => control.id || control.getAttribute("aria-label") || control.textContent;
+  const focused = element.contains(document.activeElement) ? nameOf(document.activeElement) : null;
+  return () => {
+    if (focused === null || element.contains(document.activeElement)) return;
+    const found = element.querySelectorAll("button, select, a, input, [role=slider]");
+    const controls = /** @type {HTMLInputElement[]} */ ([...found]);
+    (controls.find((one) => nameOf(one) === focused && !one.disabled) ?? controls[0])?.focus();
+  };
+}

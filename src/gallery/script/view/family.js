@@ -1,6 +1,6 @@
 // A family: its description, and its pages or curves as a grid of thumbnails.
 
-import { address } from "../data/address.js";
+import { address, curveAddress } from "../data/address.js";
 import { curveCaption, curveKey } from "../data/family.js";
 import { isFullyLoaded, isScattered, needCurveWithKey, needCurves, needPage } from "../data/needs.js";
 import { elementIn, fill, h } from "./dom.js";
@@ -26,11 +26,11 @@ export const familyRoute = {
     const listed = app.atlas.families.find((candidate) => candidate.id === id);
     // Pages are shown if they are written as files, or their layouts are in the data.
     const hasPages = listed.pages > 0 && (listed.page_format !== null || family.pageCount > 0);
-    const hasCurves = query.get("show") === "curves" || !hasPages;
+    const hasCurves = query.word("show", ["curves", "pages"]) === "curves" || !hasPages;
     const tiles = hasCurves ? curveTiles(app, family) : pageTiles(app, family, listed);
-    const found = hasCurves
-      ? await needCurveWithKey(family, query.get("curve"))
-      : Number(query.get("page")) - 1;
+    const [page = 0, key] = [query.number("page", 1), query.get("curve")];
+    const found = hasCurves ? await needCurveWithKey(family, key) : page - 1;
+    if (found === undefined && key !== undefined) query.ignore("curve", "there is no such curve");
     const goal = found ?? -1;
     if (goal >= 0) tiles.element.dataset.goal = String(goal);
     return {
@@ -58,17 +58,14 @@ function familyHeader(/** @type {Family} */ family, /** @type {ListedFamily} */ 
     samplingLabel(sampling),
     formatBytes(listed.bytes),
   ];
-  return h(
-    "div.head",
-    h(
-      "div",
-      h("h1", family.title),
-      h("p.lede", familySource(family)),
-      family.legend ? h("p.lede", family.legend) : null,
-      h("p.note", facts.join(" · ")),
-      notAssembledSummary(family, listed),
-    ),
-  );
+  const parts = [
+    h("h1", family.title),
+    h("p.lede", familySource(family)),
+    family.legend ? h("p.lede", family.legend) : null,
+    h("p.note", facts.join(" · ")),
+    notAssembledSummary(family, listed),
+  ];
+  return h("div.head", h("div", parts));
 }
 
 function samplingLabel(/** @type {Family["sampling"]} */ { step, samples, spacing }) {
@@ -144,7 +141,7 @@ function curveTiles(/** @type {App} */ app, /** @type {Family} */ family) {
     isLoaded: () => isFullyLoaded(family),
     fillTile: (element, k) => {
       const link = elementIn(element, "a");
-      link.setAttribute("href", address([family.id, "curve", curveKey(family, k)]));
+      link.setAttribute("href", curveAddress(family.id, curveKey(family, k)));
       link.removeAttribute("tabindex");
       const caption = formatCaption(curveCaption(family, k));
       fill(elementIn(element, ".label"), h("b", curveKey(family, k)), " ", caption);

@@ -67,6 +67,15 @@ export function pageAddress({ family, page, highlight, zoom }) {
   });
 }
 
+/** What the address of a page enlarges; null if nothing. @returns {{ near: number, place: Point } | null} */
+export function readPageZoom(/** @type {AddressQuery} */ query) {
+  const near = query.number("zoom", 1) ?? 0;
+  const [x, y, ...more] = (query.get("at") ?? "").split(",").map(Number);
+  const isPlace = Number.isFinite(x) && Number.isFinite(y) && !more.length;
+  if (query.get("at") && !isPlace) query.ignore("at", "not a place");
+  return near > 1 && isPlace ? { near, place: [x, y] } : null;
+}
+
 /** A form { element, field } for one of the `pages` of a family; calls `go(page)` with a valid number. */
 export function pageField(/** @type {ListedFamily} */ { pages }, label, go) {
   const field = h("input", { type: "text", inputmode: "numeric", role: "spinbutton", "aria-label": "Page" });

@@ -1,6 +1,6 @@
 // The panel next to a page: its list of curves, or the highlighted curve.
 
-import { address } from "../data/address.js";
+import { address, curveAddress } from "../data/address.js";
 import { cellCaption, cellText, curveKey, measureValue, pageViews } from "../data/family.js";
 import { buttonOf, h, termList } from "./dom.js";
 import { formatCaption, formatNumber, measureLabel, measureText, formatCount } from "./labels.js";
@@ -56,7 +56,7 @@ function curveRow(/** @type {Family} */ family, curve, { one, onenter, onleave }
   return h(
     "a",
     {
-      href: address([family.id, "curve", curveKey(family, curve)]),
+      href: curveAddress(family.id, curveKey(family, curve)),
       onpointerenter: () => onenter(curve),
       onfocus: () => onenter(curve),
       onpointerleave: onleave,
@@ -101,7 +101,7 @@ export function curvePanel(/** @type {App} */ app, /** @type {Family} */ family,
     family.cells.status[at] === 1 ? h("p.note", `Partial: ${cellText(family, at, "reason")}`) : null,
     h(
       "div.toolbar.no-print",
-      h("a.button", { href: address([family.id, "curve", key]) }, "Open plate"),
+      h("a.button", { href: curveAddress(family.id, key) }, "Open plate"),
       pinButton(app, `${family.id}:${key}`),
       buttonOf("All curves", onall, { class: "quiet" }),
     ),

@@ -2,7 +2,7 @@
 
 import { pageFile } from "../data/atlas.js";
 import { curveCaption, curveKey, pageViews, curvePoints } from "../data/family.js";
-import { address } from "../data/address.js";
+import { curveAddress } from "../data/address.js";
 import { h, s, setAttributes } from "./dom.js";
 import { drawPage, paperTone } from "./page-thumbnail.js";
 import { squaredDistance } from "../draw/outline-distance.js";
@@ -81,7 +81,7 @@ function curveLink(
   const key = curveKey(family, curve);
   const caption = curveCaption(family, curve);
   const attributes = {
-    href: address([family.id, "curve", key]),
+    href: curveAddress(family.id, key),
     tabindex: "-1",
     "data-curve": curve,
     "aria-label": `Curve ${key}${caption ? `, ${caption}` : ""}`,

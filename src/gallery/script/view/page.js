@@ -1,11 +1,11 @@
 // The view of a page, with zoom and the curve under the pointer highlighted.
 
-import { address } from "../data/address.js";
+import { address, curveAddress } from "../data/address.js";
 import { findCurve, curveKey, pageViews } from "../data/family.js";
 import { loadPage } from "../data/needs.js";
 import { fill, h } from "./dom.js";
 import { CurveHighlight } from "./curve-highlight.js";
-import { pageAddress, pageBar } from "./page-bar.js";
+import { pageAddress, pageBar, readPageZoom } from "./page-bar.js";
 import { handlePageKey, keyHelp } from "./page-keys.js";
 import { curvePanel, curveListPanel } from "./page-panel.js";
 import { pageOverlay, pagePicture, prefetchPages, curvesOnPaper, nearestCurve } from "./page-picture.js";
@@ -33,7 +33,7 @@ export class PageView {
   /** The number of the page. */
   page = 0;
   title = "";
-  /** @type {Query} */ query = new Map();
+  /** @type {AddressQuery} */ query;
   /** @type {DrawnCurve[]} */ drawn = [];
   /** @type {ReturnType<typeof pageOverlay> | null} */ overlay = null;
   hasLeft = false;
@@ -84,6 +84,7 @@ export class PageView {
   }
 
   async open(/** @type {Target} */ { path, query }) {
+    ["curve", "zoom", "at"].forEach((name) => query.get(name));
     const page = Number(path[1]);
     const isOther = page !== this.page;
     this.page = page;
@@ -105,10 +106,7 @@ export class PageView {
     if (this.element.isConnected) this.applyQuery(query);
   }
 
-  /**
-   * Called when the view is in the document and has a size: sets the position and takes the focus, so that
-   * keys work.
-   */
+  /** Called when the view has a size: sets the position and takes the focus, so that keys work. */
   shown() {
     this.applyQuery(this.query);
     this.viewport.focus({ preventScroll: true });
@@ -131,16 +129,16 @@ export class PageView {
     prefetchPages(this.app, this.family, this.page);
   }
 
-  /** Applies the rest of the address: a curve, and the zoom position. @param {Query} query */
+  /** Applies the rest of the address: a curve, and the zoom position. @param {AddressQuery} query */
   applyQuery(query) {
-    const near = Number(query.get("zoom"));
-    const [x, y, ...more] = (query.get("at") ?? "").split(",").map(Number);
-    if (near > 1 && Number.isFinite(x) && Number.isFinite(y) && !more.length) this.zoom.showAt(near, [x, y]);
+    const enlarged = readPageZoom(query);
+    if (enlarged) this.zoom.showAt(enlarged.near, enlarged.place);
     else if (!this.hasPosition) this.zoom.fit();
     this.hasPosition = true;
     const curve = findCurve(this.family, query.get("curve"));
     if (this.drawn.some((candidate) => candidate.curve === curve)) this.highlight.select(curve);
     else {
+      if (query.has("curve")) query.ignore("curve", "not on this page");
       this.highlight.select(null);
       this.showPanel();
     }
@@ -189,7 +187,7 @@ export class PageView {
     if (!found) this.deselect();
     else if (event.pointerType !== "touch" || this.highlight.selected === found.curve) {
       this.choose(found.curve);
-      this.app.go(address([this.family.id, "curve", curveKey(this.family, found.curve)]));
+      this.app.go(curveAddress(this.family.id, curveKey(this.family, found.curve)));
     } else this.choose(found.curve, place);
   }
 

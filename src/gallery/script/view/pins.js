@@ -1,6 +1,7 @@
 // The pinned curves, which are compared and exported together, and the buttons that pin them.
 
 import { h, isShortcut } from "./dom.js";
+import { storedChoice, storeChoice } from "./settings.js";
 
 /** The names of pinned curves, "family:cell.trace.circuit", in the order in which they were pinned. */
 export class Pins {
@@ -31,23 +32,22 @@ export class Pins {
   }
 }
 
-/** The pins of a browser tab. They survive a reload if the browser allows storage for pages on disk. */
-export function tabPins(window) {
+/** The pins of an atlas in all tabs of a browser, which keeps them if it allows storage for pages on disk. */
+export function storedPins(/** @type {Window} */ window) {
   const pins = new Pins();
   const key = `coupler-atlas-pins ${window.location.pathname}`;
-  try {
-    const stored = JSON.parse(window.sessionStorage.getItem(key) ?? "[]");
-    pins.set(stored.filter((name) => typeof name === "string"));
-  } catch {
-    // Unreadable pins are dropped.
-  }
-  pins.watch((names) => {
+  const read = (/** @type {string | null} */ text) => {
     try {
-      window.sessionStorage.setItem(key, JSON.stringify(names));
+      const stored = JSON.parse(text ?? "[]");
+      pins.set(stored.filter((name) => typeof name === "string"));
     } catch {
-      // Without storage, pins last until the page is closed.
+      // Unreadable pins are dropped.
     }
-  });
+  };
+  read(storedChoice(key));
+  pins.watch((names) => storeChoice(key, JSON.stringify(names)));
+  // Another tab has changed them.
+  window.addEventListener("storage", (event) => event.key === key && read(event.newValue));
   return pins;
 }
 

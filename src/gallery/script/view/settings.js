@@ -61,7 +61,8 @@ function storedTheme() {
   return THEME_CHOICES.find(([value]) => value === theme)?.[0] ?? "system";
 }
 
-function storedChoice(name) {
+/** What is stored; null if there is nothing, or no storage. @returns {string | null} */
+export function storedChoice(name) {
   try {
     return window.localStorage.getItem(name);
   } catch {
@@ -70,7 +71,7 @@ function storedChoice(name) {
 }
 
 /** Without storage, a choice lasts until the page is closed. */
-function storeChoice(name, value) {
+export function storeChoice(name, value) {
   try {
     window.localStorage.setItem(name, value);
   } catch {

@@ -16,6 +16,7 @@ const BUSY_DELAY = 250;
  */
 export function openShell(parts, routes, root) {
   const main = h("main", { id: "content", tabindex: "-1" });
+  const ignored = h("output.note.ignored");
   const status = h("p.visually-hidden", { role: "status", "aria-live": "polite" });
   /** @type {App} */ const app = {
     ...parts,
@@ -34,7 +35,10 @@ export function openShell(parts, routes, root) {
     commit: (fragment) => {
       const before = router.fragment;
       app.replace(fragment);
-      if (router.fragment !== before) router.gestures.record(before);
+      if (router.fragment === before) return;
+      router.gestures.record(before);
+      router.query = null;
+      fill(ignored);
     },
   };
   const nav = navigation(app, routes);
@@ -44,15 +48,10 @@ export function openShell(parts, routes, root) {
   };
   const { atlas } = app;
   const title = h("a.title", { href: address([]) }, atlas.title);
-  fill(
-    root,
-    h("a.skip", { href: "#content", onclick: skip }, "Skip to content"),
-    h("header.masthead", title, nav.element, themeSelect()),
-    main,
-    footer(atlas),
-    status,
-  );
-  const router = new Router(app, routes, { main, nav, scroll: scrollMemory() });
+  const masthead = h("header.masthead", title, nav.element, themeSelect());
+  const toContent = h("a.skip", { href: "#content", onclick: skip }, "Skip to content");
+  fill(root, toContent, masthead, ignored, main, footer(atlas), status);
+  const router = new Router(app, routes, { main, nav, ignored, scroll: scrollMemory() });
   window.addEventListener("hashchange", () => router.navigate());
   window.addEventListener("keydown", (event) => {
     const way = gestureOfKey(event);
@@ -84,14 +83,8 @@ function navigation(/** @type {App} */ app, /** @type {Route[]} */ routes) {
     for (const { name, link } of links)
       setAttributes(link, { "aria-current": name === (route?.parent ?? route?.name) ? "page" : null });
   };
-  return {
-    element: h(
-      "nav.site-nav",
-      { "aria-label": "Gallery" },
-      links.map(({ link }) => link),
-    ),
-    mark,
-  };
+  const shown = links.map(({ link }) => link);
+  return { element: h("nav.site-nav", { "aria-label": "Gallery" }, shown), mark };
 }
 
 /** Opens the view of the current address. */
@@ -99,27 +92,32 @@ class Router {
   /** @type {{ route: Route, view: View } | null} */ shown = null;
   turn = 0;
   fragment = "";
+  /** The query that is shown. @type {AddressQuery | null} */ query = null;
   /** What can be undone in the view that is shown. */
   gestures = new Gestures();
 
-  constructor(/** @type {App} */ app, /** @type {Route[]} */ routes, { main, nav, scroll }) {
+  constructor(/** @type {App} */ app, /** @type {Route[]} */ routes, { main, nav, ignored, scroll }) {
     this.app = app;
     this.routes = routes;
     this.main = main;
     this.nav = nav;
+    this.ignored = ignored;
     this.scroll = scroll;
   }
 
-  /** Shows the address in the current view if it handles it, otherwise in a new one. */
-  async navigate() {
+  /** Shows the address in the current view if it handles it, otherwise in a new one; one that was shown before if a gesture is retraced. */
+  async navigate(isRetraced = false) {
     this.fragment = window.location.hash;
     const target = parseAddress(this.fragment);
     const route = this.routes.find((candidate) => candidate.matches(target, this.app));
     this.scroll.leave();
-    if (this.shown && this.shown.route === route && this.shown.view.update?.(target)) {
+    if (this.shown && this.shown.route === route && this.shown.view.update?.(target, isRetraced)) {
       this.setTitle(this.shown.view.title);
+      this.sayIgnored(target);
       return;
     }
+    this.query = null;
+    fill(this.ignored);
     this.turn += 1;
     const turn = this.turn;
     this.gestures.clear();
@@ -131,8 +129,10 @@ class Router {
     try {
       if (!route) throw new Error("There is no page at this address.");
       const view = await route.open(this.app, target);
-      if (turn === this.turn) this.showView(route, view);
-      else view.leave?.();
+      if (turn === this.turn) {
+        this.showView(route, view);
+        this.sayIgnored(target);
+      } else view.leave?.();
     } catch (error) {
       if (turn === this.turn) this.showError(error.message, target);
     } finally {
@@ -151,7 +151,14 @@ class Router {
     }
     window.history.replaceState(window.history.state, "", fragment);
     app.announce(way < 0 ? "Undone" : "Redone");
-    this.navigate();
+    this.navigate(true);
+  }
+
+  /** Says what of an address is ignored, now and when more is. @param {Target} target */
+  sayIgnored({ query }) {
+    this.query = query;
+    query.onignore = () => this.query === query && fill(this.ignored, query.ignored);
+    query.onignore();
   }
 
   showBusy() {
@@ -189,27 +196,14 @@ class Router {
 
 /** The footer of the gallery. @param {Atlas} atlas */
 function footer(atlas) {
-  const sum = (of) => atlas.families.reduce((total, family) => total + of(family), 0);
+  const sum = (name) => atlas.families.reduce((total, family) => total + family[name], 0);
+  const [pages, curves, bytes] = ["pages", "curves", "bytes"].map(sum);
   const facts = [
     formatCount(atlas.families.length, "family", "families"),
-    formatCount(
-      sum((family) => family.pages),
-      "page",
-    ),
-    formatCount(
-      sum((family) => family.curves),
-      "curve",
-    ),
-    `${formatBytes(sum((family) => family.bytes))} of data, loaded by family`,
+    formatCount(pages, "page"),
+    formatCount(curves, "curve"),
+    `${formatBytes(bytes)} of data, loaded by family`,
   ];
-  const books = atlas.book.map((file) => h("a", { href: file }, `Book: ${file}`));
-  return h(
-    "footer.footer",
-    h("p", facts.join(" · ")),
-    h(
-      "p",
-      books.map((book) => [book, " · "]),
-      `Generated by ${atlas.program}`,
-    ),
-  );
+  const books = atlas.book.map((file) => [h("a", { href: file }, `Book: ${file}`), " · "]);
+  return h("footer.footer", h("p", facts.join(" · ")), h("p", books, `Generated by ${atlas.program}`));
 }

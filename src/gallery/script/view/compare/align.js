@@ -16,21 +16,19 @@ export const ALIGNMENTS = {
   mirrored: "best fit with mirroring",
 };
 
-/** Parses a query: { names or null, view: "side" | "over", align }. @param {Query} query */
+/** Parses a query: { names or null, view: "side" | "over", align }. @param {AddressQuery} query */
 export function parseComparisonQuery(query) {
-  const names = query.get("c");
-  const align = query.get("align") ?? "";
   return {
-    names: names ? names.split(",").filter((name) => name.includes(":")) : null,
-    view: query.get("view") === "over" ? "over" : "side",
-    align: align in ALIGNMENTS ? align : "similar",
+    names: query.list("c", (name) => name.includes(":")) ?? null,
+    view: query.word("view", ["side", "over"]) ?? "side",
+    align: query.word("align", Object.keys(ALIGNMENTS)) ?? "similar",
   };
 }
 
 /** The inverse of parseComparisonQuery. */
-export function formatComparisonQuery(/** @type {ComparisonQuery} */ { view, align }, names) {
+export function formatComparisonQuery(/** @type {ComparisonQuery} */ { names, view, align }) {
   return {
-    c: names.join(","),
+    c: names?.join(","),
     view: view === "over" ? "over" : null,
     align: align === "similar" ? null : align,
   };

@@ -1,59 +1,43 @@
 // The view that compares pinned curves.
 
-import { address, matchesRoute, routeAddress } from "../../data/address.js";
+import { curveAddress, matchesRoute, routeAddress } from "../../data/address.js";
 import { curveCaption } from "../../data/family.js";
-import { buttonOf, fill, h, selectOf } from "../dom.js";
+import { buttonOf, fill, h, keepFocus, selectOf } from "../dom.js";
 import { formatCaption, formatChanges } from "../labels.js";
 import { exportMenu } from "../export/menu.js";
-import {
-  alignCurve,
-  ALIGNMENTS,
-  parseComparisonQuery,
-  formatComparisonQuery,
-  MAX_COMPARED,
-} from "./align.js";
+import { alignCurve, ALIGNMENTS, MAX_COMPARED } from "./align.js";
+import { formatComparisonQuery, parseComparisonQuery } from "./align.js";
 import { loadComparedCurve } from "./load-curve.js";
 import { factsTable } from "./facts.js";
+import { Store } from "../store.js";
 import { letterOf, overlaidPicture, sideBySidePictures, strokeSample, refinePicture } from "./picture.js";
 
-/** The route `#/compare?c=evans:12.1.1,watt:3.1.1&view=side|over&align=…`; opening it pins its curves. */
+/** The route `#/compare?c=evans:12.1.1,watt:3.1.1&view=side|over&align=…`; without names, one's own pins. */
 export const compareRoute = {
   name: "compare",
   label: "Compare",
   href: (app) => routeAddress("compare", { c: app.pins.names.join(",") }, app),
   matches: (target, app) => matchesRoute("compare", target, app),
   open: async (app, { query }) => {
-    const view = new CompareView(app);
-    await view.setQuery(parseComparisonQuery(query));
+    const view = new CompareView(app, query);
+    await view.refresh();
     return view;
   },
 };
 
-/**
- * Returns a function that restores the focus to the control with the same name after an element's content has
- * been replaced.
- */
-function keepFocus(element) {
-  const nameOf = (control) => control.id || control.getAttribute("aria-label") || control.textContent;
-  const focused = element.contains(document.activeElement) ? nameOf(document.activeElement) : null;
-  return () => {
-    if (focused === null || element.contains(document.activeElement)) return;
-    const again = [...element.querySelectorAll("button, select, a")].find(
-      (control) => nameOf(control) === focused && !control.disabled,
-    );
-    (again ?? element.querySelector("select, button"))?.focus();
-  };
-}
-
 class CompareView {
   title = "Compare";
-  /** @type {ComparisonQuery} */ query;
+  /** Whether one's own pins are compared, which follow. */ isOwn = true;
   /** The curves by their names. @type {Map<string, Awaited<ReturnType<typeof loadComparedCurve>>>} */
   loaded = new Map();
   stop = () => {};
 
-  constructor(/** @type {App} */ app) {
+  constructor(/** @type {App} */ app, /** @type {AddressQuery} */ query) {
     this.app = app;
+    this.store = new Store(app, this.stateOf(query), (state) =>
+      routeAddress("compare", formatComparisonQuery(state), app),
+    );
+    app.replace(this.store.address(this.query));
     this.body = h("div.comparison");
     this.tools = h("div.toolbar");
     this.exportSlot = h("div");
@@ -64,27 +48,36 @@ class CompareView {
       this.tools,
       this.body,
     );
-    this.unwatch = app.pins.watch(() => this.refresh());
+    this.store.watch((_, before) => before && this.refresh());
+    this.unwatch = app.pins.watch((names) => {
+      if (this.isOwn && String(names) !== String(this.query.names)) this.store.note({ names: [...names] });
+    });
   }
 
-  async setQuery(/** @type {ComparisonQuery} */ query) {
-    this.query = query;
-    if (query.names && String(query.names) !== String(this.app.pins.names)) this.app.pins.set(query.names);
-    else await this.refresh();
+  /** What is compared, and how. */
+  get query() {
+    return this.store.state;
   }
 
-  /** Shows the pinned curves and updates the address. */
+  /** The state of an address, which may be that of one's own pins. */
+  stateOf(/** @type {AddressQuery} */ query) {
+    const pinned = [...this.app.pins.names];
+    const { names, ...state } = parseComparisonQuery(query);
+    this.isOwn = names === null || String(names) === String(pinned);
+    return { ...state, names: names ?? pinned };
+  }
+
+  /** Shows the curves. */
   async refresh() {
-    const { app, query } = this;
-    const names = [...app.pins.names];
-    app.replace(routeAddress("compare", formatComparisonQuery(query, names), app));
+    const { app } = this;
+    const names = this.query.names;
     for (const name of names) {
       if (!this.loaded.has(name)) this.loaded.set(name, await loadComparedCurve(app, name));
     }
     // Without the kernel, curves are shown without their deviations.
     const kernel = await app.kernel.load().catch(() => null);
-    // The pins may have changed meanwhile.
-    if (String(names) !== String(app.pins.names)) return;
+    // Others may have been chosen meanwhile.
+    if (names !== this.query.names) return;
     const found = names.map((name) => this.loaded.get(name));
     const there = found.filter((one) => one !== undefined && "family" in one);
     const missing = found.filter((one) => one !== undefined && "reason" in one);
@@ -93,22 +86,34 @@ class CompareView {
     focused();
   }
 
-  update(/** @type {Target} */ { query }) {
-    this.setQuery(parseComparisonQuery(query));
+  update(/** @type {Target} */ { query }, isRetraced = false) {
+    const { isOwn } = this;
+    const state = this.stateOf(query);
+    if (isRetraced) this.isOwn = isOwn;
+    this.store.show(state);
+    if (isRetraced) this.pinOwn();
+    else this.app.replace(this.store.address(state));
     return true;
   }
 
-  choose(/** @type {"view" | "align"} */ name, value) {
-    this.query[name] = value;
-    this.refresh();
+  /** Changes which curves are compared. */
+  choose(/** @type {string[]} */ names) {
+    this.store.change({ names });
+    this.pinOwn();
+  }
+
+  pinOwn() {
+    if (this.isOwn) this.app.pins.set(this.query.names);
   }
 
   render(/** @type {Kernel | null} */ kernel, /** @type {ComparedCurve[]} */ all, missing) {
     const curves = all.slice(0, MAX_COMPARED);
-    const { query, app } = this;
+    const { query, app, isOwn } = this;
     const beyond = all.length - curves.length;
     const none = "No curves are pinned. Pin curves in Find (p), By shape, on a page or on a plate.";
-    const words = [all.length ? `${all.length} pinned` : none];
+    const words = [
+      all.length ? `${all.length} ${isOwn ? "pinned" : "curves, which are not your pins"}` : none,
+    ];
     if (beyond) words.push(`the first ${MAX_COMPARED} are compared`);
     fill(
       this.count,
@@ -134,28 +139,25 @@ class CompareView {
   }
 
   controls() {
-    const { query, app } = this;
+    const { query, store } = this;
     const view = (name, label) =>
-      buttonOf(label, () => this.choose("view", name), { "aria-pressed": String(query.view === name) });
-    const attributes = { id: "compare-align", onchange: () => this.choose("align", align.value) };
+      buttonOf(label, () => store.change({ view: name }), { "aria-pressed": String(query.view === name) });
+    const attributes = { id: "compare-align", onchange: () => store.change({ align: align.value }) };
     const align = selectOf(attributes, Object.entries(ALIGNMENTS), query.align);
     const views = [view("side", "Side by side"), view("over", "Overlay")];
     return [
       h("div.segments", { role: "group", "aria-label": "Show" }, views),
       h("span.field.row", h("label", { for: "compare-align" }, "Alignment"), align),
-      buttonOf("Unpin all", () => app.pins.set([]), { class: "quiet end" }),
+      this.isOwn
+        ? buttonOf("Unpin all", () => this.choose([]), { class: "quiet end" })
+        : buttonOf("Pin all", () => this.pinAll(), { class: "quiet end" }),
     ];
   }
 
-  entry(
-    /** @type {ComparedCurve} */ { name, family, curve, key, changes },
-    k,
-    count,
-    /** @type {Fit | null} */ fit,
-    picture,
-  ) {
-    const { app } = this;
+  entry(/** @type {ComparedCurve} */ one, k, count, /** @type {Fit | null} */ fit, picture) {
+    const { name, family, curve, key, changes } = one;
     const letter = letterOf(k);
+    const leave = this.isOwn ? "Unpin" : "Remove";
     const act = (label, words, onclick, disabled = false) =>
       buttonOf(label, onclick, { class: "quiet", "aria-label": words, disabled });
     const percent = (value) => `${(100 * value).toFixed(2)} %`;
@@ -163,7 +165,7 @@ class CompareView {
     const named = [
       h("b", letter),
       " ",
-      h("a", { href: address([family.id, "curve", key], changes) }, `${family.title}, ${key}`),
+      h("a", { href: curveAddress(family.id, key, changes) }, `${family.title}, ${key}`),
       h("p.caption", formatCaption(curveCaption(family, curve))),
       changes.size ? h("p.tag", formatCaption(formatChanges(changes))) : null,
       k > 0 && away ? h("p.deviation", away) : null,
@@ -171,20 +173,28 @@ class CompareView {
     const acts = [
       act("←", `Move ${letter} forward`, () => this.move(k, -1), k === 0),
       act("→", `Move ${letter} back`, () => this.move(k, 1), k + 1 === count),
-      act("Unpin", `Unpin ${letter}`, () => app.pins.toggle(name)),
+      act(leave, `${leave} ${letter}`, () => this.choose(this.query.names.filter((other) => other !== name))),
     ];
     return h("li", picture, h("div.named", named), h("div.acts", acts));
   }
 
   move(k, by) {
-    const names = [...this.app.pins.names];
+    const names = [...this.query.names];
     names.splice(k + by, 0, ...names.splice(k, 1));
-    this.app.pins.set(names);
+    this.choose(names);
     this.app.announce(`${names[k + by]} is now ${letterOf(k + by)}`);
+  }
+
+  /** Pins the curves too, after one's own, and compares them all. */
+  pinAll() {
+    const names = [...new Set([...this.app.pins.names, ...this.query.names])];
+    this.isOwn = true;
+    this.choose(names);
   }
 
   leave() {
     this.unwatch();
+    this.store.leave();
     this.stop();
     for (const one of this.loaded.values()) if ("release" in one) one.release();
   }

@@ -18,6 +18,7 @@ export function factsTable(curves, measures, labels) {
     );
     return h(differs ? "tr.differs" : "tr.same", h("th", { scope: "row" }, label), cells);
   };
+  const heads = labels.map((label) => h("th", { scope: "col" }, label));
   const identical = h("th.note", { scope: "rowgroup", colspan: curves.length + 1 }, "Identical");
   const same = rows.filter(({ differs }) => !differs);
   return h(
@@ -26,14 +27,7 @@ export function factsTable(curves, measures, labels) {
     h(
       "table.figures.compared-facts",
       h("caption.note", "Differences from the first curve are in bold."),
-      h(
-        "thead",
-        h(
-          "tr",
-          h("td"),
-          labels.map((label) => h("th", { scope: "col" }, label)),
-        ),
-      ),
+      h("thead", h("tr", h("td"), heads)),
       h("tbody", rows.filter(({ differs }) => differs).map(line)),
       same.length ? h("tbody.alike", h("tr", identical), same.map(line)) : null,
     ),

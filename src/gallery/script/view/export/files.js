@@ -1,6 +1,6 @@
 // Exports curves by name to files.
 
-import { parseCurveName } from "../../data/address.js";
+import { newLinkage, parseCurveName } from "../../data/address.js";
 import { findCurve } from "../../data/family.js";
 import { needCurveWithKey } from "../../data/needs.js";
 import { exportCommand, shortenCurveNames } from "../../export/command.js";
@@ -92,6 +92,8 @@ export async function exportCommandLine(app, names) {
   const families = new Map();
   for (const name of names) {
     const { family } = await parsedName(app, name);
+    if (newLinkage(family.id) !== null)
+      throw new Error(`${name} is in no manifest: copy it as a manifest fragment`);
     families.set(family.id, family);
   }
   return exportCommand(shortenCurveNames(names, families), names.length);

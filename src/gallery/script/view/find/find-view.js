@@ -4,7 +4,7 @@ import { filterColumns } from "../../find/columns.js";
 import { Filters, Orders, passingRows } from "../../find/filter.js";
 import { formatFindQuery, parseFindQuery } from "../../find/query.js";
 import { CurveTable } from "../../find/table.js";
-import { buttonOf, fill, h } from "../dom.js";
+import { buttonOf, fill, h, keepFocus } from "../dom.js";
 import { MAX_AUTOLOAD_BYTES, familyChooser, loadAllLine } from "./loading.js";
 import { loadTables, loadedCurves, requestedFamilies } from "./loading.js";
 import { findLayout, noResults } from "./layout.js";
@@ -12,6 +12,7 @@ import { FilterPanel } from "./panel.js";
 import { ResultRows } from "./rows.js";
 import { ResultTiles } from "./tiles.js";
 import { columnLabel, rowText } from "../labels.js";
+import { Store } from "../store.js";
 import { matchesRoute, routeAddress } from "../../data/address.js";
 
 const ADDRESS_DELAY = 250;
@@ -22,7 +23,7 @@ export const findRoute = {
   label: "Find",
   href: (app) => routeAddress("find", {}, app),
   matches: (target, app) => matchesRoute("find", target, app),
-  open: (app, { query }) => new FindView(app, parseFindQuery(query)),
+  open: (app, { query }) => new FindView(app, query),
 };
 
 export class FindView {
@@ -39,17 +40,21 @@ export class FindView {
   isLoaded = false;
   laying = 0;
   saying = 0;
-  writing = 0;
+  /** Whether the panel itself changes a filter. */ isFiltering = false;
   stop = () => {};
 
-  constructor(/** @type {App} */ app, /** @type {FindQuery} */ query) {
+  constructor(/** @type {App} */ app, /** @type {AddressQuery} */ query) {
     this.app = app;
-    this.query = query;
-    this.panel = new FilterPanel((name, filter) => this.setFilter(name, filter));
+    this.address = query;
+    this.store = new Store(app, this.stateOf(query), (state) =>
+      routeAddress("find", formatFindQuery(state), app),
+    );
+    this.panel = new FilterPanel((name, filter, isHeld) => this.setFilter(name, filter, isHeld));
     this.tiles = new ResultTiles(app);
+    const sortBy = (name, down) => this.store.change({ sort: { name, down } });
     this.list = new ResultRows(app, (name) => {
       const { sort } = this.query;
-      this.sortBy(name, sort.name === name && !sort.down);
+      sortBy(name, sort.name === name && !sort.down);
     });
     this.countLabel = h("p.counted", "Loading");
     this.loadAll = loadAllLine(() => {
@@ -62,15 +67,35 @@ export class FindView {
     this.results = h("div.found", { tabindex: "-1" });
     this.sorter = h("select", {
       id: "find-sort",
-      onchange: (event) => this.sortBy(event.target.value, this.query.sort.down),
+      onchange: (event) => sortBy(event.target.value, this.query.sort.down),
     });
-    this.direction = buttonOf("", () => this.sortBy(this.query.sort.name, !this.query.sort.down));
+    this.direction = buttonOf("", () => sortBy(this.query.sort.name, !this.query.sort.down));
     this.families = h("div.family-choice");
     const { element, displayButtons, clear } = findLayout(this);
     this.element = element;
     this.displayButtons = displayButtons;
     this.clear = clear;
     this.load();
+    this.store.watch((state, before) => before && this.changed(state, before));
+  }
+
+  /** What is searched for. */
+  get query() {
+    return this.store.state;
+  }
+
+  stateOf(/** @type {AddressQuery} */ query) {
+    return parseFindQuery(query, (id) => this.app.atlas.families.some((family) => family.id === id));
+  }
+
+  /** Shows what a gesture, or another address, has changed. @param {FindQuery} state @param {FindQuery} before */
+  changed(state, before) {
+    if (String(state.families) !== String(before.families)) this.load();
+    else if (state.filters !== before.filters && !this.isFiltering && this.isLoaded) {
+      const focused = keepFocus(this.panel.element);
+      this.applyQuery();
+      focused();
+    } else this.show();
   }
 
   /** Loads the tables of the requested families, up to the limit, and applies the query as they arrive. */
@@ -78,7 +103,7 @@ export class FindView {
     const { app, query } = this;
     this.stop();
     const listed = requestedFamilies(app.atlas, query.families);
-    const choose = (ids) => this.setQuery({ ...this.query, families: ids });
+    const choose = (ids) => this.store.change({ families: ids });
     fill(this.families, familyChooser(app.atlas, listed, choose));
     this.loadAll.show(null);
     const onLoad = (families, state) => this.setFamilies(families, state);
@@ -109,41 +134,27 @@ export class FindView {
       this.columns.map(({ name }) => h("option", { value: name }, columnLabel(name))),
     );
     this.show();
+    const { name } = this.query.sort;
+    if (name && !this.sortColumn) this.address.ignore("sort", `there is no “${name}”`);
   }
 
-  setFilter(name, /** @type {Filter | null} */ filter) {
-    if (filter) this.query.filters.set(name, filter);
-    else this.query.filters.delete(name);
+  /** Sets a filter; the gesture ends when nothing has followed, unless a handle is held. @param {Filter | null} filter */
+  setFilter(name, filter, isHeld = false) {
+    const filters = new Map(this.query.filters);
+    if (filter) filters.set(name, filter);
+    else filters.delete(name);
     const began = performance.now();
     this.filters.set(name, filter);
-    this.show();
+    this.isFiltering = true;
+    this.store.preview({ filters });
+    this.isFiltering = false;
     this.element.dataset.milliseconds = (performance.now() - began).toFixed(1);
-    this.writeAddress();
-  }
-
-  sortBy(name, down) {
-    this.query.sort = { name, down };
-    this.show();
-    this.writeAddress();
-  }
-
-  showAs(name) {
-    this.query.show = name;
-    this.show();
-    this.writeAddress();
-  }
-
-  setQuery(/** @type {FindQuery} */ query) {
-    const isOther = String(query.families) !== String(this.query.families);
-    this.query = query;
-    if (isOther) this.load();
-    else if (this.isLoaded) this.applyQuery();
-    this.writeAddress();
+    if (!isHeld) this.store.commitSoon(ADDRESS_DELAY);
   }
 
   /** Replaces all filters; the focus moves to the results, since the button that was pressed may be removed. */
   setFilters(/** @type {Map<string, Filter>} */ filters) {
-    this.setQuery({ ...this.query, filters });
+    this.store.change({ filters });
     this.results.focus({ preventScroll: true });
   }
 
@@ -205,19 +216,10 @@ export class FindView {
     fill(this.message, sentence);
   }
 
-  names() {
-    return Array.from(this.rows ?? [], (row) => this.table.curveOf(row).name);
-  }
-
-  writeAddress() {
-    window.clearTimeout(this.writing);
-    const write = () => this.app.replace(routeAddress("find", formatFindQuery(this.query), this.app));
-    this.writing = window.setTimeout(write, ADDRESS_DELAY);
-  }
-
   /** Handles another address of this route. */
   update(/** @type {Target} */ { query }) {
-    this.setQuery(parseFindQuery(query));
+    this.address = query;
+    this.store.show(this.stateOf(query));
     return true;
   }
 
@@ -231,14 +233,10 @@ export class FindView {
     cancelAnimationFrame(this.laying);
     this.tiles.end();
     this.list.end();
-    window.clearTimeout(this.writing);
+    this.store.leave();
     window.clearTimeout(this.saying);
     // A browser may keep form controls that were removed, and with them this view: its data are released.
     this.panel.release();
-    this.release();
-  }
-
-  release() {
     this.table = new CurveTable([]);
     this.orders = new Orders(this.table);
     this.filters = new Filters(this.table);

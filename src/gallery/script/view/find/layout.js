@@ -6,21 +6,19 @@ import { columnLabel, formatCount } from "../labels.js";
 
 /** The element of a view with its parts, and the buttons that it updates: { element, displayButtons, clear }. */
 export function findLayout(/** @type {FindView} */ view) {
-  const show = (name, label) => buttonOf(label, () => view.showAs(name), { "data-show": name });
+  const show = (name, label) =>
+    buttonOf(label, () => view.store.change({ show: name }), { "data-show": name });
   const displayButtons = [show("sheet", "Grid"), show("table", "Table")];
   const clear = buttonOf("Clear all filters", () => view.setFilters(new Map()), { class: "quiet" });
   const wide = window.matchMedia("(min-width: 60rem)").matches;
   const heading = h("div", h("h1", "Find"), view.countLabel, view.loadAll.element, view.message);
   const sorter = h("span.field.row", h("label", { for: "find-sort" }, "Sort by"), view.sorter);
   const display = h("div.segments.end", { role: "group", "aria-label": "Show as" }, displayButtons);
+  const take = exportMenu(view.app, () => Array.from(view.rows, (row) => view.table.curveOf(row).name));
   const panel = [h("summary", "Filters"), view.families, view.panel.element];
   const element = h(
     "div.view.wide.find-view",
-    h(
-      "div.head",
-      heading,
-      exportMenu(view.app, () => view.names()),
-    ),
+    h("div.head", heading, take),
     h(
       "div.find-split",
       h("details.find-panel", { open: wide }, panel),

@@ -4,7 +4,7 @@ import { fill, h, choiceBox } from "../dom.js";
 import { RangeFilter } from "./range-filter.js";
 import { columnLabel } from "../labels.js";
 
-/** Calls `changed(name, filter)` when a filter is changed; null removes it. */
+/** Calls `changed(name, filter, isHeld)` when a filter is changed, perhaps by a handle that is held; null removes it. */
 export class FilterPanel {
   constructor(changed) {
     this.changed = changed;
@@ -31,7 +31,7 @@ export class FilterPanel {
 
   /** @param {Column} column @param {CurveTable} table @param {Filter | undefined} filter */
   createFilter(column, table, filter) {
-    const changed = (next) => this.changed(column.name, next);
+    const changed = (next, isHeld) => this.changed(column.name, next, isHeld);
     const isRange = column.kind === "numbers";
     const one = isRange
       ? new RangeFilter(column, table, filter, changed)

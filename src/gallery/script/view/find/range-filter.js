@@ -5,7 +5,7 @@ import { buttonOf, h, s, setAttributes } from "../dom.js";
 import { columnLabel } from "../labels.js";
 import { NumberField } from "../number-field.js";
 
-/** Calls `changed(filter)` with { low, high } or null when a bound is changed. */
+/** Calls `changed(filter, isHeld)` with { low, high } or null when a bound is changed, perhaps by a handle that is held. */
 export class RangeFilter {
   /** @param {Column} column @param {CurveTable} table @param {Filter | undefined} filter */
   constructor(column, table, filter, changed) {
@@ -51,15 +51,10 @@ export class RangeFilter {
   }
 
   createInput(end, words) {
-    /** What has been typed, and not entered. @type {{ value?: number } | null} */ let typed = null;
     const units = this.column.unit === "deg" ? ["°", "deg"] : [];
-    const type = (value) => {
-      typed = { value };
-    };
-    const settle = () => {
-      if (typed && typed.value !== this.filter[end]) this.setFilter({ ...this.filter, [end]: typed.value });
-      typed = null;
-    };
+    const type = (/** @type {number | undefined} */ value) =>
+      this.setFilter({ ...this.filter, [end]: value }, true);
+    const settle = () => this.setFilter(this.filter);
     const attributes = {
       "aria-label": `${words}, ${end === "low" ? "at least" : "at most"}`,
       placeholder: formatBound(this.scale[end]),
@@ -68,10 +63,10 @@ export class RangeFilter {
   }
 
   /** Sets the filter, positions the handles and reports the change. @param {Bounds} _ */
-  setFilter({ low, high }) {
+  setFilter({ low, high }, isHeld = false) {
     this.filter = { low, high };
     this.render();
-    this.changed(low === undefined && high === undefined ? null : { low, high });
+    this.changed(low === undefined && high === undefined ? null : { low, high }, isHeld);
   }
 
   render() {
@@ -98,13 +93,13 @@ export class RangeFilter {
     this.front.setAttribute("d", histogramBars(this.scale, binCounts(this.scale, rows)));
   }
 
-  moveEnd(place, end) {
+  moveEnd(place, end, isHeld = false) {
     const other = end === "low" ? this.filter.high : this.filter.low;
     const isOpen = end === "low" ? place <= 0 : place >= 1;
     let value = isOpen ? undefined : Number(formatBound(this.scale.valueAt(place)));
     if (value !== undefined && other !== undefined)
       value = end === "low" ? Math.min(value, other) : Math.max(value, other);
-    this.setFilter({ ...this.filter, [end]: value });
+    this.setFilter({ ...this.filter, [end]: value }, isHeld);
   }
 
   startDrag(event) {
@@ -117,11 +112,12 @@ export class RangeFilter {
     event.preventDefault();
     this.ends[end === "low" ? 0 : 1].focus();
     this.track.setPointerCapture(event.pointerId);
-    const move = (moved) => this.moveEnd(placeOf(moved), end);
+    const move = (moved) => this.moveEnd(placeOf(moved), end, true);
     move(event);
     this.track.onpointermove = move;
     this.track.onlostpointercapture = () => {
       this.track.onpointermove = null;
+      this.setFilter(this.filter);
     };
   }
 

@@ -1,6 +1,6 @@
 // The results as a table; only the rows near the window are in the document.
 
-import { address } from "../../data/address.js";
+import { curveAddress } from "../../data/address.js";
 import { curveKey } from "../../data/family.js";
 import { buttonOf, fill, h, setAttributes } from "../dom.js";
 import { MAX_HEIGHT, scrollScale, printedCountNote, onPrint } from "../long-list.js";
@@ -108,7 +108,7 @@ export class ResultRows {
     if (!table) return null;
     const row = this.rows[k];
     const { family, curve, name } = table.curveOf(row);
-    const href = address([family.id, "curve", curveKey(family, curve)]);
+    const href = curveAddress(family.id, curveKey(family, curve));
     const link = h("a", { href, "data-name": name }, name);
     const cell = (/** @type {Column} */ column) =>
       h("td", { class: column.kind === "words" ? "text" : null }, rowText(table, column, row));

@@ -1,6 +1,6 @@
 // The results as a grid of thumbnails.
 
-import { address } from "../../data/address.js";
+import { curveAddress } from "../../data/address.js";
 import { curveCaption, curveKey } from "../../data/family.js";
 import { isFullyLoaded, needCurves } from "../../data/needs.js";
 import { elementIn, fill, h } from "../dom.js";
@@ -68,7 +68,7 @@ export class ResultTiles extends TileWindow {
       "li",
       h(
         "a",
-        { href: address([family.id, "curve", curveKey(family, curve)]), "data-name": name },
+        { href: curveAddress(family.id, curveKey(family, curve)), "data-name": name },
         h("span.tile-picture"),
         h("span.label"),
       ),

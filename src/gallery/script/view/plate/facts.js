@@ -1,6 +1,6 @@
 // The data of a curve: its origin, and its measures next to those of changed parameters.
 
-import { address } from "../../data/address.js";
+import { address, newLinkage } from "../../data/address.js";
 import { cellText, curveKey, measureValue, pageOfCurve } from "../../data/family.js";
 import { pageFile } from "../../data/atlas.js";
 import { figures, fill, h, termList } from "../dom.js";
@@ -38,15 +38,16 @@ export class MeasureTable {
     this.rows = app.atlas.measures.map((measure) =>
       measureRow(measure, measureValue(family, curve, measure.name), family.is_length),
     );
-    const body = h(
-      "tbody",
-      this.rows.map(({ element }) => element),
-    );
-    const headings = ["Measure", "Atlas", "Current", "Change"].map((word, k) =>
+    const rows = this.rows.map(({ element }) => element);
+    // A linkage in no atlas has values to start from.
+    const [from, words] =
+      newLinkage(family.id) === null ? ["Atlas", "of the atlas"] : ["Start", "at the start"];
+    this.words = `The measures ${words}, and those of the changed parameters, computed by this page.`;
+    const headings = ["Measure", from, "Current", "Change"].map((word, k) =>
       h("th", { scope: "col", class: ["text", "", "now", "now"][k] }, word),
     );
     this.note = h("p.note");
-    this.table = figures(".measures", "Measures of the curve", headings, body);
+    this.table = figures(".measures", "Measures of the curve", headings, h("tbody", rows));
     this.element = h("section.measures-section", h("h2", "Measures"), this.note, h("div.scroll", this.table));
     this.show(null);
   }
@@ -54,10 +55,7 @@ export class MeasureTable {
   /** `now` is { name: number or word } for changed parameters, or null if nothing is changed. */
   show(/** @type {Measured | null} */ now) {
     this.table.classList.toggle("with-changes", now !== null);
-    fill(
-      this.note,
-      now ? "The measures of the atlas, and those of the changed parameters, computed by this page." : [],
-    );
+    fill(this.note, now ? this.words : []);
     for (const row of this.rows) {
       const value = now?.[row.measure.name];
       // Measures that apply to neither are hidden.

@@ -27,15 +27,7 @@ export class PlateFigure {
   study = null;
   /** Why what was asked for cannot be drawn. @type {string | null} */
   reason = null;
-  /** What its address says. @type {PlateState} */
-  state = {
-    changes: new Map(),
-    requestedCircuit: null,
-    on: new Set(),
-    at: null,
-    locked: new Set(),
-    motion: STILL,
-  };
+  /** What its address says. @type {PlateState} */ state;
   /** The measures, if they are not those of the atlas. @type {Measured | null} */
   measured = null;
   /** @type {StraightPortion | null} */ portion = null;

@@ -1,6 +1,6 @@
 // The layout of a plate, and its keyboard commands.
 
-import { address } from "../../data/address.js";
+import { address, curveAddress } from "../../data/address.js";
 import { cellText, curveKey } from "../../data/family.js";
 import { fill, h, isShortcut } from "../dom.js";
 import { MeasureTable, curveOrigin } from "./facts.js";
@@ -113,7 +113,5 @@ function handlePlateKey(/** @type {Plate} */ plate, event) {
 /** The address of the previous (-1) or next (1) curve of a family; null at the ends. */
 export function neighbourAddress(/** @type {Family} */ family, curve, way) {
   const next = curve + way;
-  return next >= 0 && next < family.curves.count
-    ? address([family.id, "curve", curveKey(family, next)])
-    : null;
+  return next >= 0 && next < family.curves.count ? curveAddress(family.id, curveKey(family, next)) : null;
 }

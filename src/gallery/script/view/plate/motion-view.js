@@ -20,7 +20,7 @@ const radiansPerSecond = (/** @type {number} */ rpm) => (rpm * Math.PI) / 30;
  * What a graph shows of a motion at a place, and by which power of the input's speed it is multiplied.
  * @type {Record<string, { label: string, power: number, of: (motion: JointMotion, k: number) => number }>}
  */
-const QUANTITIES = {
+export const QUANTITIES = {
   speed: { label: "Speed", power: 1, of: ({ velocities: v }, k) => Math.hypot(v[2 * k], v[2 * k + 1]) },
   acceleration: {
     label: "Acceleration",
@@ -29,16 +29,8 @@ const QUANTITIES = {
   },
   x: { label: "Position x", power: 0, of: ({ positions }, k) => positions[2 * k] },
   y: { label: "Position y", power: 0, of: ({ positions }, k) => positions[2 * k + 1] },
-  mu: {
-    label: "Transmission angle",
-    power: 0,
-    of: ({ transmission_angles: angles }, k) => angles?.[k] ?? NaN,
-  },
-  advantage: {
-    label: "Mechanical advantage",
-    power: 0,
-    of: (motion, k) => 1 / QUANTITIES.speed.of(motion, k),
-  },
+  mu: { label: "Transmission angle", power: 0, of: ({ transmission_angles: of }, k) => of?.[k] ?? NaN },
+  advantage: { label: "Mechanical advantage", power: 0, of: (of, k) => 1 / QUANTITIES.speed.of(of, k) },
   torque: { label: "Input torque", power: 0, of: ({ torques }, k) => torques?.[k] ?? NaN },
 };
 
@@ -87,7 +79,7 @@ export class MotionView {
   }
 
   get #quantity() {
-    return QUANTITIES[this.#state.graph] ?? QUANTITIES.speed;
+    return QUANTITIES[this.#state.graph];
   }
 
   /** By what a rate of a power is multiplied. */
@@ -108,7 +100,7 @@ export class MotionView {
     );
     this.joints.value = shown;
     this.joint = shown === study.joints[study.joint] ? study.joint : study.joints.indexOf(shown);
-    this.quantity.value = graph in QUANTITIES ? graph : "speed";
+    this.quantity.value = graph;
     this.rpm.show(rpm ?? undefined);
     this.speedField.hidden = study.is_length;
     if (document.activeElement !== this.load) this.load.value = load ?? "";

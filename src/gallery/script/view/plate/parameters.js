@@ -77,17 +77,21 @@ export function roundedToGrain(value, grain) {
   return Number((Math.round(value / grain) * grain).toFixed(Math.min(decimals, 12)));
 }
 
+/** The names of values of a curve with a movable traced point or null. @param {Family} family @param {MovablePoint | null} point */
+export function changeableNames(family, point) {
+  return point ? [...family.names, `${point.name}.along`, `${point.name}.across`] : family.names;
+}
+
 /**
- * The changes in a query (a Map of words) of a curve with a movable traced point or null; names that cannot be
- * changed are ignored.
- * @param {Family} family @param {MovablePoint | null} point @param {Query} query
+ * The changes in a query of a curve with a movable traced point or null.
+ * @param {Family} family @param {MovablePoint | null} point @param {AddressQuery} query
  */
 export function parseChanges(family, point, query) {
-  const known = new Set([...family.names, ...(point ? [`${point.name}.along`, `${point.name}.across`] : [])]);
-  const changes = new Map();
-  for (const [name, word] of query) {
-    const value = Number(word);
-    if (known.has(name) && word.trim() !== "" && Number.isFinite(value)) changes.set(name, value);
+  /** @type {Map<string, number>} */ const changes = new Map();
+  const names = changeableNames(family, point);
+  for (const name of query.keys()) {
+    const value = names.includes(name) ? query.number(name) : undefined;
+    if (value !== undefined) changes.set(name, value);
   }
   return changes;
 }

@@ -1,42 +1,59 @@
 // The query of a plate's address: changed parameters, the circuit, the overlays, and the input.
 
-import { address } from "../../data/address.js";
+import { curveAddress } from "../../data/address.js";
 import { findCurve, curveKey } from "../../data/family.js";
 import { STILL } from "./figure.js";
 import { OVERLAYS } from "./overlays.js";
-import { parseChanges } from "./parameters.js";
+import { QUANTITIES } from "./motion-view.js";
+import { changeableNames, parseChanges } from "./parameters.js";
 
 /**
  * Parses the query of a curve with a movable traced point or null; `requestedCircuit` is the index of a circuit
  * among all, or null, `on` are the names of overlays; `locked` are the names that handles
  * leave; `at` is the input, "63.5", perhaps with the number of its
  * pass, "63.5,2".
- * @param {Family} family @param {MovablePoint | null} point @param {Query} query @returns {PlateState}
+ * @param {Family} family @param {MovablePoint | null} point @param {AddressQuery} query @returns {PlateState}
  */
 export function readPlateQuery(family, point, query) {
-  const circuit = Number(query.get("circuit"));
-  const shown = query.get("show");
+  const circuit = query.number("circuit", 1);
   const [input, pass = 1] = (query.get("at") || "?").split(",").map(Number);
-  const isOn = (overlay) => (shown === undefined ? overlay.isOn : shown.split(",").includes(overlay.name));
+  const hasPlace = Number.isFinite(input) && pass >= 1;
+  if (query.get("at") && !hasPlace) query.ignore("at", "not an input");
+  const shown = query.list(
+    "show",
+    (word) => word === "nothing" || OVERLAYS.some(({ name }) => name === word),
+  );
+  const isOn = (overlay) => (shown ? shown.includes(overlay.name) : overlay.isOn);
+  const isName = (/** @type {string} */ name) => changeableNames(family, point).includes(name);
   return {
     changes: parseChanges(family, point, query),
-    requestedCircuit: Number.isInteger(circuit) && circuit > 0 ? circuit - 1 : null,
+    requestedCircuit: circuit === undefined ? null : Math.floor(circuit) - 1,
     on: new Set(OVERLAYS.filter(isOn).map(({ name }) => name)),
-    motion: motionOfQuery(query),
-    locked: new Set(query.get("lock")?.split(",").filter(Boolean)),
-    at: Number.isFinite(input) && pass >= 1 ? { input, pass: Math.floor(pass) - 1 } : null,
+    motion: {
+      joint: query.get("joint") || STILL.joint,
+      graph: query.word("graph", Object.keys(QUANTITIES)) ?? STILL.graph,
+      rpm: query.number("rpm") ?? STILL.rpm,
+      load: query.get("load") || STILL.load,
+    },
+    locked: new Set(query.list("lock", isName)),
+    at: hasPlace ? { input, pass: Math.floor(pass) - 1 } : null,
   };
 }
 
-/** What is shown of the motion. @param {Query} query @returns {MotionState} */
-function motionOfQuery(query) {
-  const rpm = Number(query.get("rpm"));
-  return {
-    joint: query.get("joint") || STILL.joint,
-    graph: query.get("graph") || STILL.graph,
-    rpm: query.get("rpm") && Number.isFinite(rpm) ? rpm : STILL.rpm,
-    load: query.get("load") || STILL.load,
-  };
+/** Says what of an address the linkage does not have, which is known when it has been solved. @param {AddressQuery} query */
+export function ignoreUnused(query, /** @type {Plate} */ { study, reason, state, drive: { place } }) {
+  const { requestedCircuit: circuit, at, motion } = state;
+  if (!study || reason) return;
+  if (circuit !== null && circuit !== study.shown) query.ignore("circuit", `of ${study.circuits.length}`);
+  if (motion.joint !== null && !study.joints.includes(motion.joint)) query.ignore("joint", "unknown");
+  if (at && (at.pass !== place.pass || Math.abs(at.input - place.input) > 1e-6))
+    query.ignore("at", "outside of the circuit");
+}
+
+/** A set with a member, or without it. @param {Set<string>} set @param {string} member @param {boolean} isIn */
+export function withMember(set, member, isIn) {
+  const others = [...set].filter((one) => one !== member);
+  return new Set(isIn ? [...others, member] : others);
 }
 
 /** The shortest address of a plate in a state; defaults are left out. @param {Plate} _ @param {PlateState} state */
@@ -53,7 +70,7 @@ export function plateAddress(
     if (value !== null && value !== STILL[name]) query.set(name, String(value));
   if (locked.size) query.set("lock", [...locked].join(","));
   if (at) query.set("at", `${Number(at.input.toPrecision(10))}${at.pass > 0 ? `,${at.pass + 1}` : ""}`);
-  return address([family.id, "curve", curveKey(family, curve)], query);
+  return curveAddress(family.id, curveKey(family, curve), query);
 }
 
 /**

@@ -7,7 +7,8 @@ import { Handles } from "./handles.js";
 import { plateLayout, watchKeys } from "./layout.js";
 import { changeableParameters, isRecordedValue } from "./parameters.js";
 import { recordedPath } from "./paths.js";
-import { plateCurveName, isExtraCircuit, plateAddress, readPlateQuery } from "./plate-query.js";
+import { ignoreUnused, plateAddress, readPlateQuery, withMember } from "./plate-query.js";
+import { isExtraCircuit, plateCurveName } from "./plate-query.js";
 import { Resting } from "./resting.js";
 import { Sliders } from "./sliders.js";
 import { recordedValues, studyOf, summaryOfStudy } from "./study.js";
@@ -27,7 +28,7 @@ export class Plate extends PlateFigure {
   /** The path data of the curve of the atlas, once it is needed. @type {string | null} */
   ghost = null;
 
-  /** @param {App} app @param {Kernel} kernel @param {Family} family @param {number} curve @param {Query} query */
+  /** @param {App} app @param {Kernel} kernel @param {Family} family @param {number} curve @param {AddressQuery} query */
   constructor(app, kernel, family, curve, query) {
     super(family, curve);
     this.app = app;
@@ -38,6 +39,7 @@ export class Plate extends PlateFigure {
     this.sliders = new Sliders(family.legend, this);
     this.switches = new Switches(this);
     this.measures = new MeasureTable(app, family, curve);
+    this.query = query;
     this.store = new Store(app, this.#stateOf(query), (state) => plateAddress(this, state));
     this.store.watch((state, before) => this.#stateChanged(state, before));
     this.handles = new Handles(this);
@@ -64,7 +66,8 @@ export class Plate extends PlateFigure {
     this.stage.fit();
     const isStill = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
     if (this.state.at) this.drive.moveTo(this.state.at);
-    else if (!isStill) this.drive.toggle(true);
+    ignoreUnused(this.query, this);
+    if (!this.state.at && !isStill) this.drive.toggle(true);
   }
 
   leave() {
@@ -77,9 +80,10 @@ export class Plate extends PlateFigure {
     this.resting.end();
   }
 
-  /** Handles another query of the same curve's address. @param {Query} query */
+  /** Handles another query of the same curve's address. @param {AddressQuery} query */
   setQuery(query) {
     const { requestedCircuit } = this.state;
+    this.query = query;
     this.store.show(this.#stateOf(query));
     this.resting.now();
     const { at } = this.state;
@@ -87,10 +91,11 @@ export class Plate extends PlateFigure {
       this.drive.pause();
       this.drive.moveTo(at);
     } else if (this.state.requestedCircuit !== requestedCircuit && !this.reason) this.beginCircuit();
+    ignoreUnused(this.query, this);
     return true;
   }
 
-  /** The state of an address, without values that are those of the atlas. @param {Query} query */
+  /** The state of an address, without values that are those of the atlas. @param {AddressQuery} query */
   #stateOf(query) {
     const state = readPlateQuery(this.family, this.recorded.point, query);
     return { ...state, changes: this.#changesWith([], state.changes) };
@@ -178,10 +183,7 @@ export class Plate extends PlateFigure {
 
   /** Locks a value, which handles leave as it is then, or unlocks it. */
   lock(name, isLocked) {
-    const locked = new Set(this.state.locked);
-    if (isLocked) locked.add(name);
-    else locked.delete(name);
-    this.store.change({ locked });
+    this.store.change({ locked: withMember(this.state.locked, name, isLocked) });
   }
 
   clear(name) {
@@ -227,10 +229,7 @@ export class Plate extends PlateFigure {
 
   /** Shows or hides an overlay. */
   overlay(name, isOn) {
-    const on = new Set(this.on);
-    if (isOn) on.add(name);
-    else on.delete(name);
-    this.store.change({ on });
+    this.store.change({ on: withMember(this.on, name, isOn) });
   }
 
   changeMotion(/** @type {Partial<MotionState>} */ changes) {

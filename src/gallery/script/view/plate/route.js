@@ -1,16 +1,17 @@
 // The route of a curve's plate.
 
+import { curveOfPath, newLinkage } from "../../data/address.js";
 import { holdPieces, needCurveWithKey, piecesOfCurves } from "../../data/needs.js";
 import { stillPlateLayout } from "./layout.js";
 import { Plate } from "./plate.js";
 
-/** The route `#/evans/curve/12.1.1?p=2.5`: the linkage of a curve in motion. */
+/** The route `#/evans/curve/12.1.1?p=2.5`, or `#/new/four-bar?crank=1.2`: the linkage of a curve in motion. */
 export const plateRoute = {
   name: "curve",
   parent: "families",
-  matches: ({ path }) => path.length === 3 && path[1] === "curve",
+  matches: ({ path }) => curveOfPath(path) !== null,
   open: async (app, target) => {
-    const [id, , key] = target.path;
+    const { id = "", key } = curveOfPath(target.path) ?? {};
     // The kernel is loaded meanwhile.
     app.kernel.load().catch(() => {});
     const family = await app.atlas.family(id);
@@ -21,7 +22,7 @@ export const plateRoute = {
     return {
       title: `${family.title}, ${key}`,
       element: plate.element,
-      update: ({ path, query }) => path[0] === id && path[2] === key && plate.setQuery(query),
+      update: ({ path, query }) => String(path) === String(target.path) && plate.setQuery(query),
       shown: () => plate.shown(),
       leave: () => {
         release();
@@ -31,9 +32,17 @@ export const plateRoute = {
   },
 };
 
+/** The route of a plate of a linkage in no family. */
+export const newPlateRoute = {
+  ...plateRoute,
+  name: "new-curve",
+  parent: "new",
+  matches: ({ path }) => newLinkage(curveOfPath(path)?.id ?? "") !== null,
+};
+
 /**
  * The plate of a curve; without the kernel, one that stands still and says so.
- * @param {App} app @param {Family} family @param {Query} query
+ * @param {App} app @param {Family} family @param {AddressQuery} query
  */
 async function openPlate(app, family, curve, query) {
   try {

@@ -5,8 +5,8 @@ import { NumberField } from "../number-field.js";
 import { roundedToGrain } from "./parameters.js";
 
 const PARAMETER_KINDS = {
-  free: "varied in the atlas",
-  fixed: "constant in the atlas",
+  free: "free",
+  fixed: "constant",
   derived: "derived from other parameters",
   unlinked: "unlinked",
 };
@@ -101,11 +101,7 @@ export class Sliders {
       {
         change: (value) => on.change(name, value),
         settle: () => on.settle(),
-        step: (by) =>
-          on.change(
-            name,
-            roundedToGrain(row.parameter.value + by * row.parameter.grain, row.parameter.grain),
-          ),
+        step: (by) => stepParameter(row.parameter, by, on),
       },
     );
     row.field = row.number.element;
@@ -133,9 +129,11 @@ function stepSlider(event, row, /** @type {Plate} */ on) {
   const ways = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -20, PageUp: 20 };
   if (!(event.key in ways) || isShortcut(event)) return;
   event.preventDefault();
-  const { name, value, grain } = row.parameter;
-  const by = ways[event.key] * (event.shiftKey ? 10 : 1) * grain;
-  on.change(name, roundedToGrain(value + by, grain));
+  stepParameter(row.parameter, ways[event.key] * (event.shiftKey ? 10 : 1), on);
+}
+
+function stepParameter(/** @type {Parameter} */ { name, value, grain }, by, /** @type {Plate} */ on) {
+  on.change(name, roundedToGrain(value + by * grain, grain));
 }
 
 function toggleLink(/** @type {Parameter} */ { name, kind, value }, /** @type {Plate} */ on) {

@@ -145,6 +145,6 @@ export function summaryOfStudy(family, curve, study, isRecorded) {
         `to ${formatDecimals(of("mu_max_deg"), 1)} degrees.`,
     );
   }
-  if (!isRecorded) words.push("Its parameters or its circuit differ from the atlas.");
+  if (!isRecorded) words.push("Its parameters or its circuit are changed.");
   return words.join(" ");
 }

@@ -17,15 +17,9 @@ export class Switches {
     this.circuits = h("div.circuits", { role: "radiogroup", "aria-label": "Circuits" });
     this.aside = h("p.note", { hidden: true }, "The atlas does not contain this circuit.");
     this.circuitSection = h("section.gauge.circuits-gauge", h("h3", "Circuits"), this.circuits, this.aside);
-    this.element = h(
-      "section.gauge.switches",
-      h("h3", "Overlays"),
-      h(
-        "div.checks",
-        this.boxes.map(({ element }) => element),
-      ),
-      this.lengths,
-    );
+    const boxes = this.boxes.map(({ element }) => element);
+    const checks = h("div.checks", boxes);
+    this.element = h("section.gauge.switches", h("h3", "Overlays"), checks, this.lengths);
   }
 
   /**
@@ -39,26 +33,16 @@ export class Switches {
     }
     this.#cognates(study, on);
     const circuits = candidates?.circuits ?? [];
-    fill(
-      this.circuits,
-      circuits.map((circuit, k) => this.#circuit(candidates, circuit, k)),
-    );
+    const choices = circuits.map((circuit, k) => this.#circuit(candidates, circuit, k));
+    fill(this.circuits, choices);
     this.circuitSection.hidden = circuits.length < 2;
     this.aside.hidden = !isExtra;
   }
 
-  /** @param {Candidates} _ @param {Circuit} circuit */
-  #circuit(
-    /** @type {Candidates} */ { is_length: isLength, home, shown },
-    /** @type {Circuit} */ circuit,
-    k,
-  ) {
-    const attributes = {
-      name: "circuit",
-      value: k + 1,
-      checked: k === shown,
-      onchange: () => this.on.circuit(k),
-    };
+  /** @param {Candidates} _ @param {Circuit} circuit @param {number} k */
+  #circuit({ is_length: isLength, home, shown }, circuit, k) {
+    const onchange = () => this.on.circuit(k);
+    const attributes = { name: "circuit", value: k + 1, checked: k === shown, onchange };
     const words = `${k + 1}: ${circuitTitle(isLength, circuit)}`;
     const label = h("span", words, k === home ? h("span.note", " · this curve") : null);
     return choiceBox("radio", attributes, label).element;
@@ -74,10 +58,8 @@ export class Switches {
       h("th.text", { scope: "row" }, name),
       pair.lengths.map((lengths) => h("td", formatLength(lengths[name]))),
     ];
-    const body = h(
-      "tbody",
-      names.map((name) => h("tr", row(name))),
-    );
-    fill(this.lengths, h("div.scroll", figures("", "The three four-bars that trace this curve", head, body)));
+    const rows = names.map((name) => h("tr", row(name)));
+    const table = figures("", "The three four-bars that trace this curve", head, h("tbody", rows));
+    fill(this.lengths, h("div.scroll", table));
   }
 }
