@@ -39,6 +39,42 @@ addTest(
 );
 
 addTest(
+  "7.1b",
+  "captions of thumbnails are shown in full, and no tile covers another one",
+  startAt(atlas, "/roberts?show=curves"),
+  async (g, page) => {
+    for (const fragment of ["/roberts?show=curves", "/find", "/find?sort=-length"]) {
+      await g.go(fragment);
+      const tiles = () =>
+        page.locator(".window > li").evaluateAll((all) =>
+          all.map((tile) => {
+            const [frame, label] = [tile, tile.querySelector(".label")].map((one) =>
+              one.getBoundingClientRect(),
+            );
+            return frame.bottom - label.bottom;
+          }),
+        );
+      await eventually(async () => {
+        const all = await tiles();
+        return all.length > 5 && all.every((room) => room >= -0.5);
+      }, `captions have room at ${fragment}`);
+      const clipped = await page
+        .locator(".window .label")
+        .evaluateAll(
+          (labels) => labels.filter((label) => label.scrollHeight > label.clientHeight + 1).length,
+        );
+      assert.equal(clipped, 0, fragment);
+    }
+    // The caption of this family has three lines.
+    await g.go("/roberts?show=curves");
+    await eventually(
+      async () => (await page.locator(".window .label").first().boundingBox()).height > 45,
+      "three lines are shown",
+    );
+  },
+);
+
+addTest(
   "7.2",
   "everything can be reached by Tab alone, with a visible focus and no trap",
   startAt(atlas, "/evans/1"),

@@ -1,14 +1,14 @@
 // Thumbnails of curves, from the stored points: SVG in the colours of the theme, for screen and print.
 
 import { curveBox, curveOutline } from "../data/family.js";
-import { placedData } from "../draw/path-data.js";
+import { smoothData } from "../draw/path-data.js";
 import { boxOfPoints, fittedView } from "../draw/plane-view.js";
 import { s, setAttributes, thumbnailFrame } from "./dom.js";
 
 // The margin of a thumbnail, in pixels.
 const THUMBNAIL_INSET = 3;
 // Points closer than this, in pixels, are merged.
-const THUMBNAIL_GRAIN = 0.6;
+const THUMBNAIL_GRAIN = 0.1;
 
 /**
  * Curves of a family in one frame, at one scale, y up: an SVG element of `width` × `height` pixels, hidden
@@ -36,5 +36,5 @@ export function thumbnail(family, curves, { width, height, plain = curves.length
  */
 export function curvePath(family, curve, { scale, origin: [x, y] }, grain) {
   const { points, closed } = curveOutline(family, curve);
-  return placedData(points, closed, { scale, x, y }, grain < 0.1 ? 3 : 1, grain);
+  return smoothData(points, closed, { scale, x, y }, grain < 0.1 ? 3 : 1, grain);
 }

@@ -30,6 +30,8 @@ export class TileWindow {
   /** The size of a tile, in pixels, and that of its picture at a width. */
   wide = 0;
   high = 0;
+  /** The height of the text below the pictures: that of the highest one so far. */
+  below = 0;
   sizedAt = 0;
   pictureSize = { width: 40, height: 40 };
   filledAt = window.scrollY;
@@ -97,9 +99,11 @@ export class TileWindow {
     const { count } = this;
     const { gap, least, aspect, below } = this.options;
     const width = this.element.clientWidth;
+    const wide = this.wide;
     this.columns = Math.max(1, Math.floor((width + gap) / (Math.min(least, width) + gap)));
     this.wide = (width - gap * (this.columns - 1)) / this.columns;
-    this.high = Math.round(this.wide * aspect) + below;
+    this.below = this.wide === wide ? Math.max(this.below, below) : below;
+    this.high = Math.round(this.wide * aspect) + this.below;
     const height = Math.ceil(count / this.columns) * this.pitch - gap;
     this.scale = scrollScale(height, window.innerHeight);
     this.element.style.height = `${Math.min(height, MAX_HEIGHT)}px`;
@@ -200,6 +204,7 @@ export class TileWindow {
   drawSome(time = DRAWING_TIME) {
     const end = performance.now() + time;
     this.queue = this.queue.filter((k) => this.there.has(k));
+    this.makeRoom();
     while (this.queue.length && performance.now() < end) {
       const k = this.queue.shift() ?? 0;
       const element = this.there.get(k);
@@ -209,6 +214,17 @@ export class TileWindow {
       else this.prepare(element, k);
     }
     if (this.queue.length) this.drawSoon();
+  }
+
+  /** Makes all tiles as high as the highest text needs; the row at the top of the window stays there. */
+  makeRoom() {
+    const heights = this.queue.map((k) => this.there.get(k)?.querySelector(".label")?.scrollHeight ?? 0);
+    const more = Math.max(0, ...heights) - this.below;
+    if (more <= 0 || this.paper?.isPrinting) return;
+    const row = Math.floor(-this.element.getBoundingClientRect().top / this.pitch);
+    this.below += more;
+    this.measure();
+    if (row > 0 && this.scale === 1) window.scrollBy(0, row * more);
   }
 
   /** Puts the first tiles into the document, and no others, for printing. */
