@@ -1,6 +1,6 @@
 // The view that finds curves by their measures.
 
-import { filterColumns } from "../../find/columns.js";
+import { beginsWithGreatest, filterColumns } from "../../find/columns.js";
 import { Filters, Orders, passingRows } from "../../find/filter.js";
 import { formatFindQuery, parseFindQuery } from "../../find/query.js";
 import { CurveTable } from "../../find/table.js";
@@ -49,7 +49,7 @@ export class FindView {
     this.tiles = new ResultTiles(app);
     this.list = new ResultRows(app, (name) => {
       const { sort } = this.query;
-      this.sortBy(name, sort.name === name && !sort.down);
+      this.sortBy(name, sort.name === name ? !sort.down : beginsWithGreatest(name));
     });
     this.countLabel = h("p.counted", "Loading");
     this.loadAll = loadAllLine(() => {
@@ -62,7 +62,7 @@ export class FindView {
     this.results = h("div.found", { tabindex: "-1" });
     this.sorter = h("select", {
       id: "find-sort",
-      onchange: (event) => this.sortBy(event.target.value, this.query.sort.down),
+      onchange: (event) => this.sortBy(event.target.value, beginsWithGreatest(event.target.value)),
     });
     this.direction = buttonOf("", () => this.sortBy(this.query.sort.name, !this.query.sort.down));
     this.families = h("div.family-choice");
