@@ -239,6 +239,57 @@ addTest(
   },
 );
 
+addTest(
+  "7.7b",
+  "the key ? lists the keys that work in the view, and they do",
+  startAt(atlas, "/evans/curve/3.1.1", { reducedMotion: "reduce" }),
+  async (g, page) => {
+    const dialog = page.getByRole("dialog", { name: "Keys" });
+    const listed = async () => {
+      await page.keyboard.press("?");
+      const text = await dialog.innerText();
+      const close = dialog.getByRole("button", { name: "Close" });
+      assert.ok(await close.evaluate((button) => button === document.activeElement));
+      await page.keyboard.press("Escape");
+      await eventually(async () => (await dialog.count()) === 0, "Escape closes it");
+      return text;
+    };
+    const plate = await listed();
+    assert.match(plate, /On the plate.*Space.*On a handle/s);
+    assert.doesNotMatch(plate, /On the page|On the pad|undo/);
+    const input = () => page.getByLabel("Input", { exact: true }).inputValue();
+    await page.keyboard.press("ArrowRight");
+    const before = await input();
+    await page.keyboard.press("End");
+    await eventually(async () => (await input()) !== before, "End works from anywhere");
+    await page.keyboard.press("Home");
+    await eventually(async () => parseFloat(await input()) === 0, "Home works from anywhere");
+    // What is typed in a field is no command.
+    await page.getByLabel("Input", { exact: true }).press("?");
+    assert.equal(await dialog.count(), 0);
+    await page.getByLabel("centrodes").check();
+    await page.keyboard.press("?");
+    assert.match(await dialog.innerText(), /Ctrl\+Z/);
+    await page.keyboard.press("]");
+    await dialog.getByRole("button", { name: "Close" }).click();
+    assert.match(await g.fragment(), /^\/evans\/curve\/3.1.1/, "keys do not apply while it is open");
+    await g.go("/evans/1");
+    assert.match(await listed(), /On the page.*On a curve of the page/s);
+    await g.go("/find");
+    await page.locator(".results a").first().waitFor();
+    assert.match(await listed(), /In curves.*pin or unpin/s);
+    await g.go("/shape");
+    assert.match(await listed(), /On the pad.*close the curve/s);
+    await page.locator(".pad").focus();
+    for (const key of ["Enter", "ArrowRight", "Enter", "Shift+ArrowDown", "Enter", "Shift+C"])
+      await page.keyboard.press(key);
+    assert.match(await page.locator(".pad .drawn").getAttribute("d"), /Z$/, "C closes the curve");
+    await g.go("/");
+    await page.getByRole("button", { name: "Keys" }).click();
+    assert.match(await dialog.innerText(), /^Keys\s+In all views/);
+  },
+);
+
 addTest("7.8", "titles with markup are shown as text", null, async ({ browser }) => {
   const odd = oddAtlas(atlas);
   try {

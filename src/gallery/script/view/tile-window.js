@@ -1,7 +1,8 @@
 // A grid of any number of tiles, of which only those near the window are in the document.
 
 import { whenLoaded } from "../data/needs.js";
-import { h, setAttributes, isShortcut } from "./dom.js";
+import { h, setAttributes } from "./dom.js";
+import { onKeys } from "./keys.js";
 import { MAX_HEIGHT, scrollScale, printedCountNote, onPrint } from "./long-list.js";
 
 // The time per frame, in milliseconds, for drawing tiles that have become visible.
@@ -40,7 +41,13 @@ export class TileWindow {
   constructor(/** @type {TileOptions} */ options) {
     this.count = options.count;
     this.options = options;
-    this.element = h("ul.window", { "aria-label": options.label, onkeydown: (event) => this.typed(event) });
+    this.element = h("ul.window", { "aria-label": options.label });
+    const typed = (event) => this.typed(event);
+    onKeys(this.element, `In ${options.label.toLowerCase()}`, [
+      ["ArrowLeft ArrowRight ArrowUp ArrowDown", "the next one in this direction", typed],
+      ["PageUp PageDown", "a screen back or on", typed],
+      ["Home End", "first or last", typed],
+    ]);
     this.element.style.setProperty("--shape", `1 / ${options.aspect}`);
     this.element.style.setProperty("--least", `${options.least}px`);
     this.sizes = new ResizeObserver(() => this.measure());
@@ -244,12 +251,10 @@ export class TileWindow {
 
   typed(event) {
     const at = [...this.there].find(([, element]) => element.contains(event.target))?.[0];
-    if (at === undefined || isShortcut(event)) return;
+    if (at === undefined) return false;
     const screen = Math.max(1, Math.floor(window.innerHeight / this.pitch)) * this.columns;
     const down = { ArrowDown: this.columns, ArrowUp: -this.columns, PageDown: screen, PageUp: -screen };
     const by = { ArrowRight: 1, ArrowLeft: -1, Home: -this.count, End: this.count, ...down }[event.key];
-    if (by === undefined) return;
-    event.preventDefault();
-    this.show(Math.min(Math.max(at + by, 0), this.count - 1));
+    return this.show(Math.min(Math.max(at + by, 0), this.count - 1));
   }
 }

@@ -36,7 +36,7 @@ export class ResultTiles extends TileWindow {
     });
     this.app = app;
     this.element.classList.add("results");
-    this.element.addEventListener("keydown", pinOnKey);
+    pinOnKey(this.element);
     this.unwatch = watchPins(app, this.element);
   }
 

@@ -3,7 +3,8 @@
 import { simplified } from "../../shape/encode.js";
 import { looksClosed } from "../../shape/outline.js";
 import { boxOfPoints, fittedView, pointPairs, screenPoint } from "../../draw/plane-view.js";
-import { fill, h, s, isShortcut } from "../dom.js";
+import { fill, h, s } from "../dom.js";
+import { onKeys } from "../keys.js";
 
 const PAD_WIDTH = 400;
 const PAD_HEIGHT = 300;
@@ -38,13 +39,23 @@ export class DrawingPad {
         "aria-label": "Drawing pad",
         "aria-describedby": "pad-help",
         onpointerdown: (event) => this.startStroke(event),
-        onkeydown: (event) => this.handleKey(event),
       },
       s("path.grid", { d: gridLines() }),
       this.line,
       this.dots,
       this.cross,
     );
+    onKeys(this.element, "On the pad", [
+      [
+        "ArrowLeft ArrowRight ArrowUp ArrowDown",
+        "move the pen; with Shift further",
+        (event) => this.movePen(event),
+      ],
+      ["Enter Space", "add a point", () => this.addPoint()],
+      ["Backspace", "remove the last point", () => this.removePoint()],
+      ["c", "close the curve", () => this.finish(true)],
+      ["Escape", "clear", () => this.clear()],
+    ]);
     const keys =
       "Draw in one stroke. Keys: arrows move the pen (Shift: further), Enter adds a point, " +
       "Backspace removes the last point, C closes the curve, Escape clears it.";
@@ -115,21 +126,10 @@ export class DrawingPad {
     this.ondrawn(flat.length > 600 ? simplified(flat, this.closed, 300) : flat, this.closed);
   }
 
-  handleKey(event) {
+  movePen(event) {
     const step = event.shiftKey ? 5 * PEN_STEP : PEN_STEP;
-    const move = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step] }[
-      event.key
-    ];
-    const acts = {
-      Enter: () => this.addPoint(),
-      " ": () => this.addPoint(),
-      Backspace: () => this.removePoint(),
-      Escape: () => this.clear(),
-      c: () => this.finish(true),
-    };
-    if (isShortcut(event) || (!move && !acts[event.key])) return;
-    event.preventDefault();
-    if (!move) return void acts[event.key]();
+    const ways = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step] };
+    const move = ways[event.key];
     this.pen = [
       Math.min(Math.max(this.pen[0] + move[0], 0), PAD_WIDTH),
       Math.min(Math.max(this.pen[1] + move[1], 0), PAD_HEIGHT),
