@@ -290,6 +290,83 @@ addTest(
   },
 );
 
+addTest(
+  "7.7c",
+  "forced colours keep the tracks of sliders and the mark of the current view",
+  startAt(atlas, "/evans/curve/3.1.1", { reducedMotion: "reduce", forcedColors: "active" }),
+  async (g, page) => {
+    const borders = await page
+      .locator(".site-nav a")
+      .evaluateAll((links) => links.map((link) => getComputedStyle(link).borderBottomColor));
+    assert.equal(new Set(borders.slice(1)).size, 1, `${borders}`);
+    assert.ok(!borders.slice(1).includes(borders[0]), `${borders}`);
+    // The slider is at the left: the track is what is drawn at the right.
+    await page.locator(".scrub").focus();
+    await page.keyboard.press("Home");
+    const shot = (await page.locator(".scrub").screenshot()).toString("base64");
+    const lines = await page.evaluate(async (data) => {
+      const picture = new Image();
+      picture.src = `data:image/png;base64,${data}`;
+      await picture.decode();
+      const context = document.createElement("canvas").getContext("2d");
+      Object.assign(context.canvas, { width: picture.width, height: picture.height });
+      context.drawImage(picture, 0, 0);
+      const column = context.getImageData(Math.round(0.8 * picture.width), 4, 1, picture.height - 8).data;
+      return new Set(Array.from({ length: column.length / 4 }, (_, k) => column[4 * k])).size;
+    }, shot);
+    assert.ok(lines > 1, "the track is seen");
+  },
+);
+
+for (const viewport of [
+  { width: 390, height: 844 },
+  // 1440 × 900 at a zoom of 200 %.
+  { width: 720, height: 450 },
+])
+  addTest(
+    "7.7d",
+    `the drawing stays in view while sliders move, at ${viewport.width} × ${viewport.height}`,
+    startAt(atlas, "/evans/curve/3.1.1", { reducedMotion: "reduce", viewport }),
+    async (g, page) => {
+      const slider = page.locator(".parameter input[type=range]:visible").last();
+      await slider.focus();
+      await page.mouse.wheel(0, 60);
+      const stage = await page.locator(".stage").boundingBox();
+      assert.ok(stage.y >= 0 && stage.y + stage.height < 0.6 * viewport.height, JSON.stringify(stage));
+      const isFree = () =>
+        slider.evaluate((element) => {
+          const { left, top, width, height } = element.getBoundingClientRect();
+          return element === document.elementFromPoint(left + width / 2, top + height / 2);
+        });
+      await eventually(isFree, "the drawing does not cover the slider");
+      const path = () => page.locator(".stage .dashes").first().getAttribute("d");
+      const before = await path();
+      await page.keyboard.press("ArrowRight");
+      await eventually(async () => (await path()) !== before, "it is drawn again");
+    },
+  );
+
+addTest(
+  "7.7e",
+  "in By shape the first answer is in view after drawing on a telephone",
+  startAt(atlas, "/shape", { viewport: { width: 390, height: 844 } }),
+  async (g, page) => {
+    const pad = await page.locator(".pad").boundingBox();
+    const at = (part) => [
+      pad.x + pad.width * (0.5 + 0.4 * Math.cos(2 * Math.PI * part)),
+      pad.y + pad.height * (0.5 + 0.2 * Math.sin(2 * Math.PI * part)),
+    ];
+    await page.mouse.move(...at(0));
+    await page.mouse.down();
+    for (let k = 1; k <= 30; k += 1) await page.mouse.move(...at(k / 30));
+    await page.mouse.up();
+    const label = page.locator(".matches .label b").first();
+    await label.waitFor({ timeout: 30000 });
+    const box = await label.boundingBox();
+    assert.ok(box.y > pad.y + pad.height && box.y + box.height < 844, JSON.stringify(box));
+  },
+);
+
 addTest("7.8", "titles with markup are shown as text", null, async ({ browser }) => {
   const odd = oddAtlas(atlas);
   try {

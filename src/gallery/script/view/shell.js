@@ -191,7 +191,7 @@ class Router {
     const family = this.app.atlas.families.find((candidate) => candidate.id === id);
     const own = family ? [h("a", { href: address([id]) }, family.title), ", "] : null;
     const all = h("a", { href: address([]) }, "All families");
-    fill(this.main, h("p.error", { role: "alert" }, sentence, " ", own, all));
+    fill(this.main, h("h1", "Not found"), h("p.error", { role: "alert" }, sentence, " ", own, all));
   }
 
   setTitle(title) {

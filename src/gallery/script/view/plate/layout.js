@@ -23,6 +23,7 @@ export function plateLayout(plate) {
   const side = h(
     "aside.panel.plate-panel",
     { "aria-label": "Readings and parameters" },
+    h("h2.visually-hidden", "Readings and parameters"),
     [dial, motion, sliders, switches].map((part) => part.element),
     switches.circuitSection,
   );
