@@ -75,17 +75,15 @@ export function smoothData(points, closed, { scale, x, y }, decimals = 1, grain 
 
 /** The Bézier handles before and after a point `b`, along the parabola through it and its neighbours, by chord lengths. */
 function handlesAt(/** @type {Point} */ a, /** @type {Point} */ b, /** @type {Point} */ c) {
-  const [u, v] = [
-    [b[0] - a[0], b[1] - a[1]],
-    [c[0] - b[0], c[1] - b[1]],
-  ];
-  let [before, after] = [Math.hypot(u[0], u[1]), Math.hypot(v[0], v[1])];
+  const [ux, uy, vx, vy] = [b[0] - a[0], b[1] - a[1], c[0] - b[0], c[1] - b[1]];
+  let [before, after] = [Math.hypot(ux, uy), Math.hypot(vx, vy)];
   if (before === 0 || after === 0) return [b, b];
-  const slope = [0, 1].map((k) => ((u[k] * after) / before + (v[k] * before) / after) / (before + after));
+  const slope = (u, v) => ((u * after) / before + (v * before) / after) / (before + after);
+  const [x, y] = [slope(ux, vx), slope(uy, vy)];
   // Where the curve turns sharply, as at a cusp, a long chord says nothing of the end of the other one.
-  const cosine = (u[0] * v[0] + u[1] * v[1]) / (before * after);
+  const cosine = (ux * vx + uy * vy) / (before * after);
   if (cosine < 0.5) before = after = Math.min(before, after) * Math.min(1 + cosine, 1);
-  return [-before / 3, after / 3].map((reach) => [b[0] + reach * slope[0], b[1] + reach * slope[1]]);
+  return [-before / 3, after / 3].map((reach) => [b[0] + reach * x, b[1] + reach * y]);
 }
 
 /** Path data of a circle. */

@@ -6,9 +6,8 @@ import { buttonOf, h, isShortcut, termList } from "./dom.js";
 const commandsOf = new WeakMap();
 
 /**
- * Handles keys on an element, or on `target`, and lists them while the element is in the document. A command is its keys, as
- * events name them, what it does, and a function of the event, which is false if the key was not for it; without one,
- * something else handles the keys. Returns a function that ends it.
+ * Handles keys on an element, or on `target`, and lists them while the element is in the document. The function of a command is
+ * false if the key was not for it; without one, something else handles the keys. Returns a function that ends it.
  * @param {Element} element @param {string} where @param {KeyCommand[]} commands @param {Element | Window} target
  */
 export function onKeys(element, where, commands, target = element) {
@@ -36,28 +35,23 @@ const KEY_NAMES = { ArrowLeft: "←", ArrowRight: "→", ArrowUp: "↑", ArrowDo
 
 /** Opens the dialog of the keys that work in the document, and more, by where they work. @param {KeyCommand[]} more */
 export function showKeys(more) {
-  /** @type {Map<string, KeyCommand[]>} */ const groups = new Map();
+  /** @type {Map<string | null, KeyCommand[]>} */ const groups = new Map();
   for (const element of document.querySelectorAll("[data-keys]")) {
-    const where = element.getAttribute("data-keys") ?? "";
+    const where = element.getAttribute("data-keys");
     groups.set(where, [...(groups.get(where) ?? []), ...(commandsOf.get(element) ?? [])]);
   }
-  const name = (key) => KEY_NAMES[key] ?? key.replace(/^Page/, "Page ");
+  [...groups.values()].at(-1)?.push(...more);
+  const name = (key) => h("kbd", KEY_NAMES[key] ?? key.replace(/^Page/, "Page "));
   const row = (/** @type {KeyCommand} */ [keys, words]) => [
-    keys.split(" ").map((key) => [h("kbd", name(key)), " "]),
+    keys.split(" ").map((key) => [name(key), " "]),
     words,
   ];
-  const lists = [...groups].map(([where, commands], k, { length }) => [
-    h("h3", where),
-    termList("dl.facts", [...commands, ...(k + 1 === length ? more : [])].map(row)),
-  ]);
+  const lists = [...groups].map(([where, all]) => [h("h3", where), termList("dl.facts", all.map(row))]);
+  const title = h("h2", { id: "keys-title" }, "Keys");
+  const close = buttonOf("Close", () => dialog.close());
   // Keys of the view do not apply while it is open.
   const on = { onclose: () => dialog.remove(), onkeydown: (event) => event.stopPropagation() };
-  const dialog = h("dialog.keys", { "aria-labelledby": "keys-title", ...on });
-  dialog.append(
-    h("h2", { id: "keys-title" }, "Keys"),
-    ...lists.flat(),
-    buttonOf("Close", () => dialog.close()),
-  );
+  const dialog = h("dialog.keys", { "aria-labelledby": title.id, ...on }, title, lists, close);
   document.body.append(dialog);
   dialog.showModal();
 }

@@ -160,10 +160,7 @@ class Router {
   /** Lists the keys; those of gestures if there is one. */
   showKeys() {
     const { past, future } = this.gestures;
-    /** @type {KeyCommand[]} */ const more = [];
-    if (past.length) more.push(["Ctrl+Z", "undo"]);
-    if (future.length) more.push(["Ctrl+Shift+Z", "repeat what was undone"]);
-    showKeys(more);
+    showKeys(past.length || future.length ? [["Ctrl+Z Ctrl+Shift+Z", "undo; repeat what was undone"]] : []);
   }
 
   showBusy() {

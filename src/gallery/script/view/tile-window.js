@@ -28,13 +28,11 @@ export class TileWindow {
   /** The height by which tiles are moved up. */
   shifted = 0;
   columns = 1;
-  /** The size of a tile, in pixels, and that of its picture at a width. */
+  /** The size of a tile, in pixels. */
   wide = 0;
   high = 0;
   /** The height of the text below the pictures: that of the highest one so far. */
   below = 0;
-  sizedAt = 0;
-  pictureSize = { width: 40, height: 40 };
   filledAt = window.scrollY;
   /** @type {ReturnType<typeof onPrint> | null} */ paper = null;
 
@@ -44,9 +42,7 @@ export class TileWindow {
     this.element = h("ul.window", { "aria-label": options.label });
     const typed = (event) => this.typed(event);
     onKeys(this.element, `In ${options.label.toLowerCase()}`, [
-      ["ArrowLeft ArrowRight ArrowUp ArrowDown", "the next one in this direction", typed],
-      ["PageUp PageDown", "a screen back or on", typed],
-      ["Home End", "first or last", typed],
+      ["ArrowLeft ArrowRight ArrowUp ArrowDown PageUp PageDown Home End", "go to another one", typed],
     ]);
     this.element.style.setProperty("--shape", `1 / ${options.aspect}`);
     this.element.style.setProperty("--least", `${options.least}px`);
@@ -118,16 +114,9 @@ export class TileWindow {
     this.fill();
   }
 
-  /** The size of a tile's picture in pixels. All are alike, and measuring each would force a layout. */
-  sizeOfPicture(picture) {
-    if (this.sizedAt !== this.wide) {
-      this.sizedAt = this.wide;
-      this.pictureSize = {
-        width: Math.max(picture.clientWidth, 40),
-        height: Math.max(picture.clientHeight, 40),
-      };
-    }
-    return this.pictureSize;
+  /** The size of a tile's picture inside its border, in pixels. */
+  get pictureSize() {
+    return { width: Math.max(this.wide - 2, 40), height: Math.max(this.wide * this.options.aspect - 2, 40) };
   }
 
   lay(/** @type {HTMLElement} */ { style }, k) {

@@ -85,10 +85,8 @@ export class RangeFilter {
     ["low", "high"].forEach((end, k) => {
       const value = filter[end] ?? scale[end];
       ends[k].style.left = `${100 * places[k]}%`;
-      setAttributes(ends[k], {
-        "aria-valuenow": Math.round(100 * places[k]),
-        "aria-valuetext": formatBound(value),
-      });
+      const now = Math.round(100 * places[k]);
+      setAttributes(ends[k], { "aria-valuenow": now, "aria-valuetext": formatBound(value) });
       inputs[k].show(filter[end]);
     });
     this.track.style.setProperty("--from", String(places[0]));

@@ -29,8 +29,7 @@ export class ResultTiles extends TileWindow {
       fillTile: (element, k) => this.fillTile(element, k),
       draw: (element, k) => {
         const { family, curve } = this.curveOf(k);
-        const picture = elementIn(element, ".tile-picture");
-        picture.replaceChildren(thumbnail(family, [curve], this.sizeOfPicture(picture)));
+        fill(elementIn(element, ".tile-picture"), thumbnail(family, [curve], this.pictureSize));
       },
       failed: (message) => app.announce(message),
     });

@@ -56,10 +56,7 @@ export class DrawingPad {
       ["c", "close the curve", () => this.finish(true)],
       ["Escape", "clear", () => this.clear()],
     ]);
-    const keys =
-      "Draw in one stroke. Keys: arrows move the pen (Shift: further), Enter adds a point, " +
-      "Backspace removes the last point, C closes the curve, Escape clears it.";
-    this.help = h("p.note", { id: "pad-help" }, keys);
+    this.help = h("p.note", { id: "pad-help" }, "Draw in one stroke, or by keys, which ? lists.");
   }
 
   /** Shows a shape, fitted into the pad. */
