@@ -60,6 +60,6 @@ function curveCommands(view) {
 export function keyHelp() {
   const keys = "Wheel or pinch: zoom. Tab: select a curve. ?: list the keys.";
   const touch = "Pinch to zoom. Tap a curve to highlight it, and again to open its plate.";
-  const attributes = { id: "page-keys" };
-  return h("p.note.no-print.page-keys", attributes, h("span.by-keys", keys), h("span.by-touch", touch));
+  const words = [h("span.by-keys", keys), h("span.by-touch", touch)];
+  return h("p.note.no-print.page-keys", { id: "page-keys" }, words);
 }
