@@ -39,6 +39,42 @@ addTest(
 );
 
 addTest(
+  "7.1b",
+  "captions of thumbnails are shown in full, and no tile covers another one",
+  startAt(atlas, "/roberts?show=curves"),
+  async (g, page) => {
+    for (const fragment of ["/roberts?show=curves", "/find", "/find?sort=-length"]) {
+      await g.go(fragment);
+      const tiles = () =>
+        page.locator(".window > li").evaluateAll((all) =>
+          all.map((tile) => {
+            const [frame, label] = [tile, tile.querySelector(".label")].map((one) =>
+              one.getBoundingClientRect(),
+            );
+            return frame.bottom - label.bottom;
+          }),
+        );
+      await eventually(async () => {
+        const all = await tiles();
+        return all.length > 5 && all.every((room) => room >= -0.5);
+      }, `captions have room at ${fragment}`);
+      const clipped = await page
+        .locator(".window .label")
+        .evaluateAll(
+          (labels) => labels.filter((label) => label.scrollHeight > label.clientHeight + 1).length,
+        );
+      assert.equal(clipped, 0, fragment);
+    }
+    // The caption of this family has three lines.
+    await g.go("/roberts?show=curves");
+    await eventually(
+      async () => (await page.locator(".window .label").first().boundingBox()).height > 45,
+      "three lines are shown",
+    );
+  },
+);
+
+addTest(
   "7.2",
   "everything can be reached by Tab alone, with a visible focus and no trap",
   startAt(atlas, "/evans/1"),
@@ -200,6 +236,134 @@ addTest(
     await g.go("/evans?show=curves");
     const pdf = await page.pdf({ format: "A4" });
     assert.ok(pdf.length > 1000);
+  },
+);
+
+addTest(
+  "7.7b",
+  "the key ? lists the keys that work in the view, and they do",
+  startAt(atlas, "/evans/curve/3.1.1", { reducedMotion: "reduce" }),
+  async (g, page) => {
+    const dialog = page.getByRole("dialog", { name: "Keys" });
+    const listed = async () => {
+      await page.keyboard.press("?");
+      const text = await dialog.innerText();
+      const close = dialog.getByRole("button", { name: "Close" });
+      assert.ok(await close.evaluate((button) => button === document.activeElement));
+      await page.keyboard.press("Escape");
+      await eventually(async () => (await dialog.count()) === 0, "Escape closes it");
+      return text;
+    };
+    const plate = await listed();
+    assert.match(plate, /On the plate.*Space.*On a handle/s);
+    assert.doesNotMatch(plate, /On the page|On the pad|undo/);
+    const input = () => page.getByLabel("Input", { exact: true }).inputValue();
+    await page.keyboard.press("ArrowRight");
+    const before = await input();
+    await page.keyboard.press("End");
+    await eventually(async () => (await input()) !== before, "End works from anywhere");
+    await page.keyboard.press("Home");
+    await eventually(async () => parseFloat(await input()) === 0, "Home works from anywhere");
+    // What is typed in a field is no command.
+    await page.getByLabel("Input", { exact: true }).press("?");
+    assert.equal(await dialog.count(), 0);
+    await page.getByLabel("centrodes").check();
+    await page.keyboard.press("?");
+    assert.match(await dialog.innerText(), /Ctrl\+Z/);
+    await page.keyboard.press("]");
+    await dialog.getByRole("button", { name: "Close" }).click();
+    assert.match(await g.fragment(), /^\/evans\/curve\/3.1.1/, "keys do not apply while it is open");
+    await g.go("/evans/1");
+    assert.match(await listed(), /On the page.*On a curve of the page/s);
+    await g.go("/find");
+    await page.locator(".results a").first().waitFor();
+    assert.match(await listed(), /In curves.*pin or unpin/s);
+    await g.go("/shape");
+    assert.match(await listed(), /On the pad.*close the curve/s);
+    await page.locator(".pad").focus();
+    for (const key of ["Enter", "ArrowRight", "Enter", "Shift+ArrowDown", "Enter", "Shift+C"])
+      await page.keyboard.press(key);
+    assert.match(await page.locator(".pad .drawn").getAttribute("d"), /Z$/, "C closes the curve");
+    await g.go("/");
+    await page.getByRole("button", { name: "Keys" }).click();
+    assert.match(await dialog.innerText(), /^Keys\s+In all views/);
+  },
+);
+
+addTest(
+  "7.7c",
+  "forced colours keep the tracks of sliders and the mark of the current view",
+  startAt(atlas, "/evans/curve/3.1.1", { reducedMotion: "reduce", forcedColors: "active" }),
+  async (g, page) => {
+    const borders = await page
+      .locator(".site-nav a")
+      .evaluateAll((links) => links.map((link) => getComputedStyle(link).borderBottomColor));
+    assert.equal(new Set(borders.slice(1)).size, 1, `${borders}`);
+    assert.ok(!borders.slice(1).includes(borders[0]), `${borders}`);
+    // The slider is at the left: the track is what is drawn at the right.
+    await page.locator(".scrub").focus();
+    await page.keyboard.press("Home");
+    const shot = (await page.locator(".scrub").screenshot()).toString("base64");
+    const lines = await page.evaluate(async (data) => {
+      const picture = new Image();
+      picture.src = `data:image/png;base64,${data}`;
+      await picture.decode();
+      const context = document.createElement("canvas").getContext("2d");
+      Object.assign(context.canvas, { width: picture.width, height: picture.height });
+      context.drawImage(picture, 0, 0);
+      const column = context.getImageData(Math.round(0.8 * picture.width), 4, 1, picture.height - 8).data;
+      return new Set(Array.from({ length: column.length / 4 }, (_, k) => column[4 * k])).size;
+    }, shot);
+    assert.ok(lines > 1, "the track is seen");
+  },
+);
+
+for (const viewport of [
+  { width: 390, height: 844 },
+  // 1440 × 900 at a zoom of 200 %.
+  { width: 720, height: 450 },
+])
+  addTest(
+    "7.7d",
+    `the drawing stays in view while sliders move, at ${viewport.width} × ${viewport.height}`,
+    startAt(atlas, "/evans/curve/3.1.1", { reducedMotion: "reduce", viewport }),
+    async (g, page) => {
+      const slider = page.locator(".parameter input[type=range]:visible").last();
+      await slider.focus();
+      await page.mouse.wheel(0, 60);
+      const stage = await page.locator(".stage").boundingBox();
+      assert.ok(stage.y >= 0 && stage.y + stage.height < 0.6 * viewport.height, JSON.stringify(stage));
+      const isFree = () =>
+        slider.evaluate((element) => {
+          const { left, top, width, height } = element.getBoundingClientRect();
+          return element === document.elementFromPoint(left + width / 2, top + height / 2);
+        });
+      await eventually(isFree, "the drawing does not cover the slider");
+      const path = () => page.locator(".stage .dashes").first().getAttribute("d");
+      const before = await path();
+      await page.keyboard.press("ArrowRight");
+      await eventually(async () => (await path()) !== before, "it is drawn again");
+    },
+  );
+
+addTest(
+  "7.7e",
+  "in By shape the first answer is in view after drawing on a telephone",
+  startAt(atlas, "/shape", { viewport: { width: 390, height: 844 } }),
+  async (g, page) => {
+    const pad = await page.locator(".pad").boundingBox();
+    const at = (part) => [
+      pad.x + pad.width * (0.5 + 0.4 * Math.cos(2 * Math.PI * part)),
+      pad.y + pad.height * (0.5 + 0.2 * Math.sin(2 * Math.PI * part)),
+    ];
+    await page.mouse.move(...at(0));
+    await page.mouse.down();
+    for (let k = 1; k <= 30; k += 1) await page.mouse.move(...at(k / 30));
+    await page.mouse.up();
+    const label = page.locator(".matches .label b").first();
+    await label.waitFor({ timeout: 30000 });
+    const box = await label.boundingBox();
+    assert.ok(box.y > pad.y + pad.height && box.y + box.height < 844, JSON.stringify(box));
   },
 );
 

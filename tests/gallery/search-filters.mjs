@@ -111,4 +111,78 @@ export const FILTERING = [
       await gallery.close();
     },
   ],
+  [
+    "4.16",
+    "the linkage with the longest straight portion is found and opened by few keys, from the list of families",
+    async ({ browser }) => {
+      const gallery = await openGallery(browser, small, "/");
+      const { page } = gallery;
+      const keys = [];
+      const press = async (key) => {
+        keys.push(key);
+        await page.keyboard.press(key);
+      };
+      const focused = () =>
+        page.evaluate(() => {
+          const { id, dataset, textContent, nodeName } = document.activeElement;
+          return id || dataset.name || (nodeName === "BODY" ? "" : textContent.trim());
+        });
+      const tabTo = async (what) => {
+        for (let k = 0; k < 20 && !what.test(await focused()); k += 1) await press("Tab");
+        assert.match(await focused(), what);
+      };
+      await tabTo(/^Find$/);
+      await press("Enter");
+      await eventually(async () => (await counted(page)) === "439 of 439 curves", "tables are loaded");
+      await tabTo(/^find-sort$/);
+      // The first column that begins with it.
+      await press("l");
+      await eventually(
+        async () => /sort=-straight_length/.test(await gallery.fragment()),
+        "the greatest first",
+      );
+      const best = () => page.locator(".results a").first().getAttribute("data-name");
+      await eventually(async () => (await best()) !== null, "results are shown");
+      const name = await best();
+      await tabTo(/:/);
+      assert.equal(await focused(), name);
+      await press("Enter");
+      const address = `/${name.replace(":", "/curve/")}`;
+      await eventually(async () => (await gallery.fragment()).startsWith(address), "it is opened");
+      console.log(`  ${keys.length} keys: ${keys.join(" ")}`);
+      assert.ok(keys.length < 25);
+      // The filters follow the results, and links lead to both.
+      await gallery.go("/find");
+      await page.getByRole("link", { name: "Skip to filters" }).press("Enter");
+      assert.match(await focused(), /^Filters/);
+      await page.getByRole("link", { name: "Skip to results" }).press("Enter");
+      await page.keyboard.press("Tab");
+      assert.match(await focused(), /:/);
+      await gallery.close();
+    },
+  ],
+  [
+    "4.17",
+    "sorting begins with the best: the greatest or the least, by the measure",
+    async ({ browser }) => {
+      const gallery = await openGallery(browser, small, "/find?show=table");
+      const { page } = gallery;
+      const sorted = async (label, order) => {
+        await page.getByRole("columnheader", { name: label }).getByRole("button").click();
+        const sort = () => page.getByRole("columnheader", { name: label }).getAttribute("aria-sort");
+        await eventually(async () => (await sort()) === order, `${label} is ${order}`);
+      };
+      await sorted("worst transmission angle", "descending");
+      await sorted("worst transmission angle", "ascending");
+      await sorted("deviation of the straight portion, by its length", "ascending");
+      await sorted("length of the straight portion, by the extent", "descending");
+      await sorted("path length", "ascending");
+      await page.getByLabel("Sort by").selectOption("dwell_input_deg");
+      await eventually(
+        async () => /sort=-dwell_input_deg/.test(await gallery.fragment()),
+        "in the select, too",
+      );
+      await gallery.close();
+    },
+  ],
 ];

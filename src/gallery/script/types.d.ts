@@ -85,6 +85,8 @@ type Route = Partial<Record<"label" | "parent", string>> & {
   matches(target: Target, app: App): boolean;
   open(app: App, target: Target): View | Promise<View>;
 };
+/** The keys of a command, as events name them, what it does, and a function that does it (keys.js). */
+type KeyCommand = [keys: string, words: string, act?: (event: KeyboardEvent) => unknown];
 type Measure = { name: string; unit: string; definition: string; word: boolean; is_input: boolean };
 /** A family as the summary of the atlas lists it; without a script it has no data. */
 type ListedFamily = Record<"id" | "title" | "linkage", string> &

@@ -39,20 +39,51 @@ export function polylineData(
 }
 
 /**
- * Path data of an outline on the screen, with a number of decimals; points closer than `grain` to the one before
- * are left out, except the first and the last.
+ * Path data of an outline on the screen, in straight lines, with a number of decimals.
  * @param {Points} points @param {boolean} closed @param {Placement} placement
  */
-export function placedData(points, closed, { scale, x, y }, decimals = 1, grain = 0) {
-  let [lastX, lastY] = [Infinity, Infinity];
+export function placedData(points, closed, { scale, x, y }, decimals = 1) {
   let data = "";
+  for (let k = 0; k < points.length; k += 2)
+    data += `${k ? "L" : "M"}${(x + scale * points[k]).toFixed(decimals)} ${(y - scale * points[k + 1]).toFixed(decimals)}`;
+  return closed ? `${data}Z` : data;
+}
+
+/**
+ * Path data of the smooth curve through the points of an outline, in cubic Bézier curves. Points closer than `grain` to
+ * the one before are left out, except the last.
+ * @param {Points} points @param {boolean} closed @param {Placement} placement
+ */
+export function smoothData(points, closed, { scale, x, y }, decimals = 1, grain = 0.1) {
+  /** @type {Point[]} */ const kept = [];
   for (let k = 0; k < points.length; k += 2) {
     const [atX, atY] = [x + scale * points[k], y - scale * points[k + 1]];
-    if (Math.abs(atX - lastX) < grain && Math.abs(atY - lastY) < grain && k + 2 < points.length) continue;
-    data += `${data ? "L" : "M"}${atX.toFixed(decimals)} ${atY.toFixed(decimals)}`;
-    [lastX, lastY] = [atX, atY];
+    const [lastX, lastY] = kept.at(-1) ?? [Infinity, Infinity];
+    const isNear = Math.abs(atX - lastX) < grain && Math.abs(atY - lastY) < grain;
+    if (!isNear || (k + 2 === points.length && !closed)) kept.push([atX, atY]);
   }
+  const { length } = kept;
+  const at = (k) => kept[closed ? (k + length) % length : Math.min(Math.max(k, 0), length - 1)];
+  /** @param {number[]} point */ const pair = ([px, py]) => `${px.toFixed(decimals)} ${py.toFixed(decimals)}`;
+  if (length < 2) return "";
+  const handles = kept.map((_, k) => handlesAt(at(k - 1), at(k), at(k + 1)));
+  let data = `M${pair(kept[0])}`;
+  for (let k = 1; k < length + (closed ? 1 : 0); k += 1)
+    data += `C${pair(handles[k - 1][1])} ${pair(handles[k % length][0])} ${pair(at(k))}`;
   return closed ? `${data}Z` : data;
+}
+
+/** The Bézier handles before and after a point `b`, along the parabola through it and its neighbours, by chord lengths. */
+function handlesAt(/** @type {Point} */ a, /** @type {Point} */ b, /** @type {Point} */ c) {
+  const [ux, uy, vx, vy] = [b[0] - a[0], b[1] - a[1], c[0] - b[0], c[1] - b[1]];
+  let [before, after] = [Math.hypot(ux, uy), Math.hypot(vx, vy)];
+  if (before === 0 || after === 0) return [b, b];
+  const slope = (u, v) => ((u * after) / before + (v * before) / after) / (before + after);
+  const [x, y] = [slope(ux, vx), slope(uy, vy)];
+  // Where the curve turns sharply, as at a cusp, a long chord says nothing of the end of the other one.
+  const cosine = (ux * vx + uy * vy) / (before * after);
+  if (cosine < 0.5) before = after = Math.min(before, after) * Math.min(1 + cosine, 1);
+  return [-before / 3, after / 3].map((reach) => [b[0] + reach * x, b[1] + reach * y]);
 }
 
 /** Path data of a circle. */

@@ -13,6 +13,12 @@ const FIRST_NUMBERS = [
   "time_ratio",
 ];
 const LATER_WORDS = ["type", "shortest", "symmetry"];
+// The measures of which more is better: transmission angles and forces, and how far an output, a straight portion or a dwell goes.
+const MORE_IS_BETTER =
+  /^(mu_(min|worst)|output_(swing|dwell)|dwell_input|straight\w*_input)_deg$|^straight\w*_(length|share)$|^mechanical|_stroke$/;
+
+/** Whether rows sorted by a column begin with the greatest value, which is the best; otherwise with the least. */
+export const beginsWithGreatest = (/** @type {string} */ name) => MORE_IS_BETTER.test(name);
 
 /**
  * The columns of a table with at least two different values. Columns in `kept` (their names) are always included.

@@ -11,14 +11,6 @@ export const DERIVED_COLUMNS = {
     inputs: ["straight_deviation", "straight_length"],
     compute: (at) => at("straight_deviation") / at("straight_length"),
   },
-  straight_share: {
-    unit: "",
-    definition: "length of the straightest portion, divided by the longer side of the curve's bounding box",
-    inputs: ["straight_length", "bbox_x_max", "bbox_x_min", "bbox_y_max", "bbox_y_min"],
-    compute: (at) =>
-      at("straight_length") /
-      Math.max(at("bbox_x_max") - at("bbox_x_min"), at("bbox_y_max") - at("bbox_y_min")),
-  },
 };
 
 const SYMMETRY_WORDS = ["not symmetric", "symmetric"];

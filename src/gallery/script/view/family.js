@@ -148,8 +148,7 @@ function curveTiles(/** @type {App} */ app, /** @type {Family} */ family) {
     },
     failed: (message) => app.announce(message),
     draw: (element, k) => {
-      const picture = elementIn(element, ".tile-picture");
-      picture.append(thumbnail(family, [k], tiles.sizeOfPicture(picture)));
+      elementIn(element, ".tile-picture").append(thumbnail(family, [k], tiles.pictureSize));
     },
   });
   return tiles;

@@ -7,7 +7,7 @@ import { h, s, thumbnailFrame } from "./dom.js";
 import { curvePath } from "./thumbnail.js";
 
 // Points closer than this, in millimetres of paper, are merged in a thumbnail.
-const PAPER_GRAIN = 1;
+const PAPER_GRAIN = 0.2;
 
 /**
  * The thumbnail of a page: its curves drawn from the data if they are loaded (needs.js), or its file. Null if

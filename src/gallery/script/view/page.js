@@ -6,7 +6,7 @@ import { loadPage } from "../data/needs.js";
 import { fill, h } from "./dom.js";
 import { CurveHighlight } from "./curve-highlight.js";
 import { pageAddress, pageBar, readPageZoom } from "./page-bar.js";
-import { handlePageKey, keyHelp } from "./page-keys.js";
+import { keyHelp, watchPageKeys } from "./page-keys.js";
 import { curvePanel, curveListPanel } from "./page-panel.js";
 import { pageOverlay, pagePicture, prefetchPages, curvesOnPaper, nearestCurve } from "./page-picture.js";
 import { Zoom } from "./zoom.js";
@@ -50,13 +50,13 @@ export class PageView {
       tabindex: "0",
       role: "group",
       "aria-describedby": "page-keys",
-      onkeydown: (event) => handlePageKey(event, this),
       onpointermove: (event) => this.hovered(event),
       onpointerleave: () => this.highlight.leave(),
     });
     this.sheet = h("div.page-sheet");
     this.reading = h("div.reading", { hidden: true });
     this.viewport.append(this.sheet, this.reading);
+    watchPageKeys(this);
     this.panel = h("aside.page-panel", { "aria-label": "Curves of this page" });
     this.bar = pageBar(listed, { go: (page) => this.go(page), zoom: () => this.zoom });
     const { width, height } = family.paper;

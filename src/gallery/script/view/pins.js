@@ -1,6 +1,7 @@
 // The pinned curves, which are compared and exported together, and the buttons that pin them.
 
-import { h, isShortcut } from "./dom.js";
+import { h } from "./dom.js";
+import { onKeys } from "./keys.js";
 import { storedChoice, storeChoice } from "./settings.js";
 
 /** The names of pinned curves, "family:cell.trace.circuit", in the order in which they were pinned. */
@@ -92,9 +93,8 @@ export function curvePinButton(/** @type {App} */ app, name) {
   return pinButton(app, name, attributes, sign, h("span.visually-hidden", `Pin ${name}`));
 }
 
-/** Handles the key p on the link of a curve: presses the pin button next to it. */
-export function pinOnKey(event) {
-  const { name } = event.target.dataset;
-  if (event.key !== "p" || !name || isShortcut(event)) return;
-  event.target.parentElement.querySelector(".pin").click();
+/** Handles the key p on the links of curves in an element: presses the pin button next to the link. */
+export function pinOnKey(/** @type {Element} */ element) {
+  const press = ({ target }) => !!target.dataset.name && target.parentElement.querySelector(".pin").click();
+  onKeys(element, "In curves", [["p", "pin or unpin the curve", press]]);
 }

@@ -1,14 +1,12 @@
 // Thumbnails of curves, from the stored points: SVG in the colours of the theme, for screen and print.
 
 import { curveBox, curveOutline } from "../data/family.js";
-import { placedData } from "../draw/path-data.js";
+import { smoothData } from "../draw/path-data.js";
 import { boxOfPoints, fittedView } from "../draw/plane-view.js";
 import { s, setAttributes, thumbnailFrame } from "./dom.js";
 
 // The margin of a thumbnail, in pixels.
 const THUMBNAIL_INSET = 3;
-// Points closer than this, in pixels, are merged.
-const THUMBNAIL_GRAIN = 0.6;
 
 /**
  * Curves of a family in one frame, at one scale, y up: an SVG element of `width` × `height` pixels, hidden
@@ -22,7 +20,7 @@ export function thumbnail(family, curves, { width, height, plain = curves.length
   const paths = curves.map((curve, k) =>
     s("path", {
       class: plain ? null : `ink-${(k % 5) + 1}`,
-      d: curvePath(family, curve, { scale, origin: [x, y] }, THUMBNAIL_GRAIN),
+      d: curvePath(family, curve, { scale, origin: [x, y] }),
     }),
   );
   const frame = thumbnailFrame("", { width, height }, paths);
@@ -34,7 +32,7 @@ export function thumbnail(family, curves, { width, height, plain = curves.length
  * The path data of a curve in a view; points closer than `grain` to the one before are left out.
  * @param {Family} family @param {number} curve @param {Pick<PageDrawing, "scale" | "origin">} view
  */
-export function curvePath(family, curve, { scale, origin: [x, y] }, grain) {
+export function curvePath(family, curve, { scale, origin: [x, y] }, grain = 0.1) {
   const { points, closed } = curveOutline(family, curve);
-  return placedData(points, closed, { scale, x, y }, grain < 0.1 ? 3 : 1, grain);
+  return smoothData(points, closed, { scale, x, y }, grain < 0.1 ? 3 : 1, grain);
 }

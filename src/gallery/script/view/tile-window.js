@@ -1,7 +1,8 @@
 // A grid of any number of tiles, of which only those near the window are in the document.
 
 import { whenLoaded } from "../data/needs.js";
-import { h, setAttributes, isShortcut } from "./dom.js";
+import { h, setAttributes } from "./dom.js";
+import { onKeys } from "./keys.js";
 import { MAX_HEIGHT, scrollScale, printedCountNote, onPrint } from "./long-list.js";
 
 // The time per frame, in milliseconds, for drawing tiles that have become visible.
@@ -27,18 +28,22 @@ export class TileWindow {
   /** The height by which tiles are moved up. */
   shifted = 0;
   columns = 1;
-  /** The size of a tile, in pixels, and that of its picture at a width. */
+  /** The size of a tile, in pixels. */
   wide = 0;
   high = 0;
-  sizedAt = 0;
-  pictureSize = { width: 40, height: 40 };
+  /** The height of the text below the pictures: that of the highest one so far. */
+  below = 0;
   filledAt = window.scrollY;
   /** @type {ReturnType<typeof onPrint> | null} */ paper = null;
 
   constructor(/** @type {TileOptions} */ options) {
     this.count = options.count;
     this.options = options;
-    this.element = h("ul.window", { "aria-label": options.label, onkeydown: (event) => this.typed(event) });
+    this.element = h("ul.window", { "aria-label": options.label });
+    const typed = (event) => this.typed(event);
+    onKeys(this.element, `In ${options.label.toLowerCase()}`, [
+      ["ArrowLeft ArrowRight ArrowUp ArrowDown PageUp PageDown Home End", "go to another one", typed],
+    ]);
     this.element.style.setProperty("--shape", `1 / ${options.aspect}`);
     this.element.style.setProperty("--least", `${options.least}px`);
     this.sizes = new ResizeObserver(() => this.measure());
@@ -97,9 +102,11 @@ export class TileWindow {
     const { count } = this;
     const { gap, least, aspect, below } = this.options;
     const width = this.element.clientWidth;
+    const wide = this.wide;
     this.columns = Math.max(1, Math.floor((width + gap) / (Math.min(least, width) + gap)));
     this.wide = (width - gap * (this.columns - 1)) / this.columns;
-    this.high = Math.round(this.wide * aspect) + below;
+    this.below = this.wide === wide ? Math.max(this.below, below) : below;
+    this.high = Math.round(this.wide * aspect) + this.below;
     const height = Math.ceil(count / this.columns) * this.pitch - gap;
     this.scale = scrollScale(height, window.innerHeight);
     this.element.style.height = `${Math.min(height, MAX_HEIGHT)}px`;
@@ -107,16 +114,9 @@ export class TileWindow {
     this.fill();
   }
 
-  /** The size of a tile's picture in pixels. All are alike, and measuring each would force a layout. */
-  sizeOfPicture(picture) {
-    if (this.sizedAt !== this.wide) {
-      this.sizedAt = this.wide;
-      this.pictureSize = {
-        width: Math.max(picture.clientWidth, 40),
-        height: Math.max(picture.clientHeight, 40),
-      };
-    }
-    return this.pictureSize;
+  /** The size of a tile's picture inside its border, in pixels. */
+  get pictureSize() {
+    return { width: Math.max(this.wide - 2, 40), height: Math.max(this.wide * this.options.aspect - 2, 40) };
   }
 
   lay(/** @type {HTMLElement} */ { style }, k) {
@@ -200,6 +200,7 @@ export class TileWindow {
   drawSome(time = DRAWING_TIME) {
     const end = performance.now() + time;
     this.queue = this.queue.filter((k) => this.there.has(k));
+    this.makeRoom();
     while (this.queue.length && performance.now() < end) {
       const k = this.queue.shift() ?? 0;
       const element = this.there.get(k);
@@ -209,6 +210,17 @@ export class TileWindow {
       else this.prepare(element, k);
     }
     if (this.queue.length) this.drawSoon();
+  }
+
+  /** Makes all tiles as high as the highest text needs; the row at the top of the window stays there. */
+  makeRoom() {
+    const heights = this.queue.map((k) => this.there.get(k)?.querySelector(".label")?.scrollHeight ?? 0);
+    const more = Math.max(0, ...heights) - this.below;
+    if (more <= 0 || this.paper?.isPrinting) return;
+    const row = Math.floor(-this.element.getBoundingClientRect().top / this.pitch);
+    this.below += more;
+    this.measure();
+    if (row > 0 && this.scale === 1) window.scrollBy(0, row * more);
   }
 
   /** Puts the first tiles into the document, and no others, for printing. */
@@ -228,12 +240,10 @@ export class TileWindow {
 
   typed(event) {
     const at = [...this.there].find(([, element]) => element.contains(event.target))?.[0];
-    if (at === undefined || isShortcut(event)) return;
+    if (at === undefined) return false;
     const screen = Math.max(1, Math.floor(window.innerHeight / this.pitch)) * this.columns;
     const down = { ArrowDown: this.columns, ArrowUp: -this.columns, PageDown: screen, PageUp: -screen };
     const by = { ArrowRight: 1, ArrowLeft: -1, Home: -this.count, End: this.count, ...down }[event.key];
-    if (by === undefined) return;
-    event.preventDefault();
-    this.show(Math.min(Math.max(at + by, 0), this.count - 1));
+    return this.show(Math.min(Math.max(at + by, 0), this.count - 1));
   }
 }

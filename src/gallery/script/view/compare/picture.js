@@ -1,6 +1,6 @@
 // Overlaid curves, distinguished by colour, dash pattern and letter.
 
-import { placedData } from "../../draw/path-data.js";
+import { placedData, smoothData } from "../../draw/path-data.js";
 import { boxOfPoints, screenPoint } from "../../draw/plane-view.js";
 import { s } from "../dom.js";
 import { viewOfOutlines } from "../shape/match-item.js";
@@ -40,7 +40,7 @@ export function overlaidPicture(/** @type {Outline[]} */ outlines, label) {
   const high = heightFor(all);
   const view = viewOfOutlines(all, OVER_WIDE, high, OVER_INSET);
   const paths = outlines.map(({ points, closed }, k) =>
-    s("path", { class: strokeClass(k), d: placedData(points, closed, view) }),
+    s("path", { class: strokeClass(k), d: smoothData(points, closed, view) }),
   );
   const element = s(
     "svg.thumbnail.over",
@@ -61,7 +61,7 @@ export function overlaidPicture(/** @type {Outline[]} */ outlines, label) {
 export function sideBySidePictures(/** @type {Outline[]} */ outlines) {
   const all = outlines.map(({ points }) => points);
   const view = viewOfOutlines(all, SIDE_WIDE, SIDE_HIGH, SIDE_INSET);
-  const paths = outlines.map(({ points, closed }) => s("path", { d: placedData(points, closed, view) }));
+  const paths = outlines.map(({ points, closed }) => s("path", { d: smoothData(points, closed, view) }));
   const elements = paths.map((path) =>
     s("svg.thumbnail", { viewBox: `0 0 ${SIDE_WIDE} ${SIDE_HIGH}`, "aria-hidden": "true" }, path),
   );

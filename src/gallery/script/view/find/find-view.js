@@ -1,6 +1,6 @@
 // The view that finds curves by their measures.
 
-import { filterColumns } from "../../find/columns.js";
+import { beginsWithGreatest, filterColumns } from "../../find/columns.js";
 import { Filters, Orders, passingRows } from "../../find/filter.js";
 import { formatFindQuery, parseFindQuery } from "../../find/query.js";
 import { CurveTable } from "../../find/table.js";
@@ -54,7 +54,7 @@ export class FindView {
     const sortBy = (name, down) => this.store.change({ sort: { name, down } });
     this.list = new ResultRows(app, (name) => {
       const { sort } = this.query;
-      sortBy(name, sort.name === name && !sort.down);
+      sortBy(name, sort.name === name ? !sort.down : beginsWithGreatest(name));
     });
     this.countLabel = h("p.counted", "Loading");
     this.loadAll = loadAllLine(() => {
@@ -67,7 +67,7 @@ export class FindView {
     this.results = h("div.found", { tabindex: "-1" });
     this.sorter = h("select", {
       id: "find-sort",
-      onchange: (event) => sortBy(event.target.value, this.query.sort.down),
+      onchange: (event) => sortBy(event.target.value, beginsWithGreatest(event.target.value)),
     });
     this.direction = buttonOf("", () => sortBy(this.query.sort.name, !this.query.sort.down));
     this.families = h("div.family-choice");

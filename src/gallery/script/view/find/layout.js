@@ -11,18 +11,24 @@ export function findLayout(/** @type {FindView} */ view) {
   const displayButtons = [show("sheet", "Grid"), show("table", "Table")];
   const clear = buttonOf("Clear all filters", () => view.setFilters(new Map()), { class: "quiet" });
   const wide = window.matchMedia("(min-width: 60rem)").matches;
+  // Results come before the filters, which are many: the links lead to either.
+  const skip = (words, to) =>
+    h("a.skip", { href: "#", onclick: (event) => (event.preventDefault(), to()) }, words);
   const heading = h("div", h("h1", "Find"), view.countLabel, view.loadAll.element, view.message);
   const sorter = h("span.field.row", h("label", { for: "find-sort" }, "Sort by"), view.sorter);
   const display = h("div.segments.end", { role: "group", "aria-label": "Show as" }, displayButtons);
   const take = exportMenu(view.app, () => Array.from(view.rows, (row) => view.table.curveOf(row).name));
-  const panel = [h("summary", "Filters"), view.families, view.panel.element];
+  const summary = h("summary", "Filters");
+  const panel = h("details.find-panel", { open: wide }, summary, view.families, view.panel.element);
   const element = h(
     "div.view.wide.find-view",
+    skip("Skip to results", () => view.results.focus()),
+    skip("Skip to filters", () => summary.focus()),
     h("div.head", heading, take),
     h(
       "div.find-split",
-      h("details.find-panel", { open: wide }, panel),
       h("div", h("div.toolbar", sorter, view.direction, clear, display), view.results),
+      panel,
     ),
   );
   return { element, displayButtons, clear };

@@ -44,6 +44,8 @@ export class RangeFilter {
     return h("span", {
       class: `end ${end}`,
       role: "slider",
+      "aria-valuemin": 0,
+      "aria-valuemax": 100,
       tabindex: "0",
       "aria-label": `${words}, ${end === "low" ? "minimum" : "maximum"}`,
       onkeydown: (event) => this.handleKey(event, end),
@@ -78,8 +80,8 @@ export class RangeFilter {
     ["low", "high"].forEach((end, k) => {
       const value = filter[end] ?? scale[end];
       ends[k].style.left = `${100 * places[k]}%`;
-      const [min, max, now] = [scale.low, scale.high, value].map(formatBound);
-      setAttributes(ends[k], { "aria-valuemin": min, "aria-valuemax": max, "aria-valuenow": now });
+      const now = Math.round(100 * places[k]);
+      setAttributes(ends[k], { "aria-valuenow": now, "aria-valuetext": formatBound(value) });
       inputs[k].show(filter[end]);
     });
     this.track.style.setProperty("--from", String(places[0]));

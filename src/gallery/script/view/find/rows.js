@@ -29,9 +29,9 @@ export class ResultRows {
       this.head,
       this.body,
     );
-    const events = { onscroll: () => this.fill(), onkeydown: pinOnKey };
-    const attributes = { tabindex: "0", role: "region", "aria-label": "Table of curves", ...events };
-    this.element = h("div.scroll", attributes, this.figures);
+    const attributes = { tabindex: "0", role: "region", "aria-label": "Table of curves" };
+    this.element = h("div.scroll", { ...attributes, onscroll: () => this.fill() }, this.figures);
+    pinOnKey(this.element);
     this.unwatch = watchPins(app, this.element);
     this.paper = onPrint(
       this.element,

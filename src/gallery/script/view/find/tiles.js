@@ -29,14 +29,13 @@ export class ResultTiles extends TileWindow {
       fillTile: (element, k) => this.fillTile(element, k),
       draw: (element, k) => {
         const { family, curve } = this.curveOf(k);
-        const picture = elementIn(element, ".tile-picture");
-        picture.replaceChildren(thumbnail(family, [curve], this.sizeOfPicture(picture)));
+        fill(elementIn(element, ".tile-picture"), thumbnail(family, [curve], this.pictureSize));
       },
       failed: (message) => app.announce(message),
     });
     this.app = app;
     this.element.classList.add("results");
-    this.element.addEventListener("keydown", pinOnKey);
+    pinOnKey(this.element);
     this.unwatch = watchPins(app, this.element);
   }
 

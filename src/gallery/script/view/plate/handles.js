@@ -3,6 +3,7 @@
 import { pixel } from "../../draw/path-data.js";
 import { roundBelow } from "../../draw/plane-view.js";
 import { fill, h, s } from "../dom.js";
+import { onKeys } from "../keys.js";
 import { NumberField } from "../number-field.js";
 import { formatInputNumber } from "./sliders.js";
 import { roundedToGrain } from "./parameters.js";
@@ -29,6 +30,13 @@ export class Handles {
     const label = "Handles: arrow keys move a joint, Page Up and Page Down choose another";
     this.group = s("g", { role: "group", "aria-label": label });
     this.element = s("svg.sheet.squares", this.group);
+    onKeys(this.element, "On a handle", [
+      [
+        "ArrowLeft ArrowRight ArrowUp ArrowDown",
+        "move the joint; with Shift ten times as far, with Alt finely",
+      ],
+      ["PageUp PageDown", "another handle"],
+    ]);
     /** The values of the handle that has the focus, or was dragged last, to be typed. */
     this.numbers = h("div.handle-numbers", { hidden: true, onfocusout: (event) => this.#left(event) });
     /** @type {Map<string, NumberField>} */ this.fields = new Map();

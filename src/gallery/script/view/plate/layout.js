@@ -2,7 +2,8 @@
 
 import { address, curveAddress } from "../../data/address.js";
 import { cellText, curveKey } from "../../data/family.js";
-import { fill, h, isShortcut } from "../dom.js";
+import { fill, h } from "../dom.js";
+import { onKeys } from "../keys.js";
 import { MeasureTable, curveOrigin } from "./facts.js";
 import { formatCaption, formatChanges } from "../labels.js";
 import { exportMenu } from "../export/menu.js";
@@ -22,6 +23,7 @@ export function plateLayout(plate) {
   const side = h(
     "aside.panel.plate-panel",
     { "aria-label": "Readings and parameters" },
+    h("h2.visually-hidden", "Readings and parameters"),
     [dial, motion, sliders, switches].map((part) => part.element),
     switches.circuitSection,
   );
@@ -81,33 +83,27 @@ function neighbourLink(/** @type {Family} */ family, curve, way) {
   return h("a.button", { href: next, rel: way < 0 ? "prev" : "next", "aria-keyshortcuts": keys }, words);
 }
 
-/** Listens for keys until the function that it returns is called. */
+/** Handles keys until the function that it returns is called. */
 export function watchKeys(/** @type {Plate} */ plate) {
-  const listener = (event) => handlePlateKey(plate, event);
-  window.addEventListener("keydown", listener);
-  return () => window.removeEventListener("keydown", listener);
-}
-
-function handlePlateKey(/** @type {Plate} */ plate, event) {
-  const { drive, stage } = plate;
-  if (event.defaultPrevented || isShortcut(event)) return;
-  const { target } = event;
-  const isField = target.matches?.("input:not([type=range]):not([type=checkbox]), select, textarea");
-  if (isField) return;
-  const isPressed = target.matches?.("button, a, summary, input[type=checkbox]");
-  if (event.key === " " && !isPressed) plate.play();
-  else if (event.key === "0") stage.fit();
-  else if (event.key === "+" || event.key === "=") stage.zoom(1.3);
-  else if (event.key === "-") stage.zoom(1 / 1.3);
-  else if (event.key === "[" || event.key === "]") {
-    const next = neighbourAddress(plate.family, plate.curve, event.key === "]" ? 1 : -1);
-    if (next) plate.app.go(next);
-  } else if (target.matches?.("input[type=range], select")) return;
-  else if (/^Arrow(Left|Right)$/.test(event.key)) {
-    stepByKey(event, drive);
-    return;
-  } else return;
-  event.preventDefault();
+  const { drive, stage, family, curve } = plate;
+  const goTo = (way) => {
+    const next = neighbourAddress(family, curve, way);
+    return next !== null && plate.app.go(next);
+  };
+  // A button is pressed by the space bar, and a slider moves by its own keys.
+  const play = ({ target }) => !target.matches?.("button, a, summary, input[type=checkbox]") && plate.play();
+  const step = (event) => !event.target.matches?.("input[type=range]") && stepByKey(event, drive);
+  /** @type {KeyCommand[]} */ const commands = [
+    ["Space", "play or pause", play],
+    ["ArrowLeft ArrowRight", "back or on by a degree; with Shift by ten", step],
+    ["Home End", "to the previous or the next limit, or the start or the end", step],
+    ["0", "fit to the frame", () => stage.fit()],
+    ["+ =", "zoom in", () => stage.zoom(1.3)],
+    ["-", "zoom out", () => stage.zoom(1 / 1.3)],
+    ["[", "previous curve", () => goTo(-1)],
+    ["]", "next curve", () => goTo(1)],
+  ];
+  return onKeys(plate.element, "On the plate", commands, window);
 }
 
 /** The address of the previous (-1) or next (1) curve of a family; null at the ends. */

@@ -10,7 +10,8 @@ import {
   roundBelow,
   screenPoint,
 } from "../../draw/plane-view.js";
-import { fill, h, s, isShortcut } from "../dom.js";
+import { fill, h, s } from "../dom.js";
+import { onKeys } from "../keys.js";
 import { formatNumber } from "../labels.js";
 import { axisLines } from "./axes.js";
 import { fourBarDrawing } from "./four-bar-item.js";
@@ -50,14 +51,23 @@ export class TargetPlane {
         "aria-label": "Drawing pad",
         "aria-describedby": "pad-help",
         onpointerdown: (event) => this.#press(event),
-        onkeydown: (event) => this.#key(event),
       },
       [axes, box, found, this.line, dots, this.cross],
     );
-    const keys =
-      "Draw in one stroke, and drag the dots. Lengths are in the unit of the points. Keys: arrows move the pen (Shift: " +
-      "further), Enter adds a point, Backspace removes the last point, C closes the curve, Escape clears it.";
-    this.help = h("p.note", { id: "pad-help" }, keys);
+    onKeys(this.element, "On the pad", [
+      [
+        "ArrowLeft ArrowRight ArrowUp ArrowDown",
+        "move the pen; with Shift further",
+        (event) => this.#move(event),
+      ],
+      ["Enter Space", "add a point", () => this.#addPoint()],
+      ["Backspace", "remove the last point", () => this.#removePoint()],
+      ["c", "close the curve", () => this.#finish(true)],
+      ["Escape", "clear", () => this.on.cleared()],
+    ]);
+    const help =
+      "Draw in one stroke, and drag the dots, or draw by keys, which ? lists. Lengths are in the unit of the points.";
+    this.help = h("p.note", { id: "pad-help" }, help);
     this.render();
   }
 
@@ -185,22 +195,10 @@ export class TargetPlane {
     this.on.drawn(this.outline);
   }
 
-  #key(event) {
+  #move(event) {
     const step = roundBelow(30 / this.view.scale) * (event.shiftKey ? 5 : 1) * 0.5;
-    const move = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, step], ArrowDown: [0, -step] }[
-      event.key
-    ];
-    const acts = {
-      Enter: () => this.#addPoint(),
-      " ": () => this.#addPoint(),
-      Backspace: () => this.#removePoint(),
-      Escape: () => this.on.cleared(),
-      c: () => this.#finish(true),
-    };
-    if (isShortcut(event) || (!move && !acts[event.key])) return;
-    event.preventDefault();
-    if (!move) return void acts[event.key]();
-    this.pen = [this.pen[0] + move[0], this.pen[1] + move[1]];
+    const ways = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, step], ArrowDown: [0, -step] };
+    this.pen = this.pen.map((value, k) => value + ways[event.key][k]);
     this.announce(this.pen.map((value) => formatNumber(value)).join(", "));
     this.render();
   }
