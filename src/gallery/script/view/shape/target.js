@@ -198,7 +198,8 @@ export class TargetPlane {
   #move(event) {
     const step = roundBelow(30 / this.view.scale) * (event.shiftKey ? 5 : 1) * 0.5;
     const ways = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, step], ArrowDown: [0, -step] };
-    this.pen = this.pen.map((value, k) => value + ways[event.key][k]);
+    const [x, y] = ways[event.key];
+    this.pen = [this.pen[0] + x, this.pen[1] + y];
     this.announce(this.pen.map((value) => formatNumber(value)).join(", "));
     this.render();
   }
