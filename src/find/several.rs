@@ -3,8 +3,8 @@
 use std::sync::atomic::AtomicBool;
 
 use coupler_find::{
-    Index, JAM_DEG, LinkageAnswer, LinkageIndex, LinkageSearch, LinkageSpace, Options, Search, Target, nearest_miss_by,
-    ranked, simpler_spaces, six_bar_spaces,
+    Index, JAM_DEG, LinkageAnswer, LinkageIndex, LinkageSearch, LinkageSpace, Options, Search, Searched, Target,
+    nearest_miss_by, ranked, simpler_spaces, six_bar_spaces,
 };
 
 use super::index_file::load_six_bars;
@@ -86,18 +86,26 @@ pub fn find_among(
             let own = Options { most: FOUR_BARS, ..options.clone() };
             four_bars = Search::new(target, own).run(&load_index(Index::DEFAULT_COUNT));
         }
-        let mut answers = Vec::new();
-        // Those that do not jam are not the same as the nearest of all that happen not to.
-        for (half, least_mu_deg) in [(0.0, JAM_DEG), (1.0, 0.0)] {
-            let mut search = LinkageSearch::among(&spaces, index.as_ref(), (target, options), SAMPLES, least_mu_deg);
+        curves = 0;
+        let mut run = |half: f64, searched| -> Result<Vec<LinkageAnswer>, Error> {
+            let mut search = LinkageSearch::among(&spaces, index.as_ref(), (target, options), SAMPLES, searched);
             four_bars.iter().for_each(|answer| search.add_four_bar(&answer.mechanism.four_bar));
             while search.step(&threads) {
                 threads.proceed()?;
                 report_part(INDEX_PART + (1.0 - INDEX_PART) * 0.5 * (half + search.part_done()));
             }
-            answers.extend(search.answers(&threads));
+            let answers = search.answers(&threads);
             threads.proceed()?;
-            curves = search.curve_count();
+            curves = search.curve_count() + if searched == Searched::All { 0 } else { curves };
+            Ok(answers)
+        };
+        // Those that do not jam are not the same as the nearest of all that happen not to. Others are looked for where a condition may ask for them, and
+        // where there are none.
+        let mut answers = run(0.0, Searched::Transmitting(JAM_DEG))?;
+        let asks = options.condition.is_some();
+        answers.extend(run(1.0, if asks { Searched::All } else { Searched::Groups })?);
+        if answers.is_empty() && !asks {
+            answers = run(1.0, Searched::All)?;
         }
         Ok(ranked(answers, target.size(), options.most))
     };

@@ -110,7 +110,7 @@ pub use function::{
 pub use hindrance::Hindrance;
 pub use linkage::{
     JAM_DEG, LinkageAnswer, LinkageFunctionAnswer, LinkageFunctionError, LinkageFunctionOptions, LinkageIndex,
-    LinkageIndexPart, LinkageSampler, LinkageSearch, LinkageSpace, LinkageSpaceError, PlacedCurve,
+    LinkageIndexPart, LinkageSampler, LinkageSearch, LinkageSpace, LinkageSpaceError, PlacedCurve, Searched,
     generate_function_by, is_scalable, most_precision_points, ranked, scaled_values, simpler_spaces, six_bar_spaces,
 };
 pub use options::{Effort, Options};

@@ -115,17 +115,15 @@ impl<'a> Dragging<'a> {
         }
         let ChangedCell { family, numbers, .. } = self.family.changed_cell(&curve).ok()?;
         let linkage = family.linkage(&family.cell(0)).ok()?;
-        let followed = match linkage.group.is_some() {
-            true => Some(self.pass.of_neighbour(&linkage)?),
-            false => None,
-        };
-        let positions = poses(&linkage, followed.as_ref().unwrap_or(self.pass), &[self.input]);
+        let positions = poses(&linkage, &self.pass.of_neighbour(&linkage)?, &[self.input]);
         let mut all: Vec<Point> = linkage.joint_ids().map(|joint| positions.point(joint, 0)).collect();
         // A moved point of a grid is a joint of its own.
         let traced = *linkage.traced.get(numbers.trace(curve.curve[0]).checked_sub(1)?)?;
         *all.get_mut(self.study.joint.index())? = positions.point(traced, 0);
+        /// Of a length.
+        const ROUNDING: f64 = 1e-9;
         let are_there = all.iter().all(|p| p.x.is_finite() && p.y.is_finite());
-        (are_there && positions.keep_lengths(&linkage)).then_some(all)
+        (are_there && positions.keep_lengths(&linkage, ROUNDING)).then_some(all)
     }
 
     /// The values, each moved by a step in its unit.
@@ -138,7 +136,10 @@ impl<'a> Dragging<'a> {
         let motion = |k: usize, step: f64| {
             let mut by = vec![0.0; values.len()];
             by[k] = step;
-            let joints = self.joints(&Dragging::moved(values, &by))?;
+            let moved = Dragging::moved(values, &by);
+            // At a bound there is no step beyond it, and next to it a shorter one.
+            let step = (moved[k].value - values[k].value) / values[k].unit;
+            let joints = self.joints(&moved).filter(|_| step.abs() > STEP / 2.0)?;
             Some(at.iter().zip(joints).map(|(before, after)| (after - before) / step).collect())
         };
         let none = || vec![Vector::zeros(); at.len()];

@@ -197,3 +197,32 @@ fn what_cannot_be_reached_is_neared_as_far_as_it_goes() {
         }
     }
 }
+
+#[test]
+fn a_value_at_its_bound_is_dragged_back() {
+    const GREATEST: f64 = 1.0;
+    const LESS: f64 = 0.97;
+    // With this crank and input it can be assembled at both.
+    let part = |value: f64| [("part".to_owned(), value), ("r".to_owned(), 4.0)];
+    let atlas = plan("atlas.toml");
+    let planned = atlas.families.iter().find(|planned| planned.family.id == "hart-inversor").unwrap();
+    let mut plate = Plate::open(planned);
+    assert!(plate.change(&part(LESS)));
+    plate.input = 30.0;
+    plate.sides = plate.passes()[0]["sides"].clone();
+    let all = handles(&mut plate);
+    let places: Vec<[f64; 2]> =
+        all.iter().map(|(joint, _, is_traced)| plate.place(*joint, *is_traced).unwrap()).collect();
+    assert!(plate.change(&part(GREATEST)));
+    let moved: Vec<(u64, Vec<String>, bool)> =
+        handles(&mut plate).into_iter().filter(|(_, names, _)| names.iter().any(|name| name == "part")).collect();
+    assert!(!moved.is_empty());
+    for (joint, _, is_traced) in moved {
+        assert!(plate.change(&part(GREATEST)));
+        let number = all.iter().position(|(other, ..)| *other == joint).unwrap();
+        let found = plate.drag(joint, places[number], &["part".to_owned()]);
+        assert!(found.distance < 1e-9 * plate.size(), "{joint}: {}", found.distance);
+        assert!((found.changes[0].1 - LESS).abs() < 1e-9, "{:?}", found.changes);
+        assert!(plate.change(&part(found.changes[0].1)) && plate.place(joint, is_traced).is_some());
+    }
+}

@@ -54,19 +54,17 @@ impl JointPositions {
         self.x.iter().chain(&self.y).fold(0.0, |most: f64, value| most.max(value.abs()))
     }
 
-    /// Whether all links keep their lengths, to half of a billionth: where a linkage cannot be assembled, its joints are placed otherwise.
-    pub fn keep_lengths(&self, linkage: &Linkage) -> bool {
-        /// Relative to the square of the length of a link: of the length it is half as much.
-        const ROUNDING: f64 = 2e-9;
+    /// Whether all links keep their lengths, to a part of the longest of each: where a linkage cannot be assembled, its joints are placed otherwise.
+    pub fn keep_lengths(&self, linkage: &Linkage, part: f64) -> bool {
         linkage.links.iter().all(|link| {
             let Some((first, from)) = link.joints.first() else { return true };
-            link.joints[1..].iter().all(|(joint, to)| {
-                let own = (to - from).norm_squared();
+            let lengths = || link.joints[1..].iter().map(|(joint, to)| (joint, (to - from).norm()));
+            let most = part * lengths().fold(0.0, |most: f64, (_, length)| most.max(length));
+            lengths().all(|(joint, own)| {
                 let [from, to] = [first, joint].map(|joint| self.x(*joint).iter().zip(self.y(*joint)));
                 from.zip(to).all(|((ax, ay), (bx, by))| {
                     let (dx, dy) = (bx - ax, by - ay);
-                    let square = dx * dx + dy * dy;
-                    (square - own).abs() <= ROUNDING * own.max(square)
+                    ((dx * dx + dy * dy).sqrt() - own).abs() <= most
                 })
             })
         })

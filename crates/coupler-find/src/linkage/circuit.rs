@@ -71,8 +71,12 @@ impl Traced {
         }
     }
 
-    /// The same joint of another linkage of the same template on a circuit with the same passes, that nearest to this one.
+    /// The same joint of another linkage of the same template on a circuit with the same passes, that nearest to this one. That a group turns fully
+    /// is not proven.
     pub fn followed(&self, linkage: Linkage) -> Option<Traced> {
+        if linkage.group.is_some() && self.has_fixed_passes() {
+            return Traced::on_full_turn(linkage, self.joint);
+        }
         let own = &self.circuit;
         let is_alike = |other: &UnsampledCircuit| {
             own.is_closed == other.is_closed
@@ -104,18 +108,14 @@ impl Traced {
         if !self.has_fixed_passes() {
             return self.followed(linkage);
         }
-        let passes = match linkage.group.is_some() {
-            true => self.circuit.passes.iter().map(|pass| pass.of_neighbour(&linkage)).collect::<Option<_>>()?,
-            false => self.circuit.passes.clone(),
-        };
+        let passes = self.circuit.passes.iter().map(|pass| pass.of_neighbour(&linkage)).collect::<Option<_>>()?;
         Some(Traced { circuit: UnsampledCircuit { passes, ..self.circuit }, linkage, joint: self.joint })
     }
 
     /// The same joint of a linkage that differs little, at the same positions: on a circuit without limits the same inputs, where it is
     /// not certain that it can be assembled at them.
     pub fn moved(&self, linkage: Linkage) -> Option<Traced> {
-        match self.has_fixed_passes() {
-            true if linkage.group.is_some() => Traced::on_full_turn(linkage, self.joint),
+        match self.has_fixed_passes() && linkage.group.is_none() {
             true => Some(Traced { linkage, circuit: self.circuit.clone(), joint: self.joint }),
             false => self.followed(linkage),
         }

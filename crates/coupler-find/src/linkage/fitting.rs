@@ -207,7 +207,7 @@ impl LinkageFitting {
         let linkage = self.space().template().linkage(values).ok().filter(|_| self.space().are_valid(values))?;
         let followed = refinement.state.traced.followed(linkage)?;
         let OnCircuit { circuit, traced, .. } = circuits.into_iter().find(|OnCircuit { trace, traced, .. }| {
-            *trace == refinement.trace && traced.circuit.passes == followed.circuit.passes
+            *trace == refinement.trace && followed.is_on(&traced.circuit.passes)
         })?;
         refinement.state = match refinement.state.start {
             Some(start) => self.aim.timed_state(traced, placed, refinement.is_reversed, start)?,

@@ -101,7 +101,7 @@ impl LinkageIndex {
     pub const BYTES_PER_CURVE: usize = size_of::<u32>() + CurveShape::BYTES;
 
     /// The version of the samples and of the bytes.
-    pub const VERSION: u32 = 1;
+    pub const VERSION: u32 = 2;
 
     /// The number of curves that are searched unless another one is asked for.
     pub const DEFAULT_COUNT: usize = 100_000;

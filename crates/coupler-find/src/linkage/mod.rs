@@ -36,7 +36,7 @@ pub use index::{LinkageIndex, LinkageIndexPart, LinkageSampler};
 pub use placed_curve::PlacedCurve;
 pub use ranking::{JAM_DEG, ranked};
 pub use scaling::{is_scalable, scaled_values};
-pub use search::LinkageSearch;
+pub use search::{LinkageSearch, Searched};
 pub use six_bars::{simpler_spaces, six_bar_spaces};
 pub use space::{LinkageSpace, LinkageSpaceError};
 

@@ -44,6 +44,10 @@ impl Poses<'_> {
 
     /// Whether the links keep their lengths. A circuit on which no dyad is flat has the same passes then, up to what is between the places.
     pub fn are_closed(&self, linkage: &Linkage) -> bool {
-        self.of_passes.iter().all(|placed| placed.keep_lengths(linkage))
+        /// Of a length, for exact poses, and for those of a turn of a group, which may be off by some millionths.
+        const ROUNDING: f64 = 1e-9;
+        const INTERPOLATED: f64 = 1e-5;
+        let part = if linkage.group.is_some() { INTERPOLATED } else { ROUNDING };
+        self.of_passes.iter().all(|placed| placed.keep_lengths(linkage, part))
     }
 }

@@ -99,7 +99,9 @@ impl LinkageRefinement {
         }
         let traced = &self.state.traced;
         let is_kept = |found: Traced| traced.is_on(&found.circuit.passes);
-        if traced.has_fixed_passes() && !traced.followed(traced.linkage.clone()).is_some_and(is_kept) {
+        // Of a group each step has been followed all around, and the last is proven in the end.
+        let is_followed = traced.linkage.group.is_some();
+        if traced.has_fixed_passes() && !is_followed && !traced.followed(traced.linkage.clone()).is_some_and(is_kept) {
             (self.values, self.state) = before;
             self.descent.is_done = true;
         }

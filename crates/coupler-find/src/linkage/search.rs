@@ -79,8 +79,19 @@ enum Stage {
     Done,
 }
 
+/// Which of several linkages are searched.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Searched {
+    /// All of them.
+    All,
+    /// Those with transmission angles, none of which is less than this, in degrees.
+    Transmitting(f64),
+    /// Those without: linkages with a group.
+    Groups,
+}
+
 /// Several linkages have so many times the starts of one.
-const STARTS_OF_SEVERAL: usize = 3;
+const STARTS_OF_SEVERAL: usize = 2;
 
 /// Of several linkages, the nearest that are ranked.
 const MOST_RANKED: usize = 150;
@@ -141,12 +152,13 @@ impl LinkageSearch {
         index: Option<&LinkageIndex>,
         (target, options): (&Target, &Options),
         samples: usize,
-        least_mu_deg: f64,
+        searched: Searched,
     ) -> LinkageSearch {
         let applies = |space: &LinkageSpace| {
             let meets = options.condition.as_ref().is_none_or(|condition| condition.on(&space.template().id).is_some());
-            meets && (least_mu_deg <= 0.0 || !space.is_group())
+            meets && (searched == Searched::All || (searched == Searched::Groups) == space.is_group())
         };
+        let least_mu_deg = if let Searched::Transmitting(least_deg) = searched { least_deg } else { 0.0 };
         let index = index.filter(|_| target.angles_deg().is_none());
         let has = |space: usize| index.is_some_and(|index| space < index.linkage_count());
         let kept: Vec<usize> = (0..spaces.len()).filter(|space| applies(&spaces[*space])).collect();

@@ -1,6 +1,6 @@
 //! Certified steps along the curve on which the equations of a group hold.
 
-use nalgebra::{Const, DMatrix, DVector, DimMin, SMatrix, SVector, ToTypenum};
+use nalgebra::{Const, DMatrix, DVector, DVectorViewMut, Dyn, LU, SMatrix, SVectorViewMut};
 
 use super::equations::{Equations, Linearization};
 use crate::motion::enclosure::Enclosure;
@@ -113,6 +113,33 @@ pub(super) struct Tube {
     pub input_rates: [Enclosure; 2],
 }
 
+/// A square matrix in factors.
+#[expect(clippy::large_enum_variant, reason = "millions are made, each for a few solutions, and none is kept")]
+pub(super) enum Factors {
+    Four(LU<f64, Const<4>, Const<4>>),
+    Six(LU<f64, Const<6>, Const<6>>),
+    Eight(LU<f64, Const<8>, Const<8>>),
+    Any(LU<f64, Dyn, Dyn>),
+}
+
+impl Factors {
+    /// Solves linear equations in place; `None` if the matrix is singular.
+    pub fn solve(&self, values: &mut [f64]) -> Option<()> {
+        let is_regular = match self {
+            Factors::Four(lu) => lu.solve_mut(&mut SVectorViewMut::<f64, 4>::from_slice(values)),
+            Factors::Six(lu) => lu.solve_mut(&mut SVectorViewMut::<f64, 6>::from_slice(values)),
+            Factors::Eight(lu) => lu.solve_mut(&mut SVectorViewMut::<f64, 8>::from_slice(values)),
+            Factors::Any(lu) => lu.solve_mut(&mut DVectorViewMut::from_slice(values, values.len())),
+        };
+        is_regular.then_some(())
+    }
+}
+
+/// The derivatives without the column of one unknown, or of the input.
+fn square<const N: usize>(at: &Linearization, held: usize) -> SMatrix<f64, N, N> {
+    SMatrix::from_fn(|row, k| at.jacobian[row * (N + 1) + k + usize::from(k >= held)])
+}
+
 impl Equations {
     /// The state on the curve next to another, with one unknown, or the input, as it is there; `None` if Newton's
     /// method finds none.
@@ -122,8 +149,8 @@ impl Equations {
         let mut correction = Vec::with_capacity(state.len());
         for _ in 0..MAX_CORRECTIONS {
             self.linearized(&state, &mut at);
-            correction.clear();
-            self.correct(&at, held, &mut correction)?;
+            correction.clone_from(&at.residuals);
+            self.factors(&at, held).solve(&mut correction)?;
             if correction.iter().any(|change| !change.is_finite()) {
                 return None;
             }
@@ -142,28 +169,14 @@ impl Equations {
         (last < MAGNIFIED_ROUNDING).then_some(state)
     }
 
-    /// The step of Newton's method with one unknown, or the input, held: without allocations for the usual numbers of unknowns.
-    fn correct(&self, at: &Linearization, held: usize, out: &mut Vec<f64>) -> Option<()> {
+    /// The factors of the derivatives without the column of one unknown, or of the input: without allocations for the usual numbers of unknowns.
+    pub fn factors(&self, at: &Linearization, held: usize) -> Factors {
         match self.unknown_count() {
-            4 => self.correct_by::<4>(at, held, out),
-            6 => self.correct_by::<6>(at, held, out),
-            8 => self.correct_by::<8>(at, held, out),
-            _ => {
-                let matrix = self.matrix_without(&at.jacobian, held);
-                out.extend(matrix.lu().solve(&DVector::from_column_slice(&at.residuals))?.iter());
-                Some(())
-            }
+            4 => Factors::Four(square::<4>(at, held).lu()),
+            6 => Factors::Six(square::<6>(at, held).lu()),
+            8 => Factors::Eight(square::<8>(at, held).lu()),
+            _ => Factors::Any(self.matrix_without(&at.jacobian, held).lu()),
         }
-    }
-
-    fn correct_by<const N: usize>(&self, at: &Linearization, held: usize, out: &mut Vec<f64>) -> Option<()>
-    where
-        Const<N>: DimMin<Const<N>, Output = Const<N>> + ToTypenum,
-    {
-        let entry = |row: usize, k: usize| at.jacobian[row * (N + 1) + k + usize::from(k >= held)];
-        let residuals = SVector::<f64, N>::from_column_slice(&at.residuals);
-        out.extend(SMatrix::<f64, N, N>::from_fn(entry).lu().solve(&residuals)?.iter());
-        Some(())
     }
 
     /// The node at a state on the curve; `None` where the curve is not regular. Its direction is the one from which the

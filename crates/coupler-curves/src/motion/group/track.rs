@@ -6,6 +6,7 @@ use nalgebra::DVector;
 
 use super::equations::Equations;
 use super::step::Node;
+use super::turn::Turn;
 use crate::geometry::{Point, trig};
 use crate::linkage::JointId;
 use crate::motion::joint_series::SeriesInput;
@@ -14,14 +15,22 @@ use crate::motion::series::{Series, VectorSeries};
 /// The poses of a linkage with a group on a part of a circuit on which the input is monotonic.
 #[derive(Clone)]
 pub struct GroupTrack {
-    nodes: Arc<Nodes>,
-    /// What the input of a pass is greater by than that of the nodes, a whole number of turns, in degrees.
+    poses: Poses,
+    /// What the input of a pass is greater by than that of the poses, a whole number of turns, in degrees.
     shift: f64,
-    /// The equations of a linkage that differs little from that of the nodes, if the poses are those of one.
+    /// The equations of a linkage that differs little, if the poses are those of one.
     neighbour: Option<Arc<Equations>>,
 }
 
 /// What tracks share.
+#[derive(Clone)]
+enum Poses {
+    /// Exact, from nodes that are proven to be on one curve.
+    Exact(Arc<Nodes>),
+    /// Of a turn that is not proven.
+    Turn(Arc<Turn>),
+}
+
 struct Nodes {
     equations: Arc<Equations>,
     /// In the order of rising input.
@@ -32,23 +41,31 @@ struct Nodes {
 
 impl std::fmt::Debug for GroupTrack {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "GroupTrack of {} nodes", self.nodes.nodes.len())
+        match &self.poses {
+            Poses::Exact(nodes) => write!(f, "GroupTrack of {} nodes", nodes.nodes.len()),
+            Poses::Turn(_) => f.write_str("GroupTrack of a turn"),
+        }
     }
 }
 
+/// Only what is proven is known to be the same.
 impl PartialEq for GroupTrack {
     fn eq(&self, other: &GroupTrack) -> bool {
-        self.shift == other.shift
-            && self.nodes.nodes == other.nodes.nodes
-            && self.neighbour.is_none()
-            && other.neighbour.is_none()
+        let (Poses::Exact(own), Poses::Exact(nodes)) = (&self.poses, &other.poses) else { return false };
+        self.shift == other.shift && own.nodes == nodes.nodes && self.neighbour.is_none() && other.neighbour.is_none()
     }
 }
 
 impl GroupTrack {
     /// The poses between nodes in the order of rising input; `is_closed` if the last is the first again, some turns later.
     pub(super) fn new(equations: Arc<Equations>, nodes: Vec<Node>, is_closed: bool) -> GroupTrack {
-        GroupTrack { nodes: Arc::new(Nodes { equations, nodes, is_closed }), shift: 0.0, neighbour: None }
+        let poses = Poses::Exact(Arc::new(Nodes { equations, nodes, is_closed }));
+        GroupTrack { poses, shift: 0.0, neighbour: None }
+    }
+
+    /// The poses of a turn.
+    pub(super) fn of_turn(turn: Turn) -> GroupTrack {
+        GroupTrack { poses: Poses::Turn(Arc::new(turn)), shift: 0.0, neighbour: None }
     }
 
     /// The same on a pass whose input is greater by that many degrees, a whole number of turns.
@@ -58,13 +75,26 @@ impl GroupTrack {
 
     /// The poses of a linkage that differs little, at the same inputs; `None` if they do not go all around, so that they may end at others.
     pub(super) fn of_neighbour(&self, equations: Equations) -> Option<GroupTrack> {
-        let is_alike = self.nodes.is_closed && self.nodes.equations.joints == equations.joints && equations.is_angle;
+        let own = self.own_equations();
+        let is_turn = match &self.poses {
+            Poses::Exact(nodes) => nodes.is_closed,
+            Poses::Turn(_) => true,
+        };
+        let is_alike = is_turn && own.joints == equations.joints && equations.is_angle;
         is_alike.then(|| GroupTrack { neighbour: Some(Arc::new(equations)), ..self.clone() })
+    }
+
+    /// The equations of the linkage from whose poses these are found.
+    fn own_equations(&self) -> &Equations {
+        match &self.poses {
+            Poses::Exact(nodes) => &nodes.equations,
+            Poses::Turn(turn) => &turn.equations,
+        }
     }
 
     /// The equations of the linkage whose poses these are.
     fn equations(&self) -> &Equations {
-        self.neighbour.as_ref().unwrap_or(&self.nodes.equations)
+        self.neighbour.as_deref().unwrap_or_else(|| self.own_equations())
     }
 
     /// The positions of the joints of the group at an input.
@@ -85,10 +115,13 @@ impl GroupTrack {
         const AT_REST: f64 = 1e-12;
         let equations = self.equations();
         let state = self.state(input.value);
-        let own = self.own_input(input.value);
-        let limit = self.end_at(own).filter(|_| is_end);
-        if limit.is_some_and(|node| node.is_change) {
-            return self.series_at_change(own);
+        let nodes = match &self.poses {
+            Poses::Exact(nodes) if is_end => Some((nodes, nodes.own_input(input.value - self.shift))),
+            _ => None,
+        };
+        let limit = nodes.and_then(|(nodes, own)| nodes.end_at(own));
+        if let Some((nodes, own)) = nodes.filter(|_| limit.is_some_and(|node| node.is_change)) {
+            return self.series_at_change(nodes, own);
         }
         let n = equations.unknown_count();
         let constant = |k: usize| Series::constant(state[k]);
@@ -114,11 +147,11 @@ impl GroupTrack {
 
     /// The same at an end that is a change point: the series at an input beside it, expanded there. Velocities have about nine digits, accelerations
     /// seven.
-    fn series_at_change<const N: usize>(&self, end: f64) -> Vec<(JointId, VectorSeries<f64, N>)> {
+    fn series_at_change<const N: usize>(&self, nodes: &Nodes, end: f64) -> Vec<(JointId, VectorSeries<f64, N>)> {
         /// Of so many terms, at that distance, in radians or relative to the size.
         const TERMS: usize = 16;
         const BESIDE: f64 = 0.015;
-        let Nodes { equations, nodes, .. } = &*self.nodes;
+        let Nodes { equations, nodes, .. } = nodes;
         let n = equations.unknown_count();
         let [low, high] = [nodes[0].state[n], nodes[nodes.len() - 1].state[n]];
         let inwards = BESIDE.min((high - low) / 4.0);
@@ -142,28 +175,44 @@ impl GroupTrack {
         series.into_iter().map(|(joint, at)| (joint, VectorSeries { x: moved(at.x), y: moved(at.y) })).collect()
     }
 
-    /// The state at an input: the one that Newton's method finds from the nodes next to it.
+    /// The state at an input: on nodes the one that Newton's method finds from those next to it.
     fn state(&self, input: f64) -> Vec<f64> {
-        let own = self.own_input(input);
-        let Some(other) = &self.neighbour else { return self.state_at_own(own) };
+        let input = input - self.shift;
+        match (&self.poses, &self.neighbour) {
+            (Poses::Exact(nodes), None) => nodes.state(nodes.own_input(input)),
+            (Poses::Exact(nodes), Some(other)) => nodes.state_of_neighbour(other, nodes.own_input(input)),
+            (Poses::Turn(turn), None) => turn.state(turn.own_input(input)),
+            (Poses::Turn(turn), Some(other)) => turn.state_of_neighbour(other, turn.own_input(input)),
+        }
+    }
+
+    /// Whether a state is a pose of the track, at whole turns from its input or not.
+    pub(super) fn passes(&self, state: &[f64]) -> bool {
+        matches!(&self.poses, Poses::Exact(nodes) if nodes.passes(state))
+    }
+}
+
+impl Nodes {
+    /// The state of a linkage that differs little, by Newton's method from that of the nodes.
+    fn state_of_neighbour(&self, other: &Equations, own: f64) -> Vec<f64> {
         let n = other.unknown_count();
         let mut guess = self.guess(own);
         guess[n] = own;
-        let guess = other.state_of(&self.nodes.equations, guess);
+        let guess = other.state_of(&self.equations, guess);
         other.corrected(guess.clone(), n).unwrap_or(guess)
     }
 
     /// About the state at an input of the nodes.
     fn guess(&self, own: f64) -> Vec<f64> {
-        let Nodes { equations, nodes, .. } = &*self.nodes;
+        let Nodes { equations, nodes, .. } = self;
         let n = equations.unknown_count();
         let next = nodes.partition_point(|node| node.state[n] < own).clamp(1, nodes.len() - 1);
         nodes[next - 1].at_input(&nodes[next], own)
     }
 
     /// The state at an input as it is on the nodes.
-    fn state_at_own(&self, input: f64) -> Vec<f64> {
-        let Nodes { equations, nodes, .. } = &*self.nodes;
+    fn state(&self, input: f64) -> Vec<f64> {
+        let Nodes { equations, nodes, .. } = self;
         let n = equations.unknown_count();
         if let Some(end) = self.end_at(input) {
             return end.state.clone();
@@ -182,7 +231,7 @@ impl GroupTrack {
     /// The end that an input of the nodes is at, or beyond: at a limit the equations are singular, and next to it a rounding of the input is some
     /// 1e-8 of the pose.
     fn end_at(&self, input: f64) -> Option<&Node> {
-        let Nodes { equations, nodes, .. } = &*self.nodes;
+        let Nodes { equations, nodes, .. } = self;
         let n = equations.unknown_count();
         // Of degrees that have been radians, and are again.
         let rounding = 8.0 * f64::EPSILON * (1.0 + input.abs());
@@ -195,10 +244,10 @@ impl GroupTrack {
     }
 
     /// Whether a state is a pose of the track, at whole turns from its input or not.
-    pub(super) fn passes(&self, state: &[f64]) -> bool {
+    fn passes(&self, state: &[f64]) -> bool {
         /// States this close are one: that of a node is known to rounding, magnified next to limits.
         const SAME: f64 = 1e-6;
-        let Nodes { equations, nodes, .. } = &*self.nodes;
+        let Nodes { equations, nodes, .. } = self;
         let n = equations.unknown_count();
         let [low, high] = [nodes[0].state[n], nodes[nodes.len() - 1].state[n]];
         let turn = equations.turn().unwrap_or(f64::INFINITY);
@@ -206,18 +255,18 @@ impl GroupTrack {
         let mut inputs =
             (0..).map(|k| first + if k == 0 { 0.0 } else { f64::from(k) * turn }).take_while(|at| *at <= high);
         inputs.any(|at| {
-            let own = self.state_at_own(at);
+            let own = self.state(at);
             low <= at && (0..n).all(|k| (own[k] - state[k]).abs() < SAME)
         })
     }
 
-    /// An input of a pass as it is on the nodes, where it may be whole turns from what the pass calls it.
+    /// An input, an angle in degrees or a length, as it is on the nodes, where it may be whole turns from what the pass calls it.
     fn own_input(&self, input: f64) -> f64 {
         /// Beyond an end by less it is the end.
         const ROUNDING: f64 = 1e-9;
-        let Nodes { equations, nodes, is_closed } = &*self.nodes;
+        let Nodes { equations, nodes, is_closed } = self;
         let n = equations.unknown_count();
-        let input = equations.input_in_state(input - self.shift);
+        let input = equations.input_in_state(input);
         let Some(turn) = equations.turn() else { return input };
         let [low, high] = [nodes[0].state[n], nodes[nodes.len() - 1].state[n]];
         if (low - ROUNDING..=high + ROUNDING).contains(&input) {

@@ -65,8 +65,7 @@ export class TargetPlane {
       ["c", "close the curve", () => this.#finish(true)],
       ["Escape", "clear", () => this.on.cleared()],
     ]);
-    const help =
-      "Draw in one stroke, and drag the dots, or draw by keys, which ? lists. Lengths are in the unit of the points.";
+    const help = "Draw in one stroke, and drag the dots; ? lists the keys.";
     this.help = h("p.note", { id: "pad-help" }, help);
     this.render();
   }
