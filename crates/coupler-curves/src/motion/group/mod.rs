@@ -13,6 +13,7 @@ mod intervals;
 mod step;
 mod track;
 mod turn;
+mod turn_poses;
 
 pub(super) use intervals::{GroupIntervals, NamedPose, find_intervals};
 pub use track::GroupTrack;

@@ -6,7 +6,7 @@ use nalgebra::DVector;
 
 use super::equations::Equations;
 use super::step::Node;
-use super::turn::Turn;
+use super::turn_poses::Turn;
 use crate::geometry::{Point, trig};
 use crate::linkage::JointId;
 use crate::motion::joint_series::SeriesInput;
