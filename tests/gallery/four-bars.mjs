@@ -57,6 +57,16 @@ export const FOUR_BARS = [
         page.getByRole("button", { name: "Save manifest of all" }).click(),
       ]);
       assert.equal(download.suggestedFilename(), "found.toml");
+      // Its plate has the same linkage, on the same circuit.
+      const worst = await first.locator('dt:text-is("Worst transmission angle") + dd').innerText();
+      await first.getByRole("link", { name: "Open on a plate" }).click();
+      const range = page.getByText(/^least [\d.]+°, greatest/);
+      const [least, greatest] = (await range.innerText()).match(/[\d.]+(?=°)/g).map(Number);
+      assert.ok(
+        Math.abs(Math.min(least, 180 - greatest) - parseFloat(worst)) < 0.11,
+        `${least} ${greatest} ${worst}`,
+      );
+      assert.match(await gallery.fragment(), /^#?\/new\/four-bar\?/);
       await gallery.close();
     },
   ],

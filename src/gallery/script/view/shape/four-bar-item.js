@@ -4,6 +4,7 @@ import { placedData } from "../../draw/path-data.js";
 import { pointPairs, screenPoint } from "../../draw/plane-view.js";
 import { buttonOf, h, s, setAttributes, termList, thumbnailFrame } from "../dom.js";
 import { copyText } from "../export/save.js";
+import { fourBarAddress } from "../new-view.js";
 import { formatNumber } from "../labels.js";
 import { qualityMark, viewOfOutlines } from "./match-item.js";
 
@@ -36,7 +37,11 @@ export function fourBarItem(app, answer, path, size) {
       "div",
       h("p.deviation", deviation),
       termList("dl.four-bar-facts", rows),
-      copyButton(app, "Copy manifest", manifest),
+      h(
+        "div.toolbar",
+        h("a", { href: fourBarAddress(answer) }, "Open on a plate"),
+        copyButton(app, "Copy manifest", manifest),
+      ),
     ),
   );
 }
