@@ -19,7 +19,7 @@ pub(super) fn place_at_end(linkage: &Linkage, pass: &Pass, begins: bool, out: &m
     let signs = DyadSigns::new(pass.mode, flat.without(vanishing));
     let inputs = InputColumns::new(&[input]);
     if let Some(track) = &pass.track {
-        track.positions(input.value).for_each(|(joint, at)| out.set_point(joint, sample, at));
+        track.positions(input.value, |(joint, at)| out.set_point(joint, sample, at));
     }
     place_leading_joints(linkage, linkage.joints.len(), inputs.as_slices(), &signs, out, sample..sample + 1);
     if flat.is_empty() || pass.track.is_some() {

@@ -34,7 +34,7 @@ pub(super) fn place_on_pass(
 ) {
     if let Some(track) = &pass.track {
         for (sample, input) in range.clone().zip(inputs.values) {
-            track.positions(*input).for_each(|(joint, at)| out.set_point(joint, sample, at));
+            track.positions(*input, |(joint, at)| out.set_point(joint, sample, at));
         }
     }
     let signs = DyadSigns::new(pass.mode, DyadSet::EMPTY);

@@ -61,11 +61,16 @@ impl Traced {
         self.is_regular() && motion_options.range.is_none() && (group.is_none() || is_group_followed())
     }
 
-    /// Whether the passes of a circuit of the same linkage are these. Where a group's are found by Newton's method, it has no other circuit.
+    /// Whether the circuit of each linkage is followed by Newton's method, as that of a group that turns fully is. It is proven in the end only.
+    pub fn is_followed(&self) -> bool {
+        self.linkage.group.is_some() && self.has_fixed_passes()
+    }
+
+    /// Whether the passes of a circuit of the same linkage are these. Where they are followed, it has no other circuit.
     pub fn is_on(&self, passes: &[Pass]) -> bool {
         let own = &self.circuit.passes;
         let is_same = |(a, b): (&Pass, &Pass)| a.from == b.from && a.to == b.to && a.mode == b.mode;
-        match self.linkage.group.is_some() && self.has_fixed_passes() {
+        match self.is_followed() {
             true => own.len() == passes.len() && own.iter().zip(passes).all(is_same),
             false => own == passes,
         }
@@ -74,7 +79,7 @@ impl Traced {
     /// The same joint of another linkage of the same template on a circuit with the same passes, that nearest to this one. That a group turns fully
     /// is not proven.
     pub fn followed(&self, linkage: Linkage) -> Option<Traced> {
-        if linkage.group.is_some() && self.has_fixed_passes() {
+        if self.is_followed() {
             return Traced::on_full_turn(linkage, self.joint);
         }
         let own = &self.circuit;
@@ -103,6 +108,15 @@ impl Traced {
         Some(Traced { linkage, circuit, joint: self.joint })
     }
 
+    /// The same circuit, from which those of linkages that differ next to nothing are found sooner at some places.
+    pub fn based_at(&self, places: &Places) -> Traced {
+        let mut based = self.clone();
+        for of in &places.of_passes {
+            based.circuit.passes[of.pass] = self.circuit.passes[of.pass].based_at(&of.inputs);
+        }
+        based
+    }
+
     /// The same joint of a linkage that differs next to nothing, at the same positions.
     pub fn perturbed(&self, linkage: Linkage) -> Option<Traced> {
         if !self.has_fixed_passes() {
@@ -115,7 +129,7 @@ impl Traced {
     /// The same joint of a linkage that differs little, at the same positions: on a circuit without limits the same inputs, where it is
     /// not certain that it can be assembled at them.
     pub fn moved(&self, linkage: Linkage) -> Option<Traced> {
-        match self.has_fixed_passes() && linkage.group.is_none() {
+        match self.has_fixed_passes() && !self.is_followed() {
             true => Some(Traced { linkage, circuit: self.circuit.clone(), joint: self.joint }),
             false => self.followed(linkage),
         }

@@ -205,7 +205,8 @@ impl LinkageFitting {
         let values = &refinement.values;
         let circuits = self.sampled.traced(values);
         let linkage = self.space().template().linkage(values).ok().filter(|_| self.space().are_valid(values))?;
-        let followed = refinement.state.traced.followed(linkage)?;
+        let own = &refinement.state.traced;
+        let followed = if own.is_followed() { own.clone() } else { own.followed(linkage)? };
         let OnCircuit { circuit, traced, .. } = circuits.into_iter().find(|OnCircuit { trace, traced, .. }| {
             *trace == refinement.trace && followed.is_on(&traced.circuit.passes)
         })?;

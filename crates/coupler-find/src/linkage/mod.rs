@@ -19,6 +19,7 @@ mod poses;
 mod ranking;
 mod refinement;
 mod refinements;
+mod restarts;
 mod sampled_space;
 mod samples;
 mod scaling;

@@ -99,9 +99,10 @@ impl LinkageRefinement {
         }
         let traced = &self.state.traced;
         let is_kept = |found: Traced| traced.is_on(&found.circuit.passes);
-        // Of a group each step has been followed all around, and the last is proven in the end.
-        let is_followed = traced.linkage.group.is_some();
-        if traced.has_fixed_passes() && !is_followed && !traced.followed(traced.linkage.clone()).is_some_and(is_kept) {
+        if traced.has_fixed_passes()
+            && !traced.is_followed()
+            && !traced.followed(traced.linkage.clone()).is_some_and(is_kept)
+        {
             (self.values, self.state) = before;
             self.descent.is_done = true;
         }
@@ -165,6 +166,8 @@ impl Candidate for LinkageRefinement {
         let places = traced.has_fixed_passes().then(|| aim.places(traced, &positions, *start)).flatten();
         let rates = self.state.rates(aim)?;
         let excesses = aim.excesses(traced, placed);
+        let known = places.as_ref().filter(|_| free > 0);
+        let base = known.map_or_else(|| traced.clone(), |places| traced.based_at(places));
         // The motion of the points, and of the excesses, by each parameter.
         let mut columns: Vec<(Vec<Complex>, Vec<f64>)> = Vec::with_capacity(free);
         for k in 0..free {
@@ -176,7 +179,7 @@ impl Candidate for LinkageRefinement {
                     return None;
                 }
                 let linkage = space.template.linkage(&values).ok()?;
-                let other = traced.perturbed(linkage)?;
+                let other = base.perturbed(linkage)?;
                 let points = match &places {
                     Some(places) => other.points_at(places)?,
                     None => other.points_at(&aim.places(&other, &positions, *start)?)?,

@@ -5,7 +5,8 @@ use super::fitting::{LinkageFit, LinkageFitting};
 use super::index::LinkageIndex;
 use super::placed_curve::PlacedCurve;
 use super::ranking::ranked;
-use super::refinements::{Refinement, finished, keep_nearest};
+use super::refinements::{Refinement, keep_nearest};
+use super::restarts::Restarts;
 use super::samples::{SampleCurve, SampleIndex, SampleShape};
 use super::space::LinkageSpace;
 use crate::distinct::distinct;
@@ -75,6 +76,8 @@ enum Stage {
         next: usize,
         from: Vec<Refinement>,
         best: f64,
+        /// The rounds since one has found something nearer.
+        fruitless: u64,
     },
     Done,
 }
@@ -89,9 +92,6 @@ pub enum Searched {
     /// Those without: linkages with a group.
     Groups,
 }
-
-/// Several linkages have so many times the starts of one.
-const STARTS_OF_SEVERAL: usize = 2;
 
 /// Of several linkages, the nearest that are ranked.
 const MOST_RANKED: usize = 150;
@@ -116,15 +116,6 @@ const ROUNDS: [(usize, usize); 4] = [(2, 6), (4, 12), (8, 40), (20, 150)];
 
 /// The steps in which the curves are placed before.
 const PLACING_STEPS: usize = 6;
-
-/// The rounds of restarts, the part of the starts in each, and the nearest that are begun from.
-const RESTART_ROUNDS: u64 = 3;
-const RESTART_PART: usize = 5;
-const NEAREST: usize = 6;
-
-/// Of several linkages, the nearest of each that are begun from, and the rounds.
-const NEAREST_OF_EACH: usize = 2;
-const RESTART_ROUNDS_OF_SEVERAL: u64 = 6;
 
 /// The samples of a circuit of an answer, as a family has them.
 const SAMPLES: usize = 360;
@@ -171,7 +162,7 @@ impl LinkageSearch {
             if has(*space) { 0 } else { own }
         };
         let samples = kept.iter().zip(&fittings).map(wanted).collect();
-        let starts = STARTS_OF_SEVERAL * start_count(target, options);
+        let starts = start_count(target, options);
         let mut search = LinkageSearch::with(fittings, samples, starts, target, options);
         if let Some(index) = index {
             let number_of = |space: usize| kept.iter().position(|kept| *kept == space);
@@ -235,7 +226,9 @@ impl LinkageSearch {
             Stage::Begin { candidates, next } => self.begin(candidates, next, workers),
             Stage::Place { next } => self.place(next, workers),
             Stage::Refine { round, next, refined } => self.refine(round, next, refined, workers),
-            Stage::Restart { round, next, from, best } => self.restart((round, next), from, best, workers),
+            Stage::Restart { round, next, from, best, fruitless } => {
+                self.restart((round, next), from, (best, fruitless), workers)
+            }
             Stage::Done => Stage::Done,
         };
         !matches!(self.stage, Stage::Done)
@@ -262,7 +255,8 @@ impl LinkageSearch {
                 (3, (*round as f64 + part(*next, self.refinements.len())) / ROUNDS.len() as f64)
             }
             Stage::Restart { round, next, .. } => {
-                (4, (*round as f64 + part(*next, self.starts / RESTART_PART)) / self.restart_rounds() as f64)
+                let restarts = self.restarts();
+                (4, (*round as f64 + part(*next, restarts.count)) / restarts.rounds as f64)
             }
             Stage::Done => return 1.0,
         };
@@ -371,7 +365,7 @@ impl LinkageSearch {
                 keep_nearest(&mut self.refinements, (self.starts / part).max(2 * self.options.most));
                 Stage::Refine { round, next: 0, refined: Vec::new() }
             }
-            None => self.next_restart(0),
+            None => self.next_restart(0, (f64::INFINITY, 0)),
         }
     }
 
@@ -395,72 +389,47 @@ impl LinkageSearch {
         Stage::Refine { round, next: end, refined }
     }
 
-    /// Begins again near the best, as long as that finds something nearer.
-    fn next_restart(&mut self, round: u64) -> Stage {
+    /// Begins again near the best, as long as that finds something nearer than it was, now and then.
+    fn next_restart(&mut self, round: u64, (before, fruitless): (f64, u64)) -> Stage {
         /// The mean square of the distances at which a target is met to rounding.
         const EXACT: f64 = 1e-16;
+        /// Nearer is a smaller mean square, by this factor at most.
+        const NEARER: f64 = 0.97;
+        let restarts = self.restarts();
         let count = self.refinements.len();
         keep_nearest(&mut self.refinements, count);
         match self.refinements.first().map(|refinement| refinement.own.mean_square()) {
-            Some(best) if round < self.restart_rounds() && best > EXACT => {
-                let from = self.nearest_of_each();
-                Stage::Restart { round, next: 0, from, best }
+            Some(best) if round < restarts.rounds && best > EXACT => {
+                let fruitless = if best <= NEARER * before { 0 } else { fruitless + 1 };
+                if fruitless >= restarts.patience {
+                    return Stage::Done;
+                }
+                Stage::Restart { round, next: 0, from: restarts.nearest(&self.refinements), best, fruitless }
             }
             _ => Stage::Done,
         }
     }
 
-    /// The nearest, of several linkages few of each.
-    fn nearest_of_each(&self) -> Vec<Refinement> {
-        let mut kept = vec![0; self.fittings.len()];
-        let most_of_each = if kept.len() > 1 { NEAREST_OF_EACH } else { NEAREST };
-        let is_kept = |refinement: &&Refinement| {
-            let own = &mut kept[refinement.linkage];
-            *own += 1;
-            *own <= most_of_each
-        };
-        self.refinements.iter().filter(is_kept).take(NEAREST).cloned().collect()
-    }
-
-    fn restart_rounds(&self) -> u64 {
-        if self.fittings.len() > 1 { RESTART_ROUNDS_OF_SEVERAL } else { RESTART_ROUNDS }
+    fn restarts(&self) -> Restarts {
+        Restarts::of(self.fittings.len(), self.starts)
     }
 
     fn restart(
         &mut self,
         (round, next): (u64, usize),
         from: Vec<Refinement>,
-        best: f64,
+        (best, fruitless): (f64, u64),
         workers: &impl Workers,
     ) -> Stage {
-        /// The spreads in turn.
-        const SPREADS: [f64; 3] = [0.1, 0.25, 0.5];
-        /// The steps, and those after which it must be near the best.
-        const STEPS: usize = 60;
-        const PROMISING_STEPS: usize = 16;
-        const PROMISING_SUM: f64 = 30.0;
-        let count = self.starts / RESTART_PART;
-        if next == count {
-            return self.next_restart(round + 1);
+        let restarts = self.restarts();
+        if next == restarts.count {
+            return self.next_restart(round + 1, (best, fruitless));
         }
-        let begun = |k: usize| {
-            let number = round * count as u64 + k as u64 + 1;
-            let seed = self.options.seed.wrapping_add(number.wrapping_mul(0x5851_F42D_4C95_7F2D));
-            let Refinement { linkage, own } = &from[k % from.len()];
-            let fitting = &self.fittings[*linkage];
-            let mut own = fitting.begin_near(own, seed, SPREADS[k % SPREADS.len()])?;
-            fitting.advance(&mut own, PROMISING_STEPS);
-            if own.mean_square() > PROMISING_SUM * best {
-                return None;
-            }
-            fitting.advance(&mut own, STEPS - PROMISING_STEPS);
-            let own = finished(fitting, own)?;
-            fitting.has_valid_length(&own).then(|| Refinement { linkage: *linkage, own })
-        };
-        let end = count.min(next.saturating_add(workers.most_at_once()));
+        let begun = |k: usize| restarts.begun((round, k), self.options.seed, &from, &self.fittings, best);
+        let end = restarts.count.min(next.saturating_add(workers.most_at_once()));
         let found = workers.map((next..end).collect(), begun);
         self.refinements.extend(found.into_iter().flatten());
-        Stage::Restart { round, next: end, from, best }
+        Stage::Restart { round, next: end, from, best, fruitless }
     }
 }
 

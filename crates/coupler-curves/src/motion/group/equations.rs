@@ -309,12 +309,15 @@ impl Equations {
     /// The derivatives of the equations: a row for each, with a column for each unknown and one for the input.
     pub fn jacobian<T: Scalar>(&self, state: &[T]) -> Vec<T> {
         let n = self.unknown_count();
-        let constant = |k: usize| Series([state[k]]);
-        let unknowns = (0..n / 2).map(|k| VectorSeries { x: constant(2 * k), y: constant(2 * k + 1) }).collect();
-        let at: State<T, 1> = self.state_series(unknowns, constant(n));
+        let at = self.constant_state(state, Vec::new());
         let mut out = vec![T::from(0.0); self.count() * (n + 1)];
         self.add_jacobian(&at, state[n], &mut out, |_, _| ());
         out
+    }
+
+    /// How far the equations are from holding in a state.
+    pub fn residuals_in(&self, state: &[f64]) -> Vec<f64> {
+        self.residuals(&self.constant_state(state, Vec::new())).iter().map(|series| series.0[0]).collect()
     }
 
     /// How far the equations are from holding in a state, with their derivatives as of [`Equations::jacobian`].
@@ -323,16 +326,21 @@ impl Equations {
         at.jacobian.clear();
         at.jacobian.resize(self.count() * (n + 1), 0.0);
         at.residuals.clear();
-        let constant = |k: usize| Series([state[k]]);
-        let mut unknowns = std::mem::take(&mut at.unknowns);
-        unknowns.clear();
-        unknowns.extend((0..n / 2).map(|k| VectorSeries { x: constant(2 * k), y: constant(2 * k + 1) }));
-        let there: State<f64, 1> = self.state_series(unknowns, constant(n));
+        let there = self.constant_state(state, std::mem::take(&mut at.unknowns));
         let residuals = &mut at.residuals;
         self.add_jacobian(&there, state[n], &mut at.jacobian, |equation, forms| {
             residuals.push(equation.residual(forms, &there).0[0]);
         });
         at.unknowns = there.unknowns;
+    }
+
+    /// A state without a variable, in memory that is used again.
+    fn constant_state<T: Scalar>(&self, state: &[T], mut unknowns: Vec<VectorSeries<T, 1>>) -> State<T, 1> {
+        let n = self.unknown_count();
+        let constant = |k: usize| Series([state[k]]);
+        unknowns.clear();
+        unknowns.extend((0..n / 2).map(|k| VectorSeries { x: constant(2 * k), y: constant(2 * k + 1) }));
+        self.state_series(unknowns, constant(n))
     }
 
     /// Adds the derivatives in a state to rows of zeros, and gives each equation with its forms there.

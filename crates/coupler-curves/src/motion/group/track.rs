@@ -6,7 +6,7 @@ use nalgebra::DVector;
 
 use super::equations::Equations;
 use super::step::Node;
-use super::turn_poses::Turn;
+use super::turn_poses::{Base, Turn};
 use crate::geometry::{Point, trig};
 use crate::linkage::JointId;
 use crate::motion::joint_series::SeriesInput;
@@ -20,6 +20,8 @@ pub struct GroupTrack {
     shift: f64,
     /// The equations of a linkage that differs little, if the poses are those of one.
     neighbour: Option<Arc<Equations>>,
+    /// Poses of a turn from which those of its neighbours are found, in the order of their inputs: others are found where they are asked for.
+    bases: Arc<[Base]>,
 }
 
 /// What tracks share.
@@ -59,13 +61,24 @@ impl PartialEq for GroupTrack {
 impl GroupTrack {
     /// The poses between nodes in the order of rising input; `is_closed` if the last is the first again, some turns later.
     pub(super) fn new(equations: Arc<Equations>, nodes: Vec<Node>, is_closed: bool) -> GroupTrack {
-        let poses = Poses::Exact(Arc::new(Nodes { equations, nodes, is_closed }));
-        GroupTrack { poses, shift: 0.0, neighbour: None }
+        GroupTrack::of(Poses::Exact(Arc::new(Nodes { equations, nodes, is_closed })))
     }
 
     /// The poses of a turn.
     pub(super) fn of_turn(turn: Turn) -> GroupTrack {
-        GroupTrack { poses: Poses::Turn(Arc::new(turn)), shift: 0.0, neighbour: None }
+        GroupTrack::of(Poses::Turn(Arc::new(turn)))
+    }
+
+    fn of(poses: Poses) -> GroupTrack {
+        GroupTrack { poses, shift: 0.0, neighbour: None, bases: Arc::new([]) }
+    }
+
+    /// The same; of a turn that is not proven what its neighbours have in common at some inputs is found once for all of them.
+    pub(super) fn based_at(&self, inputs: &[f64]) -> GroupTrack {
+        let Poses::Turn(turn) = &self.poses else { return self.clone() };
+        let mut bases: Vec<Base> = inputs.iter().map(|input| turn.base(turn.own_input(input - self.shift))).collect();
+        bases.sort_by(|a, b| a.input().total_cmp(&b.input()));
+        GroupTrack { bases: bases.into(), ..self.clone() }
     }
 
     /// The same on a pass whose input is greater by that many degrees, a whole number of turns.
@@ -97,10 +110,9 @@ impl GroupTrack {
         self.neighbour.as_deref().unwrap_or_else(|| self.own_equations())
     }
 
-    /// The positions of the joints of the group at an input.
-    pub(in crate::motion) fn positions(&self, input: f64) -> impl Iterator<Item = (JointId, Point)> + use<> {
-        let state = self.state(input);
-        self.equations().positions(&state).collect::<Vec<_>>().into_iter()
+    /// Gives the positions of the joints of the group at an input.
+    pub(in crate::motion) fn positions(&self, input: f64, each: impl FnMut((JointId, Point))) {
+        self.equations().positions(&self.state(input)).for_each(each);
     }
 
     /// Positions of the group's joints and their first Taylor coefficients per radian, or unit of length, at an input.
@@ -182,7 +194,13 @@ impl GroupTrack {
             (Poses::Exact(nodes), None) => nodes.state(nodes.own_input(input)),
             (Poses::Exact(nodes), Some(other)) => nodes.state_of_neighbour(other, nodes.own_input(input)),
             (Poses::Turn(turn), None) => turn.state(turn.own_input(input)),
-            (Poses::Turn(turn), Some(other)) => turn.state_of_neighbour(other, turn.own_input(input)),
+            (Poses::Turn(turn), Some(other)) => {
+                let own = turn.own_input(input);
+                match self.bases.binary_search_by(|base| base.input().total_cmp(&own)) {
+                    Ok(number) => self.bases[number].state_of_neighbour(&turn.equations, other),
+                    Err(_) => turn.base(own).state_of_neighbour(&turn.equations, other),
+                }
+            }
         }
     }
 

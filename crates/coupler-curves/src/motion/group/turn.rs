@@ -5,6 +5,7 @@ use super::track::GroupTrack;
 use super::turn_poses::Turn;
 use crate::linkage::{DyadId, Input, Linkage, Side};
 use crate::motion::circuit::UnsampledCircuit;
+use crate::motion::input_columns::InputColumns;
 use crate::motion::interval::{Interval, Span};
 use crate::motion::pass::Pass;
 
@@ -30,5 +31,10 @@ impl Pass {
         let Some(group) = &linkage.group else { return Some(self.clone()) };
         let track = self.track.as_ref()?.of_neighbour(Equations::new(linkage, group)?)?;
         Some(Pass { track: Some(track), ..self.clone() })
+    }
+
+    /// The same pass, from which the neighbours of a linkage with a group are found sooner at these inputs.
+    pub fn based_at(&self, inputs: &InputColumns) -> Pass {
+        Pass { track: self.track.as_ref().map(|track| track.based_at(inputs.values())), ..self.clone() }
     }
 }

@@ -157,18 +157,36 @@ impl Turn {
         (0..a.len()).map(quintic).chain([input]).collect()
     }
 
-    /// The state of a linkage that differs next to nothing, to the square of the difference.
-    pub fn state_of_neighbour(&self, other: &Equations, input: f64) -> Vec<f64> {
-        let n = other.unknown_count();
-        let own = self.state(input);
+    /// The pose at an input of the turn, in radians.
+    pub fn base(&self, input: f64) -> Base {
+        let state = self.state(input);
         let mut at = Linearization::default();
-        // Rounding, and how far the quintic is off, is the same of both.
-        self.equations.linearized(&own, &mut at);
-        let base = std::mem::take(&mut at.residuals);
-        let mut state = other.state_of(&self.equations, own);
-        other.linearized(&state, &mut at);
-        let mut correction: Vec<f64> = at.residuals.iter().zip(&base).map(|(there, here)| there - here).collect();
-        if other.factors(&at, n).solve(&mut correction).is_some() {
+        self.equations.linearized(&state, &mut at);
+        let factors = self.equations.factors(&at, self.equations.unknown_count());
+        Base { state, residuals: at.residuals, factors }
+    }
+}
+
+/// A pose of a turn, with what the poses of all linkages that differ next to nothing from its are found by.
+pub(super) struct Base {
+    state: Vec<f64>,
+    /// Rounding, and how far the quintic is off: the same of all.
+    residuals: Vec<f64>,
+    factors: Factors,
+}
+
+impl Base {
+    /// The input, in radians.
+    pub fn input(&self) -> f64 {
+        self.state[self.state.len() - 1]
+    }
+
+    /// The state of such a linkage, from that of the turn's, to the square of the difference.
+    pub fn state_of_neighbour(&self, own: &Equations, other: &Equations) -> Vec<f64> {
+        let mut state = other.state_of(own, self.state.clone());
+        let mut correction = other.residuals_in(&state);
+        correction.iter_mut().zip(&self.residuals).for_each(|(there, here)| *there -= here);
+        if self.factors.solve(&mut correction).is_some() {
             state.iter_mut().zip(&correction).for_each(|(own, change)| *own -= change);
         }
         state
