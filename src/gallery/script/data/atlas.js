@@ -12,7 +12,7 @@ const MAX_KEPT_BYTES = 64e6;
  *
  * A page opened from disk cannot fetch files but can load scripts; the scripts of families and the kernel call
  * `couplerAtlas`.
- * @param {Document} document @param {Window & { couplerAtlas?: object }} window
+ * @param {Document} document @param {Window & { couplerAtlas?: Statements }} window
  */
 export function openAtlas(document, window) {
   /** @type {AtlasSummary} */ const summary = JSON.parse(document.getElementById("atlas")?.textContent ?? "");
@@ -75,7 +75,7 @@ export function openAtlas(document, window) {
     await piece.loading;
     cache.use(piece);
   };
-  const loadHead = async (id, script) => {
+  const loadHead = async (/** @type {string} */ id, /** @type {string} */ script) => {
     const head = await run(script, ({ family }) => family?.id === id && family);
     families.set(id, Object.assign(head, { load, used: cache.use }));
     return head;
@@ -102,8 +102,15 @@ export function openAtlas(document, window) {
 // A family with more pages than this has them in subfolders of as many.
 const PAGES_PER_FOLDER = 1000;
 
+/** A family as the atlas lists it. */
+export function listedFamily(/** @type {Atlas} */ { families }, /** @type {string} */ id) {
+  const listed = families.find((family) => family.id === id);
+  if (!listed) throw new Error(`there is no family “${id}” in this atlas`);
+  return listed;
+}
+
 /** The file of a page, numbered from 1; null if the family's pages are not written as files. */
-export function pageFile(/** @type {Atlas} */ atlas, id, page) {
+export function pageFile(/** @type {Atlas} */ atlas, /** @type {string} */ id, /** @type {number} */ page) {
   const shown = atlas.families.find((family) => family.id === id);
   if (!shown?.page_format || page > shown.pages) return null;
   const name = `${id}-${String(page).padStart(3, "0")}.${shown.page_format}`;
@@ -111,7 +118,7 @@ export function pageFile(/** @type {Atlas} */ atlas, id, page) {
 }
 
 /** The subfolder of a page of `pages`, "0001-1000/"; empty if the pages have none. */
-function pageFolder(page, pages) {
+function pageFolder(/** @type {number} */ page, /** @type {number} */ pages) {
   if (pages <= PAGES_PER_FOLDER) return "";
   const first = PAGES_PER_FOLDER * Math.floor((page - 1) / PAGES_PER_FOLDER) + 1;
   const last = Math.min(first + PAGES_PER_FOLDER - 1, pages);

@@ -1,4 +1,4 @@
-// Numbers as people type them.
+// Sums, and numbers as people type them.
 
 /**
  * Parses a number with a point or a comma, perhaps grouped, and perhaps with one of some units behind it: { value }, or
@@ -40,4 +40,11 @@ function plainDigits(/** @type {string} */ text) {
   // The same mark twice only groups: 1,234,567.
   if (text !== whole && mark === group) return part.length === 3 ? [`${plain}${part}`] : null;
   return [`${plain}.${part || "0"}`];
+}
+
+/** The sum of a number of each thing. @template T @param {Iterable<T>} things @param {(thing: T) => number} of */
+export function sumOf(things, of) {
+  let sum = 0;
+  for (const thing of things) sum += of(thing);
+  return sum;
 }

@@ -1,7 +1,7 @@
 // Columns of numbers as the program encodes them: a single number if all are equal, null if all are missing,
 // otherwise the bytes of a typed array, little-endian, in base64; as the kernel returns them, an array.
 
-/** Decodes a column of `count` numbers into a typed array of its kind, from index `at` on. */
+/** Decodes a column of `count` numbers into a typed array of its kind, from index `at` on. @param {number} at @param {number} count */
 export function unpackInto(/** @type {TypedArray} */ array, at, count, /** @type {PackedColumn} */ column) {
   if (typeof column === "number" || column === null) array.fill(column ?? NaN, at, at + count);
   else array.set(unpackColumn(/** @type {TypedArrayKind} */ (array.constructor), count, column), at);
@@ -24,7 +24,7 @@ export function unpackColumn(kind, count, column) {
  * Uses the browser's own decoder if there is one: it takes a tenth of the time, and an atlas has megabytes.
  * @returns {Uint8Array<ArrayBuffer>}
  */
-export function decodeBase64(data) {
+export function decodeBase64(/** @type {string} */ data) {
   if ("fromBase64" in Uint8Array) return /** @type {Base64Decoder} */ (Uint8Array).fromBase64(data);
   const text = atob(data);
   const bytes = new Uint8Array(text.length);

@@ -29,10 +29,12 @@ export function filterColumns(table, measures, kept = new Set()) {
   const numbers = measures.filter(({ word }) => !word).map(({ name }) => name);
   const words = measures.filter(({ word }) => word).map(({ name }) => name);
   const parameters = [...new Set(table.families.flatMap(({ names }) => names))].map((name) => `p.${name}`);
-  const column = (group, kind) => (name) => {
-    const { unit = "", definition = "" } = DERIVED_COLUMNS[name] ?? byName.get(name) ?? {};
-    return { name, group, kind, unit, definition };
-  };
+  const column =
+    (/** @type {ColumnGroup} */ group, /** @type {Column["kind"]} */ kind) =>
+    (/** @type {string} */ name) => {
+      const { unit = "", definition = "" } = DERIVED_COLUMNS[name] ?? byName.get(name) ?? {};
+      return { name, group, kind, unit, definition };
+    };
   const listed = [
     ...FIRST_NUMBERS.slice(0, 1).map(column("first", "numbers")),
     ...FIRST_WORDS.map(column("first", "words")),
@@ -43,19 +45,19 @@ export function filterColumns(table, measures, kept = new Set()) {
     ...numbers.filter((name) => !FIRST_NUMBERS.includes(name)).map(column("more", "numbers")),
     ...parameters.map(column("parameters", "numbers")),
   ];
-  const isThere = (name) => !byName.has(name) || table.has(name);
-  const hasDistinctValues = ({ name, kind }) =>
+  const isThere = (/** @type {string} */ name) => !byName.has(name) || table.has(name);
+  const hasDistinctValues = (/** @type {Column} */ { name, kind }) =>
     isThere(name) && (kind === "words" ? hasDistinctWords(table, name) : hasDistinctNumbers(table, name));
   return listed.filter((one) => kept.has(one.name) || hasDistinctValues(one));
 }
 
-function hasDistinctWords(/** @type {CurveTable} */ table, name) {
+function hasDistinctWords(/** @type {CurveTable} */ table, /** @type {string} */ name) {
   const { codes } = table.words(name);
   const first = codes[0];
   return codes.some((code) => code !== first) && codes.some((code) => code !== NO_WORD);
 }
 
-function hasDistinctNumbers(/** @type {CurveTable} */ table, name) {
+function hasDistinctNumbers(/** @type {CurveTable} */ table, /** @type {string} */ name) {
   const values = table.numbers(name);
   let first = NaN;
   for (let row = 0; row < values.length; row += 1) {

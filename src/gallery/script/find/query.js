@@ -23,7 +23,7 @@ export function parseFindQuery(query, isFamily = (/** @type {string} */ _) => tr
 }
 
 /** @returns {Filter | null} */
-function parseFilter(text) {
+function parseFilter(/** @type {string} */ text) {
   const range = text.match(/^([^.]*(?:\.\d+(?:e[+-]?\d+)?)?)\.\.(.*)$/i);
   if (!range) return text ? new Set(text.split(",")) : null;
   const [low, high] = range.slice(1).map((word) => (word.trim() === "" ? undefined : Number(word)));

@@ -85,7 +85,7 @@ export class FourBarFinder {
   }
 
   /** Grows the index until it is complete, or a time; whether it is complete. */
-  async #grow(signal, until) {
+  async #grow(/** @type {AbortSignal} */ signal, /** @type {number} */ until) {
     for (;;) {
       if (signal.aborted || performance.now() > until) return false;
       const { count, full_count: full } = await this.kernel.call({ method: "grow_index" });
@@ -94,22 +94,25 @@ export class FourBarFinder {
     }
   }
 
-  /** @returns {Promise<FourBarAnswer[]>} */
-  async #answers(path, options, signal, end) {
+  /** @returns {Promise<FourBarAnswer[]>} @param {object} options @param {AbortSignal} signal @param {number} end */
+  async #answers(/** @type {NamedPath} */ path, options, signal, end) {
     /** @type {FourBarAnswer[]} */ let answers = [];
     if (signal.aborted) return answers;
     await this.#search(path, options, signal, { report: Infinity, end }, (found) => ({ answers } = found));
     return answers;
   }
 
-  /** Searches until the time `end`, and reports what there is at the time `report` and at the end. */
-  async #search({ shape, isPart, name }, options, signal, times, report) {
+  /**
+   * Searches until the time `end`, and reports what there is at the time `report` and at the end.
+   * @param {object} options @param {AbortSignal} signal @param {{ report: number, end: number }} times @param {(found: FoundFourBars, isDone: boolean) => void} report
+   */
+  async #search(/** @type {NamedPath} */ { shape, isPart, name }, options, signal, times, report) {
     const { kernel } = this;
     const { points, kind } = await drawnPath(kernel, shape, isPart);
     const { instance } = kernel;
     const { search, hindrances } = await kernel.call({ method: "open_search", points, kind, ...options });
     try {
-      const reported = async (isDone) => {
+      const reported = async (/** @type {boolean} */ isDone) => {
         let found = null;
         do {
           if (signal.aborted) return;

@@ -27,7 +27,7 @@ export class KernelInstance {
   call(/** @type {object} */ request) {
     /** @type {Float64Array[]} */ const arrays = [];
     let total = 0;
-    const packed = (key, value) => {
+    const packed = (/** @type {string} */ key, /** @type {unknown} */ value) => {
       if (!(value instanceof Float64Array)) return exactNumbers(key, value);
       arrays.push(value);
       total += value.length;
@@ -81,7 +81,7 @@ export class KernelInstance {
    *
    * @throws {KernelFailure} if the kernel fails
    */
-  pose(study, pass, input) {
+  pose(/** @type {number} */ study, /** @type {number} */ pass, /** @type {number} */ input) {
     return this.#guarded((kernel) => {
       const place = kernel.kernel_pose(study, pass, input);
       return this.#numbers(place, kernel.kernel_pose_length());
@@ -92,6 +92,7 @@ export class KernelInstance {
    * The position of a joint at an input of a pass, [x, y], valid until the next call.
    *
    * @throws {KernelFailure} if the kernel fails
+   * @param {number} study @param {number} joint @param {number} pass @param {number} input
    */
   jointPosition(study, joint, pass, input) {
     return this.#guarded((kernel) =>
@@ -100,7 +101,7 @@ export class KernelInstance {
   }
 
   // The same view as before if it is of the same memory: there are sixty poses in a second.
-  #numbers(place, count) {
+  #numbers(/** @type {number} */ place, /** @type {number} */ count) {
     const { buffer } = this.exports.memory;
     const { view } = this;
     if (count === 0) return new Float64Array();
@@ -130,6 +131,6 @@ export class KernelInstance {
 }
 
 /** The kernel reads numbers as strings to the last bit, which it does not do with those of JSON. */
-export function exactNumbers(_, value) {
+export function exactNumbers(/** @type {unknown} */ _, /** @type {unknown} */ value) {
   return typeof value === "number" && !Number.isInteger(value) ? String(value) : value;
 }

@@ -89,7 +89,7 @@ export class Kernel {
   curve(family, curve, changes = []) {
     const { cells, curves, names, assignments } = family;
     const cell = curves.cell[curve];
-    const value = (slot) => cells.values[cell * names.length + slot];
+    const value = (/** @type {number} */ slot) => cells.values[cell * names.length + slot];
     /** @type {CurveRequest} */ const request = {
       cell: cells.number[cell],
       curve: [curves.trace[curve], curves.circuit[curve]],
@@ -114,7 +114,7 @@ export class Kernel {
   }
 
   /** A curve as a file in a text format: { name, text }. @param {KernelCurve} requested */
-  export(requested, format) {
+  export(requested, /** @type {string} */ format) {
     return this.call({ method: "export", curve: withHandle(requested), format });
   }
 
@@ -132,7 +132,7 @@ function withHandle(/** @type {KernelCurve} */ { family, curve }) {
 class KernelFamily {
   /** @type {FamilyDescription} */ opened;
 
-  constructor(/** @type {Kernel} */ kernel, manifest) {
+  constructor(/** @type {Kernel} */ kernel, /** @type {string} */ manifest) {
     this.kernel = kernel;
     this.manifest = manifest;
     /** @type {KernelInstance | null} */ this.instance = null;

@@ -41,7 +41,7 @@ export class KernelWorker {
     return worker;
   }
 
-  #fail(message) {
+  #fail(/** @type {string} */ message) {
     this.worker?.terminate();
     this.worker = null;
     for (const { reject } of this.waiting.splice(0)) reject(new KernelFailure(message));

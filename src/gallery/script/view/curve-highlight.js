@@ -53,7 +53,7 @@ export class CurveHighlight {
   }
 
   /** Handles focus on a curve's link. */
-  focus(curve) {
+  focus(/** @type {number} */ curve) {
     this.pointed = curve;
     this.highlight(curve);
     const { box } = this.drawnOf(curve);
@@ -62,7 +62,7 @@ export class CurveHighlight {
   }
 
   /** Highlights the curve of a link in the panel; the panel keeps its list. */
-  preview(curve) {
+  preview(/** @type {number} */ curve) {
     this.pointed = curve;
     this.highlight(curve, { updatesPanel: false });
   }
@@ -78,7 +78,7 @@ export class CurveHighlight {
   }
 
   /** Selects a curve (null: none) and reads it at a position in millimetres. @param {Point | null} [place] */
-  select(curve, place = null) {
+  select(/** @type {number | null} */ curve, place = null) {
     this.selected = curve;
     this.pointed = null;
     if (curve === null) {
@@ -90,19 +90,19 @@ export class CurveHighlight {
     else this.readStart();
   }
 
-  drawnOf(curve) {
+  drawnOf(/** @type {number | null} */ curve) {
     const drawn = this.page.drawn.find((candidate) => candidate.curve === curve);
     if (!drawn) throw new Error("the curve is not on this page");
     return drawn;
   }
 
-  highlight(curve, { updatesPanel = true } = {}) {
+  highlight(/** @type {number} */ curve, { updatesPanel = true } = {}) {
     if (updatesPanel && this.listed !== curve) this.page.showPanel(curve);
     this.listed = updatesPanel ? curve : null;
     if (this.curve !== curve) this.#outline(curve);
   }
 
-  #outline(curve) {
+  #outline(/** @type {number} */ curve) {
     this.curve = curve;
     this.at = null;
     this.page.reading.hidden = true;
@@ -121,7 +121,7 @@ export class CurveHighlight {
   }
 
   /** The curve solved; null if it cannot be, or while the kernel is loaded. */
-  solve(curve) {
+  solve(/** @type {number} */ curve) {
     const { app, family } = this.page;
     const { kernel } = app.kernel;
     if (!kernel) {
@@ -153,7 +153,7 @@ export class CurveHighlight {
   }
 
   /** Path data in millimetres of paper. */
-  pathOf(curve) {
+  pathOf(/** @type {number} */ curve) {
     const { view, closed } = this.drawnOf(curve);
     const {
       origin: [x, y],
@@ -184,7 +184,7 @@ export class CurveHighlight {
     else this.place = null;
   }
 
-  readInput(pass, input) {
+  readInput(/** @type {number} */ pass, /** @type {number} */ input) {
     this.place = null;
     if (!this.solved) return;
     this.at = this.solved.atInput(pass, input);
@@ -192,12 +192,13 @@ export class CurveHighlight {
   }
 
   /** Moves the reading along the curve by an increment of the input, from pass to pass. */
-  stepAlong(by) {
+  stepAlong(/** @type {number} */ by) {
     if (!this.solved || !this.at) return;
     const { passes, isLength } = this.solved;
     let { pass, input } = this.at;
     const whole = Math.abs(passes[pass].to - passes[pass].from);
     input += (isLength ? (by / 360) * whole : by) * Math.sign(passes[pass].to - passes[pass].from);
+    /** @param {number} end @param {number} start */
     const isPast = (end, start) => (input - end) * Math.sign(end - start) > 0;
     if (isPast(passes[pass].to, passes[pass].from)) {
       pass = (pass + 1) % passes.length;
@@ -241,6 +242,7 @@ export class CurveHighlight {
 /**
  * The position of a label of a given size next to a point, before or after it as preferred, if there is
  * space.
+ * @param {number} at @param {number} size @param {number} available @param {boolean} isBefore
  */
 function positionNextTo(at, size, available, isBefore) {
   const [before, after] = [at - 16 - size, at + 16];

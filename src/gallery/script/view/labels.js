@@ -3,7 +3,7 @@
 import { measureValue } from "../data/family.js";
 import { h } from "./dom.js";
 
-// The labels of measures other than their names in words.
+/** The labels of measures other than their names in words. @type {Record<string, string>} */
 const MEASURE_LABELS = {
   shortest: "shortest link",
   six_bar: "kind of six-bar",
@@ -48,6 +48,7 @@ const MEASURE_LABELS = {
   dwell_y: "its centre, y",
 };
 
+/** @type {Record<string, string>} */
 const STANDALONE_LABELS = {
   output_dwell_start_deg: "start input of the output's dwell",
   straight_deviation: "deviation of the straight portion",
@@ -61,17 +62,17 @@ const STANDALONE_LABELS = {
 };
 
 /** The label of a measure outside the order of the columns. */
-export function standaloneMeasureLabel(name) {
+export function standaloneMeasureLabel(/** @type {string} */ name) {
   return STANDALONE_LABELS[name] ?? measureLabel(name);
 }
 
 /** The label of a measure in the order of the columns, where "its" refers to the portion before. */
-export function measureLabel(name) {
+export function measureLabel(/** @type {string} */ name) {
   return MEASURE_LABELS[name] ?? name.replace(/_deg$/, "").replaceAll("_", " ");
 }
 
 /** A number with significant digits, without trailing zeros and with a true minus sign. */
-export function formatNumber(number, digits = 4) {
+export function formatNumber(/** @type {number} */ number, digits = 4) {
   if (number === Infinity) return "unbounded";
   if (number === -Infinity) return "unbounded below";
   if (!Number.isFinite(number)) return "–";
@@ -83,8 +84,12 @@ export function formatNumber(number, digits = 4) {
   return String(Number(number.toPrecision(digits))).replace("-", "−");
 }
 
-/** The value of a measure with its unit; undefined if it does not apply. */
-export function measureText(/** @type {Family} */ family, curve, { name, unit }) {
+/** The value of a measure with its unit; undefined if it does not apply. @param {number} curve */
+export function measureText(
+  /** @type {Family} */ family,
+  curve,
+  /** @type {Pick<Measure, "name" | "unit">} */ { name, unit },
+) {
   const value = measureValue(family, curve, name);
   if (value === undefined || typeof value === "string") return value?.replace(/^theorem(\d)/, "theorem $1");
   return isInDegrees(family, { name, unit }) ? `${formatNumber(value)}°` : formatNumber(value);
@@ -99,7 +104,7 @@ export function isInDegrees({ is_length: isLength }, { name, unit }) {
 }
 
 /** A caption as on the page: names before an equals sign in italics, with no line break in "a = 2.59". */
-export function formatCaption(caption) {
+export function formatCaption(/** @type {string} */ caption) {
   return caption
     .split(/([A-Za-z][\w]*(?= = ))/)
     .map((part, k) => (k % 2 ? h("i", part) : part.replaceAll(" = ", "\u00a0=\u00a0")));
@@ -110,6 +115,7 @@ export function formatChanges(/** @type {Map<string, number>} */ changes) {
   return `with ${[...changes].map(([name, value]) => `${name} = ${formatNumber(value, 10)}`).join(", ")}`;
 }
 
+/** @type {Record<string, string>} */
 const COLUMN_LABELS = {
   straight_tolerance: "deviation of the straight portion, by its length",
   straight_share: "length of the straight portion, by the extent",
@@ -118,12 +124,12 @@ const COLUMN_LABELS = {
 };
 
 /** The label of a column. */
-export function columnLabel(name) {
+export function columnLabel(/** @type {string} */ name) {
   if (name.startsWith("p.")) return `parameter ${name.slice(2)}`;
   return COLUMN_LABELS[name] ?? standaloneMeasureLabel(name);
 }
 
-/** The value of a row of a table in a column, formatted. */
+/** The value of a row of a table in a column, formatted. @param {number} row */
 export function rowText(/** @type {CurveTable} */ table, /** @type {Column} */ column, row) {
   if (column.kind === "words") {
     const { values, codes } = table.words(column.name);
@@ -135,7 +141,7 @@ export function rowText(/** @type {CurveTable} */ table, /** @type {Column} */ c
 }
 
 /** A length or speed in four significant digits, with a true minus sign. */
-export function formatLength(value) {
+export function formatLength(/** @type {number} */ value) {
   if (!Number.isFinite(value)) return "∞";
   if (value === 0) return "0";
   const exponent = Math.floor(Math.log10(Math.abs(value)));
@@ -144,18 +150,18 @@ export function formatLength(value) {
 }
 
 /** A number with a fixed number of decimals and a true minus sign. */
-export function formatDecimals(value, decimals) {
+export function formatDecimals(/** @type {number} */ value, /** @type {number} */ decimals) {
   const text = value.toFixed(decimals);
   return Number(text) === 0 ? (0).toFixed(decimals) : text.replace("-", "−");
 }
 
 /** A count with its noun: "1 page", "7,800 curves". */
-export function formatCount(number, one, many = `${one}s`) {
+export function formatCount(/** @type {number} */ number, /** @type {string} */ one, many = `${one}s`) {
   return `${number.toLocaleString("en")} ${number === 1 ? one : many}`;
 }
 
 /** A number of bytes in decimal units: "380 kB", "6.4 MB". */
-export function formatBytes(bytes) {
+export function formatBytes(/** @type {number} */ bytes) {
   if (bytes < 1e6) return `${Math.round(bytes / 1000)} kB`;
   return `${(bytes / 1e6).toFixed(1)} MB`;
 }

@@ -9,16 +9,17 @@ export const MAX_HEIGHT = 15e6;
  * The pixels of content per pixel scrolled, of a list of a height in a window: 1, unless the list is too
  * high. Its element then has the greatest height, and scrolling moves the content faster.
  */
-export function scrollScale(height, windowHeight) {
+export function scrollScale(/** @type {number} */ height, /** @type {number} */ windowHeight) {
   return height <= MAX_HEIGHT ? 1 : (height - windowHeight) / (MAX_HEIGHT - windowHeight);
 }
 
 /**
  * Calls `layOut()` before printing, which puts the printed items into the document and returns a line to
  * precede them, or null, and `restore()` afterwards. Returns { isPrinting, end() }.
+ * @param {Element} element @param {() => Element | null} layOut @param {() => void} restore
  */
 export function onPrint(element, layOut, restore) {
-  let line = null;
+  /** @type {Element | null} */ let line = null;
   const state = {
     isPrinting: false,
     end: () => {
@@ -43,7 +44,7 @@ export function onPrint(element, layOut, restore) {
   return state;
 }
 
-/** A line that says how many of how many things are printed; null for one or none. */
+/** A line that says how many of how many things are printed; null for one or none. @param {number} printed @param {number} count @param {string} things */
 export function printedCountNote(printed, count, things) {
   if (count < 2) return null;
   const [some, all] = [printed, count].map((number) => number.toLocaleString("en"));

@@ -29,12 +29,12 @@ export function notAssembledSummary(/** @type {Family} */ family, /** @type {Lis
     none ? `${formatCount(none, "linkage")} could not be assembled` : null,
     part ? `${formatCount(part, "linkage")} assembled only in part` : null,
   ];
-  const named = (cells) =>
+  const named = (/** @type {number[]} */ cells) =>
     cells
       .slice(0, MAX_NAMES_PER_REASON)
       .map((cell) => cellCaption(family, cell) || `linkage ${number[cell]}`)
       .join("; ");
-  const item = ([sentence, cells]) => {
+  const item = (/** @type {[string, number[]]} */ [sentence, cells]) => {
     const more = cells.length > MAX_NAMES_PER_REASON ? " …" : "";
     return h("li", h("b", `${sentence} (${cells.length.toLocaleString("en")})`), ` ${named(cells)}${more}`);
   };

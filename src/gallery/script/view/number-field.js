@@ -30,7 +30,7 @@ export class NumberField {
   }
 
   /** Shows a number, in words if they are others; what is being typed stays. */
-  show(value, text = value === undefined ? "" : String(value)) {
+  show(/** @type {number | undefined} */ value, text = value === undefined ? "" : String(value)) {
     const { element } = this;
     element.setAttribute("aria-valuenow", Number.isFinite(value) ? String(value) : "");
     if (document.activeElement === element && !element.readOnly) return;

@@ -37,7 +37,7 @@ export function scrollMemory() {
  * Scrolls to a recorded position as soon as the view is long enough; input by the user cancels it. Returns a
  * function that ends it.
  */
-function restoreScroll({ depth, link }) {
+function restoreScroll(/** @type {{ depth: number, link?: string | null }} */ { depth, link }) {
   const moves = ["wheel", "pointerdown", "keydown"];
   const growth = new ResizeObserver(() => goThere());
   const end = () => {
@@ -57,7 +57,7 @@ function restoreScroll({ depth, link }) {
 }
 
 /** Restores the focus to a link when scrolling has created it. */
-function restoreFocus(href) {
+function restoreFocus(/** @type {string | null | undefined} */ href) {
   if (!href) return;
   requestAnimationFrame(() =>
     requestAnimationFrame(() => {

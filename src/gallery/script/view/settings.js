@@ -27,12 +27,13 @@ export function themeSelect() {
   };
   dark.addEventListener("change", apply);
   apply();
-  const choose = (event) => {
-    choice = event.target.value;
+  const choose = (/** @type {string} */ theme) => {
+    choice = theme;
     storeChoice(THEME_KEY, choice);
     apply();
   };
-  return selectOf({ class: "theme quiet", "aria-label": "Theme", onchange: choose }, THEME_CHOICES, choice);
+  const onchange = (/** @type {Heard<Event, HTMLSelectElement>} */ { target }) => choose(target.value);
+  return selectOf({ class: "theme quiet", "aria-label": "Theme", onchange }, THEME_CHOICES, choice);
 }
 
 /**
@@ -41,7 +42,7 @@ export function themeSelect() {
  */
 export function printedColorsButton() {
   const root = document.documentElement;
-  const apply = (isPrinted) => {
+  const apply = (/** @type {boolean} */ isPrinted) => {
     if (isPrinted) root.dataset.pages = "printed";
     else delete root.dataset.pages;
     button.setAttribute("aria-pressed", String(isPrinted));
@@ -62,7 +63,7 @@ function storedTheme() {
 }
 
 /** What is stored; null if there is nothing, or no storage. @returns {string | null} */
-export function storedChoice(name) {
+export function storedChoice(/** @type {string} */ name) {
   try {
     return window.localStorage.getItem(name);
   } catch {
@@ -71,7 +72,7 @@ export function storedChoice(name) {
 }
 
 /** Without storage, a choice lasts until the page is closed. */
-export function storeChoice(name, value) {
+export function storeChoice(/** @type {string} */ name, /** @type {string} */ value) {
   try {
     window.localStorage.setItem(name, value);
   } catch {

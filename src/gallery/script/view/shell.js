@@ -1,6 +1,7 @@
 // The frame of the gallery: header, navigation, the current view and footer.
 
 import { address, parseAddress } from "../data/address.js";
+import { sumOf } from "../data/number.js";
 import { buttonOf, fill, h, setAttributes } from "./dom.js";
 import { Gestures, gestureOfKey } from "./gestures.js";
 import { onKeys, showKeys } from "./keys.js";
@@ -43,7 +44,7 @@ export function openShell(parts, routes, root) {
     },
   };
   const nav = navigation(app, routes);
-  const skip = (event) => {
+  const skip = (/** @type {Event} */ event) => {
     event.preventDefault();
     main.focus();
   };
@@ -99,7 +100,16 @@ class Router {
   /** What can be undone in the view that is shown. */
   gestures = new Gestures();
 
-  constructor(/** @type {App} */ app, /** @type {Route[]} */ routes, { main, nav, ignored, scroll }) {
+  constructor(
+    /** @type {App} */ app,
+    /** @type {Route[]} */ routes,
+    /** @type {{ main: HTMLElement, nav: ReturnType<typeof navigation>, ignored: HTMLElement, scroll: ReturnType<typeof scrollMemory> }} */ {
+      main,
+      nav,
+      ignored,
+      scroll,
+    },
+  ) {
     this.app = app;
     this.routes = routes;
     this.main = main;
@@ -145,7 +155,7 @@ class Router {
   }
 
   /** Undoes (-1) or repeats (1) a gesture: shows the address before or after it. */
-  retrace(way) {
+  retrace(/** @type {number} */ way) {
     const { gestures, app } = this;
     const fragment = way < 0 ? gestures.undo(this.fragment) : gestures.redo(this.fragment);
     if (fragment === undefined) {
@@ -188,7 +198,7 @@ class Router {
   }
 
   /** Shows what is wrong with an address, with links to continue. */
-  showError(message, /** @type {Target} */ { path: [id] }) {
+  showError(/** @type {string} */ message, /** @type {Target} */ { path: [id] }) {
     const sentence = `${message[0].toUpperCase()}${message.slice(1)}`.replace(/[^.]$/, "$&.");
     this.setTitle("Not found");
     this.app.announce(sentence);
@@ -198,20 +208,25 @@ class Router {
     fill(this.main, h("h1", "Not found"), h("p.error", { role: "alert" }, sentence, " ", own, all));
   }
 
-  setTitle(title) {
+  setTitle(/** @type {string} */ title) {
     document.title = title ? `${title} · ${this.app.atlas.title}` : this.app.atlas.title;
   }
 }
 
 /** The footer of the gallery. @param {Atlas} atlas */
-function footer(atlas, listKeys) {
-  const sum = (name) => atlas.families.reduce((total, family) => total + family[name], 0);
-  const [pages, curves, bytes] = ["pages", "curves", "bytes"].map(sum);
+function footer(atlas, /** @type {() => void} */ listKeys) {
+  const { families } = atlas;
   const facts = [
-    formatCount(atlas.families.length, "family", "families"),
-    formatCount(pages, "page"),
-    formatCount(curves, "curve"),
-    `${formatBytes(bytes)} of data, loaded by family`,
+    formatCount(families.length, "family", "families"),
+    formatCount(
+      sumOf(families, ({ pages }) => pages),
+      "page",
+    ),
+    formatCount(
+      sumOf(families, ({ curves }) => curves),
+      "curve",
+    ),
+    `${formatBytes(sumOf(families, ({ bytes }) => bytes))} of data, loaded by family`,
   ];
   const books = atlas.book.map((file) => [h("a", { href: file }, `Book: ${file}`), " · "]);
   const keys = buttonOf("Keys", listKeys, { class: "quiet", "aria-keyshortcuts": "?" });

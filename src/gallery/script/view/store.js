@@ -69,7 +69,7 @@ export class Store {
   }
 
   /** Ends a gesture when nothing has followed for a time in milliseconds. */
-  commitSoon(after) {
+  commitSoon(/** @type {number} */ after) {
     window.clearTimeout(this.writing);
     this.writing = window.setTimeout(() => this.commit(), after);
   }

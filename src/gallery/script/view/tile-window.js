@@ -40,7 +40,7 @@ export class TileWindow {
     this.count = options.count;
     this.options = options;
     this.element = h("ul.window", { "aria-label": options.label });
-    const typed = (event) => this.typed(event);
+    const typed = (/** @type {KeyboardEvent} */ event) => this.typed(event);
     onKeys(this.element, `In ${options.label.toLowerCase()}`, [
       ["ArrowLeft ArrowRight ArrowUp ArrowDown PageUp PageDown Home End", "go to another one", typed],
     ]);
@@ -77,7 +77,7 @@ export class TileWindow {
   }
 
   /** Scrolls to a tile and focuses it. */
-  show(k) {
+  show(/** @type {number} */ k) {
     const row = Math.floor(k / this.columns) * this.pitch;
     const top = this.element.getBoundingClientRect().top;
     const at = top + row - this.shift(-top);
@@ -94,7 +94,7 @@ export class TileWindow {
   }
 
   /** The height by which tiles are moved up when the list is scrolled by `top` pixels, if it is too high. */
-  shift(top) {
+  shift(/** @type {number} */ top) {
     return Math.max(top, 0) * (this.scale - 1);
   }
 
@@ -119,7 +119,7 @@ export class TileWindow {
     return { width: Math.max(this.wide - 2, 40), height: Math.max(this.wide * this.options.aspect - 2, 40) };
   }
 
-  lay(/** @type {HTMLElement} */ { style }, k) {
+  lay(/** @type {HTMLElement} */ { style }, /** @type {number} */ k) {
     style.width = `${this.wide}px`;
     style.height = `${this.high}px`;
     const x = (k % this.columns) * (this.wide + this.options.gap);
@@ -152,7 +152,7 @@ export class TileWindow {
     this.shifted = this.shift(scrolled);
     const top = scrolled + this.shifted;
     const ahead = window.innerHeight * TILES_AHEAD;
-    const row = (y) => Math.floor(y / this.pitch);
+    const row = (/** @type {number} */ y) => Math.floor(y / this.pitch);
     const first = Math.max(0, row(top - ahead) * this.columns);
     const last = Math.min(this.count, (row(top + window.innerHeight + ahead) + 1) * this.columns);
     for (const [k, element] of this.there) {
@@ -165,7 +165,7 @@ export class TileWindow {
     this.drawSome();
   }
 
-  add(k) {
+  add(/** @type {number} */ k) {
     if (this.there.has(k)) return;
     const element = this.options.tile(k);
     setAttributes(element, { "aria-setsize": this.count, "aria-posinset": k + 1 });
@@ -178,7 +178,7 @@ export class TileWindow {
   }
 
   /** Fills a tile and queues it to be drawn: at once, or when what it shows has been loaded. */
-  prepare(element, k) {
+  prepare(/** @type {HTMLElement} */ element, /** @type {number} */ k) {
     const act = () => {
       if (this.there.get(k) !== element) return;
       // What was loaded first may have been dropped while the rest was loaded.
@@ -238,12 +238,14 @@ export class TileWindow {
     return printedCountNote(last, this.count, this.options.label.toLowerCase());
   }
 
-  typed(event) {
-    const at = [...this.there].find(([, element]) => element.contains(event.target))?.[0];
+  typed(/** @type {KeyboardEvent} */ event) {
+    const at = [...this.there].find(
+      ([, element]) => event.target instanceof Node && element.contains(event.target),
+    )?.[0];
     if (at === undefined) return false;
     const screen = Math.max(1, Math.floor(window.innerHeight / this.pitch)) * this.columns;
     const down = { ArrowDown: this.columns, ArrowUp: -this.columns, PageDown: screen, PageUp: -screen };
     const by = { ArrowRight: 1, ArrowLeft: -1, Home: -this.count, End: this.count, ...down }[event.key];
-    return this.show(Math.min(Math.max(at + by, 0), this.count - 1));
+    return this.show(Math.min(Math.max(at + (by ?? 0), 0), this.count - 1));
   }
 }

@@ -4,7 +4,9 @@
 import { focusedElement, h } from "../dom.js";
 
 /** Saves { name, type, bytes }. */
-export function saveFile({ name, type, bytes }) {
+export function saveFile(
+  /** @type {{ name: string, type: string, bytes: Uint8Array<ArrayBuffer> }} */ { name, type, bytes },
+) {
   const url = URL.createObjectURL(new Blob([bytes], { type }));
   const link = document.createElement("a");
   link.href = url;
@@ -20,7 +22,7 @@ export function saveFile({ name, type, bytes }) {
  * Copies a text, or shows it selected for manual copying; resolves to whether it was copied. `what` describes
  * the text.
  */
-export async function copyText(what, text) {
+export async function copyText(/** @type {string} */ what, /** @type {string} */ text) {
   try {
     await navigator.clipboard.writeText(text);
     return true;
@@ -31,7 +33,7 @@ export async function copyText(what, text) {
 }
 
 // Shows a dialog with the text selected, until it is closed.
-function showCopyDialog(what, text) {
+function showCopyDialog(/** @type {string} */ what, /** @type {string} */ text) {
   const area = h("textarea", {
     readonly: true,
     rows: Math.min(text.split("\n").length + 1, 20),

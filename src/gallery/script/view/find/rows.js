@@ -18,7 +18,7 @@ export class ResultRows {
   /** @type {Uint32Array | number[]} */ rows = [];
   /** @type {Column[]} */ columns = [];
 
-  constructor(/** @type {App} */ app, sorted) {
+  constructor(/** @type {App} */ app, /** @type {(name: string) => void} */ sorted) {
     this.app = app;
     this.sorted = sorted;
     this.head = h("thead");
@@ -48,7 +48,7 @@ export class ResultRows {
   }
 
   /** @param {CurveTable} table @param {Uint32Array} rows @param {Column[]} columns */
-  setRows(table, rows, columns, sort) {
+  setRows(table, rows, columns, /** @type {FindQuery["sort"]} */ sort) {
     this.table = table;
     this.rows = rows;
     this.columns = columns;
@@ -83,7 +83,7 @@ export class ResultRows {
     const top = scrollTop * scrollScale(height, clientHeight);
     const first = Math.max(Math.floor(top / ROW_HEIGHT) - ROWS_AHEAD, 0);
     const last = Math.min(first + Math.ceil(clientHeight / ROW_HEIGHT) + 2 * ROWS_AHEAD, this.rows.length);
-    const space = (pixels) => {
+    const space = (/** @type {number} */ pixels) => {
       const cell = h("td.space", { colspan: this.columns.length + 1 });
       cell.style.height = `${pixels}px`;
       return pixels > 0 ? h("tr", { "aria-hidden": "true" }, cell) : null;
@@ -103,7 +103,7 @@ export class ResultRows {
     return printedCountNote(last, this.rows.length, "curves");
   }
 
-  line(k) {
+  line(/** @type {number} */ k) {
     const { table } = this;
     if (!table) return null;
     const row = this.rows[k];

@@ -61,7 +61,7 @@ export class ResultTiles extends TileWindow {
     if (this.element.isConnected) this.measure();
   }
 
-  tile(k) {
+  tile(/** @type {number} */ k) {
     const { family, curve, name } = this.curveOf(k);
     return h(
       "li",
@@ -75,7 +75,7 @@ export class ResultTiles extends TileWindow {
     );
   }
 
-  fillTile(/** @type {Element} */ element, k) {
+  fillTile(/** @type {Element} */ element, /** @type {number} */ k) {
     const { family, curve, name } = this.curveOf(k);
     const value = this.valueOf(this.rows[k]);
     const caption = curveCaption(family, curve) || name;
@@ -89,7 +89,7 @@ export class ResultTiles extends TileWindow {
   }
 
   /** The curve of a tile, with its name. */
-  curveOf(k) {
+  curveOf(/** @type {number} */ k) {
     if (!this.table) throw new Error("there are no results");
     return this.table.curveOf(this.rows[k]);
   }

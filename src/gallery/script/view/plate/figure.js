@@ -63,7 +63,7 @@ export class PlateFigure {
   }
 
   /** Draws another study. */
-  show(/** @type {Study} */ study, isRough) {
+  show(/** @type {Study} */ study, /** @type {boolean} */ isRough) {
     const { drive } = this;
     this.path = study.kernel.path((isRough ? ROUGH_PATH : FINE_PATH) * study.size);
     drive.setStudy(study);
@@ -89,7 +89,7 @@ export class PlateFigure {
   }
 
   // The measures of the atlas, or computed ones if something is changed.
-  #markStraight(/** @type {Study} */ study, isRough) {
+  #markStraight(/** @type {Study} */ study, /** @type {boolean} */ isRough) {
     const { family, curve, isRecorded } = this;
     const found = isRough ? null : study.kernel.measures();
     this.measured = isRecorded ? null : (found?.values ?? null);
@@ -98,7 +98,7 @@ export class PlateFigure {
     this.transport.showStraight(isKnown ? straightSummary(study, family, curve, this.measured) : null);
   }
 
-  pathsOf(/** @type {Study} */ study, isRough) {
+  pathsOf(/** @type {Study} */ study, /** @type {boolean} */ isRough) {
     return pathsOfStudy(study, this.path, this.portion, { on: this.on, isRough });
   }
 
@@ -147,7 +147,7 @@ export class PlateFigure {
   }
 
   // Runs `work`; whether it succeeded. If the kernel fails, the linkage stands still until something is changed.
-  guarded(work) {
+  guarded(/** @type {() => void} */ work) {
     try {
       work();
       return true;

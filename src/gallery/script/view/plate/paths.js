@@ -14,7 +14,12 @@ const RECORDED_PATH = 2e-4;
  * overlays.
  * @param {Study} study @param {CurvePath} path @param {StraightPortion | null} portion
  */
-export function pathsOfStudy(study, path, portion, { on, isRough }) {
+export function pathsOfStudy(
+  study,
+  path,
+  portion,
+  /** @type {{ on: Set<string>, isRough: boolean }} */ { on, isRough },
+) {
   const { others } = study;
   const { closed } = study.circuits[study.shown];
   const grid = roundingGrid(study.size);
@@ -40,12 +45,13 @@ export function recordedPath(kernel, family, curve) {
 }
 
 function dashesData(/** @type {CurvePath} */ { dashes, starts }) {
+  /** @param {number} first @param {number} k */
   const dash = (first, k) => polylineData(dashes, { first, last: starts[k + 1] ?? dashes.length / 2 });
   return Array.from(starts, dash).join("");
 }
 
 // Every n-th point, and again the first of a closed curve.
-function everyNth(points, stride, closed) {
+function everyNth(/** @type {Points} */ points, /** @type {number} */ stride, /** @type {boolean} */ closed) {
   const chosen = [];
   for (let k = 0; k < points.length; k += 2 * stride) chosen.push(points[k], points[k + 1]);
   if (closed) chosen.push(points[0], points[1]);
@@ -57,9 +63,9 @@ function everyNth(points, stride, closed) {
  * input, from computed measures { name: value }, or, if null, those of the atlas.
  * @param {Study} _ @param {Family} family @param {Measured | null} measures
  */
-export function straightSummary({ is_length: isLength }, family, curve, measures) {
+export function straightSummary({ is_length: isLength }, family, /** @type {number} */ curve, measures) {
   const [length, deviation, span] = ["straight_length", "straight_deviation", "straight_input_deg"].map(
-    (name) => (measures ? measures[name] : measureValue(family, curve, name)),
+    (name) => Number(measures ? measures[name] : measureValue(family, curve, name)),
   );
   // A family may be measured only in part.
   if (![length, deviation, span].every(Number.isFinite)) return "";

@@ -23,6 +23,7 @@ export function readPlateQuery(family, point, query) {
     "show",
     (word) => word === "nothing" || OVERLAYS.some(({ name }) => name === word),
   );
+  /** @param {typeof OVERLAYS[number]} overlay */
   const isOn = (overlay) => (shown ? shown.includes(overlay.name) : overlay.isOn);
   const isName = (/** @type {string} */ name) => changeableNames(family, point).includes(name);
   return {
@@ -66,8 +67,8 @@ export function plateAddress(
     query.set("circuit", String(requestedCircuit + 1));
   const isUsual = OVERLAYS.every(({ name, isOn }) => on.has(name) === isOn);
   if (!isUsual) query.set("show", [...on].join(",") || "nothing");
-  for (const [name, value] of Object.entries(motion))
-    if (value !== null && value !== STILL[name]) query.set(name, String(value));
+  for (const name of /** @type {(keyof MotionState)[]} */ (Object.keys(motion)))
+    if (motion[name] !== null && motion[name] !== STILL[name]) query.set(name, String(motion[name]));
   if (locked.size) query.set("lock", [...locked].join(","));
   if (at) query.set("at", `${Number(at.input.toPrecision(10))}${at.pass > 0 ? `,${at.pass + 1}` : ""}`);
   return curveAddress(family.id, curveKey(family, curve), query);

@@ -139,7 +139,7 @@ export class Plate extends PlateFigure {
   }
 
   // Creates the study of the current changes; if it cannot be assembled, the previous one stays visible.
-  #restudy(isRough) {
+  #restudy(/** @type {boolean} */ isRough) {
     const { family, kernel, changes, description, recorded } = this;
     const curve = kernel.curve(family, this.curve, changes);
     const study = studyOf(kernel, curve, this.state.requestedCircuit, isRough);
@@ -166,13 +166,13 @@ export class Plate extends PlateFigure {
   }
 
   /** The study of a circuit as it is now, once more; close it. */
-  studyAgain(shown) {
+  studyAgain(/** @type {number} */ shown) {
     const { family, kernel, curve, changes } = this;
     return kernel.study(kernel.curve(family, curve, changes), { shown });
   }
 
   /** Changes a value; that of the atlas is no change. */
-  change(name, value) {
+  change(/** @type {string} */ name, /** @type {number} */ value) {
     this.changeAll([[name, value]]);
   }
 
@@ -182,11 +182,11 @@ export class Plate extends PlateFigure {
   }
 
   /** Locks a value, which handles leave as it is then, or unlocks it. */
-  lock(name, isLocked) {
+  lock(/** @type {string} */ name, /** @type {boolean} */ isLocked) {
     this.store.change({ locked: withMember(this.state.locked, name, isLocked) });
   }
 
-  clear(name) {
+  clear(/** @type {string} */ name) {
     const changes = new Map(this.changes);
     changes.delete(name);
     this.store.preview({ changes });
@@ -228,7 +228,7 @@ export class Plate extends PlateFigure {
   }
 
   /** Shows or hides an overlay. */
-  overlay(name, isOn) {
+  overlay(/** @type {string} */ name, /** @type {boolean} */ isOn) {
     this.store.change({ on: withMember(this.on, name, isOn) });
   }
 
@@ -237,7 +237,7 @@ export class Plate extends PlateFigure {
   }
 
   /** Chooses a circuit. */
-  circuit(k) {
+  circuit(/** @type {number} */ k) {
     this.store.preview({ requestedCircuit: k });
   }
 

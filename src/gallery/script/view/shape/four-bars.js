@@ -59,7 +59,7 @@ export class FourBarSection {
   }
 
   /** Looks a shape that is being changed up, at most every 0.3 seconds; one that is dragged is followed by the answers before. */
-  follow(/** @type {Outline} */ shape, /** @type {ShapeQuery} */ state, isDragged) {
+  follow(/** @type {Outline} */ shape, /** @type {ShapeQuery} */ state, /** @type {boolean} */ isDragged) {
     this.next = { shape, state, isDragged };
     if (!this.isLooking) this.#look();
   }
@@ -98,7 +98,7 @@ export class FourBarSection {
   }
 
   /** Searches for a shape. @param {Outline} shape @param {ShapeQuery} state */
-  async search(shape, state, name) {
+  async search(shape, state, /** @type {string} */ name) {
     const signal = this.stop();
     this.element.hidden = false;
     this.list.setAttribute("aria-busy", "true");
@@ -120,7 +120,7 @@ export class FourBarSection {
   }
 
   /** Shows the answers so far. @param {FoundFourBars} found @param {Outline} shape */
-  show(found, shape, isDone) {
+  show(found, shape, /** @type {boolean} */ isDone) {
     const { answers, manifest, size, index_count: count, hindrances } = found;
     const among = `among ${count.toLocaleString("en")} four-bars and what is near them`;
     const none = "No four-bar meets these conditions";

@@ -4,7 +4,7 @@ import { curvePoints, curveCaption, curveKey } from "../../data/family.js";
 import { needCurves } from "../../data/needs.js";
 import { inverted, transformed } from "../../draw/similarity.js";
 import { portion } from "../../shape/outline.js";
-import { placedData } from "../../draw/path-data.js";
+import { smoothData } from "../../draw/path-data.js";
 import { boxOfPoints, fittedView } from "../../draw/plane-view.js";
 import { h, s, setAttributes, thumbnailFrame } from "../dom.js";
 import { address } from "../../data/address.js";
@@ -21,7 +21,9 @@ function matchItem(app, merged, shape, /** @type {ShapeQuery} */ { by, part }) {
   const { family, curve, name } = one;
   const caption = curveCaption(family, curve);
   const other = by === "rms" ? "greatest" : "rms";
-  const percent = (measure) => `${(100 * one[measure]).toFixed(2)} % ${measure}`;
+  /** @param {"rms" | "greatest"} measure */
+  const percent = (/** @type {"rms" | "greatest"} */ measure) =>
+    `${(100 * one[measure]).toFixed(2)} % ${measure}`;
   const share = part ? `, ${Math.round(100 * Math.abs(one.to - one.from))} % of the curve` : "";
   const href = address([family.id, "curve", curveKey(family, curve)]);
   const picture = matchPicture(one, shape, { width: 220, height: 170 });
@@ -58,7 +60,7 @@ export async function matchItems(app, merged, shape, query, signal) {
 }
 
 /** How near a curve is in a word, as `find` has it (crates/coupler-find/src/quality.rs). */
-export function qualityMark(quality) {
+export function qualityMark(/** @type {string} */ quality) {
   return h(`span.quality.${quality}`, quality);
 }
 
@@ -76,28 +78,32 @@ const MATCH_INSET = 6;
 
 /**
  * The picture of a result of `nearestCurves` with the shape overlaid, `width` × `height` pixels.
- * @param {Match} _ @param {Outline} shape @param {Size} _2
+ * @param {Match} _ @param {Outline} shape @param {Size} size
  */
-export function matchPicture({ family, curve, similarity, from, to }, shape, { width, height }) {
+function matchPicture({ family, curve, similarity, from, to }, shape, size) {
   const points = curvePoints(family, curve);
   const closed = family.curves.closed[curve] === 1;
   const fitted = transformed(inverted(similarity), shape.points);
-  const view = viewOfOutlines([points, fitted], width, height);
+  const view = viewOfOutlines([points, fitted], size);
   const isPart = from !== 0 || to !== 1;
   const [first, last] = from < to ? [from, to] : [to, from];
   const part = isPart ? portion(points, closed, first, last, 96).points : points;
   const frame = thumbnailFrame(
     ".match-picture",
-    { width, height },
-    s("path", { class: isPart ? "rest" : "curve", d: placedData(points, closed, view) }),
-    isPart ? s("path.curve", { d: placedData(part, false, view) }) : null,
-    s("path.query-shape", { d: placedData(fitted, shape.closed, view) }),
+    size,
+    s("path", { class: isPart ? "rest" : "curve", d: smoothData(points, closed, view) }),
+    isPart ? s("path.curve", { d: smoothData(part, false, view) }) : null,
+    s("path.query-shape", { d: smoothData(fitted, shape.closed, view) }),
   );
-  setAttributes(frame, { width, height });
+  setAttributes(frame, size);
   return frame;
 }
 
-/** The placement that fits outlines into a frame, `inset` pixels from its edges. @param {Points[]} outlines */
-export function viewOfOutlines(/** @type {Points[]} */ outlines, width, height, inset = MATCH_INSET) {
-  return fittedView(boxOfPoints(...outlines), { width, height, margin: inset });
+/** The placement that fits outlines into a frame, `margin` pixels from its edges. */
+export function viewOfOutlines(
+  /** @type {Points[]} */ outlines,
+  /** @type {Size} */ size,
+  margin = MATCH_INSET,
+) {
+  return fittedView(boxOfPoints(...outlines), { ...size, margin });
 }

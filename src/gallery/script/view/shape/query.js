@@ -45,7 +45,7 @@ export function formatShapeQuery(state) {
 }
 
 /** So many numbers with commas or blanks between them; null if they are others. @param {string | undefined} text */
-export function numbersOf(text, count) {
+export function numbersOf(text, /** @type {number} */ count) {
   const numbers =
     text
       ?.trim()
