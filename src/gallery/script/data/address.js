@@ -115,12 +115,11 @@ export function matchesRoute(word, /** @type {Target} */ { path, query }, /** @t
   return !isFamily(atlas, word) || !isFamilyQuery(query);
 }
 
-/** The address of a route with a query, which is never empty if a family has the same id. */
-export function routeAddress(
-  /** @type {string} */ word,
-  /** @type {Map<string, unknown> | Record<string, unknown>} */ query,
-  /** @type {Pick<App, "atlas">} */ { atlas },
-) {
+/**
+ * The address of a route with a query, which is never empty if a family has the same id.
+ * @param {string} word @param {Map<string, unknown> | Record<string, unknown>} query @param {Pick<App, "atlas">} _
+ */
+export function routeAddress(word, query, { atlas }) {
   const short = address([word], query);
   const isTaken = !short.includes("?") && isFamily(atlas, word);
   return isTaken ? address([word], { show: "room" }) : short;

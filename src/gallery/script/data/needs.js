@@ -50,11 +50,7 @@ export async function needCurveWithKey(/** @type {Family} */ family, /** @type {
   return curve;
 }
 
-/**
- * The indices of the cells of a page that follow from the number of panels: from the first to before the
- * last.
- * @param {number} page
- */
+/** The indices of the cells of a page that follow from the number of panels: from the first to before the last. @param {number} page */
 export function panelCells(/** @type {Family} */ { layout, panels, pageCount, cells: { count } }, page) {
   const each = panels ?? (layout === "panels" && pageCount === 1 ? count : 0);
   return [Math.min((page - 1) * each, count), Math.min(page * each, count)];
@@ -74,10 +70,7 @@ export function needPage(family, /** @type {number} */ page) {
   return layout ? layout.then(() => needPage(family, page)) : needPieces(family, piecesOfPage(family, page));
 }
 
-/**
- * Loads a page and keeps its data, which may be in many pieces, until the function that it resolves to is
- * called.
- */
+/** Loads a page and keeps its data, which may be in many pieces, until the function that it resolves to is called. */
 export async function loadPage(/** @type {Family} */ family, /** @type {number} */ page) {
   await needPieces(family, [family.outlines.ofPage(page)]);
   const release = holdPieces(piecesOfPage(family, page));
@@ -115,12 +108,9 @@ export function holdPieces(/** @type {Piece[]} */ pieces) {
 
 /**
  * Calls `act` when a need is met: at once, or when its promise resolves; `failed(message)` if it cannot be.
+ * @param {Promise<unknown> | null} need @param {() => unknown} act
  */
-export function whenLoaded(
-  /** @type {Promise<unknown> | null} */ need,
-  /** @type {() => unknown} */ act,
-  failed = (/** @type {string} */ _) => {},
-) {
+export function whenLoaded(need, act, failed = (/** @type {string} */ _) => {}) {
   if (need === null) act();
   else need.then(act, (error) => failed(error.message));
 }

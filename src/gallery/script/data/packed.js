@@ -20,10 +20,7 @@ export function unpackColumn(kind, count, column) {
   return array;
 }
 
-/**
- * Uses the browser's own decoder if there is one: it takes a tenth of the time, and an atlas has megabytes.
- * @returns {Uint8Array<ArrayBuffer>}
- */
+/** Uses the browser's own decoder if there is one: it takes a tenth of the time, and an atlas has megabytes. @returns {Uint8Array<ArrayBuffer>} */
 export function decodeBase64(/** @type {string} */ data) {
   if ("fromBase64" in Uint8Array) return /** @type {Base64Decoder} */ (Uint8Array).fromBase64(data);
   const text = atob(data);
@@ -38,10 +35,7 @@ export async function unpackGzip(/** @type {string} */ packed) {
   return new Response(unpacked).arrayBuffer();
 }
 
-/**
- * Concatenates typed arrays of one kind.
- * @template {TypedArray} T @param {T[]} arrays @param {new (count: number) => T} kind
- */
+/** Concatenates typed arrays of one kind. @template {TypedArray} T @param {T[]} arrays @param {new (count: number) => T} kind */
 export function concatenateArrays(arrays, kind) {
   const whole = new kind(arrays.reduce((sum, array) => sum + array.length, 0));
   let at = 0;

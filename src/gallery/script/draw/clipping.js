@@ -2,10 +2,7 @@
 
 import { dataNumber } from "./path-data.js";
 
-/**
- * Path data of the part of a polyline [x, y, …] in a box [x0, y0, x1, y1]; it is interrupted at points that
- * are not finite.
- */
+/** Path data of the part of a polyline [x, y, …] in a box [x0, y0, x1, y1]; it is interrupted at points that are not finite. */
 export function clippedData(/** @type {Points} */ points, /** @type {Box} */ box, digits = 6) {
   const number = (/** @type {number} */ x) => dataNumber(x, digits);
   let data = "";

@@ -5,9 +5,7 @@ export function dataNumber(/** @type {number} */ x, digits = 7) {
   return Number.isFinite(x) ? String(Number(x.toPrecision(digits))) : "0";
 }
 
-/**
- * The number of grid steps per unit, a power of ten, for coordinates exact to 1e-4 of a size.
- */
+/** The number of grid steps per unit, a power of ten, for coordinates exact to 1e-4 of a size. */
 export function roundingGrid(/** @type {number} */ size) {
   return 10 ** Math.min(Math.max(Math.ceil(4 - Math.log10(size)), -12), 12);
 }

@@ -37,12 +37,8 @@ export function fittedView([x0, y0, x1, y1], { width, height, margin = 0 }) {
   return { scale, x: width / 2 - (scale * (x0 + x1)) / 2, y: height / 2 + (scale * (y0 + y1)) / 2 };
 }
 
-/** A view zoomed by a factor about a point on the screen. @param {number} factor */
-export function zoomedView(
-  /** @type {Placement} */ { scale, x, y },
-  factor,
-  /** @type {Point} */ [atX, atY],
-) {
+/** A view zoomed by a factor about a point on the screen. @param {Placement} _ @param {number} factor @param {Point} _1 */
+export function zoomedView({ scale, x, y }, factor, [atX, atY]) {
   return { scale: scale * factor, x: atX + (x - atX) * factor, y: atY + (y - atY) * factor };
 }
 

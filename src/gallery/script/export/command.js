@@ -2,10 +2,7 @@
 
 import { curveCountOf, findCurve } from "../data/family.js";
 
-/**
- * The command that exports `count` curves, selected by `words` (shortenCurveNames), from the manifest in the
- * atlas's folder.
- */
+/** The command that exports `count` curves, selected by `words` (shortenCurveNames), from the manifest in the atlas's folder. */
 export function exportCommand(/** @type {string[]} */ words, /** @type {number} */ count) {
   const formats = ["svg", "moving-svg", "png", "dxf", "csv", "json", "toml"];
   const chosen = count > 20 ? ["svg", "dxf", "csv", "json", "toml"] : formats;

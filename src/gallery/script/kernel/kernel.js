@@ -52,10 +52,7 @@ export class Kernel {
     this.fourBars = new FourBarFinder(new KernelWorker(module));
   }
 
-  /**
-   * Calls `work` with the current instance, and replaces it if it fails.
-   * @template T @param {(instance: KernelInstance) => T} work
-   */
+  /** Calls `work` with the current instance, and replaces it if it fails. @template T @param {(instance: KernelInstance) => T} work */
   use(work) {
     try {
       return work(this.instance);

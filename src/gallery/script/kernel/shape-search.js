@@ -5,10 +5,7 @@ export const WHOLE = 0.85;
 
 /** A path to which curves are compared. Closed ones are compared with whole curves, open ones with portions. */
 export class ShapeSearch {
-  /**
-   * @param {SearchKernel} kernel @param {SearchedPath} path
-   * @param {{ mirror: boolean, least: number, wanted?: number }} options
-   */
+  /** @param {SearchKernel} kernel @param {SearchedPath} path @param {{ mirror: boolean, least: number, wanted?: number }} options */
   static async open(kernel, path, { mirror, least, wanted = 1 }) {
     const { instance } = kernel;
     return new ShapeSearch(kernel, instance, await kernel.call(openRequest(path, mirror, least, wanted)));

@@ -22,10 +22,7 @@ export function resampled(points, closed, /** @type {number} */ count) {
   return portion(points, closed, 0, closed ? 1 - 1 / count : 1, count).points;
 }
 
-/**
- * Whether an outline ends so near to its start, within 12 % of the greater side of its box, that it is probably meant to be
- * closed.
- */
+/** Whether an outline ends so near to its start, within 12 % of the greater side of its box, that it is probably meant to be closed. */
 export function looksClosed(/** @type {Points} */ points) {
   const [x0, y0, x1, y1] = boxOfPoints(points);
   const end = points.length - 2;

@@ -67,10 +67,7 @@ export class CurveHighlight {
     this.highlight(curve, { updatesPanel: false });
   }
 
-  /**
-   * Handles the pointer leaving the curves. The panel keeps its content so that it can be read and its links
-   * followed.
-   */
+  /** Handles the pointer leaving the curves. The panel keeps its content so that it can be read and its links followed. */
   leave() {
     this.pointed = null;
     if (this.selected === null) this.clear();

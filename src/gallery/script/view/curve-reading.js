@@ -36,10 +36,7 @@ function orNull(work) {
   }
 }
 
-/**
- * The readings at a point of a curve: [[name, value with unit], …].
- * @param {Reading} _ @param {SolvedCurve} _1
- */
+/** The readings at a point of a curve: [[name, value with unit], …]. @param {Reading} _ @param {SolvedCurve} _1 */
 export function readingRows({ input, speed, mu }, { isLength, passes }) {
   return [
     ["input", isLength ? formatNumber(input) : formatInputAngle(input, passes)],

@@ -60,12 +60,8 @@ export function elementIn(/** @type {ParentNode} */ parent, /** @type {string} *
   return found;
 }
 
-/** An SVG drawing that screen readers skip, because adjacent text describes it. */
-export function thumbnailFrame(
-  /** @type {string} */ name,
-  /** @type {Size} */ size,
-  /** @type {Content[]} */ ...content
-) {
+/** An SVG drawing that screen readers skip, because adjacent text describes it. @param {string} name @param {Size} size @param {...Content} content */
+export function thumbnailFrame(name, size, ...content) {
   const { width, height } = size;
   const attributes = { viewBox: `0 0 ${width} ${height}`, "aria-hidden": "true", focusable: "false" };
   return s(`svg.thumbnail${name}`, attributes, ...content);
@@ -122,10 +118,7 @@ export function focusedElement() {
   return element instanceof HTMLElement || element instanceof SVGElement ? element : null;
 }
 
-/**
- * Returns a function that restores the focus to the control with the same name after an element's content has
- * been replaced.
- */
+/** Returns a function that restores the focus to the control with the same name after an element's content has been replaced. */
 export function keepFocus(/** @type {Element} */ element) {
   const nameOf = (/** @type {Element} */ control) =>
     control.id || control.getAttribute("aria-label") || control.textContent;

@@ -14,11 +14,7 @@ import { thumbnail } from "./thumbnail.js";
 import { pageField } from "./page-bar.js";
 import { pageLabel } from "./page-panel.js";
 
-/**
- * The route of a family: `#/evans` its pages, `#/evans?show=curves` its curves; `?page=3` scrolls to that
- * page's tile.
- * @type {Route}
- */
+/** The route of a family: `#/evans` its pages, `#/evans?show=curves` its curves; `?page=3` scrolls to that page's tile. @type {Route} */
 export const familyRoute = {
   name: "sheet",
   parent: "families",
@@ -75,13 +71,8 @@ function samplingLabel(/** @type {Family["sampling"]} */ { step, samples, spacin
   return `${samples} samples per circuit${spacing ? `, ${spacing} spacing` : ""}`;
 }
 
-/** @param {Family} family @param {ListedFamily} listed @param {App} app */
-function familyToolbar(
-  app,
-  family,
-  listed,
-  /** @type {Record<"hasCurves" | "hasPages", boolean>} */ { hasCurves, hasPages },
-) {
+/** @param {App} app @param {Family} family @param {ListedFamily} listed @param {Record<"hasCurves" | "hasPages", boolean>} _ */
+function familyToolbar(app, family, listed, { hasCurves, hasPages }) {
   /** @param {string} label @param {Record<string, string>} query @param {boolean} isHere */
   const way = (label, query, isHere) =>
     h("a.button", { href: address([family.id], query), "aria-current": isHere ? "true" : null }, label);

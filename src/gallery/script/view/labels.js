@@ -84,21 +84,17 @@ export function formatNumber(/** @type {number} */ number, digits = 4) {
   return String(Number(number.toPrecision(digits))).replace("-", "−");
 }
 
-/** The value of a measure with its unit; undefined if it does not apply. @param {number} curve */
-export function measureText(
-  /** @type {Family} */ family,
-  curve,
-  /** @type {Pick<Measure, "name" | "unit">} */ { name, unit },
-) {
+/**
+ * The value of a measure with its unit; undefined if it does not apply.
+ * @param {Family} family @param {number} curve @param {Pick<Measure, "name" | "unit">} _
+ */
+export function measureText(family, curve, { name, unit }) {
   const value = measureValue(family, curve, name);
   if (value === undefined || typeof value === "string") return value?.replace(/^theorem(\d)/, "theorem $1");
   return isInDegrees(family, { name, unit }) ? `${formatNumber(value)}°` : formatNumber(value);
 }
 
-/**
- * Whether a measure of a family is in degrees: if the input is a length, inputs are not.
- * @param {Family} _ @param {Pick<Measure, "name" | "unit">} _1
- */
+/** Whether a measure of a family is in degrees: if the input is a length, inputs are not. @param {Family} _ @param {Pick<Measure, "name" | "unit">} _1 */
 export function isInDegrees({ is_length: isLength }, { name, unit }) {
   return unit === "deg" && !(isLength && /^(straight|dwell|output_dwell|input)_/.test(name));
 }

@@ -77,11 +77,8 @@ export function familySource({ source, legend }) {
   return legend && source?.endsWith(ending) ? source.slice(0, -ending.length) : (source ?? "");
 }
 
-async function showFirstPage(
-  /** @type {App} */ app,
-  /** @type {HTMLElement} */ tile,
-  /** @type {string} */ id,
-) {
+/** @param {App} app @param {HTMLElement} tile @param {string} id */
+async function showFirstPage(app, tile, id) {
   const picture = elementIn(tile, ".tile-picture");
   try {
     const family = await app.atlas.family(id);
@@ -119,10 +116,7 @@ function familySearch(app, tiles, query) {
   return h("div.field", h("input", { ...attributes, placeholder: `Search ${total} families` }));
 }
 
-/**
- * Calls `seen(element)` once for each watched element when it comes within half a window height of the
- * window. Returns { watch(element), end() }.
- */
+/** Calls `seen(element)` once for each watched element when it comes within half a window height of the window. Returns { watch(element), end() }. */
 export function onceVisible(/** @type {(element: HTMLElement) => void} */ seen) {
   const observer = new IntersectionObserver(
     (entries) => {

@@ -9,11 +9,9 @@ import { printedColorsButton } from "./settings.js";
 /**
  * The toolbar: links to the previous and next page, a field for the page number, and zoom buttons. `go(page)`
  * opens a page, `zoom()` returns the Zoom.
+ * @param {ListedFamily} listed @param {{ go(page: number): void, zoom(): Zoom }} _
  */
-export function pageBar(
-  /** @type {ListedFamily} */ listed,
-  /** @type {{ go(page: number): void, zoom(): Zoom }} */ { go, zoom },
-) {
+export function pageBar(listed, { go, zoom }) {
   const contents = h("a.button.contents", "All pages");
   const [before, after] = [stepLink("Previous page", "←", "prev"), stepLink("Next page", "→", "next")];
   const number = pageField(listed, "page", go);

@@ -10,14 +10,9 @@ import { pinButton } from "./pins.js";
 
 /**
  * The curves of a page as links, and the linkages that could not be assembled.
- * @param {Family} family @param {DrawnCurve[]} drawn @param {number} page
+ * @param {Family} family @param {number} page @param {DrawnCurve[]} drawn @param {{ one?: boolean, onenter(curve: number): void, onleave(): void }} _
  */
-export function curveListPanel(
-  family,
-  page,
-  drawn,
-  /** @type {{ one?: boolean, onenter(curve: number): void, onleave(): void }} */ { onenter, onleave },
-) {
+export function curveListPanel(family, page, drawn, { onenter, onleave }) {
   // If all curves are of one linkage, each row shows only its point.
   const one = drawn.length > 1 && drawn.every(({ view }) => view.cell === drawn[0].view.cell);
   const links = drawn.map(({ curve }) => curveRow(family, curve, { one, onenter, onleave }));
@@ -52,12 +47,8 @@ function cellLabel(/** @type {Family} */ family, /** @type {number} */ cell, /**
   return cellCaption(family, cell) || `${word} ${family.cells.number[cell]}`;
 }
 
-/** @param {number} curve */
-function curveRow(
-  /** @type {Family} */ family,
-  curve,
-  /** @type {{ one?: boolean, onenter(curve: number): void, onleave(): void }} */ { one, onenter, onleave },
-) {
+/** @param {Family} family @param {number} curve @param {{ one?: boolean, onenter(curve: number): void, onleave(): void }} _ */
+function curveRow(family, curve, { one, onenter, onleave }) {
   const { cell, circuit } = family.curves;
   const caption = one ? null : cellLabel(family, cell[curve], "linkage");
   const point = pointLabel(family, curve);
@@ -91,13 +82,11 @@ function notAssembledList(family, /** @type {number[]} */ cells) {
   return h("section.not-assembled", h("h3", "Could not be assembled"), h("ul", cells.map(item)));
 }
 
-/** The data of a curve: caption, class, parameters, measures and actions. @param {number} curve */
-export function curvePanel(
-  /** @type {App} */ app,
-  /** @type {Family} */ family,
-  curve,
-  /** @type {{ onall(): void }} */ { onall },
-) {
+/**
+ * The data of a curve: caption, class, parameters, measures and actions.
+ * @param {App} app @param {Family} family @param {number} curve @param {{ onall(): void }} _
+ */
+export function curvePanel(app, family, curve, { onall }) {
   const { cell, closed } = family.curves;
   const at = cell[curve];
   const key = curveKey(family, curve);

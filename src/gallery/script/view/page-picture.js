@@ -39,13 +39,9 @@ export async function pagePicture(/** @type {App} */ app, /** @type {Family} */ 
 /**
  * The overlay of the picture: a link for each curve of the page, invisible unless highlighted. Positions are in
  * millimetres of paper.
- * @param {DrawnCurve[]} drawn
+ * @param {Family} family @param {DrawnCurve[]} drawn @param {{ onfocus(curve: number): void, onblur(): void }} _
  */
-export function pageOverlay(
-  /** @type {Family} */ family,
-  drawn,
-  /** @type {{ onfocus(curve: number): void, onblur(): void }} */ { onfocus, onblur },
-) {
+export function pageOverlay(family, drawn, { onfocus, onblur }) {
   const { width, height } = family.paper;
   const links = new Map(drawn.map((one) => [one.curve, curveLink(family, one, { onfocus, onblur })]));
   const path = s("path.highlighted", { "vector-effect": "non-scaling-stroke" });
@@ -79,11 +75,8 @@ function linkArea(/** @type {Box} */ [x0, y0, x1, y1]) {
   return s("rect.link-area", { ...corner, width, height });
 }
 
-function curveLink(
-  /** @type {Family} */ family,
-  /** @type {DrawnCurve} */ { curve, box },
-  /** @type {{ onfocus(curve: number): void, onblur(): void }} */ { onfocus, onblur },
-) {
+/** @param {Family} family @param {DrawnCurve} _ @param {{ onfocus(curve: number): void, onblur(): void }} _1 */
+function curveLink(family, { curve, box }, { onfocus, onblur }) {
   const key = curveKey(family, curve);
   const caption = curveCaption(family, curve);
   const attributes = {
@@ -105,10 +98,7 @@ export function prefetchPages(app, family, /** @type {number} */ page) {
   }
 }
 
-/**
- * The curves of a page's views on paper, with points and boxes in millimetres, y down.
- * @param {Family} family @param {PageDrawing[]} views
- */
+/** The curves of a page's views on paper, with points and boxes in millimetres, y down. @param {Family} family @param {PageDrawing[]} views */
 export function curvesOnPaper(/** @type {Family} */ family, /** @type {PageDrawing[]} */ views) {
   return views.flatMap((view) =>
     view.curves.map((curve) => {

@@ -33,10 +33,7 @@ export function scrollMemory() {
   };
 }
 
-/**
- * Scrolls to a recorded position as soon as the view is long enough; input by the user cancels it. Returns a
- * function that ends it.
- */
+/** Scrolls to a recorded position as soon as the view is long enough; input by the user cancels it. Returns a function that ends it. */
 function restoreScroll(/** @type {{ depth: number, link?: string | null }} */ { depth, link }) {
   const moves = ["wheel", "pointerdown", "keydown"];
   const growth = new ResizeObserver(() => goThere());

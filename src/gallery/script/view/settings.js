@@ -36,10 +36,7 @@ export function themeSelect() {
   return selectOf({ class: "theme quiet", "aria-label": "Theme", onchange }, THEME_CHOICES, choice);
 }
 
-/**
- * A switch for the dark theme: pages with their printed colours, or inverted. `data-pages` of <html> is
- * "printed" or absent.
- */
+/** A switch for the dark theme: pages with their printed colours, or inverted. `data-pages` of <html> is "printed" or absent. */
 export function printedColorsButton() {
   const root = document.documentElement;
   const apply = (/** @type {boolean} */ isPrinted) => {

@@ -100,16 +100,10 @@ class Router {
   /** What can be undone in the view that is shown. */
   gestures = new Gestures();
 
-  constructor(
-    /** @type {App} */ app,
-    /** @type {Route[]} */ routes,
-    /** @type {{ main: HTMLElement, nav: ReturnType<typeof navigation>, ignored: HTMLElement, scroll: ReturnType<typeof scrollMemory> }} */ {
-      main,
-      nav,
-      ignored,
-      scroll,
-    },
-  ) {
+  /**
+   * @param {App} app @param {Route[]} routes @param {{ main: HTMLElement, nav: ReturnType<typeof navigation>, ignored: HTMLElement, scroll: ReturnType<typeof scrollMemory> }} _
+   */
+  constructor(app, routes, { main, nav, ignored, scroll }) {
     this.app = app;
     this.routes = routes;
     this.main = main;

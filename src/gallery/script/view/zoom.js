@@ -24,17 +24,8 @@ export class Zoom {
   pointers = new Map();
   constrainedTo = { width: 0, height: 0 };
 
-  /** @param {HTMLElement} viewport @param {HTMLElement} sheet */
-  constructor(
-    viewport,
-    sheet,
-    /** @type {Size & { onchange(): void, ontap(event: PointerEvent): void }} */ {
-      width,
-      height,
-      onchange,
-      ontap,
-    },
-  ) {
+  /** @param {HTMLElement} viewport @param {HTMLElement} sheet @param {Size & { onchange(): void, ontap(event: PointerEvent): void }} _ */
+  constructor(viewport, sheet, { width, height, onchange, ontap }) {
     this.viewport = viewport;
     this.sheet = sheet;
     this.width = width;

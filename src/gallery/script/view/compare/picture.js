@@ -64,10 +64,7 @@ export function sideBySidePictures(outlines) {
   return { elements: lines.map((line) => thumbnailFrame("", SIDE_SIZE, line)), ...drawn };
 }
 
-/**
- * The letter of the k-th of `count` outlines, next to its line, on the side away from the outline's centre.
- * @param {number} k @param {number} count
- */
+/** The letter of the k-th of `count` outlines, next to its line, on the side away from the outline's centre. @param {number} k @param {number} count */
 function letterLabel(/** @type {Outline} */ { points, closed }, k, count, /** @type {Placement} */ view) {
   const places = points.length / 2;
   // Letters are spread along overlaid curves, and away from the ends of open ones.

@@ -3,10 +3,8 @@
 
 import { focusedElement, h } from "../dom.js";
 
-/** Saves { name, type, bytes }. */
-export function saveFile(
-  /** @type {{ name: string, type: string, bytes: Uint8Array<ArrayBuffer> }} */ { name, type, bytes },
-) {
+/** Saves { name, type, bytes }. @param {{ name: string, type: string, bytes: Uint8Array<ArrayBuffer> }} _ */
+export function saveFile({ name, type, bytes }) {
   const url = URL.createObjectURL(new Blob([bytes], { type }));
   const link = document.createElement("a");
   link.href = url;
@@ -18,10 +16,7 @@ export function saveFile(
   setTimeout(() => URL.revokeObjectURL(url), 60000);
 }
 
-/**
- * Copies a text, or shows it selected for manual copying; resolves to whether it was copied. `what` describes
- * the text.
- */
+/** Copies a text, or shows it selected for manual copying; resolves to whether it was copied. `what` describes the text. */
 export async function copyText(/** @type {string} */ what, /** @type {string} */ text) {
   try {
     await navigator.clipboard.writeText(text);

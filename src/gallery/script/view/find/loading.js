@@ -76,10 +76,7 @@ export function loadedCurves({ table, curves: { count } }) {
   return table.pieces[table.loadedPieces]?.firstCurve ?? count;
 }
 
-/**
- * A line below the count of a search: how many curves are not loaded, and a button that calls `load()`. Empty
- * while loading goes on, or if all are loaded.
- */
+/** A line below the count of a search: how many curves are not loaded, and a button that calls `load()`. Empty while loading goes on, or if all are loaded. */
 export function loadAllLine(/** @type {() => void} */ load) {
   const element = h("p.load-all.toolbar", { hidden: true });
   const text = (/** @type {LoadState} */ { curves, total }) =>

@@ -14,10 +14,7 @@ export class FilterPanel {
     /** @type {Filters | null} */ this.shown = null;
   }
 
-  /**
-   * Creates the filters for the columns of a table, set as in a query.
-   * @param {Column[]} columns @param {CurveTable} table @param {FindQuery} query
-   */
+  /** Creates the filters for the columns of a table, set as in a query. @param {Column[]} columns @param {CurveTable} table @param {FindQuery} query */
   setColumns(columns, table, query) {
     this.filters.clear();
     /** @type {Record<Column["group"], Element[]>} */ const groups = { first: [], more: [], parameters: [] };
@@ -74,10 +71,7 @@ export class FilterPanel {
 
 /** Calls `changed(filter)` with a Set of words, or null for all. */
 export class WordFilter {
-  /**
-   * @param {Column} column @param {CurveTable} table @param {Filter | undefined} filter
-   * @param {(filter: Filter | null) => void} changed
-   */
+  /** @param {Column} column @param {CurveTable} table @param {Filter | undefined} filter @param {(filter: Filter | null) => void} changed */
   constructor(column, table, filter, changed) {
     this.column = column;
     this.changed = changed;

@@ -10,10 +10,7 @@ import { TileWindow } from "../tile-window.js";
 import { thumbnail } from "../thumbnail.js";
 import { watchPins, pinOnKey, curvePinButton } from "../pins.js";
 
-/**
- * Tiles for rows of a table, in a given order; `valueOf(row)` is the text of the value they are sorted by, or
- * null.
- */
+/** Tiles for rows of a table, in a given order; `valueOf(row)` is the text of the value they are sorted by, or null. */
 export class ResultTiles extends TileWindow {
   /** @type {Uint32Array | number[]} */ rows = [];
   /** @type {CurveTable | null} */ table = null;
@@ -46,10 +43,7 @@ export class ResultTiles extends TileWindow {
     this.table = null;
   }
 
-  /**
-   * Replaces the rows shown.
-   * @param {CurveTable} table @param {Uint32Array} rows @param {(row: number) => string | null | undefined} valueOf
-   */
+  /** Replaces the rows shown. @param {CurveTable} table @param {Uint32Array} rows @param {(row: number) => string | null | undefined} valueOf */
   setRows(table, rows, valueOf) {
     this.table = table;
     this.rows = rows;

@@ -9,9 +9,7 @@ const DIAL_RADIUS = 78;
 // The transmission angle of a good linkage stays at least this far from 0 and 180.
 const GOOD_TRANSMISSION_DEG = 40;
 
-/**
- * The dial: `show(study)` sets its range, `pose(mu)` its needle. Hidden if the linkage is not a four-bar.
- */
+/** The dial: `show(study)` sets its range, `pose(mu)` its needle. Hidden if the linkage is not a four-bar. */
 export class DialView {
   constructor() {
     this.range = s("path.dial-range");

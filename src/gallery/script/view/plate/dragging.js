@@ -87,12 +87,11 @@ function pinch(/** @type {Stage} */ stage, pointers, id, at) {
   stage.pan((at[0] - before[0]) / 2, (at[1] - before[1]) / 2);
 }
 
-/** Starts a drag of a handle or of a joint, whose `move` takes the pointer's positions in the plane. @param {Point} pointer */
-function startDrag(
-  /** @type {Plate} */ plate,
-  /** @type {Record<"handle" | "joint", string | null | undefined>} */ { handle, joint },
-  pointer,
-) {
+/**
+ * Starts a drag of a handle or of a joint, whose `move` takes the pointer's positions in the plane.
+ * @param {Plate} plate @param {Record<"handle" | "joint", string | null | undefined>} _ @param {Point} pointer
+ */
+function startDrag(plate, { handle, joint }, pointer) {
   if (typeof handle === "string") return plate.handles.drag(Number(handle), pointer);
   const number = Number(joint);
   const crank = plate.study?.crank;

@@ -29,10 +29,7 @@ export function curveOrigin(app, family, /** @type {number} */ curve) {
   );
 }
 
-/**
- * The table of measures: `show(now)` adds those computed by the page next to the recorded ones; null removes
- * them.
- */
+/** The table of measures: `show(now)` adds those computed by the page next to the recorded ones; null removes them. */
 export class MeasureTable {
   constructor(/** @type {App} */ app, /** @type {Family} */ family, /** @type {number} */ curve) {
     this.rows = app.atlas.measures.map((measure) =>

@@ -56,12 +56,8 @@ export function stillPlateLayout(/** @type {App} */ app, /** @type {Family} */ f
   return { element, leave: watchPins(app, element) };
 }
 
-/** @param {number} curve */
-function plateHeading(
-  /** @type {Family} */ family,
-  curve,
-  /** @type {{ tag: Element | null, tools: Element[] }} */ { tag, tools },
-) {
+/** @param {Family} family @param {number} curve @param {{ tag: Element | null, tools: Element[] }} _ */
+function plateHeading(family, curve, { tag, tools }) {
   const cell = family.curves.cell[curve];
   const [caption, note] = [cellText(family, cell, "caption"), cellText(family, cell, "note")];
   const title = h("a.family-title", { href: address([family.id]) }, family.title);

@@ -31,10 +31,7 @@ function kindOfLocked(/** @type {boolean} */ isDerived, /** @type {boolean} */ i
   return isChanged ? "unlinked" : "derived";
 }
 
-/**
- * @param {MovablePoint | null} recorded @param {MovablePoint | null} current
- * @param {Map<string, number>} changes
- */
+/** @param {MovablePoint | null} recorded @param {MovablePoint | null} current @param {Map<string, number>} changes */
 function changeableCoordinates(recorded, current, changes, /** @type {number} */ size) {
   if (!recorded || !current) return [];
   const changeable = COORDINATES.filter((way) => !recorded[way].is_parameter);
@@ -48,14 +45,8 @@ function changeableCoordinates(recorded, current, changes, /** @type {number} */
   });
 }
 
-/** @param {number} recorded @param {number} size */
-function sliderRange(
-  recorded,
-  /** @type {number[]} */ [least, most],
-  /** @type {{ min: number | null, max: number | null }} */ { min, max },
-  size,
-  isWhole = false,
-) {
+/** @param {number} recorded @param {number[]} _ @param {{ min: number | null, max: number | null }} _1 @param {number} size */
+function sliderRange(recorded, [least, most], { min, max }, size, isWhole = false) {
   if (isWhole) return { low: Math.min(least, -6), high: Math.max(most, 6), grain: 1 };
   const reach = Math.max(most - least, 0.6 * Math.abs(recorded)) || size;
   let low = Math.min(least, recorded - 0.5 * reach);

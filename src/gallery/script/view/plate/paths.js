@@ -12,14 +12,9 @@ const RECORDED_PATH = 2e-4;
 /**
  * Path data of a study's curve, from its path and its straight portion. `on` has the names of the selected
  * overlays.
- * @param {Study} study @param {CurvePath} path @param {StraightPortion | null} portion
+ * @param {Study} study @param {CurvePath} path @param {StraightPortion | null} portion @param {{ on: Set<string>, isRough: boolean }} _
  */
-export function pathsOfStudy(
-  study,
-  path,
-  portion,
-  /** @type {{ on: Set<string>, isRough: boolean }} */ { on, isRough },
-) {
+export function pathsOfStudy(study, path, portion, { on, isRough }) {
   const { others } = study;
   const { closed } = study.circuits[study.shown];
   const grid = roundingGrid(study.size);
@@ -74,10 +69,7 @@ export function straightSummary({ is_length: isLength }, family, /** @type {numb
   return `Straight portion: ${formatLength(length)} long, ${within}, over ${over} of input`;
 }
 
-/**
- * The straight portion of a study's curve (KernelStudy.measures); null if it is too short to be visible.
- * @param {Study} _ @param {ComputedMeasures} _1
- */
+/** The straight portion of a study's curve (KernelStudy.measures); null if it is too short to be visible. @param {Study} _ @param {ComputedMeasures} _1 */
 export function visibleStraightPortion({ curve_box: [x0, y0, x1, y1] }, { straight, values }) {
   const isVisible = Number(values.straight_length) >= 0.02 * Math.max(x1 - x0, y1 - y0);
   return straight && isVisible ? straight : null;

@@ -57,7 +57,7 @@ export function withMember(set, member, isIn) {
   return new Set(isIn ? [...others, member] : others);
 }
 
-/** The shortest address of a plate in a state; defaults are left out. @param {Plate} _ @param {PlateState} state */
+/** The shortest address of a plate in a state; defaults are left out. @param {Plate} _ @param {PlateState} _1 */
 export function plateAddress(
   { family, curve, study },
   { changes, requestedCircuit, on, at, locked, motion },
@@ -91,10 +91,7 @@ export function isExtraCircuit(plate) {
   return keyOfShownCircuit(plate).extraCircuit !== null;
 }
 
-/**
- * The key of the curve on the shown circuit; if the atlas does not contain it, the curve's own key and the
- * circuit's number.
- */
+/** The key of the curve on the shown circuit; if the atlas does not contain it, the curve's own key and the circuit's number. */
 function keyOfShownCircuit(/** @type {Plate} */ { family, curve, study, description }) {
   const own = curveKey(family, curve);
   if (!study || study.shown === study.home) return { key: own, extraCircuit: null };

@@ -18,10 +18,7 @@ import { Store } from "../store.js";
 // The time in milliseconds after which the input has rested.
 const INPUT_MILLISECONDS = 400;
 
-/**
- * The plate of a curve of a family, with the query of its address. Put `element` into the document, then call
- * `shown()`.
- */
+/** The plate of a curve of a family, with the query of its address. Put `element` into the document, then call `shown()`. */
 export class Plate extends PlateFigure {
   /** The circuits of what was asked for. @type {Candidates} */
   candidates;

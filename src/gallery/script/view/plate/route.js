@@ -40,10 +40,7 @@ export const newPlateRoute = {
   matches: ({ path }) => newLinkage(curveOfPath(path)?.id ?? "") !== null,
 };
 
-/**
- * The plate of a curve; without the kernel, one that stands still and says so.
- * @param {App} app @param {Family} family @param {AddressQuery} query
- */
+/** The plate of a curve; without the kernel, one that stands still and says so. @param {App} app @param {Family} family @param {AddressQuery} query */
 async function openPlate(app, family, /** @type {number} */ curve, query) {
   try {
     return new Plate(app, await app.kernel.load(), family, curve, query);

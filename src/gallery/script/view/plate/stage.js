@@ -8,9 +8,7 @@ import { StaticLayer } from "./static-layer.js";
 
 const STAGE_MARGIN = 44;
 
-/**
- * A stage. Put `element` into the document, then call `observe()`. Calls `onview` when its view has changed.
- */
+/** A stage. Put `element` into the document, then call `observe()`. Calls `onview` when its view has changed. */
 export class Stage {
   constructor() {
     this.size = { width: 0, height: 0 };

@@ -85,11 +85,9 @@ export class Pose {
 /**
  * The arrow of a velocity, per radian of input or unit of length, in pixels, y down: a fifth of the frame at the
  * speed `top`, at most one and a half times that, reversed where the input decreases. Null if infinite.
+ * @param {Float64Array} _ @param {{ top: number, size: Size, heading: number }} _1
  */
-export function velocityArrow(
-  /** @type {Float64Array} */ [vx, vy],
-  /** @type {{ top: number, size: Size, heading: number }} */ { top, size, heading },
-) {
+export function velocityArrow([vx, vy], { top, size, heading }) {
   const speed = Math.hypot(vx, vy);
   if (!Number.isFinite(speed)) return null;
   const longest = Math.min(size.width, size.height) / 5;

@@ -4,10 +4,7 @@
 // Equal parts take equal time: the input is uniform but slows down towards limits, so that no joint jumps
 // there.
 
-/**
- * The timeline of a circuit: `starts` has the part at which each pass starts, `whole` is the total input travel.
- * @param {Circuit} _
- */
+/** The timeline of a circuit: `starts` has the part at which each pass starts, `whole` is the total input travel. @param {Circuit} _ */
 export function timelineOf(/** @type {Circuit} */ { passes, closed }) {
   const lengths = passes.map(({ from, to }) => Math.abs(to - from));
   const whole = lengths.reduce((sum, length) => sum + length, 0);
@@ -55,9 +52,7 @@ export function partOfInput({ passes, starts }, /** @type {number} */ k, /** @ty
   return starts[k] + (starts[k + 1] - starts[k]) * share;
 }
 
-/**
- * The limit positions, where the input reverses or ends, as parts of the timeline; none for a full rotation.
- */
+/** The limit positions, where the input reverses or ends, as parts of the timeline; none for a full rotation. */
 export function turningParts(/** @type {Timeline} */ { passes, closed, starts }) {
   const parts = [];
   passes.forEach((pass, k) => {

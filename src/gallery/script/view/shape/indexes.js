@@ -109,11 +109,11 @@ export function releaseIndex(kernel, { curves }) {
   return kernel.call({ method: "close_curves", curves });
 }
 
-/** Releases the indexes of families that are not searched as a whole: they would take too much memory. */
-export async function releaseIndexes(
-  /** @type {SearchKernel} */ kernel,
-  /** @type {SearchedPart[]} */ parts,
-) {
+/**
+ * Releases the indexes of families that are not searched as a whole: they would take too much memory.
+ * @param {SearchKernel} kernel @param {SearchedPart[]} parts
+ */
+export async function releaseIndexes(kernel, parts) {
   for (const { family } of parts) {
     const known = keptIndexes(kernel, family);
     for (const index of known.values()) await releaseIndex(kernel, index);

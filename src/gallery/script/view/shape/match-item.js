@@ -76,10 +76,7 @@ export function matchesText(merged, curves, by) {
 
 const MATCH_INSET = 6;
 
-/**
- * The picture of a result of `nearestCurves` with the shape overlaid, `width` × `height` pixels.
- * @param {Match} _ @param {Outline} shape @param {Size} size
- */
+/** The picture of a result of `nearestCurves` with the shape overlaid, `width` × `height` pixels. @param {Match} _ @param {Outline} shape @param {Size} size */
 function matchPicture({ family, curve, similarity, from, to }, shape, size) {
   const points = curvePoints(family, curve);
   const closed = family.curves.closed[curve] === 1;
@@ -99,11 +96,7 @@ function matchPicture({ family, curve, similarity, from, to }, shape, size) {
   return frame;
 }
 
-/** The placement that fits outlines into a frame, `margin` pixels from its edges. */
-export function viewOfOutlines(
-  /** @type {Points[]} */ outlines,
-  /** @type {Size} */ size,
-  margin = MATCH_INSET,
-) {
+/** The placement that fits outlines into a frame, `margin` pixels from its edges. @param {Points[]} outlines @param {Size} size */
+export function viewOfOutlines(outlines, size, margin = MATCH_INSET) {
   return fittedView(boxOfPoints(...outlines), { ...size, margin });
 }
