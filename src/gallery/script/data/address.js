@@ -49,9 +49,8 @@ function queryPairs(query) {
 }
 
 /**
- * Parses the name of a curve, "evans:12.1.1?p=2.5&k=2", as in the program's `export`; null if it is not a name.
- * The change "circuit" selects a circuit by its number among all circuits of the linkage; an atlas of one
- * circuit for each cell does not contain the others.
+ * Parses the name of a curve, "evans:12.1.1?p=2.5&k=2", as in the program's `export`; null if it is not a name. The change "circuit"
+ * selects a circuit by its number among all circuits of the linkage; an atlas of one circuit for each cell does not contain the others.
  */
 export function parseCurveName(/** @type {string} */ name) {
   const found = /^([^:?]+):(\d+\.\d+\.\d+)(?:\?(.*))?$/.exec(name);
@@ -112,7 +111,9 @@ export function curveAddress(/** @type {string} */ id, /** @type {string} */ key
  */
 export function matchesRoute(word, /** @type {Target} */ { path, query }, /** @type {App} */ { atlas }) {
   if (path.length !== 1 || path[0] !== word) return false;
-  return !isFamily(atlas, word) || !isFamilyQuery(query);
+  const isOfFamily =
+    query.size === 0 || query.has("page") || query.has("curve") || query.get("show") === "curves";
+  return !isFamily(atlas, word) || !isOfFamily;
 }
 
 /**
@@ -127,8 +128,4 @@ export function routeAddress(word, query, { atlas }) {
 
 function isFamily(/** @type {Atlas} */ { families }, /** @type {string} */ word) {
   return families.some(({ id }) => id === word);
-}
-
-function isFamilyQuery(/** @type {AddressQuery} */ query) {
-  return query.size === 0 || query.has("page") || query.has("curve") || query.get("show") === "curves";
 }

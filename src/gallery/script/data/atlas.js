@@ -7,11 +7,10 @@ import { FamilyReader, PieceReader } from "./reader.js";
 const MAX_KEPT_BYTES = 64e6;
 
 /**
- * Opens the atlas of a document: its summary, `family(id)`, which resolves to a family (reader.js) when its
- * head is loaded, and `kernelModule()`, to the module of the kernel, unpacked.
+ * Opens the atlas of a document: its summary, `family(id)`, which resolves to a family (reader.js) when its head is loaded, and
+ * `kernelModule()`, to the module of the kernel, unpacked.
  *
- * A page opened from disk cannot fetch files but can load scripts; the scripts of families and the kernel call
- * `couplerAtlas`.
+ * A page opened from disk cannot fetch files but can load scripts; the scripts of families and the kernel call `couplerAtlas`.
  * @param {Document} document @param {Window & { couplerAtlas?: Statements }} window
  */
 export function openAtlas(document, window) {
@@ -46,8 +45,7 @@ export function openAtlas(document, window) {
   };
   /**
    * Runs a script; resolves to what `accept` takes of it. Scripts run one at a time, each followed by its load event.
-   * @template T @param {string} file @param {(done: NonNullable<typeof finished>) => T | undefined | false} accept
-   * @returns {Promise<T>}
+   * @template T @param {string} file @param {(done: NonNullable<typeof finished>) => T | undefined | false} accept @returns {Promise<T>}
    */
   const run = (file, accept) =>
     new Promise((resolve, reject) => {
@@ -127,9 +125,8 @@ function pageFolder(/** @type {number} */ page, /** @type {number} */ pages) {
 }
 
 /**
- * Keeps the pieces of points that were used last, up to `maxBytes` of files, and those that are held
- * (needs.js); `use(piece)` is called with a loaded piece. Pieces of tables are kept, since they are small;
- * those in the head of a family have no file to be loaded from again.
+ * Keeps the pieces of points that were used last, up to `maxBytes` of files, and those that are held (needs.js); `use(piece)` is called
+ * with a loaded piece. Pieces of tables are kept, since they are small; those in the head of a family have no file to be loaded from again.
  */
 export function outlineCache(maxBytes = MAX_KEPT_BYTES) {
   /** The pieces with data, the one used last at the end. @type {Set<Piece>} */

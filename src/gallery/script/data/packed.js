@@ -9,8 +9,7 @@ export function unpackInto(/** @type {TypedArray} */ array, at, count, /** @type
 
 /**
  * Decodes a column of `count` numbers into a new array of a kind.
- * @template {TypedArray} T
- * @param {{ new (of: number | ArrayBuffer): T }} kind @param {number} count @param {PackedColumn} column
+ * @template {TypedArray} T @param {{ new (of: number | ArrayBuffer): T }} kind @param {number} count @param {PackedColumn} column
  */
 export function unpackColumn(kind, count, column) {
   if (typeof column === "string") return new kind(decodeBase64(column).buffer);

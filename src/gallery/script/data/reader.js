@@ -165,40 +165,17 @@ export class PieceReader {
     this.pages.set(page, views);
   }
 
+  /** A piece of the table has nothing of its own: its rows are with those of the other pieces. */
   finish() {
-    if (this.piece.name === "table") {
-      this.piece.data = emptyPiece();
-      return;
-    }
     const { chunks, pages } = this;
-    const all = (/** @type {"counts" | "points"} */ name) =>
-      concatenateArrays(
-        chunks.map((one) => one[name]),
-        Uint16Array,
-      );
-    const box = concatenateArrays(
-      chunks.map((one) => one.box),
-      Float64Array,
-    );
+    const [boxes, parts] = [chunks.map((one) => one.box), chunks.map((one) => one.points)];
+    const [box, points] = [concatenateArrays(boxes, Float64Array), concatenateArrays(parts, Uint16Array)];
+    const start = Uint32Array.from([0, ...chunks.flatMap((one) => [...one.counts])]);
+    for (let k = 1; k < start.length; k += 1) start[k] += start[k - 1];
     const texts = (/** @type {"reason" | "caption" | "note"} */ name) => chunks.flatMap((one) => one[name]);
     const words = { reason: texts("reason"), caption: texts("caption"), note: texts("note") };
-    this.piece.data = { ...packedPoints(box, all("counts"), all("points")), ...words, pages };
+    this.piece.data = { box, start, points, ...words, pages };
   }
-}
-
-/** The data of a piece of the table, whose rows are with those of the other pieces. @returns {PieceData} */
-function emptyPiece() {
-  const none = packedPoints(new Float64Array(), new Uint16Array(), new Uint16Array());
-  return { ...none, caption: [], note: [], reason: [], pages: new Map() };
-}
-
-/** The points of curves as a loaded piece has them, without texts. @param {Float64Array} box @param {Uint16Array} counts */
-function packedPoints(box, counts, /** @type {Uint16Array} */ points) {
-  const start = new Uint32Array(counts.length + 1);
-  counts.forEach((count, k) => {
-    start[k + 1] = start[k] + count;
-  });
-  return { box, start, points };
 }
 
 /** The places of words in a list of known ones, to which new ones are added. @param {string[]} words */

@@ -20,8 +20,7 @@ export function clippedData(/** @type {Points} */ points, /** @type {Box} */ box
 }
 
 /**
- * The part of a segment in a box, [x0, y0, x1, y1], by the algorithm of Liang and Barsky; null if there is
- * none.
+ * The part of a segment in a box, [x0, y0, x1, y1], by the algorithm of Liang and Barsky; null if there is none.
  * @param {number} x0 @param {number} y0 @param {number} x1 @param {number} y1
  */
 export function segmentInBox(x0, y0, x1, y1, /** @type {Box} */ [left, low, right, high]) {

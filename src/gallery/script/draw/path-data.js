@@ -11,9 +11,8 @@ export function roundingGrid(/** @type {number} */ size) {
 }
 
 /**
- * Path data of a polyline [x0, y0, x1, y1, …], from point `first` up to, not with, `last`, interrupted at
- * points that are not finite; empty for fewer than two points. Numbers are rounded to 1 / `grid` if it is
- * given, else to `digits`.
+ * Path data of a polyline [x0, y0, x1, y1, …], from point `first` up to, not with, `last`, interrupted at points that are not finite; empty
+ * for fewer than two points. Numbers are rounded to 1 / `grid` if it is given, else to `digits`.
  * @param {Points} points
  */
 export function polylineData(

@@ -1,5 +1,4 @@
-// The query of the Find view and its address:
-// `?family=evans,watt&class=crank-rocker&mu_worst_deg=30..&sort=-length&show=table`.
+// The query of the Find view and its address: `?family=evans,watt&class=crank-rocker&mu_worst_deg=30..&sort=-length&show=table`.
 
 const OTHER_KEYS = ["family", "sort", "show"];
 

@@ -2,8 +2,7 @@
 
 import { drawnPath } from "./shape-search.js";
 
-// The time, in milliseconds, after which the index does not grow before a search, and after which the search says what it
-// has found so far.
+// The time, in milliseconds, after which the index does not grow before a search, and after which the search says what it has found so far.
 const GROW_MS = 1000;
 const REPORT_MS = 2000;
 // The time for the index before a first look, and for a four-bar that follows a path.
@@ -18,8 +17,7 @@ export const MAX_LIVE = 3;
 export class FourBarFinder {
   /** @type {Promise<unknown>} */ running = Promise.resolve();
 
-  /** The curves of the index. */
-  count = 0;
+  /** The curves of the index. */ count = 0;
 
   constructor(/** @type {SearchKernel} */ kernel) {
     this.kernel = kernel;
@@ -37,9 +35,9 @@ export class FourBarFinder {
       const refined = { ...options, refine: true, start: null, most: MAX_FOUR_BARS };
       const isComplete = await this.#grow(signal, began + GROW_MS);
       const first = { report: began + REPORT_MS, end: Infinity };
-      await this.#search(path, refined, signal, first, (found, isDone) =>
-        report(found, isDone && isComplete),
-      );
+      const early = (/** @type {FoundFourBars} */ found, isDone = false) =>
+        report(found, isDone && isComplete);
+      await this.#search(path, refined, signal, first, early);
       if (isComplete || !(await this.#grow(signal, Infinity))) return;
       await this.#search(path, refined, signal, { report: Infinity, end: Infinity }, report);
     });
@@ -49,12 +47,8 @@ export class FourBarFinder {
   lookUp(path, options, signal) {
     return this.#after(async () => {
       if (this.count === 0) await this.#grow(signal, performance.now() + FIRST_MS);
-      return this.#answers(
-        path,
-        { ...options, refine: false, start: null, most: MAX_LIVE },
-        signal,
-        Infinity,
-      );
+      const quick = { ...options, refine: false, start: null, most: MAX_LIVE };
+      return this.#answers(path, quick, signal, Infinity);
     });
   }
 
@@ -64,9 +58,8 @@ export class FourBarFinder {
       const answers = [];
       for (const start of poses) {
         const end = performance.now() + FOLLOW_MS;
-        answers.push(
-          ...(await this.#answers(path, { ...options, refine: true, start, most: 1 }, signal, end)),
-        );
+        const near = { ...options, refine: true, start, most: 1 };
+        answers.push(...(await this.#answers(path, near, signal, end)));
       }
       return answers.sort((a, b) => a.record.rms_relative - b.record.rms_relative);
     });

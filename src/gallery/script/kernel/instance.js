@@ -21,8 +21,7 @@ export class KernelInstance {
   /**
    * The answer to a request, both as objects. Arrays of numbers are Float64Arrays, those of the answer of their own.
    *
-   * @throws {KernelError} if the kernel cannot answer it
-   * @throws {KernelFailure} if the kernel fails
+   * @throws {KernelError} if the kernel cannot answer it @throws {KernelFailure} if the kernel fails
    */
   call(/** @type {object} */ request) {
     /** @type {Float64Array[]} */ const arrays = [];
@@ -76,8 +75,7 @@ export class KernelInstance {
   }
 
   /**
-   * The numbers of a study's pose at an input of a pass (Kernel::pose), valid until the next call; empty if there
-   * is none.
+   * The numbers of a study's pose at an input of a pass (Kernel::pose), valid until the next call; empty if there is none.
    *
    * @throws {KernelFailure} if the kernel fails
    */
@@ -91,8 +89,7 @@ export class KernelInstance {
   /**
    * The position of a joint at an input of a pass, [x, y], valid until the next call.
    *
-   * @throws {KernelFailure} if the kernel fails
-   * @param {number} study @param {number} joint @param {number} pass @param {number} input
+   * @throws {KernelFailure} if the kernel fails @param {number} study @param {number} joint @param {number} pass @param {number} input
    */
   jointPosition(study, joint, pass, input) {
     return this.#guarded((kernel) =>

@@ -97,8 +97,7 @@ export class Kernel {
   }
 
   /**
-   * Opens the study of a curve, as `curve()` gives it, on the circuit with the index `shown` among all; by
-   * default on its own.
+   * Opens the study of a curve, as `curve()` gives it, on the circuit with the index `shown` among all; by default on its own.
    * @param {KernelCurve} requested @param {{ shown?: number | null, isRough?: boolean }} options
    */
   study(requested, { shown = null, isRough = false } = {}) {

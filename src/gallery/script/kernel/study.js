@@ -2,8 +2,7 @@
 
 /** The study of a curve that may not exist; all methods but `close` need one that exists. */
 export class KernelStudy {
-  /** What the kernel says of it. @type {StudyAnswer | MissingCurve} */
-  answer;
+  /** What the kernel says of it. @type {StudyAnswer | MissingCurve} */ answer;
   /** @type {object | null} */ instance = null;
 
   /** `request()` gives the request that opens the study. @param {Kernel} kernel @param {() => object} request */

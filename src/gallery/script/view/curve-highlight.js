@@ -13,16 +13,12 @@ const MAX_SOLVED = 8;
 /** Highlights at most one curve of a page: that under the pointer or with the focus, or the selected one. */
 export class CurveHighlight {
   /** @type {number | null} */ selected = null;
-  /** The curve under the pointer or with the focus. @type {number | null} */
-  pointed = null;
-  /** The highlighted curve. @type {number | null} */
-  curve = null;
-  /** The curve in the panel. @type {number | null} */
-  listed = null;
+  /** The curve under the pointer or with the focus. @type {number | null} */ pointed = null;
+  /** The highlighted curve. @type {number | null} */ curve = null;
+  /** The curve in the panel. @type {number | null} */ listed = null;
   /** @type {SolvedCurve | null} */ solved = null;
   /** @type {Reading | null} */ at = null;
-  /** Where the pointer reads the curve, in millimetres. @type {Point | null} */
-  place = null;
+  /** Where the pointer reads the curve, in millimetres. @type {Point | null} */ place = null;
   fineness = 0;
   /** Curves that are kept solved, the oldest first. @type {Map<number, SolvedCurve | null>} */
   solutions = new Map();
@@ -34,11 +30,10 @@ export class CurveHighlight {
 
   /** Resets the highlight for another page. */
   reset() {
-    this.selected = this.pointed = this.curve = this.solved = this.at = null;
+    this.selected = this.pointed = null;
     for (const solved of this.solutions.values()) solved?.close();
     this.solutions.clear();
-    this.page.viewport.classList.remove("dimmed");
-    this.page.reading.hidden = true;
+    this.clear();
   }
 
   /** Handles a pointer at a position in millimetres, near the curve `found` or none. */
@@ -58,7 +53,7 @@ export class CurveHighlight {
     this.highlight(curve);
     const { box } = this.drawnOf(curve);
     this.page.zoom.reveal(box);
-    this.readStart();
+    this.read(null);
   }
 
   /** Highlights the curve of a link in the panel; the panel keeps its list. */
@@ -83,8 +78,7 @@ export class CurveHighlight {
       return;
     }
     this.highlight(curve);
-    if (place) this.read(place);
-    else this.readStart();
+    this.read(place);
   }
 
   drawnOf(/** @type {number | null} */ curve) {
@@ -143,8 +137,7 @@ export class CurveHighlight {
       const { curve, place } = this;
       if (curve === null || this.solved) return;
       this.#outline(curve);
-      if (place) this.read(place);
-      else this.readStart();
+      this.read(place);
     };
     this.page.app.kernel.load().then(again, () => {});
   }
@@ -167,18 +160,15 @@ export class CurveHighlight {
     return Math.max(0, Math.round(Math.log2(this.page.zoom.magnification)));
   }
 
-  read(/** @type {Point} */ place) {
+  /** Reads the highlighted curve at a position in millimetres, or at its start: null. */
+  read(/** @type {Point | null} */ place) {
     this.place = place;
     if (!this.solved) return;
+    if (!place) return this.readInput(0, this.solved.passes[0].from);
     const [x, y] = place;
     const { origin, scale } = this.drawnOf(this.curve).view;
     this.at = this.solved.nearTo((x - origin[0]) / scale, (origin[1] - y) / scale);
     this.position();
-  }
-
-  readStart() {
-    if (this.solved) this.readInput(0, this.solved.passes[0].from);
-    else this.place = null;
   }
 
   readInput(/** @type {number} */ pass, /** @type {number} */ input) {
@@ -237,8 +227,7 @@ export class CurveHighlight {
 }
 
 /**
- * The position of a label of a given size next to a point, before or after it as preferred, if there is
- * space.
+ * The position of a label of a given size next to a point, before or after it as preferred, if there is space.
  * @param {number} at @param {number} size @param {number} available @param {boolean} isBefore
  */
 function positionNextTo(at, size, available, isBefore) {

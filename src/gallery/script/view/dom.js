@@ -3,9 +3,8 @@
 const SVG = "http://www.w3.org/2000/svg";
 
 /**
- * Creates an HTML element, perhaps with classes: `h("button.quiet", { onclick: f }, "→")`,
- * `h("p.note", "…")`. Attributes are those of setAttributes; children may be nodes, strings, numbers, arrays, or
- * nothing.
+ * Creates an HTML element, perhaps with classes: `h("button.quiet", { onclick: f }, "→")`, `h("p.note", "…")`. Attributes are those of
+ * setAttributes; children may be nodes, strings, numbers, arrays, or nothing.
  * @template {string} N @param {N} name @param {...(Content | Attributes<HtmlElementOf<N>>)} content @returns {HtmlElementOf<N>}
  */
 export function h(name, ...content) {
@@ -65,6 +64,13 @@ export function thumbnailFrame(name, size, ...content) {
   const { width, height } = size;
   const attributes = { viewBox: `0 0 ${width} ${height}`, "aria-hidden": "true", focusable: "false" };
   return s(`svg.thumbnail${name}`, attributes, ...content);
+}
+
+/** The same of a size in pixels. @param {string} name @param {Size} size @param {...Content} content */
+export function sizedThumbnail(name, size, ...content) {
+  const frame = thumbnailFrame(name, size, ...content);
+  setAttributes(frame, size);
+  return frame;
 }
 
 /** A button. @param {Content} label @param {(event: MouseEvent) => unknown} onclick @param {Attributes<HTMLButtonElement>} attributes */

@@ -8,34 +8,21 @@ const MEASURE_LABELS = {
   shortest: "shortest link",
   six_bar: "kind of six-bar",
   is_full_turn: "full turn of the input",
-  input_min_deg: "least input",
-  input_max_deg: "greatest input",
-  limit_positions: "limit positions",
-  mu_min_deg: "least transmission angle",
-  mu_max_deg: "greatest transmission angle",
+  mu: "transmission angle",
+  bbox_x: "x",
+  bbox_y: "y",
   mu_worst_deg: "worst transmission angle",
-  output_min: "least output",
-  output_max: "greatest output",
   output_swing_deg: "swing of the output",
   output_stroke: "stroke of the output",
   output_dwell_deg: "range of input of the output's dwell",
   output_dwell_start_deg: "its start input",
   toggles: "toggle positions",
-  velocity_ratio_min: "least velocity ratio",
-  velocity_ratio_max: "greatest velocity ratio",
-  mechanical_advantage_min: "least mechanical advantage",
-  mechanical_advantage_max: "greatest mechanical advantage",
   torque_peak: "greatest input torque",
   torque_peak_deg: "input at the greatest torque",
   torque_min: "least input torque, signed",
   torque_max: "greatest input torque, signed",
   length: "path length",
-  bbox_x_min: "least x",
-  bbox_x_max: "greatest x",
-  bbox_y_min: "least y",
-  bbox_y_max: "greatest y",
   symmetry_deg: "direction of the symmetry axis",
-  curvature_max: "greatest curvature",
   straight_length: "length of the straight portion",
   straight_deviation: "its deviation from the line",
   straight_start_deg: "its start input",
@@ -48,27 +35,25 @@ const MEASURE_LABELS = {
   dwell_y: "its centre, y",
 };
 
-/** @type {Record<string, string>} */
-const STANDALONE_LABELS = {
-  output_dwell_start_deg: "start input of the output's dwell",
-  straight_deviation: "deviation of the straight portion",
-  straight_start_deg: "start input of the straight portion",
-  straight_input_deg: "range of input of the straight portion",
-  dwell_radius: "radius of the circular portion",
-  dwell_deviation: "deviation of the circular portion",
-  dwell_start_deg: "start input of the circular portion",
-  dwell_x: "centre of the circular portion, x",
-  dwell_y: "centre of the circular portion, y",
+/** The portions of a curve that measures are of, by the beginnings of their names. */
+const PORTIONS = {
+  output_dwell: "the output's dwell",
+  straight: "the straight portion",
+  dwell: "the circular portion",
 };
 
 /** The label of a measure outside the order of the columns. */
 export function standaloneMeasureLabel(/** @type {string} */ name) {
-  return STANDALONE_LABELS[name] ?? measureLabel(name);
+  const portion = Object.entries(PORTIONS).find(([begins]) => name.startsWith(begins))?.[1];
+  return measureLabel(name).replace(/^its ([^,]+?)(?: from the \w+)?(?=,|$)/, `$1 of ${portion}`);
 }
 
 /** The label of a measure in the order of the columns, where "its" refers to the portion before. */
 export function measureLabel(/** @type {string} */ name) {
-  return MEASURE_LABELS[name] ?? name.replace(/_deg$/, "").replaceAll("_", " ");
+  if (name in MEASURE_LABELS) return MEASURE_LABELS[name];
+  const [, base, end] = /^(.*?)(_min|_max)?(?:_deg)?$/.exec(name) ?? [];
+  const words = MEASURE_LABELS[base] ?? base.replaceAll("_", " ");
+  return end ? `${end === "_min" ? "least" : "greatest"} ${words}` : words;
 }
 
 /** A number with significant digits, without trailing zeros and with a true minus sign. */
@@ -111,8 +96,7 @@ export function formatChanges(/** @type {Map<string, number>} */ changes) {
   return `with ${[...changes].map(([name, value]) => `${name} = ${formatNumber(value, 10)}`).join(", ")}`;
 }
 
-/** @type {Record<string, string>} */
-const COLUMN_LABELS = {
+/** @type {Record<string, string>} */ const COLUMN_LABELS = {
   straight_tolerance: "deviation of the straight portion, by its length",
   straight_share: "length of the straight portion, by the extent",
   symmetric: "symmetry",

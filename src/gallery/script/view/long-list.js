@@ -14,11 +14,11 @@ export function scrollScale(/** @type {number} */ height, /** @type {number} */ 
 }
 
 /**
- * Calls `layOut()` before printing, which puts the printed items into the document and returns a line to
- * precede them, or null, and `restore()` afterwards. Returns { isPrinting, end() }.
- * @param {Element} element @param {() => Element | null} layOut @param {() => void} restore
+ * Calls `printed()` before printing, which puts the printed items of a list into the document and returns a line to precede them, or null,
+ * and `fill()` afterwards. Returns { isPrinting, end() }.
+ * @param {{ element: Element, printed(): Element | null, fill(): void }} list
  */
-export function onPrint(element, layOut, restore) {
+export function onPrint(list) {
   /** @type {Element | null} */ let line = null;
   const state = {
     isPrinting: false,
@@ -28,16 +28,16 @@ export function onPrint(element, layOut, restore) {
     },
   };
   const before = () => {
-    if (!element.isConnected || state.isPrinting) return;
+    if (!list.element.isConnected || state.isPrinting) return;
     state.isPrinting = true;
-    line = layOut();
-    if (line) element.before(line);
+    line = list.printed();
+    if (line) list.element.before(line);
   };
   const after = () => {
     if (!state.isPrinting) return;
     state.isPrinting = false;
     line?.remove();
-    restore();
+    list.fill();
   };
   window.addEventListener("beforeprint", before);
   window.addEventListener("afterprint", after);

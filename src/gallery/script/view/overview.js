@@ -40,18 +40,13 @@ export const overviewRoute = {
 };
 
 function atlasSummary(/** @type {ListedFamily[]} */ families) {
-  const curves = formatCount(
-    sumOf(families, (family) => family.curves),
-    "curve",
-  );
-  const kept = formatCount(
-    sumOf(families, (family) => family.kept),
-    "linkage",
-  );
-  return `${curves} of ${kept} on ${formatCount(
-    sumOf(families, ({ pages }) => pages),
-    "page",
-  )}`;
+  const sums = [
+    sumOf(families, (f) => f.curves),
+    sumOf(families, (f) => f.kept),
+    sumOf(families, (f) => f.pages),
+  ];
+  const [curves, kept, pages] = sums;
+  return `${formatCount(curves, "curve")} of ${formatCount(kept, "linkage")} on ${formatCount(pages, "page")}`;
 }
 
 function familyTile(/** @type {ListedFamily} */ family) {
@@ -91,8 +86,7 @@ async function showFirstPage(app, tile, id) {
 }
 
 /**
- * A field that shows only the families whose title, linkage or id contains all its words; the address
- * contains them.
+ * A field that shows only the families whose title, linkage or id contains all its words; the address contains them.
  * @param {App} app @param {Map<HTMLElement, ListedFamily>} tiles @param {string} query
  */
 function familySearch(app, tiles, query) {

@@ -15,16 +15,13 @@ import { pinButton } from "./pins.js";
 export function curveListPanel(family, page, drawn, { onenter, onleave }) {
   // If all curves are of one linkage, each row shows only its point.
   const one = drawn.length > 1 && drawn.every(({ view }) => view.cell === drawn[0].view.cell);
-  const links = drawn.map(({ curve }) => curveRow(family, curve, { one, onenter, onleave }));
+  const links = drawn.map(({ curve }) => h("li", curveRow(family, curve, { one, onenter, onleave })));
   const short = cellsOnPage(family, page).filter((cell) => family.cells.status[cell] === 2);
   return h(
     "div.panel",
     one ? h("h2", formatCaption(cellLabel(family, drawn[0].view.cell, "Linkage"))) : null,
     drawn.length ? curveCount(drawn.length, one) : noCurvesNote(family),
-    h(
-      "ol.page-curves",
-      links.map((link) => h("li", link)),
-    ),
+    h("ol.page-curves", links),
     short.length ? notAssembledList(family, short) : null,
   );
 }

@@ -37,8 +37,7 @@ export async function pagePicture(/** @type {App} */ app, /** @type {Family} */ 
 }
 
 /**
- * The overlay of the picture: a link for each curve of the page, invisible unless highlighted. Positions are in
- * millimetres of paper.
+ * The overlay of the picture: a link for each curve of the page, invisible unless highlighted. Positions are in millimetres of paper.
  * @param {Family} family @param {DrawnCurve[]} drawn @param {{ onfocus(curve: number): void, onblur(): void }} _
  */
 export function pageOverlay(family, drawn, { onfocus, onblur }) {
@@ -47,13 +46,12 @@ export function pageOverlay(family, drawn, { onfocus, onblur }) {
   const path = s("path.highlighted", { "vector-effect": "non-scaling-stroke" });
   const circle = s("circle", { r: 1 });
   const dot = s("g.at", circle);
-  const element = s(
-    "svg.overlay",
-    { viewBox: `0 0 ${width} ${height}`, role: "group", "aria-label": "Curves of this page" },
-    path,
-    dot,
-    [...links.values()],
-  );
+  const attributes = {
+    viewBox: `0 0 ${width} ${height}`,
+    role: "group",
+    "aria-label": "Curves of this page",
+  };
+  const element = s("svg.overlay", attributes, path, dot, [...links.values()]);
   return {
     element,
     links,

@@ -30,8 +30,7 @@ export function pageThumbnail(/** @type {Atlas} */ atlas, /** @type {Family} */ 
 }
 
 /**
- * The curves of views of a page at their positions on paper, in millimetres, as an SVG with the page's aspect
- * ratio.
+ * The curves of views of a page at their positions on paper, in millimetres, as an SVG with the page's aspect ratio.
  * @param {string} name @param {number} grain
  */
 export function drawPage(/** @type {Family} */ family, /** @type {PageDrawing[]} */ views, name, grain) {

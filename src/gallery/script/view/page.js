@@ -31,8 +31,7 @@ export const pageRoute = {
 
 /** The view of a page. */
 export class PageView {
-  /** The number of the page. */
-  page = 0;
+  /** The number of the page. */ page = 0;
   title = "";
   /** @type {AddressQuery} */ query;
   /** @type {DrawnCurve[]} */ drawn = [];
@@ -154,17 +153,12 @@ export class PageView {
   /** Shows the list of curves, or one curve, in the panel. */
   showPanel(/** @type {number | null} */ curve = null) {
     const { app, family, page, drawn, highlight } = this;
-    const listeners = {
-      onenter: (/** @type {number} */ other) => highlight.preview(other),
-      onleave: () => highlight.leave(),
-    };
-    const isList = curve === null;
-    fill(
-      this.panel,
-      isList
-        ? curveListPanel(family, page, drawn, listeners)
-        : curvePanel(app, family, curve, { onall: () => this.showAll() }),
-    );
+    const onenter = (/** @type {number} */ other) => highlight.preview(other);
+    const panel =
+      curve === null
+        ? curveListPanel(family, page, drawn, { onenter, onleave: () => highlight.leave() })
+        : curvePanel(app, family, curve, { onall: () => this.showAll() });
+    fill(this.panel, panel);
     fill(this.legend, this.family.legend ?? "");
   }
 

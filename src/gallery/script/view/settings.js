@@ -5,8 +5,7 @@ import { buttonOf, selectOf } from "./dom.js";
 const THEME_KEY = "coupler-atlas-theme";
 const PAGES_KEY = "coupler-atlas-pages";
 
-/** @type {[string, string][]} */
-const THEME_CHOICES = [
+/** @type {[string, string][]} */ const THEME_CHOICES = [
   ["system", "Theme: system"],
   ["light", "Theme: light"],
   ["dark", "Theme: dark"],

@@ -97,8 +97,7 @@ class Router {
   turn = 0;
   fragment = "";
   /** The query that is shown. @type {AddressQuery | null} */ query = null;
-  /** What can be undone in the view that is shown. */
-  gestures = new Gestures();
+  /** What can be undone in the view that is shown. */ gestures = new Gestures();
 
   /**
    * @param {App} app @param {Route[]} routes @param {{ main: HTMLElement, nav: ReturnType<typeof navigation>, ignored: HTMLElement, scroll: ReturnType<typeof scrollMemory> }} _
@@ -210,17 +209,13 @@ class Router {
 /** The footer of the gallery. @param {Atlas} atlas */
 function footer(atlas, /** @type {() => void} */ listKeys) {
   const { families } = atlas;
+  const [pages, curves] = [sumOf(families, (one) => one.pages), sumOf(families, (one) => one.curves)];
+  const bytes = sumOf(families, (one) => one.bytes);
   const facts = [
     formatCount(families.length, "family", "families"),
-    formatCount(
-      sumOf(families, ({ pages }) => pages),
-      "page",
-    ),
-    formatCount(
-      sumOf(families, ({ curves }) => curves),
-      "curve",
-    ),
-    `${formatBytes(sumOf(families, ({ bytes }) => bytes))} of data, loaded by family`,
+    formatCount(pages, "page"),
+    formatCount(curves, "curve"),
+    `${formatBytes(bytes)} of data, loaded by family`,
   ];
   const books = atlas.book.map((file) => [h("a", { href: file }, `Book: ${file}`), " · "]);
   const keys = buttonOf("Keys", listKeys, { class: "quiet", "aria-keyshortcuts": "?" });

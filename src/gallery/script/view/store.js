@@ -4,8 +4,7 @@
 export class Store {
   /** @type {Set<(state: S, before: S | null) => void>} */ listeners = new Set();
   writing = 0;
-  /** Whether a gesture has not ended. */
-  isOpen = false;
+  /** Whether a gesture has not ended. */ isOpen = false;
 
   /** `address` gives the address of a state. @param {Pick<App, "commit" | "replace">} app @param {S} state @param {(state: S) => string} address */
   constructor(app, state, address) {

@@ -17,22 +17,17 @@ const PRINTED_TILES = 400;
 
 /** A grid of tiles; `count` may change before `measure()`. */
 export class TileWindow {
-  /** The tiles in the document, by their index. @type {Map<number, HTMLElement>} */
-  there = new Map();
-  /** The tiles to be drawn. @type {number[]} */
-  queue = [];
+  /** The tiles in the document, by their index. @type {Map<number, HTMLElement>} */ there = new Map();
+  /** The tiles to be drawn. @type {number[]} */ queue = [];
   pending = 0;
   drawing = 0;
   postponed = 0;
   scale = 1;
-  /** The height by which tiles are moved up. */
-  shifted = 0;
+  /** The height by which tiles are moved up. */ shifted = 0;
   columns = 1;
-  /** The size of a tile, in pixels. */
-  wide = 0;
+  /** The size of a tile, in pixels. */ wide = 0;
   high = 0;
-  /** The height of the text below the pictures: that of the highest one so far. */
-  below = 0;
+  /** The height of the text below the pictures: that of the highest one so far. */ below = 0;
   filledAt = window.scrollY;
   /** @type {ReturnType<typeof onPrint> | null} */ paper = null;
 
@@ -57,11 +52,7 @@ export class TileWindow {
     this.sizes.observe(this.element);
     for (const [name, act] of Object.entries(this.listeners))
       window.addEventListener(name, act, { passive: true });
-    this.paper = onPrint(
-      this.element,
-      () => this.printed(),
-      () => this.fill(),
-    );
+    this.paper = onPrint(this);
   }
 
   /** Stops observing the window. */
@@ -155,14 +146,19 @@ export class TileWindow {
     const row = (/** @type {number} */ y) => Math.floor(y / this.pitch);
     const first = Math.max(0, row(top - ahead) * this.columns);
     const last = Math.min(this.count, (row(top + window.innerHeight + ahead) + 1) * this.columns);
-    for (const [k, element] of this.there) {
-      if ((k >= first && k < last) || element.contains(document.activeElement)) continue;
-      element.remove();
-      this.there.delete(k);
-    }
+    this.#keep((k, element) => (k >= first && k < last) || element.contains(document.activeElement));
     if (isShifted) for (const [k, element] of this.there) this.lay(element, k);
     for (let k = first; k < last; k += 1) this.add(k);
     this.drawSome();
+  }
+
+  /** Removes the tiles from the document that are not to be kept. */
+  #keep(/** @type {(k: number, element: HTMLElement) => boolean} */ isKept) {
+    for (const [k, element] of this.there) {
+      if (isKept(k, element)) continue;
+      element.remove();
+      this.there.delete(k);
+    }
   }
 
   add(/** @type {number} */ k) {
@@ -226,11 +222,7 @@ export class TileWindow {
   /** Puts the first tiles into the document, and no others, for printing. */
   printed() {
     const last = Math.min(this.count, PRINTED_TILES);
-    for (const [k, element] of this.there) {
-      if (k < last) continue;
-      element.remove();
-      this.there.delete(k);
-    }
+    this.#keep((k) => k < last);
     this.shifted = 0;
     for (const [k, element] of this.there) this.lay(element, k);
     for (let k = 0; k < last; k += 1) this.add(k);

@@ -35,9 +35,8 @@ export function formatComparisonQuery(/** @type {ComparisonQuery} */ { names, vi
 }
 
 /**
- * Aligns a curve with the first; `fit` has the deviation of the first from it, relative to the size of the first, and is
- * null without the kernel. `align` is a key of ALIGNMENTS; the best fit is that of the search by shape, and without one the
- * curve is centred.
+ * Aligns a curve with the first; `fit` has the deviation of the first from it, relative to the size of the first, and is null without the
+ * kernel. `align` is a key of ALIGNMENTS; the best fit is that of the search by shape, and without one the curve is centred.
  * @param {Kernel | null} kernel @param {CurveOfFamily} first @param {CurveOfFamily} one
  */
 export function alignCurve(kernel, first, one, /** @type {string} */ align) {

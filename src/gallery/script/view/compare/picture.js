@@ -10,8 +10,7 @@ import { solveCurve } from "../curve-reading.js";
 const OVER_WIDE = 720;
 const OVER_LOW = 240;
 const OVER_HIGH = 540;
-// The margin of the picture and the distance of letters from their curves, in picture pixels: a letter fits
-// on either side of a curve.
+// The margin of the picture and the distance of letters from their curves, in picture pixels: a letter fits on either side of a curve.
 const OVER_INSET = 34;
 const LETTER_AWAY = 16;
 const FINE_DECIMALS = 3;
@@ -109,11 +108,9 @@ export function strokeSample(/** @type {number} */ k) {
 const REFINED_ERROR = 0.05;
 
 /**
- * Redraws the curves of a picture (overlaidPicture) one after another as they are solved, without blocking
- * the page. `curves` are those of loadComparedCurve(), `aligned` the results of alignCurve(). Returns a function
- * that stops it.
- * @param {App} app @param {ComparedCurve[]} curves @param {{ similarity: Similarity }[]} aligned
- * @param {ComparedPicture} picture
+ * Redraws the curves of a picture (overlaidPicture) one after another as they are solved, without blocking the page. `curves` are those of
+ * loadComparedCurve(), `aligned` the results of alignCurve(). Returns a function that stops it.
+ * @param {App} app @param {ComparedCurve[]} curves @param {{ similarity: Similarity }[]} aligned @param {ComparedPicture} picture
  */
 export function refinePicture(app, picture, curves, aligned) {
   let waiting = 0;

@@ -1,5 +1,4 @@
-// Saves files with the browser's download, and copies text to the clipboard, which browsers may deny to a page
-// opened from disk.
+// Saves files with the browser's download, and copies text to the clipboard, which browsers may deny to a page opened from disk.
 
 import { focusedElement, h } from "../dom.js";
 

@@ -32,10 +32,8 @@ export class FindView {
   orders = new Orders(this.table);
   filters = new Filters(this.table);
   /** @type {Column[]} */ columns = [];
-  /** The rows that pass. @type {Uint32Array} */
-  rows = new Uint32Array();
-  /** What is said while tables are loaded, and whether not all are. */
-  loading = "";
+  /** The rows that pass. @type {Uint32Array} */ rows = new Uint32Array();
+  /** What is said while tables are loaded, and whether not all are. */ loading = "";
   isPartial = true;
   isLoaded = false;
   laying = 0;

@@ -93,19 +93,18 @@ export function loadAllLine(/** @type {() => void} */ load) {
 }
 
 /**
- * Checkboxes for the families of an atlas; calls `changed(ids)` with those checked, null for all. Null if
- * there is only one family.
+ * Checkboxes for the families of an atlas; calls `changed(ids)` with those checked, null for all. Null if there is only one family.
  * @param {(ids: string[] | null) => void} changed
  */
 export function familyChooser(/** @type {Atlas} */ atlas, /** @type {ListedFamily[]} */ loaded, changed) {
-  const withCurves = atlas.families.filter(({ script, curves }) => script && curves > 0);
+  const withCurves = requestedFamilies(atlas, null);
   if (withCurves.length < 2) return null;
+  const ids = withCurves.map(({ id }) => id);
   const chosen = new Set(loaded.map(({ id }) => id));
   const bytes = sumOf(withCurves, (family) => family.bytes);
   const tick = (/** @type {string} */ id) => {
     if (!chosen.delete(id)) chosen.add(id);
-    const ids = withCurves.map((family) => family.id).filter((one) => chosen.has(one));
-    changed(ids.length === withCurves.length ? null : ids);
+    changed(chosen.size === ids.length ? null : ids.filter((one) => chosen.has(one)));
   };
   const box = (/** @type {ListedFamily} */ { id, title, curves }) => {
     const attributes = { checked: chosen.has(id), onchange: () => tick(id) };
@@ -114,10 +113,7 @@ export function familyChooser(/** @type {Atlas} */ atlas, /** @type {ListedFamil
   };
   /** @param {string} label @param {string[]} ids */
   const choose = (label, ids) => buttonOf(label, () => changed(ids), { class: "quiet" });
-  const all = choose(
-    `All (${formatBytes(bytes)})`,
-    withCurves.map(({ id }) => id),
-  );
+  const all = choose(`All (${formatBytes(bytes)})`, ids);
   return h(
     "details.more-filters",
     { open: chosen.size === 0 },

@@ -33,11 +33,7 @@ export class ResultRows {
     this.element = h("div.scroll", { ...attributes, onscroll: () => this.fill() }, this.figures);
     pinOnKey(this.element);
     this.unwatch = watchPins(app, this.element);
-    this.paper = onPrint(
-      this.element,
-      () => this.printed(),
-      () => this.fill(),
-    );
+    this.paper = onPrint(this);
   }
 
   end() {

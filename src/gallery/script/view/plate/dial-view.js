@@ -23,16 +23,10 @@ export class DialView {
     const bounds = [GOOD_TRANSMISSION_DEG, 180 - GOOD_TRANSMISSION_DEG]
       .map((deg) => dialStroke(14, DIAL_RADIUS + 9, deg))
       .join("");
-    const angles = [
-      [0, 190, 98],
-      [90, 100, 12],
-      [180, 10, 98],
-      [40, 170, 38],
-      [140, 30, 38],
-    ];
-    const numbers = angles.map(([deg, x, y]) =>
-      s("text", { x, y: y + 4, class: deg % 90 ? "dial-word bound" : "dial-word" }, deg),
-    );
+    const numbers = [0, 40, 90, 140, 180].map((deg) => {
+      const [x, y] = dialPlace(DIAL_RADIUS + 11, deg);
+      return s("text", { x, y: y + 4, class: deg % 90 ? "dial-word bound" : "dial-word" }, deg);
+    });
     this.drawing = s(
       "svg.dial",
       { viewBox: "0 0 200 112", role: "img", "aria-label": "Dial of the transmission angle" },

@@ -1,5 +1,4 @@
-// Pointer input on the stage: drags a joint along its path, the crank about its pivot, and pans and zooms the
-// picture.
+// Pointer input on the stage: drags a joint along its path, the crank about its pivot, and pans and zooms the picture.
 
 import { planePoint } from "../../draw/plane-view.js";
 import { followInput, nearestPart, placeAtPart } from "./timeline.js";

@@ -12,8 +12,7 @@ export class Drive {
   heading = 1;
   /** @type {Timeline} */ timeline;
   isLength = false;
-  /** While there is nothing to move. */
-  isHalted = true;
+  /** While there is nothing to move. */ isHalted = true;
 
   constructor(/** @type {PlateFigure} */ plate) {
     this.plate = plate;

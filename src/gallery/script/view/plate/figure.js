@@ -23,13 +23,10 @@ export const STILL = { joint: null, graph: "speed", rpm: null, load: null };
 
 /** The drawing of the linkage of a curve, with its playback controls and its readings. */
 export class PlateFigure {
-  /** What is drawn; the last that exists. @type {Study | null} */
-  study = null;
-  /** Why what was asked for cannot be drawn. @type {string | null} */
-  reason = null;
+  /** What is drawn; the last that exists. @type {Study | null} */ study = null;
+  /** Why what was asked for cannot be drawn. @type {string | null} */ reason = null;
   /** What its address says. @type {PlateState} */ state;
-  /** The measures, if they are not those of the atlas. @type {Measured | null} */
-  measured = null;
+  /** The measures, if they are not those of the atlas. @type {Measured | null} */ measured = null;
   /** @type {StraightPortion | null} */ portion = null;
   /** @type {CurvePath} */ path;
   pose = new Pose();

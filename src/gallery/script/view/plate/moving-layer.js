@@ -11,17 +11,14 @@ const PIN_RADIUS = 4.5;
 export class MovingLayer {
   /** @type {Study} */ study;
   likeness = "";
-  /** The handles of joints and of the crank. @type {{ element: Element, joint: number }[]} */
-  grips = [];
+  /** The handles of joints and of the crank. @type {{ element: Element, joint: number }[]} */ grips = [];
   /** @type {{ element: Element, joints: number[] }[]} */ crankGrips = [];
   parts = /** @type {MovingPart[]} */ ([]);
   circles = /** @type {{ element: Element, joint: number }[]} */ ([]);
   /** @type {Float64Array | null} */ poseNow = null;
   /** @type {Placement} */ view = { scale: 1, x: 0, y: 0 };
-  /** The velocity of the traced point in pixels. @type {number[] | null} */
-  arrow = null;
-  /** Called with the places of the joints on the screen. */
-  onpose = (/** @type {Float64Array} */ _) => {};
+  /** The velocity of the traced point in pixels. @type {number[] | null} */ arrow = null;
+  /** Called with the places of the joints on the screen. */ onpose = (/** @type {Float64Array} */ _) => {};
 
   constructor() {
     this.links = s("g");

@@ -32,8 +32,7 @@ export class Overlays {
   /** @type {Study} */ study;
   /** @type {Set<string>} */ on = new Set();
   /** @type {Cognates | null} */ pair = null;
-  /** The joints that give the frame of the moving centrode. @type {[number, number] | null} */
-  arm = null;
+  /** The joints that give the frame of the moving centrode. @type {[number, number] | null} */ arm = null;
 
   constructor(/** @type {Stage} */ stage) {
     this.stage = stage;
@@ -53,7 +52,7 @@ export class Overlays {
     const { classList } = this.stage.element;
     for (const { name } of OVERLAYS) classList.toggle(`with-${name}`, on.has(name));
     this.pair = on.has("cognates") ? cognatesOfStudy(study) : null;
-    this.stage.frame(this.pair ? boxWithCognates(study.box, this.pair) : study.box);
+    this.stage.frame(this.pair ? widenedBox([...study.box], this.pair.reached) : study.box);
     if (!this.pair) [...this.cognates, this.cognatePins].forEach((element) => element.setAttribute("d", ""));
     this.#centrodes(isRough);
     if (!on.has("inflection")) this.circle.setAttribute("d", "");
@@ -134,8 +133,4 @@ function inflectionData(/** @type {Point} */ [px, py], /** @type {Point} */ [qx,
   const radius = Math.hypot(qx - px, qy - py) / 2;
   if (!(radius < 2e4)) return "";
   return circleData((px + qx) / 2, (py + qy) / 2, radius, 6);
-}
-
-function boxWithCognates(/** @type {Box} */ box, /** @type {Cognates} */ { reached }) {
-  return widenedBox([...box], reached);
 }

@@ -6,12 +6,11 @@ import { roundBelow } from "../../draw/plane-view.js";
 /** @type {("along" | "across")[]} */ const COORDINATES = ["along", "across"];
 
 /**
- * The parameters that can be changed. `kind` is "free" if the atlas varies the parameter, "fixed" if it is
- * constant, "derived" if an expression gives it, and "unlinked" if a derived one has been changed. `low` to `high`
- * is the range of the slider, `grain` its step. `recorded` and `current` are the values of the curve as the atlas
- * has it and with the changes.
- * @param {Family} family @param {FamilyDescription["names"]} names @param {CurveValues} recorded
- * @param {CurveValues} current @param {Map<string, number>} changes
+ * The parameters that can be changed. `kind` is "free" if the atlas varies the parameter, "fixed" if it is constant, "derived" if an
+ * expression gives it, and "unlinked" if a derived one has been changed. `low` to `high` is the range of the slider, `grain` its step.
+ * `recorded` and `current` are the values of the curve as the atlas has it and with the changes.
+ * @param {Family} family @param {FamilyDescription["names"]} names @param {CurveValues} recorded @param {CurveValues} current @param
+ * {Map<string, number>} changes
  */
 export function changeableParameters(family, names, recorded, current, changes) {
   const values = Object.values(recorded.values).filter(Number.isFinite);

@@ -10,8 +10,7 @@ const MANY_POINTS = 12;
 const RECORDED_PATH = 2e-4;
 
 /**
- * Path data of a study's curve, from its path and its straight portion. `on` has the names of the selected
- * overlays.
+ * Path data of a study's curve, from its path and its straight portion. `on` has the names of the selected overlays.
  * @param {Study} study @param {CurvePath} path @param {StraightPortion | null} portion @param {{ on: Set<string>, isRough: boolean }} _
  */
 export function pathsOfStudy(study, path, portion, { on, isRough }) {

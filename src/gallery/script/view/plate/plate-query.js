@@ -8,10 +8,9 @@ import { QUANTITIES } from "./motion-view.js";
 import { changeableNames, parseChanges } from "./parameters.js";
 
 /**
- * Parses the query of a curve with a movable traced point or null; `requestedCircuit` is the index of a circuit
- * among all, or null, `on` are the names of overlays; `locked` are the names that handles
- * leave; `at` is the input, "63.5", perhaps with the number of its
- * pass, "63.5,2".
+ * Parses the query of a curve with a movable traced point or null; `requestedCircuit` is the index of a circuit among all, or null, `on`
+ * are the names of overlays; `locked` are the names that handles leave; `at` is the input, "63.5", perhaps with the number of its pass,
+ * "63.5,2".
  * @param {Family} family @param {MovablePoint | null} point @param {AddressQuery} query @returns {PlateState}
  */
 export function readPlateQuery(family, point, query) {

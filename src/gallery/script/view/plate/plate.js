@@ -20,10 +20,8 @@ const INPUT_MILLISECONDS = 400;
 
 /** The plate of a curve of a family, with the query of its address. Put `element` into the document, then call `shown()`. */
 export class Plate extends PlateFigure {
-  /** The circuits of what was asked for. @type {Candidates} */
-  candidates;
-  /** The path data of the curve of the atlas, once it is needed. @type {string | null} */
-  ghost = null;
+  /** The circuits of what was asked for. @type {Candidates} */ candidates;
+  /** The path data of the curve of the atlas, once it is needed. @type {string | null} */ ghost = null;
 
   /** @param {App} app @param {Kernel} kernel @param {Family} family @param {number} curve @param {AddressQuery} query */
   constructor(app, kernel, family, curve, query) {

@@ -5,8 +5,7 @@ import { stepsOfKey } from "../keys.js";
 import { NumberField } from "../number-field.js";
 import { roundedToGrain } from "./parameters.js";
 
-/** @type {Record<string, string>} */
-const PARAMETER_KINDS = {
+/** @type {Record<string, string>} */ const PARAMETER_KINDS = {
   free: "free",
   fixed: "constant",
   derived: "derived from other parameters",
@@ -14,9 +13,8 @@ const PARAMETER_KINDS = {
 };
 
 /**
- * The controls of parameters (parameters.js), below `legend`, which explains their letters. `on` has
- * change(name, value), clear(name), settle() at the end of a drag, and reset(). `show(parameters)` updates
- * the values; rows are reused while the names are the same.
+ * The controls of parameters (parameters.js), below `legend`, which explains their letters. `on` has change(name, value), clear(name),
+ * settle() at the end of a drag, and reset(). `show(parameters)` updates the values; rows are reused while the names are the same.
  */
 export class Sliders {
   constructor(/** @type {string | null} */ legend, /** @type {Plate} */ on) {

@@ -14,8 +14,7 @@ export class Stage {
     this.size = { width: 0, height: 0 };
     this.view = { scale: 1, x: 0, y: 0 };
     this.isZoomed = false;
-    /** Whether the view stays while a handle is dragged. */
-    this.isHeld = false;
+    /** Whether the view stays while a handle is dragged. */ this.isHeld = false;
     this.box = null;
     this.study = null;
     this.still = new StaticLayer();

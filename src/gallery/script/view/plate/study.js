@@ -6,10 +6,9 @@ import { measureValue } from "../../data/family.js";
 import { formatLength, formatDecimals } from "../labels.js";
 
 /**
- * The study of a curve with changes, as a plate shows it, on the circuit `requested` if it exists. A rough study
- * without a requested circuit has no other circuits.
- * @param {Kernel} kernel @param {KernelCurve} curve @param {number | null} requested
- * @returns {Study | MissingCurve}
+ * The study of a curve with changes, as a plate shows it, on the circuit `requested` if it exists. A rough study without a requested
+ * circuit has no other circuits.
+ * @param {Kernel} kernel @param {KernelCurve} curve @param {number | null} requested @returns {Study | MissingCurve}
  */
 export function studyOf(kernel, curve, requested = null, isRough = false) {
   try {
@@ -57,8 +56,7 @@ export function recordedValues(/** @type {Kernel} */ kernel, /** @type {Family} 
 export class Pose {
   constructor() {
     this.header = new Float64Array(POSE_HEADER);
-    /** The positions of the joints in the plane, [x0, y0, x1, y1, …]. */
-    this.joints = new Float64Array();
+    /** The positions of the joints in the plane, [x0, y0, x1, y1, …]. */ this.joints = new Float64Array();
     this.velocity = this.header.subarray(1, 3);
     this.instant = {
       pole: this.header.subarray(3, 5),

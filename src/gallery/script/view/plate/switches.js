@@ -24,8 +24,7 @@ export class Switches {
   }
 
   /**
-   * `candidates` has the circuits of the current parameters, `study` is what is drawn, `isExtra`
-   * says whether the atlas lacks its circuit.
+   * `candidates` has the circuits of the current parameters, `study` is what is drawn, `isExtra` says whether the atlas lacks its circuit.
    * @param {Set<string>} on @param {boolean} isExtra
    */
   show(/** @type {Candidates} */ candidates, /** @type {Study | null} */ study, on, isExtra) {

@@ -70,10 +70,9 @@ export function clampPart({ closed }, /** @type {number} */ part) {
 }
 
 /**
- * Moves a position { pass, input } of a timeline towards the input `wanted` of a dragged crank, and returns
- * `wanted` less the full turns that were completed. Continues over the end of a pass onto the next one. Where
- * the input reverses, it stays at the limit; a drag more than `slack` beyond returns on the other branch,
- * which `place.isBeyond` records.
+ * Moves a position { pass, input } of a timeline towards the input `wanted` of a dragged crank, and returns `wanted` less the full turns
+ * that were completed. Continues over the end of a pass onto the next one. Where the input reverses, it stays at the limit; a drag more
+ * than `slack` beyond returns on the other branch, which `place.isBeyond` records.
  * @param {number} wanted @param {number} slack
  */
 export function followInput(/** @type {Timeline} */ timeline, /** @type {Place} */ place, wanted, slack) {
@@ -120,8 +119,7 @@ function adjacentPass(/** @type {Pass[]} */ passes, k, forward, closed) {
 }
 
 /**
- * The part of a timeline, within `reach` of the part `from`, at which `distance(part)` is least; a dragged
- * joint follows its path with it.
+ * The part of a timeline, within `reach` of the part `from`, at which `distance(part)` is least; a dragged joint follows its path with it.
  * @param {number} from @param {(part: number) => number} distance
  */
 export function nearestPart(/** @type {Timeline} */ timeline, from, distance, reach = 0.15) {

@@ -2,7 +2,7 @@
 
 import { placedData, smoothData } from "../../draw/path-data.js";
 import { pointPairs, screenPoint } from "../../draw/plane-view.js";
-import { buttonOf, h, s, setAttributes, termList, thumbnailFrame } from "../dom.js";
+import { buttonOf, h, s, sizedThumbnail, termList } from "../dom.js";
 import { copyText } from "../export/save.js";
 import { fourBarAddress } from "../new-view.js";
 import { formatNumber } from "../labels.js";
@@ -59,14 +59,12 @@ function fourBarPicture(answer, path) {
   const { curve, pose } = answer;
   const outlines = curve ? [curve.points, path.points, pose] : [path.points, pose];
   const view = viewOfOutlines(outlines, FOUR_BAR_SIZE);
-  const frame = thumbnailFrame(
+  return sizedThumbnail(
     ".match-picture",
     FOUR_BAR_SIZE,
     s("path.query-shape", { d: placedData(path.points, path.closed, view) }),
     fourBarDrawing(answer, view),
   );
-  setAttributes(frame, FOUR_BAR_SIZE);
-  return frame;
 }
 
 /** A four-bar with its curve. @param {FourBarAnswer} _ @param {Placement} view */

@@ -11,8 +11,7 @@ const LIVE_MS = 300;
 
 /** The section; `onFound(answers)` is called with those for the target. */
 export class FourBarSection {
-  /** Stopped by what is searched for next. */
-  searching = new AbortController();
+  /** Stopped by what is searched for next. */ searching = new AbortController();
   /** The last answers, with which the next begin while the shape is dragged. @type {FourBarAnswer[]} */
   answers = [];
   /** The shape to look up next. @type {{ shape: Outline, state: ShapeQuery, isDragged: boolean } | null} */

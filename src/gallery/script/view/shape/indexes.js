@@ -1,5 +1,4 @@
-// The indexes of the curves of families, in the kernel: in parts, so that a family of any size can be searched in bounded
-// memory.
+// The indexes of the curves of families, in the kernel: in parts, so that a family of any size can be searched in bounded memory.
 
 import { curvePoints } from "../../data/family.js";
 import { sumOf } from "../../data/number.js";
@@ -59,8 +58,7 @@ function tablesOf({ table }, { firstCurve, curves }) {
 }
 
 /**
- * The index of the curves of a part, whose data must be loaded; null if stopped. One that is not kept is released by
- * `releaseIndex`.
+ * The index of the curves of a part, whose data must be loaded; null if stopped. One that is not kept is released by `releaseIndex`.
  * @param {SearchKernel} kernel @param {SearchedPart} _ @param {AbortSignal} signal @returns {Promise<ShapeIndex | null>}
  */
 export async function shapeIndex(kernel, { family, first, count, isKept }, signal) {

@@ -6,7 +6,7 @@ import { inverted, transformed } from "../../draw/similarity.js";
 import { portion } from "../../shape/outline.js";
 import { smoothData } from "../../draw/path-data.js";
 import { boxOfPoints, fittedView } from "../../draw/plane-view.js";
-import { h, s, setAttributes, thumbnailFrame } from "../dom.js";
+import { h, s, sizedThumbnail } from "../dom.js";
 import { address } from "../../data/address.js";
 import { formatCaption } from "../labels.js";
 import { pinButton } from "../pins.js";
@@ -45,8 +45,7 @@ function matchItem(app, merged, shape, /** @type {ShapeQuery} */ { by, part }) {
 }
 
 /**
- * The list items of results; null if stopped. Each is drawn as soon as its points are loaded: those of all may be more than
- * are kept.
+ * The list items of results; null if stopped. Each is drawn as soon as its points are loaded: those of all may be more than are kept.
  * @param {App} app @param {MergedMatch[]} merged @param {Outline} shape @param {ShapeQuery} query @param {AbortSignal} signal
  */
 export async function matchItems(app, merged, shape, query, signal) {
@@ -85,15 +84,13 @@ function matchPicture({ family, curve, similarity, from, to }, shape, size) {
   const isPart = from !== 0 || to !== 1;
   const [first, last] = from < to ? [from, to] : [to, from];
   const part = isPart ? portion(points, closed, first, last, 96).points : points;
-  const frame = thumbnailFrame(
+  return sizedThumbnail(
     ".match-picture",
     size,
     s("path", { class: isPart ? "rest" : "curve", d: smoothData(points, closed, view) }),
     isPart ? s("path.curve", { d: smoothData(part, false, view) }) : null,
     s("path.query-shape", { d: smoothData(fitted, shape.closed, view) }),
   );
-  setAttributes(frame, size);
-  return frame;
 }
 
 /** The placement that fits outlines into a frame, `margin` pixels from its edges. @param {Points[]} outlines @param {Size} size */

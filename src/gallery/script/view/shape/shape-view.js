@@ -39,11 +39,9 @@ export class ShapeView {
   /** @type {Outline | null} */ shape = null;
   /** The last shape that was drawn or read, with its word: the address has it with fewer points. */
   given = { word: "", outline: /** @type {Outline | null} */ (null), name: "the drawn path" };
-  /** What is searched, and how much of all that is. @type {SearchedPart[]} */
-  parts = [];
+  /** What is searched, and how much of all that is. @type {SearchedPart[]} */ parts = [];
   /** @type {LoadState} */ loaded = { done: false, curves: 0, total: 0, bytes: 0 };
-  /** Stopped by what is opened or searched for next. */
-  searching = new AbortController();
+  /** Stopped by what is opened or searched for next. */ searching = new AbortController();
   limit = MAX_AUTOLOAD_BYTES;
   unwatch = () => {};
 

@@ -31,8 +31,7 @@ export class TargetPlane {
   view = fittedView(EMPTY_BOX, FRAME);
   /** @type {Point} */ pen = [50, 40];
   /** The box of the pivots. @type {number[] | null} */ corners = null;
-  /** Whether the points are set by keys. */
-  isByKeys = false;
+  /** Whether the points are set by keys. */ isByKeys = false;
 
   /** @param {{ drawn(outline: Outline): void, live(outline: Outline, isDragged: boolean): void, cleared(): void }} on @param {App["announce"]} announce */
   constructor(on, announce) {
