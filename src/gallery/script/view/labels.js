@@ -36,16 +36,12 @@ const MEASURE_LABELS = {
 };
 
 /** The portions of a curve that measures are of, by the beginnings of their names. */
-const PORTIONS = {
-  output_dwell: "the output's dwell",
-  straight: "the straight portion",
-  dwell: "the circular portion",
-};
+const PORTIONS = { output_dwell: "output's dwell", straight: "straight portion", dwell: "circular portion" };
 
 /** The label of a measure outside the order of the columns. */
 export function standaloneMeasureLabel(/** @type {string} */ name) {
   const portion = Object.entries(PORTIONS).find(([begins]) => name.startsWith(begins))?.[1];
-  return measureLabel(name).replace(/^its ([^,]+?)(?: from the \w+)?(?=,|$)/, `$1 of ${portion}`);
+  return measureLabel(name).replace(/^its ([^,]+?)(?: from the \w+)?(?=,|$)/, `$1 of the ${portion}`);
 }
 
 /** The label of a measure in the order of the columns, where "its" refers to the portion before. */

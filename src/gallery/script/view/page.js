@@ -62,7 +62,7 @@ export class PageView {
     const { width, height } = family.paper;
     this.viewport.style.aspectRatio = `${width} / ${height}`;
     this.zoom = new Zoom(this.viewport, this.sheet, {
-      ...{ width, height },
+      ...family.paper,
       onchange: () => this.zoomed(),
       ontap: (event) => this.tapped(event),
     });

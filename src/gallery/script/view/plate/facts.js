@@ -23,10 +23,8 @@ export function curveOrigin(app, family, /** @type {number} */ curve) {
     ["File", page > 0 ? pageFile(app.atlas, family.id, page) : ""],
     ["Source", familySource(family)],
   ];
-  return termList(
-    "dl.facts.origin",
-    rows.filter(([, value]) => value),
-  );
+  const known = rows.filter(([, value]) => value);
+  return termList("dl.facts.origin", known);
 }
 
 /** The table of measures: `show(now)` adds those computed by the page next to the recorded ones; null removes them. */

@@ -27,6 +27,7 @@ export function fourBarItem(app, answer, path, /** @type {number} */ size) {
     ["Crank pivot, rocker pivot", pivots.join(", ")],
     ...record.cognates.map((cognate) => ["Cognate", cognateText(cognate, size)]),
   ];
+  const plate = h("a", { href: fourBarAddress(answer) }, "Open on a plate");
   const deviation = [
     h("b", qualityMark(quality), ` ${relative === 0 ? "0" : relative.toPrecision(3)} S`),
     ` E = ${lengthText(rms, size)}, greatest ${lengthText(max, size)}`,
@@ -38,11 +39,7 @@ export function fourBarItem(app, answer, path, /** @type {number} */ size) {
       "div",
       h("p.deviation", deviation),
       termList("dl.four-bar-facts", rows),
-      h(
-        "div.toolbar",
-        h("a", { href: fourBarAddress(answer) }, "Open on a plate"),
-        copyButton(app, "Copy manifest", manifest),
-      ),
+      h("div.toolbar", plate, copyButton(app, "Copy manifest", manifest)),
     ),
   );
 }

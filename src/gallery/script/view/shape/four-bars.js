@@ -134,18 +134,15 @@ export class FourBarSection {
       this.app.announce(sentence);
     }
     this.#found(answers, isDone);
-    fill(
-      this.list,
-      answers.map((answer) => fourBarItem(this.app, answer, shape, size)),
-    );
+    const items = answers.map((answer) => fourBarItem(this.app, answer, shape, size));
+    fill(this.list, items);
     const save = () =>
       saveFile({ name: "found.toml", type: "application/toml", bytes: new TextEncoder().encode(manifest) });
-    fill(
-      this.acts,
-      answers.length
-        ? [buttonOf("Save manifest of all", save), copyButton(this.app, "Copy manifest of all", manifest)]
-        : null,
-    );
+    const acts = [
+      buttonOf("Save manifest of all", save),
+      copyButton(this.app, "Copy manifest of all", manifest),
+    ];
+    fill(this.acts, answers.length ? acts : null);
   }
 }
 
