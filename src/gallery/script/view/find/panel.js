@@ -82,11 +82,9 @@ export class WordFilter {
       const attributes = { checked: this.chosen.has(word), onchange: () => this.ticked(word) };
       return choiceBox("checkbox", attributes, h("span", word), this.counts[k]).element;
     };
-    this.element = h(
-      "fieldset.words",
-      h("legend", { title: `${column.name}: ${column.definition}` }, columnLabel(column.name)),
-      this.values.map(box),
-    );
+    const title = `${column.name}: ${column.definition}`;
+    const legend = h("legend", { title }, columnLabel(column.name));
+    this.element = h("fieldset.words", legend, this.values.map(box));
   }
 
   ticked(/** @type {string} */ word) {

@@ -23,12 +23,8 @@ export class ResultRows {
     this.sorted = sorted;
     this.head = h("thead");
     this.body = h("tbody");
-    this.figures = h(
-      "table.figures.results-table",
-      h("caption.visually-hidden", "Curves"),
-      this.head,
-      this.body,
-    );
+    const caption = h("caption.visually-hidden", "Curves");
+    this.figures = h("table.figures.results-table", caption, this.head, this.body);
     const attributes = { tabindex: "0", role: "region", "aria-label": "Table of curves" };
     this.element = h("div.scroll", { ...attributes, onscroll: () => this.fill() }, this.figures);
     pinOnKey(this.element);

@@ -65,12 +65,8 @@ export class MeasureTable {
 function measureRow(/** @type {Measure} */ measure, recorded, isLength) {
   const now = h("td.now");
   const change = h("td.now");
-  const title = h(
-    "th.text",
-    { scope: "row" },
-    h("span.measure-name", measureLabel(measure.name)),
-    h("span.definition", measure.definition),
-  );
+  const name = h("span.measure-name", measureLabel(measure.name));
+  const title = h("th.text", { scope: "row" }, name, h("span.definition", measure.definition));
   const ofLength = isLength && measure.is_input;
   const element = h("tr", title, h("td", formatMeasure(measure, recorded, ofLength)), now, change);
   return { element, measure, recorded, now, change, isLength: ofLength };

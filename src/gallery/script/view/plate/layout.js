@@ -63,11 +63,8 @@ function plateHeading(family, curve, { tag, tools }) {
   const title = h("a.family-title", { href: address([family.id]) }, family.title);
   const lede = h("p.lede", caption, note ? h("span.note", ` · ${note}`) : null, " ", tag);
   const links = [neighbourLink(family, curve, -1), neighbourLink(family, curve, 1), tools];
-  return h(
-    "div.head",
-    h("div", h("h1", title, " ", h("span.key", curveKey(family, curve))), lede),
-    h("nav.toolbar", { "aria-label": "Curve" }, links),
-  );
+  const heading = h("h1", title, " ", h("span.key", curveKey(family, curve)));
+  return h("div.head", h("div", heading, lede), h("nav.toolbar", { "aria-label": "Curve" }, links));
 }
 
 /** @param {App} app @param {Family} family @param {MeasureTable} measures */

@@ -20,7 +20,7 @@ export class Sliders {
   constructor(/** @type {string | null} */ legend, /** @type {Plate} */ on) {
     this.on = on;
     /** @type {Map<string, SliderRow>} */ this.rows = new Map();
-    this.names = "";
+    /** @type {string | null} */ this.names = null;
     this.free = h("div.parameters");
     this.locked = h("div.parameters");
     this.more = h("details.locked-parameters", h("summary", "Constant and derived parameters"), this.locked);

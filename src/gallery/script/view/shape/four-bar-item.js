@@ -56,12 +56,8 @@ function fourBarPicture(answer, path) {
   const { curve, pose } = answer;
   const outlines = curve ? [curve.points, path.points, pose] : [path.points, pose];
   const view = viewOfOutlines(outlines, FOUR_BAR_SIZE);
-  return sizedThumbnail(
-    ".match-picture",
-    FOUR_BAR_SIZE,
-    s("path.query-shape", { d: placedData(path.points, path.closed, view) }),
-    fourBarDrawing(answer, view),
-  );
+  const line = s("path.query-shape", { d: placedData(path.points, path.closed, view) });
+  return sizedThumbnail(".match-picture", FOUR_BAR_SIZE, line, fourBarDrawing(answer, view));
 }
 
 /** A four-bar with its curve. @param {FourBarAnswer} _ @param {Placement} view */
