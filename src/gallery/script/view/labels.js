@@ -92,7 +92,8 @@ export function formatChanges(/** @type {Map<string, number>} */ changes) {
   return `with ${[...changes].map(([name, value]) => `${name} = ${formatNumber(value, 10)}`).join(", ")}`;
 }
 
-/** @type {Record<string, string>} */ const COLUMN_LABELS = {
+/** @type {Record<string, string>} */
+const COLUMN_LABELS = {
   straight_tolerance: "deviation of the straight portion, by its length",
   straight_share: "length of the straight portion, by the extent",
   symmetric: "symmetry",

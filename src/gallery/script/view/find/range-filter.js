@@ -6,7 +6,8 @@ import { stepsOfKey } from "../keys.js";
 import { columnLabel } from "../labels.js";
 import { NumberField } from "../number-field.js";
 
-/** @type {(keyof Bounds)[]} */ const ENDS = ["low", "high"];
+/** @type {(keyof Bounds)[]} */
+const ENDS = ["low", "high"];
 
 /** Calls `changed(filter, isHeld)` with { low, high } or null when a bound is changed, perhaps by a handle that is held. */
 export class RangeFilter {

@@ -5,7 +5,8 @@ import { stepsOfKey } from "../keys.js";
 import { NumberField } from "../number-field.js";
 import { roundedToGrain } from "./parameters.js";
 
-/** @type {Record<string, string>} */ const PARAMETER_KINDS = {
+/** @type {Record<string, string>} */
+const PARAMETER_KINDS = {
   free: "free",
   fixed: "constant",
   derived: "derived from other parameters",
