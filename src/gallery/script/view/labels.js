@@ -76,7 +76,7 @@ export function measureText(family, curve, { name, unit }) {
 }
 
 /** Whether a measure of a family is in degrees: if the input is a length, inputs are not. @param {Family} _ @param {Pick<Measure, "name" | "unit">} _1 */
-export function isInDegrees({ is_length: isLength }, { name, unit }) {
+function isInDegrees({ is_length: isLength }, { name, unit }) {
   return unit === "deg" && !(isLength && /^(straight|dwell|output_dwell|input)_/.test(name));
 }
 

@@ -107,7 +107,7 @@ function familySearch(app, tiles, query) {
 }
 
 /** Calls `seen(element)` once for each watched element when it comes within half a window height of the window. Returns { watch(element), end() }. */
-export function onceVisible(/** @type {(element: HTMLElement) => void} */ seen) {
+function onceVisible(/** @type {(element: HTMLElement) => void} */ seen) {
   const observer = new IntersectionObserver(
     (entries) => {
       for (const { target, isIntersecting } of entries) {

@@ -135,7 +135,7 @@ function measureFacts(/** @type {Atlas} */ atlas, /** @type {Family} */ family, 
  * The cells on a page, numbered from 1, in order. Drawn cells are listed in the data; the position of a cell
  * that is not drawn follows from the number of panels per page, or of pages per linkage.
  */
-export function cellsOnPage(/** @type {Family} */ family, /** @type {number} */ page) {
+function cellsOnPage(/** @type {Family} */ family, /** @type {number} */ page) {
   if (family.layout === "chart") return [];
   const drawn = new Set(pageViews(family, page).map(({ cell }) => cell));
   const [first, last] = panelCells(family, page);

@@ -70,7 +70,7 @@ export class FilterPanel {
 }
 
 /** Calls `changed(filter)` with a Set of words, or null for all. */
-export class WordFilter {
+class WordFilter {
   /** @param {Column} column @param {CurveTable} table @param {Filter | undefined} filter @param {(filter: Filter | null) => void} changed */
   constructor(column, table, filter, changed) {
     this.column = column;

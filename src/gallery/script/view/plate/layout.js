@@ -108,7 +108,7 @@ export function watchKeys(/** @type {Plate} */ plate) {
 }
 
 /** The address of the previous (-1) or next (1) curve of a family; null at the ends. @param {number} curve @param {number} way */
-export function neighbourAddress(/** @type {Family} */ family, curve, way) {
+function neighbourAddress(/** @type {Family} */ family, curve, way) {
   const next = curve + way;
   return next >= 0 && next < family.curves.count ? curveAddress(family.id, curveKey(family, next)) : null;
 }
