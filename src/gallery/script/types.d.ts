@@ -33,7 +33,10 @@ type PlateState = {
 /** What a plate shows of the motion: of a joint, a graph, at a speed of the input, against a load. */
 type MotionState = { joint: string | null; graph: string; rpm: number | null; load: string | null };
 /** The motion of a joint at places (crates/coupler-kernel/src/request.rs). */
-type JointMotion = Record<"passes" | "inputs" | "positions" | "velocities" | "accelerations", Float64Array> & {
+type JointMotion = Record<
+  "passes" | "inputs" | "positions" | "velocities" | "accelerations",
+  Float64Array
+> & {
   links: { joints: string[]; velocities: Float64Array; accelerations: Float64Array }[];
   transmission_angles: Float64Array | null;
   torques: Float64Array | null;
@@ -48,18 +51,29 @@ type Parameter = ReturnType<typeof import("./view/plate/parameters.js").changeab
 type Histogram = ReturnType<typeof import("./find/histogram.js").histogramOf>;
 type DrawnCurve = ReturnType<typeof import("./view/page-picture.js").curvesOnPaper>[number];
 type SolvedCurve = NonNullable<ReturnType<typeof import("./view/curve-reading.js").solveCurve>>;
-type SearchedPart = ReturnType<typeof import("./view/shape/indexes.js").searchedParts>[number];
+/** A part of a family that is searched, with the pieces of its data; an index that is not kept is built again. */
+type SearchedPart = { family: Family; first: number; count: number; pieces: Set<Piece>; isKept: boolean };
 type ComparisonQuery = ReturnType<typeof import("./view/compare/align.js").parseComparisonQuery>;
 type ShapeQuery = ReturnType<typeof import("./view/shape/query.js").parseShapeQuery>;
 type FindView = import("./view/find/find-view.js").FindView;
 type ShapeView = import("./view/shape/shape-view.js").ShapeView;
 type MovingLayer = import("./view/plate/moving-layer.js").MovingLayer;
 type FindQuery = ReturnType<typeof import("./find/query.js").parseFindQuery>;
+type CurveData = ReturnType<typeof import("./view/plate/paths.js").pathsOfStudy>;
+type JointName = ReturnType<typeof import("./view/plate/joint-names.js").namesOfStudy>[number];
+/** The controls of a parameter. */
+type SliderRow = Record<"range" | "field", HTMLInputElement> &
+  Record<"button" | "name", HTMLButtonElement> & {
+    parameter: Parameter;
+    element: HTMLElement;
+    number: import("./view/number-field.js").NumberField;
+  };
 type Plate = import("./view/plate/plate.js").Plate;
 type PlateFigure = import("./view/plate/figure.js").PlateFigure;
 type Stage = import("./view/plate/stage.js").Stage;
 type Drive = import("./view/plate/drive.js").Drive;
 type Pose = import("./view/plate/study.js").Pose;
+type Zoom = import("./view/zoom.js").Zoom;
 type PageView = import("./view/page.js").PageView;
 type CurveTable = import("./find/table.js").CurveTable;
 type Filters = import("./find/filter.js").Filters;
@@ -76,7 +90,11 @@ type Query = Map<string, string>;
 type AddressQuery = import("./data/query.js").AddressQuery;
 type Target = { path: string[]; query: AddressQuery };
 /** A view of the gallery; `update` returns whether it handles a further address of its route. */
-type View = { element: Element; title: string; update?(target: Target, isRetraced?: boolean): boolean } & ViewEvents;
+type View = {
+  element: Element;
+  title: string;
+  update?(target: Target, isRetraced?: boolean): boolean;
+} & ViewEvents;
 type ViewEvents = Partial<Record<"shown" | "leave", () => void>>;
 /** A route with a label is in the navigation; one without belongs to its `parent`. */
 type Route = Partial<Record<"label" | "parent", string>> & {
@@ -229,6 +247,10 @@ type Column = Record<"name" | "unit" | "definition", string> & {
   group: ColumnGroup;
   kind: "words" | "numbers";
 };
+type DerivedColumn = Pick<Column, "unit" | "definition"> & {
+  inputs: string[];
+  compute(at: (measure: string) => number): number;
+};
 type ColumnGroup = "first" | "more" | "parameters";
 type Bounds = { low?: number; high?: number };
 /** A filter of a column: bounds, which are inclusive, or words. */
@@ -245,12 +267,22 @@ type Candidate = CurveOfFamily & { likeness: number };
 type SearchOptions = { isPart: boolean; mirror: boolean; least: number; by: "rms" | "greatest" };
 type CurveOfFamily = { family: Family; curve: number };
 /** How a curve fits a path: deviations relative to its size, and the part of the curve's length that it matches. */
-type Fit = { quality: string; rms: number; greatest: number; similarity: Similarity; from: number; to: number };
+type Fit = {
+  quality: string;
+  rms: number;
+  greatest: number;
+  similarity: Similarity;
+  from: number;
+  to: number;
+};
 type Match = CurveOfFamily & Fit & { name: string };
 /** A match with the others that are the same curve. */
 type MergedMatch = { match: Match; others: Match[] };
 /** The answers of a search for four-bars so far, and how many curves of the index it looked the path up in. */
-type FoundFourBars = Record<"size" | "index_count", number> & { answers: FourBarAnswer[]; manifest: string } & {
+type FoundFourBars = Record<"size" | "index_count", number> & {
+  answers: FourBarAnswer[];
+  manifest: string;
+} & {
   hindrances: string[];
 };
 /** A shape to search four-bars for, and a path to compare curves with, of the kinds of `find`. */
@@ -273,20 +305,59 @@ type FoundLinkage = { parameters: Lengths; class: string; mu_worst_deg: number |
 };
 /** A curve to compare; one with changes has what the kernel draws instead. */
 type ComparedCurve = CurveOfFamily & ChangedCurve & { name: string; key: string; release(): void };
+/** A picture of compared curves, as one or in elements of their own, whose lines are redrawn finer. */
+type ComparedPicture = { scale: number; redraw(k: number, points: Points): void } & Partial<
+  Record<"element", Element> & Record<"elements", Element[]>
+>;
 type ChangedCurve = { changes: Map<string, number>; requested?: KernelCurve; shown?: number | null };
 type TypedArray = Uint8Array | Uint16Array | Uint32Array | Float64Array;
 type PackedColumn = string | number | Float64Array | null;
 type TypedArrayKind = { new (of: number | ArrayBuffer): TypedArray };
 type Base64Decoder = { fromBase64(data: string): Uint8Array<ArrayBuffer> };
+/** Statements of the scripts of a family: rows of the table, and captions and points of curves. */
+type CellRows = Record<"number" | "status" | "curves" | "trace" | "circuit" | "closed", PackedColumn> & {
+  count: number;
+  assignment?: PackedColumn;
+  values: PackedColumn[];
+  measures: PackedColumn[];
+  words: { values: string[]; codes: PackedColumn }[];
+};
+type CurveRows = Record<"caption" | "note" | "reason", string[]> &
+  Record<"cells" | "curves", number> &
+  Record<"count" | "points", PackedColumn> & { box: PackedColumn[] };
+type PageRows = { page: number; views: StoredView[] };
+/** What the scripts of families and of the kernel call. */
+type Statements = {
+  begin(head: FamilyHead): void;
+  piece(of: { id: string; series: string; number: number }): void;
+  cells(rows: CellRows): void;
+  curves(rows: CurveRows): void;
+  page(rows: PageRows): void;
+  end(): void;
+  kernel(file: KernelFile): void;
+};
 type Chunk = Pick<PieceData, "box" | "points" | "caption" | "note" | "reason"> & { counts: Uint16Array };
 type KernelExports = Record<KernelFunction, (...of: number[]) => number> & { memory: WebAssembly.Memory };
-type KernelFunction = `kernel_${"start" | "allocate" | "numbers" | "call" | "pose" | "joint_position"}` | KernelLength;
+type KernelFunction =
+  `kernel_${"start" | "allocate" | "numbers" | "call" | "pose" | "joint_position"}` | KernelLength;
 type KernelLength = "kernel_pose_length" | "kernel_panic_message" | "kernel_panic_length";
 type TagOf<N extends string> = N extends `${infer T}.${string}` ? T : N;
 type HtmlElementOf<N extends string> =
   TagOf<N> extends keyof HTMLElementTagNameMap ? HTMLElementTagNameMap[TagOf<N>] : HTMLElement;
 type SvgElementOf<N extends string> =
   TagOf<N> extends keyof SVGElementTagNameMap ? SVGElementTagNameMap[TagOf<N>] : SVGElement;
+/** An entry of a menu. */
+type MenuEntry = [label: string, note: string, action: () => unknown];
+/** What an element contains: nodes, texts and numbers, in lists of any depth, or nothing. */
+type Content = Node | string | number | false | null | undefined | readonly Content[];
+/** Attributes of an element; those that begin with "on" are listeners. */
+type Attributes<E> = {
+  [K in keyof HTMLElementEventMap as `on${K}`]?: (event: Heard<HTMLElementEventMap[K], E>) => unknown;
+} & {
+  [name: string]: unknown;
+};
+/** An event at an element: the target is a field itself, otherwise any element in it. */
+type Heard<V, E> = V & { target: E extends HTMLInputElement | HTMLSelectElement ? E : Element };
 /**
  * A grid of `count` tiles of at least `least` pixels, `gap` apart, with pictures of an aspect ratio, height to
  * width, and `below` pixels for text. `tile` creates a tile, an element with a link in it; `need` loads what it

@@ -17,7 +17,7 @@ import { AddressQuery } from "./query.js";
 const FIRST_KEY = "1.1.1";
 
 /** Parses a fragment, also one that a mail program has encoded once more, or a value of which has lost its escapes. @returns {Target} */
-export function parseAddress(fragment) {
+export function parseAddress(/** @type {string} */ fragment) {
   const plain = fragment.includes("?") ? fragment : decodedWord(fragment.replace(/%(?!3F|26|3D)/gi, "%25"));
   const [, path, words = ""] = /^#?\/?([^?]*)\??(.*)$/s.exec(plain) ?? [];
   // The changes of compared curves, "c=evans:1.1.1?p=2&k=3".
@@ -29,7 +29,7 @@ export function parseAddress(fragment) {
   };
 }
 
-function decodedWord(text) {
+function decodedWord(/** @type {string} */ text) {
   try {
     return decodeURIComponent(text);
   } catch {
@@ -49,9 +49,8 @@ function queryPairs(query) {
 }
 
 /**
- * Parses the name of a curve, "evans:12.1.1?p=2.5&k=2", as in the program's `export`; null if it is not a name.
- * The change "circuit" selects a circuit by its number among all circuits of the linkage; an atlas of one
- * circuit for each cell does not contain the others.
+ * Parses the name of a curve, "evans:12.1.1?p=2.5&k=2", as in the program's `export`; null if it is not a name. The change "circuit"
+ * selects a circuit by its number among all circuits of the linkage; an atlas of one circuit for each cell does not contain the others.
  */
 export function parseCurveName(/** @type {string} */ name) {
   const found = /^([^:?]+):(\d+\.\d+\.\d+)(?:\?(.*))?$/.exec(name);
@@ -68,6 +67,7 @@ export function parseCurveName(/** @type {string} */ name) {
  */
 export function address(path, query = {}) {
   const entries = query instanceof Map ? [...query] : Object.entries(query);
+  /** @param {string | number} text */
   const plain = (text) => encodeURIComponent(text).replaceAll("%3A", ":").replaceAll("%2C", ",");
   const pairs = entries
     .filter(([, value]) => value !== undefined && value !== null && value !== "")
@@ -107,27 +107,25 @@ export function curveAddress(/** @type {string} */ id, /** @type {string} */ key
 /**
  * Whether an address matches the route of a word, `#/find?…`. A family with that id keeps the addresses below
  * it, and the word itself if the query has only names of the family's view.
+ * @param {string} word
  */
 export function matchesRoute(word, /** @type {Target} */ { path, query }, /** @type {App} */ { atlas }) {
   if (path.length !== 1 || path[0] !== word) return false;
-  return !isFamily(atlas, word) || !isFamilyQuery(query);
+  const isOfFamily =
+    query.size === 0 || query.has("page") || query.has("curve") || query.get("show") === "curves";
+  return !isFamily(atlas, word) || !isOfFamily;
 }
 
-/** The address of a route with a query, which is never empty if a family has the same id. */
-export function routeAddress(
-  word,
-  /** @type {Map<string, unknown> | Record<string, unknown>} */ query,
-  { atlas },
-) {
+/**
+ * The address of a route with a query, which is never empty if a family has the same id.
+ * @param {string} word @param {Map<string, unknown> | Record<string, unknown>} query @param {Pick<App, "atlas">} _
+ */
+export function routeAddress(word, query, { atlas }) {
   const short = address([word], query);
   const isTaken = !short.includes("?") && isFamily(atlas, word);
   return isTaken ? address([word], { show: "room" }) : short;
 }
 
-function isFamily(/** @type {Atlas} */ { families }, word) {
+function isFamily(/** @type {Atlas} */ { families }, /** @type {string} */ word) {
   return families.some(({ id }) => id === word);
-}
-
-function isFamilyQuery(/** @type {AddressQuery} */ query) {
-  return query.size === 0 || query.has("page") || query.has("curve") || query.get("show") === "curves";
 }

@@ -7,12 +7,11 @@ import { FamilyReader, PieceReader } from "./reader.js";
 const MAX_KEPT_BYTES = 64e6;
 
 /**
- * Opens the atlas of a document: its summary, `family(id)`, which resolves to a family (reader.js) when its
- * head is loaded, and `kernelModule()`, to the module of the kernel, unpacked.
+ * Opens the atlas of a document: its summary, `family(id)`, which resolves to a family (reader.js) when its head is loaded, and
+ * `kernelModule()`, to the module of the kernel, unpacked.
  *
- * A page opened from disk cannot fetch files but can load scripts; the scripts of families and the kernel call
- * `couplerAtlas`.
- * @param {Document} document @param {Window & { couplerAtlas?: object }} window
+ * A page opened from disk cannot fetch files but can load scripts; the scripts of families and the kernel call `couplerAtlas`.
+ * @param {Document} document @param {Window & { couplerAtlas?: Statements }} window
  */
 export function openAtlas(document, window) {
   /** @type {AtlasSummary} */ const summary = JSON.parse(document.getElementById("atlas")?.textContent ?? "");
@@ -46,8 +45,7 @@ export function openAtlas(document, window) {
   };
   /**
    * Runs a script; resolves to what `accept` takes of it. Scripts run one at a time, each followed by its load event.
-   * @template T @param {string} file @param {(done: NonNullable<typeof finished>) => T | undefined | false} accept
-   * @returns {Promise<T>}
+   * @template T @param {string} file @param {(done: NonNullable<typeof finished>) => T | undefined | false} accept @returns {Promise<T>}
    */
   const run = (file, accept) =>
     new Promise((resolve, reject) => {
@@ -75,7 +73,7 @@ export function openAtlas(document, window) {
     await piece.loading;
     cache.use(piece);
   };
-  const loadHead = async (id, script) => {
+  const loadHead = async (/** @type {string} */ id, /** @type {string} */ script) => {
     const head = await run(script, ({ family }) => family?.id === id && family);
     families.set(id, Object.assign(head, { load, used: cache.use }));
     return head;
@@ -102,8 +100,15 @@ export function openAtlas(document, window) {
 // A family with more pages than this has them in subfolders of as many.
 const PAGES_PER_FOLDER = 1000;
 
+/** A family as the atlas lists it. */
+export function listedFamily(/** @type {Atlas} */ { families }, /** @type {string} */ id) {
+  const listed = families.find((family) => family.id === id);
+  if (!listed) throw new Error(`there is no family “${id}” in this atlas`);
+  return listed;
+}
+
 /** The file of a page, numbered from 1; null if the family's pages are not written as files. */
-export function pageFile(/** @type {Atlas} */ atlas, id, page) {
+export function pageFile(/** @type {Atlas} */ atlas, /** @type {string} */ id, /** @type {number} */ page) {
   const shown = atlas.families.find((family) => family.id === id);
   if (!shown?.page_format || page > shown.pages) return null;
   const name = `${id}-${String(page).padStart(3, "0")}.${shown.page_format}`;
@@ -111,7 +116,7 @@ export function pageFile(/** @type {Atlas} */ atlas, id, page) {
 }
 
 /** The subfolder of a page of `pages`, "0001-1000/"; empty if the pages have none. */
-function pageFolder(page, pages) {
+function pageFolder(/** @type {number} */ page, /** @type {number} */ pages) {
   if (pages <= PAGES_PER_FOLDER) return "";
   const first = PAGES_PER_FOLDER * Math.floor((page - 1) / PAGES_PER_FOLDER) + 1;
   const last = Math.min(first + PAGES_PER_FOLDER - 1, pages);
@@ -120,9 +125,8 @@ function pageFolder(page, pages) {
 }
 
 /**
- * Keeps the pieces of points that were used last, up to `maxBytes` of files, and those that are held
- * (needs.js); `use(piece)` is called with a loaded piece. Pieces of tables are kept, since they are small;
- * those in the head of a family have no file to be loaded from again.
+ * Keeps the pieces of points that were used last, up to `maxBytes` of files, and those that are held (needs.js); `use(piece)` is called
+ * with a loaded piece. Pieces of tables are kept, since they are small; those in the head of a family have no file to be loaded from again.
  */
 export function outlineCache(maxBytes = MAX_KEPT_BYTES) {
   /** The pieces with data, the one used last at the end. @type {Set<Piece>} */

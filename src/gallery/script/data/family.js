@@ -6,7 +6,7 @@ import { upperBound } from "./series.js";
 export const NO_WORD = 255;
 
 /** The index of the cell with a number, or undefined. @param {Family} _ */
-function findCell({ table, cells }, number) {
+function findCell({ table, cells }, /** @type {number} */ number) {
   const piece = table.ofNumber(number);
   if (!piece?.data) return undefined;
   const { firstCell, cells: count } = piece;
@@ -15,24 +15,24 @@ function findCell({ table, cells }, number) {
 }
 
 /** The index of the first curve of a cell, or of a later one. @param {Family} _ */
-function firstCurveOf({ table, curves }, cell) {
+function firstCurveOf({ table, curves }, /** @type {number} */ cell) {
   const { firstCurve = 0, curves: count = 0 } = table.ofCell(cell) ?? {};
   return firstCurve + upperBound(count, (k) => curves.cell[firstCurve + k] < cell);
 }
 
 /** The key of a curve in addresses: the numbers of its cell, its trace and its circuit. */
-export function curveKey(/** @type {Family} */ family, curve) {
+export function curveKey(/** @type {Family} */ family, /** @type {number} */ curve) {
   const { cell, trace, circuit } = family.curves;
   return `${family.cells.number[cell[curve]]}.${trace[curve]}.${circuit[curve]}`;
 }
 
 /** The numbers in a key: [cell, trace, circuit], or null. */
-export function parseCurveKey(key) {
-  return /^[0-9]+\.[0-9]+\.[0-9]+$/.test(key ?? "") ? key.split(".").map(Number) : null;
+export function parseCurveKey(/** @type {string | undefined} */ key) {
+  return key && /^[0-9]+\.[0-9]+\.[0-9]+$/.test(key) ? key.split(".").map(Number) : null;
 }
 
 /** The index of the curve with a key, or undefined. @param {Family} family */
-export function findCurve(family, key) {
+export function findCurve(family, /** @type {string | undefined} */ key) {
   const [number, trace, circuit] = parseCurveKey(key) ?? [];
   const cell = number === undefined ? undefined : findCell(family, number);
   if (cell === undefined) return undefined;
@@ -44,7 +44,7 @@ export function findCurve(family, key) {
 }
 
 /** The number of curves of a cell, by its index. @param {Family} family */
-export function curveCountOf(family, cell) {
+export function curveCountOf(family, /** @type {number} */ cell) {
   const first = firstCurveOf(family, cell);
   let curve = first;
   while (family.curves.cell[curve] === cell) curve += 1;
@@ -52,12 +52,12 @@ export function curveCountOf(family, cell) {
 }
 
 /** A curve as an outline. @param {Family} family @returns {Outline} */
-export function curveOutline(family, curve) {
+export function curveOutline(family, /** @type {number} */ curve) {
   return { points: curvePoints(family, curve), closed: family.curves.closed[curve] === 1 };
 }
 
 /** The points of a curve, [x0, y0, x1, y1, …], accurate to 1/65535 of its extent. @param {Family} _ */
-export function curvePoints({ outlines }, curve) {
+export function curvePoints({ outlines }, /** @type {number} */ curve) {
   const piece = outlines.ofCurve(curve);
   if (!piece?.data) return new Float64Array();
   const { box, start, points } = piece.data;
@@ -73,7 +73,7 @@ export function curvePoints({ outlines }, curve) {
 }
 
 /** The bounding box of a curve, [x0, y0, x1, y1]. @param {Family} _ */
-export function curveBox({ outlines }, curve) {
+export function curveBox({ outlines }, /** @type {number} */ curve) {
   const piece = outlines.ofCurve(curve);
   const at = 4 * (curve - (piece?.firstCurve ?? 0));
   return piece?.data ? piece.data.box.subarray(at, at + 4) : [NaN, NaN, NaN, NaN];
@@ -83,18 +83,18 @@ export function curveBox({ outlines }, curve) {
  * A text of a cell: its "caption", its "note", or the "reason" why it is not assembled or only in part.
  * @param {Family} _ @param {"caption" | "note" | "reason"} name
  */
-export function cellText({ outlines }, cell, name) {
+export function cellText({ outlines }, /** @type {number} */ cell, name) {
   const piece = outlines.ofCell(cell);
   return piece?.data?.[name][cell - piece.firstCell] ?? "";
 }
 
 /** The caption of a cell. @param {Family} family */
-export function cellCaption(family, cell) {
+export function cellCaption(family, /** @type {number} */ cell) {
   return cellText(family, cell, "caption");
 }
 
 /** The caption of the cell of a curve. @param {Family} family */
-export function curveCaption(family, curve) {
+export function curveCaption(family, /** @type {number} */ curve) {
   return cellCaption(family, family.curves.cell[curve]);
 }
 
@@ -110,12 +110,12 @@ export function pageViews(/** @type {Family} */ family, page) {
 }
 
 /** The numbers of the cells drawn on a page. @param {Family} _ */
-export function cellNumbersOnPage({ outlines }, page) {
+export function cellNumbersOnPage({ outlines }, /** @type {number} */ page) {
   return (outlines.ofPage(page)?.data?.pages.get(page) ?? []).map(({ cell }) => cell);
 }
 
 /** The page of a curve, from 1, among those that are loaded; 0 if it is on none of them. */
-export function pageOfCurve(/** @type {Family} */ family, curve) {
+export function pageOfCurve(/** @type {Family} */ family, /** @type {number} */ curve) {
   const key = curveKey(family, curve);
   for (const { data } of family.outlines.pieces) {
     const page = data && (data.pageOfKey ??= pagesByKey(data)).get(key);
@@ -125,7 +125,7 @@ export function pageOfCurve(/** @type {Family} */ family, curve) {
 }
 
 function pagesByKey(/** @type {PieceData} */ { pages }) {
-  const found = new Map();
+  /** @type {Map<string, number>} */ const found = new Map();
   for (const [page, views] of pages)
     for (const { cell, curves } of views)
       for (const [trace, circuit] of curves) found.set(`${cell}.${trace}.${circuit}`, page);
@@ -133,12 +133,12 @@ function pagesByKey(/** @type {PieceData} */ { pages }) {
 }
 
 /** The values of a cell's names, in the order of `family.names`. @param {Family} family */
-export function cellValues(family, cell) {
+export function cellValues(family, /** @type {number} */ cell) {
   const width = family.names.length;
   return family.cells.values.slice(cell * width, (cell + 1) * width);
 }
 
-/** The value of a measure of a curve: a number, a word, or undefined if it does not apply. */
+/** The value of a measure of a curve: a number, a word, or undefined if it does not apply. @param {number} curve @param {string} name */
 export function measureValue(/** @type {Family} */ family, curve, name) {
   const numbers = family.curves.measures[name];
   if (numbers) return Number.isNaN(numbers[curve]) ? undefined : numbers[curve];

@@ -50,10 +50,7 @@ export async function needCurveWithKey(/** @type {Family} */ family, /** @type {
   return curve;
 }
 
-/**
- * The indices of the cells of a page that follow from the number of panels: from the first to before the
- * last.
- */
+/** The indices of the cells of a page that follow from the number of panels: from the first to before the last. @param {number} page */
 export function panelCells(/** @type {Family} */ { layout, panels, pageCount, cells: { count } }, page) {
   const each = panels ?? (layout === "panels" && pageCount === 1 ? count : 0);
   return [Math.min((page - 1) * each, count), Math.min(page * each, count)];
@@ -67,17 +64,14 @@ export function isScattered(/** @type {Family} */ { layout, panels, outlines, pa
   return layout === "panels" && panels === null && pageCount > 1 && outlines.pieces.length > SCATTERED_PIECES;
 }
 
-/** Loads a page: its layout, and its cells and curves. @param {Family} family */
-export function needPage(family, page) {
+/** Loads a page: its layout, and its cells and curves. @param {Family} family @returns {Promise<unknown> | null} */
+export function needPage(family, /** @type {number} */ page) {
   const layout = needPieces(family, [family.outlines.ofPage(page)]);
   return layout ? layout.then(() => needPage(family, page)) : needPieces(family, piecesOfPage(family, page));
 }
 
-/**
- * Loads a page and keeps its data, which may be in many pieces, until the function that it resolves to is
- * called.
- */
-export async function loadPage(/** @type {Family} */ family, page) {
+/** Loads a page and keeps its data, which may be in many pieces, until the function that it resolves to is called. */
+export async function loadPage(/** @type {Family} */ family, /** @type {number} */ page) {
   await needPieces(family, [family.outlines.ofPage(page)]);
   const release = holdPieces(piecesOfPage(family, page));
   try {
@@ -90,7 +84,7 @@ export async function loadPage(/** @type {Family} */ family, page) {
 }
 
 /** The pieces that a page takes its cells and curves from; its layout must be loaded. */
-export function piecesOfPage(/** @type {Family} */ family, page) {
+function piecesOfPage(/** @type {Family} */ family, /** @type {number} */ page) {
   const { table, outlines } = family;
   const [first, end] = panelCells(family, page);
   const numbers = cellNumbersOnPage(family, page);
@@ -114,12 +108,9 @@ export function holdPieces(/** @type {Piece[]} */ pieces) {
 
 /**
  * Calls `act` when a need is met: at once, or when its promise resolves; `failed(message)` if it cannot be.
+ * @param {Promise<unknown> | null} need @param {() => unknown} act
  */
-export function whenLoaded(
-  /** @type {Promise<unknown> | null} */ need,
-  act,
-  failed = (/** @type {string} */ _) => {},
-) {
+export function whenLoaded(need, act, failed = (/** @type {string} */ _) => {}) {
   if (need === null) act();
   else need.then(act, (error) => failed(error.message));
 }

@@ -1,4 +1,4 @@
-// Numbers as people type them.
+// Sums, and numbers as people type them.
 
 /**
  * Parses a number with a point or a comma, perhaps grouped, and perhaps with one of some units behind it: { value }, or
@@ -12,17 +12,14 @@ export function parseNumber(text, units = []) {
   if (unit) word = word.slice(0, -unit.length).trim();
   const parts = /^([+-]?)([\d., ]*)((?:e[+-]?\d+)?)$/i.exec(word);
   const digits = parts && plainDigits(parts[2]);
-  if (!digits) return { reason: `“${text.trim()}” is not a number${unitsSentence(units)}` };
+  if (!digits)
+    return { reason: `“${text.trim()}” is not a number${units.length ? ` (in ${units[0]})` : ""}` };
   if (digits.length === 2) {
     const [one, other] = digits.map((way) => Number(`${parts[1]}${way}${parts[3]}`));
     return { reason: `“${text.trim()}” could be ${one} or ${other}: write it without a comma` };
   }
   const value = Number(`${parts[1]}${digits[0]}${parts[3]}`);
   return Number.isFinite(value) ? { value } : { reason: `“${text.trim()}” is too large` };
-}
-
-function unitsSentence(/** @type {string[]} */ units) {
-  return units.length ? ` (in ${units[0]})` : "";
 }
 
 /** What digits with points, commas and spaces can be, with a point: nothing, one number, or two. @returns {string[] | null} */
@@ -40,4 +37,11 @@ function plainDigits(/** @type {string} */ text) {
   // The same mark twice only groups: 1,234,567.
   if (text !== whole && mark === group) return part.length === 3 ? [`${plain}${part}`] : null;
   return [`${plain}.${part || "0"}`];
+}
+
+/** The sum of a number of each thing. @template T @param {Iterable<T>} things @param {(thing: T) => number} of */
+export function sumOf(things, of) {
+  let sum = 0;
+  for (const thing of things) sum += of(thing);
+  return sum;
 }

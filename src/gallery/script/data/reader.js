@@ -33,7 +33,7 @@ function widestRange(ranges) {
 }
 
 /** The columns of `count` cells, with room for `room`. @returns {Cells} */
-function tableOfCells(room, count, width) {
+function tableOfCells(/** @type {number} */ room, /** @type {number} */ count, /** @type {number} */ width) {
   return {
     count,
     number: new Uint32Array(room),
@@ -43,8 +43,9 @@ function tableOfCells(room, count, width) {
   };
 }
 
-/** The columns of `count` curves, with room for `room`. @returns {Curves} */
+/** The columns of `count` curves, with room for `room`. @returns {Curves} @param {number} room @param {number} count @param {string[]} words */
 function tableOfCurves(room, count, words) {
+  /** @param {string} name */
   const wordsOf = (name) => [name, { values: [], codes: new Uint8Array(room).fill(NO_WORD) }];
   return {
     count,
@@ -76,15 +77,15 @@ export class FamilyReader {
       .map((piece) => new PieceReader(this.family, piece));
   }
 
-  cells(statement) {
+  cells(/** @type {CellRows} */ statement) {
     this.readers[0].cells(statement);
   }
 
-  curves(statement) {
+  curves(/** @type {CurveRows} */ statement) {
     this.readers[1].curves(statement);
   }
 
-  page(statement) {
+  page(/** @type {PageRows} */ statement) {
     this.readers[1].page(statement);
   }
 
@@ -106,7 +107,7 @@ export class PieceReader {
   }
 
   /** Rows of the table, written to their places. */
-  cells(rows) {
+  cells(/** @type {CellRows} */ rows) {
     const { cells, curves, names, measureNames } = this.family;
     allocateTable(this.family);
     const { count } = rows;
@@ -127,7 +128,8 @@ export class PieceReader {
       end += each[k];
     }
     const all = end - this.curve;
-    for (const name of ["trace", "circuit", "closed"]) unpackInto(curves[name], this.curve, all, rows[name]);
+    for (const name of /** @type {const} */ (["trace", "circuit", "closed"]))
+      unpackInto(curves[name], this.curve, all, rows[name]);
     measureNames.numbers.forEach((name, k) => {
       const { measures } = curves;
       const column = rows.measures[k];
@@ -144,11 +146,11 @@ export class PieceReader {
   }
 
   /** Captions of cells, and points of curves. */
-  curves({ reason, caption, note, cells, box, count, curves, points }) {
+  curves(/** @type {CurveRows} */ { reason, caption, note, cells, box, count, curves, points }) {
     const counts = unpackColumn(Uint16Array, curves, count);
     const sides = box.map((column) => unpackColumn(Float64Array, curves, column));
     const total = 2 * counts.reduce((sum, each) => sum + each, 0);
-    const listed = (texts) => (texts.length ? texts : new Array(cells).fill(""));
+    const listed = (/** @type {string[]} */ texts) => (texts.length ? texts : new Array(cells).fill(""));
     this.chunks.push({
       reason: listed(reason),
       caption: listed(caption),
@@ -159,47 +161,21 @@ export class PieceReader {
     });
   }
 
-  page({ page, views }) {
+  page(/** @type {PageRows} */ { page, views }) {
     this.pages.set(page, views);
   }
 
+  /** A piece of the table has nothing of its own: its rows are with those of the other pieces. */
   finish() {
-    if (this.piece.name === "table") {
-      this.piece.data = emptyPiece();
-      return;
-    }
     const { chunks, pages } = this;
+    const [boxes, parts] = [chunks.map((one) => one.box), chunks.map((one) => one.points)];
+    const [box, points] = [concatenateArrays(boxes, Float64Array), concatenateArrays(parts, Uint16Array)];
+    const start = Uint32Array.from([0, ...chunks.flatMap((one) => [...one.counts])]);
+    for (let k = 1; k < start.length; k += 1) start[k] += start[k - 1];
     const texts = (/** @type {"reason" | "caption" | "note"} */ name) => chunks.flatMap((one) => one[name]);
-    const box = concatenateArrays(
-      chunks.map((one) => one.box),
-      Float64Array,
-    );
-    const counts = concatenateArrays(
-      chunks.map((one) => one.counts),
-      Uint16Array,
-    );
-    const points = concatenateArrays(
-      chunks.map((one) => one.points),
-      Uint16Array,
-    );
     const words = { reason: texts("reason"), caption: texts("caption"), note: texts("note") };
-    this.piece.data = { ...packedPoints(box, counts, points), ...words, pages };
+    this.piece.data = { box, start, points, ...words, pages };
   }
-}
-
-/** The data of a piece of the table, whose rows are with those of the other pieces. @returns {PieceData} */
-function emptyPiece() {
-  const none = packedPoints(new Float64Array(), new Uint16Array(), new Uint16Array());
-  return { ...none, caption: [], note: [], reason: [], pages: new Map() };
-}
-
-/** The points of curves as a loaded piece has them, without texts. @param {Float64Array} box @param {Uint16Array} counts */
-function packedPoints(box, counts, /** @type {Uint16Array} */ points) {
-  const start = new Uint32Array(counts.length + 1);
-  counts.forEach((count, k) => {
-    start[k + 1] = start[k] + count;
-  });
-  return { box, start, points };
 }
 
 /** The places of words in a list of known ones, to which new ones are added. @param {string[]} words */
@@ -207,7 +183,7 @@ export function renamedWords(words, /** @type {string[]} */ known) {
   return words.map((word) => (known.includes(word) ? known.indexOf(word) : known.push(word) - 1));
 }
 
-/** Adds the words of some curves, which have a numbering of their own. */
+/** Adds the words of some curves, which have a numbering of their own. @param {number} at @param {Uint8Array} codes @param {string[]} values */
 function addWords(/** @type {Words} */ column, at, codes, values) {
   const renamed = renamedWords(values, column.values);
   for (let k = 0; k < codes.length; k += 1) column.codes[at + k] = renamed[codes[k]] ?? NO_WORD;
@@ -215,7 +191,7 @@ function addWords(/** @type {Words} */ column, at, codes, values) {
 
 /**
  * A family of a single cell, from the statements of the kernel and what else there is to know of it.
- * @param {{ head: FamilyHead, cells: object, curves: any }} _ @param {Pick<Family, "id" | "title" | "manifest">} known @returns {Family}
+ * @param {{ head: FamilyHead, cells: CellRows, curves: CurveRows }} _ @param {Pick<Family, "id" | "title" | "manifest">} known @returns {Family}
  */
 export function familyOfCell({ head, cells, curves }, { id, title, manifest }) {
   const reader = new FamilyReader({ ...head, id, title, manifest });

@@ -23,22 +23,22 @@ export class Series {
   }
 
   /** The piece with a cell, by its index. */
-  ofCell(cell) {
+  ofCell(/** @type {number} */ cell) {
     return pieceAt(this.pieces, "firstCell", "cells", cell);
   }
 
   /** The piece with a curve, by its index. */
-  ofCurve(curve) {
+  ofCurve(/** @type {number} */ curve) {
     return pieceAt(this.pieces, "firstCurve", "curves", curve);
   }
 
   /** The piece with a page, numbered from 1. */
-  ofPage(page) {
+  ofPage(/** @type {number} */ page) {
     return pieceAt(this.pieces, "firstPage", "pages", page);
   }
 
   /** The piece with the cell of a number, if there is such a cell. */
-  ofNumber(number) {
+  ofNumber(/** @type {number} */ number) {
     const { withCells } = this;
     const piece = withCells[upperBound(withCells.length, (k) => withCells[k].numbers[0] <= number) - 1];
     return piece && number <= piece.numbers[1] ? piece : undefined;
@@ -63,7 +63,7 @@ function pieceAt(pieces, first, count, at) {
 }
 
 /** The number of leading indices below `count` for which a condition holds that fails for all after them. */
-export function upperBound(count, holds) {
+export function upperBound(/** @type {number} */ count, /** @type {(k: number) => boolean} */ holds) {
   let [low, high] = [0, count];
   while (low < high) {
     const middle = (low + high) >> 1;

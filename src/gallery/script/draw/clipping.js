@@ -2,12 +2,9 @@
 
 import { dataNumber } from "./path-data.js";
 
-/**
- * Path data of the part of a polyline [x, y, …] in a box [x0, y0, x1, y1]; it is interrupted at points that
- * are not finite.
- */
+/** Path data of the part of a polyline [x, y, …] in a box [x0, y0, x1, y1]; it is interrupted at points that are not finite. */
 export function clippedData(/** @type {Points} */ points, /** @type {Box} */ box, digits = 6) {
-  const number = (x) => dataNumber(x, digits);
+  const number = (/** @type {number} */ x) => dataNumber(x, digits);
   let data = "";
   let penX = NaN;
   let penY = NaN;
@@ -23,8 +20,8 @@ export function clippedData(/** @type {Points} */ points, /** @type {Box} */ box
 }
 
 /**
- * The part of a segment in a box, [x0, y0, x1, y1], by the algorithm of Liang and Barsky; null if there is
- * none.
+ * The part of a segment in a box, [x0, y0, x1, y1], by the algorithm of Liang and Barsky; null if there is none.
+ * @param {number} x0 @param {number} y0 @param {number} x1 @param {number} y1
  */
 export function segmentInBox(x0, y0, x1, y1, /** @type {Box} */ [left, low, right, high]) {
   const [dx, dy] = [x1 - x0, y1 - y0];

@@ -1,6 +1,6 @@
 // The distance of a point from an outline.
 
-/** The square of the distance of a point from an outline; infinite if it has no points. */
+/** The square of the distance of a point from an outline; infinite if it has no points. @param {number} x @param {number} y */
 export function squaredDistance(/** @type {Outline} */ { points, closed }, x, y) {
   const n = points.length;
   let least = n === 2 ? (x - points[0]) ** 2 + (y - points[1]) ** 2 : Infinity;

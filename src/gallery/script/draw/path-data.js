@@ -1,21 +1,18 @@
 // Writes SVG path data.
 
 /** A number rounded to significant digits, in its shortest form; 0 if it is not finite. */
-export function dataNumber(x, digits = 7) {
+export function dataNumber(/** @type {number} */ x, digits = 7) {
   return Number.isFinite(x) ? String(Number(x.toPrecision(digits))) : "0";
 }
 
-/**
- * The number of grid steps per unit, a power of ten, for coordinates exact to 1e-4 of a size.
- */
-export function roundingGrid(size) {
+/** The number of grid steps per unit, a power of ten, for coordinates exact to 1e-4 of a size. */
+export function roundingGrid(/** @type {number} */ size) {
   return 10 ** Math.min(Math.max(Math.ceil(4 - Math.log10(size)), -12), 12);
 }
 
 /**
- * Path data of a polyline [x0, y0, x1, y1, …], from point `first` up to, not with, `last`, interrupted at
- * points that are not finite; empty for fewer than two points. Numbers are rounded to 1 / `grid` if it is
- * given, else to `digits`.
+ * Path data of a polyline [x0, y0, x1, y1, …], from point `first` up to, not with, `last`, interrupted at points that are not finite; empty
+ * for fewer than two points. Numbers are rounded to 1 / `grid` if it is given, else to `digits`.
  * @param {Points} points
  */
 export function polylineData(
@@ -23,7 +20,8 @@ export function polylineData(
   { first = 0, last = points.length / 2, closed = false, digits = 7, grid = 0 } = {},
 ) {
   // Rounding to a grid is many times quicker than to digits.
-  const number = grid > 0 ? (x) => Math.round(x * grid) / grid : (x) => dataNumber(x, digits);
+  const number = (/** @type {number} */ x) =>
+    grid > 0 ? Math.round(x * grid) / grid : dataNumber(x, digits);
   let data = "";
   let run = 0;
   for (let k = first; k < last; k++) {
@@ -63,6 +61,7 @@ export function smoothData(points, closed, { scale, x, y }, decimals = 1, grain 
     if (!isNear || (k + 2 === points.length && !closed)) kept.push([atX, atY]);
   }
   const { length } = kept;
+  /** @param {number} k */
   const at = (k) => kept[closed ? (k + length) % length : Math.min(Math.max(k, 0), length - 1)];
   /** @param {number[]} point */ const pair = ([px, py]) => `${px.toFixed(decimals)} ${py.toFixed(decimals)}`;
   if (length < 2) return "";
@@ -78,6 +77,7 @@ function handlesAt(/** @type {Point} */ a, /** @type {Point} */ b, /** @type {Po
   const [ux, uy, vx, vy] = [b[0] - a[0], b[1] - a[1], c[0] - b[0], c[1] - b[1]];
   let [before, after] = [Math.hypot(ux, uy), Math.hypot(vx, vy)];
   if (before === 0 || after === 0) return [b, b];
+  /** @param {number} u @param {number} v */
   const slope = (u, v) => ((u * after) / before + (v * before) / after) / (before + after);
   const [x, y] = [slope(ux, vx), slope(uy, vy)];
   // Where the curve turns sharply, as at a cusp, a long chord says nothing of the end of the other one.
@@ -86,18 +86,18 @@ function handlesAt(/** @type {Point} */ a, /** @type {Point} */ b, /** @type {Po
   return [-before / 3, after / 3].map((reach) => [b[0] + reach * x, b[1] + reach * y]);
 }
 
-/** Path data of a circle. */
+/** Path data of a circle. @param {number} x @param {number} y @param {number} radius */
 export function circleData(x, y, radius, digits = 7) {
   const [r, from, to] = [radius, x - radius, 2 * radius].map((n) => dataNumber(n, digits));
   return `M${from} ${dataNumber(y, digits)}a${r} ${r} 0 1 0 ${to} 0a${r} ${r} 0 1 0 -${to} 0Z`;
 }
 
 /** A number of pixels rounded to 1/100. */
-export function pixel(x) {
+export function pixel(/** @type {number} */ x) {
   return Math.round(x * 100) / 100;
 }
 
 /** Path data, or none if it has undefined coordinates: a joint may be undefined where its base vanishes. */
-export function definedData(data) {
+export function definedData(/** @type {string} */ data) {
   return data.includes("NaN") || data.includes("Infinity") ? "" : data;
 }

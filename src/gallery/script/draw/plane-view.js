@@ -1,7 +1,7 @@
 // Maps the plane to the screen by a view: X = x + scale * px, Y = y - scale * py, in CSS pixels, y down.
 
 /** The empty box. */
-export function emptyBox() {
+function emptyBox() {
   return [Infinity, Infinity, -Infinity, -Infinity];
 }
 
@@ -37,14 +37,14 @@ export function fittedView([x0, y0, x1, y1], { width, height, margin = 0 }) {
   return { scale, x: width / 2 - (scale * (x0 + x1)) / 2, y: height / 2 + (scale * (y0 + y1)) / 2 };
 }
 
-/** A view zoomed by a factor about a point on the screen. */
-export function zoomedView(/** @type {Placement} */ { scale, x, y }, factor, [atX, atY]) {
+/** A view zoomed by a factor about a point on the screen. @param {Placement} _ @param {number} factor @param {Point} _1 */
+export function zoomedView({ scale, x, y }, factor, [atX, atY]) {
   return { scale: scale * factor, x: atX + (x - atX) * factor, y: atY + (y - atY) * factor };
 }
 
 /** The view between two others at a fraction (0 to 1). @param {Placement} from @param {Placement} to */
-export function interpolatedView(from, to, part) {
-  const between = (a, b) => a + (b - a) * part;
+export function interpolatedView(from, to, /** @type {number} */ part) {
+  const between = (/** @type {number} */ a, /** @type {number} */ b) => a + (b - a) * part;
   return {
     scale: from.scale * (to.scale / from.scale) ** part,
     x: between(from.x, to.x),
@@ -52,13 +52,13 @@ export function interpolatedView(from, to, part) {
   };
 }
 
-/** The point of the plane at a point on the screen. @param {Placement} _ @param {Point} _1 */
+/** The point of the plane at a point on the screen. @param {Placement} _ @param {Point} _1 @returns {Point} */
 export function planePoint({ scale, x, y }, [atX, atY]) {
   return [(atX - x) / scale, (y - atY) / scale];
 }
 
 /** The greatest round number, 1, 2 or 5 times a power of ten, that is at most `x`. */
-export function roundBelow(x) {
+export function roundBelow(/** @type {number} */ x) {
   const power = 10 ** Math.floor(Math.log10(x));
   const part = x / power;
   return (part >= 5 ? 5 : part >= 2 ? 2 : 1) * power;

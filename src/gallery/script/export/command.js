@@ -2,11 +2,8 @@
 
 import { curveCountOf, findCurve } from "../data/family.js";
 
-/**
- * The command that exports `count` curves, selected by `words` (shortenCurveNames), from the manifest in the
- * atlas's folder.
- */
-export function exportCommand(words, count) {
+/** The command that exports `count` curves, selected by `words` (shortenCurveNames), from the manifest in the atlas's folder. */
+export function exportCommand(/** @type {string[]} */ words, /** @type {number} */ count) {
   const formats = ["svg", "moving-svg", "png", "dxf", "csv", "json", "toml"];
   const chosen = count > 20 ? ["svg", "dxf", "csv", "json", "toml"] : formats;
   const named = words.map(quoteForShell).join(" ");
@@ -20,7 +17,7 @@ export function exportCommand(words, count) {
  */
 export function shortenCurveNames(names, families) {
   const words = [];
-  const plain = new Map();
+  /** @type {Map<string, string[]>} */ const plain = new Map();
   for (const name of new Set(names)) {
     if (name.includes("?")) words.push(name);
     else {
@@ -32,12 +29,12 @@ export function shortenCurveNames(names, families) {
     const family = families.get(id);
     if (!family) return [];
     if (keys.length === family.curves.count) return [id];
-    const named = new Map();
+    /** @type {Map<number, string[]>} */ const named = new Map();
     for (const key of keys) {
       const cell = Number(key.split(".")[0]);
       named.set(cell, [...(named.get(cell) ?? []), key]);
     }
-    const isWhole = ([key, ...others]) =>
+    const isWhole = (/** @type {string[]} */ [key, ...others]) =>
       others.length > 0 &&
       others.length + 1 === curveCountOf(family, family.curves.cell[findCurve(family, key) ?? 0]);
     return [...named].flatMap(([cell, own]) =>
@@ -48,6 +45,6 @@ export function shortenCurveNames(names, families) {
 }
 
 /** Quotes a word for a shell, where "?" and "&" are special. */
-function quoteForShell(word) {
+function quoteForShell(/** @type {string} */ word) {
   return /^[\w:.,=/-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
 }

@@ -3,13 +3,13 @@
 import { concatenateArrays } from "../data/packed.js";
 
 /** An archive of files [{ name, bytes }] as bytes. The same files give the same archive. */
-export function zipOfFiles(/** @type {{ name: string; bytes: Uint8Array }[]} */ files) {
+export function zipOfFiles(/** @type {{ name: string; bytes: Uint8Array<ArrayBuffer> }[]} */ files) {
   const entries = files.map(({ name, bytes }) => ({
     name: new TextEncoder().encode(name),
     bytes,
     crc: crc32OfBytes(bytes),
   }));
-  const parts = [];
+  /** @type {Uint8Array<ArrayBuffer>[]} */ const parts = [];
   const directory = [];
   let offset = 0;
   for (const entry of entries) {
@@ -29,13 +29,13 @@ export function zipOfFiles(/** @type {{ name: string; bytes: Uint8Array }[]} */ 
 }
 
 // The fields of both headers of a file: version needed, UTF-8 names, stored, 1 January 1980.
-function zipFacts({ name, bytes, crc }) {
+function zipFacts(/** @type {{ name: Uint8Array, bytes: Uint8Array, crc: number }} */ { name, bytes, crc }) {
   const start = [20, 0x0800, 0, 0, 0x21].map((value) => [2, value]);
   return [...start, [4, crc], [4, bytes.length], [4, bytes.length], [2, name.length], [2, 0]];
 }
 
 // A signature and fields [bytes, value], little-endian.
-function zipRecord(signature, fields) {
+function zipRecord(/** @type {number} */ signature, /** @type {number[][]} */ fields) {
   const all = [[4, signature], ...fields];
   const out = new DataView(new ArrayBuffer(all.reduce((sum, [size]) => sum + size, 0)));
   let at = 0;
@@ -48,7 +48,7 @@ function zipRecord(signature, fields) {
 }
 
 /** The CRC-32 checksum of bytes, as ZIP and PNG define it. */
-export function crc32OfBytes(bytes) {
+export function crc32OfBytes(/** @type {Uint8Array} */ bytes) {
   let crc = 0xffffffff;
   for (const byte of bytes) {
     crc ^= byte;

@@ -4,15 +4,9 @@ import { NO_WORD } from "../data/family.js";
 import { DERIVED_COLUMNS } from "./table.js";
 
 const FIRST_WORDS = ["class", "symmetric", "is_full_turn"];
-const FIRST_NUMBERS = [
-  "mu_worst_deg",
-  "straight_length",
-  "straight_tolerance",
-  "straight_share",
-  "length",
-  "time_ratio",
-];
-const LATER_WORDS = ["type", "shortest", "symmetry"];
+const OF_STRAIGHT_PORTION = ["straight_length", "straight_tolerance", "straight_share"];
+const FIRST_COLUMNS = ["mu_worst_deg", ...FIRST_WORDS, ...OF_STRAIGHT_PORTION, "length", "time_ratio"];
+const WORD_COLUMNS = [...FIRST_WORDS, "type", "shortest", "symmetry"];
 // The measures of which more is better: transmission angles and forces, and how far an output, a straight portion or a dwell goes.
 const MORE_IS_BETTER =
   /^(mu_(min|worst)|output_(swing|dwell)|dwell_input|straight\w*_input)_deg$|^straight\w*_(length|share)$|^mechanical|_stroke$/;
@@ -26,36 +20,31 @@ export const beginsWithGreatest = (/** @type {string} */ name) => MORE_IS_BETTER
  */
 export function filterColumns(table, measures, kept = new Set()) {
   const byName = new Map(measures.map((measure) => [measure.name, measure]));
-  const numbers = measures.filter(({ word }) => !word).map(({ name }) => name);
-  const words = measures.filter(({ word }) => word).map(({ name }) => name);
-  const parameters = [...new Set(table.families.flatMap(({ names }) => names))].map((name) => `p.${name}`);
-  const column = (group, kind) => (name) => {
+  const [words, numbers] = [true, false].map((isWord) => measures.filter(({ word }) => word === isWord));
+  const measured = [...words, ...numbers].map(({ name }) => name);
+  const parameters = table.families.flatMap(({ names }) => names).map((name) => `p.${name}`);
+  const names = new Set([...FIRST_COLUMNS, ...WORD_COLUMNS, ...measured, ...parameters]);
+  const listed = Array.from(names, (name) => {
     const { unit = "", definition = "" } = DERIVED_COLUMNS[name] ?? byName.get(name) ?? {};
+    /** @type {ColumnGroup} */
+    const group = FIRST_COLUMNS.includes(name) ? "first" : name.startsWith("p.") ? "parameters" : "more";
+    /** @type {Column["kind"]} */
+    const kind = WORD_COLUMNS.includes(name) || byName.get(name)?.word ? "words" : "numbers";
     return { name, group, kind, unit, definition };
-  };
-  const listed = [
-    ...FIRST_NUMBERS.slice(0, 1).map(column("first", "numbers")),
-    ...FIRST_WORDS.map(column("first", "words")),
-    ...FIRST_NUMBERS.slice(1).map(column("first", "numbers")),
-    ...[...LATER_WORDS, ...words.filter((name) => ![...FIRST_WORDS, ...LATER_WORDS].includes(name))].map(
-      column("more", "words"),
-    ),
-    ...numbers.filter((name) => !FIRST_NUMBERS.includes(name)).map(column("more", "numbers")),
-    ...parameters.map(column("parameters", "numbers")),
-  ];
-  const isThere = (name) => !byName.has(name) || table.has(name);
-  const hasDistinctValues = ({ name, kind }) =>
+  });
+  const isThere = (/** @type {string} */ name) => !byName.has(name) || table.has(name);
+  const hasDistinctValues = (/** @type {Column} */ { name, kind }) =>
     isThere(name) && (kind === "words" ? hasDistinctWords(table, name) : hasDistinctNumbers(table, name));
   return listed.filter((one) => kept.has(one.name) || hasDistinctValues(one));
 }
 
-function hasDistinctWords(/** @type {CurveTable} */ table, name) {
+function hasDistinctWords(/** @type {CurveTable} */ table, /** @type {string} */ name) {
   const { codes } = table.words(name);
   const first = codes[0];
   return codes.some((code) => code !== first) && codes.some((code) => code !== NO_WORD);
 }
 
-function hasDistinctNumbers(/** @type {CurveTable} */ table, name) {
+function hasDistinctNumbers(/** @type {CurveTable} */ table, /** @type {string} */ name) {
   const values = table.numbers(name);
   let first = NaN;
   for (let row = 0; row < values.length; row += 1) {

@@ -7,12 +7,12 @@ export class Filters {
   constructor(/** @type {CurveTable} */ table) {
     this.table = table;
     this.failing = new Uint16Array(table.count);
-    this.fails = new Map();
-    this.passing = null;
+    /** @type {Map<string, Uint8Array>} */ this.fails = new Map();
+    /** @type {Uint32Array | null} */ this.passing = null;
   }
 
   /** Sets the filter of a column; null removes it. @param {Filter | null} filter */
-  set(name, filter) {
+  set(/** @type {string} */ name, filter) {
     const before = this.fails.get(name);
     const after = filter && this.failuresOf(name, filter);
     if (before) for (let row = 0; row < this.failing.length; row += 1) this.failing[row] -= before[row];
@@ -22,7 +22,7 @@ export class Filters {
     this.passing = null;
   }
 
-  failuresOf(name, /** @type {Filter} */ filter) {
+  failuresOf(/** @type {string} */ name, /** @type {Filter} */ filter) {
     const out = new Uint8Array(this.table.count);
     if (filter instanceof Set) {
       const { values, codes } = this.table.words(name);
@@ -52,13 +52,13 @@ export class Filters {
   }
 
   /** The number of rows that pass without the filter of a column. */
-  countWithout(name) {
+  countWithout(/** @type {string} */ name) {
     const own = this.fails.get(name);
     return this.failing.reduce((count, fails, row) => count + (fails === (own ? own[row] : 0) ? 1 : 0), 0);
   }
 
   /** For each word of a column, the number of rows that have it and pass all other filters. */
-  wordCounts(name) {
+  wordCounts(/** @type {string} */ name) {
     const { values, codes } = this.table.words(name);
     const own = this.fails.get(name);
     const counts = new Uint32Array(256);
@@ -73,19 +73,22 @@ export class Filters {
 export class Orders {
   constructor(/** @type {CurveTable} */ table) {
     this.table = table;
-    this.cache = new Map();
+    /** @type {Map<string, Uint32Array>} */ this.cache = new Map();
   }
 
   /**
    * All rows sorted by a column of numbers or words (`kind`), ascending, or descending if `down`. Rows
    * without a value come last in both cases; ties keep the table's order. Without a name, the table's order.
+   * @param {string | undefined} name @param {Column["kind"] | undefined} kind @param {boolean} down
    */
   by(name, kind, down) {
     const key = `${down ? "-" : ""}${kind} ${name}`;
-    if (!this.cache.has(key)) this.cache.set(key, this.compute(name, kind, down));
-    return this.cache.get(key);
+    const known = this.cache.get(key) ?? this.compute(name, kind, down);
+    this.cache.set(key, known);
+    return known;
   }
 
+  /** @param {string | undefined} name @param {Column["kind"] | undefined} kind @param {boolean} down */
   compute(name, kind, down) {
     const rows = Uint32Array.from({ length: this.table.count }, (_, row) => row);
     if (!name) return rows;

@@ -11,15 +11,15 @@ const NO_BIN = 255;
 export function histogramOf(/** @type {Float64Array} */ values) {
   const sorted = values.filter((value) => Number.isFinite(value)).sort();
   const [low, high] = sorted.length ? [sorted[0], sorted[sorted.length - 1]] : [0, 1];
-  const part = (share) => sorted[Math.floor(share * (sorted.length - 1))];
+  const part = (/** @type {number} */ share) => sorted[Math.floor(share * (sorted.length - 1))];
   const isLog = low > 0 && part(0.95) > 30 * part(0.05);
   const [from, to] = isLog ? [Math.log(low), Math.log(high)] : [low, high];
   const across = to > from ? to - from : 1;
-  const placeOf = (value) => {
+  const placeOf = (/** @type {number} */ value) => {
     if (isLog && !(value > 0)) return 0;
     return Math.min(Math.max(((isLog ? Math.log(value) : value) - from) / across, 0), 1);
   };
-  const valueAt = (place) => {
+  const valueAt = (/** @type {number} */ place) => {
     if (place <= 0) return low;
     if (place >= 1) return high;
     return isLog ? Math.exp(from + place * across) : from + place * across;
@@ -42,6 +42,6 @@ export function binCounts({ bins }, rows) {
 }
 
 /** A number as it appears in fields and addresses: at most four significant digits. */
-export function formatBound(value) {
+export function formatBound(/** @type {number} */ value) {
   return Number.isFinite(value) ? String(Number(value.toPrecision(4))) : "";
 }

@@ -1,5 +1,4 @@
-// The query of the Find view and its address:
-// `?family=evans,watt&class=crank-rocker&mu_worst_deg=30..&sort=-length&show=table`.
+// The query of the Find view and its address: `?family=evans,watt&class=crank-rocker&mu_worst_deg=30..&sort=-length&show=table`.
 
 const OTHER_KEYS = ["family", "sort", "show"];
 
@@ -23,7 +22,7 @@ export function parseFindQuery(query, isFamily = (/** @type {string} */ _) => tr
 }
 
 /** @returns {Filter | null} */
-function parseFilter(text) {
+function parseFilter(/** @type {string} */ text) {
   const range = text.match(/^([^.]*(?:\.\d+(?:e[+-]?\d+)?)?)\.\.(.*)$/i);
   if (!range) return text ? new Set(text.split(",")) : null;
   const [low, high] = range.slice(1).map((word) => (word.trim() === "" ? undefined : Number(word)));
@@ -33,7 +32,7 @@ function parseFilter(text) {
 
 /** The inverse of parseFindQuery, as data/address.js writes it. @param {FindQuery} _ */
 export function formatFindQuery({ families, filters, sort, show }) {
-  const query = new Map();
+  /** @type {Map<string, string>} */ const query = new Map();
   if (families) query.set("family", families.join(","));
   for (const [name, filter] of filters) {
     const { low = "", high = "" } = filter instanceof Set ? {} : filter;

@@ -3,7 +3,7 @@
 import { NO_WORD, curveKey } from "../data/family.js";
 import { renamedWords } from "../data/reader.js";
 
-/** Columns computed from measures, for frequent queries that no single measure answers. */
+/** Columns computed from measures, for frequent queries that no single measure answers. @type {Record<string, DerivedColumn>} */
 export const DERIVED_COLUMNS = {
   straight_tolerance: {
     unit: "",
@@ -26,7 +26,8 @@ export class CurveTable {
     this.count = counts.reduce((sum, count) => sum + count, 0);
     this.family = new Uint16Array(this.count);
     this.curve = new Uint32Array(this.count);
-    this.cache = new Map();
+    /** @type {Map<string, Float64Array>} */ this.columns = new Map();
+    /** @type {Map<string, Words>} */ this.wordColumns = new Map();
     let row = 0;
     counts.forEach((count, k) => {
       for (let curve = 0; curve < count; curve += 1, row += 1) {
@@ -37,29 +38,30 @@ export class CurveTable {
   }
 
   /** The curve of a row, with its name. */
-  curveOf(row) {
+  curveOf(/** @type {number} */ row) {
     const family = this.families[this.family[row]];
     const curve = this.curve[row];
     return { family, curve, name: `${family.id}:${curveKey(family, curve)}` };
   }
 
   /** Whether any of the families has a measure. */
-  has(name) {
+  has(/** @type {string} */ name) {
     return this.families.some(({ curves }) => name in curves.measures || name in curves.words);
   }
 
   /** Releases the memory of a column of numbers, which is computed again when it is used. */
-  release(name) {
-    this.cache.delete(name);
+  release(/** @type {string} */ name) {
+    this.columns.delete(name);
   }
 
   /** A column of numbers, f64[count], NaN where missing; a parameter's name is prefixed with "p.". */
-  numbers(name) {
-    if (!this.cache.has(name)) this.cache.set(name, this.computeNumbers(name));
-    return this.cache.get(name);
+  numbers(/** @type {string} */ name) {
+    const known = this.columns.get(name) ?? this.computeNumbers(name);
+    this.columns.set(name, known);
+    return known;
   }
 
-  computeNumbers(name) {
+  computeNumbers(/** @type {string} */ name) {
     // A single family already has its measures in such columns.
     const [family, ...others] = this.families;
     if (others.length === 0 && family?.curves.measures[name])
@@ -69,27 +71,26 @@ export class CurveTable {
       const { inputs, compute } = DERIVED_COLUMNS[name];
       if (!inputs.every((input) => this.has(input))) return out;
       let row = 0;
-      const at = (other) => this.numbers(other)[row];
+      const at = (/** @type {string} */ other) => this.numbers(other)[row];
       for (; row < this.count; row += 1) out[row] = compute(at);
       return out;
     }
-    const own = name.startsWith("p.") ? parameterColumn(name.slice(2)) : measureColumn(name);
     let row = 0;
     this.families.forEach((each, k) => {
-      const value = own(each);
+      const value = columnOf(each, name);
       for (let curve = 0; curve < this.counts[k]; curve += 1, row += 1) if (value) out[row] = value(curve);
     });
     return out;
   }
 
   /** A column of words: { values, codes u8[count] }, NO_WORD where missing. */
-  words(name) {
-    const key = `words ${name}`;
-    if (!this.cache.has(key)) this.cache.set(key, this.computeWords(name));
-    return this.cache.get(key);
+  words(/** @type {string} */ name) {
+    const known = this.wordColumns.get(name) ?? this.computeWords(name);
+    this.wordColumns.set(name, known);
+    return known;
   }
 
-  computeWords(name) {
+  computeWords(/** @type {string} */ name) {
     const codes = new Uint8Array(this.count).fill(NO_WORD);
     if (name === "symmetric") {
       const { codes: own } = this.words("symmetry");
@@ -98,7 +99,7 @@ export class CurveTable {
         if (measures[this.family[row]]) codes[row] = own[row] === NO_WORD ? 0 : 1;
       return { values: SYMMETRY_WORDS, codes };
     }
-    const values = [];
+    /** @type {string[]} */ const values = [];
     let row = 0;
     this.families.forEach(({ curves }, k) => {
       const own = curves.words[name];
@@ -111,16 +112,10 @@ export class CurveTable {
   }
 }
 
-function measureColumn(name) {
-  return ({ curves }) => {
-    const values = curves.measures[name];
-    return values && ((curve) => values[curve]);
-  };
-}
-
-function parameterColumn(name) {
-  return ({ names, cells, curves }) => {
-    const at = names.indexOf(name);
-    return at >= 0 && ((curve) => cells.values[curves.cell[curve] * names.length + at]);
-  };
+/** The values of a column of a family, by curve; null if it has none. @returns {((curve: number) => number) | null} */
+function columnOf(/** @type {Family} */ { names, cells, curves }, /** @type {string} */ name) {
+  const values = curves.measures[name];
+  const at = name.startsWith("p.") ? names.indexOf(name.slice(2)) : -1;
+  if (at >= 0) return (curve) => cells.values[curves.cell[curve] * names.length + at];
+  return values ? (curve) => values[curve] : null;
 }

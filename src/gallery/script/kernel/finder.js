@@ -2,8 +2,7 @@
 
 import { drawnPath } from "./shape-search.js";
 
-// The time, in milliseconds, after which the index does not grow before a search, and after which the search says what it
-// has found so far.
+// The time, in milliseconds, after which the index does not grow before a search, and after which the search says what it has found so far.
 const GROW_MS = 1000;
 const REPORT_MS = 2000;
 // The time for the index before a first look, and for a four-bar that follows a path.
@@ -18,8 +17,7 @@ export const MAX_LIVE = 3;
 export class FourBarFinder {
   /** @type {Promise<unknown>} */ running = Promise.resolve();
 
-  /** The curves of the index. */
-  count = 0;
+  /** The curves of the index. */ count = 0;
 
   constructor(/** @type {SearchKernel} */ kernel) {
     this.kernel = kernel;
@@ -37,9 +35,9 @@ export class FourBarFinder {
       const refined = { ...options, refine: true, start: null, most: MAX_FOUR_BARS };
       const isComplete = await this.#grow(signal, began + GROW_MS);
       const first = { report: began + REPORT_MS, end: Infinity };
-      await this.#search(path, refined, signal, first, (found, isDone) =>
-        report(found, isDone && isComplete),
-      );
+      const early = (/** @type {FoundFourBars} */ found, isDone = false) =>
+        report(found, isDone && isComplete);
+      await this.#search(path, refined, signal, first, early);
       if (isComplete || !(await this.#grow(signal, Infinity))) return;
       await this.#search(path, refined, signal, { report: Infinity, end: Infinity }, report);
     });
@@ -49,12 +47,8 @@ export class FourBarFinder {
   lookUp(path, options, signal) {
     return this.#after(async () => {
       if (this.count === 0) await this.#grow(signal, performance.now() + FIRST_MS);
-      return this.#answers(
-        path,
-        { ...options, refine: false, start: null, most: MAX_LIVE },
-        signal,
-        Infinity,
-      );
+      const quick = { ...options, refine: false, start: null, most: MAX_LIVE };
+      return this.#answers(path, quick, signal, Infinity);
     });
   }
 
@@ -64,9 +58,8 @@ export class FourBarFinder {
       const answers = [];
       for (const start of poses) {
         const end = performance.now() + FOLLOW_MS;
-        answers.push(
-          ...(await this.#answers(path, { ...options, refine: true, start, most: 1 }, signal, end)),
-        );
+        const near = { ...options, refine: true, start, most: 1 };
+        answers.push(...(await this.#answers(path, near, signal, end)));
       }
       return answers.sort((a, b) => a.record.rms_relative - b.record.rms_relative);
     });
@@ -85,7 +78,7 @@ export class FourBarFinder {
   }
 
   /** Grows the index until it is complete, or a time; whether it is complete. */
-  async #grow(signal, until) {
+  async #grow(/** @type {AbortSignal} */ signal, /** @type {number} */ until) {
     for (;;) {
       if (signal.aborted || performance.now() > until) return false;
       const { count, full_count: full } = await this.kernel.call({ method: "grow_index" });
@@ -94,22 +87,25 @@ export class FourBarFinder {
     }
   }
 
-  /** @returns {Promise<FourBarAnswer[]>} */
-  async #answers(path, options, signal, end) {
+  /** @returns {Promise<FourBarAnswer[]>} @param {object} options @param {AbortSignal} signal @param {number} end */
+  async #answers(/** @type {NamedPath} */ path, options, signal, end) {
     /** @type {FourBarAnswer[]} */ let answers = [];
     if (signal.aborted) return answers;
     await this.#search(path, options, signal, { report: Infinity, end }, (found) => ({ answers } = found));
     return answers;
   }
 
-  /** Searches until the time `end`, and reports what there is at the time `report` and at the end. */
-  async #search({ shape, isPart, name }, options, signal, times, report) {
+  /**
+   * Searches until the time `end`, and reports what there is at the time `report` and at the end.
+   * @param {object} options @param {AbortSignal} signal @param {{ report: number, end: number }} times @param {(found: FoundFourBars, isDone: boolean) => void} report
+   */
+  async #search(/** @type {NamedPath} */ { shape, isPart, name }, options, signal, times, report) {
     const { kernel } = this;
     const { points, kind } = await drawnPath(kernel, shape, isPart);
     const { instance } = kernel;
     const { search, hindrances } = await kernel.call({ method: "open_search", points, kind, ...options });
     try {
-      const reported = async (isDone) => {
+      const reported = async (/** @type {boolean} */ isDone) => {
         let found = null;
         do {
           if (signal.aborted) return;

@@ -20,14 +20,12 @@ export class KernelInstance {
 
   /**
    * The answer to a request, both as objects. Arrays of numbers are Float64Arrays, those of the answer of their own.
-   *
-   * @throws {KernelError} if the kernel cannot answer it
-   * @throws {KernelFailure} if the kernel fails
+   * @throws {KernelError} if the kernel cannot answer it @throws {KernelFailure} if the kernel fails
    */
   call(/** @type {object} */ request) {
     /** @type {Float64Array[]} */ const arrays = [];
     let total = 0;
-    const packed = (key, value) => {
+    const packed = (/** @type {string} */ key, /** @type {unknown} */ value) => {
       if (!(value instanceof Float64Array)) return exactNumbers(key, value);
       arrays.push(value);
       total += value.length;
@@ -45,7 +43,6 @@ export class KernelInstance {
 
   /**
    * The answer to a request in JSON with arrays of numbers, one after another, to which it refers.
-   *
    * @param {string} request @param {Float64Array[]} arrays @returns {{ json: string, numbers: Float64Array }}
    * @throws {KernelFailure} if the kernel fails
    */
@@ -76,12 +73,10 @@ export class KernelInstance {
   }
 
   /**
-   * The numbers of a study's pose at an input of a pass (Kernel::pose), valid until the next call; empty if there
-   * is none.
-   *
+   * The numbers of a study's pose at an input of a pass (Kernel::pose), valid until the next call; empty if there is none.
    * @throws {KernelFailure} if the kernel fails
    */
-  pose(study, pass, input) {
+  pose(/** @type {number} */ study, /** @type {number} */ pass, /** @type {number} */ input) {
     return this.#guarded((kernel) => {
       const place = kernel.kernel_pose(study, pass, input);
       return this.#numbers(place, kernel.kernel_pose_length());
@@ -90,8 +85,7 @@ export class KernelInstance {
 
   /**
    * The position of a joint at an input of a pass, [x, y], valid until the next call.
-   *
-   * @throws {KernelFailure} if the kernel fails
+   * @throws {KernelFailure} if the kernel fails @param {number} study @param {number} joint @param {number} pass @param {number} input
    */
   jointPosition(study, joint, pass, input) {
     return this.#guarded((kernel) =>
@@ -100,7 +94,7 @@ export class KernelInstance {
   }
 
   // The same view as before if it is of the same memory: there are sixty poses in a second.
-  #numbers(place, count) {
+  #numbers(/** @type {number} */ place, /** @type {number} */ count) {
     const { buffer } = this.exports.memory;
     const { view } = this;
     if (count === 0) return new Float64Array();
@@ -130,6 +124,6 @@ export class KernelInstance {
 }
 
 /** The kernel reads numbers as strings to the last bit, which it does not do with those of JSON. */
-export function exactNumbers(_, value) {
+export function exactNumbers(/** @type {unknown} */ _, /** @type {unknown} */ value) {
   return typeof value === "number" && !Number.isInteger(value) ? String(value) : value;
 }

@@ -52,10 +52,7 @@ export class Kernel {
     this.fourBars = new FourBarFinder(new KernelWorker(module));
   }
 
-  /**
-   * Calls `work` with the current instance, and replaces it if it fails.
-   * @template T @param {(instance: KernelInstance) => T} work
-   */
+  /** Calls `work` with the current instance, and replaces it if it fails. @template T @param {(instance: KernelInstance) => T} work */
   use(work) {
     try {
       return work(this.instance);
@@ -89,7 +86,7 @@ export class Kernel {
   curve(family, curve, changes = []) {
     const { cells, curves, names, assignments } = family;
     const cell = curves.cell[curve];
-    const value = (slot) => cells.values[cell * names.length + slot];
+    const value = (/** @type {number} */ slot) => cells.values[cell * names.length + slot];
     /** @type {CurveRequest} */ const request = {
       cell: cells.number[cell],
       curve: [curves.trace[curve], curves.circuit[curve]],
@@ -100,8 +97,7 @@ export class Kernel {
   }
 
   /**
-   * Opens the study of a curve, as `curve()` gives it, on the circuit with the index `shown` among all; by
-   * default on its own.
+   * Opens the study of a curve, as `curve()` gives it, on the circuit with the index `shown` among all; by default on its own.
    * @param {KernelCurve} requested @param {{ shown?: number | null, isRough?: boolean }} options
    */
   study(requested, { shown = null, isRough = false } = {}) {
@@ -114,7 +110,7 @@ export class Kernel {
   }
 
   /** A curve as a file in a text format: { name, text }. @param {KernelCurve} requested */
-  export(requested, format) {
+  export(requested, /** @type {string} */ format) {
     return this.call({ method: "export", curve: withHandle(requested), format });
   }
 
@@ -132,7 +128,7 @@ function withHandle(/** @type {KernelCurve} */ { family, curve }) {
 class KernelFamily {
   /** @type {FamilyDescription} */ opened;
 
-  constructor(/** @type {Kernel} */ kernel, manifest) {
+  constructor(/** @type {Kernel} */ kernel, /** @type {string} */ manifest) {
     this.kernel = kernel;
     this.manifest = manifest;
     /** @type {KernelInstance | null} */ this.instance = null;

@@ -5,10 +5,7 @@ export const WHOLE = 0.85;
 
 /** A path to which curves are compared. Closed ones are compared with whole curves, open ones with portions. */
 export class ShapeSearch {
-  /**
-   * @param {SearchKernel} kernel @param {SearchedPath} path
-   * @param {{ mirror: boolean, least: number, wanted?: number }} options
-   */
+  /** @param {SearchKernel} kernel @param {SearchedPath} path @param {{ mirror: boolean, least: number, wanted?: number }} options */
   static async open(kernel, path, { mirror, least, wanted = 1 }) {
     const { instance } = kernel;
     return new ShapeSearch(kernel, instance, await kernel.call(openRequest(path, mirror, least, wanted)));
@@ -65,12 +62,12 @@ export class ShapeSearch {
  * The path to search for of a shape, { points, kind }: without noise, and with points enough for its form to be seen.
  * @param {SearchKernel} kernel @param {Outline} shape @returns {Promise<SearchedPath>}
  */
-export function drawnPath(kernel, { points, closed }, isPart) {
+export function drawnPath(kernel, { points, closed }, /** @type {boolean} */ isPart) {
   return kernel.call({ method: "drawn_path", points, closed, is_part: isPart });
 }
 
 /** The best fit of a curve to another one; null if there is none. @param {Outline} to @param {Outline} curve */
-export function bestFit(/** @type {Kernel} */ kernel, to, curve, mirror) {
+export function bestFit(/** @type {Kernel} */ kernel, to, curve, /** @type {boolean} */ mirror) {
   const path = { points: to.points, kind: to.closed ? "closed" : "part" };
   const { shape } = kernel.call(openRequest(path, mirror, WHOLE, 1));
   const { instance } = kernel;
@@ -82,6 +79,7 @@ export function bestFit(/** @type {Kernel} */ kernel, to, curve, mirror) {
   }
 }
 
+/** @param {boolean} mirror @param {number} least @param {number} wanted */
 function openRequest(/** @type {SearchedPath} */ { points, kind }, mirror, least, wanted) {
   return { method: "open_shape", points, kind, mirror, least, wanted };
 }
@@ -93,6 +91,6 @@ export function deviationInPlace(/** @type {Kernel} */ kernel, from, curve) {
 }
 
 /** @returns {Fit | null} */
-function fitOf(answer) {
+function fitOf(/** @type {{ fit: Fit | null }} */ answer) {
   return answer.fit;
 }

@@ -2,15 +2,14 @@
 
 /** The study of a curve that may not exist; all methods but `close` need one that exists. */
 export class KernelStudy {
-  /** What the kernel says of it. @type {StudyAnswer | MissingCurve} */
-  answer;
+  /** What the kernel says of it. @type {StudyAnswer | MissingCurve} */ answer;
   /** @type {object | null} */ instance = null;
 
   /** `request()` gives the request that opens the study. @param {Kernel} kernel @param {() => object} request */
   constructor(kernel, request) {
     this.kernel = kernel;
     this.request = request;
-    this.#handle();
+    this.#open();
   }
 
   /** Whether the curve exists; otherwise `answer.reason` says why not. */
@@ -25,19 +24,19 @@ export class KernelStudy {
   }
 
   /** The curve to a tolerance. @returns {CurvePath} */
-  path(tolerance) {
+  path(/** @type {number} */ tolerance) {
     return this.#ask("path", { tolerance });
   }
 
   /** The speed at about `count` places. @returns {Speeds} */
-  speeds(count) {
+  speeds(/** @type {number} */ count) {
     return this.#ask("speeds", { count });
   }
 
   /** The measures; those that do not apply are absent. @returns {ComputedMeasures} */
   measures() {
     const { values, straight } = this.#ask("measures");
-    const infinities = { inf: Infinity, "-inf": -Infinity };
+    /** @type {Record<string, number>} */ const infinities = { inf: Infinity, "-inf": -Infinity };
     const there = Object.entries(values).filter(([, value]) => value !== null);
     return {
       straight,
@@ -51,7 +50,7 @@ export class KernelStudy {
   }
 
   /** @returns {Centrodes | null} */
-  centrodes(samples) {
+  centrodes(/** @type {number} */ samples) {
     return this.#ask("centrodes", { samples });
   }
 
@@ -78,41 +77,45 @@ export class KernelStudy {
   }
 
   /** The reading at the nearest point of the curve. */
-  nearest(x, y) {
+  nearest(/** @type {number} */ x, /** @type {number} */ y) {
     return readingOf(this.#ask("nearest", { point: [x, y] }));
   }
 
   /** The reading at an input of a pass. */
-  reading(pass, input) {
+  reading(/** @type {number} */ pass, /** @type {number} */ input) {
     return readingOf(this.#ask("reading", { pass, input }));
   }
 
   /** The numbers of the pose at an input of a pass (instance.js), valid until the next call. */
-  pose(pass, input) {
+  pose(/** @type {number} */ pass, /** @type {number} */ input) {
     const study = this.#handle();
     return this.kernel.use((instance) => instance.pose(study, pass, input));
   }
 
   /** The position of a joint at an input of a pass, [x, y], valid until the next call. */
-  jointPosition(joint, pass, input) {
+  jointPosition(/** @type {number} */ joint, /** @type {number} */ pass, /** @type {number} */ input) {
     const study = this.#handle();
     return this.kernel.use((instance) => instance.jointPosition(study, joint, pass, input));
   }
 
-  #ask(method, more = {}) {
+  #ask(/** @type {string} */ method, more = {}) {
     return this.kernel.call({ method, study: this.#handle(), ...more });
   }
 
+  #open() {
+    if (this.instance === this.kernel.instance) return;
+    this.answer = this.kernel.call(this.request());
+    this.instance = this.kernel.instance;
+  }
+
   #handle() {
-    if (this.instance !== this.kernel.instance) {
-      this.answer = this.kernel.call(this.request());
-      this.instance = this.kernel.instance;
-    }
+    this.#open();
+    if (this.answer.study === undefined) throw new Error(this.answer.reason);
     return this.answer.study;
   }
 }
 
 /** At limits the speed is infinite, which JSON cannot say. @returns {Reading | null} */
-function readingOf(answer) {
+function readingOf(/** @type {(Omit<Reading, "speed"> & { speed: number | null }) | null} */ answer) {
   return answer && { ...answer, speed: answer.speed ?? Infinity };
 }

@@ -5,8 +5,7 @@ import { exactNumbers, KernelError, KernelFailure, KernelInstance } from "./inst
 /** A kernel whose answers are promises. After a failure a new worker replaces its worker, `instance`. */
 export class KernelWorker {
   /** @type {Worker | null} */ worker = null;
-  /** The requests without an answer: they are answered in their order. @type {Waiting[]} */
-  waiting = [];
+  /** The requests without an answer: they are answered in their order. @type {Waiting[]} */ waiting = [];
 
   constructor(/** @type {WebAssembly.Module} */ module) {
     this.module = module;
@@ -41,7 +40,7 @@ export class KernelWorker {
     return worker;
   }
 
-  #fail(message) {
+  #fail(/** @type {string} */ message) {
     this.worker?.terminate();
     this.worker = null;
     for (const { reject } of this.waiting.splice(0)) reject(new KernelFailure(message));

@@ -11,7 +11,7 @@ const COORDINATE_MAX = 4095;
  * A shape, of more than `most` points so many even ones: { word, place }. The word is in letters of base64url: "c" if it is closed or "o", then
  * four letters for each point in the box of the shape; the place is the corner of that box and its greater side.
  */
-export function encodeShape(/** @type {Float64Array} */ points, closed, most = 48) {
+export function encodeShape(/** @type {Float64Array} */ points, /** @type {boolean} */ closed, most = 48) {
   const few = points.length > 2 * most ? resampled(points, closed, most) : points;
   const [x0, y0, x1, y1] = boxOfPoints(few);
   const side = Math.max(x1 - x0, y1 - y0) || 1;
@@ -24,7 +24,7 @@ export function encodeShape(/** @type {Float64Array} */ points, closed, most = 4
 }
 
 /** The shape of such a word, { points, closed }, at a place, usually with a side of 100; null if it is not valid. @param {number[] | null} place */
-export function decodeShape(word, place = null) {
+export function decodeShape(/** @type {string} */ word, place = null) {
   if (!/^[co](?:[\w-]{4}){2,}$/.test(word)) return null;
   const [x0, y0, side] = place ?? [0, 0, 100];
   const points = new Float64Array((word.length - 1) / 2);

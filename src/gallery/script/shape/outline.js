@@ -3,7 +3,7 @@
 import { boxOfPoints } from "../draw/plane-view.js";
 
 /** The length of an outline up to each of its points; of a closed one also round to its first. */
-export function lengthsAlong(/** @type {Points} */ points, closed) {
+export function lengthsAlong(/** @type {Points} */ points, /** @type {boolean} */ closed) {
   const count = points.length / 2;
   const along = new Float64Array(count + (closed ? 1 : 0));
   for (let k = 1; k < along.length; k += 1) {
@@ -18,14 +18,11 @@ export function lengthsAlong(/** @type {Points} */ points, closed) {
  * `count` points spaced evenly along an outline: of an open one with both ends, of a closed one from its first point round.
  * @param {Points} points @param {boolean} closed
  */
-export function resampled(points, closed, count) {
+export function resampled(points, closed, /** @type {number} */ count) {
   return portion(points, closed, 0, closed ? 1 - 1 / count : 1, count).points;
 }
 
-/**
- * Whether an outline ends so near to its start, within 12 % of the greater side of its box, that it is probably meant to be
- * closed.
- */
+/** Whether an outline ends so near to its start, within 12 % of the greater side of its box, that it is probably meant to be closed. */
 export function looksClosed(/** @type {Points} */ points) {
   const [x0, y0, x1, y1] = boxOfPoints(points);
   const end = points.length - 2;
@@ -36,7 +33,7 @@ export function looksClosed(/** @type {Points} */ points) {
 /**
  * The portion of an outline between two fractions of its length as `count` even points; on a closed one it may
  * continue over the first point, on an open one it ends at the ends: `from` and `to` are the actual fractions.
- * @param {Points} points @param {boolean} closed
+ * @param {Points} points @param {boolean} closed @param {number} from @param {number} to @param {number} count
  */
 export function portion(points, closed, from, to, count) {
   const along = lengthsAlong(points, closed);

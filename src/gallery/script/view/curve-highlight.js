@@ -13,16 +13,12 @@ const MAX_SOLVED = 8;
 /** Highlights at most one curve of a page: that under the pointer or with the focus, or the selected one. */
 export class CurveHighlight {
   /** @type {number | null} */ selected = null;
-  /** The curve under the pointer or with the focus. @type {number | null} */
-  pointed = null;
-  /** The highlighted curve. @type {number | null} */
-  curve = null;
-  /** The curve in the panel. @type {number | null} */
-  listed = null;
+  /** The curve under the pointer or with the focus. @type {number | null} */ pointed = null;
+  /** The highlighted curve. @type {number | null} */ curve = null;
+  /** The curve in the panel. @type {number | null} */ listed = null;
   /** @type {SolvedCurve | null} */ solved = null;
   /** @type {Reading | null} */ at = null;
-  /** Where the pointer reads the curve, in millimetres. @type {Point | null} */
-  place = null;
+  /** Where the pointer reads the curve, in millimetres. @type {Point | null} */ place = null;
   fineness = 0;
   /** Curves that are kept solved, the oldest first. @type {Map<number, SolvedCurve | null>} */
   solutions = new Map();
@@ -34,11 +30,10 @@ export class CurveHighlight {
 
   /** Resets the highlight for another page. */
   reset() {
-    this.selected = this.pointed = this.curve = this.solved = this.at = null;
+    this.selected = this.pointed = null;
     for (const solved of this.solutions.values()) solved?.close();
     this.solutions.clear();
-    this.page.viewport.classList.remove("dimmed");
-    this.page.reading.hidden = true;
+    this.clear();
   }
 
   /** Handles a pointer at a position in millimetres, near the curve `found` or none. */
@@ -53,24 +48,21 @@ export class CurveHighlight {
   }
 
   /** Handles focus on a curve's link. */
-  focus(curve) {
+  focus(/** @type {number} */ curve) {
     this.pointed = curve;
     this.highlight(curve);
     const { box } = this.drawnOf(curve);
     this.page.zoom.reveal(box);
-    this.readStart();
+    this.read(null);
   }
 
   /** Highlights the curve of a link in the panel; the panel keeps its list. */
-  preview(curve) {
+  preview(/** @type {number} */ curve) {
     this.pointed = curve;
     this.highlight(curve, { updatesPanel: false });
   }
 
-  /**
-   * Handles the pointer leaving the curves. The panel keeps its content so that it can be read and its links
-   * followed.
-   */
+  /** Handles the pointer leaving the curves. The panel keeps its content so that it can be read and its links followed. */
   leave() {
     this.pointed = null;
     if (this.selected === null) this.clear();
@@ -78,7 +70,7 @@ export class CurveHighlight {
   }
 
   /** Selects a curve (null: none) and reads it at a position in millimetres. @param {Point | null} [place] */
-  select(curve, place = null) {
+  select(/** @type {number | null} */ curve, place = null) {
     this.selected = curve;
     this.pointed = null;
     if (curve === null) {
@@ -86,23 +78,22 @@ export class CurveHighlight {
       return;
     }
     this.highlight(curve);
-    if (place) this.read(place);
-    else this.readStart();
+    this.read(place);
   }
 
-  drawnOf(curve) {
+  drawnOf(/** @type {number | null} */ curve) {
     const drawn = this.page.drawn.find((candidate) => candidate.curve === curve);
     if (!drawn) throw new Error("the curve is not on this page");
     return drawn;
   }
 
-  highlight(curve, { updatesPanel = true } = {}) {
+  highlight(/** @type {number} */ curve, { updatesPanel = true } = {}) {
     if (updatesPanel && this.listed !== curve) this.page.showPanel(curve);
     this.listed = updatesPanel ? curve : null;
     if (this.curve !== curve) this.#outline(curve);
   }
 
-  #outline(curve) {
+  #outline(/** @type {number} */ curve) {
     this.curve = curve;
     this.at = null;
     this.page.reading.hidden = true;
@@ -121,7 +112,7 @@ export class CurveHighlight {
   }
 
   /** The curve solved; null if it cannot be, or while the kernel is loaded. */
-  solve(curve) {
+  solve(/** @type {number} */ curve) {
     const { app, family } = this.page;
     const { kernel } = app.kernel;
     if (!kernel) {
@@ -146,14 +137,13 @@ export class CurveHighlight {
       const { curve, place } = this;
       if (curve === null || this.solved) return;
       this.#outline(curve);
-      if (place) this.read(place);
-      else this.readStart();
+      this.read(place);
     };
     this.page.app.kernel.load().then(again, () => {});
   }
 
   /** Path data in millimetres of paper. */
-  pathOf(curve) {
+  pathOf(/** @type {number} */ curve) {
     const { view, closed } = this.drawnOf(curve);
     const {
       origin: [x, y],
@@ -170,21 +160,18 @@ export class CurveHighlight {
     return Math.max(0, Math.round(Math.log2(this.page.zoom.magnification)));
   }
 
-  read(/** @type {Point} */ place) {
+  /** Reads the highlighted curve at a position in millimetres, or at its start: null. */
+  read(/** @type {Point | null} */ place) {
     this.place = place;
     if (!this.solved) return;
+    if (!place) return this.readInput(0, this.solved.passes[0].from);
     const [x, y] = place;
     const { origin, scale } = this.drawnOf(this.curve).view;
     this.at = this.solved.nearTo((x - origin[0]) / scale, (origin[1] - y) / scale);
     this.position();
   }
 
-  readStart() {
-    if (this.solved) this.readInput(0, this.solved.passes[0].from);
-    else this.place = null;
-  }
-
-  readInput(pass, input) {
+  readInput(/** @type {number} */ pass, /** @type {number} */ input) {
     this.place = null;
     if (!this.solved) return;
     this.at = this.solved.atInput(pass, input);
@@ -192,12 +179,13 @@ export class CurveHighlight {
   }
 
   /** Moves the reading along the curve by an increment of the input, from pass to pass. */
-  stepAlong(by) {
+  stepAlong(/** @type {number} */ by) {
     if (!this.solved || !this.at) return;
     const { passes, isLength } = this.solved;
     let { pass, input } = this.at;
     const whole = Math.abs(passes[pass].to - passes[pass].from);
     input += (isLength ? (by / 360) * whole : by) * Math.sign(passes[pass].to - passes[pass].from);
+    /** @param {number} end @param {number} start */
     const isPast = (end, start) => (input - end) * Math.sign(end - start) > 0;
     if (isPast(passes[pass].to, passes[pass].from)) {
       pass = (pass + 1) % passes.length;
@@ -239,8 +227,8 @@ export class CurveHighlight {
 }
 
 /**
- * The position of a label of a given size next to a point, before or after it as preferred, if there is
- * space.
+ * The position of a label of a given size next to a point, before or after it as preferred, if there is space.
+ * @param {number} at @param {number} size @param {number} available @param {boolean} isBefore
  */
 function positionNextTo(at, size, available, isBefore) {
   const [before, after] = [at - 16 - size, at + 16];

@@ -15,12 +15,13 @@ export function solveCurve(kernel, requested, circuit = null) {
     const { circuits, shown, is_length: isLength } = answer;
     const { passes, closed } = circuits[shown];
     return {
-      path: (tolerance) => orNull(() => study.path(tolerance).lead),
+      path: (/** @type {number} */ tolerance) => orNull(() => study.path(tolerance).lead),
       closed,
       isLength,
       passes,
-      nearTo: (x, y) => orNull(() => study.nearest(x, y)),
-      atInput: (pass, input) => orNull(() => study.reading(pass, input)),
+      nearTo: (/** @type {number} */ x, /** @type {number} */ y) => orNull(() => study.nearest(x, y)),
+      atInput: (/** @type {number} */ pass, /** @type {number} */ input) =>
+        orNull(() => study.reading(pass, input)),
       close: () => study.close(),
     };
   });
@@ -35,10 +36,7 @@ function orNull(work) {
   }
 }
 
-/**
- * The readings at a point of a curve: [[name, value with unit], …].
- * @param {Reading} _ @param {SolvedCurve} _1
- */
+/** The readings at a point of a curve: [[name, value with unit], …]. @param {Reading} _ @param {SolvedCurve} _1 */
 export function readingRows({ input, speed, mu }, { isLength, passes }) {
   return [
     ["input", isLength ? formatNumber(input) : formatInputAngle(input, passes)],
@@ -48,7 +46,7 @@ export function readingRows({ input, speed, mu }, { isLength, passes }) {
 }
 
 /** Degrees of input; for a full rotation, the end of the period equals its start. @param {Pass[]} passes */
-function formatInputAngle(input, passes) {
+function formatInputAngle(/** @type {number} */ input, passes) {
   const text = input.toFixed(1);
   const period = Math.abs(passes[0].to - passes[0].from);
   if (passes.length === 1 && period % 360 === 0 && text === period.toFixed(1)) return "0.0°";

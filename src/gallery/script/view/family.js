@@ -1,6 +1,7 @@
 // A family: its description, and its pages or curves as a grid of thumbnails.
 
 import { address, curveAddress } from "../data/address.js";
+import { listedFamily } from "../data/atlas.js";
 import { curveCaption, curveKey } from "../data/family.js";
 import { isFullyLoaded, isScattered, needCurveWithKey, needCurves, needPage } from "../data/needs.js";
 import { elementIn, fill, h } from "./dom.js";
@@ -13,17 +14,14 @@ import { thumbnail } from "./thumbnail.js";
 import { pageField } from "./page-bar.js";
 import { pageLabel } from "./page-panel.js";
 
-/**
- * The route of a family: `#/evans` its pages, `#/evans?show=curves` its curves; `?page=3` scrolls to that
- * page's tile.
- */
+/** The route of a family: `#/evans` its pages, `#/evans?show=curves` its curves; `?page=3` scrolls to that page's tile. @type {Route} */
 export const familyRoute = {
   name: "sheet",
   parent: "families",
   matches: ({ path }, app) => path.length === 1 && app.atlas.families.some(({ id }) => id === path[0]),
   open: async (app, { path: [id], query }) => {
     const family = await app.atlas.family(id);
-    const listed = app.atlas.families.find((candidate) => candidate.id === id);
+    const listed = listedFamily(app.atlas, id);
     // Pages are shown if they are written as files, or their layouts are in the data.
     const hasPages = listed.pages > 0 && (listed.page_format !== null || family.pageCount > 0);
     const hasCurves = query.word("show", ["curves", "pages"]) === "curves" || !hasPages;
@@ -38,7 +36,7 @@ export const familyRoute = {
       element: h(
         "div.view.wide.family-view",
         familyHeader(family, listed),
-        familyToolbar(/** @type {App} */ app, /** @type {Family} */ family, listed, { hasCurves, hasPages }),
+        familyToolbar(app, family, listed, { hasCurves, hasPages }),
         tiles.element,
       ),
       shown: () => {
@@ -73,8 +71,9 @@ function samplingLabel(/** @type {Family["sampling"]} */ { step, samples, spacin
   return `${samples} samples per circuit${spacing ? `, ${spacing} spacing` : ""}`;
 }
 
-/** @param {Family} family @param {ListedFamily} listed */
+/** @param {App} app @param {Family} family @param {ListedFamily} listed @param {Record<"hasCurves" | "hasPages", boolean>} _ */
 function familyToolbar(app, family, listed, { hasCurves, hasPages }) {
+  /** @param {string} label @param {Record<string, string>} query @param {boolean} isHere */
   const way = (label, query, isHere) =>
     h("a.button", { href: address([family.id], query), "aria-current": isHere ? "true" : null }, label);
   const ways = [hasPages ? way("Pages", {}, !hasCurves) : null, way("Curves", { show: "curves" }, hasCurves)];
@@ -87,7 +86,7 @@ function familyToolbar(app, family, listed, { hasCurves, hasPages }) {
 }
 
 function pageJump(/** @type {App} */ app, /** @type {Family} */ family, /** @type {ListedFamily} */ listed) {
-  const go = (page) => app.go(address([family.id, page]));
+  const go = (/** @type {number} */ page) => app.go(address([family.id, page]));
   return h("div.end", pageField(listed, "Go to page", go).element);
 }
 
@@ -102,12 +101,8 @@ function pageTiles(/** @type {App} */ app, /** @type {Family} */ family, /** @ty
     label: "Pages",
     tile: (k) => {
       const words = [h("span.visually-hidden", "Page "), h("b", `${k + 1}`), " ", h("span.page-caption")];
-      const link = h(
-        "a",
-        { href: address([family.id, k + 1]) },
-        h("span.tile-picture"),
-        h("span.label", words),
-      );
+      const parts = [h("span.tile-picture"), h("span.label", words)];
+      const link = h("a", { href: address([family.id, k + 1]) }, parts);
       return h("li", link);
     },
     need: (k) => (isScattered(family) ? null : needPage(family, k + 1)),

@@ -13,14 +13,33 @@ const commandsOf = new WeakMap();
 export function onKeys(element, where, commands, target = element) {
   element.setAttribute("data-keys", where);
   commandsOf.set(element, [...(commandsOf.get(element) ?? []), ...commands]);
-  const listener = (event) => {
-    if (event.defaultPrevented || isShortcut(event) || isTyped(event.target)) return;
+  const listener = (/** @type {Event} */ event) => {
+    if (
+      !(event instanceof KeyboardEvent) ||
+      event.defaultPrevented ||
+      isShortcut(event) ||
+      isTyped(event.target)
+    )
+      return;
     const key = event.key === " " ? "Space" : event.key.length === 1 ? event.key.toLowerCase() : event.key;
     const act = commands.find(([keys]) => keys.split(" ").includes(key))?.[2];
     if (act && act(event) !== false) event.preventDefault();
   };
   target.addEventListener("keydown", listener);
   return () => target.removeEventListener("keydown", listener);
+}
+
+/** The steps of a slider by a key, `page` of them by Page Up; undefined for other keys. @returns {number | undefined} */
+export function stepsOfKey(/** @type {KeyboardEvent} */ { key }, /** @type {number} */ page) {
+  return { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -page, PageUp: page }[key];
+}
+
+/** @type {Record<string, Point>} */
+const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+
+/** The direction of an arrow key, [right, up]; undefined for other keys. @returns {Point | undefined} */
+export function directionOfKey(/** @type {KeyboardEvent} */ { key }) {
+  return ARROWS[key];
 }
 
 /** Whether keys at an element are text or a choice of its own. */
@@ -31,6 +50,7 @@ function isTyped(/** @type {EventTarget | null} */ target) {
   );
 }
 
+/** @type {Record<string, string>} */
 const KEY_NAMES = { ArrowLeft: "←", ArrowRight: "→", ArrowUp: "↑", ArrowDown: "↓", Escape: "Esc" };
 
 /** Opens the dialog of the keys that work in the document, and more, by where they work. @param {KeyCommand[]} more */
@@ -41,17 +61,18 @@ export function showKeys(more) {
     groups.set(where, [...(groups.get(where) ?? []), ...(commandsOf.get(element) ?? [])]);
   }
   [...groups.values()].at(-1)?.push(...more);
-  const name = (key) => h("kbd", KEY_NAMES[key] ?? key.replace(/^Page/, "Page "));
+  const name = (/** @type {string} */ key) => h("kbd", KEY_NAMES[key] ?? key.replace(/^Page/, "Page "));
   const row = (/** @type {KeyCommand} */ [keys, words]) => [
     keys.split(" ").map((key) => [name(key), " "]),
     words,
   ];
   const lists = [...groups].map(([where, all]) => [h("h3", where), termList("dl.facts", all.map(row))]);
   const title = h("h2", { id: "keys-title" }, "Keys");
-  const close = buttonOf("Close", () => dialog.close());
+  const dialog = h("dialog.keys", { "aria-labelledby": title.id }, title, lists);
+  dialog.append(buttonOf("Close", () => dialog.close()));
+  dialog.onclose = () => dialog.remove();
   // Keys of the view do not apply while it is open.
-  const on = { onclose: () => dialog.remove(), onkeydown: (event) => event.stopPropagation() };
-  const dialog = h("dialog.keys", { "aria-labelledby": title.id, ...on }, title, lists, close);
+  dialog.onkeydown = (event) => event.stopPropagation();
   document.body.append(dialog);
   dialog.showModal();
 }

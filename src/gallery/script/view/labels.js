@@ -3,39 +3,26 @@
 import { measureValue } from "../data/family.js";
 import { h } from "./dom.js";
 
-// The labels of measures other than their names in words.
+/** The labels of measures other than their names in words. @type {Record<string, string>} */
 const MEASURE_LABELS = {
   shortest: "shortest link",
   six_bar: "kind of six-bar",
   is_full_turn: "full turn of the input",
-  input_min_deg: "least input",
-  input_max_deg: "greatest input",
-  limit_positions: "limit positions",
-  mu_min_deg: "least transmission angle",
-  mu_max_deg: "greatest transmission angle",
+  mu: "transmission angle",
+  bbox_x: "x",
+  bbox_y: "y",
   mu_worst_deg: "worst transmission angle",
-  output_min: "least output",
-  output_max: "greatest output",
   output_swing_deg: "swing of the output",
   output_stroke: "stroke of the output",
   output_dwell_deg: "range of input of the output's dwell",
   output_dwell_start_deg: "its start input",
   toggles: "toggle positions",
-  velocity_ratio_min: "least velocity ratio",
-  velocity_ratio_max: "greatest velocity ratio",
-  mechanical_advantage_min: "least mechanical advantage",
-  mechanical_advantage_max: "greatest mechanical advantage",
   torque_peak: "greatest input torque",
   torque_peak_deg: "input at the greatest torque",
   torque_min: "least input torque, signed",
   torque_max: "greatest input torque, signed",
   length: "path length",
-  bbox_x_min: "least x",
-  bbox_x_max: "greatest x",
-  bbox_y_min: "least y",
-  bbox_y_max: "greatest y",
   symmetry_deg: "direction of the symmetry axis",
-  curvature_max: "greatest curvature",
   straight_length: "length of the straight portion",
   straight_deviation: "its deviation from the line",
   straight_start_deg: "its start input",
@@ -48,30 +35,25 @@ const MEASURE_LABELS = {
   dwell_y: "its centre, y",
 };
 
-const STANDALONE_LABELS = {
-  output_dwell_start_deg: "start input of the output's dwell",
-  straight_deviation: "deviation of the straight portion",
-  straight_start_deg: "start input of the straight portion",
-  straight_input_deg: "range of input of the straight portion",
-  dwell_radius: "radius of the circular portion",
-  dwell_deviation: "deviation of the circular portion",
-  dwell_start_deg: "start input of the circular portion",
-  dwell_x: "centre of the circular portion, x",
-  dwell_y: "centre of the circular portion, y",
-};
+/** The portions of a curve that measures are of, by the beginnings of their names. */
+const PORTIONS = { output_dwell: "output's dwell", straight: "straight portion", dwell: "circular portion" };
 
 /** The label of a measure outside the order of the columns. */
-export function standaloneMeasureLabel(name) {
-  return STANDALONE_LABELS[name] ?? measureLabel(name);
+export function standaloneMeasureLabel(/** @type {string} */ name) {
+  const portion = Object.entries(PORTIONS).find(([begins]) => name.startsWith(begins))?.[1];
+  return measureLabel(name).replace(/^its ([^,]+?)(?: from the \w+)?(?=,|$)/, `$1 of the ${portion}`);
 }
 
 /** The label of a measure in the order of the columns, where "its" refers to the portion before. */
-export function measureLabel(name) {
-  return MEASURE_LABELS[name] ?? name.replace(/_deg$/, "").replaceAll("_", " ");
+export function measureLabel(/** @type {string} */ name) {
+  if (name in MEASURE_LABELS) return MEASURE_LABELS[name];
+  const [, base, end] = /^(.*?)(_min|_max)?(?:_deg)?$/.exec(name) ?? [];
+  const words = MEASURE_LABELS[base] ?? base.replaceAll("_", " ");
+  return end ? `${end === "_min" ? "least" : "greatest"} ${words}` : words;
 }
 
 /** A number with significant digits, without trailing zeros and with a true minus sign. */
-export function formatNumber(number, digits = 4) {
+export function formatNumber(/** @type {number} */ number, digits = 4) {
   if (number === Infinity) return "unbounded";
   if (number === -Infinity) return "unbounded below";
   if (!Number.isFinite(number)) return "–";
@@ -83,23 +65,23 @@ export function formatNumber(number, digits = 4) {
   return String(Number(number.toPrecision(digits))).replace("-", "−");
 }
 
-/** The value of a measure with its unit; undefined if it does not apply. */
-export function measureText(/** @type {Family} */ family, curve, { name, unit }) {
+/**
+ * The value of a measure with its unit; undefined if it does not apply.
+ * @param {Family} family @param {number} curve @param {Pick<Measure, "name" | "unit">} _
+ */
+export function measureText(family, curve, { name, unit }) {
   const value = measureValue(family, curve, name);
   if (value === undefined || typeof value === "string") return value?.replace(/^theorem(\d)/, "theorem $1");
   return isInDegrees(family, { name, unit }) ? `${formatNumber(value)}°` : formatNumber(value);
 }
 
-/**
- * Whether a measure of a family is in degrees: if the input is a length, inputs are not.
- * @param {Family} _ @param {Pick<Measure, "name" | "unit">} _1
- */
-export function isInDegrees({ is_length: isLength }, { name, unit }) {
+/** Whether a measure of a family is in degrees: if the input is a length, inputs are not. @param {Family} _ @param {Pick<Measure, "name" | "unit">} _1 */
+function isInDegrees({ is_length: isLength }, { name, unit }) {
   return unit === "deg" && !(isLength && /^(straight|dwell|output_dwell|input)_/.test(name));
 }
 
 /** A caption as on the page: names before an equals sign in italics, with no line break in "a = 2.59". */
-export function formatCaption(caption) {
+export function formatCaption(/** @type {string} */ caption) {
   return caption
     .split(/([A-Za-z][\w]*(?= = ))/)
     .map((part, k) => (k % 2 ? h("i", part) : part.replaceAll(" = ", "\u00a0=\u00a0")));
@@ -110,6 +92,7 @@ export function formatChanges(/** @type {Map<string, number>} */ changes) {
   return `with ${[...changes].map(([name, value]) => `${name} = ${formatNumber(value, 10)}`).join(", ")}`;
 }
 
+/** @type {Record<string, string>} */
 const COLUMN_LABELS = {
   straight_tolerance: "deviation of the straight portion, by its length",
   straight_share: "length of the straight portion, by the extent",
@@ -118,12 +101,12 @@ const COLUMN_LABELS = {
 };
 
 /** The label of a column. */
-export function columnLabel(name) {
+export function columnLabel(/** @type {string} */ name) {
   if (name.startsWith("p.")) return `parameter ${name.slice(2)}`;
   return COLUMN_LABELS[name] ?? standaloneMeasureLabel(name);
 }
 
-/** The value of a row of a table in a column, formatted. */
+/** The value of a row of a table in a column, formatted. @param {number} row */
 export function rowText(/** @type {CurveTable} */ table, /** @type {Column} */ column, row) {
   if (column.kind === "words") {
     const { values, codes } = table.words(column.name);
@@ -135,7 +118,7 @@ export function rowText(/** @type {CurveTable} */ table, /** @type {Column} */ c
 }
 
 /** A length or speed in four significant digits, with a true minus sign. */
-export function formatLength(value) {
+export function formatLength(/** @type {number} */ value) {
   if (!Number.isFinite(value)) return "∞";
   if (value === 0) return "0";
   const exponent = Math.floor(Math.log10(Math.abs(value)));
@@ -144,18 +127,18 @@ export function formatLength(value) {
 }
 
 /** A number with a fixed number of decimals and a true minus sign. */
-export function formatDecimals(value, decimals) {
+export function formatDecimals(/** @type {number} */ value, /** @type {number} */ decimals) {
   const text = value.toFixed(decimals);
   return Number(text) === 0 ? (0).toFixed(decimals) : text.replace("-", "−");
 }
 
 /** A count with its noun: "1 page", "7,800 curves". */
-export function formatCount(number, one, many = `${one}s`) {
+export function formatCount(/** @type {number} */ number, /** @type {string} */ one, many = `${one}s`) {
   return `${number.toLocaleString("en")} ${number === 1 ? one : many}`;
 }
 
 /** A number of bytes in decimal units: "380 kB", "6.4 MB". */
-export function formatBytes(bytes) {
+export function formatBytes(/** @type {number} */ bytes) {
   if (bytes < 1e6) return `${Math.round(bytes / 1000)} kB`;
   return `${(bytes / 1e6).toFixed(1)} MB`;
 }

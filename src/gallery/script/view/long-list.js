@@ -9,41 +9,37 @@ export const MAX_HEIGHT = 15e6;
  * The pixels of content per pixel scrolled, of a list of a height in a window: 1, unless the list is too
  * high. Its element then has the greatest height, and scrolling moves the content faster.
  */
-export function scrollScale(height, windowHeight) {
+export function scrollScale(/** @type {number} */ height, /** @type {number} */ windowHeight) {
   return height <= MAX_HEIGHT ? 1 : (height - windowHeight) / (MAX_HEIGHT - windowHeight);
 }
 
 /**
- * Calls `layOut()` before printing, which puts the printed items into the document and returns a line to
- * precede them, or null, and `restore()` afterwards. Returns { isPrinting, end() }.
+ * Calls `printed()` before printing, which puts the printed items of a list into the document and returns a line to precede them, or null,
+ * and `fill()` afterwards. Returns { isPrinting, end() }.
+ * @param {{ element: Element, printed(): Element | null, fill(): void }} list
  */
-export function onPrint(element, layOut, restore) {
-  let line = null;
-  const state = {
-    isPrinting: false,
-    end: () => {
-      window.removeEventListener("beforeprint", before);
-      window.removeEventListener("afterprint", after);
-    },
-  };
+export function onPrint(list) {
+  /** @type {Element | null} */ let line = null;
+  const listening = new AbortController();
+  const state = { isPrinting: false, end: () => listening.abort() };
   const before = () => {
-    if (!element.isConnected || state.isPrinting) return;
+    if (!list.element.isConnected || state.isPrinting) return;
     state.isPrinting = true;
-    line = layOut();
-    if (line) element.before(line);
+    line = list.printed();
+    if (line) list.element.before(line);
   };
   const after = () => {
     if (!state.isPrinting) return;
     state.isPrinting = false;
     line?.remove();
-    restore();
+    list.fill();
   };
-  window.addEventListener("beforeprint", before);
-  window.addEventListener("afterprint", after);
+  window.addEventListener("beforeprint", before, { signal: listening.signal });
+  window.addEventListener("afterprint", after, { signal: listening.signal });
   return state;
 }
 
-/** A line that says how many of how many things are printed; null for one or none. */
+/** A line that says how many of how many things are printed; null for one or none. @param {number} printed @param {number} count @param {string} things */
 export function printedCountNote(printed, count, things) {
   if (count < 2) return null;
   const [some, all] = [printed, count].map((number) => number.toLocaleString("en"));

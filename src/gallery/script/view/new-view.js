@@ -3,7 +3,7 @@
 import { matchesRoute, newAddress, routeAddress } from "../data/address.js";
 import { h } from "./dom.js";
 
-/** The route `#/new`. */
+/** The route `#/new`. @type {Route} */
 export const newRoute = {
   name: "new",
   label: "New",
@@ -11,7 +11,8 @@ export const newRoute = {
   matches: (target, app) => matchesRoute("new", target, app),
   open: async (/** @type {App} */ app) => {
     const linkages = await app.atlas.linkages();
-    const item = ({ id, legend }) => h("li", h("a", { href: newAddress(id) }, id), h("p.note", legend));
+    const item = (/** @type {NewLinkage} */ { id, legend }) =>
+      h("li", h("a", { href: newAddress(id) }, id), h("p.note", legend));
     const lede = "A plate of a linkage of the catalogue, or of one of this atlas, with values to begin with";
     const heading = h("div", h("h1", "New"), h("p.lede", lede));
     return {

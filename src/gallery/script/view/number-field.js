@@ -11,10 +11,7 @@ export class NumberField {
   /** Why the text is no number, and why the number is wrong. @type {string | null} */ wrong = null;
   /** @type {string | null} */ outer = null;
 
-  /**
-   * @param {object} attributes
-   * @param {{ change(value: number): void, settle?(): void, step?(by: number): void, empty?(): void, units?: string[] }} on
-   */
+  /** @param {object} attributes @param {{ change(value: number): void, settle?(): void, step?(by: number): void, empty?(): void, units?: string[] }} on */
   constructor(attributes, on) {
     this.on = on;
     this.element = h("input", {
@@ -30,7 +27,7 @@ export class NumberField {
   }
 
   /** Shows a number, in words if they are others; what is being typed stays. */
-  show(value, text = value === undefined ? "" : String(value)) {
+  show(/** @type {number | undefined} */ value, text = value === undefined ? "" : String(value)) {
     const { element } = this;
     element.setAttribute("aria-valuenow", Number.isFinite(value) ? String(value) : "");
     if (document.activeElement === element && !element.readOnly) return;

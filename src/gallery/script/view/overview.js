@@ -1,6 +1,7 @@
 // All families of the atlas, each with its first page.
 
 import { address } from "../data/address.js";
+import { sumOf } from "../data/number.js";
 import { elementIn, fill, h } from "./dom.js";
 import { notAssembledNote } from "./not-assembled.js";
 import { pageThumbnail } from "./page-thumbnail.js";
@@ -11,7 +12,7 @@ const MANY_FAMILIES = 8;
 // Fewer families than this are shown large.
 const FEW_FAMILIES = 4;
 
-/** The route of all families; `#/?q=straight` shows those that match the words. */
+/** The route of all families; `#/?q=straight` shows those that match the words. @type {Route} */
 export const overviewRoute = {
   name: "families",
   label: "Families",
@@ -19,8 +20,9 @@ export const overviewRoute = {
   matches: ({ path }) => path.length === 0,
   open: (app, { query }) => {
     const { families, title } = app.atlas;
+    /** @type {Map<HTMLElement, ListedFamily>} */
     const tiles = new Map(families.map((family) => [familyTile(family), family]));
-    const sight = onceVisible((tile) => showFirstPage(app, tiles.get(tile), tile));
+    const sight = onceVisible((tile) => showFirstPage(app, tile, tiles.get(tile)?.id ?? ""));
     const list = h(families.length < FEW_FAMILIES ? "ul.families.few" : "ul.families", [...tiles.keys()]);
     const hasSearch = families.length >= MANY_FAMILIES;
     const heading = h("div", h("h1", title), h("p.lede", atlasSummary(families)));
@@ -38,9 +40,8 @@ export const overviewRoute = {
 };
 
 function atlasSummary(/** @type {ListedFamily[]} */ families) {
-  const sum = (/** @type {(family: ListedFamily) => number} */ of) =>
-    families.reduce((total, family) => total + of(family), 0);
-  const [curves, kept, pages] = [sum((f) => f.curves), sum((f) => f.kept), sum((f) => f.pages)];
+  const [curves, kept] = [sumOf(families, (one) => one.curves), sumOf(families, (one) => one.kept)];
+  const pages = sumOf(families, (one) => one.pages);
   return `${formatCount(curves, "curve")} of ${formatCount(kept, "linkage")} on ${formatCount(pages, "page")}`;
 }
 
@@ -67,7 +68,8 @@ export function familySource({ source, legend }) {
   return legend && source?.endsWith(ending) ? source.slice(0, -ending.length) : (source ?? "");
 }
 
-async function showFirstPage(/** @type {App} */ app, /** @type {ListedFamily} */ { id }, tile) {
+/** @param {App} app @param {HTMLElement} tile @param {string} id */
+async function showFirstPage(app, tile, id) {
   const picture = elementIn(tile, ".tile-picture");
   try {
     const family = await app.atlas.family(id);
@@ -80,13 +82,12 @@ async function showFirstPage(/** @type {App} */ app, /** @type {ListedFamily} */
 }
 
 /**
- * A field that shows only the families whose title, linkage or id contains all its words; the address
- * contains them.
+ * A field that shows only the families whose title, linkage or id contains all its words; the address contains them.
  * @param {App} app @param {Map<HTMLElement, ListedFamily>} tiles @param {string} query
  */
 function familySearch(app, tiles, query) {
   const total = tiles.size;
-  const leave = (text) => {
+  const leave = (/** @type {string} */ text) => {
     const words = text.toLowerCase().split(/\s+/).filter(Boolean);
     let left = 0;
     for (const [tile, { id, title, linkage }] of tiles) {
@@ -96,29 +97,29 @@ function familySearch(app, tiles, query) {
     }
     return left === total ? `All ${total} families` : formatCount(left, "family", "families");
   };
-  const seek = (event) => {
-    app.announce(leave(event.target.value));
-    app.replace(address([], { q: event.target.value.trim() }));
+  const seek = (/** @type {Heard<Event, HTMLInputElement>} */ { target }) => {
+    app.announce(leave(target.value));
+    app.replace(address([], { q: target.value.trim() }));
   };
   leave(query);
   const attributes = { type: "search", value: query, "aria-label": "Search families by name", oninput: seek };
   return h("div.field", h("input", { ...attributes, placeholder: `Search ${total} families` }));
 }
 
-/**
- * Calls `seen(element)` once for each watched element when it comes within half a window height of the
- * window. Returns { watch(element), end() }.
- */
-export function onceVisible(seen) {
+/** Calls `seen(element)` once for each watched element when it comes within half a window height of the window. Returns { watch(element), end() }. */
+function onceVisible(/** @type {(element: HTMLElement) => void} */ seen) {
   const observer = new IntersectionObserver(
     (entries) => {
       for (const { target, isIntersecting } of entries) {
         if (!isIntersecting) continue;
         observer.unobserve(target);
-        seen(target);
+        seen(/** @type {HTMLElement} */ (target));
       }
     },
     { rootMargin: "50% 0px" },
   );
-  return { watch: (element) => observer.observe(element), end: () => observer.disconnect() };
+  return {
+    watch: (/** @type {HTMLElement} */ element) => observer.observe(element),
+    end: () => observer.disconnect(),
+  };
 }

@@ -9,8 +9,9 @@ import { printedColorsButton } from "./settings.js";
 /**
  * The toolbar: links to the previous and next page, a field for the page number, and zoom buttons. `go(page)`
  * opens a page, `zoom()` returns the Zoom.
+ * @param {ListedFamily} listed @param {{ go(page: number): void, zoom(): Zoom }} _
  */
-export function pageBar(/** @type {ListedFamily} */ listed, { go, zoom }) {
+export function pageBar(listed, { go, zoom }) {
   const contents = h("a.button.contents", "All pages");
   const [before, after] = [stepLink("Previous page", "←", "prev"), stepLink("Next page", "→", "next")];
   const number = pageField(listed, "page", go);
@@ -18,12 +19,14 @@ export function pageBar(/** @type {ListedFamily} */ listed, { go, zoom }) {
   const steps = h("div.segments", before, after);
   const parts = [contents, steps, number.element, printedColorsButton(), controls.element];
   const element = h("div.toolbar.page-bar", parts);
-  const update = ({ page, magnification, isFit }) => {
+  const update = (
+    /** @type {{ page: number, magnification: number, isFit: boolean }} */ { page, magnification, isFit },
+  ) => {
     contents.setAttribute("href", address([listed.id], { page }));
     setStepTarget(before, listed, page - 1);
     setStepTarget(after, listed, page + 1);
     if (document.activeElement !== number.field) {
-      number.field.value = page;
+      number.field.value = String(page);
       number.field.removeAttribute("aria-invalid");
     }
     controls.update(magnification, isFit);
@@ -31,11 +34,11 @@ export function pageBar(/** @type {ListedFamily} */ listed, { go, zoom }) {
   return { element, update };
 }
 
-function stepLink(label, sign, rel) {
+function stepLink(/** @type {string} */ label, /** @type {string} */ sign, /** @type {string} */ rel) {
   return h("a.button", { rel, "aria-label": label, title: label, role: "link" }, sign);
 }
 
-/** Points a link at a page, or disables it if there is no such page. */
+/** Points a link at a page, or disables it if there is no such page. @param {Element} link @param {number} page */
 function setStepTarget(link, /** @type {ListedFamily} */ { id, pages }, page) {
   const isThere = page >= 1 && page <= pages;
   if (isThere) link.setAttribute("href", address([id, page]));
@@ -43,13 +46,13 @@ function setStepTarget(link, /** @type {ListedFamily} */ { id, pages }, page) {
   link.setAttribute("aria-disabled", String(!isThere));
 }
 
-function zoomControls(zoom) {
+function zoomControls(/** @type {() => Zoom} */ zoom) {
   const level = h("span.zoom-level");
-  const button = (label, sign, factor) =>
+  const button = (/** @type {string} */ label, /** @type {string} */ sign, /** @type {number} */ factor) =>
     buttonOf(sign, () => zoom().zoomBy(factor), { "aria-label": label, title: label });
   const whole = buttonOf("Fit", () => zoom().fit());
   const segments = h("div.segments", button("Zoom out", "−", 1 / 1.5), whole, button("Zoom in", "+", 1.5));
-  const update = (magnification, isFit) => {
+  const update = (/** @type {number} */ magnification, /** @type {boolean} */ isFit) => {
     level.textContent = `${Math.round(magnification * 100)} %`;
     whole.setAttribute("aria-pressed", String(isFit));
   };
@@ -76,10 +79,13 @@ export function readPageZoom(/** @type {AddressQuery} */ query) {
   return near > 1 && isPlace ? { near, place: [x, y] } : null;
 }
 
-/** A form { element, field } for one of the `pages` of a family; calls `go(page)` with a valid number. */
+/**
+ * A form { element, field } for one of the `pages` of a family; calls `go(page)` with a valid number.
+ * @param {string} label @param {(page: number) => void} go
+ */
 export function pageField(/** @type {ListedFamily} */ { pages }, label, go) {
   const field = h("input", { type: "text", inputmode: "numeric", role: "spinbutton", "aria-label": "Page" });
-  const submit = (event) => {
+  const submit = (/** @type {Event} */ event) => {
     event.preventDefault();
     const found = parseNumber(field.value);
     const page = "value" in found ? found.value : NaN;

@@ -1,7 +1,7 @@
 // The keyboard commands of a page.
 
 import { h } from "./dom.js";
-import { onKeys } from "./keys.js";
+import { directionOfKey, onKeys } from "./keys.js";
 
 /** Handles the keys on a page, and on its curves. @param {PageView} view */
 export function watchPageKeys(view) {
@@ -11,11 +11,11 @@ export function watchPageKeys(view) {
 
 /** @param {PageView} view @returns {KeyCommand[]} */
 function pageCommands(view) {
-  const pan = ({ key }) => {
-    const [dx, dy] = [view.viewport.clientWidth / 8, view.viewport.clientHeight / 8];
-    const ways = { ArrowLeft: [dx, 0], ArrowRight: [-dx, 0], ArrowUp: [0, dy], ArrowDown: [0, -dy] };
+  const pan = (/** @type {KeyboardEvent} */ event) => {
+    const [right, up] = directionOfKey(event) ?? [0, 0];
+    const { clientWidth, clientHeight } = view.viewport;
     // When the whole page is visible, the arrow keys scroll the window.
-    return !view.zoom.isFit && view.zoom.pan(...ways[key]);
+    return !view.zoom.isFit && view.zoom.pan((-right * clientWidth) / 8, (up * clientHeight) / 8);
   };
   return [
     ["+ =", "zoom in", () => view.zoom.zoomBy(1.5)],
@@ -32,20 +32,22 @@ function pageCommands(view) {
 
 /** @param {PageView} view @returns {KeyCommand[]} */
 function curveCommands(view) {
+  /** @type {Record<string, number>} */
   const along = { ArrowRight: 5, ArrowLeft: -5, ArrowUp: 30, ArrowDown: -30 };
-  const step = (by) => (event) => {
+  const step = (/** @type {number} */ by) => (/** @type {KeyboardEvent} */ event) => {
     if (event.shiftKey) return view.highlight.stepAlong(along[event.key]);
     return to((at) => at + by)(event);
   };
-  const to = (next) => (event) => {
-    const links = [...(view.overlay?.links.values() ?? [])];
-    const at = links.indexOf(event.target.closest("a[data-curve]"));
-    if (at < 0) return false;
-    links.forEach((other) => other.setAttribute("tabindex", "-1"));
-    const link = links[(next(at, links.length) + links.length) % links.length];
-    link.setAttribute("tabindex", "0");
-    return link.focus({ preventScroll: true });
-  };
+  const to =
+    (/** @type {(at: number, count: number) => number} */ next) => (/** @type {KeyboardEvent} */ event) => {
+      const links = [...(view.overlay?.links.values() ?? [])];
+      const at = links.findIndex((link) => event.target instanceof Node && link.contains(event.target));
+      if (at < 0) return false;
+      links.forEach((other) => other.setAttribute("tabindex", "-1"));
+      const link = links[(next(at, links.length) + links.length) % links.length];
+      link.setAttribute("tabindex", "0");
+      return link.focus({ preventScroll: true });
+    };
   return [
     ["ArrowRight ArrowDown", "next curve; with Shift along the curve", step(1)],
     ["ArrowLeft ArrowUp", "previous curve; with Shift along the curve", step(-1)],

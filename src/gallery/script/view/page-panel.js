@@ -1,7 +1,7 @@
 // The panel next to a page: its list of curves, or the highlighted curve.
 
 import { address, curveAddress } from "../data/address.js";
-import { cellCaption, cellText, curveKey, measureValue, pageViews } from "../data/family.js";
+import { cellCaption, cellText, cellValues, curveKey, measureValue, pageViews } from "../data/family.js";
 import { buttonOf, h, termList } from "./dom.js";
 import { formatCaption, formatNumber, measureLabel, measureText, formatCount } from "./labels.js";
 import { thumbnail } from "./thumbnail.js";
@@ -10,26 +10,23 @@ import { pinButton } from "./pins.js";
 
 /**
  * The curves of a page as links, and the linkages that could not be assembled.
- * @param {Family} family @param {DrawnCurve[]} drawn
+ * @param {Family} family @param {number} page @param {DrawnCurve[]} drawn @param {{ one?: boolean, onenter(curve: number): void, onleave(): void }} _
  */
 export function curveListPanel(family, page, drawn, { onenter, onleave }) {
   // If all curves are of one linkage, each row shows only its point.
   const one = drawn.length > 1 && drawn.every(({ view }) => view.cell === drawn[0].view.cell);
-  const links = drawn.map(({ curve }) => curveRow(family, curve, { one, onenter, onleave }));
+  const links = drawn.map(({ curve }) => h("li", curveRow(family, curve, { one, onenter, onleave })));
   const short = cellsOnPage(family, page).filter((cell) => family.cells.status[cell] === 2);
   return h(
     "div.panel",
     one ? h("h2", formatCaption(cellLabel(family, drawn[0].view.cell, "Linkage"))) : null,
     drawn.length ? curveCount(drawn.length, one) : noCurvesNote(family),
-    h(
-      "ol.page-curves",
-      links.map((link) => h("li", link)),
-    ),
+    h("ol.page-curves", links),
     short.length ? notAssembledList(family, short) : null,
   );
 }
 
-function curveCount(count, isBelowHeading) {
+function curveCount(/** @type {number} */ count, /** @type {boolean} */ isBelowHeading) {
   const sum = `${count} ${count === 1 ? "curve" : "curves"} on this page`;
   return isBelowHeading ? h("p.note", sum) : h("h2", sum);
 }
@@ -43,23 +40,24 @@ function noCurvesNote(/** @type {Family} */ family) {
 }
 
 /** The caption of a cell, or its number after a word. */
-function cellLabel(/** @type {Family} */ family, cell, word) {
+function cellLabel(/** @type {Family} */ family, /** @type {number} */ cell, /** @type {string} */ word) {
   return cellCaption(family, cell) || `${word} ${family.cells.number[cell]}`;
 }
 
-function curveRow(/** @type {Family} */ family, curve, { one, onenter, onleave }) {
+/** @param {Family} family @param {number} curve @param {{ one?: boolean, onenter(curve: number): void, onleave(): void }} _ */
+function curveRow(family, curve, { one, onenter, onleave }) {
   const { cell, circuit } = family.curves;
   const caption = one ? null : cellLabel(family, cell[curve], "linkage");
   const point = pointLabel(family, curve);
   const hasCircuit = circuit[curve] > 1 || (one && !point);
   const words = [caption, point, hasCircuit ? `circuit ${circuit[curve]}` : null];
+  const over = { onpointerenter: () => onenter(curve), onpointerleave: onleave };
   return h(
     "a",
     {
       href: curveAddress(family.id, curveKey(family, curve)),
-      onpointerenter: () => onenter(curve),
-      onfocus: () => onenter(curve),
-      onpointerleave: onleave,
+      ...over,
+      onfocus: over.onpointerenter,
       onblur: onleave,
     },
     thumbnail(family, [curve], { width: 44, height: 30 }),
@@ -68,35 +66,35 @@ function curveRow(/** @type {Family} */ family, curve, { one, onenter, onleave }
 }
 
 /** The label of the traced point of a curve, if the linkage has several. @param {Family} family */
-export function pointLabel(family, curve) {
+export function pointLabel(family, /** @type {number} */ curve) {
   return family.traces > 1 ? `point ${family.curves.trace[curve]}` : "";
 }
 
 /** The linkages that could not be assembled, each with the reason. @param {Family} family */
-function notAssembledList(family, cells) {
-  const item = (cell) => {
+function notAssembledList(family, /** @type {number[]} */ cells) {
+  const item = (/** @type {number} */ cell) => {
     const reason = h("span.note", ` ${cellText(family, cell, "reason")}`);
     return h("li", h("b", formatCaption(cellLabel(family, cell, "linkage"))), reason);
   };
   return h("section.not-assembled", h("h3", "Could not be assembled"), h("ul", cells.map(item)));
 }
 
-/** The data of a curve: caption, class, parameters, measures and actions. */
-export function curvePanel(/** @type {App} */ app, /** @type {Family} */ family, curve, { onall }) {
+/**
+ * The data of a curve: caption, class, parameters, measures and actions.
+ * @param {App} app @param {Family} family @param {number} curve @param {{ onall(): void }} _
+ */
+export function curvePanel(app, family, curve, { onall }) {
   const { cell, closed } = family.curves;
   const at = cell[curve];
   const key = curveKey(family, curve);
   const note = cellText(family, at, "note");
   const words = ["class", "type"].map((name) => measureValue(family, curve, name)).filter(Boolean);
+  const tags = [`curve ${key}`, pointLabel(family, curve), ...new Set(words), closed[curve] ? null : "open"];
+  const shown = tags.filter(Boolean).map((word) => [h("span.tag", word), " "]);
   return h(
     "div.panel",
     h("h2", formatCaption(cellLabel(family, at, "Linkage"))),
-    h(
-      "p.tags",
-      [`curve ${key}`, pointLabel(family, curve), ...new Set(words), closed[curve] ? null : "open"]
-        .filter(Boolean)
-        .map((word) => [h("span.tag", word), " "]),
-    ),
+    h("p.tags", shown),
     note ? h("p.note", note) : null,
     family.cells.status[at] === 1 ? h("p.note", `Partial: ${cellText(family, at, "reason")}`) : null,
     h(
@@ -110,22 +108,15 @@ export function curvePanel(/** @type {App} */ app, /** @type {Family} */ family,
   );
 }
 
-function parameterFacts(/** @type {Family} */ family, cell) {
-  const width = family.names.length;
-  const rows = family.names.map((name, k) => [name, family.cells.values[cell * width + k]]);
-  const shown = rows.filter(([, value]) => Number.isFinite(value));
-  if (shown.length === 0) return null;
-  return [
-    h("h3", "Parameters"),
-    termList(
-      "dl.facts.page-parameters",
-      shown.map(([name, value]) => [h("i", name), formatNumber(value, 6)]),
-    ),
-  ];
+function parameterFacts(/** @type {Family} */ family, /** @type {number} */ cell) {
+  const values = cellValues(family, cell);
+  const rows = family.names.map((name, k) => [h("i", name), formatNumber(values[k], 6)]);
+  const shown = rows.filter((_, k) => Number.isFinite(values[k]));
+  return shown.length ? [h("h3", "Parameters"), termList("dl.facts.page-parameters", shown)] : null;
 }
 
 /** The measures of a curve with tooltips, and all definitions in a collapsed list. */
-function measureFacts(/** @type {Atlas} */ atlas, /** @type {Family} */ family, curve) {
+function measureFacts(/** @type {Atlas} */ atlas, /** @type {Family} */ family, /** @type {number} */ curve) {
   const rows = atlas.measures.map((measure) => ({ ...measure, text: measureText(family, curve, measure) }));
   const shown = rows.filter(({ name, text }) => text !== undefined && !["class", "type"].includes(name));
   const definitions = shown.map(({ name, definition }) => [measureLabel(name), definition]);
@@ -144,7 +135,7 @@ function measureFacts(/** @type {Atlas} */ atlas, /** @type {Family} */ family, 
  * The cells on a page, numbered from 1, in order. Drawn cells are listed in the data; the position of a cell
  * that is not drawn follows from the number of panels per page, or of pages per linkage.
  */
-export function cellsOnPage(/** @type {Family} */ family, page) {
+function cellsOnPage(/** @type {Family} */ family, /** @type {number} */ page) {
   if (family.layout === "chart") return [];
   const drawn = new Set(pageViews(family, page).map(({ cell }) => cell));
   const [first, last] = panelCells(family, page);
@@ -157,7 +148,7 @@ export function cellsOnPage(/** @type {Family} */ family, page) {
 }
 
 /** The label of a page: the caption of its only linkage, or the numbers of its linkages. */
-export function pageLabel(/** @type {Family} */ family, page) {
+export function pageLabel(/** @type {Family} */ family, /** @type {number} */ page) {
   const cells = cellsOnPage(family, page);
   if (cells.length === 0) return family.layout === "chart" ? "chart" : "";
   const numbers = cells.map((cell) => family.cells.number[cell]);

@@ -14,6 +14,7 @@ const MIN_LINK_WIDTH = 1;
 /**
  * A page as an element with the paper's aspect ratio: the page's file, or its curves drawn from the data if
  * there is no readable file. Resolves when it can be painted.
+ * @param {number} page @param {string} label
  */
 export async function pagePicture(/** @type {App} */ app, /** @type {Family} */ family, page, label) {
   const views = pageViews(family, page);
@@ -36,22 +37,18 @@ export async function pagePicture(/** @type {App} */ app, /** @type {Family} */ 
 }
 
 /**
- * The overlay of the picture: a link for each curve of the page, invisible unless highlighted. Positions are in
- * millimetres of paper.
+ * The overlay of the picture: a link for each curve of the page, invisible unless highlighted. Positions are in millimetres of paper.
+ * @param {Family} family @param {DrawnCurve[]} drawn @param {{ onfocus(curve: number): void, onblur(): void }} _
  */
-export function pageOverlay(/** @type {Family} */ family, drawn, { onfocus, onblur }) {
+export function pageOverlay(family, drawn, { onfocus, onblur }) {
   const { width, height } = family.paper;
   const links = new Map(drawn.map((one) => [one.curve, curveLink(family, one, { onfocus, onblur })]));
   const path = s("path.highlighted", { "vector-effect": "non-scaling-stroke" });
   const circle = s("circle", { r: 1 });
   const dot = s("g.at", circle);
-  const element = s(
-    "svg.overlay",
-    { viewBox: `0 0 ${width} ${height}`, role: "group", "aria-label": "Curves of this page" },
-    path,
-    dot,
-    [...links.values()],
-  );
+  const group = { role: "group", "aria-label": "Curves of this page" };
+  const viewBox = `0 0 ${width} ${height}`;
+  const element = s("svg.overlay", { viewBox, ...group }, path, dot, [...links.values()]);
   return {
     element,
     links,
@@ -73,11 +70,8 @@ function linkArea(/** @type {Box} */ [x0, y0, x1, y1]) {
   return s("rect.link-area", { ...corner, width, height });
 }
 
-function curveLink(
-  /** @type {Family} */ family,
-  /** @type {DrawnCurve} */ { curve, box },
-  { onfocus, onblur },
-) {
+/** @param {Family} family @param {DrawnCurve} _ @param {{ onfocus(curve: number): void, onblur(): void }} _1 */
+function curveLink(family, { curve, box }, { onfocus, onblur }) {
   const key = curveKey(family, curve);
   const caption = curveCaption(family, curve);
   const attributes = {
@@ -86,23 +80,20 @@ function curveLink(
     "data-curve": curve,
     "aria-label": `Curve ${key}${caption ? `, ${caption}` : ""}`,
     onfocus: () => onfocus(curve),
-    onblur: () => onblur(curve),
+    onblur,
   };
   return s("a", attributes, linkArea(box));
 }
 
 /** Prefetches the pages before and after a page. @param {App} app @param {Family} family */
-export function prefetchPages(app, family, page) {
+export function prefetchPages(app, family, /** @type {number} */ page) {
   for (const other of [page + 1, page - 1]) {
     const file = other >= 1 && pageFile(app.atlas, family.id, other);
     if (file) new Image().src = file;
   }
 }
 
-/**
- * The curves of a page's views on paper, with points and boxes in millimetres, y down.
- * @param {Family} family @param {PageDrawing[]} views
- */
+/** The curves of a page's views on paper, with points and boxes in millimetres, y down. @param {Family} family @param {PageDrawing[]} views */
 export function curvesOnPaper(/** @type {Family} */ family, /** @type {PageDrawing[]} */ views) {
   return views.flatMap((view) =>
     view.curves.map((curve) => {
@@ -116,8 +107,8 @@ export function curvesOnPaper(/** @type {Family} */ family, /** @type {PageDrawi
   );
 }
 
-/** The curve of `drawn` nearest to a position in millimetres, within `reach`; undefined if there is none. */
-export function nearestCurve(/** @type {DrawnCurve[]} */ drawn, [x, y], reach) {
+/** The curve of `drawn` nearest to a position in millimetres, within `reach`; undefined if there is none. @param {number} reach */
+export function nearestCurve(/** @type {DrawnCurve[]} */ drawn, /** @type {Point} */ [x, y], reach) {
   let nearest;
   let least = reach * reach;
   for (const candidate of drawn) {

@@ -12,25 +12,20 @@ const PAPER_GRAIN = 0.2;
 /**
  * The thumbnail of a page: its curves drawn from the data if they are loaded (needs.js), or its file. Null if
  * there is neither. The curves of a scattered page are not drawn.
+ * @param {number} page
  */
 export function pageThumbnail(/** @type {Atlas} */ atlas, /** @type {Family} */ family, page) {
   const views = isScattered(family) ? [] : pageViews(family, page);
   if (views.length) return drawPage(family, views, ".page-thumbnail", PAPER_GRAIN);
   const file = pageFile(atlas, family.id, page);
   if (!file) return null;
-  const attributes = {
-    src: file,
-    alt: "",
-    loading: "lazy",
-    decoding: "async",
-    "data-paper": paperTone(family),
-  };
-  return h("img.page-thumbnail.printed", attributes);
+  const lazy = { loading: "lazy", decoding: "async" };
+  return h("img.page-thumbnail.printed", { src: file, alt: "", ...lazy, "data-paper": paperTone(family) });
 }
 
 /**
- * The curves of views of a page at their positions on paper, in millimetres, as an SVG with the page's aspect
- * ratio.
+ * The curves of views of a page at their positions on paper, in millimetres, as an SVG with the page's aspect ratio.
+ * @param {string} name @param {number} grain
  */
 export function drawPage(/** @type {Family} */ family, /** @type {PageDrawing[]} */ views, name, grain) {
   const paths = views.flatMap((view) =>
@@ -57,6 +52,6 @@ export function paperTone(/** @type {Family} */ { paper }) {
 }
 
 /** The linear light of an sRGB level, both from 0 to 1. */
-function linearLight(level) {
+function linearLight(/** @type {number} */ level) {
   return level <= 0.04045 ? level / 12.92 : ((level + 0.055) / 1.055) ** 2.4;
 }

@@ -1,6 +1,7 @@
 // The view of a page, with zoom and the curve under the pointer highlighted.
 
 import { address, curveAddress } from "../data/address.js";
+import { listedFamily } from "../data/atlas.js";
 import { findCurve, curveKey, pageViews } from "../data/family.js";
 import { loadPage } from "../data/needs.js";
 import { fill, h } from "./dom.js";
@@ -12,14 +13,14 @@ import { pageOverlay, pagePicture, prefetchPages, curvesOnPaper, nearestCurve } 
 import { Zoom } from "./zoom.js";
 import { watchPins } from "./pins.js";
 
-/** The route of a page: `#/evans/3?curve=12.1.1&zoom=4&at=210,120`. */
+/** The route of a page: `#/evans/3?curve=12.1.1&zoom=4&at=210,120`. @type {Route} */
 export const pageRoute = {
   name: "page",
   parent: "families",
   matches: ({ path }) => path.length === 2 && /^[1-9][0-9]*$/.test(path[1]),
   open: async (app, target) => {
     const family = await app.atlas.family(target.path[0]);
-    const listed = app.atlas.families.find(({ id }) => id === family.id);
+    const listed = listedFamily(app.atlas, family.id);
     if (Number(target.path[1]) > listed.pages)
       throw new Error(`${family.title} has only ${listed.pages === 1 ? "1 page" : `${listed.pages} pages`}.`);
     const view = new PageView(app, family, listed);
@@ -30,8 +31,7 @@ export const pageRoute = {
 
 /** The view of a page. */
 export class PageView {
-  /** The number of the page. */
-  page = 0;
+  /** The number of the page. */ page = 0;
   title = "";
   /** @type {AddressQuery} */ query;
   /** @type {DrawnCurve[]} */ drawn = [];
@@ -61,8 +61,7 @@ export class PageView {
     this.bar = pageBar(listed, { go: (page) => this.go(page), zoom: () => this.zoom });
     const { width, height } = family.paper;
     this.viewport.style.aspectRatio = `${width} / ${height}`;
-    const act = { onchange: () => this.zoomed(), ontap: (event) => this.tapped(event) };
-    this.zoom = new Zoom(this.viewport, this.sheet, { width, height, ...act });
+    this.zoom = new Zoom(this.viewport, this.sheet, family.paper, this);
     this.highlight = new CurveHighlight(this);
     this.legend = h("p.note");
     const heading = h("h1", h("a", { href: address([family.id]) }, family.title));
@@ -78,7 +77,8 @@ export class PageView {
   /** Shows the page of an address; returns false for another family. @param {Target} target */
   update(target) {
     const [id, page] = target.path;
-    if (!pageRoute.matches(target) || id !== this.family.id || Number(page) > this.listed.pages) return false;
+    if (!pageRoute.matches(target, this.app) || id !== this.family.id || Number(page) > this.listed.pages)
+      return false;
     this.open(target);
     return true;
   }
@@ -113,7 +113,7 @@ export class PageView {
   }
 
   /** Puts a page's picture and the overlay of its curves into the view. */
-  setPicture(picture) {
+  setPicture(/** @type {Element} */ picture) {
     const views = pageViews(this.family, this.page);
     const hadFocus = this.sheet.contains(document.activeElement);
     this.drawn = curvesOnPaper(this.family, views);
@@ -135,8 +135,8 @@ export class PageView {
     if (enlarged) this.zoom.showAt(enlarged.near, enlarged.place);
     else if (!this.hasPosition) this.zoom.fit();
     this.hasPosition = true;
-    const curve = findCurve(this.family, query.get("curve"));
-    if (this.drawn.some((candidate) => candidate.curve === curve)) this.highlight.select(curve);
+    const found = this.drawnWithKey(query.get("curve"));
+    if (found) this.highlight.select(found.curve);
     else {
       if (query.has("curve")) query.ignore("curve", "not on this page");
       this.highlight.select(null);
@@ -148,16 +148,12 @@ export class PageView {
 
   /** Shows the list of curves, or one curve, in the panel. */
   showPanel(/** @type {number | null} */ curve = null) {
-    const all = () => this.showAll();
-    const listeners = {
-      onenter: (other) => this.highlight.preview(other),
-      onleave: () => this.highlight.leave(),
-    };
-    const { app, family, page, drawn } = this;
+    const { app, family, page, drawn, highlight } = this;
+    const onenter = (/** @type {number} */ other) => highlight.preview(other);
     const panel =
       curve === null
-        ? curveListPanel(family, page, drawn, listeners)
-        : curvePanel(app, family, curve, { onall: all });
+        ? curveListPanel(family, page, drawn, { onenter, onleave: () => highlight.leave() })
+        : curvePanel(app, family, curve, { onall: () => this.showAll() });
     fill(this.panel, panel);
     fill(this.legend, this.family.legend ?? "");
   }
@@ -175,13 +171,13 @@ export class PageView {
     this.remember();
   }
 
-  hovered(event) {
+  hovered(/** @type {PointerEvent} */ event) {
     if (event.pointerType === "touch" || this.zoom.isDragging) return;
     const place = this.zoom.placeOf(event);
     this.highlight.hover(nearestCurve(this.drawn, place, this.reach(8)), place);
   }
 
-  tapped(event) {
+  tapped(/** @type {PointerEvent} */ event) {
     const place = this.zoom.placeOf(event);
     const found = nearestCurve(this.drawn, place, this.reach(event.pointerType === "touch" ? 20 : 8));
     if (!found) this.deselect();
@@ -192,23 +188,28 @@ export class PageView {
   }
 
   /** Selects the curve of a link that is followed, so that it is highlighted on return. */
-  followed({ target }) {
-    const key = target.closest('a[href*="/curve/"]')?.getAttribute("href").split("/").at(-1);
-    const curve = key && findCurve(this.family, key);
-    if (this.drawn.some((candidate) => candidate.curve === curve)) this.choose(curve);
+  followed(/** @type {{ target: Element }} */ { target }) {
+    const href = target.closest('a[href*="/curve/"]')?.getAttribute("href");
+    const found = this.drawnWithKey(href?.split("/").at(-1));
+    if (found) this.choose(found.curve);
   }
 
-  choose(curve, /** @type {Point | null} */ place = null) {
+  drawnWithKey(/** @type {string | undefined} */ key) {
+    const curve = findCurve(this.family, key);
+    return this.drawn.find((candidate) => candidate.curve === curve);
+  }
+
+  choose(/** @type {number} */ curve, /** @type {Point | null} */ place = null) {
     this.highlight.select(curve, place);
     this.remember();
   }
 
   /** The pointer tolerance in millimetres: a number of pixels, or 3 mm if that is not much more. */
-  reach(pixels) {
+  reach(/** @type {number} */ pixels) {
     return Math.max(pixels, Math.min(3 * this.zoom.scale, 2 * pixels)) / this.zoom.scale;
   }
 
-  go(page) {
+  go(/** @type {number} */ page) {
     if (page >= 1 && page <= this.listed.pages && page !== this.page)
       this.app.go(address([this.family.id, page]));
   }

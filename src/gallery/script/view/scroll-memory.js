@@ -7,8 +7,9 @@ import { elementIn, focusedElement } from "./dom.js";
  * restores that of the new one, or scrolls to the top, unless the view has its own target (`data-goal`).
  */
 export function scrollMemory() {
-  const left = new Map();
-  let [present, newest] = [null, 0];
+  /** @type {Map<number, { depth: number, link?: string | null }>} */ const left = new Map();
+  /** @type {number | null} */ let present = null;
+  let newest = 0;
   let settle = () => {};
   window.history.scrollRestoration = "manual";
   const entry = () => {
@@ -26,18 +27,15 @@ export function scrollMemory() {
       present = entry();
     },
     arrive: () => {
-      const known = left.get(present);
+      const known = present !== null && left.get(present);
       if (known) settle = restoreScroll(known);
       else if (!document.querySelector("main [data-goal]")) window.scrollTo(0, 0);
     },
   };
 }
 
-/**
- * Scrolls to a recorded position as soon as the view is long enough; input by the user cancels it. Returns a
- * function that ends it.
- */
-function restoreScroll({ depth, link }) {
+/** Scrolls to a recorded position as soon as the view is long enough; input by the user cancels it. Returns a function that ends it. */
+function restoreScroll(/** @type {{ depth: number, link?: string | null }} */ { depth, link }) {
   const moves = ["wheel", "pointerdown", "keydown"];
   const growth = new ResizeObserver(() => goThere());
   const end = () => {
@@ -57,7 +55,7 @@ function restoreScroll({ depth, link }) {
 }
 
 /** Restores the focus to a link when scrolling has created it. */
-function restoreFocus(href) {
+function restoreFocus(/** @type {string | null | undefined} */ href) {
   if (!href) return;
   requestAnimationFrame(() =>
     requestAnimationFrame(() => {

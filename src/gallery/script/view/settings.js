@@ -5,12 +5,7 @@ import { buttonOf, selectOf } from "./dom.js";
 const THEME_KEY = "coupler-atlas-theme";
 const PAGES_KEY = "coupler-atlas-pages";
 
-/** @type {[string, string][]} */
-const THEME_CHOICES = [
-  ["system", "Theme: system"],
-  ["light", "Theme: light"],
-  ["dark", "Theme: dark"],
-];
+const THEMES = ["system", "light", "dark"];
 
 /**
  * The theme selector, which takes effect immediately. `data-theme` of <html> is the effective theme, light or
@@ -27,21 +22,20 @@ export function themeSelect() {
   };
   dark.addEventListener("change", apply);
   apply();
-  const choose = (event) => {
-    choice = event.target.value;
+  const choose = (/** @type {string} */ theme) => {
+    choice = theme;
     storeChoice(THEME_KEY, choice);
     apply();
   };
-  return selectOf({ class: "theme quiet", "aria-label": "Theme", onchange: choose }, THEME_CHOICES, choice);
+  const onchange = (/** @type {Heard<Event, HTMLSelectElement>} */ { target }) => choose(target.value);
+  const labels = THEMES.map((theme) => [theme, `Theme: ${theme}`]);
+  return selectOf({ class: "theme quiet", "aria-label": "Theme", onchange }, labels, choice);
 }
 
-/**
- * A switch for the dark theme: pages with their printed colours, or inverted. `data-pages` of <html> is
- * "printed" or absent.
- */
+/** A switch for the dark theme: pages with their printed colours, or inverted. `data-pages` of <html> is "printed" or absent. */
 export function printedColorsButton() {
   const root = document.documentElement;
-  const apply = (isPrinted) => {
+  const apply = (/** @type {boolean} */ isPrinted) => {
     if (isPrinted) root.dataset.pages = "printed";
     else delete root.dataset.pages;
     button.setAttribute("aria-pressed", String(isPrinted));
@@ -55,14 +49,13 @@ export function printedColorsButton() {
   return button;
 }
 
-/** @returns {string} */
 function storedTheme() {
-  const theme = storedChoice(THEME_KEY);
-  return THEME_CHOICES.find(([value]) => value === theme)?.[0] ?? "system";
+  const theme = storedChoice(THEME_KEY) ?? "";
+  return THEMES.includes(theme) ? theme : "system";
 }
 
 /** What is stored; null if there is nothing, or no storage. @returns {string | null} */
-export function storedChoice(name) {
+export function storedChoice(/** @type {string} */ name) {
   try {
     return window.localStorage.getItem(name);
   } catch {
@@ -71,7 +64,7 @@ export function storedChoice(name) {
 }
 
 /** Without storage, a choice lasts until the page is closed. */
-export function storeChoice(name, value) {
+export function storeChoice(/** @type {string} */ name, /** @type {string} */ value) {
   try {
     window.localStorage.setItem(name, value);
   } catch {

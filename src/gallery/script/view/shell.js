@@ -1,6 +1,7 @@
 // The frame of the gallery: header, navigation, the current view and footer.
 
 import { address, parseAddress } from "../data/address.js";
+import { sumOf } from "../data/number.js";
 import { buttonOf, fill, h, setAttributes } from "./dom.js";
 import { Gestures, gestureOfKey } from "./gestures.js";
 import { onKeys, showKeys } from "./keys.js";
@@ -43,7 +44,7 @@ export function openShell(parts, routes, root) {
     },
   };
   const nav = navigation(app, routes);
-  const skip = (event) => {
+  const skip = (/** @type {Event} */ event) => {
     event.preventDefault();
     main.focus();
   };
@@ -96,10 +97,12 @@ class Router {
   turn = 0;
   fragment = "";
   /** The query that is shown. @type {AddressQuery | null} */ query = null;
-  /** What can be undone in the view that is shown. */
-  gestures = new Gestures();
+  /** What can be undone in the view that is shown. */ gestures = new Gestures();
 
-  constructor(/** @type {App} */ app, /** @type {Route[]} */ routes, { main, nav, ignored, scroll }) {
+  /**
+   * @param {App} app @param {Route[]} routes @param {{ main: HTMLElement, nav: ReturnType<typeof navigation>, ignored: HTMLElement, scroll: ReturnType<typeof scrollMemory> }} _
+   */
+  constructor(app, routes, { main, nav, ignored, scroll }) {
     this.app = app;
     this.routes = routes;
     this.main = main;
@@ -145,7 +148,7 @@ class Router {
   }
 
   /** Undoes (-1) or repeats (1) a gesture: shows the address before or after it. */
-  retrace(way) {
+  retrace(/** @type {number} */ way) {
     const { gestures, app } = this;
     const fragment = way < 0 ? gestures.undo(this.fragment) : gestures.redo(this.fragment);
     if (fragment === undefined) {
@@ -188,7 +191,7 @@ class Router {
   }
 
   /** Shows what is wrong with an address, with links to continue. */
-  showError(message, /** @type {Target} */ { path: [id] }) {
+  showError(/** @type {string} */ message, /** @type {Target} */ { path: [id] }) {
     const sentence = `${message[0].toUpperCase()}${message.slice(1)}`.replace(/[^.]$/, "$&.");
     this.setTitle("Not found");
     this.app.announce(sentence);
@@ -198,17 +201,18 @@ class Router {
     fill(this.main, h("h1", "Not found"), h("p.error", { role: "alert" }, sentence, " ", own, all));
   }
 
-  setTitle(title) {
+  setTitle(/** @type {string} */ title) {
     document.title = title ? `${title} · ${this.app.atlas.title}` : this.app.atlas.title;
   }
 }
 
 /** The footer of the gallery. @param {Atlas} atlas */
-function footer(atlas, listKeys) {
-  const sum = (name) => atlas.families.reduce((total, family) => total + family[name], 0);
-  const [pages, curves, bytes] = ["pages", "curves", "bytes"].map(sum);
+function footer(atlas, /** @type {() => void} */ listKeys) {
+  const { families } = atlas;
+  const [pages, curves] = [sumOf(families, (one) => one.pages), sumOf(families, (one) => one.curves)];
+  const bytes = sumOf(families, (one) => one.bytes);
   const facts = [
-    formatCount(atlas.families.length, "family", "families"),
+    formatCount(families.length, "family", "families"),
     formatCount(pages, "page"),
     formatCount(curves, "curve"),
     `${formatBytes(bytes)} of data, loaded by family`,

@@ -1,19 +1,12 @@
 // The state of a view: its address says all of it, so that a change is a new address, and undoing it the one before.
 
-/**
- * The state of a view. Listeners show it; a gesture changes it, and its address at the end of the gesture.
- * @template {object} S
- */
+/** The state of a view. Listeners show it; a gesture changes it, and its address at the end of the gesture. @template {object} S */
 export class Store {
   /** @type {Set<(state: S, before: S | null) => void>} */ listeners = new Set();
   writing = 0;
-  /** Whether a gesture has not ended. */
-  isOpen = false;
+  /** Whether a gesture has not ended. */ isOpen = false;
 
-  /**
-   * `address` gives the address of a state.
-   * @param {Pick<App, "commit" | "replace">} app @param {S} state @param {(state: S) => string} address
-   */
+  /** `address` gives the address of a state. @param {Pick<App, "commit" | "replace">} app @param {S} state @param {(state: S) => string} address */
   constructor(app, state, address) {
     this.app = app;
     this.state = state;
@@ -69,7 +62,7 @@ export class Store {
   }
 
   /** Ends a gesture when nothing has followed for a time in milliseconds. */
-  commitSoon(after) {
+  commitSoon(/** @type {number} */ after) {
     window.clearTimeout(this.writing);
     this.writing = window.setTimeout(() => this.commit(), after);
   }

@@ -3,15 +3,14 @@
 import { curveBox, curveOutline } from "../data/family.js";
 import { smoothData } from "../draw/path-data.js";
 import { boxOfPoints, fittedView } from "../draw/plane-view.js";
-import { s, setAttributes, thumbnailFrame } from "./dom.js";
+import { s, sizedThumbnail } from "./dom.js";
 
 // The margin of a thumbnail, in pixels.
 const THUMBNAIL_INSET = 3;
 
 /**
- * Curves of a family in one frame, at one scale, y up: an SVG element of `width` × `height` pixels, hidden
- * from screen readers because adjacent text describes it. Several curves cycle through the five curve
- * colours; with `plain` all have the text colour.
+ * Curves of a family in one frame, at one scale, y up: an SVG element of `width` × `height` pixels, hidden from screen readers because
+ * adjacent text describes it. Several curves cycle through the five curve colours; with `plain` all have the text colour.
  * @param {Family} family @param {number[]} curves @param {Size & { plain?: boolean }} _2
  */
 export function thumbnail(family, curves, { width, height, plain = curves.length === 1 }) {
@@ -23,9 +22,7 @@ export function thumbnail(family, curves, { width, height, plain = curves.length
       d: curvePath(family, curve, { scale, origin: [x, y] }),
     }),
   );
-  const frame = thumbnailFrame("", { width, height }, paths);
-  setAttributes(frame, { width, height });
-  return frame;
+  return sizedThumbnail("", { width, height }, paths);
 }
 
 /**

@@ -17,22 +17,18 @@ const PRINTED_TILES = 400;
 
 /** A grid of tiles; `count` may change before `measure()`. */
 export class TileWindow {
-  /** The tiles in the document, by their index. @type {Map<number, HTMLElement>} */
-  there = new Map();
-  /** The tiles to be drawn. @type {number[]} */
-  queue = [];
+  /** The tiles in the document, by their index. @type {Map<number, HTMLElement>} */ there = new Map();
+  /** The tiles to be drawn. @type {number[]} */ queue = [];
+  listening = new AbortController();
   pending = 0;
   drawing = 0;
   postponed = 0;
   scale = 1;
-  /** The height by which tiles are moved up. */
-  shifted = 0;
+  /** The height by which tiles are moved up. */ shifted = 0;
   columns = 1;
-  /** The size of a tile, in pixels. */
-  wide = 0;
+  /** The size of a tile, in pixels. */ wide = 0;
   high = 0;
-  /** The height of the text below the pictures: that of the highest one so far. */
-  below = 0;
+  /** The height of the text below the pictures: that of the highest one so far. */ below = 0;
   filledAt = window.scrollY;
   /** @type {ReturnType<typeof onPrint> | null} */ paper = null;
 
@@ -40,35 +36,30 @@ export class TileWindow {
     this.count = options.count;
     this.options = options;
     this.element = h("ul.window", { "aria-label": options.label });
-    const typed = (event) => this.typed(event);
+    const typed = (/** @type {KeyboardEvent} */ event) => this.typed(event);
     onKeys(this.element, `In ${options.label.toLowerCase()}`, [
       ["ArrowLeft ArrowRight ArrowUp ArrowDown PageUp PageDown Home End", "go to another one", typed],
     ]);
     this.element.style.setProperty("--shape", `1 / ${options.aspect}`);
     this.element.style.setProperty("--least", `${options.least}px`);
     this.sizes = new ResizeObserver(() => this.measure());
-    const later = () => this.later();
-    this.listeners = { scroll: later, resize: later };
   }
 
   /** Called when the list is in the document and has a width. */
   shown() {
     this.measure();
     this.sizes.observe(this.element);
-    for (const [name, act] of Object.entries(this.listeners))
-      window.addEventListener(name, act, { passive: true });
-    this.paper = onPrint(
-      this.element,
-      () => this.printed(),
-      () => this.fill(),
-    );
+    const { signal } = this.listening;
+    for (const name of ["scroll", "resize"])
+      window.addEventListener(name, () => this.later(), { passive: true, signal });
+    this.paper = onPrint(this);
   }
 
   /** Stops observing the window. */
   end() {
     this.sizes.disconnect();
     this.paper?.end();
-    for (const [name, act] of Object.entries(this.listeners)) window.removeEventListener(name, act);
+    this.listening.abort();
     window.clearTimeout(this.postponed);
     cancelAnimationFrame(this.pending);
     cancelAnimationFrame(this.drawing);
@@ -77,7 +68,7 @@ export class TileWindow {
   }
 
   /** Scrolls to a tile and focuses it. */
-  show(k) {
+  show(/** @type {number} */ k) {
     const row = Math.floor(k / this.columns) * this.pitch;
     const top = this.element.getBoundingClientRect().top;
     const at = top + row - this.shift(-top);
@@ -94,7 +85,7 @@ export class TileWindow {
   }
 
   /** The height by which tiles are moved up when the list is scrolled by `top` pixels, if it is too high. */
-  shift(top) {
+  shift(/** @type {number} */ top) {
     return Math.max(top, 0) * (this.scale - 1);
   }
 
@@ -119,7 +110,7 @@ export class TileWindow {
     return { width: Math.max(this.wide - 2, 40), height: Math.max(this.wide * this.options.aspect - 2, 40) };
   }
 
-  lay(/** @type {HTMLElement} */ { style }, k) {
+  lay(/** @type {HTMLElement} */ { style }, /** @type {number} */ k) {
     style.width = `${this.wide}px`;
     style.height = `${this.high}px`;
     const x = (k % this.columns) * (this.wide + this.options.gap);
@@ -152,20 +143,25 @@ export class TileWindow {
     this.shifted = this.shift(scrolled);
     const top = scrolled + this.shifted;
     const ahead = window.innerHeight * TILES_AHEAD;
-    const row = (y) => Math.floor(y / this.pitch);
+    const row = (/** @type {number} */ y) => Math.floor(y / this.pitch);
     const first = Math.max(0, row(top - ahead) * this.columns);
     const last = Math.min(this.count, (row(top + window.innerHeight + ahead) + 1) * this.columns);
-    for (const [k, element] of this.there) {
-      if ((k >= first && k < last) || element.contains(document.activeElement)) continue;
-      element.remove();
-      this.there.delete(k);
-    }
+    this.#keep((k, element) => (k >= first && k < last) || element.contains(document.activeElement));
     if (isShifted) for (const [k, element] of this.there) this.lay(element, k);
     for (let k = first; k < last; k += 1) this.add(k);
     this.drawSome();
   }
 
-  add(k) {
+  /** Removes the tiles from the document that are not to be kept. */
+  #keep(/** @type {(k: number, element: HTMLElement) => boolean} */ isKept) {
+    for (const [k, element] of this.there) {
+      if (isKept(k, element)) continue;
+      element.remove();
+      this.there.delete(k);
+    }
+  }
+
+  add(/** @type {number} */ k) {
     if (this.there.has(k)) return;
     const element = this.options.tile(k);
     setAttributes(element, { "aria-setsize": this.count, "aria-posinset": k + 1 });
@@ -178,7 +174,7 @@ export class TileWindow {
   }
 
   /** Fills a tile and queues it to be drawn: at once, or when what it shows has been loaded. */
-  prepare(element, k) {
+  prepare(/** @type {HTMLElement} */ element, /** @type {number} */ k) {
     const act = () => {
       if (this.there.get(k) !== element) return;
       // What was loaded first may have been dropped while the rest was loaded.
@@ -226,11 +222,7 @@ export class TileWindow {
   /** Puts the first tiles into the document, and no others, for printing. */
   printed() {
     const last = Math.min(this.count, PRINTED_TILES);
-    for (const [k, element] of this.there) {
-      if (k < last) continue;
-      element.remove();
-      this.there.delete(k);
-    }
+    this.#keep((k) => k < last);
     this.shifted = 0;
     for (const [k, element] of this.there) this.lay(element, k);
     for (let k = 0; k < last; k += 1) this.add(k);
@@ -238,12 +230,14 @@ export class TileWindow {
     return printedCountNote(last, this.count, this.options.label.toLowerCase());
   }
 
-  typed(event) {
-    const at = [...this.there].find(([, element]) => element.contains(event.target))?.[0];
+  typed(/** @type {KeyboardEvent} */ event) {
+    const at = [...this.there].find(
+      ([, element]) => event.target instanceof Node && element.contains(event.target),
+    )?.[0];
     if (at === undefined) return false;
     const screen = Math.max(1, Math.floor(window.innerHeight / this.pitch)) * this.columns;
     const down = { ArrowDown: this.columns, ArrowUp: -this.columns, PageDown: screen, PageUp: -screen };
     const by = { ArrowRight: 1, ArrowLeft: -1, Home: -this.count, End: this.count, ...down }[event.key];
-    return this.show(Math.min(Math.max(at + by, 0), this.count - 1));
+    return this.show(Math.min(Math.max(at + (by ?? 0), 0), this.count - 1));
   }
 }

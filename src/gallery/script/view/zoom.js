@@ -11,7 +11,7 @@ const TAP_SLACK = 5;
 
 /**
  * The position of a page of `width` × `height` millimetres in a viewport: `scale` in pixels per millimetre,
- * and the page's corner at `x`, `y` pixels. Calls `onchange()` when it has moved, at most once per frame.
+ * and the page's corner at `x`, `y` pixels. Calls `on.zoomed()` when it has moved, at most once per frame.
  */
 export class Zoom {
   scale = 1;
@@ -20,26 +20,24 @@ export class Zoom {
   isFit = true;
   isTap = false;
   pending = 0;
-  /** The pointers that are down, where they are and were first. @type {Map<number, Record<string, number>>} */
+  /** The pointers that are down, where they are and were first. @type {Map<number, Record<"x" | "y" | "startX" | "startY", number>>} */
   pointers = new Map();
   constrainedTo = { width: 0, height: 0 };
 
-  /** @param {HTMLElement} viewport @param {HTMLElement} sheet */
-  constructor(viewport, sheet, { width, height, onchange, ontap }) {
+  /** @param {HTMLElement} viewport @param {HTMLElement} sheet @param {Size} _ @param {Pick<PageView, "zoomed" | "tapped">} on */
+  constructor(viewport, sheet, { width, height }, on) {
     this.viewport = viewport;
     this.sheet = sheet;
     this.width = width;
     this.height = height;
-    this.onchange = onchange;
-    this.ontap = ontap;
+    this.on = on;
     this.resizes = new ResizeObserver(() => this.resized());
     this.resizes.observe(viewport);
     viewport.addEventListener("wheel", (event) => this.wheeled(event), { passive: false });
     viewport.addEventListener("pointerdown", (event) => this.pressed(event));
     viewport.addEventListener("pointermove", (event) => this.moved(event));
-    for (const name of ["pointerup", "pointercancel"]) {
-      viewport.addEventListener(name, (event) => this.released(event, name === "pointerup"));
-    }
+    viewport.addEventListener("pointerup", (event) => this.released(event, true));
+    viewport.addEventListener("pointercancel", (event) => this.released(event, false));
   }
 
   /** Stops observing the viewport. */
@@ -66,17 +64,17 @@ export class Zoom {
   }
 
   /** The position on the page, in millimetres, at pixels of the viewport. @returns {Point} */
-  placeAt(x, y) {
+  placeAt(/** @type {number} */ x, /** @type {number} */ y) {
     return [(x - this.x) / this.scale, (y - this.y) / this.scale];
   }
 
   /** The position on the page, in millimetres, of a pointer event. */
-  placeOf(event) {
+  placeOf(/** @type {MouseEvent} */ event) {
     return this.placeAt(...this.pixelOf(event.clientX, event.clientY));
   }
 
   /** The pixels of the viewport, inside its border, at pixels of the window. @returns {Point} */
-  pixelOf(x, y) {
+  pixelOf(/** @type {number} */ x, /** @type {number} */ y) {
     const { left, top } = this.viewport.getBoundingClientRect();
     return [x - left - this.viewport.clientLeft, y - top - this.viewport.clientTop];
   }
@@ -91,7 +89,7 @@ export class Zoom {
   }
 
   /** Centres a position of the page at a magnification. */
-  showAt(magnification, [x, y]) {
+  showAt(/** @type {number} */ magnification, /** @type {Point} */ [x, y]) {
     this.isFit = false;
     this.scale = this.fitScale * Math.min(Math.max(magnification, 1), NEAREST);
     this.x = this.viewport.clientWidth / 2 - this.scale * x;
@@ -99,7 +97,7 @@ export class Zoom {
     this.constrain();
   }
 
-  /** Zooms by a factor about a point in pixels of the viewport (default: its centre). */
+  /** Zooms by a factor about a point in pixels of the viewport (default: its centre). @param {number} factor */
   zoomBy(factor, x = this.viewport.clientWidth / 2, y = this.viewport.clientHeight / 2) {
     const fit = this.fitScale;
     const scale = Math.min(Math.max(this.scale * factor, fit), NEAREST * fit);
@@ -116,7 +114,7 @@ export class Zoom {
   }
 
   /** Moves the page by pixels. */
-  pan(dx, dy) {
+  pan(/** @type {number} */ dx, /** @type {number} */ dy) {
     if (this.isFit) return;
     this.x += dx;
     this.y += dy;
@@ -147,6 +145,7 @@ export class Zoom {
   constrain() {
     const { clientWidth, clientHeight } = this.viewport;
     this.constrainedTo = { width: clientWidth, height: clientHeight };
+    /** @param {number} at @param {number} size @param {number} available */
     const within = (at, size, available) => Math.min(Math.max(at, available / 2 - size), available / 2);
     if (!this.isFit) {
       this.x = within(this.x, this.scale * this.width, clientWidth);
@@ -162,10 +161,10 @@ export class Zoom {
     style.height = `${this.scale * this.height}px`;
     style.transform = `translate(${this.x}px, ${this.y}px)`;
     this.viewport.classList.toggle("near", !this.isFit);
-    this.onchange();
+    this.on.zoomed();
   }
 
-  wheeled(event) {
+  wheeled(/** @type {WheelEvent} */ event) {
     event.preventDefault();
     const unit = [1, 16, this.viewport.clientHeight][event.deltaMode];
     const [dx, dy] = [event.deltaX * unit, event.deltaY * unit];
@@ -179,14 +178,14 @@ export class Zoom {
     this.zoomBy(factor, ...this.pixelOf(event.clientX, event.clientY));
   }
 
-  pressed(event) {
+  pressed(/** @type {PointerEvent} */ event) {
     if (event.pointerType === "mouse" && event.button !== 0) return;
     const { clientX: x, clientY: y } = event;
     this.pointers.set(event.pointerId, { x, y, startX: x, startY: y });
     this.isTap = this.pointers.size === 1;
   }
 
-  moved(event) {
+  moved(/** @type {PointerEvent} */ event) {
     const pointer = this.pointers.get(event.pointerId);
     if (!pointer) return;
     const away = Math.hypot(event.clientX - pointer.startX, event.clientY - pointer.startY);
@@ -200,17 +199,21 @@ export class Zoom {
     else this.pinched(others[0], before, pointer);
   }
 
-  /** One finger stays, the other moves from `before` to `after`. */
+  /**
+   * One finger stays, the other moves from `before` to `after`.
+   * @param {{ x: number, y: number }} still @param {{ x: number, y: number }} before @param {{ x: number, y: number }} after
+   */
   pinched(still, before, after) {
+    /** @param {{ x: number, y: number }} p */
     const spread = (p) => Math.hypot(p.x - still.x, p.y - still.y) || 1;
     const middle = this.pixelOf((still.x + after.x) / 2, (still.y + after.y) / 2);
     this.zoomBy(spread(after) / spread(before), ...middle);
     this.pan((after.x - before.x) / 2, (after.y - before.y) / 2);
   }
 
-  released(event, isUp) {
+  released(/** @type {PointerEvent} */ event, /** @type {boolean} */ isUp) {
     const wasDown = this.pointers.delete(event.pointerId);
-    if (wasDown && isUp && this.isTap) this.ontap(event);
+    if (wasDown && isUp && this.isTap) this.on.tapped(event);
     if (this.pointers.size === 0) this.isTap = false;
   }
 

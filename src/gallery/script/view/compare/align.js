@@ -7,7 +7,7 @@ import { bestFit, deviationInPlace } from "../../kernel/shape-search.js";
 
 /** The maximum number of curves compared. */
 export const MAX_COMPARED = 12;
-/** How curves are aligned: { name: label }. */
+/** How curves are aligned: { name: label }. @type {Record<string, string>} */
 export const ALIGNMENTS = {
   none: "none",
   place: "centred",
@@ -35,12 +35,11 @@ export function formatComparisonQuery(/** @type {ComparisonQuery} */ { names, vi
 }
 
 /**
- * Aligns a curve with the first; `fit` has the deviation of the first from it, relative to the size of the first, and is
- * null without the kernel. `align` is a key of ALIGNMENTS; the best fit is that of the search by shape, and without one the
- * curve is centred.
+ * Aligns a curve with the first; `fit` has the deviation of the first from it, relative to the size of the first, and is null without the
+ * kernel. `align` is a key of ALIGNMENTS; the best fit is that of the search by shape, and without one the curve is centred.
  * @param {Kernel | null} kernel @param {CurveOfFamily} first @param {CurveOfFamily} one
  */
-export function alignCurve(kernel, first, one, align) {
+export function alignCurve(kernel, first, one, /** @type {string} */ align) {
   const [base, own] = [first, one].map(({ family, curve }) => curveOutline(family, curve));
   const isFitted = kernel && (align === "similar" || align === "mirrored");
   const found = isFitted ? bestFit(kernel, base, own, align === "mirrored") : null;
@@ -52,7 +51,7 @@ export function alignCurve(kernel, first, one, align) {
 }
 
 /** The similarity that matches the centres of the bounding boxes and, for "size", their diagonals. */
-function boxAlignment(base, own, align) {
+function boxAlignment(/** @type {Points} */ base, /** @type {Points} */ own, /** @type {string} */ align) {
   if (align === "none") return identity();
   const [a, b] = [middleAndSize(base), middleAndSize(own)];
   const scale = align === "size" && b.size > 0 ? a.size / b.size : 1;

@@ -12,7 +12,7 @@ import { factsTable } from "./facts.js";
 import { Store } from "../store.js";
 import { letterOf, overlaidPicture, sideBySidePictures, strokeSample, refinePicture } from "./picture.js";
 
-/** The route `#/compare?c=evans:12.1.1,watt:3.1.1&view=side|over&align=…`; without names, one's own pins. */
+/** The route `#/compare?c=evans:12.1.1,watt:3.1.1&view=side|over&align=…`; without names, one's own pins. @type {Route} */
 export const compareRoute = {
   name: "compare",
   label: "Compare",
@@ -42,12 +42,8 @@ class CompareView {
     this.tools = h("div.toolbar");
     this.exportSlot = h("div");
     this.count = h("p.lede");
-    this.element = h(
-      "div.view.wide.compare-view",
-      h("div.head", h("div", h("h1", "Compare"), this.count), this.exportSlot),
-      this.tools,
-      this.body,
-    );
+    const head = h("div.head", h("div", h("h1", "Compare"), this.count), this.exportSlot);
+    this.element = h("div.view.wide.compare-view", head, this.tools, this.body);
     this.store.watch((_, before) => before && this.refresh());
     this.unwatch = app.pins.watch((names) => {
       if (this.isOwn && String(names) !== String(this.query.names)) this.store.note({ names: [...names] });
@@ -106,6 +102,7 @@ class CompareView {
     if (this.isOwn) this.app.pins.set(this.query.names);
   }
 
+  /** @param {{ name: string, reason: string }[]} missing */
   render(/** @type {Kernel | null} */ kernel, /** @type {ComparedCurve[]} */ all, missing) {
     const curves = all.slice(0, MAX_COMPARED);
     const { query, app, isOwn } = this;
@@ -115,10 +112,8 @@ class CompareView {
       all.length ? `${all.length} ${isOwn ? "pinned" : "curves, which are not your pins"}` : none,
     ];
     if (beyond) words.push(`the first ${MAX_COMPARED} are compared`);
-    fill(
-      this.count,
-      [...words, ...missing.map(({ name, reason }) => `skipped ${name}: ${reason}`)].join("; "),
-    );
+    words.push(...missing.map(({ name, reason }) => `skipped ${name}: ${reason}`));
+    fill(this.count, words.join("; "));
     fill(this.exportSlot, all.length ? exportMenu(app, () => all.map(({ name }) => name)) : null);
     fill(this.tools, all.length ? this.controls() : null);
     const aligned = curves.map((one, k) => alignCurve(kernel, curves[0], one, k > 0 ? query.align : "none"));
@@ -130,7 +125,7 @@ class CompareView {
       : sideBySidePictures(aligned);
     this.stop = refinePicture(app, picture, curves, aligned);
     const entries = curves.map((one, k) => {
-      const drawn = isOver ? strokeSample(k) : h("div.tile-picture", picture.elements[k]);
+      const drawn = isOver ? strokeSample(k) : h("div.tile-picture", picture.elements?.[k]);
       return this.entry(one, k, curves.length, aligned[k].fit, drawn);
     });
     const list = h(isOver ? "ol.pinned-list" : "ol.pinned-tiles", entries);
@@ -140,7 +135,7 @@ class CompareView {
 
   controls() {
     const { query, store } = this;
-    const view = (name, label) =>
+    const view = (/** @type {ComparisonQuery["view"]} */ name, /** @type {string} */ label) =>
       buttonOf(label, () => store.change({ view: name }), { "aria-pressed": String(query.view === name) });
     const attributes = { id: "compare-align", onchange: () => store.change({ align: align.value }) };
     const align = selectOf(attributes, Object.entries(ALIGNMENTS), query.align);
@@ -154,13 +149,15 @@ class CompareView {
     ];
   }
 
+  /** @param {number} k @param {number} count @param {Element} picture */
   entry(/** @type {ComparedCurve} */ one, k, count, /** @type {Fit | null} */ fit, picture) {
     const { name, family, curve, key, changes } = one;
     const letter = letterOf(k);
     const leave = this.isOwn ? "Unpin" : "Remove";
+    /** @param {string} label @param {string} words @param {() => void} onclick */
     const act = (label, words, onclick, disabled = false) =>
       buttonOf(label, onclick, { class: "quiet", "aria-label": words, disabled });
-    const percent = (value) => `${(100 * value).toFixed(2)} %`;
+    const percent = (/** @type {number} */ value) => `${(100 * value).toFixed(2)} %`;
     const away = fit ? `${percent(fit.rms)} rms from A, ${percent(fit.greatest)} maximum` : null;
     const named = [
       h("b", letter),
@@ -178,7 +175,7 @@ class CompareView {
     return h("li", picture, h("div.named", named), h("div.acts", acts));
   }
 
-  move(k, by) {
+  move(/** @type {number} */ k, /** @type {number} */ by) {
     const names = [...this.query.names];
     names.splice(k + by, 0, ...names.splice(k, 1));
     this.choose(names);

@@ -12,6 +12,7 @@ export function factsTable(curves, measures, labels) {
   const rows = [...parameterRows(curves), ...measureRows(curves, measures)]
     .filter(({ texts }) => texts.some((text) => text !== "–"))
     .map((row) => ({ ...row, differs: row.texts.some((text) => text !== row.texts[0]) }));
+  /** @param {{ label: string, texts: (string | undefined)[], differs: boolean }} _ */
   const line = ({ label, texts, differs }) => {
     const cells = texts.map((text, k) =>
       h("td", { class: differs && text !== texts[0] ? "other" : null, "data-column": k + 1 }, text),
@@ -36,7 +37,7 @@ export function factsTable(curves, measures, labels) {
 
 function parameterRows(/** @type {CurveOfFamily[]} */ curves) {
   const names = [...new Set(curves.flatMap(({ family }) => family.names))];
-  const value = ({ family, curve }, name) => {
+  const value = (/** @type {CurveOfFamily} */ { family, curve }, /** @type {string} */ name) => {
     const at = family.names.indexOf(name);
     return at < 0 ? "–" : formatNumber(cellValues(family, family.curves.cell[curve])[at], 6);
   };

@@ -2,7 +2,7 @@
 
 import { placedData, smoothData } from "../../draw/path-data.js";
 import { boxOfPoints, screenPoint } from "../../draw/plane-view.js";
-import { s } from "../dom.js";
+import { s, thumbnailFrame } from "../dom.js";
 import { viewOfOutlines } from "../shape/match-item.js";
 import { transformed } from "../../draw/similarity.js";
 import { solveCurve } from "../curve-reading.js";
@@ -10,75 +10,66 @@ import { solveCurve } from "../curve-reading.js";
 const OVER_WIDE = 720;
 const OVER_LOW = 240;
 const OVER_HIGH = 540;
-// The margin of the picture and the distance of letters from their curves, in picture pixels: a letter fits
-// on either side of a curve.
+// The margin of the picture and the distance of letters from their curves, in picture pixels: a letter fits on either side of a curve.
 const OVER_INSET = 34;
 const LETTER_AWAY = 16;
 const FINE_DECIMALS = 3;
 // The frame of each curve side by side, in picture pixels.
-const SIDE_WIDE = 300;
-const SIDE_HIGH = 220;
+const SIDE_SIZE = { width: 300, height: 220 };
 const SIDE_INSET = 8;
 
 /** The letter of the k-th curve, from 0. */
-export function letterOf(k) {
+export function letterOf(/** @type {number} */ k) {
   return String.fromCharCode(65 + k);
 }
 
 /** The class of the k-th curve's line, which sets its colour and dash pattern. */
-function strokeClass(k) {
+function strokeClass(/** @type {number} */ k) {
   return `compared ink-${(k % 5) + 1} dash-${k % 6}`;
 }
 
+/** The lines of outlines in a view; `redraw(k, points)` replaces one by a finer one. @param {Outline[]} outlines */
+function linesOf(outlines, /** @type {Placement} */ view, isOver = false) {
+  const lines = outlines.map(({ points, closed }, k) =>
+    s("path", { class: isOver && strokeClass(k), d: smoothData(points, closed, view) }),
+  );
+  const redraw = (/** @type {number} */ k, /** @type {Points} */ points) =>
+    lines[k].setAttribute("d", placedData(points, outlines[k].closed, view, FINE_DECIMALS));
+  return { lines, redraw, scale: view.scale };
+}
+
 /**
- * A picture of overlaid outlines, each with its letter. `scale` is in picture pixels per unit of length;
- * `redraw(k, points)` replaces the points of an outline by finer ones.
- * @param {Outline[]} outlines
+ * A picture of overlaid outlines, each with its letter. `scale` is in picture pixels per unit of length.
+ * @param {Outline[]} outlines @param {string} label @returns {ComparedPicture}
  */
-export function overlaidPicture(/** @type {Outline[]} */ outlines, label) {
+export function overlaidPicture(outlines, label) {
   const all = outlines.map(({ points }) => points);
   const high = heightFor(all);
-  const view = viewOfOutlines(all, OVER_WIDE, high, OVER_INSET);
-  const paths = outlines.map(({ points, closed }, k) =>
-    s("path", { class: strokeClass(k), d: smoothData(points, closed, view) }),
-  );
-  const element = s(
-    "svg.thumbnail.over",
-    { viewBox: `0 0 ${OVER_WIDE} ${high}`, role: "img", "aria-label": label },
-    paths,
-    outlines.map((outline, k) => letterLabel(outline, k, outlines.length, view)),
-  );
-  const redraw = (k, points) =>
-    paths[k].setAttribute("d", placedData(points, outlines[k].closed, view, FINE_DECIMALS));
-  return { element, scale: view.scale, redraw };
+  const view = viewOfOutlines(all, { width: OVER_WIDE, height: high }, OVER_INSET);
+  const { lines, ...drawn } = linesOf(outlines, view, true);
+  const letters = outlines.map((outline, k) => letterLabel(outline, k, outlines.length, view));
+  const attributes = { viewBox: `0 0 ${OVER_WIDE} ${high}`, role: "img", "aria-label": label };
+  return { element: s("svg.thumbnail.over", attributes, lines, letters), ...drawn };
 }
 
 /**
  * Pictures of outlines side by side. All frames show the same part of the plane, so that aligned curves appear at
  * the same position and size.
- * @param {Outline[]} outlines
+ * @param {Outline[]} outlines @returns {ComparedPicture}
  */
-export function sideBySidePictures(/** @type {Outline[]} */ outlines) {
+export function sideBySidePictures(outlines) {
   const all = outlines.map(({ points }) => points);
-  const view = viewOfOutlines(all, SIDE_WIDE, SIDE_HIGH, SIDE_INSET);
-  const paths = outlines.map(({ points, closed }) => s("path", { d: smoothData(points, closed, view) }));
-  const elements = paths.map((path) =>
-    s("svg.thumbnail", { viewBox: `0 0 ${SIDE_WIDE} ${SIDE_HIGH}`, "aria-hidden": "true" }, path),
-  );
-  const redraw = (k, points) =>
-    paths[k].setAttribute("d", placedData(points, outlines[k].closed, view, FINE_DECIMALS));
-  return { elements, scale: view.scale, redraw };
+  const { lines, ...drawn } = linesOf(outlines, viewOfOutlines(all, SIDE_SIZE, SIDE_INSET));
+  return { elements: lines.map((line) => thumbnailFrame("", SIDE_SIZE, line)), ...drawn };
 }
 
-/**
- * The letter of the k-th of `count` outlines, next to its line, on the side away from the outline's centre.
- */
+/** The letter of the k-th of `count` outlines, next to its line, on the side away from the outline's centre. @param {number} k @param {number} count */
 function letterLabel(/** @type {Outline} */ { points, closed }, k, count, /** @type {Placement} */ view) {
   const places = points.length / 2;
   // Letters are spread along overlaid curves, and away from the ends of open ones.
   const part = (k + 0.5) / count;
   const at = Math.floor((closed ? part : 0.1 + 0.8 * part) * places);
-  const seen = (index) => {
+  const seen = (/** @type {number} */ index) => {
     const place = 2 * Math.min(Math.max(index, 0), places - 1);
     return screenPoint(view, [points[place], points[place + 1]]);
   };
@@ -105,27 +96,23 @@ function heightFor(/** @type {Points[]} */ outlines) {
 }
 
 /** A short sample of the k-th curve's line. */
-export function strokeSample(k) {
-  return s(
-    "svg.thumbnail.sample",
-    { width: 44, height: 12, "aria-hidden": "true" },
-    s("path", { class: strokeClass(k), d: "M2 6H42" }),
-  );
+export function strokeSample(/** @type {number} */ k) {
+  const line = s("path", { class: strokeClass(k), d: "M2 6H42" });
+  return s("svg.thumbnail.sample", { width: 44, height: 12, "aria-hidden": "true" }, line);
 }
 
 // The chord error of a curve, in picture pixels.
 const REFINED_ERROR = 0.05;
 
 /**
- * Redraws the curves of a picture (overlaidPicture) one after another as they are solved, without blocking
- * the page. `curves` are those of loadComparedCurve(), `aligned` the results of alignCurve(). Returns a function
- * that stops it.
- * @param {App} app @param {ComparedCurve[]} curves @param {{ similarity: Similarity }[]} aligned
+ * Redraws the curves of a picture (overlaidPicture) one after another as they are solved, without blocking the page. `curves` are those of
+ * loadComparedCurve(), `aligned` the results of alignCurve(). Returns a function that stops it.
+ * @param {App} app @param {ComparedCurve[]} curves @param {{ similarity: Similarity }[]} aligned @param {ComparedPicture} picture
  */
 export function refinePicture(app, picture, curves, aligned) {
   let waiting = 0;
   let isStopped = false;
-  const next = (kernel, k) => {
+  const next = (/** @type {Kernel} */ kernel, /** @type {number} */ k) => {
     if (isStopped) return;
     const { similarity } = aligned[k];
     const enlarged = picture.scale * Math.hypot(similarity.re, similarity.im);
@@ -137,7 +124,7 @@ export function refinePicture(app, picture, curves, aligned) {
     if (k + 1 < curves.length) waiting = window.setTimeout(() => next(kernel, k + 1));
   };
   // Without the kernel, the stored points remain.
-  const start = (kernel) => {
+  const start = (/** @type {Kernel} */ kernel) => {
     waiting = window.setTimeout(() => next(kernel, 0));
   };
   if (curves.length) app.kernel.load().then(start, () => {});

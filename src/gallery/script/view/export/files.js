@@ -55,7 +55,7 @@ async function fileOfCurve(kernel, curve, name, { kernel: format, type, ending, 
   return { name: ending ? file.name.replace(/\.[^.]+$/, ending) : file.name, type, bytes };
 }
 
-/** Runs `work`; its error says which curve it is of. */
+/** Runs `work`; its error says which curve it is of. @template T @param {string} name @param {() => T} work */
 function errorsNaming(name, work) {
   try {
     return work();
@@ -73,7 +73,7 @@ async function parsedName(/** @type {App} */ app, /** @type {string} */ name) {
 }
 
 /** The curve with a name, for the kernel. */
-async function curveOfName(/** @type {App} */ app, /** @type {Kernel} */ kernel, name) {
+async function curveOfName(/** @type {App} */ app, /** @type {Kernel} */ kernel, /** @type {string} */ name) {
   const { family, curve, changes } = await parsedName(app, name);
   if (curve === undefined) throw new Error(`there is no curve “${name}” in this atlas`);
   return kernel.curve(family, curve, changes);
@@ -89,7 +89,7 @@ export async function exportManifest(app, names) {
 
 /** The command line that exports curves by name. @param {App} app @param {string[]} names */
 export async function exportCommandLine(app, names) {
-  const families = new Map();
+  /** @type {Map<string, Family>} */ const families = new Map();
   for (const name of names) {
     const { family } = await parsedName(app, name);
     if (newLinkage(family.id) !== null)
@@ -103,7 +103,7 @@ export async function exportCommandLine(app, names) {
 const PLATE_DPI = 300;
 
 /** A plate in SVG, whose size is in millimetres, as the bytes of a PNG image. */
-export async function pngOfSvg(svg) {
+export async function pngOfSvg(/** @type {string} */ svg) {
   const [width, height] = ["width", "height"].map((side) =>
     Number(new RegExp(`^<svg[^>]* ${side}="([0-9.]+)mm"`).exec(svg)?.[1]),
   );

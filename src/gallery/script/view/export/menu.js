@@ -8,48 +8,47 @@ import { saveFile, copyText } from "./save.js";
  * A button with a menu of all export formats. `names` are "family:cell.trace.circuit", with changed
  * parameters after "?", as an array or as a function called at the time of the export.
  */
-export function exportMenu(/** @type {App} */ app, names) {
+export function exportMenu(/** @type {App} */ app, /** @type {string[] | (() => string[])} */ names) {
   const currentNames = () => (typeof names === "function" ? names() : names);
   const status = h("span.export-status", { "aria-live": "polite" });
-  const report = (sentence) => fill(status, sentence);
-  const task = (work) => () => {
+  const report = (/** @type {string} */ sentence) => fill(status, sentence);
+  const task = (/** @type {(names: string[]) => Promise<string>} */ work) => () => {
     report("Exporting");
     return work(currentNames()).then(report, (error) => report(error.message));
   };
+  /** @param {string} what @param {(app: App, names: string[]) => Promise<string>} textOf */
   const copy = (what, textOf) => task(async (list) => copyToClipboard(what, await textOf(app, list)));
-  const entries = [
-    ...EXPORT_FORMATS.map((format) => [
-      format.label,
-      format.note,
-      task((list) => saveCurves(app, list, format, report)),
-    ]),
+  const save = (/** @type {ExportFormat} */ format) => task((list) => saveCurves(app, list, format, report));
+  /** @type {MenuEntry[]} */ const formats = EXPORT_FORMATS.map((one) => [one.label, one.note, save(one)]);
+  /** @type {MenuEntry[]} */ const others = [
     ["Manifest fragment", ".toml", task((list) => saveManifest(app, list))],
     ["Copy manifest fragment", "", copy("the manifest fragment", exportManifest)],
     ["Copy command line", "", copy("the command line", exportCommandLine)],
   ];
-  return h("div.export", menuButton("Export", entries), status);
+  return h("div.export", menuButton("Export", [...formats, ...others]), status);
 }
 
 /** @param {App} app @param {string[]} names @param {ExportFormat} format */
-async function saveCurves(app, names, format, report) {
+async function saveCurves(app, names, format, /** @type {(sentence: string) => void} */ report) {
   const file = await exportFile(app, names, format, (done) => report(`${done} of ${names.length}`));
   saveFile(file);
   return `Saved as ${file.name}`;
 }
 
-async function saveManifest(/** @type {App} */ app, names) {
+async function saveManifest(/** @type {App} */ app, /** @type {string[]} */ names) {
   const text = await exportManifest(app, names);
   saveFile({ name: "curves.toml", type: "application/toml", bytes: new TextEncoder().encode(text) });
   return "Saved as curves.toml";
 }
 
-async function copyToClipboard(what, text) {
+async function copyToClipboard(/** @type {string} */ what, /** @type {string} */ text) {
   return (await copyText(what, text)) ? `Copied ${what}` : "";
 }
 
 /**
  * A button that opens a menu of entries [[label, note, action], …]. Arrow keys, Home and End move between
  * entries, a letter moves to the next entry that starts with it; Escape or a click elsewhere closes the menu.
+ * @param {string} label @param {MenuEntry[]} entries
  */
 function menuButton(label, entries) {
   const button = h("button.export-button", { "aria-haspopup": "menu", "aria-expanded": "false" }, label);
@@ -63,17 +62,17 @@ function menuButton(label, entries) {
   });
   const menu = h("div.export-menu", { role: "menu", "aria-label": label, hidden: true }, items);
   const element = h("div.export-dropdown", button, menu);
-  const closeOutside = (event) => {
-    if (!element.contains(event.target)) close(false);
+  const closeOutside = (/** @type {Event} */ event) => {
+    if (event.target instanceof Node && !element.contains(event.target)) close(false);
   };
-  const open = (item) => {
+  const open = (/** @type {HTMLElement} */ item) => {
     menu.hidden = false;
     button.setAttribute("aria-expanded", "true");
-    keepInWindow(menu);
+    keepInWindow(menu, element);
     document.addEventListener("pointerdown", closeOutside);
     item.focus();
   };
-  const close = (returns) => {
+  const close = (/** @type {boolean} */ returns) => {
     menu.hidden = true;
     button.setAttribute("aria-expanded", "false");
     document.removeEventListener("pointerdown", closeOutside);
@@ -93,11 +92,13 @@ function menuButton(label, entries) {
   return element;
 }
 
+/** @param {KeyboardEvent} event @param {HTMLElement[]} items @param {(returns: boolean) => void} close */
 function handleMenuKey(event, items, close) {
-  const at = items.indexOf(document.activeElement);
+  const at = items.findIndex((item) => item === document.activeElement);
   const count = items.length;
   const letter = event.key.length === 1 && !isShortcut(event) ? event.key.toLowerCase() : null;
-  const begins = (item) => item.textContent.toLowerCase().startsWith(letter);
+  const begins = (/** @type {HTMLElement} */ item) =>
+    item.textContent.toLowerCase().startsWith(letter ?? " ");
   const next = { ArrowDown: (at + 1) % count, ArrowUp: (at + count - 1) % count, Home: 0, End: count - 1 }[
     event.key
   ];
@@ -111,10 +112,10 @@ function handleMenuKey(event, items, close) {
 }
 
 // Flips a menu that would overflow the window.
-function keepInWindow(menu) {
+function keepInWindow(/** @type {HTMLElement} */ menu, /** @type {HTMLElement} */ around) {
   menu.classList.remove("over", "left");
   const { left, bottom, height } = menu.getBoundingClientRect();
-  const above = menu.parentElement.getBoundingClientRect().top;
+  const above = around.getBoundingClientRect().top;
   menu.classList.toggle("over", bottom > window.innerHeight && above > height);
   menu.classList.toggle("left", left < 0);
 }

@@ -1,9 +1,8 @@
-// Saves files with the browser's download, and copies text to the clipboard, which browsers may deny to a page
-// opened from disk.
+// Saves files with the browser's download, and copies text to the clipboard, which browsers may deny to a page opened from disk.
 
 import { focusedElement, h } from "../dom.js";
 
-/** Saves { name, type, bytes }. */
+/** Saves { name, type, bytes }. @param {{ name: string, type: string, bytes: Uint8Array<ArrayBuffer> }} _ */
 export function saveFile({ name, type, bytes }) {
   const url = URL.createObjectURL(new Blob([bytes], { type }));
   const link = document.createElement("a");
@@ -16,11 +15,8 @@ export function saveFile({ name, type, bytes }) {
   setTimeout(() => URL.revokeObjectURL(url), 60000);
 }
 
-/**
- * Copies a text, or shows it selected for manual copying; resolves to whether it was copied. `what` describes
- * the text.
- */
-export async function copyText(what, text) {
+/** Copies a text, or shows it selected for manual copying; resolves to whether it was copied. `what` describes the text. */
+export async function copyText(/** @type {string} */ what, /** @type {string} */ text) {
   try {
     await navigator.clipboard.writeText(text);
     return true;
@@ -31,13 +27,9 @@ export async function copyText(what, text) {
 }
 
 // Shows a dialog with the text selected, until it is closed.
-function showCopyDialog(what, text) {
-  const area = h("textarea", {
-    readonly: true,
-    rows: Math.min(text.split("\n").length + 1, 20),
-    cols: 72,
-    "aria-label": what,
-  });
+function showCopyDialog(/** @type {string} */ what, /** @type {string} */ text) {
+  const rows = Math.min(text.split("\n").length + 1, 20);
+  const area = h("textarea", { readonly: true, rows, cols: 72, "aria-label": what });
   area.value = text;
   const close = h("button", "Close");
   const dialog = h(

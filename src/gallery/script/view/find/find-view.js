@@ -17,7 +17,7 @@ import { matchesRoute, routeAddress } from "../../data/address.js";
 
 const ADDRESS_DELAY = 250;
 
-/** The route `#/find?…`: filters on every measure and parameter, and the curves that pass. */
+/** The route `#/find?…`: filters on every measure and parameter, and the curves that pass. @type {Route} */
 export const findRoute = {
   name: "find",
   label: "Find",
@@ -32,10 +32,8 @@ export class FindView {
   orders = new Orders(this.table);
   filters = new Filters(this.table);
   /** @type {Column[]} */ columns = [];
-  /** The rows that pass. @type {Uint32Array} */
-  rows = new Uint32Array();
-  /** What is said while tables are loaded, and whether not all are. */
-  loading = "";
+  /** The rows that pass. @type {Uint32Array} */ rows = new Uint32Array();
+  /** What is said while tables are loaded, and whether not all are. */ loading = "";
   isPartial = true;
   isLoaded = false;
   laying = 0;
@@ -51,6 +49,7 @@ export class FindView {
     );
     this.panel = new FilterPanel((name, filter, isHeld) => this.setFilter(name, filter, isHeld));
     this.tiles = new ResultTiles(app);
+    /** @param {string} name @param {boolean} down */
     const sortBy = (name, down) => this.store.change({ sort: { name, down } });
     this.list = new ResultRows(app, (name) => {
       const { sort } = this.query;
@@ -103,9 +102,10 @@ export class FindView {
     const { app, query } = this;
     this.stop();
     const listed = requestedFamilies(app.atlas, query.families);
-    const choose = (ids) => this.store.change({ families: ids });
+    const choose = (/** @type {string[] | null} */ ids) => this.store.change({ families: ids });
     fill(this.families, familyChooser(app.atlas, listed, choose));
     this.loadAll.show(null);
+    /** @param {Family[]} families @param {LoadState} state */
     const onLoad = (families, state) => this.setFamilies(families, state);
     this.stop = loadTables(app.atlas, listed, this.limit, onLoad, (sentence) => this.showMessage(sentence));
   }
@@ -128,18 +128,15 @@ export class FindView {
     this.filters = new Filters(this.table);
     for (const [name, filter] of this.query.filters) this.filters.set(name, filter);
     this.panel.setColumns(this.columns, this.table, this.query);
-    fill(
-      this.sorter,
-      h("option", { value: "" }, "atlas order"),
-      this.columns.map(({ name }) => h("option", { value: name }, columnLabel(name))),
-    );
+    const options = this.columns.map(({ name }) => h("option", { value: name }, columnLabel(name)));
+    fill(this.sorter, h("option", { value: "" }, "atlas order"), options);
     this.show();
     const { name } = this.query.sort;
     if (name && !this.sortColumn) this.address.ignore("sort", `there is no “${name}”`);
   }
 
   /** Sets a filter; the gesture ends when nothing has followed, unless a handle is held. @param {Filter | null} filter */
-  setFilter(name, filter, isHeld = false) {
+  setFilter(/** @type {string} */ name, filter, isHeld = false) {
     const filters = new Map(this.query.filters);
     if (filter) filters.set(name, filter);
     else filters.delete(name);
@@ -184,7 +181,7 @@ export class FindView {
     const { sort, show } = this.query;
     const column = this.sortColumn;
     if (this.rows.length === 0 && this.table.count > 0 && !this.loading) {
-      const without = (name) =>
+      const without = (/** @type {string} */ name) =>
         this.setFilters(new Map([...this.query.filters].filter(([other]) => other !== name)));
       fill(this.results, noResults(this.filters, without, this.isPartial));
       return;
@@ -197,8 +194,8 @@ export class FindView {
 
   /** Sorted and filtered columns come first, so that they are visible. @param {Column | undefined} column */
   shownColumns(column) {
-    const isNamed = ({ name }) => name === column?.name || this.query.filters.has(name);
-    const isFirst = ({ group }) => group === "first";
+    const isNamed = (/** @type {Column} */ { name }) => name === column?.name || this.query.filters.has(name);
+    const isFirst = (/** @type {Column} */ { group }) => group === "first";
     const named = this.columns.filter((one) => isNamed(one) && !isFirst(one));
     return [...named, ...this.columns.filter(isFirst)];
   }
@@ -211,7 +208,7 @@ export class FindView {
     this.saying = window.setTimeout(() => this.app.announce(sentence), 2 * ADDRESS_DELAY);
   }
 
-  showMessage(sentence) {
+  showMessage(/** @type {string} */ sentence) {
     this.message.hidden = false;
     fill(this.message, sentence);
   }

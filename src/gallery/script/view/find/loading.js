@@ -1,6 +1,7 @@
 // Selects the families to search, and loads their tables without blocking the page.
 
 import { needPieces } from "../../data/needs.js";
+import { sumOf } from "../../data/number.js";
 import { buttonOf, choiceBox, fill, h } from "../dom.js";
 import { formatBytes, formatCount } from "../labels.js";
 
@@ -22,25 +23,25 @@ export function requestedFamilies(/** @type {Atlas} */ atlas, /** @type {string[
  */
 export function loadTables(atlas, listed, limit, onLoad, onError) {
   let stopped = false;
-  const there = [];
-  const total = listed.reduce((sum, { curves }) => sum + curves, 0);
-  const size = listed.reduce((sum, { table_bytes: bytes }) => sum + bytes, 0);
+  /** @type {Family[]} */ const there = [];
+  const total = sumOf(listed, ({ curves }) => curves);
+  const size = sumOf(listed, (family) => family.table_bytes);
   let [loadedBytes, reportedAt, pause] = [0, performance.now(), 400];
-  const report = async (done) => {
+  const report = async (/** @type {boolean} */ done) => {
     const began = performance.now();
-    const curves = there.reduce((sum, family) => sum + loadedCurves(family), 0);
+    const curves = sumOf(there, loadedCurves);
     onLoad([...there], { done, curves, total, bytes: size });
     // Lets the page handle input meanwhile.
     await new Promise((resume) => setTimeout(resume));
     reportedAt = performance.now();
     pause = Math.max(400, 4 * (reportedAt - began));
   };
-  const loadPiece = async (family, piece) => {
+  const loadPiece = async (/** @type {Family} */ family, /** @type {Piece} */ piece) => {
     await needPieces(family, [piece]);
     loadedBytes += piece.bytes;
     if (!stopped && performance.now() - reportedAt >= pause) await report(false);
   };
-  const loadFamily = async ({ id, table_bytes: bytes }) => {
+  const loadFamily = async (/** @type {ListedFamily} */ { id, table_bytes: bytes }) => {
     const family = await atlas.family(id);
     there.push(family);
     if (family.table.bytes === 0) loadedBytes += bytes;
@@ -75,16 +76,15 @@ export function loadedCurves({ table, curves: { count } }) {
   return table.pieces[table.loadedPieces]?.firstCurve ?? count;
 }
 
-/**
- * A line below the count of a search: how many curves are not loaded, and a button that calls `load()`. Empty
- * while loading goes on, or if all are loaded.
- */
-export function loadAllLine(load) {
+/** A line below the count of a search: how many curves are not loaded, and a button that calls `load()`. Empty while loading goes on, or if all are loaded. */
+export function loadAllLine(/** @type {() => void} */ load) {
   const element = h("p.load-all.toolbar", { hidden: true });
-  const text = ({ curves, total }) => `${formatCount(total - curves, "curve is", "curves are")} not loaded`;
-  const show = (state) => {
-    element.hidden = !state?.done || state.curves >= state.total;
-    if (element.hidden) return fill(element);
+  const text = (/** @type {LoadState} */ { curves, total }) =>
+    `${formatCount(total - curves, "curve is", "curves are")} not loaded`;
+  const show = (/** @type {LoadState | null} */ state) => {
+    const isLine = state?.done && state.curves < state.total;
+    element.hidden = !isLine;
+    if (!isLine) return fill(element);
     const { total, bytes } = state;
     const words = `Load all ${formatCount(total, "curve")} (${formatBytes(bytes)})`;
     return fill(element, h("span.note", text(state)), " ", buttonOf(words, load));
@@ -93,29 +93,27 @@ export function loadAllLine(load) {
 }
 
 /**
- * Checkboxes for the families of an atlas; calls `changed(ids)` with those checked, null for all. Null if
- * there is only one family.
+ * Checkboxes for the families of an atlas; calls `changed(ids)` with those checked, null for all. Null if there is only one family.
+ * @param {(ids: string[] | null) => void} changed
  */
 export function familyChooser(/** @type {Atlas} */ atlas, /** @type {ListedFamily[]} */ loaded, changed) {
-  const withCurves = atlas.families.filter(({ script, curves }) => script && curves > 0);
+  const withCurves = requestedFamilies(atlas, null);
   if (withCurves.length < 2) return null;
+  const ids = withCurves.map(({ id }) => id);
   const chosen = new Set(loaded.map(({ id }) => id));
-  const bytes = withCurves.reduce((sum, family) => sum + (family.bytes ?? 0), 0);
-  const tick = (id) => {
+  const bytes = sumOf(withCurves, (family) => family.bytes);
+  const tick = (/** @type {string} */ id) => {
     if (!chosen.delete(id)) chosen.add(id);
-    const ids = withCurves.map((family) => family.id).filter((one) => chosen.has(one));
-    changed(ids.length === withCurves.length ? null : ids);
+    changed(chosen.size === ids.length ? null : ids.filter((one) => chosen.has(one)));
   };
   const box = (/** @type {ListedFamily} */ { id, title, curves }) => {
     const attributes = { checked: chosen.has(id), onchange: () => tick(id) };
     const label = [h("span", title), h("span.count", curves.toLocaleString("en"))];
     return choiceBox("checkbox", attributes, label).element;
   };
+  /** @param {string} label @param {string[]} ids */
   const choose = (label, ids) => buttonOf(label, () => changed(ids), { class: "quiet" });
-  const all = choose(
-    `All (${formatBytes(bytes)})`,
-    withCurves.map(({ id }) => id),
-  );
+  const all = choose(`All (${formatBytes(bytes)})`, ids);
   return h(
     "details.more-filters",
     { open: chosen.size === 0 },

@@ -6,23 +6,21 @@ import { columnLabel } from "../labels.js";
 
 /** Calls `changed(name, filter, isHeld)` when a filter is changed, perhaps by a handle that is held; null removes it. */
 export class FilterPanel {
-  constructor(changed) {
+  constructor(/** @type {(name: string, filter: Filter | null, isHeld?: boolean) => void} */ changed) {
     this.changed = changed;
-    this.filters = new Map();
+    /** @type {Map<string, RangeFilter | WordFilter>} */ this.filters = new Map();
     this.element = h("div.filters");
-    this.opened = new Set();
+    /** @type {Set<ColumnGroup>} */ this.opened = new Set();
+    /** @type {Filters | null} */ this.shown = null;
   }
 
-  /**
-   * Creates the filters for the columns of a table, set as in a query.
-   * @param {Column[]} columns @param {CurveTable} table @param {FindQuery} query
-   */
+  /** Creates the filters for the columns of a table, set as in a query. @param {Column[]} columns @param {CurveTable} table @param {FindQuery} query */
   setColumns(columns, table, query) {
     this.filters.clear();
     /** @type {Record<Column["group"], Element[]>} */ const groups = { first: [], more: [], parameters: [] };
     for (const column of columns)
       groups[column.group].push(this.createFilter(column, table, query.filters.get(column.name)));
-    const isFiltered = (group) =>
+    const isFiltered = (/** @type {ColumnGroup} */ group) =>
       columns.some((column) => column.group === group && query.filters.has(column.name));
     const parameters = this.group("parameters", "Parameters", groups.parameters, isFiltered("parameters"));
     const more = this.group("more", "More measures", groups.more, isFiltered("more"));
@@ -31,25 +29,26 @@ export class FilterPanel {
 
   /** @param {Column} column @param {CurveTable} table @param {Filter | undefined} filter */
   createFilter(column, table, filter) {
-    const changed = (next, isHeld) => this.changed(column.name, next, isHeld);
-    const isRange = column.kind === "numbers";
-    const one = isRange
-      ? new RangeFilter(column, table, filter, changed)
-      : new WordFilter(column, table, filter, changed);
+    const changed = (/** @type {Filter | null} */ next, isHeld = false) =>
+      this.changed(column.name, next, isHeld);
+    const Kind = column.kind === "numbers" ? RangeFilter : WordFilter;
+    const one = new Kind(column, table, filter, changed);
     this.filters.set(column.name, one);
     return one.element;
   }
 
+  /** @param {ColumnGroup} group @param {string} label @param {Element[]} elements @param {boolean} isOpen */
   group(group, label, elements, isOpen) {
     if (!elements.length) return null;
     if (isOpen) this.opened.add(group);
-    const toggled = ({ target }) => {
-      if (target.open) this.opened.add(group);
+    const summary = h("summary", label, h("span.note", ` ${elements.length}`));
+    const details = h("details.more-filters", { open: this.opened.has(group) }, summary, elements);
+    details.ontoggle = () => {
+      if (details.open) this.opened.add(group);
       else this.opened.delete(group);
       if (this.shown) this.show(this.shown);
     };
-    const summary = h("summary", label, h("span.note", ` ${elements.length}`));
-    return h("details.more-filters", { open: this.opened.has(group), ontoggle: toggled }, summary, elements);
+    return details;
   }
 
   /** Removes the filters, and with them what they know of the table. */
@@ -71,26 +70,24 @@ export class FilterPanel {
 }
 
 /** Calls `changed(filter)` with a Set of words, or null for all. */
-export class WordFilter {
-  /** @param {Column} column @param {CurveTable} table @param {Filter | undefined} filter */
+class WordFilter {
+  /** @param {Column} column @param {CurveTable} table @param {Filter | undefined} filter @param {(filter: Filter | null) => void} changed */
   constructor(column, table, filter, changed) {
     this.column = column;
     this.changed = changed;
     this.chosen = new Set(filter instanceof Set ? filter : []);
     this.values = table.words(column.name).values;
     this.counts = this.values.map(() => h("span.count"));
-    const box = (word, k) => {
+    const box = (/** @type {string} */ word, /** @type {number} */ k) => {
       const attributes = { checked: this.chosen.has(word), onchange: () => this.ticked(word) };
       return choiceBox("checkbox", attributes, h("span", word), this.counts[k]).element;
     };
-    this.element = h(
-      "fieldset.words",
-      h("legend", { title: `${column.name}: ${column.definition}` }, columnLabel(column.name)),
-      this.values.map(box),
-    );
+    const title = `${column.name}: ${column.definition}`;
+    const legend = h("legend", { title }, columnLabel(column.name));
+    this.element = h("fieldset.words", legend, this.values.map(box));
   }
 
-  ticked(word) {
+  ticked(/** @type {string} */ word) {
     if (!this.chosen.delete(word)) this.chosen.add(word);
     this.changed(this.chosen.size ? new Set(this.chosen) : null);
   }

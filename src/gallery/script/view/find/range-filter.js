@@ -2,12 +2,16 @@
 
 import { BINS, binCounts, histogramOf, formatBound } from "../../find/histogram.js";
 import { buttonOf, h, s, setAttributes } from "../dom.js";
+import { stepsOfKey } from "../keys.js";
 import { columnLabel } from "../labels.js";
 import { NumberField } from "../number-field.js";
 
+/** @type {(keyof Bounds)[]} */
+const ENDS = ["low", "high"];
+
 /** Calls `changed(filter, isHeld)` with { low, high } or null when a bound is changed, perhaps by a handle that is held. */
 export class RangeFilter {
-  /** @param {Column} column @param {CurveTable} table @param {Filter | undefined} filter */
+  /** @param {Column} column @param {CurveTable} table @param {Filter | undefined} filter @param {(filter: Bounds | null, isHeld?: boolean) => void} changed */
   constructor(column, table, filter, changed) {
     this.column = column;
     this.changed = changed;
@@ -16,14 +20,11 @@ export class RangeFilter {
     const words = columnLabel(column.name);
     this.behind = s("path.behind", { d: histogramBars(this.scale, this.scale.counts) });
     this.front = s("path.front");
-    const picture = s(
-      "svg.bars",
-      { viewBox: `0 0 ${BINS} 1`, preserveAspectRatio: "none", "aria-hidden": "true", focusable: "false" },
-      this.behind,
-      this.front,
-    );
-    this.ends = ["low", "high"].map((end) => this.createHandle(end, words));
-    this.inputs = ["low", "high"].map((end) => this.createInput(end, words));
+    const hidden = { "aria-hidden": "true", focusable: "false" };
+    const box = { viewBox: `0 0 ${BINS} 1`, preserveAspectRatio: "none", ...hidden };
+    const picture = s("svg.bars", box, this.behind, this.front);
+    this.ends = ENDS.map((end) => this.createHandle(end, words));
+    this.inputs = ENDS.map((end) => this.createInput(end, words));
     this.track = h("div.track", { onpointerdown: (event) => this.startDrag(event) }, picture, this.ends);
     const attributes = { class: "quiet clear", hidden: true, "aria-label": `Clear ${words}` };
     this.clear = buttonOf("×", () => this.setFilter({}), attributes);
@@ -40,7 +41,7 @@ export class RangeFilter {
     this.render();
   }
 
-  createHandle(end, words) {
+  createHandle(/** @type {keyof Bounds} */ end, /** @type {string} */ words) {
     return h("span", {
       class: `end ${end}`,
       role: "slider",
@@ -52,7 +53,7 @@ export class RangeFilter {
     });
   }
 
-  createInput(end, words) {
+  createInput(/** @type {keyof Bounds} */ end, /** @type {string} */ words) {
     const units = this.column.unit === "deg" ? ["°", "deg"] : [];
     const type = (/** @type {number | undefined} */ value) =>
       this.setFilter({ ...this.filter, [end]: value }, true);
@@ -77,7 +78,7 @@ export class RangeFilter {
       filter.low === undefined ? 0 : scale.placeOf(filter.low),
       filter.high === undefined ? 1 : scale.placeOf(filter.high),
     ];
-    ["low", "high"].forEach((end, k) => {
+    ENDS.forEach((end, k) => {
       const value = filter[end] ?? scale[end];
       ends[k].style.left = `${100 * places[k]}%`;
       const now = Math.round(100 * places[k]);
@@ -95,7 +96,7 @@ export class RangeFilter {
     this.front.setAttribute("d", histogramBars(this.scale, binCounts(this.scale, rows)));
   }
 
-  moveEnd(place, end, isHeld = false) {
+  moveEnd(/** @type {number} */ place, /** @type {keyof Bounds} */ end, isHeld = false) {
     const other = end === "low" ? this.filter.high : this.filter.low;
     const isOpen = end === "low" ? place <= 0 : place >= 1;
     let value = isOpen ? undefined : Number(formatBound(this.scale.valueAt(place)));
@@ -104,17 +105,18 @@ export class RangeFilter {
     this.setFilter({ ...this.filter, [end]: value }, isHeld);
   }
 
-  startDrag(event) {
+  startDrag(/** @type {PointerEvent} */ event) {
     const { left, width } = this.track.getBoundingClientRect();
-    const placeOf = ({ clientX }) => Math.min(Math.max((clientX - left) / width, 0), 1);
+    const placeOf = (/** @type {PointerEvent} */ { clientX }) =>
+      Math.min(Math.max((clientX - left) / width, 0), 1);
     const at = placeOf(event);
-    const distance = (k) => Math.abs(at - parseFloat(this.ends[k].style.left) / 100);
+    const distance = (/** @type {number} */ k) => Math.abs(at - parseFloat(this.ends[k].style.left) / 100);
     const [low, high] = [distance(0), distance(1)];
     const end = low < high || (low === high && at < 0.5) ? "low" : "high";
     event.preventDefault();
     this.ends[end === "low" ? 0 : 1].focus();
     this.track.setPointerCapture(event.pointerId);
-    const move = (moved) => this.moveEnd(placeOf(moved), end, true);
+    const move = (/** @type {PointerEvent} */ moved) => this.moveEnd(placeOf(moved), end, true);
     move(event);
     this.track.onpointermove = move;
     this.track.onlostpointercapture = () => {
@@ -123,11 +125,10 @@ export class RangeFilter {
     };
   }
 
-  handleKey(event, end) {
+  handleKey(/** @type {KeyboardEvent} */ event, /** @type {keyof Bounds} */ end) {
     const bound = this.filter[end];
     const now = bound === undefined ? (end === "low" ? 0 : 1) : this.scale.placeOf(bound);
-    const steps = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -8, PageUp: 8 };
-    const to = event.key === "Home" ? 0 : event.key === "End" ? 1 : now + steps[event.key] / 100;
+    const to = { Home: 0, End: 1 }[event.key] ?? now + (stepsOfKey(event, 8) ?? NaN) / 100;
     if (Number.isNaN(to)) return;
     event.preventDefault();
     this.moveEnd(Math.min(Math.max(to, 0), 1), end);
@@ -135,7 +136,7 @@ export class RangeFilter {
 }
 
 /** Bars of counts in a box of BINS × 1; small bars have a minimum height. */
-function histogramBars(/** @type {Histogram} */ scale, counts) {
+function histogramBars(/** @type {Histogram} */ scale, /** @type {Uint32Array} */ counts) {
   const highest = Math.max(...scale.counts, 1);
   let path = "";
   counts.forEach((count, k) => {

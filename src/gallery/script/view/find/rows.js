@@ -18,26 +18,18 @@ export class ResultRows {
   /** @type {Uint32Array | number[]} */ rows = [];
   /** @type {Column[]} */ columns = [];
 
-  constructor(/** @type {App} */ app, sorted) {
+  constructor(/** @type {App} */ app, /** @type {(name: string) => void} */ sorted) {
     this.app = app;
     this.sorted = sorted;
     this.head = h("thead");
     this.body = h("tbody");
-    this.figures = h(
-      "table.figures.results-table",
-      h("caption.visually-hidden", "Curves"),
-      this.head,
-      this.body,
-    );
+    const caption = h("caption.visually-hidden", "Curves");
+    this.figures = h("table.figures.results-table", caption, this.head, this.body);
     const attributes = { tabindex: "0", role: "region", "aria-label": "Table of curves" };
     this.element = h("div.scroll", { ...attributes, onscroll: () => this.fill() }, this.figures);
     pinOnKey(this.element);
     this.unwatch = watchPins(app, this.element);
-    this.paper = onPrint(
-      this.element,
-      () => this.printed(),
-      () => this.fill(),
-    );
+    this.paper = onPrint(this);
   }
 
   end() {
@@ -48,29 +40,21 @@ export class ResultRows {
   }
 
   /** @param {CurveTable} table @param {Uint32Array} rows @param {Column[]} columns */
-  setRows(table, rows, columns, sort) {
+  setRows(table, rows, columns, /** @type {FindQuery["sort"]} */ sort) {
     this.table = table;
     this.rows = rows;
     this.columns = columns;
     setAttributes(this.figures, { "aria-rowcount": rows.length + 1 });
     const heading = (/** @type {Column} */ { name, kind }) => {
       const isSorted = sort.name === name;
-      const [order, sign] = sort.down ? ["descending", " ↓"] : ["ascending", " ↑"];
-      const attributes = {
-        class: kind === "words" ? "text" : null,
-        scope: "col",
-        "aria-sort": isSorted && order,
-      };
-      return h(
-        "th",
-        attributes,
-        buttonOf([columnLabel(name), isSorted ? sign : ""], () => this.sorted(name)),
-      );
+      const order = sort.down ? "descending" : "ascending";
+      const words = [columnLabel(name), isSorted ? (sort.down ? " ↓" : " ↑") : ""];
+      const button = buttonOf(words, () => this.sorted(name));
+      return h(kind === "words" ? "th.text" : "th", { scope: "col", "aria-sort": isSorted && order }, button);
     };
     // A heading that was pressed keeps the focus when it is replaced.
-    const focused = [...this.head.querySelectorAll("button")].findIndex(
-      (one) => one === document.activeElement,
-    );
+    const before = [...this.head.querySelectorAll("button")];
+    const focused = before.findIndex((one) => one === document.activeElement);
     fill(this.head, h("tr", h("th", { scope: "col" }, "curve"), columns.map(heading)));
     if (focused >= 0) this.head.querySelectorAll("button")[focused]?.focus();
     this.fill();
@@ -83,7 +67,7 @@ export class ResultRows {
     const top = scrollTop * scrollScale(height, clientHeight);
     const first = Math.max(Math.floor(top / ROW_HEIGHT) - ROWS_AHEAD, 0);
     const last = Math.min(first + Math.ceil(clientHeight / ROW_HEIGHT) + 2 * ROWS_AHEAD, this.rows.length);
-    const space = (pixels) => {
+    const space = (/** @type {number} */ pixels) => {
       const cell = h("td.space", { colspan: this.columns.length + 1 });
       cell.style.height = `${pixels}px`;
       return pixels > 0 ? h("tr", { "aria-hidden": "true" }, cell) : null;
@@ -103,7 +87,7 @@ export class ResultRows {
     return printedCountNote(last, this.rows.length, "curves");
   }
 
-  line(k) {
+  line(/** @type {number} */ k) {
     const { table } = this;
     if (!table) return null;
     const row = this.rows[k];

@@ -10,10 +10,7 @@ import { TileWindow } from "../tile-window.js";
 import { thumbnail } from "../thumbnail.js";
 import { watchPins, pinOnKey, curvePinButton } from "../pins.js";
 
-/**
- * Tiles for rows of a table, in a given order; `valueOf(row)` is the text of the value they are sorted by, or
- * null.
- */
+/** Tiles for rows of a table, in a given order; `valueOf(row)` is the text of the value they are sorted by, or null. */
 export class ResultTiles extends TileWindow {
   /** @type {Uint32Array | number[]} */ rows = [];
   /** @type {CurveTable | null} */ table = null;
@@ -46,10 +43,7 @@ export class ResultTiles extends TileWindow {
     this.table = null;
   }
 
-  /**
-   * Replaces the rows shown.
-   * @param {CurveTable} table @param {Uint32Array} rows @param {(row: number) => string | null | undefined} valueOf
-   */
+  /** Replaces the rows shown. @param {CurveTable} table @param {Uint32Array} rows @param {(row: number) => string | null | undefined} valueOf */
   setRows(table, rows, valueOf) {
     this.table = table;
     this.rows = rows;
@@ -61,21 +55,14 @@ export class ResultTiles extends TileWindow {
     if (this.element.isConnected) this.measure();
   }
 
-  tile(k) {
+  tile(/** @type {number} */ k) {
     const { family, curve, name } = this.curveOf(k);
-    return h(
-      "li",
-      h(
-        "a",
-        { href: curveAddress(family.id, curveKey(family, curve)), "data-name": name },
-        h("span.tile-picture"),
-        h("span.label"),
-      ),
-      curvePinButton(this.app, name),
-    );
+    const attributes = { href: curveAddress(family.id, curveKey(family, curve)), "data-name": name };
+    const link = h("a", attributes, h("span.tile-picture"), h("span.label"));
+    return h("li", link, curvePinButton(this.app, name));
   }
 
-  fillTile(/** @type {Element} */ element, k) {
+  fillTile(/** @type {Element} */ element, /** @type {number} */ k) {
     const { family, curve, name } = this.curveOf(k);
     const value = this.valueOf(this.rows[k]);
     const caption = curveCaption(family, curve) || name;
@@ -89,7 +76,7 @@ export class ResultTiles extends TileWindow {
   }
 
   /** The curve of a tile, with its name. */
-  curveOf(k) {
+  curveOf(/** @type {number} */ k) {
     if (!this.table) throw new Error("there are no results");
     return this.table.curveOf(this.rows[k]);
   }

@@ -9,9 +9,7 @@ const DIAL_RADIUS = 78;
 // The transmission angle of a good linkage stays at least this far from 0 and 180.
 const GOOD_TRANSMISSION_DEG = 40;
 
-/**
- * The dial: `show(study)` sets its range, `pose(mu)` its needle. Hidden if the linkage is not a four-bar.
- */
+/** The dial: `show(study)` sets its range, `pose(mu)` its needle. Hidden if the linkage is not a four-bar. */
 export class DialView {
   constructor() {
     this.range = s("path.dial-range");
@@ -20,25 +18,19 @@ export class DialView {
     this.least = h("span");
     this.most = h("span");
     const ticks = Array.from({ length: 19 }, (_, k) =>
-      dialStroke(DIAL_CENTRE, DIAL_RADIUS - (k % 3 === 0 ? 7 : 4), DIAL_RADIUS, 10 * k),
+      dialStroke(DIAL_RADIUS - (k % 3 === 0 ? 7 : 4), DIAL_RADIUS, 10 * k),
     ).join("");
     const bounds = [GOOD_TRANSMISSION_DEG, 180 - GOOD_TRANSMISSION_DEG]
-      .map((deg) => dialStroke(DIAL_CENTRE, 14, DIAL_RADIUS + 9, deg))
+      .map((deg) => dialStroke(14, DIAL_RADIUS + 9, deg))
       .join("");
-    const angles = [
-      [0, 190, 98],
-      [90, 100, 12],
-      [180, 10, 98],
-      [40, 170, 38],
-      [140, 30, 38],
-    ];
-    const numbers = angles.map(([deg, x, y]) =>
-      s("text", { x, y: y + 4, class: deg % 90 ? "dial-word bound" : "dial-word" }, deg),
-    );
+    const numbers = [0, 40, 90, 140, 180].map((deg) => {
+      const [x, y] = dialPlace(DIAL_RADIUS + 14, deg);
+      return s("text", { x, y: y + 4, class: deg % 90 ? "dial-word bound" : "dial-word" }, deg);
+    });
     this.drawing = s(
       "svg.dial",
       { viewBox: "0 0 200 112", role: "img", "aria-label": "Dial of the transmission angle" },
-      s("path.dial-rim", { d: dialArc(DIAL_CENTRE, DIAL_RADIUS, 0, 180) + ticks }),
+      s("path.dial-rim", { d: dialArc(DIAL_RADIUS, 0, 180) + ticks }),
       this.range,
       s("path.dial-bounds", { d: bounds }),
       numbers,
@@ -59,14 +51,14 @@ export class DialView {
     const [least, most] = angles;
     this.least.textContent = `${formatDecimals(least, 1)}°`;
     this.most.textContent = `${formatDecimals(most, 1)}°`;
-    const field = dialField(DIAL_CENTRE, DIAL_RADIUS - 16, DIAL_RADIUS, least, Math.max(most, least + 0.3));
+    const field = dialField(DIAL_RADIUS - 16, DIAL_RADIUS, least, Math.max(most, least + 0.3));
     this.range.setAttribute("d", field);
     const range = `from ${this.least.textContent} to ${this.most.textContent} over the circuit`;
     this.drawing.setAttribute("aria-label", `Dial of the transmission angle: ${range}`);
   }
 
   /** The transmission angle of a pose, in degrees. */
-  pose(mu) {
+  pose(/** @type {number} */ mu) {
     if (!Number.isFinite(mu) || mu === this.shown) return;
     this.shown = mu;
     this.needle.setAttribute("transform", `rotate(${-mu} ${DIAL_CENTRE[0]} ${DIAL_CENTRE[1]})`);
@@ -75,30 +67,26 @@ export class DialView {
   }
 }
 
-/** The position of an angle in degrees at a radius about the dial's centre, [X, Y], y down. */
-function dialPlace([cx, cy], radius, deg) {
+/** The position of an angle in degrees at a radius about the dial's centre, [X, Y], y down. @returns {Point} */
+function dialPlace(/** @type {number} */ radius, /** @type {number} */ deg) {
   const angle = (deg * Math.PI) / 180;
-  return [cx + radius * Math.cos(angle), cy - radius * Math.sin(angle)];
+  const [cx, cy] = DIAL_CENTRE;
+  return [pixel(cx + radius * Math.cos(angle)), pixel(cy - radius * Math.sin(angle))];
 }
 
 /** Path data of the arc from one angle to a greater one. */
-export function dialArc(centre, radius, from, to) {
-  const [x0, y0] = dialPlace(centre, radius, from).map(pixel);
-  const [x1, y1] = dialPlace(centre, radius, to).map(pixel);
-  return `M${x0} ${y0}A${radius} ${radius} 0 ${to - from > 180 ? 1 : 0} 0 ${x1} ${y1}`;
+function dialArc(/** @type {number} */ radius, /** @type {number} */ from, /** @type {number} */ to) {
+  const large = to - from > 180 ? 1 : 0;
+  return `M${dialPlace(radius, from)}A${radius} ${radius} 0 ${large} 0 ${dialPlace(radius, to)}`;
 }
 
 /** Path data of a line along a radius. */
-export function dialStroke(centre, inner, outer, deg) {
-  const [x0, y0] = dialPlace(centre, inner, deg).map(pixel);
-  const [x1, y1] = dialPlace(centre, outer, deg).map(pixel);
-  return `M${x0} ${y0}L${x1} ${y1}`;
+function dialStroke(/** @type {number} */ inner, /** @type {number} */ outer, /** @type {number} */ deg) {
+  return `M${dialPlace(inner, deg)}L${dialPlace(outer, deg)}`;
 }
 
-/** Path data of the sector between two angles and two radii. */
-export function dialField(centre, inner, outer, from, to) {
-  const [x1, y1] = dialPlace(centre, inner, to).map(pixel);
-  const [x0, y0] = dialPlace(centre, inner, from).map(pixel);
-  const large = to - from > 180 ? 1 : 0;
-  return `${dialArc(centre, outer, from, to)}L${x1} ${y1}A${inner} ${inner} 0 ${large} 1 ${x0} ${y0}Z`;
+/** Path data of the sector between two angles and two radii. @param {number} inner @param {number} outer @param {number} from @param {number} to */
+function dialField(inner, outer, from, to) {
+  const back = `A${inner} ${inner} 0 ${to - from > 180 ? 1 : 0} 1 ${dialPlace(inner, from)}`;
+  return `${dialArc(outer, from, to)}L${dialPlace(inner, to)}${back}Z`;
 }

@@ -1,5 +1,4 @@
-// Pointer input on the stage: drags a joint along its path, the crank about its pivot, and pans and zooms the
-// picture.
+// Pointer input on the stage: drags a joint along its path, the crank about its pivot, and pans and zooms the picture.
 
 import { planePoint } from "../../draw/plane-view.js";
 import { followInput, nearestPart, placeAtPart } from "./timeline.js";
@@ -14,32 +13,34 @@ const LIMIT_SLACK = 3;
 export function enableDragging(/** @type {Stage} */ stage, /** @type {Plate} */ plate) {
   const { element: frame, picture } = stage;
   /** @type {Map<number, Point>} */ const pointers = new Map();
-  let drag = null;
-  let dragPointer = null;
+  /** @type {{ move(at: Point, isFree?: boolean): unknown, end(): void } | null} */ let drag = null;
+  let dragPointer = -1;
   /** @returns {Point} */
-  const pointOf = (event) => {
+  const pointOf = (/** @type {MouseEvent} */ event) => {
     const box = picture.getBoundingClientRect();
     return [event.clientX - box.left, event.clientY - box.top];
   };
-  const down = (event) => {
-    if (event.button !== 0 || !plate.study || plate.reason || event.target.closest?.("input")) return;
+  const down = (/** @type {PointerEvent} */ event) => {
+    if (event.button !== 0 || !plate.study || plate.reason) return;
+    const { target } = event;
+    if (!(target instanceof Element) || target.closest("input")) return;
     const at = pointOf(event);
     pointers.set(event.pointerId, at);
-    const joint = event.target.closest?.("[data-joint]")?.dataset.joint;
-    const handle = event.target.closest?.("[data-handle]")?.dataset.handle;
+    const joint = target.closest("[data-joint]")?.getAttribute("data-joint");
+    const handle = target.closest("[data-handle]")?.getAttribute("data-handle");
     const held = handle ?? joint;
-    if (held !== undefined && pointers.size === 1) {
+    if (typeof held === "string" && pointers.size === 1) {
       plate.drive.pause();
       dragPointer = event.pointerId;
       drag = startDrag(plate, { handle, joint }, planePoint(stage.view, at));
       stage.element.classList.add("dragging");
     }
-    if (held !== undefined || event.pointerType === "mouse") {
+    if (typeof held === "string" || event.pointerType === "mouse") {
       frame.setPointerCapture(event.pointerId);
       event.preventDefault();
     }
   };
-  const moved = (event) => {
+  const moved = (/** @type {PointerEvent} */ event) => {
     const before = pointers.get(event.pointerId);
     if (!before) return;
     const at = pointOf(event);
@@ -50,7 +51,7 @@ export function enableDragging(/** @type {Stage} */ stage, /** @type {Plate} */ 
     else if (event.pointerType === "mouse") stage.pan(at[0] - before[0], at[1] - before[1]);
     pointers.set(event.pointerId, at);
   };
-  const up = (event) => {
+  const up = (/** @type {PointerEvent} */ event) => {
     if (!pointers.delete(event.pointerId)) return;
     if (pointers.size > 0) return;
     stage.element.classList.remove("dragging");
@@ -62,32 +63,35 @@ export function enableDragging(/** @type {Stage} */ stage, /** @type {Plate} */ 
   const scroll = () => {
     scrolled = performance.now();
   };
-  const wheel = (event) => {
+  const wheel = (/** @type {WheelEvent} */ event) => {
     // A page that is scrolling continues to scroll over the picture.
     if (!event.ctrlKey && performance.now() - scrolled < 400) return;
     event.preventDefault();
     stage.zoom(Math.exp(-event.deltaY * (event.ctrlKey ? 0.01 : 0.0015)), pointOf(event));
   };
-  const listeners = { pointerdown: down, pointermove: moved, pointerup: up, pointercancel: up, wheel };
-  for (const [name, listener] of Object.entries(listeners))
-    frame.addEventListener(name, listener, { passive: false });
+  Object.assign(frame, { onpointerdown: down, onpointermove: moved, onpointerup: up, onpointercancel: up });
+  frame.addEventListener("wheel", wheel, { passive: false });
   window.addEventListener("scroll", scroll, { passive: true });
   return () => window.removeEventListener("scroll", scroll);
 }
 
+/** @param {Map<number, Point>} pointers @param {number} id @param {Point} at */
 function pinch(/** @type {Stage} */ stage, pointers, id, at) {
-  const [other] = [...pointers].find(([key]) => key !== id)?.slice(1) ?? [];
-  if (!other) return;
+  const other = [...pointers].find(([key]) => key !== id)?.[1];
   const before = pointers.get(id);
-  const apart = ([x, y]) => Math.hypot(x - other[0], y - other[1]);
+  if (!other || !before) return;
+  const apart = (/** @type {Point} */ [x, y]) => Math.hypot(x - other[0], y - other[1]);
   if (apart(before) > 0)
     stage.zoom(apart(at) / apart(before), [(at[0] + other[0]) / 2, (at[1] + other[1]) / 2]);
   stage.pan((at[0] - before[0]) / 2, (at[1] - before[1]) / 2);
 }
 
-// Starts a drag of a handle or of a joint, whose `move` takes the pointer's positions in the plane.
-function startDrag(/** @type {Plate} */ plate, { handle, joint }, pointer) {
-  if (handle !== undefined) return plate.handles.drag(Number(handle), pointer);
+/**
+ * Starts a drag of a handle or of a joint, whose `move` takes the pointer's positions in the plane.
+ * @param {Plate} plate @param {Record<"handle" | "joint", string | null | undefined>} _ @param {Point} pointer
+ */
+function startDrag(plate, { handle, joint }, pointer) {
+  if (typeof handle === "string") return plate.handles.drag(Number(handle), pointer);
   const number = Number(joint);
   const crank = plate.study?.crank;
   const isCrank = crank && crank.pin === number && crank.can_turn;
@@ -96,12 +100,15 @@ function startDrag(/** @type {Plate} */ plate, { handle, joint }, pointer) {
 }
 
 // The crank follows the direction of the pointer about its pivot, over several turns and over limits.
+/** @param {number} pivot @param {number} pin @param {Point} pointer */
 function dragCrank(/** @type {Plate} */ plate, pivot, pin, pointer) {
   const { drive } = plate;
   const pose = plate.pose.joints;
   const { place } = drive;
   const sense = plate.study?.is_mirrored ? -1 : 1;
-  const directionOf = ([x, y]) => (Math.atan2(y - pose[2 * pivot + 1], x - pose[2 * pivot]) * 180) / Math.PI;
+  const directionOf = (/** @type {Point} */ [x, y]) =>
+    (Math.atan2(y - pose[2 * pivot + 1], x - pose[2 * pivot]) * 180) / Math.PI;
+  /** @param {number} from @param {number} to */
   const turned = (from, to) => sense * (((((to - from + 180) % 360) + 360) % 360) - 180);
   let direction = directionOf(pointer);
   let wanted = place.input + turned(directionOf([pose[2 * pin], pose[2 * pin + 1]]), direction);
@@ -110,7 +117,7 @@ function dragCrank(/** @type {Plate} */ plate, pivot, pin, pointer) {
     drive.move();
   };
   follow();
-  return (at) => {
+  return (/** @type {Point} */ at) => {
     const now = directionOf(at);
     wanted += turned(direction, now);
     direction = now;
@@ -119,14 +126,14 @@ function dragCrank(/** @type {Plate} */ plate, pivot, pin, pointer) {
 }
 
 // Any other joint moves along its path to the point nearest to the pointer.
-function dragJoint(/** @type {Plate} */ plate, joint, pointer) {
+function dragJoint(/** @type {Plate} */ plate, /** @type {number} */ joint, /** @type {Point} */ pointer) {
   const pose = plate.pose.joints;
   const [offX, offY] = [pose[2 * joint] - pointer[0], pose[2 * joint + 1] - pointer[1]];
   /** @type {Place} */ const spot = { pass: 0, input: 0 };
-  return ([x, y]) => {
+  return (/** @type {Point} */ [x, y]) => {
     if (!plate.study) return;
     const { timeline, kernel } = plate.study;
-    const distance = (part) => {
+    const distance = (/** @type {number} */ part) => {
       placeAtPart(timeline, part, spot);
       const [atX, atY] = kernel.jointPosition(joint, spot.pass, spot.input);
       const far = Math.hypot(atX - x - offX, atY - y - offY);

@@ -12,8 +12,7 @@ export class Drive {
   heading = 1;
   /** @type {Timeline} */ timeline;
   isLength = false;
-  /** While there is nothing to move. */
-  isHalted = true;
+  /** While there is nothing to move. */ isHalted = true;
 
   constructor(/** @type {PlateFigure} */ plate) {
     this.plate = plate;
@@ -33,7 +32,7 @@ export class Drive {
     }
     // On the branch that it was on, if there is one with the input.
     const { pass, input } = this.place;
-    const has = ({ from, to }) => (input - from) * (input - to) <= 0;
+    const has = (/** @type {Pass} */ { from, to }) => (input - from) * (input - to) <= 0;
     const same = timeline.passes.findIndex((one) => String(one.sides) === sides && has(one));
     const isSame = String(timeline.passes[pass]?.sides) === sides;
     this.#put({ pass: isSame || same < 0 ? pass : same, input });
@@ -78,7 +77,7 @@ export class Drive {
   }
 
   /** Moves to a part of the timeline. */
-  seek(part) {
+  seek(/** @type {number} */ part) {
     this.part = part;
     placeAtPart(this.timeline, part, this.place);
     this.plate.draw();
@@ -93,7 +92,8 @@ export class Drive {
 
   /** Moves to an input, on this pass if it has it, or to the nearest that there is. */
   moveToInput(/** @type {number} */ input) {
-    const beyond = ({ from, to }) => Math.max(Math.min(from, to) - input, input - Math.max(from, to), 0);
+    const beyond = (/** @type {Pass} */ { from, to }) =>
+      Math.max(Math.min(from, to) - input, input - Math.max(from, to), 0);
     const all = this.timeline.passes.map(beyond);
     const own = all[this.place.pass];
     const least = Math.min(...all);
@@ -101,7 +101,7 @@ export class Drive {
   }
 
   /** Pauses and moves to a part of the timeline. */
-  seekAndPause(part) {
+  seekAndPause(/** @type {number} */ part) {
     if (this.isHalted) return;
     this.pause();
     this.seek(part);
@@ -109,7 +109,7 @@ export class Drive {
   }
 
   /** Steps by degrees, or by 1/200 of a stroke, along the timeline, and over limits. */
-  step(direction, times = 1) {
+  step(/** @type {number} */ direction, times = 1) {
     if (this.isHalted) return;
     this.pause();
     const by = direction * times * (this.isLength ? this.timeline.whole / 200 : 1);
@@ -126,7 +126,7 @@ export class Drive {
   }
 
   /** Moves to the next limit position, or, for a full rotation, to its start. */
-  toLimit(direction) {
+  toLimit(/** @type {number} */ direction) {
     if (this.isHalted) return;
     this.pause();
     const { closed } = this.timeline;
@@ -140,7 +140,7 @@ export class Drive {
     this.plate.moved();
   }
 
-  #advance(seconds) {
+  #advance(/** @type {number} */ seconds) {
     if (this.isHalted) return;
     const { closed, whole } = this.timeline;
     const rate = this.plate.transport.speed;
@@ -156,12 +156,12 @@ export class Drive {
 }
 
 /** A frame clock. A late frame, for example after a switch of tabs, counts as a twentieth of a second. */
-export class Player {
-  constructor(advance) {
+class Player {
+  constructor(/** @type {(seconds: number) => void} */ advance) {
     this.advance = advance;
     this.request = 0;
     this.before = 0;
-    this.frame = (time) => {
+    this.frame = (/** @type {number} */ time) => {
       this.request = window.requestAnimationFrame(this.frame);
       const passed = Math.min((time - this.before) / 1000, 0.05);
       this.before = time;

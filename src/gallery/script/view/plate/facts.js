@@ -8,7 +8,7 @@ import { familySource } from "../overview.js";
 import { measureLabel, formatLength } from "../labels.js";
 
 /** The list of a curve's origin. @param {App} app @param {Family} family */
-export function curveOrigin(app, family, curve) {
+export function curveOrigin(app, family, /** @type {number} */ curve) {
   const cell = family.curves.cell[curve];
   const page = pageOfCurve(family, curve);
   const key = curveKey(family, curve);
@@ -23,18 +23,13 @@ export function curveOrigin(app, family, curve) {
     ["File", page > 0 ? pageFile(app.atlas, family.id, page) : ""],
     ["Source", familySource(family)],
   ];
-  return termList(
-    "dl.facts.origin",
-    rows.filter(([, value]) => value),
-  );
+  const known = rows.filter(([, value]) => value);
+  return termList("dl.facts.origin", known);
 }
 
-/**
- * The table of measures: `show(now)` adds those computed by the page next to the recorded ones; null removes
- * them.
- */
+/** The table of measures: `show(now)` adds those computed by the page next to the recorded ones; null removes them. */
 export class MeasureTable {
-  constructor(/** @type {App} */ app, /** @type {Family} */ family, curve) {
+  constructor(/** @type {App} */ app, /** @type {Family} */ family, /** @type {number} */ curve) {
     this.rows = app.atlas.measures.map((measure) =>
       measureRow(measure, measureValue(family, curve, measure.name), family.is_length),
     );
@@ -66,23 +61,20 @@ export class MeasureTable {
   }
 }
 
+/** @param {number | string | undefined} recorded @param {boolean} isLength */
 function measureRow(/** @type {Measure} */ measure, recorded, isLength) {
   const now = h("td.now");
   const change = h("td.now");
-  const title = h(
-    "th.text",
-    { scope: "row" },
-    h("span.measure-name", measureLabel(measure.name)),
-    h("span.definition", measure.definition),
-  );
+  const name = h("span.measure-name", measureLabel(measure.name));
+  const title = h("th.text", { scope: "row" }, name, h("span.definition", measure.definition));
   const ofLength = isLength && measure.is_input;
   const element = h("tr", title, h("td", formatMeasure(measure, recorded, ofLength)), now, change);
   return { element, measure, recorded, now, change, isLength: ofLength };
 }
 
-/** The value of a measure with its unit, in four or five digits; empty if it does not apply. */
+/** The value of a measure with its unit, in four or five digits; empty if it does not apply. @param {number | string | undefined} value */
 function formatMeasure(/** @type {Measure} */ { word, unit }, value, isLength = false) {
-  if (value === undefined || value === null || Number.isNaN(value)) return "";
+  if (value === undefined || Number.isNaN(value)) return "";
   if (word || typeof value === "string") return value;
   if (value === Infinity) return "∞";
   if (value === -Infinity) return "−∞";
@@ -91,12 +83,14 @@ function formatMeasure(/** @type {Measure} */ { word, unit }, value, isLength = 
   return unit === "deg" && !isLength ? `${value.toFixed(2).replace("-", "−")}°` : formatLength(value);
 }
 
-function formatMeasureChange(/** @type {Measure} */ { word, unit }, before, after) {
-  const isThere = (value) => value !== undefined && value !== null && !Number.isNaN(value);
+/** @param {number | string | undefined} before @param {number | string | undefined} after */
+function formatMeasureChange(/** @type {Measure} */ { unit }, before, after) {
+  /** @param {number | string | undefined} value */
+  const isThere = (value) => value !== undefined && !Number.isNaN(value);
   if (before === after || (!isThere(before) && !isThere(after))) return "";
   if (!isThere(before)) return "new";
   if (!isThere(after)) return "gone";
-  if (word || typeof after === "string") return "changed";
+  if (typeof before !== "number" || typeof after !== "number") return "changed";
   const by = after - before;
   if (!Number.isFinite(by) || Math.abs(by) < 1e-9 * Math.abs(before)) return "";
   const sign = by > 0 ? "+" : "−";

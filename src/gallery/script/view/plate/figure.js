@@ -23,13 +23,10 @@ export const STILL = { joint: null, graph: "speed", rpm: null, load: null };
 
 /** The drawing of the linkage of a curve, with its playback controls and its readings. */
 export class PlateFigure {
-  /** What is drawn; the last that exists. @type {Study | null} */
-  study = null;
-  /** Why what was asked for cannot be drawn. @type {string | null} */
-  reason = null;
+  /** What is drawn; the last that exists. @type {Study | null} */ study = null;
+  /** Why what was asked for cannot be drawn. @type {string | null} */ reason = null;
   /** What its address says. @type {PlateState} */ state;
-  /** The measures, if they are not those of the atlas. @type {Measured | null} */
-  measured = null;
+  /** The measures, if they are not those of the atlas. @type {Measured | null} */ measured = null;
   /** @type {StraightPortion | null} */ portion = null;
   /** @type {CurvePath} */ path;
   pose = new Pose();
@@ -63,7 +60,7 @@ export class PlateFigure {
   }
 
   /** Draws another study. */
-  show(/** @type {Study} */ study, isRough) {
+  show(/** @type {Study} */ study, /** @type {boolean} */ isRough) {
     const { drive } = this;
     this.path = study.kernel.path((isRough ? ROUGH_PATH : FINE_PATH) * study.size);
     drive.setStudy(study);
@@ -89,7 +86,7 @@ export class PlateFigure {
   }
 
   // The measures of the atlas, or computed ones if something is changed.
-  #markStraight(/** @type {Study} */ study, isRough) {
+  #markStraight(/** @type {Study} */ study, /** @type {boolean} */ isRough) {
     const { family, curve, isRecorded } = this;
     const found = isRough ? null : study.kernel.measures();
     this.measured = isRecorded ? null : (found?.values ?? null);
@@ -98,7 +95,7 @@ export class PlateFigure {
     this.transport.showStraight(isKnown ? straightSummary(study, family, curve, this.measured) : null);
   }
 
-  pathsOf(/** @type {Study} */ study, isRough) {
+  pathsOf(/** @type {Study} */ study, /** @type {boolean} */ isRough) {
     return pathsOfStudy(study, this.path, this.portion, { on: this.on, isRough });
   }
 
@@ -147,7 +144,7 @@ export class PlateFigure {
   }
 
   // Runs `work`; whether it succeeded. If the kernel fails, the linkage stands still until something is changed.
-  guarded(work) {
+  guarded(/** @type {() => void} */ work) {
     try {
       work();
       return true;

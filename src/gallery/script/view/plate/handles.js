@@ -3,7 +3,7 @@
 import { pixel } from "../../draw/path-data.js";
 import { roundBelow } from "../../draw/plane-view.js";
 import { fill, h, s } from "../dom.js";
-import { onKeys } from "../keys.js";
+import { directionOfKey, onKeys } from "../keys.js";
 import { NumberField } from "../number-field.js";
 import { formatInputNumber } from "./sliders.js";
 import { roundedToGrain } from "./parameters.js";
@@ -21,6 +21,7 @@ const UNREACHED = 6;
 
 /** The handles of the joints of a plate's study. */
 export class Handles {
+  likeness = "";
   /** @type {Handle[]} */ all = [];
   /** The handle that is dragged. @type {Handle | null} */ held = null;
   /** The handle whose values are shown, or were last. @type {Handle | null} */ shown = null;
@@ -122,7 +123,7 @@ export class Handles {
    * Moves a joint to a place: a request of the kernel, whose answer is a change of parameters.
    * @param {Handle} handle @param {{ study: KernelStudy, place: Place }} from @param {Point} to
    */
-  #move(handle, { study, place }, to, isFree) {
+  #move(handle, { study, place }, to, /** @type {boolean} */ isFree) {
     const { plate } = this;
     const unlocked = handle.names.filter((name) => !plate.state.locked.has(name));
     const found = study.drag({ joint: handle.joint, to, ...place, unlocked });
@@ -132,7 +133,10 @@ export class Handles {
     // A pixel is about a step of a value, unless it is to be free.
     const grain = roundBelow(1 / scale);
     /** @returns {[string, number]} */
-    const rounded = ([name, value]) => [name, isFree ? value : roundedToGrain(value, grain)];
+    const rounded = (/** @type {[string, number]} */ [name, value]) => [
+      name,
+      isFree ? value : roundedToGrain(value, grain),
+    ];
     const changes = new Map(found.changes.map(rounded));
     plate.changeAll(changes);
   }
@@ -159,15 +163,13 @@ export class Handles {
 
   // Arrow keys move the joint on the screen.
   #stepped(/** @type {KeyboardEvent} */ event, /** @type {Handle} */ handle) {
-    /** @type {Record<string, Point>} */
-    const ways = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
-    const way = ways[event.key];
+    const way = directionOfKey(event);
     const next = { PageDown: 1, PageUp: -1 }[event.key];
     if ((!way && !next) || event.ctrlKey || event.metaKey) return;
     event.preventDefault();
     event.stopPropagation();
-    if (next) {
-      this.#focus(this.all.indexOf(handle) + next);
+    if (!way) {
+      this.#focus(this.all.indexOf(handle) + (next ?? 0));
       return;
     }
     const { joints } = this.plate.pose;

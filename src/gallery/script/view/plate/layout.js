@@ -42,7 +42,7 @@ export function plateLayout(plate) {
   return { element, refresh, leave: watchPins(app, element) };
 }
 
-/** The element of the plate of a curve whose linkage cannot be moved, with a sentence that says why. */
+/** The element of the plate of a curve whose linkage cannot be moved, with a sentence that says why. @param {number} curve @param {string} sentence */
 export function stillPlateLayout(/** @type {App} */ app, /** @type {Family} */ family, curve, sentence) {
   const name = `${family.id}:${curveKey(family, curve)}`;
   const tools = [pinButton(app, name, { class: "pin" }), exportMenu(app, [name])];
@@ -56,26 +56,24 @@ export function stillPlateLayout(/** @type {App} */ app, /** @type {Family} */ f
   return { element, leave: watchPins(app, element) };
 }
 
-function plateHeading(/** @type {Family} */ family, curve, { tag, tools }) {
+/** @param {Family} family @param {number} curve @param {{ tag: Element | null, tools: Element[] }} _ */
+function plateHeading(family, curve, { tag, tools }) {
   const cell = family.curves.cell[curve];
   const [caption, note] = [cellText(family, cell, "caption"), cellText(family, cell, "note")];
   const title = h("a.family-title", { href: address([family.id]) }, family.title);
   const lede = h("p.lede", caption, note ? h("span.note", ` · ${note}`) : null, " ", tag);
   const links = [neighbourLink(family, curve, -1), neighbourLink(family, curve, 1), tools];
-  return h(
-    "div.head",
-    h("div", h("h1", title, " ", h("span.key", curveKey(family, curve))), lede),
-    h("nav.toolbar", { "aria-label": "Curve" }, links),
-  );
+  const heading = h("h1", title, " ", h("span.key", curveKey(family, curve)));
+  return h("div.head", h("div", heading, lede), h("nav.toolbar", { "aria-label": "Curve" }, links));
 }
 
 /** @param {App} app @param {Family} family @param {MeasureTable} measures */
-function plateFacts(app, family, curve, measures) {
+function plateFacts(app, family, /** @type {number} */ curve, measures) {
   const origin = h("section", h("h2", "Origin"), curveOrigin(app, family, curve));
   return h("div.plate-facts", origin, measures.element);
 }
 
-function neighbourLink(/** @type {Family} */ family, curve, way) {
+function neighbourLink(/** @type {Family} */ family, /** @type {number} */ curve, /** @type {number} */ way) {
   const next = neighbourAddress(family, curve, way);
   const words = way < 0 ? "← Previous" : "Next →";
   const keys = way < 0 ? "[" : "]";
@@ -86,15 +84,18 @@ function neighbourLink(/** @type {Family} */ family, curve, way) {
 /** Handles keys until the function that it returns is called. */
 export function watchKeys(/** @type {Plate} */ plate) {
   const { drive, stage, family, curve } = plate;
-  const goTo = (way) => {
+  const goTo = (/** @type {number} */ way) => {
     const next = neighbourAddress(family, curve, way);
     return next !== null && plate.app.go(next);
   };
   // A button is pressed by the space bar, and a slider moves by its own keys.
-  const play = ({ target }) => !target.matches?.("button, a, summary, input[type=checkbox]") && plate.play();
-  const step = (event) => !event.target.matches?.("input[type=range]") && stepByKey(event, drive);
+  const isAt = (/** @type {KeyboardEvent} */ { target }, /** @type {string} */ selector) =>
+    target instanceof Element && target.matches(selector);
+  const step = (/** @type {KeyboardEvent} */ event) =>
+    !isAt(event, "input[type=range]") && stepByKey(event, drive);
+  const pressed = "button, a, summary, input[type=checkbox]";
   /** @type {KeyCommand[]} */ const commands = [
-    ["Space", "play or pause", play],
+    ["Space", "play or pause", (event) => !isAt(event, pressed) && plate.play()],
     ["ArrowLeft ArrowRight", "back or on by a degree; with Shift by ten", step],
     ["Home End", "to the previous or the next limit, or the start or the end", step],
     ["0", "fit to the frame", () => stage.fit()],
@@ -106,8 +107,8 @@ export function watchKeys(/** @type {Plate} */ plate) {
   return onKeys(plate.element, "On the plate", commands, window);
 }
 
-/** The address of the previous (-1) or next (1) curve of a family; null at the ends. */
-export function neighbourAddress(/** @type {Family} */ family, curve, way) {
+/** The address of the previous (-1) or next (1) curve of a family; null at the ends. @param {number} curve @param {number} way */
+function neighbourAddress(/** @type {Family} */ family, curve, way) {
   const next = curve + way;
   return next >= 0 && next < family.curves.count ? curveAddress(family.id, curveKey(family, next)) : null;
 }

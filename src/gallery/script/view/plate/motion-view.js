@@ -43,18 +43,22 @@ export class MotionView {
   constructor(/** @type {PlateFigure} */ plate) {
     this.plate = plate;
     const change = (/** @type {Partial<MotionState>} */ changes) => plate.changeMotion(changes);
-    const attributes = { "aria-label": "Joint", onchange: () => change({ joint: this.joints.value }) };
-    this.joints = h("select", attributes);
-    const onchange = () => change({ graph: this.quantity.value });
+    this.joints = h("select", {
+      "aria-label": "Joint",
+      onchange: ({ target }) => change({ joint: target.value }),
+    });
     const labels = Object.entries(QUANTITIES).map(([name, { label }]) => [name, label]);
-    this.quantity = selectOf({ "aria-label": "Graph", onchange }, labels, "speed");
+    const quantity = selectOf({ "aria-label": "Graph" }, labels, "speed");
+    quantity.onchange = () => change({ graph: quantity.value });
+    this.quantity = quantity;
     this.rpm = new NumberField(
       { "aria-label": "Speed of the input, rpm", size: 6, placeholder: "per radian" },
       { units: ["rpm"], change: (rpm) => change({ rpm }), empty: () => change({ rpm: null }) },
     );
-    const typed = () => change({ load: this.load.value.trim() || null });
-    const example = "100 on C at -90 deg";
-    this.load = h("input", { "aria-label": "Load", type: "text", placeholder: example, onchange: typed });
+    const example = { type: "text", placeholder: "100 on C at -90 deg" };
+    const load = h("input", { "aria-label": "Load", ...example });
+    load.onchange = () => change({ load: load.value.trim() || null });
+    this.load = load;
     this.graph = new MotionGraph((part) => plate.drive.seekAndPause(part));
     this.value = h("span");
     this.foot = h("p.note");
@@ -210,10 +214,7 @@ export class MotionView {
     const text =
       format === "csv" ? csv : this.graph.svg(`${this.#quantity.label} of ${joint}, ${plate.family.title}`);
     const name = `${plate.family.id}-${joint}-${this.#state.graph}.${format}`;
-    saveFile({
-      name,
-      type: format === "csv" ? "text/csv" : "image/svg+xml",
-      bytes: new TextEncoder().encode(text),
-    });
+    const type = format === "csv" ? "text/csv" : "image/svg+xml";
+    saveFile({ name, type, bytes: new TextEncoder().encode(text) });
   }
 }

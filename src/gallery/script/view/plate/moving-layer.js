@@ -10,17 +10,15 @@ const PIN_RADIUS = 4.5;
 /** The upper layer of a stage. */
 export class MovingLayer {
   /** @type {Study} */ study;
-  /** The handles of joints and of the crank. @type {{ element: Element, joint: number }[]} */
-  grips = [];
+  likeness = "";
+  /** The handles of joints and of the crank. @type {{ element: Element, joint: number }[]} */ grips = [];
   /** @type {{ element: Element, joints: number[] }[]} */ crankGrips = [];
   parts = /** @type {MovingPart[]} */ ([]);
   circles = /** @type {{ element: Element, joint: number }[]} */ ([]);
   /** @type {Float64Array | null} */ poseNow = null;
   /** @type {Placement} */ view = { scale: 1, x: 0, y: 0 };
-  /** The velocity of the traced point in pixels. @type {number[] | null} */
-  arrow = null;
-  /** Called with the places of the joints on the screen. */
-  onpose = (/** @type {Float64Array} */ _) => {};
+  /** The velocity of the traced point in pixels. @type {number[] | null} */ arrow = null;
+  /** Called with the places of the joints on the screen. */ onpose = (/** @type {Float64Array} */ _) => {};
 
   constructor() {
     this.links = s("g");
@@ -90,7 +88,7 @@ export class MovingLayer {
   }
 
   /** Sets the velocity of the traced point in pixels, [dx, dy], or null. */
-  speed(arrow) {
+  speed(/** @type {number[] | null} */ arrow) {
     this.arrow = arrow;
     this.#arrow();
   }
@@ -113,6 +111,7 @@ export class MovingLayer {
   }
 }
 
+/** @param {Float64Array} at @param {number} joint */
 function putCircle(/** @type {Element} */ element, at, joint) {
   const [x, y] = [at[2 * joint], at[2 * joint + 1]];
   if (!Number.isFinite(x + y)) return;
@@ -121,53 +120,42 @@ function putCircle(/** @type {Element} */ element, at, joint) {
 
 /** Paths, each with its data as a function of the joint positions. @returns {MovingPart[]} */
 function partsOfMechanism(/** @type {Mechanism} */ { bars, plates, blocks, slots, actuators }) {
-  const path = (name) => s("path", { class: name });
-  const link = (joints, isPlate) => ({
-    element: path(isPlate ? "link plate" : "link"),
-    data: (at) => linkData(joints, at, isPlate),
+  const part = (/** @type {string} */ name, /** @type {PartData} */ data) => ({
+    element: s("path", { class: name }),
+    data,
   });
-  const rod = ([p, q]) => ({ element: path("link"), data: (at) => linkData([p, q], at, false) });
-  const cylinder = ([p, q]) => ({
-    element: path("hollow"),
-    data: (at) => cylinderData(at[2 * p], at[2 * p + 1], at[2 * q], at[2 * q + 1]),
-  });
-  const stem = (shape, slot) => ({
-    element: path("link"),
-    shape,
-    slot,
-    data: (at, scale, ends, part) => {
-      const { foot } = slotEnds(part, at, scale, ends);
-      const [x0, y0, x1, y1] = ends;
-      return linkData([0, 1, 2], [at[2 * foot], at[2 * foot + 1], x0, y0, x1, y1], false);
-    },
-  });
-  const hole = (shape, slot) => ({
-    element: path("hollow"),
-    shape,
-    slot,
-    data: (at, scale, ends, part) => {
-      slotEnds(part, at, scale, ends);
+  const link = (/** @type {number[]} */ joints, isPlate = false) =>
+    part(isPlate ? "link plate" : "link", (at) => linkData(joints, at, isPlate));
+  const cylinder = (/** @type {[number, number]} */ [p, q]) =>
+    part("hollow", (at) => cylinderData(at[2 * p], at[2 * p + 1], at[2 * q], at[2 * q + 1]));
+  const stem = () =>
+    part("link", (at, scale, ends, own) => {
+      const { foot } = slotEnds(own, at, scale, ends);
+      return linkData([0, 1, 2], [at[2 * foot], at[2 * foot + 1], ...ends]);
+    });
+  const hole = () =>
+    part("hollow", (at, scale, ends, own) => {
+      slotEnds(own, at, scale, ends);
       return slotData(ends[0], ends[1], ends[2], ends[3]);
-    },
-  });
+    });
   // A block in a slot is aligned with the slot, a block on a guide with the guide.
-  const block = ({ at: joint, line: [p, q] }) => ({
-    element: path("hollow"),
-    data: (at) =>
+  const block = (/** @type {Mechanism["blocks"][number]} */ { at: joint, line: [p, q] }) =>
+    part("hollow", (at) =>
       blockData(at[2 * joint], at[2 * joint + 1], at[2 * q] - at[2 * p], at[2 * q + 1] - at[2 * p + 1]),
-  });
+    );
   return [
     ...plates.map((joints) => link(joints, true)),
-    ...bars.map((joints) => link(joints, false)),
-    ...slots.map(stem),
-    ...slots.map(hole),
-    ...actuators.flatMap((ends) => [rod(ends), cylinder(ends)]),
+    ...bars.map((joints) => link(joints)),
+    ...slots.map((shape, slot) => ({ ...stem(), shape, slot })),
+    ...slots.map((shape, slot) => ({ ...hole(), shape, slot })),
+    ...actuators.flatMap((ends) => [link(ends), cylinder(ends)]),
     ...blocks.map(block),
   ];
 }
 
 // Double circles for fixed pivots, single ones for pins.
 function circlesOfMechanism(/** @type {Study} */ { mechanism, joint: traced }) {
+  /** @param {string} name @param {number} r @param {number} joint */
   const circle = (name, r, joint) => ({ element: s("circle", { class: name, r }), joint });
   const pins = mechanism.pins.filter((joint) => joint !== traced);
   return [
@@ -188,7 +176,7 @@ function handlesOfStudy({ crank, mechanism, joint: traced }, sheet) {
     element: s("path.grip.crank-grip", { "data-joint": pair[1] }),
     joints: pair,
   }));
-  const grip = (joint) => s("circle.grip", { r: 15, "data-joint": joint });
+  const grip = (/** @type {number} */ joint) => s("circle.grip", { r: 15, "data-joint": joint });
   sheet.grips = joints.map((joint) => ({ element: grip(joint), joint }));
   return [...sheet.crankGrips, ...sheet.grips].map(({ element }) => element);
 }

@@ -7,7 +7,7 @@ import { circleData, pixel, definedData } from "../../draw/path-data.js";
 import { screenPoint, widenedBox } from "../../draw/plane-view.js";
 import { s, setAttributes } from "../dom.js";
 
-/** The overlays, { name, label, isOn (the default), there(study) }. */
+/** The overlays; `isOn` is the default. @type {{ name: string, label: string, isOn: boolean, there(study: Study): boolean }[]} */
 export const OVERLAYS = [
   { name: "names", label: "Joint names", isOn: true, there: () => true },
   { name: "straight", label: "Straight portion", isOn: true, there: () => true },
@@ -32,12 +32,11 @@ export class Overlays {
   /** @type {Study} */ study;
   /** @type {Set<string>} */ on = new Set();
   /** @type {Cognates | null} */ pair = null;
-  /** The joints that give the frame of the moving centrode. @type {[number, number] | null} */
-  arm = null;
+  /** The joints that give the frame of the moving centrode. @type {[number, number] | null} */ arm = null;
 
   constructor(/** @type {Stage} */ stage) {
     this.stage = stage;
-    const path = (name) => s("path", { class: name });
+    const path = (/** @type {string} */ name) => s("path", { class: name });
     this.cognates = [path("cognate first"), path("cognate second")];
     this.cognatePins = path("cognate pins");
     this.rolling = s("path.centrode.moving", { "vector-effect": "non-scaling-stroke" });
@@ -47,19 +46,19 @@ export class Overlays {
   }
 
   /** Shows the selected overlays for a study; `isRough` while lengths are changing. @param {Study} study */
-  show(study, /** @type {Set<string>} */ on, isRough) {
+  show(study, /** @type {Set<string>} */ on, /** @type {boolean} */ isRough) {
     this.study = study;
     this.on = on;
     const { classList } = this.stage.element;
     for (const { name } of OVERLAYS) classList.toggle(`with-${name}`, on.has(name));
     this.pair = on.has("cognates") ? cognatesOfStudy(study) : null;
-    this.stage.frame(this.pair ? boxWithCognates(study.box, this.pair) : study.box);
+    this.stage.frame(this.pair ? widenedBox([...study.box], this.pair.reached) : study.box);
     if (!this.pair) [...this.cognates, this.cognatePins].forEach((element) => element.setAttribute("d", ""));
     this.#centrodes(isRough);
     if (!on.has("inflection")) this.circle.setAttribute("d", "");
   }
 
-  #centrodes(isRough) {
+  #centrodes(/** @type {boolean} */ isRough) {
     const { study } = this;
     this.arm = null;
     this.rolling.setAttribute("d", "");
@@ -93,6 +92,7 @@ export class Overlays {
       this.circle.setAttribute("d", isFar ? "" : inflectionData(place(pole), place(inflection)));
   }
 
+  /** @param {Points} pose @param {Float64Array} pins */
   #poseCognates(/** @type {Cognates} */ pair, pose, /** @type {Placement} */ { x, y, scale }, pins) {
     const { study } = this;
     const point = [pose[2 * study.joint], pose[2 * study.joint + 1]];
@@ -109,8 +109,8 @@ export class Overlays {
     this.cognatePins.setAttribute("d", definedData(circles));
   }
 
-  // The moving centrode is drawn in the frame of its link and moved by a transform.
-  #rollCentrode([a, b], pose, /** @type {Placement} */ view) {
+  /** The moving centrode is drawn in the frame of its link and moved by a transform. @param {Points} pose */
+  #rollCentrode(/** @type {[number, number]} */ [a, b], pose, /** @type {Placement} */ view) {
     const [dx, dy] = [pose[2 * b] - pose[2 * a], pose[2 * b + 1] - pose[2 * a + 1]];
     const size = Math.hypot(dx, dy);
     if (!(size > 0)) return;
@@ -120,21 +120,17 @@ export class Overlays {
   }
 }
 
-function ringOf(points, closed) {
+function ringOf(/** @type {Float64Array} */ points, /** @type {boolean} */ closed) {
   return closed ? Float64Array.from([...points, points[0], points[1]]) : points;
 }
 
-function crossData([x, y]) {
+function crossData(/** @type {Point} */ [x, y]) {
   const [px, py] = [pixel(x), pixel(y)];
   return `M${px - 6} ${py}h12M${px} ${py - 6}v12`;
 }
 
-function inflectionData([px, py], [qx, qy]) {
+function inflectionData(/** @type {Point} */ [px, py], /** @type {Point} */ [qx, qy]) {
   const radius = Math.hypot(qx - px, qy - py) / 2;
   if (!(radius < 2e4)) return "";
   return circleData((px + qx) / 2, (py + qy) / 2, radius, 6);
-}
-
-function boxWithCognates(/** @type {Box} */ box, /** @type {Cognates} */ { reached }) {
-  return widenedBox([...box], reached);
 }

@@ -3,13 +3,15 @@
 
 import { roundBelow } from "../../draw/plane-view.js";
 
+/** @type {("along" | "across")[]} */
+const COORDINATES = ["along", "across"];
+
 /**
- * The parameters that can be changed. `kind` is "free" if the atlas varies the parameter, "fixed" if it is
- * constant, "derived" if an expression gives it, and "unlinked" if a derived one has been changed. `low` to `high`
- * is the range of the slider, `grain` its step. `recorded` and `current` are the values of the curve as the atlas
- * has it and with the changes.
- * @param {Family} family @param {FamilyDescription["names"]} names @param {CurveValues} recorded
- * @param {CurveValues} current @param {Map<string, number>} changes
+ * The parameters that can be changed. `kind` is "free" if the atlas varies the parameter, "fixed" if it is constant, "derived" if an
+ * expression gives it, and "unlinked" if a derived one has been changed. `low` to `high` is the range of the slider, `grain` its step.
+ * `recorded` and `current` are the values of the curve as the atlas has it and with the changes.
+ * @param {Family} family @param {FamilyDescription["names"]} names @param {CurveValues} recorded @param {CurveValues} current @param
+ * {Map<string, number>} changes
  */
 export function changeableParameters(family, names, recorded, current, changes) {
   const values = Object.values(recorded.values).filter(Number.isFinite);
@@ -24,30 +26,26 @@ export function changeableParameters(family, names, recorded, current, changes) 
   return [...offered, ...changeableCoordinates(recorded.point, current.point, changes, size)];
 }
 
-function kindOfLocked(isDerived, isChanged) {
+function kindOfLocked(/** @type {boolean} */ isDerived, /** @type {boolean} */ isChanged) {
   if (!isDerived) return "fixed";
   return isChanged ? "unlinked" : "derived";
 }
 
-/**
- * @param {MovablePoint | null} recorded @param {MovablePoint | null} current
- * @param {Map<string, number>} changes
- */
-function changeableCoordinates(recorded, current, changes, size) {
+/** @param {MovablePoint | null} recorded @param {MovablePoint | null} current @param {Map<string, number>} changes */
+function changeableCoordinates(recorded, current, changes, /** @type {number} */ size) {
   if (!recorded || !current) return [];
-  /** @type {("along" | "across")[]} */ const ways = ["along", "across"];
-  return ways
-    .filter((way) => !recorded[way].is_parameter)
-    .map((way) => {
-      const name = `${recorded.name}.${way}`;
-      const { value: own, is_constant: isConstant } = recorded[way];
-      const kind = kindOfLocked(!isConstant, changes.has(name));
-      const value = changes.get(name) ?? current[way].value;
-      const free = { min: null, max: null };
-      return { name, kind, value, recorded: own, ...free, ...sliderRange(own, [own, own], free, size) };
-    });
+  const changeable = COORDINATES.filter((way) => !recorded[way].is_parameter);
+  return changeable.map((way) => {
+    const name = `${recorded.name}.${way}`;
+    const { value: own, is_constant: isConstant } = recorded[way];
+    const kind = kindOfLocked(!isConstant, changes.has(name));
+    const value = changes.get(name) ?? current[way].value;
+    const free = { min: null, max: null };
+    return { name, kind, value, recorded: own, ...free, ...sliderRange(own, [own, own], free, size) };
+  });
 }
 
+/** @param {number} recorded @param {number[]} _ @param {{ min: number | null, max: number | null }} _1 @param {number} size */
 function sliderRange(recorded, [least, most], { min, max }, size, isWhole = false) {
   if (isWhole) return { low: Math.min(least, -6), high: Math.max(most, 6), grain: 1 };
   const reach = Math.max(most - least, 0.6 * Math.abs(recorded)) || size;
@@ -63,16 +61,16 @@ function sliderRange(recorded, [least, most], { min, max }, size, isWhole = fals
 
 /**
  * Whether a value of a name is that of the atlas, which no expression gives.
- * @param {FamilyDescription["names"]} names @param {CurveValues} recorded
+ * @param {FamilyDescription["names"]} names @param {CurveValues} recorded @param {string} name @param {number} value
  */
 export function isRecordedValue(names, { point, values }, name, value) {
-  const way = point && name.startsWith(`${point.name}.`) ? point[name.slice(point.name.length + 1)] : null;
-  if (way) return way.is_constant && way.value === value;
+  const way = point && COORDINATES.find((one) => name === `${point.name}.${one}`);
+  if (way) return point[way].is_constant && point[way].value === value;
   return values[name] === value && !names.find((known) => known.name === name)?.is_derived;
 }
 
 /** Rounds a value to a multiple of `grain`, with no more decimals than it has. */
-export function roundedToGrain(value, grain) {
+export function roundedToGrain(/** @type {number} */ value, /** @type {number} */ grain) {
   const decimals = Math.max(0, -Math.floor(Math.log10(grain) + 1e-9));
   return Number((Math.round(value / grain) * grain).toFixed(Math.min(decimals, 12)));
 }

@@ -10,9 +10,8 @@ const MANY_POINTS = 12;
 const RECORDED_PATH = 2e-4;
 
 /**
- * Path data of a study's curve, from its path and its straight portion. `on` has the names of the selected
- * overlays.
- * @param {Study} study @param {CurvePath} path @param {StraightPortion | null} portion
+ * Path data of a study's curve, from its path and its straight portion. `on` has the names of the selected overlays.
+ * @param {Study} study @param {CurvePath} path @param {StraightPortion | null} portion @param {{ on: Set<string>, isRough: boolean }} _
  */
 export function pathsOfStudy(study, path, portion, { on, isRough }) {
   const { others } = study;
@@ -40,12 +39,13 @@ export function recordedPath(kernel, family, curve) {
 }
 
 function dashesData(/** @type {CurvePath} */ { dashes, starts }) {
+  /** @param {number} first @param {number} k */
   const dash = (first, k) => polylineData(dashes, { first, last: starts[k + 1] ?? dashes.length / 2 });
   return Array.from(starts, dash).join("");
 }
 
 // Every n-th point, and again the first of a closed curve.
-function everyNth(points, stride, closed) {
+function everyNth(/** @type {Points} */ points, /** @type {number} */ stride, /** @type {boolean} */ closed) {
   const chosen = [];
   for (let k = 0; k < points.length; k += 2 * stride) chosen.push(points[k], points[k + 1]);
   if (closed) chosen.push(points[0], points[1]);
@@ -57,9 +57,9 @@ function everyNth(points, stride, closed) {
  * input, from computed measures { name: value }, or, if null, those of the atlas.
  * @param {Study} _ @param {Family} family @param {Measured | null} measures
  */
-export function straightSummary({ is_length: isLength }, family, curve, measures) {
+export function straightSummary({ is_length: isLength }, family, /** @type {number} */ curve, measures) {
   const [length, deviation, span] = ["straight_length", "straight_deviation", "straight_input_deg"].map(
-    (name) => (measures ? measures[name] : measureValue(family, curve, name)),
+    (name) => Number(measures ? measures[name] : measureValue(family, curve, name)),
   );
   // A family may be measured only in part.
   if (![length, deviation, span].every(Number.isFinite)) return "";
@@ -68,10 +68,7 @@ export function straightSummary({ is_length: isLength }, family, curve, measures
   return `Straight portion: ${formatLength(length)} long, ${within}, over ${over} of input`;
 }
 
-/**
- * The straight portion of a study's curve (KernelStudy.measures); null if it is too short to be visible.
- * @param {Study} _ @param {ComputedMeasures} _1
- */
+/** The straight portion of a study's curve (KernelStudy.measures); null if it is too short to be visible. @param {Study} _ @param {ComputedMeasures} _1 */
 export function visibleStraightPortion({ curve_box: [x0, y0, x1, y1] }, { straight, values }) {
   const isVisible = Number(values.straight_length) >= 0.02 * Math.max(x1 - x0, y1 - y0);
   return straight && isVisible ? straight : null;

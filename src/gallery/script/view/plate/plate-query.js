@@ -8,10 +8,9 @@ import { QUANTITIES } from "./motion-view.js";
 import { changeableNames, parseChanges } from "./parameters.js";
 
 /**
- * Parses the query of a curve with a movable traced point or null; `requestedCircuit` is the index of a circuit
- * among all, or null, `on` are the names of overlays; `locked` are the names that handles
- * leave; `at` is the input, "63.5", perhaps with the number of its
- * pass, "63.5,2".
+ * Parses the query of a curve with a movable traced point or null; `requestedCircuit` is the index of a circuit among all, or null, `on`
+ * are the names of overlays; `locked` are the names that handles leave; `at` is the input, "63.5", perhaps with the number of its pass,
+ * "63.5,2".
  * @param {Family} family @param {MovablePoint | null} point @param {AddressQuery} query @returns {PlateState}
  */
 export function readPlateQuery(family, point, query) {
@@ -23,6 +22,7 @@ export function readPlateQuery(family, point, query) {
     "show",
     (word) => word === "nothing" || OVERLAYS.some(({ name }) => name === word),
   );
+  /** @param {typeof OVERLAYS[number]} overlay */
   const isOn = (overlay) => (shown ? shown.includes(overlay.name) : overlay.isOn);
   const isName = (/** @type {string} */ name) => changeableNames(family, point).includes(name);
   return {
@@ -56,7 +56,7 @@ export function withMember(set, member, isIn) {
   return new Set(isIn ? [...others, member] : others);
 }
 
-/** The shortest address of a plate in a state; defaults are left out. @param {Plate} _ @param {PlateState} state */
+/** The shortest address of a plate in a state; defaults are left out. @param {Plate} _ @param {PlateState} _1 */
 export function plateAddress(
   { family, curve, study },
   { changes, requestedCircuit, on, at, locked, motion },
@@ -66,8 +66,8 @@ export function plateAddress(
     query.set("circuit", String(requestedCircuit + 1));
   const isUsual = OVERLAYS.every(({ name, isOn }) => on.has(name) === isOn);
   if (!isUsual) query.set("show", [...on].join(",") || "nothing");
-  for (const [name, value] of Object.entries(motion))
-    if (value !== null && value !== STILL[name]) query.set(name, String(value));
+  for (const name of /** @type {(keyof MotionState)[]} */ (Object.keys(motion)))
+    if (motion[name] !== null && motion[name] !== STILL[name]) query.set(name, String(motion[name]));
   if (locked.size) query.set("lock", [...locked].join(","));
   if (at) query.set("at", `${Number(at.input.toPrecision(10))}${at.pass > 0 ? `,${at.pass + 1}` : ""}`);
   return curveAddress(family.id, curveKey(family, curve), query);
@@ -90,10 +90,7 @@ export function isExtraCircuit(plate) {
   return keyOfShownCircuit(plate).extraCircuit !== null;
 }
 
-/**
- * The key of the curve on the shown circuit; if the atlas does not contain it, the curve's own key and the
- * circuit's number.
- */
+/** The key of the curve on the shown circuit; if the atlas does not contain it, the curve's own key and the circuit's number. */
 function keyOfShownCircuit(/** @type {Plate} */ { family, curve, study, description }) {
   const own = curveKey(family, curve);
   if (!study || study.shown === study.home) return { key: own, extraCircuit: null };

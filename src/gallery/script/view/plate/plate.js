@@ -18,15 +18,10 @@ import { Store } from "../store.js";
 // The time in milliseconds after which the input has rested.
 const INPUT_MILLISECONDS = 400;
 
-/**
- * The plate of a curve of a family, with the query of its address. Put `element` into the document, then call
- * `shown()`.
- */
+/** The plate of a curve of a family, with the query of its address. Put `element` into the document, then call `shown()`. */
 export class Plate extends PlateFigure {
-  /** The circuits of what was asked for. @type {Candidates} */
-  candidates;
-  /** The path data of the curve of the atlas, once it is needed. @type {string | null} */
-  ghost = null;
+  /** The circuits of what was asked for. @type {Candidates} */ candidates;
+  /** The path data of the curve of the atlas, once it is needed. @type {string | null} */ ghost = null;
 
   /** @param {App} app @param {Kernel} kernel @param {Family} family @param {number} curve @param {AddressQuery} query */
   constructor(app, kernel, family, curve, query) {
@@ -139,7 +134,7 @@ export class Plate extends PlateFigure {
   }
 
   // Creates the study of the current changes; if it cannot be assembled, the previous one stays visible.
-  #restudy(isRough) {
+  #restudy(/** @type {boolean} */ isRough) {
     const { family, kernel, changes, description, recorded } = this;
     const curve = kernel.curve(family, this.curve, changes);
     const study = studyOf(kernel, curve, this.state.requestedCircuit, isRough);
@@ -166,13 +161,13 @@ export class Plate extends PlateFigure {
   }
 
   /** The study of a circuit as it is now, once more; close it. */
-  studyAgain(shown) {
+  studyAgain(/** @type {number} */ shown) {
     const { family, kernel, curve, changes } = this;
     return kernel.study(kernel.curve(family, curve, changes), { shown });
   }
 
   /** Changes a value; that of the atlas is no change. */
-  change(name, value) {
+  change(/** @type {string} */ name, /** @type {number} */ value) {
     this.changeAll([[name, value]]);
   }
 
@@ -182,11 +177,11 @@ export class Plate extends PlateFigure {
   }
 
   /** Locks a value, which handles leave as it is then, or unlocks it. */
-  lock(name, isLocked) {
+  lock(/** @type {string} */ name, /** @type {boolean} */ isLocked) {
     this.store.change({ locked: withMember(this.state.locked, name, isLocked) });
   }
 
-  clear(name) {
+  clear(/** @type {string} */ name) {
     const changes = new Map(this.changes);
     changes.delete(name);
     this.store.preview({ changes });
@@ -228,7 +223,7 @@ export class Plate extends PlateFigure {
   }
 
   /** Shows or hides an overlay. */
-  overlay(name, isOn) {
+  overlay(/** @type {string} */ name, /** @type {boolean} */ isOn) {
     this.store.change({ on: withMember(this.on, name, isOn) });
   }
 
@@ -237,7 +232,7 @@ export class Plate extends PlateFigure {
   }
 
   /** Chooses a circuit. */
-  circuit(k) {
+  circuit(/** @type {number} */ k) {
     this.store.preview({ requestedCircuit: k });
   }
 

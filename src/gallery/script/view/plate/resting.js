@@ -25,7 +25,7 @@ export class Resting {
   }
 
   /** Rests after a time in milliseconds if nothing follows. */
-  soon(after) {
+  soon(/** @type {number} */ after) {
     window.clearTimeout(this.resting);
     this.element.setAttribute("aria-busy", "true");
     this.resting = window.setTimeout(() => this.now(), after);

@@ -5,13 +5,13 @@ import { holdPieces, needCurveWithKey, piecesOfCurves } from "../../data/needs.j
 import { stillPlateLayout } from "./layout.js";
 import { Plate } from "./plate.js";
 
-/** The route `#/evans/curve/12.1.1?p=2.5`, or `#/new/four-bar?crank=1.2`: the linkage of a curve in motion. */
+/** The route `#/evans/curve/12.1.1?p=2.5`, or `#/new/four-bar?crank=1.2`: the linkage of a curve in motion. @type {Route} */
 export const plateRoute = {
   name: "curve",
   parent: "families",
   matches: ({ path }) => curveOfPath(path) !== null,
   open: async (app, target) => {
-    const { id = "", key } = curveOfPath(target.path) ?? {};
+    const { id = "", key = "" } = curveOfPath(target.path) ?? {};
     // The kernel is loaded meanwhile.
     app.kernel.load().catch(() => {});
     const family = await app.atlas.family(id);
@@ -32,7 +32,7 @@ export const plateRoute = {
   },
 };
 
-/** The route of a plate of a linkage in no family. */
+/** The route of a plate of a linkage in no family. @type {Route} */
 export const newPlateRoute = {
   ...plateRoute,
   name: "new-curve",
@@ -40,11 +40,8 @@ export const newPlateRoute = {
   matches: ({ path }) => newLinkage(curveOfPath(path)?.id ?? "") !== null,
 };
 
-/**
- * The plate of a curve; without the kernel, one that stands still and says so.
- * @param {App} app @param {Family} family @param {AddressQuery} query
- */
-async function openPlate(app, family, curve, query) {
+/** The plate of a curve; without the kernel, one that stands still and says so. @param {App} app @param {Family} family @param {AddressQuery} query */
+async function openPlate(app, family, /** @type {number} */ curve, query) {
   try {
     return new Plate(app, await app.kernel.load(), family, curve, query);
   } catch (error) {

@@ -1,9 +1,11 @@
 // The parameters of a linkage, each with a slider and a number field.
 
 import { buttonOf, fill, h, isShortcut } from "../dom.js";
+import { stepsOfKey } from "../keys.js";
 import { NumberField } from "../number-field.js";
 import { roundedToGrain } from "./parameters.js";
 
+/** @type {Record<string, string>} */
 const PARAMETER_KINDS = {
   free: "free",
   fixed: "constant",
@@ -12,14 +14,14 @@ const PARAMETER_KINDS = {
 };
 
 /**
- * The controls of parameters (parameters.js), below `legend`, which explains their letters. `on` has
- * change(name, value), clear(name), settle() at the end of a drag, and reset(). `show(parameters)` updates
- * the values; rows are reused while the names are the same.
+ * The controls of parameters (parameters.js), below `legend`, which explains their letters. `on` has change(name, value), clear(name),
+ * settle() at the end of a drag, and reset(). `show(parameters)` updates the values; rows are reused while the names are the same.
  */
 export class Sliders {
   constructor(/** @type {string | null} */ legend, /** @type {Plate} */ on) {
     this.on = on;
-    this.rows = new Map();
+    /** @type {Map<string, SliderRow>} */ this.rows = new Map();
+    /** @type {string | null} */ this.names = null;
     this.free = h("div.parameters");
     this.locked = h("div.parameters");
     this.more = h("details.locked-parameters", h("summary", "Constant and derived parameters"), this.locked);
@@ -50,13 +52,14 @@ export class Sliders {
   /** Updates a row and marks a value that is out of bounds. @param {Parameter} parameter */
   #refresh(parameter) {
     const row = this.rows.get(parameter.name);
+    if (!row) return;
     const { value, recorded, kind, low, high } = parameter;
     row.parameter = parameter;
     row.element.className = `parameter ${kind}${isChangedParameter(parameter) ? " changed" : ""}`;
     // A typed value may exceed the slider's range.
-    row.range.min = Math.min(low, value);
-    row.range.max = Math.max(high, value);
-    if (Number(row.range.value) !== value) row.range.value = value;
+    row.range.min = String(Math.min(low, value));
+    row.range.max = String(Math.max(high, value));
+    if (Number(row.range.value) !== value) row.range.value = String(value);
     row.range.disabled = kind === "derived";
     row.range.setAttribute("aria-valuetext", formatInputNumber(value));
     // What is being typed stays; a derived value cannot be typed, and follows also where it has the focus.
@@ -87,7 +90,7 @@ export class Sliders {
   #row(/** @type {Parameter} */ parameter) {
     const { name } = parameter;
     const { on } = this;
-    const row = { parameter };
+    const row = /** @type {SliderRow} */ ({ parameter });
     row.range = h("input", {
       type: "range",
       step: "any",
@@ -124,14 +127,15 @@ function outOfBounds(/** @type {Parameter} */ { name, value, min, max }) {
   return max !== null && value > max ? `${name} is at most ${max}` : null;
 }
 
-// Steps of the slider by keys: one grain, with Shift ten.
+/** Steps of the slider by keys: one grain, with Shift ten. @param {KeyboardEvent} event @param {SliderRow} row */
 function stepSlider(event, row, /** @type {Plate} */ on) {
-  const ways = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -20, PageUp: 20 };
-  if (!(event.key in ways) || isShortcut(event)) return;
+  const steps = stepsOfKey(event, 20);
+  if (!steps || isShortcut(event)) return;
   event.preventDefault();
-  stepParameter(row.parameter, ways[event.key] * (event.shiftKey ? 10 : 1), on);
+  stepParameter(row.parameter, steps * (event.shiftKey ? 10 : 1), on);
 }
 
+/** @param {number} by */
 function stepParameter(/** @type {Parameter} */ { name, value, grain }, by, /** @type {Plate} */ on) {
   on.change(name, roundedToGrain(value + by * grain, grain));
 }
@@ -147,6 +151,6 @@ function isChangedParameter(/** @type {Parameter} */ { kind, value, recorded }) 
 }
 
 /** A number as it is typed: up to ten significant digits. */
-export function formatInputNumber(value) {
+export function formatInputNumber(/** @type {number} */ value) {
   return Number.isFinite(value) ? String(Number(value.toPrecision(10))) : "";
 }

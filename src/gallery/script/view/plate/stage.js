@@ -8,16 +8,13 @@ import { StaticLayer } from "./static-layer.js";
 
 const STAGE_MARGIN = 44;
 
-/**
- * A stage. Put `element` into the document, then call `observe()`. Calls `onview` when its view has changed.
- */
+/** A stage. Put `element` into the document, then call `observe()`. Calls `onview` when its view has changed. */
 export class Stage {
   constructor() {
     this.size = { width: 0, height: 0 };
     this.view = { scale: 1, x: 0, y: 0 };
     this.isZoomed = false;
-    /** Whether the view stays while a handle is dragged. */
-    this.isHeld = false;
+    /** Whether the view stays while a handle is dragged. */ this.isHeld = false;
     this.box = null;
     this.study = null;
     this.still = new StaticLayer();
@@ -48,7 +45,7 @@ export class Stage {
   }
 
   /** Shows a study and the path data of its curve, { dashes, lead, others, band }, in the plane. */
-  show(/** @type {Study} */ study, paths) {
+  show(/** @type {Study} */ study, /** @type {CurveData} */ paths) {
     const isFirst = !this.study;
     this.study = study;
     this.still.show(study, paths);
@@ -64,7 +61,7 @@ export class Stage {
   }
 
   /** Shows why a linkage cannot be assembled, or moved; the previous linkage stays visible, dimmed. */
-  impossible(reason, what = "Cannot be assembled") {
+  impossible(/** @type {string | null} */ reason, what = "Cannot be assembled") {
     this.element.classList.toggle("impossible", reason !== null);
     this.reason.hidden = reason === null;
     fill(this.reason, reason === null ? [] : `${what}: ${reason.replace(/\x60([^\x60]*)\x60/g, "“$1”")}`);
@@ -98,7 +95,7 @@ export class Stage {
     if (!isInside || scale < 0.55 * fitted.scale) this.#glideTo(fitted);
   }
 
-  zoom(factor, /** @type {Point} */ at = [this.size.width / 2, this.size.height / 2]) {
+  zoom(/** @type {number} */ factor, /** @type {Point} */ at = [this.size.width / 2, this.size.height / 2]) {
     if (!this.box) return;
     this.#stay();
     const least = fittedView(this.box, { ...this.size, margin: this.#margin() }).scale;
@@ -108,7 +105,7 @@ export class Stage {
     this.#place();
   }
 
-  pan(dx, dy) {
+  pan(/** @type {number} */ dx, /** @type {number} */ dy) {
     this.#stay();
     this.view = { ...this.view, x: this.view.x + dx, y: this.view.y + dy };
     this.isZoomed = true;

@@ -9,22 +9,12 @@ import { groundData } from "../../draw/link-shapes.js";
 /** The lower layer of a stage. */
 export class StaticLayer {
   constructor() {
+    /** @param {string} name */
     const path = (name) => s("path", { class: name, "vector-effect": "non-scaling-stroke" });
     // In the plane: one transform positions everything, and line widths are constant.
-    this.plane = {};
-    const names = [
-      "frame-line",
-      "wheels",
-      "guides",
-      "crank-range",
-      "ghost",
-      "others",
-      "centrode fixed",
-      "band",
-      "lead",
-      "dashes",
-    ];
-    for (const name of names) this.plane[name.split(" ")[0]] = path(name);
+    const below = ["frame-line", "wheels", "guides", "crank-range", "ghost", "others"];
+    const names = [...below, "centrode fixed", "band", "lead", "dashes"];
+    this.plane = Object.fromEntries(names.map((name) => [name.split(" ")[0], path(name)]));
     this.group = s("g", Object.values(this.plane));
     this.ground = s("path.ground");
     this.limitMarks = s("path.limit-marks");
@@ -36,7 +26,7 @@ export class StaticLayer {
     /** @type {number[][]} */ this.limits = [];
   }
 
-  show(/** @type {Study} */ { mechanism, crank }, { dashes, lead, others, band }) {
+  show(/** @type {Study} */ { mechanism, crank }, /** @type {CurveData} */ { dashes, lead, others, band }) {
     const { fixed_at: fixed, frame_at: frame, guides, wheels } = mechanism;
     this.pivots = pointPairs(fixed);
     this.#data("frame-line", polylineData(frame, { closed: frame.length > 4 }));
@@ -52,12 +42,12 @@ export class StaticLayer {
   }
 
   /** Sets the curve behind a changed one, as path data in the plane. */
-  ghost(data) {
+  ghost(/** @type {string} */ data) {
     this.#data("ghost", data);
   }
 
   /** Sets the fixed centrode, as path data in the plane. */
-  centrode(data) {
+  centrode(/** @type {string} */ data) {
     this.#data("centrode", data);
   }
 
@@ -75,7 +65,7 @@ export class StaticLayer {
     this.barLabel.textContent = decimals > 6 ? String(length) : length.toFixed(decimals);
   }
 
-  #data(name, data) {
+  #data(/** @type {string} */ name, /** @type {string} */ data) {
     this.plane[name].setAttribute("d", data);
   }
 }

@@ -6,10 +6,9 @@ import { measureValue } from "../../data/family.js";
 import { formatLength, formatDecimals } from "../labels.js";
 
 /**
- * The study of a curve with changes, as a plate shows it, on the circuit `requested` if it exists. A rough study
- * without a requested circuit has no other circuits.
- * @param {Kernel} kernel @param {KernelCurve} curve @param {number | null} requested
- * @returns {Study | MissingCurve}
+ * The study of a curve with changes, as a plate shows it, on the circuit `requested` if it exists. A rough study without a requested
+ * circuit has no other circuits.
+ * @param {Kernel} kernel @param {KernelCurve} curve @param {number | null} requested @returns {Study | MissingCurve}
  */
 export function studyOf(kernel, curve, requested = null, isRough = false) {
   try {
@@ -35,7 +34,7 @@ function studyInKernel(/** @type {KernelStudy} */ study) {
 }
 
 // The kernel says which cell of which family it is, which the plate's title says too.
-function plainReason(reason) {
+function plainReason(/** @type {string} */ reason) {
   return reason.replace(/^[^\s:]+:(\d+:)? /gm, "").replaceAll("\n", "; ");
 }
 
@@ -45,7 +44,7 @@ function boxWithOthers(/** @type {Box} */ box, /** @type {Box} */ wide) {
   return extent(wide) <= 1.6 * extent(box) ? wide : box;
 }
 
-/** The values of a family's names and the traced point of a curve, { values, point }, without changes. */
+/** The values of a family's names and the traced point of a curve, { values, point }, without changes. @param {number} curve */
 export function recordedValues(/** @type {Kernel} */ kernel, /** @type {Family} */ family, curve) {
   const study = kernel.study(kernel.curve(family, curve), { isRough: true });
   const { values = {}, point = null } = study.answer;
@@ -57,8 +56,7 @@ export function recordedValues(/** @type {Kernel} */ kernel, /** @type {Family} 
 export class Pose {
   constructor() {
     this.header = new Float64Array(POSE_HEADER);
-    /** The positions of the joints in the plane, [x0, y0, x1, y1, …]. */
-    this.joints = new Float64Array();
+    /** The positions of the joints in the plane, [x0, y0, x1, y1, …]. */ this.joints = new Float64Array();
     this.velocity = this.header.subarray(1, 3);
     this.instant = {
       pole: this.header.subarray(3, 5),
@@ -68,7 +66,7 @@ export class Pose {
   }
 
   /** Moves to an input of a pass of a study. @param {Study} study */
-  move(study, pass, input) {
+  move(study, /** @type {number} */ pass, /** @type {number} */ input) {
     const numbers = study.kernel.pose(pass, input);
     const count = numbers.length - POSE_HEADER;
     if (this.joints.length !== count) this.joints = new Float64Array(count);
@@ -85,8 +83,9 @@ export class Pose {
 /**
  * The arrow of a velocity, per radian of input or unit of length, in pixels, y down: a fifth of the frame at the
  * speed `top`, at most one and a half times that, reversed where the input decreases. Null if infinite.
+ * @param {Float64Array} _ @param {{ top: number, size: Size, heading: number }} _1
  */
-export function velocityArrow(/** @type {Float64Array} */ [vx, vy], { top, size, heading }) {
+export function velocityArrow([vx, vy], { top, size, heading }) {
   const speed = Math.hypot(vx, vy);
   if (!Number.isFinite(speed)) return null;
   const longest = Math.min(size.width, size.height) / 5;
@@ -95,7 +94,8 @@ export function velocityArrow(/** @type {Float64Array} */ [vx, vy], { top, size,
 }
 
 /** The title of a circuit: "a full turn, branch 1", "−75.5° to 75.5°, branch 1 and −1". */
-export function circuitTitle(isLength, /** @type {Circuit} */ { passes, closed }) {
+export function circuitTitle(/** @type {boolean} */ isLength, /** @type {Circuit} */ { passes, closed }) {
+  /** @param {number} at */
   const formatInput = (at) => (isLength ? lengthLabel(at) : `${formatDecimals(at, 1)}°`);
   const ends = passes.flatMap(({ from, to }) => [from, to]);
   const [low, high] = [Math.min(...ends), Math.max(...ends)];
@@ -107,21 +107,21 @@ export function circuitTitle(isLength, /** @type {Circuit} */ { passes, closed }
   return branches.length ? `${travel}, branch ${branches.slice(0, 2).join(" and ")}` : travel;
 }
 
-function lengthLabel(length) {
+function lengthLabel(/** @type {number} */ length) {
   return formatDecimals(Number(length.toPrecision(4)), 4).replace(/\.?0+$/, "");
 }
 
-function turnsLabel(degrees) {
+function turnsLabel(/** @type {number} */ degrees) {
   const turns = Math.round(degrees / 360);
   return turns === 1 ? "a full turn" : `${turns} turns`;
 }
 
 // The sides of all two-valued joints: 1 left, −1 right.
-function branchLabel(sides) {
+function branchLabel(/** @type {number[]} */ sides) {
   return sides.map((side) => (side > 0 ? "1" : "−1")).join("/");
 }
 
-/** A few sentences that describe the drawing. @param {Family} family @param {Study} study */
+/** A few sentences that describe the drawing. @param {Family} family @param {Study} study @param {number} curve @param {boolean} isRecorded */
 export function summaryOfStudy(family, curve, study, isRecorded) {
   const { circuits, shown, mechanism, joint, joints, four_bar: fourBar } = study;
   const words = [];
@@ -131,20 +131,14 @@ export function summaryOfStudy(family, curve, study, isRecorded) {
   words.push(`Its circuit: ${circuitTitle(study.is_length, circuits[shown])}.`);
   const box = study.curve_box;
   words.push(`The curve is ${formatLength(box[2] - box[0])} wide and ${formatLength(box[3] - box[1])} high.`);
-  const of = (name) => (isRecorded ? measureValue(family, curve, name) : undefined);
+  const of = (/** @type {string} */ name) => Number(isRecorded ? measureValue(family, curve, name) : NaN);
   // A family may be measured only in part.
-  if (of("straight_length") && of("straight_deviation") !== undefined) {
-    words.push(
-      `Its straightest portion is ${formatLength(of("straight_length"))} long, ` +
-        `within ${formatLength(of("straight_deviation"))}.`,
-    );
-  }
-  if (of("mu_min_deg") !== undefined && of("mu_max_deg") !== undefined) {
-    words.push(
-      `Transmission angle from ${formatDecimals(of("mu_min_deg"), 1)} ` +
-        `to ${formatDecimals(of("mu_max_deg"), 1)} degrees.`,
-    );
-  }
+  const [length, deviation] = [of("straight_length"), of("straight_deviation")];
+  if (length > 0 && Number.isFinite(deviation))
+    words.push(`Its straightest portion is ${formatLength(length)} long, within ${formatLength(deviation)}.`);
+  const [least, most] = [of("mu_min_deg"), of("mu_max_deg")].map((angle) => formatDecimals(angle, 1));
+  if (Number.isFinite(of("mu_min_deg")) && Number.isFinite(of("mu_max_deg")))
+    words.push(`Transmission angle from ${least} to ${most} degrees.`);
   if (!isRecorded) words.push("Its parameters or its circuit are changed.");
   return words.join(" ");
 }

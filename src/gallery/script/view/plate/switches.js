@@ -10,8 +10,9 @@ export class Switches {
   constructor(/** @type {Plate} */ on) {
     this.on = on;
     this.boxes = OVERLAYS.map(({ name, label, there }) => {
-      const onchange = ({ target }) => on.overlay(name, target.checked);
-      return { name, there, ...choiceBox("checkbox", { name: `show-${name}`, onchange }, label) };
+      const box = choiceBox("checkbox", { name: `show-${name}` }, label);
+      box.input.onchange = () => on.overlay(name, box.input.checked);
+      return { name, there, ...box };
     });
     this.lengths = h("div.cognate-lengths");
     this.circuits = h("div.circuits", { role: "radiogroup", "aria-label": "Circuits" });
@@ -23,8 +24,8 @@ export class Switches {
   }
 
   /**
-   * `candidates` has the circuits of the current parameters, `study` is what is drawn, `isExtra`
-   * says whether the atlas lacks its circuit.
+   * `candidates` has the circuits of the current parameters, `study` is what is drawn, `isExtra` says whether the atlas lacks its circuit.
+   * @param {Set<string>} on @param {boolean} isExtra
    */
   show(/** @type {Candidates} */ candidates, /** @type {Study | null} */ study, on, isExtra) {
     for (const { name, there, input, element } of this.boxes) {

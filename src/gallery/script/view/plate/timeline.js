@@ -4,10 +4,7 @@
 // Equal parts take equal time: the input is uniform but slows down towards limits, so that no joint jumps
 // there.
 
-/**
- * The timeline of a circuit: `starts` has the part at which each pass starts, `whole` is the total input travel.
- * @param {Circuit} _
- */
+/** The timeline of a circuit: `starts` has the part at which each pass starts, `whole` is the total input travel. @param {Circuit} _ */
 export function timelineOf(/** @type {Circuit} */ { passes, closed }) {
   const lengths = passes.map(({ from, to }) => Math.abs(to - from));
   const whole = lengths.reduce((sum, length) => sum + length, 0);
@@ -19,7 +16,7 @@ export function timelineOf(/** @type {Circuit} */ { passes, closed }) {
   return { passes, closed, starts, whole };
 }
 
-/** Sets `place` to the pass index and the input at a part of a timeline. */
+/** Sets `place` to the pass index and the input at a part of a timeline. @param {number} part */
 export function placeAtPart(/** @type {Timeline} */ { passes, starts }, part, /** @type {Place} */ place) {
   let k = 0;
   while (k < passes.length - 1 && part >= starts[k + 1]) k += 1;
@@ -34,6 +31,7 @@ export function placeAtPart(/** @type {Timeline} */ { passes, starts }, part, /*
 /**
  * The input at a part of a pass, dense towards the ends where two links are in line: there a joint's place goes
  * with the root of the input, and this makes it go evenly.
+ * @param {number} part
  */
 function easedInput(/** @type {Pass} */ { from, to, from_is_flat: fromFlat, to_is_flat: toFlat }, part) {
   let eased = part;
@@ -44,7 +42,7 @@ function easedInput(/** @type {Pass} */ { from, to, from_is_flat: fromFlat, to_i
 }
 
 /** The part of a timeline at which a pass has an input. @param {Timeline} _ */
-export function partOfInput({ passes, starts }, k, input) {
+export function partOfInput({ passes, starts }, /** @type {number} */ k, /** @type {number} */ input) {
   const { from, to, from_is_flat: fromFlat, to_is_flat: toFlat } = passes[k];
   const eased = to === from ? 0 : Math.min(Math.max((input - from) / (to - from), 0), 1);
   let share = eased;
@@ -54,14 +52,12 @@ export function partOfInput({ passes, starts }, k, input) {
   return starts[k] + (starts[k + 1] - starts[k]) * share;
 }
 
-/**
- * The limit positions, where the input reverses or ends, as parts of the timeline; none for a full rotation.
- */
+/** The limit positions, where the input reverses or ends, as parts of the timeline; none for a full rotation. */
 export function turningParts(/** @type {Timeline} */ { passes, closed, starts }) {
   const parts = [];
   passes.forEach((pass, k) => {
     const before = passes[k - 1] ?? (closed ? passes[passes.length - 1] : null);
-    const heading = (one) => Math.sign(one.to - one.from);
+    const heading = (/** @type {Pass} */ one) => Math.sign(one.to - one.from);
     if (!before || heading(before) !== heading(pass)) parts.push(starts[k]);
   });
   if (!closed) parts.push(1);
@@ -69,15 +65,15 @@ export function turningParts(/** @type {Timeline} */ { passes, closed, starts })
 }
 
 /** Wraps a part onto a closed timeline, or clamps it to the ends of an open one. @param {Timeline} _ */
-export function clampPart({ closed }, part) {
+export function clampPart({ closed }, /** @type {number} */ part) {
   return closed ? part - Math.floor(part) : Math.min(Math.max(part, 0), 1);
 }
 
 /**
- * Moves a position { pass, input } of a timeline towards the input `wanted` of a dragged crank, and returns
- * `wanted` less the full turns that were completed. Continues over the end of a pass onto the next one. Where
- * the input reverses, it stays at the limit; a drag more than `slack` beyond returns on the other branch,
- * which `place.isBeyond` records.
+ * Moves a position { pass, input } of a timeline towards the input `wanted` of a dragged crank, and returns `wanted` less the full turns
+ * that were completed. Continues over the end of a pass onto the next one. Where the input reverses, it stays at the limit; a drag more
+ * than `slack` beyond returns on the other branch, which `place.isBeyond` records.
+ * @param {number} wanted @param {number} slack
  */
 export function followInput(/** @type {Timeline} */ timeline, /** @type {Place} */ place, wanted, slack) {
   const { passes, closed } = timeline;
@@ -115,6 +111,7 @@ export function followInput(/** @type {Timeline} */ timeline, /** @type {Place} 
   return target;
 }
 
+/** @param {number} k @param {boolean} forward @param {boolean} closed */
 function adjacentPass(/** @type {Pass[]} */ passes, k, forward, closed) {
   const next = k + (forward ? 1 : -1);
   if (next >= 0 && next < passes.length) return next;
@@ -122,12 +119,12 @@ function adjacentPass(/** @type {Pass[]} */ passes, k, forward, closed) {
 }
 
 /**
- * The part of a timeline, within `reach` of the part `from`, at which `distance(part)` is least; a dragged
- * joint follows its path with it.
+ * The part of a timeline, within `reach` of the part `from`, at which `distance(part)` is least; a dragged joint follows its path with it.
+ * @param {number} from @param {(part: number) => number} distance
  */
 export function nearestPart(/** @type {Timeline} */ timeline, from, distance, reach = 0.15) {
   const STEPS = 24;
-  const at = (part) => distance(clampPart(timeline, part));
+  const at = (/** @type {number} */ part) => distance(clampPart(timeline, part));
   const [low, high] = timeline.closed
     ? [from - reach, from + reach]
     : [Math.max(from - reach, 0), Math.min(from + reach, 1)];

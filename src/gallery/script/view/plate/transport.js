@@ -1,17 +1,12 @@
 // The playback controls: play and pause, speed, the slider over the circuit, steps, and limits.
 
 import { buttonOf, h, isShortcut, selectOf } from "../dom.js";
+import { stepsOfKey } from "../keys.js";
 import { formatDecimals } from "../labels.js";
 import { NumberField } from "../number-field.js";
 
 /** Playback rates, in degrees of input per second, and their labels. */
-const PLAY_RATES = [
-  [15, "¼"],
-  [30, "½"],
-  [60, "1"],
-  [120, "2"],
-  [240, "4"],
-];
+const PLAY_RATES = { 15: "¼", 30: "½", 60: "1", 120: "2", 240: "4" };
 
 /**
  * The controls below the stage of a plate, for its drive and the stage's view. `show(study, title)`, `update(part, input)`
@@ -28,7 +23,7 @@ export class Transport {
       step: "any",
       value: "0",
       "aria-label": "Position on the circuit",
-      oninput: () => drive.seekAndPause(Number(this.scrub.value)),
+      oninput: ({ target }) => drive.seekAndPause(Number(target.value)),
       onkeydown: (event) => stepByKey(event, drive),
     });
     const type = (/** @type {number} */ input) => {
@@ -41,8 +36,9 @@ export class Transport {
     );
     this.ends = h("p.note.ends");
     this.straight = h("p.note.straight-note");
-    const rates = PLAY_RATES.map(([rate, label]) => [rate, `${label} ×`]);
-    this.rate = selectOf({ class: "rate", "aria-label": "Playback speed" }, rates, 60);
+    const rates = Object.entries(PLAY_RATES).map(([rate, label]) => [rate, `${label} ×`]);
+    this.rate = selectOf({ class: "rate", "aria-label": "Playback speed" }, rates, "60");
+    /** @param {string} label @param {string} title @param {() => void} onclick @param {string} keys */
     const button = (label, title, onclick, keys) =>
       buttonOf(label, onclick, { class: "step", title, "aria-label": title, "aria-keyshortcuts": keys });
     this.toLimits = [
@@ -70,7 +66,7 @@ export class Transport {
     return Number(this.rate.value);
   }
 
-  show(/** @type {Study} */ { is_length: isLength, timeline, shortfall }, title) {
+  show(/** @type {Study} */ { is_length: isLength, timeline, shortfall }, /** @type {string} */ title) {
     this.isLength = isLength;
     this.timeline = timeline;
     this.ends.textContent = shortfall ? `Input: ${title}; ${shortfall}` : `Input: ${title}`;
@@ -78,7 +74,7 @@ export class Transport {
   }
 
   /** Shows the description of the straight portion; null while it is unknown. */
-  showStraight(words) {
+  showStraight(/** @type {string | null} */ words) {
     this.straight.classList.toggle("stale", words === null);
     if (words !== null) this.straight.textContent = words;
   }
@@ -88,22 +84,22 @@ export class Transport {
     this.#enable(false);
   }
 
-  #enable(isThere) {
+  #enable(/** @type {boolean} */ isThere) {
     for (const control of [this.play, this.scrub, ...this.toLimits]) control.disabled = !isThere;
   }
 
-  playing(isPlaying) {
+  playing(/** @type {boolean} */ isPlaying) {
     this.isPlaying = isPlaying;
     this.play.textContent = isPlaying ? "Pause" : "Play";
     this.play.setAttribute("aria-pressed", String(isPlaying));
     if (!isPlaying) this.announced = 0;
   }
 
-  update(part, input) {
+  update(/** @type {number} */ part, /** @type {number} */ input) {
     const text = this.isLength ? formatDecimals(input, 4) : `${formatDecimals(input, 1)}°`;
     this.input.show(input, text);
     if (document.activeElement !== this.scrub || this.isPlaying || Number(this.scrub.value) !== part)
-      this.scrub.value = part;
+      this.scrub.value = String(part);
     // Limits announcements to screen readers to two per second.
     const time = performance.now();
     if (this.isPlaying && time - this.announced < 500) return;
@@ -113,14 +109,12 @@ export class Transport {
 }
 
 /** Arrow keys step by a degree, or a fraction of a stroke, with Shift by ten; Home and End move to limits. */
-export function stepByKey(event, /** @type {Drive} */ drive) {
-  const ways = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -10, PageUp: 10 };
-  const limits = { Home: -1, End: 1 };
-  if (isShortcut(event)) return false;
-  if (event.key in ways)
-    drive.step(Math.sign(ways[event.key]), Math.abs(ways[event.key]) * (event.shiftKey ? 10 : 1));
-  else if (event.key in limits) drive.toLimit(limits[event.key]);
-  else return false;
+export function stepByKey(/** @type {KeyboardEvent} */ event, /** @type {Drive} */ drive) {
+  const steps = stepsOfKey(event, 10);
+  const limit = { Home: -1, End: 1 }[event.key];
+  if (isShortcut(event) || !(steps || limit)) return false;
+  if (steps) drive.step(Math.sign(steps), Math.abs(steps) * (event.shiftKey ? 10 : 1));
+  else if (limit) drive.toLimit(limit);
   event.preventDefault();
   return true;
 }

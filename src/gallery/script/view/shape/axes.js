@@ -9,10 +9,12 @@ export function axisLines(view, { width, height }) {
   const step = roundBelow(110 / view.scale);
   const [x0, y0] = planePoint(view, [0, height]);
   const [x1, y1] = planePoint(view, [width, 0]);
+  /** @param {number} from @param {number} to @param {(value: number) => Element[]} draw */
   const lines = (from, to, draw) =>
     Array.from({ length: Math.floor(to / step) - Math.ceil(from / step) + 1 }, (_, k) =>
       draw((Math.ceil(from / step) + k) * step),
     );
+  /** @param {number} x @param {number} y @param {number} value */
   const text = (x, y, value) => s("text", { x, y }, formatNumber(value));
   const across = lines(x0, x1, (value) => {
     const [x] = screenPoint(view, [value, 0]);

@@ -11,8 +11,7 @@ const LIVE_MS = 300;
 
 /** The section; `onFound(answers)` is called with those for the target. */
 export class FourBarSection {
-  /** Stopped by what is searched for next. */
-  searching = new AbortController();
+  /** Stopped by what is searched for next. */ searching = new AbortController();
   /** The last answers, with which the next begin while the shape is dragged. @type {FourBarAnswer[]} */
   answers = [];
   /** The shape to look up next. @type {{ shape: Outline, state: ShapeQuery, isDragged: boolean } | null} */
@@ -31,15 +30,8 @@ export class FourBarSection {
     const note =
       "Four-bars found in an index of random ones and fitted to the path, as by coupler-atlas find. E is the root mean " +
       "square distance of the path from the curve, S the size of the path: up to 0.0001 S is exact, 0.01 S close, 0.05 S fair, and more poor.";
-    this.element = h(
-      "section.four-bar-section",
-      { hidden: true },
-      h("h2", "Four-bars for this path"),
-      h("p.note", note),
-      this.status,
-      this.list,
-      this.acts,
-    );
+    const words = [h("h2", "Four-bars for this path"), h("p.note", note)];
+    this.element = h("section.four-bar-section", { hidden: true }, words, this.status, this.list, this.acts);
   }
 
   /** Stops what is searched for; the signal for what follows. */
@@ -59,7 +51,7 @@ export class FourBarSection {
   }
 
   /** Looks a shape that is being changed up, at most every 0.3 seconds; one that is dragged is followed by the answers before. */
-  follow(/** @type {Outline} */ shape, /** @type {ShapeQuery} */ state, isDragged) {
+  follow(/** @type {Outline} */ shape, /** @type {ShapeQuery} */ state, /** @type {boolean} */ isDragged) {
     this.next = { shape, state, isDragged };
     if (!this.isLooking) this.#look();
   }
@@ -98,7 +90,7 @@ export class FourBarSection {
   }
 
   /** Searches for a shape. @param {Outline} shape @param {ShapeQuery} state */
-  async search(shape, state, name) {
+  async search(shape, state, /** @type {string} */ name) {
     const signal = this.stop();
     this.element.hidden = false;
     this.list.setAttribute("aria-busy", "true");
@@ -120,7 +112,7 @@ export class FourBarSection {
   }
 
   /** Shows the answers so far. @param {FoundFourBars} found @param {Outline} shape */
-  show(found, shape, isDone) {
+  show(found, shape, /** @type {boolean} */ isDone) {
     const { answers, manifest, size, index_count: count, hindrances } = found;
     const among = `among ${count.toLocaleString("en")} four-bars and what is near them`;
     const none = "No four-bar meets these conditions";
@@ -135,18 +127,15 @@ export class FourBarSection {
       this.app.announce(sentence);
     }
     this.#found(answers, isDone);
-    fill(
-      this.list,
-      answers.map((answer) => fourBarItem(this.app, answer, shape, size)),
-    );
+    const items = answers.map((answer) => fourBarItem(this.app, answer, shape, size));
+    fill(this.list, items);
     const save = () =>
       saveFile({ name: "found.toml", type: "application/toml", bytes: new TextEncoder().encode(manifest) });
-    fill(
-      this.acts,
-      answers.length
-        ? [buttonOf("Save manifest of all", save), copyButton(this.app, "Copy manifest of all", manifest)]
-        : null,
-    );
+    const acts = [
+      buttonOf("Save manifest of all", save),
+      copyButton(this.app, "Copy manifest of all", manifest),
+    ];
+    fill(this.acts, answers.length ? acts : null);
   }
 }
 

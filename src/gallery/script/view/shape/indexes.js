@@ -1,7 +1,8 @@
-// The indexes of the curves of families, in the kernel: in parts, so that a family of any size can be searched in bounded
-// memory.
+// The indexes of the curves of families, in the kernel: in parts, so that a family of any size can be searched in bounded memory.
 
 import { curvePoints } from "../../data/family.js";
+import { sumOf } from "../../data/number.js";
+import { concatenateArrays } from "../../data/packed.js";
 
 // The number of curves of a part, 60 bytes each.
 const PART_CURVES = 20_000;
@@ -10,7 +11,10 @@ const MAX_KEPT_CURVES = 100_000;
 // The number of curves that are added in a step.
 const CURVES_PER_CALL = 16;
 
-/** The kept indexes of each instance of the kernel, by family and the first curve of their parts. */
+/**
+ * The kept indexes of each instance of the kernel, by family and the first curve of their parts.
+ * @type {WeakMap<object, Map<Family, Map<number, ShapeIndex>>>}
+ */
 const KEPT_INDEXES = new WeakMap();
 
 /**
@@ -18,17 +22,17 @@ const KEPT_INDEXES = new WeakMap();
  * table and of the points. The index of a part that is not kept is built for each search.
  * @param {Family[]} families
  */
-export function searchedParts(/** @type {Family[]} */ families, limit) {
-  const parts = [];
+export function searchedParts(/** @type {Family[]} */ families, /** @type {number} */ limit) {
+  /** @type {SearchedPart[]} */ const parts = [];
   let [bytes, curves] = [0, 0];
   for (const family of families) {
-    let part = null;
+    /** @type {SearchedPart | null} */ let part = null;
     for (const piece of family.outlines.pieces) {
       if (piece.curves === 0) continue;
       const tables = tablesOf(family, piece);
-      // A piece of points takes a share of those of the table.
-      const sum = (name) => tables.reduce((total, table) => total + table[name], 0);
-      const added = piece.bytes + (sum("bytes") * piece.curves) / sum("curves");
+      /** A piece of points takes a share of those of the table. @param {"bytes" | "curves"} name */
+      const share = piece.curves / sumOf(tables, (table) => table.curves);
+      const added = piece.bytes + share * sumOf(tables, (table) => table.bytes);
       if (parts.length > 0 && bytes + added > limit) return parts;
       bytes += added;
       curves += piece.curves;
@@ -37,7 +41,7 @@ export function searchedParts(/** @type {Family[]} */ families, limit) {
         parts.push(part);
       }
       part.count += piece.curves;
-      [piece, ...tables].forEach((one) => part.pieces.add(one));
+      for (const one of [piece, ...tables]) part.pieces.add(one);
       part.isKept &&= curves <= MAX_KEPT_CURVES;
     }
   }
@@ -46,9 +50,8 @@ export function searchedParts(/** @type {Family[]} */ families, limit) {
 
 /** How much of what is listed is searched. @param {ListedFamily[]} listed @param {{ count: number }[]} parts @returns {LoadState} */
 export function loadStateOf(listed, parts) {
-  const curves = parts.reduce((sum, { count }) => sum + count, 0);
-  const [total, bytes] = ["curves", "bytes"].map((name) => listed.reduce((sum, one) => sum + one[name], 0));
-  return { done: true, curves, total, bytes };
+  const [curves, total] = [sumOf(parts, ({ count }) => count), sumOf(listed, (one) => one.curves)];
+  return { done: true, curves, total, bytes: sumOf(listed, (one) => one.bytes) };
 }
 
 /** The pieces of the table with the curves of a piece of points. @param {Family} _ @param {Piece} _1 */
@@ -58,8 +61,7 @@ function tablesOf({ table }, { firstCurve, curves }) {
 }
 
 /**
- * The index of the curves of a part, whose data must be loaded; null if stopped. One that is not kept is released by
- * `releaseIndex`.
+ * The index of the curves of a part, whose data must be loaded; null if stopped. One that is not kept is released by `releaseIndex`.
  * @param {SearchKernel} kernel @param {SearchedPart} _ @param {AbortSignal} signal @returns {Promise<ShapeIndex | null>}
  */
 export async function shapeIndex(kernel, { family, first, count, isKept }, signal) {
@@ -85,15 +87,10 @@ export async function shapeIndex(kernel, { family, first, count, isKept }, signa
 }
 
 /** Adds the curves from one to before another to an index. @param {SearchKernel} kernel @param {ShapeIndex} _ */
-function addCurves(kernel, { family, curves }, from, to) {
+function addCurves(kernel, { family, curves }, /** @type {number} */ from, /** @type {number} */ to) {
   const outlines = [];
   for (let curve = from; curve < to; curve += 1) outlines.push(curvePoints(family, curve));
-  const points = new Float64Array(outlines.reduce((sum, { length }) => sum + length, 0));
-  let at = 0;
-  for (const outline of outlines) {
-    points.set(outline, at);
-    at += outline.length;
-  }
+  const points = concatenateArrays(outlines, Float64Array);
   const counts = Float64Array.from(outlines, ({ length }) => length / 2);
   const closed = Float64Array.from(family.curves.closed.subarray(from, to));
   return kernel.call({ method: "add_curves", curves, points, counts, closed });
@@ -113,11 +110,11 @@ export function releaseIndex(kernel, { curves }) {
   return kernel.call({ method: "close_curves", curves });
 }
 
-/** Releases the indexes of families that are not searched as a whole: they would take too much memory. */
-export async function releaseIndexes(
-  /** @type {SearchKernel} */ kernel,
-  /** @type {SearchedPart[]} */ parts,
-) {
+/**
+ * Releases the indexes of families that are not searched as a whole: they would take too much memory.
+ * @param {SearchKernel} kernel @param {SearchedPart[]} parts
+ */
+export async function releaseIndexes(kernel, parts) {
   for (const { family } of parts) {
     const known = keptIndexes(kernel, family);
     for (const index of known.values()) await releaseIndex(kernel, index);

@@ -4,9 +4,9 @@ import { curvePoints, curveCaption, curveKey } from "../../data/family.js";
 import { needCurves } from "../../data/needs.js";
 import { inverted, transformed } from "../../draw/similarity.js";
 import { portion } from "../../shape/outline.js";
-import { placedData } from "../../draw/path-data.js";
+import { smoothData } from "../../draw/path-data.js";
 import { boxOfPoints, fittedView } from "../../draw/plane-view.js";
-import { h, s, setAttributes, thumbnailFrame } from "../dom.js";
+import { h, s, sizedThumbnail } from "../dom.js";
 import { address } from "../../data/address.js";
 import { formatCaption } from "../labels.js";
 import { pinButton } from "../pins.js";
@@ -21,30 +21,25 @@ function matchItem(app, merged, shape, /** @type {ShapeQuery} */ { by, part }) {
   const { family, curve, name } = one;
   const caption = curveCaption(family, curve);
   const other = by === "rms" ? "greatest" : "rms";
-  const percent = (measure) => `${(100 * one[measure]).toFixed(2)} % ${measure}`;
+  /** @param {"rms" | "greatest"} measure */
+  const percent = (/** @type {"rms" | "greatest"} */ measure) =>
+    `${(100 * one[measure]).toFixed(2)} % ${measure}`;
   const share = part ? `, ${Math.round(100 * Math.abs(one.to - one.from))} % of the curve` : "";
   const href = address([family.id, "curve", curveKey(family, curve)]);
   const picture = matchPicture(one, shape, { width: 220, height: 170 });
-  const deviations = h(
-    "span.label",
-    qualityMark(one.quality),
-    " ",
-    h("b", percent(by)),
-    ` ${percent(other)}${share}`,
-  );
+  const deviations = [qualityMark(one.quality), " ", h("b", percent(by)), ` ${percent(other)}${share}`];
   const label = h("span.label", formatCaption(caption || name));
   const title = [one, ...others].map((same) => same.name).join(", ");
   const families = h("span.label", { title }, familiesText(merged));
   const words = ["Pin", h("span.visually-hidden", ` ${name}`)];
   const pin = pinButton(app, name, { class: "quiet" }, ...words);
   const similar = h("a", { href: address(["shape"], { like: name }) }, "Find similar");
-  const link = h("a", { href, "data-name": name }, picture, deviations, families, label);
+  const link = h("a", { href, "data-name": name }, picture, h("span.label", deviations), families, label);
   return h("li", link, h("span.acts", similar, pin));
 }
 
 /**
- * The list items of results; null if stopped. Each is drawn as soon as its points are loaded: those of all may be more than
- * are kept.
+ * The list items of results; null if stopped. Each is drawn as soon as its points are loaded: those of all may be more than are kept.
  * @param {App} app @param {MergedMatch[]} merged @param {Outline} shape @param {ShapeQuery} query @param {AbortSignal} signal
  */
 export async function matchItems(app, merged, shape, query, signal) {
@@ -58,7 +53,7 @@ export async function matchItems(app, merged, shape, query, signal) {
 }
 
 /** How near a curve is in a word, as `find` has it (crates/coupler-find/src/quality.rs). */
-export function qualityMark(quality) {
+export function qualityMark(/** @type {string} */ quality) {
   return h(`span.quality.${quality}`, quality);
 }
 
@@ -74,30 +69,25 @@ export function matchesText(merged, curves, by) {
 
 const MATCH_INSET = 6;
 
-/**
- * The picture of a result of `nearestCurves` with the shape overlaid, `width` × `height` pixels.
- * @param {Match} _ @param {Outline} shape @param {Size} _2
- */
-export function matchPicture({ family, curve, similarity, from, to }, shape, { width, height }) {
+/** The picture of a result of `nearestCurves` with the shape overlaid, `width` × `height` pixels. @param {Match} _ @param {Outline} shape @param {Size} size */
+function matchPicture({ family, curve, similarity, from, to }, shape, size) {
   const points = curvePoints(family, curve);
   const closed = family.curves.closed[curve] === 1;
   const fitted = transformed(inverted(similarity), shape.points);
-  const view = viewOfOutlines([points, fitted], width, height);
+  const view = viewOfOutlines([points, fitted], size);
   const isPart = from !== 0 || to !== 1;
   const [first, last] = from < to ? [from, to] : [to, from];
   const part = isPart ? portion(points, closed, first, last, 96).points : points;
-  const frame = thumbnailFrame(
+  return sizedThumbnail(
     ".match-picture",
-    { width, height },
-    s("path", { class: isPart ? "rest" : "curve", d: placedData(points, closed, view) }),
-    isPart ? s("path.curve", { d: placedData(part, false, view) }) : null,
-    s("path.query-shape", { d: placedData(fitted, shape.closed, view) }),
+    size,
+    s("path", { class: isPart ? "rest" : "curve", d: smoothData(points, closed, view) }),
+    isPart ? s("path.curve", { d: smoothData(part, false, view) }) : null,
+    s("path.query-shape", { d: smoothData(fitted, shape.closed, view) }),
   );
-  setAttributes(frame, { width, height });
-  return frame;
 }
 
-/** The placement that fits outlines into a frame, `inset` pixels from its edges. @param {Points[]} outlines */
-export function viewOfOutlines(/** @type {Points[]} */ outlines, width, height, inset = MATCH_INSET) {
-  return fittedView(boxOfPoints(...outlines), { width, height, margin: inset });
+/** The placement that fits outlines into a frame, `margin` pixels from its edges. @param {Points[]} outlines @param {Size} size */
+export function viewOfOutlines(outlines, size, margin = MATCH_INSET) {
+  return fittedView(boxOfPoints(...outlines), { ...size, margin });
 }

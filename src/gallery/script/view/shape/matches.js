@@ -16,14 +16,11 @@ const WANTED = 120;
  * @param {AbortSignal} signal @param {(part: SearchedPart, searched: number) => void} progress
  */
 export async function nearestCurves(app, parts, shape, options, signal, progress) {
-  const { isPart, mirror, least, by } = options;
+  const { isPart, mirror, by } = options;
   const { curveSearch: kernel } = await app.kernel.load();
   const path = await drawnPath(kernel, shape, isPart);
-  const search = await ShapeSearch.open(kernel, path, {
-    mirror,
-    least: isPart ? least : WHOLE,
-    wanted: WANTED,
-  });
+  const least = isPart ? options.least : WHOLE;
+  const search = await ShapeSearch.open(kernel, path, { mirror, least, wanted: WANTED });
   try {
     const found = await candidatesOf(app, kernel, search, parts, signal, progress);
     const candidates =
@@ -42,7 +39,10 @@ export async function nearestCurves(app, parts, shape, options, signal, progress
   }
 }
 
-/** The likeliest curves of all parts; null if stopped. */
+/**
+ * The likeliest curves of all parts; null if stopped.
+ * @param {App} app @param {SearchKernel} kernel @param {ShapeSearch} search @param {SearchedPart[]} parts @param {AbortSignal} signal @param {(part: SearchedPart, searched: number) => void} progress
+ */
 async function candidatesOf(app, kernel, search, parts, signal, progress) {
   /** @type {Candidate[]} */ let candidates = [];
   let searched = 0;
@@ -65,7 +65,10 @@ async function candidatesOf(app, kernel, search, parts, signal, progress) {
   return candidates;
 }
 
-/** Those that are wanted of the candidates, compared closely; null if stopped. */
+/**
+ * Those that are wanted of the candidates, compared closely; null if stopped.
+ * @param {ShapeSearch} search @param {Candidate[]} candidates @param {AbortSignal} signal
+ */
 async function nearestCandidates(search, candidates, signal) {
   /** @type {Candidate[]} */ const compared = [];
   for (const { family, curve } of candidates) {
@@ -76,12 +79,12 @@ async function nearestCandidates(search, candidates, signal) {
   return likeliest(compared, WANTED);
 }
 
-function likeliest(/** @type {Candidate[]} */ candidates, most) {
+function likeliest(/** @type {Candidate[]} */ candidates, /** @type {number} */ most) {
   return candidates.sort((a, b) => b.likeness - a.likeness).slice(0, most);
 }
 
 /** @returns {Promise<Outline>} */
-async function loadedOutline(/** @type {Family} */ family, curve) {
+async function loadedOutline(/** @type {Family} */ family, /** @type {number} */ curve) {
   await needCurves(family, [curve]);
   return curveOutline(family, curve);
 }

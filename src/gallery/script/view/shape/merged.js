@@ -8,12 +8,11 @@ import { ShapeSearch, WHOLE } from "../../kernel/shape-search.js";
 const SAME = 1e-3;
 
 /**
- * The nearest matches (matches.js), at most `most`, each with the others whose whole curves are similar to it; null if
- * stopped.
- * @param {App} app @param {Match[]} matches the nearest first @param {boolean} mirror whether mirror images are the same
- * @param {AbortSignal} signal @returns {Promise<MergedMatch[] | null>}
+ * The nearest matches (matches.js), at most `most`, each with the others whose whole curves are similar to it; null if stopped.
+ * @param {App} app @param {Match[]} matches the nearest first @param {boolean} mirror whether mirror images are the same @param
+ * {AbortSignal} signal @returns {Promise<MergedMatch[] | null>}
  */
-export async function mergedMatches(app, matches, most, mirror, signal) {
+export async function mergedMatches(app, matches, /** @type {number} */ most, mirror, signal) {
   const { curveSearch: kernel } = await app.kernel.load();
   /** @type {(MergedMatch & { outline: Outline, search: ShapeSearch })[]} */ const merged = [];
   try {
@@ -36,6 +35,7 @@ export async function mergedMatches(app, matches, most, mirror, signal) {
   }
 }
 
+/** @param {(MergedMatch & { outline: Outline, search: ShapeSearch })[]} merged @param {Match} match @param {Outline} outline */
 async function sameAmong(merged, match, outline) {
   for (const one of merged) {
     // The same curve deviates as much from the path.

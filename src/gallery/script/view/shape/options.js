@@ -1,13 +1,14 @@
 // The controls of the search by shape: how curves are compared, and what four-bars must be.
 
 import { boxOfPoints } from "../../draw/plane-view.js";
-import { choiceBox, fill, h, selectOf } from "../dom.js";
+import { choiceBox, fill, h } from "../dom.js";
 import { numbersOf } from "./query.js";
 
-const percents = (value) => `${Math.round(100 * value)} %`;
+const percents = (/** @type {number} */ value) => `${Math.round(100 * value)} %`;
 
 /** How curves of the atlas are compared with the shape. @param {Store<ShapeQuery>} store */
 export function shapeOptions(store) {
+  /** @param {boolean} part */
   const isPart = (part) => ({ name: "shape-part", onchange: () => store.change({ part }) });
   const whole = choiceBox("radio", isPart(false), "a whole curve");
   const part = choiceBox("radio", isPart(true), "a part of a curve, at least");
@@ -18,30 +19,23 @@ export function shapeOptions(store) {
     whole.input.checked = state.part === false;
     part.input.checked = state.part === true;
   });
-  return h(
-    "fieldset.shape-options",
-    h("legend", "The shape is"),
-    h("div.toolbar", whole.element, part.element, least),
-    h("div.toolbar", mirror, by),
-  );
+  const rows = [h("div.toolbar", whole.element, part.element, least), h("div.toolbar", mirror, by)];
+  return h("fieldset.shape-options", h("legend", "The shape is"), rows);
 }
 
 /** What four-bars must be, as `find` has it: chips that are on or off. @param {Store<ShapeQuery>} store @param {() => Outline | null} shape */
 export function fourBarChips(store, shape) {
-  const anyMu = (mu) => (mu ? `μ at least ${mu}°` : "any μ");
+  const anyMu = (/** @type {number} */ mu) => (mu ? `μ at least ${mu}°` : "any μ");
+  /** @param {number} length */
   const links = (length) => (length === Infinity ? "links of any length" : `links up to ${length} S`);
-  const onBox = ({ target }) => store.change({ pivots: target.checked ? boxAround(shape()) : null });
-  const box = choiceBox("checkbox", { onchange: onBox }, "Pivots in a box");
-  const onCorners = ({ target }) => {
-    const pivots = numbersOf(target.value, 4);
-    target.setAttribute("aria-invalid", String(!pivots));
+  const box = choiceBox("checkbox", {}, "Pivots in a box");
+  box.input.onchange = () => store.change({ pivots: box.input.checked ? boxAround(shape()) : null });
+  const corners = h("input", { "aria-label": "Corners of the box, x, y, x, y", size: 18 });
+  corners.onchange = () => {
+    const pivots = numbersOf(corners.value, 4);
+    corners.setAttribute("aria-invalid", String(!pivots));
     if (pivots) store.change({ pivots });
   };
-  const corners = h("input", {
-    "aria-label": "Corners of the box, x, y, x, y",
-    size: 18,
-    onchange: onCorners,
-  });
   store.watch(({ pivots }) => {
     box.input.checked = pivots !== null;
     corners.hidden = pivots === null;
@@ -64,26 +58,32 @@ function boxAround(shape) {
   return [x0 - by, y0 - by, x1 + by, y1 + by].map((value) => Number(value.toPrecision(3)));
 }
 
-function checkBox(/** @type {Store<any>} */ store, name, label) {
-  const onchange = ({ target }) => store.change({ [name]: target.checked });
-  const { input, element } = choiceBox("checkbox", { name, onchange }, label);
+/** @param {Store<ShapeQuery>} store @param {"mirror" | "fullTurn"} name @param {string} label */
+function checkBox(store, name, label) {
+  const { input, element } = choiceBox("checkbox", { name }, label);
+  input.onchange = () => store.change({ [name]: input.checked });
   store.watch((state) => {
     input.checked = state[name];
   });
   return element;
 }
 
-/** A choice of some values, and of the one that the address has. */
-function selectBox(/** @type {Store<any>} */ store, name, label, values, text) {
+/**
+ * A choice of some values, and of the one that the address has.
+ * @template {string | number} T @param {Store<ShapeQuery>} store @param {"least" | "by" | "mu" | "maxLink"} name
+ * @param {string} label @param {T[]} values @param {(value: T) => string} text
+ */
+function selectBox(store, name, label, values, text) {
+  const element = h("select", { "aria-label": label });
   const isNumber = typeof values[0] === "number";
-  const onchange = ({ target }) => store.change({ [name]: isNumber ? Number(target.value) : target.value });
-  const element = selectOf({ "aria-label": label, onchange }, [], null);
+  element.onchange = () => store.change({ [name]: isNumber ? Number(element.value) : element.value });
   store.watch((state) => {
-    const all = [...new Set([...values, state[name]])];
-    if (isNumber) all.sort((a, b) => a - b);
+    const chosen = /** @type {T} */ (state[name]);
+    const all = [...new Set([...values, chosen])];
+    if (isNumber) all.sort((a, b) => Number(a) - Number(b));
     fill(
       element,
-      all.map((value) => h("option", { value, selected: value === state[name] }, text(value))),
+      all.map((value) => h("option", { value, selected: value === chosen }, text(value))),
     );
   });
   return element;

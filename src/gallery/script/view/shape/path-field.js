@@ -16,11 +16,12 @@ export class PathField {
     this.use = use;
     this.said = h("p.note");
     this.wrong = h("p.error", { role: "alert" });
-    const choose = ({ target }) => {
-      if (target.files[0]) this.#open(target.files[0], target.files[0].name);
-      target.value = "";
+    const file = h("input", { id: "shape-file", type: "file", accept: FORMATS });
+    file.onchange = () => {
+      const [chosen] = file.files ?? [];
+      if (chosen) this.#open(chosen, chosen.name);
+      file.value = "";
     };
-    const file = h("input", { id: "shape-file", type: "file", accept: FORMATS, onchange: choose });
     const example = "x,y lines, JSON, points.csv, a drawing in SVG or DXF, or path data: M0 0 C…";
     const text = h("textarea", { id: "shape-text", rows: 3, spellcheck: "false", placeholder: example });
     this.outline = h("input", { placeholder: "Outline", "aria-label": "Outline", size: 8, hidden: true });
@@ -41,10 +42,11 @@ export class PathField {
 
   /** Reads what is dropped on an element, or pasted into it. @param {HTMLElement} element */
   listen(element) {
-    const take = (event, /** @type {DataTransfer | null} */ data) => {
+    const take = (/** @type {Event} */ event, /** @type {DataTransfer | null} */ data) => {
       const [file] = data?.files ?? [];
       const text = data?.getData("text/plain");
-      if ((!file && !text) || event.target.closest("input, textarea")) return;
+      const isField = event.target instanceof Element && event.target.closest("input, textarea");
+      if ((!file && !text) || isField) return;
       event.preventDefault();
       if (file) this.#open(file, file.name);
       else if (text) this.readText(text);
@@ -58,7 +60,7 @@ export class PathField {
     this.#open(new Blob([text]), "the pasted path");
   }
 
-  async #open(/** @type {Blob} */ blob, name) {
+  async #open(/** @type {Blob} */ blob, /** @type {string} */ name) {
     if (blob.size > MAX_BYTES) return void fill(this.wrong, `${name} has more than 16 MB`);
     this.file = { bytes: new Uint8Array(await blob.arrayBuffer()), name };
     this.outline.value = "";

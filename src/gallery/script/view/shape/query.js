@@ -45,12 +45,9 @@ export function formatShapeQuery(state) {
 }
 
 /** So many numbers with commas or blanks between them; null if they are others. @param {string | undefined} text */
-export function numbersOf(text, count) {
-  const numbers =
-    text
-      ?.trim()
-      .split(/[\s,;]+/)
-      .map(Number) ?? [];
+export function numbersOf(text, /** @type {number} */ count) {
+  const words = text?.trim().split(/[\s,;]+/) ?? [];
+  const numbers = words.map(Number);
   return numbers.length === count && numbers.every(Number.isFinite) ? numbers : null;
 }
 

@@ -21,7 +21,7 @@ import { watchPins } from "../pins.js";
 const MAX_RESULTS = 36;
 const WITHOUT_SHAPE = "Draw or paste a curve, or start from a curve of the atlas";
 
-/** The route `#/shape?d=…` or `?like=evans:12.1.1`, with what parseShapeQuery reads. */
+/** The route `#/shape?d=…` or `?like=evans:12.1.1`, with what parseShapeQuery reads. @type {Route} */
 export const shapeRoute = {
   name: "shape",
   label: "By shape",
@@ -39,26 +39,24 @@ export class ShapeView {
   /** @type {Outline | null} */ shape = null;
   /** The last shape that was drawn or read, with its word: the address has it with fewer points. */
   given = { word: "", outline: /** @type {Outline | null} */ (null), name: "the drawn path" };
-  /** What is searched, and how much of all that is. @type {SearchedPart[]} */
-  parts = [];
+  /** What is searched, and how much of all that is. @type {SearchedPart[]} */ parts = [];
   /** @type {LoadState} */ loaded = { done: false, curves: 0, total: 0, bytes: 0 };
-  /** Stopped by what is opened or searched for next. */
-  searching = new AbortController();
+  /** Stopped by what is opened or searched for next. */ searching = new AbortController();
   limit = MAX_AUTOLOAD_BYTES;
   unwatch = () => {};
 
   constructor(/** @type {App} */ app, /** @type {Query} */ query) {
     this.app = app;
-    const address = (state) => routeAddress("shape", formatShapeQuery(state), app);
+    const address = (/** @type {ShapeQuery} */ state) => routeAddress("shape", formatShapeQuery(state), app);
     this.store = new Store(app, parseShapeQuery(query), address);
     this.loadAll = loadAllLine(() => {
       this.limit = Infinity;
       this.open();
     });
-    const live = (outline, isDragged) => {
+    const live = (/** @type {Outline} */ outline, /** @type {boolean} */ isDragged) => {
       this.fourBars.follow(outline, this.store.state, isDragged);
     };
-    const drawn = (outline) => this.setShape(outline, "the drawn path");
+    const drawn = (/** @type {Outline} */ outline) => this.setShape(outline, "the drawn path");
     this.target = new TargetPlane({ drawn, live, cleared: () => this.clear() }, app.announce);
     this.fourBars = new FourBarSection(app, (...found) => this.target.showFound(...found));
     this.status = h("p.counted", WITHOUT_SHAPE);
@@ -84,6 +82,7 @@ export class ShapeView {
   #changed(state, before) {
     this.target.showBox(state.pivots);
     if (!before) return;
+    /** @param {...(keyof ShapeQuery)} names */
     const isOther = (...names) => names.some((name) => String(state[name]) !== String(before[name]));
     if (isOther("d", "place", "like")) {
       this.#loadShape().then(
@@ -110,7 +109,7 @@ export class ShapeView {
     const { app } = this;
     const signal = this.#begin();
     const listed = requestedFamilies(app.atlas, this.store.state.families);
-    const choose = (families) => this.store.change({ families });
+    const choose = (/** @type {string[] | null} */ families) => this.store.change({ families });
     fill(this.families, familyChooser(app.atlas, listed, choose));
     const families = [];
     for (const { id } of listed) {
@@ -148,7 +147,7 @@ export class ShapeView {
   }
 
   /** Leaves no results, and says why. */
-  showNone(why) {
+  showNone(/** @type {string} */ why) {
     fill(this.status, why);
     fill(this.results);
     this.results.removeAttribute("aria-busy");
@@ -176,7 +175,7 @@ export class ShapeView {
   }
 
   /** Searches for a shape that was drawn or read. @param {Outline} outline */
-  setShape(outline, name) {
+  setShape(outline, /** @type {string} */ name) {
     if (!((lengthsAlong(outline.points, false).at(-1) ?? 0) > 0)) {
       this.clear();
       return this.showNone("This is too small to be a curve: draw a longer one");
@@ -208,7 +207,7 @@ export class ShapeView {
     const { part, least, mirror, by } = state;
     this.results.setAttribute("aria-busy", "true");
     const began = performance.now();
-    const progress = ({ family }, searched) => {
+    const progress = (/** @type {SearchedPart} */ { family }, /** @type {number} */ searched) => {
       const share = `${searched.toLocaleString("en")} of ${this.loaded.curves.toLocaleString("en")} curves`;
       fill(this.status, "Searching ", family.title, this.parts.length > 1 ? `: ${share}` : "");
     };

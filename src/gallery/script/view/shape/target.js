@@ -11,7 +11,7 @@ import {
   screenPoint,
 } from "../../draw/plane-view.js";
 import { fill, h, s } from "../dom.js";
-import { onKeys } from "../keys.js";
+import { directionOfKey, onKeys } from "../keys.js";
 import { formatNumber } from "../labels.js";
 import { axisLines } from "./axes.js";
 import { fourBarDrawing } from "./four-bar-item.js";
@@ -31,8 +31,7 @@ export class TargetPlane {
   view = fittedView(EMPTY_BOX, FRAME);
   /** @type {Point} */ pen = [50, 40];
   /** The box of the pivots. @type {number[] | null} */ corners = null;
-  /** Whether the points are set by keys. */
-  isByKeys = false;
+  /** Whether the points are set by keys. */ isByKeys = false;
 
   /** @param {{ drawn(outline: Outline): void, live(outline: Outline, isDragged: boolean): void, cleared(): void }} on @param {App["announce"]} announce */
   constructor(on, announce) {
@@ -107,7 +106,7 @@ export class TargetPlane {
   render() {
     const { points, closed } = this.outline;
     this.line.setAttribute("d", placedData(points, closed && points.length > 4, this.view));
-    const dot = (point, k) => {
+    const dot = (/** @type {Point} */ point, /** @type {number} */ k) => {
       const [cx, cy] = screenPoint(this.view, point);
       return s("circle", { cx, cy, r: 5, "data-handle": k });
     };
@@ -128,20 +127,19 @@ export class TargetPlane {
   #placeOf({ clientX, clientY }) {
     const { left, top, width, height } = this.element.getBoundingClientRect();
     const scale = Math.min(width / FRAME.width, height / FRAME.height);
-    const [x, y] = planePoint(this.view, [
+    return planePoint(this.view, [
       (clientX - left - (width - scale * FRAME.width) / 2) / scale,
       (clientY - top - (height - scale * FRAME.height) / 2) / scale,
     ]);
-    return [x, y];
   }
 
   /** Begins a stroke, or to drag a handle. */
-  #press(event) {
+  #press(/** @type {PointerEvent} */ event) {
     if (event.button) return;
     event.preventDefault();
     this.element.focus({ preventScroll: true });
     this.element.setPointerCapture(event.pointerId);
-    const handle = event.target.dataset.handle;
+    const handle = event.target instanceof SVGElement ? event.target.dataset.handle : undefined;
     const move = handle === undefined ? this.#stroke(event) : this.#drag(event, Number(handle));
     this.element.onpointermove = (moved) => {
       move(moved);
@@ -154,25 +152,25 @@ export class TargetPlane {
     };
   }
 
-  #stroke(event) {
+  #stroke(/** @type {PointerEvent} */ event) {
     const stroke = [...this.#placeOf(event)];
     this.isByKeys = false;
     this.showFound([]);
-    return (moved) => {
+    return (/** @type {PointerEvent} */ moved) => {
       const seen = moved.getCoalescedEvents?.() ?? [];
       for (const one of seen.length ? seen : [moved]) stroke.push(...this.#placeOf(one));
       this.outline = { points: Float64Array.from(stroke), closed: false };
     };
   }
 
-  #drag(event, handle) {
+  #drag(/** @type {PointerEvent} */ event, /** @type {number} */ handle) {
     const [x, y] = this.#placeOf(event);
     const { points, closed } = this.outline;
     const isFew = points.length <= 2 * MOST_HANDLES;
     const count = MOST_HANDLES * POINTS_PER_HANDLE - (closed ? 0 : POINTS_PER_HANDLE - 1);
     const base = isFew ? points : resampled(points, closed, count);
     const [at, reach] = isFew ? [handle, 1] : [handle * POINTS_PER_HANDLE, BEND_REACH];
-    return (moved) => {
+    return (/** @type {PointerEvent} */ moved) => {
       const [toX, toY] = this.#placeOf(moved);
       const bent = base.map((value, k) => {
         const apart = Math.abs((k >> 1) - at);
@@ -194,11 +192,10 @@ export class TargetPlane {
     this.on.drawn(this.outline);
   }
 
-  #move(event) {
+  #move(/** @type {KeyboardEvent} */ event) {
     const step = roundBelow(30 / this.view.scale) * (event.shiftKey ? 5 : 1) * 0.5;
-    const ways = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, step], ArrowDown: [0, -step] };
-    const [x, y] = ways[event.key];
-    this.pen = [this.pen[0] + x, this.pen[1] + y];
+    const [right, up] = directionOfKey(event) ?? [0, 0];
+    this.pen = [this.pen[0] + right * step, this.pen[1] + up * step];
     this.announce(this.pen.map((value) => formatNumber(value)).join(", "));
     this.render();
   }
