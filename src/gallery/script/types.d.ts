@@ -111,7 +111,9 @@ type ListedFamily = Record<"id" | "title" | "linkage", string> &
   Record<"cells" | "kept" | "not_assembled" | "curves" | "pages" | "bytes" | "table_bytes", number> &
   Record<"page_format" | "script", string | null>;
 type AtlasSummary = { title: string; program: string; book: string[] } & Listed & {
-    kernel: { script: string; sha256: string };
+    kernel: { script: string; sha256: string; module?: string };
+    /** Of the file of a plate: all that it has, and the address at which it was saved. */
+    plate?: CellStatements & Record<"address" | "key", string>;
   };
 /** What the script of the kernel says: its module, compressed and in base64, and the digest of what is encoded. */
 type KernelFile = { sha256: string; module: string };
@@ -325,6 +327,8 @@ type CellRows = Record<"number" | "status" | "curves" | "trace" | "circuit" | "c
 type CurveRows = Record<"caption" | "note" | "reason", string[]> &
   Record<"cells" | "curves", number> &
   Record<"count" | "points", PackedColumn> & { box: PackedColumn[] };
+/** A family of a single cell. */
+type CellStatements = { head: FamilyHead; cells: CellRows; curves: CurveRows };
 type PageRows = { page: number; views: StoredView[] };
 /** What the scripts of families and of the kernel call. */
 type Statements = {
