@@ -117,6 +117,8 @@ type AtlasSummary = { title: string; program: string; book: string[] } & Listed 
   };
 /** What the script of the kernel says: its module, compressed and in base64, and the digest of what is encoded. */
 type KernelFile = { sha256: string; module: string };
+/** Names of units, each with what to multiply a number in it by. */
+type Units = Record<string, number>;
 type Listed = { measures: Measure[]; families: ListedFamily[] };
 type Words = { values: string[]; codes: Uint8Array };
 /**
@@ -192,9 +194,10 @@ type CurveRequest = { cell: number; curve: Point } & Record<"values" | "changes"
 type KernelCurve = { family: { handle: number }; curve: CurveRequest };
 type FamilyDescription = Record<"is_length" | "has_all_circuits", boolean> & {
   family: number;
-  names: (KernelName & Record<"is_whole" | "is_derived", boolean>)[];
+  names: (KernelName & Record<"is_whole" | "is_derived", boolean> & { unit: AngleUnit | null })[];
 };
 type KernelName = { name: string; min: number | null; max: number | null };
+type AngleUnit = "deg" | "rad";
 type Pass = { from: number; to: number; from_is_flat: boolean; to_is_flat: boolean; sides: number[] };
 type Circuit = { passes: Pass[]; closed: boolean };
 type Coordinate = { value: number; is_constant: boolean; is_parameter: boolean };
