@@ -14,4 +14,4 @@ if (typeof DecompressionStream === "function") {
   await add("script", script);
 } else if (root)
   root.textContent =
-    "The gallery needs a browser of 2023 or later. The pages are in the folders next to this file.";
+    "This page needs a browser of 2023 or later. An atlas has its pages in the folders next to it.";

@@ -4,7 +4,7 @@
 // CHROMIUM, that of the browser. Tests are skipped without them; see `hasBrowser()`.
 
 import assert from "node:assert/strict";
-import { existsSync, statSync } from "node:fs";
+import { existsSync, readFileSync, statSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 
@@ -108,6 +108,17 @@ export async function eventually(check, sentence, within = 5000) {
       setTimeout(done, 25);
     });
   }
+}
+
+/** Exports by the menu of the open view, and returns { name, bytes, text }. */
+export async function saved(page, label) {
+  await page.click(".export-button");
+  const [download] = await Promise.all([
+    page.waitForEvent("download"),
+    page.locator(".export-menu").getByRole("menuitem", { name: label, exact: true }).click(),
+  ]);
+  const bytes = readFileSync(await download.path());
+  return { name: download.suggestedFilename(), bytes, text: bytes.toString("utf8") };
 }
 
 // The slowest test takes a few seconds; a browser that has died may never answer.

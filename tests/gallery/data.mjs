@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 
 import { pageFile } from "../../src/gallery/script/data/atlas.js";
 import { outlineCache } from "../../src/gallery/script/data/atlas.js";
-import { parseNumber } from "../../src/gallery/script/data/number.js";
+import { ANGLE_UNITS, parseNumber } from "../../src/gallery/script/data/number.js";
 import { holdPieces, needPieces } from "../../src/gallery/script/data/needs.js";
 import { unpackColumn, unpackInto } from "../../src/gallery/script/data/packed.js";
 import { Series } from "../../src/gallery/script/data/series.js";
@@ -55,8 +55,16 @@ import { searchedParts } from "../../src/gallery/script/view/shape/indexes.js";
   for (const text of ["", "abc", "3,5,6", "1.2.3", "--3", ".", "0x10", "Infinity", "1e999", "3 mm"])
     assert.ok(parseNumber(text).reason?.includes(text), text);
   assert.match(parseNumber("1,234").reason, /could be 1\.234 or 1234/);
-  assert.equal(value("45°", ["°", "deg"]), 45);
-  assert.equal(value("45 deg", ["°", "deg"]), 45);
+  const { deg, rad } = ANGLE_UNITS;
+  for (const text of ["45", "45°", "45 deg", "45,0 °"]) assert.equal(value(text, deg), 45, text);
+  assert.equal(value("0.5 rad", rad), 0.5);
+  assert.equal(value("0,5", rad), 0.5);
+  assert.equal(value("180°", rad), Math.PI);
+  assert.equal(value("-90 deg", rad), -Math.PI / 2);
+  assert.ok(Math.abs(value("0.5 rad", deg) - 28.64788975654116) < 1e-13);
+  for (const text of ["30 grad", "30 mm", "rad", "30'"])
+    assert.match(parseNumber(text, deg).reason, /is not a number \(in °, deg, rad\)/, text);
+  assert.match(parseNumber("30°").reason, /has a unit: write a number alone/);
 }
 
 // Columns.

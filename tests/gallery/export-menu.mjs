@@ -3,23 +3,11 @@
 // ATLAS is the folder of a rendered atlas that has a family `evans`. See browser.mjs for the environment.
 
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
 
-import { contrastOf, eventually, openGallery, runTests } from "./browser.mjs";
+import { contrastOf, eventually, openGallery, runTests, saved } from "./browser.mjs";
 import { entitiesOf, filesOfZip, pointsOf } from "./export-data.mjs";
 
 const [atlas] = process.argv.slice(2);
-
-/** Exports by the menu of the open view, and returns { name, bytes, text }. */
-async function saved(page, label) {
-  await page.click(".export-button");
-  const [download] = await Promise.all([
-    page.waitForEvent("download"),
-    page.locator(".export-menu").getByRole("menuitem", { name: label, exact: true }).click(),
-  ]);
-  const bytes = readFileSync(await download.path());
-  return { name: download.suggestedFilename(), bytes, text: bytes.toString("utf8") };
-}
 
 async function onPlate(browser, fragment, test, options) {
   const view = await openGallery(browser, atlas, fragment, { acceptDownloads: true, ...options });

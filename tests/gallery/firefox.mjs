@@ -6,7 +6,7 @@
 // sizes, the policy, downloads.
 
 import assert from "node:assert/strict";
-import { readdirSync, readFileSync } from "node:fs";
+import { copyFileSync, existsSync, mkdirSync, readdirSync, readFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 
@@ -163,6 +163,36 @@ const TESTS = [
         /<\/svg>\s*$/.test(readFileSync(join(firefox.saved, "hoeken-1-1-1.svg"), "utf8"));
       for (let k = 0; k < 200 && !isSaved(); k += 1) await firefox.evaluate(settling);
       assert.ok(isSaved(), readdirSync(firefox.saved).join(", "));
+    },
+  ],
+  [
+    "the file of a plate opens from an empty folder",
+    async (firefox) => {
+      await at(firefox, atlas, "/hoeken/curve/1.1.1");
+      await firefox.evaluate(() => {
+        const entries = [...document.querySelectorAll(".export-menu button")];
+        entries.find(({ textContent }) => textContent.startsWith("HTML")).click();
+      });
+      const file = join(firefox.saved, "hoeken-1-1-1.html");
+      const isSaved = () => existsSync(file) && readFileSync(file, "utf8").endsWith("</html>\n");
+      for (let k = 0; k < 200 && !isSaved(); k += 1) await firefox.evaluate(settling);
+      const alone = join(firefox.saved, "alone");
+      mkdirSync(alone);
+      copyFileSync(file, join(alone, "plate.html"));
+      await at(firefox, pathToFileURL(join(alone, "plate.html")).href, "");
+      await firefox.eventually(
+        countOf,
+        "the linkage is not drawn",
+        ".stage svg .curve-lines, .stage svg path",
+      );
+      assert.equal(await firefox.evaluate(hash), "#/hoeken/curve/1.1.1");
+      await firefox.evaluate(() => {
+        const slider = document.querySelector(".parameter input[type=range]");
+        slider.value = String(1.1 * Number(slider.value));
+        slider.dispatchEvent(new Event("input"));
+        slider.dispatchEvent(new Event("change"));
+      });
+      await firefox.eventually(() => window.location.hash.includes("?"), "the slider changes nothing");
     },
   ],
 ];

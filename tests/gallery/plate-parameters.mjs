@@ -49,6 +49,37 @@ export const PARAMETERS = [
   ],
   [
     "3.10",
+    "an angle is shown with its unit, and typed in degrees or radians; a length has no unit",
+    async ({ browser, folder }) => {
+      const plate = await openGallery(browser, folder, "/new/scotch-yoke", REDUCED_MOTION);
+      const { page } = plate;
+      const [angle, length] = [fieldOf(page, "angle"), fieldOf(page, "r")];
+      assert.equal(await angle.inputValue(), "90°");
+      assert.equal(await sliderOf(page, "angle").getAttribute("aria-valuetext"), "90°");
+      const goesTo = (value) =>
+        eventually(async () => (await plate.fragment()) === `/new/scotch-yoke?${value}`, value);
+      await angle.fill("80,5 deg");
+      await goesTo("angle=80.5");
+      await angle.fill("0.25 rad");
+      await goesTo(`angle=${(0.25 * 180) / Math.PI}`);
+      for (const wrong of ["30 grad", "30 mm"]) {
+        await angle.fill(wrong);
+        assert.match(await angle.getAttribute("title"), /is not a number \(in °, deg, rad\)/);
+      }
+      await angle.fill("80.5°");
+      await goesTo("angle=80.5");
+      await length.fill("2°");
+      assert.equal(await length.getAttribute("aria-invalid"), "true");
+      assert.match(await length.getAttribute("title"), /has a unit: write a number alone/);
+      await length.fill("1,5");
+      await length.blur();
+      await goesTo("angle=80.5&r=1.5");
+      assert.deepEqual([await angle.inputValue(), await length.inputValue()], ["80.5°", "1.5"]);
+      await plate.close();
+    },
+  ],
+  [
+    "3.10",
     "an address with changed parameters opens with them",
     async ({ browser, folder }) => {
       const plate = await openGallery(browser, folder, "/evans/curve/1.1.1?p=2.5&k=1.9", REDUCED_MOTION);

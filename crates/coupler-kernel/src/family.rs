@@ -7,7 +7,7 @@ use coupler_curves::expression::CompiledExpression;
 use coupler_curves::family::{Case, Family};
 use coupler_curves::problem::Problem;
 use coupler_curves::solve::{ChangedCell, SolvedCell, Solver};
-use coupler_curves::template::{CircuitSelection, JointKindTemplate};
+use coupler_curves::template::{CircuitSelection, JointKindTemplate, ParameterKind};
 use coupler_drawing::curve_file::{self, CurveFormat, FileOptions};
 use coupler_drawing::plate::PAPER;
 use coupler_drawing::render::Format;
@@ -33,6 +33,8 @@ pub(crate) struct Name<'a> {
     pub min: Option<f64>,
     pub max: Option<f64>,
     pub is_whole: bool,
+    /// The unit of an angle: "deg" or "rad".
+    pub unit: Option<&'static str>,
     /// Whether an expression of other names gives its value.
     pub is_derived: bool,
 }
@@ -70,11 +72,15 @@ impl OpenFamily {
             })
         };
         let name = |(slot, name): (usize, &'n String)| {
-            let bounds = template.parameters.get(slot).map(|parameter| [parameter.min, parameter.max]);
-            let [min, max] = bounds.unwrap_or_default();
+            let parameter = template.parameters.get(slot);
+            let [min, max] = parameter.map(|parameter| [parameter.min, parameter.max]).unwrap_or_default();
+            let unit = parameter.and_then(|parameter| match parameter.kind {
+                ParameterKind::Angle(unit) => Some(unit.name()),
+                _ => None,
+            });
             let expression = derived.iter().find(|(other, _)| *other == slot).map(|(_, expression)| expression);
             let is_derived = expression.is_some_and(|expression: &CompiledExpression| !expression.slots().is_empty());
-            Name { slot, name, min, max, is_whole: is_whole(name), is_derived }
+            Name { slot, name, min, max, is_whole: is_whole(name), unit, is_derived }
         };
         names.iter().enumerate().map(name).collect()
     }
@@ -82,7 +88,7 @@ impl OpenFamily {
     /// What the page has to know of the family.
     pub fn description(&self) -> Value {
         let template = &self.planned.family.template;
-        let name = |Name { name, min, max, is_whole, is_derived, .. }: &Name| json!({ "name": name, "min": min, "max": max, "is_whole": is_whole, "is_derived": is_derived });
+        let name = |Name { name, min, max, is_whole, unit, is_derived, .. }: &Name| json!({ "name": name, "min": min, "max": max, "is_whole": is_whole, "unit": unit, "is_derived": is_derived });
         json!({
             "names": self.names().iter().map(name).collect::<Vec<_>>(),
             "is_length": template.is_driven_by_length(),

@@ -12,15 +12,16 @@ import { compareRoute } from "./view/compare/compare-view.js";
 import { newRoute } from "./view/new-view.js";
 import { overviewRoute } from "./view/overview.js";
 import { pageRoute } from "./view/page.js";
-import { newPlateRoute, plateRoute } from "./view/plate/route.js";
+import { newPlateRoute, onlyPlateRoute, plateRoute } from "./view/plate/route.js";
 import { familyRoute } from "./view/family.js";
 
 const files = openAtlas(document, window);
 const kernel = new KernelLoader(files);
-const shared = { atlas: withLinkages(files, kernel), kernel, pins: storedPins(window) };
+const atlas = withLinkages(files, kernel);
+const shared = { atlas, kernel, pins: storedPins(window) };
 
 /** The routes, the more specific first. */
 const found = [overviewRoute, findRoute, shapeRoute, compareRoute, newRoute];
 const routes = [...found, newPlateRoute, plateRoute, pageRoute, familyRoute];
 
-openShell(shared, routes, elementIn(document, "#gallery"));
+openShell(shared, atlas.plate ? [onlyPlateRoute] : routes, elementIn(document, "#gallery"));

@@ -111,10 +111,14 @@ type ListedFamily = Record<"id" | "title" | "linkage", string> &
   Record<"cells" | "kept" | "not_assembled" | "curves" | "pages" | "bytes" | "table_bytes", number> &
   Record<"page_format" | "script", string | null>;
 type AtlasSummary = { title: string; program: string; book: string[] } & Listed & {
-    kernel: { script: string; sha256: string };
+    kernel: { script: string; sha256: string; module?: string };
+    /** Of the file of a plate: all that it has, and the address at which it was saved. */
+    plate?: CellStatements & Record<"address" | "key", string>;
   };
 /** What the script of the kernel says: its module, compressed and in base64, and the digest of what is encoded. */
 type KernelFile = { sha256: string; module: string };
+/** Names of units, each with what to multiply a number in it by. */
+type Units = Record<string, number>;
 type Listed = { measures: Measure[]; families: ListedFamily[] };
 type Words = { values: string[]; codes: Uint8Array };
 /**
@@ -190,9 +194,10 @@ type CurveRequest = { cell: number; curve: Point } & Record<"values" | "changes"
 type KernelCurve = { family: { handle: number }; curve: CurveRequest };
 type FamilyDescription = Record<"is_length" | "has_all_circuits", boolean> & {
   family: number;
-  names: (KernelName & Record<"is_whole" | "is_derived", boolean>)[];
+  names: (KernelName & Record<"is_whole" | "is_derived", boolean> & { unit: AngleUnit | null })[];
 };
 type KernelName = { name: string; min: number | null; max: number | null };
+type AngleUnit = "deg" | "rad";
 type Pass = { from: number; to: number; from_is_flat: boolean; to_is_flat: boolean; sides: number[] };
 type Circuit = { passes: Pass[]; closed: boolean };
 type Coordinate = { value: number; is_constant: boolean; is_parameter: boolean };
@@ -325,6 +330,8 @@ type CellRows = Record<"number" | "status" | "curves" | "trace" | "circuit" | "c
 type CurveRows = Record<"caption" | "note" | "reason", string[]> &
   Record<"cells" | "curves", number> &
   Record<"count" | "points", PackedColumn> & { box: PackedColumn[] };
+/** A family of a single cell. */
+type CellStatements = { head: FamilyHead; cells: CellRows; curves: CurveRows };
 type PageRows = { page: number; views: StoredView[] };
 /** What the scripts of families and of the kernel call. */
 type Statements = {

@@ -1,14 +1,14 @@
 // The atlas: the summary of all families, and the data of each family and the kernel, loaded on first use.
 
 import { unpackGzip } from "./packed.js";
-import { FamilyReader, PieceReader } from "./reader.js";
+import { familyOfCell, FamilyReader, PieceReader } from "./reader.js";
 
 // The size of the files whose points are kept, in bytes: more than a search loads without a request.
 const MAX_KEPT_BYTES = 64e6;
 
 /**
  * Opens the atlas of a document: its summary, `family(id)`, which resolves to a family (reader.js) when its head is loaded, and
- * `kernelModule()`, to the module of the kernel, unpacked.
+ * `kernelModule()`, to the module of the kernel, unpacked. The file of a plate (view/export/plate-file.js) has all of this in its summary.
  *
  * A page opened from disk cannot fetch files but can load scripts; the scripts of families and the kernel call `couplerAtlas`.
  * @param {Document} document @param {Window & { couplerAtlas?: Statements }} window
@@ -17,6 +17,8 @@ export function openAtlas(document, window) {
   /** @type {AtlasSummary} */ const summary = JSON.parse(document.getElementById("atlas")?.textContent ?? "");
   /** @type {Map<string, Promise<Family>>} */ const heads = new Map();
   /** @type {Map<string, Family>} */ const families = new Map();
+  const { plate } = summary;
+  if (plate) heads.set(plate.head.id, Promise.resolve(familyOfCell(plate, plate.head)));
   const cache = outlineCache();
   /** @type {FamilyReader | PieceReader | null} */ let reader = null;
   /** @type {{ family?: Family, piece?: Piece, kernel?: KernelFile } | null} */ let finished = null;
@@ -80,21 +82,23 @@ export function openAtlas(document, window) {
   };
   const family = (/** @type {string} */ id) => {
     const script = summary.families.find((candidate) => candidate.id === id)?.script;
-    if (!script) return Promise.reject(new Error(`there is no family “${id}” in this atlas`));
-    const head = heads.get(id) ?? loadHead(id, script);
+    const head = heads.get(id) ?? (script && loadHead(id, script));
+    if (!head) return Promise.reject(new Error(`there is no family “${id}” in this atlas`));
     heads.set(id, head);
     return head;
   };
-  const kernelModule = async () => {
-    const { script, sha256 } = summary.kernel;
+  const { script, sha256, module } = summary.kernel;
+  /** @returns {Promise<KernelFile>} */ const kernelFile = async () => {
+    if (module) return { sha256, module };
     const file = await run(script, (done) => done.kernel);
-    if (file.sha256 !== sha256)
-      throw new Error(`${script} is of another version than this page: render the atlas again`);
-    return unpackGzip(file.module).catch((error) => {
+    if (file.sha256 === sha256) return file;
+    throw new Error(`${script} is of another version than this page: render the atlas again`);
+  };
+  const kernelModule = async () =>
+    unpackGzip((await kernelFile()).module).catch((error) => {
       throw new Error(`${script} is damaged: render the atlas again`, { cause: error });
     });
-  };
-  return { ...summary, family, kernelModule };
+  return { ...summary, family, kernelFile, kernelModule };
 }
 
 // A family with more pages than this has them in subfolders of as many.

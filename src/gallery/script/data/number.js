@@ -1,24 +1,34 @@
 // Sums, and numbers as people type them.
 
+/** The units of an angle in degrees, and of one in radians, each with what to multiply by. @type {Record<string, Units>} */
+export const ANGLE_UNITS = {
+  deg: { "°": 1, deg: 1, rad: 180 / Math.PI },
+  rad: { rad: 1, "°": Math.PI / 180, deg: Math.PI / 180 },
+};
+
 /**
- * Parses a number with a point or a comma, perhaps grouped, and perhaps with one of some units behind it: { value }, or
- * { reason } where it is none, or could be two.
- * @param {string} text @param {string[]} [units] @returns {{ value: number } | { reason: string }}
+ * Parses a number with a point or a comma, perhaps grouped, and perhaps with one of some units behind it: { value }, in the first of
+ * them, or { reason } where it is none, or could be two.
+ * @param {string} text @param {Units} [units] @returns {{ value: number } | { reason: string }}
  */
-export function parseNumber(text, units = []) {
+export function parseNumber(text, units = {}) {
   // Other minus signs, and spaces of all widths.
   let word = text.trim().replaceAll("−", "-").replace(/\s+/gu, " ");
-  const unit = units.find((one) => word.toLowerCase().endsWith(one.toLowerCase()));
+  const names = Object.keys(units);
+  const unit = names.find((one) => word.toLowerCase().endsWith(one.toLowerCase()));
   if (unit) word = word.slice(0, -unit.length).trim();
   const parts = /^([+-]?)([\d., ]*)((?:e[+-]?\d+)?)$/i.exec(word);
   const digits = parts && plainDigits(parts[2]);
-  if (!digits)
-    return { reason: `“${text.trim()}” is not a number${units.length ? ` (in ${units[0]})` : ""}` };
+  if (!digits) {
+    const other = unit ? null : /^[+-]?[\d.,]+ ?(°|[a-z]{2,})$/i.exec(word);
+    const reason = other && !names.length ? "has a unit: write a number alone" : "is not a number";
+    return { reason: `“${text.trim()}” ${reason}${names.length ? ` (in ${names.join(", ")})` : ""}` };
+  }
   if (digits.length === 2) {
     const [one, other] = digits.map((way) => Number(`${parts[1]}${way}${parts[3]}`));
     return { reason: `“${text.trim()}” could be ${one} or ${other}: write it without a comma` };
   }
-  const value = Number(`${parts[1]}${digits[0]}${parts[3]}`);
+  const value = Number(`${parts[1]}${digits[0]}${parts[3]}`) * (unit ? units[unit] : 1);
   return Number.isFinite(value) ? { value } : { reason: `“${text.trim()}” is too large` };
 }
 

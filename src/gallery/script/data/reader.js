@@ -190,8 +190,8 @@ function addWords(/** @type {Words} */ column, at, codes, values) {
 }
 
 /**
- * A family of a single cell, from the statements of the kernel and what else there is to know of it.
- * @param {{ head: FamilyHead, cells: CellRows, curves: CurveRows }} _ @param {Pick<Family, "id" | "title" | "manifest">} known @returns {Family}
+ * A family of a single cell, from statements as those of the kernel and what else there is to know of it.
+ * @param {CellStatements} _ @param {Pick<Family, "id" | "title" | "manifest">} known @returns {Family}
  */
 export function familyOfCell({ head, cells, curves }, { id, title, manifest }) {
   const reader = new FamilyReader({ ...head, id, title, manifest });

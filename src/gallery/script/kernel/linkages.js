@@ -28,7 +28,7 @@ export function withLinkages(atlas, kernel) {
   };
   const family = (/** @type {string} */ id) => {
     const linkage = newLinkage(id);
-    if (linkage === null) return atlas.family(id);
+    if (linkage === null || atlas.plate) return atlas.family(id);
     const one = opened.get(id) ?? open(id, linkage);
     opened.set(id, one);
     return one;

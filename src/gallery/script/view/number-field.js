@@ -11,7 +11,7 @@ export class NumberField {
   /** Why the text is no number, and why the number is wrong. @type {string | null} */ wrong = null;
   /** @type {string | null} */ outer = null;
 
-  /** @param {object} attributes @param {{ change(value: number): void, settle?(): void, step?(by: number): void, empty?(): void, units?: string[] }} on */
+  /** @param {object} attributes @param {{ change(value: number): void, settle?(): void, step?(by: number): void, empty?(): void, units?: Units }} on */
   constructor(attributes, on) {
     this.on = on;
     this.element = h("input", {

@@ -2,13 +2,15 @@
 
 import { buttonOf, fill, h, isShortcut } from "../dom.js";
 import { exportCommandLine, exportFile, exportManifest, EXPORT_FORMATS } from "./files.js";
+import { plateFile } from "./plate-file.js";
 import { saveFile, copyText } from "./save.js";
 
 /**
  * A button with a menu of all export formats. `names` are "family:cell.trace.circuit", with changed
- * parameters after "?", as an array or as a function called at the time of the export.
+ * parameters after "?", as an array or as a function called at the time of the export; `shown` is the curve of a plate.
+ * @param {App} app @param {string[] | (() => string[])} names @param {CurveOfFamily | null} [shown]
  */
-export function exportMenu(/** @type {App} */ app, /** @type {string[] | (() => string[])} */ names) {
+export function exportMenu(app, names, shown = null) {
   const currentNames = () => (typeof names === "function" ? names() : names);
   const status = h("span.export-status", { "aria-live": "polite" });
   const report = (/** @type {string} */ sentence) => fill(status, sentence);
@@ -20,25 +22,35 @@ export function exportMenu(/** @type {App} */ app, /** @type {string[] | (() => 
   const copy = (what, textOf) => task(async (list) => copyToClipboard(what, await textOf(app, list)));
   const save = (/** @type {ExportFormat} */ format) => task((list) => saveCurves(app, list, format, report));
   /** @type {MenuEntry[]} */ const formats = EXPORT_FORMATS.map((one) => [one.label, one.note, save(one)]);
+  const savePlate = task(async ([name]) => (shown ? savedFile(await plateFile(app, name, shown)) : ""));
+  /** @type {MenuEntry[]} */ const page = shown ? [["HTML", "this plate in one file", savePlate]] : [];
   /** @type {MenuEntry[]} */ const others = [
     ["Manifest fragment", ".toml", task((list) => saveManifest(app, list))],
     ["Copy manifest fragment", "", copy("the manifest fragment", exportManifest)],
+  ];
+  // The file of a plate is not in the folder of its manifest.
+  /** @type {MenuEntry[]} */ const command = [
     ["Copy command line", "", copy("the command line", exportCommandLine)],
   ];
-  return h("div.export", menuButton("Export", [...formats, ...others]), status);
+  const last = app.atlas.plate ? [] : command;
+  return h("div.export", menuButton("Export", [...formats, ...page, ...others, ...last]), status);
 }
 
 /** @param {App} app @param {string[]} names @param {ExportFormat} format */
 async function saveCurves(app, names, format, /** @type {(sentence: string) => void} */ report) {
-  const file = await exportFile(app, names, format, (done) => report(`${done} of ${names.length}`));
-  saveFile(file);
-  return `Saved as ${file.name}`;
+  return savedFile(await exportFile(app, names, format, (done) => report(`${done} of ${names.length}`)));
 }
 
 async function saveManifest(/** @type {App} */ app, /** @type {string[]} */ names) {
   const text = await exportManifest(app, names);
-  saveFile({ name: "curves.toml", type: "application/toml", bytes: new TextEncoder().encode(text) });
-  return "Saved as curves.toml";
+  const bytes = new TextEncoder().encode(text);
+  return savedFile({ name: "curves.toml", type: "application/toml", bytes });
+}
+
+/** Saves a file; what it says then. @param {Parameters<typeof saveFile>[0]} file */
+function savedFile(file) {
+  saveFile(file);
+  return `Saved as ${file.name}`;
 }
 
 async function copyToClipboard(/** @type {string} */ what, /** @type {string} */ text) {

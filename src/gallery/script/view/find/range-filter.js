@@ -1,5 +1,6 @@
 // A filter for numbers: a histogram with two handles to drag, and fields for their values.
 
+import { ANGLE_UNITS } from "../../data/number.js";
 import { BINS, binCounts, histogramOf, formatBound } from "../../find/histogram.js";
 import { buttonOf, h, s, setAttributes } from "../dom.js";
 import { stepsOfKey } from "../keys.js";
@@ -54,7 +55,7 @@ export class RangeFilter {
   }
 
   createInput(/** @type {keyof Bounds} */ end, /** @type {string} */ words) {
-    const units = this.column.unit === "deg" ? ["°", "deg"] : [];
+    const units = ANGLE_UNITS[this.column.unit];
     const type = (/** @type {number | undefined} */ value) =>
       this.setFilter({ ...this.filter, [end]: value }, true);
     const settle = () => this.setFilter(this.filter);

@@ -13,7 +13,7 @@ export function curveOrigin(app, family, /** @type {number} */ curve) {
   const page = pageOfCurve(family, curve);
   const key = curveKey(family, curve);
   const rows = [
-    ["Family", h("a", { href: address([family.id]) }, family.title)],
+    ["Family", app.atlas.plate ? family.title : h("a", { href: address([family.id]) }, family.title)],
     ["Linkage", family.linkage],
     ["Cell, trace, circuit", key.replaceAll(".", ", ")],
     ["Caption", cellText(family, cell, "caption")],

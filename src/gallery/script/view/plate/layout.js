@@ -19,7 +19,7 @@ export function plateLayout(plate) {
   const { app, family, curve, stage, transport, dial, motion, sliders, switches, measures } = plate;
   const changed = h("span.tag.changed-tag", { hidden: true }, "parameters changed");
   const pin = pinButton(app, `${family.id}:${curveKey(family, curve)}`, { class: "pin" });
-  const take = exportMenu(app, () => [plate.name]);
+  const take = exportMenu(app, () => [plate.name], { family, curve });
   const side = h(
     "aside.panel.plate-panel",
     { "aria-label": "Readings and parameters" },
@@ -29,7 +29,7 @@ export function plateLayout(plate) {
   );
   const element = h(
     "div.view.plate",
-    plateHeading(family, curve, { tag: changed, tools: [pin, take] }),
+    plateHeading(app, family, curve, { tag: changed, pin, take }),
     h("div.split.plate-split", h("div.plate-main", stage.element, transport.element), side),
     plateFacts(app, family, curve, measures),
   );
@@ -45,10 +45,10 @@ export function plateLayout(plate) {
 /** The element of the plate of a curve whose linkage cannot be moved, with a sentence that says why. @param {number} curve @param {string} sentence */
 export function stillPlateLayout(/** @type {App} */ app, /** @type {Family} */ family, curve, sentence) {
   const name = `${family.id}:${curveKey(family, curve)}`;
-  const tools = [pinButton(app, name, { class: "pin" }), exportMenu(app, [name])];
+  const [pin, take] = [pinButton(app, name, { class: "pin" }), exportMenu(app, [name])];
   const element = h(
     "div.view.plate",
-    plateHeading(family, curve, { tag: null, tools }),
+    plateHeading(app, family, curve, { tag: null, pin, take }),
     h("p.error", sentence),
     h("div.still-plate", thumbnail(family, [curve], STILL_PLATE)),
     plateFacts(app, family, curve, new MeasureTable(app, family, curve)),
@@ -56,15 +56,17 @@ export function stillPlateLayout(/** @type {App} */ app, /** @type {Family} */ f
   return { element, leave: watchPins(app, element) };
 }
 
-/** @param {Family} family @param {number} curve @param {{ tag: Element | null, tools: Element[] }} _ */
-function plateHeading(family, curve, { tag, tools }) {
+/** @param {App} _ @param {Family} family @param {number} curve @param {{ tag: Element | null, pin: Element, take: Element }} parts */
+function plateHeading({ atlas }, family, curve, { tag, pin, take }) {
   const cell = family.curves.cell[curve];
   const [caption, note] = [cellText(family, cell, "caption"), cellText(family, cell, "note")];
-  const title = h("a.family-title", { href: address([family.id]) }, family.title);
+  const link = h("a.family-title", { href: address([family.id]) }, family.title);
+  const title = atlas.plate ? family.title : link;
   const lede = h("p.lede", caption, note ? h("span.note", ` · ${note}`) : null, " ", tag);
-  const links = [neighbourLink(family, curve, -1), neighbourLink(family, curve, 1), tools];
+  // A file of one plate leads to no other.
+  const links = atlas.plate ? [] : [neighbourLink(family, curve, -1), neighbourLink(family, curve, 1), pin];
   const heading = h("h1", title, " ", h("span.key", curveKey(family, curve)));
-  return h("div.head", h("div", heading, lede), h("nav.toolbar", { "aria-label": "Curve" }, links));
+  return h("div.head", h("div", heading, lede), h("nav.toolbar", { "aria-label": "Curve" }, links, take));
 }
 
 /** @param {App} app @param {Family} family @param {MeasureTable} measures */
@@ -101,10 +103,13 @@ export function watchKeys(/** @type {Plate} */ plate) {
     ["0", "fit to the frame", () => stage.fit()],
     ["+ =", "zoom in", () => stage.zoom(1.3)],
     ["-", "zoom out", () => stage.zoom(1 / 1.3)],
+  ];
+  /** @type {KeyCommand[]} */ const turns = [
     ["[", "previous curve", () => goTo(-1)],
     ["]", "next curve", () => goTo(1)],
   ];
-  return onKeys(plate.element, "On the plate", commands, window);
+  const all = plate.app.atlas.plate ? commands : [...commands, ...turns];
+  return onKeys(plate.element, "On the plate", all, window);
 }
 
 /** The address of the previous (-1) or next (1) curve of a family; null at the ends. @param {number} curve @param {number} way */

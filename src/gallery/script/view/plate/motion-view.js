@@ -53,7 +53,7 @@ export class MotionView {
     this.quantity = quantity;
     this.rpm = new NumberField(
       { "aria-label": "Speed of the input, rpm", size: 6, placeholder: "per radian" },
-      { units: ["rpm"], change: (rpm) => change({ rpm }), empty: () => change({ rpm: null }) },
+      { units: { rpm: 1 }, change: (rpm) => change({ rpm }), empty: () => change({ rpm: null }) },
     );
     const example = { type: "text", placeholder: "100 on C at -90 deg" };
     const load = h("input", { "aria-label": "Load", ...example });

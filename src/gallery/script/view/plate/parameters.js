@@ -9,19 +9,19 @@ const COORDINATES = ["along", "across"];
 /**
  * The parameters that can be changed. `kind` is "free" if the atlas varies the parameter, "fixed" if it is constant, "derived" if an
  * expression gives it, and "unlinked" if a derived one has been changed. `low` to `high` is the range of the slider, `grain` its step.
- * `recorded` and `current` are the values of the curve as the atlas has it and with the changes.
+ * `unit` is that of an angle. `recorded` and `current` are the values of the curve as the atlas has it and with the changes.
  * @param {Family} family @param {FamilyDescription["names"]} names @param {CurveValues} recorded @param {CurveValues} current @param
  * {Map<string, number>} changes
  */
 export function changeableParameters(family, names, recorded, current, changes) {
   const values = Object.values(recorded.values).filter(Number.isFinite);
   const size = Math.max(...values.map(Math.abs), 0) || 1;
-  const offered = names.map(({ name, min, max, is_whole: isWhole, is_derived: isDerived }, slot) => {
+  const offered = names.map(({ name, min, max, unit, is_whole: isWhole, is_derived: isDerived }, slot) => {
     const kind = family.free.includes(slot) ? "free" : kindOfLocked(isDerived, changes.has(name));
     const own = recorded.values[name];
     const range = sliderRange(own, family.ranges[slot], { min, max }, size, isWhole);
     const value = changes.get(name) ?? current.values[name];
-    return { name, kind, value, recorded: own, min, max, ...range };
+    return { name, kind, value, unit, recorded: own, min, max, ...range };
   });
   return [...offered, ...changeableCoordinates(recorded.point, current.point, changes, size)];
 }
@@ -40,7 +40,7 @@ function changeableCoordinates(recorded, current, changes, /** @type {number} */
     const { value: own, is_constant: isConstant } = recorded[way];
     const kind = kindOfLocked(!isConstant, changes.has(name));
     const value = changes.get(name) ?? current[way].value;
-    const free = { min: null, max: null };
+    const free = { unit: null, min: null, max: null };
     return { name, kind, value, recorded: own, ...free, ...sliderRange(own, [own, own], free, size) };
   });
 }

@@ -40,6 +40,15 @@ export const newPlateRoute = {
   matches: ({ path }) => newLinkage(curveOfPath(path)?.id ?? "") !== null,
 };
 
+/** The route of the plate of a file that has no other. @type {Route} */
+export const onlyPlateRoute = {
+  ...plateRoute,
+  matches: ({ path }, { atlas: { plate } }) => {
+    const { id, key } = curveOfPath(path) ?? {};
+    return id !== undefined && id === plate?.head.id && key === plate.key;
+  },
+};
+
 /** The plate of a curve; without the kernel, one that stands still and says so. @param {App} app @param {Family} family @param {AddressQuery} query */
 async function openPlate(app, family, /** @type {number} */ curve, query) {
   try {

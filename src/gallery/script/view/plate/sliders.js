@@ -2,6 +2,7 @@
 
 import { buttonOf, fill, h, isShortcut } from "../dom.js";
 import { stepsOfKey } from "../keys.js";
+import { ANGLE_UNITS } from "../../data/number.js";
 import { NumberField } from "../number-field.js";
 import { roundedToGrain } from "./parameters.js";
 
@@ -53,7 +54,7 @@ export class Sliders {
   #refresh(parameter) {
     const row = this.rows.get(parameter.name);
     if (!row) return;
-    const { value, recorded, kind, low, high } = parameter;
+    const { value, recorded, kind, low, high, unit } = parameter;
     row.parameter = parameter;
     row.element.className = `parameter ${kind}${isChangedParameter(parameter) ? " changed" : ""}`;
     // A typed value may exceed the slider's range.
@@ -61,15 +62,16 @@ export class Sliders {
     row.range.max = String(Math.max(high, value));
     if (Number(row.range.value) !== value) row.range.value = String(value);
     row.range.disabled = kind === "derived";
-    row.range.setAttribute("aria-valuetext", formatInputNumber(value));
+    const text = formatWithUnit(value, unit);
+    row.range.setAttribute("aria-valuetext", text);
     // What is being typed stays; a derived value cannot be typed, and follows also where it has the focus.
     row.field.readOnly = kind === "derived";
-    row.number.show(value, formatInputNumber(value));
+    row.number.show(value, text);
     row.number.mark(outOfBounds(parameter));
     const isDependent = kind === "derived" || kind === "unlinked";
     const label = kind === "derived" ? "Unlink" : kind === "unlinked" ? "Relink" : "Reset";
     row.button.textContent = label;
-    const to = isDependent ? "" : ` to ${formatInputNumber(recorded)}`;
+    const to = isDependent ? "" : ` to ${formatWithUnit(recorded, unit)}`;
     row.button.setAttribute("aria-label", `${label}: ${parameter.name}${to}`);
     row.button.disabled = !isDependent && !isChangedParameter(parameter);
     row.button.classList.toggle("unneeded", row.button.disabled);
@@ -102,6 +104,7 @@ export class Sliders {
     row.number = new NumberField(
       { "aria-label": `Value of ${name}` },
       {
+        units: ANGLE_UNITS[parameter.unit ?? ""],
         change: (value) => on.change(name, value),
         settle: () => on.settle(),
         step: (by) => stepParameter(row.parameter, by, on),
@@ -121,10 +124,10 @@ export class Sliders {
 }
 
 // Why a value is beyond its bounds, of which 0 is exclusive; null if it is not.
-function outOfBounds(/** @type {Parameter} */ { name, value, min, max }) {
+function outOfBounds(/** @type {Parameter} */ { name, value, unit, min, max }) {
   if (min !== null && (value < min || (min === 0 && value === 0)))
-    return `${name} is ${min === 0 ? "more than 0" : `at least ${min}`}`;
-  return max !== null && value > max ? `${name} is at most ${max}` : null;
+    return `${name} is ${min === 0 ? "more than 0" : `at least ${formatWithUnit(min, unit)}`}`;
+  return max !== null && value > max ? `${name} is at most ${formatWithUnit(max, unit)}` : null;
 }
 
 /** Steps of the slider by keys: one grain, with Shift ten. @param {KeyboardEvent} event @param {SliderRow} row */
@@ -148,6 +151,12 @@ function toggleLink(/** @type {Parameter} */ { name, kind, value }, /** @type {P
 
 function isChangedParameter(/** @type {Parameter} */ { kind, value, recorded }) {
   return kind === "unlinked" || (kind !== "derived" && value !== recorded);
+}
+
+/** A value of a parameter, as it may be typed. @param {number} value @param {AngleUnit | null} unit */
+function formatWithUnit(value, unit) {
+  const text = formatInputNumber(value);
+  return text && unit ? `${text}${unit === "deg" ? "°" : " rad"}` : text;
 }
 
 /** A number as it is typed: up to ten significant digits. */

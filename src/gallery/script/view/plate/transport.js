@@ -1,5 +1,6 @@
 // The playback controls: play and pause, speed, the slider over the circuit, steps, and limits.
 
+import { ANGLE_UNITS } from "../../data/number.js";
 import { buttonOf, h, isShortcut, selectOf } from "../dom.js";
 import { stepsOfKey } from "../keys.js";
 import { formatDecimals } from "../labels.js";
@@ -14,7 +15,7 @@ const PLAY_RATES = { 15: "¼", 30: "½", 60: "1", 120: "2", 240: "4" };
  */
 export class Transport {
   constructor(/** @type {PlateFigure} */ plate) {
-    const { drive, stage } = plate;
+    const { drive, stage, family } = plate;
     this.play = buttonOf("", () => plate.play(), { class: "play", "aria-keyshortcuts": "Space" });
     this.scrub = h("input.scrub", {
       type: "range",
@@ -30,9 +31,10 @@ export class Transport {
       drive.pause();
       drive.moveToInput(input);
     };
+    const units = family.is_length ? {} : ANGLE_UNITS.deg;
     this.input = new NumberField(
       { class: "input-now", "aria-label": "Input" },
-      { units: ["°", "deg"], change: type, settle: () => plate.moved(), step: (by) => drive.step(1, by) },
+      { units, change: type, settle: () => plate.moved(), step: (by) => drive.step(1, by) },
     );
     this.ends = h("p.note.ends");
     this.straight = h("p.note.straight-note");
