@@ -14,6 +14,7 @@ use crate::drawn_path::drawn_path_json;
 use crate::family::{OpenFamily, fragment};
 use crate::finder::{FourBarSearch, grow_index};
 use crate::joint_motion::joint_motion_json;
+use crate::moving_picture::MovingPicture;
 use crate::overlays::{centrodes_json, cognate_pins, cognates, cognates_json};
 use crate::path_file::path_file_json;
 use crate::paths::{measures_json, path_json, speeds_json};
@@ -34,6 +35,7 @@ pub struct Kernel {
     searches: Slots<FourBarSearch>,
     curves: Slots<CurveIndex>,
     shapes: Slots<ShapeSearch>,
+    pictures: Slots<MovingPicture>,
 }
 
 /// A study with what is computed once for all its poses.
@@ -119,6 +121,14 @@ impl Kernel {
             }
             Request::ReadPath { bytes, outline } => path_file_json(&bytes, outline.as_deref(), numbers)?,
             Request::DrawnPath { points, closed, is_part } => drawn_path_json(&points, closed, is_part, numbers)?,
+            Request::OpenPicture { size } => json!({ "picture": self.pictures.insert(MovingPicture::new(size)?) }),
+            Request::AddFrame { picture, pixels, delay } => {
+                json!({ "bytes": self.pictures.get_mut(picture)?.add(&pixels, delay)? })
+            }
+            Request::ClosePicture { picture } => {
+                let file = self.pictures.take(picture).ok_or_else(|| not_open(picture))?.finish()?;
+                json!({ "bytes": numbers.array(file.into_iter().map(f64::from)) })
+            }
             Request::GrowIndex => grow_index(&mut self.index, &mut self.first),
             Request::OpenSearch { points, kind, options, start } => {
                 let search = FourBarSearch::new(&points, &kind, options, start)?;
@@ -235,7 +245,12 @@ impl<T> Slots<T> {
 
     /// Removes a thing; whether there was one.
     fn remove(&mut self, handle: usize) -> bool {
-        self.0.get_mut(handle).and_then(Option::take).is_some()
+        self.take(handle).is_some()
+    }
+
+    /// Removes and returns a thing, if there is one.
+    fn take(&mut self, handle: usize) -> Option<T> {
+        self.0.get_mut(handle).and_then(Option::take)
     }
 
     fn get(&self, handle: usize) -> Result<&T, String> {

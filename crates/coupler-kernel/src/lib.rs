@@ -43,6 +43,7 @@ mod tables;
 
 mod drawn_path;
 mod finder;
+mod moving_picture;
 mod path_file;
 
 mod curves;

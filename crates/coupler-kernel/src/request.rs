@@ -162,6 +162,25 @@ pub enum Request {
         /// Whether it is to be a part of curves.
         is_part: bool,
     },
+    /// Opens a moving picture (GIF) of a width and a height in pixels: its handle.
+    OpenPicture {
+        /// The width and the height.
+        size: [usize; 2],
+    },
+    /// Adds a frame to a moving picture; the number of bytes so far.
+    AddFrame {
+        /// The handle of the picture.
+        picture: usize,
+        /// Its pixels row by row: red + 256 green + 65,536 blue.
+        pixels: Vec<f64>,
+        /// How long it is shown, in hundredths of a second.
+        delay: usize,
+    },
+    /// The bytes of a moving picture, an array, which is closed.
+    ClosePicture {
+        /// The handle of the picture.
+        picture: usize,
+    },
     /// Adds some four-bars to the index that searches look their paths up in.
     GrowIndex,
     /// Begins to search the index for the four-bars whose curves are nearest to a path.
@@ -347,6 +366,13 @@ impl Request {
                 closed: of.flag("closed")?,
                 is_part: of.flag("is_part")?,
             },
+            "open_picture" => Request::OpenPicture { size: [of.index("width")?, of.index("height")?] },
+            "add_frame" => Request::AddFrame {
+                picture: of.index("picture")?,
+                pixels: of.array("pixels", numbers)?.to_vec(),
+                delay: of.index("delay")?,
+            },
+            "close_picture" => Request::ClosePicture { picture: of.index("picture")? },
             "grow_index" => Request::GrowIndex,
             "open_search" => Request::OpenSearch {
                 points: of.points("points", numbers)?,

@@ -264,7 +264,10 @@ type Filter = Bounds | Set<string>;
 type LoadState = { done: boolean; curves: number; total: number; bytes: number };
 /** What the page makes of the kernel's text has an ending of its own and `convert`. */
 type ExportFormat = Record<"label" | "note" | "type" | "kernel", string> & { ending?: string } & Converted;
-type Converted = { convert?(text: string): Promise<Uint8Array<ArrayBuffer>> };
+type Converted = {
+  convert?(text: string, kernel: Kernel, onProgress: ExportProgress): Promise<Uint8Array<ArrayBuffer>>;
+};
+type ExportProgress = (done: number, all: number) => void;
 /** An index in the kernel of the curves of a family from `first` on. */
 type ShapeIndex = { family: Family; curves: number } & Record<"first" | "count", number>;
 type Candidate = CurveOfFamily & { likeness: number };

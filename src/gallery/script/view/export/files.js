@@ -5,11 +5,20 @@ import { findCurve } from "../../data/family.js";
 import { needCurveWithKey } from "../../data/needs.js";
 import { exportCommand, shortenCurveNames } from "../../export/command.js";
 import { zipOfFiles } from "../../export/zip.js";
+import { gifOfSvg, pngOfSvg } from "./pictures.js";
 
 /** The export formats. @type {ExportFormat[]} */
 export const EXPORT_FORMATS = [
   { label: "SVG", note: "static", type: "image/svg+xml", kernel: "svg" },
   { label: "Animated SVG", note: ".svg", type: "image/svg+xml", kernel: "moving-svg" },
+  {
+    label: "GIF",
+    note: "animated",
+    type: "image/gif",
+    kernel: "moving-svg",
+    ending: ".gif",
+    convert: gifOfSvg,
+  },
   { label: "PNG", note: "300 dpi", type: "image/png", kernel: "svg", ending: ".png", convert: pngOfSvg },
   { label: "DXF", note: "CAD, AutoCAD R12", type: "image/vnd.dxf", kernel: "dxf" },
   { label: "CSV", note: "points", type: "text/csv", kernel: "csv" },
@@ -23,10 +32,10 @@ const MAX_EXPORTED = 1000;
 
 /**
  * Exports curves by name as one file { name, type, bytes }, an archive if there are several; calls
- * `onProgress` with the number of finished curves.
- * @param {App} app @param {string[]} names @param {ExportFormat} format
+ * `onProgress` with a number of all that is finished, curves or the frames of one, until the signal ends it.
+ * @param {App} app @param {string[]} names @param {ExportFormat} format @param {ExportProgress} onProgress @param {AbortSignal} [signal]
  */
-export async function exportFile(app, names, format, onProgress = (/** @type {number} */ _) => {}) {
+export async function exportFile(app, names, format, onProgress = () => {}, signal = undefined) {
   if (names.length === 0) throw new Error("There is no curve to export");
   if (names.length > MAX_EXPORTED) {
     const limit = `Cannot export more than ${MAX_EXPORTED} curves here`;
@@ -35,10 +44,15 @@ export async function exportFile(app, names, format, onProgress = (/** @type {nu
   const kernel = await app.kernel.load();
   const files = [];
   let yieldedAt = performance.now();
+  const said = (/** @type {number} */ done, /** @type {number} */ all) => {
+    signal?.throwIfAborted();
+    onProgress(done, all);
+  };
+  const saidOfOne = names.length === 1 ? said : () => signal?.throwIfAborted();
   for (const name of names) {
-    files.push(await fileOfCurve(kernel, await curveOfName(app, kernel, name), name, format));
+    files.push(await fileOfCurve(kernel, await curveOfName(app, kernel, name), name, format, saidOfOne));
     if (performance.now() - yieldedAt > EXPORT_SLICE) {
-      onProgress(files.length);
+      said(files.length, names.length);
       await new Promise((done) => setTimeout(done));
       yieldedAt = performance.now();
     }
@@ -48,10 +62,10 @@ export async function exportFile(app, names, format, onProgress = (/** @type {nu
     : { name: "curves.zip", type: "application/zip", bytes: zipOfFiles(files) };
 }
 
-/** @param {Kernel} kernel @param {KernelCurve} curve @param {string} name @param {ExportFormat} _ */
-async function fileOfCurve(kernel, curve, name, { kernel: format, type, ending, convert }) {
+/** @param {Kernel} kernel @param {KernelCurve} curve @param {string} name @param {ExportFormat} _ @param {ExportProgress} onProgress */
+async function fileOfCurve(kernel, curve, name, { kernel: format, type, ending, convert }, onProgress) {
   const file = errorsNaming(name, () => kernel.export(curve, format));
-  const bytes = convert ? await convert(file.text) : new TextEncoder().encode(file.text);
+  const bytes = convert ? await convert(file.text, kernel, onProgress) : new TextEncoder().encode(file.text);
   return { name: ending ? file.name.replace(/\.[^.]+$/, ending) : file.name, type, bytes };
 }
 
@@ -97,25 +111,4 @@ export async function exportCommandLine(app, names) {
     families.set(family.id, family);
   }
   return exportCommand(shortenCurveNames(names, families), names.length);
-}
-
-/** The resolution of PNG plates, in pixels per inch. */
-const PLATE_DPI = 300;
-
-/** A plate in SVG, whose size is in millimetres, as the bytes of a PNG image. */
-export async function pngOfSvg(/** @type {string} */ svg) {
-  const [width, height] = ["width", "height"].map((side) =>
-    Number(new RegExp(`^<svg[^>]* ${side}="([0-9.]+)mm"`).exec(svg)?.[1]),
-  );
-  const image = new Image();
-  // A data URL does not taint the canvas.
-  image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svg)}`;
-  await image.decode();
-  const canvas = document.createElement("canvas");
-  canvas.width = Math.round((width / 25.4) * PLATE_DPI);
-  canvas.height = Math.round((height / 25.4) * PLATE_DPI);
-  canvas.getContext("2d")?.drawImage(image, 0, 0, canvas.width, canvas.height);
-  /** @type {Blob | null} */ const blob = await new Promise((done) => canvas.toBlob(done, "image/png"));
-  if (!blob) throw new Error("the browser cannot create an image of this size");
-  return new Uint8Array(await blob.arrayBuffer());
 }

@@ -5,6 +5,9 @@ import { exportCommandLine, exportFile, exportManifest, EXPORT_FORMATS } from ".
 import { plateFile } from "./plate-file.js";
 import { saveFile, copyText } from "./save.js";
 
+// The time in milliseconds after which an export can be cancelled.
+const LONG = 1000;
+
 /**
  * A button with a menu of all export formats. `names` are "family:cell.trace.circuit", with changed
  * parameters after "?", as an array or as a function called at the time of the export; `shown` is the curve of a plate.
@@ -14,13 +17,22 @@ export function exportMenu(app, names, shown = null) {
   const currentNames = () => (typeof names === "function" ? names() : names);
   const status = h("span.export-status", { "aria-live": "polite" });
   const report = (/** @type {string} */ sentence) => fill(status, sentence);
-  const task = (/** @type {(names: string[]) => Promise<string>} */ work) => () => {
+  const task = (/** @type {(names: string[], signal: AbortSignal) => Promise<string>} */ work) => () => {
     report("Exporting");
-    return work(currentNames()).then(report, (error) => report(error.message));
+    const ending = new AbortController();
+    const cancel = buttonOf("Cancel", () => ending.abort(new Error("Cancelled")), { class: "quiet" });
+    const isLong = window.setTimeout(() => element.append(cancel), LONG);
+    return work(currentNames(), ending.signal)
+      .then(report, (error) => report(error.message))
+      .finally(() => {
+        window.clearTimeout(isLong);
+        cancel.remove();
+      });
   };
   /** @param {string} what @param {(app: App, names: string[]) => Promise<string>} textOf */
   const copy = (what, textOf) => task(async (list) => copyToClipboard(what, await textOf(app, list)));
-  const save = (/** @type {ExportFormat} */ format) => task((list) => saveCurves(app, list, format, report));
+  const save = (/** @type {ExportFormat} */ format) =>
+    task((list, signal) => saveCurves(app, list, format, report, signal));
   /** @type {MenuEntry[]} */ const formats = EXPORT_FORMATS.map((one) => [one.label, one.note, save(one)]);
   const savePlate = task(async ([name]) => (shown ? savedFile(await plateFile(app, name, shown)) : ""));
   /** @type {MenuEntry[]} */ const page = shown ? [["HTML", "this plate in one file", savePlate]] : [];
@@ -33,12 +45,13 @@ export function exportMenu(app, names, shown = null) {
     ["Copy command line", "", copy("the command line", exportCommandLine)],
   ];
   const last = app.atlas.plate ? [] : command;
-  return h("div.export", menuButton("Export", [...formats, ...page, ...others, ...last]), status);
+  const element = h("div.export", menuButton("Export", [...formats, ...page, ...others, ...last]), status);
+  return element;
 }
 
-/** @param {App} app @param {string[]} names @param {ExportFormat} format */
-async function saveCurves(app, names, format, /** @type {(sentence: string) => void} */ report) {
-  return savedFile(await exportFile(app, names, format, (done) => report(`${done} of ${names.length}`)));
+/** @param {App} app @param {string[]} names @param {ExportFormat} format @param {(sentence: string) => void} report @param {AbortSignal} signal */
+async function saveCurves(app, names, format, report, signal) {
+  return savedFile(await exportFile(app, names, format, (done, all) => report(`${done} of ${all}`), signal));
 }
 
 async function saveManifest(/** @type {App} */ app, /** @type {string[]} */ names) {

@@ -1,0 +1,108 @@
+// Plates in SVG as images of pixels, which the browser draws: PNG, and GIF, which the kernel encodes.
+
+import { KernelWorker } from "../../kernel/worker.js";
+
+/** The resolution of PNG plates, in pixels per inch. */
+const PLATE_DPI = 300;
+/** The width of GIF plates, in pixels. */
+const GIF_WIDTH = 800;
+/** The most frames of a GIF, and the shortest of them in hundredths of a second: browsers show those of one for ten. */
+const [MAX_FRAMES, LEAST_DELAY] = [240, 3];
+
+/** A plate in SVG, whose size is in millimetres, as the bytes of a PNG image. */
+export async function pngOfSvg(/** @type {string} */ svg) {
+  const { canvas, draw } = canvasOfSvg(svg, (width) => (width / 25.4) * PLATE_DPI);
+  await draw(svg);
+  /** @type {Blob | null} */ const blob = await new Promise((done) => canvas.toBlob(done, "image/png"));
+  if (!blob) throw new Error("the browser cannot create an image of this size");
+  return new Uint8Array(await blob.arrayBuffer());
+}
+
+/** A canvas of the width that is given for that of an SVG in millimetres. @param {(width: number) => number} widthOf */
+function canvasOfSvg(/** @type {string} */ svg, widthOf) {
+  const [width, height] = ["width", "height"].map((side) =>
+    Number(new RegExp(`^<svg[^>]* ${side}="([0-9.]+)mm"`).exec(svg)?.[1]),
+  );
+  const canvas = document.createElement("canvas");
+  canvas.width = Math.round(widthOf(width));
+  canvas.height = Math.round((widthOf(width) * height) / width);
+  const context = canvas.getContext("2d", { willReadFrequently: true });
+  const draw = async (/** @type {string} */ text) => {
+    const image = new Image();
+    // A data URL does not taint the canvas.
+    image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(text)}`;
+    await image.decode();
+    context?.drawImage(image, 0, 0, canvas.width, canvas.height);
+    return context?.getImageData(0, 0, canvas.width, canvas.height).data.buffer ?? new ArrayBuffer();
+  };
+  return { canvas, draw };
+}
+
+/**
+ * An animated plate as the bytes of a GIF of the same frames, which takes the same time.
+ * @param {string} svg @param {Kernel} kernel @param {ExportProgress} onProgress
+ */
+export async function gifOfSvg(svg, kernel, onProgress) {
+  const { frames, seconds, frame } = framesOfSvg(svg);
+  const { canvas, draw } = canvasOfSvg(svg, () => GIF_WIDTH);
+  const most = Math.min(MAX_FRAMES, Math.floor((100 * seconds) / LEAST_DELAY));
+  const stride = Math.ceil(frames / Math.max(1, most));
+  const count = Math.ceil(frames / stride);
+  // When frames begin, in hundredths of a second, so that their rounding does not add up.
+  const begin = (/** @type {number} */ k) =>
+    Math.round((100 * seconds * Math.min(k * stride, frames)) / frames);
+  const worker = new KernelWorker(kernel.module);
+  try {
+    const { picture } = await worker.call({
+      method: "open_picture",
+      width: canvas.width,
+      height: canvas.height,
+    });
+    // The next frame is drawn while one is added.
+    let added = Promise.resolve();
+    for (let k = 0; k < count; k += 1) {
+      const pixels = Float64Array.from(new Uint32Array(await draw(frame(k * stride))));
+      await added;
+      added = worker.call({ method: "add_frame", picture, pixels, delay: begin(k + 1) - begin(k) });
+      onProgress(k + 1, count);
+    }
+    await added;
+    const { bytes } = await worker.call({ method: "close_picture", picture });
+    return Uint8Array.from(bytes);
+  } finally {
+    worker.worker?.terminate();
+  }
+}
+
+// An element that moves, and the animations of its attributes, as crates/coupler-drawing/src/render/svg/mod.rs writes them.
+const MOVING = /(<\w+ [^<>]*)>((?:<animate [^<>]*\/>)+)/g;
+const ANIMATION = /attributeName="(\w+)" values="([^"]*)" dur="([0-9.]+)s"/g;
+
+/** The number of frames of an animated SVG, which take some seconds, and each as the text of an SVG without motion. */
+function framesOfSvg(/** @type {string} */ svg) {
+  let [states, seconds, at] = [1, 0, 0];
+  /** @type {((k: number) => string)[]} */ const parts = [];
+  const still = (/** @type {number} */ end) => {
+    const text = svg.slice(at, end);
+    parts.push(() => text);
+  };
+  for (const { 0: all, 1: element, 2: animations, index } of svg.matchAll(MOVING)) {
+    still(index);
+    at = index + all.length;
+    const moving = [...animations.matchAll(ANIMATION)].map(([, name, values, duration]) => {
+      const list = values.split(";");
+      [states, seconds] = [list.length, Number(duration)];
+      return { attribute: new RegExp(` ${name}="[^"]*"`), name, list };
+    });
+    /** @param {string} text @param {(typeof moving)[number]} _ @param {number} k */
+    const moved = (text, { attribute, name, list }, k) => text.replace(attribute, ` ${name}="${list[k]}"`);
+    parts.push((k) => `${moving.reduce((text, one) => moved(text, one, k), element)}>`);
+  }
+  still(svg.length);
+  // The last state is the first of the next turn.
+  return {
+    frames: Math.max(1, states - 1),
+    seconds,
+    frame: (/** @type {number} */ k) => parts.map((part) => part(k)).join(""),
+  };
+}
