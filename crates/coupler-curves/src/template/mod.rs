@@ -1,5 +1,6 @@
 //! A template: a linkage whose dimensions are expressions. A parameter set turns it into a [`Linkage`].
 
+mod as_drawn;
 mod closure;
 mod construction;
 mod input_value;
