@@ -135,6 +135,34 @@ fn every_given_value_can_be_read_in_full_on_its_page() {
     assert!(checked > 300, "{checked}");
 }
 
+/// The caption and the straight portion under the only panel of a page.
+fn caption_and_straight(family_text: &str) -> [String; 2] {
+    let text = family(&format!("id = \"f\"\nlinkage = \"evans\"\nsampling = {{ samples = 90 }}\n{family_text}"));
+    let plan = plan(&text);
+    let lines = texts(&pages(&text, &plan)[0].svg);
+    let line = |has: &dyn Fn(&str) -> bool| lines.iter().find(|line| has(line)).cloned().unwrap_or_default();
+    let straight = line(&|line| line.starts_with("straight ") || line.contains("· straight "));
+    let portion = straight.split("straight ").nth(1).unwrap().split('°').next().unwrap().to_owned();
+    [line(&|line| line.starts_with("p = 3") && line.contains("a ")), portion]
+}
+
+#[test]
+fn the_linkage_of_rounded_numbers_has_the_properties_on_its_page() {
+    let let_a = "grid = { p = 3.5 }\nlet = { a = \"(1 + p)^1.5 / 2\" }";
+    let [caption, straight] = caption_and_straight(let_a);
+    let number = caption.split("a ≈ ").nth(1).unwrap_or_else(|| panic!("{caption}"));
+    let printed: f64 = number.split(',').next().unwrap().parse().unwrap();
+    let with = |a: f64| caption_and_straight(&format!("cases = [{{ p = 3.5, a = {a} }}]"));
+    assert_eq!(with(printed)[1], straight);
+    // The two decimals that the caption states are not enough, and are those of a given value only where they are all.
+    let stated = (printed * 100.0).round() / 100.0;
+    assert_ne!(with(stated)[1], straight);
+    for (a, text) in [(4.5, "a = 4.50"), (4.5678, "a = 4.5678")] {
+        let [caption, _] = with(a);
+        assert!(caption.contains(text), "{caption}");
+    }
+}
+
 #[test]
 #[ignore = "thorough"]
 fn no_two_panels_of_a_page_share_a_caption() {
