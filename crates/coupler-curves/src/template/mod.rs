@@ -5,6 +5,7 @@ mod closure;
 mod construction;
 mod input_value;
 mod joint_kind;
+mod length;
 mod load_text;
 mod order;
 mod parameter;
@@ -21,6 +22,7 @@ pub use side::SideTemplate;
 #[doc(hidden)]
 pub use self::{
     input_value::InputValue,
+    length::LinkLength,
     load_text::LoadTextError,
     order::{DependencyCycle, dependency_order},
 };
