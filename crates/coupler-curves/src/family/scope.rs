@@ -164,8 +164,10 @@ impl Family {
             let is_of_dimensions = expression.names().iter().all(|name| own_slot(name).is_some());
             is_of_dimensions.then(|| match expression.as_name().and_then(own_slot) {
                 Some(slot) if self.is_given(slot) => dimensions::given_number(value, decimals),
-                Some(_) => dimensions::rounded_number(value, decimals.map(|n| n + more_decimals)),
-                None => dimensions::rounded_number(value, decimals),
+                Some(_) if dimensions::rounded_number(value, decimals).0 => {
+                    dimensions::rounded_number(value, decimals.map(|n| n + more_decimals))
+                }
+                _ => dimensions::rounded_number(value, decimals),
             })
         };
         caption.format_with(load, word, number)
