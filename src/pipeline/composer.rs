@@ -79,7 +79,7 @@ impl<'a> Composer<'a> {
 
     /// The panel of a cell.
     fn panel<'s>(&self, solved: &'s SolvedCell) -> Panel<'s> {
-        let [caption, note] = self.captions.of_cell(&solved.cell, solved.first_curve_values());
+        let [caption, note] = self.captions.of_solved_cell(solved);
         let panel = Panel::new(solved).with_caption(caption).with_note(note);
         let panel = panel.with_facts(page::cell_facts(&self.planned.family, solved)).with_ghosts(self.planned.ghosts);
         if self.planned.poses.is_empty() { panel } else { self.with_poses(panel) }

@@ -144,6 +144,33 @@ fn are_in_order<'l>(words: &[&str], mut list: impl Iterator<Item = &'l str>) -> 
     words.iter().all(|word| list.any(|other| other == *word))
 }
 
+/// The permitted error of a length is the one at which the straight portion's printed length changes by its last digit.
+#[test]
+fn a_length_may_be_off_by_as_much_as_is_printed() {
+    let length = |arguments: &[&str]| -> f64 {
+        let text = inspect(&[&["evans", "p=2.5", "r=1"][..], arguments, &["--json"]].concat());
+        let json: serde_json::Value = serde_json::from_str(&text).unwrap();
+        json["curves"][0]["measures"]["straight_length"].as_f64().unwrap()
+    };
+    let text = inspect(&["evans", "p=2.5", "r=1", "a=3.3", "s=3.3", "--tolerance", "0.1", "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let curve = &json["tolerance"]["curves"][0];
+    let of =
+        |name: &str| curve["lengths"].as_array().unwrap().iter().find(|length| length["name"] == name).unwrap().clone();
+    assert!(curve["root_sum_square"].as_f64() < curve["worst_case"].as_f64());
+    let permitted = of("CB")["permitted"].as_f64().unwrap();
+    let whole = length(&["a=3.3", "s=3.3"]);
+    let changed = length(&["a=3.3", &format!("s={}", 3.3 + permitted)]);
+    let exponent: i32 = format!("{whole:e}").split_once('e').unwrap().1.parse().unwrap();
+    let digit: f64 = format!("1e{}", exponent - 3).parse().unwrap();
+    assert!(((changed - whole).abs() / digit - 1.0).abs() < 0.05, "{whole}, {changed}: {permitted}");
+    let text = inspect(&["evans", "p=2.5", "r=1", "a=3.3", "s=3.3", "--tolerance", "0.1"]);
+    assert!(
+        text.contains("\ntolerance: every length off by 0.1 moves the curve (trace 1, circuit 1) by at most "),
+        "{text}"
+    );
+}
+
 /// In each object, the keys are in the order in which docs/inspect.md describes them.
 #[test]
 fn the_keys_of_the_json_are_in_the_documented_order() {
@@ -159,7 +186,7 @@ fn the_keys_of_the_json_are_in_the_documented_order() {
         &["watt", "p=4", "r=2", "a=2", "s=2", "--at", "10", "--cognates"][..],
         &["inverted-slider-crank"],
         &["roberts", "p=2", "r=2", "a=1", "b=2"],
-        &["evans", "p=2", "a=2.5"],
+        &["evans", "p=2", "a=2.5", "--tolerance", "0.01"],
     ] {
         let text = inspect(&[arguments, &["--json"]].concat());
         let plain = inspect(arguments);

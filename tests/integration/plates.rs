@@ -135,6 +135,34 @@ fn every_given_value_can_be_read_in_full_on_its_page() {
     assert!(checked > 300, "{checked}");
 }
 
+/// The caption and the straight portion under the only panel of a page.
+fn caption_and_straight(family_text: &str) -> [String; 2] {
+    let text = family(&format!("id = \"f\"\nlinkage = \"evans\"\nsampling = {{ samples = 90 }}\n{family_text}"));
+    let plan = plan(&text);
+    let lines = texts(&pages(&text, &plan)[0].svg);
+    let line = |has: &dyn Fn(&str) -> bool| lines.iter().find(|line| has(line)).cloned().unwrap_or_default();
+    let straight = line(&|line| line.starts_with("straight ") || line.contains("· straight "));
+    let portion = straight.split("straight ").nth(1).unwrap().split('°').next().unwrap().to_owned();
+    [line(&|line| line.starts_with("p = 3") && line.contains("a ")), portion]
+}
+
+#[test]
+fn the_linkage_of_rounded_numbers_has_the_properties_on_its_page() {
+    let let_a = "grid = { p = 3.5 }\nlet = { a = \"(1 + p)^1.5 / 2\" }";
+    let [caption, straight] = caption_and_straight(let_a);
+    let number = caption.split("a ≈ ").nth(1).unwrap_or_else(|| panic!("{caption}"));
+    let printed: f64 = number.split(',').next().unwrap().parse().unwrap();
+    let with = |a: f64| caption_and_straight(&format!("cases = [{{ p = 3.5, a = {a} }}]"));
+    assert_eq!(with(printed)[1], straight);
+    // The two decimals that the caption states are not enough, and are those of a given value only where they are all.
+    let stated = (printed * 100.0).round() / 100.0;
+    assert_ne!(with(stated)[1], straight);
+    for (a, text) in [(4.5, "a = 4.5"), (4.5678, "a = 4.5678")] {
+        let [caption, _] = with(a);
+        assert!(caption.contains(text), "{caption}");
+    }
+}
+
 #[test]
 #[ignore = "thorough"]
 fn no_two_panels_of_a_page_share_a_caption() {
@@ -192,7 +220,7 @@ fn common_dimensions_are_exact_and_formulas_are_set_as_formulas() {
     let evans = "id = \"f\"\nlinkage = \"evans\"\ngrid = { p = [2, 3] }\nlet = { a = \"(1 + p)^1.5 / 2\" }";
     assert_eq!(dimensions(evans), ["r = 1", "a = (1 + p)^1.5 / 2", "s = a", "k = 2"]);
     let klann = dimensions("id = \"f\"\nlinkage = \"klann\"\ngrid = { r = [0.2, 0.25] }");
-    assert!(klann.contains(&"foot along = −1.098 / √2 = −0.776403".to_owned()), "{klann:?}");
+    assert!(klann.contains(&"foot along = −1.098 / √2 ≈ −0.776403".to_owned()), "{klann:?}");
     assert!(!klann.iter().any(|text| text.starts_with("r =")), "{klann:?}");
     let helper = "id = \"f\"\nlinkage = \"evans\"\ngrid = { p = [2, 3], h = [0.1] }\nlet = { a = \"p + h\", unused = \"2 * h\" }\nsort = \"unused\"";
     assert_eq!(dimensions(helper), ["r = 1", "a = p + h", "s = a", "k = 2", "h = 0.1"]);
@@ -219,7 +247,7 @@ fn cognates_have_inks_and_lengths_of_their_own() {
     // Lengths as of the theorem: the cognates are the four-bar's sides times |AM| / a and |BM| / a.
     let [am, bm] = [trig::hypot(1.8, 1.3), trig::hypot(1.2, 1.3)];
     for (name, length) in [("OD", am), ("DE", 0.5 * am), ("QE", 3.5 / 3.0 * am), ("CF", bm), ("QG", 0.5 * bm)] {
-        let label = format!("{name} = {length:.4}");
+        let label = format!("{name} ≈ {length:.4}");
         assert!(texts(&svg).iter().any(|line| line.contains(&label)), "{label}");
     }
 }
@@ -381,8 +409,12 @@ fn the_lengths_of_cognates_are_under_their_panels_or_as_formulas_in_the_key() {
         // The chains of the cognates are explained in any case.
         assert!(["links of ODEMHQ", "links of CFGMIQ"].iter().all(|links| lines.iter().any(|line| line == links)));
         // All lengths of a note, or none.
-        let lengths = ["OD", "DE", "QE", "OQ", "CF", "FG", "QG", "CQ"]
-            .map(|name| lines.iter().filter(|line| line.contains(&format!("{name} = "))).count());
+        let lengths = ["OD", "DE", "QE", "OQ", "CF", "FG", "QG", "CQ"].map(|name| {
+            lines
+                .iter()
+                .filter(|line| [" = ", " ≈ "].iter().any(|sign| line.contains(&format!("{name}{sign}"))))
+                .count()
+        });
         assert!(lengths.iter().all(|count| *count == lengths[0]), "{lengths:?}");
         let has_formulas = lines.iter().any(|line| line.contains("QE = s √(u2 + v2) / a"));
         assert!(!lines.iter().any(|line| line == "notes that need larger panels are left out"));

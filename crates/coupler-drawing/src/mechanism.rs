@@ -12,6 +12,8 @@ use coupler_curves::motion::Circuit;
 pub struct Mechanism {
     /// The moving links, each with its joints in the order of its outline.
     pub links: Vec<LinkOutline>,
+    /// The joints that only serve to place others, which no link is drawn through.
+    pub helpers: Vec<JointId>,
     /// The joints that the frame shares with moving links.
     pub pivots: Vec<JointId>,
     /// The sliders on lines of the frame or of a link.
@@ -67,7 +69,8 @@ impl Mechanism {
             _ => None,
         };
         Mechanism {
-            links: linkage.link_outlines(),
+            links: circuit.link_outlines(linkage),
+            helpers: circuit.helpers(linkage),
             pivots: linkage.pivots(),
             blocks: linkage.joint_ids().filter_map(block).collect(),
             slots: linkage.joint_ids().filter_map(|joint| find_slot(linkage, circuit, joint)).collect(),

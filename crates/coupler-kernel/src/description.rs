@@ -118,7 +118,7 @@ fn crank_json(study: &Study, numbers: &mut Numbers) -> Option<Value> {
 
 fn mechanism_json(study: &Study, numbers: &mut Numbers) -> Value {
     let Study { linkage, circuit, mechanism, joint, .. } = study;
-    let Mechanism { links, pivots, blocks, slots, actuators, guides, pitch_circles } = mechanism;
+    let Mechanism { links, pivots, blocks, slots, actuators, guides, pitch_circles, helpers: _ } = mechanism;
     let indices = |joints: &[JointId]| json!(joints.iter().map(|joint| joint.index()).collect::<Vec<_>>());
     let is_body = |joints: &[JointId], link| is_plate(&positions_on_link(linkage, joints, link));
     let outlines = |plates: bool| -> Vec<Value> {

@@ -15,6 +15,7 @@ use super::equation::{self, EquationJson};
 use super::pose::{Pose, instant_geometries};
 use super::ranges::{ArcJson, Ranges, RockerLimitsJson, SliderJson};
 use super::report::Report;
+use super::tolerance::{Tolerance, ToleranceJson};
 
 /// The version of the format; docs/inspect.md describes it.
 const FORMAT: u32 = 1;
@@ -39,6 +40,7 @@ struct Document<'a> {
     curves: Vec<CurveJson>,
     poses: Vec<PoseJson<'a>>,
     equations: Vec<EquationJson>,
+    tolerance: Option<ToleranceJson<'a>>,
     cognates: Option<CognatesJson<'a>>,
 }
 
@@ -155,6 +157,7 @@ pub(super) fn json(report: &Report) -> Result<String, Failure> {
         curves: solved.curves.iter().map(|curve| CurveJson::new(&solved.linkage, curve)).collect(),
         poses: report.poses.iter().map(|pose| PoseJson::new(report, pose)).collect(),
         equations: equation::json(&report.equations.0),
+        tolerance: report.tolerance.as_ref().map(Tolerance::json),
         cognates: report.cognates.as_ref().map(CognatesJson::new),
     };
     Ok(serde_json::to_string_pretty(&document)? + "\n")

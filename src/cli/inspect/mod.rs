@@ -11,6 +11,7 @@ mod ranges;
 mod report;
 mod summary;
 mod text;
+mod tolerance;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -24,6 +25,7 @@ use super::linkage::{self, DEFAULT_SAMPLES};
 use super::{Failure, Outcome, files, print, print_bytes};
 use pose::Pose;
 use report::Report;
+use tolerance::Tolerance;
 
 /// Describe one linkage: its class, limits, transmission angle and straight portion; then its circuits, and the
 /// positions and velocities of its joints.
@@ -51,6 +53,10 @@ pub struct Arguments {
     /// motion of C.
     #[arg(long, value_name = "LOAD", allow_hyphen_values = true)]
     load: Option<String>,
+    /// Print how far the curves move where each length of the linkage is off by this much, and how far each may be off until the length of the
+    /// straight portion changes in its last printed digit.
+    #[arg(long, value_name = "LENGTH")]
+    tolerance: Option<f64>,
     /// Print the coefficients of the equations of the coupler curves, with the crank pivot at the origin and the x axis
     /// towards the rocker pivot, and again with the origin in the middle of the two.
     #[arg(long, conflicts_with = "toml")]
@@ -114,7 +120,8 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         let message = format!("{} has no coupler curve of a four-bar, and so no sextic: leave --sextic out", family.id);
         return Err(Failure::input(message));
     }
-    let report = Report { family: &family, solved: &solved, input: at, poses, equations, cognates };
+    let tolerance = arguments.tolerance.map(|error| Tolerance::new(&family, &solved, error)).transpose()?;
+    let report = Report { family: &family, solved: &solved, input: at, poses, equations, cognates, tolerance };
     if let Some(path) = &arguments.svg {
         files::write(path, &plate::plate(&report, arguments.animate))?;
         if is_drawing_printed {

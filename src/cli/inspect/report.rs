@@ -6,6 +6,7 @@ use coupler_curves::solve::SolvedCell;
 use super::cognate_set::CognateSet;
 use super::equation::Equation;
 use super::pose::Pose;
+use super::tolerance::Tolerance;
 
 /// The description of a linkage.
 pub(super) struct Report<'a> {
@@ -17,6 +18,8 @@ pub(super) struct Report<'a> {
     pub(super) poses: Vec<Pose<'a>>,
     /// The equations of the coupler curves, and whether to print their coefficients.
     pub(super) equations: (Vec<Equation>, bool),
+    /// The tolerances of its lengths, if requested.
+    pub(super) tolerance: Option<Tolerance>,
     /// The cognates, if requested.
     pub(super) cognates: Option<CognateSet>,
 }

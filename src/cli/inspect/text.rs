@@ -18,7 +18,8 @@ const MAX_NAME_WIDTH: usize = 40;
 /// The report as text: class, limits, transmission angle and straight portion; then the details, a table for each pose
 /// and the cognates.
 pub(super) fn text(report: &Report) -> String {
-    let Report { family, solved, input, poses, equations: (equations, with_coefficients), cognates } = report;
+    let Report { family, solved, input, poses, equations: (equations, with_coefficients), cognates, tolerance } =
+        report;
     let mut out = String::new();
     let values = family
         .names
@@ -53,6 +54,9 @@ pub(super) fn text(report: &Report) -> String {
     if let (Some(input), true) = (input, poses.is_empty()) {
         let (input, unit) = (format_significant(*input, 10), input_unit(&solved.linkage));
         let _ = writeln!(out, "at {input}{unit}: no circuit reaches this input");
+    }
+    if let Some(tolerance) = tolerance {
+        tolerance.append_text(&mut out);
     }
     for pose in poses {
         describe_pose(solved, pose, &mut out);

@@ -124,7 +124,7 @@ fn clauses(construction: &str) -> Vec<&str> {
 
 /// The value in a clause of a construction; empty if there is none.
 fn value(clause: &str) -> &str {
-    let starts = ["ratio ", "ahead by ", "distance of ", " = ", "at (", ": "];
+    let starts = ["ratio ", "its line ", " = ", "at (", "at ", ": "];
     starts.iter().find_map(|start| Some(clause.split_once(start)?.1)).unwrap_or("")
 }
 

@@ -12,7 +12,7 @@ use std::fmt::{Display, Write};
 use super::SelectedCurve;
 use super::circle::{Circle, fit_circle};
 use crate::geometry::{Bounds, Point};
-use crate::linkage::{JointId, LinkOutline, Linkage, is_plate};
+use crate::linkage::{JointId, LinkOutline, is_plate};
 use crate::path::joint_polyline;
 
 const CURVE: &str = "CURVE";
@@ -43,7 +43,7 @@ pub(super) fn document(selected: &SelectedCurve, chord: f64) -> String {
         Some(circle) => out.circle(&circle),
         None => out.polyline(&path, closed),
     }
-    for [from, to] in link_segments(linkage, &pose) {
+    for [from, to] in link_segments(selected, &pose) {
         out.line(pose[from], pose[to]);
     }
     let pivots = linkage.pivots();
@@ -68,9 +68,9 @@ fn is_finite(p: &Point) -> bool {
 }
 
 /// The lines of the moving links, each from joint to joint.
-fn link_segments(linkage: &Linkage, pose: &[Point]) -> Vec<[JointId; 2]> {
+fn link_segments(selected: &SelectedCurve, pose: &[Point]) -> Vec<[JointId; 2]> {
     let mut bars = Vec::new();
-    for LinkOutline { joints, .. } in linkage.link_outlines() {
+    for LinkOutline { joints, .. } in selected.circuit().link_outlines(&selected.solved.linkage) {
         bars.extend(joints.windows(2).map(|pair| [pair[0], pair[1]]));
         let points: Vec<Point> = joints.iter().map(|&joint| pose[joint]).collect();
         if let (true, [first, .., last]) = (is_plate(&points), &joints[..]) {
@@ -84,7 +84,8 @@ fn link_segments(linkage: &Linkage, pose: &[Point]) -> Vec<[JointId; 2]> {
 /// The joints that are drawn: those of links, the pivots, and the traced joint.
 fn shown_joints(selected: &SelectedCurve) -> Vec<JointId> {
     let linkage = &selected.solved.linkage;
-    let mut joints: Vec<JointId> = linkage.link_outlines().into_iter().flat_map(|outline| outline.joints).collect();
+    let outlines = selected.circuit().link_outlines(linkage);
+    let mut joints: Vec<JointId> = outlines.into_iter().flat_map(|outline| outline.joints).collect();
     joints.extend(linkage.pivots());
     joints.push(selected.curve().joint);
     joints.sort_unstable();

@@ -18,6 +18,15 @@ impl CompiledExpression {
         self * combine(Instruction::Binary(Operator::Greater), [magnitude, bound])
     }
 
+    /// The same value without two signs in a row, and with that of a negated number at the number.
+    pub(crate) fn simplified_sign(mut self) -> CompiledExpression {
+        let program = &mut self.expression.program;
+        if let [.., (Instruction::Negate, _), (Instruction::Negate, _)] = &program[..] {
+            program.truncate(program.len() - 2);
+        }
+        self
+    }
+
     /// The number of its names, numbers and operators.
     pub(crate) fn token_count(&self) -> usize {
         self.expression.program.len()

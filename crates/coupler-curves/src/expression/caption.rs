@@ -78,21 +78,28 @@ impl Caption {
         self.expressions().any(|(expression, _)| expression.names().iter().any(|used| used == name))
     }
 
-    /// Whether it shows the value of a name in full: the number it prints is the value.
-    pub fn shows_exactly(&self, name: &str, value: f64) -> bool {
-        let shows = |piece: &Piece| match piece {
-            Piece::Value { expression, decimals, .. } if expression.as_name() == Some(name) => match decimals {
-                Some(n) => format!("{value:.n$}").parse() == Ok(value),
-                None => round_to_six_digits(value) == value,
-            },
-            _ => false,
-        };
-        self.pieces.iter().any(shows)
+    /// The names that are shown by themselves, each with its number of decimals if that is given.
+    pub fn shown_names(&self) -> impl Iterator<Item = (&str, Option<usize>)> {
+        self.pieces.iter().filter_map(|piece| match piece {
+            Piece::Value { expression, decimals, .. } => Some((expression.as_name()?, *decimals)),
+            Piece::Text(_) => None,
+        })
     }
 
     /// The text with values filled in: `load(name)` is the value of a name, and `word(name)` the text of a name that
     /// is a word. A NaN is shown as a dash.
     pub fn format(&self, load: impl Fn(&str) -> f64, word: impl Fn(&str) -> Option<&'static str>) -> String {
+        self.format_with(load, word, |_, _, _| None)
+    }
+
+    /// The same, with the text `number(expression, decimals, value)` of some numbers; where it comes with `true`, it is rounded, and an
+    /// equals sign before it becomes one of approximation.
+    pub fn format_with(
+        &self,
+        load: impl Fn(&str) -> f64,
+        word: impl Fn(&str) -> Option<&'static str>,
+        number: impl Fn(&Expression, Option<usize>, f64) -> Option<(bool, String)>,
+    ) -> String {
         let mut out = String::new();
         for piece in &self.pieces {
             if let Piece::Value { expression, .. } = piece
@@ -106,17 +113,29 @@ impl Caption {
                 Piece::Value { expression, decimals, .. } => {
                     // Adding 0 makes a negative zero positive.
                     let value = expression.evaluate(|i| load(&expression.names()[i])) + 0.0;
-                    match decimals {
+                    let own = Some(value).filter(|value| value.is_finite());
+                    let own = own.and_then(|value| number(expression, *decimals, value));
+                    match (own, decimals) {
                         _ if value.is_nan() => out.push('–'),
                         _ if value.is_infinite() => out.push_str(if value > 0.0 { "∞" } else { "−∞" }),
-                        Some(n) => out.push_str(&format_fixed(value, *n)),
-                        None => out.push_str(&round_to_six_digits(value).to_string()),
+                        (Some((is_rounded, text)), _) => {
+                            if is_rounded && let Some(before) = out.strip_suffix("= ") {
+                                out = format!("{before}≈ ");
+                            }
+                            out.push_str(&text);
+                        }
+                        (None, decimals) => out.push_str(&format_number(value, *decimals)),
                     }
                 }
             }
         }
         out
     }
+}
+
+/// A number of a caption: with a number of decimals, or up to six significant digits.
+pub(crate) fn format_number(value: f64, decimals: Option<usize>) -> String {
+    decimals.map_or_else(|| round_to_six_digits(value).to_string(), |n| format_fixed(value, n))
 }
 
 /// Parses the expression and the number of decimals between the braces at `start - 1` and `end`.

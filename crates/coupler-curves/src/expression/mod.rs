@@ -32,6 +32,7 @@ mod scope;
 mod unit;
 
 pub use caption::Caption;
+pub(crate) use caption::format_number;
 pub use kind::Kind;
 pub use program::{CompiledExpression, Expression};
 pub use scope::Scope;

@@ -1,9 +1,9 @@
 //! The dimensions of a family's linkages as text: those that all cells share, and those of a cell.
 
 use super::{Cell, Family, ParameterSpace};
-use crate::expression::{Caption, CompiledExpression, MathText, Unit, displayed_name};
+use crate::expression::{Caption, CompiledExpression, MathText, Unit, displayed_name, format_number};
 use crate::template::ParameterKind;
-use crate::text::{format_exactly, format_in_full, round_to_six_digits};
+use crate::text::{format_exactly, format_in_full, is_same_number};
 
 /// A name that the caption of a cell should show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -96,8 +96,10 @@ impl Family {
                 Source::ConstantFormula(formula, value) => {
                     let text = formula.to_math_text();
                     let is_number = text.to_string() == format_exactly(*value);
-                    let number = format_exactly(round_to_six_digits(*value));
-                    let value = if is_number { text } else { text.with_words(" = ").with_words(number) };
+                    let (is_rounded, number) = rounded_number(*value, None);
+                    let sign = if is_rounded { " ≈ " } else { " = " };
+                    let value =
+                        if is_number { text } else { text.with_words(sign).with_words(number.replace('-', "−")) };
                     Some(left.with(value).with_words(unit))
                 }
             }
@@ -120,23 +122,44 @@ impl Family {
     /// The value of a parameter in a cell: "u = 3.75" exactly if it is given, and with up to six significant digits if it
     /// is derived, for the formula of those is stated.
     pub fn caption_dimension(&self, cell: &Cell, CaptionParameter { slot, is_given }: CaptionParameter) -> MathText {
-        self.equation(slot, if is_given { cell.values[slot] } else { round_to_six_digits(cell.values[slot]) })
+        let value = cell.values[slot];
+        self.equation_of(slot, if is_given { given_number(value, None) } else { rounded_number(value, None) })
     }
 
     /// A name, by its index in [`Family::names`], and a value in full: "p = 2.5", "phase = 30°"; one that takes more digits than anyone
     /// writes was computed, and has six significant ones.
     pub fn equation(&self, slot: usize, value: f64) -> MathText {
-        const MAX_WRITTEN_DIGITS: usize = 12;
-        let in_full = format_in_full(value);
-        let digits = in_full.chars().filter(char::is_ascii_digit).count();
-        let number = if digits <= MAX_WRITTEN_DIGITS { in_full } else { format_exactly(round_to_six_digits(value)) };
-        MathText::from_name(&self.names[slot]).with_words(format!(" = {number}{}", self.unit(slot)))
+        self.equation_of(slot, given_number(value, None))
     }
 
-    /// Whether the captions of a cell show a parameter: in full if it is given.
-    pub fn captions_show(&self, cell: &Cell, CaptionParameter { slot, is_given }: CaptionParameter) -> bool {
-        let (name, value) = (&self.names[slot], cell.values[slot]);
-        let shows = |caption: &Caption| if is_given { caption.shows_exactly(name, value) } else { caption.uses(name) };
+    fn equation_of(&self, slot: usize, (is_rounded, number): (bool, String)) -> MathText {
+        let (sign, number) = (if is_rounded { '≈' } else { '=' }, number.replace('-', "−"));
+        MathText::from_name(&self.names[slot]).with_words(format!(" {sign} {number}{}", self.unit(slot)))
+    }
+
+    /// Whether the grid or the cases give the value of a name, by its index in [`Family::names`].
+    pub(super) fn is_given(&self, slot: usize) -> bool {
+        self.space.assigned_slots().contains(&slot)
+    }
+
+    /// The derived values that captions round, as they print them with more decimals than stated: names and rounded values.
+    pub fn rounded_in_captions(&self, cell: &Cell, more_decimals: usize) -> Vec<(String, f64)> {
+        let shown = self.captions.iter().flatten().flat_map(Caption::shown_names);
+        let rounded = |(name, decimals): (&str, Option<usize>)| {
+            let slot = self.names.iter().position(|own| own == name).filter(|slot| !self.is_given(*slot))?;
+            let (is_rounded, number) = rounded_number(cell.values[slot], Some(decimals? + more_decimals));
+            is_rounded.then(|| Some((name.to_owned(), number.parse().ok()?)))?
+        };
+        shown.filter_map(rounded).collect()
+    }
+
+    /// Whether the captions show a parameter: by itself if it is given, for then it is shown in full.
+    pub fn captions_show(&self, CaptionParameter { slot, is_given }: CaptionParameter) -> bool {
+        let name = &self.names[slot];
+        let shows = |caption: &Caption| match is_given {
+            true => caption.shown_names().any(|(shown, _)| shown == name),
+            false => caption.uses(name),
+        };
         self.captions.iter().flatten().any(shows)
     }
 
@@ -183,4 +206,24 @@ impl Family {
             _ => "",
         }
     }
+}
+
+/// A value that is given, as it is printed: with a number of decimals if these give it in full, and otherwise in full; whether it is
+/// rounded, to six significant digits, as one is that takes more digits than anyone writes and so was computed.
+pub(super) fn given_number(value: f64, decimals: Option<usize>) -> (bool, String) {
+    const MAX_WRITTEN_DIGITS: usize = 12;
+    let (is_rounded, stated) = rounded_number(value, decimals);
+    let in_full = format_in_full(value);
+    match in_full.chars().filter(char::is_ascii_digit).count() {
+        _ if !is_rounded => (false, stated),
+        0..=MAX_WRITTEN_DIGITS => (false, in_full),
+        _ => rounded_number(value, None),
+    }
+}
+
+/// A value with a number of decimals or up to six significant digits; whether that rounds it.
+pub(super) fn rounded_number(value: f64, decimals: Option<usize>) -> (bool, String) {
+    let number = format_number(value, decimals);
+    let is_rounded = number.parse().map_or(true, |printed| !is_same_number(printed, value));
+    (is_rounded, number)
 }

@@ -3,8 +3,8 @@
 use std::cell::LazyCell;
 use std::sync::LazyLock;
 
-use super::{Cell, Family};
-use crate::expression::{Caption, CompiledExpression, Kind, Scope};
+use super::{Cell, Family, dimensions};
+use crate::expression::{Caption, CompiledExpression, Expression, Kind, Scope};
 use crate::measure::{self, BOOLEANS, Boolean, Measure, MeasureSet, Value};
 
 /// What a name of [`Family::scope`] stands for.
@@ -126,13 +126,21 @@ impl Family {
     /// The caption lines of a cell, with its values and the measures of its first curve filled in; empty where the
     /// family has none.
     pub fn format_captions(&self, cell: &Cell, measures: &[Value]) -> [String; 2] {
-        self.captions
-            .each_ref()
-            .map(|line| line.as_ref().map(|line| self.format_caption(line, cell, measures)).unwrap_or_default())
+        self.format_captions_with(cell, measures, 0)
+    }
+
+    /// The same, with more decimals than stated of derived values that are rounded.
+    pub fn format_captions_with(&self, cell: &Cell, measures: &[Value], more_decimals: usize) -> [String; 2] {
+        let format = |line: &Caption| self.format_line(line, cell, measures, more_decimals);
+        self.captions.each_ref().map(|line| line.as_ref().map(format).unwrap_or_default())
     }
 
     /// A caption over [`Family::scope`] with the values of a cell and the measures of a curve filled in.
     pub fn format_caption(&self, caption: &Caption, cell: &Cell, measures: &[Value]) -> String {
+        self.format_line(caption, cell, measures, 0)
+    }
+
+    fn format_line(&self, caption: &Caption, cell: &Cell, measures: &[Value], more_decimals: usize) -> String {
         static OF_CURVES: [LazyLock<Scope>; 2] =
             [LazyLock::new(|| Family::scope(&[], false)), LazyLock::new(|| Family::scope(&[], true))];
         let of_curves = &OF_CURVES[usize::from(self.template.is_driven_by_length())];
@@ -150,6 +158,18 @@ impl Family {
                 _ => Some("–"),
             }
         };
-        caption.format(load, word)
+        let own_slot = |name: &str| own_names.index_of(name);
+        // Values of measures are known to be rounded.
+        let number = |expression: &Expression, decimals: Option<usize>, value: f64| {
+            let is_of_dimensions = expression.names().iter().all(|name| own_slot(name).is_some());
+            is_of_dimensions.then(|| match expression.as_name().and_then(own_slot) {
+                Some(slot) if self.is_given(slot) => dimensions::given_number(value, decimals),
+                Some(_) if dimensions::rounded_number(value, decimals).0 => {
+                    dimensions::rounded_number(value, decimals.map(|n| n + more_decimals))
+                }
+                _ => dimensions::rounded_number(value, decimals),
+            })
+        };
+        caption.format_with(load, word, number)
     }
 }

@@ -14,6 +14,7 @@ mod default_output;
 mod error;
 mod four_bar;
 mod group;
+mod helper;
 mod id;
 mod input;
 mod joint;

@@ -15,7 +15,7 @@ use super::pieces::CircuitPieces;
 use super::positions::{JointPositions, convert_to_view_frame};
 use super::spacing::{self, CumulativeLength};
 use crate::geometry::Point;
-use crate::linkage::{AssemblyMode, Input, JointId, Linkage};
+use crate::linkage::{AssemblyMode, Input, JointId, LinkOutline, Linkage};
 
 /// How a circuit is sampled.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,6 +65,38 @@ impl Circuit {
     /// Whether there are no samples.
     pub fn is_empty(&self) -> bool {
         self.inputs.is_empty()
+    }
+
+    /// Whether two joints are in one place all the time: one pin has both.
+    pub fn coincide(&self, a: JointId, b: JointId) -> bool {
+        /// The rounding of positions, relative to their coordinates.
+        const ROUNDING: f64 = 1e-9;
+        (0..self.len()).all(|sample| {
+            let (a, b) = (self.positions.point(a, sample), self.positions.point(b, sample));
+            (a - b).norm() <= ROUNDING * (a.coords.norm() + b.coords.norm())
+        })
+    }
+
+    /// The joints of a linkage that only serve to place others, as of [`Linkage::is_helper`], and are in no pin of another joint.
+    pub fn helpers(&self, linkage: &Linkage) -> Vec<JointId> {
+        let (helpers, others): (Vec<_>, Vec<_>) = linkage.joint_ids().partition(|&joint| linkage.is_helper(joint));
+        helpers.into_iter().filter(|&helper| !others.iter().any(|&other| self.coincide(helper, other))).collect()
+    }
+
+    /// The outlines of the moving links, as of [`Linkage::link_outlines`], through their joints without helpers.
+    pub fn link_outlines(&self, linkage: &Linkage) -> Vec<LinkOutline> {
+        let helpers = self.helpers(linkage);
+        let mut outlines = linkage.link_outlines();
+        outlines.iter_mut().for_each(|outline| outline.joints.retain(|joint| !helpers.contains(joint)));
+        outlines.retain(|outline| outline.joints.len() > 1);
+        outlines
+    }
+
+    /// The input at the sample in which the joints are in a pose, if there is one.
+    pub fn input_of_pose(&self, pose: &[Point]) -> Option<f64> {
+        let is_pose =
+            |sample: &usize| (0..).zip(pose).all(|(k, at)| self.positions.point(JointId::new(k), *sample) == *at);
+        (0..self.len()).find(is_pose).map(|sample| self.inputs[sample])
     }
 
     /// The assembly mode at a sample; at the end of a pass, that of the pass that ends there.

@@ -5,6 +5,7 @@ mod moved_point;
 mod screening;
 mod solved_cell;
 mod solver;
+mod tolerance;
 
 pub use changed_cell::{ChangeError, ChangedCell, OriginalNumbers};
 pub use moved_point::MovedPointError;
@@ -13,4 +14,7 @@ pub use solver::Solver;
 
 // For the other crates of the workspace only.
 #[doc(hidden)]
-pub use self::moved_point::{MovablePoint, PointCoordinate};
+pub use self::{
+    moved_point::{MovablePoint, PointCoordinate},
+    tolerance::{CurveTolerance, curve_tolerances},
+};

@@ -1,6 +1,6 @@
 //! The construction of a linkage in words: for each joint, the lengths and angles that place it.
 
-use super::{ClosureTemplate, Coordinate, JointKindTemplate, JointTemplate, Side, Template};
+use super::{ClosureTemplate, Coordinate, JointKindTemplate, JointTemplate, Side, SideTemplate, Template};
 use crate::expression::{CompiledExpression, MathText, displayed_name, join_names};
 use crate::text::{format_exactly, is_same_number, round_to_six_digits};
 
@@ -13,9 +13,9 @@ impl Template {
         let Some(placed) = self.joints.get(joint) else { return MathText::default() };
         let construction = self.with_closures(joint, self.construction_without_drawing(joint, placed));
         match &placed.drawn {
-            Some([x, y]) if !matches!(placed.kind, JointKindTemplate::Fixed(_)) => {
-                let at = construction.with_words("; drawn at (").with(x.to_math_text()).with_words(", ");
-                at.with(y.to_math_text()).with_words(")")
+            Some(position) if !matches!(placed.kind, JointKindTemplate::Fixed(_)) => {
+                let [x, y] = self.position_as_drawn(position);
+                construction.with_words("; drawn at (").with(x).with_words(", ").with(y).with_words(")")
             }
             _ => construction,
         }
@@ -35,7 +35,10 @@ impl Template {
                 let guide = MathText::from_words(format!("slides on a line along {}", between(*line)));
                 Some(match offset.constant_value() {
                     Some(0.0) | None => guide,
-                    Some(offset) => guide.with_words(format!(", to its left {}", rounded_equation(offset))),
+                    Some(offset) => {
+                        let left = self.side_as_drawn(Side::Left);
+                        guide.with_words(format!(", to its {left} {}", rounded_equation(offset)))
+                    }
                 })
             }
             _ => None,
@@ -47,21 +50,26 @@ impl Template {
         let name = |k: usize| displayed_name(&self.joints[k].name);
         let between = |[a, b]: [usize; 2]| join_names(&[a, b].map(|k| self.joints[k].name.as_str()));
         let is_drawn = self.joints.iter().any(|joint| joint.drawn.is_some());
+        let to_left = format!(", to its {}: ", self.side_as_drawn(Side::Left));
+        // In a drawing the coordinates tell the side.
+        let on_side = |side: &SideTemplate, base: [usize; 2]| match side.constant().filter(|_| placed.drawn.is_none()) {
+            Some(side) => format!(", {} of {}", self.side_as_drawn(side), between(base)),
+            None => String::new(),
+        };
         let length = |from: usize, value: &CompiledExpression| {
             let link = between([from, joint]);
             if is_drawn { drawn_length(&link, value) } else { equation(&link, value.to_math_text()) }
         };
         match &placed.kind {
             JointKindTemplate::Fixed(position) => {
-                let [x, y] = placed.drawn.as_ref().unwrap_or(position);
+                let [x, y] = self.position_as_drawn(placed.drawn.as_ref().unwrap_or(position));
                 let what = match (self.seen_from, self.is_pivot(joint)) {
                     (Some(_), _) if placed.drawn.is_some() => format!("on link {}, drawn at (", self.defined_link()),
                     (Some(_), _) => format!("on link {}, at (", self.defined_link()),
                     (None, true) => "fixed pivot at (".to_owned(),
                     (None, false) => "fixed point at (".to_owned(),
                 };
-                let x = MathText::from_words(what).with(x.to_math_text());
-                x.with_words(", ").with(y.to_math_text()).with_words(")")
+                MathText::from_words(what).with(x).with_words(", ").with(y).with_words(")")
             }
             JointKindTemplate::Crank { pivot, length: crank } => {
                 let what = if self.seen_from.is_some() { "pin of the driving link, " } else { "pin of the crank, " };
@@ -72,42 +80,63 @@ impl Template {
                     MathText::from_words("pin of a crank geared to ").with_words(name(*crank)).with_words(", ");
                 let ratio = turns.to_math_text().with_words(" : ").with(crank_turns.to_math_text());
                 let geared = geared.with(length(*pivot, own_length)).with_words(", ratio ").with(ratio);
+                let ratio = turns.constant_value().zip(crank_turns.constant_value()).map(|(n, m)| n / m);
+                let geared = geared.with_words(match ratio {
+                    Some(ratio) if ratio < 0.0 => "",
+                    Some(_) => ", over an idler",
+                    None => ", over an idler where it is positive",
+                });
                 match is_zero(&phase.value) {
                     true => geared,
-                    false => geared.with_words(", ahead by ").with(phase.to_math_text()),
+                    false => geared
+                        .with_words(", at ")
+                        .with(phase.to_math_text())
+                        .with_words(format!(" where {} is at 0°", name(*crank))),
                 }
             }
-            JointKindTemplate::Piston { base: [from, pivot], length: crank, offset, .. } => {
+            JointKindTemplate::Piston { base: [from, pivot], length: crank, offset, side } => {
                 let driven = MathText::from_words("pin of the crank, ").with(length(*pivot, crank));
+                let driven = driven.with_words(on_side(side, [*from, *pivot]));
                 let driven = driven.with_words(format!(", driven by the actuator from {}", name(*from)));
-                with_unless_zero(driven, ", its line at a distance of ", offset, &format!(" from {}", name(*from)))
+                // The foot of the perpendicular from the pivot is to the right of the line from there to the pin.
+                let right = self.side_as_drawn(Side::Right);
+                let beside = format!(" to the {right} of {}, seen towards {}", name(*from), name(joint));
+                with_unless_zero(driven, ", its line ", offset, &beside)
             }
             JointKindTemplate::DrivenSlider { line: along, offset } => {
                 let slider =
                     MathText::from_words(format!("slider that is driven, on a line along {}", between(*along)));
-                with_unless_zero(slider, ", to its left: ", offset, "")
+                with_unless_zero(slider, &to_left, offset, "")
             }
             JointKindTemplate::Rack { crank, line: along, offset, radius, start } => {
                 let rack = MathText::from_words(format!("rack on a line along {}", between(*along)));
-                let rack = with_unless_zero(rack, ", to its left: ", offset, "");
+                let rack = with_unless_zero(rack, &to_left, offset, "");
                 let rack =
                     rack.with_words(format!(", by a pinion on the crank of {}, its pitch radius = ", name(*crank)));
                 with_unless_zero(rack.with(radius.to_math_text()), ", at input 0 at ", start, "")
             }
-            JointKindTemplate::Dyad { base: [a, b], lengths: [first, second], .. } => {
-                length(*a, first).with_words(", ").with(length(*b, second))
+            JointKindTemplate::Dyad { base: [a, b], lengths: [first, second], side } => {
+                length(*a, first).with_words(", ").with(length(*b, second)).with_words(on_side(side, [*a, *b]))
             }
-            JointKindTemplate::Slide { from, length: link, line: along, offset, .. } => {
+            JointKindTemplate::Slide { from, length: link, line: along, offset, side } => {
                 let slider = MathText::from_words("slider, ").with(length(*from, link));
                 let slider = slider.with_words(format!(", on a line along {}", between(*along)));
-                with_unless_zero(slider, ", to its left: ", offset, "")
+                let slider = with_unless_zero(slider, &to_left, offset, "");
+                slider.with_words(match side.constant().filter(|_| placed.drawn.is_none()) {
+                    Some(Side::Left) => format!(", ahead of {}", name(*from)),
+                    Some(Side::Right) => format!(", behind {}", name(*from)),
+                    None => String::new(),
+                })
             }
             JointKindTemplate::Yoke { from, line: along, offset, angle: slot } => {
                 let guided = MathText::from_words(format!("yoke on a guide along {}", between(*along)));
-                let guided = with_unless_zero(guided, ", to its left: ", offset, "");
-                let pin =
-                    MathText::from_words(format!("; {} moves in its slot, its angle to the guide: ", name(*from)));
-                guided.with(pin).with(slot.to_math_text())
+                let guided = with_unless_zero(guided, &to_left, offset, "");
+                // At a right angle a mirror image is the same.
+                let is_right = slot.value.constant_value().is_some_and(|_| slot.evaluate(&[]).abs() == 90.0);
+                let towards =
+                    if is_right { String::new() } else { format!(", to its {}", self.side_as_drawn(Side::Left)) };
+                let slotted = format!("; {} moves in its slot, its angle to the guide{towards}: ", name(*from));
+                guided.with_words(slotted).with(slot.to_math_text())
             }
             JointKindTemplate::Slot { base: [pivot, through], offset, side } => {
                 let foot = MathText::from_words(format!(
@@ -116,7 +145,7 @@ impl Template {
                     name(*through)
                 ));
                 let side = match side.constant() {
-                    Some(side) => format!(" to the {} of {}", side_name(side), between([*pivot, *through])),
+                    Some(side) => format!(" to the {} of {}", self.side_as_drawn(side), between([*pivot, *through])),
                     None => format!(" on the side of {} on which it is drawn", between([*pivot, *through])),
                 };
                 match is_drawn && offset.constant_value().is_none() {
@@ -149,34 +178,34 @@ impl Template {
                     Some(direction) => format!("parallel to {direction}"),
                     None => format!("along {}", between(*base)),
                 };
-                if is_drawn {
-                    return point_of_drawing(&place, &name(base[0]), along, across);
-                }
-                point_on_link(&place, &name(base[0]), along, across)
+                let set = if is_drawn { point_of_drawing } else { point_on_link };
+                set(&place, &name(base[0]), along, (across, self.side_as_drawn(Side::Left)))
             }
-            JointKindTemplate::Distances { base: [a, b], distances: [first, second], .. } => {
-                length(*a, first).with_words(", ").with(length(*b, second))
+            JointKindTemplate::Distances { base: [a, b], distances: [first, second], side } => {
+                length(*a, first).with_words(", ").with(length(*b, second)).with_words(on_side(side, [*a, *b]))
             }
         }
     }
 
-    /// The direction in which points on a link are measured whose base is a pivot and a joint that slides along the link at an offset from
-    /// that pivot: the line through both turns on the link.
+    /// The direction in which points are measured whose base is a pivot and a joint that slides at an offset from it along the pivot's link, or the
+    /// two in the other order, for the block in which it slides: the line through both turns on the link.
     fn sliding_direction(&self, base: [usize; 2]) -> Option<String> {
         let is_base = |a: usize, b: usize| base == [a, b] || base == [b, a];
+        let name = |k: usize| displayed_name(&self.joints[k].name);
         self.joints.iter().enumerate().find_map(|(own, joint)| match &joint.kind {
             JointKindTemplate::Slot { base: [pivot, through], offset, .. } if is_base(*pivot, *through) => {
-                (!is_zero(offset)).then(|| "the bar".to_owned())
+                let line = if base[0] == *pivot { [own, *through] } else { [*through, own] };
+                (!is_zero(offset)).then(|| join_names(&line.map(|k| self.joints[k].name.as_str())))
             }
             JointKindTemplate::Piston { base: [from, _], offset, .. } if is_base(*from, own) => {
-                (!is_zero(offset)).then(|| "the actuator".to_owned())
+                (!is_zero(offset)).then(|| format!("the actuator towards {}", name(base[1])))
             }
             _ => None,
         })
     }
 
     /// The link that the joints are defined in, by its joints; in the reported frame it moves.
-    fn defined_link(&self) -> String {
+    pub(super) fn defined_link(&self) -> String {
         let is_fixed = |joint: &&super::JointTemplate| matches!(joint.kind, JointKindTemplate::Fixed(_));
         let names: Vec<&str> = self.joints.iter().filter(is_fixed).map(|joint| joint.name.as_str()).collect();
         join_names(&names)
@@ -227,9 +256,9 @@ fn is_zero(value: &CompiledExpression) -> bool {
     value.constant_value() == Some(0.0)
 }
 
-/// "along AB from A: k a", or "along AB from A: u, to its left: v"; `place` is "along AB", or "parallel to the bar". The colons keep
-/// a parameter whose name is a word apart from the words.
-fn point_on_link(place: &str, first: &str, along: &Coordinate, across: &Coordinate) -> MathText {
+/// "along AB from A: k a", or "along AB from A: u, to its left: v"; `place` is "along AB", or "parallel to BA"; `across` comes with the
+/// side it is measured to. The colons keep a parameter whose name is a word apart from the words.
+fn point_on_link(place: &str, first: &str, along: &Coordinate, (across, left): (&Coordinate, &str)) -> MathText {
     let start = match (along.count(), across.count()) {
         (1, 1) => MathText::default(),
         (rows, columns) => MathText::from_words(format!("{rows} × {columns} points, ")),
@@ -237,12 +266,12 @@ fn point_on_link(place: &str, first: &str, along: &Coordinate, across: &Coordina
     let along = start.with_words(format!("{place} from {first}: ")).with(coordinate(along));
     match across {
         Coordinate::Single(across) if is_zero(across) => along,
-        _ => along.with_words(", to its left: ").with(coordinate(across)),
+        _ => along.with_words(format!(", to its {left}: ")).with(coordinate(across)),
     }
 }
 
 /// "along AB from A ≈ 1.41421, to its left = 2", or "on a line along AB" where the dimensions differ from cell to cell.
-fn point_of_drawing(place: &str, first: &str, along: &Coordinate, across: &Coordinate) -> MathText {
+fn point_of_drawing(place: &str, first: &str, along: &Coordinate, (across, left): (&Coordinate, &str)) -> MathText {
     let number = |coordinate: &Coordinate| match coordinate {
         Coordinate::Single(value) => value.constant_value(),
         Coordinate::Range { .. } => None,
@@ -251,7 +280,7 @@ fn point_of_drawing(place: &str, first: &str, along: &Coordinate, across: &Coord
         Some((along, 0.0)) => MathText::from_words(format!("{place} from {first} {}", rounded_equation(along))),
         Some((along, across)) => {
             let [along, across] = [along, across].map(rounded_equation);
-            MathText::from_words(format!("{place} from {first} {along}, to its left {across}"))
+            MathText::from_words(format!("{place} from {first} {along}, to its {left} {across}"))
         }
         None => MathText::from_words(format!("point of the link {}", place.trim_start_matches("along "))),
     }
@@ -262,10 +291,6 @@ fn rounded_equation(value: f64) -> String {
     let rounded = round_to_six_digits(value);
     let sign = if is_same_number(value, rounded) { "=" } else { "≈" };
     format!("{sign} {}", format_exactly(rounded))
-}
-
-fn side_name(side: Side) -> &'static str {
-    if side == Side::Left { "left" } else { "right" }
 }
 
 fn coordinate(coordinate: &Coordinate) -> MathText {
@@ -289,34 +314,38 @@ mod tests {
         for (id, joint, expected) in [
             ("evans", "C", "fixed pivot at (p, 0)"),
             ("evans", "A", "pin of the crank, OA = r"),
-            ("evans", "B", "AB = a, CB = s"),
+            ("evans", "B", "AB = a, CB = s, left of AC"),
             ("evans", "M", "along AB from A: k a"),
             ("chebyshev", "O", "on link AO, at (r, 0)"),
             ("chebyshev", "B", "pin of the driving link, AB = a"),
             ("cognates", "M", "along AB from A: u, to its left: v"),
             ("cognates", "D", "parallelogram OAMD"),
             ("hrones-nelson", "M", "5 × 2 points, along PR from P: 0 to 1.6 A, to its left: 0.5 to 1"),
-            ("klann", "Hip", "Knee–Hip = b, Upper–Hip = c"),
+            ("klann", "Hip", "Knee–Hip = b, Upper–Hip = c, left of Knee–Upper"),
             ("slider-crank", "X", "fixed point at (1, 0)"),
-            ("slider-crank", "B", "slider, AB = coupler, on a line along OX, to its left: offset"),
+            ("slider-crank", "B", "slider, AB = coupler, on a line along OX, to its left: offset, ahead of A"),
             (
                 "linear-actuator",
                 "A",
-                "pin of the crank, OA = r, driven by the actuator from C, its line at a distance of e from C",
+                "pin of the crank, OA = r, right of CO, driven by the actuator from C, its line e to the right of C, seen towards A",
             ),
             (
                 "inverted-slider-crank",
                 "B",
                 "foot of the perpendicular from C to the bar that slides through A, CB = e to the right of CA",
             ),
-            ("inverted-slider-crank", "M", "parallel to the bar from C: along, to its left: across"),
-            ("geared-five-bar", "D", "pin of a crank geared to A, PD = d, ratio n : m, ahead by phase"),
+            ("inverted-slider-crank", "M", "parallel to BA from C: along, to its left: across"),
+            (
+                "geared-five-bar",
+                "D",
+                "pin of a crank geared to A, PD = d, ratio n : m, over an idler where it is positive, at phase where A is at 0°",
+            ),
             (
                 "scotch-yoke",
                 "Y",
-                "yoke on a guide along OX, to its left: offset; A moves in its slot, its angle to the guide: angle",
+                "yoke on a guide along OX, to its left: offset; A moves in its slot, its angle to the guide, to its left: angle",
             ),
-            ("roberts", "M", "AM = b, BM = b"),
+            ("roberts", "M", "AM = b, BM = b, right of AB"),
         ] {
             assert_eq!(construction(id, joint), expected, "{id} {joint}");
         }

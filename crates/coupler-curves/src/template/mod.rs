@@ -1,9 +1,11 @@
 //! A template: a linkage whose dimensions are expressions. A parameter set turns it into a [`Linkage`].
 
+mod as_drawn;
 mod closure;
 mod construction;
 mod input_value;
 mod joint_kind;
+mod length;
 mod load_text;
 mod order;
 mod parameter;
@@ -20,6 +22,7 @@ pub use side::SideTemplate;
 #[doc(hidden)]
 pub use self::{
     input_value::InputValue,
+    length::LinkLength,
     load_text::LoadTextError,
     order::{DependencyCycle, dependency_order},
 };

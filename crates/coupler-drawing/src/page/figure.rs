@@ -154,6 +154,13 @@ impl<'a> Figure<'a> {
         self.solved_cell.circuit(&self.solved_cell.curves[0])
     }
 
+    /// The input in the pose in which the linkage is drawn, with its unit; `None` if that is between samples, or if there are several.
+    pub fn pose_input(&self) -> Option<String> {
+        let [only] = &self.mechanisms[..] else { return None };
+        let input = self.first_circuit().input_of_pose(&only.pose)?;
+        Some(marks::format_input(&self.solved_cell.linkage, input))
+    }
+
     /// Items that depend on the pose, animated if there are several poses.
     fn posed_items(&self, items: impl Fn(&PosedMechanism) -> Vec<Item>) -> Vec<Item> {
         match &self.mechanisms[..] {

@@ -1,10 +1,10 @@
 //! The key of a page: what it says of the linkage, and how each joint is placed.
 
 use super::marks::straight_criterion_text;
-use coupler_curves::expression::{MathText, displayed_name};
+use coupler_curves::expression::{MathText, displayed_name, join_names};
 use coupler_curves::family::{Cell, Family};
-use coupler_curves::linkage::{JointId, OutputLink};
-use coupler_curves::template::{InputValue, JointTemplate, Template};
+use coupler_curves::linkage::{JointId, Linkage, OutputLink};
+use coupler_curves::template::{InputValue, JointKindTemplate, JointTemplate, Template};
 use coupler_curves::text::format_exactly;
 
 /// What a page says about the linkages on it, so that they can be built: how the joints are placed by parameters, and
@@ -13,8 +13,10 @@ use coupler_curves::text::format_exactly;
 pub struct Key {
     /// The dimensions that all linkages share, as of [`Family::common_dimensions`].
     pub dimensions: Vec<MathText>,
-    /// The name of each joint, and how it is placed.
+    /// The name of each joint, and how it is placed; those that only serve to place others come last.
     pub joints: Vec<(String, MathText)>,
+    /// Those of them that are no pins, but points of moving links.
+    pub helpers: Vec<String>,
     /// The formulas of the note under each panel, if its values follow from the parameters, such as the lengths of cognates.
     pub note: Option<MathText>,
     /// What drives the linkage, what it drives, and from where it is seen.
@@ -36,14 +38,41 @@ impl Key {
 
     fn with_dimensions(family: &Family, dimensions: Vec<MathText>) -> Key {
         let template = &*family.template;
+        let structure = template.structure().ok();
+        let is_helper = |joint: &JointTemplate| {
+            structure
+                .as_ref()
+                .is_some_and(|linkage| linkage.find_joint(&joint.name).is_some_and(|id| linkage.is_helper(id)))
+        };
         let joint = |(k, joint): (usize, &JointTemplate)| (displayed_name(&joint.name), template.construction(k));
+        let (helpers, pins): (Vec<_>, Vec<_>) =
+            template.joints.iter().enumerate().partition(|(_, joint)| is_helper(joint));
+        // A fixed point is called one.
+        let is_moving = |(_, joint): &&(usize, &JointTemplate)| !matches!(joint.kind, JointKindTemplate::Fixed(_));
         Key {
             dimensions,
-            joints: template.joints.iter().enumerate().map(joint).collect(),
+            helpers: helpers.iter().filter(is_moving).map(|(_, joint)| displayed_name(&joint.name)).collect(),
+            joints: pins.into_iter().chain(helpers).map(joint).collect(),
             note: note_formulas(family),
-            remarks: remarks(template),
+            remarks: remarks(template, structure.as_ref()),
             straight: straight_criterion_text(family.straight, if template.is_driven_by_length() { "" } else { "°" }),
         }
+    }
+}
+
+impl Key {
+    /// The key in which joints that are one pin on all pages of some linkages are one line with both names.
+    pub(super) fn with_common_pins(mut self, pins: &[Vec<String>]) -> Key {
+        for names in pins {
+            let is_of_pin = |(name, _): &(String, MathText)| names.contains(name);
+            let Some(first) = self.joints.iter().position(is_of_pin) else { continue };
+            let (of_pin, others): (Vec<_>, Vec<_>) = self.joints.into_iter().partition(is_of_pin);
+            self.joints = others;
+            let name = of_pin.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(", ");
+            let placed = MathText::join(of_pin.into_iter().map(|(_, placed)| placed), "; also ");
+            self.joints.insert(first.min(self.joints.len()), (name, placed));
+        }
+        self
     }
 }
 
@@ -56,20 +85,23 @@ fn note_formulas(family: &Family) -> Option<MathText> {
 }
 
 /// The input, the output and the frame of a linkage in words.
-fn remarks(template: &Template) -> Vec<String> {
+fn remarks(template: &Template, structure: Option<&Linkage>) -> Vec<String> {
     let name = |joint: usize| displayed_name(&template.joints[joint].name);
-    let driven_by = match (template.is_driven_by_length(), template.seen_from) {
-        (true, _) => format!("input: {}", template.input_in_words()),
-        (false, None) => "input: the crank's angle from 0, in the direction of its arrow".to_owned(),
-        (false, Some(_)) => "input: the driving link's angle from 0, in the direction of its arrow".to_owned(),
-    };
+    let crank = template.joints.iter().enumerate().find_map(|(pin, joint)| match joint.kind {
+        JointKindTemplate::Crank { pivot, .. } => {
+            let ends = join_names(&[pivot, pin].map(|joint| template.joints[joint].name.as_str()));
+            let link = if template.seen_from.is_some() { "driving link" } else { "crank" };
+            Some(format!("the angle of the {link} {ends} {}", template.input_as_drawn()))
+        }
+        _ => None,
+    });
+    let driven_by = crank.unwrap_or_else(|| template.input_in_words());
     let range = template.input.as_ref().map_or(String::new(), |[from, to]| {
         let [from, to] = [from, to].map(InputValue::to_math_text);
         format!(", from {from} to {to}")
     });
-    let driven_by = format!("{driven_by}{range}");
-    let structure = template.structure().ok();
-    let output = structure.as_ref().and_then(|linkage| {
+    let driven_by = format!("input: {driven_by}{range}");
+    let output = structure.and_then(|linkage| {
         let name = |joint: JointId| displayed_name(&linkage.joints[joint].name);
         Some(match linkage.output()? {
             OutputLink::Link([from, to]) => format!("output: the link from {} to {}", name(from), name(to)),
@@ -80,17 +112,9 @@ fn remarks(template: &Template) -> Vec<String> {
         })
     });
     let frame = template.seen_from.map(|[origin, x]| format!("drawn with {} and {} fixed", name(origin), name(x)));
-    [driven_by.to_owned()].into_iter().chain(output).chain(frame).chain(orientation(template)).collect()
-}
-
-/// How the drawing is turned against what the key says of the linkage, if it is.
-fn orientation(template: &Template) -> Option<String> {
-    let rotation = match template.orientation.rotation_deg() {
+    let rotation = match template.rotation_before_drawing() {
         0.0 => None,
-        deg => Some(format!("turned by {}°", format_exactly(deg))),
+        deg => Some(format!("drawn turned by {}°: coordinates are those before", format_exactly(deg))),
     };
-    let reflection = (template.orientation.handedness() < 0.0).then(|| "mirrored about the x-axis".to_owned());
-    let parts: Vec<String> = reflection.into_iter().chain(rotation).collect();
-    let what = "coordinates, sides and angles are those before";
-    (!parts.is_empty()).then(|| format!("drawn {}: {what}", parts.join(", then ")))
+    [driven_by].into_iter().chain(output).chain(frame).chain(rotation).collect()
 }

@@ -1,7 +1,5 @@
 //! The drawing of a key: its lines in a column or a strip, and a linkage with the names of its joints.
 
-use std::borrow::Cow;
-
 use super::area::Area;
 use super::direction::DirectionMarks;
 use super::element::{Drawing, TextLine};
@@ -43,27 +41,29 @@ pub(super) fn divide(contents: Rect, theme: &Theme) -> (Rect, Option<Rect>) {
 
 /// The figure whose linkage a key shows: the first of those with the most joints, as a joint at an offset of 0 is not drawn, in which no
 /// two are close together, or else the one of them in which they are furthest apart.
-pub(super) fn clearest_figure<'f, 'a>(figures: &[&'f Figure<'a>]) -> Option<&'f Figure<'a>> {
+fn clearest_figure<'f, 'a>(figures: &[&'f Figure<'a>]) -> Option<&'f Figure<'a>> {
     /// The least distance of joints, relative to the size of the linkage: some three of their radii in a key.
     const CLEAR: f64 = 0.06;
     let mechanism = |figure: &'f Figure<'a>| figure.mechanisms.first();
     let count = |figure: &'f Figure<'a>| mechanism(figure).map_or(0, |mechanism| mechanism.drawn_joints().len());
     let most = figures.iter().copied().map(count).max()?;
-    let distance = |figure: &'f Figure<'a>| mechanism(figure).map_or(0.0, least_distance).min(CLEAR);
+    let distance = |figure: &'f Figure<'a>| {
+        mechanism(figure).map_or(0.0, |mechanism| least_distance(mechanism, figure.first_circuit())).min(CLEAR)
+    };
     let with_most = figures.iter().copied().filter(|figure| count(figure) == most);
     with_most.reduce(|best, next| if distance(next) > distance(best) { next } else { best })
 }
 
 /// The least distance of two joints of a linkage that have names in its key, relative to its size.
-fn least_distance(mechanism: &PosedMechanism) -> f64 {
-    let joints = named_joints(mechanism, &fixed_points(mechanism));
+fn least_distance(mechanism: &PosedMechanism, circuit: &Circuit) -> f64 {
+    let joints: Vec<JointId> = pins(mechanism, circuit).into_iter().map(|pin| pin[0]).collect();
     let pairs = joints.iter().enumerate().flat_map(|(k, a)| joints[..k].iter().map(move |b| (a, b)));
     let distances = pairs.map(|(a, b)| (mechanism.pose[*a] - mechanism.pose[*b]).norm());
     distances.fold(f64::INFINITY, f64::min) / mechanism.bounds().size().max()
 }
 
-/// Draws a key in a rectangle, with the linkage of a figure.
-pub(super) fn draw(area: &impl Area, rect: Rect, key: &Key, figure: Option<&Figure>, theme: &Theme) {
+/// Draws a key in a rectangle, with the linkage of the clearest of some figures.
+pub(super) fn draw(area: &impl Area, rect: Rect, key: &Key, figures: &[&Figure], theme: &Theme) {
     let em = theme.note_size;
     let is_column = rect.size.x < 1.4 * rect.size.y;
     let drawing = match is_column {
@@ -74,8 +74,10 @@ pub(super) fn draw(area: &impl Area, rect: Rect, key: &Key, figure: Option<&Figu
         true => rect.corner + Vector::new(0.0, drawing.y + em),
         false => rect.corner + Vector::new(drawing.x + em, 0.0),
     };
-    let mut key = Cow::Borrowed(key);
-    if let Some((figure, mechanism)) = figure.and_then(|figure| Some((figure, figure.mechanisms.first()?))) {
+    let mut key = key.clone().with_common_pins(&common_pins(figures));
+    if let Some((figure, mechanism)) =
+        clearest_figure(figures).and_then(|figure| Some((figure, figure.mechanisms.first()?)))
+    {
         let drawing = Rect { corner: rect.corner, size: drawing };
         let ink = |joint| figure.joint_ink(joint, theme);
         match with_longer_crank(mechanism) {
@@ -83,12 +85,21 @@ pub(super) fn draw(area: &impl Area, rect: Rect, key: &Key, figure: Option<&Figu
                 let pose = pose::clearest_pose(&linkage, &circuit);
                 let mechanism = PosedMechanism::new(&linkage, Mechanism::new(&linkage, &circuit), pose);
                 draw_linkage(area, drawing, &mechanism, &circuit, ink, theme);
-                key.to_mut()
-                    .remarks
-                    .push("shown here with a longer crank, as its own is hidden by its joints".to_owned());
+                key.remarks.push("shown here with a longer crank, as its own is hidden by its joints".to_owned());
             }
-            None => draw_linkage(area, drawing, mechanism, figure.first_circuit(), ink, theme),
+            None => {
+                draw_linkage(area, drawing, mechanism, figure.first_circuit(), ink, theme);
+                key.remarks.extend(figure.pose_input().map(|input| format!("shown here at {input} of input")));
+            }
         }
+    }
+    let changes_sides = |figure: &&Figure| {
+        let passes = &figure.first_circuit().passes;
+        passes.iter().any(|pass| pass.mode != passes[0].mode)
+    };
+    if figures.iter().any(changes_sides) {
+        key.remarks
+            .push("sides are those at the start; a joint changes its side where it passes a dead point".to_owned());
     }
     let text = Rect { corner: text_corner, size: rect.corner + rect.size - text_corner };
     draw_lines(area, text, &[], &key, theme);
@@ -155,8 +166,11 @@ impl KeyLines {
         let dimensions = MathText::join(dimensions.iter().cloned(), ", ").wrap(fits_column);
         let dimensions = dimensions.iter().filter(|part| !part.pieces().is_empty());
         let mut rows: Vec<_> = dimensions.map(|part| (None, line(part, theme.ink), 0.0)).collect();
-        for (name, (_, construction)) in names.into_iter().zip(&key.joints) {
+        for (name, (joint, construction)) in names.into_iter().zip(&key.joints) {
             let mut name = Some(name);
+            let is_helper = key.helpers.contains(joint);
+            let construction =
+                if is_helper { construction.clone().with_words("; no pin") } else { construction.clone() };
             for part in construction.wrap(fits) {
                 rows.push((name.take(), line(&part, theme.grey), indent));
             }
@@ -216,9 +230,8 @@ pub(super) fn draw_linkage(
 ) {
     let letter = theme.caption_size;
     let frame = rect.inset(1.6 * letter);
-    let points = fixed_points(mechanism);
-    let named = named_joints(mechanism, &points);
-    let at_points = named.iter().map(|&joint| mechanism.pose[joint]);
+    let named = pins(mechanism, circuit);
+    let at_points = named.iter().map(|pin| mechanism.pose[pin[0]]);
     let plot = Plot::whole(frame).fitted_to(mechanism.bounds().union(Bounds::from_points(at_points)));
     let underlay = mechanism.underlay_items(&plot, theme);
     let links = mechanism.linkage_items(&plot, theme, ink);
@@ -231,10 +244,10 @@ pub(super) fn draw_linkage(
         stroke: None,
         fill: Some(theme.grey),
     };
-    // Fixed points, yokes and the points of grids are no pins.
-    let pins = mechanism.drawn_joints();
-    let is_pin = |joint: &JointId| pins.contains(joint) && !mechanism.is_yoke(*joint);
-    marks.extend(named.iter().filter(|joint| !is_pin(joint)).map(dot).map(Item::Circle));
+    // Helpers, yokes and the points of grids are no pins.
+    let drawn = mechanism.drawn_joints();
+    let is_pin = |joint: &&JointId| drawn.contains(joint) && !mechanism.is_yoke(**joint);
+    marks.extend(named.iter().map(|pin| &pin[0]).filter(|joint| !is_pin(joint)).map(dot).map(Item::Circle));
     let zero = theme.text_line("0°", Point::origin(), Anchor::Middle, theme.note_size, theme.grey).text;
     let mut obstacles = Obstacles::default();
     obstacles.add(&underlay, true);
@@ -249,42 +262,58 @@ pub(super) fn draw_linkage(
     }
 }
 
-/// The fixed joints that are no pivots and only define lines, as far as they are near the linkage.
-fn fixed_points(mechanism: &PosedMechanism) -> Vec<JointId> {
+/// The joints that only serve to place others, as far as they are near the linkage.
+fn helpers(mechanism: &PosedMechanism) -> Vec<JointId> {
     /// The growth of the drawing up to which a point is shown.
     const MAX_GROWTH: f64 = 1.3;
-    let (linkage, bounds) = (mechanism.linkage, mechanism.bounds());
-    let drawn = mechanism.drawn_joints();
-    let is_point = |joint: &JointId| {
+    let bounds = mechanism.bounds();
+    let is_near = |joint: &JointId| {
         let with = bounds.union(Bounds::from_points([mechanism.pose[*joint]]));
-        matches!(linkage.joints[*joint].kind, JointKind::Fixed(_))
-            && !drawn.contains(joint)
-            && with.size().max() <= MAX_GROWTH * bounds.size().max()
+        with.size().max() <= MAX_GROWTH * bounds.size().max()
     };
-    linkage.joint_ids().filter(is_point).collect()
+    mechanism.mechanism.helpers.iter().copied().filter(is_near).collect()
 }
 
-/// The joints that are drawn, those that are traced and the fixed points, each name once: a grid of points has one name for all of
-/// them.
-fn named_joints(mechanism: &PosedMechanism, fixed_points: &[JointId]) -> Vec<JointId> {
+/// The joints that are drawn, those that are traced and the helpers, each name once: a grid of points has one name for all of them. Joints
+/// that are in one place all the time are together.
+fn pins(mechanism: &PosedMechanism, circuit: &Circuit) -> Vec<Vec<JointId>> {
     let linkage = mechanism.linkage;
     let name = |joint: JointId| linkage.joints[joint].name.as_str();
-    let all = mechanism.drawn_joints().into_iter().chain(fixed_points.iter().chain(&linkage.traced).copied());
-    let mut joints: Vec<JointId> = Vec::new();
+    let all = mechanism.drawn_joints().into_iter().chain(linkage.traced.iter().copied()).chain(helpers(mechanism));
+    let mut pins: Vec<Vec<JointId>> = Vec::new();
     for joint in all {
-        if joints.iter().all(|known| name(*known) != name(joint)) {
-            joints.push(joint);
+        if pins.iter().flatten().any(|known| name(*known) == name(joint)) {
+            continue;
+        }
+        match pins.iter_mut().find(|pin| circuit.coincide(pin[0], joint)) {
+            Some(pin) => pin.push(joint),
+            None => pins.push(vec![joint]),
         }
     }
-    joints
+    pins
 }
 
-/// The names of joints, with their positions.
-fn joint_names(mechanism: &PosedMechanism, joints: &[JointId], plot: &Plot, theme: &Theme) -> Vec<(Point, Text)> {
-    let label = |&joint: &JointId| {
-        let name = displayed_name(&mechanism.linkage.joints[joint].name);
-        let text = theme.text_line(&name, Point::origin(), Anchor::Middle, theme.caption_size, theme.ink).text;
-        (plot.page_from_plane.apply(mechanism.pose[joint]), text)
+/// The names of the joints of each pin that is one in all figures, where it has several.
+fn common_pins(figures: &[&Figure]) -> Vec<Vec<String>> {
+    let names = |figure: &&Figure| -> Vec<Vec<String>> {
+        let Some(mechanism) = figure.mechanisms.first() else { return Vec::new() };
+        let name = |joint: &JointId| displayed_name(&mechanism.linkage.joints[*joint].name);
+        let several = pins(mechanism, figure.first_circuit()).into_iter().filter(|pin| pin.len() > 1);
+        several.map(|pin| pin.iter().map(name).collect()).collect()
     };
-    joints.iter().map(label).collect()
+    let mut pins = figures.iter().map(names);
+    let first = pins.next().unwrap_or_default();
+    pins.fold(first, |common, next| common.into_iter().filter(|pin| next.contains(pin)).collect())
+}
+
+/// The names of pins, with their positions; those of helpers are grey.
+fn joint_names(mechanism: &PosedMechanism, pins: &[Vec<JointId>], plot: &Plot, theme: &Theme) -> Vec<(Point, Text)> {
+    let linkage = mechanism.linkage;
+    let label = |pin: &Vec<JointId>| {
+        let names: Vec<String> = pin.iter().map(|&joint| displayed_name(&linkage.joints[joint].name)).collect();
+        let ink = if mechanism.mechanism.helpers.contains(&pin[0]) { theme.grey } else { theme.ink };
+        let text = theme.text_line(&names.join(", "), Point::origin(), Anchor::Middle, theme.caption_size, ink).text;
+        (plot.page_from_plane.apply(mechanism.pose[pin[0]]), text)
+    };
+    pins.iter().map(label).collect()
 }

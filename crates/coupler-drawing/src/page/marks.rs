@@ -34,7 +34,7 @@ pub fn cell_facts(family: &Family, solved: &SolvedCell) -> [String; 2] {
     if let (Some(least), Some(most)) = (first.measure(Measure::MU_MIN), first.measure(Measure::MU_MAX)) {
         parts.push(transmission_text(least, most));
     }
-    parts.extend(length_range(solved, first));
+    parts.extend(input_range(solved, first));
     // The path of a slider on its guide is straight by construction.
     let is_of_slider = |curve: &&MeasuredCurve| solved.linkage.slider_line(curve.joint).is_some();
     let portions = solved.curves.iter().filter(|curve| !is_of_slider(curve));
@@ -63,15 +63,24 @@ pub(super) fn driver(linkage: &Linkage) -> &'static str {
     if linkage.is_driven_by_slider() { "slider" } else { "actuator" }
 }
 
-/// The range of the input on the circuit of a curve, if it is a length.
-fn length_range(solved: &SolvedCell, curve: &MeasuredCurve) -> Option<String> {
-    let is_length = solved.linkage.input() == Input::Length;
-    let passes = solved.circuit(curve).passes.iter().filter(|_| is_length);
+/// The range of the input on the circuit of a curve, unless it turns fully.
+fn input_range(solved: &SolvedCell, curve: &MeasuredCurve) -> Option<String> {
+    let circuit = solved.circuit(curve);
+    let passes = circuit.passes.iter().filter(|_| !circuit.is_full_turn());
     let [least, most] = passes.map(|pass| pass.input_range()).reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])?;
     // A dash would look like the sign of a negative number.
     let to = if least < 0.0 { " to " } else { "–" };
-    let [least, most] = [least, most].map(|length| format_with_digits(length, 4));
-    Some(format!("{} {least}{to}{most}", driver(&solved.linkage)))
+    let [least, most] = [least, most].map(|input| format_input(&solved.linkage, input));
+    let what = if solved.linkage.input() == Input::Length { driver(&solved.linkage) } else { "input" };
+    Some(format!("{what} {least}{to}{most}"))
+}
+
+/// A value of the input with its unit: an angle with up to two decimals.
+pub(super) fn format_input(linkage: &Linkage, input: f64) -> String {
+    match linkage.input() {
+        Input::Length => format_with_digits(input, 4),
+        Input::Angle { .. } => format!("{}°", format_exactly((input * 100.0).round() / 100.0)),
+    }
 }
 
 /// The path of a curve by the name of its joint, where several joints are traced and their names differ.

@@ -43,7 +43,7 @@ pub(super) fn compose(root: &impl Area, page: &PanelPage, options: &Options, the
         let note = key.note.clone().filter(|_| !drawn.has_notes);
         has_formulas = note.is_some();
         let key = Key { note, ..key.clone() };
-        key_drawing::draw(root, rect.inset(0.5 * theme.margin), &key, key_drawing::clearest_figure(&figures), theme);
+        key_drawing::draw(root, rect.inset(0.5 * theme.margin), &key, &figures, theme);
     }
     symbols.retain(|symbol| match symbol.meaning.as_str() {
         TRANSMISSION_ANGLE | LIMITS_OF_TRANSMISSION => drawn.has_facts,
@@ -145,11 +145,14 @@ fn draw_panels<A: Area>(
     let size = areas[0].size();
     let theme = &theme.for_panel_size(size);
     let width = size.x - 1.2 * theme.caption_size;
-    let facts = FactsLayout::for_page(page, width, theme);
+    let facts = FactsLayout::for_page(page, figures, width, theme);
     let theme = &with_equal_captions(page, width, theme);
     let texts = |facts: FactsLayout, has_notes: bool| -> Vec<Vec<TextLine>> {
-        let lines = |panel| panel_lines(panel, (facts, has_notes), width, page.heading.symbols, theme);
-        page.panels.iter().map(lines).collect()
+        let lines = |(panel, figure): (&Panel, &Option<Figure>)| {
+            let pose = figure.as_ref().and_then(Figure::pose_input);
+            panel_lines(panel, (facts, pose, has_notes), width, page.heading.symbols, theme)
+        };
+        page.panels.iter().zip(figures).map(lines).collect()
     };
     let height = |lines: &Vec<TextLine>| lines.iter().map(leading).sum::<f64>();
     let foot = |texts: &[Vec<TextLine>]| texts.iter().map(height).fold(0.0, f64::max) + 2.2 * theme.caption_size;
@@ -231,7 +234,7 @@ fn leading(line: &TextLine) -> f64 {
 /// The lines under a figure: caption, note, facts, and why the linkage cannot move through the whole range.
 fn panel_lines(
     panel: &Panel,
-    (facts, has_note): (FactsLayout, bool),
+    (facts, pose, has_note): (FactsLayout, Option<String>, bool),
     width: f64,
     symbols: &[String],
     theme: &Theme,
@@ -246,7 +249,7 @@ fn panel_lines(
     if has_note {
         add(&panel.note, theme.note_size, theme.grey, symbols);
     }
-    facts.panel_lines(panel).iter().for_each(|fact| add(fact, theme.note_size, theme.grey, &[]));
+    facts.panel_lines(panel, pose).iter().for_each(|fact| add(fact, theme.note_size, theme.grey, &[]));
     let motion = &panel.solved_cell.motion;
     if let Some(error) = motion.assembly_error.as_ref().filter(|_| motion.is_assembled()) {
         add(&error.to_string(), theme.note_size, theme.text_ink(theme.curve_ink(0)), &[]);
@@ -264,21 +267,26 @@ enum FactsLayout {
 
 impl FactsLayout {
     /// One line if the facts of every panel fit `width` at no less than [`TextLine::min_part`] of their size; otherwise two.
-    fn for_page(page: &PanelPage, width: f64, theme: &Theme) -> FactsLayout {
-        let texts = || page.panels.iter().flat_map(|panel| FactsLayout::OneLine.panel_lines(panel));
+    fn for_page(page: &PanelPage, figures: &[Option<Figure>], width: f64, theme: &Theme) -> FactsLayout {
+        let pose = |figure: &Option<Figure>| figure.as_ref().and_then(Figure::pose_input);
+        let panels = page.panels.iter().zip(figures);
+        let texts = panels.flat_map(|(panel, figure)| FactsLayout::OneLine.panel_lines(panel, pose(figure)));
         let natural = |text: String| {
             theme.text_line(&text, Point::origin(), Anchor::Middle, theme.note_size, theme.grey).text.width()
         };
-        match texts().map(natural).fold(0.0, f64::max) {
+        match texts.map(natural).fold(0.0, f64::max) {
             0.0 => FactsLayout::None,
             widest if TextLine::min_part(theme.note_size) * widest <= width => FactsLayout::OneLine,
             _ => FactsLayout::TwoLines,
         }
     }
 
-    /// The lines of facts under a panel.
-    fn panel_lines(self, panel: &Panel) -> Vec<String> {
-        let parts = panel.facts.iter().filter(|part| !part.is_empty()).cloned();
+    /// The lines of facts under a panel, of which the last also says in which pose its linkage is.
+    fn panel_lines(self, panel: &Panel, pose: Option<String>) -> Vec<String> {
+        let [class, straight] = panel.facts.clone();
+        let pose = pose.map(|input| format!("drawn at {input}"));
+        let last: Vec<String> = [straight].into_iter().filter(|part| !part.is_empty()).chain(pose).collect();
+        let parts = [class, last.join(" · ")].into_iter().filter(|part| !part.is_empty());
         match self {
             FactsLayout::None => Vec::new(),
             FactsLayout::OneLine => vec![parts.collect::<Vec<_>>().join(" · ")],

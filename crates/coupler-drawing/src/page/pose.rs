@@ -15,7 +15,7 @@ pub(super) fn clearest_pose(linkage: &Linkage, circuit: &Circuit) -> Vec<Point> 
     /// More candidates than this make no visible difference.
     const CANDIDATES: usize = 360;
     // The frame counts as a link: a crank that lies on it cannot be seen.
-    let mut links: Vec<_> = linkage.link_outlines().into_iter().map(|outline| outline.joints).collect();
+    let mut links: Vec<_> = circuit.link_outlines(linkage).into_iter().map(|outline| outline.joints).collect();
     links.push(linkage.pivots());
     for joint in linkage.joint_ids() {
         let Some([foot, through]) = sliding_line(linkage, joint) else { continue };
@@ -60,15 +60,9 @@ fn samples_on_arc(linkage: &Linkage, circuit: &Circuit) -> Vec<usize> {
 
 /// Replaces joints that coincide over the whole circuit by the first of them: their distance is zero in every pose.
 fn merge_coincident_joints(links: &mut [Vec<JointId>], circuit: &Circuit) {
-    let samples = [0, circuit.len() / 3, circuit.len() / 2];
-    let is_same = |a: JointId, b: JointId| {
-        samples.iter().all(|&sample| {
-            let (a, b) = (circuit.positions.point(a, sample), circuit.positions.point(b, sample));
-            (a - b).norm() <= 1e-9 * (a.coords.norm() + b.coords.norm())
-        })
-    };
     for joint in links.iter_mut().flatten() {
-        *joint = (0..joint.index()).map(JointId::new).find(|&earlier| is_same(earlier, *joint)).unwrap_or(*joint);
+        *joint =
+            (0..joint.index()).map(JointId::new).find(|&earlier| circuit.coincide(earlier, *joint)).unwrap_or(*joint);
     }
     for link in links {
         link.dedup();

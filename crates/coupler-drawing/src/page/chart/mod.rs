@@ -110,6 +110,7 @@ fn key_rect(contents: Rect, page: &ChartPage, theme: &Theme) -> Option<(Rect, Re
 /// Draws the key of the linkages.
 fn draw_key(root: &impl Area, rect: Rect, page: &ChartPage, theme: &Theme) {
     if let Some((key, panel)) = page.key {
-        key_drawing::draw(root, rect.inset(0.5 * theme.margin), key, Figure::from_panel(panel).as_ref(), theme);
+        let figure = Figure::from_panel(panel);
+        key_drawing::draw(root, rect.inset(0.5 * theme.margin), key, &figure.iter().collect::<Vec<_>>(), theme);
     }
 }
