@@ -125,7 +125,7 @@ export function pageOfCurve(/** @type {Family} */ family, /** @type {number} */ 
 }
 
 function pagesByKey(/** @type {PieceData} */ { pages }) {
-  const found = new Map();
+  /** @type {Map<string, number>} */ const found = new Map();
   for (const [page, views] of pages)
     for (const { cell, curves } of views)
       for (const [trace, circuit] of curves) found.set(`${cell}.${trace}.${circuit}`, page);

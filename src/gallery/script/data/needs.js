@@ -84,7 +84,7 @@ export async function loadPage(/** @type {Family} */ family, /** @type {number} 
 }
 
 /** The pieces that a page takes its cells and curves from; its layout must be loaded. */
-export function piecesOfPage(/** @type {Family} */ family, /** @type {number} */ page) {
+function piecesOfPage(/** @type {Family} */ family, /** @type {number} */ page) {
   const { table, outlines } = family;
   const [first, end] = panelCells(family, page);
   const numbers = cellNumbersOnPage(family, page);

@@ -1,7 +1,7 @@
 // Maps the plane to the screen by a view: X = x + scale * px, Y = y - scale * py, in CSS pixels, y down.
 
 /** The empty box. */
-export function emptyBox() {
+function emptyBox() {
   return [Infinity, Infinity, -Infinity, -Infinity];
 }
 

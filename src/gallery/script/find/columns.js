@@ -3,15 +3,10 @@
 import { NO_WORD } from "../data/family.js";
 import { DERIVED_COLUMNS } from "./table.js";
 
-const FIRST_COLUMNS = [
-  "mu_worst_deg",
-  "class",
-  "symmetric",
-  "is_full_turn",
-  "straight_length",
-  "straight_tolerance",
-].concat(["straight_share", "length", "time_ratio"]);
-const LATER_COLUMNS = ["type", "shortest", "symmetry"];
+const FIRST_WORDS = ["class", "symmetric", "is_full_turn"];
+const OF_STRAIGHT_PORTION = ["straight_length", "straight_tolerance", "straight_share"];
+const FIRST_COLUMNS = ["mu_worst_deg", ...FIRST_WORDS, ...OF_STRAIGHT_PORTION, "length", "time_ratio"];
+const WORD_COLUMNS = [...FIRST_WORDS, "type", "shortest", "symmetry"];
 // The measures of which more is better: transmission angles and forces, and how far an output, a straight portion or a dwell goes.
 const MORE_IS_BETTER =
   /^(mu_(min|worst)|output_(swing|dwell)|dwell_input|straight\w*_input)_deg$|^straight\w*_(length|share)$|^mechanical|_stroke$/;
@@ -28,13 +23,13 @@ export function filterColumns(table, measures, kept = new Set()) {
   const [words, numbers] = [true, false].map((isWord) => measures.filter(({ word }) => word === isWord));
   const measured = [...words, ...numbers].map(({ name }) => name);
   const parameters = table.families.flatMap(({ names }) => names).map((name) => `p.${name}`);
-  const names = new Set([...FIRST_COLUMNS, ...LATER_COLUMNS, ...measured, ...parameters]);
+  const names = new Set([...FIRST_COLUMNS, ...WORD_COLUMNS, ...measured, ...parameters]);
   const listed = Array.from(names, (name) => {
     const { unit = "", definition = "" } = DERIVED_COLUMNS[name] ?? byName.get(name) ?? {};
     /** @type {ColumnGroup} */
     const group = FIRST_COLUMNS.includes(name) ? "first" : name.startsWith("p.") ? "parameters" : "more";
-    /** @type {Column["kind"]} */ const kind =
-      name === "symmetric" || byName.get(name)?.word ? "words" : "numbers";
+    /** @type {Column["kind"]} */
+    const kind = WORD_COLUMNS.includes(name) || byName.get(name)?.word ? "words" : "numbers";
     return { name, group, kind, unit, definition };
   });
   const isThere = (/** @type {string} */ name) => !byName.has(name) || table.has(name);

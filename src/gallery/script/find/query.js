@@ -32,7 +32,7 @@ function parseFilter(/** @type {string} */ text) {
 
 /** The inverse of parseFindQuery, as data/address.js writes it. @param {FindQuery} _ */
 export function formatFindQuery({ families, filters, sort, show }) {
-  const query = new Map();
+  /** @type {Map<string, string>} */ const query = new Map();
   if (families) query.set("family", families.join(","));
   for (const [name, filter] of filters) {
     const { low = "", high = "" } = filter instanceof Set ? {} : filter;

@@ -20,7 +20,6 @@ export class KernelInstance {
 
   /**
    * The answer to a request, both as objects. Arrays of numbers are Float64Arrays, those of the answer of their own.
-   *
    * @throws {KernelError} if the kernel cannot answer it @throws {KernelFailure} if the kernel fails
    */
   call(/** @type {object} */ request) {
@@ -44,7 +43,6 @@ export class KernelInstance {
 
   /**
    * The answer to a request in JSON with arrays of numbers, one after another, to which it refers.
-   *
    * @param {string} request @param {Float64Array[]} arrays @returns {{ json: string, numbers: Float64Array }}
    * @throws {KernelFailure} if the kernel fails
    */
@@ -76,7 +74,6 @@ export class KernelInstance {
 
   /**
    * The numbers of a study's pose at an input of a pass (Kernel::pose), valid until the next call; empty if there is none.
-   *
    * @throws {KernelFailure} if the kernel fails
    */
   pose(/** @type {number} */ study, /** @type {number} */ pass, /** @type {number} */ input) {
@@ -88,7 +85,6 @@ export class KernelInstance {
 
   /**
    * The position of a joint at an input of a pass, [x, y], valid until the next call.
-   *
    * @throws {KernelFailure} if the kernel fails @param {number} study @param {number} joint @param {number} pass @param {number} input
    */
   jointPosition(study, joint, pass, input) {

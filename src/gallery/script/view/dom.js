@@ -8,7 +8,7 @@ const SVG = "http://www.w3.org/2000/svg";
  * @template {string} N @param {N} name @param {...(Content | Attributes<HtmlElementOf<N>>)} content @returns {HtmlElementOf<N>}
  */
 export function h(name, ...content) {
-  return buildElement((tag) => document.createElement(tag), name, content);
+  return /** @type {HtmlElementOf<N>} */ (buildElement((tag) => document.createElement(tag), name, content));
 }
 
 /**
@@ -16,10 +16,11 @@ export function h(name, ...content) {
  * @template {string} N @param {N} name @param {...(Content | Attributes<SvgElementOf<N>>)} content @returns {SvgElementOf<N>}
  */
 export function s(name, ...content) {
-  return buildElement((tag) => document.createElementNS(SVG, tag), name, content);
+  const created = buildElement((tag) => document.createElementNS(SVG, tag), name, content);
+  return /** @type {SvgElementOf<N>} */ (created);
 }
 
-/** @param {(tag: string) => any} create @param {string} name @param {unknown[]} content */
+/** @param {(tag: string) => Element} create @param {string} name @param {unknown[]} content */
 function buildElement(create, name, content) {
   const [tag, ...classes] = name.split(".");
   const element = create(tag);

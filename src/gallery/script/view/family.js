@@ -101,12 +101,8 @@ function pageTiles(/** @type {App} */ app, /** @type {Family} */ family, /** @ty
     label: "Pages",
     tile: (k) => {
       const words = [h("span.visually-hidden", "Page "), h("b", `${k + 1}`), " ", h("span.page-caption")];
-      const link = h(
-        "a",
-        { href: address([family.id, k + 1]) },
-        h("span.tile-picture"),
-        h("span.label", words),
-      );
+      const parts = [h("span.tile-picture"), h("span.label", words)];
+      const link = h("a", { href: address([family.id, k + 1]) }, parts);
       return h("li", link);
     },
     need: (k) => (isScattered(family) ? null : needPage(family, k + 1)),

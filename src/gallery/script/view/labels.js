@@ -36,16 +36,12 @@ const MEASURE_LABELS = {
 };
 
 /** The portions of a curve that measures are of, by the beginnings of their names. */
-const PORTIONS = {
-  output_dwell: "the output's dwell",
-  straight: "the straight portion",
-  dwell: "the circular portion",
-};
+const PORTIONS = { output_dwell: "output's dwell", straight: "straight portion", dwell: "circular portion" };
 
 /** The label of a measure outside the order of the columns. */
 export function standaloneMeasureLabel(/** @type {string} */ name) {
   const portion = Object.entries(PORTIONS).find(([begins]) => name.startsWith(begins))?.[1];
-  return measureLabel(name).replace(/^its ([^,]+?)(?: from the \w+)?(?=,|$)/, `$1 of ${portion}`);
+  return measureLabel(name).replace(/^its ([^,]+?)(?: from the \w+)?(?=,|$)/, `$1 of the ${portion}`);
 }
 
 /** The label of a measure in the order of the columns, where "its" refers to the portion before. */
@@ -80,7 +76,7 @@ export function measureText(family, curve, { name, unit }) {
 }
 
 /** Whether a measure of a family is in degrees: if the input is a length, inputs are not. @param {Family} _ @param {Pick<Measure, "name" | "unit">} _1 */
-export function isInDegrees({ is_length: isLength }, { name, unit }) {
+function isInDegrees({ is_length: isLength }, { name, unit }) {
   return unit === "deg" && !(isLength && /^(straight|dwell|output_dwell|input)_/.test(name));
 }
 
@@ -96,7 +92,8 @@ export function formatChanges(/** @type {Map<string, number>} */ changes) {
   return `with ${[...changes].map(([name, value]) => `${name} = ${formatNumber(value, 10)}`).join(", ")}`;
 }
 
-/** @type {Record<string, string>} */ const COLUMN_LABELS = {
+/** @type {Record<string, string>} */
+const COLUMN_LABELS = {
   straight_tolerance: "deviation of the straight portion, by its length",
   straight_share: "length of the straight portion, by the extent",
   symmetric: "symmetry",

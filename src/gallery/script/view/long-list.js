@@ -20,13 +20,8 @@ export function scrollScale(/** @type {number} */ height, /** @type {number} */ 
  */
 export function onPrint(list) {
   /** @type {Element | null} */ let line = null;
-  const state = {
-    isPrinting: false,
-    end: () => {
-      window.removeEventListener("beforeprint", before);
-      window.removeEventListener("afterprint", after);
-    },
-  };
+  const listening = new AbortController();
+  const state = { isPrinting: false, end: () => listening.abort() };
   const before = () => {
     if (!list.element.isConnected || state.isPrinting) return;
     state.isPrinting = true;
@@ -39,8 +34,8 @@ export function onPrint(list) {
     line?.remove();
     list.fill();
   };
-  window.addEventListener("beforeprint", before);
-  window.addEventListener("afterprint", after);
+  window.addEventListener("beforeprint", before, { signal: listening.signal });
+  window.addEventListener("afterprint", after, { signal: listening.signal });
   return state;
 }
 

@@ -15,12 +15,13 @@ const MAX_NAMES_PER_REASON = 12;
 export function notAssembledSummary(/** @type {Family} */ family, /** @type {ListedFamily} */ listed) {
   const { status, number, count } = family.cells;
   if (!isFullyLoaded(family)) return listed.not_assembled ? h("p.note", notAssembledNote(listed)) : null;
-  const reasons = new Map();
+  /** @type {Map<string, number[]>} */ const reasons = new Map();
   for (let cell = 0; cell < count; cell += 1) {
     if (status[cell] === 0) continue;
     const sentence = `${status[cell] === 1 ? "partial: " : ""}${cellText(family, cell, "reason")}`;
-    if (!reasons.has(sentence)) reasons.set(sentence, []);
-    reasons.get(sentence).push(cell);
+    const cells = reasons.get(sentence) ?? [];
+    cells.push(cell);
+    reasons.set(sentence, cells);
   }
   if (reasons.size === 0) return null;
   const none = status.filter((code) => code === 2).length;

@@ -40,12 +40,8 @@ export const overviewRoute = {
 };
 
 function atlasSummary(/** @type {ListedFamily[]} */ families) {
-  const sums = [
-    sumOf(families, (f) => f.curves),
-    sumOf(families, (f) => f.kept),
-    sumOf(families, (f) => f.pages),
-  ];
-  const [curves, kept, pages] = sums;
+  const [curves, kept] = [sumOf(families, (one) => one.curves), sumOf(families, (one) => one.kept)];
+  const pages = sumOf(families, (one) => one.pages);
   return `${formatCount(curves, "curve")} of ${formatCount(kept, "linkage")} on ${formatCount(pages, "page")}`;
 }
 
@@ -111,7 +107,7 @@ function familySearch(app, tiles, query) {
 }
 
 /** Calls `seen(element)` once for each watched element when it comes within half a window height of the window. Returns { watch(element), end() }. */
-export function onceVisible(/** @type {(element: HTMLElement) => void} */ seen) {
+function onceVisible(/** @type {(element: HTMLElement) => void} */ seen) {
   const observer = new IntersectionObserver(
     (entries) => {
       for (const { target, isIntersecting } of entries) {

@@ -51,13 +51,13 @@ function curveRow(family, curve, { one, onenter, onleave }) {
   const point = pointLabel(family, curve);
   const hasCircuit = circuit[curve] > 1 || (one && !point);
   const words = [caption, point, hasCircuit ? `circuit ${circuit[curve]}` : null];
+  const over = { onpointerenter: () => onenter(curve), onpointerleave: onleave };
   return h(
     "a",
     {
       href: curveAddress(family.id, curveKey(family, curve)),
-      onpointerenter: () => onenter(curve),
-      onfocus: () => onenter(curve),
-      onpointerleave: onleave,
+      ...over,
+      onfocus: over.onpointerenter,
       onblur: onleave,
     },
     thumbnail(family, [curve], { width: 44, height: 30 }),
@@ -89,15 +89,12 @@ export function curvePanel(app, family, curve, { onall }) {
   const key = curveKey(family, curve);
   const note = cellText(family, at, "note");
   const words = ["class", "type"].map((name) => measureValue(family, curve, name)).filter(Boolean);
+  const tags = [`curve ${key}`, pointLabel(family, curve), ...new Set(words), closed[curve] ? null : "open"];
+  const shown = tags.filter(Boolean).map((word) => [h("span.tag", word), " "]);
   return h(
     "div.panel",
     h("h2", formatCaption(cellLabel(family, at, "Linkage"))),
-    h(
-      "p.tags",
-      [`curve ${key}`, pointLabel(family, curve), ...new Set(words), closed[curve] ? null : "open"]
-        .filter(Boolean)
-        .map((word) => [h("span.tag", word), " "]),
-    ),
+    h("p.tags", shown),
     note ? h("p.note", note) : null,
     family.cells.status[at] === 1 ? h("p.note", `Partial: ${cellText(family, at, "reason")}`) : null,
     h(
@@ -138,7 +135,7 @@ function measureFacts(/** @type {Atlas} */ atlas, /** @type {Family} */ family, 
  * The cells on a page, numbered from 1, in order. Drawn cells are listed in the data; the position of a cell
  * that is not drawn follows from the number of panels per page, or of pages per linkage.
  */
-export function cellsOnPage(/** @type {Family} */ family, /** @type {number} */ page) {
+function cellsOnPage(/** @type {Family} */ family, /** @type {number} */ page) {
   if (family.layout === "chart") return [];
   const drawn = new Set(pageViews(family, page).map(({ cell }) => cell));
   const [first, last] = panelCells(family, page);

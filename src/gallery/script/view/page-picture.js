@@ -46,12 +46,9 @@ export function pageOverlay(family, drawn, { onfocus, onblur }) {
   const path = s("path.highlighted", { "vector-effect": "non-scaling-stroke" });
   const circle = s("circle", { r: 1 });
   const dot = s("g.at", circle);
-  const attributes = {
-    viewBox: `0 0 ${width} ${height}`,
-    role: "group",
-    "aria-label": "Curves of this page",
-  };
-  const element = s("svg.overlay", attributes, path, dot, [...links.values()]);
+  const group = { role: "group", "aria-label": "Curves of this page" };
+  const viewBox = `0 0 ${width} ${height}`;
+  const element = s("svg.overlay", { viewBox, ...group }, path, dot, [...links.values()]);
   return {
     element,
     links,

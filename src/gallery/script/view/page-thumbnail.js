@@ -19,14 +19,8 @@ export function pageThumbnail(/** @type {Atlas} */ atlas, /** @type {Family} */ 
   if (views.length) return drawPage(family, views, ".page-thumbnail", PAPER_GRAIN);
   const file = pageFile(atlas, family.id, page);
   if (!file) return null;
-  const attributes = {
-    src: file,
-    alt: "",
-    loading: "lazy",
-    decoding: "async",
-    "data-paper": paperTone(family),
-  };
-  return h("img.page-thumbnail.printed", attributes);
+  const lazy = { loading: "lazy", decoding: "async" };
+  return h("img.page-thumbnail.printed", { src: file, alt: "", ...lazy, "data-paper": paperTone(family) });
 }
 
 /**

@@ -61,11 +61,7 @@ export class PageView {
     this.bar = pageBar(listed, { go: (page) => this.go(page), zoom: () => this.zoom });
     const { width, height } = family.paper;
     this.viewport.style.aspectRatio = `${width} / ${height}`;
-    this.zoom = new Zoom(this.viewport, this.sheet, {
-      ...{ width, height },
-      onchange: () => this.zoomed(),
-      ontap: (event) => this.tapped(event),
-    });
+    this.zoom = new Zoom(this.viewport, this.sheet, family.paper, this);
     this.highlight = new CurveHighlight(this);
     this.legend = h("p.note");
     const heading = h("h1", h("a", { href: address([family.id]) }, family.title));

@@ -7,8 +7,9 @@ import { elementIn, focusedElement } from "./dom.js";
  * restores that of the new one, or scrolls to the top, unless the view has its own target (`data-goal`).
  */
 export function scrollMemory() {
-  const left = new Map();
-  let [present, newest] = [null, 0];
+  /** @type {Map<number, { depth: number, link?: string | null }>} */ const left = new Map();
+  /** @type {number | null} */ let present = null;
+  let newest = 0;
   let settle = () => {};
   window.history.scrollRestoration = "manual";
   const entry = () => {
@@ -26,7 +27,7 @@ export function scrollMemory() {
       present = entry();
     },
     arrive: () => {
-      const known = left.get(present);
+      const known = present !== null && left.get(present);
       if (known) settle = restoreScroll(known);
       else if (!document.querySelector("main [data-goal]")) window.scrollTo(0, 0);
     },

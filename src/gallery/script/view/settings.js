@@ -5,11 +5,7 @@ import { buttonOf, selectOf } from "./dom.js";
 const THEME_KEY = "coupler-atlas-theme";
 const PAGES_KEY = "coupler-atlas-pages";
 
-/** @type {[string, string][]} */ const THEME_CHOICES = [
-  ["system", "Theme: system"],
-  ["light", "Theme: light"],
-  ["dark", "Theme: dark"],
-];
+const THEMES = ["system", "light", "dark"];
 
 /**
  * The theme selector, which takes effect immediately. `data-theme` of <html> is the effective theme, light or
@@ -32,7 +28,8 @@ export function themeSelect() {
     apply();
   };
   const onchange = (/** @type {Heard<Event, HTMLSelectElement>} */ { target }) => choose(target.value);
-  return selectOf({ class: "theme quiet", "aria-label": "Theme", onchange }, THEME_CHOICES, choice);
+  const labels = THEMES.map((theme) => [theme, `Theme: ${theme}`]);
+  return selectOf({ class: "theme quiet", "aria-label": "Theme", onchange }, labels, choice);
 }
 
 /** A switch for the dark theme: pages with their printed colours, or inverted. `data-pages` of <html> is "printed" or absent. */
@@ -52,10 +49,9 @@ export function printedColorsButton() {
   return button;
 }
 
-/** @returns {string} */
 function storedTheme() {
-  const theme = storedChoice(THEME_KEY);
-  return THEME_CHOICES.find(([value]) => value === theme)?.[0] ?? "system";
+  const theme = storedChoice(THEME_KEY) ?? "";
+  return THEMES.includes(theme) ? theme : "system";
 }
 
 /** What is stored; null if there is nothing, or no storage. @returns {string | null} */

@@ -19,6 +19,7 @@ const PRINTED_TILES = 400;
 export class TileWindow {
   /** The tiles in the document, by their index. @type {Map<number, HTMLElement>} */ there = new Map();
   /** The tiles to be drawn. @type {number[]} */ queue = [];
+  listening = new AbortController();
   pending = 0;
   drawing = 0;
   postponed = 0;
@@ -42,16 +43,15 @@ export class TileWindow {
     this.element.style.setProperty("--shape", `1 / ${options.aspect}`);
     this.element.style.setProperty("--least", `${options.least}px`);
     this.sizes = new ResizeObserver(() => this.measure());
-    const later = () => this.later();
-    this.listeners = { scroll: later, resize: later };
   }
 
   /** Called when the list is in the document and has a width. */
   shown() {
     this.measure();
     this.sizes.observe(this.element);
-    for (const [name, act] of Object.entries(this.listeners))
-      window.addEventListener(name, act, { passive: true });
+    const { signal } = this.listening;
+    for (const name of ["scroll", "resize"])
+      window.addEventListener(name, () => this.later(), { passive: true, signal });
     this.paper = onPrint(this);
   }
 
@@ -59,7 +59,7 @@ export class TileWindow {
   end() {
     this.sizes.disconnect();
     this.paper?.end();
-    for (const [name, act] of Object.entries(this.listeners)) window.removeEventListener(name, act);
+    this.listening.abort();
     window.clearTimeout(this.postponed);
     cancelAnimationFrame(this.pending);
     cancelAnimationFrame(this.drawing);

@@ -11,7 +11,7 @@ const TAP_SLACK = 5;
 
 /**
  * The position of a page of `width` × `height` millimetres in a viewport: `scale` in pixels per millimetre,
- * and the page's corner at `x`, `y` pixels. Calls `onchange()` when it has moved, at most once per frame.
+ * and the page's corner at `x`, `y` pixels. Calls `on.zoomed()` when it has moved, at most once per frame.
  */
 export class Zoom {
   scale = 1;
@@ -24,14 +24,13 @@ export class Zoom {
   pointers = new Map();
   constrainedTo = { width: 0, height: 0 };
 
-  /** @param {HTMLElement} viewport @param {HTMLElement} sheet @param {Size & { onchange(): void, ontap(event: PointerEvent): void }} _ */
-  constructor(viewport, sheet, { width, height, onchange, ontap }) {
+  /** @param {HTMLElement} viewport @param {HTMLElement} sheet @param {Size} _ @param {Pick<PageView, "zoomed" | "tapped">} on */
+  constructor(viewport, sheet, { width, height }, on) {
     this.viewport = viewport;
     this.sheet = sheet;
     this.width = width;
     this.height = height;
-    this.onchange = onchange;
-    this.ontap = ontap;
+    this.on = on;
     this.resizes = new ResizeObserver(() => this.resized());
     this.resizes.observe(viewport);
     viewport.addEventListener("wheel", (event) => this.wheeled(event), { passive: false });
@@ -162,7 +161,7 @@ export class Zoom {
     style.height = `${this.scale * this.height}px`;
     style.transform = `translate(${this.x}px, ${this.y}px)`;
     this.viewport.classList.toggle("near", !this.isFit);
-    this.onchange();
+    this.on.zoomed();
   }
 
   wheeled(/** @type {WheelEvent} */ event) {
@@ -214,7 +213,7 @@ export class Zoom {
 
   released(/** @type {PointerEvent} */ event, /** @type {boolean} */ isUp) {
     const wasDown = this.pointers.delete(event.pointerId);
-    if (wasDown && isUp && this.isTap) this.ontap(event);
+    if (wasDown && isUp && this.isTap) this.on.tapped(event);
     if (this.pointers.size === 0) this.isTap = false;
   }
 

@@ -42,12 +42,8 @@ class CompareView {
     this.tools = h("div.toolbar");
     this.exportSlot = h("div");
     this.count = h("p.lede");
-    this.element = h(
-      "div.view.wide.compare-view",
-      h("div.head", h("div", h("h1", "Compare"), this.count), this.exportSlot),
-      this.tools,
-      this.body,
-    );
+    const head = h("div.head", h("div", h("h1", "Compare"), this.count), this.exportSlot);
+    this.element = h("div.view.wide.compare-view", head, this.tools, this.body);
     this.store.watch((_, before) => before && this.refresh());
     this.unwatch = app.pins.watch((names) => {
       if (this.isOwn && String(names) !== String(this.query.names)) this.store.note({ names: [...names] });
@@ -116,10 +112,8 @@ class CompareView {
       all.length ? `${all.length} ${isOwn ? "pinned" : "curves, which are not your pins"}` : none,
     ];
     if (beyond) words.push(`the first ${MAX_COMPARED} are compared`);
-    fill(
-      this.count,
-      [...words, ...missing.map(({ name, reason }) => `skipped ${name}: ${reason}`)].join("; "),
-    );
+    words.push(...missing.map(({ name, reason }) => `skipped ${name}: ${reason}`));
+    fill(this.count, words.join("; "));
     fill(this.exportSlot, all.length ? exportMenu(app, () => all.map(({ name }) => name)) : null);
     fill(this.tools, all.length ? this.controls() : null);
     const aligned = curves.map((one, k) => alignCurve(kernel, curves[0], one, k > 0 ? query.align : "none"));

@@ -12,13 +12,8 @@ export function factsTable(curves, measures, labels) {
   const rows = [...parameterRows(curves), ...measureRows(curves, measures)]
     .filter(({ texts }) => texts.some((text) => text !== "–"))
     .map((row) => ({ ...row, differs: row.texts.some((text) => text !== row.texts[0]) }));
-  const line = (
-    /** @type {{ label: string, texts: (string | undefined)[], differs: boolean }} */ {
-      label,
-      texts,
-      differs,
-    },
-  ) => {
+  /** @param {{ label: string, texts: (string | undefined)[], differs: boolean }} _ */
+  const line = ({ label, texts, differs }) => {
     const cells = texts.map((text, k) =>
       h("td", { class: differs && text !== texts[0] ? "other" : null, "data-column": k + 1 }, text),
     );

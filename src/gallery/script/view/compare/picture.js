@@ -97,11 +97,8 @@ function heightFor(/** @type {Points[]} */ outlines) {
 
 /** A short sample of the k-th curve's line. */
 export function strokeSample(/** @type {number} */ k) {
-  return s(
-    "svg.thumbnail.sample",
-    { width: 44, height: 12, "aria-hidden": "true" },
-    s("path", { class: strokeClass(k), d: "M2 6H42" }),
-  );
+  const line = s("path", { class: strokeClass(k), d: "M2 6H42" });
+  return s("svg.thumbnail.sample", { width: 44, height: 12, "aria-hidden": "true" }, line);
 }
 
 // The chord error of a curve, in picture pixels.

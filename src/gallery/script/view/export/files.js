@@ -89,7 +89,7 @@ export async function exportManifest(app, names) {
 
 /** The command line that exports curves by name. @param {App} app @param {string[]} names */
 export async function exportCommandLine(app, names) {
-  const families = new Map();
+  /** @type {Map<string, Family>} */ const families = new Map();
   for (const name of names) {
     const { family } = await parsedName(app, name);
     if (newLinkage(family.id) !== null)

@@ -28,12 +28,8 @@ export async function copyText(/** @type {string} */ what, /** @type {string} */
 
 // Shows a dialog with the text selected, until it is closed.
 function showCopyDialog(/** @type {string} */ what, /** @type {string} */ text) {
-  const area = h("textarea", {
-    readonly: true,
-    rows: Math.min(text.split("\n").length + 1, 20),
-    cols: 72,
-    "aria-label": what,
-  });
+  const rows = Math.min(text.split("\n").length + 1, 20);
+  const area = h("textarea", { readonly: true, rows, cols: 72, "aria-label": what });
   area.value = text;
   const close = h("button", "Close");
   const dialog = h(

@@ -128,11 +128,8 @@ export class FindView {
     this.filters = new Filters(this.table);
     for (const [name, filter] of this.query.filters) this.filters.set(name, filter);
     this.panel.setColumns(this.columns, this.table, this.query);
-    fill(
-      this.sorter,
-      h("option", { value: "" }, "atlas order"),
-      this.columns.map(({ name }) => h("option", { value: name }, columnLabel(name))),
-    );
+    const options = this.columns.map(({ name }) => h("option", { value: name }, columnLabel(name)));
+    fill(this.sorter, h("option", { value: "" }, "atlas order"), options);
     this.show();
     const { name } = this.query.sort;
     if (name && !this.sortColumn) this.address.ignore("sort", `there is no “${name}”`);

@@ -20,16 +20,13 @@ export function findLayout(/** @type {FindView} */ view) {
   const take = exportMenu(view.app, () => Array.from(view.rows, (row) => view.table.curveOf(row).name));
   const summary = h("summary", "Filters");
   const panel = h("details.find-panel", { open: wide }, summary, view.families, view.panel.element);
+  const tools = h("div.toolbar", sorter, view.direction, clear, display);
   const element = h(
     "div.view.wide.find-view",
     skip("Skip to results", () => view.results.focus()),
     skip("Skip to filters", () => summary.focus()),
     h("div.head", heading, take),
-    h(
-      "div.find-split",
-      h("div", h("div.toolbar", sorter, view.direction, clear, display), view.results),
-      panel,
-    ),
+    h("div.find-split", h("div", tools, view.results), panel),
   );
   return { element, displayButtons, clear };
 }
@@ -43,10 +40,8 @@ export function noResults(/** @type {Filters} */ filters, without, isPartial = f
   const names = [...filters.fails.keys()];
   const way = (/** @type {string} */ name) => {
     const left = formatCount(filters.countWithout(name), "curve");
-    return h(
-      "li",
-      buttonOf(`Remove ${columnLabel(name)}: ${left}`, () => without(name)),
-    );
+    const button = buttonOf(`Remove ${columnLabel(name)}: ${left}`, () => without(name));
+    return h("li", button);
   };
   const none = isPartial ? "None of the loaded curves passes" : "No curve passes";
   const sentence = names.length === 1 ? `${none} this filter.` : `${none} all of these filters.`;

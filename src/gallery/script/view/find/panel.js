@@ -70,7 +70,7 @@ export class FilterPanel {
 }
 
 /** Calls `changed(filter)` with a Set of words, or null for all. */
-export class WordFilter {
+class WordFilter {
   /** @param {Column} column @param {CurveTable} table @param {Filter | undefined} filter @param {(filter: Filter | null) => void} changed */
   constructor(column, table, filter, changed) {
     this.column = column;
@@ -82,11 +82,9 @@ export class WordFilter {
       const attributes = { checked: this.chosen.has(word), onchange: () => this.ticked(word) };
       return choiceBox("checkbox", attributes, h("span", word), this.counts[k]).element;
     };
-    this.element = h(
-      "fieldset.words",
-      h("legend", { title: `${column.name}: ${column.definition}` }, columnLabel(column.name)),
-      this.values.map(box),
-    );
+    const title = `${column.name}: ${column.definition}`;
+    const legend = h("legend", { title }, columnLabel(column.name));
+    this.element = h("fieldset.words", legend, this.values.map(box));
   }
 
   ticked(/** @type {string} */ word) {

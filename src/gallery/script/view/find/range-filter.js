@@ -7,7 +7,8 @@ import { stepsOfKey } from "../keys.js";
 import { columnLabel } from "../labels.js";
 import { NumberField } from "../number-field.js";
 
-/** @type {(keyof Bounds)[]} */ const ENDS = ["low", "high"];
+/** @type {(keyof Bounds)[]} */
+const ENDS = ["low", "high"];
 
 /** Calls `changed(filter, isHeld)` with { low, high } or null when a bound is changed, perhaps by a handle that is held. */
 export class RangeFilter {
@@ -20,12 +21,9 @@ export class RangeFilter {
     const words = columnLabel(column.name);
     this.behind = s("path.behind", { d: histogramBars(this.scale, this.scale.counts) });
     this.front = s("path.front");
-    const picture = s(
-      "svg.bars",
-      { viewBox: `0 0 ${BINS} 1`, preserveAspectRatio: "none", "aria-hidden": "true", focusable: "false" },
-      this.behind,
-      this.front,
-    );
+    const hidden = { "aria-hidden": "true", focusable: "false" };
+    const box = { viewBox: `0 0 ${BINS} 1`, preserveAspectRatio: "none", ...hidden };
+    const picture = s("svg.bars", box, this.behind, this.front);
     this.ends = ENDS.map((end) => this.createHandle(end, words));
     this.inputs = ENDS.map((end) => this.createInput(end, words));
     this.track = h("div.track", { onpointerdown: (event) => this.startDrag(event) }, picture, this.ends);

@@ -23,12 +23,8 @@ export class ResultRows {
     this.sorted = sorted;
     this.head = h("thead");
     this.body = h("tbody");
-    this.figures = h(
-      "table.figures.results-table",
-      h("caption.visually-hidden", "Curves"),
-      this.head,
-      this.body,
-    );
+    const caption = h("caption.visually-hidden", "Curves");
+    this.figures = h("table.figures.results-table", caption, this.head, this.body);
     const attributes = { tabindex: "0", role: "region", "aria-label": "Table of curves" };
     this.element = h("div.scroll", { ...attributes, onscroll: () => this.fill() }, this.figures);
     pinOnKey(this.element);
@@ -51,22 +47,14 @@ export class ResultRows {
     setAttributes(this.figures, { "aria-rowcount": rows.length + 1 });
     const heading = (/** @type {Column} */ { name, kind }) => {
       const isSorted = sort.name === name;
-      const [order, sign] = sort.down ? ["descending", " ↓"] : ["ascending", " ↑"];
-      const attributes = {
-        class: kind === "words" ? "text" : null,
-        scope: "col",
-        "aria-sort": isSorted && order,
-      };
-      return h(
-        "th",
-        attributes,
-        buttonOf([columnLabel(name), isSorted ? sign : ""], () => this.sorted(name)),
-      );
+      const order = sort.down ? "descending" : "ascending";
+      const words = [columnLabel(name), isSorted ? (sort.down ? " ↓" : " ↑") : ""];
+      const button = buttonOf(words, () => this.sorted(name));
+      return h(kind === "words" ? "th.text" : "th", { scope: "col", "aria-sort": isSorted && order }, button);
     };
     // A heading that was pressed keeps the focus when it is replaced.
-    const focused = [...this.head.querySelectorAll("button")].findIndex(
-      (one) => one === document.activeElement,
-    );
+    const before = [...this.head.querySelectorAll("button")];
+    const focused = before.findIndex((one) => one === document.activeElement);
     fill(this.head, h("tr", h("th", { scope: "col" }, "curve"), columns.map(heading)));
     if (focused >= 0) this.head.querySelectorAll("button")[focused]?.focus();
     this.fill();

@@ -57,16 +57,9 @@ export class ResultTiles extends TileWindow {
 
   tile(/** @type {number} */ k) {
     const { family, curve, name } = this.curveOf(k);
-    return h(
-      "li",
-      h(
-        "a",
-        { href: curveAddress(family.id, curveKey(family, curve)), "data-name": name },
-        h("span.tile-picture"),
-        h("span.label"),
-      ),
-      curvePinButton(this.app, name),
-    );
+    const attributes = { href: curveAddress(family.id, curveKey(family, curve)), "data-name": name };
+    const link = h("a", attributes, h("span.tile-picture"), h("span.label"));
+    return h("li", link, curvePinButton(this.app, name));
   }
 
   fillTile(/** @type {Element} */ element, /** @type {number} */ k) {

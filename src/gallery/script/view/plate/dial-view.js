@@ -24,7 +24,7 @@ export class DialView {
       .map((deg) => dialStroke(14, DIAL_RADIUS + 9, deg))
       .join("");
     const numbers = [0, 40, 90, 140, 180].map((deg) => {
-      const [x, y] = dialPlace(DIAL_RADIUS + 11, deg);
+      const [x, y] = dialPlace(DIAL_RADIUS + 14, deg);
       return s("text", { x, y: y + 4, class: deg % 90 ? "dial-word bound" : "dial-word" }, deg);
     });
     this.drawing = s(

@@ -156,7 +156,7 @@ export class Drive {
 }
 
 /** A frame clock. A late frame, for example after a switch of tabs, counts as a twentieth of a second. */
-export class Player {
+class Player {
   constructor(/** @type {(seconds: number) => void} */ advance) {
     this.advance = advance;
     this.request = 0;

@@ -23,10 +23,8 @@ export function curveOrigin(app, family, /** @type {number} */ curve) {
     ["File", page > 0 ? pageFile(app.atlas, family.id, page) : ""],
     ["Source", familySource(family)],
   ];
-  return termList(
-    "dl.facts.origin",
-    rows.filter(([, value]) => value),
-  );
+  const known = rows.filter(([, value]) => value);
+  return termList("dl.facts.origin", known);
 }
 
 /** The table of measures: `show(now)` adds those computed by the page next to the recorded ones; null removes them. */
@@ -67,12 +65,8 @@ export class MeasureTable {
 function measureRow(/** @type {Measure} */ measure, recorded, isLength) {
   const now = h("td.now");
   const change = h("td.now");
-  const title = h(
-    "th.text",
-    { scope: "row" },
-    h("span.measure-name", measureLabel(measure.name)),
-    h("span.definition", measure.definition),
-  );
+  const name = h("span.measure-name", measureLabel(measure.name));
+  const title = h("th.text", { scope: "row" }, name, h("span.definition", measure.definition));
   const ofLength = isLength && measure.is_input;
   const element = h("tr", title, h("td", formatMeasure(measure, recorded, ofLength)), now, change);
   return { element, measure, recorded, now, change, isLength: ofLength };

@@ -65,11 +65,8 @@ function plateHeading({ atlas }, family, curve, { tag, pin, take }) {
   const lede = h("p.lede", caption, note ? h("span.note", ` · ${note}`) : null, " ", tag);
   // A file of one plate leads to no other.
   const links = atlas.plate ? [] : [neighbourLink(family, curve, -1), neighbourLink(family, curve, 1), pin];
-  return h(
-    "div.head",
-    h("div", h("h1", title, " ", h("span.key", curveKey(family, curve))), lede),
-    h("nav.toolbar", { "aria-label": "Curve" }, links, take),
-  );
+  const heading = h("h1", title, " ", h("span.key", curveKey(family, curve)));
+  return h("div.head", h("div", heading, lede), h("nav.toolbar", { "aria-label": "Curve" }, links, take));
 }
 
 /** @param {App} app @param {Family} family @param {MeasureTable} measures */
@@ -116,7 +113,7 @@ export function watchKeys(/** @type {Plate} */ plate) {
 }
 
 /** The address of the previous (-1) or next (1) curve of a family; null at the ends. @param {number} curve @param {number} way */
-export function neighbourAddress(/** @type {Family} */ family, curve, way) {
+function neighbourAddress(/** @type {Family} */ family, curve, way) {
   const next = curve + way;
   return next >= 0 && next < family.curves.count ? curveAddress(family.id, curveKey(family, next)) : null;
 }

@@ -214,10 +214,7 @@ export class MotionView {
     const text =
       format === "csv" ? csv : this.graph.svg(`${this.#quantity.label} of ${joint}, ${plate.family.title}`);
     const name = `${plate.family.id}-${joint}-${this.#state.graph}.${format}`;
-    saveFile({
-      name,
-      type: format === "csv" ? "text/csv" : "image/svg+xml",
-      bytes: new TextEncoder().encode(text),
-    });
+    const type = format === "csv" ? "text/csv" : "image/svg+xml";
+    saveFile({ name, type, bytes: new TextEncoder().encode(text) });
   }
 }

@@ -3,7 +3,8 @@
 
 import { roundBelow } from "../../draw/plane-view.js";
 
-/** @type {("along" | "across")[]} */ const COORDINATES = ["along", "across"];
+/** @type {("along" | "across")[]} */
+const COORDINATES = ["along", "across"];
 
 /**
  * The parameters that can be changed. `kind` is "free" if the atlas varies the parameter, "fixed" if it is constant, "derived" if an

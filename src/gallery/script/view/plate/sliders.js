@@ -6,7 +6,8 @@ import { ANGLE_UNITS } from "../../data/number.js";
 import { NumberField } from "../number-field.js";
 import { roundedToGrain } from "./parameters.js";
 
-/** @type {Record<string, string>} */ const PARAMETER_KINDS = {
+/** @type {Record<string, string>} */
+const PARAMETER_KINDS = {
   free: "free",
   fixed: "constant",
   derived: "derived from other parameters",
@@ -21,7 +22,7 @@ export class Sliders {
   constructor(/** @type {string | null} */ legend, /** @type {Plate} */ on) {
     this.on = on;
     /** @type {Map<string, SliderRow>} */ this.rows = new Map();
-    this.names = "";
+    /** @type {string | null} */ this.names = null;
     this.free = h("div.parameters");
     this.locked = h("div.parameters");
     this.more = h("details.locked-parameters", h("summary", "Constant and derived parameters"), this.locked);

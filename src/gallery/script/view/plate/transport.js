@@ -7,13 +7,7 @@ import { formatDecimals } from "../labels.js";
 import { NumberField } from "../number-field.js";
 
 /** Playback rates, in degrees of input per second, and their labels. */
-const PLAY_RATES = [
-  [15, "¼"],
-  [30, "½"],
-  [60, "1"],
-  [120, "2"],
-  [240, "4"],
-];
+const PLAY_RATES = { 15: "¼", 30: "½", 60: "1", 120: "2", 240: "4" };
 
 /**
  * The controls below the stage of a plate, for its drive and the stage's view. `show(study, title)`, `update(part, input)`
@@ -44,8 +38,8 @@ export class Transport {
     );
     this.ends = h("p.note.ends");
     this.straight = h("p.note.straight-note");
-    const rates = PLAY_RATES.map(([rate, label]) => [rate, `${label} ×`]);
-    this.rate = selectOf({ class: "rate", "aria-label": "Playback speed" }, rates, 60);
+    const rates = Object.entries(PLAY_RATES).map(([rate, label]) => [rate, `${label} ×`]);
+    this.rate = selectOf({ class: "rate", "aria-label": "Playback speed" }, rates, "60");
     /** @param {string} label @param {string} title @param {() => void} onclick @param {string} keys */
     const button = (label, title, onclick, keys) =>
       buttonOf(label, onclick, { class: "step", title, "aria-label": title, "aria-keyshortcuts": keys });

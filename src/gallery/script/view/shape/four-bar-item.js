@@ -27,6 +27,7 @@ export function fourBarItem(app, answer, path, /** @type {number} */ size) {
     ["Crank pivot, rocker pivot", pivots.join(", ")],
     ...record.cognates.map((cognate) => ["Cognate", cognateText(cognate, size)]),
   ];
+  const plate = h("a", { href: fourBarAddress(answer) }, "Open on a plate");
   const deviation = [
     h("b", qualityMark(quality), ` ${relative === 0 ? "0" : relative.toPrecision(3)} S`),
     ` E = ${lengthText(rms, size)}, greatest ${lengthText(max, size)}`,
@@ -38,11 +39,7 @@ export function fourBarItem(app, answer, path, /** @type {number} */ size) {
       "div",
       h("p.deviation", deviation),
       termList("dl.four-bar-facts", rows),
-      h(
-        "div.toolbar",
-        h("a", { href: fourBarAddress(answer) }, "Open on a plate"),
-        copyButton(app, "Copy manifest", manifest),
-      ),
+      h("div.toolbar", plate, copyButton(app, "Copy manifest", manifest)),
     ),
   );
 }
@@ -59,12 +56,8 @@ function fourBarPicture(answer, path) {
   const { curve, pose } = answer;
   const outlines = curve ? [curve.points, path.points, pose] : [path.points, pose];
   const view = viewOfOutlines(outlines, FOUR_BAR_SIZE);
-  return sizedThumbnail(
-    ".match-picture",
-    FOUR_BAR_SIZE,
-    s("path.query-shape", { d: placedData(path.points, path.closed, view) }),
-    fourBarDrawing(answer, view),
-  );
+  const line = s("path.query-shape", { d: placedData(path.points, path.closed, view) });
+  return sizedThumbnail(".match-picture", FOUR_BAR_SIZE, line, fourBarDrawing(answer, view));
 }
 
 /** A four-bar with its curve. @param {FourBarAnswer} _ @param {Placement} view */

@@ -30,15 +30,8 @@ export class FourBarSection {
     const note =
       "Four-bars found in an index of random ones and fitted to the path, as by coupler-atlas find. E is the root mean " +
       "square distance of the path from the curve, S the size of the path: up to 0.0001 S is exact, 0.01 S close, 0.05 S fair, and more poor.";
-    this.element = h(
-      "section.four-bar-section",
-      { hidden: true },
-      h("h2", "Four-bars for this path"),
-      h("p.note", note),
-      this.status,
-      this.list,
-      this.acts,
-    );
+    const words = [h("h2", "Four-bars for this path"), h("p.note", note)];
+    this.element = h("section.four-bar-section", { hidden: true }, words, this.status, this.list, this.acts);
   }
 
   /** Stops what is searched for; the signal for what follows. */
@@ -134,18 +127,15 @@ export class FourBarSection {
       this.app.announce(sentence);
     }
     this.#found(answers, isDone);
-    fill(
-      this.list,
-      answers.map((answer) => fourBarItem(this.app, answer, shape, size)),
-    );
+    const items = answers.map((answer) => fourBarItem(this.app, answer, shape, size));
+    fill(this.list, items);
     const save = () =>
       saveFile({ name: "found.toml", type: "application/toml", bytes: new TextEncoder().encode(manifest) });
-    fill(
-      this.acts,
-      answers.length
-        ? [buttonOf("Save manifest of all", save), copyButton(this.app, "Copy manifest of all", manifest)]
-        : null,
-    );
+    const acts = [
+      buttonOf("Save manifest of all", save),
+      copyButton(this.app, "Copy manifest of all", manifest),
+    ];
+    fill(this.acts, answers.length ? acts : null);
   }
 }
 

@@ -11,7 +11,10 @@ const MAX_KEPT_CURVES = 100_000;
 // The number of curves that are added in a step.
 const CURVES_PER_CALL = 16;
 
-/** The kept indexes of each instance of the kernel, by family and the first curve of their parts. */
+/**
+ * The kept indexes of each instance of the kernel, by family and the first curve of their parts.
+ * @type {WeakMap<object, Map<Family, Map<number, ShapeIndex>>>}
+ */
 const KEPT_INDEXES = new WeakMap();
 
 /**

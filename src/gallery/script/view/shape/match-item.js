@@ -27,20 +27,14 @@ function matchItem(app, merged, shape, /** @type {ShapeQuery} */ { by, part }) {
   const share = part ? `, ${Math.round(100 * Math.abs(one.to - one.from))} % of the curve` : "";
   const href = address([family.id, "curve", curveKey(family, curve)]);
   const picture = matchPicture(one, shape, { width: 220, height: 170 });
-  const deviations = h(
-    "span.label",
-    qualityMark(one.quality),
-    " ",
-    h("b", percent(by)),
-    ` ${percent(other)}${share}`,
-  );
+  const deviations = [qualityMark(one.quality), " ", h("b", percent(by)), ` ${percent(other)}${share}`];
   const label = h("span.label", formatCaption(caption || name));
   const title = [one, ...others].map((same) => same.name).join(", ");
   const families = h("span.label", { title }, familiesText(merged));
   const words = ["Pin", h("span.visually-hidden", ` ${name}`)];
   const pin = pinButton(app, name, { class: "quiet" }, ...words);
   const similar = h("a", { href: address(["shape"], { like: name }) }, "Find similar");
-  const link = h("a", { href, "data-name": name }, picture, deviations, families, label);
+  const link = h("a", { href, "data-name": name }, picture, h("span.label", deviations), families, label);
   return h("li", link, h("span.acts", similar, pin));
 }
 

@@ -16,14 +16,11 @@ const WANTED = 120;
  * @param {AbortSignal} signal @param {(part: SearchedPart, searched: number) => void} progress
  */
 export async function nearestCurves(app, parts, shape, options, signal, progress) {
-  const { isPart, mirror, least, by } = options;
+  const { isPart, mirror, by } = options;
   const { curveSearch: kernel } = await app.kernel.load();
   const path = await drawnPath(kernel, shape, isPart);
-  const search = await ShapeSearch.open(kernel, path, {
-    mirror,
-    least: isPart ? least : WHOLE,
-    wanted: WANTED,
-  });
+  const least = isPart ? options.least : WHOLE;
+  const search = await ShapeSearch.open(kernel, path, { mirror, least, wanted: WANTED });
   try {
     const found = await candidatesOf(app, kernel, search, parts, signal, progress);
     const candidates =

@@ -19,12 +19,8 @@ export function shapeOptions(store) {
     whole.input.checked = state.part === false;
     part.input.checked = state.part === true;
   });
-  return h(
-    "fieldset.shape-options",
-    h("legend", "The shape is"),
-    h("div.toolbar", whole.element, part.element, least),
-    h("div.toolbar", mirror, by),
-  );
+  const rows = [h("div.toolbar", whole.element, part.element, least), h("div.toolbar", mirror, by)];
+  return h("fieldset.shape-options", h("legend", "The shape is"), rows);
 }
 
 /** What four-bars must be, as `find` has it: chips that are on or off. @param {Store<ShapeQuery>} store @param {() => Outline | null} shape */
