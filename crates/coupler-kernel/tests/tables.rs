@@ -19,8 +19,10 @@ fn array<'n>(value: &Value, numbers: &'n [f64]) -> &'n [f64] {
 
 #[test]
 fn an_angle_has_a_unit_and_a_length_has_none() {
-    let manifest = "[[family]]\nid = \"one\"\nlinkage = \"scotch-yoke\"\ncases = [{ r = 1 }]\n";
-    let (opened, _) = answer(&mut Kernel::default(), &json!({ "method": "open_family", "manifest": manifest }));
+    let mut kernel = Kernel::default();
+    let (listed, _) = answer(&mut kernel, &json!({ "method": "catalogue" }));
+    let yoke = listed["linkages"].as_array().unwrap().iter().find(|linkage| linkage["id"] == "scotch-yoke").unwrap();
+    let (opened, _) = answer(&mut kernel, &json!({ "method": "open_family", "manifest": yoke["manifest"] }));
     let names = opened["names"].as_array().unwrap();
     let unit = |name: &str| names.iter().find(|one| one["name"] == name).unwrap()["unit"].clone();
     assert_eq!([unit("angle"), unit("r")], [json!("deg"), Value::Null]);
