@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use super::typography::{is_article, is_defined};
+use super::typography::{begins_with_value, is_article, is_defined};
 use crate::scene::{Anchor, Circle, Color, Curve, Face, Group, Item, MIN_TEXT_SIZE, Stroke, Text, TextRun, Typeface};
 use coupler_curves::expression::{MathPiece, MathText};
 use coupler_curves::geometry::{Point, Similarity, Spline, Vector};
@@ -307,7 +307,7 @@ impl Element for TextLine {
     }
 }
 
-/// The words of a text; what is on both sides of an equals sign is one of them, and so are an article or pronoun of one letter and
+/// The words of a text; what is on both sides of "=" or "≈" is one of them, and so are an article or pronoun of one letter and
 /// the word after it, and a letter and a number after it.
 fn equations(text: &str) -> Vec<&str> {
     let mut words = Vec::new();
@@ -318,8 +318,8 @@ fn equations(text: &str) -> Vec<&str> {
         let is_number = text[at + 1..].starts_with(|c: char| c.is_ascii_digit() || c == '−');
         if !(matches!(last, "a" | "A" | "I")
             || is_letter && is_number
-            || text[at..].starts_with(" = ")
-            || text[..at].ends_with(" ="))
+            || begins_with_value(&text[at..])
+            || [" =", " ≈"].iter().any(|sign| text[..at].ends_with(sign)))
         {
             words.push(&text[start..at]);
             start = at + 1;

@@ -62,7 +62,12 @@ pub(super) fn is_article(letter: &str, after: &str) -> bool {
 
 /// Whether a letter is followed by its value, so that it is a symbol, as `k` in "k = 2".
 pub(super) fn is_defined(letter: &str, after: &str) -> bool {
-    letter.chars().all(char::is_alphabetic) && letter.chars().nth(1).is_none() && after.starts_with(" = ")
+    letter.chars().all(char::is_alphabetic) && letter.chars().nth(1).is_none() && begins_with_value(after)
+}
+
+/// Whether a value follows, exact or rounded.
+pub(super) fn begins_with_value(text: &str) -> bool {
+    [" = ", " ≈ "].iter().any(|sign| text.starts_with(sign))
 }
 
 /// A number with a fixed number of decimals and a true minus sign.
