@@ -435,7 +435,7 @@ fn the_json_of_inspect_has_the_described_keys() {
     }
     let mut printed = std::collections::BTreeSet::new();
     for arguments in [
-        &["watt", "p=4", "r=2", "a=2", "s=2", "--at", "10", "--cognates"][..],
+        &["watt", "p=4", "r=2", "a=2", "s=2", "--at", "10", "--cognates", "--tolerance", "0.1"][..],
         &["inverted-slider-crank"],
         &["roberts", "p=2", "r=2", "a=1", "b=2"],
     ] {

@@ -6,8 +6,10 @@ import { KernelWorker } from "../../kernel/worker.js";
 const PLATE_DPI = 300;
 /** The width of GIF plates, in pixels. */
 const GIF_WIDTH = 800;
-/** The most frames of a GIF, and the shortest of them in hundredths of a second: browsers show those of one for ten. */
-const [MAX_FRAMES, LEAST_DELAY] = [240, 3];
+/** The most frames of a GIF. */
+const MAX_FRAMES = 240;
+/** The shortest of them in hundredths of a second: browsers show those of one for ten. */
+const LEAST_DELAY = 3;
 
 /** A plate in SVG, whose size is in millimetres, as the bytes of a PNG image. */
 export async function pngOfSvg(/** @type {string} */ svg) {
