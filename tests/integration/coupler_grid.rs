@@ -340,8 +340,16 @@ fn touched(scene: &Scene) -> Vec<Option<&'static str>> {
         if points.iter().any(is_on) {
             return Some("point");
         }
-        let is_crossed =
-            |line: &[Point], half: f64| line.windows(2).any(|p| number.distance_to_segment(p[0], p[1]) < half);
+        // Most segments are on one side of the number, which takes little to tell.
+        let is_apart = |a: Point, b: Point, half: f64| {
+            let Rect { low, high } = number;
+            (a.x.max(b.x) < low.x - half || a.x.min(b.x) > high.x + half)
+                || (a.y.max(b.y) < low.y - half || a.y.min(b.y) > high.y + half)
+        };
+        let is_crossed = |line: &[Point], half: f64| {
+            let mut segments = line.windows(2).filter(|p| !is_apart(p[0], p[1], half));
+            segments.any(|p| number.distance_to_segment(p[0], p[1]) < half)
+        };
         lines.iter().find(|(_, line, half)| is_crossed(line, *half)).map(|(class, ..)| *class)
     };
     numbers.iter().enumerate().map(touch).collect()

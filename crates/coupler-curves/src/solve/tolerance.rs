@@ -21,7 +21,8 @@ pub struct CurveTolerance {
     pub worst_case: f64,
     /// The greatest root of the sum of squares over the lengths.
     pub root_sum_square: f64,
-    /// The change of its straight portion's length for a unit of each length; none where it has none.
+    /// The change of its straight portion's length for a unit of each length: 0 where it is less than the accuracy of the ends tells; none where it has
+    /// none.
     pub straight: Vec<Option<f64>>,
 }
 
@@ -30,6 +31,12 @@ const STEP: f64 = 1e-5;
 
 /// The step for the ends of straight portions, which are known to some millionths of their length.
 const STRAIGHT_STEP: f64 = 1e-4;
+
+/// Lengths of straight portions that differ by less than this, relatively, are the same.
+const SAME_STRAIGHT: f64 = 1e-5;
+
+/// Moves for a unit of a length that are less than this are rounding, of positions divided by the step.
+const ROUNDING: f64 = 1e-9;
 
 /// The tolerances of the curves of a solved cell. Moves are by differences of linkages with an error of either sign in one length, at
 /// the same inputs on the same passes. `None` where the lengths cannot be off by themselves, as of [`crate::template::Template::lengths`].
@@ -63,18 +70,25 @@ pub fn curve_tolerances(family: &Family, solved: &SolvedCell) -> Option<Vec<Curv
         };
         let straight = solved_pairs.iter().map(|pair| {
             let [low, high] = pair.as_ref()?.each_ref().map(straight_length);
-            Some((high? - low?) / (2.0 * STRAIGHT_STEP * size))
+            let (low, high) = (low?, high?);
+            let is_same = (high - low).abs() <= SAME_STRAIGHT * high;
+            Some(if is_same { 0.0 } else { (high - low) / (2.0 * STRAIGHT_STEP * size) })
         });
         CurveTolerance {
             trace: curve.trace,
             circuit: curve.circuit,
-            moves: (0..lengths.len()).map(|k| greatest(&|at| at[k].abs())).collect(),
+            moves: (0..lengths.len()).map(|k| greatest(&|at| at[k].abs())).map(cleared).collect(),
             worst_case: greatest(&|at| at.iter().map(|own| own.abs()).sum()),
             root_sum_square: greatest(&|at| at.iter().map(|own| own * own).sum::<f64>().sqrt()),
             straight: straight.collect(),
         }
     };
     Some(solved.curves.iter().map(tolerance).collect())
+}
+
+/// A move without rounding.
+fn cleared(own: f64) -> f64 {
+    if own <= ROUNDING { 0.0 } else { own }
 }
 
 /// At places along a curve, its move to the left for a unit of each length.
