@@ -112,9 +112,11 @@ type ListedFamily = Record<"id" | "title" | "linkage", string> &
   Record<"page_format" | "script", string | null>;
 type AtlasSummary = { title: string; program: string; book: string[] } & Listed & {
     kernel: { script: string; sha256: string; module?: string };
-    /** Of the file of a plate: all that it has, and the address at which it was saved. */
-    plate?: CellStatements & Record<"address" | "key", string>;
+    plate?: PlateOfFile;
   };
+/** The file of a plate has the curve with this key only, and the address at which it was saved. */
+type PlateOfFile = Record<"address" | "key", string> &
+  Pick<Family, "id" | "title" | "manifest" | "ranges"> & { request: CurveRequest };
 /** What the script of the kernel says: its module, compressed and in base64, and the digest of what is encoded. */
 type KernelFile = { sha256: string; module: string };
 /** Names of units, each with what to multiply a number in it by. */

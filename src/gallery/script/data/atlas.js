@@ -1,14 +1,14 @@
 // The atlas: the summary of all families, and the data of each family and the kernel, loaded on first use.
 
 import { unpackGzip } from "./packed.js";
-import { familyOfCell, FamilyReader, PieceReader } from "./reader.js";
+import { FamilyReader, PieceReader } from "./reader.js";
 
 // The size of the files whose points are kept, in bytes: more than a search loads without a request.
 const MAX_KEPT_BYTES = 64e6;
 
 /**
  * Opens the atlas of a document: its summary, `family(id)`, which resolves to a family (reader.js) when its head is loaded, and
- * `kernelModule()`, to the module of the kernel, unpacked. The file of a plate (view/export/plate-file.js) has all of this in its summary.
+ * `kernelModule()`, to the module of the kernel, unpacked. The file of a plate (view/export/plate-file.js) has it in its summary.
  *
  * A page opened from disk cannot fetch files but can load scripts; the scripts of families and the kernel call `couplerAtlas`.
  * @param {Document} document @param {Window & { couplerAtlas?: Statements }} window
@@ -17,8 +17,6 @@ export function openAtlas(document, window) {
   /** @type {AtlasSummary} */ const summary = JSON.parse(document.getElementById("atlas")?.textContent ?? "");
   /** @type {Map<string, Promise<Family>>} */ const heads = new Map();
   /** @type {Map<string, Family>} */ const families = new Map();
-  const { plate } = summary;
-  if (plate) heads.set(plate.head.id, Promise.resolve(familyOfCell(plate, plate.head)));
   const cache = outlineCache();
   /** @type {FamilyReader | PieceReader | null} */ let reader = null;
   /** @type {{ family?: Family, piece?: Piece, kernel?: KernelFile } | null} */ let finished = null;

@@ -1,4 +1,5 @@
-// The linkages that plates begin with: those of the kernel's catalogue, and those of the families of the atlas.
+// Families of a single cell, which the kernel makes: the linkages that plates begin with, of its catalogue and of the families of the atlas,
+// and the curve of the file of a plate.
 
 import { newLinkage } from "../data/address.js";
 import { familyOfCell } from "../data/reader.js";
@@ -26,10 +27,16 @@ export function withLinkages(atlas, kernel) {
     const loaded = await kernel.load();
     return familyOfCell(loaded.call({ method: "first_cell", family: loaded.family(known).handle }), known);
   };
+  const openPlate = async (/** @type {PlateOfFile} */ { request, ranges, ...known }) => {
+    const loaded = await kernel.load();
+    const data = loaded.curveData({ family: loaded.family(known), curve: request });
+    return { ...familyOfCell(data, known), ranges };
+  };
+  const { plate } = atlas;
   const family = (/** @type {string} */ id) => {
     const linkage = newLinkage(id);
-    if (linkage === null || atlas.plate) return atlas.family(id);
-    const one = opened.get(id) ?? open(id, linkage);
+    if (plate ? plate.id !== id : linkage === null) return atlas.family(id);
+    const one = opened.get(id) ?? (plate ? openPlate(plate) : open(id, linkage ?? ""));
     opened.set(id, one);
     return one;
   };

@@ -76,35 +76,21 @@ export async function gifOfSvg(svg, kernel, onProgress) {
   }
 }
 
-// An element that moves, and the animations of its attributes, as crates/coupler-drawing/src/render/svg/mod.rs writes them.
-const MOVING = /(<\w+ [^<>]*)>((?:<animate [^<>]*\/>)+)/g;
-const ANIMATION = /attributeName="(\w+)" values="([^"]*)" dur="([0-9.]+)s"/g;
-
 /** The number of frames of an animated SVG, which take some seconds, and each as the text of an SVG without motion. */
 function framesOfSvg(/** @type {string} */ svg) {
-  let [states, seconds, at] = [1, 0, 0];
-  /** @type {((k: number) => string)[]} */ const parts = [];
-  const still = (/** @type {number} */ end) => {
-    const text = svg.slice(at, end);
-    parts.push(() => text);
+  const page = new DOMParser().parseFromString(svg, "image/svg+xml");
+  const animations = Array.from(page.querySelectorAll("animate"), (animate) => {
+    const [name, values, duration] = ["attributeName", "values", "dur"].map(
+      (word) => animate.getAttribute(word) ?? "",
+    );
+    return { animate, element: animate.parentElement, name, values: values.split(";"), duration };
+  });
+  for (const { animate } of animations) animate.remove();
+  const frame = (/** @type {number} */ k) => {
+    for (const { element, name, values } of animations) element?.setAttribute(name, values[k]);
+    return new XMLSerializer().serializeToString(page);
   };
-  for (const { 0: all, 1: element, 2: animations, index } of svg.matchAll(MOVING)) {
-    still(index);
-    at = index + all.length;
-    const moving = [...animations.matchAll(ANIMATION)].map(([, name, values, duration]) => {
-      const list = values.split(";");
-      [states, seconds] = [list.length, Number(duration)];
-      return { attribute: new RegExp(` ${name}="[^"]*"`), name, list };
-    });
-    /** @param {string} text @param {(typeof moving)[number]} _ @param {number} k */
-    const moved = (text, { attribute, name, list }, k) => text.replace(attribute, ` ${name}="${list[k]}"`);
-    parts.push((k) => `${moving.reduce((text, one) => moved(text, one, k), element)}>`);
-  }
-  still(svg.length);
   // The last state is the first of the next turn.
-  return {
-    frames: Math.max(1, states - 1),
-    seconds,
-    frame: (/** @type {number} */ k) => parts.map((part) => part(k)).join(""),
-  };
+  const frames = Math.max(1, ...animations.map(({ values }) => values.length - 1));
+  return { frames, seconds: parseFloat(animations[0]?.duration ?? "1"), frame };
 }

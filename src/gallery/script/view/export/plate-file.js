@@ -1,7 +1,6 @@
-// A plate as one file: this page itself, with the data of one curve and the kernel in it, which opens anywhere.
+// A plate as one file: this page itself, with one curve and the kernel in it, which opens anywhere.
 
 import { curveKey } from "../../data/family.js";
-import { statementsOfCurve } from "../../export/plate-data.js";
 import { elementIn } from "../dom.js";
 import { EXPORT_FORMATS, exportFile } from "./files.js";
 
@@ -14,7 +13,17 @@ export async function plateFile(
   const points = EXPORT_FORMATS.filter(({ kernel }) => kernel === "csv");
   const { name: file } = await exportFile(app, [name], points[0]);
   const key = curveKey(family, curve);
-  const plate = { address: window.location.hash, key, ...statementsOfCurve(family, curve) };
+  const { id, title, manifest, ranges } = family;
+  const { curve: request } = (await app.kernel.load()).curve(family, curve);
+  /** @type {PlateOfFile} */ const plate = {
+    address: window.location.hash,
+    key,
+    id,
+    title,
+    manifest,
+    ranges,
+    request,
+  };
   const atlas = JSON.parse(elementIn(document, "#atlas").textContent);
   const kernel = await app.atlas.kernelFile();
   const text = pageText(`${family.title}, ${key}`, { ...atlas, families: [], book: [], kernel, plate });

@@ -45,7 +45,7 @@ export const onlyPlateRoute = {
   ...plateRoute,
   matches: ({ path }, { atlas: { plate } }) => {
     const { id, key } = curveOfPath(path) ?? {};
-    return id !== undefined && id === plate?.head.id && key === plate.key;
+    return id !== undefined && id === plate?.id && key === plate.key;
   },
 };
 
