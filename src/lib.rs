@@ -12,6 +12,10 @@
 //! [`coupler_drawing::page::compose_panels`], [`coupler_drawing::render::svg`], [`coupler_drawing::render::png`],
 //! [`output::write_atlas`], [`check::check_atlas`].
 
+/// The name and the version of the program, as files say by what they were written.
+#[cfg(feature = "pdf")]
+const PROGRAM: &str = concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION"));
+
 mod notation;
 mod threads;
 

@@ -62,7 +62,11 @@ fn offered_values() -> Vec<Offer> {
         ("design", "linkage", linkages()),
         ("design straight-line", "types", LinkageKind::ALL.map(LinkageKind::id).to_vec()),
         ("render", "format", built_in.map(render::Format::name).collect()),
-        ("export", "format", export::Format::ALL.map(export::Format::name).to_vec()),
+        (
+            "export",
+            "format",
+            export::Format::ALL.into_iter().filter(|format| format.is_built_in()).map(export::Format::name).collect(),
+        ),
         ("export", "form", export::ManifestForm::ALL.map(export::ManifestForm::name).to_vec()),
         ("check", "report", check::REPORTS.map(|(name, _)| name).to_vec()),
         ("validate", "report", validate::REPORTS.map(|(name, _)| name).to_vec()),

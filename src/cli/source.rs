@@ -129,6 +129,17 @@ impl ManifestSource {
         report_problems(&self.path, &self.text, problems);
     }
 
+    /// The failure of an error of writing its atlas; what is wrong with the manifest is printed to standard error.
+    pub fn failure(&self, error: output::Error) -> Failure {
+        match error {
+            output::Error::Misfits(problems) => {
+                self.report_problems(&problems);
+                problems_error(&self.path, problems.len())
+            }
+            error => error.into(),
+        }
+    }
+
     /// Checks that all texts can be drawn, in a format that needs fonts, and prints those that cannot to standard error.
     ///
     /// # Errors

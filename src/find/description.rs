@@ -13,8 +13,8 @@ pub fn deviation(deviation: &Deviation, size: f64) -> String {
     format!("E = {} S = {}, {quality}", relative(deviation.rms_relative), number(deviation.rms, size))
 }
 
-/// The dimensions of a four-bar, in six significant digits.
-pub fn dimensions(mechanism: &Mechanism, size: f64) -> String {
+/// The dimensions of a four-bar, formatted.
+pub fn dimensions(mechanism: &Mechanism, format: impl Fn(f64) -> String) -> String {
     let PlacedFourBar { lengths: FourBar { frame, crank, coupler, rocker }, coupler_point, .. } = mechanism.four_bar;
     let values = [
         ("frame", frame),
@@ -24,7 +24,7 @@ pub fn dimensions(mechanism: &Mechanism, size: f64) -> String {
         ("along", coupler_point.x),
         ("across", coupler_point.y),
     ];
-    values.map(|(name, value)| format!("{name} = {}", number(value, size))).join(", ")
+    values.map(|(name, value)| format!("{name} = {}", format(value))).join(", ")
 }
 
 /// The parameters of a linkage, in six significant digits.

@@ -6,7 +6,10 @@ use coupler_curves::linkage_format::quoted;
 use coupler_curves::solve::Solver;
 use coupler_drawing::page::{self, AnswersPage, FoundCurve, GuidedBody, Options, Paper};
 use coupler_drawing::render::{self, TextMode};
-use coupler_find::{Answer, LinkageAnswer, PlacedCurve, Target, format_length as number, format_relative as relative};
+use coupler_find::{
+    Answer, LinkageAnswer, PlacedCurve, Target, format_drawn_length, format_length as number,
+    format_relative as relative,
+};
 
 use super::description::{deviation, dimensions, parameters, placement};
 use super::{AtlasAnswer, Findings};
@@ -20,7 +23,7 @@ pub fn draw_four_bars(title: &str, target: &Target, answers: &[Answer]) -> Vec<u
     let size = target.size();
     let first = answers.first().map(|answer| {
         let [crank, rocker] = answer.mechanism.four_bar.pivots.map(|p| {
-            let [x, y] = [p.x, p.y].map(|value| number(value, size));
+            let [x, y] = [p.x, p.y].map(|value| format_drawn_length(value, size));
             format!("({x}, {y})")
         });
         format!("the linkage of curve 1, with its crank's pivot at {crank} and its rocker's at {rocker}, is at the first point of the path")
@@ -38,7 +41,7 @@ fn found(rank: usize, answer: &Answer, size: f64) -> Option<FoundCurve> {
         answer.deviation.quality().name(),
         mechanism.class,
         mechanism.mu_worst_deg,
-        dimensions(mechanism, size)
+        dimensions(mechanism, |value| format_drawn_length(value, size))
     );
     Some(FoundCurve { solved: mechanism.solved()?, placement: Similarity::IDENTITY, pose: mechanism.pose(), label })
 }

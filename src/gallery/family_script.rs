@@ -58,7 +58,7 @@ impl<'a> FamilyScript<'a> {
                 "id": family.id,
                 "title": family.title,
                 "source": self.planned.source,
-                "legend": family.template.legend,
+                "legend": family.legend(),
                 "linkage": family.template.id,
                 "layout": layout,
                 "panels": has_panels.then(|| self.planned.layout.cells_per_page()),

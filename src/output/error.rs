@@ -3,6 +3,7 @@ use std::path::PathBuf;
 
 use crate::manifest::MAX_PAGE_FILES;
 use crate::record::ReadError;
+use coupler_curves::problem::Problem;
 use coupler_drawing::render;
 
 /// An error of reading a manifest or writing an atlas.
@@ -104,6 +105,9 @@ pub enum Error {
         /// The number of files.
         files: usize,
     },
+    /// Linkages do not fit their pages at the scale that the manifest gives.
+    #[error("{}", .0.iter().map(|problem| format!("{}: {}", problem.message, problem.help)).collect::<Vec<_>>().join("\n"))]
+    Misfits(Vec<Problem>),
     /// Another run is in progress.
     #[error("another run is writing to {}: wait until it ends, or name another folder with -o", folder.display())]
     Busy {
@@ -124,6 +128,7 @@ impl Error {
             Error::NothingToRepair { .. }
             | Error::OtherManifest { .. }
             | Error::ForeignFile { .. }
+            | Error::Misfits(_)
             | Error::TooManyFiles { .. } => true,
             _ => false,
         }

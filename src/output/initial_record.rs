@@ -10,6 +10,7 @@ pub(super) fn initial_record(pipeline: &FamilyPipeline) -> FamilyRecord {
         id: family.id.clone(),
         title: family.title.clone(),
         linkage: family.template.id.clone(),
+        unit: family.unit.map(|unit| unit.symbol().to_owned()),
         inputs_sha256: None,
         cells: family.cell_count(),
         kept: pipeline.arrangement.kept.len(),

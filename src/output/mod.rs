@@ -16,6 +16,7 @@ mod pages;
 mod previous_run;
 mod registry;
 mod repair;
+mod scale;
 mod survey;
 mod table_file;
 mod temporary;
@@ -26,6 +27,7 @@ pub use files::{create_folder, read_bytes, read_text, write as write_file, write
 pub(crate) use lock::Lock;
 pub use options::{Event, Options};
 pub use page_shard::{DrawnPages, PageShard, PageShardSource, has_atlas_of, page_shards, write_page_shard};
+pub use scale::scale_problems;
 pub(crate) use temporary::remove as remove_temporary;
 pub use temporary::take_leftovers;
 
@@ -33,8 +35,9 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use crate::manifest::{Plan, PlannedFamily};
+use crate::pipeline::Inputs;
 use crate::record::RunRecord;
-use crate::sweep;
+use crate::sweep::{self, Division};
 use coupler_curves::problem::Problem;
 use journal::Journal;
 use options::check_interrupt;
@@ -129,6 +132,13 @@ fn write_families(
     let resumable: HashSet<String> = previous.progress.iter().map(|progress| progress.family.clone()).collect();
     files::remove_temporary_files(output, &|family| resumable.contains(family));
     let mut journal = Journal::open(plan, output, options, previous);
+    // What was finished once fitted its pages.
+    let is_new = |planned: &&PlannedFamily| {
+        let inputs = Inputs::new(planned).family_digest();
+        journal.family(&planned.family.id).is_none_or(|record| record.inputs_sha256 != Some(inputs))
+    };
+    let new = plan.families.iter().filter(is_selected).filter(is_new);
+    scale::check(plan, new.map(|planned| (planned, Division::WHOLE)), &options.interrupt)?;
     #[cfg(feature = "pdf")]
     let is_surveyed = book::families_to_survey(plan, output, options, &journal);
     #[cfg(not(feature = "pdf"))]

@@ -10,7 +10,7 @@ use super::lock::Lock;
 use super::pages::OutputSink;
 use super::previous_run::{self, PreviousRun};
 use super::registry::FileRegistry;
-use super::{Error, Event, Options, check_interrupt, ownership};
+use super::{Error, Event, Options, check_interrupt, ownership, scale};
 use crate::gallery::FamilyScript;
 use crate::manifest::{Plan, PlannedFamily};
 use crate::pipeline::{FamilyPipeline, Inputs, page_file_name};
@@ -127,6 +127,8 @@ pub fn write_page_shard(
             return Err(Error::ForeignFile { first: folder, others: 0 });
         }
     }
+    let parts = plan.families.iter().enumerate().map(|(k, planned)| (planned, division.shifted(k)));
+    scale::check(plan, parts, &options.interrupt)?;
     let journal = JournalFile::begin(path, initial_entries((plan, source.text), options, head, own))?;
     let (mut pages, mut drawn) = (0, 0);
     for (k, planned) in plan.families.iter().enumerate() {

@@ -6,7 +6,7 @@ use std::rc::Rc;
 use super::Captions;
 use crate::find;
 use crate::manifest::{Plan, PlannedFamily};
-use coupler_curves::family::Family;
+use coupler_curves::family::{Family, LengthUnit};
 use coupler_curves::geometry::Point;
 use coupler_curves::linkage::FourBar;
 use coupler_curves::solve::{MovablePoint, SolvedCell, Solver};
@@ -168,6 +168,7 @@ impl<'a> Composer<'a> {
             let ChartData { curve_count: curves, left_out_count: left_out, .. } = data;
             source.push(format!("only the first {} of {curves} curves are drawn", curves - left_out));
         }
+        source.extend(planned.family.unit.map(LengthUnit::note));
         source.retain(|part| !part.is_empty());
         let solved = first_with_curve(&planned.family);
         let panel = solved.as_ref().map(Panel::new);
@@ -203,6 +204,7 @@ impl<'a> Composer<'a> {
             .with_atlas_title(if plan.title == self.title { "" } else { &plan.title })
             .with_source(source)
             .with_symbols(names)
+            .with_unit(planned.family.unit)
             .with_page(page, page_count)
     }
 }

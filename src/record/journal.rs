@@ -347,6 +347,7 @@ mod tests {
             id: id.to_owned(),
             title: "T".to_owned(),
             linkage: "evans".to_owned(),
+            unit: None,
             inputs_sha256: inputs.map(|text| Digest::of(text.as_bytes())),
             cells: 1,
             kept: 1,

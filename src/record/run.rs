@@ -74,6 +74,9 @@ pub struct FamilyRecord {
     pub title: String,
     /// The id of its linkage.
     pub linkage: String,
+    /// The unit of its lengths; `None` if they are in a unit of their own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unit: Option<String>,
     /// SHA-256 of what all its files were made from; `None` while not all of them are finished.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inputs_sha256: Option<Digest>,
@@ -325,11 +328,12 @@ impl RunRecord {
 impl FamilyRecord {
     /// The record without its files.
     pub fn without_files(&self) -> FamilyRecord {
-        let FamilyRecord { id, title, linkage, .. } = self;
+        let FamilyRecord { id, title, linkage, unit, .. } = self;
         FamilyRecord {
             id: id.clone(),
             title: title.clone(),
             linkage: linkage.clone(),
+            unit: unit.clone(),
             files: Vec::new(),
             inputs_sha256: self.inputs_sha256,
             cells: self.cells,

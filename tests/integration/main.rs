@@ -55,6 +55,7 @@ mod remedies;
 mod repair;
 mod reruns;
 mod resuming;
+mod scales;
 mod schema;
 mod shards;
 mod support;

@@ -45,7 +45,8 @@ pub fn compose_panel(family: &Family, title: &str, panel: Panel, options: &Optio
         .with_atlas_title("coupler-atlas")
         .with_source(family.template.source.clone())
         .with_dimensions(&key.dimensions)
-        .with_symbols(&family.names);
+        .with_symbols(&family.names)
+        .with_unit(family.unit);
     let sheet = PanelPage {
         heading,
         layout: Layout::Panels { columns: 1, rows: 1 },
@@ -65,7 +66,8 @@ pub(crate) fn panel_page<'a>(curve: &'a SelectedCurve, name: &'a str, pose: Pose
         .with_atlas_title(name)
         .with_source(*source)
         .with_dimensions(&key.dimensions)
-        .with_symbols(&family.names);
+        .with_symbols(&family.names)
+        .with_unit(family.unit);
     let facts = page::cell_facts(family, solved);
     let panel = Panel::new(solved).with_caption(caption).with_note(note).with_facts(facts).with_pose(pose);
     PanelPage {

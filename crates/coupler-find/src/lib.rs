@@ -121,8 +121,8 @@ pub use poses::{
 };
 pub use quality::Quality;
 pub use report::{
-    AnswerRecord, FitRecord, answer_families, answers_manifest, format_length, format_relative, manifest_head,
-    title_for,
+    AnswerRecord, FitRecord, answer_families, answers_manifest, format_drawn_length, format_length, format_relative,
+    manifest_head, title_for,
 };
 pub use search::{Constraint, Ranking, Search, nearest_miss, nearest_miss_by};
 pub use target::{MAX_LENGTH_RATIO, PathKind, Target, TargetError};

@@ -68,7 +68,7 @@ fn statements_json(family: &Family, source: &str, solved: &SolvedCell, numbers: 
     let head = json!({
         "title": family.title,
         "source": source,
-        "legend": family.template.legend,
+        "legend": family.legend(),
         "linkage": family.template.id,
         "layout": "panels",
         "panels": null,

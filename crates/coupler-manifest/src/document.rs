@@ -145,6 +145,7 @@ fn read_plan(
     let tolerances = tolerance::read(root.get("check"), &tolerance::CHECK, parser);
     let templates = Templates::read(&root, parser);
     let formats = atlas.as_ref().map_or_else(|| vec![Format::Svg], |atlas| atlas.formats.clone());
+    let unit = atlas.as_ref().and_then(|atlas| atlas.unit);
     let tables = root.tables("family", parser);
     let has_none = tables.is_empty() && root.get("family").is_none_or(|value| value.get_ref().is_array());
     if has_none && !root.may_be_misspelt("family") {
@@ -161,8 +162,8 @@ fn read_plan(
     for value in tables {
         let default_title = default_title.as_deref();
         let page = page.as_ref().map(|page| &page.options);
-        let context =
-            family::Context { templates: &templates, formats: &formats, writable, default_title, page, purpose, files };
+        let (templates, formats) = (&templates, &formats);
+        let context = family::Context { templates, formats, writable, default_title, unit, page, purpose, files };
         let read = family::read(value, context, &mut totals, parser);
         if let Some((id, span)) = id_and_span(value) {
             let message = format!("there are two families `{id}`");

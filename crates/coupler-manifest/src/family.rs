@@ -14,7 +14,7 @@ use crate::schema::{
 use crate::templates::Templates;
 use crate::{applicability, chart, layout, settings, tolerance};
 use coupler_curves::expression::{Caption, Dimension, Expression, Scope};
-use coupler_curves::family::{COLUMNS, Column, Family, MAX_SAMPLES, MEASURES, Sampling, StraightCriterion};
+use coupler_curves::family::{COLUMNS, Column, Family, LengthUnit, MAX_SAMPLES, MEASURES, Sampling, StraightCriterion};
 use coupler_curves::linkage_format::{self, Fields, TomlParser, TomlValue};
 use coupler_curves::measure::MeasureSet;
 use coupler_curves::problem::{Problem, suggestion};
@@ -32,6 +32,8 @@ pub(crate) struct Context<'a> {
     pub writable: &'a [Format],
     /// The title of a family that has none of its own; its id if there is no such title.
     pub default_title: Option<&'a str>,
+    /// The unit of lengths of a family that has none of its own.
+    pub unit: Option<LengthUnit>,
     /// The options of pages; `None` if `[page]` could not be parsed.
     pub page: Option<&'a Options>,
     /// What the cells are for.
@@ -43,7 +45,7 @@ pub(crate) struct Context<'a> {
 /// Reads a family, and adds it to `totals`.
 pub(crate) fn read<'t>(
     value: &TomlValue<'t>,
-    Context { templates, formats, writable, default_title, page, purpose, files }: Context,
+    Context { templates, formats, writable, default_title, unit, page, purpose, files }: Context,
     totals: &mut AtlasTotals,
     parser: &mut TomlParser<'t>,
 ) -> Option<PlannedFamily> {
@@ -101,7 +103,8 @@ pub(crate) fn read<'t>(
     let charts = chart.as_ref().and_then(Option::as_ref).map_or(1, |chart| chart.y.len());
     let cells = names.as_ref().map_or(1, |names| names.space.count());
     let layout = layout::read(&fields, page, [charts, cells], parser);
-    let scale = layout::panel_scale(&fields, layout, parser);
+    let unit = fields.get("unit").map_or(Some(unit), |value| parser.word(value, &LengthUnit::ALL).map(Some));
+    let scale = unit.and_then(|unit| layout::panel_scale(&fields, layout, unit, parser));
     let ghosts = layout::ghosts(&fields, layout, parser);
     let poses = layout::poses(&fields, layout, parser);
     let (id, template, names, sampling, columns, straight) = (id?, template?, names?, sampling?, columns?, straight?);
@@ -109,6 +112,7 @@ pub(crate) fn read<'t>(
         title: title.unwrap_or_else(|| default_title.unwrap_or(&id).to_owned()),
         id,
         template,
+        unit: unit?,
         names: names.all,
         space: names.space,
         derived: names.derived,
@@ -137,7 +141,7 @@ pub(crate) fn read<'t>(
         cells::check(&family, checked, &fields, given, parser.problem_count() > before, parser);
     }
     let source = source.unwrap_or_else(|| family.template.source_line());
-    let filter_span = fields.get("where").map(TomlValue::span);
+    let [filter_span, scale_span] = ["where", "scale"].map(|key| fields.get(key).map(TomlValue::span));
     let (layout, chart, formats) = (layout?, chart?, formats?);
     let has_pages = matches!(purpose, Purpose::Pages);
     cells::check_memory(&family, has_pages.then_some(layout), &fields, parser);
@@ -157,6 +161,7 @@ pub(crate) fn read<'t>(
         tolerances,
         span: value.span(),
         filter_span,
+        scale_span,
     };
     if has_pages {
         totals.add_page_files(&planned, &fields, parser);

@@ -61,9 +61,9 @@ const IGNORED_SETTINGS: [&str; 6] = ["formats", "limit", "check", "grid", "cases
 const IGNORED_PAGE_KEYS: [&str; 9] = ["formats", "limit", "check", "grid", "cases", "design", "let", "where", "sort"];
 
 /// The keys of a family that determine neither the cells, nor their curves, nor the columns of tables.
-const IGNORED_TABLE_KEYS: [&str; 14] = [
-    "title", "source", "layout", "panels", "scale", "ghosts", "poses", "chart", "sort", "caption", "note", "formats",
-    "limit", "check",
+const IGNORED_TABLE_KEYS: [&str; 15] = [
+    "title", "unit", "source", "layout", "panels", "scale", "ghosts", "poses", "chart", "sort", "caption", "note",
+    "formats", "limit", "check",
 ];
 
 /// The texts that the inputs of several families have in common.

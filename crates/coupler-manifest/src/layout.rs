@@ -4,6 +4,7 @@ use crate::bounded_number::read_within;
 use crate::chart;
 use crate::schema::{DEFAULT_LAYOUT, MAX_POSES, PANEL_SCALES};
 use coupler_curves::expression::Dimension;
+use coupler_curves::family::LengthUnit;
 use coupler_curves::linkage_format::{Fields, TomlParser, TomlValue};
 use coupler_curves::problem::Problem;
 use coupler_drawing::page::{Layout, Options, PanelScale};
@@ -86,6 +87,7 @@ fn pose<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<[f64; 
 pub(crate) fn panel_scale<'t>(
     fields: &Fields<'_, 't>,
     layout: Option<Layout>,
+    unit: Option<LengthUnit>,
     parser: &mut TomlParser<'t>,
 ) -> Option<PanelScale> {
     /// The least and the greatest length of a unit on paper, in millimetres: a curve of a thousandth of a unit is seen at
@@ -100,9 +102,31 @@ pub(crate) fn panel_scale<'t>(
     if text.is_some_and(|text| text.chars().all(char::is_alphabetic)) {
         return parser.word(value, &PANEL_SCALES);
     }
-    let read =
-        |value: &TomlValue<'t>, parser: &mut TomlParser<'t>| parser.constant_quantity(value, Dimension::PaperLength);
-    read_within(value, parser, read, RANGE, "mm").map(PanelScale::Fixed)
+    let read = |value: &TomlValue<'t>, parser: &mut TomlParser<'t>| match text.and_then(|text| text.split_once(':')) {
+        Some((paper, plane)) => ratio(value, [paper, plane], unit, parser),
+        None => parser.constant_quantity(value, Dimension::PaperLength),
+    };
+    read_within(value, parser, read, RANGE, "mm to a unit").map(PanelScale::Fixed)
+}
+
+/// Reads a scale like 1:2, a length on paper to one of the linkage, as millimetres to a unit.
+fn ratio<'t>(
+    value: &TomlValue<'t>,
+    parts: [&str; 2],
+    unit: Option<LengthUnit>,
+    parser: &mut TomlParser<'t>,
+) -> Option<f64> {
+    let [paper, plane] = parts.map(|part| part.trim().parse().ok().filter(|number: &f64| *number > 0.0));
+    let problem = match (paper, plane, unit) {
+        (Some(paper), Some(plane), Some(unit)) => return Some(unit.millimetres() * paper / plane),
+        (Some(_), Some(_), None) => Problem::error(value.span(), "this scale needs the unit of the lengths").with_help(
+            "write unit = \"mm\" in [atlas] or here; or give the length of a unit on paper, as in scale = \"20 mm\"",
+        ),
+        _ => Problem::error(value.span(), "a scale has a number before the colon, and one after it")
+            .with_help("write scale = \"1:1\", \"1:2\" for half the size, or \"2:1\" for twice the size"),
+    };
+    parser.report(problem);
+    None
 }
 
 /// Reads the layout. Where `panels` is absent, the grid is chosen for the number of charts or cells.

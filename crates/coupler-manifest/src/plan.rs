@@ -138,6 +138,8 @@ pub struct PlannedFamily {
     pub span: Span,
     /// The place of its `where` in the manifest.
     pub filter_span: Option<Span>,
+    /// The place of its `scale`.
+    pub scale_span: Option<Span>,
 }
 
 /// The file or the search that the cases of a family are from.

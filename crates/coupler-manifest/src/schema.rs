@@ -6,7 +6,7 @@ use crate::default_value;
 use crate::design::DESIGN;
 use crate::grid::VALUES_FORM;
 use crate::parameter_sets::MAX_LIMIT;
-use crate::settings::{ATLAS, FORMATS, PAGE};
+use crate::settings::{ATLAS, FORMATS, PAGE, UNIT};
 use crate::tolerance::{CHECK, FAMILY_CHECK};
 use coupler_curves::catalogue;
 use coupler_curves::expression::Dimension;
@@ -51,6 +51,7 @@ pub(crate) static FAMILY: TableSchema = TableSchema::new(
             "A linkage of the catalogue, or of this file.",
         ),
         KeySchema::new("title", ValueSchema::Text, "The title of its pages; by default that of the atlas if it is the only family, and otherwise its id."),
+        UNIT,
         KeySchema::new("source", ValueSchema::Text, "The line under the title; that of the linkage by default."),
         KeySchema::new("layout", ValueSchema::Word(|| words(&Layout::ALL)), "How its pages are laid out.")
             .with_default(|| default_value::string(DEFAULT_LAYOUT)),
@@ -62,8 +63,12 @@ pub(crate) static FAMILY: TableSchema = TableSchema::new(
         ),
         KeySchema::new(
             "scale",
-            ValueSchema::AnyOf(&[ValueSchema::Word(|| words(&PANEL_SCALES)), ValueSchema::Quantity(Dimension::PaperLength)]),
-            "The scale of the linkages on pages of panels: each as large as its panel, all of a page alike, or the length of a unit on paper.",
+            ValueSchema::AnyOf(&[
+                ValueSchema::Word(|| words(&PANEL_SCALES)),
+                ValueSchema::Quantity(Dimension::PaperLength),
+                ValueSchema::WithExamples(&ValueSchema::Text, || vec!["1:1", "1:2", "2:1"]),
+            ]),
+            "The scale of the linkages on pages of panels: each as large as its panel, all of a page alike, the length of a unit on paper, or, of lengths with a unit, that on paper to that of the linkage.",
         )
         .with_default(|| default_value::string("panel")),
         KeySchema::new(

@@ -6,6 +6,7 @@ use crate::files::FileReader;
 use crate::format_version::FORMAT_VERSION;
 use crate::theme;
 use coupler_curves::expression::Dimension;
+use coupler_curves::family::LengthUnit;
 use coupler_curves::linkage_format::{Fields, KeySchema, TableSchema, TomlParser, TomlValue, ValueSchema, words};
 use coupler_curves::problem::Problem;
 use coupler_drawing::page::{Options, Paper};
@@ -15,6 +16,8 @@ use coupler_drawing::render::{Format, TextMode};
 pub(crate) struct AtlasSettings {
     pub title: String,
     pub output: Option<String>,
+    /// The unit of lengths of families that have none of their own.
+    pub unit: Option<LengthUnit>,
     pub formats: Vec<Format>,
     pub volume_pages: usize,
 }
@@ -65,6 +68,7 @@ pub(crate) static ATLAS: TableSchema = TableSchema::new(
              both separate folders, on every system.",
         ),
         FORMATS.with_default(|| default_value::strings(DEFAULT_FORMATS.map(Format::name))),
+        UNIT,
         KeySchema::new(
             "volume_pages",
             ValueSchema::Integer([1, MAX_VOLUME_PAGES]),
@@ -81,6 +85,13 @@ pub(crate) const FORMATS: KeySchema = KeySchema::new(
     "The formats of pages: svg and png, a file for each page, and pdf, one book of all of them.",
 );
 
+/// The `unit` of an atlas or a family.
+pub(crate) const UNIT: KeySchema = KeySchema::new(
+    "unit",
+    ValueSchema::Word(|| words(&LengthUnit::ALL)),
+    "The unit of all lengths, which pages and drawings state; by default they are in a unit of their own.",
+);
+
 /// The `[page]` table.
 pub(crate) static PAGE: TableSchema = TableSchema::new(
     "[page]",
@@ -91,6 +102,11 @@ pub(crate) static PAGE: TableSchema = TableSchema::new(
             "The paper: its name, or a table of its sides.",
         )
         .with_default(|| default_value::string(DEFAULT_PAPER.0)),
+        KeySchema::new(
+            "orientation",
+            ValueSchema::Word(|| words(&ORIENTATIONS)),
+            "Whether the longer side of the paper is its width or its height; by default that of a named paper is its width.",
+        ),
         KeySchema::new("dpi", ValueSchema::InRange(DPI_RANGE), "The resolution of PNG images, in pixels per inch.")
             .with_default(|| PageSettings::default().dpi.to_string()),
         KeySchema::new(
@@ -132,6 +148,9 @@ static PAPER: TableSchema = TableSchema::new(
 
 const DPI_RANGE: [f64; 2] = [10.0, 2400.0];
 
+/// The words for orientations: whether the longer side is the height.
+const ORIENTATIONS: [(&str, bool); 2] = [("landscape", false), ("portrait", true)];
+
 /// The words for text modes.
 const TEXT_MODES: [(&str, TextMode); 2] = [("text", TextMode::Text), ("outlines", TextMode::Outlines)];
 
@@ -159,7 +178,12 @@ pub(crate) fn atlas<'t>(
         None => Some(DEFAULT_VOLUME_PAGES),
         Some(value) => parser.integer(value, 1, MAX_VOLUME_PAGES),
     };
-    Some(AtlasSettings { title: title?, output: output?, formats: formats?, volume_pages: volume_pages? })
+    let unit = match fields.get("unit") {
+        None => Some(None),
+        Some(value) => parser.word(value, &LengthUnit::ALL).map(Some),
+    };
+    let (title, output, unit) = (title?, output?, unit?);
+    Some(AtlasSettings { title, output, unit, formats: formats?, volume_pages: volume_pages? })
 }
 
 const FOLDER_HELP: &str = "write a folder relative to the manifest, as in output = \"output\"";
@@ -222,6 +246,14 @@ pub(crate) fn page<'t>(
         None => Some(default.options.paper),
         Some(value) => paper(value, parser),
     };
+    let is_portrait = match fields.get("orientation") {
+        None => Some(None),
+        Some(value) => parser.word(value, &ORIENTATIONS).map(Some),
+    };
+    let paper = paper.map(|paper| match is_portrait.flatten() {
+        Some(is_portrait) => paper.turned(is_portrait),
+        None => paper,
+    });
     let dpi = match fields.get("dpi") {
         None => Some(default.dpi),
         Some(value) => {
@@ -252,13 +284,15 @@ pub(crate) fn page<'t>(
     };
     let theme = fields.get("theme").map_or(default.options.theme, |value| theme::read(value, files, parser));
     let options = Options::for_paper(paper?).with_dash_deg(dash_deg?).with_theme(theme);
+    is_portrait?;
     Some(PageSettings { options, dpi: dpi?, text_mode: text? })
 }
 
 /// Reads a paper, by its name or its sides.
 fn paper<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<Paper> {
-    if value.get_ref().is_str() {
-        return parser.word(value, &Paper::NAMED);
+    if let Some(text) = value.get_ref().as_str() {
+        let named = Paper::NAMED.into_iter().find(|(name, _)| name.eq_ignore_ascii_case(text));
+        return named.map(|(_, paper)| paper).or_else(|| parser.word(value, &Paper::NAMED));
     }
     let fields = Fields::from_value(value, &PAPER, parser)?;
     let mut side = |key: &str| {

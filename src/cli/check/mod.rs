@@ -185,6 +185,6 @@ fn bless(arguments: &Arguments, source: &ManifestSource, report: &Report) -> Res
     print_stderr(&format!("recording the new atlas in {}\n", printable(folder.display())));
     let manifest = Some(source.file_name());
     let options = output::Options { force: true, manifest, ..output::Options::default() };
-    output::write_atlas(&source.plan, folder, &options, &mut |_| {})?;
+    output::write_atlas(&source.plan, folder, &options, &mut |_| {}).map_err(|error| source.failure(error))?;
     Ok(Outcome::Done)
 }

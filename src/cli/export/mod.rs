@@ -39,7 +39,7 @@ use selection::CurveSelection;
 pub struct Arguments {
     #[arg(value_name = "MANIFEST|CURVE", help = words_help())]
     words: Vec<String>,
-    /// The formats to export: svg, moving-svg, png, dxf (AutoCAD R12), csv, json, toml (one fragment of a manifest for
+    /// The formats to export: svg, moving-svg, png, pdf (a page), dxf (AutoCAD R12), csv, json, toml (one fragment of a manifest for
     /// all curves), pmks (the address by which PMKS+ opens the linkage).
     #[arg(long, value_name = "FORMATS", value_delimiter = ',', default_value = "svg", value_parser = parse_format)]
     format: Vec<Format>,
@@ -98,7 +98,9 @@ fn words_help() -> String {
 }
 
 fn parse_format(name: &str) -> Result<Format, String> {
-    choice::parse("format", name, &Format::ALL.map(|format| (format.name(), format)))
+    let format = choice::parse("format", name, &Format::ALL.map(|format| (format.name(), format)))?;
+    let refused = || "this build cannot write PDF: build the program with the feature `pdf`".to_owned();
+    if format.is_built_in() { Ok(format) } else { Err(refused()) }
 }
 
 fn parse_form(name: &str) -> Result<ManifestForm, String> {
@@ -217,7 +219,7 @@ fn select_from_manifest(arguments: &Arguments) -> Result<(Vec<CurveSelection>, P
     };
     let source = source::read(path)?;
     source.require_families(&arguments.only)?;
-    if arguments.format.contains(&Format::Png) {
+    if arguments.format.iter().any(|format| [Format::Png, Format::Pdf].contains(format)) {
         source.require_drawable()?;
     }
     Ok((select_curves(&source.plan, &arguments.only, words)?, source.plan))
@@ -391,7 +393,7 @@ fn export_selection<'a>(
 fn export_error(file: &str, error: &export::Error) -> Failure {
     let remedy = match error {
         export::Error::Png(_) => "; give a smaller --dpi",
-        export::Error::Pmks(_) => "",
+        export::Error::Pdf(_) | export::Error::Pmks(_) => "",
     };
     Failure::input(format!("{file}: {error}{remedy}"))
 }

@@ -35,10 +35,15 @@ pub(super) fn text(report: &Report) -> String {
     out += &line("", &HEAD);
     for (k, (answer, row)) in answers.iter().zip(&rows).enumerate() {
         out += &line(&(k + 1).to_string(), &row.each_ref().map(String::as_str));
-        let _ = writeln!(out, "     {}", dimensions(&answer.mechanism, size));
+        let _ = writeln!(out, "     {}", dimensions(&answer.mechanism, |value| number(value, size)));
         let _ = writeln!(out, "     {}", place(&answer.mechanism, size));
         for cognate in &answer.cognates {
-            let _ = writeln!(out, "     cognate, {}: {}", summary(cognate), dimensions(cognate, size));
+            let _ = writeln!(
+                out,
+                "     cognate, {}: {}",
+                summary(cognate),
+                dimensions(cognate, |value| number(value, size))
+            );
         }
     }
     out
@@ -96,7 +101,7 @@ fn nothing_found(report: &Report) -> String {
         relative(answer.deviation.rms_relative),
         answer.deviation.quality().name(),
         summary(&answer.mechanism),
-        dimensions(&answer.mechanism, size),
+        dimensions(&answer.mechanism, |value| number(value, size)),
         place(&answer.mechanism, size)
     )
 }

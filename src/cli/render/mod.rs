@@ -61,7 +61,8 @@ fn draw_shard(arguments: &Arguments, division: Division, interrupt: &Arc<AtomicB
     let DrawnPages { pages, drawn, is_atlas_complete } =
         output::write_page_shard(manifest, &output, &options, division, &mut |event| {
             reporter.handle_event(event, &mut String::new());
-        })?;
+        })
+        .map_err(|error| source.failure(error))?;
     reporter.finish();
     if !arguments.quiet {
         let folder = printable(output.display());
@@ -86,7 +87,8 @@ pub(super) fn complete(
     let mut reporter = ProgressReporter::new(is_quiet, true);
     let mut lines = String::new();
     let run =
-        output::write_atlas(&source.plan, output, &options, &mut |event| reporter.handle_event(event, &mut lines))?;
+        output::write_atlas(&source.plan, output, &options, &mut |event| reporter.handle_event(event, &mut lines))
+            .map_err(|error| source.failure(error))?;
     source.report_problems(&output::empty_family_warnings(&source.plan, Some(&run)));
     if !is_quiet {
         let rendered = Rendered { output: output.to_owned(), run, not_assembled: reporter.not_assembled };

@@ -52,7 +52,8 @@ pub(super) fn render(arguments: &Arguments, interrupt: &Arc<AtomicBool>) -> Resu
     let mut lines = String::new();
     let before = file_digests(&output);
     let run =
-        output::write_atlas(&source.plan, &output, &options, &mut |event| reporter.handle_event(event, &mut lines))?;
+        output::write_atlas(&source.plan, &output, &options, &mut |event| reporter.handle_event(event, &mut lines))
+            .map_err(|error| source.failure(error))?;
     source.report_problems(&output::empty_family_warnings(&source.plan, Some(&run)));
     let rendered = Rendered { output, run, not_assembled: reporter.not_assembled };
     if !arguments.quiet {

@@ -12,6 +12,7 @@ use std::path::Path;
 use super::journal::{Journal, JournalFile};
 use super::survey::{CellSurvey, FamilySurvey, Surveyor};
 use super::{Error, Event, Options, check_interrupt, files, previous_run};
+use crate::PROGRAM;
 use crate::manifest::{BookPlan, FindingCharts, Plan, PlannedFamily};
 use crate::pipeline::{Composer, FamilyPipeline, Inputs, curves_by_page};
 use crate::record::{BookRecord, Digest, FileRecord};
@@ -22,9 +23,6 @@ use coupler_drawing::page::{self, Layout, PanelPage};
 use coupler_drawing::render::{Format, pdf};
 use coupler_drawing::scene::Scene;
 use part::{BookFamily, FamilyPart};
-
-/// The name and version of the program in the metadata of a book.
-const PROGRAM: &str = concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION"));
 
 /// The families of the book that this run writes, with their places in the plan.
 ///

@@ -6,6 +6,7 @@ use serde::ser::{SerializeMap, Serializer};
 use super::pretty_json::to_pretty_string;
 use super::sampling_fields::sampling_fields;
 use super::{PointTable, SelectedCurve};
+use crate::family::LengthUnit;
 use crate::linkage::{DyadId, Linkage};
 use crate::measure::{self, Value, compute_columns};
 use crate::motion::{Circuit, Pass, PassEnd};
@@ -20,6 +21,8 @@ struct Document<'a> {
     curve: String,
     family: &'a str,
     linkage: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unit: Option<&'static str>,
     cell: usize,
     trace: usize,
     circuit: usize,
@@ -104,6 +107,7 @@ pub(super) fn document(selected: &SelectedCurve) -> String {
         curve: selected.name(),
         family: &family.id,
         linkage: &family.template.id,
+        unit: family.unit.map(LengthUnit::symbol),
         cell,
         trace,
         circuit,

@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::program::{Instruction, Operator};
 use super::{CompiledExpression, Expression, Function};
-use crate::text::format_exactly;
+use crate::text::{divide_word, format_exactly};
 
 /// A text in which parameters are symbols and exponents are raised.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -69,7 +69,7 @@ impl MathText {
     }
 
     /// The text in lines that fit: broken after commas where that is possible, and otherwise between words. A word that
-    /// does not fit is a line of its own.
+    /// does not fit is divided.
     pub fn wrap(&self, fits: impl Fn(&MathText) -> bool) -> Vec<MathText> {
         let mut lines: Vec<MathText> = Vec::new();
         let mut add = |part: MathText| match lines.last_mut() {
@@ -80,10 +80,24 @@ impl MathText {
             if fits(&clause.trimmed()) {
                 add(clause);
             } else {
-                clause.split_after(" ").into_iter().for_each(&mut add);
+                clause.split_after(" ").into_iter().flat_map(|word| word.divided(&fits)).for_each(&mut add);
             }
         }
         lines.iter().map(MathText::trimmed).collect()
+    }
+
+    /// The text, or its parts if it does not fit.
+    fn divided(self, fits: impl Fn(&MathText) -> bool) -> Vec<MathText> {
+        if fits(&self.trimmed()) {
+            return vec![self];
+        }
+        let of_piece = |piece: MathPiece| -> Vec<MathText> {
+            let MathPiece { is_symbol, is_raised, .. } = piece;
+            let part =
+                |text: &str| MathText { pieces: vec![MathPiece { text: text.to_owned(), is_symbol, is_raised }] };
+            divide_word(&piece.text, |text| fits(&part(text).trimmed())).into_iter().map(part).collect()
+        };
+        self.pieces.into_iter().flat_map(of_piece).collect()
     }
 
     /// The parts of the text, each but the last with a separator at its end; separators are in words only.
@@ -376,5 +390,8 @@ mod tests {
         };
         assert_eq!(lines(14), ["a = 1, b = 22,", "c = 3"]);
         assert_eq!(lines(4), ["a =", "1, b", "=", "22,", "c =", "3"]);
+        let text = MathText::from_words("CrankPin–Knee = 3, RockerPin");
+        let lines = text.wrap(|line| line.to_string().chars().count() <= 10);
+        assert_eq!(lines.iter().map(ToString::to_string).collect::<Vec<_>>(), ["CrankPin–", "Knee = 3,", "RockerPin"]);
     }
 }

@@ -2,6 +2,7 @@
 
 mod axis_values;
 mod dimensions;
+mod length_unit;
 mod memory;
 mod parameter_space;
 mod parameter_text;
@@ -9,6 +10,7 @@ mod scope;
 mod single_cell;
 
 pub use axis_values::AxisValues;
+pub use length_unit::LengthUnit;
 pub use parameter_space::{Axis, Case, ParameterSpace};
 pub use parameter_text::{ParameterSyntaxError, ParameterText, ParameterUnitError};
 pub use single_cell::{ParameterError, ParameterErrors};
@@ -41,6 +43,8 @@ pub struct Family {
     pub title: String,
     /// The linkage.
     pub template: Arc<Template>,
+    /// The unit of its lengths; `None` if they are in a unit of their own.
+    pub unit: Option<LengthUnit>,
     /// The names with a value in each cell: the template's parameters, then the helpers.
     pub names: Vec<String>,
     /// The parameter sets.
@@ -128,6 +132,13 @@ pub fn sort_by_dependency(
 }
 
 impl Family {
+    /// The legend of its linkage, with the unit of the lengths.
+    pub fn legend(&self) -> String {
+        let legend = Some(self.template.legend.clone()).filter(|legend| !legend.is_empty());
+        let unit = self.unit.map(LengthUnit::note);
+        legend.into_iter().chain(unit).collect::<Vec<_>>().join(" · ")
+    }
+
     /// The number of cells.
     pub fn cell_count(&self) -> usize {
         self.space.count()

@@ -126,6 +126,7 @@ impl Family {
             id: template.id.clone(),
             title: template.id.clone(),
             captions: [template.caption.clone(), template.note.clone()],
+            unit: None,
             template,
             names,
             space: ParameterSpace::Cases(vec![case]),

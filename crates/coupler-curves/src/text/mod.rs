@@ -5,3 +5,7 @@ mod words;
 
 pub use number::{exact_decimals, format_exactly, format_fixed, format_in_full, is_same_number, round_to_six_digits};
 pub use words::{is_control_or_directional, is_invisible, pluralize};
+
+// For the other crates of the workspace only.
+#[doc(hidden)]
+pub use words::divide_word;

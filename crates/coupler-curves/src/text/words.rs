@@ -26,6 +26,36 @@ pub fn is_invisible(c: char) -> bool {
     is_control_or_directional(c) || is_joiner || is_filler || is_selector
 }
 
+/// The parts of a word that fit a line each, as long as possible: it is divided after a hyphen or a dash or before a capital where that is in the
+/// second half of what fits, and otherwise anywhere. A character that does not fit is a part of its own.
+pub fn divide_word(word: &str, fits: impl Fn(&str) -> bool) -> Vec<&str> {
+    let mut parts = Vec::new();
+    let mut rest = word;
+    loop {
+        // What is far behind is not measured for each part: the time grows with the length of the word.
+        let places = rest.char_indices().skip(1).map(|(at, _)| at).chain([rest.len()]);
+        let ends: Vec<usize> = places.take_while(|at| fits(&rest[..*at])).collect();
+        if ends.last().is_some_and(|end| *end == rest.len()) || rest.is_empty() {
+            break;
+        }
+        let is_good = |at: &&usize| {
+            let [before, after] = [rest[..**at].chars().next_back(), rest[**at..].chars().next()];
+            before.is_some_and(|c| matches!(c, '-' | '–' | '/' | '_'))
+                || before.is_some_and(char::is_lowercase) && after.is_some_and(char::is_uppercase)
+        };
+        let one = rest.chars().next().map_or(0, char::len_utf8);
+        let last = ends.last().copied().unwrap_or(one);
+        let end = ends.iter().rev().take_while(|at| 2 * **at >= last).find(is_good).copied().unwrap_or(last);
+        let (part, after) = rest.split_at(end);
+        parts.push(part);
+        rest = after;
+    }
+    if !rest.is_empty() || parts.is_empty() {
+        parts.push(rest);
+    }
+    parts
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -48,5 +78,16 @@ mod tests {
         for c in [' ', '\u{a0}', 'a', 'é', 'ק', '\u{301}', '€', '𝄞'] {
             assert!(!is_control_or_directional(c) && !is_invisible(c), "{c:?}");
         }
+    }
+
+    #[test]
+    fn words_are_divided_where_their_parts_meet() {
+        let divided = |word, width: usize| divide_word(word, |part| part.chars().count() <= width);
+        assert_eq!(divided("FixedPivotOfTheCrank–PinOfTheCrank", 16), ["FixedPivotOfThe", "Crank–PinOfThe", "Crank"]);
+        assert_eq!(divided("FixedPivotOfTheCrank–PinOfTheCrank", 21), ["FixedPivotOfTheCrank–", "PinOfTheCrank"]);
+        assert_eq!(divided("äöüäöüäöü", 4), ["äöüä", "öüäö", "ü"]);
+        assert_eq!(divided("ab", 0), ["a", "b"]);
+        assert_eq!(divided("", 3), [""]);
+        assert_eq!(divided("short", 9), ["short"]);
     }
 }

@@ -7,6 +7,7 @@ use crate::scene::{Anchor, Circle, Color, Curve, Face, Group, Item, MIN_TEXT_SIZ
 use coupler_curves::expression::{MathPiece, MathText};
 use coupler_curves::geometry::{Point, Similarity, Spline, Vector};
 use coupler_curves::path::{Dash, DashPattern, JointPath};
+use coupler_curves::text::divide_word;
 
 /// An element, whose geometry is in millimetres from the origin of the area it is drawn on.
 pub(super) trait Element {
@@ -276,7 +277,8 @@ impl TextLine {
         }
     }
 
-    /// The text in lines no wider than `width`, broken between words; a name stays with its value if both fit a line.
+    /// The text in lines no wider than `width`, broken between words, and in words that are wider; a name stays with its value if both fit a
+    /// line.
     pub fn wrap(&self, width: f64) -> Vec<String> {
         let text: String = self.text.runs.iter().map(|run| run.text.as_str()).collect();
         let is_wider =
@@ -287,7 +289,9 @@ impl TextLine {
             false => vec![part],
         });
         for word in words {
+            let parts = divide_word(word, |part| !is_wider(part));
             match lines.last_mut() {
+                _ if parts.len() > 1 => lines.extend(parts.into_iter().map(str::to_owned)),
                 Some(line) if !is_wider(&format!("{line} {word}")) => {
                     line.push(' ');
                     line.push_str(word);

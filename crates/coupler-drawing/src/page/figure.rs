@@ -8,7 +8,7 @@ use super::labels::{LabelPlacer, Obstacles, label_line};
 use super::marks;
 use super::mechanism::PosedMechanism;
 use super::motion_marks::{MotionMarks, TickPoses, TickSteps};
-use super::plot::{MAX_CURVE_ERROR, Plot, round_number_below};
+use super::plot::{MAX_CURVE_ERROR, Plot, reduction_remark, round_number_below};
 use super::pose;
 use super::rect::Rect;
 use super::symbols::{self, Mark, Symbol};
@@ -201,7 +201,8 @@ impl<'a> Figure<'a> {
     }
 
     /// Draws the figure in a frame of an area, with the linkage at a scale in millimetres to a unit, or as large as it fits.
-    /// The first theme is for curves that are drawn apart from the linkage, the second for all else.
+    /// The first theme is for curves that are drawn apart from the linkage, the second for all else. The result is the greatest scale at
+    /// which the linkage fits.
     pub fn draw(
         &self,
         area: &impl Area,
@@ -209,7 +210,7 @@ impl<'a> Figure<'a> {
         (arrangement, scale, period): (Arrangement, Option<f64>, f64),
         page: &PanelPage,
         [curve_theme, theme]: [&Theme; 2],
-    ) {
+    ) -> f64 {
         let [frame, key] = arrangement.rects(whole);
         let key = Plot::new(key, theme);
         let in_dashes = |plot: &Plot,
@@ -223,8 +224,8 @@ impl<'a> Figure<'a> {
             self.draw_motion_marks(area, plot, curves, (&paths, period), (avoided, body), theme);
             self.draw_curves(area, plot, page, curves, (paths, period), theme);
         };
-        let (key, remark) = key.at_scale(self.extents.linkage, scale);
-        key.draw_scale_bar(area, &[remark.to_owned()], theme);
+        let (key, fitting) = key.at_scale(self.extents.linkage, scale);
+        key.draw_scale_bar(area, page.heading.unit, &[reduction_remark(scale, fitting)], theme);
         self.draw_underlay(area, &key, theme);
         let number = number_line(self.solved_cell, theme).text;
         let above = number.position - Vector::new(0.0, 0.36 * number.size);
@@ -253,7 +254,7 @@ impl<'a> Figure<'a> {
                 let enlargement = plot.page_from_plane.scale() / key.page_from_plane.scale();
                 let factor = marks::format_with_digits(enlargement, 2);
                 let remarks = [format!(", enlarged × {factor}"), format!(", × {factor}")];
-                plot.draw_scale_bar(area, &remarks, curve_theme);
+                plot.draw_scale_bar(area, page.heading.unit, &remarks, curve_theme);
                 let curves = self.solved_cell.curves.iter().filter(|curve| circuits.contains(&curve.circuit));
                 in_dashes(
                     &plot,
@@ -263,6 +264,7 @@ impl<'a> Figure<'a> {
                 );
             }
         }
+        fitting
     }
 
     /// Draws the curves as hairlines with dashes, and their coupler points.
@@ -291,7 +293,11 @@ impl<'a> Figure<'a> {
                 id: format!("{}-{cell}-{trace}-{circuit}", page.heading.family_id),
                 class: "curve",
                 title: format!("{}, no. {cell}: {}", page.heading.family_title, self.panel.caption),
-                data: vec![("cell", cell.to_string()), ("trace", trace.to_string()), ("circuit", circuit.to_string())],
+                data: [("cell", &cell), ("trace", trace), ("circuit", circuit)]
+                    .map(|(name, number)| (name, number.to_string()))
+                    .into_iter()
+                    .chain(page.heading.unit_data())
+                    .collect(),
                 page_from_plane: plot.page_from_plane,
                 dashes: self.dashes(curve, period, theme),
                 path,

@@ -6,6 +6,7 @@ use super::element::TextLine;
 use super::theme::Theme;
 use crate::scene::Anchor;
 use coupler_curves::expression::MathText;
+use coupler_curves::family::LengthUnit;
 use coupler_curves::geometry::{Point, Vector};
 
 /// The texts around the contents of a page: title, source line and folio.
@@ -26,6 +27,8 @@ pub struct Heading<'a> {
     pub dimensions: &'a [MathText],
     /// The names of parameters, set in italics.
     pub symbols: &'a [String],
+    /// The unit of the lengths; `None` if they are in a unit of their own.
+    pub unit: Option<LengthUnit>,
     /// The page's number in the family, from 1.
     pub page: usize,
     /// The number of pages of the family.
@@ -42,6 +45,7 @@ impl<'a> Heading<'a> {
             source: String::new(),
             dimensions: &[],
             symbols: &[],
+            unit: None,
             page: 1,
             page_count: 1,
         }
@@ -72,9 +76,19 @@ impl<'a> Heading<'a> {
         Heading { symbols, ..self }
     }
 
+    /// The heading of a page whose lengths have a unit.
+    pub fn with_unit(self, unit: Option<LengthUnit>) -> Heading<'a> {
+        Heading { unit, ..self }
+    }
+
     /// The heading of a page by its number, from 1, and the number of pages.
     pub fn with_page(self, page: usize, page_count: usize) -> Heading<'a> {
         Heading { page, page_count, ..self }
+    }
+
+    /// The attribute that says the unit in a drawing, if there is one.
+    pub(super) fn unit_data(&self) -> Option<(&'static str, String)> {
+        self.unit.map(|unit| ("unit", unit.symbol().to_owned()))
     }
 
     /// The title of the document the page is written to.

@@ -15,6 +15,8 @@ pub struct Key {
     pub dimensions: Vec<MathText>,
     /// The name of each joint, and how it is placed; those that only serve to place others come last.
     pub joints: Vec<(String, MathText)>,
+    /// Whether the drawing has the numbers of the joints, from 1, in place of their names, which are too long for it.
+    pub is_numbered: bool,
     /// Those of them that are no pins, but points of moving links.
     pub helpers: Vec<String>,
     /// The formulas of the note under each panel, if its values follow from the parameters, such as the lengths of cognates.
@@ -51,6 +53,7 @@ impl Key {
         let is_moving = |(_, joint): &&(usize, &JointTemplate)| !matches!(joint.kind, JointKindTemplate::Fixed(_));
         Key {
             dimensions,
+            is_numbered: false,
             helpers: helpers.iter().filter(is_moving).map(|(_, joint)| displayed_name(&joint.name)).collect(),
             joints: pins.into_iter().chain(helpers).map(joint).collect(),
             note: note_formulas(family),
@@ -61,6 +64,17 @@ impl Key {
 }
 
 impl Key {
+    /// What the drawing has at a pin: the names of its joints, or their numbers.
+    pub(super) fn pin_label(&self, names: &[String]) -> String {
+        let whole = names.join(", ");
+        let number = |name: &String| self.joints.iter().position(|(own, _)| own == name).map(|k| (k + 1).to_string());
+        match (self.is_numbered, number(&whole)) {
+            (false, _) => whole,
+            (true, Some(number)) => number,
+            (true, None) => names.iter().map(|name| number(name).unwrap_or_default()).collect::<Vec<_>>().join(", "),
+        }
+    }
+
     /// The key in which joints that are one pin on all pages of some linkages are one line with both names.
     pub(super) fn with_common_pins(mut self, pins: &[Vec<String>]) -> Key {
         for names in pins {

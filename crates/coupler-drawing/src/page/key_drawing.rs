@@ -21,6 +21,9 @@ use coupler_curves::motion::{Circuit, Motion, Sampler, Sampling};
 /// The width of a line of text of the key, in ems of a note.
 const COLUMN_WIDTH: f64 = 24.0;
 
+/// The greatest width of a name at a joint, as a part of the drawing.
+const MAX_NAME_PART: f64 = 0.3;
+
 /// Divides the contents of a page into the part for panels and that for the key: a column on the right of a wide page,
 /// a strip at the foot of a high one. `None` for the key if it would leave too little to the panels.
 pub(super) fn divide(contents: Rect, theme: &Theme) -> (Rect, Option<Rect>) {
@@ -75,6 +78,9 @@ pub(super) fn draw(area: &impl Area, rect: Rect, key: &Key, figures: &[&Figure],
         false => rect.corner + Vector::new(drawing.x + em, 0.0),
     };
     let mut key = key.clone().with_common_pins(&common_pins(figures));
+    let width =
+        |name: &str| theme.text_line(name, Point::origin(), Anchor::Middle, theme.caption_size, theme.ink).text.width();
+    key.is_numbered = key.joints.iter().any(|(name, _)| width(name) > MAX_NAME_PART * drawing.x);
     if let Some((figure, mechanism)) =
         clearest_figure(figures).and_then(|figure| Some((figure, figure.mechanisms.first()?)))
     {
@@ -84,11 +90,11 @@ pub(super) fn draw(area: &impl Area, rect: Rect, key: &Key, figures: &[&Figure],
             Some((linkage, circuit)) => {
                 let pose = pose::clearest_pose(&linkage, &circuit);
                 let mechanism = PosedMechanism::new(&linkage, Mechanism::new(&linkage, &circuit), pose);
-                draw_linkage(area, drawing, &mechanism, &circuit, ink, theme);
+                draw_linkage(area, drawing, (&mechanism, &key), &circuit, ink, theme);
                 key.remarks.push("shown here with a longer crank, as its own is hidden by its joints".to_owned());
             }
             None => {
-                draw_linkage(area, drawing, mechanism, figure.first_circuit(), ink, theme);
+                draw_linkage(area, drawing, (mechanism, &key), figure.first_circuit(), ink, theme);
                 key.remarks.extend(figure.pose_input().map(|input| format!("shown here at {input} of input")));
             }
         }
@@ -158,16 +164,31 @@ impl KeyLines {
         let columns = (rect.size.x / (COLUMN_WIDTH * em)).floor().max(1.0);
         let width = rect.size.x / columns - em;
         let line = |text: &MathText, color| theme.math_line(text, Point::origin(), Anchor::Start, em, color);
-        let names: Vec<TextLine> =
-            key.joints.iter().map(|(name, _)| line(&MathText::from_words(name.as_str()), theme.ink)).collect();
-        let indent = names.iter().map(|name| name.text.width()).fold(0.0, f64::max).min(0.4 * width) + 0.7 * em;
+        let name = |(k, (name, _)): (usize, &(String, MathText))| {
+            let words = if key.is_numbered { format!("{} {name}", k + 1) } else { name.clone() };
+            line(&MathText::from_words(words), theme.ink)
+        };
+        let names: Vec<TextLine> = key.joints.iter().enumerate().map(name).collect();
+        // The text is beside the names, but below those that would leave too little to it.
+        let is_beside = |name: &TextLine| name.text.width() <= 0.4 * width;
+        let beside = names.iter().filter(|name| is_beside(name)).map(|name| name.text.width());
+        let indent = beside.reduce(f64::max).unwrap_or(em) + 0.7 * em;
         let fits = |text: &MathText| line(text, theme.grey).text.width() <= width - indent;
         let fits_column = |text: &MathText| line(text, theme.ink).text.width() <= width;
         let dimensions = MathText::join(dimensions.iter().cloned(), ", ").wrap(fits_column);
         let dimensions = dimensions.iter().filter(|part| !part.pieces().is_empty());
         let mut rows: Vec<_> = dimensions.map(|part| (None, line(part, theme.ink), 0.0)).collect();
         for (name, (joint, construction)) in names.into_iter().zip(&key.joints) {
-            let mut name = Some(name);
+            let mut name = match is_beside(&name) {
+                true => Some(name),
+                false => {
+                    let parts = name.wrap(width);
+                    rows.extend(
+                        parts.into_iter().map(|part| (None, line(&MathText::from_words(part), theme.ink), 0.0)),
+                    );
+                    None
+                }
+            };
             let is_helper = key.helpers.contains(joint);
             let construction =
                 if is_helper { construction.clone().with_words("; no pin") } else { construction.clone() };
@@ -223,7 +244,7 @@ impl KeyLines {
 pub(super) fn draw_linkage(
     area: &impl Area,
     rect: Rect,
-    mechanism: &PosedMechanism,
+    (mechanism, key): (&PosedMechanism, &Key),
     circuit: &Circuit,
     ink: impl Fn(JointId) -> Color,
     theme: &Theme,
@@ -254,8 +275,9 @@ pub(super) fn draw_linkage(
     obstacles.add(&links, false);
     obstacles.add(&marks, false);
     let mut placer = LabelPlacer::new(&obstacles, rect, theme);
-    let names =
-        joint_names(mechanism, &named, &plot, theme).into_iter().chain(directions.zero_end().map(|at| (at, zero)));
+    let names = joint_names((mechanism, key), &named, &plot, theme)
+        .into_iter()
+        .chain(directions.zero_end().map(|at| (at, zero)));
     let names = names.filter_map(|(at, name)| placer.place_at_point(at, name)).collect();
     for (class, items) in [("underlay", underlay), ("linkage", links), ("direction", marks), ("name", names)] {
         area.record(Drawing { class, title: String::new(), items });
@@ -307,12 +329,18 @@ fn common_pins(figures: &[&Figure]) -> Vec<Vec<String>> {
 }
 
 /// The names of pins, with their positions; those of helpers are grey.
-fn joint_names(mechanism: &PosedMechanism, pins: &[Vec<JointId>], plot: &Plot, theme: &Theme) -> Vec<(Point, Text)> {
+fn joint_names(
+    (mechanism, key): (&PosedMechanism, &Key),
+    pins: &[Vec<JointId>],
+    plot: &Plot,
+    theme: &Theme,
+) -> Vec<(Point, Text)> {
     let linkage = mechanism.linkage;
     let label = |pin: &Vec<JointId>| {
         let names: Vec<String> = pin.iter().map(|&joint| displayed_name(&linkage.joints[joint].name)).collect();
         let ink = if mechanism.mechanism.helpers.contains(&pin[0]) { theme.grey } else { theme.ink };
-        let text = theme.text_line(&names.join(", "), Point::origin(), Anchor::Middle, theme.caption_size, ink).text;
+        let text =
+            theme.text_line(&key.pin_label(&names), Point::origin(), Anchor::Middle, theme.caption_size, ink).text;
         (plot.page_from_plane.apply(mechanism.pose[pin[0]]), text)
     };
     pins.iter().map(label).collect()

@@ -35,6 +35,7 @@ mod paper;
 mod plot;
 mod pose;
 mod rect;
+mod scales;
 mod symbols;
 mod theme;
 mod typography;
@@ -51,6 +52,7 @@ pub use options::Options;
 pub use pages::{AnswersPage, ChartPage, CouplerGridPage, FoundCurve, LinkLabel, OverlayPage, PanelPage, PanelScale};
 pub use panel::{Panel, PoseChoice};
 pub use paper::Paper;
+pub use scales::{format_scale, usual_scale_below};
 pub use theme::{CurveStyle, NamedTheme, Theme};
 
 use crate::scene::Scene;
@@ -99,7 +101,8 @@ pub fn compose_overlay(page: &OverlayPage, options: &Options) -> Scene {
     let theme = options.theme.for_paper(options.paper);
     let Paper { width, height } = options.paper;
     let (paper, typeface, title) = (theme.paper, theme.typeface, page.title.to_owned());
-    let mut scene = Scene { width, height, paper, typeface, title, items: Vec::new(), links: Vec::new() };
+    let mut scene =
+        Scene { width, height, paper, typeface, title, items: Vec::new(), links: Vec::new(), fitting_scale: None };
     overlay::compose(&mut scene, page, &theme);
     scene
 }
@@ -109,7 +112,8 @@ pub fn compose_answers(page: &AnswersPage, options: &Options) -> Scene {
     let theme = options.theme.for_paper(options.paper);
     let Paper { width, height } = options.paper;
     let (paper, typeface, title) = (theme.paper, theme.typeface, page.title.to_owned());
-    let mut scene = Scene { width, height, paper, typeface, title, items: Vec::new(), links: Vec::new() };
+    let mut scene =
+        Scene { width, height, paper, typeface, title, items: Vec::new(), links: Vec::new(), fitting_scale: None };
     answers::compose(&mut scene, page, &theme);
     scene
 }
@@ -118,20 +122,20 @@ pub fn compose_answers(page: &AnswersPage, options: &Options) -> Scene {
 pub fn compose_panels(page: &PanelPage, options: &Options) -> Scene {
     let theme = options.theme.for_paper(options.paper);
     let mut scene = empty_scene(&page.heading, options, &theme);
-    panels::compose(&area::whole_page(&mut scene), page, options, &theme);
-    scene
+    let fitting_scale = panels::compose(&area::whole_page(&mut scene), page, options, &theme);
+    Scene { fitting_scale: page.scale.fixed().map(|_| fitting_scale), ..scene }
 }
 
 /// Composes a page of a coupler grid.
 pub fn compose_coupler_grid(page: &CouplerGridPage, options: &Options) -> Scene {
     let theme = options.theme.for_paper(options.paper);
     let mut scene = empty_scene(&page.heading, options, &theme);
-    coupler_grid::compose(&mut scene, page, options, &theme);
-    scene
+    let fitting_scale = coupler_grid::compose(&mut scene, page, options, &theme);
+    Scene { fitting_scale: page.scale.fixed().map(|_| fitting_scale), ..scene }
 }
 
 fn empty_scene(heading: &Heading, options: &Options, theme: &Theme) -> Scene {
     let Paper { width, height } = options.paper;
     let (paper, typeface, title) = (theme.paper, theme.typeface, heading.page_title());
-    Scene { width, height, paper, typeface, title, items: Vec::new(), links: Vec::new() }
+    Scene { width, height, paper, typeface, title, items: Vec::new(), links: Vec::new(), fitting_scale: None }
 }

@@ -41,7 +41,7 @@ fn draw_figure(area: &impl Area, frame: Rect, page: &OverlayPage, theme: &Theme)
     let margin = Vector::repeat(MAX_DIFFERENCE_PART * frame.size.y);
     let inner = Rect { corner: frame.corner + margin, size: frame.size - margin * 2.0 };
     let plot = Plot::new(inner, theme).fitted_to(bounds);
-    plot.draw_scale_bar(area, &[], theme);
+    plot.draw_scale_bar(area, None, &[], theme);
     let on_page = |p: Point| plot.page_from_plane.apply(p);
     let (old, new) = (theme.curve_ink(0), theme.ink);
     let path = |points: &[Point], color: Color, width: f64| {

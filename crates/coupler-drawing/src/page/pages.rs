@@ -20,8 +20,18 @@ pub enum PanelScale {
     Panel,
     /// All of a page have the scale at which the largest one fits its panel.
     Page,
-    /// All have this scale, in millimetres to a unit of length. One that does not fit is reduced.
+    /// All have this scale, in millimetres to a unit of length. One that does not fit is reduced to [`fitting_scale`](crate::scene::Scene::fitting_scale).
     Fixed(f64),
+}
+
+impl PanelScale {
+    /// The scale that is given, in millimetres to a unit.
+    pub fn fixed(self) -> Option<f64> {
+        match self {
+            PanelScale::Fixed(scale) => Some(scale),
+            PanelScale::Panel | PanelScale::Page => None,
+        }
+    }
 }
 
 /// A page of panels.
@@ -136,4 +146,11 @@ pub struct FoundCurve {
     pub pose: Vec<Point>,
     /// What the legend says of it.
     pub label: String,
+}
+
+impl FoundCurve {
+    /// Whether its linkage is in its own place, so that it can be drawn.
+    pub(super) fn is_in_place(&self) -> bool {
+        self.placement == Similarity::IDENTITY
+    }
 }

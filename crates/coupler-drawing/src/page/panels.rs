@@ -8,6 +8,7 @@ use super::figure::{self, Figure};
 use super::heading::{contents_size, margins};
 use super::key::Key;
 use super::key_drawing;
+use super::plot::is_reduced;
 use super::rect::Rect;
 use super::symbols::{self, Mark, Symbol};
 use super::theme::Theme;
@@ -16,14 +17,16 @@ use crate::scene::{Anchor, Color, Item};
 use coupler_curves::geometry::{Point, Vector};
 use coupler_curves::solve::SolvedCell;
 
-pub(super) fn compose(root: &impl Area, page: &PanelPage, options: &Options, theme: &Theme) {
+/// Composes a page; the result is the greatest scale at which its linkages fit, in millimetres to a unit.
+pub(super) fn compose(root: &impl Area, page: &PanelPage, options: &Options, theme: &Theme) -> f64 {
     let top = page.heading.draw(root, theme);
     let figures: Vec<Option<Figure>> = page.panels.iter().map(Figure::from_panel).collect();
     // All panels have the dashes of the one with the greatest range of the input.
     let period = figures.iter().flatten().map(|figure| figure.dash_period(options)).fold(0.0, f64::max);
     let mut symbols = page_symbols(page, &figures, period, theme);
     // The scale is known after the panels are arranged; no statement of it is wider than this one.
-    let above_foot = layout_symbols(root, page, &symbols, symbols::scale_bar(Some(1234.0), None), theme).1;
+    let above_foot =
+        layout_symbols(root, page, &symbols, symbols::scale_bar(Some(1234.0), None, page.heading.unit), theme).1;
     let [_, _, side] = margins(theme);
     let contents = Rect {
         corner: Point::new(side, top),
@@ -51,10 +54,11 @@ pub(super) fn compose(root: &impl Area, page: &PanelPage, options: &Options, the
         NOTES_LEFT_OUT => !drawn.has_notes && !has_formulas,
         _ => true,
     });
-    let scale = symbols::scale_bar(drawn.scale, common_crank(&figures));
+    let scale = symbols::scale_bar(drawn.common_scale(), common_crank(&figures), page.heading.unit);
     for (at, line) in layout_symbols(root, page, &symbols, scale, theme).0 {
         symbols::draw(root, &line, at, theme);
     }
+    drawn.fitting_scale
 }
 
 /// The length of a crank that all linkages of a page have.
@@ -122,14 +126,23 @@ const NOTES_LEFT_OUT: &str = "notes that need larger panels are left out";
 
 /// What was decided when the panels of a page were drawn.
 struct DrawnPanels {
-    /// The scale of the linkages in millimetres to a unit, if it is common to all.
+    /// The scale of the linkages in millimetres to a unit, if it is to be common to all.
     scale: Option<f64>,
+    /// The greatest scale at which all linkages fit.
+    fitting_scale: f64,
     /// Whether the facts of the cells are under the figures.
     has_facts: bool,
     /// Whether the notes of the cells are there.
     has_notes: bool,
     /// Whether a curve is drawn apart from its linkage.
     has_enlarged: bool,
+}
+
+impl DrawnPanels {
+    /// The scale of the linkages in millimetres to a unit, if it is common to all.
+    fn common_scale(&self) -> Option<f64> {
+        self.scale.filter(|scale| !is_reduced(*scale, self.fitting_scale))
+    }
 }
 
 /// Draws the panels.
@@ -173,27 +186,24 @@ fn draw_panels<A: Area>(
         Rect { corner: Point::new(gap, 0.0), size: size.sup(&Vector::new(1.0, 1.0)) }
     };
     let extents: Vec<Extents> = figures.iter().flatten().map(|figure| figure.extents.clone()).collect();
-    let page_scale = match page.scale {
-        PanelScale::Fixed(scale) => Some(scale),
-        PanelScale::Panel | PanelScale::Page => None,
-    };
+    let page_scale = page.scale.fixed();
     let arrangement = Arrangement::best(figure_rect(&areas[0]), page_scale, theme, &extents);
-    let fitting_scale = |(figure, area): (&Figure, &A)| {
+    let fit = |(figure, area): (&Figure, &A)| {
         let frame = figure_rect(area);
         figure.fitting_scale(frame, figure.arrangement(arrangement, frame, page_scale, [theme; 2]), theme)
     };
     let drawn = || figures.iter().zip(&areas).filter_map(|(figure, area)| Some((figure.as_ref()?, area)));
     let scale = match page.scale {
-        PanelScale::Page => Some(drawn().map(fitting_scale).fold(f64::INFINITY, f64::min)),
+        PanelScale::Page => Some(drawn().map(fit).fold(f64::INFINITY, f64::min)),
         PanelScale::Panel | PanelScale::Fixed(_) => page_scale,
     };
     let crank_on_paper = |(figure, area): (&Figure, &A)| {
-        let fitting = fitting_scale((figure, area));
+        let fitting = fit((figure, area));
         Some(figure.crank_length()? * scale.map_or(fitting, |scale| scale.min(fitting)))
     };
     // The smallest joints, of a third of the radius, would hide a shorter crank as well.
     let can_be_seen = |length: &f64| *length >= 0.75 * theme.joint_radius;
-    let mut has_enlarged = false;
+    let (mut has_enlarged, mut fitting_scale) = (false, f64::INFINITY);
     for (((panel, figure), area), lines) in page.panels.iter().zip(figures).zip(&areas).zip(texts) {
         let frame = figure_rect(area);
         match figure {
@@ -205,14 +215,14 @@ fn draw_panels<A: Area>(
                 let themes = [curve_theme, figure_theme];
                 let arrangement = figure.arrangement(arrangement, frame, scale, themes);
                 has_enlarged |= arrangement != Arrangement::Combined;
-                figure.draw(area, frame, (arrangement, scale, period), page, themes);
+                fitting_scale = fitting_scale.min(figure.draw(area, frame, (arrangement, scale, period), page, themes));
             }
             None => draw_not_assembled(area, frame, panel.solved_cell, theme),
         }
         area.record(figure::number_line(panel.solved_cell, theme));
         draw_lines(area, lines, area.size().y - foot, theme);
     }
-    DrawnPanels { scale, has_facts: facts != FactsLayout::None, has_notes, has_enlarged }
+    DrawnPanels { scale, fitting_scale, has_facts: facts != FactsLayout::None, has_notes, has_enlarged }
 }
 
 /// The theme with the size of captions at which all of a page fit on a line, if that is not much smaller.

@@ -11,12 +11,22 @@ pub struct Paper {
 
 impl Paper {
     /// The papers that have a name, all in landscape format.
-    pub const NAMED: [(&'static str, Paper); 4] = [
+    pub const NAMED: [(&'static str, Paper); 7] = [
         ("letter", Paper { width: 279.4, height: 215.9 }),
         ("tabloid", Paper { width: 431.8, height: 279.4 }),
         ("a4", Paper { width: 297.0, height: 210.0 }),
         ("a3", Paper { width: 420.0, height: 297.0 }),
+        ("a2", Paper { width: 594.0, height: 420.0 }),
+        ("a1", Paper { width: 841.0, height: 594.0 }),
+        ("a0", Paper { width: 1189.0, height: 841.0 }),
     ];
+
+    /// The paper with its longer side as its height, or as its width.
+    pub fn turned(self, is_portrait: bool) -> Paper {
+        let Paper { width, height } = self;
+        let (short, long) = (width.min(height), width.max(height));
+        if is_portrait { Paper { width: short, height: long } } else { Paper { width: long, height: short } }
+    }
 
     /// The least and the greatest side of a page, in millimetres.
     pub const SIDE_RANGE: [f64; 2] = [50.0, 2000.0];

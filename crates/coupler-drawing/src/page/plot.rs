@@ -7,10 +7,21 @@ use super::element::Drawing;
 use super::rect::Rect;
 use super::theme::Theme;
 use crate::scene::{Anchor, Item, Path, Polyline, Text};
+use coupler_curves::family::LengthUnit;
 use coupler_curves::geometry::{Bounds, Point, Similarity, Vector};
 
 /// The rounding of a scale that is computed from a frame: panels of a page differ in size by a hundredth of a millimetre.
 pub(super) const SCALE_ROUNDING: f64 = 1e-3;
+
+/// Whether a scale is greater than the one that fits.
+pub(super) fn is_reduced(scale: f64, fitting: f64) -> bool {
+    scale > fitting * (1.0 + SCALE_ROUNDING)
+}
+
+/// What a scale bar says of a scale that is to be common to several figures and is greater than the one that fits.
+pub(super) fn reduction_remark(scale: Option<f64>, fitting: f64) -> String {
+    if scale.is_some_and(|scale| is_reduced(scale, fitting)) { ", reduced".to_owned() } else { String::new() }
+}
 
 /// A frame in which a figure is drawn to scale.
 pub(super) struct Plot {
@@ -43,16 +54,16 @@ impl Plot {
     }
 
     /// The plot with a scale in millimetres to a unit, with `bounds` at its centre, or with the one at which they fill the frame if
-    /// there is none or it is greater; and what the scale bar says of a scale that is reduced.
-    pub fn at_scale(self, bounds: Bounds, scale: Option<f64>) -> (Plot, &'static str) {
+    /// there is none or it is greater; and the scale at which they do.
+    pub fn at_scale(self, bounds: Bounds, scale: Option<f64>) -> (Plot, f64) {
         let fitted = self.fitted_to(bounds);
-        match scale {
-            Some(scale) if scale <= fitted.page_from_plane.scale() * (1.0 + SCALE_ROUNDING) => {
+        let fitting = fitted.page_from_plane.scale();
+        match scale.filter(|scale| !is_reduced(*scale, fitting)) {
+            Some(scale) => {
                 let page_from_plane = Similarity::page_from_plane(bounds, fitted.rect.centre(), scale);
-                (Plot { page_from_plane, ..fitted }, "")
+                (Plot { page_from_plane, ..fitted }, fitting)
             }
-            Some(_) => (fitted, ", reduced"),
-            None => (fitted, ""),
+            None => (fitted, fitting),
         }
     }
 
@@ -69,11 +80,11 @@ impl Plot {
 
     /// Draws a scale bar under the frame: the largest round number of units up to a fifth of the frame's width. The first
     /// remark on the scale that fits follows its label, or else the last.
-    pub fn draw_scale_bar(&self, area: &impl Area, remarks: &[String], theme: &Theme) {
+    pub fn draw_scale_bar(&self, area: &impl Area, unit: Option<LengthUnit>, remarks: &[String], theme: &Theme) {
         let scale = self.page_from_plane.scale();
         let units = round_number_below(0.2 * self.rect.size.x / scale);
         let length = units * scale;
-        let label = units.to_string();
+        let label = unit.map_or(units.to_string(), |unit| format!("{units} {}", unit.symbol()));
         let size = theme.small_size();
         let at =
             Point::new(self.rect.centre().x, self.rect.corner.y + self.rect.size.y + 2.2 * theme.joint_radius + size);

@@ -8,9 +8,11 @@ use super::heading::{Heading, foot_baseline, margins};
 use super::marks;
 use super::mechanism;
 use super::motion_marks::{self, TickSteps};
+use super::scales::format_scale;
 use super::theme::Theme;
 use crate::scene::{Anchor, Circle, Color, Item, Path, Polyline, Stroke, Text};
 use coupler_curves::expression::join_names;
+use coupler_curves::family::LengthUnit;
 use coupler_curves::geometry::{Point, Vector};
 use coupler_curves::linkage::{Joint, JointId, JointKind, LinkOutline, Linkage};
 use coupler_curves::solve::SolvedCell;
@@ -133,13 +135,15 @@ pub(super) fn of_body(body: &GuidedBody, theme: &Theme) -> Vec<Symbol> {
     pose.into_iter().chain(places).collect()
 }
 
-/// The scale bar, which says what length on paper the crank has, or else a unit, if that is common to all figures, in millimetres to
-/// a unit.
-pub(super) fn scale_bar(scale: Option<f64>, crank: Option<f64>) -> Symbol {
-    let meaning = match (scale, crank) {
-        (Some(scale), Some(crank)) => format!("crank = {:.1} mm", crank * scale),
-        (Some(scale), None) => format!("one unit of length = {} mm", marks::format_with_digits(scale, 3)),
-        (None, _) => "units of length".to_owned(),
+/// The scale bar, which says the unit of lengths, and, of a scale in millimetres to a unit that is common to all figures, that scale or
+/// what length on paper the crank has, or else a unit.
+pub(super) fn scale_bar(scale: Option<f64>, crank: Option<f64>, unit: Option<LengthUnit>) -> Symbol {
+    let meaning = match (scale, crank, unit) {
+        (Some(scale), _, Some(unit)) => format!("scale {}, {}", format_scale(scale, Some(unit)), unit.note()),
+        (None, _, Some(unit)) => unit.note(),
+        (Some(scale), Some(crank), None) => format!("crank = {:.1} mm on paper", crank * scale),
+        (Some(scale), None, None) => format!("one unit of length = {} mm", marks::format_with_digits(scale, 3)),
+        (None, _, None) => "units of length".to_owned(),
     };
     Symbol { mark: Mark::ScaleBar, meaning }
 }

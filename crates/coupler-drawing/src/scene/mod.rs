@@ -42,6 +42,9 @@ pub struct Scene {
     pub items: Vec<Item>,
     /// Links to other pages, on a page of a book.
     pub links: Vec<PageLink>,
+    /// The greatest scale at which its linkages fit, in millimetres to a unit, of a page whose scale is given; if that is greater, they are
+    /// reduced to this.
+    pub fitting_scale: Option<f64>,
 }
 
 /// An item of a scene.

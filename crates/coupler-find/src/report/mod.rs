@@ -6,4 +6,4 @@ mod significant;
 
 pub use manifest::{answer_families, answers_manifest, manifest_head, title_for};
 pub use record::{AnswerRecord, FitRecord};
-pub use significant::{format_length, format_relative};
+pub use significant::{format_drawn_length, format_length, format_relative};

@@ -52,7 +52,7 @@ fn entry(rank: &str, AtlasAnswer { curve, name, refined, .. }: &AtlasAnswer, siz
             line(&answer.deviation),
             name,
             relative(fit.deviation.rms_relative),
-            dimensions(&answer.mechanism, size),
+            dimensions(&answer.mechanism, |value| number(value, size)),
             place(&answer.mechanism, size)
         ),
         None => {

@@ -51,7 +51,7 @@ mod tests {
     use coupler_curves::solve::{SolvedCell, Solver};
 
     const PAPERS: [Paper; 8] = {
-        let [(_, letter), (_, tabloid), (_, a4), (_, a3)] = Paper::NAMED;
+        let [(_, letter), (_, tabloid), (_, a4), (_, a3), ..] = Paper::NAMED;
         let slip = Paper { width: 50.0, height: 2000.0 };
         let odd = Paper { width: 123.456, height: 98.765 };
         [letter, tabloid, a4, a3, plate::PAPER, slip, odd, Paper { width: 50.0, height: 50.0 }]

@@ -26,11 +26,11 @@ use super::labels::{LabelPlacer, Obstacles, label_line};
 use super::marks;
 use super::mechanism::PosedMechanism;
 use super::motion_marks::{MotionMarks, TickPoses, TickSteps};
-use super::plot::Plot;
+use super::plot::{Plot, reduction_remark};
 use super::rect::Rect;
 use super::symbols::{self, Mark, Symbol};
 use super::theme::Theme;
-use super::{CouplerGridPage, Layout, Options, Panel, PanelScale, PoseChoice, pose};
+use super::{CouplerGridPage, Layout, Options, Panel, PoseChoice, pose};
 use crate::mechanism::Mechanism;
 use crate::scene::{Anchor, Circle, Item, MIN_TEXT_SIZE, Path, Scene};
 use coupler_curves::geometry::{Bounds, Point, Similarity, Vector};
@@ -45,7 +45,8 @@ use table::Table;
 
 pub(super) use columns::MEASURES;
 
-pub(super) fn compose(scene: &mut Scene, page: &CouplerGridPage, options: &Options, theme: &Theme) {
+/// Composes a page; the result is the greatest scale at which its linkage fits, in millimetres to a unit.
+pub(super) fn compose(scene: &mut Scene, page: &CouplerGridPage, options: &Options, theme: &Theme) -> f64 {
     let size = Vector::new(scene.width, scene.height);
     let most = most_lettering(size);
     let theme = &with_legible_notes(theme, MIN_TEXT_SIZE, most);
@@ -63,15 +64,17 @@ pub(super) fn compose(scene: &mut Scene, page: &CouplerGridPage, options: &Optio
     match posed_mechanism(&page.panel) {
         Some(mechanism) => {
             let figure_theme = with_legible_notes(theme, MIN_TEXT_SIZE / Theme::SMALL_PART, size.min() / MIN_LINES);
-            let plot = draw_figure(&root, figure, page, &mechanism, &shown, options, &figure_theme);
+            let (plot, fitting) = draw_figure(&root, figure, page, &mechanism, &shown, options, &figure_theme);
             // A scale that is common to all pages is stated as it is on this one.
-            let scale = common_scale(page).map(|_| plot.page_from_plane.scale());
+            let scale = page.scale.fixed().map(|_| plot.page_from_plane.scale());
             let symbols = page_symbols(page, &shown, scale, options, theme);
             let panel = footer::draw_symbols(&root, panel, &symbols, panel_theme);
             draw_panel(&root, panel, page, &mechanism, &shown, panel_theme);
+            fitting
         }
         None => {
             super::panels::draw_not_assembled(&root, whole, solved, theme);
+            f64::INFINITY
         }
     }
 }
@@ -137,16 +140,8 @@ fn page_symbols(
         let meaning = "longest straight portion".to_owned();
         symbols.push(Symbol { mark: Mark::Band(banded.ink(theme)), meaning });
     }
-    symbols.push(symbols::scale_bar(scale, solved.linkage.crank_length()));
+    symbols.push(symbols::scale_bar(scale, solved.linkage.crank_length(), page.heading.unit));
     symbols
-}
-
-/// The scale that is common to all pages, in millimetres to a unit.
-fn common_scale(page: &CouplerGridPage) -> Option<f64> {
-    match page.scale {
-        PanelScale::Fixed(scale) => Some(scale),
-        PanelScale::Panel | PanelScale::Page => None,
-    }
 }
 
 /// Draws the panel: key and description, table and graphs, transmission angle and notes.
@@ -174,12 +169,19 @@ fn draw_panel(
     let key = Rect { size: Vector::new(key_width, parts.key.size.y), ..parts.key };
     match page.key {
         None => key::draw(area, key, page, mechanism, shown, theme),
-        Some(_) => {
+        Some(of_linkage) => {
             let solved = page.panel.solved_cell;
             let circuit = shown.first().map_or(0, |s| s.curve.circuit - 1);
             let lettering = Theme { caption_size: 1.1 * em, ..theme.clone() };
             let ink = |_| theme.ink;
-            key_drawing::draw_linkage(area, key, mechanism, &solved.motion.circuits[circuit], ink, &lettering);
+            key_drawing::draw_linkage(
+                area,
+                key,
+                (mechanism, of_linkage),
+                &solved.motion.circuits[circuit],
+                ink,
+                &lettering,
+            );
         }
     }
     let after_key = Vector::new(key_width + em, 0.0);
@@ -198,7 +200,7 @@ fn draw_panel(
     notes.draw(area, notes_frame, page, theme);
 }
 
-/// Draws the curves and the linkage; returns where they are.
+/// Draws the curves and the linkage; returns where they are, and the greatest scale at which they fit.
 fn draw_figure(
     area: &impl Area,
     frame: Rect,
@@ -207,13 +209,14 @@ fn draw_figure(
     shown: &[ShownCurve],
     options: &Options,
     theme: &Theme,
-) -> Plot {
+) -> (Plot, f64) {
     let solved = page.panel.solved_cell;
     let grid = grid::PointGrids::from_joints(&solved.linkage, shown.iter().map(|s| s.curve.joint));
     let curves = shown.iter().flat_map(|s| solved.circuit(s.curve).points(s.curve.joint));
     let extents = Bounds::from_points(curves.chain(grid.line_ends(&mechanism.pose))).union(mechanism.bounds());
-    let (plot, remark) = Plot::new(frame, theme).at_scale(extents, common_scale(page));
-    plot.draw_scale_bar(area, &[remark.to_owned()], theme);
+    let scale = page.scale.fixed();
+    let (plot, fitting) = Plot::new(frame, theme).at_scale(extents, scale);
+    plot.draw_scale_bar(area, page.heading.unit, &[reduction_remark(scale, fitting)], theme);
     let period = figure::dash_period(&solved.linkage, &solved.motion.circuits, options);
     let dashes = |k: usize| DashPattern { period, dash_span: theme.curve_dash_fraction(shown[k].point_index) * period };
     let path = |(k, s): (usize, &ShownCurve)| figure::curve_path(solved, s.curve, plot.page_from_plane, dashes(k));
@@ -275,7 +278,7 @@ fn draw_figure(
     group("linkage", linkage);
     group("coupler-point", points);
     group("number", numbers);
-    plot
+    (plot, fitting)
 }
 
 /// The points of a page without repetition, with their positions on it.
@@ -304,7 +307,11 @@ fn coupler_curve(
         id: format!("{}-{cell}-{trace}-{circuit}", page.heading.family_id),
         class: "curve",
         title: format!("{}, no. {cell}: {}, point {trace}", page.heading.family_title, page.panel.caption),
-        data: vec![("cell", cell.to_string()), ("trace", trace.to_string()), ("circuit", circuit.to_string())],
+        data: [("cell", &cell), ("trace", trace), ("circuit", circuit)]
+            .map(|(name, number)| (name, number.to_string()))
+            .into_iter()
+            .chain(page.heading.unit_data())
+            .collect(),
         page_from_plane,
         dashes,
         path,
