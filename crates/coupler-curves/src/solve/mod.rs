@@ -7,7 +7,7 @@ mod solved_cell;
 mod solver;
 mod tolerance;
 
-pub use changed_cell::{ChangeError, ChangedCell, OriginalNumbers};
+pub use changed_cell::{ChangeError, ChangedCell};
 pub use moved_point::MovedPointError;
 pub use solved_cell::{MeasuredCurve, SolvedCell, Status};
 pub use solver::Solver;
@@ -15,6 +15,7 @@ pub use solver::Solver;
 // For the other crates of the workspace only.
 #[doc(hidden)]
 pub use self::{
+    changed_cell::OriginalNumbers,
     moved_point::{MovablePoint, PointCoordinate},
     tolerance::{CurveTolerance, curve_tolerances},
 };
