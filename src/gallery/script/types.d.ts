@@ -17,7 +17,7 @@ type Atlas = ReturnType<typeof import("./kernel/linkages.js").withLinkages>;
 type NewLinkage = Record<"id" | "legend" | "manifest", string> & { family?: string };
 type Kernel = import("./kernel/kernel.js").Kernel;
 /** A kernel whose answers may be promises (kernel/worker.js). */
-type SearchKernel = { readonly instance: object; call(request: object): any };
+type SearchKernel = { readonly instance: object; call(request: object, lent?: string): any };
 type Waiting = { resolve: (answer: any) => void; reject: (error: Error) => void };
 type KernelStudy = import("./kernel/study.js").KernelStudy;
 type Place = { pass: number; input: number; isBeyond?: boolean };
@@ -273,6 +273,8 @@ type ExportProgress = (done: number, all: number) => void;
 /** An index in the kernel of the curves of a family from `first` on. */
 type ShapeIndex = { family: Family; curves: number } & Record<"first" | "count", number>;
 type Candidate = CurveOfFamily & { likeness: number };
+/** A curve with what is shown of it: the piece of its points may be dropped. */
+type TakenCurve = CurveOfFamily & Record<"name" | "caption", string> & { outline: Outline };
 /** What is searched for: `least` is the least part of a curve, `by` the deviation to rank by. */
 type SearchOptions = { isPart: boolean; mirror: boolean; least: number; by: "rms" | "greatest" };
 type CurveOfFamily = { family: Family; curve: number };
@@ -285,7 +287,7 @@ type Fit = {
   from: number;
   to: number;
 };
-type Match = CurveOfFamily & Fit & { name: string };
+type Match = TakenCurve & Fit;
 /** A match with the others that are the same curve. */
 type MergedMatch = { match: Match; others: Match[] };
 /** The answers of a search for four-bars so far, and how many curves of the index it looked the path up in. */
