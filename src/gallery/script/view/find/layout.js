@@ -37,8 +37,9 @@ export function findLayout(/** @type {FindView} */ view) {
  * @param {Filters} filters @param {Column[]} columns @param {(name: string) => void} without
  */
 export function noResults(filters, columns, without, isPartial = false) {
-  const names = columns.filter(({ name }) => filters.fails.has(name));
-  const way = (/** @type {Column} */ { name, title }) => {
+  const names = [...filters.fails.keys()];
+  const way = (/** @type {string} */ name) => {
+    const title = columns.find((one) => one.name === name)?.title ?? name;
     const left = formatCount(filters.countWithout(name), "curve");
     return h(
       "li",
