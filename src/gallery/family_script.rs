@@ -41,7 +41,7 @@ impl<'a> FamilyScript<'a> {
     /// `statements` are those of a family that is small enough to have everything in its head, and otherwise empty.
     pub fn head(self, pieces: &[PieceIndex], statements: &str) -> String {
         let family = &self.planned.family;
-        let (paper, color) = (self.plan.page.paper, self.plan.page.theme.paper.to_string());
+        let (paper, is_dark) = (self.plan.page.paper, self.plan.page.theme.paper.is_dark());
         let layout = match self.planned.layout {
             Layout::Panels { .. } | Layout::Poses => "panels",
             Layout::Chart { .. } => "chart",
@@ -64,7 +64,7 @@ impl<'a> FamilyScript<'a> {
                 "panels": has_panels.then(|| self.planned.layout.cells_per_page()),
                 "sampling": sampling_json(family.sampling),
                 "is_length": family.template.is_driven_by_length(),
-                "paper": { "width": paper.width, "height": paper.height, "color": color },
+                "paper": { "width": paper.width, "height": paper.height, "is_dark": is_dark },
                 // What the kernel opens: all that determines a curve whose assigned values are known.
                 "manifest": self.planned.excerpt(),
                 "names": family.names,

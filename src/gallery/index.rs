@@ -113,7 +113,9 @@ fn gzip(bytes: &[u8]) -> io::Result<Vec<u8>> {
 fn atlas_json(run: &RunRecord, families: &[GalleryFamily]) -> Value {
     let measure = |m: &measure::Measure| {
         let is_input = m.length_name.is_some();
-        json!({ "name": m.name, "unit": m.unit, "definition": m.definition, "word": m.is_word, "is_input": is_input })
+        json!({
+            "name": m.name, "title": m.title, "unit": m.unit, "definition": m.definition, "word": m.is_word, "is_input": is_input
+        })
     };
     json!({
         "format": 2,

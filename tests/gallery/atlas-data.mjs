@@ -3,7 +3,7 @@
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 
-import { FamilyReader, PieceReader } from "../../src/gallery/script/data/reader.js";
+import { headReader, PieceReader } from "../../src/gallery/script/data/reader.js";
 
 /** The data in the page of an atlas, and all its families: { data, families }. */
 export function atlasOf(folder) {
@@ -21,11 +21,11 @@ export function familyOf(folder, script) {
   let family = null;
   const couplerAtlas = {
     begin: (head) => {
-      reader = new FamilyReader(head);
+      reader = headReader(head);
     },
     piece: ({ series, number }) => {
       const { pieces } = series === "table" ? family.table : family.outlines;
-      reader = new PieceReader(family, pieces[number - 1]);
+      reader = new PieceReader(family, [pieces[number - 1]]);
     },
     cells: (rows) => reader.cells(rows),
     curves: (outlines) => reader.curves(outlines),

@@ -41,7 +41,7 @@ export const COMPARING = [
             ]),
           ),
         );
-      const wide = (k) => facts["greatest x"][k] - facts["least x"][k];
+      const wide = (k) => facts["greatest x of the curve"][k] - facts["least x of the curve"][k];
       const [first, second] = await boxesSideBySide(page);
       assert.ok(Math.abs(second[2] / first[2] / (wide(1) / wide(0)) - 1) < 0.02, "as they are, at one scale");
       await page.getByLabel("Alignment", { exact: true }).selectOption("place");

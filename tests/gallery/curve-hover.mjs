@@ -133,7 +133,7 @@ addTest(
     await page.keyboard.press("Shift+ArrowLeft");
     await page.keyboard.press("Shift+ArrowLeft");
     await page.keyboard.press("Shift+ArrowLeft");
-    assert.equal(await input(), "355.0°");
+    assert.equal(await input(), "350.0°", "as far in each step, also over the start");
     await page.keyboard.press("End");
     assert.equal(await current(), "#/evans/curve/10.1.1");
     await page.keyboard.press("Escape");

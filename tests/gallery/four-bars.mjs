@@ -116,6 +116,46 @@ export const FOUR_BARS = [
     },
   ],
   [
+    "4.18",
+    "the dots of the target are moved, chosen and removed by keys, each step a gesture",
+    async ({ browser }) => {
+      const gallery = await openGallery(browser, small, "/shape");
+      const { page } = gallery;
+      await page.getByLabel("Paste points or a path").fill("0,0\n40,60\n100,50\n120,0\n60,-30");
+      await page.getByRole("button", { name: "Use pasted shape" }).click();
+      const dots = page.locator(".dots circle");
+      await eventually(async () => (await dots.count()) === 5, "there are dots");
+      const drawn = await gallery.fragment();
+      await page.locator(".pad").focus();
+      await page.keyboard.press("Tab");
+      const focused = () => page.evaluate(() => document.activeElement.getAttribute("aria-label"));
+      assert.equal(await focused(), "Dot 1 of 5");
+      await page.keyboard.press("PageDown");
+      assert.equal(await focused(), "Dot 2 of 5");
+      const placeOf = async () => Number(await dots.nth(1).getAttribute("cx"));
+      const before = await placeOf();
+      await page.keyboard.down("Shift");
+      await page.keyboard.down("ArrowRight");
+      assert.ok(Math.abs((await placeOf()) - before - 20) < 1e-6, "by ten steps");
+      await page.keyboard.up("ArrowRight");
+      await page.keyboard.up("Shift");
+      await eventually(async () => (await gallery.fragment()) !== drawn, "in the address");
+      assert.equal(await focused(), "Dot 2 of 5");
+      const bent = await gallery.fragment();
+      await page.keyboard.press("Delete");
+      await eventually(async () => (await dots.count()) === 4, "it is removed");
+      assert.equal(await focused(), "Dot 2 of 4");
+      await page.keyboard.press("Control+z");
+      await eventually(
+        async () => (await gallery.fragment()) === bent && (await dots.count()) === 5,
+        "undone",
+      );
+      await page.keyboard.press("?");
+      assert.match(await page.getByRole("dialog", { name: "Keys" }).innerText(), /On a dot of the pad/);
+      await gallery.close();
+    },
+  ],
+  [
     "4.16",
     "four-bars are on the target while it is drawn and dragged, and every word of quality is one of find",
     async ({ browser }) => {

@@ -11,8 +11,6 @@ export const MARKED_TITLE = '<b>Evans</b> & <img src=x onerror="throw 1">';
 /** Why the third linkage of the family "evans" could not be assembled. */
 export const ODD_REASON = "the links p and a do not reach <one> another";
 
-const DARK_PAPER = "#14171c";
-
 // The smallest PNG: a white dot.
 const WHITE_DOT =
   "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAQAAAC1HAwCAAAAC0lEQVR42mP8/x8AAwMCAO+ip1sAAAAASUVORK5CYII=";
@@ -34,9 +32,7 @@ export function oddAtlas(from) {
   );
   rewrite(join(folder, "evans/gallery.js"), (script) => script.split("\n").map(oddStatement).join("\n"));
   writeFileSync(join(folder, "watt/watt-001.png"), Buffer.from(WHITE_DOT, "base64"));
-  rewrite(join(folder, "watt/gallery.js"), (script) =>
-    script.replace(/("paper":\{"color":")[^"]*"/, `$1${DARK_PAPER}"`),
-  );
+  rewrite(join(folder, "watt/gallery.js"), (script) => script.replace('"is_dark":false', '"is_dark":true'));
   mkdirSync(join(folder, "find"));
   const roberts = readFileSync(join(folder, "roberts/gallery.js"), "utf8");
   writeFileSync(join(folder, "find/gallery.js"), roberts.replace('"id":"roberts"', '"id":"find"'));

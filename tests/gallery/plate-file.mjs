@@ -145,6 +145,31 @@ const tests = [
       for (const one of [hostile, folder, made.folder]) rmSync(one, { recursive: true });
     },
   ],
+  [
+    "7.4",
+    "another circuit, a linkage that is driven by a length and changed values are in the file",
+    async ({ browser }) => {
+      for (const fragment of [
+        "/evans/curve/1.1.1?circuit=2",
+        "/linear-actuator/curve/2.1.1",
+        "/excavator/curve/1.1.1?at=0.9",
+      ]) {
+        const { alone, folder } = await openAlone(browser, atlas, fragment);
+        const there = await openGallery(browser, atlas, fragment, OFFLINE);
+        await there.page.waitForSelector(".export-button");
+        const facts = (page) =>
+          page
+            .locator(".measures tbody tr:not([hidden]), .ends, .parameter, .circuits label")
+            .allTextContents();
+        assert.deepEqual(await facts(alone.page), await facts(there.page), fragment);
+        const csv = (await saved(there.page, "CSV points")).text;
+        assert.equal((await saved(alone.page, "CSV points")).text, csv, fragment);
+        await there.close();
+        await alone.close();
+        rmSync(folder, { recursive: true });
+      }
+    },
+  ],
 ];
 
 await runTests(tests);

@@ -63,7 +63,12 @@ export const HANDLES = [
       assert.ok(!(await page.getByLabel("k at the handle").evaluate((one) => one.matches(":invalid"))));
       await page.getByLabel("k at the handle").fill("2,2,5");
       assert.ok(await page.getByLabel("k at the handle").evaluate((one) => one.matches(":invalid")));
+      // The browser says why when it is entered; the field that is left shows the value that holds.
+      await page.keyboard.press("Enter");
+      assert.equal(await page.getByLabel("k at the handle").inputValue(), "2,2,5");
       await page.locator("h1").evaluate(() => document.activeElement.blur());
+      assert.equal(await page.getByLabel("k at the handle").inputValue(), "2.25");
+      assert.ok(!(await page.getByLabel("k at the handle").evaluate((one) => one.matches(":invalid"))));
       await page.keyboard.press("Control+z");
       await plateIsUpdated(page);
       // The curve of the atlas is behind it, and the numbers of both are in the table.
@@ -132,6 +137,37 @@ export const HANDLES = [
       assert.ok(Number(await fieldOf(page, "p").inputValue()) > before);
       await page.keyboard.press("PageDown");
       assert.match(await page.evaluate(() => document.activeElement.getAttribute("aria-label")), /^Move A:/);
+      await plate.close();
+    },
+  ],
+  [
+    "3.21",
+    "handles of a linkage that is a mirror image follow the pointer, within a frame",
+    async ({ browser, folder }) => {
+      const plate = await openGallery(browser, folder, "/jansen/curve/1.1.1?at=40", REDUCED_MOTION);
+      const { page } = plate;
+      const moved = [];
+      for (const [k, label] of (
+        await page.locator(".square").evaluateAll((all) => all.map((one) => one.getAttribute("aria-label")))
+      ).entries()) {
+        const joint = label.match(/^Move (.*):/)[1];
+        const number = Number(await page.locator(".square").nth(k).getAttribute("data-handle"));
+        const before = await squareAt(page, joint);
+        await dragHandle(page, joint, [14, -9]);
+        const after = await squareAt(page, joint);
+        // One dimension moves a joint along a line only; the mirror image of the way would be far from the pointer.
+        const along = ((after[0] - before[0]) * 14 + (after[1] - before[1]) * -9) / Math.hypot(14, 9) ** 2;
+        const isReached = !(await handleOf(page, joint).evaluate((one) =>
+          one.classList.contains("unreached"),
+        ));
+        assert.ok(along > -0.01 && along < 1.25, `${joint} (${number}) goes ${along} of the way`);
+        if (isReached) assertNear(after[0] - before[0], 14, 6, `${joint} to the right`);
+        moved.push(along > 0.8);
+        await page.mouse.move(before[0], before[1]);
+        await page.mouse.up();
+        await plateIsUpdated(page);
+      }
+      assert.ok(moved.filter(Boolean).length >= 2, `${moved}`);
       await plate.close();
     },
   ],

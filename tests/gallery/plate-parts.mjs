@@ -20,11 +20,15 @@ import {
 import { pathsOfStudy, straightSummary } from "../../src/gallery/script/view/plate/paths.js";
 import { summaryOfStudy } from "../../src/gallery/script/view/plate/study.js";
 import { changeableParameters, roundedToGrain } from "../../src/gallery/script/view/plate/parameters.js";
-import { plateCurveName } from "../../src/gallery/script/view/plate/plate-query.js";
+import {
+  plateAddress,
+  plateCurveName,
+  readPlateQuery,
+} from "../../src/gallery/script/view/plate/plate-query.js";
 import { fourBarAddress } from "../../src/gallery/script/view/new-view.js";
 import { parseAddress } from "../../src/gallery/script/data/address.js";
 import { withLinkages } from "../../src/gallery/script/kernel/linkages.js";
-import { Pose, recordedValues, studyOf } from "../../src/gallery/script/view/plate/study.js";
+import { Pose, recordedValues, studyOf, velocityArrow } from "../../src/gallery/script/view/plate/study.js";
 import { familyOf } from "./export-data.mjs";
 import { kernelOf } from "./kernel.mjs";
 
@@ -67,23 +71,60 @@ const newFourBar = await linkages.family("new/four-bar");
 
 const tests = [
   [
-    "the address of a four-bar that has been found leads to the circuit that it was found on",
-    () => {
-      const parameters = { frame: 4, crank: 1.2, coupler: 3, rocker: 3.4, along: 1.7, across: 0.8 };
-      const record = { parameters, class: "crank-rocker" };
-      for (const shown of [0, 1]) {
-        const found = studyOf(kernel, kernel.curve(newFourBar, 0, Object.entries(parameters)), shown);
-        const pose = new Pose();
-        pose.move(found, 0, found.circuits[shown].passes[0].from + 40);
-        const joint = (name) => [...pose.joints.slice(2 * found.joints.indexOf(name)).subarray(0, 2)];
-        const { path, query } = parseAddress(
-          fourBarAddress({ record, pose: Float64Array.from(["O", "C", "A", "B", "M"].flatMap(joint)) }),
-        );
-        assert.deepEqual(path, ["new", "four-bar"]);
-        assert.equal(Number(query.get("circuit") ?? 1) - 1, shown);
-        for (const [name, value] of Object.entries(parameters)) assert.equal(query.number(name), value);
-        found.kernel.close();
+    "the address of a four-bar that has been found leads to the circuit that it was found on, also of a crank that does not turn fully",
+    async () => {
+      const lengths = { coupler: 3, rocker: 3.4, along: 1.7, across: 0.8 };
+      for (const dimensions of [
+        { frame: 4, crank: 1.2 },
+        { frame: 8, crank: 2.5 },
+        { frame: 3.5, crank: 4 },
+      ]) {
+        const parameters = { ...dimensions, ...lengths };
+        const all = studyOf(kernel, kernel.curve(newFourBar, 0, Object.entries(parameters)), 0).circuits;
+        for (let shown = 0; shown < all.length; shown += 1) {
+          const found = studyOf(kernel, kernel.curve(newFourBar, 0, Object.entries(parameters)), shown);
+          const pose = new Pose();
+          const [{ from, to }] = found.circuits[shown].passes;
+          pose.move(found, 0, from + 0.3 * (to - from));
+          const joint = (name) => [...pose.joints.slice(2 * found.joints.indexOf(name)).subarray(0, 2)];
+          const answer = { record: { parameters }, pose: ["O", "C", "A", "B", "M"].flatMap(joint) };
+          const { path, query } = parseAddress(
+            await fourBarAddress({ atlas: linkages, kernel: { load: async () => kernel } }, answer),
+          );
+          assert.deepEqual(path, ["new", "four-bar"]);
+          assert.equal(Number(query.get("circuit") ?? 1) - 1, shown, JSON.stringify(parameters));
+          for (const [name, value] of Object.entries(parameters)) assert.equal(query.number(name), value);
+          found.kernel.close();
+        }
       }
+    },
+  ],
+  [
+    "parameters with the names of what an address says besides are written apart, and read again",
+    () => {
+      const family = { ...newFourBar, names: ["at", "circuit", "crank", "load", "show"] };
+      const changes = new Map(family.names.map((name, k) => [name, k + 2]));
+      const state = { changes, requestedCircuit: 1, on: new Set(["names"]), at: { input: 30, pass: 0 } };
+      const motion = { joint: null, graph: "speed", rpm: null, load: "3 on C" };
+      const address = plateAddress(
+        { family, curve: 0, study: null },
+        { ...state, locked: new Set(["at"]), motion },
+      );
+      const { query } = parseAddress(address);
+      const read = readPlateQuery(family, null, query);
+      assert.equal(query.ignored, "");
+      assert.deepEqual(read.changes, changes);
+      assert.deepEqual([read.requestedCircuit, read.at, [...read.on]], [1, state.at, ["names"]]);
+      assert.deepEqual([read.motion, [...read.locked]], [motion, ["at"]]);
+    },
+  ],
+  [
+    "the arrow of a velocity is as long as the way of a radian, and not longer than three tenths of the frame",
+    () => {
+      const size = { width: 800, height: 500 };
+      assert.deepEqual(velocityArrow([3, 4], { by: -1, scale: 10, size }), [-30, 40]);
+      assert.deepEqual(velocityArrow([30, 40], { by: 1, scale: 10, size }), [90, -120]);
+      assert.equal(velocityArrow([Infinity, 0], { by: 1, scale: 10, size }), null);
     },
   ],
   [
@@ -321,7 +362,7 @@ const tests = [
 let failed = 0;
 for (const [sentence, test] of tests) {
   try {
-    test();
+    await test();
     console.log(`ok ${sentence}`);
   } catch (error) {
     failed += 1;

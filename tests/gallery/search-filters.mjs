@@ -18,7 +18,7 @@ export const FILTERING = [
       const message = () => page.locator(".found").innerText();
       await eventually(async () => /No curve passes/.test(await message()), "it is reported");
       assert.equal(await counted(page), "0 of 439 curves");
-      const without = page.getByRole("button", { name: /^Remove class: / });
+      const without = page.getByRole("button", { name: /^Remove class of the four-bar: / });
       const left = (await without.innerText()).match(/(\d+) curves?$/)[1];
       assert.ok(Number(left) > 0);
       await without.press("Enter");
@@ -33,7 +33,7 @@ export const FILTERING = [
       assert.equal(await page.getByRole("button", { name: "Clear all filters" }).count(), 0);
       // An address may name a parameter that no family here has.
       await gallery.go("/find?p.nothing=1..2");
-      await page.getByRole("button", { name: "Remove parameter nothing: 439 curves" }).click();
+      await page.getByRole("button", { name: "Remove p.nothing: 439 curves" }).click();
       assert.equal(await counted(page), "439 of 439 curves");
       await gallery.close();
     },
@@ -50,7 +50,7 @@ export const FILTERING = [
       const { page } = gallery;
       const table = page.locator(".results-table");
       await eventually(async () => (await table.locator("tbody th").count()) > 15, "all are there");
-      assert.match(await table.locator("thead").innerText(), /curve\s+start input of the straight/);
+      assert.match(await table.locator("thead").innerText(), /curve\s+input at the start of the straight/);
       const rows = await table
         .locator("tbody tr")
         .evaluateAll((lines) => lines.map(({ cells }) => [cells[0].textContent, cells[1].textContent]));
@@ -174,9 +174,9 @@ export const FILTERING = [
       };
       await sorted("worst transmission angle", "descending");
       await sorted("worst transmission angle", "ascending");
-      await sorted("deviation of the straight portion, by its length", "ascending");
-      await sorted("length of the straight portion, by the extent", "descending");
-      await sorted("path length", "ascending");
+      await sorted("deviation of the straight portion over its length", "ascending");
+      await sorted("length of the straight portion over the curve's extent", "descending");
+      await sorted("length of the curve", "ascending");
       await page.getByLabel("Sort by").selectOption("dwell_input_deg");
       await eventually(
         async () => /sort=-dwell_input_deg/.test(await gallery.fragment()),

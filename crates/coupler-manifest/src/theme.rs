@@ -276,7 +276,7 @@ fn check_contrast<'t>(fields: &Fields<'_, 't>, theme: &Theme, parser: &mut TomlP
             (format!("{color} is hard to see on the paper, {}", theme.paper), false)
         };
         let problem = if is_error { Problem::error(span, message) } else { Problem::warning(span, message) };
-        let direction = if theme.paper.luminance() > 0.18 { "darker" } else { "lighter" };
+        let direction = if theme.paper.is_dark() { "lighter" } else { "darker" };
         parser.report(problem.with_help(format!(
             "their contrast is {contrast:.1} to 1, but `{key}` requires {required} to 1: give a {direction} colour"
         )));
@@ -287,7 +287,7 @@ fn check_contrast<'t>(fields: &Fields<'_, 't>, theme: &Theme, parser: &mut TomlP
         let span = fields.get("paper").map_or_else(|| fields.span.clone(), TomlValue::span);
         let message = format!("on this paper, {}, the theme's {} are hard to see", theme.paper, keys.join(", "));
         let problem = if worst < 0.5 { Problem::error(span, message) } else { Problem::warning(span, message) };
-        let base = if theme.paper.luminance() > 0.18 { "print" } else { "dark" };
+        let base = if theme.paper.is_dark() { "dark" } else { "print" };
         parser.report(problem.with_help(format!("start from base = \"{base}\", or set these colours too")));
     }
 }

@@ -17,7 +17,7 @@ type Atlas = ReturnType<typeof import("./kernel/linkages.js").withLinkages>;
 type NewLinkage = Record<"id" | "legend" | "manifest", string> & { family?: string };
 type Kernel = import("./kernel/kernel.js").Kernel;
 /** A kernel whose answers may be promises (kernel/worker.js). */
-type SearchKernel = { readonly instance: object; call(request: object): any };
+type SearchKernel = { readonly instance: object; call(request: object, lent?: string): any };
 type Waiting = { resolve: (answer: any) => void; reject: (error: Error) => void };
 type KernelStudy = import("./kernel/study.js").KernelStudy;
 type Place = { pass: number; input: number; isBeyond?: boolean };
@@ -69,7 +69,6 @@ type SliderRow = Record<"range" | "field", HTMLInputElement> &
     number: import("./view/number-field.js").NumberField;
   };
 type Plate = import("./view/plate/plate.js").Plate;
-type PlateFigure = import("./view/plate/figure.js").PlateFigure;
 type Stage = import("./view/plate/stage.js").Stage;
 type Drive = import("./view/plate/drive.js").Drive;
 type Pose = import("./view/plate/study.js").Pose;
@@ -105,7 +104,7 @@ type Route = Partial<Record<"label" | "parent", string>> & {
 };
 /** The keys of a command, as events name them, what it does, and a function that does it (keys.js). */
 type KeyCommand = [keys: string, words: string, act?: (event: KeyboardEvent) => unknown];
-type Measure = { name: string; unit: string; definition: string; word: boolean; is_input: boolean };
+type Measure = Record<"name" | "title" | "unit" | "definition", string> & Record<"word" | "is_input", boolean>;
 /** A family as the summary of the atlas lists it; without a script it has no data. */
 type ListedFamily = Record<"id" | "title" | "linkage", string> &
   Record<"cells" | "kept" | "not_assembled" | "curves" | "pages" | "bytes" | "table_bytes", number> &
@@ -116,7 +115,7 @@ type AtlasSummary = { title: string; program: string; book: string[] } & Listed 
   };
 /** The file of a plate has the curve with this key only, and the address at which it was saved. */
 type PlateOfFile = Record<"address" | "key", string> &
-  Pick<Family, "id" | "title" | "manifest" | "ranges"> & { request: CurveRequest };
+  Pick<Family, "id" | "title" | "manifest" | "ranges" | "free"> & { request: CurveRequest };
 /** What the script of the kernel says: its module, compressed and in base64, and the digest of what is encoded. */
 type KernelFile = { sha256: string; module: string };
 /** Names of units, each with what to multiply a number in it by. */
@@ -151,7 +150,7 @@ type FamilyHead = Record<"id" | "title" | "linkage" | "manifest", string> &
     panels: number | null;
     sampling: { step?: number; samples?: number; spacing?: string };
     is_length: boolean;
-    paper: { width: number; height: number; color: string };
+    paper: Size & { is_dark: boolean };
     free: number[];
     /** The distinct lists of the indices that a cell assigns; `free` are all that cells assign. */
     assignments: number[][];
@@ -241,7 +240,6 @@ type PartData = (at: Float64Array, scale: number, ends: Float64Array, part: Movi
 /** A study as a plate shows it; `box` is the area swept by the linkage. */
 type Study = StudyAnswer & { kernel: KernelStudy; timeline: Timeline; size: number };
 type CurvePath = { lead: Float64Array; dashes: Float64Array; starts: Float64Array };
-type Speeds = Record<"passes" | "inputs" | "speeds", Float64Array>;
 type Measured = Record<string, number | string>;
 type ComputedMeasures = { values: Measured; straight: StraightPortion | null };
 type StraightPortion = { points: Float64Array; from: Place; to: Place };
@@ -250,11 +248,11 @@ type Cognates = { lengths: Lengths[]; pivots: Float64Array[]; reached: Float64Ar
 type Centrodes = { fixed: Float64Array; moving: Float64Array; frame: [number, number] };
 /** At a point of a curve: the speed is per radian or unit of length, `mu` in degrees. */
 type Reading = { pass: number; input: number; place: Point; speed: number; mu: number | null };
-type Column = Record<"name" | "unit" | "definition", string> & {
+type Column = Record<"name" | "title" | "unit" | "definition", string> & {
   group: ColumnGroup;
   kind: "words" | "numbers";
 };
-type DerivedColumn = Pick<Column, "unit" | "definition"> & {
+type DerivedColumn = Pick<Column, "title" | "unit" | "definition"> & {
   inputs: string[];
   compute(at: (measure: string) => number): number;
 };
@@ -264,8 +262,8 @@ type Bounds = { low?: number; high?: number };
 type Filter = Bounds | Set<string>;
 /** How much of the tables of a search is loaded: curves, of all, and the size of all in bytes. */
 type LoadState = { done: boolean; curves: number; total: number; bytes: number };
-/** What the page makes of the kernel's text has an ending of its own and `convert`. */
-type ExportFormat = Record<"label" | "note" | "type" | "kernel", string> & { ending?: string } & Converted;
+/** What the page makes of the kernel's text has `convert`, and the ending of its type. */
+type ExportFormat = Record<"label" | "note" | "type" | "kernel", string> & Converted;
 type Converted = {
   convert?(text: string, kernel: Kernel, onProgress: ExportProgress): Promise<Uint8Array<ArrayBuffer>>;
 };
@@ -273,6 +271,8 @@ type ExportProgress = (done: number, all: number) => void;
 /** An index in the kernel of the curves of a family from `first` on. */
 type ShapeIndex = { family: Family; curves: number } & Record<"first" | "count", number>;
 type Candidate = CurveOfFamily & { likeness: number };
+/** A curve with what is shown of it: the piece of its points may be dropped. */
+type TakenCurve = CurveOfFamily & Record<"name" | "caption", string> & { outline: Outline };
 /** What is searched for: `least` is the least part of a curve, `by` the deviation to rank by. */
 type SearchOptions = { isPart: boolean; mirror: boolean; least: number; by: "rms" | "greatest" };
 type CurveOfFamily = { family: Family; curve: number };
@@ -285,7 +285,7 @@ type Fit = {
   from: number;
   to: number;
 };
-type Match = CurveOfFamily & Fit & { name: string };
+type Match = TakenCurve & Fit;
 /** A match with the others that are the same curve. */
 type MergedMatch = { match: Match; others: Match[] };
 /** The answers of a search for four-bars so far, and how many curves of the index it looked the path up in. */

@@ -41,6 +41,11 @@ impl Color {
         0.2126 * r + 0.7152 * g + 0.0722 * b
     }
 
+    /// Whether it is a ground for light ink: of a luminance below that which has as much contrast with black as with white.
+    pub fn is_dark(self) -> bool {
+        self.luminance() < 0.18
+    }
+
     /// The contrast ratio with another colour, from 1 for equal colours to 21 for black and white (WCAG 2.2).
     pub fn contrast(self, other: Color) -> f64 {
         let (a, b) = (self.luminance(), other.luminance());

@@ -13,6 +13,9 @@
 
 import { AddressQuery } from "./query.js";
 
+// What the address of a plate says of more than changed parameters, by these names.
+const PLATE_WORDS = ["circuit", "show", "joint", "graph", "rpm", "load", "lock", "at"];
+
 // The first curve of a family, of which the plate of a linkage in no atlas has the short address.
 const FIRST_KEY = "1.1.1";
 
@@ -80,6 +83,11 @@ export function address(path, query = {}) {
 /** The linkage of a family that is in no atlas, "new/four-bar"; null if an id is that of another. */
 export function newLinkage(/** @type {string} */ id) {
   return id.startsWith("new/") ? id.slice(4) : null;
+}
+
+/** The name of a parameter in the address of a plate; one that is a word of plates has the prefix of Find, "p.at". */
+export function parameterWord(/** @type {string} */ name) {
+  return PLATE_WORDS.includes(name) ? `p.${name}` : name;
 }
 
 /**

@@ -1,10 +1,10 @@
 // The atlas: the summary of all families, and the data of each family and the kernel, loaded on first use.
 
 import { unpackGzip } from "./packed.js";
-import { FamilyReader, PieceReader } from "./reader.js";
+import { headReader, PieceReader } from "./reader.js";
 
-// The size of the files whose points are kept, in bytes: more than a search loads without a request.
-const MAX_KEPT_BYTES = 64e6;
+// The size of the files whose points are kept, in bytes: a search takes from them what it needs, one after another.
+const MAX_KEPT_BYTES = 16e6;
 
 /**
  * Opens the atlas of a document: its summary, `family(id)`, which resolves to a family (reader.js) when its head is loaded, and
@@ -18,26 +18,22 @@ export function openAtlas(document, window) {
   /** @type {Map<string, Promise<Family>>} */ const heads = new Map();
   /** @type {Map<string, Family>} */ const families = new Map();
   const cache = outlineCache();
-  /** @type {FamilyReader | PieceReader | null} */ let reader = null;
+  /** @type {PieceReader | null} */ let reader = null;
   /** @type {{ family?: Family, piece?: Piece, kernel?: KernelFile } | null} */ let finished = null;
   window.couplerAtlas = {
     begin: (head) => {
-      reader = new FamilyReader(head);
+      reader = headReader(head);
     },
     piece: ({ id, series, number }) => {
       const family = families.get(id);
       const piece = family?.[series === "table" ? "table" : "outlines"].pieces[number - 1];
-      reader = family && piece ? new PieceReader(family, piece) : null;
+      reader = family && piece ? new PieceReader(family, [piece]) : null;
     },
     cells: (rows) => reader?.cells(rows),
     curves: (outlines) => reader?.curves(outlines),
     page: (page) => reader?.page(page),
     end: () => {
-      finished = reader && {
-        family: reader.family,
-        piece: reader instanceof PieceReader ? reader.piece : undefined,
-      };
-      reader?.finish();
+      finished = reader && { family: reader.finish(), piece: reader.pieces[0] };
     },
     kernel: (kernel) => {
       finished = { kernel };

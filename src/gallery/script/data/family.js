@@ -56,20 +56,39 @@ export function curveOutline(family, /** @type {number} */ curve) {
   return { points: curvePoints(family, curve), closed: family.curves.closed[curve] === 1 };
 }
 
-/** The points of a curve, [x0, y0, x1, y1, …], accurate to 1/65535 of its extent. @param {Family} _ */
-export function curvePoints({ outlines }, /** @type {number} */ curve) {
+/**
+ * The points of a curve, or of those of a piece up to another one, [x0, y0, x1, y1, …], accurate to 1/65535 of its extent; in `room` if it is
+ * large enough.
+ * @param {Family} _
+ */
+export function curvePoints(
+  { outlines },
+  /** @type {number} */ curve,
+  end = curve + 1,
+  room = new ArrayBuffer(),
+) {
   const piece = outlines.ofCurve(curve);
   if (!piece?.data) return new Float64Array();
   const { box, start, points } = piece.data;
-  const own = curve - piece.firstCurve;
-  const [x0, y0, x1, y1] = box.subarray(4 * own, 4 * own + 4);
-  const out = new Float64Array(2 * (start[own + 1] - start[own]));
-  for (let k = 0; k < out.length; k += 2) {
-    const at = 2 * start[own] + k;
-    out[k] = x0 + ((x1 - x0) * points[at]) / 65535;
-    out[k + 1] = y0 + ((y1 - y0) * points[at + 1]) / 65535;
+  const [first, last] = [curve - piece.firstCurve, end - piece.firstCurve];
+  const length = 2 * (start[last] - start[first]);
+  const out = new Float64Array(room.byteLength < 8 * length ? new ArrayBuffer(8 * length) : room, 0, length);
+  for (let own = first, at = 0; own < last; own += 1) {
+    const [x0, y0, x1, y1] = box.subarray(4 * own, 4 * own + 4);
+    for (let k = 2 * start[own]; k < 2 * start[own + 1]; k += 2) {
+      out[at++] = x0 + ((x1 - x0) * points[k]) / 65535;
+      out[at++] = y0 + ((y1 - y0) * points[k + 1]) / 65535;
+    }
   }
   return out;
+}
+
+/** The numbers of points of the curves of a piece from one up to another one. @param {Family} _ @param {number} from @param {number} end */
+export function pointCounts({ outlines }, from, end) {
+  const piece = outlines.ofCurve(from);
+  const { start } = piece?.data ?? { start: [] };
+  const first = from - (piece?.firstCurve ?? 0);
+  return Float64Array.from({ length: end - from }, (_, k) => start[first + k + 1] - start[first + k]);
 }
 
 /** The bounding box of a curve, [x0, y0, x1, y1]. @param {Family} _ */

@@ -4,7 +4,16 @@
 /** Decodes a column of `count` numbers into a typed array of its kind, from index `at` on. @param {number} at @param {number} count */
 export function unpackInto(/** @type {TypedArray} */ array, at, count, /** @type {PackedColumn} */ column) {
   if (typeof column === "number" || column === null) array.fill(column ?? NaN, at, at + count);
-  else array.set(unpackColumn(/** @type {TypedArrayKind} */ (array.constructor), count, column), at);
+  else {
+    const unpacked = unpackColumn(/** @type {TypedArrayKind} */ (array.constructor), count, column);
+    array.set(unpacked, at);
+    freeArray(unpacked);
+  }
+}
+
+/** Frees the memory of an array that is not used again: garbage is collected only when there are a hundred megabytes of them. */
+export function freeArray(/** @type {TypedArray} */ { buffer }) {
+  if (buffer instanceof ArrayBuffer) buffer.transfer?.(0);
 }
 
 /**
@@ -36,6 +45,7 @@ export async function unpackGzip(/** @type {string} */ packed) {
 
 /** Concatenates typed arrays of one kind. @template {TypedArray} T @param {T[]} arrays @param {new (count: number) => T} kind */
 export function concatenateArrays(arrays, kind) {
+  if (arrays.length === 1) return arrays[0];
   const whole = new kind(arrays.reduce((sum, array) => sum + array.length, 0));
   let at = 0;
   for (const array of arrays) {

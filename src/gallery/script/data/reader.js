@@ -1,7 +1,7 @@
 // Assembles the data of a family from the statements of its scripts.
 
 import { NO_WORD } from "./family.js";
-import { concatenateArrays, unpackColumn, unpackInto } from "./packed.js";
+import { concatenateArrays, freeArray, unpackColumn, unpackInto } from "./packed.js";
 import { Series } from "./series.js";
 
 /** The family with a head, before any of its pieces is loaded. @returns {Family} */
@@ -25,6 +25,16 @@ function newFamily(/** @type {FamilyHead} */ { pieces, measures, words, ...head 
     load: () => Promise.resolve(),
     used: () => {},
   };
+}
+
+/** Reads the head of a family; a small family has everything in it: its pieces have no files. @param {FamilyHead} head */
+export function headReader(head) {
+  const family = newFamily(head);
+  const pieces = [...family.table.pieces, ...family.outlines.pieces];
+  return new PieceReader(
+    family,
+    pieces.filter(({ bytes }) => bytes === 0),
+  );
 }
 
 /** @param {[number, number][]} ranges @returns {[number, number]} */
@@ -66,42 +76,13 @@ function allocateTable(/** @type {Family} */ { cells, curves, names, measureName
   Object.assign(curves, tableOfCurves(curves.count, curves.count, measureNames.words));
 }
 
-/** Collects the statements of a family's head; `finish()` returns the family. */
-export class FamilyReader {
-  constructor(/** @type {FamilyHead} */ head) {
-    this.family = newFamily(head);
-    const { table, outlines } = this.family;
-    // A small family has everything in its head: its pieces have no files.
-    this.readers = [...table.pieces, ...outlines.pieces]
-      .filter(({ bytes }) => bytes === 0)
-      .map((piece) => new PieceReader(this.family, piece));
-  }
-
-  cells(/** @type {CellRows} */ statement) {
-    this.readers[0].cells(statement);
-  }
-
-  curves(/** @type {CurveRows} */ statement) {
-    this.readers[1].curves(statement);
-  }
-
-  page(/** @type {PageRows} */ statement) {
-    this.readers[1].page(statement);
-  }
-
-  finish() {
-    this.readers.forEach((reader) => reader.finish());
-    return this.family;
-  }
-}
-
-/** Collects the statements of a piece; `finish()` adds its data to the family. */
+/** Collects the statements of pieces, those of one script; `finish()` adds their data to the family, and returns it. */
 export class PieceReader {
-  constructor(/** @type {Family} */ family, /** @type {Piece} */ piece) {
+  constructor(/** @type {Family} */ family, /** @type {Piece[]} */ pieces) {
     this.family = family;
-    this.piece = piece;
-    this.cell = piece.firstCell;
-    this.curve = piece.firstCurve;
+    this.pieces = pieces;
+    this.cell = pieces[0]?.firstCell ?? 0;
+    this.curve = pieces[0]?.firstCurve ?? 0;
     /** @type {Chunk[]} */ this.chunks = [];
     /** @type {PieceData["pages"]} */ this.pages = new Map();
   }
@@ -118,6 +99,7 @@ export class PieceReader {
     rows.values.forEach((column, slot) => {
       const values = unpackColumn(Float64Array, count, column);
       for (let k = 0; k < count; k += 1) cells.values[(this.cell + k) * width + slot] = values[k];
+      freeArray(values);
     });
     unpackInto(cells.assignment, this.cell, count, rows.assignment ?? 0);
     unpackInto(cells.status, this.cell, count, rows.status);
@@ -174,7 +156,9 @@ export class PieceReader {
     for (let k = 1; k < start.length; k += 1) start[k] += start[k - 1];
     const texts = (/** @type {"reason" | "caption" | "note"} */ name) => chunks.flatMap((one) => one[name]);
     const words = { reason: texts("reason"), caption: texts("caption"), note: texts("note") };
-    this.piece.data = { box, start, points, ...words, pages };
+    for (const piece of this.pieces) piece.data = { box, start, points, ...words, pages };
+    if (chunks.length > 1) [...boxes, ...parts].forEach(freeArray);
+    return this.family;
   }
 }
 
@@ -194,7 +178,7 @@ function addWords(/** @type {Words} */ column, at, codes, values) {
  * @param {CellStatements} _ @param {Pick<Family, "id" | "title" | "manifest">} known @returns {Family}
  */
 export function familyOfCell({ head, cells, curves }, { id, title, manifest }) {
-  const reader = new FamilyReader({ ...head, id, title, manifest });
+  const reader = headReader({ ...head, id, title, manifest });
   reader.cells(cells);
   reader.curves(curves);
   return reader.finish();

@@ -1,11 +1,6 @@
 // Maps the plane to the screen by a view: X = x + scale * px, Y = y - scale * py, in CSS pixels, y down.
 
-/** The empty box. */
-function emptyBox() {
-  return [Infinity, Infinity, -Infinity, -Infinity];
-}
-
-/** Extends a box, at first the empty one, to the finite points of an array, and returns it. */
+/** Extends a box to the finite points of an array, and returns it. */
 export function widenedBox(/** @type {number[]} */ box, /** @type {Points} */ points) {
   for (let k = 0; k + 1 < points.length; k += 2) {
     const [x, y] = [points[k], points[k + 1]];
@@ -20,7 +15,8 @@ export function widenedBox(/** @type {number[]} */ box, /** @type {Points} */ po
 
 /** The bounding box of the finite points of arrays. @param {Points[]} outlines */
 export function boxOfPoints(...outlines) {
-  return outlines.reduce((/** @type {number[]} */ box, points) => widenedBox(box, points), emptyBox());
+  const empty = [Infinity, Infinity, -Infinity, -Infinity];
+  return outlines.reduce((/** @type {number[]} */ box, points) => widenedBox(box, points), empty);
 }
 
 /**

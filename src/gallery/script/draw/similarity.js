@@ -1,10 +1,5 @@
 // Similarities of the plane: an optional reflection, then a rotation, a scaling and a translation.
 
-/** The identity. @returns {Similarity} */
-export function identity() {
-  return { mirror: false, re: 1, im: 0, x: 0, y: 0 };
-}
-
 /** A flat array of points transformed by a similarity. @param {Similarity} _ */
 export function transformed({ mirror, re, im, x, y }, /** @type {Points} */ points) {
   const out = new Float64Array(points.length);

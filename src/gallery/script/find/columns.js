@@ -25,12 +25,13 @@ export function filterColumns(table, measures, kept = new Set()) {
   const parameters = table.families.flatMap(({ names }) => names).map((name) => `p.${name}`);
   const names = new Set([...FIRST_COLUMNS, ...WORD_COLUMNS, ...measured, ...parameters]);
   const listed = Array.from(names, (name) => {
-    const { unit = "", definition = "" } = DERIVED_COLUMNS[name] ?? byName.get(name) ?? {};
+    const own = name.replace(/^p\./, "parameter ");
+    const { title = own, unit = "", definition = "" } = DERIVED_COLUMNS[name] ?? byName.get(name) ?? {};
     /** @type {ColumnGroup} */
     const group = FIRST_COLUMNS.includes(name) ? "first" : name.startsWith("p.") ? "parameters" : "more";
     /** @type {Column["kind"]} */
     const kind = WORD_COLUMNS.includes(name) || byName.get(name)?.word ? "words" : "numbers";
-    return { name, group, kind, unit, definition };
+    return { name, title, group, kind, unit, definition };
   });
   const isThere = (/** @type {string} */ name) => !byName.has(name) || table.has(name);
   const hasDistinctValues = (/** @type {Column} */ { name, kind }) =>
@@ -46,12 +47,8 @@ function hasDistinctWords(/** @type {CurveTable} */ table, /** @type {string} */
 
 function hasDistinctNumbers(/** @type {CurveTable} */ table, /** @type {string} */ name) {
   const values = table.numbers(name);
-  let first = NaN;
-  for (let row = 0; row < values.length; row += 1) {
-    if (Number.isNaN(values[row])) continue;
-    if (Number.isNaN(first)) first = values[row];
-    else if (values[row] !== first) return true;
-  }
+  const first = values.find((value) => !Number.isNaN(value));
+  if (values.some((value) => value !== first && !Number.isNaN(value))) return true;
   // A column that is not offered needs no memory.
   table.release(name);
   return false;

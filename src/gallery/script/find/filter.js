@@ -43,12 +43,7 @@ export class Filters {
 
   /** The rows that pass all filters, in the table's order. */
   rows() {
-    if (this.passing) return this.passing;
-    const rows = new Uint32Array(this.table.count);
-    let count = 0;
-    for (let row = 0; row < rows.length; row += 1) if (this.failing[row] === 0) rows[count++] = row;
-    this.passing = rows.subarray(0, count);
-    return this.passing;
+    return (this.passing ??= passingRows(allRows(this.table), this.failing));
   }
 
   /** The number of rows that pass without the filter of a column. */
@@ -90,7 +85,7 @@ export class Orders {
 
   /** @param {string | undefined} name @param {Column["kind"] | undefined} kind @param {boolean} down */
   compute(name, kind, down) {
-    const rows = Uint32Array.from({ length: this.table.count }, (_, row) => row);
+    const rows = allRows(this.table);
     if (!name) return rows;
     const values = kind === "words" ? wordRanks(this.table.words(name)) : this.table.numbers(name);
     const sign = down ? -1 : 1;
@@ -112,8 +107,9 @@ function wordRanks(/** @type {Words} */ { values, codes }) {
 
 /** The rows of an order that pass. @param {Uint32Array} order @param {Uint16Array} failing */
 export function passingRows(order, failing) {
-  const rows = new Uint32Array(order.length);
-  let count = 0;
-  for (let k = 0; k < order.length; k += 1) if (failing[order[k]] === 0) rows[count++] = order[k];
-  return rows.subarray(0, count);
+  return order.filter((row) => failing[row] === 0);
+}
+
+function allRows(/** @type {CurveTable} */ { count }) {
+  return new Uint32Array(count).map((_, row) => row);
 }

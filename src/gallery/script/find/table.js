@@ -6,6 +6,7 @@ import { renamedWords } from "../data/reader.js";
 /** Columns computed from measures, for frequent queries that no single measure answers. @type {Record<string, DerivedColumn>} */
 export const DERIVED_COLUMNS = {
   straight_tolerance: {
+    title: "deviation of the straight portion over its length",
     unit: "",
     definition: "deviation of the straightest portion from its line, divided by its length",
     inputs: ["straight_deviation", "straight_length"],

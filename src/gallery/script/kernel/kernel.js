@@ -21,8 +21,7 @@ export class KernelLoader {
 
   /** Resolves to the kernel. */
   load() {
-    this.loading ??= this.#load();
-    return this.loading;
+    return (this.loading ??= this.#load());
   }
 
   async #load() {

@@ -27,10 +27,10 @@ export function withLinkages(atlas, kernel) {
     const loaded = await kernel.load();
     return familyOfCell(loaded.call({ method: "first_cell", family: loaded.family(known).handle }), known);
   };
-  const openPlate = async (/** @type {PlateOfFile} */ { request, ranges, ...known }) => {
+  const openPlate = async (/** @type {PlateOfFile} */ { request, ranges, free, ...known }) => {
     const loaded = await kernel.load();
     const data = loaded.curveData({ family: loaded.family(known), curve: request });
-    return { ...familyOfCell(data, known), ranges };
+    return { ...familyOfCell(data, known), ranges, free };
   };
   const { plate } = atlas;
   const family = (/** @type {string} */ id) => {

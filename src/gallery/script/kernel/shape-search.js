@@ -48,7 +48,7 @@ export class ShapeSearch {
 
   /** How a curve fits the path; null if it does not. @param {Outline} curve @returns {Promise<Fit | null>} */
   async fit({ points, closed }) {
-    return fitOf(await this.kernel.call({ method: "fit_shape", shape: this.shape, points, closed }));
+    return (await this.kernel.call({ method: "fit_shape", shape: this.shape, points, closed })).fit;
   }
 
   /** Releases it. */
@@ -66,14 +66,14 @@ export function drawnPath(kernel, { points, closed }, /** @type {boolean} */ isP
   return kernel.call({ method: "drawn_path", points, closed, is_part: isPart });
 }
 
-/** The best fit of a curve to another one; null if there is none. @param {Outline} to @param {Outline} curve */
+/** The best fit of a curve to another one; null if there is none. @param {Outline} to @param {Outline} curve @returns {Fit | null} */
 export function bestFit(/** @type {Kernel} */ kernel, to, curve, /** @type {boolean} */ mirror) {
   const path = { points: to.points, kind: to.closed ? "closed" : "part" };
   const { shape } = kernel.call(openRequest(path, mirror, WHOLE, 1));
   const { instance } = kernel;
   const { points, closed } = curve;
   try {
-    return fitOf(kernel.call({ method: "fit_shape", shape, points, closed }));
+    return kernel.call({ method: "fit_shape", shape, points, closed }).fit;
   } finally {
     if (kernel.instance === instance) kernel.call({ method: "close_shape", shape });
   }
@@ -84,13 +84,8 @@ function openRequest(/** @type {SearchedPath} */ { points, kind }, mirror, least
   return { method: "open_shape", points, kind, mirror, least, wanted };
 }
 
-/** The deviation of a curve from another one where both are. @param {Outline} from @param {Outline} curve */
+/** The deviation of a curve from another one where both are. @param {Outline} from @param {Outline} curve @returns {Fit | null} */
 export function deviationInPlace(/** @type {Kernel} */ kernel, from, curve) {
   const { points, closed } = curve;
-  return fitOf(kernel.call({ method: "deviation", from: from.points, points, closed }));
-}
-
-/** @returns {Fit | null} */
-function fitOf(/** @type {{ fit: Fit | null }} */ answer) {
-  return answer.fit;
+  return kernel.call({ method: "deviation", from: from.points, points, closed }).fit;
 }

@@ -28,11 +28,6 @@ export class KernelStudy {
     return this.#ask("path", { tolerance });
   }
 
-  /** The speed at about `count` places. @returns {Speeds} */
-  speeds(/** @type {number} */ count) {
-    return this.#ask("speeds", { count });
-  }
-
   /** The measures; those that do not apply are absent. @returns {ComputedMeasures} */
   measures() {
     const { values, straight } = this.#ask("measures");

@@ -2,8 +2,12 @@
 
 import { exactNumbers, KernelError, KernelFailure, KernelInstance } from "./instance.js";
 
-/** A kernel whose answers are promises. After a failure a new worker replaces its worker, `instance`. */
+// A worker without requests is ended after this time in milliseconds, and with it the memory of its indexes.
+const IDLE_MILLISECONDS = 120_000;
+
+/** A kernel whose answers are promises. After a failure, or a pause, a new worker replaces its worker, `instance`. */
 export class KernelWorker {
+  idle = 0;
   /** @type {Worker | null} */ worker = null;
   /** The requests without an answer: they are answered in their order. @type {Waiting[]} */ waiting = [];
 
@@ -16,10 +20,15 @@ export class KernelWorker {
     return this.worker;
   }
 
-  /** Resolves to the answer to a request. @returns {Promise<any>} */
-  call(/** @type {object} */ request) {
+  /**
+   * Resolves to the answer to a request. The memory of the array `lent` of it comes back as that of the answer: copies would be kept until
+   * garbage is collected, which may be after a hundred megabytes of them.
+   * @param {Record<string, any>} request @returns {Promise<any>}
+   */
+  call(request, lent = "") {
+    clearTimeout(this.idle);
     return new Promise((resolve, reject) => {
-      this.instance.postMessage(request);
+      this.instance.postMessage({ request, lent }, lent ? [request[lent].buffer] : []);
       this.waiting.push({ resolve, reject });
     });
   }
@@ -34,15 +43,23 @@ export class KernelWorker {
       else if (data.error !== undefined) this.waiting.shift()?.reject(new KernelError(data.error));
       else this.waiting.shift()?.resolve(data.answer);
       URL.revokeObjectURL(place);
+      clearTimeout(this.idle);
+      if (!this.waiting.length) this.idle = setTimeout(() => this.end(), IDLE_MILLISECONDS);
     };
     worker.onerror = ({ message }) => this.#fail(message || "this browser does not run its worker");
-    worker.postMessage(this.module);
+    worker.postMessage({ module: this.module });
     return worker;
   }
 
-  #fail(/** @type {string} */ message) {
+  /** Ends the worker; a further request starts another. */
+  end() {
+    clearTimeout(this.idle);
     this.worker?.terminate();
     this.worker = null;
+  }
+
+  #fail(/** @type {string} */ message) {
+    this.end();
     for (const { reject } of this.waiting.splice(0)) reject(new KernelFailure(message));
   }
 }
@@ -50,10 +67,16 @@ export class KernelWorker {
 /** Answers requests in a worker, whose first message is the module. Its script is the text of this function and its imports. */
 function serveKernel() {
   /** @type {KernelInstance} */ let kernel;
-  self.onmessage = ({ data }) => {
+  self.onmessage = ({ data: { module, request, lent } }) => {
     try {
-      if (data instanceof WebAssembly.Module) kernel = new KernelInstance(data);
-      else self.postMessage({ answer: kernel.call(data) });
+      if (module) {
+        kernel = new KernelInstance(module);
+        return;
+      }
+      const answer = kernel.call(request);
+      const back = lent ? { [lent]: request[lent] } : {};
+      const transfer = Object.values(back).map(({ buffer }) => buffer);
+      self.postMessage({ answer: { ...answer, ...back } }, { transfer });
     } catch (error) {
       self.postMessage({ error: error.message, isFailure: !(error instanceof KernelError) });
     }

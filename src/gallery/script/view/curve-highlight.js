@@ -4,6 +4,7 @@ import { curvePoints } from "../data/family.js";
 import { placedData } from "../draw/path-data.js";
 import { fill, termList } from "./dom.js";
 import { readingRows, solveCurve } from "./curve-reading.js";
+import { stepPlace } from "./plate/timeline.js";
 
 // The chord error of the highlighted curve, in pixels.
 const HIGHLIGHT_ERROR = 0.1;
@@ -145,10 +146,8 @@ export class CurveHighlight {
   /** Path data in millimetres of paper. */
   pathOf(/** @type {number} */ curve) {
     const { view, closed } = this.drawnOf(curve);
-    const {
-      origin: [x, y],
-      scale,
-    } = view;
+    const [x, y] = view.origin;
+    const { scale } = view;
     this.fineness = this.#zoomLevel();
     const tolerance = HIGHLIGHT_ERROR / (2 ** this.fineness * this.page.zoom.fitScale * scale);
     const points = this.solved?.path(tolerance) ?? curvePoints(this.page.family, curve);
@@ -181,20 +180,11 @@ export class CurveHighlight {
   /** Moves the reading along the curve by an increment of the input, from pass to pass. */
   stepAlong(/** @type {number} */ by) {
     if (!this.solved || !this.at) return;
-    const { passes, isLength } = this.solved;
-    let { pass, input } = this.at;
-    const whole = Math.abs(passes[pass].to - passes[pass].from);
-    input += (isLength ? (by / 360) * whole : by) * Math.sign(passes[pass].to - passes[pass].from);
-    /** @param {number} end @param {number} start */
-    const isPast = (end, start) => (input - end) * Math.sign(end - start) > 0;
-    if (isPast(passes[pass].to, passes[pass].from)) {
-      pass = (pass + 1) % passes.length;
-      input = passes[pass].from;
-    } else if (isPast(passes[pass].from, passes[pass].to)) {
-      pass = (pass + passes.length - 1) % passes.length;
-      input = passes[pass].to;
-    }
-    this.readInput(pass, input);
+    const { timeline, isLength } = this.solved;
+    const { pass, input } = this.at;
+    const place = { pass, input };
+    stepPlace(timeline, place, isLength ? (by / 360) * timeline.whole : by);
+    this.readInput(place.pass, place.input);
     const rows = readingRows(this.at, this.solved);
     this.page.app.announce(rows.map((row) => row.join(" ")).join(", "));
   }

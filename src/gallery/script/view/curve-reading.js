@@ -1,6 +1,7 @@
 // The readings of a curve at a point: input, speed, transmission angle, from the kernel.
 
 import { formatNumber } from "./labels.js";
+import { timelineOf } from "./plate/timeline.js";
 
 /**
  * A curve, solved by the kernel, on its own circuit or on that with an index among all; null if it cannot be. Its
@@ -19,6 +20,7 @@ export function solveCurve(kernel, requested, circuit = null) {
       closed,
       isLength,
       passes,
+      timeline: timelineOf(circuits[shown]),
       nearTo: (/** @type {number} */ x, /** @type {number} */ y) => orNull(() => study.nearest(x, y)),
       atInput: (/** @type {number} */ pass, /** @type {number} */ input) =>
         orNull(() => study.reading(pass, input)),

@@ -114,9 +114,31 @@ export function figures(name, caption, headings, ...body) {
   return h(`table.figures${name}`, h("caption.visually-hidden", caption), head, ...body);
 }
 
+/** A modal dialog, which is open until it is closed; then the browser gives the focus back. @param {string} name @param {object} attributes @param {...Content} content */
+export function openDialog(name, attributes, ...content) {
+  const close = h("form", { method: "dialog" }, h("button", "Close"));
+  /** @type {HTMLDialogElement} */ const dialog = h(
+    "dialog",
+    { class: name, ...attributes },
+    ...content,
+    close,
+  );
+  dialog.onclose = () => dialog.remove();
+  // Keys of the view do not apply while it is open.
+  dialog.onkeydown = (event) => event.stopPropagation();
+  document.body.append(dialog);
+  dialog.showModal();
+  return dialog;
+}
+
 /** Whether a key is pressed with another one that makes it a command of the browser. */
 export function isShortcut(/** @type {KeyboardEvent} */ { ctrlKey, metaKey, altKey }) {
   return ctrlKey || metaKey || altKey;
+}
+
+/** Resolves in the next turn of the event loop: the page handles input before. */
+export function nextTurn() {
+  return new Promise((resume) => setTimeout(resume));
 }
 
 /** The element that has the focus. */

@@ -76,18 +76,14 @@ function familyToolbar(app, family, listed, { hasCurves, hasPages }) {
   /** @param {string} label @param {Record<string, string>} query @param {boolean} isHere */
   const way = (label, query, isHere) =>
     h("a.button", { href: address([family.id], query), "aria-current": isHere ? "true" : null }, label);
+  const go = (/** @type {number} */ page) => app.go(address([family.id, page]));
   const ways = [hasPages ? way("Pages", {}, !hasCurves) : null, way("Curves", { show: "curves" }, hasCurves)];
   return h(
     "div.toolbar.no-print",
     h("div.segments", { role: "group", "aria-label": "Show" }, ways),
     h("a.button", { href: address(["find"], { family: family.id }) }, "Find curves"),
-    listed.pages > 1 && !hasCurves ? pageJump(app, family, listed) : null,
+    listed.pages > 1 && !hasCurves ? h("div.end", pageField(listed, "Go to page", go).element) : null,
   );
-}
-
-function pageJump(/** @type {App} */ app, /** @type {Family} */ family, /** @type {ListedFamily} */ listed) {
-  const go = (/** @type {number} */ page) => app.go(address([family.id, page]));
-  return h("div.end", pageField(listed, "Go to page", go).element);
 }
 
 function pageTiles(/** @type {App} */ app, /** @type {Family} */ family, /** @type {ListedFamily} */ listed) {

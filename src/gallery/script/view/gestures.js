@@ -1,5 +1,7 @@
 // The gestures that can be undone, as a stack of addresses.
 
+import { isTyped } from "./keys.js";
+
 /** The addresses of a view before each gesture, and after each that was undone. */
 export class Gestures {
   /** @type {string[]} */ past = [];
@@ -24,11 +26,6 @@ export class Gestures {
     if (after !== undefined) this.past.push(now);
     return after;
   }
-
-  clear() {
-    this.past = [];
-    this.future = [];
-  }
 }
 
 /** Whether a key event undoes (-1) or repeats (1) a gesture; 0 if neither, or where text is typed, which the browser undoes. */
@@ -36,10 +33,7 @@ export function gestureOfKey(/** @type {KeyboardEvent} */ event) {
   const { ctrlKey, metaKey, altKey, shiftKey, target } = event;
   const key = event.key.toLowerCase();
   if (!(ctrlKey || metaKey) || altKey || (key !== "z" && key !== "y")) return 0;
-  const isText =
-    target instanceof Element &&
-    target.matches("textarea, input:not([type=range], [type=checkbox], [type=radio])");
-  if (isText) return 0;
+  if (isTyped(target, "")) return 0;
   if (key === "y") return shiftKey ? 0 : 1;
   return shiftKey ? 1 : -1;
 }

@@ -1,32 +1,30 @@
 // Commands by keys: one table each of what handles them and what the dialog of all keys lists.
 
-import { buttonOf, h, isShortcut, termList } from "./dom.js";
+import { h, isShortcut, openDialog, termList } from "./dom.js";
+
+// A step of a handle by a key, in pixels, and with Shift.
+const SHORT_STEP = 2;
+const LONG_STEP = 20;
 
 /** The commands of elements, which say in `data-keys` where the keys work. @type {WeakMap<Element, KeyCommand[]>} */
 const commandsOf = new WeakMap();
 
 /**
  * Handles keys on an element, or on `target`, and lists them while the element is in the document. The function of a command is
- * false if the key was not for it; without one, something else handles the keys. Returns a function that ends it.
- * @param {Element} element @param {string} where @param {KeyCommand[]} commands @param {Element | Window} target
+ * false if the key was not for it; without one, something else handles the keys. The signal ends it.
+ * @param {Element} element @param {string} where @param {KeyCommand[]} commands @param {Element | Window} target @param {AbortSignal} [signal]
  */
-export function onKeys(element, where, commands, target = element) {
+export function onKeys(element, where, commands, target = element, signal = undefined) {
   element.setAttribute("data-keys", where);
   commandsOf.set(element, [...(commandsOf.get(element) ?? []), ...commands]);
   const listener = (/** @type {Event} */ event) => {
-    if (
-      !(event instanceof KeyboardEvent) ||
-      event.defaultPrevented ||
-      isShortcut(event) ||
-      isTyped(event.target)
-    )
-      return;
+    if (!(event instanceof KeyboardEvent) || event.defaultPrevented) return;
+    if (isShortcut(event) || isTyped(event.target)) return;
     const key = event.key === " " ? "Space" : event.key.length === 1 ? event.key.toLowerCase() : event.key;
     const act = commands.find(([keys]) => keys.split(" ").includes(key))?.[2];
     if (act && act(event) !== false) event.preventDefault();
   };
-  target.addEventListener("keydown", listener);
-  return () => target.removeEventListener("keydown", listener);
+  target.addEventListener("keydown", listener, { signal });
 }
 
 /** The steps of a slider by a key, `page` of them by Page Up; undefined for other keys. @returns {number | undefined} */
@@ -42,12 +40,32 @@ export function directionOfKey(/** @type {KeyboardEvent} */ { key }) {
   return ARROWS[key];
 }
 
-/** Whether keys at an element are text or a choice of its own. */
-function isTyped(/** @type {EventTarget | null} */ target) {
-  return (
-    target instanceof Element &&
-    target.matches("input:not([type=range], [type=checkbox], [type=radio]), select, textarea")
-  );
+/** Gives the focus to one of some elements, counted round; Tab comes back to that which had it last. @param {(HTMLElement | SVGElement)[]} all @param {number} number */
+export function focusOne(all, number) {
+  const one = all.at(number % all.length);
+  for (const other of all) other.setAttribute("tabindex", other === one ? "0" : "-1");
+  one?.focus({ preventScroll: true });
+}
+
+/**
+ * Handles a key at one of the handles of a drawing: an arrow moves it, by pixels [right, up], Page Up and Page Down go to another one.
+ * @param {KeyboardEvent} event @param {(HTMLElement | SVGElement)[]} all @param {number} at @param {(by: Point) => void} move
+ */
+export function handleKey(event, all, at, move) {
+  const way = directionOfKey(event);
+  const next = { PageDown: 1, PageUp: -1 }[event.key];
+  if ((!way && !next) || event.ctrlKey || event.metaKey) return;
+  event.preventDefault();
+  event.stopPropagation();
+  const step = event.shiftKey ? LONG_STEP : SHORT_STEP;
+  if (way) move([step * way[0], step * way[1]]);
+  else focusOne(all, at + (next ?? 0));
+}
+
+/** Whether keys at an element are text, or a choice of its own. */
+export function isTyped(/** @type {EventTarget | null} */ target, others = ", select") {
+  const fields = `input:not([type=range], [type=checkbox], [type=radio]), textarea${others}`;
+  return target instanceof Element && target.matches(fields);
 }
 
 /** @type {Record<string, string>} */
@@ -68,11 +86,5 @@ export function showKeys(more) {
   ];
   const lists = [...groups].map(([where, all]) => [h("h3", where), termList("dl.facts", all.map(row))]);
   const title = h("h2", { id: "keys-title" }, "Keys");
-  const dialog = h("dialog.keys", { "aria-labelledby": title.id }, title, lists);
-  dialog.append(buttonOf("Close", () => dialog.close()));
-  dialog.onclose = () => dialog.remove();
-  // Keys of the view do not apply while it is open.
-  dialog.onkeydown = (event) => event.stopPropagation();
-  document.body.append(dialog);
-  dialog.showModal();
+  openDialog("keys", { "aria-labelledby": title.id }, title, lists);
 }

@@ -3,55 +3,6 @@
 import { measureValue } from "../data/family.js";
 import { h } from "./dom.js";
 
-/** The labels of measures other than their names in words. @type {Record<string, string>} */
-const MEASURE_LABELS = {
-  shortest: "shortest link",
-  six_bar: "kind of six-bar",
-  is_full_turn: "full turn of the input",
-  mu: "transmission angle",
-  bbox_x: "x",
-  bbox_y: "y",
-  mu_worst_deg: "worst transmission angle",
-  output_swing_deg: "swing of the output",
-  output_stroke: "stroke of the output",
-  output_dwell_deg: "range of input of the output's dwell",
-  output_dwell_start_deg: "its start input",
-  toggles: "toggle positions",
-  torque_peak: "greatest input torque",
-  torque_peak_deg: "input at the greatest torque",
-  torque_min: "least input torque, signed",
-  torque_max: "greatest input torque, signed",
-  length: "path length",
-  symmetry_deg: "direction of the symmetry axis",
-  straight_length: "length of the straight portion",
-  straight_deviation: "its deviation from the line",
-  straight_start_deg: "its start input",
-  straight_input_deg: "its range of input",
-  dwell_input_deg: "range of input of the circular portion",
-  dwell_radius: "its radius",
-  dwell_deviation: "its deviation from the circle",
-  dwell_start_deg: "its start input",
-  dwell_x: "its centre, x",
-  dwell_y: "its centre, y",
-};
-
-/** The portions of a curve that measures are of, by the beginnings of their names. */
-const PORTIONS = { output_dwell: "output's dwell", straight: "straight portion", dwell: "circular portion" };
-
-/** The label of a measure outside the order of the columns. */
-export function standaloneMeasureLabel(/** @type {string} */ name) {
-  const portion = Object.entries(PORTIONS).find(([begins]) => name.startsWith(begins))?.[1];
-  return measureLabel(name).replace(/^its ([^,]+?)(?: from the \w+)?(?=,|$)/, `$1 of the ${portion}`);
-}
-
-/** The label of a measure in the order of the columns, where "its" refers to the portion before. */
-export function measureLabel(/** @type {string} */ name) {
-  if (name in MEASURE_LABELS) return MEASURE_LABELS[name];
-  const [, base, end] = /^(.*?)(_min|_max)?(?:_deg)?$/.exec(name) ?? [];
-  const words = MEASURE_LABELS[base] ?? base.replaceAll("_", " ");
-  return end ? `${end === "_min" ? "least" : "greatest"} ${words}` : words;
-}
-
 /** A number with significant digits, without trailing zeros and with a true minus sign. */
 export function formatNumber(/** @type {number} */ number, digits = 4) {
   if (number === Infinity) return "unbounded";
@@ -92,20 +43,6 @@ export function formatChanges(/** @type {Map<string, number>} */ changes) {
   return `with ${[...changes].map(([name, value]) => `${name} = ${formatNumber(value, 10)}`).join(", ")}`;
 }
 
-/** @type {Record<string, string>} */
-const COLUMN_LABELS = {
-  straight_tolerance: "deviation of the straight portion, by its length",
-  straight_share: "length of the straight portion, by the extent",
-  symmetric: "symmetry",
-  symmetry: "kind of symmetry",
-};
-
-/** The label of a column. */
-export function columnLabel(/** @type {string} */ name) {
-  if (name.startsWith("p.")) return `parameter ${name.slice(2)}`;
-  return COLUMN_LABELS[name] ?? standaloneMeasureLabel(name);
-}
-
 /** The value of a row of a table in a column, formatted. @param {number} row */
 export function rowText(/** @type {CurveTable} */ table, /** @type {Column} */ column, row) {
   if (column.kind === "words") {
@@ -119,7 +56,7 @@ export function rowText(/** @type {CurveTable} */ table, /** @type {Column} */ c
 
 /** A length or speed in four significant digits, with a true minus sign. */
 export function formatLength(/** @type {number} */ value) {
-  if (!Number.isFinite(value)) return "∞";
+  if (!Number.isFinite(value)) return value === -Infinity ? "−∞" : "∞";
   if (value === 0) return "0";
   const exponent = Math.floor(Math.log10(Math.abs(value)));
   if (exponent < -5 || exponent > 6) return value.toExponential(3).replaceAll("-", "−");

@@ -23,11 +23,23 @@ export const newRoute = {
 };
 
 /**
- * The address of the plate of a four-bar that has been found, on its circuit; of one whose crank does not turn fully, on the first.
- * @param {Pick<FourBarAnswer, "record" | "pose">} _
+ * The address of the plate of a four-bar that has been found, on the circuit with its pose.
+ * @param {Pick<App, "atlas" | "kernel">} app @param {Pick<FourBarAnswer, "record" | "pose">} answer
  */
-export function fourBarAddress({ record: { parameters, class: kind }, pose: [, , cx, cy, ax, ay, bx, by] }) {
-  const isRight = (cx - ax) * (by - ay) < (cy - ay) * (bx - ax);
-  const turns = kind === "crank-rocker" || kind === "drag-link";
-  return newAddress("four-bar", { ...parameters, circuit: turns && isRight ? 2 : null });
+export async function fourBarAddress({ atlas, kernel }, { record: { parameters }, pose }) {
+  const [ox, oy, cx, cy, ax, ay, bx, by] = pose;
+  const side = (cx - ax) * (by - ay) < (cy - ay) * (bx - ax) ? -1 : 1;
+  const turned = Math.atan2(ay - oy, ax - ox) - Math.atan2(cy - oy, cx - ox);
+  const family = await atlas.family("new/four-bar");
+  const loaded = await kernel.load();
+  const curve = loaded.curve(family, 0, Object.entries(parameters));
+  const study = loaded.study(curve, { shown: 0, isRough: true });
+  const { circuits } = study.answer;
+  study.close();
+  const has = (/** @type {Pass} */ { from, to, sides }) => {
+    const beyond = (turned * 180) / Math.PI - Math.min(from, to);
+    return sides[0] === side && beyond - 360 * Math.floor(beyond / 360) <= Math.abs(to - from);
+  };
+  const circuit = circuits.findIndex(({ passes }) => passes.some(has)) + 1;
+  return newAddress("four-bar", { ...parameters, circuit: circuit > 1 ? circuit : null });
 }

@@ -5,11 +5,13 @@ import { h, isShortcut } from "./dom.js";
 
 /**
  * A text field for a number. `on.change(value)` is called when its text is another number, `on.settle()` when that is
- * entered, `on.step(by)` for the keys up and down; an `on.empty` lets it be empty. `show(value)` sets its text.
+ * entered, `on.step(by)` for the keys up and down; an `on.empty` lets it be empty. `show(value)` sets its text. A text that is no number
+ * is marked, the browser says why when it is entered, and when the field is left it shows the number that holds.
  */
 export class NumberField {
   /** Why the text is no number, and why the number is wrong. @type {string | null} */ wrong = null;
   /** @type {string | null} */ outer = null;
+  /** The text of the number that holds. */ held = "";
 
   /** @param {object} attributes @param {{ change(value: number): void, settle?(): void, step?(by: number): void, empty?(): void, units?: Units }} on */
   constructor(attributes, on) {
@@ -20,7 +22,8 @@ export class NumberField {
       autocomplete: "off",
       role: "spinbutton",
       oninput: () => this.#read(),
-      onchange: () => on.settle?.(),
+      onchange: () => this.wrong === null && on.settle?.(),
+      onblur: () => this.#left(),
       onkeydown: (event) => this.#step(event),
       ...attributes,
     });
@@ -30,6 +33,7 @@ export class NumberField {
   show(/** @type {number | undefined} */ value, text = value === undefined ? "" : String(value)) {
     const { element } = this;
     element.setAttribute("aria-valuenow", Number.isFinite(value) ? String(value) : "");
+    this.held = text;
     if (document.activeElement === element && !element.readOnly) return;
     element.value = text;
     this.#mark(null, this.outer);
@@ -61,7 +65,14 @@ export class NumberField {
     if ("value" in found) on.change(found.value);
   }
 
+  #left() {
+    if (this.wrong === null) return;
+    this.element.value = this.held;
+    this.#mark(null, this.outer);
+  }
+
   #step(/** @type {KeyboardEvent} */ event) {
+    if (event.key === "Enter" && this.wrong !== null) this.element.reportValidity();
     const by = { ArrowUp: 1, ArrowDown: -1 }[event.key];
     if (!by || !this.on.step || this.element.readOnly || isShortcut(event)) return;
     event.preventDefault();

@@ -22,7 +22,15 @@ export const overviewRoute = {
     const { families, title } = app.atlas;
     /** @type {Map<HTMLElement, ListedFamily>} */
     const tiles = new Map(families.map((family) => [familyTile(family), family]));
-    const sight = onceVisible((tile) => showFirstPage(app, tile, tiles.get(tile)?.id ?? ""));
+    // Each is drawn when it comes within half a window height of the window.
+    const seen = (/** @type {IntersectionObserverEntry[]} */ entries) => {
+      for (const { target } of entries.filter(({ isIntersecting }) => isIntersecting)) {
+        sight.unobserve(target);
+        const tile = /** @type {HTMLElement} */ (target);
+        showFirstPage(app, tile, tiles.get(tile)?.id ?? "");
+      }
+    };
+    const sight = new IntersectionObserver(seen, { rootMargin: "50% 0px" });
     const list = h(families.length < FEW_FAMILIES ? "ul.families.few" : "ul.families", [...tiles.keys()]);
     const hasSearch = families.length >= MANY_FAMILIES;
     const heading = h("div", h("h1", title), h("p.lede", atlasSummary(families)));
@@ -33,8 +41,8 @@ export const overviewRoute = {
         h("div.head", heading, hasSearch ? familySearch(app, tiles, query.get("q") ?? "") : null),
         families.length ? list : h("p.empty", "There are no families in this atlas."),
       ),
-      shown: () => [...tiles.keys()].forEach((tile) => sight.watch(tile)),
-      leave: () => sight.end(),
+      shown: () => [...tiles.keys()].forEach((tile) => sight.observe(tile)),
+      leave: () => sight.disconnect(),
     };
   },
 };
@@ -104,22 +112,4 @@ function familySearch(app, tiles, query) {
   leave(query);
   const attributes = { type: "search", value: query, "aria-label": "Search families by name", oninput: seek };
   return h("div.field", h("input", { ...attributes, placeholder: `Search ${total} families` }));
-}
-
-/** Calls `seen(element)` once for each watched element when it comes within half a window height of the window. Returns { watch(element), end() }. */
-function onceVisible(/** @type {(element: HTMLElement) => void} */ seen) {
-  const observer = new IntersectionObserver(
-    (entries) => {
-      for (const { target, isIntersecting } of entries) {
-        if (!isIntersecting) continue;
-        observer.unobserve(target);
-        seen(/** @type {HTMLElement} */ (target));
-      }
-    },
-    { rootMargin: "50% 0px" },
-  );
-  return {
-    watch: (/** @type {HTMLElement} */ element) => observer.observe(element),
-    end: () => observer.disconnect(),
-  };
 }

@@ -1,9 +1,9 @@
 // The toolbar of a page: page number and zoom.
 
-import { parseNumber } from "../data/number.js";
 import { address } from "../data/address.js";
 import { curveKey } from "../data/family.js";
 import { buttonOf, h } from "./dom.js";
+import { NumberField } from "./number-field.js";
 import { printedColorsButton } from "./settings.js";
 
 /**
@@ -25,10 +25,8 @@ export function pageBar(listed, { go, zoom }) {
     contents.setAttribute("href", address([listed.id], { page }));
     setStepTarget(before, listed, page - 1);
     setStepTarget(after, listed, page + 1);
-    if (document.activeElement !== number.field) {
-      number.field.value = String(page);
-      number.field.removeAttribute("aria-invalid");
-    }
+    number.field.mark(null);
+    number.field.show(page);
     controls.update(magnification, isFit);
   };
   return { element, update };
@@ -49,7 +47,7 @@ function setStepTarget(link, /** @type {ListedFamily} */ { id, pages }, page) {
 function zoomControls(/** @type {() => Zoom} */ zoom) {
   const level = h("span.zoom-level");
   const button = (/** @type {string} */ label, /** @type {string} */ sign, /** @type {number} */ factor) =>
-    buttonOf(sign, () => zoom().zoomBy(factor), { "aria-label": label, title: label });
+    buttonOf(sign, () => zoom().zoom(factor), { "aria-label": label, title: label });
   const whole = buttonOf("Fit", () => zoom().fit());
   const segments = h("div.segments", button("Zoom out", "−", 1 / 1.5), whole, button("Zoom in", "+", 1.5));
   const update = (/** @type {number} */ magnification, /** @type {boolean} */ isFit) => {
@@ -84,16 +82,20 @@ export function readPageZoom(/** @type {AddressQuery} */ query) {
  * @param {string} label @param {(page: number) => void} go
  */
 export function pageField(/** @type {ListedFamily} */ { pages }, label, go) {
-  const field = h("input", { type: "text", inputmode: "numeric", role: "spinbutton", "aria-label": "Page" });
+  let page = NaN;
+  const change = (/** @type {number} */ value) => {
+    page = value;
+    field.mark(null);
+  };
+  const field = new NumberField({ inputmode: "numeric", "aria-label": "Page" }, { change });
   const submit = (/** @type {Event} */ event) => {
     event.preventDefault();
-    const found = parseNumber(field.value);
-    const page = "value" in found ? found.value : NaN;
-    if (Number.isInteger(page) && page >= 1 && page <= pages) go(page);
-    else field.setAttribute("aria-invalid", "true");
+    if (field.wrong === null && Number.isInteger(page) && page >= 1 && page <= pages) return go(page);
+    field.mark(`There is no page ${field.element.value}`);
+    return field.element.reportValidity();
   };
   const words = h("span", label);
   const total = h("span", `of ${pages.toLocaleString("en")}`);
   const form = { class: "field row page-field", novalidate: true, onsubmit: submit };
-  return { element: h("form", form, words, field, total), field };
+  return { element: h("form", form, words, field.element, total), field };
 }

@@ -1,7 +1,7 @@
 // The keyboard commands of a page.
 
 import { h } from "./dom.js";
-import { directionOfKey, onKeys } from "./keys.js";
+import { directionOfKey, focusOne, onKeys } from "./keys.js";
 
 /** Handles the keys on a page, and on its curves. @param {PageView} view */
 export function watchPageKeys(view) {
@@ -18,8 +18,8 @@ function pageCommands(view) {
     return !view.zoom.isFit && view.zoom.pan((-right * clientWidth) / 8, (up * clientHeight) / 8);
   };
   return [
-    ["+ =", "zoom in", () => view.zoom.zoomBy(1.5)],
-    ["- −", "zoom out", () => view.zoom.zoomBy(1 / 1.5)],
+    ["+ =", "zoom in", () => view.zoom.zoom(1.5)],
+    ["- −", "zoom out", () => view.zoom.zoom(1 / 1.5)],
     ["0", "fit the page", () => view.zoom.fit()],
     ["ArrowLeft ArrowRight ArrowUp ArrowDown", "pan", pan],
     ["n PageDown", "next page", () => view.go(view.page + 1)],
@@ -43,10 +43,7 @@ function curveCommands(view) {
       const links = [...(view.overlay?.links.values() ?? [])];
       const at = links.findIndex((link) => event.target instanceof Node && link.contains(event.target));
       if (at < 0) return false;
-      links.forEach((other) => other.setAttribute("tabindex", "-1"));
-      const link = links[(next(at, links.length) + links.length) % links.length];
-      link.setAttribute("tabindex", "0");
-      return link.focus({ preventScroll: true });
+      return focusOne(links, next(at, links.length));
     };
   return [
     ["ArrowRight ArrowDown", "next curve; with Shift along the curve", step(1)],

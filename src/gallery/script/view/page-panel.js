@@ -3,7 +3,7 @@
 import { address, curveAddress } from "../data/address.js";
 import { cellCaption, cellText, cellValues, curveKey, measureValue, pageViews } from "../data/family.js";
 import { buttonOf, h, termList } from "./dom.js";
-import { formatCaption, formatNumber, measureLabel, measureText, formatCount } from "./labels.js";
+import { formatCaption, formatNumber, measureText, formatCount } from "./labels.js";
 import { thumbnail } from "./thumbnail.js";
 import { panelCells } from "../data/needs.js";
 import { pinButton } from "./pins.js";
@@ -20,15 +20,12 @@ export function curveListPanel(family, page, drawn, { onenter, onleave }) {
   return h(
     "div.panel",
     one ? h("h2", formatCaption(cellLabel(family, drawn[0].view.cell, "Linkage"))) : null,
-    drawn.length ? curveCount(drawn.length, one) : noCurvesNote(family),
+    drawn.length
+      ? h(one ? "p.note" : "h2", `${formatCount(drawn.length, "curve")} on this page`)
+      : noCurvesNote(family),
     h("ol.page-curves", links),
     short.length ? notAssembledList(family, short) : null,
   );
-}
-
-function curveCount(/** @type {number} */ count, /** @type {boolean} */ isBelowHeading) {
-  const sum = `${count} ${count === 1 ? "curve" : "curves"} on this page`;
-  return isBelowHeading ? h("p.note", sum) : h("h2", sum);
 }
 
 function noCurvesNote(/** @type {Family} */ family) {
@@ -119,9 +116,9 @@ function parameterFacts(/** @type {Family} */ family, /** @type {number} */ cell
 function measureFacts(/** @type {Atlas} */ atlas, /** @type {Family} */ family, /** @type {number} */ curve) {
   const rows = atlas.measures.map((measure) => ({ ...measure, text: measureText(family, curve, measure) }));
   const shown = rows.filter(({ name, text }) => text !== undefined && !["class", "type"].includes(name));
-  const definitions = shown.map(({ name, definition }) => [measureLabel(name), definition]);
-  const terms = shown.map(({ name, definition, text }) => [
-    h("dt", { title: definition }, measureLabel(name)),
+  const definitions = shown.map(({ title, definition }) => [title, definition]);
+  const terms = shown.map(({ title, definition, text }) => [
+    h("dt", { title: definition }, title),
     h("dd", text),
   ]);
   return [

@@ -9,25 +9,22 @@ const THEMES = ["system", "light", "dark"];
 
 /**
  * The theme selector, which takes effect immediately. `data-theme` of <html> is the effective theme, light or
- * dark; "themechange" is dispatched on document when it changes.
+ * dark.
  */
 export function themeSelect() {
   const dark = window.matchMedia("(prefers-color-scheme: dark)");
-  let choice = storedTheme();
+  const stored = storedChoice(THEME_KEY) ?? "";
+  let choice = THEMES.includes(stored) ? stored : "system";
   const apply = () => {
-    const theme = choice === "system" ? (dark.matches ? "dark" : "light") : choice;
-    if (document.documentElement.dataset.theme === theme) return;
-    document.documentElement.dataset.theme = theme;
-    document.dispatchEvent(new CustomEvent("themechange", { detail: theme }));
+    document.documentElement.dataset.theme = choice === "system" ? (dark.matches ? "dark" : "light") : choice;
   };
   dark.addEventListener("change", apply);
   apply();
-  const choose = (/** @type {string} */ theme) => {
-    choice = theme;
+  const onchange = (/** @type {Heard<Event, HTMLSelectElement>} */ { target }) => {
+    choice = target.value;
     storeChoice(THEME_KEY, choice);
     apply();
   };
-  const onchange = (/** @type {Heard<Event, HTMLSelectElement>} */ { target }) => choose(target.value);
   const labels = THEMES.map((theme) => [theme, `Theme: ${theme}`]);
   return selectOf({ class: "theme quiet", "aria-label": "Theme", onchange }, labels, choice);
 }
@@ -47,11 +44,6 @@ export function printedColorsButton() {
   const button = buttonOf("Printed colours", act, { class: "as-printed" });
   apply(storedChoice(PAGES_KEY) === "printed");
   return button;
-}
-
-function storedTheme() {
-  const theme = storedChoice(THEME_KEY) ?? "";
-  return THEMES.includes(theme) ? theme : "system";
 }
 
 /** What is stored; null if there is nothing, or no storage. @returns {string | null} */

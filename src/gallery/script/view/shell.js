@@ -128,7 +128,7 @@ class Router {
     fill(this.ignored);
     this.turn += 1;
     const turn = this.turn;
-    this.gestures.clear();
+    this.gestures = new Gestures();
     // The previous view stays visible until the next one is ready.
     this.shown?.view.leave?.();
     this.shown = null;
@@ -202,9 +202,8 @@ class Router {
     const family = this.app.atlas.families.find((candidate) => candidate.id === id);
     const own = family ? [h("a", { href: address([id]) }, family.title), ", "] : null;
     const { plate } = this.app.atlas;
-    const all = plate
-      ? h("a", { href: plate.address }, "The plate")
-      : h("a", { href: address([]) }, "All families");
+    const href = plate?.address ?? address([]);
+    const all = h("a", { href }, plate ? "The plate" : "All families");
     fill(this.main, h("h1", "Not found"), h("p.error", { role: "alert" }, sentence, " ", own, all));
   }
 

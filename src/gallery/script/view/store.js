@@ -33,7 +33,7 @@ export class Store {
 
   /** Shows the state of another address, which is written already. */
   show(/** @type {S} */ state) {
-    this.#end();
+    this.leave();
     this.#set(state);
   }
 
@@ -52,13 +52,8 @@ export class Store {
   /** Ends a gesture. */
   commit() {
     if (!this.isOpen) return;
-    this.#end();
+    this.leave();
     this.app.commit(this.address(this.state));
-  }
-
-  #end() {
-    window.clearTimeout(this.writing);
-    this.isOpen = false;
   }
 
   /** Ends a gesture when nothing has followed for a time in milliseconds. */
@@ -67,8 +62,9 @@ export class Store {
     this.writing = window.setTimeout(() => this.commit(), after);
   }
 
-  /** Before the view is left: its address is not written any more. */
+  /** Ends a gesture without its address, as when the view is left. */
   leave() {
-    this.#end();
+    window.clearTimeout(this.writing);
+    this.isOpen = false;
   }
 }

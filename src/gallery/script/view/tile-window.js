@@ -146,14 +146,14 @@ export class TileWindow {
     const row = (/** @type {number} */ y) => Math.floor(y / this.pitch);
     const first = Math.max(0, row(top - ahead) * this.columns);
     const last = Math.min(this.count, (row(top + window.innerHeight + ahead) + 1) * this.columns);
-    this.#keep((k, element) => (k >= first && k < last) || element.contains(document.activeElement));
+    this.keep((k, element) => (k >= first && k < last) || element.contains(document.activeElement));
     if (isShifted) for (const [k, element] of this.there) this.lay(element, k);
     for (let k = first; k < last; k += 1) this.add(k);
     this.drawSome();
   }
 
   /** Removes the tiles from the document that are not to be kept. */
-  #keep(/** @type {(k: number, element: HTMLElement) => boolean} */ isKept) {
+  keep(/** @type {(k: number, element: HTMLElement) => boolean} */ isKept) {
     for (const [k, element] of this.there) {
       if (isKept(k, element)) continue;
       element.remove();
@@ -222,7 +222,7 @@ export class TileWindow {
   /** Puts the first tiles into the document, and no others, for printing. */
   printed() {
     const last = Math.min(this.count, PRINTED_TILES);
-    this.#keep((k) => k < last);
+    this.keep((k) => k < last);
     this.shifted = 0;
     for (const [k, element] of this.there) this.lay(element, k);
     for (let k = 0; k < last; k += 1) this.add(k);

@@ -98,7 +98,7 @@ export class Zoom {
   }
 
   /** Zooms by a factor about a point in pixels of the viewport (default: its centre). @param {number} factor */
-  zoomBy(factor, x = this.viewport.clientWidth / 2, y = this.viewport.clientHeight / 2) {
+  zoom(factor, [x, y] = [this.viewport.clientWidth / 2, this.viewport.clientHeight / 2]) {
     const fit = this.fitScale;
     const scale = Math.min(Math.max(this.scale * factor, fit), NEAREST * fit);
     if (scale <= fit * 1.001) {
@@ -138,7 +138,7 @@ export class Zoom {
     const { clientWidth, clientHeight } = this.viewport;
     this.x += (clientWidth - this.constrainedTo.width) / 2;
     this.y += (clientHeight - this.constrainedTo.height) / 2;
-    this.zoomBy(1);
+    this.zoom(1);
   }
 
   /** Keeps a part of the page visible, and schedules the update for the next frame. */
@@ -175,7 +175,7 @@ export class Zoom {
     // A pinch on a touchpad is reported as a wheel event with the control key, in small steps.
     const rate = event.ctrlKey ? 0.01 : 0.0016;
     const factor = Math.exp(-rate * Math.min(Math.max(dy, -300), 300));
-    this.zoomBy(factor, ...this.pixelOf(event.clientX, event.clientY));
+    this.zoom(factor, this.pixelOf(event.clientX, event.clientY));
   }
 
   pressed(/** @type {PointerEvent} */ event) {
@@ -192,23 +192,12 @@ export class Zoom {
     if (this.isTap && away < TAP_SLACK) return;
     if (this.isTap) this.viewport.setPointerCapture(event.pointerId);
     this.isTap = false;
-    const others = [...this.pointers.values()].filter((other) => other !== pointer);
-    const before = { x: pointer.x, y: pointer.y };
+    const [other] = [...this.pointers.values()].filter((one) => one !== pointer);
+    const before = this.pixelOf(pointer.x, pointer.y);
     [pointer.x, pointer.y] = [event.clientX, event.clientY];
-    if (others.length === 0) this.pan(pointer.x - before.x, pointer.y - before.y);
-    else this.pinched(others[0], before, pointer);
-  }
-
-  /**
-   * One finger stays, the other moves from `before` to `after`.
-   * @param {{ x: number, y: number }} still @param {{ x: number, y: number }} before @param {{ x: number, y: number }} after
-   */
-  pinched(still, before, after) {
-    /** @param {{ x: number, y: number }} p */
-    const spread = (p) => Math.hypot(p.x - still.x, p.y - still.y) || 1;
-    const middle = this.pixelOf((still.x + after.x) / 2, (still.y + after.y) / 2);
-    this.zoomBy(spread(after) / spread(before), ...middle);
-    this.pan((after.x - before.x) / 2, (after.y - before.y) / 2);
+    const after = this.pixelOf(pointer.x, pointer.y);
+    if (!other) this.pan(after[0] - before[0], after[1] - before[1]);
+    else pinch(this, this.pixelOf(other.x, other.y), before, after);
   }
 
   released(/** @type {PointerEvent} */ event, /** @type {boolean} */ isUp) {
@@ -221,4 +210,11 @@ export class Zoom {
   get isDragging() {
     return this.pointers.size > 0 && !this.isTap;
   }
+}
+
+/** Zooms and pans a view while one finger stays and another moves. @param {Pick<Zoom, "zoom" | "pan">} view @param {Point} still @param {Point} before @param {Point} after */
+export function pinch(view, still, before, after) {
+  const apart = (/** @type {Point} */ [x, y]) => Math.hypot(x - still[0], y - still[1]) || 1;
+  view.zoom(apart(after) / apart(before), [(after[0] + still[0]) / 2, (after[1] + still[1]) / 2]);
+  view.pan((after[0] - before[0]) / 2, (after[1] - before[1]) / 2);
 }

@@ -2,7 +2,7 @@
 
 import { curveOutline } from "../../data/family.js";
 import { boxOfPoints } from "../../draw/plane-view.js";
-import { identity, transformed } from "../../draw/similarity.js";
+import { transformed } from "../../draw/similarity.js";
 import { bestFit, deviationInPlace } from "../../kernel/shape-search.js";
 
 /** The maximum number of curves compared. */
@@ -52,7 +52,7 @@ export function alignCurve(kernel, first, one, /** @type {string} */ align) {
 
 /** The similarity that matches the centres of the bounding boxes and, for "size", their diagonals. */
 function boxAlignment(/** @type {Points} */ base, /** @type {Points} */ own, /** @type {string} */ align) {
-  if (align === "none") return identity();
+  if (align === "none") return { mirror: false, re: 1, im: 0, x: 0, y: 0 };
   const [a, b] = [middleAndSize(base), middleAndSize(own)];
   const scale = align === "size" && b.size > 0 ? a.size / b.size : 1;
   return { mirror: false, re: scale, im: 0, x: a.x - scale * b.x, y: a.y - scale * b.y };

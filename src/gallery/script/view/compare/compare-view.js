@@ -1,6 +1,6 @@
 // The view that compares pinned curves.
 
-import { curveAddress, matchesRoute, routeAddress } from "../../data/address.js";
+import { curveAddress, matchesRoute, parameterWord, routeAddress } from "../../data/address.js";
 import { curveCaption } from "../../data/family.js";
 import { buttonOf, fill, h, keepFocus, selectOf } from "../dom.js";
 import { formatCaption, formatChanges } from "../labels.js";
@@ -30,7 +30,7 @@ class CompareView {
   /** Whether one's own pins are compared, which follow. */ isOwn = true;
   /** The curves by their names. @type {Map<string, Awaited<ReturnType<typeof loadComparedCurve>>>} */
   loaded = new Map();
-  stop = () => {};
+  /** Stopped by what is shown next. */ refining = new AbortController();
 
   constructor(/** @type {App} */ app, /** @type {AddressQuery} */ query) {
     this.app = app;
@@ -118,12 +118,13 @@ class CompareView {
     fill(this.tools, all.length ? this.controls() : null);
     const aligned = curves.map((one, k) => alignCurve(kernel, curves[0], one, k > 0 ? query.align : "none"));
     const labels = curves.map(({ name }, k) => `${letterOf(k)} ${name}`);
-    this.stop();
+    this.refining.abort();
+    this.refining = new AbortController();
     const isOver = query.view === "over" && curves.length > 1;
     const picture = isOver
       ? overlaidPicture(aligned, `${labels.join(", ")}; alignment: ${ALIGNMENTS[query.align]}`)
       : sideBySidePictures(aligned);
-    this.stop = refinePicture(app, picture, curves, aligned);
+    refinePicture(kernel, picture, curves, aligned, this.refining.signal);
     const entries = curves.map((one, k) => {
       const drawn = isOver ? strokeSample(k) : h("div.tile-picture", picture.elements?.[k]);
       return this.entry(one, k, curves.length, aligned[k].fit, drawn);
@@ -159,10 +160,14 @@ class CompareView {
       buttonOf(label, onclick, { class: "quiet", "aria-label": words, disabled });
     const percent = (/** @type {number} */ value) => `${(100 * value).toFixed(2)} %`;
     const away = fit ? `${percent(fit.rms)} rms from A, ${percent(fit.greatest)} maximum` : null;
+    // The change "circuit" is that of a plate unless it is a parameter.
+    const word = (/** @type {string} */ other) =>
+      family.names.includes(other) ? parameterWord(other) : other;
+    const words = new Map([...changes].map(([other, value]) => [word(other), value]));
     const named = [
       h("b", letter),
       " ",
-      h("a", { href: curveAddress(family.id, key, changes) }, `${family.title}, ${key}`),
+      h("a", { href: curveAddress(family.id, key, words) }, `${family.title}, ${key}`),
       h("p.caption", formatCaption(curveCaption(family, curve))),
       changes.size ? h("p.tag", formatCaption(formatChanges(changes))) : null,
       k > 0 && away ? h("p.deviation", away) : null,
@@ -192,7 +197,7 @@ class CompareView {
   leave() {
     this.unwatch();
     this.store.leave();
-    this.stop();
+    this.refining.abort();
     for (const one of this.loaded.values()) if ("release" in one) one.release();
   }
 }

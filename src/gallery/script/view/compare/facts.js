@@ -2,7 +2,7 @@
 
 import { cellValues, measureValue } from "../../data/family.js";
 import { h } from "../dom.js";
-import { formatNumber, standaloneMeasureLabel, measureText } from "../labels.js";
+import { formatNumber, measureText } from "../labels.js";
 
 /**
  * A table of parameters and measures of curves: a column for each, differing rows first.
@@ -47,7 +47,7 @@ function parameterRows(/** @type {CurveOfFamily[]} */ curves) {
 
 function measureRows(/** @type {CurveOfFamily[]} */ curves, /** @type {Measure[]} */ measures) {
   return measures.map((measure) => ({
-    label: standaloneMeasureLabel(measure.name),
+    label: measure.title,
     texts: curves.map(({ family, curve }) =>
       measureValue(family, curve, measure.name) === undefined ? "–" : measureText(family, curve, measure),
     ),

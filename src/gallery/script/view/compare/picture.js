@@ -2,7 +2,7 @@
 
 import { placedData, smoothData } from "../../draw/path-data.js";
 import { boxOfPoints, screenPoint } from "../../draw/plane-view.js";
-import { s, thumbnailFrame } from "../dom.js";
+import { nextTurn, s, thumbnailFrame } from "../dom.js";
 import { viewOfOutlines } from "../shape/match-item.js";
 import { transformed } from "../../draw/similarity.js";
 import { solveCurve } from "../curve-reading.js";
@@ -106,30 +106,18 @@ const REFINED_ERROR = 0.05;
 
 /**
  * Redraws the curves of a picture (overlaidPicture) one after another as they are solved, without blocking the page. `curves` are those of
- * loadComparedCurve(), `aligned` the results of alignCurve(). Returns a function that stops it.
- * @param {App} app @param {ComparedCurve[]} curves @param {{ similarity: Similarity }[]} aligned @param {ComparedPicture} picture
+ * loadComparedCurve(), `aligned` the results of alignCurve(). Without the kernel, the stored points remain.
+ * @param {Kernel | null} kernel @param {ComparedCurve[]} curves @param {{ similarity: Similarity }[]} aligned @param {ComparedPicture} picture @param {AbortSignal} signal
  */
-export function refinePicture(app, picture, curves, aligned) {
-  let waiting = 0;
-  let isStopped = false;
-  const next = (/** @type {Kernel} */ kernel, /** @type {number} */ k) => {
-    if (isStopped) return;
+export async function refinePicture(kernel, picture, curves, aligned, signal) {
+  for (const [k, { family, curve, requested, shown }] of curves.entries()) {
+    await nextTurn();
+    if (signal.aborted || !kernel) return;
     const { similarity } = aligned[k];
     const enlarged = picture.scale * Math.hypot(similarity.re, similarity.im);
-    const { family, curve, requested, shown } = curves[k];
     const solved = solveCurve(kernel, requested ?? kernel.curve(family, curve), shown);
     const points = solved?.path(REFINED_ERROR / enlarged);
     solved?.close();
     if (points) picture.redraw(k, transformed(similarity, points));
-    if (k + 1 < curves.length) waiting = window.setTimeout(() => next(kernel, k + 1));
-  };
-  // Without the kernel, the stored points remain.
-  const start = (/** @type {Kernel} */ kernel) => {
-    waiting = window.setTimeout(() => next(kernel, 0));
-  };
-  if (curves.length) app.kernel.load().then(start, () => {});
-  return () => {
-    isStopped = true;
-    window.clearTimeout(waiting);
-  };
+  }
 }

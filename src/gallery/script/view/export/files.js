@@ -5,21 +5,15 @@ import { findCurve } from "../../data/family.js";
 import { needCurveWithKey } from "../../data/needs.js";
 import { exportCommand, shortenCurveNames } from "../../export/command.js";
 import { zipOfFiles } from "../../export/zip.js";
+import { nextTurn } from "../dom.js";
 import { gifOfSvg, pngOfSvg } from "./pictures.js";
 
 /** The export formats. @type {ExportFormat[]} */
 export const EXPORT_FORMATS = [
   { label: "SVG", note: "static", type: "image/svg+xml", kernel: "svg" },
   { label: "Animated SVG", note: ".svg", type: "image/svg+xml", kernel: "moving-svg" },
-  {
-    label: "GIF",
-    note: "animated",
-    type: "image/gif",
-    kernel: "moving-svg",
-    ending: ".gif",
-    convert: gifOfSvg,
-  },
-  { label: "PNG", note: "300 dpi", type: "image/png", kernel: "svg", ending: ".png", convert: pngOfSvg },
+  { label: "GIF", note: "animated", type: "image/gif", kernel: "moving-svg", convert: gifOfSvg },
+  { label: "PNG", note: "300 dpi", type: "image/png", kernel: "svg", convert: pngOfSvg },
   { label: "DXF", note: "CAD, AutoCAD R12", type: "image/vnd.dxf", kernel: "dxf" },
   { label: "CSV", note: "points", type: "text/csv", kernel: "csv" },
   { label: "JSON", note: "all data", type: "application/json", kernel: "json" },
@@ -53,7 +47,7 @@ export async function exportFile(app, names, format, onProgress = () => {}, sign
     files.push(await fileOfCurve(kernel, await curveOfName(app, kernel, name), name, format, saidOfOne));
     if (performance.now() - yieldedAt > EXPORT_SLICE) {
       said(files.length, names.length);
-      await new Promise((done) => setTimeout(done));
+      await nextTurn();
       yieldedAt = performance.now();
     }
   }
@@ -63,19 +57,15 @@ export async function exportFile(app, names, format, onProgress = () => {}, sign
 }
 
 /** @param {Kernel} kernel @param {KernelCurve} curve @param {string} name @param {ExportFormat} _ @param {ExportProgress} onProgress */
-async function fileOfCurve(kernel, curve, name, { kernel: format, type, ending, convert }, onProgress) {
-  const file = errorsNaming(name, () => kernel.export(curve, format));
-  const bytes = convert ? await convert(file.text, kernel, onProgress) : new TextEncoder().encode(file.text);
-  return { name: ending ? file.name.replace(/\.[^.]+$/, ending) : file.name, type, bytes };
-}
-
-/** Runs `work`; its error says which curve it is of. @template T @param {string} name @param {() => T} work */
-function errorsNaming(name, work) {
+async function fileOfCurve(kernel, curve, name, { kernel: format, type, convert }, onProgress) {
+  let file;
   try {
-    return work();
+    file = kernel.export(curve, format);
   } catch (error) {
     throw new Error(`${name}: ${error.message}`, { cause: error });
   }
+  const bytes = convert ? await convert(file.text, kernel, onProgress) : new TextEncoder().encode(file.text);
+  return { name: convert ? file.name.replace(/[^.]+$/, type.replace("image/", "")) : file.name, type, bytes };
 }
 
 async function parsedName(/** @type {App} */ app, /** @type {string} */ name) {

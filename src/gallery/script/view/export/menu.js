@@ -30,14 +30,16 @@ export function exportMenu(app, names, shown = null) {
       });
   };
   /** @param {string} what @param {(app: App, names: string[]) => Promise<string>} textOf */
-  const copy = (what, textOf) => task(async (list) => copyToClipboard(what, await textOf(app, list)));
+  const copy = (what, textOf) =>
+    task(async (list) => ((await copyText(what, await textOf(app, list))) ? `Copied ${what}` : ""));
+  const said = (/** @type {number} */ done, /** @type {number} */ all) => report(`${done} of ${all}`);
   const save = (/** @type {ExportFormat} */ format) =>
-    task((list, signal) => saveCurves(app, list, format, report, signal));
+    task(async (list, signal) => savedFile(await exportFile(app, list, format, said, signal)));
   /** @type {MenuEntry[]} */ const formats = EXPORT_FORMATS.map((one) => [one.label, one.note, save(one)]);
   const savePlate = task(async ([name]) => (shown ? savedFile(await plateFile(app, name, shown)) : ""));
   /** @type {MenuEntry[]} */ const page = shown ? [["HTML", "this plate in one file", savePlate]] : [];
   /** @type {MenuEntry[]} */ const others = [
-    ["Manifest fragment", ".toml", task((list) => saveManifest(app, list))],
+    ["Manifest fragment", ".toml", task(async (list) => savedManifest(await exportManifest(app, list)))],
     ["Copy manifest fragment", "", copy("the manifest fragment", exportManifest)],
   ];
   // The file of a plate is not in the folder of its manifest.
@@ -49,14 +51,7 @@ export function exportMenu(app, names, shown = null) {
   return element;
 }
 
-/** @param {App} app @param {string[]} names @param {ExportFormat} format @param {(sentence: string) => void} report @param {AbortSignal} signal */
-async function saveCurves(app, names, format, report, signal) {
-  return savedFile(await exportFile(app, names, format, (done, all) => report(`${done} of ${all}`), signal));
-}
-
-async function saveManifest(/** @type {App} */ app, /** @type {string[]} */ names) {
-  const text = await exportManifest(app, names);
-  const bytes = new TextEncoder().encode(text);
+function savedManifest(/** @type {string} */ bytes) {
   return savedFile({ name: "curves.toml", type: "application/toml", bytes });
 }
 
@@ -66,17 +61,14 @@ function savedFile(file) {
   return `Saved as ${file.name}`;
 }
 
-async function copyToClipboard(/** @type {string} */ what, /** @type {string} */ text) {
-  return (await copyText(what, text)) ? `Copied ${what}` : "";
-}
-
 /**
  * A button that opens a menu of entries [[label, note, action], …]. Arrow keys, Home and End move between
  * entries, a letter moves to the next entry that starts with it; Escape or a click elsewhere closes the menu.
  * @param {string} label @param {MenuEntry[]} entries
  */
 function menuButton(label, entries) {
-  const button = h("button.export-button", { "aria-haspopup": "menu", "aria-expanded": "false" }, label);
+  const state = { "aria-haspopup": "menu", "aria-expanded": "false", tabindex: "0" };
+  const button = h("button.export-button", state, label);
   const items = entries.map(([word, note, action]) => {
     const act = () => {
       close(true);
@@ -87,20 +79,15 @@ function menuButton(label, entries) {
   });
   const menu = h("div.export-menu", { role: "menu", "aria-label": label, hidden: true }, items);
   const element = h("div.export-dropdown", button, menu);
-  const closeOutside = (/** @type {Event} */ event) => {
-    if (event.target instanceof Node && !element.contains(event.target)) close(false);
-  };
   const open = (/** @type {HTMLElement} */ item) => {
     menu.hidden = false;
     button.setAttribute("aria-expanded", "true");
     keepInWindow(menu, element);
-    document.addEventListener("pointerdown", closeOutside);
     item.focus();
   };
   const close = (/** @type {boolean} */ returns) => {
     menu.hidden = true;
     button.setAttribute("aria-expanded", "false");
-    document.removeEventListener("pointerdown", closeOutside);
     if (returns) button.focus();
   };
   button.addEventListener("click", () => (menu.hidden ? open(items[0]) : close(true)));
@@ -111,8 +98,9 @@ function menuButton(label, entries) {
     open(event.key === "ArrowDown" ? items[0] : items[items.length - 1]);
   });
   menu.addEventListener("keydown", (event) => handleMenuKey(event, items, close));
+  // A click elsewhere takes the focus.
   element.addEventListener("focusout", ({ relatedTarget }) => {
-    if (!menu.hidden && relatedTarget instanceof Node && !element.contains(relatedTarget)) close(false);
+    if (!menu.hidden && !element.contains(/** @type {Node | null} */ (relatedTarget))) close(false);
   });
   return element;
 }

@@ -72,13 +72,14 @@ export async function gifOfSvg(svg, kernel, onProgress) {
     const { bytes } = await worker.call({ method: "close_picture", picture });
     return Uint8Array.from(bytes);
   } finally {
-    worker.worker?.terminate();
+    worker.end();
   }
 }
 
 /** The number of frames of an animated SVG, which take some seconds, and each as the text of an SVG without motion. */
 function framesOfSvg(/** @type {string} */ svg) {
-  const page = new DOMParser().parseFromString(svg, "image/svg+xml");
+  // The policy of this page has no attributes of style, also where a document is only read.
+  const page = new DOMParser().parseFromString(svg.replace(" style=", " data-style="), "image/svg+xml");
   const animations = Array.from(page.querySelectorAll("animate"), (animate) => {
     const [name, values, duration] = ["attributeName", "values", "dur"].map(
       (word) => animate.getAttribute(word) ?? "",
@@ -88,7 +89,7 @@ function framesOfSvg(/** @type {string} */ svg) {
   for (const { animate } of animations) animate.remove();
   const frame = (/** @type {number} */ k) => {
     for (const { element, name, values } of animations) element?.setAttribute(name, values[k]);
-    return new XMLSerializer().serializeToString(page);
+    return new XMLSerializer().serializeToString(page).replace(" data-style=", " style=");
   };
   // The last state is the first of the next turn.
   const frames = Math.max(1, ...animations.map(({ values }) => values.length - 1));

@@ -13,21 +13,14 @@ export async function plateFile(
   const points = EXPORT_FORMATS.filter(({ kernel }) => kernel === "csv");
   const { name: file } = await exportFile(app, [name], points[0]);
   const key = curveKey(family, curve);
-  const { id, title, manifest, ranges } = family;
+  const { id, title, manifest, ranges, free } = family;
   const { curve: request } = (await app.kernel.load()).curve(family, curve);
-  /** @type {PlateOfFile} */ const plate = {
-    address: window.location.hash,
-    key,
-    id,
-    title,
-    manifest,
-    ranges,
-    request,
-  };
+  const address = window.location.hash;
+  /** @type {PlateOfFile} */ const plate = { address, key, id, title, manifest, ranges, free, request };
   const atlas = JSON.parse(elementIn(document, "#atlas").textContent);
   const kernel = await app.atlas.kernelFile();
   const text = pageText(`${family.title}, ${key}`, { ...atlas, families: [], book: [], kernel, plate });
-  return { name: file.replace(/csv$/, "html"), type: "text/html", bytes: new TextEncoder().encode(text) };
+  return { name: file.replace(/csv$/, "html"), type: "text/html", bytes: text };
 }
 
 /** The text of this page with another summary of an atlas. @param {string} title @param {AtlasSummary} summary */

@@ -11,7 +11,7 @@ import { findLayout, noResults } from "./layout.js";
 import { FilterPanel } from "./panel.js";
 import { ResultRows } from "./rows.js";
 import { ResultTiles } from "./tiles.js";
-import { columnLabel, rowText } from "../labels.js";
+import { rowText } from "../labels.js";
 import { Store } from "../store.js";
 import { matchesRoute, routeAddress } from "../../data/address.js";
 
@@ -39,7 +39,7 @@ export class FindView {
   laying = 0;
   saying = 0;
   /** Whether the panel itself changes a filter. */ isFiltering = false;
-  stop = () => {};
+  /** Stopped by what is loaded next. */ reading = new AbortController();
 
   constructor(/** @type {App} */ app, /** @type {AddressQuery} */ query) {
     this.app = app;
@@ -100,14 +100,16 @@ export class FindView {
   /** Loads the tables of the requested families, up to the limit, and applies the query as they arrive. */
   load() {
     const { app, query } = this;
-    this.stop();
+    this.reading.abort();
+    this.reading = new AbortController();
     const listed = requestedFamilies(app.atlas, query.families);
     const choose = (/** @type {string[] | null} */ ids) => this.store.change({ families: ids });
     fill(this.families, familyChooser(app.atlas, listed, choose));
     this.loadAll.show(null);
     /** @param {Family[]} families @param {LoadState} state */
     const onLoad = (families, state) => this.setFamilies(families, state);
-    this.stop = loadTables(app.atlas, listed, this.limit, onLoad, (sentence) => this.showMessage(sentence));
+    const onError = (/** @type {string} */ sentence) => this.showMessage(sentence);
+    loadTables(app.atlas, listed, this.limit, this.reading.signal, onLoad, onError);
   }
 
   setFamilies(/** @type {Family[]} */ families, /** @type {LoadState} */ state) {
@@ -128,7 +130,7 @@ export class FindView {
     this.filters = new Filters(this.table);
     for (const [name, filter] of this.query.filters) this.filters.set(name, filter);
     this.panel.setColumns(this.columns, this.table, this.query);
-    const options = this.columns.map(({ name }) => h("option", { value: name }, columnLabel(name)));
+    const options = this.columns.map(({ name, title }) => h("option", { value: name }, title));
     fill(this.sorter, h("option", { value: "" }, "atlas order"), options);
     this.show();
     const { name } = this.query.sort;
@@ -183,7 +185,7 @@ export class FindView {
     if (this.rows.length === 0 && this.table.count > 0 && !this.loading) {
       const without = (/** @type {string} */ name) =>
         this.setFilters(new Map([...this.query.filters].filter(([other]) => other !== name)));
-      fill(this.results, noResults(this.filters, without, this.isPartial));
+      fill(this.results, noResults(this.filters, this.columns, without, this.isPartial));
       return;
     }
     const list = show === "table" ? this.list : this.tiles;
@@ -226,7 +228,7 @@ export class FindView {
   }
 
   leave() {
-    this.stop();
+    this.reading.abort();
     cancelAnimationFrame(this.laying);
     this.tiles.end();
     this.list.end();

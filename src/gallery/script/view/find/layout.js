@@ -2,7 +2,7 @@
 
 import { buttonOf, h } from "../dom.js";
 import { exportMenu } from "../export/menu.js";
-import { columnLabel, formatCount } from "../labels.js";
+import { formatCount } from "../labels.js";
 
 /** The element of a view with its parts, and the buttons that it updates: { element, displayButtons, clear }. */
 export function findLayout(/** @type {FindView} */ view) {
@@ -34,14 +34,17 @@ export function findLayout(/** @type {FindView} */ view) {
 /**
  * A message for filters that no curve passes, and for each filter a button that removes it, with the number
  * of curves that would pass then; calls `without(name)` with the name of its column.
- * @param {(name: string) => void} without
+ * @param {Filters} filters @param {Column[]} columns @param {(name: string) => void} without
  */
-export function noResults(/** @type {Filters} */ filters, without, isPartial = false) {
+export function noResults(filters, columns, without, isPartial = false) {
   const names = [...filters.fails.keys()];
   const way = (/** @type {string} */ name) => {
+    const title = columns.find((one) => one.name === name)?.title ?? name;
     const left = formatCount(filters.countWithout(name), "curve");
-    const button = buttonOf(`Remove ${columnLabel(name)}: ${left}`, () => without(name));
-    return h("li", button);
+    return h(
+      "li",
+      buttonOf(`Remove ${title}: ${left}`, () => without(name)),
+    );
   };
   const none = isPartial ? "None of the loaded curves passes" : "No curve passes";
   const sentence = names.length === 1 ? `${none} this filter.` : `${none} all of these filters.`;

@@ -2,7 +2,7 @@
 
 import { needPieces } from "../../data/needs.js";
 import { sumOf } from "../../data/number.js";
-import { buttonOf, choiceBox, fill, h } from "../dom.js";
+import { buttonOf, choiceBox, fill, h, nextTurn } from "../dom.js";
 import { formatBytes, formatCount } from "../labels.js";
 
 // Data up to this size, in bytes, are loaded without a request.
@@ -17,12 +17,11 @@ export function requestedFamilies(/** @type {Atlas} */ atlas, /** @type {string[
 /**
  * Loads the tables of families, piece after piece, up to `limit` bytes and at least one piece. Calls `onLoad` with
  * the families loaded so far, at least in part, occasionally and at the end; `onError` with the message for data
- * that cannot be read, which are skipped. Returns a function that stops loading.
- * @param {Atlas} atlas @param {ListedFamily[]} listed @param {number} limit
+ * that cannot be read, which are skipped.
+ * @param {Atlas} atlas @param {ListedFamily[]} listed @param {number} limit @param {AbortSignal} signal
  * @param {(families: Family[], state: LoadState) => void} onLoad @param {(message: string) => void} onError
  */
-export function loadTables(atlas, listed, limit, onLoad, onError) {
-  let stopped = false;
+export async function loadTables(atlas, listed, limit, signal, onLoad, onError) {
   /** @type {Family[]} */ const there = [];
   const total = sumOf(listed, ({ curves }) => curves);
   const size = sumOf(listed, (family) => family.table_bytes);
@@ -31,44 +30,37 @@ export function loadTables(atlas, listed, limit, onLoad, onError) {
     const began = performance.now();
     const curves = sumOf(there, loadedCurves);
     onLoad([...there], { done, curves, total, bytes: size });
-    // Lets the page handle input meanwhile.
-    await new Promise((resume) => setTimeout(resume));
+    await nextTurn();
     reportedAt = performance.now();
     pause = Math.max(400, 4 * (reportedAt - began));
   };
   const loadPiece = async (/** @type {Family} */ family, /** @type {Piece} */ piece) => {
     await needPieces(family, [piece]);
     loadedBytes += piece.bytes;
-    if (!stopped && performance.now() - reportedAt >= pause) await report(false);
+    if (!signal.aborted && performance.now() - reportedAt >= pause) await report(false);
   };
   const loadFamily = async (/** @type {ListedFamily} */ { id, table_bytes: bytes }) => {
     const family = await atlas.family(id);
     there.push(family);
     if (family.table.bytes === 0) loadedBytes += bytes;
     for (const piece of family.table.pieces) {
-      if (stopped) return;
+      if (signal.aborted) return;
       if (piece.data === null && loadedBytes > 0 && loadedBytes + piece.bytes > limit) return;
       await loadPiece(family, piece);
     }
   };
-  const load = async () => {
-    for (const family of listed) {
-      if (loadedBytes > 0 && family.curves > 0 && loadedBytes >= limit) break;
-      try {
-        await loadFamily(family);
-      } catch (error) {
-        onError(error.message);
-      }
-      if (stopped) return;
-      if (performance.now() - reportedAt >= pause) await report(false);
-      if (stopped) return;
+  for (const family of listed) {
+    if (loadedBytes > 0 && family.curves > 0 && loadedBytes >= limit) break;
+    try {
+      await loadFamily(family);
+    } catch (error) {
+      onError(error.message);
     }
-    await report(true);
-  };
-  load();
-  return () => {
-    stopped = true;
-  };
+    if (signal.aborted) return;
+    if (performance.now() - reportedAt >= pause) await report(false);
+    if (signal.aborted) return;
+  }
+  await report(true);
 }
 
 /** The number of curves of a family, from the first, whose table is loaded. @param {Family} _ */

@@ -2,7 +2,6 @@
 
 import { fill, h, choiceBox } from "../dom.js";
 import { RangeFilter } from "./range-filter.js";
-import { columnLabel } from "../labels.js";
 
 /** Calls `changed(name, filter, isHeld)` when a filter is changed, perhaps by a handle that is held; null removes it. */
 export class FilterPanel {
@@ -83,7 +82,7 @@ class WordFilter {
       return choiceBox("checkbox", attributes, h("span", word), this.counts[k]).element;
     };
     const title = `${column.name}: ${column.definition}`;
-    const legend = h("legend", { title }, columnLabel(column.name));
+    const legend = h("legend", { title }, column.title);
     this.element = h("fieldset.words", legend, this.values.map(box));
   }
 

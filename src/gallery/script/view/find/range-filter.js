@@ -4,7 +4,6 @@ import { ANGLE_UNITS } from "../../data/number.js";
 import { BINS, binCounts, histogramOf, formatBound } from "../../find/histogram.js";
 import { buttonOf, h, s, setAttributes } from "../dom.js";
 import { stepsOfKey } from "../keys.js";
-import { columnLabel } from "../labels.js";
 import { NumberField } from "../number-field.js";
 
 /** @type {(keyof Bounds)[]} */
@@ -18,7 +17,7 @@ export class RangeFilter {
     this.changed = changed;
     this.scale = histogramOf(table.numbers(column.name));
     /** @type {Bounds} */ this.filter = filter instanceof Set ? {} : { ...filter };
-    const words = columnLabel(column.name);
+    const words = column.title;
     this.behind = s("path.behind", { d: histogramBars(this.scale, this.scale.counts) });
     this.front = s("path.front");
     const hidden = { "aria-hidden": "true", focusable: "false" };

@@ -4,7 +4,7 @@ import { curveAddress } from "../../data/address.js";
 import { curveKey } from "../../data/family.js";
 import { buttonOf, fill, h, setAttributes } from "../dom.js";
 import { MAX_HEIGHT, scrollScale, printedCountNote, onPrint } from "../long-list.js";
-import { columnLabel, rowText } from "../labels.js";
+import { rowText } from "../labels.js";
 import { watchPins, pinOnKey, curvePinButton } from "../pins.js";
 
 const ROW_HEIGHT = 34;
@@ -45,10 +45,10 @@ export class ResultRows {
     this.rows = rows;
     this.columns = columns;
     setAttributes(this.figures, { "aria-rowcount": rows.length + 1 });
-    const heading = (/** @type {Column} */ { name, kind }) => {
+    const heading = (/** @type {Column} */ { name, title, kind }) => {
       const isSorted = sort.name === name;
       const order = sort.down ? "descending" : "ascending";
-      const words = [columnLabel(name), isSorted ? (sort.down ? " ↓" : " ↑") : ""];
+      const words = [title, isSorted ? (sort.down ? " ↓" : " ↑") : ""];
       const button = buttonOf(words, () => this.sorted(name));
       return h(kind === "words" ? "th.text" : "th", { scope: "col", "aria-sort": isSorted && order }, button);
     };

@@ -49,8 +49,7 @@ export class ResultTiles extends TileWindow {
     this.rows = rows;
     this.valueOf = valueOf;
     this.count = rows.length;
-    for (const element of this.there.values()) element.remove();
-    this.there.clear();
+    this.keep(() => false);
     this.queue = [];
     if (this.element.isConnected) this.measure();
   }

@@ -1,6 +1,7 @@
 // Pointer input on the stage: drags a joint along its path, the crank about its pivot, and pans and zooms the picture.
 
 import { planePoint } from "../../draw/plane-view.js";
+import { pinch } from "../zoom.js";
 import { followInput, nearestPart, placeAtPart } from "./timeline.js";
 
 // How far the pointer drags the crank beyond a limit before it returns on the other branch, in degrees.
@@ -8,13 +9,15 @@ const LIMIT_SLACK = 3;
 
 /**
  * Handles pointers on a stage. `plate` has study, pose, reason (why nothing can be dragged, or null) and
- * drive. Returns a function that removes the listeners.
+ * drive. The signal ends it.
+ * @param {Stage} stage @param {Plate} plate @param {AbortSignal} signal
  */
-export function enableDragging(/** @type {Stage} */ stage, /** @type {Plate} */ plate) {
+export function enableDragging(stage, plate, signal) {
   const { element: frame, picture } = stage;
   /** @type {Map<number, Point>} */ const pointers = new Map();
   /** @type {{ move(at: Point, isFree?: boolean): unknown, end(): void } | null} */ let drag = null;
   let dragPointer = -1;
+  const otherOf = (/** @type {number} */ id) => [...pointers].find(([key]) => key !== id)?.[1] ?? [0, 0];
   /** @returns {Point} */
   const pointOf = (/** @type {MouseEvent} */ event) => {
     const box = picture.getBoundingClientRect();
@@ -30,7 +33,7 @@ export function enableDragging(/** @type {Stage} */ stage, /** @type {Plate} */ 
     const handle = target.closest("[data-handle]")?.getAttribute("data-handle");
     const held = handle ?? joint;
     if (typeof held === "string" && pointers.size === 1) {
-      plate.drive.pause();
+      plate.drive.toggle(false);
       dragPointer = event.pointerId;
       drag = startDrag(plate, { handle, joint }, planePoint(stage.view, at));
       stage.element.classList.add("dragging");
@@ -47,7 +50,7 @@ export function enableDragging(/** @type {Stage} */ stage, /** @type {Plate} */ 
     if (drag) {
       // Only the pointer that started the drag moves the joint.
       if (event.pointerId === dragPointer) drag.move(planePoint(stage.view, at), event.altKey);
-    } else if (pointers.size === 2) pinch(stage, pointers, event.pointerId, at);
+    } else if (pointers.size === 2) pinch(stage, otherOf(event.pointerId), before, at);
     else if (event.pointerType === "mouse") stage.pan(at[0] - before[0], at[1] - before[1]);
     pointers.set(event.pointerId, at);
   };
@@ -71,19 +74,7 @@ export function enableDragging(/** @type {Stage} */ stage, /** @type {Plate} */ 
   };
   Object.assign(frame, { onpointerdown: down, onpointermove: moved, onpointerup: up, onpointercancel: up });
   frame.addEventListener("wheel", wheel, { passive: false });
-  window.addEventListener("scroll", scroll, { passive: true });
-  return () => window.removeEventListener("scroll", scroll);
-}
-
-/** @param {Map<number, Point>} pointers @param {number} id @param {Point} at */
-function pinch(/** @type {Stage} */ stage, pointers, id, at) {
-  const other = [...pointers].find(([key]) => key !== id)?.[1];
-  const before = pointers.get(id);
-  if (!other || !before) return;
-  const apart = (/** @type {Point} */ [x, y]) => Math.hypot(x - other[0], y - other[1]);
-  if (apart(before) > 0)
-    stage.zoom(apart(at) / apart(before), [(at[0] + other[0]) / 2, (at[1] + other[1]) / 2]);
-  stage.pan((at[0] - before[0]) / 2, (at[1] - before[1]) / 2);
+  window.addEventListener("scroll", scroll, { passive: true, signal });
 }
 
 /**

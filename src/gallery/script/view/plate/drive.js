@@ -1,6 +1,6 @@
 // Moves a linkage along its circuit: by time, slider, keys or dragging.
 
-import { clampPart, partOfInput, placeAtPart, turningParts } from "./timeline.js";
+import { clampPart, partOfInput, placeAtPart, stepPlace, turningParts } from "./timeline.js";
 
 // A shorter range, in degrees, takes as long as this one, so that it is not played too fast.
 const SHORTEST_RANGE = 150;
@@ -13,10 +13,10 @@ export class Drive {
   /** @type {Timeline} */ timeline;
   isLength = false;
   /** While there is nothing to move. */ isHalted = true;
+  /** The request of the next frame while it plays, otherwise 0. */ frame = 0;
 
-  constructor(/** @type {PlateFigure} */ plate) {
+  constructor(/** @type {Plate} */ plate) {
     this.plate = plate;
-    this.player = new Player((seconds) => this.#advance(seconds));
   }
 
   /** Sets the study; keeps the input, or the nearest one possible. @param {Study} _ */
@@ -58,16 +58,24 @@ export class Drive {
     return this.timeline.passes[this.place.pass];
   }
 
-  /** Plays or pauses. */
-  toggle(isPlaying = !this.player.isPlaying) {
-    if (isPlaying && !this.isHalted) this.player.play();
-    else this.player.pause();
-    this.plate.transport.playing(this.player.isPlaying);
+  get isPlaying() {
+    return this.frame !== 0;
   }
 
-  /** Pauses for input by the user. */
-  pause() {
-    this.toggle(false);
+  /** Plays or pauses. */
+  toggle(isPlaying = !this.isPlaying) {
+    window.cancelAnimationFrame(this.frame);
+    this.frame = 0;
+    if (isPlaying && !this.isHalted) this.#playOn(performance.now());
+    this.plate.transport.playing(this.isPlaying);
+  }
+
+  // A late frame, for example after a switch of tabs, counts as a twentieth of a second.
+  #playOn(/** @type {number} */ before) {
+    this.frame = window.requestAnimationFrame((now) => {
+      this.#playOn(now);
+      if (now > before) this.#advance(Math.min((now - before) / 1000, 0.05));
+    });
   }
 
   /** Reports a change of `place`. */
@@ -103,7 +111,7 @@ export class Drive {
   /** Pauses and moves to a part of the timeline. */
   seekAndPause(/** @type {number} */ part) {
     if (this.isHalted) return;
-    this.pause();
+    this.toggle(false);
     this.seek(part);
     this.plate.moved();
   }
@@ -111,24 +119,17 @@ export class Drive {
   /** Steps by degrees, or by 1/200 of a stroke, along the timeline, and over limits. */
   step(/** @type {number} */ direction, times = 1) {
     if (this.isHalted) return;
-    this.pause();
+    this.toggle(false);
     const by = direction * times * (this.isLength ? this.timeline.whole / 200 : 1);
-    const { from, to } = this.pass;
-    const next = this.place.input + Math.sign(to - from) * by;
-    const isInside = (next - from) * (next - to) <= 0;
-    if (isInside) {
-      this.place.input = next;
-      this.move();
-    }
-    // A step over a limit continues beyond it.
-    else this.seek(clampPart(this.timeline, this.part + by / this.timeline.whole));
+    stepPlace(this.timeline, this.place, by);
+    this.move();
     this.plate.moved();
   }
 
   /** Moves to the next limit position, or, for a full rotation, to its start. */
   toLimit(/** @type {number} */ direction) {
     if (this.isHalted) return;
-    this.pause();
+    this.toggle(false);
     const { closed } = this.timeline;
     const parts = turningParts(this.timeline);
     const stops = parts.length ? parts : [0];
@@ -143,7 +144,7 @@ export class Drive {
   #advance(/** @type {number} */ seconds) {
     if (this.isHalted) return;
     const { closed, whole } = this.timeline;
-    const rate = this.plate.transport.speed;
+    const rate = Number(this.plate.transport.rate.value);
     // A stroke takes as long as a rotation.
     const range = this.isLength ? 360 : Math.max(whole, SHORTEST_RANGE);
     let part = this.part + (this.heading * seconds * rate) / range;
@@ -152,35 +153,5 @@ export class Drive {
       part = part > 1 ? 2 - part : -part;
     }
     this.seek(clampPart(this.timeline, part));
-  }
-}
-
-/** A frame clock. A late frame, for example after a switch of tabs, counts as a twentieth of a second. */
-class Player {
-  constructor(/** @type {(seconds: number) => void} */ advance) {
-    this.advance = advance;
-    this.request = 0;
-    this.before = 0;
-    this.frame = (/** @type {number} */ time) => {
-      this.request = window.requestAnimationFrame(this.frame);
-      const passed = Math.min((time - this.before) / 1000, 0.05);
-      this.before = time;
-      if (passed > 0) this.advance(passed);
-    };
-  }
-
-  get isPlaying() {
-    return this.request !== 0;
-  }
-
-  play() {
-    if (this.isPlaying) return;
-    this.before = performance.now();
-    this.request = window.requestAnimationFrame(this.frame);
-  }
-
-  pause() {
-    window.cancelAnimationFrame(this.request);
-    this.request = 0;
   }
 }

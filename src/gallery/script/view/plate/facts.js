@@ -5,7 +5,7 @@ import { cellText, curveKey, measureValue, pageOfCurve } from "../../data/family
 import { pageFile } from "../../data/atlas.js";
 import { figures, fill, h, termList } from "../dom.js";
 import { familySource } from "../overview.js";
-import { measureLabel, formatLength } from "../labels.js";
+import { formatDecimals, formatLength } from "../labels.js";
 
 /** The list of a curve's origin. @param {App} app @param {Family} family */
 export function curveOrigin(app, family, /** @type {number} */ curve) {
@@ -65,7 +65,7 @@ export class MeasureTable {
 function measureRow(/** @type {Measure} */ measure, recorded, isLength) {
   const now = h("td.now");
   const change = h("td.now");
-  const name = h("span.measure-name", measureLabel(measure.name));
+  const name = h("span.measure-name", measure.title);
   const title = h("th.text", { scope: "row" }, name, h("span.definition", measure.definition));
   const ofLength = isLength && measure.is_input;
   const element = h("tr", title, h("td", formatMeasure(measure, recorded, ofLength)), now, change);
@@ -76,11 +76,11 @@ function measureRow(/** @type {Measure} */ measure, recorded, isLength) {
 function formatMeasure(/** @type {Measure} */ { word, unit }, value, isLength = false) {
   if (value === undefined || Number.isNaN(value)) return "";
   if (word || typeof value === "string") return value;
-  if (value === Infinity) return "∞";
-  if (value === -Infinity) return "−∞";
   if (Number.isInteger(value) && Math.abs(value) < 1e6 && unit !== "deg")
     return String(value).replace("-", "−");
-  return unit === "deg" && !isLength ? `${value.toFixed(2).replace("-", "−")}°` : formatLength(value);
+  return unit === "deg" && !isLength && Number.isFinite(value)
+    ? `${formatDecimals(value, 2)}°`
+    : formatLength(value);
 }
 
 /** @param {number | string | undefined} before @param {number | string | undefined} after */

@@ -5,7 +5,6 @@ import { DialView } from "./dial-view.js";
 import { Drive } from "./drive.js";
 import { Overlays } from "./overlays.js";
 import { pathsOfStudy, straightSummary, visibleStraightPortion } from "./paths.js";
-import { shownRange } from "./motion-graph.js";
 import { MotionView } from "./motion-view.js";
 import { Stage } from "./stage.js";
 import { Pose, circuitTitle, velocityArrow } from "./study.js";
@@ -15,8 +14,8 @@ import { Transport } from "./transport.js";
 // Chord errors of a path relative to its size: rough while a slider is being moved, fine when it has rested.
 const ROUGH_PATH = 3e-4;
 const FINE_PATH = 2e-5;
-// The number of places at which the speed of the traced point is known, for its arrow.
-const SPEED_PLACES = 100;
+// The arrow of the velocity is of a radian of the input, or of this part of a stroke.
+const STROKE_PART = 1 / (2 * Math.PI);
 
 /** What is shown of the motion, unless the address says otherwise. @type {MotionState} */
 export const STILL = { joint: null, graph: "speed", rpm: null, load: null };
@@ -35,12 +34,13 @@ export class PlateFigure {
   constructor(/** @type {Family} */ family, /** @type {number} */ curve) {
     this.family = family;
     this.curve = curve;
-    this.drive = new Drive(this);
-    this.transport = new Transport(this);
+    // What is not of the figure is of the plate, of which every figure is.
+    const plate = /** @type {Plate} */ (/** @type {unknown} */ (this));
+    this.drive = new Drive(plate);
+    this.transport = new Transport(plate);
     this.overlays = new Overlays(this.stage);
     this.dial = new DialView();
-    this.motion = new MotionView(this);
-    /** The greatest speed of the traced point that is shown. */ this.topSpeed = 1;
+    this.motion = new MotionView(plate);
     this.stage.onview = () => this.draw();
   }
 
@@ -69,7 +69,6 @@ export class PlateFigure {
     this.overlays.show(study, this.on, isRough);
     this.transport.show(study, circuitTitle(study.is_length, study.circuits[study.shown]));
     this.dial.show(study);
-    [, this.topSpeed] = shownRange([...study.kernel.speeds(SPEED_PLACES).speeds]);
     this.showMotion(isRough);
     this.stage.keepInFrame();
     this.draw();
@@ -110,7 +109,8 @@ export class PlateFigure {
     this.dial.pose(pose.transmission);
     this.transport.update(part, place.input);
     this.motion.update(part, place);
-    const frame = { top: this.topSpeed, size: stage.size, heading: Math.sign(pass.to - pass.from) };
+    const by = Math.sign(pass.to - pass.from) * (study.is_length ? STROKE_PART * study.timeline.whole : 1);
+    const frame = { by, scale: stage.view.scale, size: stage.size };
     stage.moving.speed(this.on.has("velocity") ? velocityArrow(pose.velocity, frame) : null);
   }
 
@@ -132,17 +132,6 @@ export class PlateFigure {
     this.draw();
   }
 
-  /** Changes what is shown of the motion. */
-  changeMotion(/** @type {Partial<MotionState>} */ _) {}
-
-  /** After a gesture that has moved the linkage. */
-  moved() {}
-
-  /** Plays or pauses the motion. */
-  play() {
-    this.drive.toggle();
-  }
-
   // Runs `work`; whether it succeeded. If the kernel fails, the linkage stands still until something is changed.
   guarded(/** @type {() => void} */ work) {
     try {
@@ -154,7 +143,7 @@ export class PlateFigure {
       this.stage.impossible(this.reason, "Stopped");
       this.drive.toggle(false);
       this.drive.isHalted = true;
-      this.transport.stop();
+      this.transport.enable(false);
       return false;
     }
   }

@@ -3,7 +3,7 @@
 import { pixel } from "../../draw/path-data.js";
 import { roundBelow } from "../../draw/plane-view.js";
 import { fill, h, s } from "../dom.js";
-import { directionOfKey, onKeys } from "../keys.js";
+import { handleKey, onKeys } from "../keys.js";
 import { NumberField } from "../number-field.js";
 import { formatInputNumber } from "./sliders.js";
 import { roundedToGrain } from "./parameters.js";
@@ -13,9 +13,6 @@ const HANDLE_OFFSET = 17;
 const HANDLE_HALF = 5;
 // The half side of what takes the pointer.
 const HANDLE_REACH = 12;
-// A step by a key, in pixels, and with Shift.
-const HANDLE_STEP = 2;
-const HANDLE_LONG_STEP = 20;
 // From this distance, in pixels, between the joint and where it was to go, the handle says so.
 const UNREACHED = 6;
 
@@ -59,7 +56,6 @@ export class Handles {
     this.all = joints.map((joint) => this.#handle(joint, study));
     this.group.replaceChildren(...this.all.map(({ element }) => element));
     this.all[0]?.element.setAttribute("tabindex", "0");
-    this.held = null;
   }
 
   /** Moves the handles beside their joints, at `at` on the screen, [X0, Y0, …]. */
@@ -154,39 +150,23 @@ export class Handles {
       s("path.square-mark", { d: `M${o - a} ${o - a}h${2 * a}v${2 * a}h${-2 * a}Z` }),
     ]);
     const handle = { joint, names, nearest, element };
-    element.addEventListener("keydown", (event) => this.#stepped(event, handle));
+    element.addEventListener("keydown", (event) => {
+      const all = this.all.map((one) => one.element);
+      handleKey(event, all, all.indexOf(element), (by) => this.#step(handle, by, event.altKey));
+    });
     element.addEventListener("keyup", () => this.plate.settle());
     element.addEventListener("focus", () => this.#showNumbers(handle));
     element.addEventListener("blur", (event) => this.#left(event));
     return handle;
   }
 
-  // Arrow keys move the joint on the screen.
-  #stepped(/** @type {KeyboardEvent} */ event, /** @type {Handle} */ handle) {
-    const way = directionOfKey(event);
-    const next = { PageDown: 1, PageUp: -1 }[event.key];
-    if ((!way && !next) || event.ctrlKey || event.metaKey) return;
-    event.preventDefault();
-    event.stopPropagation();
-    if (!way) {
-      this.#focus(this.all.indexOf(handle) + (next ?? 0));
-      return;
-    }
-    const { joints } = this.plate.pose;
-    const by = (event.shiftKey ? HANDLE_LONG_STEP : HANDLE_STEP) / this.plate.stage.view.scale;
-    this.plate.drive.pause();
-    const k = 2 * handle.joint;
-    /** @type {Point} */ const to = [joints[k] + by * way[0], joints[k + 1] + by * way[1]];
-    const { study, drive } = this.plate;
-    if (study) this.#move(handle, { study: study.kernel, place: drive.place }, to, event.altKey);
-  }
-
-  // One of them is reached by Tab: that which had the focus last.
-  #focus(/** @type {number} */ number) {
-    const { all } = this;
-    const one = all[(number + all.length) % all.length];
-    for (const { element } of all) element.setAttribute("tabindex", element === one.element ? "0" : "-1");
-    one.element.focus({ preventScroll: true });
+  /** Moves a joint by pixels on the screen. @param {Handle} handle @param {Point} by */
+  #step(handle, [right, up], /** @type {boolean} */ isFree) {
+    const { study, drive, pose, stage } = this.plate;
+    drive.toggle(false);
+    const [x, y] = pose.joints.subarray(2 * handle.joint);
+    /** @type {Point} */ const to = [x + right / stage.view.scale, y + up / stage.view.scale];
+    if (study) this.#move(handle, { study: study.kernel, place: drive.place }, to, isFree);
   }
 
   /** Shows the values by which a handle moves its joint. @param {Handle} handle */
@@ -201,10 +181,8 @@ export class Handles {
       };
       fields.set(name, new NumberField({ "aria-label": `${name} at the handle`, size: 8 }, on));
     }
-    fill(
-      numbers,
-      Array.from(fields, ([name, { element }]) => h("label", h("span", name), element)),
-    );
+    const labels = Array.from(fields, ([name, { element }]) => h("label", h("span", name), element));
+    fill(numbers, labels);
     numbers.hidden = false;
     this.showValues(plate.sliders.values());
     this.pose(plate.stage.moving.at);
@@ -220,12 +198,8 @@ export class Handles {
 
   // The values stay while they are being typed.
   #left(/** @type {FocusEvent} */ { relatedTarget }) {
-    if (
-      relatedTarget instanceof Node &&
-      (this.numbers.contains(relatedTarget) || this.group.contains(relatedTarget))
-    )
-      return;
-    this.numbers.hidden = true;
+    const to = relatedTarget instanceof Node ? relatedTarget : null;
+    if (!to || (!this.numbers.contains(to) && !this.group.contains(to))) this.numbers.hidden = true;
   }
 
   #placeNumbers(/** @type {Float64Array} */ at) {

@@ -76,20 +76,19 @@ function plateFacts(app, family, /** @type {number} */ curve, measures) {
 }
 
 function neighbourLink(/** @type {Family} */ family, /** @type {number} */ curve, /** @type {number} */ way) {
-  const next = neighbourAddress(family, curve, way);
+  const next = curve + way;
   const words = way < 0 ? "← Previous" : "Next →";
   const keys = way < 0 ? "[" : "]";
-  if (!next) return h("span.button", { "aria-disabled": "true" }, words);
-  return h("a.button", { href: next, rel: way < 0 ? "prev" : "next", "aria-keyshortcuts": keys }, words);
+  if (next < 0 || next >= family.curves.count) return h("span.button", { "aria-disabled": "true" }, words);
+  const href = curveAddress(family.id, curveKey(family, next));
+  return h("a.button", { href, rel: way < 0 ? "prev" : "next", "aria-keyshortcuts": keys }, words);
 }
 
-/** Handles keys until the function that it returns is called. */
-export function watchKeys(/** @type {Plate} */ plate) {
-  const { drive, stage, family, curve } = plate;
-  const goTo = (/** @type {number} */ way) => {
-    const next = neighbourAddress(family, curve, way);
-    return next !== null && plate.app.go(next);
-  };
+/** Handles keys until the signal ends it. */
+export function watchKeys(/** @type {Plate} */ plate, /** @type {AbortSignal} */ signal) {
+  const { drive, stage, element } = plate;
+  const follow = (/** @type {string} */ rel) =>
+    /** @type {HTMLElement | null} */ (element.querySelector(`a[rel=${rel}]`))?.click();
   // A button is pressed by the space bar, and a slider moves by its own keys.
   const isAt = (/** @type {KeyboardEvent} */ { target }, /** @type {string} */ selector) =>
     target instanceof Element && target.matches(selector);
@@ -105,15 +104,9 @@ export function watchKeys(/** @type {Plate} */ plate) {
     ["-", "zoom out", () => stage.zoom(1 / 1.3)],
   ];
   /** @type {KeyCommand[]} */ const turns = [
-    ["[", "previous curve", () => goTo(-1)],
-    ["]", "next curve", () => goTo(1)],
+    ["[", "previous curve", () => follow("prev")],
+    ["]", "next curve", () => follow("next")],
   ];
   const all = plate.app.atlas.plate ? commands : [...commands, ...turns];
-  return onKeys(plate.element, "On the plate", all, window);
-}
-
-/** The address of the previous (-1) or next (1) curve of a family; null at the ends. @param {number} curve @param {number} way */
-function neighbourAddress(/** @type {Family} */ family, curve, way) {
-  const next = curve + way;
-  return next >= 0 && next < family.curves.count ? curveAddress(family.id, curveKey(family, next)) : null;
+  onKeys(element, "On the plate", all, window, signal);
 }

@@ -82,7 +82,7 @@ export class MotionGraph {
 }
 
 /** The range of a graph with 0 in it: values that grow without bound towards limits are cut off. */
-export function shownRange(/** @type {number[]} */ values) {
+function shownRange(/** @type {number[]} */ values) {
   const finite = values.filter(Number.isFinite);
   const bound = (/** @type {number} */ sign) => {
     const sorted = finite.map((value) => Math.max(sign * value, 0)).sort((a, b) => a - b);

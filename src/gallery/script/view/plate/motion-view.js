@@ -16,17 +16,15 @@ const READ_MILLISECONDS = 150;
 
 const radiansPerSecond = (/** @type {number} */ rpm) => (rpm * Math.PI) / 30;
 
+const sizeAt = (/** @type {Points} */ of, /** @type {number} */ k) => Math.hypot(of[2 * k], of[2 * k + 1]);
+
 /**
  * What a graph shows of a motion at a place, and by which power of the input's speed it is multiplied.
  * @type {Record<string, { label: string, power: number, of: (motion: JointMotion, k: number) => number }>}
  */
 export const QUANTITIES = {
-  speed: { label: "Speed", power: 1, of: ({ velocities: v }, k) => Math.hypot(v[2 * k], v[2 * k + 1]) },
-  acceleration: {
-    label: "Acceleration",
-    power: 2,
-    of: ({ accelerations: a }, k) => Math.hypot(a[2 * k], a[2 * k + 1]),
-  },
+  speed: { label: "Speed", power: 1, of: ({ velocities }, k) => sizeAt(velocities, k) },
+  acceleration: { label: "Acceleration", power: 2, of: ({ accelerations }, k) => sizeAt(accelerations, k) },
   x: { label: "Position x", power: 0, of: ({ positions }, k) => positions[2 * k] },
   y: { label: "Position y", power: 0, of: ({ positions }, k) => positions[2 * k + 1] },
   mu: { label: "Transmission angle", power: 0, of: ({ transmission_angles: of }, k) => of?.[k] ?? NaN },
@@ -40,7 +38,7 @@ export class MotionView {
   /** @type {Study | null} */ study = null;
   read = 0;
 
-  constructor(/** @type {PlateFigure} */ plate) {
+  constructor(/** @type {Plate} */ plate) {
     this.plate = plate;
     const change = (/** @type {Partial<MotionState>} */ changes) => plate.changeMotion(changes);
     this.joints = h("select", {
@@ -98,10 +96,8 @@ export class MotionView {
     const names = [...new Set(study.joints)];
     const { joint, graph, rpm, load } = this.#state;
     const shown = joint !== null && names.includes(joint) ? joint : study.joints[study.joint];
-    fill(
-      this.joints,
-      names.map((name) => h("option", { value: name, selected: name === shown }, name)),
-    );
+    const options = names.map((name) => h("option", { value: name, selected: name === shown }, name));
+    fill(this.joints, options);
     this.joints.value = shown;
     this.joint = shown === study.joints[study.joint] ? study.joint : study.joints.indexOf(shown);
     this.quantity.value = graph;
@@ -124,10 +120,10 @@ export class MotionView {
 
   /** Shows the numbers at a place. */
   update(/** @type {number} */ part, /** @type {Place} */ place) {
-    // The stage may draw before it is shown.
-    if (!this.study) return;
+    // The stage may draw another study before it is shown here, and the place is one of that.
+    if (!this.study || this.study !== this.plate.study) return;
     const now = performance.now();
-    if (this.plate.drive.player.isPlaying && now - this.read < READ_MILLISECONDS) return;
+    if (this.plate.drive.isPlaying && now - this.read < READ_MILLISECONDS) return;
     this.read = now;
     const at = this.#ask({ count: 0, place: { pass: place.pass, input: place.input } });
     const value = this.#factor() * this.#quantity.of(at, 0);
@@ -215,6 +211,6 @@ export class MotionView {
       format === "csv" ? csv : this.graph.svg(`${this.#quantity.label} of ${joint}, ${plate.family.title}`);
     const name = `${plate.family.id}-${joint}-${this.#state.graph}.${format}`;
     const type = format === "csv" ? "text/csv" : "image/svg+xml";
-    saveFile({ name, type, bytes: new TextEncoder().encode(text) });
+    saveFile({ name, type, bytes: text });
   }
 }

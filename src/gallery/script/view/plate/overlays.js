@@ -52,7 +52,7 @@ export class Overlays {
     const { classList } = this.stage.element;
     for (const { name } of OVERLAYS) classList.toggle(`with-${name}`, on.has(name));
     this.pair = on.has("cognates") ? cognatesOfStudy(study) : null;
-    this.stage.frame(this.pair ? widenedBox([...study.box], this.pair.reached) : study.box);
+    this.stage.box = this.pair ? widenedBox([...study.box], this.pair.reached) : study.box;
     if (!this.pair) [...this.cognates, this.cognatePins].forEach((element) => element.setAttribute("d", ""));
     this.#centrodes(isRough);
     if (!on.has("inflection")) this.circle.setAttribute("d", "");
@@ -63,7 +63,7 @@ export class Overlays {
     this.arm = null;
     this.rolling.setAttribute("d", "");
     this.pole.setAttribute("d", "");
-    this.stage.still.centrode("");
+    this.stage.still.draw("centrode", "");
     if (!this.on.has("centrodes")) return;
     const centrodes = study.kernel.centrodes(isRough ? ROUGH_CENTRODES : FINE_CENTRODES);
     if (!centrodes) return;
@@ -72,7 +72,7 @@ export class Overlays {
     const reach = 6 * study.size;
     const box = [x0 - reach, y0 - reach, x1 + reach, y1 + reach];
     const { closed } = study.circuits[study.shown];
-    this.stage.still.centrode(clippedData(ringOf(centrodes.fixed, closed), box));
+    this.stage.still.draw("centrode", clippedData(ringOf(centrodes.fixed, closed), box));
     const around = [-reach, -reach, reach, reach];
     setAttributes(this.rolling, { d: clippedData(ringOf(centrodes.moving, closed), around) });
     this.arm = centrodes.frame;

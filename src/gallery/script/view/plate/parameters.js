@@ -1,6 +1,7 @@
 // The parameters of a linkage that can be changed on its plate: parameters and helpers by their names, and the
 // position of the traced point on its link as "M.along" and "M.across".
 
+import { parameterWord } from "../../data/address.js";
 import { roundBelow } from "../../draw/plane-view.js";
 
 /** @type {("along" | "across")[]} */
@@ -86,10 +87,11 @@ export function changeableNames(family, point) {
  */
 export function parseChanges(family, point, query) {
   /** @type {Map<string, number>} */ const changes = new Map();
-  const names = changeableNames(family, point);
-  for (const name of query.keys()) {
-    const value = names.includes(name) ? query.number(name) : undefined;
-    if (value !== undefined) changes.set(name, value);
+  const names = new Map(changeableNames(family, point).map((name) => [parameterWord(name), name]));
+  for (const word of query.keys()) {
+    const name = names.get(word);
+    const value = name === undefined ? undefined : query.number(word);
+    if (name !== undefined && value !== undefined) changes.set(name, value);
   }
   return changes;
 }

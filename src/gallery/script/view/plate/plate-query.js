@@ -1,6 +1,6 @@
 // The query of a plate's address: changed parameters, the circuit, the overlays, and the input.
 
-import { curveAddress } from "../../data/address.js";
+import { curveAddress, parameterWord } from "../../data/address.js";
 import { findCurve, curveKey } from "../../data/family.js";
 import { STILL } from "./figure.js";
 import { OVERLAYS } from "./overlays.js";
@@ -61,7 +61,7 @@ export function plateAddress(
   { family, curve, study },
   { changes, requestedCircuit, on, at, locked, motion },
 ) {
-  const query = new Map([...changes].map(([name, value]) => [name, String(value)]));
+  const query = new Map([...changes].map(([name, value]) => [parameterWord(name), String(value)]));
   if (requestedCircuit !== null && requestedCircuit !== study?.home)
     query.set("circuit", String(requestedCircuit + 1));
   const isUsual = OVERLAYS.every(({ name, isOn }) => on.has(name) === isOn);

@@ -21,6 +21,7 @@ const INPUT_MILLISECONDS = 400;
 /** The plate of a curve of a family, with the query of its address. Put `element` into the document, then call `shown()`. */
 export class Plate extends PlateFigure {
   /** The circuits of what was asked for. @type {Candidates} */ candidates;
+  listening = new AbortController();
   /** The path data of the curve of the atlas, once it is needed. @type {string | null} */ ghost = null;
 
   /** @param {App} app @param {Kernel} kernel @param {Family} family @param {number} curve @param {AddressQuery} query */
@@ -45,8 +46,8 @@ export class Plate extends PlateFigure {
     this.stage.moving.onpose = (at) => this.handles.pose(at);
     this.layout = plateLayout(this);
     this.element = this.layout.element;
-    const releases = [enableDragging(this.stage, this), watchKeys(this)];
-    this.release = () => releases.forEach((release) => release());
+    enableDragging(this.stage, this, this.listening.signal);
+    watchKeys(this, this.listening.signal);
     this.#restudy(false);
     if (!this.study) this.#showRecorded();
     this.#settle();
@@ -69,7 +70,7 @@ export class Plate extends PlateFigure {
     this.drive.toggle(false);
     this.store.leave();
     this.stage.leave();
-    this.release();
+    this.listening.abort();
     this.layout.leave();
     this.study?.kernel.close();
     this.resting.end();
@@ -83,7 +84,7 @@ export class Plate extends PlateFigure {
     this.resting.now();
     const { at } = this.state;
     if (at) {
-      this.drive.pause();
+      this.drive.toggle(false);
       this.drive.moveTo(at);
     } else if (this.state.requestedCircuit !== requestedCircuit && !this.reason) this.beginCircuit();
     ignoreUnused(this.query, this);
@@ -147,7 +148,7 @@ export class Plate extends PlateFigure {
     this.element.classList.toggle("impossible", this.reason !== null);
     if (study.reason !== null) {
       this.drive.isHalted = true;
-      this.transport.stop();
+      this.transport.enable(false);
       return;
     }
     this.study?.kernel.close();
@@ -157,7 +158,7 @@ export class Plate extends PlateFigure {
       if (!isRough) this.handles.show(study);
     });
     if (this.changes.size) this.ghost ??= recordedPath(kernel, family, this.curve);
-    this.stage.still.ghost(this.changes.size ? (this.ghost ?? "") : "");
+    this.stage.still.draw("ghost", this.changes.size ? (this.ghost ?? "") : "");
   }
 
   /** The study of a circuit as it is now, once more; close it. */
@@ -213,7 +214,7 @@ export class Plate extends PlateFigure {
   /** Plays or pauses the motion; the address has the input of a linkage that stands still. */
   play() {
     this.drive.toggle();
-    this.store.note({ at: this.drive.player.isPlaying ? null : { ...this.drive.place } });
+    this.store.note({ at: this.drive.isPlaying ? null : { ...this.drive.place } });
   }
 
   /** After a gesture that has moved the linkage: its address has the input. */

@@ -1,7 +1,7 @@
 // The stage of a plate: a static layer with the curves and the ground, and above it a layer with the moving
 // linkage, so that each frame repaints the linkage only. Line widths are in screen pixels at any zoom.
 
-import { fittedView, interpolatedView, zoomedView } from "../../draw/plane-view.js";
+import { fittedView, interpolatedView, screenPoint, zoomedView } from "../../draw/plane-view.js";
 import { fill, h } from "../dom.js";
 import { MovingLayer } from "./moving-layer.js";
 import { StaticLayer } from "./static-layer.js";
@@ -15,7 +15,8 @@ export class Stage {
     this.view = { scale: 1, x: 0, y: 0 };
     this.isZoomed = false;
     /** Whether the view stays while a handle is dragged. */ this.isHeld = false;
-    this.box = null;
+    /** What is fitted: the area swept by the linkage, extended by overlays. @type {Box | null} */ this.box =
+      null;
     this.study = null;
     this.still = new StaticLayer();
     this.moving = new MovingLayer();
@@ -55,11 +56,6 @@ export class Stage {
     else this.#place();
   }
 
-  /** The box for fitting: the area swept by the linkage, extended by overlays. @param {Box} box */
-  frame(box) {
-    this.box = box;
-  }
-
   /** Shows why a linkage cannot be assembled, or moved; the previous linkage stays visible, dimmed. */
   impossible(/** @type {string | null} */ reason, what = "Cannot be assembled") {
     this.element.classList.toggle("impossible", reason !== null);
@@ -76,29 +72,26 @@ export class Stage {
   fit() {
     this.#stay();
     this.isZoomed = false;
-    if (this.box) this.view = fittedView(this.box, { ...this.size, margin: this.#margin() });
+    if (this.box) this.view = this.#fitted(this.box);
     this.#place();
   }
 
   /** While lengths are changing, the view stays unless the linkage leaves it or becomes small in it. */
   keepInFrame() {
     if (this.isZoomed || this.isHeld || !this.box) return;
-    const fitted = fittedView(this.box, { ...this.size, margin: this.#margin() });
+    const fitted = this.#fitted(this.box);
     const [x0, y0, x1, y1] = this.box;
-    const { scale, x, y } = this.view;
-    const slack = 0.5 * this.#margin();
-    const isInside =
-      x + scale * x0 >= slack &&
-      x + scale * x1 <= this.size.width - slack &&
-      y - scale * y1 >= slack &&
-      y - scale * y0 <= this.size.height - slack;
-    if (!isInside || scale < 0.55 * fitted.scale) this.#glideTo(fitted);
+    const [left, low] = screenPoint(this.view, [x0, y0]);
+    const [right, high] = screenPoint(this.view, [x1, y1]);
+    const { width, height } = this.size;
+    const isInside = Math.min(left, high, width - right, height - low) >= 0.5 * this.#margin();
+    if (!isInside || this.view.scale < 0.55 * fitted.scale) this.#glideTo(fitted);
   }
 
   zoom(/** @type {number} */ factor, /** @type {Point} */ at = [this.size.width / 2, this.size.height / 2]) {
     if (!this.box) return;
     this.#stay();
-    const least = fittedView(this.box, { ...this.size, margin: this.#margin() }).scale;
+    const least = this.#fitted(this.box).scale;
     const scale = Math.min(Math.max(this.view.scale * factor, 0.2 * least), 400 * least);
     this.view = zoomedView(this.view, scale / this.view.scale, at);
     this.isZoomed = true;
@@ -135,6 +128,10 @@ export class Stage {
   #stay() {
     window.cancelAnimationFrame(this.gliding);
     this.gliding = 0;
+  }
+
+  #fitted(/** @type {Box} */ box) {
+    return fittedView(box, { ...this.size, margin: this.#margin() });
   }
 
   #margin() {

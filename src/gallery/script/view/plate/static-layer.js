@@ -29,26 +29,16 @@ export class StaticLayer {
   show(/** @type {Study} */ { mechanism, crank }, /** @type {CurveData} */ { dashes, lead, others, band }) {
     const { fixed_at: fixed, frame_at: frame, guides, wheels } = mechanism;
     this.pivots = pointPairs(fixed);
-    this.#data("frame-line", polylineData(frame, { closed: frame.length > 4 }));
-    this.#data("wheels", wheels.map(([x, y, radius]) => circleData(x, y, radius)).join(""));
-    this.#data("guides", guides.map((ends) => polylineData(ends)).join(""));
+    this.draw("frame-line", polylineData(frame, { closed: frame.length > 4 }));
+    this.draw("wheels", wheels.map(([x, y, radius]) => circleData(x, y, radius)).join(""));
+    this.draw("guides", guides.map((ends) => polylineData(ends)).join(""));
     const pivot = crank && this.pivots[mechanism.fixed.indexOf(crank.pivot)];
     this.limits = pivot ? pointPairs(crank.limits).map((limit) => [...limit, ...pivot]) : [];
-    this.#data("crank-range", pivot ? polylineData(crank.arc) : "");
-    this.#data("others", others);
-    this.#data("band", band);
-    this.#data("lead", lead);
-    this.#data("dashes", dashes);
-  }
-
-  /** Sets the curve behind a changed one, as path data in the plane. */
-  ghost(/** @type {string} */ data) {
-    this.#data("ghost", data);
-  }
-
-  /** Sets the fixed centrode, as path data in the plane. */
-  centrode(/** @type {string} */ data) {
-    this.#data("centrode", data);
+    this.draw("crank-range", pivot ? polylineData(crank.arc) : "");
+    this.draw("others", others);
+    this.draw("band", band);
+    this.draw("lead", lead);
+    this.draw("dashes", dashes);
   }
 
   place(/** @type {Placement} */ view, /** @type {Size} */ { width, height }) {
@@ -65,7 +55,8 @@ export class StaticLayer {
     this.barLabel.textContent = decimals > 6 ? String(length) : length.toFixed(decimals);
   }
 
-  #data(/** @type {string} */ name, /** @type {string} */ data) {
+  /** Sets a part, such as the curve behind a changed one, "ghost", as path data in the plane. */
+  draw(/** @type {string} */ name, /** @type {string} */ data) {
     this.plane[name].setAttribute("d", data);
   }
 }

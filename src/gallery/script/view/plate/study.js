@@ -81,16 +81,16 @@ export class Pose {
 }
 
 /**
- * The arrow of a velocity, per radian of input or unit of length, in pixels, y down: a fifth of the frame at the
- * speed `top`, at most one and a half times that, reversed where the input decreases. Null if infinite.
- * @param {Float64Array} _ @param {{ top: number, size: Size, heading: number }} _1
+ * The arrow of a velocity, per radian of input or unit of length, in pixels, y down: it goes as far as the point would in `by`, a radian
+ * or a part of the stroke, but at most through three tenths of the frame. Null if infinite.
+ * @param {Float64Array} _ @param {{ by: number, scale: number, size: Size }} _1
  */
-export function velocityArrow([vx, vy], { top, size, heading }) {
+export function velocityArrow([vx, vy], { by, scale, size }) {
   const speed = Math.hypot(vx, vy);
   if (!Number.isFinite(speed)) return null;
-  const longest = Math.min(size.width, size.height) / 5;
-  const by = (heading * longest * Math.min(1, (1.5 * top) / speed)) / top;
-  return [by * vx, -by * vy];
+  const long =
+    Math.sign(by) * Math.min(scale * Math.abs(by), (0.3 * Math.min(size.width, size.height)) / speed);
+  return [long * vx, -long * vy];
 }
 
 /** The title of a circuit: "a full turn, branch 1", "−75.5° to 75.5°, branch 1 and −1". */

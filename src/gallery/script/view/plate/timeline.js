@@ -69,6 +69,17 @@ export function clampPart({ closed }, /** @type {number} */ part) {
   return closed ? part - Math.floor(part) : Math.min(Math.max(part, 0), 1);
 }
 
+/** Moves a place by an amount of input along a timeline, over limits and change points. @param {number} by */
+export function stepPlace(/** @type {Timeline} */ timeline, /** @type {Place} */ place, by) {
+  const { from, to } = timeline.passes[place.pass];
+  const next = place.input + Math.sign(to - from) * by;
+  if ((next - from) * (next - to) <= 0) place.input = next;
+  else {
+    const part = partOfInput(timeline, place.pass, place.input) + by / timeline.whole;
+    placeAtPart(timeline, clampPart(timeline, part), place);
+  }
+}
+
 /**
  * Moves a position { pass, input } of a timeline towards the input `wanted` of a dragged crank, and returns `wanted` less the full turns
  * that were completed. Continues over the end of a pass onto the next one. Where the input reverses, it stays at the limit; a drag more
@@ -93,19 +104,14 @@ export function followInput(/** @type {Timeline} */ timeline, /** @type {Place} 
     if (next === null) return target;
     const meets = forward ? passes[next].from : passes[next].to;
     const away = forward ? passes[next].to : passes[next].from;
-    if (Math.sign(away - meets) === Math.sign(target - edge)) {
-      // The motion continues in the same direction: the seam of a rotation, or a change point.
-      target -= edge - meets;
-      place.pass = next;
-      place.input = meets;
-      continue;
-    }
-    if (!place.isBeyond && Math.abs(target - edge) > slack) {
-      place.pass = next;
-      place.input = meets;
-      place.isBeyond = true;
-      target -= edge - meets;
-    }
+    // The motion may continue in the same direction: the seam of a rotation, or a change point.
+    const isOn = Math.sign(away - meets) === Math.sign(target - edge);
+    if (!isOn && (place.isBeyond || Math.abs(target - edge) <= slack)) return target;
+    target -= edge - meets;
+    place.pass = next;
+    place.input = meets;
+    if (isOn) continue;
+    place.isBeyond = true;
     return target;
   }
   return target;

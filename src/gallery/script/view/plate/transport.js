@@ -14,7 +14,7 @@ const PLAY_RATES = { 15: "¼", 30: "½", 60: "1", 120: "2", 240: "4" };
  * and `playing(isPlaying)` update them.
  */
 export class Transport {
-  constructor(/** @type {PlateFigure} */ plate) {
+  constructor(/** @type {Plate} */ plate) {
     const { drive, stage, family } = plate;
     this.play = buttonOf("", () => plate.play(), { class: "play", "aria-keyshortcuts": "Space" });
     this.scrub = h("input.scrub", {
@@ -28,7 +28,7 @@ export class Transport {
       onkeydown: (event) => stepByKey(event, drive),
     });
     const type = (/** @type {number} */ input) => {
-      drive.pause();
+      drive.toggle(false);
       drive.moveToInput(input);
     };
     const units = family.is_length ? {} : ANGLE_UNITS.deg;
@@ -63,16 +63,11 @@ export class Transport {
     this.playing(false);
   }
 
-  /** Degrees of input per second. */
-  get speed() {
-    return Number(this.rate.value);
-  }
-
   show(/** @type {Study} */ { is_length: isLength, timeline, shortfall }, /** @type {string} */ title) {
     this.isLength = isLength;
     this.timeline = timeline;
     this.ends.textContent = shortfall ? `Input: ${title}; ${shortfall}` : `Input: ${title}`;
-    this.#enable(true);
+    this.enable(true);
   }
 
   /** Shows the description of the straight portion; null while it is unknown. */
@@ -81,12 +76,8 @@ export class Transport {
     if (words !== null) this.straight.textContent = words;
   }
 
-  /** Disables the controls. */
-  stop() {
-    this.#enable(false);
-  }
-
-  #enable(/** @type {boolean} */ isThere) {
+  /** Enables or disables the controls. */
+  enable(/** @type {boolean} */ isThere) {
     for (const control of [this.play, this.scrub, ...this.toLimits]) control.disabled = !isThere;
   }
 

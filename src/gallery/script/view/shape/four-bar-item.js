@@ -2,7 +2,8 @@
 
 import { placedData, smoothData } from "../../draw/path-data.js";
 import { pointPairs, screenPoint } from "../../draw/plane-view.js";
-import { buttonOf, h, s, sizedThumbnail, termList } from "../dom.js";
+import { newAddress } from "../../data/address.js";
+import { buttonOf, h, s, setAttributes, sizedThumbnail, termList } from "../dom.js";
 import { copyText } from "../export/save.js";
 import { fourBarAddress } from "../new-view.js";
 import { formatNumber } from "../labels.js";
@@ -27,7 +28,11 @@ export function fourBarItem(app, answer, path, /** @type {number} */ size) {
     ["Crank pivot, rocker pivot", pivots.join(", ")],
     ...record.cognates.map((cognate) => ["Cognate", cognateText(cognate, size)]),
   ];
-  const plate = h("a", { href: fourBarAddress(answer) }, "Open on a plate");
+  const plate = h("a", { href: newAddress("four-bar", record.parameters) }, "Open on a plate");
+  fourBarAddress(app, answer).then(
+    (href) => setAttributes(plate, { href }),
+    () => {},
+  );
   const deviation = [
     h("b", qualityMark(quality), ` ${relative === 0 ? "0" : relative.toPrecision(3)} S`),
     ` E = ${lengthText(rms, size)}, greatest ${lengthText(max, size)}`,

@@ -82,10 +82,8 @@ export class FourBarSection {
   #found(/** @type {FourBarAnswer[]} */ answers, isAtRest = false) {
     this.answers = answers;
     const { record } = answers[0] ?? {};
-    fill(
-      this.live,
-      record ? `The nearest four-bar is ${record.quality}: E = ${record.rms_relative.toPrecision(2)} S` : "",
-    );
+    const { quality, rms_relative: far = 0 } = record ?? {};
+    fill(this.live, record ? `The nearest four-bar is ${quality}: E = ${far.toPrecision(2)} S` : "");
     this.onFound(answers.slice(0, MAX_LIVE), isAtRest);
   }
 
@@ -129,8 +127,7 @@ export class FourBarSection {
     this.#found(answers, isDone);
     const items = answers.map((answer) => fourBarItem(this.app, answer, shape, size));
     fill(this.list, items);
-    const save = () =>
-      saveFile({ name: "found.toml", type: "application/toml", bytes: new TextEncoder().encode(manifest) });
+    const save = () => saveFile({ name: "found.toml", type: "application/toml", bytes: manifest });
     const acts = [
       buttonOf("Save manifest of all", save),
       copyButton(this.app, "Copy manifest of all", manifest),

@@ -1,8 +1,8 @@
 // The indexes of the curves of families, in the kernel: in parts, so that a family of any size can be searched in bounded memory.
 
-import { curvePoints } from "../../data/family.js";
+import { curvePoints, pointCounts } from "../../data/family.js";
+import { needPieces } from "../../data/needs.js";
 import { sumOf } from "../../data/number.js";
-import { concatenateArrays } from "../../data/packed.js";
 
 // The number of curves of a part, 60 bytes each.
 const PART_CURVES = 20_000;
@@ -41,7 +41,7 @@ export function searchedParts(/** @type {Family[]} */ families, /** @type {numbe
         parts.push(part);
       }
       part.count += piece.curves;
-      for (const one of [piece, ...tables]) part.pieces.add(one);
+      for (const one of [...tables, piece]) part.pieces.add(one);
       part.isKept &&= curves <= MAX_KEPT_CURVES;
     }
   }
@@ -61,10 +61,10 @@ function tablesOf({ table }, { firstCurve, curves }) {
 }
 
 /**
- * The index of the curves of a part, whose data must be loaded; null if stopped. One that is not kept is released by `releaseIndex`.
+ * The index of the curves of a part, whose data are loaded for it; null if stopped. One that is not kept is released by `releaseIndex`.
  * @param {SearchKernel} kernel @param {SearchedPart} _ @param {AbortSignal} signal @returns {Promise<ShapeIndex | null>}
  */
-export async function shapeIndex(kernel, { family, first, count, isKept }, signal) {
+export async function shapeIndex(kernel, { family, first, count, pieces, isKept }, signal) {
   const known = keptIndexes(kernel, family);
   const kept = known.get(first);
   if (kept?.count === count) return kept;
@@ -73,10 +73,15 @@ export async function shapeIndex(kernel, { family, first, count, isKept }, signa
   const { curves } = await kernel.call({ method: "open_curves" });
   const index = { family, first, count, curves };
   let isComplete = false;
+  let room;
   try {
-    for (let from = first; from < first + count; from += CURVES_PER_CALL) {
-      await addCurves(kernel, index, from, Math.min(from + CURVES_PER_CALL, first + count));
-      if (signal.aborted) return null;
+    for (const piece of pieces) {
+      await needPieces(family, [piece]);
+      const end = piece.name === "table" ? 0 : piece.firstCurve + piece.curves;
+      for (let from = piece.firstCurve; from < end; from += CURVES_PER_CALL) {
+        if (signal.aborted) return null;
+        room = await addCurves(kernel, index, [from, Math.min(from + CURVES_PER_CALL, end)], room);
+      }
     }
     isComplete = kernel.instance === instance;
   } finally {
@@ -86,14 +91,15 @@ export async function shapeIndex(kernel, { family, first, count, isKept }, signa
   return index;
 }
 
-/** Adds the curves from one to before another to an index. @param {SearchKernel} kernel @param {ShapeIndex} _ */
-function addCurves(kernel, { family, curves }, /** @type {number} */ from, /** @type {number} */ to) {
-  const outlines = [];
-  for (let curve = from; curve < to; curve += 1) outlines.push(curvePoints(family, curve));
-  const points = concatenateArrays(outlines, Float64Array);
-  const counts = Float64Array.from(outlines, ({ length }) => length / 2);
+/**
+ * Adds the curves from one to before another to an index; their points are in `room`, which it returns.
+ * @param {SearchKernel} kernel @param {ShapeIndex} _ @param {number[]} range @param {ArrayBuffer} [room] @returns {Promise<ArrayBuffer>}
+ */
+async function addCurves(kernel, { family, curves }, [from, to], room) {
+  const points = curvePoints(family, from, to, room);
   const closed = Float64Array.from(family.curves.closed.subarray(from, to));
-  return kernel.call({ method: "add_curves", curves, points, counts, closed });
+  const request = { method: "add_curves", curves, points, counts: pointCounts(family, from, to), closed };
+  return ((await kernel.call(request, "points")).points ?? points).buffer;
 }
 
 /** @returns {Map<number, ShapeIndex>} */

@@ -1,7 +1,6 @@
 // A result of the search by shape: a curve with the best fit of the shape overlaid.
 
-import { curvePoints, curveCaption, curveKey } from "../../data/family.js";
-import { needCurves } from "../../data/needs.js";
+import { curveKey } from "../../data/family.js";
 import { inverted, transformed } from "../../draw/similarity.js";
 import { portion } from "../../shape/outline.js";
 import { smoothData } from "../../draw/path-data.js";
@@ -16,10 +15,9 @@ import { familiesText } from "./merged.js";
  * The list item of a result of `mergedMatches` for a shape with the options of a query (query.js).
  * @param {App} app @param {MergedMatch} merged @param {Outline} shape
  */
-function matchItem(app, merged, shape, /** @type {ShapeQuery} */ { by, part }) {
+export function matchItem(app, merged, shape, /** @type {ShapeQuery} */ { by, part }) {
   const { match: one, others } = merged;
-  const { family, curve, name } = one;
-  const caption = curveCaption(family, curve);
+  const { family, curve, name, caption } = one;
   const other = by === "rms" ? "greatest" : "rms";
   /** @param {"rms" | "greatest"} measure */
   const percent = (/** @type {"rms" | "greatest"} */ measure) =>
@@ -36,20 +34,6 @@ function matchItem(app, merged, shape, /** @type {ShapeQuery} */ { by, part }) {
   const similar = h("a", { href: address(["shape"], { like: name }) }, "Find similar");
   const link = h("a", { href, "data-name": name }, picture, h("span.label", deviations), families, label);
   return h("li", link, h("span.acts", similar, pin));
-}
-
-/**
- * The list items of results; null if stopped. Each is drawn as soon as its points are loaded: those of all may be more than are kept.
- * @param {App} app @param {MergedMatch[]} merged @param {Outline} shape @param {ShapeQuery} query @param {AbortSignal} signal
- */
-export async function matchItems(app, merged, shape, query, signal) {
-  const items = [];
-  for (const one of merged) {
-    await needCurves(one.match.family, [one.match.curve]);
-    if (signal.aborted) return null;
-    items.push(matchItem(app, one, shape, query));
-  }
-  return items;
 }
 
 /** How near a curve is in a word, as `find` has it (crates/coupler-find/src/quality.rs). */
@@ -70,9 +54,7 @@ export function matchesText(merged, curves, by) {
 const MATCH_INSET = 6;
 
 /** The picture of a result of `nearestCurves` with the shape overlaid, `width` × `height` pixels. @param {Match} _ @param {Outline} shape @param {Size} size */
-function matchPicture({ family, curve, similarity, from, to }, shape, size) {
-  const points = curvePoints(family, curve);
-  const closed = family.curves.closed[curve] === 1;
+function matchPicture({ outline: { points, closed }, similarity, from, to }, shape, size) {
   const fitted = transformed(inverted(similarity), shape.points);
   const view = viewOfOutlines([points, fitted], size);
   const isPart = from !== 0 || to !== 1;

@@ -1,7 +1,8 @@
 // Finds the curves of the atlas that are nearest to a path.
 
-import { curveKey, curveOutline } from "../../data/family.js";
-import { needCurves, needPieces } from "../../data/needs.js";
+import { curveCaption, curveKey, curveOutline } from "../../data/family.js";
+import { needCurves } from "../../data/needs.js";
+import { KernelFailure } from "../../kernel/instance.js";
 import { drawnPath, ShapeSearch, WHOLE } from "../../kernel/shape-search.js";
 import { releaseIndex, shapeIndex } from "./indexes.js";
 
@@ -23,14 +24,14 @@ export async function nearestCurves(app, parts, shape, options, signal, progress
   const search = await ShapeSearch.open(kernel, path, { mirror, least, wanted: WANTED });
   try {
     const found = await candidatesOf(app, kernel, search, parts, signal, progress);
+    const taken = found && (await takenCurves(found, signal));
     const candidates =
-      found && found.length > WANTED ? await nearestCandidates(search, found, signal) : found;
+      taken && taken.length > WANTED ? await nearestCandidates(search, taken, signal) : taken;
     if (!candidates) return null;
     /** @type {Match[]} */ const matches = [];
-    for (const { family, curve } of candidates) {
-      const fit = await search.fit(await loadedOutline(family, curve));
-      const name = `${family.id}:${curveKey(family, curve)}`;
-      if (fit) matches.push({ ...fit, family, curve, name });
+    for (const one of candidates) {
+      const fit = await search.fit(one.outline);
+      if (fit) matches.push({ ...fit, ...one });
       if (signal.aborted) return null;
     }
     return matches.sort((a, b) => a[by] - b[by]);
@@ -48,14 +49,14 @@ async function candidatesOf(app, kernel, search, parts, signal, progress) {
   let searched = 0;
   for (const part of parts) {
     progress(part, searched);
+    let index;
     try {
-      await needPieces(part.family, part.pieces);
+      index = await shapeIndex(kernel, part, signal);
     } catch (error) {
+      if (error instanceof KernelFailure) throw error;
       app.announce(error.message);
       continue;
     }
-    if (signal.aborted) return null;
-    const index = await shapeIndex(kernel, part, signal);
     const found = index && (await search.candidates(index, signal));
     if (index && !part.isKept) await releaseIndex(kernel, index);
     if (!found) return null;
@@ -67,24 +68,35 @@ async function candidatesOf(app, kernel, search, parts, signal, progress) {
 
 /**
  * Those that are wanted of the candidates, compared closely; null if stopped.
- * @param {ShapeSearch} search @param {Candidate[]} candidates @param {AbortSignal} signal
+ * @param {ShapeSearch} search @param {TakenCurve[]} candidates @param {AbortSignal} signal
  */
 async function nearestCandidates(search, candidates, signal) {
-  /** @type {Candidate[]} */ const compared = [];
-  for (const { family, curve } of candidates) {
-    const likeness = await search.likeness(await loadedOutline(family, curve));
-    if (likeness !== null) compared.push({ family, curve, likeness });
+  /** @type {(TakenCurve & Candidate)[]} */ const compared = [];
+  for (const one of candidates) {
+    const likeness = await search.likeness(one.outline);
+    if (likeness !== null) compared.push({ ...one, likeness });
     if (signal.aborted) return null;
   }
   return likeliest(compared, WANTED);
 }
 
-function likeliest(/** @type {Candidate[]} */ candidates, /** @type {number} */ most) {
+/** @template {Candidate} T @param {T[]} candidates */
+function likeliest(candidates, /** @type {number} */ most) {
   return candidates.sort((a, b) => b.likeness - a.likeness).slice(0, most);
 }
 
-/** @returns {Promise<Outline>} */
-async function loadedOutline(/** @type {Family} */ family, /** @type {number} */ curve) {
-  await needCurves(family, [curve]);
-  return curveOutline(family, curve);
+/** Takes curves out of their pieces, each of which is loaded once; null if stopped. @param {Candidate[]} candidates @param {AbortSignal} signal */
+async function takenCurves(candidates, signal) {
+  const id = (/** @type {Candidate} */ one) => one.family.id;
+  /** @type {TakenCurve[]} */ const taken = [];
+  for (const { family, curve } of candidates.sort(
+    (a, b) => id(a).localeCompare(id(b)) || a.curve - b.curve,
+  )) {
+    await needCurves(family, [curve]);
+    if (signal.aborted) return null;
+    const name = `${family.id}:${curveKey(family, curve)}`;
+    const caption = curveCaption(family, curve);
+    taken.push({ family, curve, name, caption, outline: curveOutline(family, curve) });
+  }
+  return taken;
 }

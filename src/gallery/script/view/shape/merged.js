@@ -1,7 +1,5 @@
 // Matches that are the same curve: cognates and families that overlap draw it again.
 
-import { curveOutline } from "../../data/family.js";
-import { needCurves } from "../../data/needs.js";
 import { ShapeSearch, WHOLE } from "../../kernel/shape-search.js";
 
 // Whole curves are the same to this part of their size, as four-bars of `find`.
@@ -14,18 +12,17 @@ const SAME = 1e-3;
  */
 export async function mergedMatches(app, matches, /** @type {number} */ most, mirror, signal) {
   const { curveSearch: kernel } = await app.kernel.load();
-  /** @type {(MergedMatch & { outline: Outline, search: ShapeSearch })[]} */ const merged = [];
+  /** @type {(MergedMatch & { search: ShapeSearch })[]} */ const merged = [];
   try {
     for (const match of matches) {
-      await needCurves(match.family, [match.curve]);
-      const outline = curveOutline(match.family, match.curve);
-      const same = await sameAmong(merged, match, outline);
+      const { outline } = match;
+      const same = await sameAmong(merged, match);
       if (same) same.others.push(match);
       else if (merged.length < most) {
         // A shape with symmetries is fitted in several ways: curves are compared wherever they are.
         const path = { points: outline.points, kind: outline.closed ? "closed" : "part" };
         const search = await ShapeSearch.open(kernel, path, { mirror, least: WHOLE });
-        merged.push({ match, outline, search, others: [] });
+        merged.push({ match, search, others: [] });
       }
       if (signal.aborted) return null;
     }
@@ -35,14 +32,14 @@ export async function mergedMatches(app, matches, /** @type {number} */ most, mi
   }
 }
 
-/** @param {(MergedMatch & { outline: Outline, search: ShapeSearch })[]} merged @param {Match} match @param {Outline} outline */
-async function sameAmong(merged, match, outline) {
+/** @param {(MergedMatch & { search: ShapeSearch })[]} merged @param {Match} match */
+async function sameAmong(merged, match) {
   for (const one of merged) {
     // The same curve deviates as much from the path.
     const { rms, greatest } = one.match;
     if (Math.abs(rms - match.rms) > SAME || Math.abs(greatest - match.greatest) > 3 * SAME) continue;
-    if (one.outline.closed !== outline.closed) continue;
-    const fit = await one.search.fit(outline);
+    if (one.match.outline.closed !== match.outline.closed) continue;
+    const fit = await one.search.fit(match.outline);
     if (fit && fit.rms < SAME && Math.abs(fit.to - fit.from) > 1 - SAME) return one;
   }
   return null;

@@ -36,11 +36,14 @@ export function fourBarChips(store, shape) {
     corners.setAttribute("aria-invalid", String(!pivots));
     if (pivots) store.change({ pivots });
   };
-  store.watch(({ pivots }) => {
+  const show = (/** @type {Pick<ShapeQuery, "pivots">} */ { pivots }) => {
     box.input.checked = pivots !== null;
     corners.hidden = pivots === null;
     corners.value = pivots?.join(", ") ?? "";
-  });
+    corners.setAttribute("aria-invalid", "false");
+  };
+  corners.onblur = () => show(store.state);
+  store.watch(show);
   return h(
     "div.toolbar.chips",
     checkBox(store, "fullTurn", "The crank turns fully"),
@@ -81,10 +84,8 @@ function selectBox(store, name, label, values, text) {
     const chosen = /** @type {T} */ (state[name]);
     const all = [...new Set([...values, chosen])];
     if (isNumber) all.sort((a, b) => Number(a) - Number(b));
-    fill(
-      element,
-      all.map((value) => h("option", { value, selected: value === chosen }, text(value))),
-    );
+    const options = all.map((value) => h("option", { value, selected: value === chosen }, text(value)));
+    fill(element, options);
   });
   return element;
 }

@@ -1,15 +1,14 @@
 // The view that finds curves by shape.
 
-import { needPieces } from "../../data/needs.js";
 import { encodeShape } from "../../shape/encode.js";
 import { lengthsAlong } from "../../shape/outline.js";
 import { fill, h } from "../dom.js";
 import { MAX_AUTOLOAD_BYTES, requestedFamilies, loadAllLine, familyChooser } from "../find/loading.js";
 import { Store } from "../store.js";
 import { FourBarSection } from "./four-bars.js";
-import { loadStateOf, releaseIndexes, searchedParts } from "./indexes.js";
+import { loadStateOf, releaseIndexes, searchedParts, shapeIndex } from "./indexes.js";
 import { shapeLayout } from "./layout.js";
-import { matchItems, matchesText } from "./match-item.js";
+import { matchItem, matchesText } from "./match-item.js";
 import { nearestCurves } from "./matches.js";
 import { mergedMatches } from "./merged.js";
 import { formatShapeQuery, parseShapeQuery } from "./query.js";
@@ -126,18 +125,17 @@ export class ShapeView {
     else await this.prepare(signal);
   }
 
-  /** Loads what will be searched, and prepares the search for four-bars, before there is a shape. */
+  /** Prepares the searches before there is a shape. */
   async prepare(/** @type {AbortSignal} */ signal) {
     this.showState();
+    // Without the kernel, a search says so.
+    const kernel = await this.app.kernel.load().catch(() => null);
+    if (!kernel) return;
     for (const part of this.parts.filter(({ isKept }) => isKept)) {
-      await needPieces(part.family, part.pieces)?.catch((error) => this.app.announce(error.message));
+      await shapeIndex(kernel.curveSearch, part, signal).catch((error) => this.app.announce(error.message));
       if (signal.aborted) return;
     }
-    // Without the kernel, a search says so.
-    await this.app.kernel.load().then(
-      (kernel) => kernel.fourBars.prepare(signal),
-      () => {},
-    );
+    await kernel.fourBars.prepare(signal);
   }
 
   /** Says what is not searched, or that there is nothing to search. */
@@ -218,10 +216,9 @@ export class ShapeView {
       const merged = await mergedMatches(this.app, found, MAX_RESULTS, mirror, signal);
       if (!merged) return;
       this.element.dataset.milliseconds = (performance.now() - began).toFixed(0);
-      const items = await matchItems(this.app, merged, shape, state, signal);
-      if (!items) return;
       const sentence = matchesText(merged, this.loaded.curves, by);
       this.showNone(sentence);
+      const items = merged.map((one) => matchItem(this.app, one, shape, state));
       fill(this.results, items);
       const isAll = this.loaded.curves >= this.loaded.total;
       this.app.announce(isAll ? sentence : `${sentence}; ${this.loadAll.text(this.loaded)}`);

@@ -1,17 +1,11 @@
 // The target: the shape that is searched for, drawn and changed here, with axes and the four-bars that are found for it.
 
+import { bending, handlesOf, withoutHandle } from "../../shape/bend.js";
 import { looksClosed, resampled } from "../../shape/outline.js";
 import { placedData } from "../../draw/path-data.js";
-import {
-  boxOfPoints,
-  fittedView,
-  planePoint,
-  pointPairs,
-  roundBelow,
-  screenPoint,
-} from "../../draw/plane-view.js";
-import { fill, h, s } from "../dom.js";
-import { directionOfKey, onKeys } from "../keys.js";
+import { boxOfPoints, fittedView, planePoint, roundBelow, screenPoint } from "../../draw/plane-view.js";
+import { fill, h, s, setAttributes } from "../dom.js";
+import { directionOfKey, focusOne, handleKey, onKeys } from "../keys.js";
 import { formatNumber } from "../labels.js";
 import { axisLines } from "./axes.js";
 import { fourBarDrawing } from "./four-bar-item.js";
@@ -20,10 +14,6 @@ const FRAME = { width: 520, height: 420 };
 const MARGIN = 90;
 // What is seen before there is a shape, in units of the plane.
 const EMPTY_BOX = [0, 0, 100, 80];
-// A shape of more points is changed by so many handles, each of which moves the points up to the next two.
-const MOST_HANDLES = 12;
-const POINTS_PER_HANDLE = 8;
-const BEND_REACH = 12;
 
 /** The plane of the shape. `on.drawn(outline)` is called with a finished shape, `on.live(outline, isDragged)` while it changes, `on.cleared()` when there is none any more. */
 export class TargetPlane {
@@ -53,6 +43,11 @@ export class TargetPlane {
       },
       [axes, box, found, this.line, dots, this.cross],
     );
+    onKeys(dots, "On a dot of the pad", [
+      ["ArrowLeft ArrowRight ArrowUp ArrowDown", "move it; with Shift ten times as far"],
+      ["PageUp PageDown", "another dot"],
+      ["Delete", "remove it", ({ target }) => this.#remove(this.#dots.findIndex((dot) => dot === target))],
+    ]);
     onKeys(this.element, "On the pad", [
       [
         "ArrowLeft ArrowRight ArrowUp ArrowDown",
@@ -106,21 +101,35 @@ export class TargetPlane {
   render() {
     const { points, closed } = this.outline;
     this.line.setAttribute("d", placedData(points, closed && points.length > 4, this.view));
-    const dot = (/** @type {Point} */ point, /** @type {number} */ k) => {
-      const [cx, cy] = screenPoint(this.view, point);
-      return s("circle", { cx, cy, r: 5, "data-handle": k });
-    };
-    fill(this.parts.dots, this.#handles().map(dot));
+    const places = handlesOf(this.outline);
+    // A dot that has the focus stays.
+    const dots = places.map((_, k) => this.#dot(k));
+    if (dots.length !== this.#dots.length) fill(this.parts.dots, dots);
+    places.forEach((place, k) => {
+      const [cx, cy] = screenPoint(this.view, place);
+      setAttributes(this.#dots[k], { cx, cy, "aria-label": `Dot ${k + 1} of ${places.length}` });
+    });
     const [x, y] = screenPoint(this.view, this.pen);
     this.cross.setAttribute("transform", `translate(${x} ${y})`);
     fill(this.parts.axes, axisLines(this.view, FRAME));
     this.showBox(this.corners);
   }
 
-  #handles() {
-    const { points, closed } = this.outline;
-    if (points.length < 4) return pointPairs(points);
-    return pointPairs(points.length > 2 * MOST_HANDLES ? resampled(points, closed, MOST_HANDLES) : points);
+  get #dots() {
+    return /** @type {SVGElement[]} */ ([...this.parts.dots.children]);
+  }
+
+  #dot(/** @type {number} */ k) {
+    const tabindex = k === 0 ? "0" : "-1";
+    const onkeydown = (/** @type {KeyboardEvent} */ event) =>
+      handleKey(event, this.#dots, k, ([right, up]) => {
+        this.outline = bending(this.outline, k)([right / this.view.scale, up / this.view.scale]);
+        this.render();
+        this.on.live(this.outline, true);
+      });
+    const onkeyup = (/** @type {KeyboardEvent} */ event) =>
+      directionOfKey(event) && this.#finish(this.outline.closed);
+    return s("circle", { r: 5, "data-handle": k, role: "button", tabindex, onkeydown, onkeyup });
   }
 
   /** @param {PointerEvent} _ @returns {Point} */
@@ -137,9 +146,10 @@ export class TargetPlane {
   #press(/** @type {PointerEvent} */ event) {
     if (event.button) return;
     event.preventDefault();
-    this.element.focus({ preventScroll: true });
+    const target = /** @type {SVGElement} */ (event.target);
+    const { handle } = target.dataset;
+    (handle === undefined ? this.element : target).focus({ preventScroll: true });
     this.element.setPointerCapture(event.pointerId);
-    const handle = event.target instanceof SVGElement ? event.target.dataset.handle : undefined;
     const move = handle === undefined ? this.#stroke(event) : this.#drag(event, Number(handle));
     this.element.onpointermove = (moved) => {
       move(moved);
@@ -165,21 +175,21 @@ export class TargetPlane {
 
   #drag(/** @type {PointerEvent} */ event, /** @type {number} */ handle) {
     const [x, y] = this.#placeOf(event);
-    const { points, closed } = this.outline;
-    const isFew = points.length <= 2 * MOST_HANDLES;
-    const count = MOST_HANDLES * POINTS_PER_HANDLE - (closed ? 0 : POINTS_PER_HANDLE - 1);
-    const base = isFew ? points : resampled(points, closed, count);
-    const [at, reach] = isFew ? [handle, 1] : [handle * POINTS_PER_HANDLE, BEND_REACH];
+    const bent = bending(this.outline, handle);
     return (/** @type {PointerEvent} */ moved) => {
       const [toX, toY] = this.#placeOf(moved);
-      const bent = base.map((value, k) => {
-        const apart = Math.abs((k >> 1) - at);
-        const from = closed ? Math.min(apart, base.length / 2 - apart) : apart;
-        const share = from < reach ? Math.cos((Math.PI * from) / (2 * reach)) ** 2 : 0;
-        return value + share * (k % 2 ? toY - y : toX - x);
-      });
-      this.outline = { points: bent, closed };
+      this.outline = bent([toX - x, toY - y]);
     };
+  }
+
+  /** Removes a handle with the shape around it; a shape has three points. */
+  #remove(/** @type {number} */ handle) {
+    const left = withoutHandle(this.outline, handle);
+    if (left.points.length < 6) return;
+    this.outline = left;
+    this.render();
+    focusOne(this.#dots, Math.min(handle, this.#dots.length - 1));
+    this.#finish(left.closed);
   }
 
   /** Ends a change; a stroke is closed if it looks so. */
