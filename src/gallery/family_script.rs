@@ -43,7 +43,7 @@ impl<'a> FamilyScript<'a> {
         let family = &self.planned.family;
         let (paper, is_dark) = (self.plan.page.paper, self.plan.page.theme.paper.is_dark());
         let layout = match self.planned.layout {
-            Layout::Panels { .. } | Layout::Poses => "panels",
+            Layout::Panels { .. } | Layout::Poses | Layout::Drawing => "panels",
             Layout::Chart { .. } => "chart",
             Layout::CouplerGrid => "coupler-grid",
         };

@@ -22,6 +22,7 @@ mod documents;
 mod drawn;
 mod examples;
 mod export;
+mod export_parts;
 mod family_designs;
 mod family_measures;
 mod faults;

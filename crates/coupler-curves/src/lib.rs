@@ -81,6 +81,10 @@ pub mod family;
 
 pub mod solve;
 
+// For the other crates of the workspace only.
+#[doc(hidden)]
+pub mod parts;
+
 pub mod exchange;
 
 mod coupler_curve;

@@ -6,6 +6,7 @@
 use coupler_curves::geometry::{Bounds, Point, Vector, cross, left_normal};
 use coupler_curves::linkage::{JointId, JointKind, LinkOutline, Linkage};
 use coupler_curves::motion::Circuit;
+use coupler_curves::parts::pitch_circles;
 
 /// The parts of a linkage on a circuit.
 #[derive(Clone, Debug, PartialEq)]
@@ -76,7 +77,10 @@ impl Mechanism {
             slots: linkage.joint_ids().filter_map(|joint| find_slot(linkage, circuit, joint)).collect(),
             actuators: joints().filter_map(actuator).chain(linkage.driven_distance()).collect(),
             guides: linkage.joint_ids().filter_map(|joint| find_guide(linkage, circuit, joint)).collect(),
-            pitch_circles: pitch_circles(linkage, circuit),
+            pitch_circles: pitch_circles(linkage, circuit)
+                .iter()
+                .map(|circle| (circle.centre, circle.radius))
+                .collect(),
         }
     }
 
@@ -110,27 +114,6 @@ impl Slot {
         let unit = (pose[to] - pose[from]).normalize();
         self.ends.map(|end| pose[self.foot] + unit * end.x + left_normal(unit) * end.y)
     }
-}
-
-/// The pitch circles of gears, centred on the pivots of both cranks, and of the pinions of racks. Gears that turn in the same direction mesh over an
-/// idler, which is not drawn, so there is a gap between them.
-fn pitch_circles(linkage: &Linkage, circuit: &Circuit) -> Vec<(JointId, f64)> {
-    let crank = linkage.crank().map(|[pivot, _]| pivot);
-    let mut circles = Vec::new();
-    for joint in &linkage.joints {
-        if let (JointKind::Gear { pivot, ratio: [turns, crank_turns], .. }, Some(first)) = (joint.kind, crank) {
-            let distance = (circuit.positions.point(pivot, 0) - circuit.positions.point(first, 0)).norm();
-            let filled_part = if turns < 0 { 1.0 } else { 0.8 };
-            // The slower gear is the larger one.
-            let [own, other] = [crank_turns.abs() as f64, turns.abs() as f64]
-                .map(|n| filled_part * distance * n / (turns.abs() + crank_turns.abs()) as f64);
-            circles.extend([(pivot, own), (first, other)]);
-        }
-        if let (JointKind::Rack { radius, .. }, Some(first)) = (joint.kind, crank) {
-            circles.push((first, radius.abs()));
-        }
-    }
-    circles
 }
 
 /// The guide on the frame of a slider or a yoke.

@@ -17,7 +17,11 @@ fn check_has_layout<'t>(
     parser: &mut TomlParser<'t>,
 ) -> Option<()> {
     let Some(layout) = layout.filter(|layout| !applies(*layout)) else { return Some(()) };
-    let name = if layout == Layout::CouplerGrid { "a coupler grid" } else { "charts" };
+    let name = match layout {
+        Layout::CouplerGrid => "a coupler grid",
+        Layout::Drawing => "parts",
+        _ => "charts",
+    };
     let problem = Problem::error(value.span(), format!("a page of {name} has no `{key}`"));
     parser.report(problem.with_help(format!("leave `{key}` out, or write layout = \"panels\"")));
     None
@@ -149,6 +153,7 @@ pub(crate) fn read<'t>(
     let of_one_cell = match name {
         "coupler-grid" => Some((Layout::CouplerGrid, "a page of a coupler grid")),
         "poses" => Some((Layout::Poses, "a page of poses")),
+        "drawing" => Some((Layout::Drawing, "a drawing of parts")),
         _ => None,
     };
     if let Some((layout, what)) = of_one_cell {

@@ -1,6 +1,7 @@
 //! `export`: writes curves to a file, to a folder, or to standard output.
 
 mod destination;
+mod parts;
 mod selection;
 
 use std::ops::RangeInclusive;
@@ -25,8 +26,10 @@ use super::files::DEFAULT_MANIFEST;
 use super::linkage::{self, DEFAULT_SAMPLES};
 use super::source;
 use super::{Failure, Outcome, choice, files, print, print_stderr, printable};
+use coupler_curves::parts::GivenSizes;
 use coupler_curves::text::pluralize;
 use destination::Destination;
+use parts::PartArguments;
 use selection::CurveSelection;
 
 /// Export curves as drawings, still or moving, CAD drawings, tables, JSON, or a fragment of a manifest.
@@ -81,6 +84,8 @@ pub struct Arguments {
         help = format!("The resolution of PNG images, in pixels per inch [default: the manifest's, or {DEFAULT_DPI}]")
     )]
     dpi: Option<u32>,
+    #[command(flatten)]
+    parts: PartArguments,
 }
 
 /// The chord tolerances that `--chord` accepts.
@@ -136,10 +141,12 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         }
     };
     let curves = count_curves(&selections)?;
+    let sizes = arguments.parts.sizes(&arguments.format)?;
+    let documents = sizes.map_or(Ok(curves), |sizes| parts::count_files(&selections, sizes))?;
     let mut formats = arguments.format.clone();
     formats.sort_unstable();
     formats.dedup();
-    let files = curves * formats.iter().filter(|format| **format != Format::TOML).count()
+    let files = documents * formats.iter().filter(|format| **format != Format::TOML).count()
         + usize::from(formats.contains(&Format::TOML));
     let options = export_options(arguments, plan.as_ref());
     let mut destination = Destination::from_path(arguments.output.as_deref(), files)?;
@@ -147,7 +154,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let (mut cases, mut families) = (Vec::new(), Vec::new());
     for selection in &selections {
         let manifest = (&mut cases, &mut families);
-        export_selection(selection, (&formats, form, &options), &mut destination, manifest)?;
+        export_selection(selection, (&formats, form, sizes, &options), &mut destination, manifest)?;
     }
     if let Some(form) = form {
         let text = match form {
@@ -354,24 +361,23 @@ fn export_options(arguments: &Arguments, plan: Option<&Plan>) -> Options {
 /// Writes the files of a selection, and appends its cells to what the manifest has of them.
 fn export_selection<'a>(
     selection: &'a CurveSelection,
-    (formats, form, options): (&[Format], Option<ManifestForm>, &Options),
+    (formats, form, sizes, options): (&[Format], Option<ManifestForm>, Option<GivenSizes>, &Options),
     destination: &mut Destination,
     (cases, families): (&mut Vec<ParameterSet<'a>>, &mut Vec<CompleteFamily>),
 ) -> Result<(), Failure> {
     let curve_formats = || formats.iter().filter(|format| **format != Format::TOML);
     let export_cell = |solved| {
-        let curves = SelectedCurve::all_from_cell(
-            &selection.family,
-            &selection.source,
-            &selection.overrides,
-            &selection.retain_selected(solved),
-        );
-        let mut files = Vec::new();
-        for curve in &curves {
-            for &format in curve_formats() {
-                files.push((format.file_name(curve), export::bytes(curve, format, options)));
+        let curves = selection.selected_curves(solved);
+        let pairs = curves.iter().flat_map(|curve| curve_formats().map(move |&format| (curve, format)));
+        let of_curve = |(curve, format): (&SelectedCurve, Format)| match sizes {
+            Some(sizes) => parts::files(curve, format, (sizes, options.file.chord_tolerance)),
+            None => {
+                let file = format.file_name(curve);
+                let bytes = export::bytes(curve, format, options).map_err(|error| export_error(&file, &error))?;
+                Ok(vec![(file, bytes)])
             }
-        }
+        };
+        let files: Vec<Result<Vec<_>, Failure>> = pairs.map(of_curve).collect();
         let complete = form.map_or(Ok(Vec::new()), |form| {
             let name = curves.first().map(SelectedCurve::name).unwrap_or_default();
             export::complete_families(&curves, form).map_err(|error| format!("{name}: {error}"))
@@ -381,9 +387,8 @@ fn export_selection<'a>(
     selection.solve_cells(true, export_cell, |(files, complete, cell_cases)| {
         cases.extend(cell_cases);
         families.extend(complete.map_err(Failure::input)?);
-        for (file, bytes) in files {
-            let bytes = bytes.map_err(|error| export_error(&file, &error))?;
-            destination.write_file(&file, &bytes)?;
+        for files in files {
+            files?.iter().try_for_each(|(file, bytes)| destination.write_file(file, bytes))?;
         }
         Ok(())
     })

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::sweep::{self, CellGroups, CellIndices};
-use coupler_curves::exchange::CurveName;
+use coupler_curves::exchange::{CurveName, SelectedCurve};
 use coupler_curves::family::{Family, NoSuchCell};
 use coupler_curves::solve::{ChangedCell, OriginalNumbers, SolvedCell};
 
@@ -132,6 +132,11 @@ impl CurveSelection {
             solved.curves.retain(|curve| curves.contains(&[curve.trace, curve.circuit]));
         }
         solved
+    }
+
+    /// The selected curves of a solved cell, each by itself.
+    pub fn selected_curves(&self, solved: SolvedCell) -> Vec<SelectedCurve<'_>> {
+        SelectedCurve::all_from_cell(&self.family, &self.source, &self.overrides, &self.retain_selected(solved))
     }
 
     /// A message for each selected curve that the solved cell does not have.

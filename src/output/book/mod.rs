@@ -120,7 +120,7 @@ const BYTES_PER_BOOK_CURVE: usize = 6_000;
 fn max_volume_pages(selected: &[&PlannedFamily]) -> usize {
     let bytes = |planned: &&PlannedFamily| {
         let curves = match planned.layout {
-            Layout::Panels { .. } | Layout::Poses => {
+            Layout::Panels { .. } | Layout::Poses | Layout::Drawing => {
                 planned.layout.cells_per_page() * planned.family.template.curve_count()
             }
             Layout::CouplerGrid => Layout::POINTS_PER_PAGE,

@@ -7,13 +7,12 @@
 //! # Source
 //! *AutoCAD Release 12 Customization Manual*, chapter 11.
 
-use std::fmt::{Display, Write};
-
 use super::SelectedCurve;
 use super::circle::{Circle, fit_circle};
+use super::curve_path::curve_path;
+use super::dxf_writer::DxfWriter;
 use crate::geometry::{Bounds, Point};
 use crate::linkage::{JointId, LinkOutline, is_plate};
-use crate::path::joint_polyline;
 
 const CURVE: &str = "CURVE";
 const LINKAGE: &str = "LINKAGE";
@@ -29,7 +28,7 @@ pub(super) fn document(selected: &SelectedCurve, chord: f64) -> String {
     let pose = selected.pose();
     let linkage = &selected.solved.linkage;
     let joints = shown_joints(selected);
-    let mut out = DxfWriter(String::new());
+    let mut out = DxfWriter::default();
     out.group(999, concat!("coupler-atlas ", env!("CARGO_PKG_VERSION")));
     out.group(999, selected.name());
     out.group(999, "lengths are in the unit of the manifest");
@@ -53,14 +52,6 @@ pub(super) fn document(selected: &SelectedCurve, chord: f64) -> String {
     out.end_marker("ENDSEC");
     out.end_marker("EOF");
     out.0
-}
-
-/// The curve's path, and whether it is closed.
-fn curve_path(selected: &SelectedCurve, chord: f64) -> (Vec<Point>, bool) {
-    let (circuit, joint) = (selected.circuit(), selected.curve().joint);
-    let extent = Bounds::from_points(circuit.points(joint)).size().max();
-    let (alone, joint) = selected.solved.linkage.with_one_point(joint);
-    (joint_polyline(&alone, circuit, joint, chord * extent), circuit.is_closed)
 }
 
 fn is_finite(p: &Point) -> bool {
@@ -97,19 +88,13 @@ fn shown_joints(selected: &SelectedCurve) -> Vec<JointId> {
 
 fn write_header(bounds: Bounds, out: &mut DxfWriter) {
     out.section("HEADER");
-    let corner = |out: &mut DxfWriter, name: &str, p: Point, dimensions: usize| {
-        out.group(9, name);
-        for (code, value) in [(10, p.x), (20, p.y), (30, 0.0)].into_iter().take(dimensions) {
-            out.number(code, value);
-        }
-    };
     out.group(9, "$ACADVER");
     out.group(1, "AC1009");
-    corner(out, "$INSBASE", Point::origin(), 3);
-    corner(out, "$EXTMIN", bounds.min, 3);
-    corner(out, "$EXTMAX", bounds.max, 3);
-    corner(out, "$LIMMIN", bounds.min, 2);
-    corner(out, "$LIMMAX", bounds.max, 2);
+    out.header_point("$INSBASE", Point::origin(), 3);
+    out.header_point("$EXTMIN", bounds.min, 3);
+    out.header_point("$EXTMAX", bounds.max, 3);
+    out.header_point("$LIMMIN", bounds.min, 2);
+    out.header_point("$LIMMAX", bounds.max, 2);
     // Decimal numbers with eight places; angles in decimal degrees from the x-axis, counter-clockwise.
     for (name, value) in [("$LUNITS", 2), ("$LUPREC", 8), ("$AUNITS", 0), ("$AUPREC", 8), ("$ANGDIR", 0)] {
         out.group(9, name);
@@ -148,46 +133,16 @@ fn write_tables(out: &mut DxfWriter) {
     out.end_marker("ENDSEC");
 }
 
-/// Writes groups: a code and a value, each on its own line.
-struct DxfWriter(String);
-
 impl DxfWriter {
-    fn group(&mut self, code: u16, value: impl Display) {
-        // Writing to a string cannot fail.
-        let _ = write!(self.0, "{code:3}\n{value}\n");
-    }
-
-    /// Writes a number in the fewest digits that read back to the same value, with a point or an exponent: some
-    /// programs read a number without either as an integer.
-    fn number(&mut self, code: u16, value: f64) {
-        // Adding 0 removes the sign of zero.
-        self.group(code, format_args!("{:?}", value + 0.0));
-    }
-
-    fn section(&mut self, name: &str) {
-        self.group(0, "SECTION");
-        self.group(2, name);
-    }
-
     fn table(&mut self, name: &str, entries: usize) {
         self.group(0, "TABLE");
         self.group(2, name);
         self.group(70, entries);
     }
 
-    fn end_marker(&mut self, word: &str) {
-        self.group(0, word);
-    }
-
     fn entity(&mut self, kind: &str, layer: &str) {
         self.group(0, kind);
         self.group(8, layer);
-    }
-
-    fn coordinates(&mut self, first: u16, p: Point) {
-        self.number(first, p.x);
-        self.number(first + 10, p.y);
-        self.number(first + 20, 0.0);
     }
 
     fn point(&mut self, layer: &str, p: Point) {

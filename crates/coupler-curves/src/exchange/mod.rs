@@ -5,11 +5,18 @@
 
 mod circle;
 mod curve_name;
+mod curve_path;
 mod dxf;
+mod dxf_2000;
+mod dxf_writer;
 mod fragment;
 mod json;
 mod linkage_in_numbers;
 mod number;
+mod part_drawing;
+mod part_dxf;
+mod part_files;
+mod part_svg;
 mod points;
 mod pretty_json;
 mod sampling_fields;
@@ -26,6 +33,7 @@ pub use self::{
     json::{Members, PassDocument},
     linkage_in_numbers::linkage_in_numbers,
     number::{append_integer, append_number, format_significant},
+    part_files::PartFormat,
     table::PointTable,
 };
 

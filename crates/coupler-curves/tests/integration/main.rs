@@ -21,6 +21,7 @@ mod mccarthy;
 mod measures;
 mod output;
 mod output_by_samples;
+mod parts;
 mod paths;
 mod portions;
 mod rates;

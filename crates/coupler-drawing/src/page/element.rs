@@ -93,6 +93,12 @@ impl Element for Item {
     }
 }
 
+/// An item elsewhere.
+pub(super) fn translated(mut item: Item, by: Vector) -> Item {
+    translate(&mut item, by);
+    item
+}
+
 /// Moves an item.
 fn translate(item: &mut Item, by: Vector) {
     match item {

@@ -21,6 +21,8 @@ pub enum Layout {
     CouplerGrid,
     /// A page for each cell, with the poses of a body that it is to guide and the places of pivots and pins.
     Poses,
+    /// A page for each cell, with the parts that its linkage is built from, their dimensions and a table of them.
+    Drawing,
 }
 
 impl Layout {
@@ -28,10 +30,11 @@ impl Layout {
     pub const POINTS_PER_PAGE: usize = 10;
 
     /// The name and a description of every layout.
-    pub const ALL: [(&'static str, &'static str); 4] = [
+    pub const ALL: [(&'static str, &'static str); 5] = [
         ("panels", "a grid of panels, each with a cell's linkage, its curves and its caption"),
         ("coupler-grid", "a page for every ten coupler points of a cell, drawn on the grid they lie on"),
         ("poses", "a page for each cell, with the family's `poses` of a body and where pivots and pins can be"),
+        ("drawing", "a page for each cell, with dimensioned views of the parts of its linkage and a table of them"),
         ("chart", "a grid of charts, each of one quantity over another, as the family's `chart` names them"),
     ];
 
@@ -39,7 +42,7 @@ impl Layout {
     pub fn grid(self) -> [usize; 2] {
         match self {
             Layout::Panels { columns, rows } | Layout::Chart { columns, rows } => [columns, rows],
-            Layout::CouplerGrid | Layout::Poses => [1, 1],
+            Layout::CouplerGrid | Layout::Poses | Layout::Drawing => [1, 1],
         }
     }
 

@@ -32,6 +32,7 @@ mod pages;
 mod panel;
 mod panels;
 mod paper;
+mod parts_page;
 mod plot;
 mod pose;
 mod rect;
@@ -122,7 +123,12 @@ pub fn compose_answers(page: &AnswersPage, options: &Options) -> Scene {
 pub fn compose_panels(page: &PanelPage, options: &Options) -> Scene {
     let theme = options.theme.for_paper(options.paper);
     let mut scene = empty_scene(&page.heading, options, &theme);
-    let fitting_scale = panels::compose(&area::whole_page(&mut scene), page, options, &theme);
+    let root = area::whole_page(&mut scene);
+    let fitting_scale = match page.layout {
+        Layout::Drawing => parts_page::compose(&root, page, options, &theme),
+        _ => panels::compose(&root, page, options, &theme),
+    };
+    drop(root);
     Scene { fitting_scale: page.scale.fixed().map(|_| fitting_scale), ..scene }
 }
 

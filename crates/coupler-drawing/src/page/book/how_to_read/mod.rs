@@ -32,7 +32,7 @@ pub(super) fn compose(how: &HowToRead, atlas: &Atlas, find: &[String], options: 
 
 fn layout_index(layout: Layout) -> usize {
     match layout {
-        Layout::Panels { .. } | Layout::Poses => 0,
+        Layout::Panels { .. } | Layout::Poses | Layout::Drawing => 0,
         Layout::CouplerGrid => 1,
         Layout::Chart { .. } => 2,
     }

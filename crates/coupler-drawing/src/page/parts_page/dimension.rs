@@ -1,0 +1,116 @@
+//! Dimension lines: between two extension lines, with arrowheads and a number.
+
+use super::super::theme::Theme;
+use crate::scene::{Anchor, Item, Path, Polyline, Text};
+use coupler_curves::geometry::{Point, Vector, left_normal};
+use coupler_curves::text::{exact_decimals, format_in_full, is_same_number, round_to_six_digits};
+
+/// The direction of a dimension.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Direction {
+    /// A horizontal distance, under a view.
+    Across,
+    /// A vertical one, on the left of it.
+    Up,
+}
+
+/// A dimension between two points of a page.
+pub(super) struct Dimension {
+    pub direction: Direction,
+    /// The ends, from which extension lines lead to the dimension line.
+    pub ends: [Point; 2],
+    /// Where the dimension line is: its y if it is horizontal, otherwise its x.
+    pub at: f64,
+    pub text: String,
+}
+
+/// The distance from a dimension line to the next, in ems of the numbers.
+pub(super) const PITCH: f64 = 1.7;
+
+impl Dimension {
+    /// Its lines and its number, which is next to the line where it is too long for it.
+    pub fn items(&self, theme: &Theme) -> Vec<Item> {
+        let size = theme.small_size();
+        let arrow = 0.8 * size;
+        let feet = self.ends.map(|end| match self.direction {
+            Direction::Across => Point::new(end.x, self.at),
+            Direction::Up => Point::new(self.at, end.y),
+        });
+        let along = (feet[1] - feet[0]).try_normalize(0.0).unwrap_or(Vector::x());
+        let length = (feet[1] - feet[0]).norm();
+        let beyond = 0.35 * size;
+        let extension = |k: usize| {
+            let away = (feet[k] - self.ends[k]).try_normalize(0.0).unwrap_or(Vector::zeros());
+            line(&[self.ends[k] + away * beyond, feet[k] + away * beyond])
+        };
+        let text = theme.text_line(&self.text, Point::origin(), Anchor::Middle, size, theme.ink).text;
+        let width = text.width();
+        let fits = width + 2.0 * arrow + 0.6 * size <= length;
+        let head = |tip: Point, direction: Vector| {
+            let (back, half) = (direction * arrow, left_normal(direction) * (0.18 * arrow));
+            Polyline { points: vec![tip, tip - back + half, tip - back - half], is_closed: true }
+        };
+        let (lines, heads, middle) = if fits {
+            let middle = feet[0] + along * (length / 2.0);
+            (vec![line(&feet)], [head(feet[0], -along), head(feet[1], along)], middle)
+        } else {
+            // The arrows point inwards, and the number is beyond the end that is away from other dimensions.
+            let outside = [feet[0] - along * (1.8 * arrow), feet[1] + along * (1.8 * arrow)];
+            let end = if self.goes_back() { outside[1] } else { outside[0] };
+            let outward = if self.goes_back() { along } else { -along };
+            let middle = end + outward * (width / 2.0 + 0.3 * size);
+            (vec![line(&outside)], [head(feet[0], along), head(feet[1], -along)], middle)
+        };
+        let stroke = Some(theme.stroke(theme.grey, theme.hair_width));
+        let polylines = (0..2).map(extension).chain(lines).collect();
+        let baseline = if fits { -0.25 * size } else { 0.35 * size };
+        let (position, quarter_turns) = match self.direction {
+            Direction::Across => (middle + Vector::new(0.0, baseline), 0),
+            Direction::Up => (middle + Vector::new(baseline, 0.0), 3),
+        };
+        vec![
+            Item::Path(Path { polylines, stroke, fill: None }),
+            Item::Path(Path { polylines: heads.to_vec(), stroke: None, fill: Some(theme.grey) }),
+            Item::Text(Text { position, quarter_turns, ..text }),
+        ]
+    }
+
+    /// Whether it leads to the left or down: its number is beyond its second end where it does not fit, on the side without other dimensions.
+    fn goes_back(&self) -> bool {
+        match self.direction {
+            Direction::Across => self.ends[1].x < self.ends[0].x,
+            Direction::Up => self.ends[1].y > self.ends[0].y,
+        }
+    }
+}
+
+fn line(points: &[Point]) -> Polyline {
+    Polyline { points: points.to_vec(), is_closed: false }
+}
+
+/// A length as captions print it: in full if that takes no more digits than anyone writes, and otherwise in six digits after ≈.
+pub(super) fn length_text(value: f64) -> String {
+    const MAX_WRITTEN_DIGITS: usize = 12;
+    let rounded = round_to_six_digits(value);
+    if is_same_number(rounded, value) {
+        return rounded.to_string();
+    }
+    let in_full = format_in_full(value);
+    let is_written =
+        exact_decimals(value).is_some() && in_full.chars().filter(char::is_ascii_digit).count() <= MAX_WRITTEN_DIGITS;
+    if is_written { in_full } else { format!("≈{rounded}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_have_all_their_digits_or_are_marked_as_rounded() {
+        for (value, text) in
+            [(2.5, "2.5"), (0.1 + 0.2, "0.3"), (1.234_567_89, "1.23456789"), (2.0_f64.sqrt(), "≈1.41421")]
+        {
+            assert_eq!(length_text(value), text);
+        }
+    }
+}
