@@ -512,3 +512,33 @@ fn points_of_a_grid_on_a_sliding_body_have_the_coordinates_of_its_linkage() {
     assert_eq!(groups(&svg, "name").iter().flat_map(|names| texts(names)).filter(|name| name == "M").count(), 1);
     assert!(groups(&svg, "linkage").iter().all(|links| links.matches("<path").count() <= 4), "{svg}");
 }
+
+#[test]
+fn long_names_of_joints_are_whole_in_the_key_and_numbers_in_its_drawing() {
+    let names = [
+        "FixedPivotOfTheCrank",
+        "FixedPivotOfTheRocker",
+        "PinOfTheCrank",
+        "PinOfTheRocker",
+        "CouplerPointOfTheLinkageThatTracesTheCurve",
+    ];
+    let [o, c, a, b, m] = names;
+    let text = format!(
+        "[atlas]\ntitle = \"T\"\n[page]\npaper = \"a4\"\n[[family]]\nid = \"f\"\nlinkage = \"long\"\nsampling = {{ samples = 24 }}\n\
+         cases = [{{ r = 1 }}]\n[[linkage]]\nid = \"long\"\nparameters = {{ r = {{ min = 0 }} }}\ntrace = [\"{m}\"]\n[linkage.joints]\n\
+         {o} = {{ fixed = [0, 0] }}\n{c} = {{ fixed = [3, 0] }}\n{a} = {{ crank = \"{o}\", length = \"r\" }}\n\
+         {b} = {{ dyad = [\"{a}\", \"{c}\"], lengths = [3, 2.5], side = \"left\" }}\n\
+         {m} = {{ point = [\"{a}\", \"{b}\"], along = 1.5, across = 1 }}\n"
+    );
+    let folder = folder_with(&text);
+    printed(folder.path(), &["render", "-q", "--format", "svg", "-o", "out"]);
+    let svg = fs::read_to_string(folder.path().join("out/f/f-001.svg")).unwrap();
+    let lines = texts(&svg);
+    assert!(lines.iter().all(|line| !line.contains('…')), "{lines:?}");
+    let whole: String = lines.concat().split_whitespace().collect();
+    for (k, name) in names.iter().enumerate() {
+        assert!(whole.contains(&format!("{}{name}", k + 1)), "{name}: {lines:?}");
+        assert!(lines.contains(&(k + 1).to_string()), "{k}: {lines:?}");
+    }
+    assert!(whole.contains(&format!("{o}–{a}=r")), "{lines:?}");
+}

@@ -120,7 +120,7 @@ fn divide(contents: Rect, theme: &Theme) -> (Rect, [Rect; 3]) {
 fn draw_assembly(root: &impl Area, rect: Rect, figure: &Figure, theme: &Theme) {
     if let Some(mechanism) = figure.mechanisms.first() {
         let ink = |joint| figure.joint_ink(joint, theme);
-        key_drawing::draw_linkage(root, rect, mechanism, figure.first_circuit(), ink, theme);
+        key_drawing::draw_linkage(root, rect, (mechanism, &Key::default()), figure.first_circuit(), ink, theme);
     }
 }
 
