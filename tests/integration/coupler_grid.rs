@@ -13,7 +13,7 @@ use coupler_curves::solve::{MovablePoint, SolvedCell, Solver};
 use coupler_drawing::page::{
     self, CouplerGridPage, Heading, Layout, LinkLabel, Options, Panel, PanelScale, Paper, PoseChoice, Theme,
 };
-use coupler_drawing::scene::{Circle, Color, Curve, Group, Item, Path, Scene, Stroke, Text};
+use coupler_drawing::scene::{Circle, Color, Curve, Group, Item, Path, Scene, Stroke, Text, group_class};
 
 use crate::support::folder::Atlas;
 use crate::support::plan::{plan, problems};
@@ -126,11 +126,12 @@ fn all_pages(plan: &Plan, step: usize, options: &Options) -> Vec<Scene> {
     solve_cells(plan, step).iter().flat_map(scenes).map(|(scene, _)| scene).collect()
 }
 
-/// The items of a page that are not groups, each with the class of its group.
+/// The items of a page that are not groups, each with the class of its group, which is that of no figure as a whole and no title.
 fn items(scene: &Scene) -> Vec<(&'static str, &Item)> {
     fn add<'s>(class: &'static str, items: &'s [Item], out: &mut Vec<(&'static str, &'s Item)>) {
         for item in items {
             match item {
+                Item::Group(group) if is_whole(group) => add(class, &group.items, out),
                 Item::Group(group) => add(group.class, &group.items, out),
                 Item::Animation(_) => panic!("a page of a coupler grid has no animations"),
                 item => out.push((class, item)),
@@ -142,9 +143,24 @@ fn items(scene: &Scene) -> Vec<(&'static str, &Item)> {
     out
 }
 
+/// Whether a group is a figure as a whole, or a title.
+fn is_whole(group: &Group) -> bool {
+    !group.description.is_empty() || group.class == group_class::TITLE
+}
+
 fn groups<'s>(scene: &'s Scene, class: &str) -> Vec<&'s Group> {
-    let group = |item: &'s Item| if let Item::Group(group) = item { Some(group) } else { None };
-    scene.items.iter().filter_map(group).filter(|group| group.class == class).collect()
+    fn add<'s>(items: &'s [Item], found: &mut Vec<&'s Group>) {
+        for item in items {
+            match item {
+                Item::Group(group) if is_whole(group) => add(&group.items, found),
+                Item::Group(group) => found.push(group),
+                _ => {}
+            }
+        }
+    }
+    let mut found = Vec::new();
+    add(&scene.items, &mut found);
+    found.into_iter().filter(|group| group.class == class).collect()
 }
 
 fn texts<'s>(scene: &'s Scene) -> Vec<(&'static str, &'s Text)> {

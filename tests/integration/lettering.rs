@@ -89,7 +89,7 @@ M = {{ point = ["A", "B"], along = 2, across = 1 }}
 /// Parses a page and asserts that it has only elements of drawings and no event handlers.
 fn check_svg(bytes: &[u8]) -> Document<'_> {
     let document = Document::parse(std::str::from_utf8(bytes).unwrap()).unwrap();
-    let known = ["svg", "title", "rect", "g", "path", "circle", "text", "tspan"];
+    let known = ["svg", "title", "desc", "rect", "g", "path", "circle", "text", "tspan"];
     for node in document.descendants().filter(Node::is_element) {
         assert!(known.contains(&node.tag_name().name()), "unexpected element {:?}", node.tag_name());
         assert!(node.attributes().all(|attribute| !attribute.name().starts_with("on")), "{node:?}");

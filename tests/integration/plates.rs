@@ -193,7 +193,7 @@ fn assert_explained(manifests: &[String]) {
             assert!(lines.iter().any(|line| line == "traced point"));
             assert!(lines.iter().any(|line| line.starts_with("input: ")));
             for (class, meaning) in [("axis", "axis of symmetry"), ("straight", "straight portion")] {
-                let is_drawn = svg.contains(&format!("<g class=\"{class}\">\n<path"));
+                let is_drawn = groups(&svg, class).iter().any(|group| group.contains("<path"));
                 let is_explained = lines.iter().any(|line| line.contains(meaning));
                 assert_eq!(is_explained, is_drawn, "{}: {meaning}", planned.family.id);
             }
@@ -541,4 +541,35 @@ fn long_names_of_joints_are_whole_in_the_key_and_numbers_in_its_drawing() {
         assert!(lines.contains(&(k + 1).to_string()), "{k}: {lines:?}");
     }
     assert!(whole.contains(&format!("{o}–{a}=r")), "{lines:?}");
+}
+
+#[test]
+fn a_page_says_what_it_shows_and_has_layers() {
+    const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
+    const XML: &str = "http://www.w3.org/XML/1998/namespace";
+    for (panels, layers) in
+        [(1, &["title", "f-1", "linkage", "f-1-1-1", "key"][..]), (2, &["title", "f-1", "f-2", "key"])]
+    {
+        let text = family(&format!(
+            "id = \"f\"\nlinkage = \"evans\"\ntitle = \"A & B\"\npanels = [{panels}, 1]\ngrid = {{ p = [2, 3] }}\n\
+             let = {{ a = \"(1 + p)^1.5 / 2\" }}"
+        ));
+        let plan = plan(&text);
+        let Page { svg, .. } = pages(&text, &plan).remove(0);
+        let document = roxmltree::Document::parse(&svg).unwrap();
+        let root = document.root_element();
+        assert_eq!(root.attribute("role"), Some("graphics-document document"));
+        assert_eq!(root.attribute((XML, "lang")), Some("en"));
+        let says = root.children().find(|child| child.has_tag_name("desc")).unwrap().text().unwrap();
+        for words in ["A & B, no. 1: ", "p = 2", "r = 1", "crank-rocker", "μ "] {
+            assert!(says.contains(words), "{words} in {says}");
+        }
+        assert_eq!(says.contains("A & B, no. 2: "), panels == 2);
+        let is_layer = |node: &roxmltree::Node| node.attribute((INKSCAPE, "groupmode")) == Some("layer");
+        let found: HashSet<&str> =
+            document.descendants().filter(is_layer).filter_map(|node| node.attribute((INKSCAPE, "label"))).collect();
+        assert!(layers.iter().all(|layer| found.contains(layer)), "{layers:?} in {found:?}");
+        // A page of several figures has them as layers, and not all their parts.
+        assert_eq!(found.contains("linkage"), panels == 1);
+    }
 }

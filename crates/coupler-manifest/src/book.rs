@@ -1,13 +1,14 @@
 //! Reads `[book]`: what the book has in addition to the pages of its families.
 
+use crate::bounded_number::read_within;
 use crate::names::{read_filter, states_direction, uses_text_measure};
 use crate::plan::{BookPlan, FindingCharts, ListCriteria, PlannedChapter, PlannedFamily, PlannedList};
-use coupler_curves::expression::{Caption, CompiledExpression, Expression, Kind, Scope};
+use coupler_curves::expression::{Caption, CompiledExpression, Dimension, Expression, Kind, Scope};
 use coupler_curves::family::Family;
 use coupler_curves::linkage_format::{Fields, KeySchema, TableSchema, TomlParser, TomlValue, ValueSchema};
 use coupler_curves::problem::Problem;
-use coupler_drawing::page::Layout;
 use coupler_drawing::page::book::Emphasis;
+use coupler_drawing::page::{Layout, Options, Paper};
 use coupler_drawing::render::Format;
 
 /// The prefixes of the names of measures, with what they are measures of.
@@ -43,6 +44,13 @@ const DEFAULT_PER_GEOMETRY: usize = 1;
 /// The most lists and chapters.
 const MAX_TABLES: usize = 50;
 
+/// The greatest gutter and bleed, in millimetres.
+const MAX_BINDING: f64 = 50.0;
+const MAX_BLEED: f64 = 10.0;
+
+/// The most characters of an address: more would make the codes on plates large.
+const MAX_ADDRESS: usize = 200;
+
 /// The `[book]` table.
 pub(crate) static BOOK: TableSchema = TableSchema::new(
     "[book]",
@@ -62,6 +70,21 @@ pub(crate) static BOOK: TableSchema = TableSchema::new(
             "Whether geometries are listed by straightness, transmission angle and symmetry.",
         )
         .with_default(|| "true".to_owned()),
+        KeySchema::new(
+            "binding",
+            ValueSchema::Quantity(Dimension::PaperLength),
+            "The width of the gutter at the inner edge of each page; by default none.",
+        ),
+        KeySchema::new(
+            "bleed",
+            ValueSchema::Quantity(Dimension::PaperLength),
+            "How far pages are printed beyond their edges, which is cut off; by default not at all.",
+        ),
+        KeySchema::new(
+            "gallery",
+            ValueSchema::Text,
+            "The address of the atlas on the web, to which each plate has a QR code and a link; by default none.",
+        ),
         KeySchema::new(
             "chapter",
             ValueSchema::List(&ValueSchema::Table(&CHAPTER), [0, MAX_TABLES]),
@@ -184,6 +207,7 @@ const CHANGE_POINTS: &str = "change points";
 pub(crate) fn read<'t>(
     value: Option<&TomlValue<'t>>,
     (planned, are_complete): (&[PlannedFamily], bool),
+    page: Option<&Options>,
     parser: &mut TomlParser<'t>,
 ) -> Option<BookPlan> {
     let families = Families { planned, are_complete };
@@ -195,6 +219,9 @@ pub(crate) fn read<'t>(
     let mut flag = |key: &str| get(key).map_or(Some(true), |value| parser.boolean(value));
     let [how_to_read, thumb_index, index] = ["how_to_read", "thumb_index", "index"].map(&mut flag);
     let finding_charts = finding_charts(get("finding_charts"), families, parser);
+    let mut length = |key: &str, most: f64| get(key).map_or(Some(0.0), |value| paper_length(value, most, parser));
+    let (binding, bleed) = (length("binding", MAX_BINDING), length("bleed", MAX_BLEED));
+    let gallery = get("gallery").map_or(Some(None), |value| address(value, parser).map(Some));
     let chapters = match (&fields, get("chapter")) {
         (Some(fields), Some(_)) => {
             let read: Vec<_> =
@@ -213,15 +240,73 @@ pub(crate) fn read<'t>(
     };
     let manifest_inputs =
         value.map_or(String::new(), |value| coupler_curves::linkage_format::canonical_toml(value, &[]));
-    Some(BookPlan {
+    let plan = BookPlan {
         how_to_read: how_to_read?,
         finding_charts: finding_charts?,
         thumb_index: thumb_index?,
         index: index?,
         chapters: chapters?,
         lists: lists?,
+        binding: binding?,
+        bleed: bleed?,
+        gallery: gallery?,
         manifest_inputs,
-    })
+    };
+    if let (Some(value), Some(page)) = (get("binding"), page) {
+        check_room(value, &plan.page_options(page), planned, parser)?;
+    }
+    Some(plan)
+}
+
+/// The address of a folder or a page on the web.
+fn address<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) -> Option<String> {
+    let text = short_text(value, MAX_ADDRESS, parser)?;
+    let is_address =
+        |rest: &str| !rest.is_empty() && rest.chars().all(|c| c.is_ascii_graphic() && !"\"<>\\^`{|}#?".contains(c));
+    if ["https://", "http://"].iter().any(|scheme| text.strip_prefix(scheme).is_some_and(is_address)) {
+        return Some(text);
+    }
+    let problem = Problem::error(value.span(), "this is not the address of a gallery");
+    parser.report(
+        problem.with_help("give that of the folder of its index.html, as in gallery = \"https://example.org/atlas/\""),
+    );
+    None
+}
+
+/// A length on paper, in millimetres, from 0.
+fn paper_length<'t>(value: &TomlValue<'t>, most: f64, parser: &mut TomlParser<'t>) -> Option<f64> {
+    let read =
+        |value: &TomlValue<'t>, parser: &mut TomlParser<'t>| parser.constant_quantity(value, Dimension::PaperLength);
+    read_within(value, parser, read, [0.0, most], "mm")
+}
+
+/// Reports a gutter that leaves too little of the pages, or of those of a family.
+fn check_room<'t>(
+    value: &TomlValue<'t>,
+    page: &Options,
+    families: &[PlannedFamily],
+    parser: &mut TomlParser<'t>,
+) -> Option<()> {
+    let [least, _] = Paper::SIDE_RANGE;
+    let is_too_wide = |planned: &&PlannedFamily| {
+        let most = match planned.layout {
+            Layout::Panels { .. } => Layout::max_panels(page),
+            Layout::Chart { .. } => Layout::max_charts(page),
+            Layout::CouplerGrid | Layout::Poses | Layout::Drawing => return false,
+        };
+        planned.formats.contains(&Format::Pdf) && planned.layout.grid()[0] > most[0]
+    };
+    let problem = if page.paper.width < least {
+        format!("the gutter leaves {} mm of the width of a page: the least is {least} mm", page.paper.width)
+    } else {
+        let Some(planned) = families.iter().find(is_too_wide) else { return Some(()) };
+        let ([columns, _], id) = (planned.layout.grid(), &planned.family.id);
+        format!("the gutter leaves no space for the {columns} columns of family `{id}`")
+    };
+    parser.report(
+        Problem::error(value.span(), problem).with_help("give a narrower gutter, wider paper, or fewer columns"),
+    );
+    None
 }
 
 /// For which families there are finding charts; a warning if that is none although they are asked for.

@@ -183,7 +183,8 @@ fn read_plan(
             ..read
         }));
     }
-    let book = crate::book::read(root.get("book"), (&families, families.len() == tables.len()), parser);
+    let options = page.as_ref().map(|page| &page.options);
+    let book = crate::book::read(root.get("book"), (&families, families.len() == tables.len()), options, parser);
     let undrawable = typeface.map(|typeface| undrawable_texts(&document, typeface)).unwrap_or_default();
     let needs_fonts = page.as_ref().is_some_and(|page| page.text_mode == TextMode::Outlines)
         || families.iter().flat_map(|family| &family.formats).any(|format| *format != Format::Svg);

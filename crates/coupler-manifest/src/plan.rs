@@ -1,5 +1,7 @@
 //! What a manifest asks for.
 
+use std::borrow::Cow;
+
 use coupler_curves::expression::{Caption, CompiledExpression};
 use coupler_curves::family::Family;
 use coupler_curves::linkage_format::{quoted, toml_number};
@@ -50,8 +52,32 @@ pub struct BookPlan {
     pub chapters: Vec<PlannedChapter>,
     /// The lists of curves.
     pub lists: Vec<PlannedList>,
+    /// The width of the gutter at the inner edge of each page, in millimetres.
+    pub binding: f64,
+    /// How far its pages are printed beyond their edges, in millimetres.
+    pub bleed: f64,
+    /// The address of the gallery, to which its plates have codes and links.
+    pub gallery: Option<String>,
     /// What the manifest contributes to the book in addition to its families.
     pub manifest_inputs: String,
+}
+
+impl Plan {
+    /// The plan of the pages of the book, which are narrower by its gutter.
+    pub fn with_book_pages(&self) -> Cow<'_, Plan> {
+        if self.book.binding == 0.0 {
+            return Cow::Borrowed(self);
+        }
+        Cow::Owned(Plan { page: self.book.page_options(&self.page), ..self.clone() })
+    }
+}
+
+impl BookPlan {
+    /// The options of its pages, which are narrower by the gutter.
+    pub(crate) fn page_options(&self, page: &page::Options) -> page::Options {
+        let paper = page::Paper { width: page.paper.width - self.binding, ..page.paper };
+        page.clone().with_paper(paper)
+    }
 }
 
 /// For which families a book has finding charts.

@@ -91,6 +91,9 @@ pub(super) fn write(
     // From here on, the files of an earlier run may be replaced at any time.
     let earlier_files = earlier.iter().flat_map(|earlier| earlier.files.clone()).collect();
     journal.set_book(Some(BookRecord { inputs_sha256: None, pages: 0, files: earlier_files }))?;
+    let bound = plan.with_book_pages();
+    let plan = &*bound;
+    let selected = selected_families(plan, options);
     let families = book_families(plan, &selected, surveys, options)?;
     let files = write_volumes(plan, &families, (output, inputs_sha256, &*journal.file()?), options, report)?;
     let pages = files.iter().map(|(_, pages)| pages).sum();
@@ -112,8 +115,8 @@ fn remove_stale_volumes(
 
 /// The approximate memory of the pages of a volume, which is written when it is complete, in bytes.
 const MAX_VOLUME_BYTES: usize = 150_000_000;
-/// The memory of a page of a book, and of each curve on it, in bytes.
-const BYTES_PER_BOOK_PAGE: usize = 4_000;
+/// The memory of a page of a book with its structure, and of each curve on it, in bytes.
+const BYTES_PER_BOOK_PAGE: usize = 30_000;
 const BYTES_PER_BOOK_CURVE: usize = 6_000;
 
 /// The most pages of a volume for which it fits memory.
@@ -222,7 +225,7 @@ fn write_volumes(
     for part in &parts {
         part.compose_pages(options, &mut |scenes: Vec<Scene>| {
             for scene in scenes {
-                writer.add_page(scene)?;
+                writer.add_page(scene, &part.family.pipeline.composer.planned.family.id)?;
                 report(Event::Page);
             }
             Ok(())
@@ -371,13 +374,17 @@ struct OpenVolume<'a> {
 
 impl<'a> BookWriter<'a> {
     /// Adds a page of a family; opens the next volume if this one is full.
-    fn add_page(&mut self, mut scene: Scene) -> Result<(), Error> {
+    fn add_page(&mut self, mut scene: Scene, family: &str) -> Result<(), Error> {
         let is_full = |open: &OpenVolume| open.book.page_count() == open.front_pages + open.volume.page_count;
         if self.open_volume.as_ref().is_some_and(is_full) {
             self.close_volume()?;
             self.open_next_volume()?;
         }
         let Some(open) = &mut self.open_volume else { return Ok(()) };
+        if let Some(gallery) = &self.plan.book.gallery {
+            let address = book::gallery_address(&scene, gallery, family);
+            book::draw_code(&mut scene, &address, &self.plan.page);
+        }
         let label = open.finisher.finish(&mut scene, open.book.page_count());
         open.book.add_page(&scene, label).map_err(Error::Book)
     }
@@ -385,12 +392,13 @@ impl<'a> BookWriter<'a> {
     /// Opens the next volume.
     fn open_next_volume(&mut self) -> Result<(), Error> {
         let Some(volume) = self.remaining_volumes.next() else { return Ok(()) };
-        let mut book = pdf::Book::new(self.atlas.title, PROGRAM);
+        let sheet = pdf::Sheet { binding: self.plan.book.binding, bleed: self.plan.book.bleed };
+        let mut book = pdf::Book::new(self.atlas.title, PROGRAM).with_sheet(sheet);
         let front = book::compose_front_matter(self.atlas, volume, self.frontispiece, &self.plan.page);
         for (place, scene) in front.iter().enumerate() {
             book.add_page(scene, book::page_number(volume, front.len(), place)).map_err(Error::Book)?;
         }
-        let finisher = PageFinisher::new(self.atlas, volume, front.len(), &self.plan.page);
+        let finisher = PageFinisher::new(self.atlas, volume, front.len(), &self.plan.page).with_entries(&front);
         self.open_volume = Some(OpenVolume { volume, book, front_pages: front.len(), finisher });
         Ok(())
     }

@@ -9,13 +9,13 @@ use coupler_curves::solve::SolvedCell;
 use coupler_drawing::page::book::{self, Atlas, CellEntry, Chapter, IndexEntry, PageFinisher, Volume};
 use coupler_drawing::page::{self, Heading, Options, Panel, PanelPage, PanelScale, Paper};
 use coupler_drawing::render::pdf::Book;
-use coupler_drawing::scene::{Item, Scene};
+use coupler_drawing::scene::{Item, PageLink, Scene};
 
 use super::reader::{Contents, Pdf};
 
 use crate::support::plan::faultless_plan;
 
-const MANIFEST: &str = r#"
+pub(super) const MANIFEST: &str = r#"
 [atlas]
 title = "Curves"
 [[family]]
@@ -35,12 +35,12 @@ sampling = { samples = 60 }
 cases = [ { p = 2.00, s = 2.50, a = 2.50 }, { p = 3.00, s = 4.00, a = 4.00 } ]
 "#;
 
-fn plan() -> Plan {
+pub(super) fn plan() -> Plan {
     faultless_plan(MANIFEST)
 }
 
 /// The solved cells of every family of a plan.
-fn solve_families(plan: &Plan) -> Vec<Vec<SolvedCell>> {
+pub(super) fn solve_families(plan: &Plan) -> Vec<Vec<SolvedCell>> {
     let all = |planned: &manifest::PlannedFamily| {
         let mut found = Vec::new();
         let kept = sweep::kept_cells(&planned.family);
@@ -85,7 +85,7 @@ fn atlas<'p>(plan: &'p Plan, solved: &[Vec<SolvedCell>]) -> Atlas<'p> {
 }
 
 /// The pages of all families, and the index entries of their cells.
-fn pages(plan: &Plan, solved: &[Vec<SolvedCell>]) -> (Vec<Scene>, Vec<IndexEntry>) {
+pub(super) fn pages(plan: &Plan, solved: &[Vec<SolvedCell>]) -> (Vec<Scene>, Vec<IndexEntry>) {
     let (mut scenes, mut entries) = (Vec::new(), Vec::new());
     for (k, planned) in plan.families.iter().enumerate() {
         for (at, group) in solved[k].chunks(planned.layout.cells_per_page()).enumerate() {
@@ -122,7 +122,7 @@ fn panel_page<'p>(plan: &'p Plan, family: usize, page: usize, group: &'p [Solved
 }
 
 /// The volumes of an atlas, with the number of pages before and after those of their families, and their bytes.
-fn volumes(plan: &Plan, max_pages: usize) -> Vec<(Volume, [usize; 2], Vec<u8>)> {
+pub(super) fn volumes(plan: &Plan, max_pages: usize) -> Vec<(Volume, [usize; 2], Vec<u8>)> {
     let solved = solve_families(plan);
     let (scenes, entries) = pages(plan, &solved);
     let mut atlas = atlas(plan, &solved);
@@ -319,7 +319,7 @@ fn an_atlas_of_many_cells_lists_some_of_them_and_says_so() {
     let children = &book::outline(&atlas, &volume, front.len(), &options)[2].children;
     assert_eq!(children.len(), 1000);
     assert_eq!((children[1].title.as_str(), children[1].page_index), ("p = 30", front.len() + 2));
-    let links: Vec<usize> = front.iter().flat_map(|scene| &scene.links).map(|link| link.page_index).collect();
+    let links: Vec<usize> = front.iter().flat_map(|scene| &scene.links).filter_map(PageLink::page_index).collect();
     assert_eq!(links.len(), 1001);
     assert!(links[1..].iter().zip(children).all(|(link, child)| *link == child.page_index));
 }
@@ -340,7 +340,9 @@ fn no_text_and_no_paper_make_a_book_fail() {
                 assert!(back.is_empty(), "no cell was measured");
                 let mut book = Book::new(text, text);
                 for scene in &front {
-                    assert!(scene.links.iter().all(|link| link.page_index < front.len() + volume.page_count));
+                    assert!(
+                        scene.links.iter().all(|link| link.page_index().unwrap() < front.len() + volume.page_count)
+                    );
                     book.add_page(scene, book::page_number(&volume, front.len(), book.page_count())).unwrap();
                 }
                 let blank = Scene { items: Vec::new(), links: Vec::new(), ..front[0].clone() };

@@ -67,7 +67,9 @@ impl Pdf {
             let corners: Vec<f64> = numbers(between(dictionary, "/Rect[", "]"));
             (corners.try_into().unwrap(), self.target_page(dictionary))
         };
-        references(list).into_iter().map(link).collect()
+        // The others lead to addresses.
+        let leads_to_page = |annotation: &usize| self.dictionary(*annotation).contains("/Dest");
+        references(list).into_iter().filter(leads_to_page).map(link).collect()
     }
 
     /// The outline's entries: their depth, their title and the index of the page each leads to.
@@ -139,6 +141,74 @@ impl Pdf {
     pub fn fonts(&self) -> Vec<&str> {
         let all = self.objects.values().map(|(dictionary, _)| dictionary.as_str());
         all.filter(|dictionary| dictionary.contains("/Type/FontDescriptor")).collect()
+    }
+}
+
+/// An element of the structure of a book.
+#[derive(Debug, Default)]
+pub struct Element {
+    pub kind: String,
+    /// Its title, or what is said in its place.
+    pub says: String,
+    pub children: Vec<Element>,
+    /// The number of pieces of content that are directly in it.
+    pub contents: usize,
+    /// The number of annotations that are directly in it.
+    pub objects: usize,
+}
+
+impl Pdf {
+    /// The structure, which is one element.
+    pub fn structure(&self) -> Element {
+        let root = self.dictionary(self.refer(self.dictionary(self.catalog), "StructTreeRoot"));
+        self.element(references(root.split("/K").nth(1).unwrap())[0])
+    }
+
+    fn element(&self, number: usize) -> Element {
+        let dictionary = self.dictionary(number);
+        let kind = between(dictionary, "/S/", "/").to_owned();
+        let said = ["/T", "/Alt"].into_iter().filter_map(|key| {
+            ["(", "<"].into_iter().find_map(|quote| {
+                let (_, rest) = dictionary.split_once(&format!("{key}{quote}"))?;
+                let end = if quote == "<" { rest.find('>')? } else { literal(format!("({rest}").as_bytes()).1 - 2 };
+                Some(string(&format!("{quote}{}{}", &rest[..end], if quote == "(" { ")" } else { "" })))
+            })
+        });
+        let says = said.collect::<String>();
+        let list = dictionary.rsplit_once("/K[").map_or("", |(_, rest)| rest.split(']').next().unwrap());
+        // What refers to annotations are dictionaries.
+        let mut plain = list.to_owned();
+        let mut objects = 0;
+        while let (Some(from), Some(to)) = (plain.find("<<"), plain.find(">>")) {
+            objects += usize::from(plain[from..to].contains("/OBJR"));
+            plain.replace_range(from..to + 2, " ");
+        }
+        let children = references(&plain);
+        let words = plain.split_whitespace().count();
+        let contents = words - 3 * children.len();
+        let children = children.into_iter().map(|child| self.element(child)).collect();
+        Element { kind, says, children, contents, objects }
+    }
+
+    /// The content of a page.
+    pub fn stream(&self, page: usize) -> &[u8] {
+        &self.objects[&self.refer(self.dictionary(self.pages()[page]), "Contents")].1
+    }
+
+    /// The number of pieces of content of a page that are parts of the structure. All others must be marked as artifacts.
+    pub fn count_parts(&self, page: usize) -> usize {
+        let (mut depth, mut count) = (0, 0);
+        for token in tokens(self.stream(page)) {
+            let Token::Word(word) = token else { continue };
+            match word.as_str() {
+                "BDC" | "BMC" => depth += 1,
+                "EMC" => depth -= 1,
+                "/MCID" => count += 1,
+                "S" | "f" | "B" | "Tj" | "TJ" => assert!(depth > 0, "unmarked content on page {page}"),
+                _ => {}
+            }
+        }
+        count
     }
 }
 

@@ -46,6 +46,11 @@ impl Drawing {
             key: None,
         };
         let mut scene = page::compose_panels(&page, &options);
+        let panel = scene.items.iter().find_map(|item| match item {
+            Item::Group(group) if group.class == "panel" => Some(group.items.clone()),
+            _ => None,
+        });
+        scene.items = panel.unwrap();
         scene.items.retain(|item| match item {
             Item::Group(group) => ["underlay", "curve", "linkage", "coupler-point"].contains(&group.class),
             _ => false,

@@ -14,7 +14,7 @@ use super::symbols::{self, Symbol};
 use super::theme::Theme;
 use super::{AnswersPage, FoundCurve};
 use crate::mechanism::Mechanism;
-use crate::scene::{Anchor, Curve, Item, Path, Scene, Stroke};
+use crate::scene::{Anchor, Curve, Group, Item, Path, Scene, Stroke};
 use coupler_curves::geometry::{Bounds, Point, Spline, Vector};
 use coupler_curves::path;
 
@@ -36,7 +36,9 @@ pub(super) fn compose(scene: &mut Scene, page: &AnswersPage, theme: &Theme) {
     let of_body = symbols::of_body(&page.body, theme);
     let foot = theme.border + theme.margin + step * (entries.len() + of_body.len() + 1) as f64;
     let frame = Rect { corner: at, size: Vector::new(width, (paper.y - foot - at.y).max(0.3 * paper.y)) };
-    draw_figure(&root, frame, page, theme);
+    let shown = [page.target_label.as_str()].into_iter().chain(page.curves.iter().map(|curve| curve.label.as_str()));
+    let group = Group::figure("figure", shown.collect::<Vec<_>>().join("; "));
+    root.grouped(group, || draw_figure(&root, frame, page, theme));
     // The target, then the curves with their ranks.
     let mut baseline = frame.corner.y + frame.size.y + step;
     let mut legend = |items: Vec<Item>, text: &str| {

@@ -49,7 +49,7 @@ impl Element for CouplerCurve {
         let paths = [hairline, curve(other, other_stroke), curve(figure, figure_stroke)].into_iter().flatten();
         let mut items: Vec<Item> = paths.chain(self.marks.into_iter().map(Item::Circle)).collect();
         items.iter_mut().for_each(|item| translate(item, origin));
-        Item::Group(Group { id: self.id, class: self.class, title: self.title, data, items })
+        Item::Group(Group { id: self.id, class: self.class, title: self.title, data, items, ..Group::default() })
     }
 }
 

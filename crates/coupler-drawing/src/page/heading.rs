@@ -4,7 +4,8 @@ use super::Paper;
 use super::area::Area;
 use super::element::TextLine;
 use super::theme::Theme;
-use crate::scene::Anchor;
+use crate::scene::group_class::{FOLIO, TITLE};
+use crate::scene::{Anchor, Group};
 use coupler_curves::expression::MathText;
 use coupler_curves::family::LengthUnit;
 use coupler_curves::geometry::{Point, Vector};
@@ -123,10 +124,12 @@ impl<'a> Heading<'a> {
             at.y += SOURCE_LEADING * theme.source_size;
         }
         let mut foot = Point::new(right, foot_baseline(page, theme) - self.folio_height(page, theme));
-        for line in self.folio_lines(self.atlas_title, page, theme) {
-            root.record(line.moved_to(foot));
-            foot.y += SOURCE_LEADING * theme.source_size;
-        }
+        root.grouped(Group::of_class(FOLIO), || {
+            for line in self.folio_lines(self.atlas_title, page, theme) {
+                root.record(line.moved_to(foot));
+                foot.y += SOURCE_LEADING * theme.source_size;
+            }
+        });
         // Two thirds of the last line's leading are above the contents.
         (at.y - 0.6 * theme.source_size).max(margins(theme)[0])
     }
@@ -207,11 +210,13 @@ pub(super) fn draw_title(root: &impl Area, title: &str, theme: &Theme) -> Point 
     let left = theme.border + theme.margin;
     let width = root.size().x - 2.0 * left;
     let mut at = Point::new(left, theme.border + 1.9 * theme.title_size);
-    for line in theme.text_line(title, at, Anchor::Start, theme.title_size, theme.ink).fit_or_wrap(width) {
-        let size = line.text.size;
-        root.record(line.moved_to(at));
-        at.y += 1.2 * size;
-    }
+    root.grouped(Group::of_class(TITLE), || {
+        for line in theme.text_line(title, at, Anchor::Start, theme.title_size, theme.ink).fit_or_wrap(width) {
+            let size = line.text.size;
+            root.record(line.moved_to(at));
+            at.y += 1.2 * size;
+        }
+    });
     Point::new(left, at.y - 1.2 * theme.title_size + 1.85 * theme.source_size)
 }
 

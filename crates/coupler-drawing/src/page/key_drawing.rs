@@ -12,7 +12,7 @@ use super::pose;
 use super::rect::Rect;
 use super::theme::Theme;
 use crate::mechanism::Mechanism;
-use crate::scene::{Anchor, Circle, Color, Item, MIN_TEXT_SIZE, Text};
+use crate::scene::{Anchor, Circle, Color, Group, Item, MIN_TEXT_SIZE, Text};
 use coupler_curves::expression::{MathText, displayed_name};
 use coupler_curves::geometry::{Bounds, Point, Vector};
 use coupler_curves::linkage::{JointId, JointKind, Linkage};
@@ -279,9 +279,11 @@ pub(super) fn draw_linkage(
         .into_iter()
         .chain(directions.zero_end().map(|at| (at, zero)));
     let names = names.filter_map(|(at, name)| placer.place_at_point(at, name)).collect();
-    for (class, items) in [("underlay", underlay), ("linkage", links), ("direction", marks), ("name", names)] {
-        area.record(Drawing { class, title: String::new(), items });
-    }
+    area.grouped(Group::figure("key", "Key: the linkage with the names of its joints"), || {
+        for (class, items) in [("underlay", underlay), ("linkage", links), ("direction", marks), ("name", names)] {
+            area.record(Drawing { class, title: String::new(), items });
+        }
+    });
 }
 
 /// The joints that only serve to place others, as far as they are near the linkage.

@@ -1,7 +1,9 @@
 //! A panel of a page: a solved cell, the texts under it, and the pose its linkage is drawn in.
 
 use super::guided_body::GuidedBody;
+use coupler_curves::expression::MathText;
 use coupler_curves::geometry::Point;
+use coupler_curves::measure::Measure;
 use coupler_curves::solve::SolvedCell;
 
 /// A cell of a page: its curves, its linkage and the lines under them.
@@ -63,6 +65,22 @@ impl<'a> Panel<'a> {
     /// The panel with the poses of a body that its linkage is to guide, and with curve and linkage at one scale.
     pub fn with_body(self, body: GuidedBody) -> Panel<'a> {
         Panel { body, ..self }
+    }
+
+    /// What the panel shows, in words: the linkage by the title of its family and its number, the dimensions, class and facts; or why it
+    /// is not assembled. `common` is the dimensions that all linkages of the page share.
+    pub(super) fn description(&self, title: &str, common: &[MathText]) -> String {
+        let solved = self.solved_cell;
+        let class = solved.curves.first().and_then(|curve| curve.measure(Measure::CLASS));
+        let class = class.filter(|_| self.facts[0].is_empty()).map(str::to_owned);
+        let is_assembled = solved.motion.is_assembled();
+        let error = solved.motion.assembly_error.as_ref();
+        let error = error.map(|error| if is_assembled { error.to_string() } else { format!("not assembled: {error}") });
+        let dimensions = [self.caption.clone()].into_iter().chain(common.iter().map(MathText::to_string));
+        let dimensions: Vec<String> = dimensions.filter(|part| !part.is_empty()).collect();
+        let parts = [dimensions.join(", "), self.note.clone()].into_iter().chain(class).chain(self.facts.clone());
+        let parts: Vec<String> = parts.chain(error).filter(|part| !part.is_empty()).collect();
+        format!("{title}, no. {}: {}", solved.cell.number, parts.join("; "))
     }
 
     /// The panel with its linkage in another pose.

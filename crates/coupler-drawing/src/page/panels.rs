@@ -13,7 +13,7 @@ use super::rect::Rect;
 use super::symbols::{self, Mark, Symbol};
 use super::theme::Theme;
 use super::{Options, Panel, PanelPage, PanelScale, Paper};
-use crate::scene::{Anchor, Color, Item};
+use crate::scene::{Anchor, Color, Group, Item};
 use coupler_curves::geometry::{Point, Vector};
 use coupler_curves::solve::SolvedCell;
 
@@ -206,21 +206,29 @@ fn draw_panels<A: Area>(
     let (mut has_enlarged, mut fitting_scale) = (false, f64::INFINITY);
     for (((panel, figure), area), lines) in page.panels.iter().zip(figures).zip(&areas).zip(texts) {
         let frame = figure_rect(area);
-        match figure {
-            Some(figure) => {
-                let crank = crank_on_paper((figure, area)).filter(can_be_seen);
-                let figure_theme = &theme.for_crank_length(crank.unwrap_or(f64::INFINITY));
-                // Ticks on an enlarged curve are as long as without such a crank.
-                let curve_theme = &Theme { joint_radius: theme.joint_radius, ..figure_theme.clone() };
-                let themes = [curve_theme, figure_theme];
-                let arrangement = figure.arrangement(arrangement, frame, scale, themes);
-                has_enlarged |= arrangement != Arrangement::Combined;
-                fitting_scale = fitting_scale.min(figure.draw(area, frame, (arrangement, scale, period), page, themes));
+        let number = panel.solved_cell.cell.number;
+        let group = Group {
+            id: format!("{}-{number}", page.heading.family_id),
+            ..Group::figure("panel", panel.description(page.heading.family_title, page.heading.dimensions))
+        };
+        area.grouped(group, || {
+            match figure {
+                Some(figure) => {
+                    let crank = crank_on_paper((figure, area)).filter(can_be_seen);
+                    let figure_theme = &theme.for_crank_length(crank.unwrap_or(f64::INFINITY));
+                    // Ticks on an enlarged curve are as long as without such a crank.
+                    let curve_theme = &Theme { joint_radius: theme.joint_radius, ..figure_theme.clone() };
+                    let themes = [curve_theme, figure_theme];
+                    let arrangement = figure.arrangement(arrangement, frame, scale, themes);
+                    has_enlarged |= arrangement != Arrangement::Combined;
+                    let fitting = figure.draw(area, frame, (arrangement, scale, period), page, themes);
+                    fitting_scale = fitting_scale.min(fitting);
+                }
+                None => draw_not_assembled(area, frame, panel.solved_cell, theme),
             }
-            None => draw_not_assembled(area, frame, panel.solved_cell, theme),
-        }
-        area.record(figure::number_line(panel.solved_cell, theme));
-        draw_lines(area, lines, area.size().y - foot, theme);
+            area.record(figure::number_line(panel.solved_cell, theme));
+            draw_lines(area, lines, area.size().y - foot, theme);
+        });
     }
     DrawnPanels { scale, fitting_scale, has_facts: facts != FactsLayout::None, has_notes, has_enlarged }
 }

@@ -4,15 +4,51 @@ use std::fmt;
 
 use coupler_curves::geometry::{Point, Vector};
 
-/// A rectangle on a page of a book that links to another page.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A rectangle on a page of a book that is a link.
+#[derive(Clone, Debug, PartialEq)]
 pub struct PageLink {
     /// The upper left corner.
     pub corner: Point,
     /// The width and height in millimetres.
     pub size: Vector,
-    /// The index of the target page in the book.
-    pub page_index: usize,
+    /// What it leads to.
+    pub target: LinkTarget,
+    /// Where it leads to, in words.
+    pub title: String,
+    /// What it is a link of.
+    pub kind: LinkKind,
+}
+
+/// What a link leads to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum LinkTarget {
+    /// A page of the book by its index.
+    Page(usize),
+    /// An address on the web.
+    Address(String),
+}
+
+impl PageLink {
+    /// The index of the page of the book that it leads to; `None` if that is none.
+    pub fn page_index(&self) -> Option<usize> {
+        match self.target {
+            LinkTarget::Page(page) => Some(page),
+            LinkTarget::Address(_) => None,
+        }
+    }
+}
+
+/// What a link is part of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LinkKind {
+    /// A line of contents or of an index.
+    Contents,
+    /// An entry of a list or of a chart, with what is drawn and written in its rectangle.
+    Entry,
+    /// A code, which is in its rectangle.
+    Code,
+    /// A mark outside the text, such as that of the thumb index.
+    Mark,
 }
 
 /// The label of a page of a book: its number, from 1, which may differ from its index.
@@ -70,7 +106,7 @@ pub struct OutlineEntry {
     pub title: String,
     /// The index of the target page in the book.
     pub page_index: usize,
-    /// The entries under this one, collapsed at first.
+    /// The entries under this one, collapsed at first if there are many.
     pub children: Vec<OutlineEntry>,
 }
 

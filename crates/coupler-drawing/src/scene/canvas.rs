@@ -30,6 +30,11 @@ impl<'s> Canvas<'s> {
         self.scene.items.push(item);
     }
 
+    /// The scene.
+    pub(crate) fn scene(&mut self) -> &mut Scene {
+        self.scene
+    }
+
     /// A colour blended with that of the paper, so that the formats need no transparency.
     fn blend(&self, color: BackendColor) -> Color {
         let Color(r, g, b) = self.scene.paper;

@@ -13,7 +13,7 @@ mod font;
 pub(crate) mod pixel;
 mod text;
 
-pub use book::{OutlineEntry, PageLink, PageNumber};
+pub use book::{LinkKind, LinkTarget, OutlineEntry, PageLink, PageNumber};
 #[cfg(feature = "plotters")]
 pub use canvas::Canvas;
 pub use color::Color;
@@ -23,6 +23,8 @@ pub use font::{Face, FontFamily, FontFile, FontFileError, Typeface};
 pub use font::{GlyphRun, OutlineSegment, PlacedGlyph};
 pub use text::{Anchor, MIN_TEXT_SIZE, Text, TextRun};
 
+#[cfg(feature = "pdf")]
+use coupler_curves::geometry::{Bounds, Vector};
 use coupler_curves::geometry::{Point, Spline};
 
 /// A finished page, which can be rendered.
@@ -86,10 +88,22 @@ pub struct Group {
     pub class: &'static str,
     /// A description; may be empty.
     pub title: String,
+    /// What a figure shows, in words, for those who cannot see it; empty if the group is none.
+    pub description: String,
     /// Data attributes: names and values.
     pub data: Vec<(&'static str, String)>,
     /// The items, from back to front.
     pub items: Vec<Item>,
+}
+
+/// The classes of groups that are no figures and no decoration.
+pub mod group_class {
+    /// The lines of the title of a page.
+    pub const TITLE: &str = "title";
+    /// The title of the atlas and the number of a page at its foot.
+    pub const FOLIO: &str = "folio";
+    /// A mark of the thumb index.
+    pub const TAB: &str = "tab";
 }
 
 /// Items that move, repeated without end. A format without animation shows the first frame.
@@ -162,6 +176,71 @@ impl Scene {
         collect_shapes(&self.items, &mut shapes);
         shapes
     }
+
+    /// The figures of the page, which are groups with a description; those within others are parts of them.
+    pub fn figures(&self) -> Vec<&Group> {
+        let mut figures = Vec::new();
+        collect_figures(&self.items, &mut figures);
+        figures
+    }
+
+    /// Makes a group of the items from an index on, unless there are none.
+    pub(crate) fn group_items(&mut self, first: usize, group: Group) {
+        let items = self.items.split_off(first);
+        if !items.is_empty() {
+            self.items.push(Item::Group(Group { items, ..group }));
+        }
+    }
+}
+
+fn collect_figures<'s>(items: &'s [Item], figures: &mut Vec<&'s Group>) {
+    for item in items {
+        match item {
+            Item::Group(group) if !group.description.is_empty() => figures.push(group),
+            Item::Group(group) => collect_figures(&group.items, figures),
+            _ => {}
+        }
+    }
+}
+
+impl Group {
+    /// A figure: what it is, and what it shows in words.
+    pub(crate) fn figure(class: &'static str, description: impl Into<String>) -> Group {
+        Group { class, description: description.into(), ..Group::default() }
+    }
+
+    /// Items of one kind.
+    pub(crate) fn of_class(class: &'static str) -> Group {
+        Group { class, ..Group::default() }
+    }
+}
+
+#[cfg(feature = "pdf")]
+impl Item {
+    /// The shapes of the item without animation, from back to front.
+    pub(crate) fn shapes(&self) -> Vec<Shape<'_>> {
+        let mut shapes = Vec::new();
+        collect_shapes(std::slice::from_ref(self), &mut shapes);
+        shapes
+    }
+}
+
+#[cfg(feature = "pdf")]
+impl Shape<'_> {
+    /// The bounds of the shape, without the width of its lines.
+    pub(crate) fn bounds(&self) -> Bounds {
+        match self {
+            Shape::Path(path) => {
+                Bounds::from_points(path.polylines.iter().flat_map(|line| line.points.iter().copied()))
+            }
+            Shape::Curve(curve) => Bounds::from_points(curve.splines.iter().flat_map(Spline::points)),
+            Shape::Circle(circle) => {
+                let reach = Vector::repeat(circle.radius);
+                Bounds::from_points([circle.centre - reach, circle.centre + reach])
+            }
+            Shape::Text(text) => Bounds::from_points(text.corners()),
+        }
+    }
 }
 
 fn collect_shapes<'s>(items: &'s [Item], shapes: &mut Vec<Shape<'s>>) {
@@ -197,6 +276,18 @@ impl Text {
             Anchor::End => self.width(),
         };
         Point::new(self.position.x - shift, self.position.y)
+    }
+
+    /// The corners of the box of the text, after its rotation.
+    #[cfg(feature = "pdf")]
+    pub(crate) fn corners(&self) -> [Point; 4] {
+        let start = self.start() - self.position;
+        let (width, size) = (self.width(), self.size);
+        let (cos, sin) = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)][usize::from(self.quarter_turns % 4)];
+        [(0.0, -size), (width, -size), (width, 0.3 * size), (0.0, 0.3 * size)].map(|(x, y)| {
+            let at = start + Vector::new(x, y);
+            self.position + Vector::new(cos * at.x - sin * at.y, sin * at.x + cos * at.y)
+        })
     }
 }
 

@@ -21,6 +21,13 @@ pub struct Text {
     pub quarter_turns: u8,
 }
 
+impl Text {
+    /// The text without its faces.
+    pub fn words(&self) -> String {
+        self.runs.iter().map(|run| run.text.as_str()).collect()
+    }
+}
+
 /// The least size of text on paper, in millimetres: 6 points.
 pub const MIN_TEXT_SIZE: f64 = 6.0 * 25.4 / 72.0;
 

@@ -14,7 +14,7 @@ pub(super) use plotters_area::{PlottersArea, whole_page};
 pub(super) use scene_area::whole_page;
 
 use super::element::Element;
-use crate::scene::Stroke;
+use crate::scene::{Group, Stroke};
 use coupler_curves::geometry::{Point, Vector};
 
 /// A part of the page. Its corners are at whole hundredths of a millimetre, and its origin is the upper left one.
@@ -31,6 +31,9 @@ pub(super) trait Area: Sized {
 
     /// Draws an element.
     fn record(&self, element: impl Element);
+
+    /// Makes a group of what is drawn meanwhile; its own items are replaced.
+    fn grouped(&self, group: Group, draw: impl FnOnce());
 
     /// Draws a rectangle by two opposite corners, which are rounded, as the width of the stroke is.
     fn record_rectangle(&self, corners: [Point; 2], stroke: Stroke);

@@ -12,7 +12,7 @@ use plotters_backend::{BackendCoord, DrawingErrorKind};
 
 use super::super::element::Element;
 use super::Area;
-use crate::scene::{Canvas, Color, Scene, Stroke, pixel};
+use crate::scene::{Canvas, Color, Group, Scene, Stroke, pixel};
 use coupler_curves::geometry::{Point, Vector};
 
 /// An area of plotters, whose pixel is 1/100 mm.
@@ -39,8 +39,14 @@ impl Area for PlottersArea<'_> {
     }
 
     fn record(&self, element: impl Element) {
-        // A canvas cannot fail, and no element draws on an area, which would borrow it twice.
-        self.draw(&AtOrigin(Cell::new(Some(element)))).expect("recording a scene does not fail");
+        on_canvas(self, |origin, canvas| canvas.record(element.into_item(pixel::to_millimetres(origin).coords)));
+    }
+
+    fn grouped(&self, group: Group, draw: impl FnOnce()) {
+        let first = Cell::new(0);
+        on_canvas(self, |_, canvas| first.set(canvas.scene().items.len()));
+        draw();
+        on_canvas(self, |_, canvas| canvas.scene().group_items(first.get(), group));
     }
 
     fn record_rectangle(&self, corners: [Point; 2], stroke: Stroke) {
@@ -52,10 +58,16 @@ impl Area for PlottersArea<'_> {
     }
 }
 
-/// An element for plotters, anchored at the origin of the area it is drawn on, until it is drawn.
-struct AtOrigin<E>(Cell<Option<E>>);
+/// Does something with the canvas, given the origin of the area on it. It must not draw on an area, which would borrow the canvas twice.
+fn on_canvas<'s>(area: &PlottersArea<'s>, work: impl FnOnce(BackendCoord, &mut Canvas<'s>)) {
+    // A canvas cannot fail.
+    area.draw(&AtOrigin(Cell::new(Some(work)))).expect("recording a scene does not fail");
+}
 
-impl<'a, E> PointCollection<'a, BackendCoord> for &'a AtOrigin<E> {
+/// What is done with the canvas, as an element for plotters that is anchored at the origin of the area it is drawn on.
+struct AtOrigin<W>(Cell<Option<W>>);
+
+impl<'a, W> PointCollection<'a, BackendCoord> for &'a AtOrigin<W> {
     type Point = BackendCoord;
     type IntoIter = Once<BackendCoord>;
 
@@ -64,15 +76,15 @@ impl<'a, E> PointCollection<'a, BackendCoord> for &'a AtOrigin<E> {
     }
 }
 
-impl<'s, E: Element> Drawable<Canvas<'s>> for AtOrigin<E> {
+impl<'s, W: FnOnce(BackendCoord, &mut Canvas<'s>)> Drawable<Canvas<'s>> for AtOrigin<W> {
     fn draw<I: Iterator<Item = BackendCoord>>(
         &self,
         mut origin: I,
         canvas: &mut Canvas<'s>,
         _: (u32, u32),
     ) -> Result<(), DrawingErrorKind<Infallible>> {
-        if let Some((origin, element)) = origin.next().zip(self.0.take()) {
-            canvas.record(element.into_item(pixel::to_millimetres(origin).coords));
+        if let Some((origin, work)) = origin.next().zip(self.0.take()) {
+            work(origin, canvas);
         }
         Ok(())
     }

@@ -6,7 +6,7 @@ use std::rc::Rc;
 use super::super::element::Element;
 use super::Area;
 use crate::scene::pixel::{self, Pixel};
-use crate::scene::{Item, Path, Polyline, Scene, Stroke};
+use crate::scene::{Group, Item, Path, Polyline, Scene, Stroke};
 use coupler_curves::geometry::{Point, Vector};
 
 /// A rectangle of the page, with the scene that all areas of the page share.
@@ -55,6 +55,12 @@ impl Area for SceneArea<'_> {
 
     fn record(&self, element: impl Element) {
         self.push(element.into_item(pixel::to_millimetres(self.start).coords));
+    }
+
+    fn grouped(&self, group: Group, draw: impl FnOnce()) {
+        let first = self.scene.borrow().items.len();
+        draw();
+        self.scene.borrow_mut().group_items(first, group);
     }
 
     fn record_rectangle(&self, corners: [Point; 2], stroke: Stroke) {

@@ -7,7 +7,7 @@ use super::super::heading;
 use super::super::theme::Theme;
 use super::atlas::{Atlas, Volume};
 use super::empty_scene::empty_scene;
-use crate::scene::{Anchor, Item, PageLink, PageNumber, Path, Polyline, Scene, Text};
+use crate::scene::{Anchor, Item, LinkKind, LinkTarget, PageLink, PageNumber, Path, Polyline, Scene, Text};
 use coupler_curves::geometry::{Point, Vector};
 
 /// A page that a list refers to.
@@ -318,10 +318,16 @@ impl ColumnLayout {
             Row::Note(_) => return None,
         };
         let corner = self.line_start(placed) - Vector::new(0.0, 0.75 * self.line_height);
+        let text = match placed.row {
+            Row::Entry(entry) => entry.caption,
+            _ => placed.text.as_deref().unwrap_or_default(),
+        };
         Some(PageLink {
             corner,
             size: Vector::new(self.column_size.x, self.line_height),
-            page_index: places.index(page, volume)?,
+            target: LinkTarget::Page(places.index(page, volume)?),
+            title: format!("page {}: {text}", places.label(page)),
+            kind: LinkKind::Contents,
         })
     }
 }

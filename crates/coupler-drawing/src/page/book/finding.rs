@@ -7,7 +7,7 @@ use super::super::theme::Theme;
 use super::super::{Options, heading};
 use super::atlas::{Atlas, FindingCell, FindingChart};
 use super::empty_scene::empty_scene;
-use crate::scene::{Anchor, Item, PageLink, Path, Scene};
+use crate::scene::{Anchor, Group, Item, LinkKind, LinkTarget, PageLink, Path, Scene};
 use coupler_curves::geometry::{Point, Vector};
 
 /// The title of a chart, before what is the same on the whole page.
@@ -115,16 +115,25 @@ pub(super) fn compose(
                 size: Vector::new(width, frame.size.y),
             };
             let height = (part.size.y - NUMBER_HEIGHT * em) / drawings.len().max(1) as f64;
-            for (k, drawing) in drawings.iter().enumerate() {
-                let corner = part.corner + Vector::new(0.0, height * k as f64);
-                drawing.draw(&root, Rect { corner, size: Vector::new(width, height) }.inset(0.25 * em), small);
-            }
+            root.grouped(Group::figure("entry", format!("Curves of page {page}")), || {
+                for (k, drawing) in drawings.iter().enumerate() {
+                    let corner = part.corner + Vector::new(0.0, height * k as f64);
+                    drawing.draw(&root, Rect { corner, size: Vector::new(width, height) }.inset(0.25 * em), small);
+                }
+            });
             let at = part.corner + Vector::new(0.5 * width, part.size.y - 0.25 * em);
             let size = (0.9 * em).max(crate::scene::MIN_TEXT_SIZE.min(em));
             let number = theme.text_line(&page.to_string(), at, Anchor::Middle, size, theme.grey);
             root.record(number.fit_width(width));
             if let Some(page_index) = link(*page) {
-                links.push(PageLink { corner: part.corner, size: part.size, page_index });
+                let (corner, size, kind) = (part.corner, part.size, LinkKind::Entry);
+                links.push(PageLink {
+                    corner,
+                    size,
+                    target: LinkTarget::Page(page_index),
+                    title: format!("page {page}"),
+                    kind,
+                });
             }
         }
     }

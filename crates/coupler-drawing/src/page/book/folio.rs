@@ -3,7 +3,8 @@
 use super::super::Options;
 use super::super::area::{self, Area};
 use super::super::element::Drawing;
-use crate::scene::{Anchor, Item, PageLink, PageNumber, Path, Polyline, Scene};
+use crate::scene::group_class::{FOLIO, TAB};
+use crate::scene::{Anchor, Group, Item, LinkKind, LinkTarget, PageLink, PageNumber, Path, Polyline, Scene};
 use coupler_curves::geometry::{Point, Vector};
 
 /// A mark of the thumb index: a part of the book.
@@ -26,7 +27,19 @@ pub fn draw_folio(scene: &mut Scene, label: PageNumber, page_index: usize, optio
         false => (theme.border, Anchor::Start),
     };
     let at = Point::new(x, page.y - 0.5 * theme.border + 0.35 * theme.source_size);
-    root.record(theme.text_line(&text, at, anchor, theme.source_size, theme.ink));
+    root.grouped(Group::of_class(FOLIO), || {
+        root.record(theme.text_line(&text, at, anchor, theme.source_size, theme.ink));
+    });
+}
+
+/// The link of the folio to a page with an index, described in words.
+pub(super) fn link(scene: &Scene, page_index: usize, (to, title): (usize, String), options: &Options) -> PageLink {
+    let theme = options.theme.for_paper(options.paper);
+    // Wide enough for the longest number.
+    let size = Vector::new(4.0 * theme.source_size, theme.border);
+    let left = if is_right_hand(page_index) { scene.width - theme.border - size.x } else { theme.border };
+    let corner = Point::new(left, scene.height - size.y);
+    PageLink { corner, size, target: LinkTarget::Page(to), title, kind: LinkKind::Mark }
 }
 
 /// Whether so many marks have space for what they stand for.
@@ -72,10 +85,12 @@ pub(super) fn draw_tabs(
             let points = vec![corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)];
             let polylines = vec![Polyline { points, is_closed: true }];
             let tab = Item::Path(Path { polylines, stroke: None, fill: Some(theme.ink) });
-            root.record(Drawing { class: "tab", title: String::new(), items: vec![tab] });
+            root.record(Drawing { class: TAB, title: String::new(), items: vec![tab] });
         }
         if let Some(page_index) = link(tab.first_page).filter(|_| !is_current) {
-            links.push(PageLink { corner: Point::new(left, top), size: Vector::new(width, height), page_index });
+            let (corner, size) = (Point::new(left, top), Vector::new(width, height));
+            let (title, target) = (tab.label.clone(), LinkTarget::Page(page_index));
+            links.push(PageLink { corner, size, target, title, kind: LinkKind::Mark });
         }
         if !is_labelled {
             continue;
@@ -86,7 +101,7 @@ pub(super) fn draw_tabs(
         let at = Point::new(left + 0.5 * width + shift * size, top + 0.5 * height);
         let mut line = theme.text_line(&tab.label, at, Anchor::Middle, size, ink).fit_width(0.94 * height);
         line.text.quarter_turns = turns;
-        root.record(line);
+        root.grouped(Group::of_class(TAB), || root.record(line));
     }
     drop(root);
     scene.links.extend(links);

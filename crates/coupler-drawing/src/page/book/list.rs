@@ -7,7 +7,7 @@ use super::super::theme::Theme;
 use super::super::{Options, heading};
 use super::atlas::{Atlas, CurveList, ListEntry};
 use super::empty_scene::empty_scene;
-use crate::scene::{Anchor, Item, PageLink, Path, Scene};
+use crate::scene::{Anchor, Group, Item, LinkKind, LinkTarget, PageLink, Path, Scene};
 use coupler_curves::geometry::{Point, Vector};
 
 /// The least size of an entry, in ems of its text.
@@ -94,7 +94,9 @@ pub(super) fn compose(
             let frame = Rect { corner: grid.corner + shift, size: grid.step };
             draw_entry(&root, frame, k * grid.per_page() + place + 1, entry, atlas, theme);
             if let Some(page_index) = link(entry.page) {
-                links.push(PageLink { corner: frame.corner, size: frame.size, page_index });
+                let title = format!("page {}: {}", entry.page, entry.caption);
+                let (corner, size, kind) = (frame.corner, frame.size, LinkKind::Entry);
+                links.push(PageLink { corner, size, target: LinkTarget::Page(page_index), title, kind });
             }
         }
         draw_rules(&root, &grid, entries.len(), theme);
@@ -124,7 +126,10 @@ fn draw_entry(root: &impl Area, frame: Rect, rank: usize, entry: &ListEntry, atl
         corner: frame.corner + Vector::new(0.8 * em, 1.0 * em),
         size: Vector::new(DRAWING_PART * frame.size.x - 1.6 * em, frame.size.y - 2.0 * em),
     };
-    entry.drawing.draw(root, drawing, theme);
+    let shown = [entry.caption.as_str(), &entry.curve].into_iter().filter(|text| !text.is_empty()).collect::<Vec<_>>();
+    root.grouped(Group::figure("entry", format!("Curve of {}", shown.join(", "))), || {
+        entry.drawing.draw(root, drawing, theme)
+    });
     let left = frame.corner.x + DRAWING_PART * frame.size.x;
     let width = text_width(frame.size.x, em);
     let mut y = frame.corner.y + 0.4 * em;

@@ -7,11 +7,15 @@
 //! [`PageFinisher`].
 
 mod atlas;
+#[cfg(feature = "pdf")]
+mod code;
 mod columns;
 mod contents;
 mod empty_scene;
 mod finding;
 mod folio;
+#[cfg(feature = "pdf")]
+mod free_space;
 mod how_to_read;
 mod index;
 mod index_entry;
@@ -20,6 +24,8 @@ mod miniature;
 mod title;
 
 pub use atlas::{Atlas, CellEntry, Chapter, CurveList, FindingCell, FindingChart, HowToRead, ListEntry, Volume};
+#[cfg(feature = "pdf")]
+pub use code::{draw_code, gallery_address};
 pub use finding::{chart_curves_per_page, max_chart_grid};
 pub use folio::{Tab, draw_folio};
 pub use index::keep_listed;
@@ -27,7 +33,7 @@ pub use index_entry::IndexEntry;
 pub use miniature::{Emphasis, Miniature};
 
 use super::{Options, PanelPage};
-use crate::scene::{OutlineEntry, PageNumber, Scene};
+use crate::scene::{LinkKind, OutlineEntry, PageNumber, Scene};
 use atlas::{BackMatter, CHARTS_TITLE, charts_in};
 use columns::{ListHeader, Places};
 use empty_scene::empty_scene;
@@ -139,19 +145,38 @@ pub struct PageFinisher<'a> {
     tabs: Vec<Tab>,
     /// The number of pages of front matter.
     front: usize,
+    /// The pages that the contents list, with the pages of the contents, by their indices.
+    entries: Vec<(usize, usize)>,
     options: &'a Options,
 }
 
 impl<'a> PageFinisher<'a> {
     /// What is drawn on the pages of a volume, after `front` pages of front matter.
     pub fn new(atlas: &Atlas, volume: &'a Volume, front: usize, options: &'a Options) -> PageFinisher<'a> {
-        PageFinisher { volume, tabs: atlas.all_tabs(&atlas.back_matter(options)), front, options }
+        let tabs = atlas.all_tabs(&atlas.back_matter(options));
+        PageFinisher { volume, tabs, front, entries: Vec::new(), options }
+    }
+
+    /// The same with links from the pages to their entries in the contents, which are among the pages of the front matter.
+    pub fn with_entries(self, front: &[Scene]) -> PageFinisher<'a> {
+        let listed = |(k, page): (usize, &Scene)| -> Vec<(usize, usize)> {
+            let entries = page.links.iter().filter(|link| link.kind == LinkKind::Contents);
+            entries.filter_map(|link| Some((link.page_index()?, k))).collect()
+        };
+        let mut entries: Vec<(usize, usize)> = front.iter().enumerate().flat_map(listed).collect();
+        entries.sort_unstable();
+        PageFinisher { entries, ..self }
     }
 
     /// Draws it on the page at an index of the file, from 0; the result is the label of the page.
     pub fn finish(&self, scene: &mut Scene, page_index: usize) -> PageNumber {
         let label = page_number(self.volume, self.front, page_index);
         draw_folio(scene, label, page_index, self.options);
+        let before = self.entries.partition_point(|(listed, _)| *listed <= page_index);
+        if let Some((_, contents)) = before.checked_sub(1).and_then(|k| self.entries.get(k)) {
+            let title = format!("page {}: the entry of this page", page_number(self.volume, self.front, *contents));
+            scene.links.push(folio::link(scene, page_index, (*contents, title), self.options));
+        }
         if let PageNumber::Arabic(page) = label {
             let link = |page| self.volume.page_index(page, self.front);
             folio::draw_tabs(scene, &self.tabs, Some(page as usize), page_index, link, self.options);

@@ -9,7 +9,8 @@ use super::super::rect::Rect;
 use super::super::theme::Theme;
 use super::super::{Options, PanelPage};
 use super::atlas::{Atlas, Chapter, Volume};
-use crate::scene::{Anchor, Color, Item, Path, Scene};
+use crate::scene::group_class::TITLE;
+use crate::scene::{Anchor, Color, Group, Item, Path, Scene};
 use coupler_curves::geometry::{Point, Vector};
 
 /// The most lines for families.
@@ -36,10 +37,12 @@ pub(super) fn compose(
     let first = foot - 1.6 * theme.title_size - step * lines.len() as f64;
     let mut y = theme.border + 5.2 * theme.title_size;
     let max_lines = (first - 4.0 * theme.title_size - y) / (LEADING * theme.title_size) + 1.0;
-    for line in wrap_title(atlas.title, width, max_lines.clamp(1.0, 4.0) as usize, theme) {
-        centred(&line, y, TITLE_SCALE * theme.title_size, theme.ink);
-        y += LEADING * theme.title_size;
-    }
+    root.grouped(Group::of_class(TITLE), || {
+        for line in wrap_title(atlas.title, width, max_lines.clamp(1.0, 4.0) as usize, theme) {
+            centred(&line, y, TITLE_SCALE * theme.title_size, theme.ink);
+            y += LEADING * theme.title_size;
+        }
+    });
     y += (1.3 - LEADING) * theme.title_size;
     draw_rule(&root, Point::new(page.x / 2.0, y), 5.0 * theme.title_size, theme);
     if let Some(name) = volume.name() {
@@ -107,9 +110,13 @@ fn draw_rule(root: &impl Area, centre: Point, length: f64, theme: &Theme) {
 
 /// Draws the first panel of a page, if it has a curve and there is enough space.
 fn draw_frontispiece(root: &impl Area, frame: Rect, page: &PanelPage, options: &Options, theme: &Theme) {
-    let Some(figure) = page.panels.first().and_then(Figure::from_panel) else { return };
+    let Some(panel) = page.panels.first() else { return };
+    let Some(figure) = Figure::from_panel(panel) else { return };
     if frame.size.x > 10.0 * theme.joint_radius && frame.size.y > 10.0 * theme.joint_radius {
         let period = figure.dash_period(options);
-        figure.draw(root, frame, (Arrangement::Combined, None, period), page, [theme; 2]);
+        let group = Group::figure("panel", panel.description(page.heading.family_title, page.heading.dimensions));
+        root.grouped(group, || {
+            figure.draw(root, frame, (Arrangement::Combined, None, period), page, [theme; 2]);
+        });
     }
 }

@@ -255,6 +255,7 @@ impl<'a> ChartFigure<'a> {
             title: format!("{}: {y} over {x}{suffix}", self.page.heading.family_title),
             data,
             items,
+            ..Group::default()
         }
     }
 }

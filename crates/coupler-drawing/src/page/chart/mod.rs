@@ -18,7 +18,7 @@ use super::symbols::{self, Mark, Symbol};
 use super::theme::Theme;
 use super::{ChartPage, Options, chart_grid, empty_scene};
 use crate::chart::PointSource;
-use crate::scene::{Group, Item, Scene};
+use crate::scene::{Group, Scene};
 use coupler_curves::geometry::{Point, Vector};
 use figure::{ChartFigure, LineFeatures};
 
@@ -68,11 +68,11 @@ fn draw_charts(scene: &mut Scene, page: &ChartPage, theme: &Theme) {
             features = features.or(of_chart);
             data
         };
-        let items = scene.items.split_off(first_item);
         let quantity = &page.chart.y[quantity_index];
         let title = format!("{} over {}", quantity.title, page.chart.x.title);
         let id = format!("{}-chart-{}", page.heading.family_id, quantity_index + 1);
-        scene.items.push(Item::Group(Group { id, class: "chart", title, data, items }));
+        let description = format!("Chart: {title}");
+        scene.group_items(first_item, Group { id, class: "chart", title, description, data, ..Group::default() });
     }
     if charts.size != contents.size {
         for (at, line) in foot(features).0 {

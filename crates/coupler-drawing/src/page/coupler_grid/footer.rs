@@ -6,7 +6,8 @@ use super::super::element::TextLine;
 use super::super::rect::Rect;
 use super::super::symbols::{self, Symbol};
 use super::super::theme::Theme;
-use crate::scene::Anchor;
+use crate::scene::group_class::TITLE;
+use crate::scene::{Anchor, Group};
 use coupler_curves::geometry::{Point, Vector};
 
 /// Draws the foot; the result is its height from the edge of the paper.
@@ -28,8 +29,7 @@ pub(super) fn draw(area: &impl Area, page: &CouplerGridPage, theme: &Theme) -> f
     let facts = theme.text_line(&facts, Point::origin(), Anchor::End, theme.source_size, theme.grey).fit_or_wrap(half);
     let facts = facts.into_iter().filter(|line| line.text.width() > 0.0);
     let small: Vec<TextLine> = facts.chain(page.heading.folio_lines(&titles, paper, theme)).collect();
-    let columns = [(large, left, 1.25), (small, right, 1.5)];
-    let heights = columns.map(|(lines, x, leading)| {
+    let draw = |lines: Vec<TextLine>, x: f64, leading: f64| {
         let height: f64 = lines.iter().map(|line| leading * line.text.size).sum();
         // The last line is on the baseline.
         let mut y = baseline - height;
@@ -38,7 +38,10 @@ pub(super) fn draw(area: &impl Area, page: &CouplerGridPage, theme: &Theme) -> f
             area.record(line.moved_to(Point::new(x, y)));
         }
         height
-    });
+    };
+    let mut large_height = 0.0;
+    area.grouped(Group::of_class(TITLE), || large_height = draw(large, left, 1.25));
+    let heights = [large_height, draw(small, right, 1.5)];
     theme.border + 0.65 * theme.margin + heights.into_iter().fold(1.5 * theme.title_size, f64::max)
 }
 

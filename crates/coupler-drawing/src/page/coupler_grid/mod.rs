@@ -32,7 +32,7 @@ use super::symbols::{self, Mark, Symbol};
 use super::theme::Theme;
 use super::{CouplerGridPage, Layout, Options, Panel, PoseChoice, pose};
 use crate::mechanism::Mechanism;
-use crate::scene::{Anchor, Circle, Item, MIN_TEXT_SIZE, Path, Scene};
+use crate::scene::{Anchor, Circle, Group, Item, MIN_TEXT_SIZE, Path, Scene};
 use coupler_curves::geometry::{Bounds, Point, Similarity, Vector};
 use coupler_curves::path::{DashPattern, JointPath};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
@@ -168,7 +168,10 @@ fn draw_panel(
     let key_width = half_width.min(1.8 * parts.key.size.y);
     let key = Rect { size: Vector::new(key_width, parts.key.size.y), ..parts.key };
     match page.key {
-        None => key::draw(area, key, page, mechanism, shown, theme),
+        None => {
+            let group = Group::figure("key", "Key: the linkage with the names and lengths of its links");
+            area.grouped(group, || key::draw(area, key, page, mechanism, shown, theme));
+        }
         Some(of_linkage) => {
             let solved = page.panel.solved_cell;
             let circuit = shown.first().map_or(0, |s| s.curve.circuit - 1);
@@ -194,7 +197,10 @@ fn draw_panel(
             corner: parts.foot.corner + Vector::new(*left, 0.5 * em),
             size: Vector::new(panel.size.x - left, (parts.foot.size.y - em).max(0.0)),
         };
-        graphs.draw(area, &rows, (parts.foot.size.y >= strip_height).then_some(strip), shown, theme);
+        let group =
+            Group::figure("graphs", "Graphs over the input: the speed of each point, and the transmission angle");
+        let strip = (parts.foot.size.y >= strip_height).then_some(strip);
+        area.grouped(group, || graphs.draw(area, &rows, strip, shown, theme));
     }
     let notes_frame = Rect { size: Vector::new(notes_width, parts.foot.size.y), ..parts.foot };
     notes.draw(area, notes_frame, page, theme);
@@ -268,17 +274,31 @@ fn draw_figure(
     }
 
     let group = |class, items| area.record(Drawing { class, title: String::new(), items });
-    group("underlay", underlay);
-    group("grid", grid);
-    group("straight", straight);
-    for (k, (shown, path)) in shown.iter().zip(paths).enumerate() {
-        area.record(coupler_curve(page, shown, path, plot.page_from_plane, dashes(k), theme));
-    }
-    group("motion", motion);
-    group("linkage", linkage);
-    group("coupler-point", points);
-    group("number", numbers);
+    area.grouped(Group::figure("figure", description(page, shown)), || {
+        group("underlay", underlay);
+        group("grid", grid);
+        group("straight", straight);
+        for (k, (shown, path)) in shown.iter().zip(paths).enumerate() {
+            area.record(coupler_curve(page, shown, path, plot.page_from_plane, dashes(k), theme));
+        }
+        group("motion", motion);
+        group("linkage", linkage);
+        group("coupler-point", points);
+        group("number", numbers);
+    });
     (plot, fitting)
+}
+
+/// What the figure shows, in words.
+fn description(page: &CouplerGridPage, shown: &[ShownCurve]) -> String {
+    let mut traces: Vec<usize> = shown.iter().map(|s| s.curve.trace).collect();
+    traces.dedup();
+    let curves = match traces[..] {
+        [] => String::new(),
+        [only] => format!("; curve of point {only}"),
+        [first, .., last] => format!("; curves of {} points, from {first} to {last}", traces.len()),
+    };
+    page.panel.description(page.heading.family_title, &[]) + &curves
 }
 
 /// The points of a page without repetition, with their positions on it.

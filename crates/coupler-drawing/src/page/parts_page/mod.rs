@@ -16,7 +16,7 @@ use super::key_drawing;
 use super::panels::draw_not_assembled;
 use super::rect::Rect;
 use super::theme::Theme;
-use super::{Options, Panel, PanelPage, PanelScale, usual_scale_below};
+use super::{Key, Options, Panel, PanelPage, PanelScale, usual_scale_below};
 use crate::scene::Anchor;
 use coupler_curves::geometry::{Point, Vector};
 use coupler_curves::parts::{GivenSizes, Parts, PartsError};

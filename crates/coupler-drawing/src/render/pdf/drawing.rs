@@ -1,20 +1,22 @@
 //! Drawing of scenes on the pages of a document.
 
+use std::num::NonZeroU16;
+
 use krilla::color::rgb;
 use krilla::geom::{self, PathBuilder, Transform};
 use krilla::paint::{Fill, LineCap, LineJoin};
 use krilla::surface::Surface;
+use krilla::tagging::{Artifact, ArtifactType, ContentTag, Identifier, SpanTag};
 
 use super::fonts::{FontCache, layout_glyphs};
-use crate::scene::{Circle, Color, Curve, Path, Polyline, Scene, Shape, Stroke, Text};
-use coupler_curves::geometry::{Point, Spline, SplineSegment};
-
-/// A length in PDF points.
-pub(super) fn mm_to_points(mm: f64) -> f32 {
-    (mm * POINTS_PER_MM) as f32
-}
-
-const POINTS_PER_MM: f64 = 72.0 / 25.4;
+use super::sheet::{POINTS_PER_MM, Sheet, mm_to_points};
+use super::structure::PageStructure;
+use super::words::sanitize_text;
+use crate::scene::group_class::{FOLIO, TAB, TITLE};
+use crate::scene::{
+    Circle, Color, Curve, GlyphRun, Item, OutlineSegment, Path, PlacedGlyph, Polyline, Scene, Shape, Stroke, Text,
+};
+use coupler_curves::geometry::{Point, Spline, SplineSegment, Vector};
 
 /// The units of coordinates per millimetre. Coordinates are whole numbers, which are short and quick to write.
 const UNITS_PER_MM: f64 = 1000.0;
@@ -23,6 +25,22 @@ const UNITS_PER_MM: f64 = 1000.0;
 pub(super) struct PagePainter<'d> {
     surface: Surface<'d>,
     fonts: &'d mut FontCache,
+    /// What the content belongs to that is being drawn.
+    marked: Marked,
+    /// The left and right edge of what is drawn of the page, and its bleed.
+    edges: ([f64; 2], f64),
+    /// The index of the page in the book.
+    page_index: usize,
+}
+
+/// What drawn content belongs to.
+#[derive(Clone, Copy, PartialEq)]
+enum Marked {
+    Nothing,
+    /// A part of the structure of the page.
+    Part,
+    /// No part of it.
+    Artifact(ArtifactType),
 }
 
 /// A coordinate frame on the page: its origin in millimetres, and its rotation in quarter turns clockwise.
@@ -52,24 +70,127 @@ impl CoordinateFrame {
 }
 
 impl<'d> PagePainter<'d> {
-    pub fn new(surface: Surface<'d>, fonts: &'d mut FontCache) -> PagePainter<'d> {
-        PagePainter { surface, fonts }
+    pub fn new(surface: Surface<'d>, fonts: &'d mut FontCache, page_index: usize) -> PagePainter<'d> {
+        PagePainter { surface, fonts, marked: Marked::Nothing, edges: ([0.0; 2], 0.0), page_index }
     }
 
-    pub fn finish(self) {
+    pub fn finish(mut self) {
+        self.end_marked();
         self.surface.finish();
     }
 
-    /// Draws the paper and all items.
-    pub fn draw_scene(&mut self, scene: &Scene) {
-        let corners = [(0.0, 0.0), (scene.width, 0.0), (scene.width, scene.height), (0.0, scene.height)];
+    fn end_marked(&mut self) {
+        if std::mem::replace(&mut self.marked, Marked::Nothing) != Marked::Nothing {
+            self.surface.end_tagged();
+        }
+    }
+
+    /// Begins a part of the structure.
+    fn begin_part(&mut self, tag: ContentTag) -> Identifier {
+        self.end_marked();
+        self.marked = Marked::Part;
+        self.surface.start_tagged(tag)
+    }
+
+    /// Begins what is no part of the structure, unless it has begun.
+    fn begin_artifact(&mut self, kind: ArtifactType) {
+        if self.marked != Marked::Artifact(kind) {
+            self.end_marked();
+            self.marked = Marked::Artifact(kind);
+            self.surface.start_tagged(ContentTag::Artifact(Artifact::with_kind(kind)));
+        }
+    }
+
+    /// Draws the paper and all items from a corner of the sheet; the result is the structure of the page, whose title has a level.
+    pub fn draw_scene<'s>(
+        &mut self,
+        scene: &'s Scene,
+        level: NonZeroU16,
+        (sheet, corner): (Sheet, Point),
+    ) -> PageStructure<'s> {
+        self.begin_artifact(ArtifactType::Other);
+        let [width, height] = [scene.width + sheet.binding + 2.0 * sheet.bleed, scene.height + 2.0 * sheet.bleed];
+        let corners = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)];
         let points = corners.map(|(x, y)| Point::new(x, y)).to_vec();
         self.draw_path(&Path {
             polylines: vec![Polyline { points, is_closed: true }],
             stroke: None,
             fill: Some(scene.paper),
         });
-        for shape in scene.shapes() {
+        let mut structure = PageStructure::new(&scene.links, (self.page_index, corner.coords));
+        self.end_marked();
+        let is_moved = corner != Point::origin();
+        if is_moved {
+            let [x, y] = corner.coords.map(mm_to_points).into();
+            self.surface.push_transform(&Transform::from_translate(x, y));
+        }
+        self.edges = ([0.0, scene.width], sheet.bleed);
+        self.draw_items(&scene.items, &mut structure, level);
+        self.end_marked();
+        if is_moved {
+            self.surface.pop();
+        }
+        structure
+    }
+
+    /// Draws items: titles, texts and figures are parts of the structure, and all else is decoration.
+    fn draw_items<'s>(&mut self, items: &'s [Item], structure: &mut PageStructure<'s>, level: NonZeroU16) {
+        for item in items {
+            match item {
+                Item::Text(text) => structure.add_text(text, self.draw_line(text)),
+                Item::Group(group) if matches!(group.class, FOLIO | TAB) => {
+                    self.begin_artifact(ArtifactType::PageNumber);
+                    self.draw_shapes(&self.with_bleed(item));
+                }
+                Item::Group(group) if group.class == TITLE => {
+                    let lines: Vec<&Text> = item
+                        .shapes()
+                        .into_iter()
+                        .filter_map(|s| if let Shape::Text(t) = s { Some(t) } else { None })
+                        .collect();
+                    let words: Vec<String> = lines.iter().map(|line| line.words()).collect();
+                    let contents = lines.iter().map(|line| self.draw_line(line)).collect();
+                    structure.add_title(&words.join(" "), contents, level);
+                }
+                Item::Group(group) if !group.description.is_empty() => {
+                    let shapes = item.shapes();
+                    let bounds = shapes.iter().map(Shape::bounds).reduce(|a, b| a.union(b));
+                    let Some(bounds) = bounds.filter(|bounds| !bounds.is_empty()) else { continue };
+                    let content = self.begin_part(ContentTag::Other);
+                    self.draw_shapes(item);
+                    structure.add_figure(bounds, &group.description, content);
+                }
+                Item::Group(group) => self.draw_items(&group.items, structure, level),
+                _ => {
+                    self.begin_artifact(ArtifactType::Other);
+                    self.draw_shapes(item);
+                }
+            }
+        }
+    }
+
+    /// The item with what touches the edges of the page extended beyond them.
+    fn with_bleed(&self, item: &Item) -> Item {
+        let ([left, right], bleed) = self.edges;
+        let mut item = item.clone();
+        if let Item::Group(group) = &mut item {
+            let paths =
+                group.items.iter_mut().filter_map(|item| if let Item::Path(path) = item { Some(path) } else { None });
+            for point in paths.flat_map(|path| &mut path.polylines).flat_map(|line| &mut line.points) {
+                point.x += if point.x <= left {
+                    -bleed
+                } else if point.x >= right {
+                    bleed
+                } else {
+                    0.0
+                };
+            }
+        }
+        item
+    }
+
+    fn draw_shapes(&mut self, item: &Item) {
+        for shape in item.shapes() {
             match shape {
                 Shape::Path(path) => self.draw_path(path),
                 Shape::Curve(curve) => self.draw_curve(curve),
@@ -77,6 +198,17 @@ impl<'d> PagePainter<'d> {
                 Shape::Text(text) => self.draw_text(text),
             }
         }
+    }
+
+    /// Draws a line of text as a part of the structure.
+    fn draw_line(&mut self, text: &Text) -> Identifier {
+        let is_written = text.glyph_runs().iter().all(|run| run.glyphs.iter().all(|glyph| is_writable(run, glyph)));
+        let words = sanitize_text(&text.words());
+        // What has no glyph is drawn as a box, and read as what it is.
+        let span = SpanTag::empty().with_actual_text((!is_written).then_some(words.as_str()));
+        let content = self.begin_part(ContentTag::Span(span));
+        self.draw_text(text);
+        content
     }
 
     fn paint_path(&mut self, frame: CoordinateFrame, path: PathBuilder, stroke: Option<Stroke>, color: Option<Color>) {
@@ -165,13 +297,63 @@ impl<'d> PagePainter<'d> {
         self.surface.push_transform(&frame.points_from_units());
         for run in text.glyph_runs() {
             let [x, y] = point_in_units(&run.origin, frame.origin);
-            if let Some(font) = self.fonts.get(&run) {
-                let (start, size) = (geom::Point::from_xy(x, y), mm_to_units(run.size));
-                self.surface.draw_glyphs(start, &layout_glyphs(&run), font, run.text, size, false);
+            let Some(font) = self.fonts.get(&run) else { continue };
+            let size = mm_to_units(run.size);
+            let glyphs = layout_glyphs(&run);
+            if run.glyphs.iter().all(|glyph| is_writable(&run, glyph)) {
+                self.surface.draw_glyphs(geom::Point::from_xy(x, y), &glyphs, font, run.text, size, false);
+                continue;
+            }
+            let mut right = 0.0;
+            for ((glyph, (at, outline)), laid_out) in run.glyphs.iter().zip(run.outlines()).zip(&glyphs) {
+                if is_writable(&run, glyph) {
+                    let start = geom::Point::from_xy(x + mm_to_units(right * run.size), y);
+                    let glyphs = std::slice::from_ref(laid_out);
+                    self.surface.draw_glyphs(start, glyphs, font.clone(), run.text, size, false);
+                } else if let Some(path) = outline_path(&outline, at - frame.origin, run.size) {
+                    self.surface.draw_path(&path);
+                }
+                right += glyph.advance;
             }
         }
         self.surface.pop();
     }
+}
+
+/// Whether a document may have a glyph: that of a character that its font does not have, or of one that is no character, has no
+/// meaning for those who do not see it.
+fn is_writable(run: &GlyphRun, glyph: &PlacedGlyph) -> bool {
+    let text = &run.text[glyph.range.clone()];
+    glyph.index != 0 && !text.is_empty() && !text.contains(['\0', '\u{feff}', '\u{fffe}'])
+}
+
+/// The outline of a glyph at a size, from a position on the page; `None` if it has none.
+fn outline_path(outline: &[OutlineSegment], position: Vector, size: f64) -> Option<geom::Path> {
+    let mut builder = PathBuilder::new();
+    let on_page =
+        |[x, y]: [f64; 2]| point_in_units(&Point::from(position + Vector::new(x, -y) * size), Point::origin());
+    for segment in outline.iter().copied() {
+        match segment {
+            OutlineSegment::Move(p) => {
+                let [x, y] = on_page(p);
+                builder.move_to(x, y);
+            }
+            OutlineSegment::Line(p) => {
+                let [x, y] = on_page(p);
+                builder.line_to(x, y);
+            }
+            OutlineSegment::Quad(c, p) => {
+                let [[a, b], [x, y]] = [c, p].map(on_page);
+                builder.quad_to(a, b, x, y);
+            }
+            OutlineSegment::Cubic(c, d, p) => {
+                let [[a, b], [c, d], [x, y]] = [c, d, p].map(on_page);
+                builder.cubic_to(a, b, c, d, x, y);
+            }
+            OutlineSegment::Close => builder.close(),
+        }
+    }
+    builder.finish()
 }
 
 /// A point in whole units from an origin.

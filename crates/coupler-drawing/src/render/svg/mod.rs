@@ -20,14 +20,22 @@ pub fn svg(scene: &Scene, text: TextMode) -> Vec<u8> {
     let (w, h) = (Number(to_micrometres(scene.width)), Number(to_micrometres(scene.height)));
     writer.write(format_args!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"0 0 {w} {h}\" \
+         xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" role=\"graphics-document document\" xml:lang=\"en\" \
          font-family=\"{}\" font-kerning=\"none\" style=\"font-variant-ligatures:none\" \
          stroke-linejoin=\"round\" fill=\"none\">\n",
         scene.typeface.family.fallback_families()
     ));
     writer.write(format_args!("<title>{}</title>\n", Escaped(&scene.title)));
+    let figures = scene.figures();
+    let descriptions: Vec<&str> = figures.iter().map(|figure| figure.description.as_str()).collect();
+    if !descriptions.is_empty() {
+        writer.write(format_args!("<desc>{}</desc>\n", Escaped(&descriptions.join(". "))));
+    }
     writer.write(format_args!("<rect width=\"{w}\" height=\"{h}\" fill=\"{}\"/>\n", scene.paper));
+    // Of a page with one figure beside its key, its parts are layers, too.
+    let layers = if figures.iter().filter(|figure| figure.class != "key").count() == 1 { 2 } else { 1 };
     for item in &scene.items {
-        writer.write_item(item);
+        writer.write_item(item, layers);
     }
     writer.output.push_str("</svg>\n");
     writer.output.into_bytes()
@@ -45,9 +53,10 @@ impl SvgWriter {
         let _ = self.output.write_fmt(arguments);
     }
 
-    fn write_item(&mut self, item: &Item) {
+    /// Writes an item; it is in layers that are nested so deep.
+    fn write_item(&mut self, item: &Item, layers: usize) {
         match item {
-            Item::Group(group) => self.write_group(group),
+            Item::Group(group) => self.write_group(group, layers),
             Item::Path(path) => self.write_path(path, None),
             Item::Curve(curve) => self.write_curve(curve),
             Item::Circle(circle) => self.write_circle(circle, None),
@@ -60,7 +69,8 @@ impl SvgWriter {
         }
     }
 
-    fn write_group(&mut self, group: &Group) {
+    /// Writes a group, which is a layer in drawing programs if layers are nested so deep.
+    fn write_group(&mut self, group: &Group, layers: usize) {
         self.output.push_str("<g");
         if !group.id.is_empty() {
             self.write(format_args!(" id=\"{}\"", Escaped(&group.id)));
@@ -71,13 +81,17 @@ impl SvgWriter {
         for (name, value) in &group.data {
             self.write(format_args!(" data-{name}=\"{}\"", Escaped(value)));
         }
+        let label = if group.id.is_empty() { group.class.replace('-', " ") } else { group.id.clone() };
+        if layers > 0 && !label.is_empty() {
+            self.write(format_args!(" inkscape:groupmode=\"layer\" inkscape:label=\"{}\"", Escaped(&label)));
+        }
         self.output.push('>');
         if !group.title.is_empty() {
             self.write(format_args!("<title>{}</title>", Escaped(&group.title)));
         }
         self.output.push('\n');
         for item in &group.items {
-            self.write_item(item);
+            self.write_item(item, layers.saturating_sub(1));
         }
         self.output.push_str("</g>\n");
     }
@@ -104,7 +118,7 @@ impl SvgWriter {
                     let y = self.animate_element("cy", &values(|circle| circle.centre.y), *seconds);
                     self.write_circle(circle, Some(&(x + &y)));
                 }
-                _ => self.write_item(item),
+                _ => self.write_item(item, 0),
             }
         }
     }

@@ -162,8 +162,11 @@ fn compose_plate(how: &HowToRead, atlas: &Atlas, shown: &[(&Part, Point)], optio
     let space = page.y - top - bottom;
     let scale = PLATE_SCALE.min(space / plate.y);
     let shift = Vector::new(0.5 * (page.x - scale * plate.x), top + 0.5 * (space - scale * plate.y));
-    let items = how.plate.items.iter().map(|item| scaled(item, scale, shift)).collect();
-    root.record(Drawing { class: "plate", title: String::new(), items });
+    let items: Vec<Item> = how.plate.items.iter().map(|item| scaled(item, scale, shift)).collect();
+    let says: Vec<&str> = how.plate.figures().iter().map(|figure| figure.description.as_str()).collect();
+    root.grouped(Group::figure("plate", format!("A plate, reduced: {}", says.join(". "))), || {
+        items.into_iter().for_each(|item| root.record(item));
+    });
     let radius = 1.1 * theme.source_size;
     let ink = theme.text_ink(theme.curve_ink(0));
     let mut texts = Vec::new();
