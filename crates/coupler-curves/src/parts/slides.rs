@@ -177,7 +177,9 @@ fn add_slot(slots: &mut Vec<Slot>, new: Slot) {
             let [a, b] = on_line(slot);
             let (from, to) = (a.min(b).min(0.0), a.max(b).max(length));
             slot.ends = [from, to].map(|at| new.ends[0] + along * at);
-            slot.name = join_names([slot.name.as_str(), new.name.as_str()]);
+            if slot.name != new.name {
+                slot.name = join_names([slot.name.as_str(), new.name.as_str()]);
+            }
         }
         None => slots.push(new),
     }

@@ -10,8 +10,11 @@ use coupler_curves::linkage::JointId;
 use coupler_curves::parts::{GivenSizes, Outline, Part, Parts, PartsError, Sizes, Slot};
 use coupler_curves::solve::{SolvedCell, Solver};
 
-/// Linkages of every kind of part, with the parts that each has.
-const LINKAGES: [(&str, &[(&str, f64)], &[&str]); 14] = [
+/// A linkage of the catalogue, its parameters, and the names of its parts if they are expected.
+type Case = (&'static str, &'static [(&'static str, f64)], &'static [&'static str]);
+
+/// Linkages of every kind of part.
+const LINKAGES: [Case; 14] = [
     ("four-bar", &FOUR_BAR, &["frame", "OA", "ABM", "CB"]),
     ("watt-six-bar", &[], &[]),
     ("jansen", &[], &[]),

@@ -88,9 +88,11 @@ fn line(points: &[Point]) -> Polyline {
     Polyline { points: points.to_vec(), is_closed: false }
 }
 
-/// A length as captions print it: in full if that takes no more digits than anyone writes, and otherwise in six digits after ≈.
+/// A length as captions print it, without the noise of differences: in full if that takes no more digits than anyone writes, and otherwise in six digits
+/// after ≈.
 pub(super) fn length_text(value: f64) -> String {
-    const MAX_WRITTEN_DIGITS: usize = 12;
+    const MAX_WRITTEN_DIGITS: usize = 10;
+    let value = format!("{value:.11e}").parse().unwrap_or(value);
     let rounded = round_to_six_digits(value);
     if is_same_number(rounded, value) {
         return rounded.to_string();
@@ -107,9 +109,13 @@ mod tests {
 
     #[test]
     fn lengths_have_all_their_digits_or_are_marked_as_rounded() {
-        for (value, text) in
-            [(2.5, "2.5"), (0.1 + 0.2, "0.3"), (1.234_567_89, "1.23456789"), (2.0_f64.sqrt(), "≈1.41421")]
-        {
+        for (value, text) in [
+            (2.5, "2.5"),
+            (0.1 + 0.2, "0.3"),
+            (1.234_567_89, "1.23456789"),
+            (1.1 - 1.0 - 0.025, "0.075"),
+            (2.0_f64.sqrt(), "≈1.41421"),
+        ] {
             assert_eq!(length_text(value), text);
         }
     }

@@ -26,7 +26,9 @@ use title_block::TitleBlock;
 /// Draws the page, and returns the greatest scale at which the parts fit it, in millimetres to a unit.
 pub(in crate::page) fn compose(root: &impl Area, page: &PanelPage, options: &Options, theme: &Theme) -> f64 {
     let top = page.heading.draw(root, theme);
-    let [_, bottom, side] = margins(theme);
+    let top = top + 0.5 * theme.margin;
+    let [_, bottom, _] = margins(theme);
+    let side = theme.border + theme.margin;
     let size = Vector::new(root.size().x - 2.0 * side, root.size().y - bottom - top);
     let contents = Rect { corner: Point::new(side, top), size };
     let Some(panel) = page.panels.first() else { return f64::INFINITY };
@@ -43,7 +45,7 @@ pub(in crate::page) fn compose(root: &impl Area, page: &PanelPage, options: &Opt
                 }),
                 None => draw_message(root, views, "the views of the parts do not fit the paper", theme),
             }
-            draw_assembly(root, assembly, figure, theme);
+            draw_assembly(root, assembly, (figure, page.key), theme);
             table::draw(root, table, &groups, parts, theme);
             scales
         }
@@ -117,10 +119,10 @@ fn divide(contents: Rect, theme: &Theme) -> (Rect, [Rect; 3]) {
 }
 
 /// Draws the linkage in its pose, with the names of its joints.
-fn draw_assembly(root: &impl Area, rect: Rect, figure: &Figure, theme: &Theme) {
-    if let Some(mechanism) = figure.mechanisms.first() {
+fn draw_assembly(root: &impl Area, rect: Rect, (figure, key): (&Figure, Option<&Key>), theme: &Theme) {
+    if let (Some(mechanism), Some(key)) = (figure.mechanisms.first(), key) {
         let ink = |joint| figure.joint_ink(joint, theme);
-        key_drawing::draw_linkage(root, rect, (mechanism, &Key::default()), figure.first_circuit(), ink, theme);
+        key_drawing::draw_linkage(root, rect, (mechanism, key), figure.first_circuit(), ink, theme);
     }
 }
 

@@ -40,7 +40,7 @@ pub(super) fn view(group: &Group, sizes: Sizes, scale: f64, theme: &Theme) -> Pa
     // Letters may be around the outline.
     let room = Vector::repeat(1.5 * theme.note_size);
     let frame = Rect { corner: with_dimensions.min - room, size: with_dimensions.size() + room * 2.0 };
-    items.extend(letters(part, &items, frame, &page_from_part, theme));
+    items.extend(letters((part, sizes), &items, frame, &page_from_part, theme));
     let all = bounds(&items);
     let count = if group.names.len() > 1 { format!(" ({}×)", group.names.len()) } else { String::new() };
     let title = format!("{}{count}", group.names.join(", "));
@@ -136,17 +136,38 @@ fn dimensions(
     places.iter().enumerate().map(dimension).collect()
 }
 
-/// The letters of the holes.
-fn letters(part: &Part, items: &[Item], frame: Rect, page_from_part: &Similarity, theme: &Theme) -> Vec<Item> {
+/// The letters of the holes, which are not in the holes.
+fn letters(
+    (part, sizes): (&Part, Sizes),
+    items: &[Item],
+    frame: Rect,
+    page_from_part: &Similarity,
+    theme: &Theme,
+) -> Vec<Item> {
     let mut obstacles = Obstacles::default();
     obstacles.add(items, false);
-    let numbers: Vec<Item> = items.iter().filter_map(text_box).collect();
-    obstacles.add(&numbers, false);
+    let numbers = items.iter().filter_map(text_box);
+    let radius = sizes.hole / 2.0 * page_from_part.scale();
+    let disk = |hole: &Hole| {
+        let centre = page_from_part.apply(hole.centre);
+        Item::Circle(Circle { centre, radius, stroke: None, fill: Some(theme.paper) })
+    };
+    obstacles.add(&numbers.chain(part.holes.iter().map(disk)).collect::<Vec<_>>(), false);
     let mut placer = LabelPlacer::new(&obstacles, frame, theme);
     let named = part.holes.iter().filter(|hole| !hole.name.is_empty());
+    let size = theme.note_size;
     let letter = |hole: &Hole| {
-        let text = theme.text_line(&hole.name, Point::origin(), Anchor::Middle, theme.note_size, theme.ink).text;
-        placer.place_at_point(page_from_part.apply(hole.centre), text)
+        let text = theme.text_line(&hole.name, Point::origin(), Anchor::Middle, size, theme.ink).text;
+        let centre = page_from_part.apply(hole.centre);
+        let around = |deg: f64| {
+            let (cos, sin) = trig::cos_sin_deg(deg);
+            centre + Vector::new(cos, -sin) * (radius + 0.5 * size)
+        };
+        let clear = DIRECTIONS_DEG.iter().find_map(|deg| placer.place_if_clear(around(*deg), text.clone()));
+        clear.or_else(|| placer.place_at_point(centre, text))
     };
     named.filter_map(letter).collect()
 }
+
+/// Where letters are sought around a hole: first where no dimension leads away from it.
+const DIRECTIONS_DEG: [f64; 8] = [45.0, 135.0, 0.0, 90.0, 180.0, 315.0, 225.0, 270.0];
