@@ -46,7 +46,6 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let loaded = source::parse(path, &text)?;
     let mut problems = loaded.problems;
     problems.extend(loaded.plan.iter().flat_map(|plan| output::empty_family_warnings(plan, None)));
-    problems.extend(loaded.plan.iter().flat_map(output::scale_problems));
     let is_printed = |format| arguments.report.iter().any(|given| given.format == format && given.file.is_none());
     if is_printed(ReportFormat::Text) || !is_printed(ReportFormat::Json) {
         source::report_problems(path, &text, &problems);
@@ -62,8 +61,8 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
             (None, ReportFormat::Text) => {}
         }
     }
-    let errors = problems.iter().filter(|problem| problem.is_error()).count();
-    let Some(plan) = loaded.plan.filter(|_| errors == 0) else {
+    let Some(plan) = loaded.plan else {
+        let errors = problems.iter().filter(|problem| problem.is_error()).count();
         return Err(source::problems_error(path, errors));
     };
     if !is_printed(ReportFormat::Json) {

@@ -27,7 +27,6 @@ pub use files::{create_folder, read_bytes, read_text, write as write_file, write
 pub(crate) use lock::Lock;
 pub use options::{Event, Options};
 pub use page_shard::{DrawnPages, PageShard, PageShardSource, has_atlas_of, page_shards, write_page_shard};
-pub use scale::scale_problems;
 pub(crate) use temporary::remove as remove_temporary;
 pub use temporary::take_leftovers;
 
@@ -35,7 +34,6 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use crate::manifest::{Plan, PlannedFamily};
-use crate::pipeline::Inputs;
 use crate::record::RunRecord;
 use crate::sweep::{self, Division};
 use coupler_curves::problem::Problem;
@@ -113,6 +111,10 @@ pub fn write_atlas(
     if let Err(error) = &result {
         journal::suspend(output, matches!(error, Error::Interrupted));
     }
+    if let Err(Error::Misfits(_)) = &result {
+        let selected = plan.families.iter().filter(|planned| options.includes(planned));
+        scale::explain(plan, selected.map(|planned| (planned, Division::WHOLE)), &options.interrupt)?;
+    }
     let run = result?;
     for path in journals {
         std::fs::remove_file(&path).map_err(|source| Error::Write { path: path.clone(), source })?;
@@ -128,24 +130,18 @@ fn write_families(
     previous: PreviousRun,
     report: &mut dyn FnMut(Event),
 ) -> Result<RunRecord, Error> {
-    let is_selected = |planned: &&PlannedFamily| options.only.is_empty() || options.only.contains(&planned.family.id);
     let resumable: HashSet<String> = previous.progress.iter().map(|progress| progress.family.clone()).collect();
     files::remove_temporary_files(output, &|family| resumable.contains(family));
     let mut journal = Journal::open(plan, output, options, previous);
-    // What was finished once fitted its pages.
-    let is_new = |planned: &&PlannedFamily| {
-        let inputs = Inputs::new(planned).family_digest();
-        journal.family(&planned.family.id).is_none_or(|record| record.inputs_sha256 != Some(inputs))
-    };
-    let new = plan.families.iter().filter(is_selected).filter(is_new);
-    scale::check(plan, new.map(|planned| (planned, Division::WHOLE)), &options.interrupt)?;
     #[cfg(feature = "pdf")]
     let is_surveyed = book::families_to_survey(plan, output, options, &journal);
     #[cfg(not(feature = "pdf"))]
     let is_surveyed = vec![false; plan.families.len()];
     let mut surveys: Vec<Option<FamilySurvey>> = plan.families.iter().map(|_| None).collect();
     let families = plan.families.iter().enumerate().zip(is_surveyed).zip(&mut surveys);
-    for (((number, planned), is_surveyed), survey) in families.filter(|(((_, planned), _), _)| is_selected(planned)) {
+    for (((number, planned), is_surveyed), survey) in
+        families.filter(|(((_, planned), _), _)| options.includes(planned))
+    {
         check_interrupt(&options.interrupt)?;
         let surveyor = is_surveyed.then(|| Surveyor::new(planned, &plan.book, number));
         *survey = family::write((plan, planned), output, options, (&mut journal, surveyor), report)?;

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::error::Error;
+use crate::manifest::PlannedFamily;
 use crate::record::{BookRecord, FamilyRecord, ReadError};
 use coupler_drawing::render::Format;
 
@@ -26,6 +27,13 @@ pub struct Options {
     pub manifest: Option<String>,
     /// Set to true to end the run as soon as the pages being drawn are finished.
     pub interrupt: Arc<AtomicBool>,
+}
+
+impl Options {
+    /// Whether a family is written.
+    pub(super) fn includes(&self, planned: &PlannedFamily) -> bool {
+        self.only.is_empty() || self.only.contains(&planned.family.id)
+    }
 }
 
 /// Progress of a run.

@@ -97,6 +97,9 @@ impl Sink for OutputSink<'_> {
         }
         let page = job.number;
         let scene = job.compose();
+        if scene.reduced_scale.is_some() {
+            return Err(Error::Misfits(Vec::new()));
+        }
         let gallery_data = self.script.page(page, &scene);
         if unchanged.iter().all(Option::is_some) {
             return Ok(PageFiles { files: unchanged.into_iter().flatten().collect(), is_drawn: false, gallery_data });

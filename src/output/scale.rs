@@ -10,27 +10,26 @@ use coupler_curves::problem::Problem;
 use coupler_curves::solve::SolvedCell;
 use coupler_drawing::page::{Layout, PanelScale, Paper, format_scale, usual_scale_below};
 
-/// Checks that the linkages on some of the pages of families fit at the scales that are given.
+/// What is wrong with the scales of families of which a page was reduced, on some of their pages: with all of them composed again, so that
+/// everything is said in one run.
 ///
 /// # Errors
-/// They do not; the run is interrupted.
-pub(super) fn check<'p>(
+/// The problems; the run is interrupted.
+pub(super) fn explain<'p>(
     plan: &Plan,
     families: impl Iterator<Item = (&'p PlannedFamily, Division)>,
     stop: &AtomicBool,
 ) -> Result<(), Error> {
     let problems = families.map(|(planned, part)| scale_problem(plan, planned, part, stop));
     let misfits: Vec<Problem> = problems.collect::<Result<Vec<_>, Error>>()?.into_iter().flatten().collect();
-    if misfits.is_empty() { Ok(()) } else { Err(Error::Misfits(misfits)) }
-}
-
-/// The linkages of a plan that do not fit their pages at the scales that are given, by family.
-pub fn scale_problems(plan: &Plan) -> Vec<Problem> {
-    let families = plan.families.iter().map(|planned| (planned, Division::WHOLE));
-    match check(plan, families, &AtomicBool::new(false)) {
-        Err(Error::Misfits(problems)) => problems,
-        _ => Vec::new(),
+    if !misfits.is_empty() {
+        return Err(Error::Misfits(misfits));
     }
+    // The pages of a book may be narrower than those of the atlas.
+    let given = plan.families.iter().find(|planned| planned.scale.fixed().is_some());
+    let span = given.and_then(|planned| planned.scale_span.clone()).unwrap_or_default();
+    let problem = Problem::error(span, "linkages do not fit the pages of the book at this scale");
+    Err(Error::Misfits(vec![problem.with_help("give a smaller scale, a larger paper, or a narrower binding")]))
 }
 
 /// The problem of a family with a given scale at which linkages on some of the pages do not fit, with what to do about it. The pages are composed to
@@ -46,17 +45,16 @@ fn scale_problem(
 ) -> Result<Option<Problem>, Error> {
     let Some(scale) = planned.scale.fixed() else { return Ok(None) };
     let unit = planned.family.unit;
-    let is_reduced = |fitting: &f64| scale > fitting * (1.0 + ROUNDING);
-    let mut fitting = fitting_scales(plan, planned, part, stop)?;
+    let mut fitting = fitting_scales(plan, planned, part, false, stop)?;
     let page_count = fitting.len();
-    fitting.retain(is_reduced);
+    fitting.retain(|fitting| fitting.is_finite());
     if fitting.is_empty() {
         return Ok(None);
     }
-    let fits = |plan: &Plan, planned: &PlannedFamily| -> Result<bool, Error> {
-        let Some(scale) = planned.scale.fixed() else { return Ok(true) };
-        let all = fitting_scales(plan, planned, Division::WHOLE, stop)?;
-        Ok(all.iter().all(|fitting| scale <= fitting * (1.0 + ROUNDING)))
+    let fits = |plan: &Plan, planned: &PlannedFamily| match fitting_scales(plan, planned, Division::WHOLE, true, stop) {
+        Ok(_) => Ok(true),
+        Err(Error::Misfits(_)) => Ok(false),
+        Err(error) => Err(error),
     };
     let mut remedies = Vec::new();
     // Figures are arranged anew at another scale, so that what fits is found by trying.
@@ -101,9 +99,6 @@ fn scale_problem(
     Ok(Some(Problem::error(span, message).with_help(help)))
 }
 
-/// Panels of a page differ in size by a hundredth of a millimetre.
-const ROUNDING: f64 = 1e-3;
-
 /// The most scales that are tried.
 const MOST_SCALES: usize = 4;
 
@@ -124,19 +119,34 @@ fn larger_papers(paper: Paper) -> Vec<(String, Paper)> {
     papers
 }
 
-/// The greatest scale at which the linkages of each page fit, in millimetres to a unit; infinite without a linkage.
-fn fitting_scales(plan: &Plan, planned: &PlannedFamily, part: Division, stop: &AtomicBool) -> Result<Vec<f64>, Error> {
+/// The greatest scale at which the linkages of each page fit, in millimetres to a unit, if they are reduced to it, and otherwise infinity.
+///
+/// # Errors
+/// A page is reduced, if it is to stop there; the run is interrupted.
+fn fitting_scales(
+    plan: &Plan,
+    planned: &PlannedFamily,
+    part: Division,
+    stops_at_first: bool,
+    stop: &AtomicBool,
+) -> Result<Vec<f64>, Error> {
     let pipeline = FamilyPipeline::new(plan, planned, stop).ok_or(Error::Interrupted)?;
     let mut scales = Vec::new();
-    pipeline.run_pages(&FittingScale { stop }, part.range(pipeline.pagination.page_count), |scale| {
-        scales.push(scale);
-        Ok(())
-    })?;
+    pipeline.run_pages(
+        &FittingScale { stops_at_first, stop },
+        part.range(pipeline.pagination.page_count),
+        |scale| {
+            scales.push(scale);
+            Ok(())
+        },
+    )?;
     Ok(scales)
 }
 
 /// Composes pages, and passes on the greatest scale at which their linkages fit.
 struct FittingScale<'s> {
+    /// Whether a page that is reduced is an error.
+    stops_at_first: bool,
     stop: &'s AtomicBool,
 }
 
@@ -151,7 +161,10 @@ impl Sink for FittingScale<'_> {
 
     fn receive_page(&self, job: PageJob) -> Result<f64, Error> {
         check_interrupt(self.stop)?;
-        Ok(job.compose().fitting_scale.unwrap_or(f64::INFINITY))
+        match job.compose().reduced_scale {
+            Some(_) if self.stops_at_first => Err(Error::Misfits(Vec::new())),
+            reduced => Ok(reduced.unwrap_or(f64::INFINITY)),
+        }
     }
 
     fn bytes_per_page(&self) -> usize {

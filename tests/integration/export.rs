@@ -580,3 +580,12 @@ fn special_files_are_left_unchanged() {
     assert!(err.contains("socket is neither a file nor a folder: name one with -o, or leave -o out"), "{err}");
     assert!(fs::metadata(folder.path().join("socket")).unwrap().file_type().is_socket());
 }
+
+#[test]
+fn a_plate_is_a_page_of_pdf() {
+    let folder = folder_with(MANIFEST);
+    printed(folder.path(), &["export", "evans:1.1.1", "--format", "pdf", "-o", "plate.pdf"]);
+    let pdf = crate::book::reader::Pdf::read(&fs::read(folder.path().join("plate.pdf")).unwrap());
+    assert_eq!(pdf.pages().len(), 1);
+    assert!(!pdf.fonts().is_empty());
+}

@@ -216,7 +216,7 @@ fn every_character_can_be_on_a_page() {
         title: all.clone(),
         items: vec![Item::Group(group)],
         links: Vec::new(),
-        fitting_scale: None,
+        reduced_scale: None,
         typeface: FontFamily::Serif.into(),
     };
     let svg = render::svg(&scene, TextMode::Text);

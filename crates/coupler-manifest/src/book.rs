@@ -55,6 +55,11 @@ const MAX_ADDRESS: usize = 200;
 pub(crate) static BOOK: TableSchema = TableSchema::new(
     "[book]",
     &[
+        KeySchema::new(
+            "plates_only",
+            ValueSchema::Boolean,
+            "Whether it has neither a title page nor contents, lists and index; by default if there is no [book] and a single plate.",
+        ),
         KeySchema::new("how_to_read", ValueSchema::Boolean, "Whether two facing pages say how plates are read.")
             .with_default(|| "true".to_owned()),
         KeySchema::new(
@@ -218,6 +223,11 @@ pub(crate) fn read<'t>(
     let get = |key: &str| fields.as_ref().and_then(|fields| fields.get(key));
     let mut flag = |key: &str| get(key).map_or(Some(true), |value| parser.boolean(value));
     let [how_to_read, thumb_index, index] = ["how_to_read", "thumb_index", "index"].map(&mut flag);
+    let plates_only = match (&fields, get("plates_only")) {
+        (None, _) => Some(None),
+        (Some(_), None) => Some(Some(false)),
+        (Some(_), Some(value)) => parser.boolean(value).map(Some),
+    };
     let finding_charts = finding_charts(get("finding_charts"), families, parser);
     let mut length = |key: &str, most: f64| get(key).map_or(Some(0.0), |value| paper_length(value, most, parser));
     let (binding, bleed) = (length("binding", MAX_BINDING), length("bleed", MAX_BLEED));
@@ -241,6 +251,7 @@ pub(crate) fn read<'t>(
     let manifest_inputs =
         value.map_or(String::new(), |value| coupler_curves::linkage_format::canonical_toml(value, &[]));
     let plan = BookPlan {
+        plates_only: plates_only?,
         how_to_read: how_to_read?,
         finding_charts: finding_charts?,
         thumb_index: thumb_index?,

@@ -40,6 +40,8 @@ pub struct Plan {
 /// What a book has in addition to the pages of its families.
 #[derive(Clone, Debug, Default)]
 pub struct BookPlan {
+    /// Whether it has its plates only; `None` if that depends on how many there are.
+    pub plates_only: Option<bool>,
     /// Whether it says how its plates are read.
     pub how_to_read: bool,
     /// For which families it has charts of the shapes of their curves.

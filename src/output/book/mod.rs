@@ -203,12 +203,24 @@ fn write_volumes(
     }
     report(Event::Begin { family: "book", pages: page_count });
     let selected: Vec<&PlannedFamily> = families.iter().map(|family| family.pipeline.composer.planned).collect();
-    let atlas = atlas(plan, families, &parts, options)?;
+    let mut atlas = atlas(plan, families, &parts, options)?;
     if options.only.is_empty() {
         report_empty_parts(&plan.book, families, &atlas, report);
     }
     let first = families.iter().find(|family| family.pipeline.composer.planned.chart.is_none()).and_then(first_cell);
     let frontispiece = first.as_ref().map(|(composer, solved)| composer.frontispiece(solved));
+    // A single plate needs no way to find it.
+    atlas.plates_only = plan.book.plates_only.unwrap_or(page_count == 1);
+    if atlas.plates_only {
+        atlas = Atlas {
+            lists: Vec::new(),
+            charts: Vec::new(),
+            index: Vec::new(),
+            tabs: Vec::new(),
+            how_to_read: None,
+            ..atlas
+        };
+    }
     let volumes = atlas.volumes(plan.volume_pages.min(max_volume_pages(&selected)), &plan.page);
     let mut writer = BookWriter {
         plan,
@@ -375,6 +387,9 @@ struct OpenVolume<'a> {
 impl<'a> BookWriter<'a> {
     /// Adds a page of a family; opens the next volume if this one is full.
     fn add_page(&mut self, mut scene: Scene, family: &str) -> Result<(), Error> {
+        if scene.reduced_scale.is_some() {
+            return Err(Error::Misfits(Vec::new()));
+        }
         let is_full = |open: &OpenVolume| open.book.page_count() == open.front_pages + open.volume.page_count;
         if self.open_volume.as_ref().is_some_and(is_full) {
             self.close_volume()?;

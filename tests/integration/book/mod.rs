@@ -31,7 +31,7 @@ fn scene(items: Vec<Item>) -> Scene {
         title: "A page".into(),
         items,
         links: Vec::new(),
-        fitting_scale: None,
+        reduced_scale: None,
         typeface: FontFamily::SerifCondensed.into(),
     }
 }

@@ -157,3 +157,23 @@ fn gutters_and_addresses_that_cannot_be_are_errors() {
         "{report}"
     );
 }
+
+/// The number of pages of the PDF of a manifest.
+fn page_count(text: &str) -> usize {
+    let atlas = Atlas::rendered(text, &[]);
+    Pdf::read(&std::fs::read(atlas.out().join("atlas.pdf")).unwrap()).pages().len()
+}
+
+#[test]
+fn a_single_plate_is_a_single_page_and_a_book_may_have_its_plates_only() {
+    let manifest = |book: &str, cells: &str| {
+        format!(
+            "[atlas]\ntitle = \"T\"\noutput = \"out\"\nformats = [\"pdf\"]\n{book}\n[[family]]\nid = \"f\"\nlinkage = \"evans\"\npanels = [1, 1]\n\
+             sampling = {{ samples = 24 }}\ngrid = {{ p = {cells} }}\nlet = {{ a = \"(1 + p)^1.5 / 2\" }}\n"
+        )
+    };
+    assert_eq!(page_count(&manifest("", "[2]")), 1);
+    assert_eq!(page_count(&manifest("[book]\nplates_only = true", "[2, 3, 4]")), 3);
+    assert!(page_count(&manifest("", "[2, 3]")) > 4);
+    assert!(page_count(&manifest("[book]", "[2]")) > 3);
+}

@@ -80,7 +80,7 @@ fn the_search_of_the_tutorial_finds_the_stated_curve() {
     let search = example
         .replace("where = \"is_crank_rocker or is_change_point\"", condition)
         .replace("layout = \"coupler-grid\"", "")
-        .replace("scale = \"30 mm\"", "")
+        .replace("scale = \"20 mm\"", "")
         .replace("../target/hrones-nelson", "found");
     fs::write(folder.path().join("search.toml"), search).unwrap();
     assert_eq!(run(folder.path(), &["render", "search.toml", "-q"]).0, 0);

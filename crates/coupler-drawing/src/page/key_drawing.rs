@@ -169,17 +169,17 @@ impl KeyLines {
             line(&MathText::from_words(words), theme.ink)
         };
         let names: Vec<TextLine> = key.joints.iter().enumerate().map(name).collect();
-        // The text is beside the names, but below those that would leave too little to it.
-        let is_beside = |name: &TextLine| name.text.width() <= 0.4 * width;
-        let beside = names.iter().filter(|name| is_beside(name)).map(|name| name.text.width());
-        let indent = beside.reduce(f64::max).unwrap_or(em) + 0.7 * em;
+        // The text is beside the names, or below them where they would leave too little to it.
+        let widest = names.iter().map(|name| name.text.width()).fold(0.0, f64::max);
+        let is_beside = widest <= 0.4 * width;
+        let indent = if is_beside { widest + 0.7 * em } else { 1.5 * em };
         let fits = |text: &MathText| line(text, theme.grey).text.width() <= width - indent;
         let fits_column = |text: &MathText| line(text, theme.ink).text.width() <= width;
         let dimensions = MathText::join(dimensions.iter().cloned(), ", ").wrap(fits_column);
         let dimensions = dimensions.iter().filter(|part| !part.pieces().is_empty());
         let mut rows: Vec<_> = dimensions.map(|part| (None, line(part, theme.ink), 0.0)).collect();
         for (name, (joint, construction)) in names.into_iter().zip(&key.joints) {
-            let mut name = match is_beside(&name) {
+            let mut name = match is_beside {
                 true => Some(name),
                 false => {
                     let parts = name.wrap(width);

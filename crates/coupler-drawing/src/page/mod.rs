@@ -103,7 +103,7 @@ pub fn compose_overlay(page: &OverlayPage, options: &Options) -> Scene {
     let Paper { width, height } = options.paper;
     let (paper, typeface, title) = (theme.paper, theme.typeface, page.title.to_owned());
     let mut scene =
-        Scene { width, height, paper, typeface, title, items: Vec::new(), links: Vec::new(), fitting_scale: None };
+        Scene { width, height, paper, typeface, title, items: Vec::new(), links: Vec::new(), reduced_scale: None };
     overlay::compose(&mut scene, page, &theme);
     scene
 }
@@ -114,7 +114,7 @@ pub fn compose_answers(page: &AnswersPage, options: &Options) -> Scene {
     let Paper { width, height } = options.paper;
     let (paper, typeface, title) = (theme.paper, theme.typeface, page.title.to_owned());
     let mut scene =
-        Scene { width, height, paper, typeface, title, items: Vec::new(), links: Vec::new(), fitting_scale: None };
+        Scene { width, height, paper, typeface, title, items: Vec::new(), links: Vec::new(), reduced_scale: None };
     answers::compose(&mut scene, page, &theme);
     scene
 }
@@ -129,7 +129,7 @@ pub fn compose_panels(page: &PanelPage, options: &Options) -> Scene {
         _ => panels::compose(&root, page, options, &theme),
     };
     drop(root);
-    Scene { fitting_scale: page.scale.fixed().map(|_| fitting_scale), ..scene }
+    Scene { reduced_scale: page.scale.reduced(fitting_scale), ..scene }
 }
 
 /// Composes a page of a coupler grid.
@@ -137,11 +137,11 @@ pub fn compose_coupler_grid(page: &CouplerGridPage, options: &Options) -> Scene 
     let theme = options.theme.for_paper(options.paper);
     let mut scene = empty_scene(&page.heading, options, &theme);
     let fitting_scale = coupler_grid::compose(&mut scene, page, options, &theme);
-    Scene { fitting_scale: page.scale.fixed().map(|_| fitting_scale), ..scene }
+    Scene { reduced_scale: page.scale.reduced(fitting_scale), ..scene }
 }
 
 fn empty_scene(heading: &Heading, options: &Options, theme: &Theme) -> Scene {
     let Paper { width, height } = options.paper;
     let (paper, typeface, title) = (theme.paper, theme.typeface, heading.page_title());
-    Scene { width, height, paper, typeface, title, items: Vec::new(), links: Vec::new(), fitting_scale: None }
+    Scene { width, height, paper, typeface, title, items: Vec::new(), links: Vec::new(), reduced_scale: None }
 }

@@ -5,6 +5,7 @@ use super::heading::Heading;
 use super::key::Key;
 use super::layout::Layout;
 use super::panel::Panel;
+use super::plot::is_reduced;
 use crate::chart::{Chart, Series};
 use coupler_curves::geometry::Point;
 use coupler_curves::geometry::Similarity;
@@ -20,7 +21,7 @@ pub enum PanelScale {
     Panel,
     /// All of a page have the scale at which the largest one fits its panel.
     Page,
-    /// All have this scale, in millimetres to a unit of length. One that does not fit is reduced to [`fitting_scale`](crate::scene::Scene::fitting_scale).
+    /// All have this scale, in millimetres to a unit of length. One that does not fit is reduced, see [`reduced_scale`](crate::scene::Scene::reduced_scale).
     Fixed(f64),
 }
 
@@ -31,6 +32,11 @@ impl PanelScale {
             PanelScale::Fixed(scale) => Some(scale),
             PanelScale::Panel | PanelScale::Page => None,
         }
+    }
+
+    /// The scale that fits, if the one that is given is greater.
+    pub(super) fn reduced(self, fitting: f64) -> Option<f64> {
+        self.fixed().filter(|scale| is_reduced(*scale, fitting)).map(|_| fitting)
     }
 }
 

@@ -44,9 +44,8 @@ pub struct Scene {
     pub items: Vec<Item>,
     /// Links to other pages, on a page of a book.
     pub links: Vec<PageLink>,
-    /// The greatest scale at which its linkages fit, in millimetres to a unit, of a page whose scale is given; if that is greater, they are
-    /// reduced to this.
-    pub fitting_scale: Option<f64>,
+    /// The scale at which its linkages fit, in millimetres to a unit, if that is less than the one that is given: they are reduced to it.
+    pub reduced_scale: Option<f64>,
 }
 
 /// An item of a scene.

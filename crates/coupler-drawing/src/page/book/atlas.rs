@@ -22,6 +22,8 @@ pub struct Atlas<'a> {
     pub names_families: bool,
     /// How plates are read, if it is said.
     pub how_to_read: Option<HowToRead>,
+    /// Whether it has its plates only: neither a title page nor contents, lists and index.
+    pub plates_only: bool,
     /// The finding charts.
     pub charts: Vec<FindingChart>,
     /// The lists of curves.
@@ -41,6 +43,7 @@ impl<'a> Atlas<'a> {
             names_families: chapters.len() > 1,
             chapters,
             how_to_read: None,
+            plates_only: false,
             charts: Vec::new(),
             lists: Vec::new(),
             index: Vec::new(),

@@ -59,6 +59,9 @@ impl Atlas<'_> {
 
     /// The lists and the index, as far as they have pages.
     fn back_matter(&self, options: &Options) -> Vec<BackMatter> {
+        if self.plates_only {
+            return Vec::new();
+        }
         let theme = options.theme.for_paper(options.paper);
         let lists = self.lists.iter().map(|list| (&*list.title, false, list::page_count(list, self, options)));
         let index = (INDEX_TITLE, true, columns::page_count(&index::rows(self), options, &theme));
@@ -91,6 +94,9 @@ pub fn compose_front_matter(
     frontispiece: Option<&PanelPage>,
     options: &Options,
 ) -> Vec<Scene> {
+    if atlas.plates_only {
+        return Vec::new();
+    }
     let theme = options.theme.for_paper(options.paper);
     let mut first = empty_scene(atlas.title.to_owned(), options, &theme);
     title::compose(&mut first, atlas, volume, frontispiece, options, &theme);
@@ -122,7 +128,7 @@ pub fn compose_front_matter(
 /// Composes the back matter of a volume, after `front` pages of front matter: in the last volume the lists of curves, and the
 /// index of geometries by straightness, by transmission angle and by symmetry.
 pub fn compose_back_matter(atlas: &Atlas, volume: &Volume, front: usize, options: &Options) -> Vec<Scene> {
-    if volume.number < volume.volume_count {
+    if volume.number < volume.volume_count || atlas.plates_only {
         return Vec::new();
     }
     let theme = options.theme.for_paper(options.paper);
@@ -188,7 +194,7 @@ impl<'a> PageFinisher<'a> {
 /// The outline of a volume, with `front` pages of front matter: its parts, each family with its cells.
 pub fn outline(atlas: &Atlas, volume: &Volume, front: usize, options: &Options) -> Vec<OutlineEntry> {
     let entry = |title: &str, page| OutlineEntry { title: title.to_owned(), page_index: page, children: Vec::new() };
-    let mut entries = vec![entry(atlas.title, 0)];
+    let mut entries: Vec<OutlineEntry> = (!atlas.plates_only).then(|| entry(atlas.title, 0)).into_iter().collect();
     let how_to_read = 2 * usize::from(atlas.how_to_read.is_some());
     if how_to_read > 0 {
         entries.push(entry(how_to_read::TITLE, 1));
@@ -196,7 +202,7 @@ pub fn outline(atlas: &Atlas, volume: &Volume, front: usize, options: &Options) 
     let back_matter = atlas.back_matter(options);
     let theme = options.theme.for_paper(options.paper);
     let contents = columns::page_count(&contents::rows(atlas, volume, &back_matter), options, &theme);
-    if contents > 0 {
+    if contents > 0 && !atlas.plates_only {
         entries.push(entry("Contents", 1 + how_to_read));
     }
     let first_chart = places(atlas, volume, contents).charts;
