@@ -45,6 +45,8 @@ fn property(key: &KeySchema) -> Value {
 const NAME_PATTERN: &str = "^(?!(and|or|not|pi)$)[A-Za-z_][A-Za-z0-9_]*$";
 /// Lower-case letters and digits in words joined by hyphens, except device names of Windows.
 const SLUG_PATTERN: &str = "^(?!(con|prn|aux|nul|(com|lpt)[0-9])$)[a-z0-9]+(-[a-z0-9]+)*$";
+/// Two numbers, each perhaps with decimals.
+const RATIO_PATTERN: &str = "^\\s*[0-9]+([.][0-9]+)?\\s*:\\s*[0-9]+([.][0-9]+)?\\s*$";
 const COLOR_PATTERN: &str = "^#([0-9A-Fa-f]{3}|[0-9A-Fa-f]{6})$";
 
 fn value_schema(value: &ValueSchema) -> Value {
@@ -66,6 +68,8 @@ fn value_schema(value: &ValueSchema) -> Value {
         ValueSchema::InRange([least, most]) => {
             json!({ "type": ["number", "string"], "minimum": least, "maximum": most })
         }
+        // What is not greater than 0 is left to the parser, as it is of other numbers.
+        ValueSchema::Ratio => json!({ "type": "string", "pattern": RATIO_PATTERN }),
         ValueSchema::Quantity(dimension) => json!({ "type": "string", "pattern": ends_with_unit(*dimension) }),
         ValueSchema::List(item, range) => list(item, *range),
         ValueSchema::Set(item, range) => {

@@ -66,7 +66,7 @@ pub(crate) static FAMILY: TableSchema = TableSchema::new(
             ValueSchema::AnyOf(&[
                 ValueSchema::Word(|| words(&PANEL_SCALES)),
                 ValueSchema::Quantity(Dimension::PaperLength),
-                ValueSchema::WithExamples(&ValueSchema::Text, || vec!["1:1", "1:2", "2:1"]),
+                ValueSchema::WithExamples(&ValueSchema::Ratio, || vec!["1:1", "1:2", "2:1"]),
             ]),
             "The scale of the linkages on pages of panels: each as large as its panel, all of a page alike, the length of a unit on paper, or, of lengths with a unit, that on paper to that of the linkage.",
         )

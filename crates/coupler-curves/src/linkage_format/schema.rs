@@ -61,6 +61,8 @@ pub enum ValueSchema {
     InRange([f64; 2]),
     /// A number and its unit, in quotes.
     Quantity(Dimension),
+    /// Two numbers with a colon between them, in quotes.
+    Ratio,
     /// A value of the input: an angle with its unit, or a length if a piston drives the linkage.
     Input,
     /// A list, with the least and the greatest number of items.
