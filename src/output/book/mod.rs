@@ -13,7 +13,7 @@ use super::journal::{Journal, JournalFile};
 use super::survey::{CellSurvey, FamilySurvey, Surveyor};
 use super::{Error, Event, Options, check_interrupt, files, previous_run};
 use crate::PROGRAM;
-use crate::manifest::{BookPlan, FindingCharts, Plan, PlannedFamily};
+use crate::manifest::{BookPlan, FindingCharts, Plan, PlannedFamily, PlannedList};
 use crate::pipeline::{Composer, FamilyPipeline, Inputs, curves_by_page};
 use crate::record::{BookRecord, Digest, FileRecord};
 use crate::sweep::{self, CellGroups};
@@ -203,24 +203,19 @@ fn write_volumes(
     }
     report(Event::Begin { family: "book", pages: page_count });
     let selected: Vec<&PlannedFamily> = families.iter().map(|family| family.pipeline.composer.planned).collect();
-    let mut atlas = atlas(plan, families, &parts, options)?;
+    // A single plate needs no way to find it.
+    let plates_only = plan.book.plates_only.unwrap_or(page_count == 1);
+    let atlas = if plates_only {
+        let chapters = parts.iter().map(FamilyPart::chapter).collect();
+        Atlas { plates_only, names_families: families.len() > 1, ..Atlas::new(&plan.title, PROGRAM, chapters) }
+    } else {
+        atlas(plan, families, &parts, options)?
+    };
     if options.only.is_empty() {
         report_empty_parts(&plan.book, families, &atlas, report);
     }
     let first = families.iter().find(|family| family.pipeline.composer.planned.chart.is_none()).and_then(first_cell);
     let frontispiece = first.as_ref().map(|(composer, solved)| composer.frontispiece(solved));
-    // A single plate needs no way to find it.
-    atlas.plates_only = plan.book.plates_only.unwrap_or(page_count == 1);
-    if atlas.plates_only {
-        atlas = Atlas {
-            lists: Vec::new(),
-            charts: Vec::new(),
-            index: Vec::new(),
-            tabs: Vec::new(),
-            how_to_read: None,
-            ..atlas
-        };
-    }
     let volumes = atlas.volumes(plan.volume_pages.min(max_volume_pages(&selected)), &plan.page);
     let mut writer = BookWriter {
         plan,
@@ -294,7 +289,9 @@ fn report_empty_parts(book: &BookPlan, families: &[BookFamily], atlas: &Atlas, r
             report(Event::EmptyBookPart { kind: "chapter", title: &chapter.title });
         }
     }
-    for list in book.lists.iter().filter(|list| list.is_given && list.criteria.iter().any(Option::is_some)) {
+    // A book of plates only has none.
+    let wanted = |list: &&PlannedList| !atlas.plates_only && list.is_given && list.criteria.iter().any(Option::is_some);
+    for list in book.lists.iter().filter(wanted) {
         if atlas.lists.iter().all(|found| found.title != list.title) {
             report(Event::EmptyBookPart { kind: "list", title: &list.title });
         }
