@@ -3,6 +3,7 @@
 use std::fs;
 
 use coupler_atlas::manifest;
+use coupler_curves::measure::Subject;
 use coupler_curves::problem::report;
 
 use crate::support::command::{folder_with, printed};
@@ -240,8 +241,12 @@ fn every_measure_can_be_used_in_where_sort_and_texts() {
             assert!(report.contains(&format!("`evans` has no `{name}`")), "{report}");
             continue;
         }
-        let load = if name.starts_with("torque") { "load = { joint = \"M\", force = 1 }\n" } else { "" };
-        let uses = format!("{load}where = \"{name} > 0\"\nsort = \"-{name}\"\nnote = \"{{{name}:.3}}\"\n");
+        let needed = match measure.subject {
+            Subject::WithLoad => "load = { joint = \"M\", force = 1 }\n",
+            Subject::WithTolerance => "tolerance = 0.1\n",
+            _ => "",
+        };
+        let uses = format!("{needed}where = \"{name} > 0\"\nsort = \"-{name}\"\nnote = \"{{{name}:.3}}\"\n");
         if coupler_curves::measure::BOOLEANS.iter().any(|boolean| boolean.name == name) {
             plan(&format!("{GOOD}where = \"{name} or not {name}\"\ncaption = \"{{{name}}}\"\n"));
             let report = problems(&format!("{GOOD}where = \"{name} > 0\"\nsort = \"{name}\"\n"));
@@ -249,7 +254,7 @@ fn every_measure_can_be_used_in_where_sort_and_texts() {
         } else if measure.is_word {
             let report = problems(&format!("{GOOD}where = \"{name} > 0\"\nsort = \"{name}\"\n"));
             assert_eq!(report.matches(&format!("`{name}` is a word")).count(), 2, "{report}");
-            plan(&format!("{GOOD}caption = \"{{{name}}}\"\n"));
+            plan(&format!("{GOOD}{needed}caption = \"{{{name}}}\"\n"));
         } else {
             plan(&format!("{GOOD}{uses}"));
         }

@@ -64,7 +64,7 @@ pub(crate) fn measures_json(study: &Study, numbers: &mut Numbers) -> Value {
             (measure.name.to_owned(), value)
         })
         .collect();
-    let (straight, _) = curve.computed_marks();
+    let (straight, ..) = curve.computed_marks();
     json!({ "values": values, "straight": straight.and_then(|portion| portion_json(study, portion, numbers)) })
 }
 

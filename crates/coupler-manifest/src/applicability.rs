@@ -79,8 +79,14 @@ impl CheckedLinkage<'_> {
         let message = format!("`{id}` has no `{name}`, which is defined for {} only", subject.description());
         // Only a column has this name.
         let measures = measures && measure.is_some();
-        if subject == Subject::WithLoad {
-            let help = "give the family a load, as in load = { joint = \"C\", force = 100, direction = \"-90 deg\" }";
+        let key = match subject {
+            Subject::WithLoad => {
+                Some("give the family a load, as in load = { joint = \"C\", force = 100, direction = \"-90 deg\" }")
+            }
+            Subject::WithTolerance => Some("give the family a tolerance of its lengths, as in tolerance = 0.1"),
+            _ => None,
+        };
+        if let Some(help) = key {
             parser.report(Problem::error(span, message).with_help(help));
             return;
         }

@@ -176,9 +176,10 @@ fn apply_overrides<'t>(template: Arc<Template>, fields: &Fields<'_, 't>, parser:
     let coincident = fields.get("coincident").and_then(|value| parser.word(value, &linkage_format::COINCIDENT_DYADS));
     let placement = fields.get("place").and_then(|value| placement(value, parser));
     let load = fields.get("load").and_then(|value| linkage_format::parse_load(value, &template.joints, parser));
+    let tolerance = fields.get("tolerance").and_then(|value| linkage_format::parse_tolerance(value, &template, parser));
     let traced = fields.get("trace").and_then(|value| traced_joints(value, &template, parser));
     let has_settings = traced.is_some() || circuits.is_some() || continuation.is_some() || coincident.is_some();
-    if !has_settings && placement.is_none() && load.is_none() {
+    if !has_settings && placement.is_none() && load.is_none() && tolerance.is_none() {
         return template;
     }
     let mut changed = Template::clone(&template);
@@ -188,6 +189,7 @@ fn apply_overrides<'t>(template: Arc<Template>, fields: &Fields<'_, 't>, parser:
     changed.orientation = placement.unwrap_or(changed.orientation);
     changed.traced = traced.unwrap_or(changed.traced);
     changed.load = load.or(changed.load);
+    changed.tolerance = tolerance.or(changed.tolerance);
     Arc::new(changed)
 }
 

@@ -12,7 +12,8 @@ use coupler_curves::catalogue;
 use coupler_curves::expression::Dimension;
 use coupler_curves::family::{COLUMNS, MAX_CELLS, MAX_SAMPLES, Sampling, StraightCriterion};
 use coupler_curves::linkage_format::{
-    CIRCUITS_KEY, COINCIDENT_KEY, CONTINUATION_KEY, KeySchema, LINKAGES_KEY, LOAD_KEY, TableSchema, ValueSchema, words,
+    CIRCUITS_KEY, COINCIDENT_KEY, CONTINUATION_KEY, KeySchema, LINKAGES_KEY, LOAD_KEY, TOLERANCE_KEY, TableSchema,
+    ValueSchema, words,
 };
 use coupler_drawing::page::{Layout, PanelScale};
 
@@ -138,6 +139,7 @@ pub(crate) static FAMILY: TableSchema = TableSchema::new(
         KeySchema::new("place", ValueSchema::Table(&PLACE), "How its linkages are placed in the plane.")
             .with_default(default_value::empty_table),
         LOAD_KEY,
+        TOLERANCE_KEY,
         KeySchema::new(
             "columns",
             ValueSchema::Set(&ValueSchema::Word(|| COLUMNS.map(|column| column.name).to_vec()), [0, usize::MAX]),

@@ -92,6 +92,10 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         let load = load.map_err(|error| Failure::input(format!("--load: {}: {error}", template.id)))?;
         Arc::make_mut(&mut template).load = Some(load);
     }
+    if let Some(tolerance) = arguments.tolerance {
+        tolerance::check(&template, tolerance)?;
+        Arc::make_mut(&mut template).tolerance = Some(tolerance);
+    }
     let given = |text: &String| {
         let parameter = ParameterText::parse(text).map_err(Failure::input)?;
         parameter.resolve(&template).map_err(|error| Failure::input(format!("{}: {error}", arguments.linkage)))
@@ -120,7 +124,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         let message = format!("{} has no coupler curve of a four-bar, and so no sextic: leave --sextic out", family.id);
         return Err(Failure::input(message));
     }
-    let tolerance = arguments.tolerance.map(|error| Tolerance::new(&family, &solved, error)).transpose()?;
+    let tolerance = solved.linkage.tolerance.and_then(|error| Tolerance::new(&family, &solved, error));
     let report = Report { family: &family, solved: &solved, input: at, poses, equations, cognates, tolerance };
     if let Some(path) = &arguments.svg {
         files::write(path, &plate::plate(&report, arguments.animate))?;

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use coupler_curves::family::Family;
 use coupler_curves::solve::{CurveTolerance, SolvedCell, curve_tolerances};
+use coupler_curves::template::Template;
 use serde::Serialize;
 
 use super::super::Failure;
@@ -15,6 +16,8 @@ pub(super) struct Tolerance {
     /// The names of the lengths.
     names: Vec<String>,
     curves: Vec<ToleratedCurve>,
+    /// The numbers of the traces and circuits of curves that have none.
+    without: Vec<[usize; 2]>,
 }
 
 struct ToleratedCurve {
@@ -46,36 +49,53 @@ struct LengthJson<'a> {
     permitted: Option<f64>,
 }
 
+/// Checks that the lengths of a linkage can be off by a length.
+///
+/// # Errors
+/// It is not positive; the linkage is one whose lengths cannot be off by themselves.
+pub(super) fn check(template: &Template, error: f64) -> Result<(), Failure> {
+    if !(error > 0.0 && error.is_finite()) {
+        return Err(Failure::input(format!("--tolerance {error}: give a positive length, as in --tolerance 0.1")));
+    }
+    if template.lengths().is_none() {
+        let what = "its joints are placed together, or on a grid, so that no length is off by itself";
+        return Err(Failure::input(format!("--tolerance: {}: {what}", template.id)));
+    }
+    Ok(())
+}
+
 impl Tolerance {
-    /// The tolerances of a linkage.
-    ///
-    /// # Errors
-    /// An error that is not positive; a linkage whose lengths cannot be off by themselves.
-    pub(super) fn new(family: &Family, solved: &SolvedCell, error: f64) -> Result<Tolerance, Failure> {
-        if !(error > 0.0 && error.is_finite()) {
-            return Err(Failure::input(format!("--tolerance {error}: give a positive length, as in --tolerance 0.1")));
-        }
+    /// The tolerances of a linkage; `None` where no length is off by itself.
+    pub(super) fn new(family: &Family, solved: &SolvedCell, error: f64) -> Option<Tolerance> {
         let template = &family.template;
-        let Some((lengths, curves)) = template.lengths().zip(curve_tolerances(family, solved)) else {
-            let what = "its joints are placed together, or on a grid, so that no length is off by itself";
-            return Err(Failure::input(format!("--tolerance: {}: {what}", family.id)));
-        };
+        let (lengths, curves) = template.lengths().zip(curve_tolerances(family, solved))?;
         let names = lengths.iter().map(|length| template.length_name(length)).collect();
         let straight = |curve: &CurveTolerance| {
             let same = solved.curves.iter().find(|own| own.trace == curve.trace && own.circuit == curve.circuit);
             same.and_then(|own| Some(own.straight.as_ref()?.length))
         };
+        let without: Vec<[usize; 2]> = solved
+            .curves
+            .iter()
+            .map(|curve| [curve.trace, curve.circuit])
+            .filter(|own| curves.iter().all(|curve| [curve.trace, curve.circuit] != *own))
+            .collect();
         let curves = curves.into_iter().map(|curve| ToleratedCurve { straight: straight(&curve), curve }).collect();
-        Ok(Tolerance { error, names, curves })
+        Some(Tolerance { error, names, curves, without })
     }
 
     /// Appends a line and a table for each curve.
     pub(super) fn append_text(&self, out: &mut String) {
         let error = format_significant(self.error, 7);
         let number = |value: f64| format_significant(value, 4);
+        for [trace, circuit] in &self.without {
+            let why = "it stands still, or passes a change point, near which no error is small";
+            let _ = writeln!(out, "\ntolerance: none of the curve (trace {trace}, circuit {circuit}): {why}");
+        }
         for own in &self.curves {
             let ToleratedCurve { curve, .. } = own;
-            let [worst, rss] = [curve.worst_case, curve.root_sum_square].map(|unit| number(self.error * unit));
+            let [worst, rss] =
+                [curve.moves.worst_case, curve.moves.root_sum_square].map(|unit| number(self.error * unit));
             // Writing to a string cannot fail.
             let _ = writeln!(
                 out,
@@ -90,7 +110,7 @@ impl Tolerance {
             for (k, name) in self.names.iter().enumerate() {
                 let straight = curve.straight[k].map_or("–".to_owned(), number);
                 let permitted = own.permitted(k).map_or("–".to_owned(), |by| format_significant(by, 2));
-                let _ = writeln!(out, "{name:<16}{:>14}{straight:>20}{permitted:>22}", number(curve.moves[k]));
+                let _ = writeln!(out, "{name:<16}{:>14}{straight:>20}{permitted:>22}", number(curve.moves.lengths[k]));
             }
         }
     }
@@ -99,15 +119,15 @@ impl Tolerance {
         let curve = |own: &'_ ToleratedCurve| CurveJson {
             trace: own.curve.trace,
             circuit: own.curve.circuit,
-            worst_case: self.error * own.curve.worst_case,
-            root_sum_square: self.error * own.curve.root_sum_square,
+            worst_case: self.error * own.curve.moves.worst_case,
+            root_sum_square: self.error * own.curve.moves.root_sum_square,
             lengths: self
                 .names
                 .iter()
                 .enumerate()
                 .map(|(k, name)| LengthJson {
                     name,
-                    sensitivity: own.curve.moves[k],
+                    sensitivity: own.curve.moves.lengths[k],
                     straight_sensitivity: own.curve.straight[k],
                     permitted: own.permitted(k),
                 })

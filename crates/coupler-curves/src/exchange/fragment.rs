@@ -10,7 +10,7 @@ use super::number::format_number;
 use super::sampling_fields::sampling_fields;
 use crate::catalogue;
 use crate::family::{Family, MAX_CELLS, StraightCriterion};
-use crate::linkage_format::quoted;
+use crate::linkage_format::{quoted, toml_number};
 use crate::template::{CircuitSelection, CoincidentDyads, Continuation, Orientation, Template};
 
 /// The families of some parameter sets, in their order, to be put into a manifest that has an `[atlas]` and the custom
@@ -110,6 +110,9 @@ pub fn family_settings(family: &Family) -> String {
         let _ = writeln!(out, "place = {}", placement_to_toml(&template.orientation));
     }
     out += &straight_setting(family);
+    if let Some(tolerance) = template.tolerance {
+        let _ = writeln!(out, "tolerance = {}", toml_number(tolerance));
+    }
     if let Some(load) = template.load {
         let _ = writeln!(out, "load = {}", load_to_toml(template, load));
     }

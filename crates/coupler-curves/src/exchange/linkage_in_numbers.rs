@@ -39,6 +39,9 @@ pub fn linkage_in_numbers(template: &Template, values: &[f64]) -> String {
         Some(OutputLinkTemplate::Link(joints)) => line("output_link", text.names(joints)),
         Some(OutputLinkTemplate::Slider(joint)) => line("output_link", text.name(*joint)),
     }
+    if let Some(tolerance) = template.tolerance {
+        line("tolerance", toml_number(tolerance));
+    }
     if let Some(load) = template.load {
         line("load", load_to_toml(template, load));
     }

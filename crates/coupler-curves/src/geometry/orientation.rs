@@ -30,6 +30,13 @@ impl Orientation {
         Vector::new(cos * v.x - sin * y, sin * v.x + cos * y)
     }
 
+    /// The vector whose image this is.
+    pub(crate) fn original_vector(&self, image: Vector) -> Vector {
+        let (cos, sin) = (self.axis.x, self.axis.y);
+        let (x, y) = (cos * image.x + sin * image.y, cos * image.y - sin * image.x);
+        Vector::new(x, if self.is_mirrored { -y } else { y })
+    }
+
     /// The image of a point.
     #[inline]
     pub fn transform_point(&self, p: Point) -> Point {
@@ -61,6 +68,8 @@ mod tests {
         assert_eq!(Orientation::default().transform_point(p), p);
         assert_eq!(Orientation::new(false, 90.0).transform_point(p), Point::new(-1.0, 2.0));
         assert_eq!(Orientation::new(true, 90.0).transform_point(p), Point::new(1.0, 2.0));
+        let turned = Orientation::new(true, 30.0);
+        assert!((turned.original_vector(turned.transform_vector(p.coords)) - p.coords).norm() < 1e-15);
         for deg in [0.0, 90.0, -30.1, 123.456789, 180.0] {
             assert_eq!(Orientation::new(true, deg).rotation_deg(), deg);
         }

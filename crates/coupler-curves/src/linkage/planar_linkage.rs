@@ -24,6 +24,8 @@ pub struct Linkage {
     pub output_link: Option<OutputLink>,
     /// The force that it moves against, if there is one.
     pub load: Option<Load>,
+    /// How far each of its lengths may be off, if that is to be measured: positive.
+    pub tolerance: Option<f64>,
     /// The chains it is composed of in addition to the first, such as the cognates of a four-bar, each by its joints: the
     /// links between them are a part of the linkage that a figure distinguishes.
     pub chains: Vec<Vec<JointId>>,
@@ -141,6 +143,7 @@ impl Linkage {
             seen_from: self.seen_from,
             output_link: self.output_link,
             load: self.load,
+            tolerance: self.tolerance,
             chains: Vec::new(),
             placement: self.placement,
             motion_options: self.motion_options.clone(),

@@ -7,6 +7,7 @@ use super::joints;
 use super::load::{LOAD_KEY, parse_load};
 use super::quantities::InputKind;
 use super::schema::{KeySchema, TableSchema, ValueSchema, default_word, words};
+use super::tolerance::{TOLERANCE_KEY, parse_tolerance};
 use super::toml_parser::{TomlParser, TomlValue};
 use crate::expression::{Dimension, Kind, Scope, Unit};
 use crate::linkage;
@@ -70,6 +71,7 @@ pub(super) static LINKAGE: TableSchema = TableSchema::new(
             "The link that it drives, by two of its joints, or the slider, by its joint; the last driven link on the frame by default.",
         ),
         LOAD_KEY,
+        TOLERANCE_KEY,
         KeySchema::new(
             "chains",
             ValueSchema::List(&ValueSchema::Set(&JOINT_NAME, [2, usize::MAX]), [0, usize::MAX]),
@@ -202,6 +204,7 @@ pub fn parse_template<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) ->
         seen_from: joints.seen_from,
         output_link: joints.output_link,
         load: None,
+        tolerance: None,
         chains: joints.chains,
         orientation: Orientation::default(),
         circuits,
@@ -226,6 +229,7 @@ pub fn parse_template<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) ->
             ..template.clone()
         }));
     }
+    template.tolerance = fields.get("tolerance").and_then(|value| parse_tolerance(value, &template, parser));
     template.load = fields.get("load").and_then(|value| parse_load(value, &template.joints, parser));
     for ((kind, states_unit), parameter) in
         template.infer_kinds().into_iter().zip(states_unit).zip(&mut template.parameters)

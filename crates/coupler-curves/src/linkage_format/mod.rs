@@ -14,6 +14,7 @@ mod names;
 mod quantities;
 mod schema;
 mod syntax_errors;
+mod tolerance;
 mod toml_parser;
 
 // For the other crates of the workspace only.
@@ -27,6 +28,7 @@ pub use self::{
     },
     load::{LOAD_KEY, parse_load},
     schema::{KeySchema, TableSchema, ValueSchema, words},
+    tolerance::{TOLERANCE_KEY, parse_tolerance},
     toml_parser::{MAX_PROBLEMS, TomlParser, TomlValue},
 };
 

@@ -122,3 +122,16 @@ pub(super) struct InputTorque {
     /// The input there.
     pub peak_input: f64,
 }
+
+/// How far a curve moves across itself for errors of the lengths of its linkage.
+#[derive(Clone, Debug)]
+pub struct CurveMoves {
+    /// The greatest move for a unit of each length; 0 where it is rounding.
+    pub lengths: Vec<f64>,
+    /// The greatest move for a unit of every length, each to its worse side.
+    pub worst_case: f64,
+    /// The greatest root of the sum of the squares of the moves for a unit of each length.
+    pub root_sum_square: f64,
+    /// Along the curve: points, and there the unit vector to the left of the curve, times the move for a unit of every length to its worse side.
+    pub worst_along: Vec<(Point, Vector)>,
+}

@@ -4,7 +4,7 @@ use std::ops::Deref;
 
 use super::definition::{Measure, MeasureKey, MeasureValue, Value};
 use super::{
-    TracedCurve, class, dwell, four_bar_type, input_range, output, path, shape, six_bar, speed_ratio, straight,
+    TracedCurve, class, dwell, four_bar_type, input_range, moves, output, path, shape, six_bar, speed_ratio, straight,
     symmetry, torque, transmission,
 };
 
@@ -67,6 +67,10 @@ measures! {
     TORQUE_PEAK_DEG: f64 = torque::TORQUE_PEAK_INPUT,
     TORQUE_MIN: f64 = torque::TORQUE_MIN,
     TORQUE_MAX: f64 = torque::TORQUE_MAX,
+    SENSITIVITY_MAX: f64 = moves::SENSITIVITY,
+    SENSITIVITY_LENGTH: &'static str = moves::LENGTH,
+    TOLERANCE_WORST: f64 = moves::WORST,
+    TOLERANCE_RSS: f64 = moves::ROOT_SUM_SQUARE,
     LENGTH: f64 = path::LENGTH,
     AREA: f64 = path::AREA,
     BBOX_X_MIN: f64 = path::BOUNDING_BOX[0],

@@ -14,6 +14,7 @@ mod four_bar_type;
 mod input_range;
 mod measure_set;
 mod measures;
+mod moves;
 mod output;
 mod path;
 mod portion;
@@ -42,6 +43,7 @@ pub use traced_curve::TracedCurve;
 pub use self::{
     column::{COLUMNS, Column, compute_columns, find_column},
     definition::MeasureValue,
+    features::CurveMoves,
     measures::{BOOLEANS, Boolean},
     output::output_limit_poses,
     path::cumulative_lengths,

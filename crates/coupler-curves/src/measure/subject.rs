@@ -27,6 +27,8 @@ pub enum Subject {
     WithSlidingOutput,
     /// A linkage with a load.
     WithLoad,
+    /// A linkage with a tolerance of its lengths.
+    WithTolerance,
     /// A linkage driven by an angle.
     DrivenByAngle,
 }
@@ -50,6 +52,7 @@ impl Subject {
             Subject::WithTurningOutput => linkage.output().is_some_and(|output| !output.is_slider()),
             Subject::WithSlidingOutput => linkage.output().is_some_and(|output| output.is_slider()),
             Subject::WithLoad => linkage.load.is_some(),
+            Subject::WithTolerance => linkage.tolerance.is_some(),
             Subject::DrivenByAngle => linkage.input() != Input::Length,
         }
     }
@@ -70,6 +73,7 @@ impl Subject {
             Subject::WithTurningOutput => "linkages whose output link turns",
             Subject::WithSlidingOutput => "linkages whose output is a slider",
             Subject::WithLoad => "linkages with a `load`",
+            Subject::WithTolerance => "linkages with a `tolerance`",
             Subject::DrivenByAngle => "linkages driven by an angle",
         }
     }

@@ -6,12 +6,12 @@ use std::rc::Rc;
 use super::budget::TooManySteps;
 use super::circuit_function::{CircuitFunction, NoFunction, Quantity};
 use super::curve::{ArcLength, Crossings, SmoothCurve, Stop};
-use super::features::{Dwell, InputTorque, StraightCriterion, StraightPortion, Symmetry};
+use super::features::{CurveMoves, Dwell, InputTorque, StraightCriterion, StraightPortion, Symmetry};
 use super::output::motion::OutputMotion;
 use super::portion::{Row, SPACING};
 use super::rounding::{within_period, without_rounding};
 use crate::linkage::{Input, JointId, Linkage};
-use crate::motion::{Circuit, Motion};
+use crate::motion::{Circuit, Motion, NeighbourLinkages};
 
 /// The curve of a traced joint on a circuit. Intermediate results are computed once for all measures.
 #[derive(Clone, Debug)]
@@ -26,6 +26,8 @@ pub struct TracedCurve<'a> {
     pub joint: JointId,
     /// The criterion for the straight portion.
     pub straight_criterion: StraightCriterion,
+    neighbours: Option<Rc<NeighbourLinkages>>,
+    pub(super) moves: OnceCell<Option<CurveMoves>>,
     single_point_linkage: OnceCell<(Linkage, JointId)>,
     extent: OnceCell<f64>,
     pub(super) straight: OnceCell<Result<Vec<StraightPortion>, TooManySteps>>,
@@ -54,6 +56,8 @@ impl<'a> TracedCurve<'a> {
             circuit,
             joint,
             straight_criterion: StraightCriterion::default(),
+            neighbours: None,
+            moves: OnceCell::new(),
             single_point_linkage: OnceCell::new(),
             extent: OnceCell::new(),
             straight: OnceCell::new(),
@@ -90,6 +94,17 @@ impl<'a> TracedCurve<'a> {
     /// The same curve with another criterion for the straight portion.
     pub fn with_straight_criterion(self, criterion: StraightCriterion) -> TracedCurve<'a> {
         TracedCurve { straight_criterion: criterion, straight: OnceCell::new(), ..self }
+    }
+
+    /// The same curve of a linkage whose lengths may be off.
+    #[must_use]
+    pub fn with_neighbours(self, neighbours: Option<Rc<NeighbourLinkages>>) -> TracedCurve<'a> {
+        TracedCurve { neighbours, moves: OnceCell::new(), ..self }
+    }
+
+    /// The linkages that differ in one length.
+    pub(super) fn neighbours(&self) -> Option<&NeighbourLinkages> {
+        self.neighbours.as_deref()
     }
 
     /// The greatest distance of two points of the curve.
@@ -184,10 +199,10 @@ impl<'a> TracedCurve<'a> {
         (linkage, *joint)
     }
 
-    /// The straight portion and the symmetry, if they have been computed, to be marked on pages.
-    pub fn computed_marks(&self) -> (Option<StraightPortion>, Option<Symmetry>) {
+    /// The straight portion, the symmetry and the moves for errors of lengths, if they have been computed, to be marked on pages.
+    pub fn computed_marks(&self) -> (Option<StraightPortion>, Option<Symmetry>, Option<CurveMoves>) {
         let straight = self.straight.get().and_then(|all| all.as_ref().ok()?.first().cloned());
-        (straight, self.symmetry.get().copied().flatten())
+        (straight, self.symmetry.get().copied().flatten(), self.moves.get().cloned().flatten())
     }
 }
 

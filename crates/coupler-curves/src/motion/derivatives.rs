@@ -28,7 +28,7 @@ impl JointDerivatives {
         let input = SeriesInput { value: input.value, direction: [input.cos, input.sin] };
         let sign = |dyad: DyadId| f64::from(mode.sign(dyad));
         let all = place_as_series(linkage, linkage.joints.len(), input, sign, |_, position, _| position);
-        JointDerivatives(to_view_frame(linkage, all))
+        JointDerivatives(in_view_frame(linkage, all))
     }
 
     /// The derivatives at an input of a pass. At its ends they are the one-sided ones: unbounded at a limit; finite at
@@ -42,13 +42,13 @@ impl JointDerivatives {
             let group: HashMap<JointId, JointSeries> = track.series(input, is_limit).into_iter().collect();
             let placed = |joint, position, _: &[JointSeries]| group.get(&joint).copied().unwrap_or(position);
             let all = place_as_series(linkage, linkage.joints.len(), input, |_| 1.0, placed);
-            return JointDerivatives(to_view_frame(linkage, all));
+            return JointDerivatives(in_view_frame(linkage, all));
         }
         let is_here = |(end, _): &(PassEnd, f64)| end.input.value == input && !end.flat_dyads.is_empty();
         if let Some((end, inwards)) = pass.ends().into_iter().rev().find(is_here) {
             let series = EndSeries::new(linkage, &end, pass.mode, inwards);
             let at = linkage.joint_ids().map(|joint| series.in_input(joint)).collect();
-            return JointDerivatives(to_view_frame(linkage, at));
+            return JointDerivatives(in_view_frame(linkage, at));
         }
         JointDerivatives::new(linkage, position, pass.mode)
     }
@@ -83,23 +83,34 @@ impl JointDerivatives {
     }
 }
 
-/// Transforms positions and derivatives into the frame they are reported in.
-fn to_view_frame(linkage: &Linkage, mut at: Vec<JointSeries>) -> Vec<JointSeries> {
-    if let Some([origin, end]) = linkage.seen_from {
-        let (from, unit) = (at[origin], at[end].minus(at[origin]).unit());
-        for place in &mut at {
-            let v = place.minus(from);
-            *place = VectorSeries { x: unit.dot(v), y: unit.cross(v) };
-        }
+/// The positions and derivatives in the frame they are reported in.
+fn in_view_frame(linkage: &Linkage, at: Vec<JointSeries>) -> Vec<JointSeries> {
+    let mut at = to_view_frame(linkage, at);
+    if linkage.seen_from.is_some() {
         // The joints of the link the linkage is seen from are at rest; their computed derivatives are rounding errors.
         for (joint, _) in &linkage.ground().joints {
             let VectorSeries { x, y } = at[*joint];
             at[*joint] = VectorSeries { x: Series::constant(x.0[0]), y: Series::constant(y.0[0]) };
         }
     }
+    at
+}
+
+/// Transforms positions and derivatives into the frame they are reported in.
+pub(super) fn to_view_frame<const N: usize>(
+    linkage: &Linkage,
+    mut at: Vec<VectorSeries<f64, N>>,
+) -> Vec<VectorSeries<f64, N>> {
+    if let Some([origin, end]) = linkage.seen_from {
+        let (from, unit) = (at[origin], at[end].minus(at[origin]).unit());
+        for place in &mut at {
+            let v = place.minus(from);
+            *place = VectorSeries { x: unit.dot(v), y: unit.cross(v) };
+        }
+    }
     if linkage.placement != Orientation::default() {
         for VectorSeries { x, y } in &mut at {
-            for n in 0..4 {
+            for n in 0..N {
                 let placed = linkage.placement.transform_vector(Vector::new(x.0[n], y.0[n]));
                 (x.0[n], y.0[n]) = (placed.x, placed.y);
             }

@@ -31,6 +31,7 @@ mod instantaneous_motion;
 mod interval;
 mod interval_search;
 mod joint_series;
+mod length_rates;
 mod limits;
 mod link_rotation;
 mod memory;
@@ -56,6 +57,7 @@ pub use self::{
     circuit::{CircuitSet, UnsampledCircuit, find_circuits},
     group::{GroupTrack, follow_full_turn},
     input_columns::{InputColumns, InputSlices},
+    length_rates::{LengthRates, NeighbourLinkages},
     limits::{MAX_ASSEMBLY_MODES, MAX_CIRCUIT_BYTES, MAX_SAMPLES, SIZES},
     link_rotation::LinkRotation,
     memory::estimate_bytes,

@@ -2,7 +2,7 @@
 
 use crate::family::Cell;
 use crate::linkage::{JointId, Linkage};
-use crate::measure::{MeasureKey, MeasureValue, StraightPortion, Symmetry, Value};
+use crate::measure::{CurveMoves, MeasureKey, MeasureValue, StraightPortion, Symmetry, Value};
 use crate::motion::{AssemblyError, Circuit, Motion};
 
 /// A solved and measured cell.
@@ -35,6 +35,8 @@ pub struct MeasuredCurve {
     pub straight: Option<StraightPortion>,
     /// Its symmetry.
     pub symmetry: Option<Symmetry>,
+    /// Its moves for errors of the lengths of its linkage, if this has a tolerance.
+    pub moves: Option<CurveMoves>,
 }
 
 impl MeasuredCurve {

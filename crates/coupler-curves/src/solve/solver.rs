@@ -1,13 +1,14 @@
 //! Solves cells of a family.
 
 use std::panic::{self, AssertUnwindSafe};
+use std::rc::Rc;
 
 use super::screening::Screening;
 use super::solved_cell::{MeasuredCurve, SolvedCell};
 use crate::family::{Cell, Family};
 use crate::linkage::Linkage;
 use crate::measure::{MeasureSet, TracedCurve};
-use crate::motion::{AssemblyError, Motion, Sampler};
+use crate::motion::{AssemblyError, Motion, NeighbourLinkages, Sampler};
 
 /// Solves cells of a family, in any order and on any threads: their linkages, their motion, and the measures of their curves.
 ///
@@ -84,11 +85,14 @@ impl<'f> Solver<'f> {
         let circuit_count = motion.circuits.len();
         let numbers =
             (1..=linkage.traced.len()).flat_map(|trace| (1..=circuit_count).map(move |circuit| (trace, circuit)));
+        let values = linkage.tolerance.map(|_| self.family.parameter_values(cell));
+        let neighbours =
+            values.and_then(|values| self.family.template.neighbours(values, NeighbourLinkages::STEP)).map(Rc::new);
         for ((trace, circuit), curve) in numbers.zip(TracedCurve::all(linkage, &motion)) {
-            let curve = curve.with_straight_criterion(self.family.straight);
+            let curve = curve.with_straight_criterion(self.family.straight).with_neighbours(neighbours.clone());
             if let Some(values) = self.screening.measure(cell, &curve) {
-                let (straight, symmetry) = curve.computed_marks();
-                curves.push(MeasuredCurve { trace, circuit, joint: curve.joint, values, straight, symmetry });
+                let (straight, symmetry, moves) = curve.computed_marks();
+                curves.push(MeasuredCurve { trace, circuit, joint: curve.joint, values, straight, symmetry, moves });
             } else {
                 left_out_count += 1;
             }

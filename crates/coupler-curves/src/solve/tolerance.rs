@@ -1,144 +1,115 @@
 //! How far curves move where the lengths of their linkage are off.
 
+use std::rc::Rc;
+
 use super::{MeasuredCurve, SolvedCell};
 use crate::family::Family;
-use crate::geometry::{Point, cross};
 use crate::linkage::Linkage;
-use crate::measure::TracedCurve;
-use crate::motion::{self, Motion, Pass, Sampler, Sampling};
-use crate::template::LinkLength;
+use crate::measure::{CurveMoves, TracedCurve};
+use crate::motion::{Motion, NeighbourLinkages, Sampler, Sampling};
 
-/// How far a curve moves for a unit of error in the lengths of its linkage: across itself, for what moves along it is only at another input.
+/// How far a curve moves for a unit of error in the lengths of its linkage.
 #[derive(Clone, Debug)]
 pub struct CurveTolerance {
     /// The number of its traced joint, from 1.
     pub trace: usize,
     /// The number of its circuit, from 1.
     pub circuit: usize,
-    /// The greatest move for a unit of each length, in the order of [`crate::template::Template::lengths`].
-    pub moves: Vec<f64>,
-    /// The greatest move for a unit of every length, each to its worse side.
-    pub worst_case: f64,
-    /// The greatest root of the sum of squares over the lengths.
-    pub root_sum_square: f64,
+    /// Its moves, for the lengths in the order of [`crate::template::Template::lengths`].
+    pub moves: CurveMoves,
     /// The change of its straight portion's length for a unit of each length: 0 where it is less than the accuracy of the ends tells; none where it has
     /// none.
     pub straight: Vec<Option<f64>>,
 }
 
-/// The relative step of differences: half the digits of a double to a little more than two thirds, as they are central.
-const STEP: f64 = 1e-5;
-
-/// The step for the ends of straight portions, which are known to some millionths of their length.
+/// The error with which straight portions are found again, as a part of the greatest length: their ends are known to some millionths of their length.
 const STRAIGHT_STEP: f64 = 1e-4;
 
 /// Lengths of straight portions that differ by less than this, relatively, are the same.
 const SAME_STRAIGHT: f64 = 1e-5;
 
-/// Moves for a unit of a length that are less than this are rounding, of positions divided by the step.
-const ROUNDING: f64 = 1e-9;
-
-/// The tolerances of the curves of a solved cell. Moves are by differences of linkages with an error of either sign in one length, at
-/// the same inputs on the same passes. `None` where the lengths cannot be off by themselves, as of [`crate::template::Template::lengths`].
+/// The tolerances of the curves of a solved cell that have any: of none at a change point. `None` where the lengths cannot be off by themselves, as of
+/// [`crate::template::Template::lengths`].
 pub fn curve_tolerances(family: &Family, solved: &SolvedCell) -> Option<Vec<CurveTolerance>> {
-    let lengths = family.template.lengths()?;
-    let values = family.parameter_values(&solved.cell);
-    let size = solved.motion.circuits.first().map_or(1.0, |circuit| {
-        let points = solved.linkage.joint_ids().map(|joint| circuit.positions.point(joint, 0));
-        points.map(|p| p.coords.norm()).filter(|norm| norm.is_finite()).fold(0.0, f64::max)
-    });
-    let neighbours = |length: &LinkLength, step: f64| -> Option<[Linkage; 2]> {
-        let with = |error: f64| family.template.linkage_with_errors(values, &[(*length, error)]).ok();
-        Some([with(-step)?, with(step)?])
+    let with_step = |step| family.template.neighbours(family.parameter_values(&solved.cell), step);
+    let neighbours = Rc::new(with_step(NeighbourLinkages::STEP)?);
+    let has_straight = solved.curves.iter().any(|curve| curve.straight.is_some());
+    let further_off = with_step(STRAIGHT_STEP).filter(|_| has_straight);
+    let off = further_off.as_ref().map(solved_pairs);
+    let traced = |linkage: &Linkage, motion: &Motion, curve: &MeasuredCurve| {
+        let circuit = motion.circuits.get(curve.circuit - 1)?;
+        let traced = TracedCurve::new(linkage, motion, circuit, curve.joint);
+        Some(traced.with_straight_criterion(family.straight).straight()?.length)
     };
-    let pairs: Vec<[Linkage; 2]> =
-        lengths.iter().map(|length| neighbours(length, STEP * size)).collect::<Option<_>>()?;
-    let solved_neighbours = |length: &LinkLength| {
-        let sampler = Sampler::new(Sampling::Samples(120));
-        let pair = neighbours(length, STRAIGHT_STEP * size)?;
-        Some(pair.map(|linkage| (Motion::solve(&linkage, &sampler), linkage)))
+    let change = |curve: &MeasuredCurve, k: usize| {
+        let [low, high] = off.as_ref()?[k].each_ref().map(|(linkage, motion)| traced(linkage, motion, curve));
+        let (low, high) = (low?, high?);
+        let is_same = (high - low).abs() <= SAME_STRAIGHT * high;
+        Some(if is_same { 0.0 } else { (high - low) / (2.0 * further_off.as_ref()?.step) })
     };
-    let solved_pairs: Vec<_> = lengths.iter().map(solved_neighbours).collect();
     let tolerance = |curve: &MeasuredCurve| {
-        let moves = moves_across(solved, curve, &pairs, STEP * size);
-        let greatest = |of: &dyn Fn(&Vec<f64>) -> f64| moves.iter().map(of).fold(0.0, f64::max);
-        let straight_length = |(motion, linkage): &(Motion, Linkage)| {
-            let circuit = motion.circuits.get(curve.circuit - 1)?;
-            let traced =
-                TracedCurve::new(linkage, motion, circuit, curve.joint).with_straight_criterion(family.straight);
-            traced.straight().map(|portion| portion.length)
-        };
-        let straight = solved_pairs.iter().map(|pair| {
-            let [low, high] = pair.as_ref()?.each_ref().map(straight_length);
-            let (low, high) = (low?, high?);
-            let is_same = (high - low).abs() <= SAME_STRAIGHT * high;
-            Some(if is_same { 0.0 } else { (high - low) / (2.0 * STRAIGHT_STEP * size) })
-        });
-        CurveTolerance {
+        let circuit = solved.circuit(curve);
+        let traced = TracedCurve::new(&solved.linkage, &solved.motion, circuit, curve.joint);
+        let traced = traced.with_neighbours(Some(Rc::clone(&neighbours)));
+        Some(CurveTolerance {
             trace: curve.trace,
             circuit: curve.circuit,
-            moves: (0..lengths.len()).map(|k| greatest(&|at| at[k].abs())).map(cleared).collect(),
-            worst_case: greatest(&|at| at.iter().map(|own| own.abs()).sum()),
-            root_sum_square: greatest(&|at| at.iter().map(|own| own * own).sum::<f64>().sqrt()),
-            straight: straight.collect(),
-        }
+            moves: curve.moves.clone().or_else(|| traced.moves().cloned())?,
+            straight: (0..neighbours.pairs.len()).map(|k| change(curve, k)).collect(),
+        })
     };
-    Some(solved.curves.iter().map(tolerance).collect())
+    Some(solved.curves.iter().filter_map(tolerance).collect())
 }
 
-/// A move without rounding.
-fn cleared(own: f64) -> f64 {
-    if own <= ROUNDING { 0.0 } else { own }
-}
-
-/// At places along a curve, its move to the left for a unit of each length.
-fn moves_across(solved: &SolvedCell, curve: &MeasuredCurve, pairs: &[[Linkage; 2]], step: f64) -> Vec<Vec<f64>> {
-    /// On each pass; they are denser at its ends, where a joint at a dead point is fast.
-    const PLACES: usize = 180;
-    let points = |linkage: &Linkage, pass: &Pass, inputs: &[f64]| -> Vec<Point> {
-        let positions = motion::poses(linkage, pass, inputs);
-        (0..inputs.len()).map(|k| positions.point(curve.joint, k)).collect()
-    };
-    let mut moves = Vec::new();
-    for pass in &solved.circuit(curve).passes {
-        let (from, to) = (pass.from.input.value, pass.to.input.value);
-        let eased = |k: usize| {
-            let part = (k as f64 + 0.5) / PLACES as f64;
-            from + (to - from) * part * part * (3.0 - 2.0 * part)
-        };
-        let inputs: Vec<f64> = (0..PLACES).map(eased).collect();
-        let shifted = |by: f64| inputs.iter().map(|input| input + by * (to - from)).collect::<Vec<f64>>();
-        let [before, after] = [-STEP, STEP].map(|by| points(&solved.linkage, pass, &shifted(by)));
-        let of_neighbour = |linkage: &Linkage| Some(points(linkage, &pass.of_neighbour(linkage)?, &inputs));
-        let moved: Option<Vec<[Vec<Point>; 2]>> =
-            pairs.iter().map(|[low, high]| Some([of_neighbour(low)?, of_neighbour(high)?])).collect();
-        let Some(moved) = moved else { continue };
-        for k in 0..PLACES {
-            let Some(along) = (after[k] - before[k]).try_normalize(0.0) else { continue };
-            let at: Vec<f64> = moved.iter().map(|[low, high]| cross(along, high[k] - low[k]) / (2.0 * step)).collect();
-            if at.iter().all(|own| own.is_finite()) {
-                moves.push(at);
-            }
-        }
-    }
-    moves
+/// The linkages that are off, with their motion.
+fn solved_pairs(neighbours: &NeighbourLinkages) -> Vec<[(&Linkage, Motion); 2]> {
+    let sampler = Sampler::new(Sampling::Samples(120));
+    let solve = |linkage| (linkage, Motion::solve(linkage, &sampler));
+    neighbours.pairs.iter().map(|pair| pair.each_ref().map(solve)).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::catalogue;
+    use crate::geometry::{Orientation, Point, cross};
+    use crate::motion::{self, InputPosition, LengthRates, Pass};
     use crate::solve::Solver;
 
-    /// Every corner of the tolerances of an Evans linkage: no curve is further off than the worst case, and one is as far.
+    /// The family of one linkage of the catalogue, and the linkage solved.
+    fn solved_linkage(id: &str, given: &[(&str, f64)]) -> (Family, SolvedCell) {
+        let given: Vec<(String, f64)> = given.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
+        let family = Family::single_cell(catalogue::find(id).unwrap(), &given, Sampling::Samples(90)).unwrap();
+        let solved = Solver::new(&family).solve(0).unwrap();
+        (family, solved)
+    }
+
+    /// Along a curve, how far that of a linkage that is off is from it at the same input, to its left.
+    fn distances_across(solved: &SolvedCell, curve: &MeasuredCurve, off: &Linkage) -> Vec<f64> {
+        let mut distances = Vec::new();
+        for pass in &solved.circuit(curve).passes {
+            let length = pass.to.input.value - pass.from.input.value;
+            let points = |linkage: &Linkage, pass: &Pass, shift: f64| -> Vec<Point> {
+                let input = |k: u32| motion::eased_input(pass, (f64::from(k) + 0.5) / 720.0) + shift * length;
+                let positions = motion::poses(linkage, pass, &(0..720).map(input).collect::<Vec<f64>>());
+                (0..720).map(|k| positions.point(curve.joint, k)).collect()
+            };
+            let [before, after] = [-1e-7, 1e-7].map(|shift| points(&solved.linkage, pass, shift));
+            let (own, moved) = (points(&solved.linkage, pass, 0.0), points(off, &pass.of_neighbour(off).unwrap(), 0.0));
+            let across = |k: usize| cross((after[k] - before[k]).normalize(), moved[k] - own[k]);
+            distances.extend((0..720).map(across));
+        }
+        distances.retain(|own| own.is_finite());
+        distances
+    }
+
+    /// Every corner of the tolerances: no curve is further off than the worst case, and one is as far.
     #[test]
     fn no_corner_of_the_tolerances_is_beyond_the_worst_case() {
-        const ERROR: f64 = 1e-4;
+        const ERROR: f64 = 1e-5;
         for (id, given) in [("evans", [("p", 2.5), ("a", 2.6)]), ("slider-crank", [("offset", 0.25), ("crank", 1.0)])] {
-            let given = given.map(|(name, value)| (name.to_owned(), value));
-            let family = Family::single_cell(catalogue::find(id).unwrap(), &given, Sampling::Samples(90)).unwrap();
-            let solved = Solver::new(&family).solve(0).unwrap();
-            let tolerance = &curve_tolerances(&family, &solved).unwrap()[0];
+            let (family, solved) = solved_linkage(id, &given);
+            let moves = &curve_tolerances(&family, &solved).unwrap()[0].moves;
             let lengths = family.template.lengths().unwrap();
             let mut furthest: f64 = 0.0;
             for corner in 0..1_u32 << lengths.len() {
@@ -146,15 +117,37 @@ mod tests {
                 let errors: Vec<_> = lengths.iter().copied().zip(sides).collect();
                 let values = family.parameter_values(&solved.cell);
                 let off = family.template.linkage_with_errors(values, &errors).unwrap();
-                // The move of the linkage itself, and not half of that between two.
-                let pair = [solved.linkage.clone(), off];
-                let moves = moves_across(&solved, &solved.curves[0], &[pair], 0.5);
-                furthest = moves.iter().flatten().fold(furthest, |most, own| most.max(own.abs()));
+                let distances = distances_across(&solved, &solved.curves[0], &off);
+                furthest = distances.iter().fold(furthest, |most, own| most.max(own.abs()));
             }
-            let bound = tolerance.worst_case * ERROR;
-            assert!((furthest / bound - 1.0).abs() < 2e-3, "{id}: {furthest} of {bound}");
-            assert!(tolerance.root_sum_square < tolerance.worst_case);
-            assert!(tolerance.moves.iter().all(|own| *own <= tolerance.root_sum_square));
+            let bound = moves.worst_case * ERROR;
+            assert!((furthest / bound - 1.0).abs() < 1e-3, "{id}: {furthest} of {bound}");
+            assert!(moves.root_sum_square < moves.worst_case);
+            assert!(moves.lengths.iter().all(|own| *own <= moves.root_sum_square * (1.0 + 1e-9)));
+        }
+    }
+
+    /// The moves for a unit of length are those of the linkage in another size, mirrored, and through limits of the input from another start.
+    #[test]
+    fn moves_do_not_depend_on_size_and_orientation() {
+        let moves = |size: f64, orientation: Orientation| {
+            let mut template = (*catalogue::find("four-bar").unwrap()).clone();
+            template.orientation = orientation;
+            let given =
+                [("frame", 4.0), ("crank", 3.0), ("coupler", 3.5), ("rocker", 3.2), ("along", 2.0), ("across", 1.0)];
+            let given = given.map(|(name, value)| (name.to_owned(), size * value));
+            let family = Family::single_cell(template.into(), &given, Sampling::Samples(90)).unwrap();
+            let solved = Solver::new(&family).solve(0).unwrap();
+            assert!(!solved.circuit(&solved.curves[0]).is_full_turn());
+            curve_tolerances(&family, &solved).unwrap()[0].moves.clone()
+        };
+        let own = moves(1.0, Orientation::default());
+        for (size, orientation) in [(1000.0, Orientation::default()), (1.0, Orientation::new(true, 30.0))] {
+            let other = moves(size, orientation);
+            let values = |moves: &CurveMoves| [&moves.lengths[..], &[moves.worst_case, moves.root_sum_square]].concat();
+            for (own, other) in values(&own).into_iter().zip(values(&other)) {
+                assert!((own - other).abs() < 1e-6 * own, "{size}: {own}, {other}");
+            }
         }
     }
 
@@ -166,10 +159,50 @@ mod tests {
         let given = [("p", 2.5), ("a", 2.6)].map(|(name, value)| (name.to_owned(), value));
         let family = Family::single_cell(template.into(), &given, Sampling::Samples(90)).unwrap();
         let solved = Solver::new(&family).solve(0).unwrap();
-        let tolerance = &curve_tolerances(&family, &solved).unwrap()[0];
-        for (length, own) in family.template.lengths().unwrap().iter().zip(&tolerance.moves) {
+        let moves = &curve_tolerances(&family, &solved).unwrap()[0].moves;
+        for (length, own) in family.template.lengths().unwrap().iter().zip(&moves.lengths) {
             let expected = if family.template.length_name(length) == "OA" { 1.0 } else { 0.0 };
-            assert!((own - expected).abs() < 1e-8, "{}: {own}", family.template.length_name(length));
+            assert!((own - expected).abs() < 1e-9, "{}: {own}", family.template.length_name(length));
         }
+        let [worst, square] = [moves.worst_case, moves.root_sum_square];
+        assert!((worst - 1.0).abs() < 1e-9 && (square - 1.0).abs() < 1e-9, "{worst} {square}");
+    }
+
+    /// The derivatives of all positions at the same input, of every linkage of the catalogue, are those that differences of linkages show.
+    #[test]
+    fn derivatives_by_lengths_are_those_of_differences() {
+        // Of a line without offset, points are placed from a foot as near its pivot as the step.
+        const STEP: f64 = 1e-4;
+        let mut checked = 0;
+        for template in catalogue::all() {
+            let Some(lengths) = template.lengths() else { continue };
+            let missing = template.parameters.iter().filter(|parameter| parameter.default_text.is_empty());
+            let given: Vec<(&str, f64)> = missing.map(|own| (own.name.as_str(), own.starting_value())).collect();
+            let (family, solved) = solved_linkage(&template.id, &given);
+            let values = family.parameter_values(&solved.cell);
+            let neighbours = template.neighbours(values, NeighbourLinkages::STEP).unwrap();
+            for pass in solved.motion.circuits.iter().flat_map(|circuit| &circuit.passes) {
+                let input = pass.from.input.value + 0.37 * (pass.to.input.value - pass.from.input.value);
+                let positions = motion::pose(&solved.linkage, pass, input);
+                let position = InputPosition::new(solved.linkage.input(), input);
+                let rates = LengthRates::new(&solved.linkage, &neighbours, &positions, position, pass.mode).unwrap();
+                for (k, length) in lengths.iter().enumerate() {
+                    let at = |error: f64| {
+                        let off = template.linkage_with_errors(values, &[(*length, error)]).unwrap();
+                        motion::pose(&off, &pass.of_neighbour(&off).unwrap(), input)
+                    };
+                    let [low, high] = [at(-STEP), at(STEP)];
+                    for joint in solved.linkage.joint_ids() {
+                        let expected = (high[joint.index()] - low[joint.index()]) / (2.0 * STEP);
+                        let found = rates.at_input(joint).nth(k).unwrap();
+                        let difference = (found - expected).norm() / (1.0 + expected.norm());
+                        let name = (&template.id, &solved.linkage.joints[joint].name, template.length_name(length));
+                        assert!(difference < 1e-6, "{name:?}: {found:?}, {expected:?}");
+                        checked += 1;
+                    }
+                }
+            }
+        }
+        assert!(checked > 1000, "{checked}");
     }
 }

@@ -3,6 +3,7 @@
 use super::{Coordinate, Error, JointKindTemplate, Template};
 use crate::expression::{CompiledExpression, displayed_name, join_names};
 use crate::linkage::Linkage;
+use crate::motion::NeighbourLinkages;
 
 /// A length of a linkage. Two links of one parameter have a length each.
 #[derive(Clone, Copy, Debug)]
@@ -87,6 +88,19 @@ impl Template {
             LengthKind::From(other) => join_names(&[&self.joints[other].name, name]),
             LengthKind::Of(what) => format!("{} {what}", displayed_name(name)),
         }
+    }
+
+    /// The linkages of a parameter set with an error in one length each: a part of the greatest length, as [`NeighbourLinkages::STEP`]. `None` where no length is off by itself, as of
+    /// [`Template::lengths`], and if one of them cannot be built.
+    pub fn neighbours(&self, values: &[f64], part: f64) -> Option<NeighbourLinkages> {
+        let lengths = self.lengths()?;
+        let own = |length: &LinkLength| length.expression.evaluate(|slot| values[slot]).abs();
+        let step = part * lengths.iter().map(own).fold(0.0, f64::max);
+        let off = |length: &LinkLength, error: f64| self.linkage_with_errors(values, &[(*length, error)]).ok();
+        let pairs =
+            lengths.iter().map(|length| Some([off(length, -step)?, off(length, step)?])).collect::<Option<_>>()?;
+        let names = lengths.iter().map(|length| self.length_name(length)).collect();
+        (step > 0.0).then_some(NeighbourLinkages { pairs, step, names })
     }
 
     /// The linkage of a parameter set with an error in some of its lengths.

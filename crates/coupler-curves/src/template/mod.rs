@@ -61,6 +61,8 @@ pub struct Template {
     pub output_link: Option<OutputLinkTemplate>,
     /// The force that it moves against, on a joint by its index in `joints`.
     pub load: Option<Load<usize>>,
+    /// How far each of its lengths may be off, if that is to be measured: positive.
+    pub tolerance: Option<f64>,
     /// The chains it is composed of in addition to the first, each by its joints.
     pub chains: Vec<Vec<usize>>,
     /// The orientation applied to everything reported, after `seen_from`.
@@ -375,7 +377,7 @@ impl Template {
         let chain = |joints: &Vec<usize>| joints.iter().flat_map(|&k| built[k].clone()).collect();
         let chains = self.chains.iter().map(chain).collect();
         let load = self.load.map(|load| load.map_joint(|k| built[k][0]));
-        let linkage = Linkage { placement: self.orientation, load, chains, ..linkage };
+        let linkage = Linkage { placement: self.orientation, load, tolerance: self.tolerance, chains, ..linkage };
         match linkage.motion_options.range {
             Some([from, to]) if to - from > linkage.input().period() => {
                 let why = "which is more than a period from `from`";

@@ -1,8 +1,10 @@
 //! Numbers, counts and characters in texts for people.
 
+mod interned;
 mod number;
 mod words;
 
+pub use interned::interned;
 pub use number::{exact_decimals, format_exactly, format_fixed, format_in_full, is_same_number, round_to_six_digits};
 pub use words::{is_control_or_directional, is_invisible, pluralize};
 

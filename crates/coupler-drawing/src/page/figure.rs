@@ -13,6 +13,7 @@ use super::pose;
 use super::rect::Rect;
 use super::symbols::{self, Mark, Symbol};
 use super::theme::Theme;
+use super::tolerance_band;
 use super::{Options, Panel, PanelPage, PoseChoice};
 use crate::mechanism::Mechanism;
 use crate::scene::{Anchor, Animation, Circle, Color, Curve, Item};
@@ -90,6 +91,7 @@ fn circuit_groups(solved: &SolvedCell) -> Vec<(Vec<usize>, Bounds)> {
     let mut groups: Vec<(Vec<usize>, Bounds)> = Vec::new();
     for curve in &solved.curves {
         let bounds = Bounds::from_points(solved.circuit(curve).points(curve.joint));
+        let bounds = bounds.union(tolerance_band::bounds(solved, curve));
         match groups.iter_mut().find(|(circuits, _)| circuits.contains(&curve.circuit)) {
             Some((_, whole)) => *whole = whole.union(bounds),
             None => groups.push((vec![curve.circuit], bounds)),
@@ -329,6 +331,13 @@ impl<'a> Figure<'a> {
     /// Draws the marks of the curves: axes of symmetry and straight portions.
     fn draw_marks(&self, area: &impl Area, plot: &Plot, curves: &[&MeasuredCurve], axes: Vec<Item>, theme: &Theme) {
         area.record(Drawing { class: "axis", title: String::new(), items: axes });
+        let band = |curve: &&MeasuredCurve| {
+            tolerance_band::item(self.solved_cell, curve, self.curve_ink(curve, theme), plot, theme)
+        };
+        let items: Vec<Item> = curves.iter().filter_map(band).collect();
+        if !items.is_empty() {
+            area.record(Drawing { class: "tolerance", title: String::new(), items });
+        }
         let portion = |curve: &&MeasuredCurve| {
             marks::straight_portion_item(self.solved_cell, curve, self.curve_ink(curve, theme), plot, theme)
         };
@@ -485,6 +494,7 @@ impl<'a> Figure<'a> {
         if marks::has_symmetry_axis(solved) {
             add(Mark::Axis, "axis of symmetry");
         }
+        symbols.extend(tolerance_band::symbol(solved, |curve| self.curve_ink(curve, theme), theme));
         symbols.extend(symbols::of_body(&self.panel.body, theme));
         symbols
     }

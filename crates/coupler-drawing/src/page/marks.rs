@@ -21,7 +21,8 @@ pub(super) const PAGE_MEASURES: MeasureSet = MeasureSet::EMPTY
     .with(Measure::MU_WORST)
     .with(Measure::LENGTH)
     .with(Measure::STRAIGHT_LENGTH)
-    .with(Measure::SYMMETRY);
+    .with(Measure::SYMMETRY)
+    .with(Measure::TOLERANCE_WORST);
 
 /// The facts of a cell of a family: first its class, the range of its transmission angle and that of its actuator, second
 /// its longest straight portion. Either may be empty.
@@ -35,6 +36,7 @@ pub fn cell_facts(family: &Family, solved: &SolvedCell) -> [String; 2] {
         parts.push(transmission_text(least, most));
     }
     parts.extend(input_range(solved, first));
+    parts.extend(tolerance_fact(solved));
     // The path of a slider on its guide is straight by construction.
     let is_of_slider = |curve: &&MeasuredCurve| solved.linkage.slider_line(curve.joint).is_some();
     let portions = solved.curves.iter().filter(|curve| !is_of_slider(curve));
@@ -56,6 +58,15 @@ pub fn cell_facts(family: &Family, solved: &SolvedCell) -> [String; 2] {
         format!("{exactly}straight {times}{length}{deviation} over {:.1}{unit}{which}", portion.input_span)
     });
     [parts.join(" · "), straight]
+}
+
+/// How far the curves of a cell move in the worst case; `None` without a tolerance.
+fn tolerance_fact(solved: &SolvedCell) -> Option<String> {
+    let moves = solved.curves.iter().map(|curve| curve.measure(Measure::TOLERANCE_WORST));
+    let most = moves.collect::<Option<Vec<f64>>>()?.into_iter().fold(0.0, f64::max);
+    let curves = if solved.curves.len() == 1 { "the curve" } else { "the curves" };
+    let tolerance = format_exactly(solved.linkage.tolerance?);
+    Some(format!("lengths ± {tolerance} move {curves} by up to {}", format_with_digits(most, 2)))
 }
 
 /// The part whose length or way is the input.

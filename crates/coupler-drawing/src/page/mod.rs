@@ -39,6 +39,7 @@ mod rect;
 mod scales;
 mod symbols;
 mod theme;
+mod tolerance_band;
 mod typography;
 
 #[cfg(feature = "plotters")]

@@ -247,6 +247,7 @@ impl LinkageBuilder {
             seen_from,
             output_link,
             load: None,
+            tolerance: None,
             chains: Vec::new(),
             placement,
             motion_options,
