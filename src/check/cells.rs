@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use super::curve::relative_difference;
 use super::finding::{Change, Finding, Location};
+use super::measures::{self, Values};
 use crate::manifest::Tolerances;
 use crate::record::{Row, TableError};
 use coupler_curves::measure::{self, Measure};
@@ -69,7 +70,9 @@ impl CellColumns {
         let [Some(first_recorded), Some(first_current)] = [recorded.first(), current.first()] else { return Ok(()) };
         for (name, [a, b]) in &self.parameters {
             let (recorded, current) = (first_recorded.number(*a, name)?, first_current.number(*b, name)?);
-            if relative_difference([recorded, current], 1.0) > tolerances.rtol.min(1e-9) {
+            let is_near = (recorded - current).abs() <= tolerances.atol
+                || relative_difference([recorded, current], 1.0) <= tolerances.rtol;
+            if !is_near {
                 findings.push(location.finding(Change::Parameter { name: name.clone(), recorded, current }));
             }
         }
@@ -98,7 +101,7 @@ impl CellColumns {
             self.compare_measures(
                 &curve,
                 [&recorded[a], &current[b]],
-                pair.size,
+                pair,
                 tolerances,
                 &mut is_class_reported,
                 findings,
@@ -112,14 +115,15 @@ impl CellColumns {
         &self,
         location: &Location,
         [recorded, current]: [&Row; 2],
-        size: f64,
+        pair: &CurvePair,
         tolerances: &Tolerances,
         is_class_reported: &mut bool,
         findings: &mut Vec<Finding>,
     ) -> Result<(), TableError> {
-        for &(Measure { unit, is_word, .. }, name, [a, b]) in &self.measures {
+        let values = Rows { columns: self, rows: [recorded, current] };
+        for &(Measure { is_word, .. }, name, [a, b]) in &self.measures {
             let [recorded_text, current_text] = [recorded.field(a), current.field(b)].map(str::to_owned);
-            if recorded_text == current_text {
+            if recorded_text == current_text || tolerances.of(name) == f64::INFINITY {
                 continue;
             }
             if name == "class" {
@@ -130,11 +134,16 @@ impl CellColumns {
                 }
                 continue;
             }
+            let in_doubt = measures::is_count_in_doubt(name, &values)
+                || !pair.has_moved && measures::is_place_of_equal(name, &values, pair.size, tolerances);
+            if in_doubt {
+                continue;
+            }
             let relative = match is_word {
                 true => f64::INFINITY,
-                false => measure_difference([recorded.number(a, name)?, current.number(b, name)?], name, unit, size),
+                false => measures::change(name, [recorded.number(a, name)?, current.number(b, name)?], pair.size),
             };
-            if relative > tolerances.measure_rtol {
+            if relative > tolerances.of(name) {
                 findings.push(location.finding(Change::Measure {
                     name: (*name).to_owned(),
                     recorded: recorded_text,
@@ -155,16 +164,20 @@ pub(super) struct CurvePair {
     pub current: (usize, usize),
     /// The size of the current curve.
     pub size: f64,
+    /// Whether its points have changed.
+    pub has_moved: bool,
 }
 
-/// The relative difference of a measure, with a divisor of at least one degree for an angle, and of at least the
-/// curve's size for a coordinate.
-fn measure_difference(values: [f64; 2], name: &str, unit: &str, size: f64) -> f64 {
-    let is_coordinate = ["_x", "_y", "_x_min", "_x_max", "_y_min", "_y_max"].iter().any(|end| name.ends_with(end));
-    let least = match unit {
-        "deg" => 1.0,
-        _ if is_coordinate => size,
-        _ => 0.0,
-    };
-    relative_difference(values, least)
+/// A recorded and a current row.
+struct Rows<'a> {
+    columns: &'a CellColumns,
+    rows: [&'a Row; 2],
+}
+
+impl Values for Rows<'_> {
+    fn texts(&self, name: &str) -> Option<[&str; 2]> {
+        let (.., [a, b]) = self.columns.measures.iter().find(|(_, own, _)| *own == name)?;
+        let [recorded, current] = self.rows;
+        Some([recorded.field(*a), current.field(*b)])
+    }
 }

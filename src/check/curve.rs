@@ -126,7 +126,7 @@ fn compare_samples(
     {
         let difference = |k: usize| relative_difference([recorded[k], values[k]], 1.0);
         let worst = (0..values.len()).max_by(|&a, &b| difference(a).total_cmp(&difference(b)));
-        if let Some(k) = worst.filter(|&k| difference(k) > tolerances.measure_rtol) {
+        if let Some(k) = worst.filter(|&k| difference(k) > tolerances.of(name)) {
             changes.push(Change::Column {
                 name: name.clone(),
                 sample: current.sample_numbers[k],

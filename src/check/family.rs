@@ -15,6 +15,7 @@ use super::tables::Tables;
 use crate::manifest::Tolerances;
 use crate::pipeline::{FamilyPipeline, PageJob, Sink};
 use crate::record::{FamilyRecord, TableError, parse_rows};
+use coupler_curves::geometry::Bounds;
 use coupler_curves::solve::{MeasuredCurve, SolvedCell, Solver, Status};
 
 /// Receives the output of a family's pipeline, and compares it with the record of the family.
@@ -138,7 +139,8 @@ impl<'a> FamilyCheck<'a> {
         let curves = if is_same[0] {
             let same_curve = |curve: &MeasuredCurve| {
                 let key = (curve.trace, curve.circuit);
-                CurvePair { recorded: key, current: key, size: f64::NAN }
+                let bounds = Bounds::from_points(solved.circuit(curve).points(curve.joint));
+                CurvePair { recorded: key, current: key, size: bounds.size().norm(), has_moved: false }
             };
             solved.curves.iter().map(same_curve).collect()
         } else {
@@ -200,16 +202,22 @@ impl<'a> FamilyCheck<'a> {
                 .extend(changes.map(|(circuit, change)| location.with_curve(trace, circuit).finding(change)));
             for [a, b] in matching.pairs {
                 let (old, new) = (&olds[a], &news[b]);
-                pairs.push(CurvePair {
+                let mut pair = CurvePair {
                     recorded: (trace, old.circuit),
                     current: (trace, new.circuit),
                     size: new.size(),
-                });
+                    has_moved: false,
+                };
                 let is_same = |curve: &&MeasuredCurve| curve.trace == trace && curve.circuit == new.circuit;
-                let Some(curve) = solved.curves.iter().find(is_same) else { continue };
+                let Some(curve) = solved.curves.iter().find(is_same) else {
+                    pairs.push(pair);
+                    continue;
+                };
                 let current = CurrentCurve { samples: new, solved, curve };
                 let missing = missing[recorded_indices[a]].clone();
                 let changes = compare_curves(old, current, (missing, self.tables.further_columns()), &self.tolerances);
+                pair.has_moved = !changes.is_empty();
+                pairs.push(pair);
                 let curve_location = location.with_curve(trace, new.circuit);
                 result.findings.extend(changes.into_iter().map(|change| curve_location.finding(change)));
             }

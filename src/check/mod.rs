@@ -16,6 +16,7 @@ mod hausdorff;
 mod images;
 mod left_out;
 mod matching;
+mod measures;
 mod numbering;
 mod outdated;
 mod overlays;
@@ -139,6 +140,7 @@ pub fn check_atlas(
     let mut report = Report { left_out, ..Report::default() };
     let outdated = outdated::check_version(record);
     let is_outdated = outdated.is_some();
+    let other_version = is_outdated.then_some(record.version.as_str());
     report.add_findings(outdated.into_iter().collect());
     report.add_findings(run_record::check_origin(&folder_record).into_iter().collect());
     for family in record.families.iter().filter(|family| is_requested(&family.id)) {
@@ -173,7 +175,7 @@ pub fn check_atlas(
         match record.families.iter().find(|family| family.id == planned.family.id) {
             Some(family_record) => {
                 let family = (planned, family_record);
-                let finding = check_family(plan, family, (recorded, is_outdated), options, &mut report, on_event)?;
+                let finding = check_family(plan, family, (recorded, other_version), options, &mut report, on_event)?;
                 other_inputs.extend(finding);
             }
             None => report.add_findings(vec![Location::in_family(&planned.family.id).finding(Change::FamilyAdded)]),
@@ -200,7 +202,7 @@ fn is_locked(folder: &Path) -> bool {
 fn check_family(
     plan: &Plan,
     (planned, record): (&PlannedFamily, &FamilyRecord),
-    (recorded, is_outdated): (&Path, bool),
+    (recorded, other_version): (&Path, Option<&str>),
     options: &Options,
     report: &mut Report,
     on_event: &mut dyn FnMut(Event),
@@ -209,7 +211,7 @@ fn check_family(
         return Err(Error::Interrupted);
     };
     on_event(Event::Begin { family: &planned.family.id, pages: pipeline.pagination.page_count });
-    let tolerances = options.tolerances.or(planned.tolerances).or_defaults();
+    let tolerances = options.tolerances.clone().or(planned.tolerances.clone()).or_defaults();
     let mut findings = Vec::new();
     let family_check = FamilyCheck::open(&pipeline, record, (recorded, report.left_out), tolerances, &mut findings)?;
     let (mut changed_cells, mut pages) = (Vec::new(), Vec::new());
@@ -242,8 +244,8 @@ fn check_family(
     for file in data_files {
         findings.extend(gallery::check_file(recorded, &format!("{}/{}", planned.family.id, file.name), file)?);
     }
-    if is_outdated {
-        findings.retain(outdated::is_comparable);
+    if let Some(version) = other_version {
+        findings.retain(|finding| outdated::is_comparable(finding, version));
     } else if findings.is_empty() {
         findings.extend(run_record::check_family(&pipeline, record, counts));
     }

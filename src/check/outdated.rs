@@ -1,7 +1,7 @@
 //! Atlases that another version of the program has recorded.
 //!
-//! Measures, columns and drawings may change with the version. Instead of a finding on each of them there is one on the
-//! atlas; its curves are compared as always.
+//! Drawings may change with the version, and measures whose definition does. These are not compared, and one notice says so; curves, and the measures that
+//! both versions define alike, are compared as always. An atlas of a later version may have anything that is not known here: only its curves are compared.
 
 use super::finding::{Change, Finding, Location};
 use crate::record::{FORMAT_VERSION, FileError, RUN_FILE_NAME, ReadError, RunRecord};
@@ -13,14 +13,44 @@ pub(super) fn check_version(record: &RunRecord) -> Option<Finding> {
     (record.version != current).then(|| Location::default().with_file(RUN_FILE_NAME).finding(change))
 }
 
-/// Whether a finding on an atlas of another version says something about its curves or files, and not about what this
-/// version measures and draws.
-pub(super) fn is_comparable(finding: &Finding) -> bool {
+/// The measures that a version has defined anew, by the beginnings of their names: of atlases that were recorded before it they are not compared.
+const REDEFINED: [(&str, &[&str]); 1] = [(
+    "0.2.0",
+    &[
+        "symmetry",
+        "curvature_max",
+        "straight_",
+        "dwell_",
+        "speed_ratio",
+        "cusps",
+        "crunodes",
+        "inflections",
+        "output_swing",
+        "time_ratio",
+    ],
+)];
+
+/// The beginnings of the names of measures that are not defined as they were in a version; `None` of a later one, of which that is not known.
+pub(super) fn redefined_since(version: &str) -> Option<Vec<&'static str>> {
+    if is_later(version, env!("CARGO_PKG_VERSION")) {
+        return None;
+    }
+    let since = REDEFINED.iter().filter(|(redefined, _)| is_later(redefined, version));
+    Some(since.flat_map(|(_, names)| names.iter().copied()).collect())
+}
+
+/// Whether a finding on an atlas of another version says something about its curves or files, or about what both versions define alike.
+pub(super) fn is_comparable(finding: &Finding, version: &str) -> bool {
+    let redefined = redefined_since(version);
     match &finding.change {
         Change::Damaged { message } => *message == FileError::NotFound.to_string(),
         Change::FamilyChanged { what, .. } => what != "columns",
         Change::Altered | Change::Rewritten | Change::Moved(_) | Change::Samples { .. } | Change::Branch { .. } => true,
         Change::CellAdded | Change::CellRemoved | Change::CellRenumbered { .. } | Change::Parameter { .. } => true,
+        Change::Class { .. } => redefined.is_some(),
+        Change::Measure { name, .. } => {
+            redefined.is_some_and(|names| names.iter().all(|start| !name.starts_with(start)))
+        }
         change => change.kind().starts_with("circuit-"),
     }
 }

@@ -59,7 +59,7 @@ pub fn draw_overlays<'r>(
         let (Some(record), false) = (record, family_findings.is_empty()) else { continue };
         // A check is not interrupted.
         let Some(pipeline) = FamilyPipeline::new(plan, planned, &AtomicBool::new(false)) else { continue };
-        let tolerances = options.tolerances.or(planned.tolerances).or_defaults();
+        let tolerances = options.tolerances.clone().or(planned.tolerances.clone()).or_defaults();
         let family_check =
             FamilyCheck::open(&pipeline, record, (recorded, LeftOut::default()), tolerances, &mut Vec::new())?;
         for finding in family_findings {

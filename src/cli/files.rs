@@ -82,6 +82,21 @@ pub(super) fn take_named() -> Vec<NamedFile> {
     NAMED.lock().map(|mut named| std::mem::take(&mut *named)).unwrap_or_default()
 }
 
+/// Checks that [`write`] can write a file: makes its folder, and writes another file there, which is removed.
+///
+/// # Errors
+/// As of [`write`].
+pub(super) fn require_writable(path: &Path) -> Result<(), Failure> {
+    if is_standard(path) {
+        return Ok(());
+    }
+    require_unprotected(path)?;
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    output::create_folder(folder)?;
+    let error = |error| Failure::system(format!("{} cannot be written: {error}", printable(path.display())));
+    tempfile::NamedTempFile::new_in(folder).map(drop).map_err(error)
+}
+
 /// Writes a file, or to standard output.
 ///
 /// # Errors
@@ -90,6 +105,12 @@ pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     if is_standard(path) {
         return Ok(print_bytes(bytes)?);
     }
+    require_unprotected(path)?;
+    Ok(output::write_file(path, bytes)?)
+}
+
+/// Checks that a file is not one that was read, nor a folder.
+fn require_unprotected(path: &Path) -> Result<(), Failure> {
     let canonical = path.canonicalize().ok();
     let protected = PROTECTED
         .lock()
@@ -102,7 +123,7 @@ pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     if path.is_dir() {
         return Err(Failure::input(format!("{} is a folder: name a file", path.display())));
     }
-    Ok(output::write_file(path, bytes)?)
+    Ok(())
 }
 
 /// Whether a drawing is written to standard output, where it takes the place of the text.

@@ -38,7 +38,12 @@ struct Document<'a, R> {
 /// A report in a version of its format as indented JSON; infinite numbers are null.
 pub(super) fn json(format: u32, report: &impl Serialize) -> Result<String, Failure> {
     let (program, version) = (env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION"));
-    let text = serde_json::to_string_pretty(&Document { format, program, version, report })? + "\n";
+    json_value(&Document { format, program, version, report })
+}
+
+/// A value as indented JSON; infinite numbers are null.
+pub(super) fn json_value(value: &impl Serialize) -> Result<String, Failure> {
+    let text = serde_json::to_string_pretty(value)? + "\n";
     // What a terminal or the log of a CI run would obey is only in strings, where it can be escaped; the encoder escapes
     // most control characters itself.
     let text = text.replace("##[", "\\u0023#[");

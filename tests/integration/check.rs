@@ -7,7 +7,7 @@ use std::process::Output;
 use tempfile::TempDir;
 
 use crate::support::command::{folder_with, program};
-use crate::support::folder::{edit_record, tree};
+use crate::support::folder::{edit_record, tree, update_digest};
 
 /// Three families: turning cranks, rockers with both branches and several circuits, and a length as input.
 const MANIFEST: &str = r#"[atlas]
@@ -96,17 +96,8 @@ impl RecordedAtlas {
         fs::write(path, lines.join("\n") + "\n").unwrap();
     }
 
-    /// Updates the digest of a file in the record, so that only the contents of the file show that it was edited.
     fn update_digest(&self, family: &str, table: &str) {
-        use sha2::Digest;
-        let bytes = fs::read(self.path("output").join(family).join(table)).unwrap();
-        let digest = format!("{:x}", sha2::Sha256::digest(&bytes));
-        edit_record(&self.path("output"), |run| {
-            let families = run["families"].as_array_mut().unwrap();
-            let entry = families.iter_mut().find(|f| f["id"] == family).unwrap();
-            let file = entry["files"].as_array_mut().unwrap().iter_mut().find(|f| f["name"] == table).unwrap();
-            file["sha256"] = digest.into();
-        });
+        update_digest(&self.path("output"), family, table);
     }
 }
 
@@ -327,6 +318,93 @@ fn different_samples_measures_and_columns_are_reported() {
     assert_eq!(findings[2]["name"], "length");
     assert_eq!((findings[3]["name"].as_str(), findings[3]["sample"].as_u64()), (Some("vx"), Some(30)));
     assert_eq!(atlas.check(&["--measure-rtol", "1e-2"]).1.len(), 2, "the tolerance of measures is separate");
+}
+
+/// A crank that differs by 1e-13 changes nothing, also not what is rounding, and where one of several portions that are equally long is the first.
+#[test]
+fn a_change_within_the_tolerance_is_no_finding() {
+    let atlas = RecordedAtlas::new();
+    atlas.write_manifest(
+        &MANIFEST.replace("p = 2, s", "p = 2.0000000000002, s").replace("crank = 3,", "crank = 3.0000000000003,"),
+    );
+    let (_, findings) = atlas.check(&["--ignore", "too_close"]);
+    let unexpected =
+        |finding: &&serde_json::Value| !["drawing", "family-changed"].contains(&finding["kind"].as_str().unwrap());
+    assert_eq!(findings.iter().find(unexpected), None);
+    // A parameter within a wider tolerance is none, either.
+    atlas.write_manifest(&MANIFEST.replace("p = 2, s", "p = 2.000001, s"));
+    let kinds = |more: &[&str]| -> Vec<String> {
+        let mut kinds: Vec<String> =
+            atlas.check(more).1.iter().map(|f| f["kind"].as_str().unwrap().to_owned()).collect();
+        kinds.dedup();
+        kinds
+    };
+    assert_eq!(kinds(&[])[0], "parameter");
+    let wide = kinds(&["--rtol", "1e-3", "--measure-rtol", "1e-2"]);
+    assert!(wide.iter().all(|kind| kind == "drawing"), "{wide:?}");
+}
+
+/// Measures and columns have tolerances of their own, on the command line and in manifests.
+#[test]
+fn single_measures_have_tolerances() {
+    let atlas = RecordedAtlas::new();
+    atlas.edit("evans/cells.csv", |lines| {
+        edit_field(lines, 1, "length", add(1e-6));
+        edit_field(lines, 2, "area", add(1e-6));
+    });
+    atlas.update_digest("evans", "cells.csv");
+    atlas.edit("evans/points.csv", |lines| {
+        let at = row(lines, [2, 1, 1], 30);
+        edit_field(lines, at, "vx", add(1e-6));
+    });
+    atlas.update_digest("evans", "points.csv");
+    let names = |more: &[&str]| -> Vec<String> {
+        atlas.check(more).1.iter().map(|finding| finding["name"].as_str().unwrap().to_owned()).collect()
+    };
+    assert_eq!(names(&[]).len(), 3);
+    assert_eq!(names(&["--tolerance", "length=1e-5", "--ignore", "vx"]), ["area"]);
+    assert_eq!(names(&["--tolerance", "length=1e-9", "--tolerance", "vx=1e-5"]).len(), 2);
+    atlas.write_manifest(&MANIFEST.replace(
+        "title = \"Evans\"\n",
+        "title = \"Evans\"\ncheck = { ignore = [\"length\"], measures = { vx = 1e-5 } }\n",
+    ));
+    assert_eq!(names(&[]), ["area"]);
+    assert_eq!(names(&["--tolerance", "length=1e-9"]).len(), 2, "the command line comes first");
+}
+
+/// Reports for reviewers and for code scanning; the folders of their files are made.
+#[test]
+fn reports_are_written_as_markdown_and_sarif() {
+    let atlas = RecordedAtlas::new();
+    atlas.edit("evans/points.csv", |lines| {
+        let at = row(lines, [1, 1, 1], 57);
+        edit_field(lines, at, "x", add(1e-3));
+    });
+    atlas.update_digest("evans", "points.csv");
+    let reports = ["--report", "markdown=reports/a/check.md", "--report", "sarif=reports/check.sarif", "--summary"];
+    let output = atlas.run(&[&["check", "--against", "output"], &reports[..]].concat());
+    assert_eq!(output.status.code(), Some(1), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = String::from_utf8(output.stdout).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    assert!(
+        lines.len() == 2 && lines[0].starts_with("evans  1 curve moved, at most cell 1, trace 1, circuit 1: 1.000e-3"),
+        "{text}"
+    );
+    let markdown = fs::read_to_string(atlas.path("reports/a/check.md")).unwrap();
+    assert!(markdown.contains("| evans | 1 | cell 1, trace 1, circuit 1: 1.000e-3"), "{markdown}");
+    assert!(markdown.contains("| moved | evans, cell 1, trace 1, circuit 1 | moved by 1.000e-3"), "{markdown}");
+    let sarif: serde_json::Value =
+        serde_json::from_slice(&fs::read(atlas.path("reports/check.sarif")).unwrap()).unwrap();
+    let result = &sarif["runs"][0]["results"][0];
+    assert_eq!(
+        (&sarif["version"], &result["ruleId"], &result["level"]),
+        (&"2.1.0".into(), &"moved".into(), &"error".into())
+    );
+    let place = &result["locations"][0]["physicalLocation"];
+    assert_eq!(place["artifactLocation"]["uri"], "atlas.toml");
+    let line = place["region"]["startLine"].as_u64().unwrap() as usize;
+    assert_eq!(MANIFEST.lines().nth(line - 1), Some("[[family]]"));
+    assert_eq!(sarif["runs"][0]["tool"]["driver"]["rules"][0]["id"], "moved");
 }
 
 #[test]
@@ -615,6 +693,10 @@ fn wrong_arguments_are_reported() {
         (&["--report", "xml"], "unknown report `xml`"),
         (&["--report", "json="], "expected a file after"),
         (&["--bless", "--only", "evans"], "--bless records all families"),
+        (&["--ignore", "lenght"], "did you mean `length`"),
+        (&["--tolerance", "length"], "expected a name and a ratio"),
+        (&["--tolerance", "length=-1"], "must not be negative"),
+        (&["--report", "json=output"], "is a folder"),
     ] {
         let mut all = vec!["check", "--against", "output"];
         all.extend(arguments);
@@ -622,11 +704,14 @@ fn wrong_arguments_are_reported() {
         let errors = String::from_utf8_lossy(&output.stderr).into_owned();
         assert!(output.status.code() == Some(2) && errors.contains(word), "{arguments:?}: {errors}");
     }
-    atlas.write_manifest(
-        &MANIFEST.replace("linkage = \"evans\"", "linkage = \"evans\"\ncheck = { atol = -1, atoll = 2 }"),
-    );
+    atlas.write_manifest(&MANIFEST.replace(
+        "linkage = \"evans\"",
+        "linkage = \"evans\"\ncheck = { atol = -1, atoll = 2, ignore = [\"lenght\"], measures = { are = 1, vx = -1 } }",
+    ));
     let output = atlas.run(&["check", "--against", "output"]);
     let errors = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(errors.contains("must not be negative") && errors.contains("atoll"), "{errors}");
+    for words in ["`atol` must not be negative", "atoll", "`lenght`", "`are`", "`vx` must not be negative"] {
+        assert!(errors.contains(words), "{words}: {errors}");
+    }
     assert!(Path::new(&atlas.path("output/run.json")).is_file());
 }

@@ -9,7 +9,7 @@ use coupler_atlas::sweep;
 use coupler_curves::problem::report;
 use coupler_drawing::page::Layout;
 
-use crate::support::command::run;
+use crate::support::command::{PROGRAM, result, run};
 use crate::support::folder::Atlas;
 use crate::support::plan::plan;
 
@@ -132,14 +132,19 @@ fn the_action_and_the_hooks_in_docs_check_exist() {
     {
         assert!(document.contains(&statement.replace("VERSION", version)), "{statement}");
     }
-    let inputs = include_str!("../../action.yml").split("inputs:\n").nth(1).unwrap().split("\nruns:").next().unwrap();
+    let inputs =
+        include_str!("../../action.yml").split("inputs:\n").nth(1).unwrap().split("\noutputs:").next().unwrap();
     let inputs: Vec<&str> = inputs.lines().filter_map(|line| line.strip_prefix("  ")?.strip_suffix(':')).collect();
     let used = document.split("with: { manifest").nth(1).unwrap().split(" }").next().unwrap();
-    let used = format!("manifest{used}, install: source");
+    let used = format!("manifest{used}");
     let names: Vec<&str> = used.split(", ").map(|pair| pair.split(": ").next().unwrap()).collect();
-    assert_eq!(names.len(), inputs.len());
-    for name in names {
-        assert!(inputs.contains(&name), "the action has no input {name}");
+    for name in &names {
+        assert!(inputs.contains(name), "the action has no input {name}");
+    }
+    for name in inputs {
+        let is_described = names.contains(&name)
+            || ["`NAME`", "`NAME: "].iter().any(|word| document.contains(&word.replace("NAME", name)));
+        assert!(is_described, "the input {name} is not described");
     }
     let ids =
         |text: &'static str| text.lines().filter_map(|line| line.trim().strip_prefix("- id: ")).collect::<Vec<_>>();
@@ -179,4 +184,31 @@ fn the_commands_in_docs_check_can_be_run() {
     for file in ["report.xml", "moved/index.html", "moved/e-1-1-1.svg"] {
         assert!(folder.join(file).is_file(), "{file}");
     }
+}
+
+/// The commands of docs/check.md that compare two commits.
+#[test]
+#[ignore = "thorough"]
+fn two_commits_are_compared() {
+    let document = include_str!("../../docs/check.md");
+    let commands = document.split("```sh\n").nth(1).unwrap().split("```").next().unwrap();
+    let manifest = "[atlas]\ntitle = \"T\"\nformats = [\"svg\"]\n[[family]]\nid = \"e\"\nlinkage = \"evans\"\n\
+                    sampling = { samples = 9 }\ncases = [{ p = 2, a = 2 }]\n";
+    let folder = tempfile::tempdir().unwrap();
+    let repository = folder.path().join("repository");
+    std::fs::create_dir(&repository).unwrap();
+    std::os::unix::fs::symlink(PROGRAM, folder.path().join("coupler-atlas")).unwrap();
+    let path = format!("{}:{}", folder.path().display(), std::env::var("PATH").unwrap());
+    let bash = |script: &str| {
+        let mut command = std::process::Command::new("bash");
+        command.args(["-ec", script]).current_dir(&repository).env("PATH", &path);
+        result(command.output().unwrap())
+    };
+    std::fs::write(repository.join("atlas.toml"), manifest).unwrap();
+    let git = "git init -qb main && git add . && git -c user.name=T -c user.email=t@example.org commit -qm first && git switch -qc other";
+    assert_eq!(bash(git).0, 0);
+    std::fs::write(repository.join("atlas.toml"), manifest.replace("a = 2 }", "a = 2.1 }")).unwrap();
+    let (code, out, err) = bash(commands);
+    assert!(code == 1 && out.contains("e  1 curve moved, at most cell 1"), "{out}{err}");
+    assert!(repository.join("moved/index.html").is_file());
 }

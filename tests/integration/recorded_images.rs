@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::support::folder::{Atlas, edit_record, files, tree};
+use crate::support::folder::{Atlas, edit_record, files, tree, update_digest};
 
 const MANIFEST: &str = r#"[atlas]
 title = "T"
@@ -166,25 +166,48 @@ fn an_image_with_other_bytes_and_equal_pixels_is_the_same_image() {
     assert!(check(&atlas).1.contains("altered"));
 }
 
-/// Measures, columns and drawings may differ in another version: there is one finding on all of them.
+/// Drawings may differ in another version, and measures that it defines otherwise: one notice says so, which is no difference. Of a later version
+/// nothing is known.
 #[test]
-fn an_atlas_of_another_version_is_reported_in_one_line() {
+fn an_atlas_of_another_version_is_compared_as_far_as_both_define_it() {
     let atlas = rendered();
     let record = atlas.out().join("run.json");
     let set_version = |version: &str| edit_record(&atlas.out(), |run| run["version"] = version.into());
-    // A column that this version does not have, and a page that it draws differently, as that version recorded them.
+    // A column that this version does not have, one that it defines otherwise, and a page that it draws differently, as that version recorded them.
     let cells = atlas.out().join("evans/cells.csv");
     let table = fs::read_to_string(&cells).unwrap();
-    fs::write(&cells, table.replace("mu_min_deg", "least_mu")).unwrap();
+    let (header, rows) = table.split_once('\n').unwrap();
+    let at = |name: &str| header.split(',').position(|column| column == name).unwrap();
+    let with = |name: &str, value: &str| {
+        let edited = |row: &str| {
+            let mut fields: Vec<&str> = row.split(',').collect();
+            fields[at(name)] = value;
+            fields.join(",")
+        };
+        rows.lines().map(edited).collect::<Vec<_>>().join("\n")
+    };
+    let unknown = header.replace("mu_min_deg", "least_mu");
+    fs::write(&cells, format!("{unknown}\n{}\n", with("inflections", "7"))).unwrap();
     set_version(env!("CARGO_PKG_VERSION"));
     assert!(check(&atlas).1.lines().count() > 1);
-    for (version, words) in [("0.0.9", "`render` renews the atlas"), ("99.1.0", "check the atlas with that version")] {
+    let edited = |line: &&str| !line.starts_with("altered");
+    for (version, words, expected) in
+        [("0.0.9", "defined anew: symmetry", 0), ("99.1.0", "check the atlas with that version", 1)]
+    {
         set_version(version);
-        let (code, out) = check(&atlas);
+        let (_, out) = check(&atlas);
         // The table was edited here without its digest.
-        let lines: Vec<&str> = out.lines().filter(|line| !line.starts_with("altered")).collect();
-        assert!(code == 1 && lines[0].contains("outdated") && lines[0].contains(words), "{out}");
+        let lines: Vec<&str> = out.lines().filter(edited).collect();
+        assert!(lines[0].contains("outdated") && lines[0].contains(words), "{out}");
         assert!(lines.len() == 2 && lines[1].contains("1 family") | lines[1].contains("famil"), "{out}");
+        update_digest(&atlas.out(), "evans", "cells.csv");
+        assert_eq!(check(&atlas).0, expected, "{out}");
+    }
+    // A measure that both define alike is compared, but not with a later version.
+    fs::write(&cells, format!("{header}\n{}\n", with("length", "7"))).unwrap();
+    for (version, expected) in [("0.0.9", true), ("99.1.0", false)] {
+        set_version(version);
+        assert_eq!(check(&atlas).1.contains("length was 7"), expected);
     }
     // Curves are compared as always.
     let points = atlas.out().join("evans/points.csv");

@@ -172,7 +172,7 @@ fn read_plan(
                 parser.report(problem.with_help("an id names the family's folder: give each family its own"));
             }
         }
-        let tolerances = |family: PartialTolerances| family.or(tolerances);
+        let tolerances = |family: PartialTolerances| family.or(tolerances.clone());
         families.extend(read.map(|read| PlannedFamily {
             manifest_inputs: shared_inputs.of_family(
                 value,

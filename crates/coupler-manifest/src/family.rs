@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::cells::{self, AtlasTotals, Purpose};
 use crate::files::FileReader;
 use crate::inputs::ManifestInputs;
+use crate::name_list::name_indices;
 use crate::names::{check_expression_syntax, read_names};
 use crate::parameter_sets::read_space;
 use crate::plan::{CaseFile, PlannedFamily};
@@ -17,7 +18,7 @@ use coupler_curves::expression::{Caption, Dimension, Expression, Scope};
 use coupler_curves::family::{COLUMNS, Column, Family, LengthUnit, MAX_SAMPLES, MEASURES, Sampling, StraightCriterion};
 use coupler_curves::linkage_format::{self, Fields, TomlParser, TomlValue};
 use coupler_curves::measure::MeasureSet;
-use coupler_curves::problem::{Problem, suggestion};
+use coupler_curves::problem::Problem;
 use coupler_curves::template::{Orientation, Template};
 use coupler_drawing::page::Options;
 use coupler_drawing::render::Format;
@@ -343,35 +344,4 @@ fn measures<'t>(
     // Names beyond those of an angle are the same measures again.
     let places = name_indices(value, "measure", &known, parser)?;
     Some(places.into_iter().filter(|place| *place < MEASURES.len()).collect())
-}
-
-/// Reads a list of names, each given once, as their indices in `known`; `what` is what messages call them.
-fn name_indices<'t>(
-    value: &TomlValue<'t>,
-    what: &str,
-    known: &[&str],
-    parser: &mut TomlParser<'t>,
-) -> Option<Vec<usize>> {
-    let mut indices: Vec<usize> = Vec::new();
-    let mut all_read = true;
-    for item in parser.list(value)? {
-        let Some(name) = parser.text(item) else {
-            all_read = false;
-            continue;
-        };
-        let problem = match known.iter().position(|known| *known == name) {
-            Some(place) if !indices.contains(&place) => {
-                indices.push(place);
-                continue;
-            }
-            Some(_) => {
-                Problem::error(item.span(), format!("the {what} `{name}` is named twice")).with_help("name it once")
-            }
-            None => Problem::error(item.span(), format!("there is no {what} `{}`", name.escape_debug()))
-                .with_help(suggestion(&name, known)),
-        };
-        parser.report(problem);
-        all_read = false;
-    }
-    all_read.then_some(indices)
 }

@@ -25,6 +25,7 @@ mod bounded_number;
 mod default_value;
 mod format_version;
 mod inputs;
+mod name_list;
 mod tolerance;
 
 mod wishes;
@@ -71,7 +72,7 @@ pub use format_version::FORMAT_VERSION;
 pub use inputs::ManifestInputs;
 pub use plan::{BookPlan, CaseFile, FindingCharts, ListCriteria, Plan, PlannedChapter, PlannedFamily, PlannedList};
 pub use schema::MANIFEST;
-pub use tolerance::{PartialTolerances, Tolerances};
+pub use tolerance::{PartialTolerances, Tolerances, tolerated_names};
 
 pub use wishes::{DesignEffort, DesignRequest, MAX_DESIGNS, WishPlace, WishTexts};
 

@@ -134,7 +134,7 @@ pub fn check_atlas(
     manifest.require_families(&only)?;
     let Manifest { plan, .. } = manifest;
     let result = task::run(py, progress.as_ref(), move |task: &Task| {
-        let tolerances = PartialTolerances { atol, rtol, measure_rtol };
+        let tolerances = PartialTolerances { atol, rtol, measure_rtol, ..PartialTolerances::default() };
         let options = check::Options { only, tolerances, interrupt: task.interrupt.clone() };
         check::check_atlas(&plan, &against, &options, &mut |event| match event {
             check::Event::Begin { family, pages } => task.begin(family, pages),

@@ -1,11 +1,16 @@
 //! The kinds of changes, and their order.
 
+use super::super::outdated::is_later;
 use super::change::Change;
 
 impl Change {
     /// Whether the change makes the check fail; otherwise it is only reported.
     pub fn is_difference(&self) -> bool {
-        !matches!(self, Change::Rewritten)
+        match self {
+            Change::Rewritten => false,
+            Change::Outdated { recorded, current } => is_later(recorded, current),
+            _ => true,
+        }
     }
 
     /// The kind of the change, as in reports: `moved`, `drawn-off`.

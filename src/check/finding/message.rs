@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::super::outdated::is_later;
+use super::super::outdated::{is_later, redefined_since};
 use super::change::Change;
 use coupler_curves::text::pluralize;
 
@@ -13,11 +13,21 @@ impl fmt::Display for Change {
             Change::Outdated { recorded, current } if is_later(recorded, current) => {
                 write!(f, "recorded by version {recorded}, but this is {current}: check the atlas with that version")
             }
-            Change::Outdated { recorded, current } => write!(
-                f,
-                "recorded by version {recorded}; this is {current}, which may measure and draw differently, so only \
-                 curves are compared: `render` renews the atlas"
-            ),
+            Change::Outdated { recorded, current } => {
+                write!(
+                    f,
+                    "recorded by version {recorded}; this is {current}: drawings, the gallery and new columns are not compared"
+                )?;
+                let redefined = redefined_since(recorded).unwrap_or_default();
+                let names: Vec<String> = redefined
+                    .iter()
+                    .map(|start| if start.ends_with('_') { format!("{start}…") } else { (*start).to_owned() })
+                    .collect();
+                if !names.is_empty() {
+                    write!(f, ", nor what is defined anew: {}", names.join(", "))?;
+                }
+                write!(f, "; `render` renews the atlas")
+            }
             Change::Altered => write!(f, "is not the file that was recorded"),
             Change::Rewritten => write!(f, "has other line endings or a byte order mark; nothing else has changed"),
             Change::FamilyAdded => write!(f, "the family is not recorded"),

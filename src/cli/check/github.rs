@@ -5,22 +5,21 @@ use crate::check::Report;
 use super::super::printable;
 use super::super::source::ManifestSource;
 use super::left_out::not_compared;
+use super::place::{line_of, manifest_path};
 
 /// GitHub shows at most this many annotations of one step.
 const MAX_ANNOTATIONS: usize = 10;
 
 /// The worst findings as annotations, each at the table of its family in the manifest.
 pub fn text(report: &Report, source: &ManifestSource) -> String {
-    let file = printable(source.path.display()).replace('\\', "/");
-    let line_of = |id: &str| {
-        let planned = source.plan.families.iter().find(|planned| planned.family.id == id);
-        planned.map_or(1, |planned| source.text[..planned.span.start].matches('\n').count() + 1)
-    };
+    let file = manifest_path(source);
     let mut text = String::new();
     for finding in report.findings.iter().take(MAX_ANNOTATIONS) {
         let level = if finding.change.is_difference() { "error" } else { "notice" };
-        let (line, title) =
-            (line_of(&finding.location.family), format!("{}: {}", finding.change.kind(), printable(&finding.location)));
+        let (line, title) = (
+            line_of(source, &finding.location.family),
+            format!("{}: {}", finding.change.kind(), printable(&finding.location)),
+        );
         let (file, title) = (escape_property(&file), escape_property(&title));
         text.push_str(&format!(
             "::{level} file={file},line={line},title={title}::{}\n",

@@ -4,13 +4,17 @@ mod github;
 mod json;
 mod junit;
 mod left_out;
+mod markdown;
 mod overlays;
+mod place;
+mod sarif;
+mod summary;
 mod table;
 
 use std::path::{Path, PathBuf};
 
 use crate::check::{self, Event, Report};
-use crate::manifest::{PartialTolerances, Tolerances};
+use crate::manifest::{PartialTolerances, Tolerances, tolerated_names};
 use crate::output;
 use clap::{Args, ValueHint};
 use indicatif::ProgressBar;
@@ -18,7 +22,7 @@ use indicatif::ProgressBar;
 use super::files::DEFAULT_MANIFEST;
 use super::report::{self, ReportRequest};
 use super::source::{self, ManifestSource};
-use super::{Failure, Outcome, files, print, print_bytes, print_stderr, printable, progress_bar};
+use super::{Failure, Outcome, choice, files, print, print_bytes, print_stderr, printable, progress_bar};
 
 /// Run a manifest again, and report what has changed since an atlas was recorded: which curve, where and by how much.
 ///
@@ -65,13 +69,22 @@ pub struct Arguments {
         help = tolerance_help("The greatest relative change of a measure", |tolerances| tolerances.measure_rtol)
     )]
     measure_rtol: Option<f64>,
-    /// Write a report as json, junit or github (annotations) to a file, or print it instead of the table; may be given
-    /// more than once.
+    /// The greatest relative change of one measure or column, as in straight_length=1e-6; may be given more than once.
+    #[arg(long, value_name = "NAME=RATIO", value_parser = parse_named_tolerance)]
+    tolerance: Vec<(&'static str, f64)>,
+    /// A measure or a column that is not compared; may be given more than once.
+    #[arg(long, value_name = "NAME", value_parser = parse_name)]
+    ignore: Vec<&'static str>,
+    /// Write a report as json, junit, sarif, markdown or github (annotations) to a file, or print it instead of the table; may be
+    /// given more than once.
     #[arg(long, value_name = "FORMAT[=FILE]", value_parser = parse_report)]
     report: Vec<ReportRequest<ReportFormat>>,
     /// Draw each curve that has moved, as recorded and as it is now, into this folder, with an index.html.
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath, value_parser = files::folder_parser())]
     diff: Option<PathBuf>,
+    /// Print for each family which curves have changed and how far, instead of the findings.
+    #[arg(long)]
+    summary: bool,
     /// Report the changes, then replace the recorded atlas by the new run.
     #[arg(long)]
     bless: bool,
@@ -97,12 +110,19 @@ fn tolerance_help(text: &str, value: fn(&Tolerances) -> f64) -> String {
 pub enum ReportFormat {
     Json,
     Junit,
+    Sarif,
+    Markdown,
     Github,
 }
 
 /// The formats of reports by their names.
-pub const REPORTS: [(&str, ReportFormat); 3] =
-    [("json", ReportFormat::Json), ("junit", ReportFormat::Junit), ("github", ReportFormat::Github)];
+pub const REPORTS: [(&str, ReportFormat); 5] = [
+    ("json", ReportFormat::Json),
+    ("junit", ReportFormat::Junit),
+    ("sarif", ReportFormat::Sarif),
+    ("markdown", ReportFormat::Markdown),
+    ("github", ReportFormat::Github),
+];
 
 fn parse_report(text: &str) -> Result<ReportRequest<ReportFormat>, String> {
     report::parse_request(text, &REPORTS)
@@ -111,6 +131,17 @@ fn parse_report(text: &str) -> Result<ReportRequest<ReportFormat>, String> {
 fn parse_tolerance(text: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| "expected a number, as in 1e-9".to_owned())?;
     if value >= 0.0 { Ok(value) } else { Err("a tolerance must not be negative".to_owned()) }
+}
+
+fn parse_name(text: &str) -> Result<&'static str, String> {
+    let known = tolerated_names();
+    let names: Vec<(&str, &'static str)> = known.iter().map(|name| (*name, *name)).collect();
+    choice::parse("measure or column", text, &names)
+}
+
+fn parse_named_tolerance(text: &str) -> Result<(&'static str, f64), String> {
+    let (name, ratio) = text.split_once('=').ok_or("expected a name and a ratio, as in straight_length=1e-6")?;
+    Ok((parse_name(name)?, parse_tolerance(ratio)?))
 }
 
 pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
@@ -125,8 +156,18 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
             "--bless records all families: leave out --only, or use `render --force --only` for a single family";
         return Err(Failure::input(message));
     }
+    // What cannot be written is said before the check, which may take long.
+    for file in arguments.report.iter().filter_map(|request| request.file.as_ref()) {
+        files::require_writable(file)?;
+    }
+    if let Some(folder) = &arguments.diff {
+        overlays::require_own_folder(folder)?;
+    }
     let Arguments { atol, rtol, measure_rtol, .. } = *arguments;
-    let tolerances = PartialTolerances { atol, rtol, measure_rtol };
+    let ignored = arguments.ignore.iter().map(|name| (*name, f64::INFINITY));
+    let named = arguments.tolerance.iter().copied().chain(ignored);
+    let by_name = named.map(|(name, tolerance)| (name.to_owned(), tolerance)).collect();
+    let tolerances = PartialTolerances { atol, rtol, measure_rtol, by_name };
     let options = check::Options { only: arguments.only.clone(), tolerances, ..check::Options::default() };
     let mut bar = ProgressBar::hidden();
     let report = check::check_atlas(&source.plan, &arguments.against, &options, &mut |event| match event {
@@ -159,6 +200,8 @@ fn write_reports(arguments: &Arguments, source: &ManifestSource, report: &Report
         let text = match request.format {
             ReportFormat::Json => json::text(report)?,
             ReportFormat::Junit => junit::text(report)?,
+            ReportFormat::Sarif => sarif::text(report, source)?,
+            ReportFormat::Markdown => markdown::text(report),
             ReportFormat::Github => github::text(report, source),
         };
         match &request.file {
@@ -170,7 +213,7 @@ fn write_reports(arguments: &Arguments, source: &ManifestSource, report: &Report
         }
     }
     if has_table && (!arguments.quiet || !report.findings.is_empty()) {
-        print(&table::text(report))?;
+        print(&if arguments.summary { summary::text(report) } else { table::text(report) })?;
     }
     Ok(())
 }
@@ -182,6 +225,9 @@ fn bless(arguments: &Arguments, source: &ManifestSource, report: &Report) -> Res
         return Ok(Outcome::Done);
     }
     let folder: &Path = &arguments.against;
+    if !arguments.summary {
+        print_stderr(&summary::text(report));
+    }
     print_stderr(&format!("recording the new atlas in {}\n", printable(folder.display())));
     let manifest = Some(source.file_name());
     let options = output::Options { force: true, manifest, ..output::Options::default() };

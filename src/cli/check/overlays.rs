@@ -24,7 +24,7 @@ const TITLE: &str = "what has moved";
 ///
 /// # Errors
 /// It has an atlas, or a page that no earlier check wrote.
-fn require_own_folder(folder: &Path) -> Result<(), Failure> {
+pub fn require_own_folder(folder: &Path) -> Result<(), Failure> {
     let page = folder.join("index.html");
     let is_own =
         || std::fs::read(&page).is_ok_and(|page| String::from_utf8_lossy(&page).contains(&format!("{TITLE}</title>")));
@@ -39,9 +39,8 @@ fn require_own_folder(folder: &Path) -> Result<(), Failure> {
     )))
 }
 
-/// Writes a page for each curve that has moved, and an index of the pages.
+/// Writes a page for each curve that has moved, and an index of the pages, into a folder that [`require_own_folder`] has passed.
 pub fn write(folder: &Path, plan: &Plan, recorded: &Path, options: &Options, report: &Report) -> Result<(), Failure> {
-    require_own_folder(folder)?;
     output::create_folder(folder)?;
     let (mut figures, mut written, mut failed) = (String::new(), 0, None);
     check::draw_overlays(plan, recorded, options, report, MAX_CURVES, |overlay| {

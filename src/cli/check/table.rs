@@ -6,6 +6,7 @@ use crate::check::{Change, Finding, Report};
 
 use super::super::printable;
 use super::left_out::not_compared;
+use super::summary;
 use coupler_curves::text::pluralize;
 
 /// The findings shown one by one: with the other lines of the report they fill a screen.
@@ -38,13 +39,7 @@ pub fn text(report: &Report) -> String {
         let counted: Vec<String> = counted.map(|(kind, count)| format!("{count} {kind}")).collect();
         text.push_str(&format!("and {omitted} more: {}\n", counted.join(", ")));
     }
-    let compared = [(report.families, "family"), (report.curves, "curve"), (report.pages, "page")];
-    let checked = compared.map(|(count, noun)| pluralize(count, noun)).join(", ");
-    let result = match report.total() {
-        0 => "nothing has changed".to_owned(),
-        n => pluralize(n, "finding"),
-    };
-    text.push_str(&format!("{checked}: {result}\n"));
+    text.push_str(&format!("{}\n", summary::total(report)));
     text.extend(not_compared(&report.left_out).map(|words| words + "\n"));
     text
 }

@@ -66,6 +66,7 @@ fn every_block_is_tested() {
         ("docs/start.md", "rust", "readme.rs"),
         ("docs/architecture.md", "text", "a figure"),
         ("docs/check.md", "yaml", "readme.rs"),
+        ("docs/check.md", "sh", "readme.rs"),
         ("docs/import.md", "text", "import/formats.rs"),
         ("docs/manifest.md", "text", "manifests.rs"),
         ("docs/pages.md", "xml", "numbers.rs"),
