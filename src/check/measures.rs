@@ -50,6 +50,8 @@ const SCALES: [(&[&str], Scale); 4] = [
             "_x_max",
             "_y_min",
             "_y_max",
+            "_width",
+            "_height",
             "output_min",
             "output_max",
         ],

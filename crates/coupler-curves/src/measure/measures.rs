@@ -77,6 +77,8 @@ measures! {
     BBOX_X_MAX: f64 = path::BOUNDING_BOX[1],
     BBOX_Y_MIN: f64 = path::BOUNDING_BOX[2],
     BBOX_Y_MAX: f64 = path::BOUNDING_BOX[3],
+    BBOX_WIDTH: f64 = path::SIZE[0],
+    BBOX_HEIGHT: f64 = path::SIZE[1],
     CUSPS: f64 = shape::CUSPS,
     CRUNODES: f64 = shape::CRUNODES,
     INFLECTIONS: f64 = shape::INFLECTIONS,

@@ -49,6 +49,30 @@ pub const BOUNDING_BOX: [Measure; 4] = [
     }),
 ];
 
+/// The measures `bbox_width` and `bbox_height`.
+pub const SIZE: [Measure; 2] = [
+    Measure::number(
+        "bbox_width",
+        "width of the curve",
+        "",
+        "greatest less least x of the curve: of the foot of a leg that walks along x its stride",
+        |curve: &TracedCurve| size_measure(curve, Vector::new(1.0, 0.0)),
+    ),
+    Measure::number(
+        "bbox_height",
+        "height of the curve",
+        "",
+        "greatest less least y of the curve: of the foot of a leg that walks along x its lift",
+        |curve: &TracedCurve| size_measure(curve, Vector::new(0.0, 1.0)),
+    ),
+];
+
+fn size_measure(curve: &TracedCurve, direction: Vector) -> Value {
+    let ends = [direction, -direction].map(|direction| curve.smooth().furthest(direction));
+    let [Some((most, _)), Some((least, _))] = ends else { return Value::Missing };
+    Value::Number(without_rounding(most + least, ROUNDING * curve.extent()))
+}
+
 fn extent_measure(curve: &TracedCurve, direction: Vector) -> Value {
     let Some((reach, _)) = curve.smooth().furthest(direction) else { return Value::Missing };
     let reach = without_rounding(reach, ROUNDING * curve.extent());

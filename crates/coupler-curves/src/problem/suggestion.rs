@@ -9,7 +9,23 @@ const MAX_COMPARED: usize = 200;
 /// The most words that a message lists.
 const MAX_LISTED: usize = 40;
 
-/// The candidate with the least edit distance from `word`, if that is at most a third of the word's length, or 1.
+/// Names that textbooks, such as Norton's, have for what is called otherwise here.
+const OTHER_NAMES: [(&str, &str); 12] = [
+    ("ground", "frame"),
+    ("fixed", "frame"),
+    ("base", "frame"),
+    ("input", "crank"),
+    ("driver", "crank"),
+    ("output", "rocker"),
+    ("follower", "rocker"),
+    ("floating", "coupler"),
+    ("connecting_rod", "coupler"),
+    ("rod", "coupler"),
+    ("eccentricity", "offset"),
+    ("four_bar", "four-bar"),
+];
+
+/// The candidate that textbooks call `word`, or the one with the least edit distance from `word`, if that is at most a third of the word's length, or 1.
 ///
 /// Of more than a thousand candidates, only the first are compared.
 pub fn nearest_word<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
@@ -23,6 +39,10 @@ pub fn nearest_word<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str
     let is_longer = |candidate: &&str| candidate.strip_prefix(word).is_some_and(|rest| rest.starts_with('_'));
     if let Some(longer) = candidates.iter().copied().find(is_longer).filter(|_| length > 1) {
         return Some(longer);
+    }
+    let other = OTHER_NAMES.iter().find(|(name, _)| name.eq_ignore_ascii_case(word));
+    if let Some((_, own)) = other.filter(|(_, own)| candidates.contains(own)) {
+        return Some(own);
     }
     // A single letter is as near to any other.
     if length < 2 {
@@ -136,6 +156,8 @@ mod tests {
         ] {
             assert_eq!(nearest_word(word, keys), meant, "{word}");
         }
+        assert_eq!(suggestion("Ground", &["crank", "frame"]), "did you mean `frame`?");
+        assert_eq!(suggestion("follower", &["crank", "rocker"]), "did you mean `rocker`?");
         assert_eq!(suggestion("zzz", &["a1", "b1", "c1"]), "it can be `a1`, `b1` or `c1`");
     }
 
