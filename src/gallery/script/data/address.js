@@ -1,14 +1,11 @@
 // Addresses of the gallery's views: every view has one, in the fragment of the page's URL, so that it can be
 // linked to.
 //
-//   #/                                     all families
-//   #/evans                                the pages of a family
+//   #/                                     all families   #/evans                                the pages of a family
 //   #/evans/3?curve=12.1.1                 a page, with a highlighted curve
 //   #/evans/curve/12.1.1?p=2.5             the plate of a curve (cell.trace.circuit); with changed parameters
-//   #/find?family=evans&mu_min_deg=30..    the curves that pass the filters
-//   #/shape?d=…                            the curves similar to a shape
-//   #/compare?c=evans:12.1.1,watt:3.1.1    curves compared
-//   #/new                                  the linkages that plates begin with
+//   #/find?family=evans&mu_min_deg=30..    the curves that pass the filters   #/shape?d=…                            the curves similar to a shape
+//   #/compare?c=evans:12.1.1,watt:3.1.1    curves compared   #/new                                  the linkages that plates begin with
 //   #/new/four-bar?crank=1.2               the plate of one, which is in no family
 
 import { AddressQuery } from "./query.js";

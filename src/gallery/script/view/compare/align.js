@@ -1,8 +1,7 @@
 // Aligns curves with the first of them.
 
 import { curveOutline } from "../../data/family.js";
-import { boxOfPoints } from "../../draw/plane-view.js";
-import { transformed } from "../../draw/similarity.js";
+import { boxOfPoints, transformed } from "../../draw/plane-view.js";
 import { bestFit, deviationInPlace } from "../../kernel/shape-search.js";
 
 /** The maximum number of curves compared. */

@@ -4,7 +4,7 @@ import { placedData, smoothData } from "../../draw/path-data.js";
 import { pointPairs, screenPoint } from "../../draw/plane-view.js";
 import { newAddress } from "../../data/address.js";
 import { buttonOf, h, s, setAttributes, sizedThumbnail, termList } from "../dom.js";
-import { copyText } from "../export/save.js";
+import { copyText } from "../export/files.js";
 import { fourBarAddress } from "../new-view.js";
 import { formatNumber } from "../labels.js";
 import { qualityMark, viewOfOutlines } from "./match-item.js";

@@ -2,7 +2,7 @@
 
 import { MAX_LIVE } from "../../kernel/finder.js";
 import { buttonOf, fill, h } from "../dom.js";
-import { saveFile } from "../export/save.js";
+import { saveFile } from "../export/files.js";
 import { copyButton, fourBarItem } from "./four-bar-item.js";
 import { fourBarOptions } from "./query.js";
 

@@ -1,15 +1,14 @@
 // A result of the search by shape: a curve with the best fit of the shape overlaid.
 
 import { curveKey } from "../../data/family.js";
-import { inverted, transformed } from "../../draw/similarity.js";
 import { portion } from "../../shape/outline.js";
 import { smoothData } from "../../draw/path-data.js";
-import { boxOfPoints, fittedView } from "../../draw/plane-view.js";
+import { boxOfPoints, fittedView, inverted, transformed } from "../../draw/plane-view.js";
 import { h, s, sizedThumbnail } from "../dom.js";
 import { address } from "../../data/address.js";
 import { formatCaption } from "../labels.js";
 import { pinButton } from "../pins.js";
-import { familiesText } from "./merged.js";
+import { familiesText } from "./matches.js";
 
 /**
  * The list item of a result of `mergedMatches` for a shape with the options of a query (query.js).
