@@ -86,7 +86,7 @@ type App = {
   pins: import("./view/pins.js").Pins;
 } & Record<"announce" | "go" | "replace" | "commit", (text: string) => void>;
 type Query = Map<string, string>;
-type AddressQuery = import("./data/query.js").AddressQuery;
+type AddressQuery = import("./data/address.js").AddressQuery;
 type Target = { path: string[]; query: AddressQuery };
 /** A view of the gallery; `update` returns whether it handles a further address of its route. */
 type View = {

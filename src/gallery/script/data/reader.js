@@ -1,14 +1,8 @@
 // Assembles the data of a family from the statements of its scripts.
 
 import { NO_WORD } from "./family.js";
-import {
-  bytesOfComment,
-  concatenateArrays,
-  freeArray,
-  placesOfCurves,
-  unpackColumn,
-  unpackInto,
-} from "./packed.js";
+import { bytesOfComment, concatenateArrays, freeArray } from "./packed.js";
+import { placesOfCurves, unpackColumn, unpackInto } from "./packed.js";
 import { Series } from "./series.js";
 
 const TEXTS = /** @type {const} */ (["reason", "caption", "note"]);

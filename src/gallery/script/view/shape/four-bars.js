@@ -3,7 +3,7 @@
 import { MAX_LIVE } from "../../kernel/finder.js";
 import { buttonOf, fill, h } from "../dom.js";
 import { saveFile } from "../export/files.js";
-import { copyButton, fourBarItem } from "./four-bar-item.js";
+import { copyButton, fourBarItem } from "./match-item.js";
 import { fourBarOptions } from "./query.js";
 
 // While a shape changes, four-bars are looked up at most so often, in milliseconds.

@@ -2,7 +2,7 @@
 
 import { curveOutline, findCurve, parseCurveKey } from "../../data/family.js";
 import { needPieces } from "../../data/needs.js";
-import { decodeShape } from "../../shape/encode.js";
+import { decodeShape } from "../../shape/outline.js";
 
 const USUAL = { least: 0.15, maxLink: 10 };
 

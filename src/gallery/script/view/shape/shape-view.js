@@ -1,7 +1,6 @@
 // The view that finds curves by shape.
 
-import { encodeShape } from "../../shape/encode.js";
-import { lengthsAlong } from "../../shape/outline.js";
+import { encodeShape, lengthsAlong } from "../../shape/outline.js";
 import { fill, h } from "../dom.js";
 import { MAX_AUTOLOAD_BYTES, requestedFamilies, loadAllLine, familyChooser } from "../find/loading.js";
 import { Store } from "../store.js";

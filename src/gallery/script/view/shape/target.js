@@ -7,7 +7,7 @@ import { fill, h, s, setAttributes } from "../dom.js";
 import { directionOfKey, focusOne, handleKey, onKeys } from "../keys.js";
 import { formatNumber } from "../labels.js";
 import { axisLines } from "./axes.js";
-import { fourBarDrawing } from "./four-bar-item.js";
+import { fourBarDrawing } from "./match-item.js";
 
 const FRAME = { width: 520, height: 420 };
 const MARGIN = 90;
