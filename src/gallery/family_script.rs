@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde_json::{Value, json};
 
 use super::piece::{CellData, PieceContent, PieceIndex, PieceSeries};
-use super::typed_array::{f64s, u8s, u16s, u32s};
+use super::typed_array::{differences, f64s, u8s, u16s, u32s};
 use crate::manifest::{Plan, PlannedFamily};
 use coupler_curves::family::Sampling;
 use coupler_curves::geometry::{Bounds, Point};
@@ -132,8 +132,6 @@ impl<'a> FamilyScript<'a> {
             Status::Partial => 1,
             Status::None | Status::Failed => 2,
         };
-        let numbers: Vec<usize> = kept.iter().map(|s| s.cell.number).collect();
-        let is_run = numbers.windows(2).all(|pair| pair[0] + 1 == pair[1]);
         let number = |curve: &MeasuredCurve, k: usize| match curve.values.get(k) {
             Some(measure::Value::Number(value)) => *value,
             _ => f64::NAN,
@@ -141,27 +139,25 @@ impl<'a> FamilyScript<'a> {
         let column = |slot: usize| f64s(kept.iter().map(|s| s.cell.values.get(slot).copied().unwrap_or(f64::NAN)));
         statement(
             "cells",
-            &json!({
-                "count": kept.len(),
-                // The first number, if the others follow it.
-                "number": if is_run { json!(numbers.first()) } else { u32s(numbers) },
-                "values": (0..self.planned.family.names.len()).map(column).collect::<Vec<_>>(),
-                "assignment": self.assignment_of_cells(kept),
-                "status": u8s(kept.iter().map(status)),
-                "curves": u16s(kept.iter().map(|s| s.curves.len())),
-                "trace": u16s(curves.iter().map(|(_, curve)| curve.trace)),
-                "circuit": u16s(curves.iter().map(|(_, curve)| curve.circuit)),
-                "closed": u8s(curves.iter().map(|(solved, curve)| u8::from(solved.circuit(curve).is_closed))),
-                "measures": self
-                    .measures(false)
-                    .map(|(k, _)| f64s(curves.iter().map(|(_, curve)| number(curve, k))))
-                    .collect::<Vec<_>>(),
-                "words": self.measures(true).map(|(k, _)| words_json(curves, k)).collect::<Vec<_>>(),
-            }),
+            &merged(
+                rows_json(kept, curves),
+                json!({
+                    "count": kept.len(),
+                    "values": (0..self.planned.family.names.len()).map(column).collect::<Vec<_>>(),
+                    "assignment": self.assignment_of_cells(kept),
+                    "status": u8s(kept.iter().map(status)),
+                    "measures": self
+                        .measures(false)
+                        .map(|(k, _)| f64s(curves.iter().map(|(_, curve)| number(curve, k))))
+                        .collect::<Vec<_>>(),
+                    "words": self.measures(true).map(|(k, _)| words_json(curves, k)).collect::<Vec<_>>(),
+                }),
+            ),
         )
     }
 
-    /// The statement with what is shown of cells and curves: captions and points.
+    /// The statement with what is shown of cells and curves: captions and points. It has the rows of the table that say which curves
+    /// they are, so that curves are found by their shape without the table.
     fn outlines(self, kept: &[&SolvedCell], curves: &[(&SolvedCell, &MeasuredCurve)]) -> String {
         let family = &self.planned.family;
         let lines: Vec<[String; 2]> =
@@ -169,25 +165,27 @@ impl<'a> FamilyScript<'a> {
         let points: Vec<Vec<Point>> = curves.iter().map(|(solved, curve)| thinned_points(solved, curve)).collect();
         let boxes: Vec<Bounds> = points.iter().map(|points| Bounds::from_points(points.iter().copied())).collect();
         let side = |of: fn(&Bounds) -> f64| f64s(boxes.iter().map(of));
-        let quantized =
-            points.iter().zip(&boxes).flat_map(|(points, bounds)| points.iter().flat_map(|p| quantize(*p, bounds)));
-        statement(
-            "curves",
-            &json!({
-                "reason": texts(kept.iter().map(|s| s.reason())),
-                "caption": texts(lines.iter().map(|[caption, _]| caption.clone())),
-                "note": texts(lines.iter().map(|[_, note]| note.clone())),
-                "cells": kept.len(),
-                "box": [side(|b| b.min.x), side(|b| b.min.y), side(|b| b.max.x), side(|b| b.max.y)],
-                "count": u16s(points.iter().map(Vec::len)),
-                "curves": curves.len(),
-                "points": u16s(quantized.map(usize::from)),
-            }),
-        )
+        let quantized: Vec<Vec<[u16; 2]>> = points
+            .iter()
+            .zip(&boxes)
+            .map(|(points, bounds)| points.iter().map(|p| quantize(*p, bounds)).collect())
+            .collect();
+        let value = json!({
+            "reason": texts(kept.iter().map(|s| s.reason())),
+            "caption": texts(lines.iter().map(|[caption, _]| caption.clone())),
+            "note": texts(lines.iter().map(|[_, note]| note.clone())),
+            "cells": kept.len(),
+            "rows": rows_json(kept, curves),
+            "box": [side(|b| b.min.x), side(|b| b.min.y), side(|b| b.max.x), side(|b| b.max.y)],
+            "count": u16s(points.iter().map(Vec::len)),
+            "curves": curves.len(),
+        });
+        // The page keeps the literals of a script as long as its text, but a comment is only in the text.
+        format!("couplerAtlas.curves({value},()=>{{/*{}*/}});\n", differences(&quantized))
     }
 
     /// A statement with the layout of a page: for each view, the cell, the scale and origin that map the plane to
-    /// millimetres on paper, and the curves drawn with them.
+    /// millimetres on paper, and the trace and the circuit of each curve drawn with them, one after another.
     pub fn page(self, number: usize, scene: &Scene) -> String {
         let mut views: Vec<Value> = Vec::new();
         let mut last = Vec::new();
@@ -198,7 +196,7 @@ impl<'a> FamilyScript<'a> {
                 last = view;
             }
             if let Some(Value::Array(curves)) = views.last_mut().and_then(|view| view.get_mut("curves")) {
-                curves.push(json!(curve));
+                curves.extend(curve.map(Value::from));
             }
         }
         statement("page", &json!({ "page": number, "views": views }))
@@ -213,6 +211,21 @@ impl<'a> FamilyScript<'a> {
 /// A call of a function of the page; its argument is JSON, which escapes any text in it.
 pub(super) fn statement(name: &str, value: &Value) -> String {
     format!("couplerAtlas.{name}({value});\n")
+}
+
+/// Which cells and curves some are: the numbers of the cells, the number of curves of each, the trace and the circuit of each
+/// curve, and whether it is closed.
+fn rows_json(kept: &[&SolvedCell], curves: &[(&SolvedCell, &MeasuredCurve)]) -> Value {
+    let numbers: Vec<usize> = kept.iter().map(|s| s.cell.number).collect();
+    let is_run = numbers.windows(2).all(|pair| pair[0] + 1 == pair[1]);
+    json!({
+        // The first number, if the others follow it.
+        "number": if is_run { json!(numbers.first()) } else { u32s(numbers) },
+        "curves": u16s(kept.iter().map(|s| s.curves.len())),
+        "trace": u16s(curves.iter().map(|(_, curve)| curve.trace)),
+        "circuit": u16s(curves.iter().map(|(_, curve)| curve.circuit)),
+        "closed": u8s(curves.iter().map(|(solved, curve)| u8::from(solved.circuit(curve).is_closed))),
+    })
 }
 
 /// The sampling as JSON, with the keys of a manifest.
@@ -259,12 +272,14 @@ fn piece_json(piece: &PieceIndex) -> Value {
         PieceSeries::Table => json!({ "traces": traces, "ranges": ranges }),
         PieceSeries::Curves => json!({ "pages": pages }),
     };
-    match (entry, further) {
-        (Value::Object(mut entry), Value::Object(further)) => {
-            entry.extend(further);
-            Value::Object(entry)
-        }
-        (entry, _) => entry,
+    merged(entry, further)
+}
+
+/// An object with the keys of another one, too.
+fn merged(object: Value, further: Value) -> Value {
+    match (object, further) {
+        (Value::Object(object), Value::Object(further)) => Value::Object(object.into_iter().chain(further).collect()),
+        (object, _) => object,
     }
 }
 

@@ -118,7 +118,7 @@ fn atlas_json(run: &RunRecord, families: &[GalleryFamily]) -> Value {
         })
     };
     json!({
-        "format": 2,
+        "format": 3,
         "title": run.title,
         "program": format!("{} {}", run.program, run.version),
         "measures": measure::ALL.iter().map(measure).collect::<Vec<_>>(),

@@ -28,7 +28,7 @@ export function familyOf(folder, script) {
       reader = new PieceReader(family, [pieces[number - 1]]);
     },
     cells: (rows) => reader.cells(rows),
-    curves: (outlines) => reader.curves(outlines),
+    curves: (outlines, comment) => reader.curves(outlines, comment),
     page: (page) => reader.page(page),
     end: () => {
       family = reader.finish() ?? family;

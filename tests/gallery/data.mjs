@@ -6,7 +6,13 @@ import { pageFile } from "../../src/gallery/script/data/atlas.js";
 import { outlineCache } from "../../src/gallery/script/data/atlas.js";
 import { ANGLE_UNITS, parseNumber } from "../../src/gallery/script/data/number.js";
 import { holdPieces, needPieces } from "../../src/gallery/script/data/needs.js";
-import { unpackColumn, unpackInto } from "../../src/gallery/script/data/packed.js";
+import {
+  bytesOfComment,
+  placesOfCurves,
+  unpackColumn,
+  unpackInto,
+  unpackPoints,
+} from "../../src/gallery/script/data/packed.js";
 import { Series } from "../../src/gallery/script/data/series.js";
 import { MAX_HEIGHT, scrollScale } from "../../src/gallery/script/view/long-list.js";
 import { searchedParts } from "../../src/gallery/script/view/shape/indexes.js";
@@ -79,6 +85,14 @@ import { searchedParts } from "../../src/gallery/script/view/shape/indexes.js";
   unpackInto(array, 4, 1, 9);
   assert.deepEqual([...array], [0, 0, 70000, 8, 9]);
   assert.equal(unpackColumn(Uint16Array, 0, "").length, 0);
+  // Points as differences: of 65535, 0 from 65535, and so on; those of a second curve begin anew.
+  const bytes = [254, 255, 7, 253, 255, 7, 0, 4, 4, 2];
+  const packed = bytesOfComment(new Function(`return ()=>{/*${base64(Uint8Array.from(bytes))}*/}`)());
+  assert.deepEqual([...packed], bytes);
+  const places = placesOfCurves(packed, [2, 1]);
+  assert.deepEqual([...places], [0, 8]);
+  assert.deepEqual([...unpackPoints(packed, 0, 2)], [65535, 0, 0, 2]);
+  assert.deepEqual([...unpackPoints(packed, places[1], 1)], [2, 1]);
 }
 
 // The pieces with a cell, a curve, a page; some pieces have none of one kind.
@@ -151,12 +165,7 @@ const SERIES = new Series("evans", "curves", [
     curves: 7000,
     numbers: [7000 * k + 1, 7000 * k + 7000],
   }));
-  const family = {
-    table: new Series("large", "table", [
-      { bytes: 10e6, cells: 350000, curves: 350000, numbers: [1, 350000] },
-    ]),
-    outlines: new Series("large", "curves", entries),
-  };
+  const family = { outlines: new Series("large", "curves", entries) };
   const all = searchedParts([family], Infinity);
   assert.equal(
     all.reduce((sum, { count }) => sum + count, 0),
@@ -169,10 +178,9 @@ const SERIES = new Series("evans", "curves", [
   }
   assert.ok(all[0].isKept && !all.at(-1).isKept);
   const some = searchedParts([family], 48e6);
-  // Each piece takes its share of the table: 4.2 MB.
   assert.equal(
     some.reduce((sum, { count }) => sum + count, 0),
-    11 * 7000,
+    12 * 7000,
   );
   assert.equal(searchedParts([family], 1).length, 1, "at least one part");
 }

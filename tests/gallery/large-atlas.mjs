@@ -65,21 +65,24 @@ export function largeAtlas(from, copies) {
 }
 
 function parsed(line) {
-  const [, name, json] = line.match(/^couplerAtlas\.(\w+)\((.*)\);$/);
-  return { name, value: JSON.parse(json) };
+  // The points are in a comment after what they belong to.
+  const [, name, json, comment] = line.match(/^couplerAtlas\.(\w+)\((.*?)(,\(\)=>\{.*)?\);$/);
+  return { name, value: JSON.parse(json), comment };
 }
 
 /** A statement of a piece, with its numbers moved to those of a copy. */
-function shifted({ name, value }, copy, cells, pages) {
+function shifted({ name, value, comment = "" }, copy, cells, pages) {
   const changed = { ...value };
   if (name === "piece") changed.number = copy + 1;
-  if (name === "cells") {
-    if (typeof value.number !== "number") throw new Error("the cells of a statement are no run");
-    changed.number = value.number + copy * cells;
-  }
+  const run = (number) => {
+    if (typeof number !== "number") throw new Error("the cells of a statement are no run");
+    return number + copy * cells;
+  };
+  if (name === "cells") changed.number = run(value.number);
+  if (name === "curves") changed.rows = { ...value.rows, number: run(value.rows.number) };
   if (name === "page") {
     changed.page = value.page + copy * pages;
     changed.views = value.views.map((view) => ({ ...view, cell: view.cell + copy * cells }));
   }
-  return `couplerAtlas.${name}(${JSON.stringify(changed)});`;
+  return `couplerAtlas.${name}(${JSON.stringify(changed)}${comment});`;
 }

@@ -57,7 +57,8 @@ function withOddFamilies(atlas) {
 
 /** A statement of a family's script, with the oddities of "evans". */
 function oddStatement(line) {
-  const [, name, json] = line.match(/^couplerAtlas\.(\w+)\((.*)\);$/) ?? [];
+  // The points are in a comment after what they belong to.
+  const [, name, json, points = ""] = line.match(/^couplerAtlas\.(\w+)\((.*?)(,\(\)=>\{.*)?\);$/) ?? [];
   if (!name) return line;
   const value = JSON.parse(json);
   if (name === "begin") value.title = MARKED_TITLE;
@@ -73,5 +74,5 @@ function oddStatement(line) {
     value.reason = Array.from({ length: value.cells }, (_, k) => value.reason[k] ?? "");
     value.reason[2] = ODD_REASON;
   }
-  return `couplerAtlas.${name}(${JSON.stringify(value)});`;
+  return `couplerAtlas.${name}(${JSON.stringify(value)}${points});`;
 }

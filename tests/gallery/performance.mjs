@@ -64,7 +64,7 @@ addTest(
 addTest("8.3", "the size of the data is shown", startAt(large, "/"), async (g, page) => {
   assert.match(
     await page.getByRole("contentinfo").innerText(),
-    /1 family · 780 pages · 7,800 curves · 6\.\d MB of data/,
+    /1 family · 780 pages · 7,800 curves · 5\.\d MB of data/,
   );
 });
 

@@ -6,9 +6,9 @@
 import assert from "node:assert/strict";
 
 import { curveKey, curvePoints } from "../../src/gallery/script/data/family.js";
-import { decodeShape, encodeShape } from "../../src/gallery/script/shape/encode.js";
+import { decodeShape, encodeShape } from "../../src/gallery/script/shape/outline.js";
 import { looksClosed, portion, resampled } from "../../src/gallery/script/shape/outline.js";
-import { inverted, transformed } from "../../src/gallery/script/draw/similarity.js";
+import { inverted, transformed } from "../../src/gallery/script/draw/plane-view.js";
 import {
   bestFit,
   deviationInPlace,

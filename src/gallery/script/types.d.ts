@@ -52,7 +52,7 @@ type Histogram = ReturnType<typeof import("./find/histogram.js").histogramOf>;
 type DrawnCurve = ReturnType<typeof import("./view/page-picture.js").curvesOnPaper>[number];
 type SolvedCurve = NonNullable<ReturnType<typeof import("./view/curve-reading.js").solveCurve>>;
 /** A part of a family that is searched, with the pieces of its data; an index that is not kept is built again. */
-type SearchedPart = { family: Family; first: number; count: number; pieces: Set<Piece>; isKept: boolean };
+type SearchedPart = { family: Family; first: number; count: number; pieces: Piece[]; isKept: boolean };
 type ComparisonQuery = ReturnType<typeof import("./view/compare/align.js").parseComparisonQuery>;
 type ShapeQuery = ReturnType<typeof import("./view/shape/query.js").parseShapeQuery>;
 type FindView = import("./view/find/find-view.js").FindView;
@@ -86,7 +86,7 @@ type App = {
   pins: import("./view/pins.js").Pins;
 } & Record<"announce" | "go" | "replace" | "commit", (text: string) => void>;
 type Query = Map<string, string>;
-type AddressQuery = import("./data/query.js").AddressQuery;
+type AddressQuery = import("./data/address.js").AddressQuery;
 type Target = { path: string[]; query: AddressQuery };
 /** A view of the gallery; `update` returns whether it handles a further address of its route. */
 type View = {
@@ -169,14 +169,16 @@ type Family = Omit<FamilyHead, "measures" | "words" | "pieces"> &
     load(piece: Piece): Promise<void>;
     used(piece: Piece): void;
   };
-/** A view as the data have it, with numbers of cells, traces and circuits, and as it is drawn, with indices. */
-type StoredView = { cell: number; scale: number; origin: Point; curves: Point[] };
+/** A view as the data have it, with the number of the cell, and traces and circuits in turn, and as it is drawn, with indices. */
+type StoredView = { cell: number; scale: number; origin: Point; curves: number[] };
 type PageDrawing = { cell: number; scale: number; origin: Point; curves: number[] };
 /** The points of curves, and the texts of cells; `start` is the index of a curve's first point. */
 type PieceData = Record<"caption" | "note" | "reason", string[]> & {
   box: Float64Array;
   start: Uint32Array;
-  points: Uint16Array;
+  /** Where each curve begins in points that are packed as bytes. */
+  places: Uint32Array;
+  points: Uint8Array | Uint16Array;
   pages: Map<number, StoredView[]>;
   pageOfKey?: Map<string, number>;
 };
@@ -325,8 +327,12 @@ type PackedColumn = string | number | Float64Array | null;
 type TypedArrayKind = { new (of: number | ArrayBuffer): TypedArray };
 type Base64Decoder = { fromBase64(data: string): Uint8Array<ArrayBuffer> };
 /** Statements of the scripts of a family: rows of the table, and captions and points of curves. */
-type CellRows = Record<"number" | "status" | "curves" | "trace" | "circuit" | "closed", PackedColumn> & {
+/** The numbers of cells, how many curves each has, and which these are. */
+type IdentityRows = Record<"number" | "curves" | "trace" | "circuit" | "closed", PackedColumn>;
+type CurvePlace = Record<"cell" | "curve", number>;
+type CellRows = IdentityRows & {
   count: number;
+  status: PackedColumn;
   assignment?: PackedColumn;
   values: PackedColumn[];
   measures: PackedColumn[];
@@ -334,7 +340,7 @@ type CellRows = Record<"number" | "status" | "curves" | "trace" | "circuit" | "c
 };
 type CurveRows = Record<"caption" | "note" | "reason", string[]> &
   Record<"cells" | "curves", number> &
-  Record<"count" | "points", PackedColumn> & { box: PackedColumn[] };
+  { count: PackedColumn; box: PackedColumn[]; points?: Float64Array; rows?: IdentityRows };
 /** A family of a single cell. */
 type CellStatements = { head: FamilyHead; cells: CellRows; curves: CurveRows };
 type PageRows = { page: number; views: StoredView[] };
@@ -343,7 +349,7 @@ type Statements = {
   begin(head: FamilyHead): void;
   piece(of: { id: string; series: string; number: number }): void;
   cells(rows: CellRows): void;
-  curves(rows: CurveRows): void;
+  curves(rows: CurveRows, comment: () => void): void;
   page(rows: PageRows): void;
   end(): void;
   kernel(file: KernelFile): void;

@@ -43,12 +43,17 @@ layout = "chart"
 chart = { x = "p", y = ["length"] }
 "#;
 
-/// The statements of a family's script: the function each calls, and its argument.
+/// The statements of a family's script: the function each calls, and its argument, with the points that are in a comment.
 fn statements(script: &str) -> Vec<(String, Value)> {
     let statement = |line: &str| {
         let call = line.strip_prefix("couplerAtlas.").unwrap().strip_suffix(");").unwrap();
         let (name, json) = call.split_once('(').unwrap();
-        (name.to_owned(), serde_json::from_str(json).unwrap())
+        let (json, comment) = json.split_once(",()=>{/*").unwrap_or((json, ""));
+        let mut value: Value = serde_json::from_str(json).unwrap();
+        if let Some(points) = comment.strip_suffix("*/}") {
+            value["points"] = points.into();
+        }
+        (name.to_owned(), value)
     };
     script.lines().map(statement).collect()
 }
@@ -81,6 +86,35 @@ fn u16s(packed: &Value, count: usize) -> Vec<usize> {
 
 fn u8s(packed: &Value, count: usize) -> Vec<usize> {
     column(packed, count, |[byte]: [u8; 1]| usize::from(byte), all_equal(packed))
+}
+
+/// The points of curves from their third differences, of each curve first all x, then all y.
+fn points_of(packed: &Value, counts: &[usize]) -> Vec<[i64; 2]> {
+    let mut bytes = BASE64_STANDARD.decode(packed.as_str().unwrap()).unwrap().into_iter();
+    let mut points = Vec::new();
+    for count in counts {
+        let [x, y] = [0, 1].map(|_| {
+            let mut values: Vec<i64> = Vec::new();
+            for k in 0..*count {
+                let (mut code, mut shift) = (0, 0);
+                loop {
+                    let byte = i64::from(bytes.next().unwrap());
+                    code += (byte & 127) << shift;
+                    shift += 7;
+                    if byte < 128 {
+                        break;
+                    }
+                }
+                let before = |n: usize| if k == 0 { 0 } else { values[k.saturating_sub(n)] };
+                let difference = if code % 2 == 0 { code / 2 } else { -(code + 1) / 2 };
+                values.push(3 * (before(1) - before(2)) + before(3) + difference);
+            }
+            values
+        });
+        points.extend(x.into_iter().zip(y).map(|(x, y)| [x, y]));
+    }
+    assert_eq!(bytes.next(), None);
+    points
 }
 
 fn count_of(number: &Value) -> usize {
@@ -154,6 +188,10 @@ fn cells_and_measures_are_those_of_the_table_to_the_last_bit() {
             let values: Vec<Vec<f64>> = columns.iter().map(|column| f64s(column, numbers.len())).collect();
             let statuses = u8s(&chunk["status"], numbers.len());
             assert_eq!([count_of(&outlines["cells"]), count_of(&outlines["curves"])], [numbers.len(), owners.len()]);
+            for (name, column) in outlines["rows"].as_object().unwrap() {
+                assert_eq!(column, &chunk[name], "{name}: the points have the same rows as the table");
+            }
+            assert_eq!(outlines["rows"].as_object().unwrap().len(), 5);
             for (k, number) in numbers.iter().enumerate() {
                 let of_cell: Vec<usize> = (0..owners.len()).filter(|&curve| owners[curve] == k).collect();
                 for curve in if of_cell.is_empty() { vec![None] } else { of_cell.into_iter().map(Some).collect() } {
@@ -196,7 +234,7 @@ fn points_are_samples_to_a_65535th_of_the_extent() {
             let counts = u16s(&outlines["count"], owners.len());
             let boxes: Vec<Vec<f64>> =
                 outlines["box"].as_array().unwrap().iter().map(|side| f64s(side, owners.len())).collect();
-            let points = u16s(&outlines["points"], 2 * counts.iter().sum::<usize>());
+            let points = points_of(&outlines["points"], &counts);
             let mut first = 0;
             for curve in 0..owners.len() {
                 let samples = &family.points[&[numbers[owners[curve]], traces[curve], circuits[curve]]];
@@ -205,8 +243,8 @@ fn points_are_samples_to_a_65535th_of_the_extent() {
                 let near = |a: f64, b: f64, size: f64| (a - b).abs() <= size * (0.5 / 65535.0 + 1e-12);
                 let mut next = 0;
                 for k in first..first + counts[curve] {
-                    let unpack = |step: usize, from: f64, to: f64| from + (to - from) * step as f64 / 65535.0;
-                    let [x, y] = [unpack(points[2 * k], x0, x1), unpack(points[2 * k + 1], y0, y1)];
+                    let unpack = |step: i64, from: f64, to: f64| from + (to - from) * step as f64 / 65535.0;
+                    let [x, y] = [unpack(points[k][0], x0, x1), unpack(points[k][1], y0, y1)];
                     // In the order of the samples.
                     let found = samples[next..].iter().position(|p| near(p[0], x, x1 - x0) && near(p[1], y, y1 - y0));
                     next += found.unwrap_or_else(|| panic!("{id}: no sample at {x}, {y}")) + 1;
@@ -230,7 +268,7 @@ fn pages_say_where_their_curves_are() {
             let svg = fs::read(family.atlas.out().join(family.id).join(format!("{id}-{page:03}.svg"))).unwrap();
             let mut drawn = read_drawn_curves(&svg).unwrap().into_iter();
             for view in data["views"].as_array().unwrap() {
-                for curve in view["curves"].as_array().unwrap() {
+                for curve in view["curves"].as_array().unwrap().chunks(2) {
                     let drawn = drawn.next().unwrap();
                     let number = |value: &Value| value.as_f64().unwrap();
                     let values =

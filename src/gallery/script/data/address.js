@@ -1,17 +1,12 @@
 // Addresses of the gallery's views: every view has one, in the fragment of the page's URL, so that it can be
 // linked to.
 //
-//   #/                                     all families
-//   #/evans                                the pages of a family
+//   #/                                     all families   #/evans                                the pages of a family
 //   #/evans/3?curve=12.1.1                 a page, with a highlighted curve
 //   #/evans/curve/12.1.1?p=2.5             the plate of a curve (cell.trace.circuit); with changed parameters
-//   #/find?family=evans&mu_min_deg=30..    the curves that pass the filters
-//   #/shape?d=…                            the curves similar to a shape
-//   #/compare?c=evans:12.1.1,watt:3.1.1    curves compared
-//   #/new                                  the linkages that plates begin with
+//   #/find?family=evans&mu_min_deg=30..    the curves that pass the filters   #/shape?d=…                            the curves similar to a shape
+//   #/compare?c=evans:12.1.1,watt:3.1.1    curves compared   #/new                                  the linkages that plates begin with
 //   #/new/four-bar?crank=1.2               the plate of one, which is in no family
-
-import { AddressQuery } from "./query.js";
 
 // What the address of a plate says of more than changed parameters, by these names.
 const PLATE_WORDS = ["circuit", "show", "joint", "graph", "rpm", "load", "lock", "at"];
@@ -136,4 +131,55 @@ export function routeAddress(word, query, { atlas }) {
 
 function isFamily(/** @type {Atlas} */ { families }, /** @type {string} */ word) {
   return families.some(({ id }) => id === word);
+}
+
+/** Words by their names. A name that no view reads is ignored, and so is a value that one cannot use. @extends {Map<string, string>} */
+export class AddressQuery extends Map {
+  /** @type {Set<string>} */ read = new Set();
+  /** Why values are ignored, by their names. @type {Map<string, string>} */ wrong = new Map();
+  /** Is called when a value is ignored. @type {() => void} */ onignore = () => {};
+
+  get(/** @type {string} */ name) {
+    this.read.add(name);
+    return super.get(name);
+  }
+
+  /** A value is ignored, for a reason. */
+  ignore(/** @type {string} */ name, /** @type {string} */ why) {
+    this.wrong.set(name, why);
+    this.onignore();
+  }
+
+  /** A finite number from `least` on; undefined if there is none. @returns {number | undefined} */
+  number(/** @type {string} */ name, least = -Infinity) {
+    const word = this.get(name);
+    if (word === undefined) return undefined;
+    const value = word.trim() === "" ? NaN : Number(word);
+    if (Number.isFinite(value) && value >= least) return value;
+    this.ignore(name, Number.isFinite(value) ? `less than ${least}` : "not a number");
+    return undefined;
+  }
+
+  /** One of some words; undefined if there is none. */
+  word(/** @type {string} */ name, /** @type {string[]} */ words) {
+    return this.list(name, (word) => words.includes(word))?.[0];
+  }
+
+  /** A list of words, those that are usable; undefined if there is none. */
+  list(/** @type {string} */ name, isUsable = (/** @type {string} */ _) => true) {
+    const words = this.get(name)?.split(",").filter(Boolean);
+    const wrong = words?.filter((word) => !isUsable(word)) ?? [];
+    if (wrong.length) this.ignore(name, `there is no “${wrong.join(", ")}”`);
+    return words?.filter(isUsable);
+  }
+
+  /** What is ignored, in a sentence; empty if nothing is. */
+  get ignored() {
+    const reasons = [...this].map(([name, value]) => {
+      const why = this.wrong.get(name) ?? (this.read.has(name) ? null : "unknown");
+      return why && `${name}${value ? `=${value.slice(0, 40)}` : ""} (${why})`;
+    });
+    const words = reasons.filter(Boolean);
+    return words.length ? `Ignored in the address: ${words.join("; ")}` : "";
+  }
 }

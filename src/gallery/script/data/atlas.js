@@ -4,7 +4,7 @@ import { unpackGzip } from "./packed.js";
 import { headReader, PieceReader } from "./reader.js";
 
 // The size of the files whose points are kept, in bytes: a search takes from them what it needs, one after another.
-const MAX_KEPT_BYTES = 16e6;
+const MAX_KEPT_BYTES = 48e6;
 
 /**
  * Opens the atlas of a document: its summary, `family(id)`, which resolves to a family (reader.js) when its head is loaded, and
@@ -30,7 +30,7 @@ export function openAtlas(document, window) {
       reader = family && piece ? new PieceReader(family, [piece]) : null;
     },
     cells: (rows) => reader?.cells(rows),
-    curves: (outlines) => reader?.curves(outlines),
+    curves: (outlines, comment) => reader?.curves(outlines, comment),
     page: (page) => reader?.page(page),
     end: () => {
       finished = reader && { family: reader.finish(), piece: reader.pieces[0] };

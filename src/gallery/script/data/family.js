@@ -1,23 +1,30 @@
 // Reads the data of a family (reader.js), whose pieces must be loaded (needs.js).
 
+import { unpackPoints } from "./packed.js";
 import { upperBound } from "./series.js";
 
 /** The code of a missing word. */
 export const NO_WORD = 255;
 
-/** The index of the cell with a number, or undefined. @param {Family} _ */
-function findCell({ table, cells }, /** @type {number} */ number) {
-  const piece = table.ofNumber(number);
-  if (!piece?.data) return undefined;
+/** The loaded piece of either series, which have the same rows, with a cell. @param {Family} _ @param {"ofCell" | "ofNumber"} of @param {number} cell */
+function loadedPiece({ table, outlines }, of, cell) {
+  return [table[of](cell), outlines[of](cell)].find((piece) => piece?.data);
+}
+
+/** The index of the cell with a number, or undefined. @param {Family} family */
+function findCell(family, /** @type {number} */ number) {
+  const { cells } = family;
+  const piece = loadedPiece(family, "ofNumber", number);
+  if (!piece) return undefined;
   const { firstCell, cells: count } = piece;
   const cell = firstCell + upperBound(count, (k) => cells.number[firstCell + k] < number);
   return cell < firstCell + count && cells.number[cell] === number ? cell : undefined;
 }
 
-/** The index of the first curve of a cell, or of a later one. @param {Family} _ */
-function firstCurveOf({ table, curves }, /** @type {number} */ cell) {
-  const { firstCurve = 0, curves: count = 0 } = table.ofCell(cell) ?? {};
-  return firstCurve + upperBound(count, (k) => curves.cell[firstCurve + k] < cell);
+/** The index of the first curve of a cell, or of a later one. @param {Family} family */
+function firstCurveOf(family, /** @type {number} */ cell) {
+  const { firstCurve = 0, curves: count = 0 } = loadedPiece(family, "ofCell", cell) ?? {};
+  return firstCurve + upperBound(count, (k) => family.curves.cell[firstCurve + k] < cell);
 }
 
 /** The key of a curve in addresses: the numbers of its cell, its trace and its circuit. */
@@ -58,26 +65,23 @@ export function curveOutline(family, /** @type {number} */ curve) {
 
 /**
  * The points of a curve, or of those of a piece up to another one, [x0, y0, x1, y1, …], accurate to 1/65535 of its extent; in `room` if it is
- * large enough.
- * @param {Family} _
+ * large enough. @param {Family} _ @param {number} curve
  */
-export function curvePoints(
-  { outlines },
-  /** @type {number} */ curve,
-  end = curve + 1,
-  room = new ArrayBuffer(),
-) {
+export function curvePoints({ outlines }, curve, end = curve + 1, room = new ArrayBuffer()) {
   const piece = outlines.ofCurve(curve);
   if (!piece?.data) return new Float64Array();
-  const { box, start, points } = piece.data;
+  const { box, start, places, points } = piece.data;
   const [first, last] = [curve - piece.firstCurve, end - piece.firstCurve];
   const length = 2 * (start[last] - start[first]);
   const out = new Float64Array(room.byteLength < 8 * length ? new ArrayBuffer(8 * length) : room, 0, length);
   for (let own = first, at = 0; own < last; own += 1) {
     const [x0, y0, x1, y1] = box.subarray(4 * own, 4 * own + 4);
-    for (let k = 2 * start[own]; k < 2 * start[own + 1]; k += 2) {
-      out[at++] = x0 + ((x1 - x0) * points[k]) / 65535;
-      out[at++] = y0 + ((y1 - y0) * points[k + 1]) / 65535;
+    const isPacked = points instanceof Uint8Array;
+    const count = start[own + 1] - start[own];
+    const steps = isPacked ? unpackPoints(points, places[own], count) : points.subarray(2 * start[own]);
+    for (let k = 0; k < 2 * count; k += 2) {
+      out[at++] = x0 + ((x1 - x0) * steps[k]) / 65535;
+      out[at++] = y0 + ((y1 - y0) * steps[k + 1]) / 65535;
     }
   }
   return out;
@@ -124,8 +128,13 @@ export function pageViews(/** @type {Family} */ family, page) {
     cell: findCell(family, cell) ?? -1,
     scale,
     origin,
-    curves: curves.map(([trace, circuit]) => findCurve(family, `${cell}.${trace}.${circuit}`) ?? -1),
+    curves: keysOfView(cell, curves).map((key) => findCurve(family, key) ?? -1),
   }));
+}
+
+/** The keys of the curves of a cell with some traces and circuits, in turn. @param {number} cell @param {number[]} curves */
+function keysOfView(cell, curves) {
+  return curves.flatMap((trace, k) => (k % 2 ? [] : [`${cell}.${trace}.${curves[k + 1]}`]));
 }
 
 /** The numbers of the cells drawn on a page. @param {Family} _ */
@@ -146,8 +155,7 @@ export function pageOfCurve(/** @type {Family} */ family, /** @type {number} */ 
 function pagesByKey(/** @type {PieceData} */ { pages }) {
   /** @type {Map<string, number>} */ const found = new Map();
   for (const [page, views] of pages)
-    for (const { cell, curves } of views)
-      for (const [trace, circuit] of curves) found.set(`${cell}.${trace}.${circuit}`, page);
+    for (const { cell, curves } of views) for (const key of keysOfView(cell, curves)) found.set(key, page);
   return found;
 }
 

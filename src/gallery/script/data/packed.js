@@ -28,6 +28,37 @@ export function unpackColumn(kind, count, column) {
   return array;
 }
 
+/** The bytes in base64 in the comment that a function consists of. */
+export function bytesOfComment(/** @type {() => void} */ comment) {
+  return decodeBase64(String(comment).slice("()=>{/*".length, -"*/}".length));
+}
+
+/** Where the numbers of each curve begin among third differences. @param {Uint8Array} bytes @param {number[]} counts */
+export function placesOfCurves(bytes, counts) {
+  let at = 0;
+  return Uint32Array.from(counts, (count) => {
+    const from = at;
+    for (let rest = 2 * count; rest > 0; at += 1) if (bytes[at] < 128) rest -= 1;
+    return from;
+  });
+}
+
+/** The points of a curve, x and y in turn from 0 to 65535, of third differences (typed_array.rs). @param {Uint8Array} bytes @param {number} at @param {number} count */
+export function unpackPoints(bytes, at, count) {
+  const points = new Uint16Array(2 * count);
+  for (const axis of [0, 1]) {
+    let [a, b, c] = [0, 0, 0];
+    for (let k = 0; k < count; k += 1) {
+      let [code, shift] = [bytes[at] & 127, 7];
+      for (; bytes[at++] > 127; shift += 7) code |= (bytes[at] & 127) << shift;
+      const value = 3 * (a - b) + c + ((code >> 1) ^ -(code & 1));
+      points[2 * k + axis] = value;
+      [c, b, a] = k ? [b, a, value] : [value, value, value];
+    }
+  }
+  return points;
+}
+
 /** Uses the browser's own decoder if there is one: it takes a tenth of the time, and an atlas has megabytes. @returns {Uint8Array<ArrayBuffer>} */
 function decodeBase64(/** @type {string} */ data) {
   if ("fromBase64" in Uint8Array) return /** @type {Base64Decoder} */ (Uint8Array).fromBase64(data);

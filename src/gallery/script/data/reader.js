@@ -1,8 +1,11 @@
 // Assembles the data of a family from the statements of its scripts.
 
 import { NO_WORD } from "./family.js";
-import { concatenateArrays, freeArray, unpackColumn, unpackInto } from "./packed.js";
+import { bytesOfComment, concatenateArrays, freeArray } from "./packed.js";
+import { placesOfCurves, unpackColumn, unpackInto } from "./packed.js";
 import { Series } from "./series.js";
+
+const TEXTS = /** @type {const} */ (["reason", "caption", "note"]);
 
 /** The family with a head, before any of its pieces is loaded. @returns {Family} */
 function newFamily(/** @type {FamilyHead} */ { pieces, measures, words, ...head }) {
@@ -81,8 +84,9 @@ export class PieceReader {
   constructor(/** @type {Family} */ family, /** @type {Piece[]} */ pieces) {
     this.family = family;
     this.pieces = pieces;
-    this.cell = pieces[0]?.firstCell ?? 0;
-    this.curve = pieces[0]?.firstCurve ?? 0;
+    const { firstCell: cell = 0, firstCurve: curve = 0 } = pieces[0] ?? {};
+    /** The next rows of the table, and those whose points come next: a small family has both in one script. */
+    this.next = { table: { cell, curve }, curves: { cell, curve } };
     /** @type {Chunk[]} */ this.chunks = [];
     /** @type {PieceData["pages"]} */ this.pages = new Map();
   }
@@ -90,48 +94,54 @@ export class PieceReader {
   /** Rows of the table, written to their places. */
   cells(/** @type {CellRows} */ rows) {
     const { cells, curves, names, measureNames } = this.family;
-    allocateTable(this.family);
     const { count } = rows;
-    if (typeof rows.number === "number")
-      for (let k = 0; k < count; k += 1) cells.number[this.cell + k] = rows.number + k;
-    else unpackInto(cells.number, this.cell, count, rows.number);
+    const { cell, curve, all } = this.#rows(this.next.table, count, rows);
     const width = names.length;
     rows.values.forEach((column, slot) => {
       const values = unpackColumn(Float64Array, count, column);
-      for (let k = 0; k < count; k += 1) cells.values[(this.cell + k) * width + slot] = values[k];
+      for (let k = 0; k < count; k += 1) cells.values[(cell + k) * width + slot] = values[k];
       freeArray(values);
     });
-    unpackInto(cells.assignment, this.cell, count, rows.assignment ?? 0);
-    unpackInto(cells.status, this.cell, count, rows.status);
-    const each = unpackColumn(Uint16Array, count, rows.curves);
-    let end = this.curve;
-    for (let k = 0; k < count; k += 1) {
-      curves.cell.fill(this.cell + k, end, end + each[k]);
-      end += each[k];
-    }
-    const all = end - this.curve;
-    for (const name of /** @type {const} */ (["trace", "circuit", "closed"]))
-      unpackInto(curves[name], this.curve, all, rows[name]);
+    unpackInto(cells.assignment, cell, count, rows.assignment ?? 0);
+    unpackInto(cells.status, cell, count, rows.status);
     measureNames.numbers.forEach((name, k) => {
       const { measures } = curves;
       const column = rows.measures[k];
       if (column === null && !measures[name]) return;
       measures[name] ??= new Float64Array(curves.cell.length).fill(NaN);
-      unpackInto(measures[name], this.curve, all, column);
+      unpackInto(measures[name], curve, all, column);
     });
     measureNames.words.forEach((name, k) => {
       const { codes, values } = rows.words[k];
-      addWords(curves.words[name], this.curve, unpackColumn(Uint8Array, all, codes), values);
+      addWords(curves.words[name], curve, unpackColumn(Uint8Array, all, codes), values);
     });
-    this.cell += count;
-    this.curve = end;
   }
 
-  /** Captions of cells, and points of curves. */
-  curves(/** @type {CurveRows} */ { reason, caption, note, cells, box, count, curves, points }) {
+  /** Which cells and curves come next: the first of both, and how many curves. @param {CurvePlace} next @param {number} count @param {IdentityRows} rows */
+  #rows(next, count, rows) {
+    const { cells, curves } = this.family;
+    allocateTable(this.family);
+    const { cell, curve } = next;
+    if (typeof rows.number === "number")
+      for (let k = 0; k < count; k += 1) cells.number[cell + k] = rows.number + k;
+    else unpackInto(cells.number, cell, count, rows.number);
+    const each = unpackColumn(Uint16Array, count, rows.curves);
+    for (let k = 0; k < count; k += 1) {
+      curves.cell.fill(cell + k, next.curve, next.curve + each[k]);
+      next.curve += each[k];
+    }
+    next.cell += count;
+    const all = next.curve - curve;
+    for (const name of /** @type {const} */ (["trace", "circuit", "closed"]))
+      unpackInto(curves[name], curve, all, rows[name]);
+    return { cell, curve, all };
+  }
+
+  /** Captions of cells, and points of curves: those of the kernel are numbers, without rows. @param {CurveRows} _ @param {() => void} [comment] */
+  curves({ reason, caption, note, cells, rows, box, count, curves, points }, comment) {
+    if (rows) this.#rows(this.next.curves, cells, rows);
     const counts = unpackColumn(Uint16Array, curves, count);
     const sides = box.map((column) => unpackColumn(Float64Array, curves, column));
-    const total = 2 * counts.reduce((sum, each) => sum + each, 0);
     const listed = (/** @type {string[]} */ texts) => (texts.length ? texts : new Array(cells).fill(""));
     this.chunks.push({
       reason: listed(reason),
@@ -139,8 +149,9 @@ export class PieceReader {
       note: listed(note),
       counts,
       box: Float64Array.from({ length: 4 * curves }, (_, k) => sides[k & 3][k >> 2]),
-      points: unpackColumn(Uint16Array, total, points),
+      points: comment ? bytesOfComment(comment) : Uint16Array.from(points ?? []),
     });
+    sides.forEach(freeArray);
   }
 
   page(/** @type {PageRows} */ { page, views }) {
@@ -151,12 +162,14 @@ export class PieceReader {
   finish() {
     const { chunks, pages } = this;
     const [boxes, parts] = [chunks.map((one) => one.box), chunks.map((one) => one.points)];
-    const [box, points] = [concatenateArrays(boxes, Float64Array), concatenateArrays(parts, Uint16Array)];
-    const start = Uint32Array.from([0, ...chunks.flatMap((one) => [...one.counts])]);
+    const [box, points] = [concatenateArrays(boxes, Float64Array), concatenateArrays(parts, Uint8Array)];
+    const counts = chunks.flatMap((one) => [...one.counts]);
+    const start = Uint32Array.from([0, ...counts]);
     for (let k = 1; k < start.length; k += 1) start[k] += start[k - 1];
-    const texts = (/** @type {"reason" | "caption" | "note"} */ name) => chunks.flatMap((one) => one[name]);
-    const words = { reason: texts("reason"), caption: texts("caption"), note: texts("note") };
-    for (const piece of this.pieces) piece.data = { box, start, points, ...words, pages };
+    const places = points instanceof Uint8Array ? placesOfCurves(points, counts) : start;
+    const [reason, caption, note] = TEXTS.map((name) => chunks.flatMap((one) => one[name]));
+    for (const piece of this.pieces)
+      piece.data = { box, start, places, points, reason, caption, note, pages };
     if (chunks.length > 1) [...boxes, ...parts].forEach(freeArray);
     return this.family;
   }

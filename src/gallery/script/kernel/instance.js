@@ -20,9 +20,11 @@ export class KernelInstance {
 
   /**
    * The answer to a request, both as objects. Arrays of numbers are Float64Arrays, those of the answer of their own.
-   * @throws {KernelError} if the kernel cannot answer it @throws {KernelFailure} if the kernel fails
+   * A list of requests has a list of answers.
+   * @throws {KernelError} if the kernel cannot answer it @throws {KernelFailure} if the kernel fails @returns {any}
    */
   call(/** @type {object} */ request) {
+    if (Array.isArray(request)) return request.map((/** @type {object} */ one) => this.call(one));
     /** @type {Float64Array[]} */ const arrays = [];
     let total = 0;
     const packed = (/** @type {string} */ key, /** @type {unknown} */ value) => {

@@ -3,6 +3,7 @@
 // After a failure of the kernel, a new instance replaces it, in which families and studies are opened again when
 // they are used.
 
+import { freeArray } from "../data/packed.js";
 import { FourBarFinder } from "./finder.js";
 import { KernelFailure, KernelInstance } from "./instance.js";
 import { KernelStudy } from "./study.js";
@@ -33,6 +34,7 @@ export class KernelLoader {
     });
     try {
       this.kernel = new Kernel(await WebAssembly.compile(code));
+      freeArray(new Uint8Array(code));
     } catch (error) {
       throw new Error(`${noWebAssembly} (${error.message})`, { cause: error });
     }

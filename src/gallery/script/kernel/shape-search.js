@@ -40,10 +40,10 @@ export class ShapeSearch {
     }
   }
 
-  /** How much a curve is like the path, compared closely; null if it is not. @param {Outline} curve @returns {Promise<number | null>} */
-  async likeness({ points, closed }) {
+  /** How much curves are like the path, compared closely; null for those that are not. @param {Outline[]} curves @returns {Promise<{ likeness: number | null }[]>} */
+  likenesses(curves) {
     const { shape } = this;
-    return (await this.kernel.call({ method: "compare_closely", shape, points, closed })).likeness;
+    return this.kernel.call(curves.map((curve) => ({ ...curve, method: "compare_closely", shape })));
   }
 
   /** How a curve fits the path; null if it does not. @param {Outline} curve @returns {Promise<Fit | null>} */

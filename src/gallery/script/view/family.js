@@ -9,8 +9,7 @@ import { familyCounts, familySource } from "./overview.js";
 import { formatCaption, formatBytes } from "./labels.js";
 import { notAssembledSummary } from "./not-assembled.js";
 import { TileWindow } from "./tile-window.js";
-import { pageThumbnail } from "./page-thumbnail.js";
-import { thumbnail } from "./thumbnail.js";
+import { pageThumbnail, thumbnail } from "./thumbnail.js";
 import { pageField } from "./page-bar.js";
 import { pageLabel } from "./page-panel.js";
 

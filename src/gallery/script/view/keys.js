@@ -1,4 +1,4 @@
-// Commands by keys: one table each of what handles them and what the dialog of all keys lists.
+// Commands by keys: one table each of what handles them and what the dialog of all keys lists; and the gestures that can be undone.
 
 import { h, isShortcut, openDialog, termList } from "./dom.js";
 
@@ -87,4 +87,40 @@ export function showKeys(more) {
   const lists = [...groups].map(([where, all]) => [h("h3", where), termList("dl.facts", all.map(row))]);
   const title = h("h2", { id: "keys-title" }, "Keys");
   openDialog("keys", { "aria-labelledby": title.id }, title, lists);
+}
+
+/** The addresses of a view before each gesture, and after each that was undone. */
+export class Gestures {
+  /** @type {string[]} */ past = [];
+  /** @type {string[]} */ future = [];
+
+  /** Records a gesture that began at an address. */
+  record(/** @type {string} */ before) {
+    this.past.push(before);
+    this.future = [];
+  }
+
+  /** The address before the last gesture; undefined if there is none. */
+  undo(/** @type {string} */ now) {
+    const before = this.past.pop();
+    if (before !== undefined) this.future.push(now);
+    return before;
+  }
+
+  /** The address after the gesture that was undone last; undefined if there is none. */
+  redo(/** @type {string} */ now) {
+    const after = this.future.pop();
+    if (after !== undefined) this.past.push(now);
+    return after;
+  }
+}
+
+/** Whether a key event undoes (-1) or repeats (1) a gesture; 0 if neither, or where text is typed, which the browser undoes. */
+export function gestureOfKey(/** @type {KeyboardEvent} */ event) {
+  const { ctrlKey, metaKey, altKey, shiftKey, target } = event;
+  const key = event.key.toLowerCase();
+  if (!(ctrlKey || metaKey) || altKey || (key !== "z" && key !== "y")) return 0;
+  if (isTyped(target, "")) return 0;
+  if (key === "y") return shiftKey ? 0 : 1;
+  return shiftKey ? 1 : -1;
 }

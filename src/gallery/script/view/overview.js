@@ -4,7 +4,7 @@ import { address } from "../data/address.js";
 import { sumOf } from "../data/number.js";
 import { elementIn, fill, h } from "./dom.js";
 import { notAssembledNote } from "./not-assembled.js";
-import { pageThumbnail } from "./page-thumbnail.js";
+import { pageThumbnail } from "./thumbnail.js";
 import { formatCount } from "./labels.js";
 
 // From this many families on, there is a search field.

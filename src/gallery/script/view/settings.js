@@ -7,10 +7,7 @@ const PAGES_KEY = "coupler-atlas-pages";
 
 const THEMES = ["system", "light", "dark"];
 
-/**
- * The theme selector, which takes effect immediately. `data-theme` of <html> is the effective theme, light or
- * dark.
- */
+/** The theme selector, which takes effect immediately. `data-theme` of <html> is the effective theme, light or dark. */
 export function themeSelect() {
   const dark = window.matchMedia("(prefers-color-scheme: dark)");
   const stored = storedChoice(THEME_KEY) ?? "";

@@ -3,8 +3,7 @@
 import { address, parseAddress } from "../data/address.js";
 import { sumOf } from "../data/number.js";
 import { buttonOf, fill, h, setAttributes } from "./dom.js";
-import { Gestures, gestureOfKey } from "./gestures.js";
-import { onKeys, showKeys } from "./keys.js";
+import { Gestures, gestureOfKey, onKeys, showKeys } from "./keys.js";
 import { themeSelect } from "./settings.js";
 import { scrollMemory } from "./scroll-memory.js";
 import { formatBytes, formatCount } from "./labels.js";

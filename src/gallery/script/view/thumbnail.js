@@ -1,12 +1,16 @@
-// Thumbnails of curves, from the stored points: SVG in the colours of the theme, for screen and print.
+// Thumbnails of curves and of pages, from the stored points: SVG in the colours of the theme, for screen and print.
 
-import { curveBox, curveOutline } from "../data/family.js";
+import { pageFile } from "../data/atlas.js";
+import { curveBox, curveOutline, pageViews } from "../data/family.js";
+import { isScattered } from "../data/needs.js";
 import { smoothData } from "../draw/path-data.js";
 import { boxOfPoints, fittedView } from "../draw/plane-view.js";
-import { s, sizedThumbnail } from "./dom.js";
+import { h, s, sizedThumbnail, thumbnailFrame } from "./dom.js";
 
 // The margin of a thumbnail, in pixels.
 const THUMBNAIL_INSET = 3;
+// Points closer than this, in millimetres of paper, are merged in a thumbnail.
+const PAPER_GRAIN = 0.2;
 
 /**
  * Curves of a family in one frame, at one scale, y up: an SVG element of `width` × `height` pixels, hidden from screen readers because
@@ -32,4 +36,40 @@ export function thumbnail(family, curves, { width, height, plain = curves.length
 export function curvePath(family, curve, { scale, origin: [x, y] }, grain = 0.1) {
   const { points, closed } = curveOutline(family, curve);
   return smoothData(points, closed, { scale, x, y }, grain < 0.1 ? 3 : 1, grain);
+}
+
+/**
+ * The thumbnail of a page: its curves drawn from the data if they are loaded (needs.js), or its file. Null if
+ * there is neither. The curves of a scattered page are not drawn.
+ * @param {number} page
+ */
+export function pageThumbnail(/** @type {Atlas} */ atlas, /** @type {Family} */ family, page) {
+  const views = isScattered(family) ? [] : pageViews(family, page);
+  if (views.length) return drawPage(family, views, ".page-thumbnail", PAPER_GRAIN);
+  const file = pageFile(atlas, family.id, page);
+  if (!file) return null;
+  const lazy = { loading: "lazy", decoding: "async" };
+  return h("img.page-thumbnail.printed", { src: file, alt: "", ...lazy, "data-paper": paperTone(family) });
+}
+
+/**
+ * The curves of views of a page at their positions on paper, in millimetres, as an SVG with the page's aspect ratio.
+ * @param {string} name @param {number} grain
+ */
+export function drawPage(/** @type {Family} */ family, /** @type {PageDrawing[]} */ views, name, grain) {
+  const paths = views.flatMap((view) =>
+    view.curves.map((curve, k) =>
+      s("path", {
+        class: `ink-${(k % 5) + 1}`,
+        d: curvePath(family, curve, view, grain),
+        "vector-effect": "non-scaling-stroke",
+      }),
+    ),
+  );
+  return thumbnailFrame(name, family.paper, paths);
+}
+
+/** The `data-paper` attribute of a family's pictures: "dark" for dark paper, otherwise null. */
+export function paperTone(/** @type {Family} */ { paper }) {
+  return paper.is_dark ? "dark" : null;
 }

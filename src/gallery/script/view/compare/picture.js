@@ -1,10 +1,9 @@
 // Overlaid curves, distinguished by colour, dash pattern and letter.
 
 import { placedData, smoothData } from "../../draw/path-data.js";
-import { boxOfPoints, screenPoint } from "../../draw/plane-view.js";
+import { boxOfPoints, screenPoint, transformed } from "../../draw/plane-view.js";
 import { nextTurn, s, thumbnailFrame } from "../dom.js";
 import { viewOfOutlines } from "../shape/match-item.js";
-import { transformed } from "../../draw/similarity.js";
 import { solveCurve } from "../curve-reading.js";
 
 const OVER_WIDE = 720;

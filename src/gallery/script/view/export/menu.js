@@ -2,8 +2,8 @@
 
 import { buttonOf, fill, h, isShortcut } from "../dom.js";
 import { exportCommandLine, exportFile, exportManifest, EXPORT_FORMATS } from "./files.js";
+import { copyText, saveFile } from "./files.js";
 import { plateFile } from "./plate-file.js";
-import { saveFile, copyText } from "./save.js";
 
 // The time in milliseconds after which an export can be cancelled.
 const LONG = 1000;

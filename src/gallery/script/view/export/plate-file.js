@@ -4,12 +4,8 @@ import { curveKey } from "../../data/family.js";
 import { elementIn } from "../dom.js";
 import { EXPORT_FORMATS, exportFile } from "./files.js";
 
-/** The plate of a curve by its name, as the address of the page has it, as a file { name, type, bytes }. @param {string} name */
-export async function plateFile(
-  /** @type {App} */ app,
-  name,
-  /** @type {CurveOfFamily} */ { family, curve },
-) {
+/** The plate of a curve, as the address of the page has it, as a file { name, type, bytes }. @param {App} app @param {string} name @param {CurveOfFamily} _ */
+export async function plateFile(app, name, { family, curve }) {
   const points = EXPORT_FORMATS.filter(({ kernel }) => kernel === "csv");
   const { name: file } = await exportFile(app, [name], points[0]);
   const key = curveKey(family, curve);

@@ -2,7 +2,7 @@
 
 import { KernelError } from "../../kernel/instance.js";
 import { buttonOf, fill, h, selectOf, termList } from "../dom.js";
-import { saveFile } from "../export/save.js";
+import { saveFile } from "../export/files.js";
 import { formatDecimals, formatLength } from "../labels.js";
 import { NumberField } from "../number-field.js";
 import { MotionGraph } from "./motion-graph.js";

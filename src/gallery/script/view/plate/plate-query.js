@@ -56,11 +56,9 @@ export function withMember(set, member, isIn) {
   return new Set(isIn ? [...others, member] : others);
 }
 
-/** The shortest address of a plate in a state; defaults are left out. @param {Plate} _ @param {PlateState} _1 */
-export function plateAddress(
-  { family, curve, study },
-  { changes, requestedCircuit, on, at, locked, motion },
-) {
+/** The shortest address of a plate in a state; defaults are left out. @param {Plate} _ @param {PlateState} state */
+export function plateAddress({ family, curve, study }, state) {
+  const { changes, requestedCircuit, on, at, locked, motion } = state;
   const query = new Map([...changes].map(([name, value]) => [parameterWord(name), String(value)]));
   if (requestedCircuit !== null && requestedCircuit !== study?.home)
     query.set("circuit", String(requestedCircuit + 1));

@@ -9,9 +9,8 @@ import { changeableParameters, isRecordedValue } from "./parameters.js";
 import { recordedPath } from "./paths.js";
 import { ignoreUnused, plateAddress, readPlateQuery, withMember } from "./plate-query.js";
 import { isExtraCircuit, plateCurveName } from "./plate-query.js";
-import { Resting } from "./resting.js";
 import { Sliders } from "./sliders.js";
-import { recordedValues, studyOf, summaryOfStudy } from "./study.js";
+import { recordedValues, Resting, studyOf, summaryOfStudy } from "./study.js";
 import { Switches } from "./switches.js";
 import { Store } from "../store.js";
 

@@ -1,9 +1,12 @@
-// The study of a linkage: the assembled linkage, all its circuits, and the one shown.
+// The study of a linkage: the assembled linkage, all its circuits, and the one shown; studied roughly while it is changed.
 
 import { KernelFailure, POSE_HEADER } from "../../kernel/instance.js";
 import { timelineOf } from "./timeline.js";
 import { measureValue } from "../../data/family.js";
 import { formatLength, formatDecimals } from "../labels.js";
+
+// The time in milliseconds after which a slider has rested.
+const REST_MILLISECONDS = 160;
 
 /**
  * The study of a curve with changes, as a plate shows it, on the circuit `requested` if it exists. A rough study without a requested
@@ -141,4 +144,45 @@ export function summaryOfStudy(family, curve, study, isRecorded) {
     words.push(`Transmission angle from ${least} to ${most} degrees.`);
   if (!isRecorded) words.push("Its parameters or its circuit are changed.");
   return words.join(" ");
+}
+
+/** Calls `study(isRough)` for changes, and marks an element as busy until they have rested. */
+export class Resting {
+  resting = 0;
+  waiting = 0;
+
+  /** @param {HTMLElement} element @param {(isRough: boolean) => void} study */
+  constructor(element, study) {
+    this.element = element;
+    this.study = study;
+  }
+
+  /** After a change, of which more may follow. */
+  changed() {
+    this.soon(REST_MILLISECONDS);
+    // At most one study per frame.
+    this.waiting ||= window.requestAnimationFrame(() => {
+      this.waiting = 0;
+      this.study(true);
+    });
+  }
+
+  /** Rests after a time in milliseconds if nothing follows. */
+  soon(/** @type {number} */ after) {
+    window.clearTimeout(this.resting);
+    this.element.setAttribute("aria-busy", "true");
+    this.resting = window.setTimeout(() => this.now(), after);
+  }
+
+  now() {
+    this.end();
+    this.study(false);
+  }
+
+  end() {
+    window.clearTimeout(this.resting);
+    window.cancelAnimationFrame(this.waiting);
+    this.waiting = 0;
+    this.element.removeAttribute("aria-busy");
+  }
 }

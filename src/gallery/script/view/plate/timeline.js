@@ -1,8 +1,7 @@
 // A timeline over a circuit: positions are given by part, 0 at the start and 1 at the end, or by pass and
 // input.
 //
-// Equal parts take equal time: the input is uniform but slows down towards limits, so that no joint jumps
-// there.
+// Equal parts take equal time: the input is uniform but slows down towards limits, so that no joint jumps there.
 
 /** The timeline of a circuit: `starts` has the part at which each pass starts, `whole` is the total input travel. @param {Circuit} _ */
 export function timelineOf(/** @type {Circuit} */ { passes, closed }) {

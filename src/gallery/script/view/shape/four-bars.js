@@ -2,8 +2,8 @@
 
 import { MAX_LIVE } from "../../kernel/finder.js";
 import { buttonOf, fill, h } from "../dom.js";
-import { saveFile } from "../export/save.js";
-import { copyButton, fourBarItem } from "./four-bar-item.js";
+import { saveFile } from "../export/files.js";
+import { copyButton, fourBarItem } from "./match-item.js";
 import { fourBarOptions } from "./query.js";
 
 // While a shape changes, four-bars are looked up at most so often, in milliseconds.

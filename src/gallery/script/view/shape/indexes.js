@@ -9,7 +9,7 @@ const PART_CURVES = 20_000;
 // The number of curves whose indexes are kept while the page is open.
 const MAX_KEPT_CURVES = 100_000;
 // The number of curves that are added in a step.
-const CURVES_PER_CALL = 16;
+const CURVES_PER_CALL = 128;
 
 /**
  * The kept indexes of each instance of the kernel, by family and the first curve of their parts.
@@ -18,8 +18,8 @@ const CURVES_PER_CALL = 16;
 const KEPT_INDEXES = new WeakMap();
 
 /**
- * The parts of families that are searched, up to `limit` bytes of data and at least one, with the pieces of the
- * table and of the points. The index of a part that is not kept is built for each search.
+ * The parts of families that are searched, up to `limit` bytes of data and at least one, with the pieces of their points. The index of a part
+ * that is not kept is built for each search.
  * @param {Family[]} families
  */
 export function searchedParts(/** @type {Family[]} */ families, /** @type {number} */ limit) {
@@ -29,19 +29,15 @@ export function searchedParts(/** @type {Family[]} */ families, /** @type {numbe
     /** @type {SearchedPart | null} */ let part = null;
     for (const piece of family.outlines.pieces) {
       if (piece.curves === 0) continue;
-      const tables = tablesOf(family, piece);
-      /** A piece of points takes a share of those of the table. @param {"bytes" | "curves"} name */
-      const share = piece.curves / sumOf(tables, (table) => table.curves);
-      const added = piece.bytes + share * sumOf(tables, (table) => table.bytes);
-      if (parts.length > 0 && bytes + added > limit) return parts;
-      bytes += added;
+      bytes += piece.bytes;
+      if (parts.length > 0 && bytes > limit) return parts;
       curves += piece.curves;
       if (!part || part.count + piece.curves > PART_CURVES) {
-        part = { family, first: piece.firstCurve, count: 0, pieces: new Set(), isKept: true };
+        part = { family, first: piece.firstCurve, count: 0, pieces: [], isKept: true };
         parts.push(part);
       }
       part.count += piece.curves;
-      for (const one of [...tables, piece]) part.pieces.add(one);
+      part.pieces.push(piece);
       part.isKept &&= curves <= MAX_KEPT_CURVES;
     }
   }
@@ -51,13 +47,9 @@ export function searchedParts(/** @type {Family[]} */ families, /** @type {numbe
 /** How much of what is listed is searched. @param {ListedFamily[]} listed @param {{ count: number }[]} parts @returns {LoadState} */
 export function loadStateOf(listed, parts) {
   const [curves, total] = [sumOf(parts, ({ count }) => count), sumOf(listed, (one) => one.curves)];
-  return { done: true, curves, total, bytes: sumOf(listed, (one) => one.bytes) };
-}
-
-/** The pieces of the table with the curves of a piece of points. @param {Family} _ @param {Piece} _1 */
-function tablesOf({ table }, { firstCurve, curves }) {
-  const [first, last] = [table.ofCurve(firstCurve), table.ofCurve(firstCurve + curves - 1)];
-  return table.pieces.slice((first?.number ?? 1) - 1, last?.number);
+  // A small family has everything in its head.
+  const bytes = sumOf(listed, (one) => one.bytes - one.table_bytes || one.bytes);
+  return { done: true, curves, total, bytes };
 }
 
 /**
@@ -77,7 +69,7 @@ export async function shapeIndex(kernel, { family, first, count, pieces, isKept 
   try {
     for (const piece of pieces) {
       await needPieces(family, [piece]);
-      const end = piece.name === "table" ? 0 : piece.firstCurve + piece.curves;
+      const end = piece.firstCurve + piece.curves;
       for (let from = piece.firstCurve; from < end; from += CURVES_PER_CALL) {
         if (signal.aborted) return null;
         room = await addCurves(kernel, index, [from, Math.min(from + CURVES_PER_CALL, end)], room);

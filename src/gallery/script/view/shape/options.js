@@ -1,7 +1,8 @@
-// The controls of the search by shape: how curves are compared, and what four-bars must be.
+// The layout of By shape, the target on the left and results on the right, and its controls: how curves are compared, and what four-bars must be.
 
 import { boxOfPoints } from "../../draw/plane-view.js";
-import { choiceBox, fill, h } from "../dom.js";
+import { buttonOf, choiceBox, fill, h } from "../dom.js";
+import { PathField } from "./path-field.js";
 import { numbersOf } from "./query.js";
 
 const percents = (/** @type {number} */ value) => `${Math.round(100 * value)} %`;
@@ -87,5 +88,34 @@ function selectBox(store, name, label, values, text) {
     const options = all.map((value) => h("option", { value, selected: value === chosen }, text(value)));
     fill(element, options);
   });
+  return element;
+}
+
+/** The element of a view with its parts. @param {ShapeView} view */
+export function shapeLayout(view) {
+  const { target, store, status, loadAll, families } = view;
+  const clear = () => {
+    view.clear();
+    target.element.focus();
+  };
+  const field = new PathField(view.app, (outline, name) => view.setShape(outline, name));
+  const heading = h("div", h("h1", "By shape"), status, loadAll.element);
+  const tools = h("div.toolbar", buttonOf("Clear", clear));
+  const chips = fourBarChips(store, () => view.shape);
+  const panel = h(
+    "div.panel",
+    target.element,
+    view.fourBars.live,
+    view.fourBars.reasons,
+    tools,
+    chips,
+    shapeOptions(store),
+    field.element,
+    target.help,
+    families,
+  );
+  const results = h("div.shape-results", view.results, view.fourBars.element);
+  const element = h("div.view.wide.shape-view", h("div.head", heading), h("div.shape-split", panel, results));
+  field.listen(element);
   return element;
 }

@@ -1,5 +1,9 @@
 // The state of the search by shape as its address says it: the shape, how it is compared, and what four-bars must be.
 
+import { curveOutline, findCurve, parseCurveKey } from "../../data/family.js";
+import { needPieces } from "../../data/needs.js";
+import { decodeShape } from "../../shape/outline.js";
+
 const USUAL = { least: 0.15, maxLink: 10 };
 
 /** `d` is a drawn shape with the `place` of its box, `like` the name of a curve; without `part` it is not known. */
@@ -59,4 +63,16 @@ export function fourBarOptions({ fullTurn, maxLink, mu, pivots }) {
     condition: mu ? `mu_worst_deg >= ${mu}` : null,
     pivots: pivots && Float64Array.from(pivots),
   };
+}
+
+/** The drawn shape of a state, or a curve of the atlas. @param {App} app @param {ShapeQuery} _ @returns {Promise<Outline | null>} */
+export async function outlineOfState({ atlas }, { d, place, like }) {
+  if (d) return decodeShape(d, place);
+  if (!like) return null;
+  const [id, key] = like.split(":");
+  const family = await atlas.family(id);
+  await needPieces(family, [family.outlines.ofNumber(parseCurveKey(key)?.[0] ?? NaN)]);
+  const curve = findCurve(family, key);
+  if (curve === undefined) throw new Error(`There is no curve ${key} in the family ${id}.`);
+  return curveOutline(family, curve);
 }

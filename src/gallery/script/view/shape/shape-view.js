@@ -1,18 +1,15 @@
 // The view that finds curves by shape.
 
-import { encodeShape } from "../../shape/encode.js";
-import { lengthsAlong } from "../../shape/outline.js";
+import { encodeShape, lengthsAlong } from "../../shape/outline.js";
 import { fill, h } from "../dom.js";
 import { MAX_AUTOLOAD_BYTES, requestedFamilies, loadAllLine, familyChooser } from "../find/loading.js";
 import { Store } from "../store.js";
 import { FourBarSection } from "./four-bars.js";
 import { loadStateOf, releaseIndexes, searchedParts, shapeIndex } from "./indexes.js";
-import { shapeLayout } from "./layout.js";
+import { shapeLayout } from "./options.js";
 import { matchItem, matchesText } from "./match-item.js";
-import { nearestCurves } from "./matches.js";
-import { mergedMatches } from "./merged.js";
-import { formatShapeQuery, parseShapeQuery } from "./query.js";
-import { outlineOfState } from "./state-outline.js";
+import { mergedMatches, nearestCurves } from "./matches.js";
+import { formatShapeQuery, outlineOfState, parseShapeQuery } from "./query.js";
 import { TargetPlane } from "./target.js";
 import { matchesRoute, routeAddress } from "../../data/address.js";
 import { watchPins } from "../pins.js";

@@ -1,14 +1,13 @@
 // The target: the shape that is searched for, drawn and changed here, with axes and the four-bars that are found for it.
 
-import { bending, handlesOf, withoutHandle } from "../../shape/bend.js";
-import { looksClosed, resampled } from "../../shape/outline.js";
+import { bending, handlesOf, looksClosed, resampled, withoutHandle } from "../../shape/outline.js";
 import { placedData } from "../../draw/path-data.js";
 import { boxOfPoints, fittedView, planePoint, roundBelow, screenPoint } from "../../draw/plane-view.js";
 import { fill, h, s, setAttributes } from "../dom.js";
 import { directionOfKey, focusOne, handleKey, onKeys } from "../keys.js";
 import { formatNumber } from "../labels.js";
 import { axisLines } from "./axes.js";
-import { fourBarDrawing } from "./four-bar-item.js";
+import { fourBarDrawing } from "./match-item.js";
 
 const FRAME = { width: 520, height: 420 };
 const MARGIN = 90;
