@@ -3,9 +3,11 @@
 //! The book is written whole if any page of it has changed. First its cells are surveyed, unless they have been while the tables
 //! were written: pages in front of the plates say where curves are that are found only then.
 
+mod assignment;
 mod charts;
 mod lists;
 mod part;
+mod sections;
 
 use std::path::Path;
 
@@ -269,7 +271,10 @@ fn atlas<'a>(
         atlas.index.extend(placed);
     }
     if book.thumb_index {
-        atlas.tabs = parts.iter().flat_map(|part| part.tabs(families.len() == 1)).collect();
+        let is_only_family = families.len() == 1;
+        let titles: Vec<&str> = parts.iter().map(|part| part.title.as_str()).collect();
+        let tabs = |(k, part): (usize, &FamilyPart)| part.tabs((k + 1, short_title(k, &titles)), is_only_family);
+        atlas.tabs = parts.iter().enumerate().flat_map(tabs).collect();
         if atlas.tabs.len() > MAX_TABS {
             atlas.tabs.clear();
         }
@@ -300,6 +305,19 @@ fn report_empty_parts(book: &BookPlan, families: &[BookFamily], atlas: &Atlas, r
 
 /// The most marks of a thumb index, without lists and index: more are too small to be found.
 const MAX_TABS: usize = 40;
+
+/// A title without an article at its beginning, and the words after that with which another title begins, too.
+fn short_title<'t>(k: usize, titles: &[&'t str]) -> &'t str {
+    const ARTICLES: [&str; 3] = ["a", "an", "the"];
+    let title = titles[k];
+    let is_article = |word: &str| ARTICLES.contains(&word.to_lowercase().as_str());
+    let begins_with_article = title.split(' ').next().is_some_and(is_article);
+    let common = |other: &&str| title.split(' ').zip(other.split(' ')).take_while(|(a, b)| a == b).count();
+    let others = titles.iter().enumerate().filter(|(other, _)| *other != k && begins_with_article);
+    let common = others.map(|(_, other)| common(other)).max().unwrap_or(0);
+    let words = title.splitn(common.max(usize::from(begins_with_article)) + 1, ' ');
+    words.last().filter(|rest| !rest.is_empty()).unwrap_or(title)
+}
 
 /// The plate that two pages of the book explain: that of the middle cell of the first chapter with curves, or one of two panels.
 fn how_to_read(plan: &Plan, parts: &[FamilyPart]) -> Option<HowToRead> {

@@ -79,6 +79,9 @@ fn paragraphs(how: &HowToRead, shown: &[(&Part, Point)], find: &[String]) -> Vec
     said
 }
 
+/// The title of the page.
+const CONTINUED: &str = "How to read this book, continued";
+
 /// The page with the explanations, in columns.
 pub(super) fn compose(
     how: &HowToRead,
@@ -94,7 +97,8 @@ pub(super) fn compose(
     let page = root.size();
     let [_, bottom, _] = heading::margins(theme);
     let left = theme.border + theme.margin;
-    let top = theme.border + 1.5 * theme.margin;
+    heading::draw_title(&root, CONTINUED, theme);
+    let [top, ..] = heading::margins(theme);
     let paragraphs = paragraphs(how, shown, find);
     let height = page.y - top - bottom;
     // The largest letters with which everything fits.
