@@ -21,7 +21,7 @@ use crate::record::{BookRecord, Digest, FileRecord};
 use crate::sweep::{self, CellGroups};
 use coupler_curves::solve::SolvedCell;
 use coupler_drawing::page::book::{self, Atlas, HowToRead, PageFinisher, Volume};
-use coupler_drawing::page::{self, Layout, PanelPage};
+use coupler_drawing::page::{self, Layout, PanelPage, PanelScale, Paper};
 use coupler_drawing::render::{Format, pdf};
 use coupler_drawing::scene::Scene;
 use part::{BookFamily, FamilyPart};
@@ -321,21 +321,29 @@ fn short_title<'t>(k: usize, titles: &[&'t str]) -> &'t str {
 
 /// The plate that two pages of the book explain: that of the middle cell of the first chapter with curves, or one of two panels.
 fn how_to_read(plan: &Plan, parts: &[FamilyPart]) -> Option<HowToRead> {
-    let part = parts.iter().find(|part| part.family.pipeline.composer.planned.chart.is_none())?;
-    let planned = part.family.pipeline.composer.planned;
+    let chapter = parts.iter().find(|part| part.family.pipeline.composer.planned.chart.is_none())?;
+    let planned = chapter.family.pipeline.composer.planned;
     let family = &planned.family;
     // In many panels nothing has space for a number.
     let layout = match planned.layout {
         Layout::Panels { columns, .. } => Layout::Panels { columns: columns.min(2), rows: 1 },
         layout => layout,
     };
-    let shown = PlannedFamily { layout, ..planned.clone() };
-    let composer = Composer::new(plan, &shown, 1);
-    let solver = part.family.page_solver();
+    // As a plate of smaller paper, on which letters are as small as they may be.
+    let part = book::plate_part(&plan.page);
+    let scale = match planned.scale {
+        PanelScale::Fixed(scale) => PanelScale::Fixed(part * scale),
+        scale => scale,
+    };
+    let mut small = plan.clone();
+    small.page.paper = Paper { width: part * plan.page.paper.width, height: part * plan.page.paper.height };
+    let shown = PlannedFamily { layout, scale, ..planned.clone() };
+    let composer = Composer::new(&small, &shown, 1);
+    let solver = chapter.family.page_solver();
     let size = layout.cells_per_page();
-    let first = part.cells.len() / 2 / size * size;
-    let cells = (first..first + size).filter_map(|k| part.cells.get(k));
-    let mut solved: Vec<SolvedCell> = cells.filter_map(|cell| part.family.solve(&solver, cell)).collect();
+    let first = chapter.cells.len() / 2 / size * size;
+    let cells = (first..first + size).filter_map(|k| chapter.cells.get(k));
+    let mut solved: Vec<SolvedCell> = cells.filter_map(|cell| chapter.family.solve(&solver, cell)).collect();
     if let (Layout::CouplerGrid, [solved]) = (layout, &mut solved[..]) {
         keep_middle_page(solved);
     }

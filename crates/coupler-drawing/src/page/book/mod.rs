@@ -32,6 +32,7 @@ pub use atlas::{
 pub use code::{draw_code, gallery_address};
 pub use finding::max_chart_grid;
 pub use folio::{Tab, draw_folio};
+pub use how_to_read::plate_part;
 pub use index::keep_listed;
 pub use index_entry::IndexEntry;
 pub use miniature::{Emphasis, Miniature};
@@ -88,13 +89,20 @@ impl Atlas<'_> {
 }
 
 /// Where the parts of the front matter of a volume are, with so many pages of contents.
-fn places(atlas: &Atlas, volume: &Volume, contents: usize) -> Places {
-    let how_to_read = 2 * usize::from(atlas.how_to_read.is_some());
+fn places(atlas: &Atlas, volume: &Volume, [how_to_read, contents]: [usize; 2]) -> Places {
     let charts = 1 + how_to_read + contents;
     let front = charts + charts_in(atlas, volume).count();
     // Odd numbers are on right-hand pages: a blank page precedes the first plate if needed.
     let front = front + (front + volume.first_page + 1) % 2;
     Places { how_to_read: 1, charts, front }
+}
+
+/// The number of pages that say how plates are read.
+fn how_to_read_pages(atlas: &Atlas, volume: &Volume, back_matter: &[BackMatter], options: &Options) -> usize {
+    let Some(how) = &atlas.how_to_read else { return 0 };
+    // The numbers of pages of the front matter are not known yet: these are wide.
+    let places = Places { how_to_read: 1, charts: 27, front: 0 };
+    how_to_read::page_count(how, &contents::ways_to_find(atlas, volume, back_matter, &places), options)
 }
 
 /// Composes the front matter of a volume: the title page, two pages that say how plates are read, the contents and the
@@ -115,11 +123,15 @@ pub fn compose_front_matter(
     let back_matter = atlas.back_matter(options);
     let rows = contents::rows(atlas, volume, &back_matter);
     let header = contents::header(atlas, volume);
-    let contents = columns::compose_list(&rows, &header, |count| places(atlas, volume, count), options, &theme);
-    let places = places(atlas, volume, contents.len());
+    let explained = how_to_read_pages(atlas, volume, &back_matter, options);
+    let places_with = |contents: usize| places(atlas, volume, [explained, contents]);
+    let contents = columns::compose_list(&rows, &header, places_with, options, &theme);
+    let places = places_with(contents.len());
     if let Some(how) = &atlas.how_to_read {
         let find = contents::ways_to_find(atlas, volume, &back_matter, &places);
         pages.extend(how_to_read::compose(how, atlas, &find, options));
+        // With shorter numbers of pages, the text may need one page less.
+        pages.resize_with(1 + explained, || empty_scene(atlas.title.to_owned(), options, &theme));
     }
     pages.extend(contents);
     let link = |page| volume.page_index(page, places.front);
@@ -210,17 +222,17 @@ impl<'a> PageFinisher<'a> {
 pub fn outline(atlas: &Atlas, volume: &Volume, front: usize, options: &Options) -> Vec<OutlineEntry> {
     let entry = |title: &str, page| OutlineEntry { title: title.to_owned(), page_index: page, children: Vec::new() };
     let mut entries: Vec<OutlineEntry> = (!atlas.plates_only).then(|| entry(atlas.title, 0)).into_iter().collect();
-    let how_to_read = 2 * usize::from(atlas.how_to_read.is_some());
+    let back_matter = atlas.back_matter(options);
+    let how_to_read = how_to_read_pages(atlas, volume, &back_matter, options);
     if how_to_read > 0 {
         entries.push(entry(how_to_read::TITLE, 1));
     }
-    let back_matter = atlas.back_matter(options);
     let theme = options.theme.for_paper(options.paper);
     let contents = contents::page_count(atlas, volume, &back_matter, options, &theme);
     if contents > 0 && !atlas.plates_only {
         entries.push(entry("Contents", 1 + how_to_read));
     }
-    let first_chart = places(atlas, volume, contents).charts;
+    let first_chart = places(atlas, volume, [how_to_read, contents]).charts;
     let charts: Vec<&FindingChart> = charts_in(atlas, volume).collect();
     if !charts.is_empty() {
         let titled = charts.iter().zip(first_chart..).filter(|(chart, _)| !chart.title.is_empty());
