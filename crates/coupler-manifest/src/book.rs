@@ -35,6 +35,9 @@ fn emphasis_of(sort: Option<&Expression>, filter: Option<&Expression>) -> Emphas
 /// The most entries of a list.
 const MAX_COUNT: usize = 1000;
 
+/// The most columns of a list that is a table.
+const MAX_COLUMNS: usize = 8;
+
 /// The default number of entries of a list.
 const DEFAULT_COUNT: usize = 100;
 
@@ -133,6 +136,11 @@ static LIST: TableSchema = TableSchema::new(
             ValueSchema::Text,
             "What is said of each curve, with values and measures in braces; its parts, between ` · `, are lines.",
         ),
+        KeySchema::new(
+            "columns",
+            ValueSchema::List(&ValueSchema::Text, [1, MAX_COLUMNS]),
+            "What is said of each curve if the list is a table with a line for each: `head: value`, with measures in braces.",
+        ),
         KeySchema::new("count", ValueSchema::Integer([1, MAX_COUNT]), "The most curves.")
             .with_default(|| DEFAULT_COUNT.to_string()),
         KeySchema::new("per_geometry", ValueSchema::Integer([1, MAX_COUNT]), "The most curves of a cell.")
@@ -147,11 +155,34 @@ struct DefaultList {
     filter: &'static str,
     sort: &'static str,
     caption: &'static str,
+    columns: &'static [&'static str],
+    count: usize,
+    per_geometry: usize,
 }
 
 /// The lists of a book by default. Curves that are nearly circles, and those that are nearly arcs traversed back and
 /// forth, as of points next to a pin, are trivial: the area they enclose is that of a circle, or nothing.
-static DEFAULT_LISTS: [DefaultList; 5] = [
+static DEFAULT_LISTS: [DefaultList; 6] = [
+    DefaultList {
+        title: "Straight portions by input",
+        note: "The longest portions in a strip no wider than 1 % of their length, by the input that they take, the \
+               greatest first: where they begin, their length, also as a part of the greatest extent of the curve, \
+               their deviation from a line, and the least transmission angle μ, of 15° and more; of curves that are \
+               not nearly circles.",
+        filter: "straight_10_share >= 0.2 and 4 * pi * abs(area) < 0.9 * length^2 and mu_worst_deg >= 15",
+        sort: "-straight_10_input_deg",
+        caption: "",
+        columns: &[
+            "over: {straight_10_input_deg:.0}°",
+            "from: {straight_10_start_deg:.0}°",
+            "length: {straight_10_length:.3}",
+            "of extent: {100 * straight_10_share:.0} %",
+            "±: {straight_10_deviation:.4}",
+            "μ: {mu_worst_deg:.0}°",
+        ],
+        count: MAX_COUNT,
+        per_geometry: 4,
+    },
     DefaultList {
         title: "Straight portions",
         note: "The longest straight portions, relative to the greatest extent of the curve; of curves that are not \
@@ -160,6 +191,9 @@ static DEFAULT_LISTS: [DefaultList; 5] = [
         sort: "-straight_share",
         caption: "straight over {straight_length:.3} ± {straight_deviation:.4} · {100 * straight_share:.0} % of the \
                   extent · input {straight_start_deg:.0}° + {straight_input_deg:.0}° · least μ {mu_worst_deg:.1}°",
+        columns: &[],
+        count: DEFAULT_COUNT,
+        per_geometry: DEFAULT_PER_GEOMETRY,
     },
     DefaultList {
         title: "Dwells",
@@ -171,6 +205,9 @@ static DEFAULT_LISTS: [DefaultList; 5] = [
         sort: "-dwell_input_deg",
         caption: "dwell {dwell_input_deg:.0}° from {dwell_start_deg:.0}° of input · radius {dwell_radius:.3} ± \
                   {dwell_deviation:.4} · centre {dwell_x:.3}, {dwell_y:.3} · least μ {mu_worst_deg:.1}°",
+        columns: &[],
+        count: DEFAULT_COUNT,
+        per_geometry: DEFAULT_PER_GEOMETRY,
     },
     DefaultList {
         title: "Cusps",
@@ -181,6 +218,9 @@ static DEFAULT_LISTS: [DefaultList; 5] = [
                  4 * pi * abs(area) > 0.15 * length^2 and mu_worst_deg >= 15",
         sort: "-mu_worst_deg",
         caption: "cusps {cusps:.0}, crunodes {crunodes:.0} · least μ {mu_worst_deg:.1}°",
+        columns: &[],
+        count: DEFAULT_COUNT,
+        per_geometry: DEFAULT_PER_GEOMETRY,
     },
     DefaultList {
         title: "Symmetrical curves",
@@ -192,6 +232,9 @@ static DEFAULT_LISTS: [DefaultList; 5] = [
         sort: "symmetry_residual",
         caption: "deviation {100 * symmetry_residual:.3} % of the extent · axis at {symmetry_deg:.1}° · inflections \
                   {inflections:.0}, crunodes {crunodes:.0} · least μ {mu_worst_deg:.1}°",
+        columns: &[],
+        count: DEFAULT_COUNT,
+        per_geometry: DEFAULT_PER_GEOMETRY,
     },
     DefaultList {
         title: "Quick returns",
@@ -200,6 +243,9 @@ static DEFAULT_LISTS: [DefaultList; 5] = [
         filter: "time_ratio >= 1.1 and mu_worst_deg >= 15",
         sort: "-time_ratio",
         caption: "time ratio {time_ratio:.3} · output from {output_min:.2} to {output_max:.2} · least μ {mu_worst_deg:.1}°",
+        columns: &[],
+        count: DEFAULT_COUNT,
+        per_geometry: DEFAULT_PER_GEOMETRY,
     },
 ];
 
@@ -462,6 +508,7 @@ fn default_list(default: &DefaultList, families: &[PlannedFamily]) -> Option<Pla
             filter: Some(filter.compile(&scope, Kind::Boolean).ok()?),
             sort: sort.compile(&scope, Kind::Number).ok()?,
             caption: Caption::parse(default.caption).ok()?,
+            columns: default.columns.iter().map(|column| Caption::parse(column).ok()).collect::<Option<_>>()?,
         };
         applies(planned, &criteria).then_some(criteria)
     };
@@ -469,9 +516,10 @@ fn default_list(default: &DefaultList, families: &[PlannedFamily]) -> Option<Pla
     criteria.iter().any(Option::is_some).then(|| PlannedList {
         title: default.title.to_owned(),
         note: default.note.to_owned(),
-        count: DEFAULT_COUNT,
-        per_geometry: DEFAULT_PER_GEOMETRY,
+        count: default.count,
+        per_geometry: default.per_geometry,
         emphasis: emphasis_of(Some(&sort), Some(&filter)),
+        columns: default.columns.iter().filter_map(|column| column_head(column)).collect(),
         criteria,
         is_given: false,
     })
@@ -525,6 +573,39 @@ fn chapter<'t>(value: &TomlValue<'t>, families: Families, parser: &mut TomlParse
     Some(PlannedChapter { title: title?, conditions, is_given: true })
 }
 
+/// The columns of a list that is a table, and their heads; none of another.
+fn columns<'v, 't>(fields: &Fields<'v, 't>, parser: &mut TomlParser<'t>) -> Option<(&'v [TomlValue<'t>], Vec<String>)> {
+    let Some(value) = fields.get("columns") else { return Some((&[], Vec::new())) };
+    let columns = parser.list(value)?;
+    if !(1..=MAX_COLUMNS).contains(&columns.len()) {
+        let message = format!("there are {} columns: expected 1 to {MAX_COLUMNS}", columns.len());
+        parser.report(Problem::error(value.span(), message));
+        return None;
+    }
+    let mut heads = Vec::new();
+    for column in columns {
+        let text = short_text(column, MAX_TITLE, parser)?;
+        let Some(head) = column_head(&text) else {
+            let problem = Problem::error(column.span(), "this column has no head");
+            parser.report(problem.with_help("write it before the value and a colon, as in \"length: {length:.2}\""));
+            return None;
+        };
+        heads.push(head);
+    }
+    if let Some(caption) = fields.get("caption") {
+        let problem = Problem::error(caption.span(), "a list with `columns` is a table, which has no captions");
+        parser.report(problem.with_help("leave out one of them"));
+        return None;
+    }
+    Some((columns, heads))
+}
+
+/// The head of a column: the text before the first colon and space, without values.
+fn column_head(column: &str) -> Option<String> {
+    let (head, _) = column.split_once(": ")?;
+    (!head.trim().is_empty() && !head.contains(['{', '}'])).then(|| head.to_owned())
+}
+
 fn list<'t>(value: &TomlValue<'t>, families: Families, parser: &mut TomlParser<'t>) -> Option<PlannedList> {
     let fields = Fields::from_value(value, &LIST, parser)?;
     let title = title(&fields, "title = \"Straight portions\"", parser);
@@ -534,9 +615,12 @@ fn list<'t>(value: &TomlValue<'t>, families: Families, parser: &mut TomlParser<'
     let (count, per_geometry) = (number("count", DEFAULT_COUNT), number("per_geometry", DEFAULT_PER_GEOMETRY));
     let sort = fields.required("sort", "sort = \"-straight_length\"", parser);
     let (filter, caption) = (fields.get("where"), fields.get("caption"));
+    let (columns, heads) = columns(&fields, parser)?;
     let mut names = [filter, sort].map(names_in).concat();
-    let parsed = caption.and_then(|value| Caption::parse(value.get_ref().as_str()?).ok());
-    names.extend(parsed.iter().flat_map(Caption::expressions).flat_map(|(expression, _)| expression.names().to_vec()));
+    let parsed = |value: &TomlValue| Caption::parse(value.get_ref().as_str()?).ok();
+    let captions: Vec<Caption> = caption.into_iter().chain(columns).filter_map(parsed).collect();
+    names
+        .extend(captions.iter().flat_map(Caption::expressions).flat_map(|(expression, _)| expression.names().to_vec()));
     let words: Vec<&str> = Family::word_measure_names().collect();
     let knows =
         |scope: &Scope| names.iter().all(|name| words.contains(&name.as_str()) || scope.index_of(name).is_some());
@@ -551,7 +635,9 @@ fn list<'t>(value: &TomlValue<'t>, families: Families, parser: &mut TomlParser<'
             None => Caption::parse("").ok(),
             Some(value) => parser.caption(value, scope, &words),
         };
-        let criteria = ListCriteria { filter: filter?, sort: sort?, caption: caption? };
+        let columns: Vec<_> = columns.iter().map(|value| parser.caption(value, scope, &words)).collect();
+        let columns = columns.into_iter().collect::<Option<_>>();
+        let criteria = ListCriteria { filter: filter?, sort: sort?, caption: caption?, columns: columns? };
         Some(applies(planned, &criteria).then_some(criteria))
     });
     let criteria: Vec<Option<ListCriteria>> = criteria?.into_iter().map(Option::flatten).collect();
@@ -559,5 +645,5 @@ fn list<'t>(value: &TomlValue<'t>, families: Families, parser: &mut TomlParser<'
     let parsed = |value: &TomlValue| value.get_ref().as_str().and_then(|text| Expression::parse(text).ok());
     let emphasis = emphasis_of(parsed(sort).as_ref(), filter.and_then(parsed).as_ref());
     let (title, note, count, per_geometry) = (title?, note?, count?, per_geometry?);
-    Some(PlannedList { title, note, count, per_geometry, emphasis, criteria, is_given: true })
+    Some(PlannedList { title, note, count, per_geometry, emphasis, columns: heads, criteria, is_given: true })
 }

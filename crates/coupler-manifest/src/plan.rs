@@ -118,6 +118,8 @@ pub struct PlannedList {
     pub per_geometry: usize,
     /// What its entries emphasise: what the measures by which it is sorted are measures of.
     pub emphasis: Emphasis,
+    /// The heads of its columns, if it is a table of numbers; otherwise none, and its entries have drawings.
+    pub columns: Vec<String>,
     /// The criteria for each family; `None` for a family that it does not apply to.
     pub criteria: Vec<Option<ListCriteria>>,
     /// Whether the manifest has it, so that one without curves is a mistake.
@@ -133,6 +135,8 @@ pub struct ListCriteria {
     pub sort: CompiledExpression,
     /// What is said of each.
     pub caption: Caption,
+    /// What is in the columns, each after its head and a colon.
+    pub columns: Vec<Caption>,
 }
 
 /// A family and how it is rendered.

@@ -1,22 +1,26 @@
 //! The finding charts of a book: small drawings of the curves of a family over its grid.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use rayon::prelude::*;
 
 use super::super::{Error, Options, check_interrupt};
-use super::part::{BookFamily, FamilyPart, assignment};
+use super::assignment::{assignment, range};
+use super::part::{BookFamily, FamilyPart};
 use crate::manifest::{FindingCharts, Plan};
 use crate::pipeline::{Composer, curves_by_page};
+use coupler_curves::expression::displayed_name;
 use coupler_curves::family::{Axis, ParameterSpace};
+use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 use coupler_drawing::page::Layout;
-use coupler_drawing::page::book::{self, Emphasis, FindingCell, FindingChart, Miniature};
+use coupler_drawing::page::book::{self, Emphasis, FindingCell, FindingChart, FindingCurve, Miniature, ScaleBar};
 
 /// The most cells in the charts of a family: a chart of more is not for eyes.
 const MAX_CELLS: usize = 6000;
 
 /// The most pages of the charts of a family.
-const MAX_PAGES: usize = 60;
+const MAX_PAGES: usize = 240;
 
 /// The least number of plates for each page of charts.
 const LEAST_PLATES: usize = 5;
@@ -24,8 +28,8 @@ const LEAST_PLATES: usize = 5;
 /// Cells by their indices, with their rows and columns.
 type PlacedCells = Vec<(usize, [usize; 2])>;
 
-/// The drawings of a cell: of each page, with its number.
-type DrawnPages = Vec<(Vec<Miniature>, usize)>;
+/// The drawings of a cell: of each page, with its number, and the bar at their scale.
+type DrawnCell = (Vec<(Vec<FindingCurve>, usize)>, ScaleBar);
 
 /// The finding charts of a family with these chapters.
 ///
@@ -49,12 +53,15 @@ pub(super) fn finding_charts(
     if planned.chart.is_some() || !(2..=MAX_CELLS).contains(&count) {
         return Ok(Vec::new());
     }
+    let curve_count = planned.family.template.curve_count();
     let per_cell = match planned.layout {
-        Layout::CouplerGrid => planned.family.template.curve_count().div_ceil(Layout::POINTS_PER_PAGE),
-        _ => 1,
+        Layout::CouplerGrid => {
+            [curve_count.div_ceil(Layout::POINTS_PER_PAGE), curve_count.min(Layout::POINTS_PER_PAGE)]
+        }
+        _ => [1, curve_count],
     };
-    let grid =
-        ChartGrid { axes, varying: &varying, count, most: book::max_chart_grid(per_cell, has_captions, &plan.page) };
+    let most = book::max_chart_grid(per_cell, has_captions, &plan.page);
+    let grid = ChartGrid { axes, varying: &varying, count, most };
     // In the order of the grid, whatever the order of pages.
     let first_pages = |part: &&FamilyPart| -> Vec<(usize, usize)> {
         part.cells.iter().enumerate().map(|(k, cell)| (cell, part.pages_before + part.first_page(k))).collect()
@@ -71,51 +78,42 @@ pub(super) fn finding_charts(
     if pages.len() > MAX_PAGES || is_short {
         return Ok(Vec::new());
     }
-    let [rows, columns] = grid.part_sizes();
-    let curves_per_page = match planned.layout {
-        Layout::CouplerGrid => book::chart_curves_per_page([columns, rows], per_cell, &plan.page),
-        _ => 1,
-    };
-    let mut drawn = draw_cells(family, &cells, curves_per_page, options)?;
+    let mut drawn = draw_cells(family, &cells, options)?;
     let names = &planned.family.names;
     let label = |axis: usize, k: usize| {
         let value = axes[axis].values.get(k).unwrap_or(f64::NAN);
         assignment(names, axes[axis].slot, value)
     };
-    let shown = match (planned.layout, curves_per_page) {
-        (Layout::CouplerGrid, 1) => {
-            "The curve of the middle point of each page, as large as it fits; below it the number of the page."
-        }
-        (Layout::CouplerGrid, _) => {
-            "Three curves of each page, each as large as it fits: of a point near the first, of the middle point, of one near the \
-             last; below them the number of the page."
-        }
-        _ => "The first curve of each linkage, as large as it fits; below it the number of its page.",
-    };
-    let mut previous = None;
-    let mut part = 0;
-    // The charts of a value need numbers if they are divided.
+    let shown = note(family, drawn.values());
+    // The charts of a value need the ranges of the others, or else numbers, if they are divided.
     let is_divided = pages.keys().any(|[_, row, column]| row + column > 0);
+    let mut part = 0;
     let chart = |(page, placed): ([usize; 3], PlacedCells)| {
+        part += 1;
         let value = if let [_, _, axis] = varying[..] { Some(label(axis, page[0])) } else { None };
+        let ranges = grid.part_ranges(page).into_iter().map(|(axis, indices)| {
+            let values = &axes[axis].values;
+            range(names, axes[axis].slot, indices.filter_map(|k| values.get(k)))
+        });
+        let parts: Vec<String> = value.into_iter().chain(ranges.filter(|_| is_divided)).collect();
+        let number = (is_divided && varying.len() < 2).then(|| format!("({part})"));
+        let dimensions = Some(parts.join(", ")).filter(|said| !said.is_empty());
         let family = names_family.then(|| planned.family.title.clone());
-        let parts: Vec<String> = family.into_iter().chain(value).collect();
-        part = if previous.replace(page[0]) == Some(page[0]) { part + 1 } else { 1 };
-        let number = is_divided.then(|| format!("({part})"));
-        let title = [Some(parts.join(": ")).filter(|title| !title.is_empty()), number];
-        let title = title.into_iter().flatten().collect::<Vec<_>>().join(" ");
+        let title = family.into_iter().chain(dimensions).collect::<Vec<_>>().join(": ");
+        let title =
+            [Some(title).filter(|title| !title.is_empty()), number].into_iter().flatten().collect::<Vec<_>>().join(" ");
         let (rows, columns) = grid.labels(page, &label);
-        let cell = |(cell, place): (usize, [usize; 2])| FindingCell {
-            place,
-            label: match varying[..] {
+        let cell = |(cell, place): (usize, [usize; 2])| {
+            let label = match varying[..] {
                 [] => captions.of_cell(&planned.family.cell(cell), &[])[0].clone(),
                 [axis] => label(axis, grid.index(cell, axis)),
                 _ => String::new(),
-            },
-            pages: drawn.remove(&cell).unwrap_or_default(),
+            };
+            let (pages, bar) = drawn.remove(&cell).unwrap_or((Vec::new(), ScaleBar::Round(None)));
+            FindingCell { place, label, pages, bar }
         };
         let cells = placed.into_iter().map(cell).collect();
-        FindingChart { title, note: shown.to_owned(), symbols: names.clone(), columns, rows, cells }
+        FindingChart { title, note: shown.clone(), symbols: names.clone(), columns, rows, cells }
     };
     Ok(pages.into_iter().map(chart).collect())
 }
@@ -168,47 +166,78 @@ impl ChartGrid<'_> {
         ([page, row / rows, column / columns], [row % rows, column % columns])
     }
 
-    /// The labels of the rows and columns of a page.
-    fn labels(
-        &self,
-        [_, row_part, column_part]: [usize; 3],
-        label: &dyn Fn(usize, usize) -> String,
-    ) -> (Vec<String>, Vec<String>) {
-        let [row, column, ..] = *self.varying else { return Default::default() };
+    /// The axes of the rows and columns of a page of a table, with the indices of their values there.
+    fn part_ranges(&self, [_, row_part, column_part]: [usize; 3]) -> Vec<(usize, Range<usize>)> {
+        let [row, column, ..] = *self.varying else { return Vec::new() };
         let [rows, columns] = self.part_sizes();
-        let labels = |axis: usize, part: usize, size: usize| {
-            let count = self.axes[axis].values.len();
-            (part * size..count.min((part + 1) * size)).map(|k| label(axis, k)).collect()
+        let indices = |axis: usize, part: usize, size: usize| {
+            (axis, part * size..self.axes[axis].values.len().min((part + 1) * size))
         };
-        (labels(row, row_part, rows), labels(column, column_part, columns))
+        vec![indices(row, row_part, rows), indices(column, column_part, columns)]
+    }
+
+    /// The labels of the rows and columns of a page.
+    fn labels(&self, page: [usize; 3], label: &dyn Fn(usize, usize) -> String) -> (Vec<String>, Vec<String>) {
+        let labels = |(axis, indices): (usize, Range<usize>)| indices.map(|k| label(axis, k)).collect::<Vec<_>>();
+        let mut labels = self.part_ranges(page).into_iter().map(labels);
+        (labels.next().unwrap_or_default(), labels.next().unwrap_or_default())
     }
 }
 
-/// The drawings of cells: of a coupler grid so many curves of each page, evenly chosen, otherwise the first curve.
+/// What the charts of a family show.
+fn note<'d>(family: &BookFamily, mut drawn: impl Iterator<Item = &'d DrawnCell> + Clone) -> String {
+    let planned = family.pipeline.composer.planned;
+    let is_labelled = |(pages, _): &DrawnCell| pages.iter().flat_map(|(curves, _)| curves).any(|c| !c.label.is_empty());
+    let curves = match (planned.layout, &planned.family.template.traced[..]) {
+        (Layout::CouplerGrid, _) => "All curves of each page, each with the number of its point".to_owned(),
+        (_, [joint]) if !drawn.clone().any(is_labelled) => {
+            format!("The curves of {}", displayed_name(&planned.family.template.joints[*joint].name))
+        }
+        _ => "All curves of each linkage, each with its point".to_owned(),
+    };
+    let bar = match drawn.all(|(_, bar)| matches!(bar, ScaleBar::Crank(_))) {
+        true => "the bar above them is its crank",
+        false => "the bar above them is as long as it says",
+    };
+    format!("{curves}, those of a linkage at one scale: {bar}. Below them the number of the page.")
+}
+
+/// The drawings of cells: all curves of each page.
 fn draw_cells(
     family: &BookFamily,
     cells: &BTreeMap<usize, usize>,
-    curves_per_page: usize,
     options: &Options,
-) -> Result<BTreeMap<usize, DrawnPages>, Error> {
+) -> Result<BTreeMap<usize, DrawnCell>, Error> {
     let planned = family.pipeline.composer.planned;
     let solver = family.page_solver();
     let draw = |(&cell, &first_page): (&usize, &usize)| {
         check_interrupt(&options.interrupt)?;
-        let Some(solved) = family.solve(&solver, cell) else { return Ok((cell, Vec::new())) };
+        let round = ScaleBar::Round(planned.family.unit);
+        let Some(solved) = family.solve(&solver, cell) else { return Ok((cell, (Vec::new(), round))) };
         let pages = match planned.layout {
             Layout::CouplerGrid => curves_by_page(&solved),
-            _ => vec![(0..solved.curves.len()).take(1).collect()],
+            _ => vec![(0..solved.curves.len()).collect()],
         };
         let drawings = |(page, curves): (usize, &Vec<usize>)| {
-            // Each from the middle of its share; fewer if there are fewer.
-            let count = curves_per_page.min(curves.len());
-            let chosen =
-                (0..count).filter_map(|k| solved.curves.get(*curves.get((2 * k + 1) * curves.len() / (2 * count))?));
-            let drawings: Vec<Miniature> = chosen.map(|curve| Miniature::new(&solved, curve, Emphasis::None)).collect();
+            let drawing = |curve: &MeasuredCurve| FindingCurve {
+                drawing: Miniature::new(&solved, curve, Emphasis::None),
+                label: curve_label(planned.layout, &solved, curve),
+            };
+            let drawings: Vec<FindingCurve> = curves.iter().map(|&k| drawing(&solved.curves[k])).collect();
             (!drawings.is_empty()).then_some((drawings, page))
         };
-        Ok((cell, (first_page..).zip(&pages).filter_map(drawings).collect()))
+        let pages = (first_page..).zip(&pages).filter_map(drawings).collect();
+        Ok((cell, (pages, solved.linkage.crank_length().map_or(round, ScaleBar::Crank))))
     };
     cells.par_iter().map(draw).collect()
+}
+
+/// What traces a curve: on coupler grids the number of its point, otherwise the joint and the circuit, as far as there are several.
+fn curve_label(layout: Layout, solved: &SolvedCell, curve: &MeasuredCurve) -> String {
+    let joint = match layout {
+        Layout::CouplerGrid => Some(curve.trace.to_string()),
+        _ => (solved.linkage.traced.len() > 1).then(|| displayed_name(&solved.linkage.joints[curve.joint].name)),
+    };
+    let circuit = (solved.motion.circuits.len() > 1).then(|| format!("circuit {}", curve.circuit));
+    joint.into_iter().chain(circuit).collect::<Vec<_>>().join(", ")
 }

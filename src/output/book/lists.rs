@@ -8,6 +8,7 @@ use super::super::survey::{self, Candidate};
 use super::super::{Error, Options, check_interrupt};
 use super::part::{BookFamily, CellPlaces, FamilyPart, find_cells};
 use crate::manifest::{Plan, PlannedList};
+use coupler_curves::expression::Caption;
 use coupler_curves::solve::Solver;
 use coupler_drawing::page::Layout;
 use coupler_drawing::page::book::{CurveList, Emphasis, ListEntry, Miniature};
@@ -38,7 +39,8 @@ pub(super) fn curve_lists(
         let entries: Vec<Option<ListEntry>> = found.par_iter().map(entry).collect::<Result<_, Error>>()?;
         let entries: Vec<ListEntry> = entries.into_iter().flatten().collect();
         if !entries.is_empty() {
-            lists.push(CurveList { title: list.title.clone(), note: note(list), entries });
+            let columns = list.columns.clone();
+            lists.push(CurveList { title: list.title.clone(), note: note(list), columns, entries });
         }
     }
     Ok(lists)
@@ -75,9 +77,13 @@ fn list_entry(
     let drawing = Miniature::new(&solved, curve, list.emphasis);
     let [caption, _] = family.pipeline.composer.captions.of_cell(&solved.cell, &curve.values);
     let criteria = list.criteria.get(candidate.family)?.as_ref()?;
-    let said = own.format_caption(&criteria.caption, &solved.cell, &curve.values);
-    let mut lines: Vec<String> = said.split(" · ").map(str::to_owned).collect();
-    if let Some(input) = drawing.sharpest_input {
+    let format = |caption: &Caption| own.format_caption(caption, &solved.cell, &curve.values);
+    let is_table = !list.columns.is_empty();
+    let mut lines: Vec<String> = match is_table {
+        true => criteria.columns.iter().map(|column| column_value(&format(column))).collect(),
+        false => format(&criteria.caption).split(" · ").map(str::to_owned).collect(),
+    };
+    if let Some(input) = drawing.sharpest_input.filter(|_| !is_table) {
         let unit = solved.linkage.input().unit_sign();
         // Where the input turns fully, it is less than a turn, also as it is printed.
         let input = match solved.circuit(curve).is_full_turn() {
@@ -86,7 +92,7 @@ fn list_entry(
         };
         lines.insert(lines.len().min(1), format!("at input {input:.1}{unit}"));
     }
-    if let Some(lift) = drawing.dwell_lift {
+    if let Some(lift) = drawing.dwell_lift.filter(|_| !is_table) {
         lines.insert(lines.len().min(2), format!("lift {lift:.3}"));
     }
     let is_grid = planned.layout == Layout::CouplerGrid;
@@ -100,7 +106,7 @@ fn list_entry(
     let circuit = has_circuits.then(|| format!("circuit {}", curve.circuit));
     let which: Vec<String> = which.into_iter().chain(circuit).collect();
     Some(ListEntry {
-        drawing,
+        drawing: (!is_table).then_some(drawing),
         chapter,
         caption,
         curve: which.join(", "),
@@ -108,4 +114,9 @@ fn list_entry(
         figure,
         page: first_page + if is_of_linkage { 0 } else { candidate.page_offset },
     })
+}
+
+/// What is in a column, without its head.
+fn column_value(said: &str) -> String {
+    said.split_once(": ").map_or(said, |(_, value)| value).to_owned()
 }

@@ -3,9 +3,11 @@
 //! The book is written whole if any page of it has changed. First its cells are surveyed, unless they have been while the tables
 //! were written: pages in front of the plates say where curves are that are found only then.
 
+mod assignment;
 mod charts;
 mod lists;
 mod part;
+mod sections;
 
 use std::path::Path;
 
@@ -19,7 +21,7 @@ use crate::record::{BookRecord, Digest, FileRecord};
 use crate::sweep::{self, CellGroups};
 use coupler_curves::solve::SolvedCell;
 use coupler_drawing::page::book::{self, Atlas, HowToRead, PageFinisher, Volume};
-use coupler_drawing::page::{self, Layout, PanelPage};
+use coupler_drawing::page::{self, Layout, PanelPage, PanelScale, Paper};
 use coupler_drawing::render::{Format, pdf};
 use coupler_drawing::scene::Scene;
 use part::{BookFamily, FamilyPart};
@@ -269,7 +271,10 @@ fn atlas<'a>(
         atlas.index.extend(placed);
     }
     if book.thumb_index {
-        atlas.tabs = parts.iter().flat_map(|part| part.tabs(families.len() == 1)).collect();
+        let is_only_family = families.len() == 1;
+        let titles: Vec<&str> = parts.iter().map(|part| part.title.as_str()).collect();
+        let tabs = |(k, part): (usize, &FamilyPart)| part.tabs((k + 1, short_title(k, &titles)), is_only_family);
+        atlas.tabs = parts.iter().enumerate().flat_map(tabs).collect();
         if atlas.tabs.len() > MAX_TABS {
             atlas.tabs.clear();
         }
@@ -301,23 +306,44 @@ fn report_empty_parts(book: &BookPlan, families: &[BookFamily], atlas: &Atlas, r
 /// The most marks of a thumb index, without lists and index: more are too small to be found.
 const MAX_TABS: usize = 40;
 
+/// A title without an article at its beginning, and the words after that with which another title begins, too.
+fn short_title<'t>(k: usize, titles: &[&'t str]) -> &'t str {
+    const ARTICLES: [&str; 3] = ["a", "an", "the"];
+    let title = titles[k];
+    let is_article = |word: &str| ARTICLES.contains(&word.to_lowercase().as_str());
+    let begins_with_article = title.split(' ').next().is_some_and(is_article);
+    let common = |other: &&str| title.split(' ').zip(other.split(' ')).take_while(|(a, b)| a == b).count();
+    let others = titles.iter().enumerate().filter(|(other, _)| *other != k && begins_with_article);
+    let common = others.map(|(_, other)| common(other)).max().unwrap_or(0);
+    let words = title.splitn(common.max(usize::from(begins_with_article)) + 1, ' ');
+    words.last().filter(|rest| !rest.is_empty()).unwrap_or(title)
+}
+
 /// The plate that two pages of the book explain: that of the middle cell of the first chapter with curves, or one of two panels.
 fn how_to_read(plan: &Plan, parts: &[FamilyPart]) -> Option<HowToRead> {
-    let part = parts.iter().find(|part| part.family.pipeline.composer.planned.chart.is_none())?;
-    let planned = part.family.pipeline.composer.planned;
+    let chapter = parts.iter().find(|part| part.family.pipeline.composer.planned.chart.is_none())?;
+    let planned = chapter.family.pipeline.composer.planned;
     let family = &planned.family;
     // In many panels nothing has space for a number.
     let layout = match planned.layout {
         Layout::Panels { columns, .. } => Layout::Panels { columns: columns.min(2), rows: 1 },
         layout => layout,
     };
-    let shown = PlannedFamily { layout, ..planned.clone() };
-    let composer = Composer::new(plan, &shown, 1);
-    let solver = part.family.page_solver();
+    // As a plate of smaller paper, on which letters are as small as they may be.
+    let part = book::plate_part(&plan.page);
+    let scale = match planned.scale {
+        PanelScale::Fixed(scale) => PanelScale::Fixed(part * scale),
+        scale => scale,
+    };
+    let mut small = plan.clone();
+    small.page.paper = Paper { width: part * plan.page.paper.width, height: part * plan.page.paper.height };
+    let shown = PlannedFamily { layout, scale, ..planned.clone() };
+    let composer = Composer::new(&small, &shown, 1);
+    let solver = chapter.family.page_solver();
     let size = layout.cells_per_page();
-    let first = part.cells.len() / 2 / size * size;
-    let cells = (first..first + size).filter_map(|k| part.cells.get(k));
-    let mut solved: Vec<SolvedCell> = cells.filter_map(|cell| part.family.solve(&solver, cell)).collect();
+    let first = chapter.cells.len() / 2 / size * size;
+    let cells = (first..first + size).filter_map(|k| chapter.cells.get(k));
+    let mut solved: Vec<SolvedCell> = cells.filter_map(|cell| chapter.family.solve(&solver, cell)).collect();
     if let (Layout::CouplerGrid, [solved]) = (layout, &mut solved[..]) {
         keep_middle_page(solved);
     }

@@ -4,6 +4,8 @@ use std::collections::{BTreeSet, HashMap};
 
 use super::super::survey::FamilySurvey;
 use super::super::{Error, Options, check_interrupt};
+use super::assignment::assignment;
+use super::sections::{self, ListedCell};
 use crate::manifest::BookPlan;
 use crate::pipeline::{Composer, FamilyPipeline, build_chart, measures_used_on_pages};
 use crate::sweep::{self, CellGroups, CellIndices};
@@ -11,7 +13,6 @@ use crate::sweep::{self, CellGroups, CellIndices};
 use coupler_curves::family::ParameterSpace;
 use coupler_curves::solve::{SolvedCell, Solver};
 use coupler_curves::template::CircuitSelection;
-use coupler_curves::text::round_to_six_digits;
 use coupler_drawing::chart::ChartBuilder;
 use coupler_drawing::page::Layout;
 use coupler_drawing::page::book::{CellEntry, Chapter, Tab};
@@ -154,20 +155,40 @@ impl<'a> FamilyPart<'a> {
             curve_noun: planned.layout.curve_noun(),
             curve_count: is_counted.then(|| self.positions.iter().map(count).sum()),
             page_count: self.page_count(),
+            sections: self.sections(&cells),
             cells,
         }
     }
 
+    /// What the contents list of the chapter.
+    fn sections(&self, cells: &[CellEntry]) -> Vec<(CellEntry, usize)> {
+        let planned = self.family.pipeline.composer.planned;
+        let listed: Vec<ListedCell> = (self.cells.iter().enumerate().zip(cells))
+            .map(|((k, index), entry)| {
+                // The last page of a cell that shares its last page with the next is that on which the next begins.
+                let end = if k + 1 < cells.len() { self.first_page(k + 1) } else { self.page_count() + 1 };
+                let last_page = if planned.layout == Layout::CouplerGrid { end - 1 } else { entry.page };
+                ListedCell { entry, values: planned.family.cell(index).values, last_page }
+            })
+            .collect();
+        sections::of_cells(&listed, &planned.family)
+    }
+
     /// The marks of the chapter in the thumb index: one for each value of the first parameter of its grid, if its pages are in that
     /// order and there are not too many or too few; otherwise one.
-    pub fn tabs(&self, is_only_family: bool) -> Vec<Tab> {
+    ///
+    /// In an atlas of several families, marks have the number of the chapter and a short title.
+    pub fn tabs(&self, (number, short_title): (usize, &str), is_only_family: bool) -> Vec<Tab> {
         /// The least number of pages that are divided, and the most marks.
         const LEAST_PAGES: usize = 24;
         const MOST_TABS: usize = 12;
         let planned = self.family.pipeline.composer.planned;
         let family = &planned.family;
         let title = self.title.strip_prefix(&format!("{}: ", family.title)).filter(|_| !self.is_main);
-        let whole = vec![Tab { label: title.unwrap_or(&self.title).to_owned(), first_page: self.pages_before + 1 }];
+        let label = if is_only_family { title.unwrap_or(&self.title) } else { short_title };
+        let label = label.to_owned();
+        let number = (!is_only_family).then_some(number);
+        let whole = vec![Tab { number, label, first_page: self.pages_before + 1 }];
         let ParameterSpace::Grid(axes) = &family.space else { return whole };
         let is_in_order = self.is_main && is_only_family && family.sort.is_none() && planned.chart.is_none();
         let (Some(axis), true) = (axes.first(), is_in_order && self.page_count() >= LEAST_PAGES) else { return whole };
@@ -176,7 +197,7 @@ impl<'a> FamilyPart<'a> {
             let value = family.cell(cell).values.get(axis.slot).copied().unwrap_or(f64::NAN);
             if tabs.last().is_none_or(|(last, _)| *last != value) {
                 let label = assignment(&family.names, axis.slot, value);
-                tabs.push((value, Tab { label, first_page: self.pages_before + self.first_page(k) }));
+                tabs.push((value, Tab { number: None, label, first_page: self.pages_before + self.first_page(k) }));
             }
             if tabs.len() > MOST_TABS {
                 return whole;
@@ -258,9 +279,4 @@ pub(super) fn compose_group(composer: &Composer, solved: &[SolvedCell]) -> Vec<S
         }
         _ => vec![composer.panel_page(1, solved)],
     }
-}
-
-/// A name with its value, as in "A = 1.5".
-pub(super) fn assignment(names: &[String], slot: usize, value: f64) -> String {
-    format!("{} = {}", names.get(slot).map_or("", String::as_str), round_to_six_digits(value))
 }

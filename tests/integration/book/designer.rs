@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
-use super::reader::Pdf;
+use super::reader::{Contents, Pdf, PolylineMm};
 use crate::support::folder::Atlas;
 use crate::support::table::{self, Row};
 
@@ -25,6 +25,13 @@ title = "Returns"
 where = "time_ratio > 1.2"
 sort = "-time_ratio"
 caption = "ratio {time_ratio:.4}"
+[[book.list]]
+title = "Table"
+where = "mu_worst_deg >= 20"
+sort = "-straight_10_length"
+columns = ["stroke: {straight_10_length:.3}", "over: {straight_10_input_deg:.1}°"]
+count = 200
+per_geometry = 15
 [[book.list]]
 title = "None at all"
 where = "mu_worst_deg > 91"
@@ -119,6 +126,31 @@ fn lists_have_the_best_curves_of_the_tables() {
     assert_eq!(found, expected);
 }
 
+/// A table has a line for each curve, its values first, and the contents have the range of each of its pages.
+#[test]
+#[ignore = "thorough"]
+fn tables_have_their_values_in_order_and_the_contents_their_ranges() {
+    let (atlas, pdf, parts) = book(&[]);
+    let mut rows = rows(&atlas);
+    let length = |row: &Row| number(row, "straight_10_length");
+    rows.retain(|row| number(row, "mu_worst_deg") >= 20.0 && length(row) > 0.0);
+    rows.sort_by(|a, b| length(b).total_cmp(&length(a)));
+    let expected: Vec<String> = rows.iter().take(200).map(|row| format!("{:.3}", length(row))).collect();
+    assert_eq!(expected.len(), 200);
+    let pages: Vec<Contents> = (parts["Table"]..parts["Index of geometries"]).map(|page| pdf.contents(page)).collect();
+    let is_stroke =
+        |text: &&str| text.split_once('.').is_some_and(|(_, decimals)| decimals.len() == 3 && !decimals.contains('°'));
+    let strokes =
+        |page: &Contents| -> Vec<String> { words(page).into_iter().filter(is_stroke).map(str::to_owned).collect() };
+    assert_eq!(pages.iter().flat_map(strokes).collect::<Vec<_>>(), expected);
+    assert!(pages.iter().all(|page| words(page).contains(&"stroke") && words(page).contains(&"over")));
+    let contents = pdf.contents(parts["Contents"]);
+    for page in pages.iter().map(strokes) {
+        let range = format!("stroke {} to {}", page[0], page.last().unwrap());
+        assert!(pages.len() == 1 || words(&contents).contains(&range.as_str()), "{range} {:?}", words(&contents));
+    }
+}
+
 fn number_of(row: &BTreeMap<String, String>, name: &str) -> f64 {
     number(row, name)
 }
@@ -140,8 +172,8 @@ fn every_geometry_is_on_a_finding_chart_with_its_pages() {
     for (title, page) in &charts {
         for (corners, to) in pdf.links(*page) {
             let texts = texts_in(&pdf, *page, corners);
-            // The marks of the thumb index have no number.
-            let Some(number) = texts.iter().find_map(|text| text.parse::<usize>().ok()) else { continue };
+            // The marks of the thumb index have no number, and that of a page is after those of its points.
+            let Some(number) = texts.iter().rev().find_map(|text| text.parse::<usize>().ok()) else { continue };
             assert_eq!(pdf.labels()[to], format!("<</Type/PageLabel/S/D/St{number}>>"));
             let plate: String = pdf.contents(to).texts.into_iter().map(|(text, ..)| text).collect();
             let value: f64 = title.strip_prefix("C = ").unwrap().parse().unwrap();
@@ -153,24 +185,51 @@ fn every_geometry_is_on_a_finding_chart_with_its_pages() {
     assert_eq!(linked, (1..=2 * cells.len()).collect());
 }
 
-/// Where there is space, three curves of each page of five or ten points; where a family has cases, their captions and figures.
+fn words(contents: &Contents) -> Vec<&str> {
+    contents.texts.iter().map(|(text, ..)| text.as_str()).collect()
+}
+
+/// Charts have every curve of the book, with its point, at the scale of the bar of its linkage, which is its crank.
 #[test]
 #[ignore = "thorough"]
-fn charts_have_several_curves_of_a_page_and_captions_of_cases() {
-    let upright = "[page]\npaper = { width = \"216 mm\", height = \"279 mm\" }\n[book]";
-    for (manifest, drawings) in [(MANIFEST.to_owned(), 1), (MANIFEST.replacen("[book]", upright, 1), 3)] {
-        let atlas = Atlas::new(&manifest);
-        assert_eq!(atlas.run(&[]).0, 0);
-        let pdf = Pdf::read(&fs::read(atlas.out().join("atlas.pdf")).unwrap());
-        let page = pdf.outline().into_iter().find(|(_, name, _)| name == "Finding charts").unwrap().2;
-        let is_number = |text: &String| text.parse::<usize>().is_ok();
-        let links = pdf.links(page);
-        let pages = links.iter().filter(|(corners, _)| texts_in(&pdf, page, *corners).iter().any(is_number)).count();
-        // Curves have many points; lines between cells and the border have few.
-        let is_curve = |lines: &[super::reader::PolylineMm]| lines.iter().any(|line| line.len() > 8);
-        let curves = pdf.contents(page).paths.iter().filter(|(lines, ..)| is_curve(lines)).count();
-        assert_eq!((curves, pages > 4), (drawings * pages, true));
+fn charts_have_all_curves_with_their_points_and_scales_and_captions_of_cases() {
+    let (atlas, pdf, parts) = book(&[]);
+    let charts: Vec<usize> =
+        pdf.outline().into_iter().filter(|entry| entry.0 == 1 && entry.1.starts_with("C = ")).map(|e| e.2).collect();
+    assert_eq!(parts["Finding charts"], charts[0]);
+    let extent = |lines: &[PolylineMm]| {
+        let across = |k: usize| {
+            let at = || lines.iter().flatten().map(|point| point[k]);
+            at().fold(f64::NEG_INFINITY, f64::max) - at().fold(f64::INFINITY, f64::min)
+        };
+        across(0).max(across(1))
+    };
+    let (mut drawn, mut cranks) = (Vec::new(), 0);
+    for &page in &charts {
+        let contents = pdf.contents(page);
+        cranks += words(&contents).iter().filter(|text| **text == "crank").count();
+        let mut crank = f64::NAN;
+        for (lines, ..) in &contents.paths {
+            // A bar is a line with its ends; curves have many points, lines between cells and the border few.
+            let is_bar = lines.len() == 3 && lines.iter().all(|line| line.len() == 2);
+            crank = if is_bar { extent(lines) } else { crank };
+            drawn.extend(lines.iter().any(|line| line.len() > 8).then(|| extent(lines) / crank));
+        }
     }
+    let rows = rows(&atlas);
+    let cells: BTreeSet<&String> = rows.iter().map(|row| &row["cell"]).collect();
+    assert_eq!(cranks, cells.len());
+    let side =
+        |row: &Row, axis: &str| number(row, &format!("bbox_{axis}_max")) - number(row, &format!("bbox_{axis}_min"));
+    let mut expected: Vec<f64> = rows.iter().map(|row| side(row, "x").max(side(row, "y"))).collect();
+    drawn.sort_by(f64::total_cmp);
+    expected.sort_by(f64::total_cmp);
+    assert_eq!(drawn.len(), expected.len());
+    // The control points of the splines are a little outside.
+    assert!(drawn.iter().zip(&expected).all(|(a, b)| (a / b - 1.0).abs() < 0.1), "{drawn:?} {expected:?}");
+    let points: BTreeSet<&str> = ["1", "7", "15"].into();
+    let contents = pdf.contents(charts[0]);
+    assert!(points.iter().all(|point| words(&contents).contains(point)), "{:?}", words(&contents));
     let cases = Atlas::new(
         "[atlas]\ntitle = \"T\"\noutput = \"out\"\nformats = [\"pdf\"]\n[book]\nfinding_charts = true\n[[book.list]]\ntitle = \"Long\"\n\
          sort = \"-length\"\n[[family]]\nid = \"evans\"\nlinkage = \"evans\"\nsampling = { samples = 24 }\npanels = [2, 1]\n\

@@ -7,6 +7,7 @@ use super::folio::Tab;
 use super::index_entry::IndexEntry;
 use super::miniature::Miniature;
 use crate::scene::Scene;
+use coupler_curves::family::LengthUnit;
 use coupler_curves::text::pluralize;
 
 /// An atlas as a book.
@@ -64,7 +65,7 @@ impl<'a> Atlas<'a> {
         }
         for (is_index, label) in [(false, "lists"), (true, "index")] {
             let first = back_matter.iter().find(|part| part.is_index == is_index);
-            tabs.extend(first.map(|part| Tab { label: label.to_owned(), first_page: part.first_page }));
+            tabs.extend(first.map(|part| Tab { number: None, label: label.to_owned(), first_page: part.first_page }));
         }
         tabs
     }
@@ -93,9 +94,17 @@ pub struct Chapter<'a> {
     pub page_count: usize,
     /// The cells, in the order of the pages.
     pub cells: Vec<CellEntry>,
+    /// What the contents list: ranges of the dimensions of cells that follow one another, each with its first and last page.
+    pub sections: Vec<(CellEntry, usize)>,
 }
 
 impl Chapter<'_> {
+    /// The title, with its number among the chapters of an atlas with marks that have numbers.
+    pub(super) fn numbered_title(&self, number: usize, atlas: &Atlas) -> String {
+        let is_numbered = atlas.tabs.iter().any(|tab| tab.number == Some(number));
+        if is_numbered { format!("{number} · {}", self.title) } else { self.title.to_owned() }
+    }
+
     /// The numbers of geometries, curves and pages in words, as far as they are known.
     pub(super) fn format_counts(&self, separator: &str) -> String {
         let cells = (!self.cells.is_empty()).then(|| pluralize(self.cells.len(), "geometry"));
@@ -130,6 +139,10 @@ pub struct Volume {
 }
 
 impl Volume {
+    /// A volume without pages, for the number of pages of a list, which does not depend on its volume.
+    pub(super) const NONE: Volume =
+        Volume { number: 1, volume_count: 1, first_page: 1, page_count: 0, back_page_count: 0 };
+
     /// The numbers of its pages in the atlas, from 1.
     pub fn page_range(&self) -> Range<usize> {
         self.first_page..self.first_page + self.page_count
@@ -153,6 +166,8 @@ impl Volume {
 /// A part of the back matter.
 pub(super) struct BackMatter {
     pub title: String,
+    /// What is on each page, if it is a table: its first column from the first entry to the last.
+    pub ranges: Vec<String>,
     /// Whether it is the index, or else a list.
     pub is_index: bool,
     /// The number of its first page in the atlas.
@@ -209,8 +224,28 @@ pub struct FindingCell {
     pub place: [usize; 2],
     /// What it is, if the columns do not say it; may be empty.
     pub label: String,
-    /// Curves of each page of the cell, one below another, with the number of the page in the atlas, from 1.
-    pub pages: Vec<(Vec<Miniature>, usize)>,
+    /// The curves of each page of the cell, with the number of the page in the atlas, from 1.
+    pub pages: Vec<(Vec<FindingCurve>, usize)>,
+    /// What is drawn above them, at their scale.
+    pub bar: ScaleBar,
+}
+
+/// A curve on a finding chart.
+#[derive(Clone, Debug)]
+pub struct FindingCurve {
+    /// The drawing of the curve.
+    pub drawing: Miniature,
+    /// What traces it, as in "12", if the chart has several of a linkage; may be empty.
+    pub label: String,
+}
+
+/// A scale bar of a finding chart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ScaleBar {
+    /// As long as the crank, whose length this is.
+    Crank(f64),
+    /// A round length, which is written next to it; with its unit, if it has one.
+    Round(Option<LengthUnit>),
 }
 
 /// A list of curves.
@@ -220,6 +255,8 @@ pub struct CurveList {
     pub title: String,
     /// What is listed and in what order; may be empty.
     pub note: String,
+    /// The heads of its columns, if it is a table with a line for each entry; none if the entries have drawings.
+    pub columns: Vec<String>,
     /// The entries, the best first.
     pub entries: Vec<ListEntry>,
 }
@@ -227,15 +264,15 @@ pub struct CurveList {
 /// An entry of a list.
 #[derive(Clone, Debug)]
 pub struct ListEntry {
-    /// The drawing of the curve.
-    pub drawing: Miniature,
+    /// The drawing of the curve, unless the list is a table.
+    pub drawing: Option<Miniature>,
     /// The index of its chapter.
     pub chapter: usize,
     /// The caption of its cell.
     pub caption: String,
     /// Which curve of the cell it is, as in "point 25"; may be empty.
     pub curve: String,
-    /// What is said of it, a line each.
+    /// What is said of it, a line each, or what is in the columns.
     pub lines: Vec<String>,
     /// The number of its page in the atlas, from 1.
     pub page: usize,

@@ -78,11 +78,13 @@ pub(super) struct Entry<'a> {
     pub caption: &'a str,
     /// The names of parameters in the caption, set in italics.
     pub symbols: &'a [String],
-    /// The measured value; may be empty.
-    pub value: String,
-    /// What the measured curve is called, and its number, if the geometry has several.
-    pub curve: Option<(&'static str, usize)>,
+    /// The values by which it is found, which come first.
+    pub values: Vec<String>,
+    /// What the measured curve is called, as in "point 12", if the geometry has several; may be empty.
+    pub curve: String,
     pub page: Target,
+    /// The number of the last page, if it has several.
+    pub last_page: Option<usize>,
 }
 
 impl Entry<'_> {
@@ -98,14 +100,19 @@ impl Entry<'_> {
         line
     }
 
-    fn curve_label(&self) -> String {
-        self.curve.map_or(String::new(), |(noun, number)| format!("{noun} {number}"))
+    /// The page, or the range of pages, of which the first has a label.
+    fn page_label(&self, first: String) -> String {
+        self.last_page.map_or(first.clone(), |last| format!("{first}–{last}"))
     }
 }
 
-/// The title of a list.
+/// The title of a list, and what is under it.
 pub(super) struct ListHeader<'a> {
-    pub title: &'static str,
+    pub title: &'a str,
+    /// What is listed; that of the atlas and the volume if it is empty.
+    pub note: &'a str,
+    /// The heads of the values of entries; may be none.
+    pub heads: &'a [String],
     pub atlas: &'a Atlas<'a>,
     pub volume: &'a Volume,
 }
@@ -119,10 +126,10 @@ struct ColumnLayout {
     count: usize,
     /// The distance of baselines.
     line_height: f64,
-    /// The widths of page numbers, values and labels of curves, with the gap before them.
+    /// The widths of page numbers and labels of curves, with the gap before them, and of each value, with the gap after it.
     page_width: f64,
-    value_width: f64,
     curve_width: f64,
+    value_widths: Vec<f64>,
 }
 
 /// A line with its position: `y` is the distance of the baseline from the top of the column.
@@ -137,9 +144,22 @@ struct PlacedLine<'r> {
 }
 
 /// The number of pages of rows.
-pub(super) fn page_count(rows: &[Row], options: &Options, theme: &Theme) -> usize {
-    let columns = ColumnLayout::fit(rows, options, theme);
+pub(super) fn page_count(rows: &[Row], header: &ListHeader, options: &Options, theme: &Theme) -> usize {
+    let columns = ColumnLayout::fit(rows, header, options, theme);
     columns.place_rows(rows, theme).last().map_or(0, |last| last.column / columns.count + 1)
+}
+
+/// The first and the last row of each page.
+pub(super) fn page_ends<'r>(
+    rows: &'r [Row<'r>],
+    header: &ListHeader,
+    options: &Options,
+    theme: &Theme,
+) -> Vec<[&'r Row<'r>; 2]> {
+    let columns = ColumnLayout::fit(rows, header, options, theme);
+    let placed = columns.place_rows(rows, theme);
+    let pages = placed.chunk_by(|a, b| a.column / columns.count == b.column / columns.count);
+    pages.filter_map(|page| Some([page.first()?.row, page.last()?.row])).collect()
 }
 
 /// Composes rows to pages. `places` maps the number of these pages to the places of the front matter.
@@ -150,7 +170,7 @@ pub(super) fn compose_list(
     options: &Options,
     theme: &Theme,
 ) -> Vec<Scene> {
-    let columns = ColumnLayout::fit(rows, options, theme);
+    let columns = ColumnLayout::fit(rows, header, options, theme);
     let placed = columns.place_rows(rows, theme);
     let pages: Vec<&[PlacedLine]> =
         placed.chunk_by(|a, b| a.column / columns.count == b.column / columns.count).collect();
@@ -160,10 +180,10 @@ pub(super) fn compose_list(
         let root = area::whole_page(&mut scene);
         heading::draw_border(&root, theme);
         let at = heading::draw_title(&root, header.title, theme);
-        let title = header.atlas.title;
-        let subtitle = header.volume.name().map_or(title.to_owned(), |name| format!("{title} · {name}"));
-        let subtitle = theme.text_line(&subtitle, at, Anchor::Start, theme.source_size, theme.grey);
-        root.record(subtitle.fit_width(root.size().x - 2.0 * at.x));
+        for (k, line) in header.lines(root.size().x - 2.0 * at.x, theme).into_iter().enumerate() {
+            root.record(line.moved_to(at + Vector::new(0.0, NOTE_LEADING * theme.source_size * k as f64)));
+        }
+        columns.draw_heads(&root, header, theme);
         let leaders = columns.draw_lines(&root, placed, &places, theme);
         root.record(Drawing { class: "leaders", title: String::new(), items: leaders });
         drop(root);
@@ -171,6 +191,26 @@ pub(super) fn compose_list(
         scene
     };
     pages.iter().map(page).collect()
+}
+
+/// The distance of the values of an entry, in ems.
+const GAP: f64 = 1.0;
+
+/// The distance of the lines of a note under a title, in ems.
+const NOTE_LEADING: f64 = 1.35;
+
+impl ListHeader<'_> {
+    /// The lines under the title.
+    fn lines(&self, width: f64, theme: &Theme) -> Vec<TextLine> {
+        let title = self.atlas.title;
+        let said = match (self.note, self.volume.name()) {
+            ("", Some(name)) => format!("{title} · {name}"),
+            ("", None) => title.to_owned(),
+            (note, _) => note.to_owned(),
+        };
+        let line = |text: &str| theme.text_line(text, Point::origin(), Anchor::Start, theme.source_size, theme.grey);
+        line(&said).wrap(width).iter().map(|words| line(words).fit_width(width)).collect()
+    }
 }
 
 fn text_line(text: &str, at: Point, anchor: Anchor, size: f64, theme: &Theme) -> TextLine {
@@ -190,26 +230,34 @@ fn text_width(text: &str, theme: &Theme) -> f64 {
 }
 
 impl ColumnLayout {
-    /// As many columns as the widest entry allows, from two to eight.
-    fn fit(rows: &[Row], options: &Options, theme: &Theme) -> ColumnLayout {
+    /// As many columns as the widest entry allows, up to eight.
+    fn fit(rows: &[Row], header: &ListHeader, options: &Options, theme: &Theme) -> ColumnLayout {
         let [top, bottom, _] = heading::margins(theme);
         let left = theme.border + theme.margin;
+        let lines = header.lines(options.paper.width - 2.0 * left, theme).len().saturating_sub(1);
+        let heads = if header.heads.is_empty() { 0.0 } else { 1.5 * theme.note_size };
+        let top = top + NOTE_LEADING * theme.source_size * lines as f64 + heads;
         let whole = Vector::new(options.paper.width - 2.0 * left, options.paper.height - top - bottom);
-        let [mut text, mut value, mut curve, mut page] = [0.0f64; 4];
+        let [mut text, mut curve, mut page] = [0.0f64; 3];
+        let mut values: Vec<f64> = header.heads.iter().map(|head| text_width(head, theme)).collect();
         for row in rows {
             if let Row::Entry(entry) = row {
                 text = text.max(entry.text_line(Point::origin(), theme).text.width());
-                value = value.max(text_width(&entry.value, theme));
-                curve = curve.max(text_width(&entry.curve_label(), theme));
-                page = page.max(text_width(&entry.page.widest_label(), theme));
+                values.resize(values.len().max(entry.values.len()), 0.0);
+                for (width, value) in values.iter_mut().zip(&entry.values) {
+                    *width = width.max(text_width(value, theme));
+                }
+                curve = curve.max(text_width(&entry.curve, theme));
+                page = page.max(text_width(&entry.page_label(entry.page.widest_label()), theme));
             }
         }
-        let gap = 1.2 * theme.note_size;
+        let gap = GAP * theme.note_size;
         let with_gap = |width: f64| if width > 0.0 { width + gap } else { 0.0 };
-        let (page, value, curve) = (with_gap(page) + gap, with_gap(value), with_gap(curve));
-        let gutter = 5.0 * theme.note_size;
-        let natural = (text + curve + value + page).max(20.0 * theme.note_size);
-        let count = (((whole.x + gutter) / (natural + gutter)).floor() as usize).clamp(2, 8);
+        let (page, curve) = (with_gap(page) + gap, with_gap(curve));
+        let values: Vec<f64> = values.into_iter().map(with_gap).collect();
+        let gutter = 4.0 * theme.note_size;
+        let natural = (text + curve + values.iter().sum::<f64>() + page).max(20.0 * theme.note_size);
+        let count = (((whole.x + gutter) / (natural + gutter)).floor() as usize).clamp(1, 8);
         let size = Vector::new((whole.x + gutter) / count as f64 - gutter, whole.y.max(8.0 * theme.note_size));
         ColumnLayout {
             corner: Point::new(left, top),
@@ -218,8 +266,8 @@ impl ColumnLayout {
             count,
             line_height: 1.5 * theme.note_size,
             page_width: page,
-            value_width: value,
             curve_width: curve,
+            value_widths: values,
         }
     }
 
@@ -259,6 +307,32 @@ impl ColumnLayout {
         self.column_size.x - page.map_or(0.0, |_| self.page_width)
     }
 
+    /// Draws the heads of the values above each column.
+    fn draw_heads(&self, root: &impl Area, header: &ListHeader, theme: &Theme) {
+        if header.heads.is_empty() {
+            return;
+        }
+        for column in 0..self.count {
+            let left = self.corner + Vector::new(column as f64 * (self.column_size.x + self.gutter), 0.0);
+            let ends = self.value_ends(left.x, theme);
+            let record = |text: &str, x: f64| {
+                let at = Point::new(x, left.y);
+                root.record(theme.text_line(text, at, Anchor::End, theme.note_size, theme.grey));
+            };
+            header.heads.iter().zip(ends).for_each(|(head, x)| record(head, x));
+            record("page", left.x + self.column_size.x);
+        }
+    }
+
+    /// The right ends of the values of a column that begins at x.
+    fn value_ends(&self, left: f64, theme: &Theme) -> impl Iterator<Item = f64> {
+        let gap = GAP * theme.note_size;
+        self.value_widths.iter().scan(left, move |end, width| {
+            *end += width;
+            Some(*end - gap)
+        })
+    }
+
     /// The position at which a line starts on its page.
     fn line_start(&self, placed: &PlacedLine) -> Point {
         let column = (placed.column % self.count) as f64;
@@ -281,7 +355,10 @@ impl ColumnLayout {
                     }
                 }
                 Row::Note(_) => root.record(at_start(note_line(text, theme)).fit_width(self.column_size.x)),
-                Row::Entry(entry) => leaders.extend(self.draw_entry(root, entry, &places.label(entry.page), at, theme)),
+                Row::Entry(entry) => {
+                    let page = entry.page_label(places.label(entry.page));
+                    leaders.extend(self.draw_entry(root, entry, &page, at, theme));
+                }
             }
         }
         let stroke = Some(theme.stroke(theme.hairline, theme.fine_width));
@@ -291,19 +368,19 @@ impl ColumnLayout {
     /// Draws an entry; the result is the dots of its leader.
     fn draw_entry(&self, root: &impl Area, entry: &Entry, page: &str, at: Point, theme: &Theme) -> Vec<Polyline> {
         let right = at.x + self.column_size.x;
+        for (value, x) in entry.values.iter().zip(self.value_ends(at.x, theme)) {
+            root.record(text_line(value, Point::new(x, at.y), Anchor::End, theme.note_size, theme));
+        }
+        let values: f64 = self.value_widths.iter().sum();
         let line = entry
-            .text_line(at, theme)
-            .fit_width(self.column_size.x - self.page_width - self.value_width - self.curve_width);
-        let from = at.x + line.text.width();
+            .text_line(at + Vector::new(values, 0.0), theme)
+            .fit_width(self.column_size.x - self.page_width - values - self.curve_width);
+        let from = at.x + values + line.text.width();
         root.record(line);
-        let numbers = [
-            (page.to_owned(), right, theme.ink),
-            (entry.value.clone(), right - self.page_width, theme.ink),
-            (entry.curve_label(), right - self.page_width - self.value_width, theme.grey),
-        ];
+        let numbers = [(page, right, theme.ink), (entry.curve.as_str(), right - self.page_width, theme.grey)];
         let mut to = right;
         for (text, x, ink) in numbers.into_iter().filter(|(text, ..)| !text.is_empty()) {
-            let number = theme.text_line(&text, Point::new(x, at.y), Anchor::End, theme.note_size, ink);
+            let number = theme.text_line(text, Point::new(x, at.y), Anchor::End, theme.note_size, ink);
             to = number.text.start().x;
             root.record(number);
         }

@@ -1,21 +1,41 @@
 //! The contents of a volume.
 
+use std::ops::Range;
+
+use super::super::Options;
+use super::super::theme::Theme;
 use super::atlas::{Atlas, BackMatter, CHARTS_TITLE, CellEntry, Chapter, Volume, charts_in};
-use super::columns::{Entry, Places, Row, Target};
-use super::folio::are_labelled;
+use super::columns::{self, Entry, ListHeader, Places, Row, Target};
 use super::how_to_read;
 
-/// The most cells of a family that contents and outline list.
+/// The most cells of a family that the outline lists.
 const MAX_CELLS: usize = 1000;
 
-/// The rows of the contents: what a curve is found by, and every family with its cells.
+/// The title of the contents.
+pub(super) fn header<'a>(atlas: &'a Atlas, volume: &'a Volume) -> ListHeader<'a> {
+    ListHeader { title: "Contents", note: "", heads: &[], atlas, volume }
+}
+
+/// The number of pages of the contents.
+pub(super) fn page_count(
+    atlas: &Atlas,
+    volume: &Volume,
+    back_matter: &[BackMatter],
+    options: &Options,
+    theme: &Theme,
+) -> usize {
+    columns::page_count(&rows(atlas, volume, back_matter), &header(atlas, volume), options, theme)
+}
+
+/// The rows of the contents: what a curve is found by, and every chapter with its sections.
 pub(super) fn rows<'a>(atlas: &'a Atlas, volume: &'a Volume, back_matter: &'a [BackMatter]) -> Vec<Row<'a>> {
     let mut rows = Vec::new();
     if atlas.how_to_read.is_some() {
         rows.push(Row::Heading { text: how_to_read::TITLE.to_owned(), page: Some(Target::HowToRead) });
     }
     let plain = |caption: &'a str, symbols: &'a [String], page: Target| {
-        Row::Entry(Entry { family: None, caption, symbols, value: String::new(), curve: None, page })
+        let (values, curve) = (Vec::new(), String::new());
+        Row::Entry(Entry { family: None, caption, symbols, values, curve, page, last_page: None })
     };
     let charts: Vec<Row> = (0..)
         .zip(charts_in(atlas, volume))
@@ -28,26 +48,33 @@ pub(super) fn rows<'a>(atlas: &'a Atlas, volume: &'a Volume, back_matter: &'a [B
     }
     if let Some(first) = back_matter.first() {
         rows.push(Row::Heading { text: LISTS_TITLE.to_owned(), page: Some(Target::Page(first.first_page)) });
-        rows.extend(back_matter.iter().map(|part| plain(&part.title, &[], Target::Page(part.first_page))));
+        for part in back_matter {
+            rows.push(plain(&part.title, &[], Target::Page(part.first_page)));
+            // Of a table in several pages, each has its part.
+            let ranges = part.ranges.iter().filter(|_| part.ranges.len() > 1);
+            rows.extend((part.first_page..).zip(ranges).map(|(page, range)| plain(range, &[], Target::Page(page))));
+        }
     }
-    for (pages_before, chapter) in atlas.chapters_with_offset() {
+    for ((pages_before, chapter), number) in atlas.chapters_with_offset().zip(1..) {
         rows.push(Row::Heading {
-            text: chapter.title.to_owned(),
+            text: chapter.numbered_title(number, atlas),
             page: (chapter.page_count > 0).then_some(Target::Page(pages_before + 1)),
         });
-        let (listed, count) = listed_cells(pages_before, chapter, volume);
         rows.push(Row::Note(chapter.format_counts(", ")));
-        if listed.len() < count {
-            rows.push(Row::Note(format!("{} of {count} are listed", listed.len())));
-        }
-        rows.extend(listed.iter().map(|cell| {
+        let is_in_volume = |(section, last): &&(CellEntry, usize)| {
+            let Range { start, end } = volume.page_range();
+            pages_before + section.page < end && pages_before + last >= start
+        };
+        rows.extend(chapter.sections.iter().filter(is_in_volume).map(|(section, last)| {
+            let last_page = (*last > section.page).then_some(pages_before + last);
             Row::Entry(Entry {
                 family: None,
-                caption: &cell.caption,
+                caption: &section.caption,
                 symbols: chapter.symbols,
-                value: String::new(),
-                curve: None,
-                page: Target::Page(pages_before + cell.page),
+                values: Vec::new(),
+                curve: String::new(),
+                page: Target::Page(pages_before + section.page),
+                last_page,
             })
         }));
     }
@@ -81,20 +108,16 @@ pub(super) fn ways_to_find(atlas: &Atlas, volume: &Volume, back_matter: &[BackMa
             lists.join("; ")
         ));
     }
-    let by_dimensions = match &atlas.tabs[..] {
-        [] => "By dimensions: the contents have every linkage with its page.".to_owned(),
-        tabs if !are_labelled(tabs.len() + 2) => {
-            "By dimensions: the contents have every linkage with its page, and the marks at the outer edges of the pages lead to its \
-             chapter."
-                .to_owned()
+    let marks = match atlas.tabs.first() {
+        None => String::new(),
+        Some(first) => {
+            format!(
+                ", and the marks at the outer edges of the pages, such as {}, lead to its chapter",
+                first.labels()[0]
+            )
         }
-        [first, ..] => format!(
-            "By dimensions: the contents have every linkage with its page, and the marks at the outer edges of the pages, such as \
-             {}, lead to it.",
-            first.label
-        ),
     };
-    ways.push(by_dimensions);
+    ways.push(format!("By dimensions: the contents have every chapter with the ranges of its dimensions{marks}."));
     if let Some(index) = back_matter.iter().find(|part| part.is_index) {
         ways.push(format!(
             "By a measure: the index, page {}, has the linkages by straightness, transmission angle and symmetry.",
@@ -104,22 +127,17 @@ pub(super) fn ways_to_find(atlas: &Atlas, volume: &Volume, back_matter: &[BackMa
     ways
 }
 
-/// The cells of a family that are listed in a volume, and the number of all its cells there.
+/// The cells of a family that the outline lists in a volume.
 ///
 /// At most [`MAX_CELLS`] cells are listed: the first cells of pages at equal steps.
-pub(super) fn listed_cells<'c>(
-    pages_before: usize,
-    chapter: &'c Chapter,
-    volume: &Volume,
-) -> (Vec<&'c CellEntry>, usize) {
+pub(super) fn listed_cells<'c>(pages_before: usize, chapter: &'c Chapter, volume: &Volume) -> Vec<&'c CellEntry> {
     let is_in_volume = |cell: &&CellEntry| volume.page_range().contains(&(pages_before + cell.page));
     let cells: Vec<&CellEntry> = chapter.cells.iter().filter(is_in_volume).collect();
-    let count = cells.len();
-    if count <= MAX_CELLS {
-        return (cells, count);
+    if cells.len() <= MAX_CELLS {
+        return cells;
     }
     let mut first_cells = cells;
     first_cells.dedup_by_key(|cell| cell.page);
     let step = first_cells.len().div_ceil(MAX_CELLS);
-    (first_cells.into_iter().step_by(step).collect(), count)
+    first_cells.into_iter().step_by(step).collect()
 }

@@ -4,16 +4,41 @@ use super::super::Options;
 use super::super::area::{self, Area};
 use super::super::element::Drawing;
 use crate::scene::group_class::{FOLIO, TAB};
-use crate::scene::{Anchor, Group, Item, LinkKind, LinkTarget, PageLink, PageNumber, Path, Polyline, Scene};
+use crate::scene::{
+    Anchor, Group, Item, LinkKind, LinkTarget, MIN_TEXT_SIZE, PageLink, PageNumber, Path, Polyline, Scene,
+};
 use coupler_curves::geometry::{Point, Vector};
 
 /// A mark of the thumb index: a part of the book.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Tab {
+    /// The number of the chapter, if the marks are those of chapters.
+    pub number: Option<usize>,
     /// What is in the part, in a few words.
     pub label: String,
     /// The number of its first page in the atlas, from 1.
     pub first_page: usize,
+}
+
+impl Tab {
+    /// What may be written on the mark, the longest first: the number with the whole words that fit, or else the number alone; without a number,
+    /// the label, and then its value alone.
+    pub(super) fn labels(&self) -> Vec<String> {
+        /// Words that do not end a label.
+        const OPEN: [&str; 13] =
+            ["a", "an", "and", "by", "double-", "for", "from", "in", "of", "on", "the", "to", "with"];
+        let Some(number) = self.number else {
+            let value = self.label.split_once(" = ").map(|(_, value)| value.to_owned());
+            return [self.label.clone()].into_iter().chain(value).collect();
+        };
+        let words: Vec<&str> = self.label.split(' ').collect();
+        let is_closed = |count: &usize| words.get(count.wrapping_sub(1)).is_none_or(|word| !OPEN.contains(word));
+        let label = |count: usize| {
+            let said = words[..count].join(" ");
+            format!("{number} {}", said.trim_end_matches([',', ':', ';'])).trim().to_owned()
+        };
+        (0..=words.len()).rev().filter(is_closed).map(label).collect()
+    }
 }
 
 /// Draws the number of a page below the border, at its outer corner. The first page of a file is a right-hand page.
@@ -42,11 +67,6 @@ pub(super) fn link(scene: &Scene, page_index: usize, (to, title): (usize, String
     PageLink { corner, size, target: LinkTarget::Page(to), title, kind: LinkKind::Mark }
 }
 
-/// Whether so many marks have space for what they stand for.
-pub(super) fn are_labelled(count: usize) -> bool {
-    count <= 18
-}
-
 fn is_right_hand(page_index: usize) -> bool {
     page_index.is_multiple_of(2)
 }
@@ -72,8 +92,7 @@ pub(super) fn draw_tabs(
     let height = (paper.y - 2.0 * theme.border) / tabs.len() as f64;
     // The border needs a line of its own.
     let width = theme.border - 2.0 * theme.fine_width;
-    let size = theme.note_size.min(0.62 * width).min(0.8 * height);
-    let is_labelled = are_labelled(tabs.len());
+    let size = theme.note_size.min(0.62 * width).max(MIN_TEXT_SIZE);
     let is_right = is_right_hand(page_index);
     let left = if is_right { paper.x - width } else { 0.0 };
     let mut links = Vec::new();
@@ -92,14 +111,13 @@ pub(super) fn draw_tabs(
             let (title, target) = (tab.label.clone(), LinkTarget::Page(page_index));
             links.push(PageLink { corner, size, target, title, kind: LinkKind::Mark });
         }
-        if !is_labelled {
-            continue;
-        }
         let ink = if is_current { theme.paper } else { theme.grey };
         // The text reads from the outer edge, downwards on a right-hand page and upwards on the other.
         let (turns, shift) = if is_right { (1, -0.35) } else { (3, 0.35) };
         let at = Point::new(left + 0.5 * width + shift * size, top + 0.5 * height);
-        let mut line = theme.text_line(&tab.label, at, Anchor::Middle, size, ink).fit_width(0.94 * height);
+        let lines = tab.labels().into_iter().map(|label| theme.text_line(&label, at, Anchor::Middle, size, ink));
+        // What does not fit is left out: the mark is there without it.
+        let Some(mut line) = lines.into_iter().find(|line| line.text.width() <= 0.94 * height) else { continue };
         line.text.quarter_turns = turns;
         root.grouped(Group::of_class(TAB), || root.record(line));
     }

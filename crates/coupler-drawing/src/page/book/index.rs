@@ -100,9 +100,12 @@ impl<'a> Section<'a> {
                 caption: &geometry.caption,
                 symbols: chapter.map_or(&[], |chapter| chapter.symbols),
                 // Adding 0 removes the sign of a negative zero.
-                value: format!("{:.decimals$}{unit}", (fine * scale * best.value).round() / fine + 0.0),
-                curve: chapter.zip(best.curve).map(|(chapter, number)| (chapter.curve_noun, number)),
+                values: vec![format!("{:.decimals$}{unit}", (fine * scale * best.value).round() / fine + 0.0)],
+                curve: chapter
+                    .zip(best.curve)
+                    .map_or(String::new(), |(c, number)| format!("{} {number}", c.curve_noun)),
                 page: Target::Page(best.page),
+                last_page: None,
             })
         }));
         rows

@@ -128,7 +128,9 @@ fn draw_entry(root: &impl Area, frame: Rect, rank: usize, entry: &ListEntry, atl
     };
     let shown = [entry.caption.as_str(), &entry.curve].into_iter().filter(|text| !text.is_empty()).collect::<Vec<_>>();
     root.grouped(Group::figure("entry", format!("Curve of {}", shown.join(", "))), || {
-        entry.drawing.draw(root, drawing, theme)
+        if let Some(miniature) = &entry.drawing {
+            miniature.draw(root, drawing, None, theme);
+        }
     });
     let left = frame.corner.x + DRAWING_PART * frame.size.x;
     let width = text_width(frame.size.x, em);

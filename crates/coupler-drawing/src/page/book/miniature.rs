@@ -147,9 +147,14 @@ impl Miniature {
         self.curve.clear();
     }
 
-    /// Draws it as large as it fits a frame.
-    pub(super) fn draw(&self, area: &impl Area, frame: Rect, theme: &Theme) {
-        let plot = Plot::whole(frame).fitted_to(self.bounds);
+    /// The greatest scale at which it fits a frame, in millimetres to a unit.
+    pub(super) fn fit_scale(&self, frame: Rect) -> f64 {
+        frame.fit_scale(self.bounds)
+    }
+
+    /// Draws it at the centre of a frame, at a scale or as large as it fits.
+    pub(super) fn draw(&self, area: &impl Area, frame: Rect, scale: Option<f64>, theme: &Theme) {
+        let (plot, _) = Plot::whole(frame).at_scale(self.bounds, scale);
         let on_page = |p: Point| plot.page_from_plane.apply(p);
         let line =
             |points: &[Point]| Polyline { points: points.iter().map(|p| on_page(*p)).collect(), is_closed: false };

@@ -21,13 +21,18 @@ mod index;
 mod index_entry;
 mod list;
 mod miniature;
+mod table;
 mod title;
 
-pub use atlas::{Atlas, CellEntry, Chapter, CurveList, FindingCell, FindingChart, HowToRead, ListEntry, Volume};
+pub use atlas::{
+    Atlas, CellEntry, Chapter, CurveList, FindingCell, FindingChart, FindingCurve, HowToRead, ListEntry, ScaleBar,
+    Volume,
+};
 #[cfg(feature = "pdf")]
 pub use code::{draw_code, gallery_address};
-pub use finding::{chart_curves_per_page, max_chart_grid};
+pub use finding::max_chart_grid;
 pub use folio::{Tab, draw_folio};
+pub use how_to_read::plate_part;
 pub use index::keep_listed;
 pub use index_entry::IndexEntry;
 pub use miniature::{Emphasis, Miniature};
@@ -63,27 +68,41 @@ impl Atlas<'_> {
             return Vec::new();
         }
         let theme = options.theme.for_paper(options.paper);
-        let lists = self.lists.iter().map(|list| (&*list.title, false, list::page_count(list, self, options)));
-        let index = (INDEX_TITLE, true, columns::page_count(&index::rows(self), options, &theme));
+        let pages = |list: &CurveList| {
+            let ranges =
+                if list.columns.is_empty() { Vec::new() } else { table::page_ranges(list, self, options, &theme) };
+            let count = if ranges.is_empty() { list::page_count(list, self, options) } else { ranges.len() };
+            (list.title.clone(), false, count, ranges)
+        };
+        let rows = index::rows(self);
+        let header = ListHeader { title: INDEX_TITLE, note: "", heads: &[], atlas: self, volume: &Volume::NONE };
+        let index = (INDEX_TITLE.to_owned(), true, columns::page_count(&rows, &header, options, &theme), Vec::new());
         let mut next = self.page_count() + 1;
-        let part = |(title, is_index, page_count): (&str, bool, usize)| {
-            let part = BackMatter { title: title.to_owned(), is_index, first_page: next, page_count };
+        let part = |(title, is_index, page_count, ranges): (String, bool, usize, Vec<String>)| {
+            let part = BackMatter { title, ranges, is_index, first_page: next, page_count };
             next += page_count;
             part
         };
-        let parts = lists.chain([index]).map(part);
+        let parts = self.lists.iter().map(pages).chain([index]).map(part);
         parts.filter(|part| part.page_count > 0).collect()
     }
 }
 
 /// Where the parts of the front matter of a volume are, with so many pages of contents.
-fn places(atlas: &Atlas, volume: &Volume, contents: usize) -> Places {
-    let how_to_read = 2 * usize::from(atlas.how_to_read.is_some());
+fn places(atlas: &Atlas, volume: &Volume, [how_to_read, contents]: [usize; 2]) -> Places {
     let charts = 1 + how_to_read + contents;
     let front = charts + charts_in(atlas, volume).count();
     // Odd numbers are on right-hand pages: a blank page precedes the first plate if needed.
     let front = front + (front + volume.first_page + 1) % 2;
     Places { how_to_read: 1, charts, front }
+}
+
+/// The number of pages that say how plates are read.
+fn how_to_read_pages(atlas: &Atlas, volume: &Volume, back_matter: &[BackMatter], options: &Options) -> usize {
+    let Some(how) = &atlas.how_to_read else { return 0 };
+    // The numbers of pages of the front matter are not known yet: these are wide.
+    let places = Places { how_to_read: 1, charts: 27, front: 0 };
+    how_to_read::page_count(how, &contents::ways_to_find(atlas, volume, back_matter, &places), options)
 }
 
 /// Composes the front matter of a volume: the title page, two pages that say how plates are read, the contents and the
@@ -103,12 +122,16 @@ pub fn compose_front_matter(
     let mut pages = vec![first];
     let back_matter = atlas.back_matter(options);
     let rows = contents::rows(atlas, volume, &back_matter);
-    let header = ListHeader { title: "Contents", atlas, volume };
-    let contents = columns::compose_list(&rows, &header, |count| places(atlas, volume, count), options, &theme);
-    let places = places(atlas, volume, contents.len());
+    let header = contents::header(atlas, volume);
+    let explained = how_to_read_pages(atlas, volume, &back_matter, options);
+    let places_with = |contents: usize| places(atlas, volume, [explained, contents]);
+    let contents = columns::compose_list(&rows, &header, places_with, options, &theme);
+    let places = places_with(contents.len());
     if let Some(how) = &atlas.how_to_read {
         let find = contents::ways_to_find(atlas, volume, &back_matter, &places);
         pages.extend(how_to_read::compose(how, atlas, &find, options));
+        // With shorter numbers of pages, the text may need one page less.
+        pages.resize_with(1 + explained, || empty_scene(atlas.title.to_owned(), options, &theme));
     }
     pages.extend(contents);
     let link = |page| volume.page_index(page, places.front);
@@ -133,9 +156,13 @@ pub fn compose_back_matter(atlas: &Atlas, volume: &Volume, front: usize, options
     }
     let theme = options.theme.for_paper(options.paper);
     let link = |page| volume.page_index(page, front);
-    let mut pages: Vec<Scene> = atlas.lists.iter().flat_map(|list| list::compose(list, atlas, link, options)).collect();
-    let header = ListHeader { title: INDEX_TITLE, atlas, volume };
     let places = Places { how_to_read: 0, charts: 0, front };
+    let compose = |list: &CurveList| match list.columns.is_empty() {
+        true => list::compose(list, atlas, link, options),
+        false => table::compose(list, (atlas, volume), places, options, &theme),
+    };
+    let mut pages: Vec<Scene> = atlas.lists.iter().flat_map(compose).collect();
+    let header = ListHeader { title: INDEX_TITLE, note: "", heads: &[], atlas, volume };
     pages.extend(columns::compose_list(&index::rows(atlas), &header, |_| places, options, &theme));
     let finisher = PageFinisher::new(atlas, volume, front, options);
     for (page, index) in pages.iter_mut().zip(front + volume.page_count..) {
@@ -195,17 +222,17 @@ impl<'a> PageFinisher<'a> {
 pub fn outline(atlas: &Atlas, volume: &Volume, front: usize, options: &Options) -> Vec<OutlineEntry> {
     let entry = |title: &str, page| OutlineEntry { title: title.to_owned(), page_index: page, children: Vec::new() };
     let mut entries: Vec<OutlineEntry> = (!atlas.plates_only).then(|| entry(atlas.title, 0)).into_iter().collect();
-    let how_to_read = 2 * usize::from(atlas.how_to_read.is_some());
+    let back_matter = atlas.back_matter(options);
+    let how_to_read = how_to_read_pages(atlas, volume, &back_matter, options);
     if how_to_read > 0 {
         entries.push(entry(how_to_read::TITLE, 1));
     }
-    let back_matter = atlas.back_matter(options);
     let theme = options.theme.for_paper(options.paper);
-    let contents = columns::page_count(&contents::rows(atlas, volume, &back_matter), options, &theme);
+    let contents = contents::page_count(atlas, volume, &back_matter, options, &theme);
     if contents > 0 && !atlas.plates_only {
         entries.push(entry("Contents", 1 + how_to_read));
     }
-    let first_chart = places(atlas, volume, contents).charts;
+    let first_chart = places(atlas, volume, [how_to_read, contents]).charts;
     let charts: Vec<&FindingChart> = charts_in(atlas, volume).collect();
     if !charts.is_empty() {
         let titled = charts.iter().zip(first_chart..).filter(|(chart, _)| !chart.title.is_empty());
@@ -216,7 +243,7 @@ pub fn outline(atlas: &Atlas, volume: &Volume, front: usize, options: &Options) 
         let first = (before + 1).max(volume.first_page);
         let is_in_chapter = first <= before + chapter.page_count && volume.page_range().contains(&first);
         let Some(page) = volume.page_index(first, front).filter(|_| is_in_chapter) else { continue };
-        let (cells, _) = contents::listed_cells(before, chapter, volume);
+        let cells = contents::listed_cells(before, chapter, volume);
         let child = |cell: &&CellEntry| Some(entry(&cell.caption, volume.page_index(before + cell.page, front)?));
         entries.push(OutlineEntry {
             title: chapter.title.to_owned(),

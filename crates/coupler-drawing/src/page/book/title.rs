@@ -96,6 +96,7 @@ fn family_lines(atlas: &Atlas) -> Vec<String> {
             curve_count: curves,
             page_count: pages,
             cells,
+            sections: Vec::new(),
         })
     });
     named.chain(others).collect()

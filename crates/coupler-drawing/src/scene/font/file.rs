@@ -1,9 +1,10 @@
 //! Font files that a manifest names, for characters that the embedded fonts do not have.
 
 use std::hash::{Hash, Hasher};
+use std::ops::Range;
 use std::sync::Mutex;
 
-use harfrust::{Direction, ShapeOptions, ShaperData, UnicodeBuffer};
+use harfrust::{Direction, Script, ShapeOptions, ShaperData, UnicodeBuffer, script};
 use skrifa::instance::{LocationRef, Size};
 use skrifa::{FontRef, GlyphId, MetadataProvider};
 
@@ -85,8 +86,21 @@ impl FontFile {
         outline(&self.font, GlyphId::new(index), self.units_per_em)
     }
 
-    /// The glyphs of a text in one direction, from left to right.
+    /// The glyphs of a text in one direction, from left to right. Each script has forms and ligatures of its own.
     pub(super) fn shape(&self, text: &str, is_right_to_left: bool) -> Vec<ShapedGlyph> {
+        let mut parts = parts_by_script(text);
+        if is_right_to_left {
+            parts.reverse();
+        }
+        let shape = |part: Range<usize>| {
+            let glyphs = self.shape_script(&text[part.clone()], is_right_to_left);
+            glyphs.into_iter().map(move |glyph| ShapedGlyph { cluster: part.start + glyph.cluster, ..glyph })
+        };
+        parts.into_iter().flat_map(shape).collect()
+    }
+
+    /// The glyphs of a text in one script and direction, from left to right.
+    fn shape_script(&self, text: &str, is_right_to_left: bool) -> Vec<ShapedGlyph> {
         let mut buffer = UnicodeBuffer::new();
         buffer.push_str(text);
         buffer.set_direction(if is_right_to_left { Direction::RightToLeft } else { Direction::LeftToRight });
@@ -102,6 +116,31 @@ impl FontFile {
         };
         glyphs.map(glyph).collect()
     }
+}
+
+/// The parts of a text in one script each. What belongs to no script, such as spaces, numbers and accents, is in the part before it, or at the
+/// beginning in the first.
+fn parts_by_script(text: &str) -> Vec<Range<usize>> {
+    let mut parts: Vec<(Option<Script>, Range<usize>)> = Vec::new();
+    for (at, character) in text.char_indices() {
+        let (script, end) = (script_of(character), at + character.len_utf8());
+        match parts.last_mut() {
+            Some((own, part)) if own.is_none() || script.is_none() || *own == script => {
+                *own = own.or(script);
+                part.end = end;
+            }
+            _ => parts.push((script, at..end)),
+        }
+    }
+    parts.into_iter().map(|(_, part)| part).collect()
+}
+
+/// The script of a character, if it belongs to one.
+fn script_of(character: char) -> Option<Script> {
+    let mut buffer = UnicodeBuffer::new();
+    buffer.add(character, 0);
+    buffer.guess_segment_properties();
+    Some(buffer.script()).filter(|own| ![script::COMMON, script::INHERITED, script::UNKNOWN].contains(own))
 }
 
 impl std::fmt::Debug for FontFile {

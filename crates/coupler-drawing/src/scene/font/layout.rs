@@ -251,6 +251,25 @@ mod tests {
         assert!(ranges.windows(2).all(|pair| pair[0].end == pair[1].start), "{ranges:?}");
     }
 
+    /// Latin, Hebrew and Arabic in one line: each script has its own forms, whatever is next to it.
+    #[test]
+    fn arabic_letters_are_joined_next_to_hebrew_ones() {
+        let face = typeface().regular();
+        let mixed = text(vec![TextRun::new("Hoeken שלום سلام, 3", face)]);
+        let alone = text(vec![TextRun::new("سلام", face)]);
+        let arabic = |text: &Text| -> Vec<u32> {
+            let runs = text.glyph_runs();
+            let glyphs = runs.iter().flat_map(|run| &run.glyphs);
+            glyphs.filter(|glyph| ('\u{600}'..'\u{700}').contains(&glyph.character)).map(|glyph| glyph.index).collect()
+        };
+        assert_eq!(arabic(&mixed), arabic(&alone));
+        // The Arabic word follows the Hebrew one, to its left, and a number after it is Arabic, too; lam and alef are one glyph.
+        assert_eq!(visual(&mixed).replace('|', ""), "Hoeken 3 ,ملس םולש");
+        for (first, then) in [("שלום سلام", "سلام"), ("سلام שלום", "سلام")] {
+            assert_eq!(arabic(&text(vec![TextRun::new(first, face)])), arabic(&text(vec![TextRun::new(then, face)])));
+        }
+    }
+
     #[test]
     fn a_text_is_as_wide_as_its_glyphs() {
         let text =

@@ -16,18 +16,35 @@ use crate::scene::{Anchor, Circle, Color, Curve, Group, Item, Path, Polyline, Sc
 use coupler_curves::geometry::{Point, Vector};
 use parts::{LARGEST_TEXT, PARTS, Part};
 
-/// The part of the width and height that the plate takes on its page.
-const PLATE_SCALE: f64 = 0.84;
+/// The part of the width and height that the plate takes on its page, at most.
+const PLATE_PART: f64 = 0.84;
 
-/// Composes the two pages.
-pub(super) fn compose(how: &HowToRead, atlas: &Atlas, find: &[String], options: &Options) -> [Scene; 2] {
+/// The part of the width and height of a page that the plate takes, which is composed for such a paper: no text of it is reduced.
+pub fn plate_part(options: &Options) -> f64 {
     let theme = &options.theme.for_paper(options.paper);
-    let shown: Vec<(&Part, Point)> = PARTS
-        .iter()
-        .filter(|part| part.layouts[layout_index(how.layout)])
-        .filter_map(|part| Some((part, part_anchor(part, &how.plate)?)))
-        .collect();
-    [compose_plate(how, atlas, &shown, options, theme), text::compose(how, atlas, &shown, find, options, theme)]
+    let [top, bottom, _] = heading::margins(theme);
+    PLATE_PART.min((options.paper.height - top - bottom) / options.paper.height)
+}
+
+/// Composes the page with the plate, and the one that faces it; more follow on paper that is too small for the text.
+pub(super) fn compose(how: &HowToRead, atlas: &Atlas, find: &[String], options: &Options) -> Vec<Scene> {
+    let theme = &options.theme.for_paper(options.paper);
+    let shown = shown_parts(how);
+    let mut pages = vec![compose_plate(how, atlas, &shown, options, theme)];
+    pages.extend(text::compose(how, atlas, &shown, find, options, theme));
+    pages
+}
+
+/// The number of pages.
+pub(super) fn page_count(how: &HowToRead, find: &[String], options: &Options) -> usize {
+    let theme = &options.theme.for_paper(options.paper);
+    1 + text::page_count(how, &shown_parts(how), find, options, theme)
+}
+
+/// The parts of the plate that are explained, with the places of their numbers.
+fn shown_parts(how: &HowToRead) -> Vec<(&'static Part, Point)> {
+    let parts = PARTS.iter().filter(|part| part.layouts[layout_index(how.layout)]);
+    parts.filter_map(|part| Some((part, part_anchor(part, &how.plate)?))).collect()
 }
 
 fn layout_index(layout: Layout) -> usize {
@@ -160,7 +177,8 @@ fn compose_plate(how: &HowToRead, atlas: &Atlas, shown: &[(&Part, Point)], optio
     let [top, bottom, _] = heading::margins(theme);
     let plate = Vector::new(how.plate.width, how.plate.height);
     let space = page.y - top - bottom;
-    let scale = PLATE_SCALE.min(space / plate.y);
+    // That of a caller who has not asked for its part is reduced.
+    let scale = (PLATE_PART * page.x / plate.x).min(space / plate.y).min(1.0);
     let shift = Vector::new(0.5 * (page.x - scale * plate.x), top + 0.5 * (space - scale * plate.y));
     let items: Vec<Item> = how.plate.items.iter().map(|item| scaled(item, scale, shift)).collect();
     let says: Vec<&str> = how.plate.figures().iter().map(|figure| figure.description.as_str()).collect();

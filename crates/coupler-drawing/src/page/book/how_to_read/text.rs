@@ -1,4 +1,4 @@
-//! The page that explains the numbers of the plate, how a linkage is built, and how a curve is found.
+//! The pages that explain the numbers of the plate, how a linkage is built, and how a curve is found.
 
 use super::super::super::area::{self, Area};
 use super::super::super::element::TextLine;
@@ -8,7 +8,7 @@ use super::super::super::{Layout, Options};
 use super::super::atlas::{Atlas, HowToRead};
 use super::super::empty_scene::empty_scene;
 use super::parts::{Part, TITLE};
-use crate::scene::{Anchor, Scene};
+use crate::scene::{Anchor, MIN_TEXT_SIZE, Scene};
 use coupler_curves::geometry::{Point, Vector};
 
 /// A paragraph: a number, if it has one, a title, and its text.
@@ -79,7 +79,52 @@ fn paragraphs(how: &HowToRead, shown: &[(&Part, Point)], find: &[String]) -> Vec
     said
 }
 
-/// The page with the explanations, in columns.
+/// The title of the pages.
+const CONTINUED: &str = "How to read this book, continued";
+
+/// The explanations in columns: so many on a page, at this distance.
+struct Columns {
+    /// Each line with its column, at its place on the first page.
+    lines: Vec<(usize, TextLine)>,
+    per_page: usize,
+    step: f64,
+}
+
+impl Columns {
+    /// With the largest letters with which everything fits a page, or with the smallest that can be read.
+    fn new(paragraphs: &[Paragraph], options: &Options, theme: &Theme) -> Columns {
+        let [top, bottom, _] = heading::margins(theme);
+        let left = theme.border + theme.margin;
+        let (page_width, height) = (options.paper.width - 2.0 * left, options.paper.height - top - bottom);
+        let least = MIN_TEXT_SIZE.min(theme.note_size);
+        let size = |k: u32| ((1.25 - 0.07 * f64::from(k)) * theme.source_size).max(least);
+        let with_size = |size: f64| {
+            let count = (page_width / (34.0 * size)).floor().max(1.0);
+            let gutter = 2.5 * size;
+            let step = (page_width + gutter) / count;
+            let frame = (Point::new(left, top), Vector::new(step - gutter, height), gutter);
+            Columns { lines: lay_out(paragraphs, frame, size, theme), per_page: count as usize, step }
+        };
+        (0..11).map(|k| with_size(size(k))).find(|columns| columns.page_count() < 2).unwrap_or_else(|| with_size(least))
+    }
+
+    fn page_count(&self) -> usize {
+        self.lines.last().map_or(0, |(column, _)| column / self.per_page) + 1
+    }
+}
+
+/// The number of pages with the explanations.
+pub(super) fn page_count(
+    how: &HowToRead,
+    shown: &[(&Part, Point)],
+    find: &[String],
+    options: &Options,
+    theme: &Theme,
+) -> usize {
+    Columns::new(&paragraphs(how, shown, find), options, theme).page_count()
+}
+
+/// The pages with the explanations.
 pub(super) fn compose(
     how: &HowToRead,
     atlas: &Atlas,
@@ -87,45 +132,30 @@ pub(super) fn compose(
     find: &[String],
     options: &Options,
     theme: &Theme,
-) -> Scene {
-    let mut scene = empty_scene(format!("{TITLE}: {}", atlas.title), options, theme);
-    let root = area::whole_page(&mut scene);
-    heading::draw_border(&root, theme);
-    let page = root.size();
-    let [_, bottom, _] = heading::margins(theme);
-    let left = theme.border + theme.margin;
-    let top = theme.border + 1.5 * theme.margin;
-    let paragraphs = paragraphs(how, shown, find);
-    let height = page.y - top - bottom;
-    // The largest letters with which everything fits.
-    let sizes = (0..12)
-        .map(|k| (1.25 * theme.source_size - 0.07 * theme.source_size * f64::from(k)).max(0.5 * theme.note_size));
-    let mut laid_out = Vec::new();
-    for size in sizes {
-        let count = ((page.x - 2.0 * left) / (34.0 * size)).floor().max(1.0);
-        let gutter = 2.5 * size;
-        let width = (page.x - 2.0 * left + gutter) / count - gutter;
-        let frame = (Point::new(left, top), Vector::new(width, height), gutter);
-        let (lines, columns) = lay_out(&paragraphs, frame, size, theme);
-        laid_out = lines;
-        if columns as f64 <= count {
-            break;
+) -> Vec<Scene> {
+    let columns = Columns::new(&paragraphs(how, shown, find), options, theme);
+    let page = |page: usize| {
+        let mut scene = empty_scene(format!("{TITLE}: {}", atlas.title), options, theme);
+        let root = area::whole_page(&mut scene);
+        heading::draw_border(&root, theme);
+        heading::draw_title(&root, CONTINUED, theme);
+        let before = Vector::new(columns.step * (page * columns.per_page) as f64, 0.0);
+        for (_, line) in columns.lines.iter().filter(|(column, _)| column / columns.per_page == page) {
+            root.record(line.clone().moved_to(line.text.position - before));
         }
-    }
-    for line in laid_out.into_iter().filter(|line| line.text.position.x < page.x - left) {
-        root.record(line);
-    }
-    drop(root);
-    scene
+        drop(root);
+        scene
+    };
+    (0..columns.page_count()).map(page).collect()
 }
 
-/// The lines of paragraphs in columns, and the number of columns.
+/// The lines of paragraphs, each with its column, from 0.
 fn lay_out(
     paragraphs: &[Paragraph],
     (corner, size, gutter): (Point, Vector, f64),
     em: f64,
     theme: &Theme,
-) -> (Vec<TextLine>, usize) {
+) -> Vec<(usize, TextLine)> {
     let leading = 1.42 * em;
     let mut lines = Vec::new();
     let (mut column, mut y) = (0, 0.0);
@@ -144,15 +174,14 @@ fn lay_out(
         y += if y > 0.0 { space } else { 0.0 };
         for (k, words) in wrapped.iter().enumerate() {
             y += leading * text_size / em;
-            let at = corner + Vector::new((size.x + gutter) * f64::from(column) + indent, y);
-            lines.push(line(words).fit_width(size.x - indent).moved_to(at));
+            let at = corner + Vector::new((size.x + gutter) * column as f64 + indent, y);
+            lines.push((column, line(words).fit_width(size.x - indent).moved_to(at)));
             if let (0, Some(number)) = (k, paragraph.number) {
                 let ink = theme.text_ink(theme.curve_ink(0));
                 let at = at - Vector::new(indent, 0.0);
-                lines.push(theme.text_line(&number.to_string(), at, Anchor::Start, em, ink));
+                lines.push((column, theme.text_line(&number.to_string(), at, Anchor::Start, em, ink)));
             }
         }
     }
-    let columns = usize::try_from(column).unwrap_or(0) + 1;
-    (lines, columns)
+    lines
 }
