@@ -101,7 +101,11 @@ impl Files for ManifestFiles {
         let is_parquet = Path::new(name).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("parquet"));
         let mut rows = CaseRows::new(name, limit, report);
         if let Some(known) = self.known.iter().find(|known| known.path == name) {
-            return known.read(&mut rows).ok().and_then(|()| rows.into_table());
+            if let Err(error) = known.read(&mut rows) {
+                rows.report_unreadable(&error.to_string());
+                return None;
+            }
+            return rows.into_table();
         }
         let read = self.open(name, MAX_TABLE_BYTES).and_then(|file| match is_parquet {
             true => parquet_table::read(file.into_inner(), &mut rows),

@@ -4,17 +4,15 @@ The linkage is the one of pylinkage's documentation (frame 4, crank 1, coupler 3
 equal steps of a full turn of the crank, again in each repetition. Both are warm: pylinkage's solver is compiled, and the limits of the linkage and
 the table of sines are known here, as they are in a sweep. The curves are compared before anything is timed.
 
-The thousand differ in the length of the crank: an `Ensemble` of pylinkage, and here a `FourBar` each, and a sweep of their points, from the text of
-its manifest to the last array.
+The thousand differ in the length of the crank: an `Ensemble` of pylinkage, and here a `FourBar` each, and a sweep of their points, from the array of
+cranks to the last array of points.
 
     python benchmarks/pylinkage_fourbar.py
 """
 
 import argparse
-import pathlib
 import statistics
 import sys
-import tempfile
 import time
 from collections.abc import Callable
 
@@ -64,21 +62,15 @@ def compare_many(repetitions: int, steps: int = 360, count: int = 1000) -> None:
         return np.array([ca.FourBar(FRAME, crank, COUPLER, ROCKER, along=COUPLER, across=0).curve(steps) for crank in cranks])
 
     def swept() -> np.ndarray:
-        batches = ca.sweep(manifest, points=True, progress=False).batches()
-        return np.concatenate([np.column_stack([batch["x"], batch["y"]]) for batch in batches]).reshape(count, steps, 2)
+        parameters = {"frame": FRAME, "crank": cranks, "coupler": COUPLER, "rocker": ROCKER, "along": COUPLER, "across": 0}
+        sweep = ca.sweep(linkage="four-bar", parameters=parameters, circuits="start", samples=steps, points=True, progress=False)
+        return np.concatenate([np.column_stack([batch["x"], batch["y"]]) for batch in sweep.batches()]).reshape(count, steps, 2)
 
-    with tempfile.TemporaryDirectory() as folder:
-        manifest = pathlib.Path(folder) / "cranks.toml"
-        manifest.write_text(
-            f'atlas.title = "Cranks"\n[[family]]\nid = "cranks"\nlinkage = "four-bar"\ncircuits = "start"\nsampling = {{ samples = {steps} }}\n'
-            f"grid = {{ crank = {{ from = 0.8, to = 1.2, count = {count} }}, frame = {FRAME}, coupler = {COUPLER}, rocker = {ROCKER}, "
-            f"along = {COUPLER}, across = 0 }}\n"
-        )
-        expected = np.roll(ensemble.simulate(iterations=steps)[:, :, 3], 1, axis=1)
-        for own in (each(), swept()):
-            assert np.abs(own - expected).max() < 1e-9
-        calls = (lambda: ensemble.simulate(iterations=steps), each, swept)
-        rounds = [[median_seconds(call, max(1, repetitions // 20)) for call in calls] for _ in range(5)]
+    expected = np.roll(ensemble.simulate(iterations=steps)[:, :, 3], 1, axis=1)
+    for own in (each(), swept()):
+        assert np.abs(own - expected).max() < 1e-9
+    calls = (lambda: ensemble.simulate(iterations=steps), each, swept)
+    rounds = [[median_seconds(call, max(1, repetitions // 20)) for call in calls] for _ in range(5)]
     theirs, one_by_one, together = (statistics.median(column) for column in zip(*rounds))
     print(
         f"{count} linkages in {steps} steps: pylinkage {theirs * 1e3:.1f} ms, coupler_atlas one by one {one_by_one * 1e3:.1f} ms, "

@@ -27,6 +27,20 @@ pub fn only(ids: Option<Vec<String>>) -> PyResult<Vec<String>> {
     }
 }
 
+/// The text of a manifest: a text as it is, or what a dictionary says.
+pub fn toml_text(value: &Bound<PyAny>) -> PyResult<String> {
+    match value.extract::<String>() {
+        Ok(text) => Ok(text),
+        Err(_) => value.py().import("coupler_atlas._toml")?.getattr("document")?.call1((value,))?.extract(),
+    }
+}
+
+/// Whether an argument is a single number, and no array or sequence of one.
+pub fn is_number(value: &Bound<PyAny>) -> bool {
+    let has_dimensions = value.getattr("ndim").and_then(|count| count.gt(0)).unwrap_or(false);
+    !has_dimensions && value.len().is_err() && value.extract::<f64>().is_ok()
+}
+
 /// An index into a sequence, or a slice of it.
 #[derive(FromPyObject)]
 pub enum Index<'py> {

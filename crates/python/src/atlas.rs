@@ -10,9 +10,10 @@ use pyo3::exceptions::{PyIndexError, PyKeyError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyIterator, PyTuple};
 
-use crate::argument::{Index, position};
+use crate::argument::{Index, position, toml_text};
 use crate::error::Error;
 use crate::file::read_text;
+use crate::html;
 use crate::linkage::into_object;
 use crate::manifest::{Manifest, PickledTables, Source};
 use crate::task;
@@ -155,6 +156,17 @@ impl Atlas {
         Ok((py.import("coupler_atlas._core")?.getattr("_atlas")?, arguments))
     }
 
+    /// A table of its families.
+    fn _repr_html_(&self) -> String {
+        let row = |planned: &PlannedFamily| {
+            let PlannedFamily { family, .. } = planned;
+            html::row("td", &[&family.id, &family.title, &family.template.id, &family.cell_count().to_string()])
+        };
+        let rows: String = self.manifest.plan.families.iter().map(row).collect();
+        let head = html::row("th", &["family", "title", "linkage", "cells"]);
+        format!("<table><caption>{}</caption>{head}{rows}</table>", html::escaped(&self.manifest.plan.title))
+    }
+
     fn __repr__(&self) -> String {
         format!("<coupler_atlas.Atlas {:?}: {}>", self.manifest.plan.title, self.keys().join(", "))
     }
@@ -266,6 +278,25 @@ impl Family {
         Ok((py.import("operator")?.getattr("getitem")?, (atlas, self.id()).into_pyobject(py)?))
     }
 
+    /// The plates of its first linkages that can be assembled, small.
+    fn _repr_html_(&self, py: Python) -> PyResult<String> {
+        /// How many are shown, and how many are tried.
+        const SHOWN: [usize; 2] = [6, 24];
+        let (mut pictures, mut count) = (String::new(), 0);
+        for index in 0..self.__len__().min(SHOWN[1]) {
+            if count == SHOWN[0] {
+                break;
+            }
+            let linkage = self.linkage_of(py, index)?;
+            let svg = linkage.bind(py).call_method0("_repr_svg_")?.extract::<Option<String>>()?;
+            if let Some(svg) = svg {
+                count += 1;
+                pictures += &html::picture(&svg, &linkage.bind(py).repr()?.to_string(), 200);
+            }
+        }
+        Ok(format!("<p>{}</p>{pictures}", html::escaped(&self.__repr__())))
+    }
+
     fn __repr__(&self) -> String {
         format!("<coupler_atlas.Family {}: {} cells of {}>", self.id(), self.__len__(), self.linkage())
     }
@@ -324,17 +355,53 @@ impl Cells {
 pub fn read(py: Python, manifest: PathBuf, input: Option<&str>) -> PyResult<Atlas> {
     let word = manifest.to_str().filter(|word| import::is_text(word) && !manifest.is_file());
     let text = word.map_or_else(|| read_text(py, &manifest), |word| Ok(word.to_owned()))?;
-    let source = if word.is_some() || import::is_foreign(&text) {
+    let path = word.map_or(manifest.clone(), |_| PathBuf::from("imported.toml"));
+    read_source(py, source_of((path, text), word.is_some(), input)?)
+}
+
+/// Read a manifest, or a linkage of another program, in memory.
+///
+/// Parameters
+/// ----------
+/// manifest : str or dict
+///     The text of a manifest, or what it says as a dictionary, as ``tomllib`` reads it; or a text of another program, as of ``read``.
+/// path : path, optional
+///     Where the manifest would be, which messages name; the files that it names are relative to its folder.
+/// input : str, optional
+///     What drives a linkage of another program.
+///
+/// Returns
+/// -------
+/// Atlas
+///     Its families and their linkages. Nothing is solved yet.
+///
+/// Raises
+/// ------
+/// ManifestError
+///     The manifest has errors.
+/// TypeError
+///     The dictionary has a value that no manifest has.
+#[pyfunction]
+#[pyo3(signature = (manifest, *, path=PathBuf::from("manifest.toml"), input=None))]
+pub fn parse(py: Python, manifest: Bound<PyAny>, path: PathBuf, input: Option<&str>) -> PyResult<Atlas> {
+    read_source(py, source_of((path, toml_text(&manifest)?), false, input)?)
+}
+
+/// A manifest of a text at a path, which may be one of another program, and is so where that is known.
+fn source_of((path, text): (PathBuf, String), is_foreign: bool, input: Option<&str>) -> PyResult<Source> {
+    if is_foreign || import::is_foreign(&text) {
         let drawing = import::read(&text, None, input).map_err(|error| Error::new_err(error.to_string()))?;
-        let path = word.map_or_else(|| manifest.with_extension("toml"), |_| PathBuf::from("imported.toml"));
-        Source::new(path, import::manifest_text(&drawing).into())
-    } else if input.is_some() {
-        return Err(PyValueError::new_err(
+        return Ok(Source::new(path.with_extension("toml"), import::manifest_text(&drawing).into()));
+    }
+    match input {
+        Some(_) => Err(PyValueError::new_err(
             "input is for linkages of other programs: a manifest says what drives its linkages",
-        ));
-    } else {
-        Source::new(manifest, text.into())
-    };
+        )),
+        None => Ok(Source::new(path, text.into())),
+    }
+}
+
+fn read_source(py: Python, source: Source) -> PyResult<Atlas> {
     Ok(Atlas { manifest: Manifest::for_tables(py, source, |family| 0..family.cell_count())? })
 }
 

@@ -6,6 +6,7 @@
 mod argument;
 mod error;
 mod file;
+mod html;
 mod keywords;
 
 mod arrays;
@@ -23,6 +24,7 @@ mod check;
 mod design;
 mod find;
 mod function;
+mod parameter_sets;
 mod pickle;
 mod poses;
 mod render;
@@ -68,6 +70,7 @@ fn _core(module: &Bound<PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(linkage::make_linkage, module)?)?;
     module.add_function(wrap_pyfunction!(linkage::linkages, module)?)?;
     module.add_function(wrap_pyfunction!(atlas::read, module)?)?;
+    module.add_function(wrap_pyfunction!(atlas::parse, module)?)?;
     module.add_function(wrap_pyfunction!(sweep::sweep, module)?)?;
     module.add_function(wrap_pyfunction!(find::find_linkages, module)?)?;
     module.add_function(wrap_pyfunction!(poses::find_guides, module)?)?;
@@ -78,6 +81,7 @@ fn _core(module: &Bound<PyModule>) -> PyResult<()> {
     // What pickles call.
     module.add_function(wrap_pyfunction!(pickle::make_linkage_again, module)?)?;
     module.add_function(wrap_pyfunction!(pickle::make_curve_again, module)?)?;
+    module.add_function(wrap_pyfunction!(pickle::make_circuit_again, module)?)?;
     module.add_function(wrap_pyfunction!(atlas::read_again, module)?)?;
     module.add_function(wrap_pyfunction!(sweep::sweep_again, module)?)?;
     module.add_function(wrap_pyfunction!(run_command, module)?)

@@ -40,6 +40,18 @@ pub fn make_linkage_again(
     into_object(py, linkage)
 }
 
+/// Makes a circuit again that was pickled, by the arguments for its linkage and its index.
+#[pyfunction]
+#[pyo3(name = "_circuit")]
+pub fn make_circuit_again<'py>(
+    py: Python<'py>,
+    arguments: Bound<'py, PyTuple>,
+    index: usize,
+) -> PyResult<Bound<'py, PyAny>> {
+    let make = py.import("coupler_atlas._core")?.getattr("_linkage")?;
+    make.call1(arguments)?.getattr("circuits")?.get_item(index)
+}
+
 /// Makes a curve again that was pickled, by the arguments for its linkage and its index.
 #[pyfunction]
 #[pyo3(name = "_curve")]

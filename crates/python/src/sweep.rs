@@ -7,18 +7,19 @@ use arrow_array::ffi_stream::FFI_ArrowArrayStream;
 use arrow_array::{RecordBatch, RecordBatchReader};
 use arrow_schema::{ArrowError, SchemaRef};
 use coupler_atlas::output;
-use coupler_atlas::shard::{Division, MAX_SHARDS, Rows, TableKind, TableStream};
+use coupler_atlas::shard::{Division, MAX_SHARDS, Rows, TableColumn, TableKind, TableStream};
 use coupler_atlas::sweep::cells_of_division;
-use coupler_curves::family::MEASURES;
-use coupler_curves::problem::suggestion;
-use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
+use pyo3::exceptions::{PyKeyboardInterrupt, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyTuple};
 
 use crate::arrow::{self, Batch, arrow_error};
 use crate::atlas::ManifestArgument;
 use crate::error::OutputError;
+use crate::html;
+use crate::linkage::known_measure;
 use crate::manifest::{Manifest, PickledTables, Source};
+use crate::parameter_sets::{ParameterSets, without_places};
 use crate::task;
 
 /// The cells of a family, or a part of them, as a table that is solved as it is read.
@@ -187,6 +188,18 @@ impl Sweep {
         Ok((make, (&source.path, &*source.text, source.pickled_tables(), arguments.clone()).into_pyobject(py)?))
     }
 
+    /// The columns, with their types and units.
+    fn _repr_html_(&self) -> String {
+        let fields = self.schema.fields().iter().zip(self.stream.columns());
+        let row = |(field, column): (&std::sync::Arc<arrow_schema::Field>, &TableColumn)| {
+            let kind = format!("{:?}", field.data_type()).to_lowercase();
+            html::row("td", &[field.name(), &kind, column.unit, if column.is_optional { "may be missing" } else { "" }])
+        };
+        let rows: String = fields.map(row).collect();
+        let head = html::row("th", &["column", "type", "unit", ""]);
+        format!("<table><caption>{}</caption>{head}{rows}</table>", html::escaped(&self.__repr__()))
+    }
+
     /// The schema, for readers of Arrow data.
     fn __arrow_c_schema__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyCapsule>> {
         arrow::schema_capsule(py, &self.schema)
@@ -206,14 +219,26 @@ impl Sweep {
     }
 }
 
-/// Sweep a family of a manifest: a table with a row for each curve, solved as it is read.
+/// Sweep a family of a manifest, or parameter sets in memory: a table with a row for each curve, solved as it is read.
 ///
 /// The columns, their types and the rows are those of the tables that ``coupler-atlas sweep`` writes as Parquet. docs/output.md describes them.
 ///
 /// Parameters
 /// ----------
-/// manifest : path or Atlas
-///     The manifest.
+/// manifest : path or Atlas, optional
+///     The manifest. With `linkage` it is the path of one whose linkages can be named, too.
+/// linkage : str or Linkage, optional
+///     The id of a linkage for parameter sets of one's own; or a linkage that was made by its parameters, which are kept where `parameters` has no others.
+/// parameters : dict or table, optional
+///     The parameter sets, with `linkage`: a dictionary of arrays, or a table of pandas, Polars, PyArrow or DuckDB, or a structured array. A column is
+///     named by a parameter of the linkage, or by another name for `where` and expressions. In a dictionary a number holds for all sets, and so
+///     does an expression, ``{"crank": cranks, "coupler": "3 * crank"}``.
+/// where : str, optional
+///     The condition for rows, with `linkage`.
+/// samples : int, optional
+///     How many points a curve has, with `linkage`; by default one for every two degrees, as in manifests.
+/// circuits : {"start", "all"}, optional
+///     Only the circuit through the start pose, or all, with `linkage`; by default what the linkage says.
 /// family : str, optional
 ///     The id of the family; needed if the manifest has several, for each has columns of its own.
 /// shard : (int, int), optional
@@ -237,13 +262,19 @@ impl Sweep {
 /// ManifestError
 ///     The manifest has errors.
 /// ValueError
-///     There is no such family, part or measure.
+///     There is no such family, part or measure, or a value of the parameters is wrong.
 #[pyfunction]
-#[pyo3(signature = (manifest, *, family=None, shard=None, cells=None, points=false, measures=None, progress=None))]
+#[pyo3(signature = (manifest=None, *, linkage=None, parameters=None, r#where=None, samples=None, circuits=None, family=None, shard=None, cells=None,
+                    points=false, measures=None, progress=None))]
 #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
-pub fn sweep(
-    py: Python,
-    manifest: ManifestArgument,
+pub fn sweep<'py>(
+    py: Python<'py>,
+    manifest: Option<ManifestArgument<'py>>,
+    linkage: Option<Bound<'py, PyAny>>,
+    parameters: Option<Bound<'py, PyAny>>,
+    r#where: Option<String>,
+    samples: Option<i64>,
+    circuits: Option<String>,
     family: Option<String>,
     shard: Option<[i64; 2]>,
     cells: Option<[i64; 2]>,
@@ -251,12 +282,40 @@ pub fn sweep(
     measures: Option<Vec<String>>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Sweep> {
-    let measures =
-        measures.map(|names| names.into_iter().map(known_measure).collect::<PyResult<Vec<_>>>()).transpose()?;
+    measures.iter().flatten().try_for_each(|name| known_measure("measures", name))?;
     // Whether it can be shown is found out when it is read.
     py.import("coupler_atlas._progress")?.getattr("reporter")?.call1((&progress,))?;
-    let source = manifest.source(py)?;
-    let sweep = make_sweep(py, source, family, (shard, cells), points, measures)?;
+    let of_linkage = [
+        ("parameters", parameters.is_some()),
+        ("where", r#where.is_some()),
+        ("samples", samples.is_some()),
+        ("circuits", circuits.is_some()),
+    ];
+    let sweep = match (manifest, linkage) {
+        (manifest, Some(linkage)) => {
+            let path = match &manifest {
+                None => None,
+                Some(ManifestArgument::Path(path)) => Some(path.as_path()),
+                Some(ManifestArgument::Atlas(_)) => {
+                    let message = "linkage: give the path of the manifest that has it in place of an Atlas";
+                    return Err(PyValueError::new_err(message));
+                }
+            };
+            let sets = ParameterSets { linkage, parameters, condition: r#where, samples, circuits };
+            make_sweep(py, sets.source(py, path)?, family, (shard, cells), points, measures)
+                .map_err(|error| without_places(py, error))?
+        }
+        (None, None) => {
+            let message = "give a manifest, or linkage=… with parameters=…";
+            return Err(PyTypeError::new_err(message));
+        }
+        (Some(manifest), None) => {
+            if let Some((name, _)) = of_linkage.into_iter().find(|(_, is_given)| *is_given) {
+                return Err(PyValueError::new_err(format!("{name} is for linkage=…: a manifest has its own")));
+            }
+            make_sweep(py, manifest.source(py)?, family, (shard, cells), points, measures)?
+        }
+    };
     Ok(Sweep { progress, ..sweep })
 }
 
@@ -328,15 +387,5 @@ fn division(shard: Option<[i64; 2]>, cells: Option<[i64; 2]>) -> PyResult<Divisi
                 "cells=({first}, {last}): give the numbers of the first and the last cell, counted from 1, as in (1, 1000)"
             )),
         },
-    }
-}
-
-fn known_measure(name: String) -> PyResult<String> {
-    let known: Vec<&str> = MEASURES.iter().flat_map(|measure| measure.names()).collect();
-    match known.contains(&name.as_str()) {
-        true => Ok(name),
-        false => {
-            Err(PyValueError::new_err(format!("measures: unknown measure `{name}`: {}", suggestion(&name, &known))))
-        }
     }
 }

@@ -91,8 +91,8 @@ def test_positions_at_chosen_inputs() -> None:
     assert np.allclose(twice.positions("B", at=twice.inputs), twice.positions("B"), atol=1e-9)
     geared = ca.linkage("geared-five-bar", n=2, m=3).circuits[0]
     assert np.allclose(geared.positions("B", at=geared.inputs + 1080), geared.positions("B"), atol=1e-9)
-    with pytest.raises(TypeError, match="give a list or an array"):
-        circuit.positions("M", at=30)
+    with pytest.raises(TypeError, match="give a number, or a list or an array"):
+        circuit.positions("M", at="thirty")
     rocker = ca.FourBar(frame=2, crank=2.59, coupler=1, rocker=2.59)
     circuit = rocker.circuits[0]
     assert np.allclose(circuit.positions("B", at=[360 + sum(circuit.limits) / 2]), circuit.positions("B", at=[sum(circuit.limits) / 2]))

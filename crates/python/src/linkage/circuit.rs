@@ -12,9 +12,11 @@ use numpy::{AllowTypeChange, PyArray1, PyArray2, PyArrayLike1};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
+use pyo3::types::PyTuple;
 
-use super::curve::{branches_of, rates_of};
+use super::curve::{branches_of, linkage_of_joint, rates_of};
 use super::solution::{Solution, limits_of};
+use crate::argument::is_number;
 use crate::arrays;
 
 /// A circuit: a motion of the whole linkage without disassembly.
@@ -59,10 +61,41 @@ impl Circuit {
         &self,
         py: Python<'py>,
         joint: &str,
+        at: Option<Bound<'py, PyAny>>,
         rate: impl Fn(&motion::JointDerivatives, JointId) -> Vector + Send + Sync,
-    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    ) -> PyResult<Bound<'py, PyAny>> {
         let (joint, (solved, circuit)) = (self.joint(joint)?, self.parts()?);
-        arrays::rows(py, py.detach(|| rates_of(solved, circuit, joint, rate)), 2)
+        match at {
+            Some(at) => {
+                let (linkage, joint) = linkage_of_joint(solved, joint);
+                self.at(&at, |pass, input| rate(&motion::JointDerivatives::on_pass(&linkage, pass, input), joint))
+            }
+            None => Ok(arrays::rows(py, py.detach(|| rates_of(solved, circuit, joint, rate)), 2)?.into_any()),
+        }
+    }
+
+    /// Vectors at inputs: of a single one of shape (2,), and of an array of shape (n, 2).
+    fn at<'py>(
+        &self,
+        at: &Bound<'py, PyAny>,
+        vector: impl Fn(&motion::Pass, f64) -> Vector,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let (py, (solved, circuit)) = (at.py(), self.parts()?);
+        let turn = match solved.linkage.input() {
+            Input::Angle { turns } => Some(360.0 * f64::from(turns)),
+            Input::Length => None,
+        };
+        let values = |input: f64| {
+            let found = pass_at(circuit, input, turn).map(|(pass, input)| vector(pass, input));
+            found.map_or([f64::NAN; 2], |vector| [vector.x, vector.y])
+        };
+        if is_number(at) {
+            return Ok(arrays::column(py, values(at.extract()?).to_vec()).into_any());
+        }
+        let Ok(inputs) = at.extract::<PyArrayLike1<f64, AllowTypeChange>>() else {
+            return Err(PyTypeError::new_err("at: give a number, or a list or an array of inputs, as in at=[0, 30]"));
+        };
+        Ok(arrays::rows(py, inputs.as_array().iter().flat_map(|input| values(*input)).collect(), 2)?.into_any())
     }
 }
 
@@ -113,45 +146,46 @@ impl Circuit {
     /// ----------
     /// joint : str
     ///     Its name, one of `Linkage.joints`.
-    /// at : array, optional
-    ///     The inputs, in degrees or units of length, in place of those of the samples. Between limits the circuit passes an input on several
-    ///     branches: the position is that of the first pass. Beyond the limits it is NaN.
+    /// at : float or array, optional
+    ///     The inputs, in degrees or units of length, in place of those of the samples; of a single one the array has the shape (2,). Between limits
+    ///     the circuit passes an input on several branches: the position is that of the first pass. Beyond the limits it is NaN.
     #[pyo3(signature = (joint, at=None))]
     fn positions<'py>(
         &self,
         py: Python<'py>,
         joint: &str,
         at: Option<Bound<'py, PyAny>>,
-    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    ) -> PyResult<Bound<'py, PyAny>> {
         let (joint, (solved, circuit)) = (self.joint(joint)?, self.parts()?);
-        let Some(at) = at else { return arrays::points(py, circuit.points(joint), circuit.len()) };
-        let turn = match solved.linkage.input() {
-            Input::Angle { turns } => Some(360.0 * f64::from(turns)),
-            Input::Length => None,
-        };
-        let Ok(at) = at.extract::<PyArrayLike1<f64, AllowTypeChange>>() else {
-            return Err(PyTypeError::new_err("at: give a list or an array of inputs, as in at=[0, 30]"));
-        };
-        let inputs: Vec<f64> = at.as_array().iter().copied().collect();
-        let points: Vec<Point> = inputs
-            .iter()
-            .map(|input| match pass_at(circuit, *input, turn) {
-                Some((pass, input)) => motion::pose(&solved.linkage, pass, input)[joint],
-                None => Point::new(f64::NAN, f64::NAN),
-            })
-            .collect();
-        arrays::points(py, points.into_iter(), inputs.len())
+        let Some(at) = at else { return Ok(arrays::points(py, circuit.points(joint), circuit.len())?.into_any()) };
+        self.at(&at, |pass, input| {
+            let point = motion::pose(&solved.linkage, pass, input)[joint];
+            Vector::new(point.x, point.y)
+        })
     }
 
-    /// The velocities of a joint, by its name: an array of shape (n, 2), per radian, or unit of length, of the input; infinite at limits.
-    fn velocities<'py>(&self, py: Python<'py>, joint: &str) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        self.rates(py, joint, motion::JointDerivatives::velocity)
+    /// The velocities of a joint, by its name: an array of shape (n, 2), per radian, or unit of length, of the input; infinite at limits. With `at`
+    /// they are those at other inputs, as of `positions`.
+    #[pyo3(signature = (joint, at=None))]
+    fn velocities<'py>(
+        &self,
+        py: Python<'py>,
+        joint: &str,
+        at: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.rates(py, joint, at, motion::JointDerivatives::velocity)
     }
 
     /// The accelerations of a joint for a constant rate of the input, by its name: an array of shape (n, 2), per radian squared, or unit of
-    /// length squared, of the input; infinite at limits.
-    fn accelerations<'py>(&self, py: Python<'py>, joint: &str) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        self.rates(py, joint, motion::JointDerivatives::acceleration)
+    /// length squared, of the input; infinite at limits. With `at` they are those at other inputs, as of `positions`.
+    #[pyo3(signature = (joint, at=None))]
+    fn accelerations<'py>(
+        &self,
+        py: Python<'py>,
+        joint: &str,
+        at: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.rates(py, joint, at, motion::JointDerivatives::acceleration)
     }
 
     /// The transmission angles of a four-bar at the samples: an array of shape (n,), in degrees from 0 to 180; NaN of other linkages.
@@ -164,6 +198,11 @@ impl Circuit {
             transmission_angle(linkage, &pose).unwrap_or(f64::NAN)
         };
         Ok(arrays::column(py, (0..circuit.len()).map(angle).collect()))
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let make = py.import("coupler_atlas._core")?.getattr("_circuit")?;
+        Ok((make, (self.solution.recipe.arguments()?, self.index).into_pyobject(py)?))
     }
 
     /// The number of samples.

@@ -218,9 +218,10 @@ impl Curve {
         Ok(arrays::column(py, values))
     }
 
-    /// All measures of the curve by name, as of ``Linkage.measures``.
-    fn measures<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        measures_of(py, &self.solution, self.index)
+    /// The measures of the curve by name, as of ``Linkage.measures``: all, or ``only=["length"]``, which takes the time of these alone.
+    #[pyo3(signature = (*, only=None))]
+    fn measures<'py>(&self, py: Python<'py>, only: Option<Vec<String>>) -> PyResult<Bound<'py, PyDict>> {
+        measures_of(py, &self.solution, self.index, only)
     }
 
     /// A plate of the curve with its linkage, as SVG.
@@ -309,6 +310,14 @@ pub(super) fn branches_of<'py>(
     arrays::rows(py, (0..circuit.len()).flat_map(|k| (0..dyads).map(side(k))).collect(), dyads)
 }
 
+/// The linkage without the traced points but a joint, if it is one of them, and the joint in it.
+pub(super) fn linkage_of_joint(solved: &SolvedCell, joint: JointId) -> (Linkage, JointId) {
+    match solved.linkage.traced.contains(&joint) {
+        true => solved.linkage.with_one_point(joint),
+        false => (solved.linkage.clone(), joint),
+    }
+}
+
 /// The derivatives of the positions of a joint with respect to the input that a function takes: components x and y in turn.
 pub(super) fn rates_of(
     solved: &SolvedCell,
@@ -316,10 +325,7 @@ pub(super) fn rates_of(
     joint: JointId,
     rate: impl Fn(&motion::JointDerivatives, JointId) -> Vector,
 ) -> Vec<f64> {
-    let (linkage, joint) = match solved.linkage.traced.contains(&joint) {
-        true => solved.linkage.with_one_point(joint),
-        false => (solved.linkage.clone(), joint),
-    };
+    let (linkage, joint) = linkage_of_joint(solved, joint);
     let rates = |sample| {
         let rate = rate(&circuit.derivatives(&linkage, sample), joint);
         [rate.x, rate.y]

@@ -21,8 +21,8 @@ pub use named::NamedLinkage;
 pub use numeric_linkage::{DEFAULT_SAMPLES, Linkage};
 pub use recipe::Recipe;
 pub use sextic::Sextic;
-pub use solution::into_text;
-pub use templates::template_of_text;
+pub use solution::{into_text, known_measure};
+pub use templates::{named_template, template_of_text};
 
 use std::path::PathBuf;
 
@@ -42,6 +42,7 @@ use crate::argument::natural;
 use crate::arrays;
 use crate::error::LinkageError;
 use crate::file::save_svg;
+use catalogue::given_values;
 use numeric_linkage::checked_samples;
 use solution::{Solution, limits_of, measures_of, sampler};
 
@@ -166,10 +167,24 @@ impl Linkage {
     /// All measures of a curve by name: numbers, words, and None where a measure does not apply.
     ///
     /// Angles are in degrees and named so (``_deg``), lengths in the unit of the linkage, rates per radian. docs/measures.md defines them.
-    #[pyo3(signature = (*, trace=1, circuit=1))]
-    fn measures<'py>(&self, py: Python<'py>, trace: i64, circuit: i64) -> PyResult<Bound<'py, PyDict>> {
+    /// All are computed once and kept; ``only=["length", "area"]`` takes the time of these alone.
+    #[pyo3(signature = (*, trace=1, circuit=1, only=None))]
+    fn measures<'py>(
+        &self,
+        py: Python<'py>,
+        trace: i64,
+        circuit: i64,
+        only: Option<Vec<String>>,
+    ) -> PyResult<Bound<'py, PyDict>> {
         let index = self.solution.curve_index(trace, circuit)?;
-        measures_of(py, &self.solution, index)
+        measures_of(py, &self.solution, index, only)
+    }
+
+    /// The same linkage with other values of some parameters, numbers or expressions; the others, the samples and the circuits stay. In a cell of an
+    /// atlas what its family derives from them follows.
+    #[pyo3(signature = (**parameters))]
+    fn replace(&self, py: Python, parameters: Option<Bound<PyDict>>) -> PyResult<Py<PyAny>> {
+        into_object(py, self.with_values(given_values(&self.solution.family.template, parameters)?)?)
     }
 
     /// The Roberts-Chebyshev cognates: the two other four-bars that trace the same curve, where they do.

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use coupler_curves::family::{Family, Sampling};
 use coupler_curves::motion::MAX_SAMPLES;
+use coupler_curves::problem::suggestion;
 use coupler_curves::template::{CircuitSelection, Template};
 use coupler_find::Mechanism;
 use pyo3::exceptions::PyValueError;
@@ -13,6 +14,7 @@ use pyo3::types::PyTuple;
 
 use super::recipe::Recipe;
 use super::solution::Solution;
+use super::templates::template_of_text;
 use crate::error::LinkageError;
 
 /// The number of samples of a circuit where none is given, as in `inspect`.
@@ -62,6 +64,53 @@ impl Linkage {
             .map_err(|errors| LinkageError::new_err(format!("{id}: {}", errors.to_string().replace('\n', "; "))))?;
         let recipe = Recipe::Linkage { name, manifest, samples, circuits: circuits.map(str::to_owned), values };
         Ok(Linkage::new(family, source, recipe))
+    }
+
+    /// What it was made from.
+    pub fn recipe(&self) -> &Recipe {
+        &self.solution.recipe
+    }
+
+    /// The same with other values of some of its parameters, or of other names of its family.
+    pub(super) fn with_values(&self, given: Vec<(String, f64)>) -> PyResult<Linkage> {
+        let Solution { family, source, recipe, .. } = &*self.solution;
+        let replaced = |values: &[(String, f64)]| -> Vec<(String, f64)> {
+            // In the same order, so that equal linkages are equal.
+            let mut values = values.to_vec();
+            for (name, value) in &given {
+                match values.iter_mut().find(|(own, _)| own == name) {
+                    Some(own) => own.1 = *value,
+                    None => values.push((name.clone(), *value)),
+                }
+            }
+            values
+        };
+        if let Recipe::Linkage { name, manifest, samples, circuits, values } = recipe {
+            let template = template_of_text(name, manifest.as_deref())?;
+            return Linkage::of_template(template, manifest.clone(), replaced(values), (*samples, circuits.as_deref()));
+        }
+        let id = &family.id;
+        let slot = |name: &str| {
+            let known: Vec<&str> = family.names.iter().map(String::as_str).collect();
+            known.iter().position(|own| *own == name).ok_or_else(|| {
+                LinkageError::new_err(format!("{id}: there is no parameter `{name}`: {}", suggestion(name, &known)))
+            })
+        };
+        let own: Vec<(String, f64)> =
+            family.case(0).into_iter().map(|(slot, value)| (family.names[slot].clone(), value)).collect();
+        let values = replaced(&own);
+        let case = values.iter().map(|(name, value)| Ok((slot(name)?, *value))).collect::<PyResult<_>>()?;
+        let changed = family.with_case(case);
+        if let Some(error) = changed.cell_errors(&changed.cell(0)).first() {
+            return Err(LinkageError::new_err(format!("{id}: {error}")));
+        }
+        let recipe = match recipe.clone() {
+            Recipe::Cell { path, text, family, .. } => {
+                Recipe::Cell { path, text, family, number: 0, values: Some(values) }
+            }
+            other => other,
+        };
+        Ok(Linkage::new(changed, source.clone(), recipe))
     }
 
     /// Its parameters, and why it cannot be assembled if it cannot.

@@ -19,7 +19,8 @@ pub enum Recipe {
         values: Vec<(String, f64)>,
     },
     /// A cell of an atlas, by the path and the text of its manifest, its family, and its number. If the manifest names tables, the text is that of the
-    /// family alone, see [`coupler_atlas::manifest::PlannedFamily::excerpt`], and the values are given that the cell has.
+    /// family alone, see [`coupler_atlas::manifest::PlannedFamily::excerpt`], and the values are given that the cell has. The number is 0 of one with
+    /// other values than any cell.
     Cell { path: PathBuf, text: Arc<str>, family: String, number: usize, values: Option<Vec<(String, f64)>> },
     /// A linkage that was found and placed, or over a range of its input: it is equal to itself only.
     Found,

@@ -7,6 +7,7 @@ use coupler_curves::family::{Family, MEASURES, Sampling};
 use coupler_curves::linkage::{Input, PlacedFourBar};
 use coupler_curves::measure::{BOOLEANS, MeasureSet, Value};
 use coupler_curves::motion::{Circuit, Sampler};
+use coupler_curves::problem::suggestion;
 use coupler_curves::solve::{SolvedCell, Solver};
 use coupler_drawing::page::{Options, PoseChoice};
 use coupler_drawing::plate::{self, PAPER};
@@ -50,7 +51,7 @@ impl Solution {
 
     /// The number of its cell, if it is one of an atlas.
     pub(super) fn number(&self) -> Option<usize> {
-        if let Recipe::Cell { number, .. } = &self.recipe { Some(*number) } else { None }
+        if let Recipe::Cell { number: number @ 1.., .. } = &self.recipe { Some(*number) } else { None }
     }
 
     /// Whether two are the same linkage.
@@ -138,11 +139,38 @@ pub fn into_text(bytes: Vec<u8>) -> String {
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
-pub(super) fn measures_of<'py>(py: Python<'py>, solution: &Solution, index: usize) -> PyResult<Bound<'py, PyDict>> {
-    let solved = solution.measured(py)?;
+/// The measures of a curve by name: all of them, or `only` those of these names, in the order of the table.
+///
+/// # Errors
+/// A name is that of no measure.
+pub(super) fn measures_of<'py>(
+    py: Python<'py>,
+    solution: &Solution,
+    index: usize,
+    only: Option<Vec<String>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let only = match only {
+        Some(names) => {
+            names.iter().try_for_each(|name| known_measure("only", name))?;
+            Some(MeasureSet::of(|measure| measure.names().any(|own| names.iter().any(|name| name == own))))
+        }
+        None => None,
+    };
+    // Few measures take less than all by far, and are not kept.
+    let some = match (only, solution.measured.get()) {
+        (Some(only), None) => py.detach(|| solution.solver().measuring(only).solve(0)),
+        _ => None,
+    };
+    let solved = match &some {
+        Some(solved) => solved,
+        None => solution.measured(py)?,
+    };
     let is_driven_by_length = solved.linkage.input() == Input::Length;
     let found = PyDict::new(py);
-    for (measure, value) in MEASURES.iter().zip(&solved.curves[index].values) {
+    for (k, (measure, value)) in MEASURES.iter().zip(&solved.curves[index].values).enumerate() {
+        if only.is_some_and(|only| !only.contains(k)) {
+            continue;
+        }
         let name = measure.name_for(is_driven_by_length);
         match value {
             Value::Number(number) => found.set_item(name, number)?,
@@ -155,6 +183,18 @@ pub(super) fn measures_of<'py>(py: Python<'py>, solution: &Solution, index: usiz
         }
     }
     Ok(found)
+}
+
+/// Checks that a name is that of a measure.
+///
+/// # Errors
+/// It is not; `argument` has it.
+pub fn known_measure(argument: &str, name: &str) -> PyResult<()> {
+    if MEASURES.iter().any(|measure| measure.names().any(|own| own == name)) {
+        return Ok(());
+    }
+    let known: Vec<&str> = MEASURES.iter().flat_map(|measure| measure.names()).collect();
+    Err(PyValueError::new_err(format!("{argument}: unknown measure `{name}`: {}", suggestion(name, &known))))
 }
 
 pub(super) fn limits_of(circuit: &Circuit) -> Option<(f64, f64)> {

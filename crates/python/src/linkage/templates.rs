@@ -17,7 +17,16 @@ use crate::file::read_text;
 /// Finds a linkage by its id, of a manifest and of the catalogue; with the text of the manifest if it is of it.
 pub fn named_template(py: Python, name: &str, manifest: Option<&Path>) -> PyResult<(Arc<Template>, Option<Arc<str>>)> {
     let Some(path) = manifest else { return Ok((template(name, &[])?, None)) };
-    let text = read_text(py, path)?;
+    template_in_text(py, name, path, read_text(py, path)?)
+}
+
+/// The same of the text of a manifest; the path is for messages.
+pub fn template_in_text(
+    py: Python,
+    name: &str,
+    path: &Path,
+    text: String,
+) -> PyResult<(Arc<Template>, Option<Arc<str>>)> {
     let (own, problems) = manifest::parse_linkages(&text);
     if problems.iter().any(|problem| problem.is_error()) {
         return Err(error::manifest_error(py, path, &text, &problems));

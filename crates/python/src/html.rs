@@ -1,0 +1,24 @@
+//! What notebooks show as HTML.
+
+/// A text as HTML, also in an attribute.
+pub fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+/// A row of a table, of cells `td` or `th`.
+pub fn row(cell: &str, texts: &[&str]) -> String {
+    let cells: String = texts.iter().map(|text| format!("<{cell}>{}</{cell}>", escaped(text))).collect();
+    format!("<tr>{cells}</tr>")
+}
+
+/// A drawing so many pixels wide, apart from all others: ids in SVG hold for a whole notebook.
+pub fn picture(svg: &str, title: &str, width: usize) -> String {
+    let address: String = svg.bytes().fold(String::new(), |mut text, byte| {
+        match byte {
+            b'%' | b'"' | b'#' | b'&' | b'<' | b'>' | b'\'' | 0..=31 | 127.. => text += &format!("%{byte:02X}"),
+            _ => text.push(char::from(byte)),
+        }
+        text
+    });
+    format!("<img src=\"data:image/svg+xml,{address}\" width=\"{width}\" alt=\"{0}\" title=\"{0}\">", escaped(title))
+}
