@@ -242,9 +242,9 @@ fn points_are_samples_to_a_65535th_of_the_extent() {
                 // Half a step either way, and the rounding of the sum.
                 let near = |a: f64, b: f64, size: f64| (a - b).abs() <= size * (0.5 / 65535.0 + 1e-12);
                 let mut next = 0;
-                for k in first..first + counts[curve] {
+                for point in &points[first..first + counts[curve]] {
                     let unpack = |step: i64, from: f64, to: f64| from + (to - from) * step as f64 / 65535.0;
-                    let [x, y] = [unpack(points[k][0], x0, x1), unpack(points[k][1], y0, y1)];
+                    let [x, y] = [unpack(point[0], x0, x1), unpack(point[1], y0, y1)];
                     // In the order of the samples.
                     let found = samples[next..].iter().position(|p| near(p[0], x, x1 - x0) && near(p[1], y, y1 - y0));
                     next += found.unwrap_or_else(|| panic!("{id}: no sample at {x}, {y}")) + 1;
