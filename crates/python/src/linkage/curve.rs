@@ -20,6 +20,7 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyTuple};
 
+use super::sensitivity;
 use super::solution::{Solution, into_text, limits_of, measures_of};
 use crate::arrays;
 use crate::error::Error;
@@ -222,6 +223,17 @@ impl Curve {
     #[pyo3(signature = (*, only=None))]
     fn measures<'py>(&self, py: Python<'py>, only: Option<Vec<String>>) -> PyResult<Bound<'py, PyDict>> {
         measures_of(py, &self.solution, self.index, only)
+    }
+
+    /// How far the curve moves, across itself, where every length of the linkage is off by `error`: a dictionary with the `worst_case` and the
+    /// `root_sum_square`, and by the names of the lengths `sensitivities`, the greatest move for a unit of each, and `straight_sensitivities`, the
+    /// change of the straight portion's length. None for a point that stands still, and at a change point.
+    #[pyo3(signature = (error=1.0))]
+    fn tolerance<'py>(&self, py: Python<'py>, error: f64) -> PyResult<Option<Bound<'py, PyDict>>> {
+        if !(error > 0.0 && error.is_finite()) {
+            return Err(PyValueError::new_err(format!("error={error}: give a positive length, as in tolerance(0.1)")));
+        }
+        sensitivity::tolerance(py, &self.solution, self.index, error)
     }
 
     /// A plate of the curve with its linkage, as SVG.

@@ -8,6 +8,7 @@ mod four_bar;
 mod named;
 mod numeric_linkage;
 mod recipe;
+mod sensitivity;
 mod sextic;
 mod solution;
 mod templates;
