@@ -14,7 +14,7 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyTuple};
 
-use super::curve::{branches_of, linkage_of_joint, rates_of};
+use super::curve::{branches_of, linkage_of_joint, pickle_arguments, rates_of};
 use super::sensitivity::{neighbours, position_rates};
 use super::solution::{Solution, limits_of};
 use crate::argument::is_number;
@@ -250,7 +250,7 @@ impl Circuit {
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         let make = py.import("coupler_atlas._core")?.getattr("_circuit")?;
-        Ok((make, (self.solution.recipe.arguments()?, self.index).into_pyobject(py)?))
+        Ok((make, (pickle_arguments(py, &self.solution)?, self.index).into_pyobject(py)?))
     }
 
     /// The number of samples.

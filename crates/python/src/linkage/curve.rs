@@ -20,6 +20,7 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyTuple};
 
+use super::recipe::Arguments;
 use super::sensitivity;
 use super::solution::{Solution, into_text, limits_of, measures_of};
 use crate::arrays;
@@ -82,6 +83,18 @@ impl Curve {
     fn text(&self, py: Python, format: CurveFormat) -> PyResult<String> {
         self.file(py, Format::Text(format)).map(into_text)
     }
+}
+
+/// The arguments from which `make_linkage_again` makes a linkage: where it was found, those of a cell of the manifest with its numbers in full.
+///
+/// # Errors
+/// It was found, and cannot be assembled.
+pub(super) fn pickle_arguments(py: Python, solution: &Arc<Solution>) -> PyResult<Arguments> {
+    if let Some(arguments) = solution.recipe.arguments() {
+        return Ok(arguments);
+    }
+    let text = Curve::new(Arc::clone(solution), 0).text(py, CurveFormat::Toml)?;
+    Ok((Some(PathBuf::from("found.toml")), Some(text), solution.family.id.clone(), 1, None, None))
 }
 
 #[pymethods]
@@ -297,7 +310,7 @@ impl Curve {
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         let make = py.import("coupler_atlas._core")?.getattr("_curve")?;
-        Ok((make, (self.solution.recipe.arguments()?, self.index).into_pyobject(py)?))
+        Ok((make, (pickle_arguments(py, &self.solution)?, self.index).into_pyobject(py)?))
     }
 
     fn __repr__(&self) -> PyResult<String> {

@@ -267,6 +267,6 @@ impl Linkage {
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         let make = py.import("coupler_atlas._core")?.getattr("_linkage")?;
-        Ok((make, self.solution.recipe.arguments()?.into_pyobject(py)?))
+        Ok((make, curve::pickle_arguments(py, &self.solution)?.into_pyobject(py)?))
     }
 }
