@@ -1,10 +1,12 @@
 //! Atlases compared with a fresh run.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use coupler_atlas::check;
 use coupler_atlas::cli;
-use coupler_atlas::manifest::PartialTolerances;
+use coupler_atlas::manifest::{PartialTolerances, tolerated_names};
+use coupler_curves::problem::suggestion;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -99,6 +101,10 @@ impl Report {
 ///     The tolerances of coordinates, in the unit of the lengths and relative to the curve's extent; by default those of the manifest.
 /// measure_rtol : float, optional
 ///     The relative tolerance of measures.
+/// measures : dict, optional
+///     The relative tolerances of single measures or columns, by their names.
+/// ignore : list of str, optional
+///     Measures and columns that are not compared.
 /// progress : bool or callable, optional
 ///     None shows a bar in notebooks and terminals, True always, False never; a function is called with (done, total, name).
 ///
@@ -112,7 +118,7 @@ impl Report {
 /// OutputError
 ///     The record cannot be read, or a run is writing to the folder.
 #[pyfunction]
-#[pyo3(name = "check", signature = (manifest, against, *, only=None, atol=None, rtol=None, measure_rtol=None, progress=None))]
+#[pyo3(name = "check", signature = (manifest, against, *, only=None, atol=None, rtol=None, measure_rtol=None, measures=None, ignore=None, progress=None))]
 #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
 pub fn check_atlas(
     py: Python,
@@ -122,19 +128,29 @@ pub fn check_atlas(
     atol: Option<f64>,
     rtol: Option<f64>,
     measure_rtol: Option<f64>,
+    measures: Option<BTreeMap<String, f64>>,
+    ignore: Option<Vec<String>>,
     progress: Option<Bound<PyAny>>,
 ) -> PyResult<Report> {
-    for (name, value) in [("atol", atol), ("rtol", rtol), ("measure_rtol", measure_rtol)] {
+    let mut by_name = measures.unwrap_or_default();
+    let single = by_name.iter().map(|(name, value)| (name.as_str(), Some(*value)));
+    for (name, value) in [("atol", atol), ("rtol", rtol), ("measure_rtol", measure_rtol)].into_iter().chain(single) {
         if let Some(value) = value.filter(|value| value.is_nan() || *value < 0.0) {
             return Err(PyValueError::new_err(format!("{name}={value}: a tolerance is 0 or more")));
         }
+    }
+    by_name.extend(ignore.into_iter().flatten().map(|name| (name, f64::INFINITY)));
+    let known = tolerated_names();
+    if let Some(name) = by_name.keys().find(|name| !known.contains(&name.as_str())) {
+        let help = suggestion(name, &known);
+        return Err(PyValueError::new_err(format!("there is no measure or column `{name}`: {help}")));
     }
     let manifest = manifest.read(py)?;
     let only = argument::only(only)?;
     manifest.require_families(&only)?;
     let Manifest { plan, .. } = manifest;
     let result = task::run(py, progress.as_ref(), move |task: &Task| {
-        let tolerances = PartialTolerances { atol, rtol, measure_rtol, ..PartialTolerances::default() };
+        let tolerances = PartialTolerances { atol, rtol, measure_rtol, by_name };
         let options = check::Options { only, tolerances, interrupt: task.interrupt.clone() };
         check::check_atlas(&plan, &against, &options, &mut |event| match event {
             check::Event::Begin { family, pages } => task.begin(family, pages),

@@ -174,6 +174,10 @@ def test_arguments_of_render_and_check_are_checked(manifest, tmp_path) -> None:
         ca.render(path, only=["wat"])
     with pytest.raises(ValueError, match="atol=-1"):
         ca.check(path, against=tmp_path, atol=-1)
+    with pytest.raises(ValueError, match="`lenght`: did you mean `length`"):
+        ca.check(path, against=tmp_path, ignore=["lenght"])
+    with pytest.raises(ValueError, match="length=-1"):
+        ca.check(path, against=tmp_path, measures={"length": -1})
     with pytest.raises(ca.OutputError, match="run.json"):
         ca.check(path, against=tmp_path / "nothing")
     (tmp_path / "file").write_text("")

@@ -1,5 +1,7 @@
 """The search, on curves whose linkage is known."""
 
+import pickle
+
 import numpy as np
 import pytest
 
@@ -124,6 +126,10 @@ def test_the_dimensions_of_a_linkage_are_found() -> None:
     best = found[0]
     assert best.deviation < 1e-6 and best.name is None and best.linkage.id == "slider-crank" and len(best.inputs) == 2
     assert best.linkage.parameters["offset"] == pytest.approx(0.2 * best.linkage.parameters["crank"])
+    linkage = best.linkage
+    again = pickle.loads(pickle.dumps(linkage))
+    assert np.array_equal(again.curve(), linkage.curve()) and again.parameters == pytest.approx(linkage.parameters)
+    assert len(pickle.loads(pickle.dumps(linkage.circuits[0]))) == len(linkage.circuits[0])
     check_placement(best)
     assert "slider-crank" in found.toml()
     same = ca.find(path, closed=True, linkage="four-bar", index=5000, effort="quick", top=1)[0]

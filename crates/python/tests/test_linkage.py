@@ -281,3 +281,29 @@ def test_a_linkage_that_cannot_be_assembled_is_not_drawn() -> None:
     assert short.curves == () and short.circuits == () and short._repr_svg_() is None
     with pytest.raises(ca.LinkageError):
         short.svg()
+
+
+def test_sensitivities_are_those_of_linkages_that_differ() -> None:
+    values = {"frame": 4.0, "crank": 1.0, "coupler": 3.0, "rocker": 3.5, "along": 1.5, "across": 1.0}
+    bar = ca.linkage("four-bar", **values)
+    angles = [30.0, 200.0]
+    found = bar.circuits[0].sensitivities("M", at=angles)
+    assert list(found) == ["C x", "C y", "OA", "AB", "CB", "M along", "M across"]
+    for name, parameter in [("C x", "frame"), ("OA", "crank"), ("AB", "coupler"), ("CB", "rocker"), ("M across", "across")]:
+        low, high = [bar.replace(**{parameter: values[parameter] + step}) for step in (-1e-5, 1e-5)]
+        expected = (high.circuits[0].positions("M", at=angles) - low.circuits[0].positions("M", at=angles)) / 2e-5
+        assert np.abs(found[name] - expected).max() < 1e-8, name
+    single = bar.circuits[0].sensitivities("M", at=30)
+    assert single["OA"].shape == (2,) and np.array_equal(single["OA"], found["OA"][0])
+    assert bar.circuits[0].sensitivities("M")["OA"].shape == bar.curves[0].points.shape
+
+
+def test_tolerances_are_those_of_inspect() -> None:
+    curve = ca.linkage("evans", p=2.5, a=2.6).curves[0]
+    found = curve.tolerance(0.02)
+    assert found is not None and abs(found["worst_case"] - 0.2204) < 1e-4 and abs(found["root_sum_square"] - 0.09243) < 1e-5
+    assert max(found["sensitivities"], key=found["sensitivities"].get) == "CB"
+    with pytest.raises(ValueError, match="positive length"):
+        curve.tolerance(-1)
+    with pytest.raises(ca.LinkageError, match="no length is off by itself"):
+        ca.linkage("stephenson-ii-six-bar").curves[0].tolerance()

@@ -12,9 +12,10 @@ use numpy::{AllowTypeChange, PyArray1, PyArray2, PyArrayLike1};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
-use pyo3::types::PyTuple;
+use pyo3::types::{PyDict, PyTuple};
 
-use super::curve::{branches_of, linkage_of_joint, rates_of};
+use super::curve::{branches_of, linkage_of_joint, pickle_arguments, rates_of};
+use super::sensitivity::{neighbours, position_rates};
 use super::solution::{Solution, limits_of};
 use crate::argument::is_number;
 use crate::arrays;
@@ -80,23 +81,38 @@ impl Circuit {
         at: &Bound<'py, PyAny>,
         vector: impl Fn(&motion::Pass, f64) -> Vector,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let (py, (solved, circuit)) = (at.py(), self.parts()?);
+        let (is_single, places) = self.places(at)?;
+        let values = |place: Option<(&motion::Pass, f64)>| {
+            let found = place.map(|(pass, input)| vector(pass, input));
+            found.map_or([f64::NAN; 2], |vector| [vector.x, vector.y])
+        };
+        vectors(at.py(), is_single, places.into_iter().flat_map(values).collect())
+    }
+
+    /// The passes and inputs of a single input, or of several, with whether it is a single one.
+    fn places(&self, at: &Bound<PyAny>) -> PyResult<(bool, Vec<Place<'_>>)> {
+        let (solved, circuit) = self.parts()?;
         let turn = match solved.linkage.input() {
             Input::Angle { turns } => Some(360.0 * f64::from(turns)),
             Input::Length => None,
         };
-        let values = |input: f64| {
-            let found = pass_at(circuit, input, turn).map(|(pass, input)| vector(pass, input));
-            found.map_or([f64::NAN; 2], |vector| [vector.x, vector.y])
-        };
+        let place = |input: f64| pass_at(circuit, input, turn);
         if is_number(at) {
-            return Ok(arrays::column(py, values(at.extract()?).to_vec()).into_any());
+            return Ok((true, vec![place(at.extract()?)]));
         }
         let Ok(inputs) = at.extract::<PyArrayLike1<f64, AllowTypeChange>>() else {
             return Err(PyTypeError::new_err("at: give a number, or a list or an array of inputs, as in at=[0, 30]"));
         };
-        Ok(arrays::rows(py, inputs.as_array().iter().flat_map(|input| values(*input)).collect(), 2)?.into_any())
+        Ok((false, inputs.as_array().iter().map(|input| place(*input)).collect()))
     }
+}
+
+/// A pass and an input of it; `None` beyond the limits.
+type Place<'a> = Option<(&'a motion::Pass, f64)>;
+
+/// Vectors, x and y in turn: a single one of shape (2,), and several of shape (n, 2).
+fn vectors(py: Python, is_single: bool, values: Vec<f64>) -> PyResult<Bound<PyAny>> {
+    Ok(if is_single { arrays::column(py, values).into_any() } else { arrays::rows(py, values, 2)?.into_any() })
 }
 
 #[pymethods]
@@ -188,6 +204,38 @@ impl Circuit {
         self.rates(py, joint, at, motion::JointDerivatives::acceleration)
     }
 
+    /// The derivatives of the position of a joint by each length of the linkage, at the same input: a dictionary of arrays of shape (n, 2) by the names of
+    /// the lengths, as AB, or M along. They are in closed form, infinite at limits that the joint passes and NaN at change points. With `at` they
+    /// are those at other inputs, as of `positions`.
+    #[pyo3(signature = (joint, at=None))]
+    fn sensitivities<'py>(
+        &self,
+        py: Python<'py>,
+        joint: &str,
+        at: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let (joint, (solved, circuit)) = (self.joint(joint)?, self.parts()?);
+        let neighbours = neighbours(&self.solution, solved)?;
+        let (is_single, places) = match &at {
+            Some(at) => self.places(at)?,
+            None => {
+                let place = |k: usize| Some((&circuit.passes[circuit.pass_at(k)], circuit.inputs[k]));
+                (false, (0..circuit.len()).map(place).collect())
+            }
+        };
+        let rates = |place: Place| match place {
+            Some(place) => position_rates(solved, &neighbours, joint, place),
+            None => vec![[f64::NAN; 2]; neighbours.pairs.len()],
+        };
+        let rates: Vec<Vec<[f64; 2]>> = py.detach(|| places.into_iter().map(rates).collect());
+        let table = PyDict::new(py);
+        for (k, name) in neighbours.names.iter().enumerate() {
+            let values = rates.iter().flat_map(|own| own[k]).collect();
+            table.set_item(name, vectors(py, is_single, values)?)?;
+        }
+        Ok(table)
+    }
+
     /// The transmission angles of a four-bar at the samples: an array of shape (n,), in degrees from 0 to 180; NaN of other linkages.
     #[getter]
     fn transmission_angles<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
@@ -202,7 +250,7 @@ impl Circuit {
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         let make = py.import("coupler_atlas._core")?.getattr("_circuit")?;
-        Ok((make, (self.solution.recipe.arguments()?, self.index).into_pyobject(py)?))
+        Ok((make, (pickle_arguments(py, &self.solution)?, self.index).into_pyobject(py)?))
     }
 
     /// The number of samples.

@@ -20,6 +20,8 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyTuple};
 
+use super::recipe::Arguments;
+use super::sensitivity;
 use super::solution::{Solution, into_text, limits_of, measures_of};
 use crate::arrays;
 use crate::error::Error;
@@ -81,6 +83,18 @@ impl Curve {
     fn text(&self, py: Python, format: CurveFormat) -> PyResult<String> {
         self.file(py, Format::Text(format)).map(into_text)
     }
+}
+
+/// The arguments from which `make_linkage_again` makes a linkage: where it was found, those of a cell of the manifest with its numbers in full.
+///
+/// # Errors
+/// It was found, and cannot be assembled.
+pub(super) fn pickle_arguments(py: Python, solution: &Arc<Solution>) -> PyResult<Arguments> {
+    if let Some(arguments) = solution.recipe.arguments() {
+        return Ok(arguments);
+    }
+    let text = Curve::new(Arc::clone(solution), 0).text(py, CurveFormat::Toml)?;
+    Ok((Some(PathBuf::from("found.toml")), Some(text), solution.family.id.clone(), 1, None, None))
 }
 
 #[pymethods]
@@ -224,6 +238,17 @@ impl Curve {
         measures_of(py, &self.solution, self.index, only)
     }
 
+    /// How far the curve moves, across itself, where every length of the linkage is off by `error`: a dictionary with the `worst_case` and the
+    /// `root_sum_square`, and by the names of the lengths `sensitivities`, the greatest move for a unit of each, and `straight_sensitivities`, the
+    /// change of the straight portion's length. None for a point that stands still, and at a change point.
+    #[pyo3(signature = (error=1.0))]
+    fn tolerance<'py>(&self, py: Python<'py>, error: f64) -> PyResult<Option<Bound<'py, PyDict>>> {
+        if !(error > 0.0 && error.is_finite()) {
+            return Err(PyValueError::new_err(format!("error={error}: give a positive length, as in tolerance(0.1)")));
+        }
+        sensitivity::tolerance(py, &self.solution, self.index, error)
+    }
+
     /// A plate of the curve with its linkage, as SVG.
     fn svg(&self, py: Python) -> PyResult<String> {
         self.text(py, CurveFormat::Svg)
@@ -285,7 +310,7 @@ impl Curve {
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         let make = py.import("coupler_atlas._core")?.getattr("_curve")?;
-        Ok((make, (self.solution.recipe.arguments()?, self.index).into_pyobject(py)?))
+        Ok((make, (pickle_arguments(py, &self.solution)?, self.index).into_pyobject(py)?))
     }
 
     fn __repr__(&self) -> PyResult<String> {

@@ -8,6 +8,7 @@ mod four_bar;
 mod named;
 mod numeric_linkage;
 mod recipe;
+mod sensitivity;
 mod sextic;
 mod solution;
 mod templates;
@@ -266,6 +267,6 @@ impl Linkage {
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         let make = py.import("coupler_atlas._core")?.getattr("_linkage")?;
-        Ok((make, self.solution.recipe.arguments()?.into_pyobject(py)?))
+        Ok((make, curve::pickle_arguments(py, &self.solution)?.into_pyobject(py)?))
     }
 }

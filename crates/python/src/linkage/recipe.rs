@@ -3,9 +3,6 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use pyo3::exceptions::PyTypeError;
-use pyo3::prelude::*;
-
 /// What a linkage was made from.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Recipe {
@@ -22,30 +19,25 @@ pub enum Recipe {
     /// family alone, see [`coupler_atlas::manifest::PlannedFamily::excerpt`], and the values are given that the cell has. The number is 0 of one with
     /// other values than any cell.
     Cell { path: PathBuf, text: Arc<str>, family: String, number: usize, values: Option<Vec<(String, f64)>> },
-    /// A linkage that was found and placed, or over a range of its input: it is equal to itself only.
+    /// A linkage that was found and placed, or over a range of its input: it is equal to itself only, and pickled as the manifest that its curves export.
     Found,
 }
 
 /// The arguments of `make_linkage_again`.
-type Arguments = (Option<PathBuf>, Option<String>, String, usize, Option<String>, Option<Vec<(String, f64)>>);
+pub type Arguments = (Option<PathBuf>, Option<String>, String, usize, Option<String>, Option<Vec<(String, f64)>>);
 
 impl Recipe {
-    /// The arguments from which `make_linkage_again` makes the same linkage.
-    ///
-    /// # Errors
-    /// It cannot be made from a few texts.
-    pub fn arguments(&self) -> PyResult<Arguments> {
+    /// The arguments from which `make_linkage_again` makes the same linkage; `None` of one that a search has found.
+    pub fn arguments(&self) -> Option<Arguments> {
         match self {
             Recipe::Linkage { name, manifest, samples, circuits, values } => {
                 let text = manifest.as_ref().map(|text| text.to_string());
-                Ok((None, text, name.clone(), *samples, circuits.clone(), Some(values.clone())))
+                Some((None, text, name.clone(), *samples, circuits.clone(), Some(values.clone())))
             }
             Recipe::Cell { path, text, family, number, values } => {
-                Ok((Some(path.clone()), Some(text.to_string()), family.clone(), *number, None, values.clone()))
+                Some((Some(path.clone()), Some(text.to_string()), family.clone(), *number, None, values.clone()))
             }
-            Recipe::Found => Err(PyTypeError::new_err(
-                "a linkage that a search has found and placed cannot be pickled: take the cell of its atlas, or keep the manifest that toml() writes",
-            )),
+            Recipe::Found => None,
         }
     }
 }
