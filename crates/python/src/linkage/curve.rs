@@ -93,7 +93,9 @@ pub(super) fn pickle_arguments(py: Python, solution: &Arc<Solution>) -> PyResult
     if let Some(arguments) = solution.recipe.arguments() {
         return Ok(arguments);
     }
-    let text = Curve::new(Arc::clone(solution), 0).text(py, CurveFormat::Toml)?;
+    let family = Curve::new(Arc::clone(solution), 0).text(py, CurveFormat::Toml)?;
+    // The family is to be put into a manifest.
+    let text = format!("[atlas]\ntitle = \"found\"\n\n{family}");
     Ok((Some(PathBuf::from("found.toml")), Some(text), solution.family.id.clone(), 1, None, None))
 }
 
