@@ -4,7 +4,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use coupler_atlas::export::{self, DEFAULT_DPI, Format};
-use coupler_curves::exchange::SelectedCurve;
+use coupler_curves::catalogue;
+use coupler_curves::exchange::{SelectedCurve, family_id};
 use coupler_curves::geometry::Vector;
 use coupler_curves::linkage::{DyadId, JointId, Linkage};
 use coupler_curves::measure::input_torque;
@@ -15,7 +16,7 @@ use coupler_drawing::page::Options;
 use coupler_drawing::plate::PAPER;
 use coupler_drawing::render::TextMode;
 use numpy::{PyArray1, PyArray2};
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyTuple};
@@ -88,15 +89,21 @@ impl Curve {
 /// The arguments from which `make_linkage_again` makes a linkage: where it was found, those of a cell of the manifest with its numbers in full.
 ///
 /// # Errors
-/// It was found, and cannot be assembled.
+/// It was found, and is of no linkage of the catalogue, or cannot be assembled.
 pub(super) fn pickle_arguments(py: Python, solution: &Arc<Solution>) -> PyResult<Arguments> {
     if let Some(arguments) = solution.recipe.arguments() {
         return Ok(arguments);
     }
+    let id = &solution.family.template.id;
+    if catalogue::find(id).is_none() {
+        let why =
+            "a linkage of a manifest that a search has found cannot be pickled: keep the manifest that toml() writes";
+        return Err(PyTypeError::new_err(format!("{id}: {why}")));
+    }
     let family = Curve::new(Arc::clone(solution), 0).text(py, CurveFormat::Toml)?;
     // The family is to be put into a manifest.
     let text = format!("[atlas]\ntitle = \"found\"\n\n{family}");
-    Ok((Some(PathBuf::from("found.toml")), Some(text), solution.family.id.clone(), 1, None, None))
+    Ok((Some(PathBuf::from("found.toml")), Some(text), family_id(id, 1), 1, None, None))
 }
 
 #[pymethods]
