@@ -11,7 +11,7 @@ use super::{copy, document, documents, printed, put_manifests};
 use crate::support::command::{COMMANDS, run};
 
 /// Commands with placeholders, shortened or presupposing something else: what is run instead, and with which exit code.
-const SUBSTITUTED: [(&str, &[(&str, i32)]); 15] = [
+const SUBSTITUTED: [(&str, &[(&str, i32)]); 17] = [
     // There is an `atlas.toml`.
     ("coupler-atlas init", &[("coupler-atlas init new/atlas.toml", 0), ("coupler-atlas init", 2)]),
     ("coupler-atlas check [MANIFEST] --against DIR", &[("coupler-atlas check atlas.toml --against output", 0)]),
@@ -62,6 +62,9 @@ const SUBSTITUTED: [(&str, &[(&str, i32)]); 15] = [
             ("coupler-atlas gather one", 0),
         ],
     ),
+    // With another commit beside this one: readme.rs.
+    ("coupler-atlas render ../before/atlas.toml -o ../before-atlas", &[]),
+    ("coupler-atlas check atlas.toml --against ../before-atlas --summary --diff moved", &[]),
     ("coupler-atlas inspect --json", &[("coupler-atlas inspect evans p=2.5 a=3 --json", 0)]),
     ("coupler-atlas inspect --svg -", &[("coupler-atlas inspect evans p=2.5 a=3 --svg -", 0)]),
     ("coupler-atlas export", &[("coupler-atlas export evans:3.1.1", 0)]),
