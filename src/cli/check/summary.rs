@@ -3,6 +3,8 @@
 use std::collections::BTreeSet;
 
 use crate::check::{Change, Displacement, Finding, Report};
+
+use super::super::printable;
 use coupler_curves::text::pluralize;
 
 /// What has changed in a family, or in the atlas as a whole.
@@ -81,7 +83,8 @@ pub fn total(report: &Report) -> String {
 /// The summaries as lines of text.
 pub fn text(report: &Report) -> String {
     let summaries = of_report(report);
-    let width = summaries.iter().map(|own| own.name.chars().count()).max().unwrap_or(0);
+    // A recorded name may have what a terminal obeys.
+    let width = summaries.iter().map(|own| printable(&own.name).chars().count()).max().unwrap_or(0);
     let mut text = String::new();
     for FamilySummary { name, moved, furthest, others } in &summaries {
         let moved = (*moved > 0).then(|| match furthest.is_empty() {
@@ -89,7 +92,7 @@ pub fn text(report: &Report) -> String {
             false => format!("{} moved, at most {furthest}", pluralize(*moved, "curve")),
         });
         let parts: Vec<String> = moved.into_iter().chain((!others.is_empty()).then(|| others.clone())).collect();
-        text.push_str(&format!("{name:width$}  {}\n", parts.join("; ")));
+        text.push_str(&format!("{:width$}  {}\n", printable(name), parts.join("; ")));
     }
     text + &total(report) + "\n"
 }
