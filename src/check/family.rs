@@ -209,17 +209,15 @@ impl<'a> FamilyCheck<'a> {
                     has_moved: false,
                 };
                 let is_same = |curve: &&MeasuredCurve| curve.trace == trace && curve.circuit == new.circuit;
-                let Some(curve) = solved.curves.iter().find(is_same) else {
-                    pairs.push(pair);
-                    continue;
-                };
-                let current = CurrentCurve { samples: new, solved, curve };
-                let missing = missing[recorded_indices[a]].clone();
-                let changes = compare_curves(old, current, (missing, self.tables.further_columns()), &self.tolerances);
-                pair.has_moved = !changes.is_empty();
+                if let Some(curve) = solved.curves.iter().find(is_same) {
+                    let current = CurrentCurve { samples: new, solved, curve };
+                    let columns = (missing[recorded_indices[a]].clone(), self.tables.further_columns());
+                    let changes = compare_curves(old, current, columns, &self.tolerances);
+                    pair.has_moved = !changes.is_empty();
+                    let curve_location = location.with_curve(trace, new.circuit);
+                    result.findings.extend(changes.into_iter().map(|change| curve_location.finding(change)));
+                }
                 pairs.push(pair);
-                let curve_location = location.with_curve(trace, new.circuit);
-                result.findings.extend(changes.into_iter().map(|change| curve_location.finding(change)));
             }
         }
         Ok(pairs)

@@ -48,8 +48,7 @@ pub fn make_circuit_again<'py>(
     arguments: Bound<'py, PyTuple>,
     index: usize,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let make = py.import("coupler_atlas._core")?.getattr("_linkage")?;
-    make.call1(arguments)?.getattr("circuits")?.get_item(index)
+    part_made_again(py, arguments, ("circuits", index))
 }
 
 /// Makes a curve again that was pickled, by the arguments for its linkage and its index.
@@ -60,6 +59,15 @@ pub fn make_curve_again<'py>(
     arguments: Bound<'py, PyTuple>,
     index: usize,
 ) -> PyResult<Bound<'py, PyAny>> {
+    part_made_again(py, arguments, ("curves", index))
+}
+
+/// A part of a linkage that is made again, by the name of the list of such parts and its index there.
+fn part_made_again<'py>(
+    py: Python<'py>,
+    arguments: Bound<'py, PyTuple>,
+    (list, index): (&str, usize),
+) -> PyResult<Bound<'py, PyAny>> {
     let make = py.import("coupler_atlas._core")?.getattr("_linkage")?;
-    make.call1(arguments)?.getattr("curves")?.get_item(index)
+    make.call1(arguments)?.getattr(list)?.get_item(index)
 }
