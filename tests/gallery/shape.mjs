@@ -156,7 +156,7 @@ async function trial(kernel, parts, families, { label, tries, part, ...disturban
       least: isWhole ? WHOLE : LEAST,
     });
     // A curve that does not fit a portion of itself, through a sharp turn between two of its points, is not found.
-    const deviation = ((await search.fit({ points: own, closed }))?.rms ?? -Infinity) + AS_NEAR;
+    const deviation = ((await search.fit({ points: own, closed })).fit?.rms ?? -Infinity) + AS_NEAR;
     await search.close();
     const at = found.findIndex((one) => one.name === name);
     if (at === 0) alone += 1;

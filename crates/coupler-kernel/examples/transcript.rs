@@ -183,7 +183,7 @@ impl<'a, W: Write> Session<'a, W> {
             self.ask_with_numbers(&request, &bytes)?;
         }
         // The path itself, and a curve like nothing.
-        self.ask(&json!({ "method": "open_curves" }))?;
+        self.ask(&json!({ "method": "open_curves", "count": 2 }))?;
         let other = [0.0, 0.0, 1.0, 0.0, 2.0, 0.0, 24.0, 3.0, 1.0, 0.0];
         let curves: Vec<f64> = points.iter().copied().chain(other).collect();
         let at = |start: usize, length: usize| json!({ "$": [start, length] });
@@ -193,6 +193,8 @@ impl<'a, W: Write> Session<'a, W> {
         self.ask_with_numbers(&shape, &points)?;
         let compared = self.ask(&json!({ "method": "compare_shape", "shape": 0, "curves": 0, "from": 0 }))?;
         assert_eq!(compared["next"], Value::Null);
+        let closely = json!({ "method": "compare_closely", "shape": 0, "points": at(0, 54), "counts": at(54, 2), "closed": at(56, 2) });
+        self.ask_with_numbers(&closely, &curves)?;
         let fit = json!({ "method": "fit_shape", "shape": 0, "points": array, "closed": true });
         assert!(self.ask_with_numbers(&fit, &points)?["fit"]["rms"].as_f64().unwrap() < 1e-6);
         let deviation = json!({ "method": "deviation", "from": array, "points": array, "closed": true });

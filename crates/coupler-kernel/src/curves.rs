@@ -3,41 +3,20 @@
 use serde_json::{Value, json};
 
 use coupler_curves::geometry::Point;
-use coupler_find::{CurveFit, CurveFitOptions, CurveFitter, CurveIndex, CurveLookup, PathKind, Target};
+use coupler_find::{CurveFit, CurveFitOptions, CurveFitter, CurveIndex, CurveLookup, CurveShape, PathKind, Target};
 
 use crate::finder::target_of;
+use crate::request::GivenCurves;
 use crate::response::Numbers;
 
 /// The curves of a step of comparison with a closed path, and with an open one, some milliseconds of work.
 const CURVES_PER_STEP: usize = 20_000;
 const PORTIONS_PER_STEP: usize = 256;
 
-/// Adds curves to an index: their points one after another, the number of points of each, and whether they are closed.
-///
-/// # Errors
-/// There are not as many of one as of the others.
-pub(crate) fn add_curves(
-    index: &mut CurveIndex,
-    points: &[Point],
-    counts: &[f64],
-    closed: &[f64],
-) -> Result<Value, String> {
-    let mut rest = points;
-    let mut next = |count: &f64| rest.split_off(..*count as usize);
-    let curves: Option<Vec<&[Point]>> = counts.iter().map(&mut next).collect();
-    let curves = curves.filter(|curves| curves.len() == closed.len()).ok_or("there are fewer points than counted")?;
-    for (curve, closed) in curves.into_iter().zip(closed) {
-        index.push(curve, *closed != 0.0);
-    }
-    Ok(json!({ "count": index.len() }))
-}
-
 /// A path to which curves are compared.
 pub(crate) struct ShapeSearch {
     target: Target,
-    options: CurveFitOptions,
     fitter: CurveFitter,
-    wanted: usize,
     /// The curves that are most like it so far.
     lookup: CurveLookup,
 }
@@ -58,7 +37,7 @@ impl ShapeSearch {
         let options = CurveFitOptions { may_be_mirrored, least_portion, is_fixed: false };
         let fitter = CurveFitter::new(&target, options);
         let lookup = CurveLookup::new(&target, options, wanted);
-        Ok(ShapeSearch { target, options, fitter, wanted, lookup })
+        Ok(ShapeSearch { target, fitter, lookup })
     }
 
     /// The most curves of an index that are found; if these are more than are wanted, they are to be compared more closely.
@@ -66,33 +45,34 @@ impl ShapeSearch {
         self.lookup.most()
     }
 
-    /// Compares some curves of an index from one on, where 0 begins a comparison: the next to compare; after the last of them, the
-    /// numbers of those that are most like the path, the likeliest first, and their likenesses.
+    /// Compares some curves of an index from one on: the next to compare; after the last of them, the numbers of those of all indexes so far
+    /// that are most like the path, the likeliest first. The numbers of an index follow those of the ones before.
     pub fn compare(&mut self, index: &CurveIndex, from: usize, numbers: &mut Numbers) -> Value {
-        if from == 0 {
-            self.lookup = CurveLookup::new(&self.target, self.options, self.wanted);
-        }
         let step = if self.target.kind() == PathKind::Closed { CURVES_PER_STEP } else { PORTIONS_PER_STEP };
         let to = from.saturating_add(step);
         self.lookup.compare(index, from..to);
         if to < index.len() {
             return json!({ "next": to });
         }
+        self.lookup.end_index(index);
+        json!({ "next": null, "numbers": numbers.array(self.lookup.found().map(|(_, number)| number as f64)) })
+    }
+
+    /// How much curves are like the path, compared more closely than in an index; NaN for those that are not.
+    ///
+    /// # Errors
+    /// There are fewer points than counted.
+    pub fn likenesses(&self, given: &GivenCurves, numbers: &mut Numbers) -> Result<Value, String> {
+        let likeness = |(points, is_closed)| self.lookup.likeness(points, is_closed).unwrap_or(f64::NAN);
+        Ok(json!({ "likenesses": numbers.array(given.curves()?.map(likeness)) }))
+    }
+
+    /// How a curve fits the path, or null; what of its shape does not depend on its place, size and direction.
+    pub fn fit(&self, points: &[Point], is_closed: bool, numbers: &mut Numbers) -> Value {
         json!({
-            "next": null,
-            "numbers": numbers.array(self.lookup.found().map(|(_, number)| number as f64)),
-            "likenesses": numbers.array(self.lookup.found().map(|(likeness, _)| likeness)),
+            "fit": self.fitter.fit(points, is_closed).map(|fit| fit_json(&fit, &self.target)),
+            "invariants": numbers.array(CurveShape::new(points, is_closed).invariants()),
         })
-    }
-
-    /// How much a curve is like the path, compared more closely than in an index, or null.
-    pub fn likeness(&self, points: &[Point], is_closed: bool) -> Value {
-        json!({ "likeness": self.lookup.likeness(points, is_closed) })
-    }
-
-    /// How a curve fits the path, or null.
-    pub fn fit(&self, points: &[Point], is_closed: bool) -> Value {
-        json!({ "fit": self.fitter.fit(points, is_closed).map(|fit| fit_json(&fit, &self.target)) })
     }
 }
 

@@ -11,6 +11,10 @@ use crate::response::Numbers;
 /// The most curves that are added to the index in a step, some 5 ms of work.
 const CURVES_PER_STEP: usize = 128;
 
+/// The steps of a search that a request takes, most of them fractions of a millisecond: what the page leaves behind at each of them is
+/// collected after many megabytes only.
+const STEPS_PER_REQUEST: usize = 8;
+
 /// The curves in which a path is looked up while it changes: portions of all would take a second.
 const FIRST_CURVES: usize = 15_000;
 
@@ -46,6 +50,7 @@ fn placed([o, c, a, b, m]: [Point; 5]) -> PlacedFourBar {
 /// will be.
 /// `first` gets the first of them.
 pub(crate) fn grow_index(index: &mut Index, first: &mut Index) -> Value {
+    index.reserve(Index::DEFAULT_COUNT);
     index.extend(CURVES_PER_STEP.min(Index::DEFAULT_COUNT - index.len()));
     first.extend(FIRST_CURVES.min(index.len()) - first.len());
     json!({ "count": index.len(), "full_count": Index::DEFAULT_COUNT })
@@ -86,10 +91,11 @@ impl FourBarSearch {
         self.target.hindrances(false).iter().map(ToString::to_string).collect()
     }
 
-    /// Takes a step of bounded work; whether nothing is left to do.
+    /// Takes some steps of bounded work; whether nothing is left to do.
     pub fn step(&mut self, index: &Index, first: &Index) -> bool {
         self.ranking = Ranking::default();
-        !self.search.step(if self.is_quick { first } else { index })
+        let index = if self.is_quick { first } else { index };
+        !(0..STEPS_PER_REQUEST).all(|_| self.search.step(index))
     }
 
     /// Takes a step towards the answers so far, or has them: those of `find --json` with their curves, and the manifest

@@ -7,7 +7,7 @@ use coupler_curves::linkage::{Cognates, JointId};
 use coupler_curves::motion;
 use coupler_find::{CurveIndex, Index};
 
-use crate::curves::{ShapeSearch, add_curves, deviation};
+use crate::curves::{ShapeSearch, deviation};
 use crate::description::{opened_json, study_json};
 use crate::dragging::Dragging;
 use crate::drawn_path::drawn_path_json;
@@ -45,6 +45,9 @@ struct OpenStudy {
     study: Study,
     cognates: Option<Cognates>,
 }
+
+/// The curves for which an index takes memory before they come; more of them take it then.
+const MAX_RESERVED: usize = 100_000;
 
 impl Kernel {
     /// The numbers of a pose before the positions of the joints: the transmission angle, the velocity, the pole, the
@@ -139,9 +142,13 @@ impl Kernel {
             }
             Request::Answers { search, name } => self.searches.get_mut(search)?.answers_json(&name, numbers),
             Request::CloseSearch { search } => json!({ "closed": self.searches.remove(search) }),
-            Request::OpenCurves => json!({ "curves": self.curves.insert(CurveIndex::new()) }),
-            Request::AddCurves { curves, points, counts, closed } => {
-                add_curves(self.curves.get_mut(curves)?, &points, &counts, &closed)?
+            Request::OpenCurves { count } => {
+                json!({ "curves": self.curves.insert(CurveIndex::with_capacity(count.min(MAX_RESERVED))) })
+            }
+            Request::AddCurves { curves, given } => {
+                let index = self.curves.get_mut(curves)?;
+                given.curves()?.for_each(|(points, is_closed)| index.push(points, is_closed));
+                json!({ "count": index.len() })
             }
             Request::CloseCurves { curves } => json!({ "closed": self.curves.remove(curves) }),
             Request::OpenShape { points, kind, mirror, least, wanted } => {
@@ -151,8 +158,8 @@ impl Kernel {
             Request::CompareShape { shape, curves, from } => {
                 self.shapes.get_mut(shape)?.compare(self.curves.get(curves)?, from, numbers)
             }
-            Request::CompareClosely { shape, points, closed } => self.shapes.get(shape)?.likeness(&points, closed),
-            Request::FitShape { shape, points, closed } => self.shapes.get(shape)?.fit(&points, closed),
+            Request::CompareClosely { shape, given } => self.shapes.get(shape)?.likenesses(&given, numbers)?,
+            Request::FitShape { shape, points, closed } => self.shapes.get(shape)?.fit(&points, closed, numbers),
             Request::CloseShape { shape } => json!({ "closed": self.shapes.remove(shape) }),
             Request::Deviation { from, points, closed } => deviation(&from, &points, closed)?,
         })

@@ -214,17 +214,16 @@ pub enum Request {
         search: usize,
     },
     /// Opens an index of given curves by their shape: its handle.
-    OpenCurves,
+    OpenCurves {
+        /// The number of curves that are to be added.
+        count: usize,
+    },
     /// Adds curves to an index.
     AddCurves {
         /// The handle of the index.
         curves: usize,
-        /// The points of all of them, an array `[x, y, x, y, …]`.
-        points: Vec<Point>,
-        /// The number of points of each.
-        counts: Vec<f64>,
-        /// For each whether it is closed: not 0.
-        closed: Vec<f64>,
+        /// The curves.
+        given: GivenCurves,
     },
     /// Closes an index; the next index that is opened may have its handle.
     CloseCurves {
@@ -244,7 +243,8 @@ pub enum Request {
         /// The curves that are wanted.
         wanted: usize,
     },
-    /// Compares some curves of an index with a path by their shape, in steps.
+    /// Compares some curves of an index with a path by their shape, in steps, index by index: after the last step of one, the most similar of
+    /// all that have been compared, by their numbers, which follow those of the indexes before.
     CompareShape {
         /// The handle of the path.
         shape: usize,
@@ -253,14 +253,12 @@ pub enum Request {
         /// The number of the curve to begin with: 0, and then what the step before returned.
         from: usize,
     },
-    /// How much a curve is like a path, compared more closely than in an index.
+    /// How much curves are like a path, compared more closely than in an index.
     CompareClosely {
         /// The handle of the path.
         shape: usize,
-        /// The points of the curve, an array `[x, y, x, y, …]`.
-        points: Vec<Point>,
-        /// Whether it is closed.
-        closed: bool,
+        /// The curves.
+        given: GivenCurves,
     },
     /// How a curve fits a path where it is nearest to it.
     FitShape {
@@ -300,6 +298,17 @@ pub struct CurveRequest {
     pub values: Vec<(String, f64)>,
     /// The names with changed values.
     pub changes: Vec<(String, f64)>,
+}
+
+/// Curves that are given by their points.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GivenCurves {
+    /// The points of all of them, an array `[x, y, x, y, …]`.
+    pub points: Vec<Point>,
+    /// The number of points of each.
+    pub counts: Vec<f64>,
+    /// For each whether it is closed: not 0.
+    pub closed: Vec<f64>,
 }
 
 impl Request {
@@ -396,13 +405,10 @@ impl Request {
             "step_search" => Request::StepSearch { search: of.index("search")? },
             "answers" => Request::Answers { search: of.index("search")?, name: of.text("name")? },
             "close_search" => Request::CloseSearch { search: of.index("search")? },
-            "open_curves" => Request::OpenCurves,
-            "add_curves" => Request::AddCurves {
-                curves: of.index("curves")?,
-                points: of.points("points", numbers)?,
-                counts: of.array("counts", numbers)?.to_vec(),
-                closed: of.array("closed", numbers)?.to_vec(),
-            },
+            "open_curves" => Request::OpenCurves { count: of.index("count")? },
+            "add_curves" => {
+                Request::AddCurves { curves: of.index("curves")?, given: GivenCurves::from_fields(&of, numbers)? }
+            }
             "close_curves" => Request::CloseCurves { curves: of.index("curves")? },
             "open_shape" => Request::OpenShape {
                 points: of.points("points", numbers)?,
@@ -416,11 +422,9 @@ impl Request {
                 curves: of.index("curves")?,
                 from: of.index("from")?,
             },
-            "compare_closely" => Request::CompareClosely {
-                shape: of.index("shape")?,
-                points: of.points("points", numbers)?,
-                closed: of.flag("closed")?,
-            },
+            "compare_closely" => {
+                Request::CompareClosely { shape: of.index("shape")?, given: GivenCurves::from_fields(&of, numbers)? }
+            }
             "fit_shape" => Request::FitShape {
                 shape: of.index("shape")?,
                 points: of.points("points", numbers)?,
@@ -447,6 +451,29 @@ impl CurveRequest {
             values: of.list("values", named_number)?,
             changes: of.list("changes", named_number)?,
         })
+    }
+}
+
+impl GivenCurves {
+    fn from_fields(of: &Object<'_>, numbers: &[f64]) -> Result<GivenCurves, String> {
+        Ok(GivenCurves {
+            points: of.points("points", numbers)?,
+            counts: of.array("counts", numbers)?.to_vec(),
+            closed: of.array("closed", numbers)?.to_vec(),
+        })
+    }
+
+    /// The points of each, and whether it is closed.
+    ///
+    /// # Errors
+    /// There are not as many of one as of the others.
+    pub(crate) fn curves(&self) -> Result<impl Iterator<Item = (&[Point], bool)>, String> {
+        let mut rest = &self.points[..];
+        let mut next = |count: &f64| rest.split_off(..*count as usize);
+        let curves: Option<Vec<&[Point]>> = self.counts.iter().map(&mut next).collect();
+        let curves = curves.filter(|curves| curves.len() == self.closed.len());
+        let curves = curves.ok_or("there are fewer points than counted")?;
+        Ok(curves.into_iter().zip(self.closed.iter().map(|closed| *closed != 0.0)))
     }
 }
 

@@ -272,7 +272,8 @@ type Converted = {
 type ExportProgress = (done: number, all: number) => void;
 /** An index in the kernel of the curves of a family from `first` on. */
 type ShapeIndex = { family: Family; curves: number } & Record<"first" | "count", number>;
-type Candidate = CurveOfFamily & { likeness: number };
+/** Curves for the kernel: their points one after another, the number of points of each, and whether it is closed. */
+type GivenCurves = Record<"points" | "counts" | "closed", Float64Array<ArrayBuffer>>;
 /** A curve with what is shown of it: the piece of its points may be dropped. */
 type TakenCurve = CurveOfFamily & Record<"name" | "caption", string> & { outline: Outline };
 /** What is searched for: `least` is the least part of a curve, `by` the deviation to rank by. */
@@ -287,7 +288,8 @@ type Fit = {
   from: number;
   to: number;
 };
-type Match = TakenCurve & Fit;
+type FittedCurve = { fit: Fit | null; invariants: Float64Array };
+type Match = TakenCurve & Fit & { invariants: Float64Array };
 /** A match with the others that are the same curve. */
 type MergedMatch = { match: Match; others: Match[] };
 /** The answers of a search for four-bars so far, and how many curves of the index it looked the path up in. */

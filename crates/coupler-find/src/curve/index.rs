@@ -7,9 +7,10 @@ use crate::curve::fit::EVEN;
 use crate::curve::path::CurvePath;
 use crate::curve_fit_options::CurveFitOptions;
 use crate::query::Query;
+use crate::shape::best::Best;
 use crate::shape::close_portion::portions;
 use crate::shape::compact::{Shape, Shapes};
-use crate::shape::spectrum::{Extent, Transform};
+use crate::shape::spectrum::{Extent, HARMONICS, Transform};
 use crate::target::Target;
 use coupler_curves::geometry::Point;
 
@@ -36,6 +37,17 @@ impl CurveShape {
     pub fn new(points: &[Point], is_closed: bool) -> CurveShape {
         let Some(path) = CurvePath::new(points, is_closed) else { return CurveShape(Shape::EMPTY) };
         CurveShape::with_length(&Transform::new(), &path.even_points(EVEN), path.length(), path.is_open)
+    }
+
+    /// What depends neither on the curve's place, size and direction, nor on its first point, its order and reflections: of the harmonics of
+    /// each order up to 10, in parts of the curve's size, the magnitudes of the one and of its opposite, the greater first. Of curves that are the
+    /// same to a part of their size, each differs by about as much; that may be so of others, too.
+    pub fn invariants(&self) -> impl Iterator<Item = f64> {
+        let harmonics = self.0.harmonics().map(|[re, im]| f64::from(re * re + im * im).sqrt());
+        (0..HARMONICS).flat_map(move |k| {
+            let (a, b) = (harmonics[k], harmonics[HARMONICS + k]);
+            [a.max(b), a.min(b)]
+        })
     }
 
     /// That of a polyline that is passed around, or there and back along an open curve: of many points, so that it need not be smoothed.
@@ -65,6 +77,13 @@ impl CurveIndex {
     /// An index without curves.
     pub fn new() -> CurveIndex {
         CurveIndex(Shapes::new())
+    }
+
+    /// An index without curves that has the memory for so many.
+    pub fn with_capacity(count: usize) -> CurveIndex {
+        let mut shapes = Shapes::new();
+        shapes.reserve(count);
+        CurveIndex(shapes)
     }
 
     /// Adds a curve through points, see [`CurveShape::new`]; its number is the number of curves before.
@@ -105,14 +124,16 @@ pub struct CurveLookup {
     /// The length of the target in its sizes.
     length: f64,
     most: usize,
-    best: Vec<(f32, usize)>,
+    best: Best,
+    /// The curves of the indexes before.
+    before: usize,
 }
 
 impl CurveLookup {
     /// Curves that are found for one that is wanted, if they are to be compared more closely.
     ///
-    /// Of forty thirds of curves of an atlas with 7,800 after Hrones and Nelson, the curve itself was among the first 1,800 in 35 cases, and in
-    /// the others there were five of them as near to 0.0001 S; compared more closely, it was among the first 120 in 39 cases.
+    /// Of forty thirds of curves of an atlas with 7,800 after Hrones and Nelson, the curve itself was among the first 1,800 in 38 cases; compared
+    /// more closely, it was among the first 120 in 36.
     const FOUND_PER_WANTED: usize = 15;
 
     /// Begins to look up a target, for a number of curves that are wanted. The options are those of the fits that follow; of these, that the
@@ -121,7 +142,7 @@ impl CurveLookup {
         let query = Query::new(target.kind(), &target.normalized());
         let per_wanted = if matches!(query, Query::Whole(..)) { 1 } else { CurveLookup::FOUND_PER_WANTED };
         let most = wanted.max(1).saturating_mul(per_wanted);
-        CurveLookup { query, options, length: target.smooth_length(), most, best: Vec::new() }
+        CurveLookup { query, options, length: target.smooth_length(), most, best: Best::new(most), before: 0 }
     }
 
     /// The most curves that are found. If these are more than are wanted, they are to be compared more closely.
@@ -129,21 +150,27 @@ impl CurveLookup {
         self.most
     }
 
-    /// Compares the curves of a range, or as many of them as the index has. A closed target takes some 20 ns for each, an open one 20 µs.
+    /// Compares the curves of a range, or as many of them as the index has. A closed target takes some 20 ns for each, an open one 7
+    /// µs.
     pub fn compare(&mut self, CurveIndex(shapes): &CurveIndex, range: Range<usize>) {
-        let best = std::mem::take(&mut self.best);
-        self.best = match &self.query {
-            Query::Whole(spectrum, ..) => shapes.nearest((spectrum, self.length, false), range, best, self.most),
+        let (best, first) = (&mut self.best, self.before);
+        match &self.query {
+            Query::Whole(spectrum, ..) => shapes.nearest((spectrum, self.length, false), (range, first), best),
             Query::Portion(stroke, _) => {
-                shapes.nearest_portions_closely((stroke, self.options.least_portion), range, best, self.most)
+                shapes.nearest_portions_closely((stroke, self.options.least_portion), (range, first), best);
             }
-        };
+        }
+    }
+
+    /// What is compared from now on is in another index: its curves have the numbers that follow those of this one.
+    pub fn end_index(&mut self, index: &CurveIndex) {
+        self.before += index.len();
     }
 
     /// The curves that have been found so far, the likeliest first: how much they are like the target, the more the greater, and their
     /// numbers.
     pub fn found(&self) -> impl Iterator<Item = (f64, usize)> {
-        self.best.iter().map(|(likeness, number)| (f64::from(*likeness), *number))
+        self.best.sorted().into_iter().map(|(likeness, number)| (f64::from(likeness), number))
     }
 
     /// How much the curve through points is like the target, the more the greater, compared more closely than in an index; `None` if it is not, or

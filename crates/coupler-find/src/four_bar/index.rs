@@ -4,6 +4,7 @@ use crate::complex::{Complex, closed_length};
 use crate::four_bar::parameters::Parameters;
 use crate::four_bar::pose::Pose;
 use crate::four_bar::sequence::{CLASSES, four_bar_of_sequence};
+use crate::shape::best::Best;
 use crate::shape::compact::{Shape, Shapes};
 use crate::shape::spectrum::{Extent, Spectrum, Transform, directions};
 use crate::shape::stroke::Stroke;
@@ -77,6 +78,11 @@ impl Index {
         Some(Index { shapes: Shapes::from_bytes(bytes)?, ..Index::new() })
     }
 
+    /// Takes the memory for so many curves at once: growing step by step takes three times as much.
+    pub fn reserve(&mut self, count: usize) {
+        self.shapes.reserve(count.saturating_sub(self.len()));
+    }
+
     /// Adds the next curves of the sequence; the order in which an index grows does not change it.
     pub fn extend(&mut self, count: usize) {
         self.shapes.reserve(count);
@@ -100,17 +106,17 @@ impl Index {
     /// most `most`, the likeliest first. Of closed ones the harmonics are compared in canonical phase only.
     pub fn most_alike(&self, target: &Target, full_turn: bool, most: usize) -> Vec<usize> {
         let points = target.normalized();
-        let found = match target.kind() {
+        let mut best = Best::new(most);
+        match target.kind() {
             PathKind::Closed => {
                 let (spectrum, ..) = self.transform.spectrum(&points);
-                let query = (&spectrum, target.smooth_length(), full_turn);
-                self.nearest(query, 0..self.len(), Vec::new(), most)
+                self.nearest((&spectrum, target.smooth_length(), full_turn), 0..self.len(), &mut best);
             }
             PathKind::Open | PathKind::Part => {
-                self.nearest_portions((&Stroke::new(&points), full_turn), 0..self.len(), Vec::new(), most)
+                self.nearest_portions((&Stroke::new(&points), full_turn), 0..self.len(), &mut best);
             }
-        };
-        found.into_iter().map(|(_, number)| number).collect()
+        }
+        best.sorted().into_iter().map(|(_, number)| number).collect()
     }
 
     /// How much a curve is like a closed target, up to 1 for similar curves: the greatest correlation of their harmonics over all
@@ -149,26 +155,14 @@ impl Index {
         Shape::new(&spectrum.canonical(), length, entry.linkage.is_full_turn())
     }
 
-    /// The curves of a range that are most like a target in canonical phase, see [`Shapes::nearest`].
-    pub(crate) fn nearest(
-        &self,
-        (target, length, full_turn): (&Spectrum, f64, bool),
-        range: std::ops::Range<usize>,
-        best: Vec<(f32, usize)>,
-        most: usize,
-    ) -> Vec<(f32, usize)> {
-        self.shapes.nearest((target, length, full_turn), range, best, most)
+    /// Adds the curves of a range that are most like a target in canonical phase, see [`Shapes::nearest`].
+    pub(crate) fn nearest(&self, query: (&Spectrum, f64, bool), range: std::ops::Range<usize>, best: &mut Best) {
+        self.shapes.nearest(query, (range, 0), best);
     }
 
-    /// The curves of a range of which a portion is most like a stroke, see [`Shapes::nearest_portions`].
-    pub(crate) fn nearest_portions(
-        &self,
-        (stroke, full_turn): (&Stroke, bool),
-        range: std::ops::Range<usize>,
-        best: Vec<(f32, usize)>,
-        most: usize,
-    ) -> Vec<(f32, usize)> {
-        self.shapes.nearest_portions((stroke, full_turn), range, best, most)
+    /// Adds the curves of a range of which a portion is most like a stroke, see [`Shapes::nearest_portions`].
+    pub(crate) fn nearest_portions(&self, query: (&Stroke, bool), range: std::ops::Range<usize>, best: &mut Best) {
+        self.shapes.nearest_portions(query, (range, 0), best);
     }
 }
 

@@ -156,7 +156,8 @@ impl Search {
     }
 
     fn lookup(&self, points: &[Complex]) -> Lookup {
-        Lookup::new(self.fitting.target.kind(), points, self.start_count())
+        let has_condition = self.fitting.limits.condition.is_some();
+        Lookup::new(self.fitting.target.kind(), points, self.start_count(), has_condition)
     }
 
     fn look_up(&mut self, mut lookup: Lookup, index: &Index) -> Stage {

@@ -5,6 +5,7 @@ use crate::four_bar::fitting::Fitting;
 use crate::four_bar::index::{Entry, Index};
 use crate::four_bar::parameters::Parameters;
 use crate::query::Query;
+use crate::shape::best::Best;
 use crate::target::PathKind;
 
 /// The comparison of the curves of an index with a path, in bounded steps.
@@ -14,10 +15,10 @@ pub(crate) struct Lookup {
     starts: usize,
     /// The number of the first curve that has not been compared.
     next: usize,
-    /// The best of those that have been compared, with how much they are like the path.
-    best: Vec<(f32, usize)>,
-    /// The place among the best of the first that has not been placed.
-    next_place: usize,
+    /// The best of those that have been compared, by how much they are like the path.
+    best: Best,
+    /// The numbers of the best of all that have not been placed, the best first; `None` until all have been compared.
+    unplaced: Option<std::vec::IntoIter<usize>>,
     /// The linkages on the target, with how much their curves are like it.
     placed: Vec<(f64, Parameters)>,
 }
@@ -35,9 +36,11 @@ const EXACT_PER_START: usize = 3;
 const EXACT_PER_START_WITH_CONDITION: usize = 20;
 
 impl Lookup {
-    /// Begins the lookup of a path of the kind of the target, for a number of starts.
-    pub fn new(kind: PathKind, points: &[Complex], starts: usize) -> Lookup {
-        Lookup { query: Query::new(kind, points), starts, next: 0, best: Vec::new(), next_place: 0, placed: Vec::new() }
+    /// Begins the lookup of a path of the kind of the target, for a number of starts; whether these must meet a condition.
+    pub fn new(kind: PathKind, points: &[Complex], starts: usize, has_condition: bool) -> Lookup {
+        let most = starts * if has_condition { EXACT_PER_START_WITH_CONDITION } else { EXACT_PER_START };
+        let (query, best) = (Query::new(kind, points), Best::new(most));
+        Lookup { query, starts, next: 0, best, unplaced: None, placed: Vec::new() }
     }
 
     /// Compares or places some curves; false if nothing is left to do.
@@ -65,29 +68,28 @@ impl Lookup {
     }
 
     fn compare(&mut self, index: &Index, fitting: &Fitting) {
-        let has_condition = fitting.limits.condition.is_some();
-        let most = self.starts * if has_condition { EXACT_PER_START_WITH_CONDITION } else { EXACT_PER_START };
-        let best = std::mem::take(&mut self.best);
         let full_turn = fitting.limits.full_turn;
         let from = self.next;
-        self.best = match &self.query {
+        match &self.query {
             Query::Whole(spectrum, ..) => {
                 self.next += CURVES_PER_STEP;
-                index.nearest((spectrum, fitting.smooth_length, full_turn), from..self.next, best, most)
+                index.nearest((spectrum, fitting.smooth_length, full_turn), from..self.next, &mut self.best);
             }
             Query::Portion(stroke, _) => {
                 self.next += PORTIONS_PER_STEP;
-                index.nearest_portions((stroke, full_turn), from..self.next, best, most)
+                index.nearest_portions((stroke, full_turn), from..self.next, &mut self.best);
             }
-        };
+        }
     }
 
     /// Places the next of the best on the target; false if there is none, or enough have been found.
     fn place_next(&mut self, index: &Index, fitting: &Fitting) -> bool {
         let has_condition = fitting.limits.condition.is_some();
-        let is_enough = has_condition && self.placed.len() >= self.starts;
-        let Some(&(_, number)) = self.best.get(self.next_place).filter(|_| !is_enough) else { return false };
-        self.next_place += 1;
+        if has_condition && self.placed.len() >= self.starts {
+            return false;
+        }
+        let numbers = || self.best.sorted().into_iter().map(|(_, number)| number).collect::<Vec<_>>().into_iter();
+        let Some(number) = self.unplaced.get_or_insert_with(numbers).next() else { return false };
         let entry = index.entry(number);
         let Some((likeness, linkage)) = entry.and_then(|entry| self.placed_on_target(index, &entry)) else {
             return true;

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::shape::best::Best;
 use crate::shape::spectrum::{HARMONICS, Spectrum};
 use crate::shape::stroke::Stroke;
 use crate::shape::synthesis::Synthesis;
@@ -114,7 +115,7 @@ impl Shape {
     }
 
     /// The harmonics of order 1 to 10, then -1 to -10.
-    fn harmonics(&self) -> [[f32; 2]; 2 * HARMONICS] {
+    pub fn harmonics(&self) -> [[f32; 2]; 2 * HARMONICS] {
         let mut harmonics = [[0.0; 2]; 2 * HARMONICS];
         for (slot, k) in Shape::LOW.into_iter().enumerate() {
             harmonics[k] = [self.low[slot], self.low[4 + slot]].map(|value| f32::from(value) * LOW_UNIT);
@@ -159,13 +160,6 @@ impl Shape {
 const MIN_LENGTH: f64 = 0.6;
 const MAX_LENGTH: f64 = 1.6;
 
-/// Keeps the best, in order; the least of them, if they are as many as that.
-fn keep_best(best: &mut Vec<(f32, usize)>, most: usize) -> f32 {
-    best.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-    best.truncate(most);
-    if best.len() == most { best[most - 1].0 } else { f32::NEG_INFINITY }
-}
-
 /// A length in its units; of one that is longer than can be stored, the longest.
 fn length_units(length: f64) -> u16 {
     (length / LENGTH_UNIT).min(f64::from(u16::MAX)) as u16
@@ -192,47 +186,44 @@ impl Shapes {
     }
 
     pub fn reserve(&mut self, count: usize) {
-        self.shapes.reserve(count);
+        self.shapes.reserve_exact(count);
     }
 
     pub fn push(&mut self, shape: Shape) {
         self.shapes.push(shape);
     }
 
-    /// The curves of a range that are most like a target in canonical phase, at most `most` with those that are given, the
-    /// best first: their correlation, and their numbers. The length is that of the target in its sizes.
+    /// Adds the curves of a range that are most like a target in canonical phase, by their correlation, and by their places after that of a first.
+    /// The length is that of the target in its sizes.
     pub fn nearest(
         &self,
         (target, length, full_turn): (&Spectrum, f64, bool),
-        range: Range<usize>,
-        best: Vec<(f32, usize)>,
-        most: usize,
-    ) -> Vec<(f32, usize)> {
+        range: (Range<usize>, usize),
+        best: &mut Best,
+    ) {
         let shape = Shape::new(&target.canonical(), length, true);
         let lengths = [MIN_LENGTH, MAX_LENGTH].map(|part| length_units(part * length));
-        self.best_of(range, best, most, |other| {
+        self.add_to(best, range, |other, _| {
             let is_candidate = (lengths[0]..=lengths[1]).contains(&other.length) && (other.is_full_turn || !full_turn);
             is_candidate.then(|| -shape.square_distance(other))
-        })
+        });
     }
 
-    /// The curves of a range of which a portion is most like a stroke, at most `most` with those that are given, the best first:
-    /// how much, and their numbers.
+    /// Adds the curves of a range of which a portion is most like a stroke, by how much.
     pub fn nearest_portions(
         &self,
         (stroke, full_turn): (&Stroke, bool),
-        range: Range<usize>,
-        best: Vec<(f32, usize)>,
-        most: usize,
-    ) -> Vec<(f32, usize)> {
-        self.best_of(range, best, most, |shape| {
+        range: (Range<usize>, usize),
+        best: &mut Best,
+    ) {
+        self.add_to(best, range, |shape, _| {
             if shape.length == 0 || (full_turn && !shape.is_full_turn) {
                 return None;
             }
             let length = f32::from(shape.length) * LENGTH_UNIT as f32;
             let window = self.synthesis.best_window(&shape.harmonics(), length, stroke)?;
             Some(-window.residual)
-        })
+        });
     }
 
     /// The same with portions that are at least a part of the curve, compared more closely: curves that are not refined must be alike by
@@ -240,37 +231,30 @@ impl Shapes {
     pub fn nearest_portions_closely(
         &self,
         (stroke, least): (&Stroke, f64),
-        range: Range<usize>,
-        best: Vec<(f32, usize)>,
-        most: usize,
-    ) -> Vec<(f32, usize)> {
-        self.best_of(range, best, most, |shape| {
+        range: (Range<usize>, usize),
+        best: &mut Best,
+    ) {
+        self.add_to(best, range, |shape, floor| {
             let length = f32::from(shape.length) * LENGTH_UNIT as f32;
             let least = if shape.is_open { 0.5 * least } else { least };
-            let residual =
-                (shape.length > 0).then(|| self.synthesis.least_residual(&shape.harmonics(), length, (stroke, least)));
+            let residual = (shape.length > 0)
+                .then(|| self.synthesis.least_residual(&shape.harmonics(), length, (stroke, least), -floor));
             residual.flatten().map(|residual| -residual)
-        })
+        });
     }
 
-    /// The shapes of a range with the greatest likeness, at most `most` with those that are given, the best first.
-    fn best_of(
+    /// Adds the shapes of a range that have a likeness, which is asked for with what it must exceed to be kept.
+    fn add_to(
         &self,
-        range: Range<usize>,
-        mut best: Vec<(f32, usize)>,
-        most: usize,
-        likeness: impl Fn(&Shape) -> Option<f32>,
-    ) -> Vec<(f32, usize)> {
-        let mut least = f32::NEG_INFINITY;
+        best: &mut Best,
+        (range, first): (Range<usize>, usize),
+        likeness: impl Fn(&Shape, f32) -> Option<f32>,
+    ) {
         for number in range.start..range.end.min(self.shapes.len()) {
-            let Some(likeness) = likeness(&self.shapes[number]).filter(|likeness| *likeness > least) else { continue };
-            best.push((likeness, number));
-            if best.len() >= 2 * most {
-                least = keep_best(&mut best, most);
+            if let Some(likeness) = likeness(&self.shapes[number], best.floor()) {
+                best.add(likeness, first + number);
             }
         }
-        keep_best(&mut best, most);
-        best
     }
 }
 

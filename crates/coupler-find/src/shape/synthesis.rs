@@ -2,7 +2,7 @@
 
 use crate::complex::unit;
 use crate::shape::spectrum::HARMONICS;
-use crate::shape::stroke::{CURVE_POINTS, LOOSE_TOLERANCE, Stroke, TOLERANCE, Window, Windows};
+use crate::shape::stroke::{CURVE_POINTS, LOOSE_TOLERANCE, Stroke, TOLERANCE, Window, Windows, likelier};
 use std::f64::consts::TAU;
 
 /// Computes the points of curves from their harmonics.
@@ -57,18 +57,20 @@ impl Synthesis {
     }
 
     /// The part of a stroke's sum of squares that remains for the portion of a curve that is most like it: between the windows of
-    /// [`Synthesis::best_window`], which are eighths of the curve and more.
+    /// [`Synthesis::best_window`], which are eighths of the curve and more. It is found as far as it may be below `most`.
     pub fn least_residual(
         &self,
         harmonics: &[[f32; 2]; 2 * HARMONICS],
         length: f32,
         (stroke, least): (&Stroke, f64),
+        most: f32,
     ) -> Option<f32> {
         let coordinates = self.coordinates(harmonics);
         let [xs, ys] = &coordinates;
         // The best window of each quarter, in both directions.
         let mut best: [Option<Window>; 8] = [None; 8];
-        stroke.for_each_window([xs, ys], length, &Windows { step: 2, least, tolerance: LOOSE_TOLERANCE }, |window| {
+        stroke.for_each_window([xs, ys], length, &Windows { step: 2, least, tolerance: LOOSE_TOLERANCE }, |both| {
+            let window = likelier(both);
             let place = &mut best[2 * (4 * window.first / CURVE_POINTS) + usize::from(window.is_reversed)];
             if place.is_none_or(|best| window.residual < best.residual) {
                 *place = Some(window);
@@ -77,6 +79,6 @@ impl Synthesis {
         let least_residual = best.iter().flatten().map(|window| window.residual).fold(f32::INFINITY, f32::min);
         let is_near = |window: &&Window| window.residual <= 4.0 * least_residual + 0.01;
         let near = best.iter().flatten().filter(is_near);
-        near.map(|window| stroke.least_residual_near(&coordinates, window, least as f32)).reduce(f32::min)
+        near.map(|window| stroke.least_residual_near(&coordinates, window, (least as f32, most))).reduce(f32::min)
     }
 }

@@ -1,5 +1,6 @@
 // Reads the data of a family (reader.js), whose pieces must be loaded (needs.js).
 
+import { sumOf } from "./number.js";
 import { unpackPoints } from "./packed.js";
 import { upperBound } from "./series.js";
 
@@ -63,36 +64,36 @@ export function curveOutline(family, /** @type {number} */ curve) {
   return { points: curvePoints(family, curve), closed: family.curves.closed[curve] === 1 };
 }
 
+/** The points of a curve, [x0, y0, x1, y1, …], accurate to 1/65535 of its extent. @param {Family} family @param {number} curve */
+export function curvePoints(family, curve) {
+  return givenCurves(family, [curve]).points;
+}
+
 /**
- * The points of a curve, or of those of a piece up to another one, [x0, y0, x1, y1, …], accurate to 1/65535 of its extent; in `room` if it is
- * large enough. @param {Family} _ @param {number} curve
+ * Curves of a piece for the kernel, with their points one after another, in `room` if it is large enough.
+ * @param {Family} _ @param {number[]} curves @returns {GivenCurves}
  */
-export function curvePoints({ outlines }, curve, end = curve + 1, room = new ArrayBuffer()) {
-  const piece = outlines.ofCurve(curve);
-  if (!piece?.data) return new Float64Array();
-  const { box, start, places, points } = piece.data;
-  const [first, last] = [curve - piece.firstCurve, end - piece.firstCurve];
-  const length = 2 * (start[last] - start[first]);
+export function givenCurves({ outlines, curves: { closed } }, curves, room = new ArrayBuffer()) {
+  const { firstCurve = 0, data = null } = outlines.ofCurve(curves[0]) ?? {};
+  if (!data) return { points: new Float64Array(), counts: new Float64Array(), closed: new Float64Array() };
+  const { box, start, points } = data;
+  const places = curves.map((curve) => curve - firstCurve);
+  const counts = Float64Array.from(places, (own) => start[own + 1] - start[own]);
+  const length = 2 * sumOf(counts, (count) => count);
   const out = new Float64Array(room.byteLength < 8 * length ? new ArrayBuffer(8 * length) : room, 0, length);
-  for (let own = first, at = 0; own < last; own += 1) {
+  let at = 0;
+  places.forEach((own, n) => {
     const [x0, y0, x1, y1] = box.subarray(4 * own, 4 * own + 4);
     const isPacked = points instanceof Uint8Array;
-    const count = start[own + 1] - start[own];
-    const steps = isPacked ? unpackPoints(points, places[own], count) : points.subarray(2 * start[own]);
-    for (let k = 0; k < 2 * count; k += 2) {
+    const steps = isPacked
+      ? unpackPoints(points, data.places[own], counts[n])
+      : points.subarray(2 * start[own]);
+    for (let k = 0; k < 2 * counts[n]; k += 2) {
       out[at++] = x0 + ((x1 - x0) * steps[k]) / 65535;
       out[at++] = y0 + ((y1 - y0) * steps[k + 1]) / 65535;
     }
-  }
-  return out;
-}
-
-/** The numbers of points of the curves of a piece from one up to another one. @param {Family} _ @param {number} from @param {number} end */
-export function pointCounts({ outlines }, from, end) {
-  const piece = outlines.ofCurve(from);
-  const { start } = piece?.data ?? { start: [] };
-  const first = from - (piece?.firstCurve ?? 0);
-  return Float64Array.from({ length: end - from }, (_, k) => start[first + k + 1] - start[first + k]);
+  });
+  return { points: out, counts, closed: Float64Array.from(curves, (curve) => closed[curve]) };
 }
 
 /** The bounding box of a curve, [x0, y0, x1, y1]. @param {Family} _ */

@@ -43,9 +43,12 @@ export function placesOfCurves(bytes, counts) {
   });
 }
 
-/** The points of a curve, x and y in turn from 0 to 65535, of third differences (typed_array.rs). @param {Uint8Array} bytes @param {number} at @param {number} count */
+let unpackedPoints = new Uint16Array();
+
+/** The points of a curve, x and y in turn from 0 to 65535, of third differences (typed_array.rs), until the next call. @param {Uint8Array} bytes @param {number} at @param {number} count */
 export function unpackPoints(bytes, at, count) {
-  const points = new Uint16Array(2 * count);
+  if (unpackedPoints.length < 2 * count) unpackedPoints = new Uint16Array(4 * count);
+  const points = unpackedPoints;
   for (const axis of [0, 1]) {
     let [a, b, c] = [0, 0, 0];
     for (let k = 0; k < count; k += 1) {

@@ -15,7 +15,10 @@ export class KernelInstance {
   constructor(/** @type {WebAssembly.Module} */ module) {
     this.exports = /** @type {KernelExports} */ (new WebAssembly.Instance(module, {}).exports);
     this.exports.kernel_start();
-    this.view = new Float64Array();
+    // Made once: a step of a search takes a fraction of a millisecond, and what it leaves is collected after many megabytes.
+    this.view = this.none = new Float64Array();
+    this.encoder = new TextEncoder();
+    this.decoder = new TextDecoder();
   }
 
   /**
@@ -49,7 +52,6 @@ export class KernelInstance {
    * @throws {KernelFailure} if the kernel fails
    */
   exchange(request, arrays) {
-    const text = new TextEncoder().encode(request);
     return this.#guarded((kernel) => {
       const total = arrays.reduce((sum, array) => sum + array.length, 0);
       if (total > 0) {
@@ -61,15 +63,18 @@ export class KernelInstance {
           at += array.length;
         }
       }
-      const place = kernel.kernel_allocate(text.length);
-      new Uint8Array(kernel.memory.buffer, place, text.length).set(text);
-      const parts = kernel.kernel_call(place, text.length);
+      // What is left of the room for characters of three bytes are blanks.
+      const room = 3 * request.length;
+      const place = kernel.kernel_allocate(room);
+      const text = new Uint8Array(kernel.memory.buffer, place, room);
+      text.fill(32, this.encoder.encodeInto(request, text).written);
+      const parts = kernel.kernel_call(place, room);
       // The call may have moved the memory.
       const { buffer } = kernel.memory;
       const [start, length, first, count] = new Uint32Array(buffer, parts, 4);
       return {
-        json: new TextDecoder().decode(new Uint8Array(buffer, start, length)),
-        numbers: count ? new Float64Array(buffer, first, count) : new Float64Array(),
+        json: this.decoder.decode(new Uint8Array(buffer, start, length)),
+        numbers: count ? new Float64Array(buffer, first, count) : this.none,
       };
     });
   }
@@ -99,7 +104,7 @@ export class KernelInstance {
   #numbers(/** @type {number} */ place, /** @type {number} */ count) {
     const { buffer } = this.exports.memory;
     const { view } = this;
-    if (count === 0) return new Float64Array();
+    if (count === 0) return this.none;
     if (view.buffer !== buffer || view.byteOffset !== place || view.length !== count)
       this.view = new Float64Array(buffer, place, count);
     return this.view;

@@ -21,34 +21,26 @@ export class ShapeSearch {
   }
 
   /**
-   * The curves of an index that are most like the path, the likeliest first; null if stopped.
-   * @param {ShapeIndex} index @param {AbortSignal} signal @returns {Promise<Candidate[] | null>}
+   * Compares the curves of an index, whose numbers follow those of the indexes before: the numbers of those of all so far that are most like
+   * the path; null if stopped. @param {ShapeIndex} index @param {AbortSignal} signal @returns {Promise<Float64Array | null>}
    */
-  async candidates({ family, first, curves }, signal) {
+  async compare({ curves }, signal) {
     for (let from = 0; ;) {
       const found = await this.kernel.call({ method: "compare_shape", shape: this.shape, curves, from });
-      if (found.next === null) {
-        const { numbers, likenesses } = found;
-        return Array.from(numbers, (number, k) => ({
-          family,
-          curve: first + number,
-          likeness: likenesses[k],
-        }));
-      }
+      if (found.next === null) return found.numbers;
       if (signal.aborted) return null;
       from = found.next;
     }
   }
 
-  /** How much curves are like the path, compared closely; null for those that are not. @param {Outline[]} curves @returns {Promise<{ likeness: number | null }[]>} */
-  likenesses(curves) {
-    const { shape } = this;
-    return this.kernel.call(curves.map((curve) => ({ ...curve, method: "compare_closely", shape })));
+  /** How much curves are like the path, compared closely; NaN for those that are not. @param {GivenCurves} given @returns {Promise<GivenCurves & { likenesses: Float64Array }>} */
+  compareClosely(given) {
+    return this.kernel.call({ ...given, method: "compare_closely", shape: this.shape }, "points");
   }
 
-  /** How a curve fits the path; null if it does not. @param {Outline} curve @returns {Promise<Fit | null>} */
-  async fit({ points, closed }) {
-    return (await this.kernel.call({ method: "fit_shape", shape: this.shape, points, closed })).fit;
+  /** How a curve fits the path, `fit` or null, and what of it is the same for similar curves. @param {Outline} curve @returns {Promise<FittedCurve>} */
+  fit({ points, closed }) {
+    return this.kernel.call({ method: "fit_shape", shape: this.shape, points, closed });
   }
 
   /** Releases it. */

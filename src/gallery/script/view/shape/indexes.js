@@ -1,6 +1,6 @@
 // The indexes of the curves of families, in the kernel: in parts, so that a family of any size can be searched in bounded memory.
 
-import { curvePoints, pointCounts } from "../../data/family.js";
+import { givenCurves } from "../../data/family.js";
 import { needPieces } from "../../data/needs.js";
 import { sumOf } from "../../data/number.js";
 
@@ -62,7 +62,7 @@ export async function shapeIndex(kernel, { family, first, count, pieces, isKept 
   if (kept?.count === count) return kept;
   if (kept) await releaseIndex(kernel, kept);
   const { instance } = kernel;
-  const { curves } = await kernel.call({ method: "open_curves" });
+  const { curves } = await kernel.call({ method: "open_curves", count });
   const index = { family, first, count, curves };
   let isComplete = false;
   let room;
@@ -72,7 +72,10 @@ export async function shapeIndex(kernel, { family, first, count, pieces, isKept 
       const end = piece.firstCurve + piece.curves;
       for (let from = piece.firstCurve; from < end; from += CURVES_PER_CALL) {
         if (signal.aborted) return null;
-        room = await addCurves(kernel, index, [from, Math.min(from + CURVES_PER_CALL, end)], room);
+        const added = Array.from({ length: Math.min(CURVES_PER_CALL, end - from) }, (_, k) => from + k);
+        const request = { method: "add_curves", curves, ...givenCurves(family, added, room) };
+        const { points = request.points } = await kernel.call(request, "points");
+        room = points.buffer;
       }
     }
     isComplete = kernel.instance === instance;
@@ -81,17 +84,6 @@ export async function shapeIndex(kernel, { family, first, count, pieces, isKept 
   }
   if (isKept) known.set(first, index);
   return index;
-}
-
-/**
- * Adds the curves from one to before another to an index; their points are in `room`, which it returns.
- * @param {SearchKernel} kernel @param {ShapeIndex} _ @param {number[]} range @param {ArrayBuffer} [room] @returns {Promise<ArrayBuffer>}
- */
-async function addCurves(kernel, { family, curves }, [from, to], room) {
-  const points = curvePoints(family, from, to, room);
-  const closed = Float64Array.from(family.curves.closed.subarray(from, to));
-  const request = { method: "add_curves", curves, points, counts: pointCounts(family, from, to), closed };
-  return ((await kernel.call(request, "points")).points ?? points).buffer;
 }
 
 /** @returns {Map<number, ShapeIndex>} */

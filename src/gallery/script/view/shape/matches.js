@@ -1,6 +1,6 @@
 // Finds the curves of the atlas that are nearest to a path.
 
-import { curveCaption, curveKey, curveOutline } from "../../data/family.js";
+import { curveCaption, curveKey, curveOutline, givenCurves } from "../../data/family.js";
 import { needPieces } from "../../data/needs.js";
 import { KernelFailure } from "../../kernel/instance.js";
 import { drawnPath, ShapeSearch, WHOLE } from "../../kernel/shape-search.js";
@@ -28,14 +28,14 @@ export async function nearestCurves(app, parts, shape, options, signal, progress
   const search = await ShapeSearch.open(kernel, path, { mirror, least, wanted: WANTED });
   try {
     const found = await candidatesOf(app, kernel, search, parts, signal, progress);
-    const taken = found && (await takenCurves(found, signal));
-    const candidates =
-      taken && taken.length > WANTED ? await nearestCandidates(search, taken, signal) : taken;
-    if (!candidates) return null;
+    const isMany = found && found.length > WANTED;
+    const candidates = isMany ? await nearestCandidates(search, found, signal) : found;
+    const taken = candidates && (await takenCurves(candidates, signal));
+    if (!taken) return null;
     /** @type {Match[]} */ const matches = [];
-    for (const one of candidates) {
-      const fit = await search.fit(one.outline);
-      if (fit) matches.push({ ...fit, ...one });
+    for (const one of taken) {
+      const { fit, invariants } = await search.fit(one.outline);
+      if (fit) matches.push({ ...fit, ...one, invariants });
       if (signal.aborted) return null;
     }
     return matches.sort((a, b) => a[by] - b[by]);
@@ -45,14 +45,15 @@ export async function nearestCurves(app, parts, shape, options, signal, progress
 }
 
 /**
- * The likeliest curves of all parts; null if stopped.
+ * The likeliest curves of all parts, in their order; null if stopped.
  * @param {App} app @param {SearchKernel} kernel @param {ShapeSearch} search @param {SearchedPart[]} parts @param {AbortSignal} signal @param {(part: SearchedPart, searched: number) => void} progress
  */
 async function candidatesOf(app, kernel, search, parts, signal, progress) {
-  /** @type {Candidate[]} */ let candidates = [];
-  let searched = 0;
+  /** @type {(ShapeIndex & { before: number })[]} */ const searched = [];
+  let count = 0;
+  /** @type {number[]} */ let numbers = [];
   for (const part of parts) {
-    progress(part, searched);
+    progress(part, count);
     let index;
     try {
       index = await shapeIndex(kernel, part, signal);
@@ -61,42 +62,57 @@ async function candidatesOf(app, kernel, search, parts, signal, progress) {
       app.announce(error.message);
       continue;
     }
-    const found = index && (await search.candidates(index, signal));
+    const found = index && (await search.compare(index, signal));
     if (index && !part.isKept) await releaseIndex(kernel, index);
-    if (!found) return null;
-    candidates = likeliest([...candidates, ...found], search.most);
-    searched += part.count;
+    if (!index || !found) return null;
+    numbers = Array.from(found);
+    searched.push({ ...index, before: count });
+    count += part.count;
   }
-  return candidates;
+  return numbers
+    .sort((a, b) => a - b)
+    .map((number) => {
+      const { family, first, before } = searched.findLast((index) => index.before <= number) ?? searched[0];
+      return { family, curve: first + number - before };
+    });
 }
 
 /**
  * Those that are wanted of the candidates, compared closely; null if stopped.
- * @param {ShapeSearch} search @param {TakenCurve[]} candidates @param {AbortSignal} signal
+ * @param {ShapeSearch} search @param {CurveOfFamily[]} candidates @param {AbortSignal} signal @returns {Promise<CurveOfFamily[] | null>}
  */
 async function nearestCandidates(search, candidates, signal) {
-  /** @type {(TakenCurve & Candidate)[]} */ const compared = [];
-  for (let from = 0; from < candidates.length; from += CLOSELY_PER_CALL) {
+  /** @type {(CurveOfFamily & { likeness: number })[]} */ const compared = [];
+  let room;
+  for (let from = 0; from < candidates.length;) {
+    const { family, curve } = candidates[from];
+    const piece = family.outlines.ofCurve(curve);
+    const isOther = (/** @type {CurveOfFamily} */ one) =>
+      one.family !== family || family.outlines.ofCurve(one.curve) !== piece;
     const some = candidates.slice(from, from + CLOSELY_PER_CALL);
-    const answers = await search.likenesses(some.map(({ outline }) => outline));
-    answers.forEach(({ likeness }, k) => likeness !== null && compared.push({ ...some[k], likeness }));
+    const end = some.findIndex(isOther);
+    some.length = end < 0 ? some.length : end;
+    from += some.length;
+    await needPieces(family, [piece]);
     if (signal.aborted) return null;
+    const given = givenCurves(
+      family,
+      some.map((one) => one.curve),
+      room,
+    );
+    const { likenesses, points = given.points } = await search.compareClosely(given);
+    room = points.buffer;
+    some.forEach(
+      (one, k) => likenesses[k] === likenesses[k] && compared.push({ ...one, likeness: likenesses[k] }),
+    );
   }
-  return likeliest(compared, WANTED);
+  return compared.sort((a, b) => b.likeness - a.likeness).slice(0, WANTED);
 }
 
-/** @template {Candidate} T @param {T[]} candidates */
-function likeliest(candidates, /** @type {number} */ most) {
-  return candidates.sort((a, b) => b.likeness - a.likeness).slice(0, most);
-}
-
-/** Takes curves out of their pieces, each of which is loaded once; null if stopped. @param {Candidate[]} candidates @param {AbortSignal} signal */
+/** Takes curves out of their pieces; null if stopped. @param {CurveOfFamily[]} candidates @param {AbortSignal} signal */
 async function takenCurves(candidates, signal) {
-  const id = (/** @type {Candidate} */ one) => one.family.id;
   /** @type {TakenCurve[]} */ const taken = [];
-  for (const { family, curve } of candidates.sort(
-    (a, b) => id(a).localeCompare(id(b)) || a.curve - b.curve,
-  )) {
+  for (const { family, curve } of candidates) {
     await needPieces(family, [family.outlines.ofCurve(curve)]);
     if (signal.aborted) return null;
     const name = `${family.id}:${curveKey(family, curve)}`;
@@ -136,11 +152,10 @@ export async function mergedMatches(app, matches, /** @type {number} */ most, mi
 /** @param {(MergedMatch & { search: ShapeSearch })[]} merged @param {Match} match */
 async function sameAmong(merged, match) {
   for (const one of merged) {
-    // The same curve deviates as much from the path.
-    const { rms, greatest } = one.match;
-    if (Math.abs(rms - match.rms) > SAME || Math.abs(greatest - match.greatest) > 3 * SAME) continue;
-    if (one.match.outline.closed !== match.outline.closed) continue;
-    const fit = await one.search.fit(match.outline);
+    const { outline, invariants } = one.match;
+    if (outline.closed !== match.outline.closed) continue;
+    if (invariants.some((value, k) => Math.abs(value - match.invariants[k]) > 3 * SAME)) continue;
+    const { fit } = await one.search.fit(match.outline);
     if (fit && fit.rms < SAME && Math.abs(fit.to - fit.from) > 1 - SAME) return one;
   }
   return null;
