@@ -14,6 +14,11 @@ mkdir "$folder/root" "$folder/bin"
 cp -r .ci .github Cargo.toml "$folder/root"
 version=$(sed -n 's/^version = "\(.*\)"$/\1/p' Cargo.toml | head -1)
 sed "s/^## $version, unreleased$/## $version, 2026-01-01/" CHANGELOG.md > "$folder/root/CHANGELOG.md"
+cp README.md "$folder/root"
+code=0
+"$folder/root/.ci/release-notes" "$version" > /dev/null 2>&1 || code=$?
+[ "$code" = 1 ] || ! grep -q "not released yet" README.md || fail "what the README marks as not released is released"
+sed -i "s/, which is not released yet,//" "$folder/root/README.md"
 
 notes=$("$folder/root/.ci/release-notes" "$version")
 links=$(grep -oE '\]\([^)]*\)' <<< "$notes" | grep -v '^](https://' || true)
@@ -67,7 +72,7 @@ grep -q "^release create v9.0.0-rc.1 .*--prerelease" "$CALLS" || fail "9.0.0-rc.
 
 tags() {
     : > "$CALLS"
-    .ci/image registry/name "$1" "$folder"
+    .ci/image push registry/name "$1" "$folder"
     sed -n 's/^buildx imagetools create //p' "$CALLS" | tr ' ' '\n' | sed -n 's/^--tag=registry.name://p' | tr '\n' ' '
 }
 [ "$(tags 1.2.3)" = "v1.2.3 1.2 latest " ] && [ "$(tags 1.2.3-rc.1)" = "v1.2.3-rc.1 " ] || fail "the tags of an image"
