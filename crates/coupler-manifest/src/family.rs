@@ -143,6 +143,7 @@ pub(crate) fn read<'t>(
     }
     let source = source.unwrap_or_else(|| family.template.source_line());
     let [filter_span, scale_span] = ["where", "scale"].map(|key| fields.get(key).map(TomlValue::span));
+    let sort = fields.get("sort").and_then(|value| value.get_ref().as_str()).map(str::to_owned);
     let (layout, chart, formats) = (layout?, chart?, formats?);
     let has_pages = matches!(purpose, Purpose::Pages);
     cells::check_memory(&family, has_pages.then_some(layout), &fields, parser);
@@ -157,6 +158,7 @@ pub(crate) fn read<'t>(
         formats,
         source,
         automatic_caption,
+        sort,
         case_file: names.table.map(|table| CaseFile { path: table.path, digest: table.digest }),
         manifest_inputs: inputs,
         tolerances,

@@ -23,6 +23,7 @@ pub const DWELL: Measure = Measure::number(
     "greatest input span over which the output stays within a band of 0.01 of its swing or stroke, or of a turn",
     |curve| output_value(curve, |output| Some(output.dwell()?.input_span)),
 )
+.more_is_better()
 .of(Subject::WithOutput)
 .or_length("output_dwell_length");
 
