@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::output;
-use crate::shard::{self, Division, Event, MAX_SHARDS, MAX_TOP, Options, ShardRecord, TableFormat};
+use crate::shard::{self, Counts, Division, Event, MAX_SHARDS, MAX_TOP, Options, ShardRecord, TableFormat};
 use crate::sweep::cells_of_division;
 use clap::{Args, ValueHint};
 use coupler_curves::family::MEASURES;
@@ -12,7 +12,7 @@ use indicatif::ProgressBar;
 use super::best_table::best_table;
 use super::files::DEFAULT_MANIFEST;
 use super::source::{self, ManifestSource};
-use super::{Failure, Outcome, choice, files, interrupt, print, printable, progress_bar};
+use super::{Failure, Outcome, choice, files, interrupt, print, print_stderr, printable, progress_bar};
 use coupler_curves::text::pluralize;
 
 /// Solve a part of the cells of a manifest, or all, into tables without pages: cells and points of each family, as Parquet.
@@ -120,7 +120,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     };
     let mut bar = ProgressBar::hidden();
     let mut written: Vec<(String, Option<(PathBuf, usize)>)> = Vec::new();
-    let mut empty: Vec<String> = Vec::new();
+    let (mut empty, mut unranked): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
     shard::write_shard(&source.plan, &output, &options, &mut |event| match event {
         Event::Begin { .. } if arguments.quiet => {}
         Event::Begin { family, cells } => {
@@ -132,11 +132,19 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
             let has_best = record.top.is_some() && record.counts.curves > 0;
             written.push((summary(record, path, is_kept), has_best.then(|| (path.to_owned(), record.counts.curves))));
             // Of a part of the cells another may have curves.
-            if record.counts.curves == 0 && (1..=MAX_DIAGNOSED_CELLS).contains(&record.cell_count) && is_whole(record) {
-                empty.push(record.family.clone());
+            if record.counts.curves == 0 && is_whole(record) {
+                let Counts { cells_left_out, not_assembled, .. } = record.counts;
+                match &record.top {
+                    Some(top) if cells_left_out + not_assembled < record.cell_count => {
+                        unranked.push(format!("note: {}: `{}` has no value for any curve\n", record.family, top.by));
+                    }
+                    _ if (1..=MAX_DIAGNOSED_CELLS).contains(&record.cell_count) => empty.push(record.family.clone()),
+                    _ => {}
+                }
             }
         }
     })?;
+    unranked.iter().for_each(|note| print_stderr(note));
     let empty = source.plan.families.iter().filter(|planned| empty.contains(&planned.family.id));
     source.report_problems(&empty.map(output::empty_family_warning).collect::<Vec<_>>());
     if arguments.quiet {

@@ -133,6 +133,9 @@ fn an_empty_answer_says_why() {
     let path = folder.path();
     sweep_all(path, "out", 2, &["--no-points"]);
     sweep_all(path, "best", 2, &["--no-points", "--top", "3", "--by", "length / 0 * 0"]);
+    let (code, _, err) =
+        run(path, &["sweep", "-q", "-o", "none", "--only", "evans", "--top", "3", "--by", "length / 0 * 0"]);
+    assert_eq!((code, err.as_str()), (0, "note: evans: `length / 0 * 0` has no value for any curve\n"));
     for (arguments, expected) in [
         (&["out", "--top", "3", "--by", "0/0"][..], "nothing is the best: `0/0` has no value for any of "),
         (&["best"], "nothing is the best: no shard has a curve for which `length / 0 * 0` has a value"),
