@@ -35,7 +35,7 @@ def main():
     parser.add_argument("--scheduler", help="the address of a scheduler [default: a cluster on this machine]")
     parser.add_argument("--workers", type=int, default=os.cpu_count(), help="the workers on this machine")
     parser.add_argument("--top", default="1000")
-    parser.add_argument("--by", default="straight_length")
+    parser.add_argument("--by", default="-straight_length", help="what is least for the best, as in --by=-straight_length")
     arguments = parser.parse_args()
     arguments.output.mkdir(parents=True, exist_ok=True)
     manifest, output = str(arguments.manifest.resolve()), str(arguments.output.resolve())

@@ -4,6 +4,6 @@
 #SBATCH --cpus-per-task=1
 set -euo pipefail
 
-"${COUPLER_ATLAS:-coupler-atlas}" gather "$OUTPUT" --top "${TOP:-1000}" --by "${BY:-straight_length}" --toml "$OUTPUT/best.toml" \
+"${COUPLER_ATLAS:-coupler-atlas}" gather "$OUTPUT" --top "${TOP:-1000}" --by "${BY:--straight_length}" --toml "$OUTPUT/best.toml" \
     > "$OUTPUT/best.csv.new"
 mv "$OUTPUT/best.csv.new" "$OUTPUT/best.csv"

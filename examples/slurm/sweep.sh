@@ -9,7 +9,7 @@
 set -uo pipefail
 
 "${COUPLER_ATLAS:-coupler-atlas}" sweep "$MANIFEST" --shard "$SLURM_ARRAY_TASK_ID/$SHARDS" --output "$OUTPUT" \
-    --jobs "${SLURM_CPUS_PER_TASK:-1}" --no-points --top "${TOP:-1000}" --by "${BY:-straight_length}"
+    --jobs "${SLURM_CPUS_PER_TASK:-1}" --no-points --top "${TOP:-1000}" --by "${BY:--straight_length}"
 code=$?
 
 # Slurm itself starts tasks again whose node has failed. So does this a program that was killed, or whose disk was full: what is

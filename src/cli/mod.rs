@@ -1,5 +1,7 @@
 //! The command line: arguments, one file for each subcommand, progress and exit codes. No other module prints.
 
+mod aligned_table;
+mod best_table;
 mod check;
 mod choice;
 mod color;

@@ -3,15 +3,16 @@
 use std::path::{Path, PathBuf};
 
 use crate::output;
-use crate::shard::{self, Division, Event, MAX_SHARDS, MAX_TOP, Options, ShardRecord, TableFormat, Top};
+use crate::shard::{self, Counts, Division, Event, MAX_SHARDS, MAX_TOP, Options, ShardRecord, TableFormat};
 use crate::sweep::cells_of_division;
 use clap::{Args, ValueHint};
 use coupler_curves::family::MEASURES;
 use indicatif::ProgressBar;
 
+use super::best_table::best_table;
 use super::files::DEFAULT_MANIFEST;
 use super::source::{self, ManifestSource};
-use super::{Failure, Outcome, choice, files, interrupt, print, printable, progress_bar};
+use super::{Failure, Outcome, choice, files, interrupt, print, print_stderr, printable, progress_bar};
 use coupler_curves::text::pluralize;
 
 /// Solve a part of the cells of a manifest, or all, into tables without pages: cells and points of each family, as Parquet.
@@ -41,13 +42,12 @@ pub struct Arguments {
     #[arg(
         long,
         value_name = "N",
-        requires = "by",
         value_parser = clap::value_parser!(u32).range(1..=MAX_TOP as i64),
         help = format!("Keep only the N best curves of each family in the shard by --by, 1 to {MAX_TOP}")
     )]
     top: Option<u32>,
-    /// What is greatest for the best curves: an expression of parameters and measures, as in --by straight_length or --by
-    /// "-straight_deviation".
+    /// What is least for the best curves, as in `sort`: an expression of parameters and measures, with a minus sign for the greatest, as in
+    /// --by -straight_length or --by straight_deviation [default: the family's `sort`].
     #[arg(long, value_name = "EXPR", requires = "top", allow_hyphen_values = true)]
     by: Option<String>,
     /// The measures of the tables, in place of those of the manifest, or none; those that `where` and --by use are there in any
@@ -107,23 +107,20 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     source.require_families(&arguments.only)?;
     check_cells(&source, division, &is_selected)?;
     let output = source.output_folder(arguments.output.as_deref())?;
-    let top = arguments
-        .top
-        .zip(arguments.by.clone())
-        .map(|(count, by)| Top { count: count as usize, by: by.trim().to_owned() });
     let options = Options {
         division,
         format: arguments.format,
         has_points: !arguments.no_points,
-        top,
+        top: arguments.top.map(|top| top as usize),
+        by: arguments.by.clone(),
         measures,
         only: arguments.only.clone(),
         force: arguments.force,
         interrupt: interrupt::interrupt_flag(shard::Error::Interrupted)?,
     };
     let mut bar = ProgressBar::hidden();
-    let mut lines = String::new();
-    let mut empty: Vec<String> = Vec::new();
+    let mut written: Vec<(String, Option<(PathBuf, usize)>)> = Vec::new();
+    let (mut empty, mut unranked): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
     shard::write_shard(&source.plan, &output, &options, &mut |event| match event {
         Event::Begin { .. } if arguments.quiet => {}
         Event::Begin { family, cells } => {
@@ -132,20 +129,42 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         Event::Cells(cells) => bar.inc(cells as u64),
         Event::End { record, path, is_kept } => {
             bar.finish_and_clear();
-            lines.push_str(&summary(record, path, is_kept));
+            let has_best = record.top.is_some() && record.counts.curves > 0;
+            written.push((summary(record, path, is_kept), has_best.then(|| (path.to_owned(), record.counts.curves))));
             // Of a part of the cells another may have curves.
-            if record.counts.curves == 0 && (1..=MAX_DIAGNOSED_CELLS).contains(&record.cell_count) && is_whole(record) {
-                empty.push(record.family.clone());
+            if record.counts.curves == 0 && is_whole(record) {
+                let Counts { cells_left_out, not_assembled, .. } = record.counts;
+                match &record.top {
+                    Some(top) if cells_left_out + not_assembled < record.cell_count => {
+                        unranked.push(format!("note: {}: `{}` has no value for any curve\n", record.family, top.by));
+                    }
+                    _ if (1..=MAX_DIAGNOSED_CELLS).contains(&record.cell_count) => empty.push(record.family.clone()),
+                    _ => {}
+                }
             }
         }
     })?;
+    unranked.iter().for_each(|note| print_stderr(note));
     let empty = source.plan.families.iter().filter(|planned| empty.contains(&planned.family.id));
     source.report_problems(&empty.map(output::empty_family_warning).collect::<Vec<_>>());
-    if !arguments.quiet {
-        print(&lines)?;
+    if arguments.quiet {
+        return Ok(Outcome::Done);
+    }
+    for (summary, best) in written {
+        print(&summary)?;
+        if let Some((path, curves)) = best {
+            let shown = shard::best_of_table(&path, MAX_SHOWN)?;
+            print(&best_table(&shown, options.measures.as_deref().unwrap_or_default()))?;
+            if let more @ 1.. = curves - shown.best.len() {
+                print(&format!("     and {more} more in the table\n"))?;
+            }
+        }
     }
     Ok(Outcome::Done)
 }
+
+/// The most of the best curves of a family that are printed.
+const MAX_SHOWN: usize = 100;
 
 /// The most cells of a family of which it is said why none is kept; for that they are solved again.
 const MAX_DIAGNOSED_CELLS: usize = 100_000;
@@ -204,7 +223,7 @@ fn summary(record: &ShardRecord, path: &Path, is_kept: bool) -> String {
         describe_counts(record.counts.not_assembled, record.counts.partly_assembled, record.counts.cells_left_out);
     let written = if is_kept { "complete in" } else { "written to" };
     let curves = match &record.top {
-        Some(_) => format!("the best {}", pluralize(record.counts.curves, "curve")),
+        Some(top) => format!("the best {} by `{}`", pluralize(record.counts.curves, "curve"), top.by),
         None => pluralize(record.counts.curves, "curve"),
     };
     format!("{family}: {cells}{counts}, {curves}, {written} {}\n", printable(path.display()))

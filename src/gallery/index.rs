@@ -114,7 +114,8 @@ fn atlas_json(run: &RunRecord, families: &[GalleryFamily]) -> Value {
     let measure = |m: &measure::Measure| {
         let is_input = m.length_name.is_some();
         json!({
-            "name": m.name, "title": m.title, "unit": m.unit, "definition": m.definition, "word": m.is_word, "is_input": is_input
+            "name": m.name, "title": m.title, "unit": m.unit, "definition": m.definition, "word": m.is_word, "is_input": is_input,
+            "is_more_better": m.is_more_better
         })
     };
     json!({

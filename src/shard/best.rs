@@ -3,10 +3,10 @@
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
-/// A curve by its rank: the greater its key the better, and of equal keys the one that comes first.
+/// A curve by its rank: the less its key the better, and of equal keys the one that comes first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Ranked<T> {
-    /// The value of the expression that is greatest for the best; never NaN.
+    /// The value of the expression that is least for the best; never NaN.
     pub key: f64,
     /// Its place, by which equal ones are ordered.
     pub place: T,
@@ -15,7 +15,7 @@ pub(super) struct Ranked<T> {
 impl<T: Ord> Ord for Ranked<T> {
     /// The better one is greater.
     fn cmp(&self, other: &Ranked<T>) -> Ordering {
-        self.key.total_cmp(&other.key).then_with(|| other.place.cmp(&self.place))
+        other.key.total_cmp(&self.key).then_with(|| other.place.cmp(&self.place))
     }
 }
 
@@ -77,7 +77,7 @@ mod tests {
         let keys = [3.0, -1.0, f64::NAN, 7.0, 3.0, 0.0, -0.0, f64::INFINITY, 7.0];
         for most in 0..10 {
             let mut sorted: Vec<(f64, usize)> = keys.into_iter().zip(0..).filter(|(key, _)| !key.is_nan()).collect();
-            sorted.sort_by(|a, b| b.0.partial_cmp(&a.0).unwrap().then(a.1.cmp(&b.1)));
+            sorted.sort_by(|a, b| a.0.partial_cmp(&b.0).unwrap().then(a.1.cmp(&b.1)));
             sorted.truncate(most);
             for split in 0..=keys.len() {
                 let part = |range: std::ops::Range<usize>| {

@@ -19,13 +19,14 @@ pub fn is_best_manifest(first_line: &str) -> bool {
 pub fn best_manifest(gathered: &Gathered) -> String {
     let Gathered { families, best, by, .. } = gathered;
     // The text is on one line of a comment.
-    let by = by.as_deref().unwrap_or_default().split_whitespace().collect::<Vec<_>>().join(" ");
+    let by: Vec<String> = by.iter().map(|by| by.split_whitespace().collect::<Vec<_>>().join(" ")).collect();
     let title = families.first().map_or("", |(plan, _)| plan.title.as_str());
     let mut out = format!(
-        "# The best {} curves by `{by}`, {ORIGIN}; `coupler-atlas render` draws them.\n\n\
+        "# The best {} curves by `{}`, {ORIGIN}; `coupler-atlas render` draws them.\n\n\
          [atlas]\ntitle = {}\nformats = [\"svg\"]\n",
         best.len(),
-        quoted(&format!("{title}: the best by {by}"))
+        by.join("`, `"),
+        quoted(&format!("{title}: the best by {}", by.join(", ")))
     );
     let mut linkages: Vec<&str> = Vec::new();
     for curve in best {

@@ -17,10 +17,10 @@ pub enum Error {
     #[error("{} is not a folder: name another with -o", .0.display())]
     NotAFolder(PathBuf),
     /// The expression that orders curves cannot be used.
-    #[error("--by: `{text}`: {message}")]
+    #[error("{origin}: {message}")]
     Expression {
-        /// The expression.
-        text: String,
+        /// What has it: `--by` with the expression, or the family whose `sort` it is.
+        origin: String,
         /// Why.
         message: String,
     },
@@ -38,4 +38,11 @@ pub enum Error {
     /// The shards cannot be gathered.
     #[error("{}", .0.join("\n"))]
     Problems(Vec<String>),
+}
+
+impl Error {
+    /// What is wrong with the expression of `--by`.
+    pub(super) fn by(text: &str, message: String) -> Error {
+        Error::Expression { origin: format!("--by: `{text}`"), message }
+    }
 }

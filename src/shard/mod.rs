@@ -27,7 +27,7 @@ pub use best_manifest::{best_manifest, is_best_manifest};
 pub use columns::{ColumnKind, ColumnRows, Rows, TableColumn, Values, Word};
 pub use error::Error;
 pub use folder::has_tables;
-pub use gather::{BestCurve, FamilyTotals, GatherOptions, Gathered, gather};
+pub use gather::{BestCurve, FamilyTotals, GatherOptions, Gathered, best_of_table, gather};
 pub use options::{Event, Options};
 pub(crate) use parquet_table::into_io;
 pub use record::{Counts, FORMAT, MAX_TOP, ShardRecord, TableKind, Top};

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use super::record::{ShardRecord, Top};
+use super::record::ShardRecord;
 use super::table_format::TableFormat;
 use crate::sweep::Division;
 
@@ -17,9 +17,11 @@ pub struct Options {
     pub format: TableFormat,
     /// Whether it has tables of points.
     pub has_points: bool,
-    /// Keeps only the best curves of each family of the shard.
-    pub top: Option<Top>,
-    /// The measures of the tables, by name, in place of the manifest's; those that `where` and the expression of `top` use are
+    /// Keeps only so many of the best curves of each family of the shard.
+    pub top: Option<usize>,
+    /// The expression that is least for the best; the family's own `sort` if `None`.
+    pub by: Option<String>,
+    /// The measures of the tables, by name, in place of the manifest's; those that `where` and the expression of the best use are
     /// among them in any case.
     pub measures: Option<Vec<String>>,
     /// The ids of the families; all if empty.

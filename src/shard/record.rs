@@ -9,8 +9,9 @@ use super::Division;
 use super::problem::FileProblem;
 use crate::record::Digest;
 
-/// The version of the format of the tables and of this record.
-pub const FORMAT: u32 = 1;
+/// The version of the format of the tables and of this record. In the first, which is read if all curves are there, the best were those with
+/// the greatest value.
+pub const FORMAT: u32 = 2;
 
 /// What begins the names of the metadata of a Parquet file.
 const PREFIX: &str = "coupler_atlas.";
@@ -46,7 +47,7 @@ impl TableKind {
 pub struct Top {
     /// How many, at most.
     pub count: usize,
-    /// The expression that is greatest for them.
+    /// The expression that is least for them.
     pub by: String,
 }
 
@@ -170,6 +171,12 @@ impl ShardRecord {
     pub(super) fn from_value(value: Value) -> Result<ShardRecord, FileProblem> {
         match value.get("format").and_then(Value::as_u64) {
             Some(format) if format == u64::from(FORMAT) => {}
+            Some(1) if value.get("top").is_none_or(Value::is_null) => {}
+            Some(1) => {
+                let message = "it has the curves for which its expression is greatest, of a version in which these were the best; now they \
+                               are those for which it is least: make it again with a minus sign";
+                return Err(FileProblem::Foreign(message.to_owned()));
+            }
             Some(format) => {
                 let message = format!("it has the format {format}, and this version reads {FORMAT}");
                 return Err(FileProblem::Foreign(message));

@@ -8,7 +8,7 @@ use coupler_curves::measure::MeasureSet;
 
 use super::columns::TableColumn;
 use super::options::Options;
-use super::record::{Counts, FORMAT, ShardRecord, TableKind};
+use super::record::{Counts, FORMAT, ShardRecord, TableKind, Top};
 use super::table;
 use crate::manifest::{Plan, PlannedFamily};
 use crate::record::{Digest, RunningDigest};
@@ -45,7 +45,7 @@ pub(super) fn initial_record(
     planned: &PlannedFamily,
     family: &Family,
     (manifest_sha256, families): (Digest, &[String]),
-    options: &Options,
+    (options, top): (&Options, Option<Top>),
 ) -> ShardRecord {
     let cell_count = family.cell_count();
     let range = cells_of_division(&planned.family, options.division);
@@ -62,7 +62,7 @@ pub(super) fn initial_record(
         last_cell: range.end,
         cell_count,
         columns: Vec::new(),
-        top: options.top.clone(),
+        top,
         has_points: options.has_points,
         rows: 0,
         counts: Counts::default(),

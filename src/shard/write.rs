@@ -10,11 +10,11 @@ use coupler_curves::solve::{SolvedCell, Status};
 
 use super::Error;
 use super::best::Best;
-use super::expression::compile;
+use super::expression::{criteria, is_of_circuits};
 use super::options::{Event, Options};
 use super::problem::FileProblem;
 use super::read::ShardFile;
-use super::record::{Counts, ShardRecord, TableKind};
+use super::record::{Counts, ShardRecord, TableKind, Top};
 use super::swept::{groups, initial_record, manifest_digest, swept_family};
 use super::table::{self, Chunk, RowMaker, TableWriter, table_path, temporary_affixes};
 use crate::manifest::Plan;
@@ -27,19 +27,22 @@ use crate::sweep::{self, CellIndices};
 /// Memory is bounded whatever the number of cells. Of the curves that `top` keeps, each takes some 40 bytes.
 ///
 /// # Errors
-/// A file cannot be written, or is of another sweep; the expression of `top` is none in any family; the run is interrupted.
+/// A file cannot be written, or is of another sweep; the expression of the best is none in any family, or the bare name of a measure of which
+/// more is better; without it, a family has no `sort`; the run is interrupted.
 pub fn write_shard(plan: &Plan, output: &Path, options: &Options, report: &mut dyn FnMut(Event)) -> Result<(), Error> {
     let is_selected = |id: &String| options.only.is_empty() || options.only.contains(id);
-    let by = options.top.as_ref().map(|top| compile(plan, &is_selected, &top.by)).transpose()?;
+    let criteria = options.top.map(|_| criteria(plan, &is_selected, options.by.as_deref())).transpose()?;
     let manifest_sha256 = manifest_digest(plan);
     let families: Vec<String> = plan.families.iter().map(|planned| planned.family.id.clone()).collect();
     for (k, planned) in plan.families.iter().enumerate() {
         if !is_selected(&planned.family.id) {
             continue;
         }
-        let by = by.as_ref().and_then(|by| by[k].clone());
+        let criterion = criteria.as_ref().and_then(|criteria| criteria[k].clone());
+        let top = options.top.zip(criterion.as_ref()).map(|(count, own)| Top { count, by: own.text.clone() });
+        let by = criterion.and_then(|criterion| criterion.expression);
         let family = swept_family(&planned.family, by.as_ref(), options.measures.as_deref());
-        let record = initial_record(planned, &family, (manifest_sha256, &families), options);
+        let record = initial_record(planned, &family, (manifest_sha256, &families), (options, top));
         FamilyShard { family: &family, by, record, folder: output.join(&family.id), options }.write(report)?;
     }
     Ok(())
@@ -49,7 +52,7 @@ pub fn write_shard(plan: &Plan, output: &Path, options: &Options, report: &mut d
 struct FamilyShard<'a> {
     /// With the measures that the tables have.
     family: &'a Family,
-    /// The expression of `top`; `None` also if the family lacks a name in it, so that it has no best.
+    /// The expression of the best; `None` also if the family lacks a name in it, so that it has no best.
     by: Option<CompiledExpression>,
     /// What the table of cells will say of itself, without counts.
     record: ShardRecord,
@@ -173,11 +176,16 @@ impl FamilyShard<'_> {
         report: &mut dyn FnMut(Event),
     ) -> Result<(Vec<Place>, Counts), Error> {
         let needed = self.family.measures_in(by);
-        let most = self.options.top.as_ref().map_or(0, |top| top.count);
+        let most = self.options.top.unwrap_or(0);
+        // Of joints that are traced on one circuit the first counts for all.
+        let is_of_circuits = is_of_circuits(self.family, by);
         let rank = |_, solved: Vec<SolvedCell>| {
             let mut ranked: Vec<(f64, Place)> = Vec::new();
             for solved in &solved {
-                for curve in &solved.curves {
+                for (k, curve) in solved.curves.iter().enumerate() {
+                    if is_of_circuits && solved.curves[..k].iter().any(|other| other.circuit == curve.circuit) {
+                        continue;
+                    }
                     let key = by.evaluate(|slot| Family::scope_value(&solved.cell, &curve.values, slot));
                     ranked.push((key, [solved.cell.number, curve.trace, curve.circuit].map(|number| number as u32)));
                 }

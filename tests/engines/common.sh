@@ -29,7 +29,7 @@ trap at_exit EXIT
 cargo build --release --locked --quiet
 built=${CARGO_TARGET_DIR:-target}
 COUPLER_ATLAS=$(realpath "$built/release/coupler-atlas")
-export COUPLER_ATLAS SHARDS=8 TOP=30 BY=straight_length
+export COUPLER_ATLAS SHARDS=8 TOP=30 BY=-straight_length
 
 manifest=$folder/atlas.toml
 cat > "$manifest" << 'MANIFEST'

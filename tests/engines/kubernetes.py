@@ -73,7 +73,7 @@ def command(container, index=None):
         argument = re.sub(r"^(/atlas|/shards)(?=/|$)", lambda match: str(volumes[match[1]]), argument)
         line.append(argument)
     completions = documents["Job", "sweep"]["spec"]["completions"]
-    replaced = {f"{index}/{completions}": f"{index}/{shards}", "1000": top, "straight_length": by}
+    replaced = {f"{index}/{completions}": f"{index}/{shards}", "1000": top, "-straight_length": by}
     return [replaced.get(argument, argument) for argument in line]
 
 

@@ -233,7 +233,7 @@ fn shards_are_of_one_table() {
     sweep("0/2");
     fs::write(folder.path().join("list.csv"), TABLE.replace("2.1", "2.2")).unwrap();
     sweep("1/2");
-    let gather: &[&str] = &["gather", "shards", "--by", "length", "--top", "2", "--toml", "best.toml"];
+    let gather: &[&str] = &["gather", "shards", "--by", "-length", "--top", "2", "--toml", "best.toml"];
     let (code, _, err) = run(folder.path(), gather);
     assert!(code == 2 && err.contains("the shards are of 2 manifests"), "{err}");
     let (code, _, err) = run(folder.path(), &["sweep", "-o", "shards", "--shard", "0/2"]);

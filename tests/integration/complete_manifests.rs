@@ -14,6 +14,7 @@ id = "evans"
 linkage = "evans"
 cases = [{ p = 2.5, a = 2.6 }, { p = 3, a = 3.2 }]
 straight = { length = 0.5 }
+dwell = { angle = "0.5 deg" }
 [[family]]
 id = "chebyshev"
 linkage = "chebyshev"
@@ -166,6 +167,6 @@ fn several_cells_are_in_one_manifest() {
         let ids: Vec<&str> = plan.families.iter().map(|planned| planned.family.id.as_str()).collect();
         assert_eq!(ids[..2], ["evans-exported", "evans-exported-2"], "{text}");
         assert!(ids.len() >= 3 && text.contains("# evans:2.1.1"), "{text}");
-        assert!(text.contains("straight = { length = 0.5 }"), "{text}");
+        assert!(text.contains("straight = { length = 0.5 }\ndwell = { angle = \"0.5 deg\" }"), "{text}");
     }
 }

@@ -262,6 +262,9 @@ fn every_measure_can_be_used_in_where_sort_and_texts() {
     for good in ["{ tolerance = 0.01 }", "{ input = \"2 * 60 deg\" }", "{ length = \"1 + 1\" }"] {
         plan(&format!("{GOOD}straight = {good}\n"));
     }
+    for good in ["{ share = 0.02 }", "{ angle = \"1 / 2 deg\" }"] {
+        plan(&format!("{GOOD}dwell = {good}\n"));
+    }
     for (bad, message) in [
         ("straight = 0.01", "expected a table, found a number"),
         ("straight = {}", "`straight` takes exactly one of `tolerance`, `input` and `length`"),
@@ -275,6 +278,15 @@ fn every_measure_can_be_used_in_where_sort_and_texts() {
         ("straight = { input = 120 }", "the unit is missing"),
         ("straight = { input = \"-5 deg\" }", "`input` is -5, which is out of range"),
         ("straight = { width = 1 }", "`straight` has no key `width`"),
+        ("dwell = {}", "`dwell` takes exactly one of `share`, `angle` and `length`"),
+        ("dwell = { share = 2 }", "`share` is 2, which is out of range"),
+        ("dwell = { angle = \"0 deg\" }", "`angle` is 0, which is out of range"),
+        ("dwell = { length = 0.2 }", "the output of `evans` is a link that turns, and has no length"),
+        ("paper = \"a4\"", "`paper` is a key of [page]"),
+        ("crank = 2", "a parameter of the linkage is given in `grid`, `cases` or `let`"),
+        ("where = \"length > 20 mm\"", "leave it out here, and write unit = \"mm\" in [atlas]"),
+        ("place = { rotate = 20 mm }", "leave it out here, and write unit = \"mm\" in [atlas]"),
+        ("where = \"stride > 2\"", "did you mean `straight_length`?"),
         ("sort = \"p > 2\"", "expected a number, found a condition"),
         ("sort = \"class\"", "`class` is a word"),
         ("note = \"{class + 1}\"", "unknown name `class`"),

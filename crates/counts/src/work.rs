@@ -230,6 +230,7 @@ fn sweep() -> Box<dyn FnMut()> {
             format: shard::TableFormat::Csv,
             has_points: false,
             top: None,
+            by: None,
             measures: None,
             only: Vec::new(),
             force: true,

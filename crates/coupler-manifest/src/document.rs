@@ -76,7 +76,7 @@ fn parse_for(text: &str, writable: &[Format], purpose: Purpose, files: FileReade
     if let Some(problem) = length_problem(text) {
         return ParseOutcome { plan: None, problems: vec![problem] };
     }
-    let mut parser = TomlParser::new(text);
+    let mut parser = TomlParser::new(text).with_root(&MANIFEST);
     let plan = read_plan(text, (writable, purpose), files, &mut parser);
     let problems = parser.into_problems();
     let plan = plan.filter(|_| !problems.iter().any(Problem::is_error));
@@ -88,7 +88,7 @@ pub fn parse_linkages(text: &str) -> (Vec<Arc<Template>>, Vec<Problem>) {
     if let Some(problem) = length_problem(text) {
         return (Vec::new(), vec![problem]);
     }
-    let mut parser = TomlParser::new(text);
+    let mut parser = TomlParser::new(text).with_root(&MANIFEST);
     let document = parser.parse_document();
     let root = Fields::with_any_keys(&document, "a manifest", &mut parser)
         .filter(|_| format_version::is_supported(&document, &mut parser));
@@ -101,7 +101,7 @@ pub fn parse_linkages(text: &str) -> (Vec<Arc<Template>>, Vec<Problem>) {
 
 /// The `[[linkage]]` of a manifest with an id, as TOML for another manifest; `None` if it has none.
 pub fn linkage_text(text: &str, id: &str) -> Option<String> {
-    let mut parser = TomlParser::new(text);
+    let mut parser = TomlParser::new(text).with_root(&MANIFEST);
     let document = parser.parse_document();
     let root = Fields::with_any_keys(&document, "a manifest", &mut parser)?;
     for table in root.tables("linkage", &mut parser) {

@@ -13,7 +13,7 @@ use crate::schema::{
     DEFAULT_PLACE, FAMILY, MIN_TOLERANCE, PLACE, SAMPLING, SPACINGS, STRAIGHT, Spacing, default_sampling,
 };
 use crate::templates::Templates;
-use crate::{applicability, chart, layout, settings, tolerance};
+use crate::{applicability, chart, dwell, layout, settings, tolerance};
 use coupler_curves::expression::{Caption, Dimension, Expression, Scope};
 use coupler_curves::family::{COLUMNS, Column, Family, LengthUnit, MAX_SAMPLES, MEASURES, Sampling, StraightCriterion};
 use coupler_curves::linkage_format::{self, Fields, TomlParser, TomlValue};
@@ -143,6 +143,7 @@ pub(crate) fn read<'t>(
     }
     let source = source.unwrap_or_else(|| family.template.source_line());
     let [filter_span, scale_span] = ["where", "scale"].map(|key| fields.get(key).map(TomlValue::span));
+    let sort = fields.get("sort").and_then(|value| value.get_ref().as_str()).map(str::to_owned);
     let (layout, chart, formats) = (layout?, chart?, formats?);
     let has_pages = matches!(purpose, Purpose::Pages);
     cells::check_memory(&family, has_pages.then_some(layout), &fields, parser);
@@ -157,6 +158,7 @@ pub(crate) fn read<'t>(
         formats,
         source,
         automatic_caption,
+        sort,
         case_file: names.table.map(|table| CaseFile { path: table.path, digest: table.digest }),
         manifest_inputs: inputs,
         tolerances,
@@ -178,9 +180,10 @@ fn apply_overrides<'t>(template: Arc<Template>, fields: &Fields<'_, 't>, parser:
     let placement = fields.get("place").and_then(|value| placement(value, parser));
     let load = fields.get("load").and_then(|value| linkage_format::parse_load(value, &template.joints, parser));
     let tolerance = fields.get("tolerance").and_then(|value| linkage_format::parse_tolerance(value, &template, parser));
+    let dwell = fields.get("dwell").and_then(|value| dwell::read(value, &template, parser));
     let traced = fields.get("trace").and_then(|value| traced_joints(value, &template, parser));
     let has_settings = traced.is_some() || circuits.is_some() || continuation.is_some() || coincident.is_some();
-    if !has_settings && placement.is_none() && load.is_none() && tolerance.is_none() {
+    if !has_settings && placement.is_none() && load.is_none() && tolerance.is_none() && dwell.is_none() {
         return template;
     }
     let mut changed = Template::clone(&template);
@@ -191,6 +194,7 @@ fn apply_overrides<'t>(template: Arc<Template>, fields: &Fields<'_, 't>, parser:
     changed.traced = traced.unwrap_or(changed.traced);
     changed.load = load.or(changed.load);
     changed.tolerance = tolerance.or(changed.tolerance);
+    changed.dwell = dwell.unwrap_or(changed.dwell);
     Arc::new(changed)
 }
 

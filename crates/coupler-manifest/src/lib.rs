@@ -23,6 +23,7 @@
 mod applicability;
 mod bounded_number;
 mod default_value;
+mod dwell;
 mod format_version;
 mod inputs;
 mod name_list;

@@ -160,6 +160,8 @@ pub struct PlannedFamily {
     pub source: String,
     /// The caption of its cells, if neither the manifest nor the linkage gives one: the parameters that vary.
     pub automatic_caption: Option<String>,
+    /// The text of its `sort`.
+    pub sort: Option<String>,
     /// The file or the search that its cases are from, if they are.
     pub case_file: Option<CaseFile>,
     /// What the manifest contributes to its files.

@@ -4,6 +4,7 @@ use crate::book::BOOK;
 use crate::chart::{CHART, measure_names, numeric_measures};
 use crate::default_value;
 use crate::design::DESIGN;
+use crate::dwell::{self, DWELL};
 use crate::grid::VALUES_FORM;
 use crate::parameter_sets::MAX_LIMIT;
 use crate::settings::{ATLAS, FORMATS, PAGE, UNIT};
@@ -153,6 +154,12 @@ pub(crate) static FAMILY: TableSchema = TableSchema::new(
         )
         .with_default(default_straight),
         KeySchema::new(
+            "dwell",
+            ValueSchema::Table(&DWELL),
+            "The width of the band within which the output dwells, one of three.",
+        )
+        .with_default(dwell::default_text),
+        KeySchema::new(
             "measures",
             ValueSchema::Set(&ValueSchema::Word(|| measure_names(|_| true)), [0, usize::MAX]),
             "The measures computed for its curves; all by default.",
@@ -161,7 +168,8 @@ pub(crate) static FAMILY: TableSchema = TableSchema::new(
             .with_default(default_value::empty_table),
     ],
 )
-.with_one_of(&["grid", "cases", "design"]);
+.with_one_of(&["grid", "cases", "design"])
+.with_other_names("a parameter of the linkage is given in `grid`, `cases` or `let`, as in let = { crank = 2 }; ");
 
 fn linkage_ids() -> Vec<&'static str> {
     catalogue::all().iter().map(|template| template.id.as_str()).collect()

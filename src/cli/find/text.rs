@@ -6,14 +6,24 @@ use coupler_find::{Answer, Constraint, Mechanism, Target, format_length as numbe
 
 use crate::find::description::dimensions;
 
+use super::super::aligned_table::AlignedTable;
 use super::super::format::angle;
 use super::Report;
 use coupler_curves::text::pluralize;
 
 /// A table of the answers, each row followed by its dimensions and its cognates.
 pub(super) fn text(report: &Report) -> String {
-    const HEAD: [&str; 9] =
-        ["E/S", "E", "greatest", "fit", "class", "mu worst", "longest link", "in order", "direction"];
+    const HEAD: [(&str, bool); 9] = [
+        ("E/S", false),
+        ("E", false),
+        ("greatest", false),
+        ("fit", true),
+        ("class", true),
+        ("mu worst", false),
+        ("longest link", false),
+        ("in order", true),
+        ("direction", true),
+    ];
     let Report { name, target, answers, .. } = report;
     let size = target.size();
     let mut out = describe_target(name, target) + "\n";
@@ -21,20 +31,10 @@ pub(super) fn text(report: &Report) -> String {
         return out + &nothing_found(report);
     }
     let rows: Vec<[String; 9]> = answers.iter().map(|answer| row(answer, size)).collect();
-    let width = |k: usize| rows.iter().map(|row| row[k].chars().count()).chain([HEAD[k].len()]).max().unwrap_or(0);
-    let widths: Vec<usize> = (0..HEAD.len()).map(width).collect();
-    let line = |rank: &str, cells: &[&str]| {
-        let mut line = format!("{rank:>3}");
-        for (k, (cell, width)) in cells.iter().zip(&widths).enumerate() {
-            // Words are aligned left, numbers right.
-            let pad = " ".repeat(width - cell.chars().count());
-            line += &if matches!(k, 3 | 4 | 7 | 8) { format!("  {cell}{pad}") } else { format!("  {pad}{cell}") };
-        }
-        format!("{}\n", line.trim_end())
-    };
-    out += &line("", &HEAD);
+    let table = AlignedTable::new(3, &HEAD, rows.iter().map(|row| &row[..]));
+    out += &table.line("", HEAD.map(|(name, _)| name));
     for (k, (answer, row)) in answers.iter().zip(&rows).enumerate() {
-        out += &line(&(k + 1).to_string(), &row.each_ref().map(String::as_str));
+        out += &table.line(&(k + 1).to_string(), row);
         let _ = writeln!(out, "     {}", dimensions(&answer.mechanism, |value| number(value, size)));
         let _ = writeln!(out, "     {}", place(&answer.mechanism, size));
         for cognate in &answer.cognates {

@@ -31,8 +31,8 @@ pub struct Arguments {
         help = format!("Print the N best curves of all families by --by, 1 to {MAX_TOP} [default: as many as each shard kept]")
     )]
     top: Option<u32>,
-    /// What is greatest for the best curves: an expression of parameters and measures, as in --by straight_length [default: that by
-    /// which the shards kept theirs].
+    /// What is least for the best curves, as in `sort`: an expression of parameters and measures, with a minus sign for the greatest, as in
+    /// --by -straight_length [default: that by which the shards kept theirs, or the family's `sort`].
     #[arg(long, value_name = "EXPR", allow_hyphen_values = true)]
     by: Option<String>,
     /// Write a manifest that renders the linkages of the best curves, which replaces none but one of gather; - for standard output,
@@ -89,8 +89,8 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         by: arguments.by.clone(),
     };
     let gathered = shard::gather(&tables, &options)?;
-    if arguments.toml.is_some() && gathered.by.is_none() {
-        let message = "--toml is for the best curves: say how many and by what, as in --top 100 --by straight_length";
+    if arguments.toml.is_some() && gathered.by.is_empty() {
+        let message = "--toml is for the best curves: say how many and by what, as in --top 100 --by -straight_length";
         return Err(Failure::input(message));
     }
     for note in &gathered.notes {
@@ -100,10 +100,10 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
         print_stderr(&totals(&gathered));
     }
     let is_table_replaced = arguments.toml.as_deref().is_some_and(files::is_standard);
-    if gathered.by.is_some() && !is_table_replaced {
+    if !gathered.by.is_empty() && !is_table_replaced {
         print_table(&gathered)?;
     }
-    let is_empty = gathered.by.is_some() && gathered.best.is_empty();
+    let is_empty = !gathered.by.is_empty() && gathered.best.is_empty();
     if is_empty {
         print_stderr(&format!("note: {}\n", printable(nothing_is_best(&gathered, arguments.toml.as_deref()))));
     }
@@ -149,7 +149,7 @@ fn check_replaceable(path: &Path) -> Result<(), Failure> {
 /// Why there is no best curve.
 fn nothing_is_best(gathered: &Gathered, toml: Option<&Path>) -> String {
     let curves: usize = gathered.families.iter().map(|(_, totals)| totals.counts.curves).sum();
-    let by = gathered.by.as_deref().unwrap_or_default();
+    let by = gathered.by.join("`, `");
     let why = match (curves, gathered.families.iter().any(|(_, totals)| totals.has_best_only)) {
         (0, false) => "no cell has a curve".to_owned(),
         (0, true) => format!("no shard has a curve for which `{by}` has a value"),

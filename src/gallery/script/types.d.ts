@@ -104,7 +104,7 @@ type Route = Partial<Record<"label" | "parent", string>> & {
 };
 /** The keys of a command, as events name them, what it does, and a function that does it (keys.js). */
 type KeyCommand = [keys: string, words: string, act?: (event: KeyboardEvent) => unknown];
-type Measure = Record<"name" | "title" | "unit" | "definition", string> & Record<"word" | "is_input", boolean>;
+type Measure = Record<"name" | "title" | "unit" | "definition", string> & Record<"word" | "is_input" | "is_more_better", boolean>;
 /** A family as the summary of the atlas lists it; without a script it has no data. */
 type ListedFamily = Record<"id" | "title" | "linkage", string> &
   Record<"cells" | "kept" | "not_assembled" | "curves" | "pages" | "bytes" | "table_bytes", number> &

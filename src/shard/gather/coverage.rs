@@ -34,8 +34,18 @@ pub(super) fn check_origin(files: &[ShardFile], problems: &mut Vec<String>) {
         ));
         return;
     }
-    let Some(first) = files.first() else { return };
-    if let Some(other) = files.iter().find(|file| file.record.top != first.record.top) {
+    let mut first_of_family: BTreeMap<&str, &ShardFile> = BTreeMap::new();
+    let count = |file: &ShardFile| file.record.top.as_ref().map(|top| top.count);
+    // The best of different families may be those by their own `sort`.
+    let differing = files.iter().find_map(|file| {
+        let first = *first_of_family.entry(&file.record.family).or_insert(file);
+        let is_other = |first: &&ShardFile| first.record.top != file.record.top;
+        Some(first)
+            .filter(is_other)
+            .or(files.first().filter(|first| count(first) != count(file)))
+            .map(|first| (first, file))
+    });
+    if let Some((first, other)) = differing {
         let describe = |top: &Option<Top>| match top {
             Some(Top { count, by }) => format!("the best {count} by `{by}`"),
             None => "all curves".to_owned(),

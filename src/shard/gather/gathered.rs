@@ -12,7 +12,7 @@ pub struct GatherOptions {
     pub only: Vec<String>,
     /// How many of the best curves of all families are found.
     pub top: Option<usize>,
-    /// The expression that is greatest for the best; that by which the shards kept theirs if `None`.
+    /// The expression that is least for the best; if `None`, that by which the shards kept theirs, or else the `sort` of each family.
     pub by: Option<String>,
 }
 
@@ -24,11 +24,11 @@ pub struct Gathered {
     pub families: Vec<(Plan, FamilyTotals)>,
     /// What a user may want to know, as sentences without an end.
     pub notes: Vec<String>,
-    /// The expression of the best.
-    pub by: Option<String>,
+    /// The expressions of the best: one, or those by which the families are sorted, in their order; none if no best are asked for.
+    pub by: Vec<String>,
     /// The columns of the best.
     pub columns: Vec<String>,
-    /// The best curves, best first; of equal ones the order is that of families, cells, traces and circuits.
+    /// The best curves of each expression, best first; of equal ones the order is that of families, cells, traces and circuits.
     pub best: Vec<BestCurve>,
 }
 

@@ -97,6 +97,23 @@ pub fn gather(folders: &[PathBuf], options: &GatherOptions) -> Result<Gathered, 
     Ok(Gathered { families, notes, by, columns, best })
 }
 
+/// The best curves in a table of cells that a sweep with [`Options::top`](super::Options::top) has made, at most a number of them.
+///
+/// # Errors
+/// It cannot be read.
+pub fn best_of_table(path: &Path, most: usize) -> Result<Gathered, Error> {
+    let problem = |message| Error::Problems(vec![message]);
+    let file = ShardFile::open(path).map_err(|error| problem(error.describe(path)))?;
+    let plan = manifest::parse(&file.record.manifest).plan;
+    let plan = plan.ok_or_else(|| problem(format!("{}: the manifest in it cannot be read", path.display())))?;
+    let top = file.record.top.as_ref().map(|top| top.count.min(most));
+    let gathered = [(plan, vec![file])];
+    let Ranking { by, columns, best } =
+        rank(&gathered, &GatherOptions { top, ..GatherOptions::default() }, &mut Vec::new())?;
+    let families = gathered.into_iter().map(|(plan, files)| (plan, totals(&files))).collect();
+    Ok(Gathered { families, notes: Vec::new(), by, columns, best })
+}
+
 fn totals(files: &[ShardFile]) -> FamilyTotals {
     let record = &files[0].record;
     let mut counts = Counts::default();

@@ -10,33 +10,44 @@ use rayon::prelude::*;
 
 use super::super::Error;
 use super::super::best::{Best, Ranked};
-use super::super::expression::compile;
+use super::super::expression::{check_direction, compile, is_of_circuits, own_criterion};
 use super::super::read::ShardFile;
+use super::super::record::Top;
 use super::gathered::{BestCurve, GatherOptions};
 use crate::manifest::{Plan, PlannedFamily};
 
-/// How many of the best are found, and by which expression.
-fn ranking(gathered: &[(Plan, Vec<ShardFile>)], options: &GatherOptions) -> Result<(usize, Option<String>), Error> {
-    let recorded = gathered.first().and_then(|(_, files)| files[0].record.top.clone());
+/// How many of the best are found, and by which expression in each family; `None` if none are asked for.
+fn ranking(gathered: &[Gathering], options: &GatherOptions) -> Result<Option<(usize, Vec<String>)>, Error> {
     let problem = |message: String| Err(Error::Problems(vec![message]));
-    match (options.top, &options.by, recorded) {
-        (top, by, Some(recorded)) => {
-            if let Some(by) = by.as_ref().filter(|by| by.trim() != recorded.by) {
-                return problem(format!("the shards have only the best by `{}`, not by `{by}`", recorded.by));
-            }
-            match top {
-                Some(top) if top > recorded.count => {
-                    problem(format!("the shards have only the best {}, not {top}", recorded.count))
-                }
-                top => Ok((top.unwrap_or(recorded.count), Some(recorded.by))),
-            }
+    let recorded: Vec<&Top> = gathered.iter().filter_map(|(_, files)| files[0].record.top.as_ref()).collect();
+    if let Some(first) = recorded.first() {
+        let is_other = |by: &&String| recorded.iter().any(|top| top.by != by.trim());
+        if let Some(by) = options.by.as_ref().filter(is_other) {
+            return problem(format!("the shards have only the best by `{}`, not by `{by}`", first.by));
         }
-        (Some(top), Some(by), None) => Ok((top, Some(by.trim().to_owned()))),
-        (Some(_), None, None) => problem("by what are they the best? Add --by, as in --by straight_length".to_owned()),
-        (None, Some(_), None) => problem("how many are the best? Add --top, as in --top 100".to_owned()),
-        (None, None, None) => Ok((0, None)),
+        return match options.top {
+            Some(top) if top > first.count => {
+                problem(format!("the shards have only the best {}, not {top}", first.count))
+            }
+            top => Ok(Some((top.unwrap_or(first.count), recorded.iter().map(|top| top.by.clone()).collect()))),
+        };
+    }
+    match (options.top, &options.by) {
+        (Some(top), Some(by)) => {
+            check_direction(by.trim())?;
+            Ok(Some((top, vec![by.trim().to_owned(); gathered.len()])))
+        }
+        (Some(top), None) => {
+            let own = gathered.iter().map(|(plan, _)| own_criterion(&plan.families[0]).map(|own| own.text));
+            Ok(Some((top, own.collect::<Result<_, _>>()?)))
+        }
+        (None, Some(_)) => problem("how many are the best? Add --top, as in --top 100".to_owned()),
+        (None, None) => Ok(None),
     }
 }
+
+/// The shards of a family, and the plan of its manifest.
+type Gathering = (Plan, Vec<ShardFile>);
 
 /// The place of a row: its family, cell, trace and circuit, its file and its index.
 type Row = ([usize; 4], usize, usize);
@@ -44,34 +55,29 @@ type Row = ([usize; 4], usize, usize);
 /// The best curves of shards.
 #[derive(Debug, Default)]
 pub(super) struct Ranking {
-    /// The expression; `None` if none are asked for.
-    pub by: Option<String>,
+    /// The expressions, in the order of families; none if no best are asked for.
+    pub by: Vec<String>,
     /// The columns of their rows.
     pub columns: Vec<String>,
-    /// The curves, best first.
+    /// The curves of each expression, best first.
     pub best: Vec<BestCurve>,
 }
 
-/// Finds the best curves. Of a family without a name of the expression no curve is among them, and if only a measure is missing in
+/// Finds the best curves of the families that are ranked by one expression together. Of a family without a name of the expression no curve is among them, and if only a measure is missing in
 /// its tables, a note says so.
-pub(super) fn rank(
-    gathered: &[(Plan, Vec<ShardFile>)],
-    options: &GatherOptions,
-    notes: &mut Vec<String>,
-) -> Result<Ranking, Error> {
-    let (top, Some(by)) = ranking(gathered, options)? else { return Ok(Ranking::default()) };
-    let mut best: Best<Row> = Best::new(top);
+pub(super) fn rank(gathered: &[Gathering], options: &GatherOptions, notes: &mut Vec<String>) -> Result<Ranking, Error> {
+    let Some((top, expressions)) = ranking(gathered, options)? else { return Ok(Ranking::default()) };
+    // The best by each expression that a family has the names and columns of.
+    let mut ranked: Vec<(&String, Best<Row>)> = Vec::new();
     let (mut failure, mut lacking) = (None, Vec::new());
-    let mut is_known = false;
-    for (k, (plan, files)) in gathered.iter().enumerate() {
-        let expression = match compile(plan, &|_| true, &by) {
-            Ok(compiled) => compiled.into_iter().next().flatten(),
-            Err(error) => {
-                failure = failure.or(Some(error));
-                None
+    for (k, ((plan, files), by)) in gathered.iter().zip(&expressions).enumerate() {
+        let expression = match compile(&plan.families[0], by) {
+            Ok(expression) => expression,
+            Err(message) => {
+                failure.get_or_insert_with(|| Error::by(by, message));
+                continue;
             }
         };
-        let Some(expression) = expression else { continue };
         let family = &plan.families[0].family;
         let has_column = |slot: &&usize| files[0].record.columns.iter().any(|name| name == column_name(family, **slot));
         if let Some(&slot) = expression.slots().iter().find(|slot| !has_column(slot)) {
@@ -82,15 +88,18 @@ pub(super) fn rank(
             ));
             continue;
         }
-        is_known = true;
         let search = |(n, file): (usize, &ShardFile)| best_of_file((k, family), (n, file), &expression, top);
         let merge = |a: Best<Row>, b: Best<Row>| Ok(a.merge(b));
         let found: Result<Best<Row>, String> =
             files.par_iter().enumerate().map(search).try_reduce(|| Best::new(top), merge);
-        best = best.merge(found.map_err(|message| Error::Problems(vec![message]))?);
+        let found = found.map_err(|message| Error::Problems(vec![message]))?;
+        match ranked.iter_mut().find(|(other, _)| *other == by) {
+            Some((_, best)) => *best = std::mem::replace(best, Best::new(0)).merge(found),
+            None => ranked.push((by, found)),
+        }
     }
     match failure {
-        _ if is_known => {}
+        _ if !ranked.is_empty() => {}
         _ if !lacking.is_empty() => return Err(Error::Problems(lacking)),
         // The shards are the best by an expression of other families.
         Some(_) if options.by.is_none() && options.top.is_none() => return Ok(Ranking::default()),
@@ -98,8 +107,9 @@ pub(super) fn rank(
         None => {}
     }
     notes.extend(lacking.into_iter().map(|message| format!("no curve of {message}")));
-    let (columns, best) = read_best(gathered, best.into_sorted())?;
-    Ok(Ranking { by: Some(by), columns, best })
+    let by = ranked.iter().map(|(by, _)| (*by).clone()).collect();
+    let (columns, best) = read_best(gathered, ranked.into_iter().flat_map(|(_, best)| best.into_sorted()).collect())?;
+    Ok(Ranking { by, columns, best })
 }
 
 fn best_of_file(
@@ -120,11 +130,23 @@ fn best_of_file(
         }
     }
     let mut best = Best::new(top);
+    // Of joints that are traced on one circuit the first counts for all.
+    let is_of_circuits = is_of_circuits(family, expression);
+    let (mut last_cell, mut circuits) = (f64::NAN, Vec::new());
     let result = file.read_numbers(&columns, |first, values| {
         for (row, ((cell, trace), circuit)) in values[0].iter().zip(&values[1]).zip(&values[2]).enumerate() {
             // A cell without curves has no trace.
             if trace.is_nan() {
                 continue;
+            }
+            if is_of_circuits {
+                if last_cell != *cell {
+                    (last_cell, circuits) = (*cell, Vec::new());
+                }
+                if circuits.contains(circuit) {
+                    continue;
+                }
+                circuits.push(*circuit);
             }
             let load = |slot: usize| {
                 let place = slots.iter().find(|(known, _)| *known == slot);
@@ -147,10 +169,7 @@ fn column_name(family: &Family, slot: usize) -> &str {
 }
 
 /// The rows of the best, with the columns of all their families.
-fn read_best(
-    gathered: &[(Plan, Vec<ShardFile>)],
-    best: Vec<Ranked<Row>>,
-) -> Result<(Vec<String>, Vec<BestCurve>), Error> {
+fn read_best(gathered: &[Gathering], best: Vec<Ranked<Row>>) -> Result<(Vec<String>, Vec<BestCurve>), Error> {
     let mut wanted: BTreeMap<(usize, usize), BTreeSet<usize>> = BTreeMap::new();
     for Ranked { place: ([family, ..], file, row), .. } in &best {
         wanted.entry((*family, *file)).or_default().insert(*row);

@@ -47,11 +47,11 @@ const SUBSTITUTED: [(&str, &[(&str, i32)]); 17] = [
     ("coupler-atlas list linkages NAME", &[("coupler-atlas list linkages evans", 0)]),
     // The other shards are to be made, too.
     (
-        "coupler-atlas gather shards --top 100 --by straight_length --toml best.toml",
+        "coupler-atlas gather shards --top 100 --by -straight_length --toml best.toml",
         &[
-            ("coupler-atlas gather shards --top 100 --by straight_length", 2),
+            ("coupler-atlas gather shards --top 100 --by -straight_length", 2),
             ("coupler-atlas sweep atlas.toml --no-points -o whole", 0),
-            ("coupler-atlas gather whole --top 100 --by straight_length --toml best.toml", 0),
+            ("coupler-atlas gather whole --top 100 --by -straight_length --toml best.toml", 0),
         ],
     ),
     (

@@ -1,5 +1,6 @@
 //! The best curves of shards.
 
+use std::collections::BTreeSet;
 use std::fs;
 
 use super::{MANIFEST, csv_rows, gather_problems, parquet_rows, shard, sweep_all};
@@ -28,13 +29,16 @@ fn the_best_are_those_of_a_sorted_table() {
     printed(path, &["render", "-q", "-o", "whole"]);
     let place = ["cell", "trace", "circuit"];
     // Both circuits of a cell have curves of equal length, mirrored.
-    let mut all =
-        values(&csv_rows(&path.join("whole/bars/cells.csv")), &["length", "frame", "cell", "trace", "circuit"]);
+    let all = values(&csv_rows(&path.join("whole/bars/cells.csv")), &["length", "frame", "cell", "trace", "circuit"]);
     assert!(all.len() > 12);
-    for (by, key) in [("length", 0), ("-frame", 1)] {
-        let sign = if key == 0 { 1.0 } else { -1.0 };
+    for (by, key) in [("-length", 0), ("frame", 1)] {
+        let sign = if key == 0 { -1.0 } else { 1.0 };
+        // All joints that are traced on a circuit have the same frame: the first counts.
+        let mut circuits = BTreeSet::new();
+        let mut all: Vec<&Vec<f64>> =
+            all.iter().filter(|row| key == 0 || circuits.insert([row[2], row[4]].map(f64::to_bits))).collect();
         all.sort_by(|a, b| {
-            (sign * b[key]).total_cmp(&(sign * a[key])).then_with(|| a[2..].partial_cmp(&b[2..]).unwrap())
+            (sign * a[key]).total_cmp(&(sign * b[key])).then_with(|| a[2..].partial_cmp(&b[2..]).unwrap())
         });
         for of in [1, 2, 3, 7] {
             for (folder, top) in [("all", None), ("best", Some("5"))] {
@@ -54,16 +58,53 @@ fn the_best_are_those_of_a_sorted_table() {
         }
     }
     // The points of the best are those of their curves.
-    let points = parquet_rows(&path.join("best-length-1/bars").join(shard("points", 0, 1, "parquet")));
+    let points = parquet_rows(&path.join("best--length-1/bars").join(shard("points", 0, 1, "parquet")));
     let whole = csv_rows(&path.join("whole/bars/points.csv"));
     assert_eq!(points.len(), 1 + 5 * 12);
     assert!(points.iter().all(|row| whole.contains(row)));
     // Over families; one that lacks a name of the expression has no best.
     sweep_all(path, "families", 2, &["--no-points"]);
-    let table = printed(path, &["gather", "families", "--top", "100", "--by", "a * straight_length"]);
+    let table = printed(path, &["gather", "families", "--top", "100", "--by", "-a * straight_length"]);
     assert!(table.contains(",evans,M,") && table.contains(",far,M,") && !table.contains(",bars,"), "{table}");
     let keys: Vec<f64> = gathered(&table, &["by"]).iter().map(|row| row[0]).collect();
-    assert!(keys.len() == 5 + 2 && keys.is_sorted_by(|a, b| a >= b), "{keys:?}");
+    assert!(keys.len() == 5 + 2 && keys.is_sorted(), "{keys:?}");
+}
+
+#[test]
+fn a_family_is_ranked_by_its_sort() {
+    let folder =
+        folder_with(&MANIFEST.replace("cases = [{ g = 3 }", "sort = \"output_dwell_length\"\ncases = [{ g = 3 }"));
+    let path = folder.path();
+    let families = ["--only", "bars", "--only", "actuator"];
+    let out = printed(path, &[&["sweep", "-o", "own", "--no-points", "--top", "2"], &families[..]].concat());
+    // The table of each family is below its line: the names, the least value of its own expression first, the parameters, and the
+    // measures of expressions.
+    let lines: Vec<Vec<&str>> = out.lines().map(|line| line.split_whitespace().collect()).collect();
+    assert_eq!(lines.len(), 2 * 4, "{out}");
+    assert!(out.contains("the best 2 curves by `-length`, written to "), "{out}");
+    assert_eq!(lines[1], ["curve", "by", "frame", "coupler", "rocker", "length"]);
+    for (rank, line) in lines[2..4].iter().enumerate() {
+        let [length, by] = [line[6], line[2]].map(|text| text.parse::<f64>().unwrap());
+        assert!(line[0] == (rank + 1).to_string() && line[1].starts_with("bars:") && length == -by, "{out}");
+    }
+    let columns: Vec<usize> = out.lines().skip(1).take(3).map(|line| line.chars().count()).collect();
+    assert!(columns.iter().all(|width| *width == columns[0]), "{out}");
+    assert_eq!(lines[5].last(), Some(&"output_dwell_length"), "{out}");
+    // A complete table is shown again, and nothing with --quiet.
+    let again = printed(path, &[&["sweep", "-o", "own", "--no-points", "--top", "2"], &families[..]].concat());
+    assert_eq!(again.replace("complete in", "written to"), out);
+    assert_eq!(
+        printed(path, &[&["sweep", "-q", "-o", "own", "--no-points", "--top", "2"], &families[..]].concat()),
+        ""
+    );
+    // Each family by its own: those of the shards, and those of all curves.
+    printed(path, &[&["sweep", "-q", "-o", "all", "--no-points"], &families[..]].concat());
+    let table = printed(path, &["gather", "own", families[0], families[1], families[2], families[3]]);
+    let own = printed(path, &[&["gather", "all", "--top", "2"], &families[..]].concat());
+    assert_eq!(table, own);
+    let best = gathered(&table, &["by"]);
+    assert!(best.len() == 4 && best[..2].is_sorted() && best[2..].is_sorted() && best[0][0] < 0.0, "{table}");
+    assert!(table.lines().skip(1).take(2).all(|line| line.contains(",bars,")), "{table}");
 }
 
 #[test]
@@ -92,6 +133,9 @@ fn an_empty_answer_says_why() {
     let path = folder.path();
     sweep_all(path, "out", 2, &["--no-points"]);
     sweep_all(path, "best", 2, &["--no-points", "--top", "3", "--by", "length / 0 * 0"]);
+    let (code, _, err) =
+        run(path, &["sweep", "-q", "-o", "none", "--only", "evans", "--top", "3", "--by", "length / 0 * 0"]);
+    assert_eq!((code, err.as_str()), (0, "note: evans: `length / 0 * 0` has no value for any curve\n"));
     for (arguments, expected) in [
         (&["out", "--top", "3", "--by", "0/0"][..], "nothing is the best: `0/0` has no value for any of "),
         (&["best"], "nothing is the best: no shard has a curve for which `length / 0 * 0` has a value"),

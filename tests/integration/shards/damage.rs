@@ -109,6 +109,19 @@ fn rows_with_more_text_than_a_sweep_writes_are_refused() {
         |top: usize| run(path, &["gather", "out", "--only", "evans", "--top", &top.to_string(), "--by", "length"]);
     let (code, whole, _) = best(5);
     assert!(code == 0 && whole.lines().count() == 6);
+    // In the first format the best were the greatest: it is read where all curves are there.
+    let first_format = stated.replace("\"format\": 2", "\"format\": 1");
+    assert_ne!(first_format, stated);
+    fs::write(&record, &first_format).unwrap();
+    assert_eq!(best(5).1, whole);
+    let only_best = first_format.replace("\"top\": null", "\"top\": {\"count\": 5, \"by\": \"length\"}");
+    assert_ne!(only_best, first_format);
+    fs::write(&record, only_best).unwrap();
+    let (code, out, err) = best(5);
+    assert!(
+        code == 2 && out.is_empty() && err.contains("it has the curves for which its expression is greatest"),
+        "{err}"
+    );
     // The last field of each row is the name of the joint.
     for (length, is_refused) in [(100_000, false), (300_000, true)] {
         let long = text.lines().enumerate().map(|(k, line)| match k {
@@ -135,10 +148,10 @@ fn files_of_others_are_refused() {
     let file = path.join("out/actuator").join(shard("cells", 0, 1, "parquet"));
     let whole = fs::read(&file).unwrap();
     // A newer format: the digits have the same length.
-    let newer = replace_bytes(&whole, b"coupler_atlas.format\x18\x011", b"coupler_atlas.format\x18\x012");
+    let newer = replace_bytes(&whole, b"coupler_atlas.format\x18\x012", b"coupler_atlas.format\x18\x013");
     let foreign = replace_bytes(&whole, b"coupler_atlas.", b"another_thing.");
     for (bytes, reason) in [
-        (&newer[..], "it has the format 2, and this version reads 1"),
+        (&newer[..], "it has the format 3, and this version reads 2"),
         (&foreign[..], "no sweep wrote it"),
         (b"a,b\n", "it is not a Parquet file"),
     ] {

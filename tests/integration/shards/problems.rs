@@ -117,10 +117,15 @@ fn wrong_options_are_explained() {
             "--cells is for a single family: name one with --only, as in --only evans, of evans, far and others",
         ),
         (&["--cells", "4..9", "--only", "evans"], "--cells: `evans` has no cell 9: its cells are numbered from 1 to 5"),
-        (&["--top", "3"], "--by"),
+        (&["--top", "3"], "`evans`: it has no `sort`: say with --by what is least for the best curves"),
+        (
+            &["--top", "3", "--by", "straight_length"],
+            "--by: `straight_length`: it runs as `sort` now, the least value first: write `--by -straight_length` for the greatest, or `--by \
+             +straight_length` for the least",
+        ),
         (&["--top", "0", "--by", "length"], "0 is not in 1..=1000000"),
         (&["--top", "3", "--by", "lenght"], "--by: `lenght`: unknown name `lenght`; did you mean `length`?"),
-        (&["--top", "3", "--by", "class"], "`class` is a word, and what is greatest must be a number"),
+        (&["--top", "3", "--by", "class"], "`class` is a word, and what is least must be a number"),
         (&["--top", "3", "--by", "length > 2"], "--by: `length > 2`: expected a number"),
         (
             &["--top", "3", "--by", "half", "--only", "bars"],
@@ -141,7 +146,8 @@ fn wrong_options_are_explained() {
         (&["."], "there are no tables of shards in .: `coupler-atlas sweep` writes them"),
         (&["out", "--by", "area"], "the shards have only the best by `length`, not by `area`"),
         (&["out", "--top", "3"], "the shards have only the best 2, not 3"),
-        (&["all", "--top", "3"], "by what are they the best?"),
+        (&["all", "--top", "3"], "`evans`: it has no `sort`: say with --by"),
+        (&["all", "--top", "3", "--by", "mu_min_deg"], "write `--by -mu_min_deg` for the greatest"),
         (&["all", "--by", "length"], "how many are the best?"),
         (&["all", "--toml", "best.toml"], "--toml is for the best curves"),
         (&["all", "--top", "1", "--by", "lenght"], "did you mean `length`?"),

@@ -10,6 +10,7 @@ use super::number::format_number;
 use super::sampling_fields::sampling_fields;
 use crate::catalogue;
 use crate::family::{Family, MAX_CELLS, StraightCriterion};
+use crate::linkage::DwellBand;
 use crate::linkage_format::{quoted, toml_number};
 use crate::template::{CircuitSelection, CoincidentDyads, Continuation, Orientation, Template};
 
@@ -110,6 +111,7 @@ pub fn family_settings(family: &Family) -> String {
         let _ = writeln!(out, "place = {}", placement_to_toml(&template.orientation));
     }
     out += &straight_setting(family);
+    out += &dwell_setting(template);
     if let Some(tolerance) = template.tolerance {
         let _ = writeln!(out, "tolerance = {}", toml_number(tolerance));
     }
@@ -125,7 +127,8 @@ pub fn family_settings(family: &Family) -> String {
 
 /// The settings of a family whose linkage is drawn as it is placed, in a pose of the only circuit.
 pub fn drawn_family_settings(family: &Family) -> String {
-    sampling_setting(family) + &continuation_settings(&family.template) + &straight_setting(family)
+    let template = &family.template;
+    sampling_setting(family) + &continuation_settings(template) + &straight_setting(family) + &dwell_setting(template)
 }
 
 /// A value of the input, or a part of it.
@@ -171,6 +174,18 @@ fn straight_setting(family: &Family) -> String {
         StraightCriterion::Length(length) => format!("length = {}", format_number(length)),
     };
     format!("straight = {{ {straight} }}\n")
+}
+
+fn dwell_setting(template: &Template) -> String {
+    if template.dwell == DwellBand::default() {
+        return String::new();
+    }
+    let band = match template.dwell {
+        DwellBand::Share(share) => format!("share = {}", format_number(share)),
+        DwellBand::Angle(degrees) => format!("angle = \"{} deg\"", format_number(degrees)),
+        DwellBand::Length(length) => format!("length = {}", format_number(length)),
+    };
+    format!("dwell = {{ {band} }}\n")
 }
 
 /// The `place` of a family.

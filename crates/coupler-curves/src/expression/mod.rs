@@ -37,6 +37,7 @@ pub use kind::Kind;
 pub use program::{CompiledExpression, Expression};
 pub use scope::Scope;
 pub use unit::Unit;
+pub(crate) use unit::length_unit_help;
 
 // For the other crates of the workspace only.
 #[doc(hidden)]

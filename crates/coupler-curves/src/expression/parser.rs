@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use super::lexer::{Token, tokenize};
 use super::program::{Expression, Instruction, Operator};
+use super::unit::length_unit_help;
 use super::{CONSTANTS, Dimension, Error, Function, MAX_DEPTH, Unit};
 use crate::problem::{Span, nearest_word};
 
@@ -31,7 +32,10 @@ impl Expression {
         match Dimension::Angle.unit(&word) {
             Some(unit) => Ok((expression, Some(unit))),
             None => {
-                let help = "an angle may have the unit `deg` or `rad`; lengths and ratios are numbers without a unit";
+                let help = length_unit_help(&word).unwrap_or_else(|| {
+                    "an angle may have the unit `deg` or `rad`; lengths and ratios are numbers without a unit"
+                        .to_owned()
+                });
                 Err(Error::new(span, format!("`{word}` is not a unit here"), help))
             }
         }
@@ -104,9 +108,12 @@ impl<'a> Parser<'a> {
             ),
             word => {
                 let operator = ["and", "or", "not"].into_iter().find(|operator| word.eq_ignore_ascii_case(operator));
-                let help = match operator {
-                    Some(operator) => format!("write `{operator}`"),
-                    None => "between two values there must be an operator, as in `2 * a`".to_owned(),
+                let is_after_number = matches!(self.tokens[..self.position].last(), Some((Token::Number(_), _)));
+                let length = length_unit_help(word).filter(|_| is_after_number);
+                let help = match (operator, length) {
+                    (Some(operator), _) => format!("write `{operator}`"),
+                    (None, Some(help)) => help,
+                    (None, None) => "between two values there must be an operator, as in `2 * a`".to_owned(),
                 };
                 Error::new(span, format!("unexpected `{word}`"), help)
             }

@@ -48,6 +48,26 @@ impl Dimension {
     }
 }
 
+/// The units of lengths that people write, and what `unit` of the manifest calls them.
+const LENGTH_UNITS: [(&str, &str); 8] = [
+    ("mm", "mm"),
+    ("millimetres", "mm"),
+    ("millimeters", "mm"),
+    ("cm", "cm"),
+    ("m", "m"),
+    ("in", "in"),
+    ("inch", "in"),
+    ("inches", "in"),
+];
+
+/// What to do about a length with a unit, if a word is one.
+pub(crate) fn length_unit_help(word: &str) -> Option<String> {
+    let (_, unit) = LENGTH_UNITS.iter().find(|(name, _)| name.eq_ignore_ascii_case(word))?;
+    Some(format!(
+        "lengths are numbers in the unit of the atlas: leave it out here, and write unit = \"{unit}\" in [atlas]"
+    ))
+}
+
 impl Unit {
     /// Its name.
     pub fn name(self) -> &'static str {

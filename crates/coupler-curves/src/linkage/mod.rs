@@ -11,6 +11,7 @@ mod assembly_mode;
 mod builder;
 mod cognate;
 mod default_output;
+mod dwell_band;
 mod error;
 mod four_bar;
 mod group;
@@ -50,6 +51,7 @@ pub use sextic::{DoublePoint, DoublePointKind, Sextic};
 #[doc(hidden)]
 pub use self::{
     assembly_mode::{DyadSet, MAX_DYADS},
+    dwell_band::DwellBand,
     group::{Closure, Group},
     kinematic_chain::KinematicChain,
     load::Load,

@@ -1,6 +1,8 @@
 //! A linkage as a list of joints and links.
 
-use super::{Closure, DyadId, Error, Group, Input, Joint, JointId, JointKind, Link, Load, MotionOptions, OutputLink};
+use super::{
+    Closure, DwellBand, DyadId, Error, Group, Input, Joint, JointId, JointKind, Link, Load, MotionOptions, OutputLink,
+};
 use crate::geometry::{Orientation, Point, trig};
 
 /// A linkage with numeric dimensions. All lengths are in one unit, which may be any.
@@ -26,6 +28,8 @@ pub struct Linkage {
     pub load: Option<Load>,
     /// How far each of its lengths may be off, if that is to be measured: positive.
     pub tolerance: Option<f64>,
+    /// How far its output may move while it dwells.
+    pub dwell: DwellBand,
     /// The chains it is composed of in addition to the first, such as the cognates of a four-bar, each by its joints: the
     /// links between them are a part of the linkage that a figure distinguishes.
     pub chains: Vec<Vec<JointId>>,
@@ -144,6 +148,7 @@ impl Linkage {
             output_link: self.output_link,
             load: self.load,
             tolerance: self.tolerance,
+            dwell: self.dwell,
             chains: Vec::new(),
             placement: self.placement,
             motion_options: self.motion_options.clone(),

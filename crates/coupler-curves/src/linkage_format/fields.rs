@@ -30,7 +30,11 @@ impl<'v, 't> Fields<'v, 't> {
                 let problem = Problem::error(key.span(), format!("{} has no key `{name}`", schema.display_name));
                 let help = match schema.table_with(name) {
                     Some(table) => format!("did you mean `{table}.{name}`?"),
-                    None => suggestion(name, &known),
+                    None if nearest_word(name, known.iter().copied()).is_some() => suggestion(name, &known),
+                    None => match parser.table_of(name) {
+                        Some(table) => format!("`{name}` is a key of {table}"),
+                        None => format!("{}{}", schema.other_names, suggestion(name, &known)),
+                    },
                 };
                 parser.report(problem.with_help(help));
             }

@@ -10,7 +10,7 @@ use super::schema::{KeySchema, TableSchema, ValueSchema, default_word, words};
 use super::tolerance::{TOLERANCE_KEY, parse_tolerance};
 use super::toml_parser::{TomlParser, TomlValue};
 use crate::expression::{Dimension, Kind, Scope, Unit};
-use crate::linkage;
+use crate::linkage::{self, DwellBand};
 use crate::problem::{Problem, Span};
 use crate::template::{
     CircuitSelection, CoincidentDyads, Continuation, InputValue, Orientation, Parameter, ParameterKind, Template,
@@ -205,6 +205,7 @@ pub fn parse_template<'t>(value: &TomlValue<'t>, parser: &mut TomlParser<'t>) ->
         output_link: joints.output_link,
         load: None,
         tolerance: None,
+        dwell: DwellBand::default(),
         chains: joints.chains,
         orientation: Orientation::default(),
         circuits,

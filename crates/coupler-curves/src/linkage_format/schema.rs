@@ -19,6 +19,8 @@ pub struct TableSchema {
     pub any_of: &'static [&'static str],
     /// A key, and another that is required if it is present.
     pub dependent_keys: Option<(&'static str, &'static str)>,
+    /// Where in messages it is said that other names are given; empty if nowhere.
+    pub other_names: &'static str,
 }
 
 /// A key of a table.
@@ -86,12 +88,17 @@ pub enum ValueSchema {
 impl TableSchema {
     /// A table with these keys.
     pub const fn new(display_name: &'static str, keys: &'static [KeySchema]) -> TableSchema {
-        TableSchema { display_name, keys, one_of: &[], any_of: &[], dependent_keys: None }
+        TableSchema { display_name, keys, one_of: &[], any_of: &[], dependent_keys: None, other_names: "" }
     }
 
     /// Requires exactly one of these keys.
     pub const fn with_one_of(self, one_of: &'static [&'static str]) -> TableSchema {
         TableSchema { one_of, ..self }
+    }
+
+    /// Says in messages where what is no key of it is written, before the list of its keys.
+    pub const fn with_other_names(self, other_names: &'static str) -> TableSchema {
+        TableSchema { other_names, ..self }
     }
 
     /// Requires one of these keys or several.

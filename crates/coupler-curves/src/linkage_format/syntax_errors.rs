@@ -1,5 +1,6 @@
 //! What is wrong where TOML cannot be parsed, and how it is written.
 
+use crate::expression::length_unit_help;
 use crate::problem::{Problem, Span};
 
 /// The problem for a syntax error at a place with the message of the TOML parser.
@@ -29,7 +30,12 @@ fn slip(text: &str, span: &Span, message: &str) -> Option<[String; 2]> {
                 [format!("{value} has other quotes than TOML"), format!("write them straight: \"{bare}\"")]
             }
             Some(word) => [format!("`{value}` is not a boolean"), format!("write `{word}`")],
-            None => [format!("`{value}` is not in quotes"), format!("write \"{value}\"")],
+            None => {
+                let length = value.split_once(' ').filter(|(number, _)| number.parse::<f64>().is_ok());
+                let length = length.and_then(|(_, unit)| length_unit_help(unit.trim()));
+                let help = length.unwrap_or_else(|| format!("write \"{value}\""));
+                [format!("`{value}` is not in quotes"), help]
+            }
         });
     }
     // The parser takes values without a comma between them for a string without quotes.

@@ -4,6 +4,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::entries::{entry_around, unclosed_bracket};
+use super::schema::{TableSchema, ValueSchema};
 use super::syntax_errors::syntax_problem;
 use crate::expression::{self, Caption, CompiledExpression, Expression, Kind, Scope};
 use crate::problem::{Problem, Span};
@@ -22,12 +23,28 @@ pub struct TomlParser<'t> {
     problem_count: usize,
     /// The entries with a syntax error.
     broken_entries: Vec<Span>,
+    /// The tables of the document, among which those are looked for that have a key which is in another.
+    root: Option<&'static TableSchema>,
 }
 
 impl<'t> TomlParser<'t> {
     /// A parser of a text.
     pub fn new(text: &'t str) -> TomlParser<'t> {
-        TomlParser { text, problems: Vec::new(), problem_count: 0, broken_entries: Vec::new() }
+        TomlParser { text, problems: Vec::new(), problem_count: 0, broken_entries: Vec::new(), root: None }
+    }
+
+    /// The same of a document with these tables.
+    pub fn with_root(self, root: &'static TableSchema) -> TomlParser<'t> {
+        TomlParser { root: Some(root), ..self }
+    }
+
+    /// The table of the document that has a key, by its name in messages.
+    pub(super) fn table_of(&self, key: &str) -> Option<&'static str> {
+        let tables = self.root?.keys.iter().filter_map(|key| match &key.value {
+            ValueSchema::Table(table) | ValueSchema::List(ValueSchema::Table(table), _) => Some(*table),
+            _ => None,
+        });
+        tables.into_iter().find(|table| table.key_names().contains(&key)).map(|table| table.display_name)
     }
 
     /// The document; after a syntax error, as much of it as can be recovered. Of the syntax errors in one entry, a key

@@ -30,6 +30,8 @@ pub struct Measure {
     pub unit: &'static str,
     /// Whether it is a word and not a number: a word cannot be compared in `where`.
     pub is_word: bool,
+    /// Whether more of it is better, as of a transmission angle, and not less; false also where neither is.
+    pub is_more_better: bool,
     /// The linkages that have it.
     pub subject: Subject,
     /// Its definition, as printed by `list measures`.
@@ -96,7 +98,17 @@ impl Measure {
         definition: &'static str,
         compute: fn(&TracedCurve) -> Value,
     ) -> Measure {
-        Measure { name, title, length_name: None, unit, is_word: false, subject: Subject::Any, definition, compute }
+        Measure {
+            name,
+            title,
+            length_name: None,
+            unit,
+            is_word: false,
+            is_more_better: false,
+            subject: Subject::Any,
+            definition,
+            compute,
+        }
     }
 
     /// A measure that is a word.
@@ -112,6 +124,11 @@ impl Measure {
     /// The same measure, of these linkages only.
     pub(super) const fn of(self, subject: Subject) -> Measure {
         Measure { subject, ..self }
+    }
+
+    /// The same measure, of which more is better.
+    pub(super) const fn more_is_better(self) -> Measure {
+        Measure { is_more_better: true, ..self }
     }
 
     /// The same measure, which is an input, with its name where the input is a length.

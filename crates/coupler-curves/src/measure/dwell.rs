@@ -22,6 +22,7 @@ pub const MEASURES: [Measure; 6] = [
         "greatest input span of a portion within 0.0005 of the curve's greatest extent of a circle",
         |curve| dwell_value(curve, |dwell| dwell.input_span),
     )
+    .more_is_better()
     .or_length("dwell_input_length"),
     Measure::number(
         "dwell_radius",

@@ -31,7 +31,7 @@ impl MeasureSet {
     }
 
     /// The measures of the path of a joint; the others, which come before them, are of the motion of the linkage and the same for all joints.
-    pub const OF_PATHS: MeasureSet = MeasureSet(MeasureSet::ALL.0 & !((1 << Measure::LENGTH.index) - 1));
+    pub const OF_PATHS: MeasureSet = MeasureSet(MeasureSet::ALL.0 & !((1 << Measure::SENSITIVITY_MAX.index) - 1));
 
     /// The measures that a condition holds for.
     pub fn of(mut is_in: impl FnMut(&Measure) -> bool) -> MeasureSet {

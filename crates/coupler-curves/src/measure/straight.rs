@@ -24,7 +24,7 @@ pub const MEASURES: [Measure; 6] = [
         "",
         "length of the straightest portion, projected on its line, in the manifest's unit: the longest in a strip no wider than 0.001 of it, or as set by the family's `straight`; empty if it is shorter than a twentieth of the curve's greatest extent",
         |curve| portion_value(curve, |portion| portion.length),
-    ),
+    ).more_is_better(),
     Measure::number(
         "straight_share",
         "length of the straight portion over the curve's extent",
@@ -34,7 +34,7 @@ pub const MEASURES: [Measure; 6] = [
             Some(portion) => Value::Number((portion.length / curve.extent()).min(1.0)),
             None => Value::Missing,
         },
-    ),
+    ).more_is_better(),
     Measure::number(
         "straight_deviation",
         "deviation of the straight portion",
@@ -56,7 +56,7 @@ pub const MEASURES: [Measure; 6] = [
         "deg",
         "input that the straightest portion spans",
         |curve| portion_value(curve, |portion| portion.input_span),
-    )
+    ).more_is_better()
     .or_length("straight_input_length"),
     Measure::number(
         "straight_twin_deg",
@@ -88,7 +88,8 @@ macro_rules! wider {
                     " of it; empty below a twentieth of the extent"
                 ),
                 |curve| value(curve, |portion| portion.length),
-            ),
+            )
+            .more_is_better(),
             Measure::number(
                 concat!($prefix, "_share"),
                 concat!("length over the curve's extent of the portion straight to ", $tolerance),
@@ -97,7 +98,8 @@ macro_rules! wider {
                 |curve| {
                     portion_number(curve.wider_straight($index), |portion| (portion.length / curve.extent()).min(1.0))
                 },
-            ),
+            )
+            .more_is_better(),
             Measure::number(
                 concat!($prefix, "_deviation"),
                 concat!("deviation of the portion straight to ", $tolerance),
@@ -120,6 +122,7 @@ macro_rules! wider {
                 "input that it spans",
                 |curve| value(curve, |portion| portion.input_span),
             )
+            .more_is_better()
             .or_length(concat!($prefix, "_input_length")),
         ]
     }};
@@ -136,7 +139,7 @@ pub const HALF_TURN: [Measure; 3] = [
         "",
         "length of the portion that is straightest for its length of those that half a turn of the input traverses; empty if its strip is wider than 0.02 of it",
         |curve| portion_number(curve.straight_half_turn(), |portion| portion.length),
-    ).of(Subject::DrivenByAngle),
+    ).more_is_better().of(Subject::DrivenByAngle),
     Measure::number("straight_half_turn_deviation", "deviation of the straightest portion in half a turn", "", "greatest distance of that portion from its line", |curve| {
         portion_number(curve.straight_half_turn(), |portion| portion.deviation)
     }).of(Subject::DrivenByAngle),

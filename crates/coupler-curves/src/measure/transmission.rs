@@ -12,7 +12,7 @@ pub const MU_MIN: Measure = Measure::number(
     "deg",
     "least transmission angle of a four-bar over the circuit, 0 to 180; if the coupler is driven, at both pins (McCarthy 2.3.3)",
     |curve: &TracedCurve| curve.transmission_angles().map_or(Value::Missing, |[least, _]| Value::Number(least)),
-).of(Subject::FourBar);
+).of(Subject::FourBar).more_is_better();
 
 /// The measure `mu_max_deg`.
 pub const MU_MAX: Measure = Measure::number(
@@ -31,7 +31,7 @@ pub const MU_WORST: Measure = Measure::number(
     "deg",
     "worst transmission angle over the circuit, the least distance from 0 and 180, 0 to 90: of a four-bar as mu_min_deg and mu_max_deg, otherwise of all dyads, at a slider 90 minus the pressure angle",
     |curve| curve.worst_transmission_angle().map_or(Value::Missing, Value::Number),
-).of(Subject::WithDyad);
+).of(Subject::WithDyad).more_is_better();
 
 impl TracedCurve<'_> {
     /// The least and the greatest transmission angle, in degrees.

@@ -9,8 +9,8 @@ const MAX_COMPARED: usize = 200;
 /// The most words that a message lists.
 const MAX_LISTED: usize = 40;
 
-/// Names that textbooks, such as Norton's, have for what is called otherwise here.
-const OTHER_NAMES: [(&str, &str); 12] = [
+/// Names that textbooks, such as Norton's, have for what is called otherwise here: of several for one, the first that is possible is meant.
+const OTHER_NAMES: [(&str, &str); 32] = [
     ("ground", "frame"),
     ("fixed", "frame"),
     ("base", "frame"),
@@ -22,7 +22,27 @@ const OTHER_NAMES: [(&str, &str); 12] = [
     ("connecting_rod", "coupler"),
     ("rod", "coupler"),
     ("eccentricity", "offset"),
+    ("link1", "frame"),
+    ("link2", "crank"),
+    ("link3", "coupler"),
+    ("link4", "rocker"),
     ("four_bar", "four-bar"),
+    ("4bar", "four-bar"),
+    ("crank-rocker", "four-bar"),
+    ("crank-slider", "slider-crank"),
+    ("strandbeest", "jansen"),
+    ("theta2", "input_min_deg"),
+    ("theta2", "input_deg"),
+    ("theta4", "output_min"),
+    ("theta4", "psi_deg"),
+    ("transmission_angle", "mu_worst_deg"),
+    ("transmission_angle", "mu_deg"),
+    ("stride", "straight_length"),
+    ("lift", "bbox_height"),
+    ("step_height", "bbox_height"),
+    ("width", "bbox_width"),
+    ("height", "bbox_height"),
+    ("size", "paper"),
 ];
 
 /// The candidate that textbooks call `word`, or the one with the least edit distance from `word`, if that is at most a third of the word's length, or 1.
@@ -40,8 +60,8 @@ pub fn nearest_word<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str
     if let Some(longer) = candidates.iter().copied().find(is_longer).filter(|_| length > 1) {
         return Some(longer);
     }
-    let other = OTHER_NAMES.iter().find(|(name, _)| name.eq_ignore_ascii_case(word));
-    if let Some((_, own)) = other.filter(|(_, own)| candidates.contains(own)) {
+    let is_meant = |(name, own): &&(&str, &str)| name.eq_ignore_ascii_case(word) && candidates.contains(own);
+    if let Some((_, own)) = OTHER_NAMES.iter().find(is_meant) {
         return Some(own);
     }
     // A single letter is as near to any other.
@@ -158,6 +178,8 @@ mod tests {
         }
         assert_eq!(suggestion("Ground", &["crank", "frame"]), "did you mean `frame`?");
         assert_eq!(suggestion("follower", &["crank", "rocker"]), "did you mean `rocker`?");
+        assert_eq!(suggestion("Theta2", &["psi_deg", "input_deg"]), "did you mean `input_deg`?");
+        assert_eq!(suggestion("stride", &["length", "straight_length"]), "did you mean `straight_length`?");
         assert_eq!(suggestion("zzz", &["a1", "b1", "c1"]), "it can be `a1`, `b1` or `c1`");
     }
 

@@ -28,7 +28,7 @@ pub use self::{
 };
 
 use crate::expression::{Caption, CompiledExpression, displayed_name};
-use crate::linkage::{self, BranchArc, JointId, LinkageBuilder, Load, MotionOptions};
+use crate::linkage::{self, BranchArc, DwellBand, JointId, LinkageBuilder, Load, MotionOptions};
 
 pub use crate::linkage::{CircuitSelection, CoincidentDyads, Continuation, Linkage, Orientation, Side};
 
@@ -63,6 +63,8 @@ pub struct Template {
     pub load: Option<Load<usize>>,
     /// How far each of its lengths may be off, if that is to be measured: positive.
     pub tolerance: Option<f64>,
+    /// How far its output may move while it dwells.
+    pub dwell: DwellBand,
     /// The chains it is composed of in addition to the first, each by its joints.
     pub chains: Vec<Vec<usize>>,
     /// The orientation applied to everything reported, after `seen_from`.
@@ -377,7 +379,8 @@ impl Template {
         let chain = |joints: &Vec<usize>| joints.iter().flat_map(|&k| built[k].clone()).collect();
         let chains = self.chains.iter().map(chain).collect();
         let load = self.load.map(|load| load.map_joint(|k| built[k][0]));
-        let linkage = Linkage { placement: self.orientation, load, tolerance: self.tolerance, chains, ..linkage };
+        let (tolerance, dwell) = (self.tolerance, self.dwell);
+        let linkage = Linkage { placement: self.orientation, load, tolerance, dwell, chains, ..linkage };
         match linkage.motion_options.range {
             Some([from, to]) if to - from > linkage.input().period() => {
                 let why = "which is more than a period from `from`";

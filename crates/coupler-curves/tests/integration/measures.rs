@@ -1,11 +1,14 @@
 //! Measures of whole curves against closed forms and brute force, and the invariances of all.
 
+use coupler_curves::catalogue;
+use coupler_curves::family::Family;
 use coupler_curves::geometry::{Point, trig};
 use coupler_curves::linkage::{
     CircuitSelection, Continuation, FourBar, JointId, Linkage, LinkageBuilder, MotionOptions, Orientation, Side,
 };
-use coupler_curves::measure::{self, Symmetry, TracedCurve, Value};
+use coupler_curves::measure::{self, MeasureSet, Symmetry, TracedCurve, Value};
 use coupler_curves::motion::{Motion, Sampler, Sampling};
+use coupler_curves::solve::Solver;
 use proptest::prelude::*;
 
 use crate::catalogue::default_linkage;
@@ -343,5 +346,26 @@ fn a_smooth_closed_curve_has_an_even_number_of_inflections() {
         let value = measures(&four_bar([2.0, crank, 2.0, 2.0], (4.0, 0.0)), 2, 0, 36);
         assert_eq!(number(value("cusps")), 0.0, "{crank}");
         assert_eq!(number(value("inflections")), 2.0, "{crank}");
+    }
+}
+
+#[test]
+fn measures_but_those_of_paths_are_the_same_for_all_joints_of_a_circuit() {
+    let mut template = (*catalogue::find("evans").unwrap()).clone();
+    template.traced =
+        (0..template.joints.len()).filter(|k| ["A", "B", "M"].contains(&&*template.joints[*k].name)).collect();
+    template.tolerance = Some(0.01);
+    let given = [("p", 2.5), ("a", 2.6)].map(|(name, value)| (name.to_owned(), value));
+    let mut family = Family::single_cell(template.into(), &given, Sampling::Samples(36)).unwrap();
+    family.measures = MeasureSet::ALL;
+    let solved = Solver::new(&family).solve(0).unwrap();
+    assert_eq!(solved.curves.len(), 3);
+    let is_same = |k: usize| solved.curves.iter().all(|curve| curve.values[k] == solved.curves[0].values[k]);
+    for (k, measure) in measure::ALL.iter().enumerate() {
+        assert!(is_same(k) || MeasureSet::OF_PATHS.contains(k), "{}", measure.name);
+    }
+    for measure in ["sensitivity_max", "tolerance_rss", "length"] {
+        let k = measure::ALL.iter().position(|own| own.name == measure).unwrap();
+        assert!(!is_same(k) && MeasureSet::OF_PATHS.contains(k), "{measure}");
     }
 }

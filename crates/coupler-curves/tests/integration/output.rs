@@ -2,7 +2,8 @@
 
 use coupler_curves::geometry::{Point, Vector, trig};
 use coupler_curves::linkage::{
-    CircuitSelection, FourBar, JointId, Linkage, LinkageBuilder, MotionOptions, OutputLink, PlacedFourBar, Side,
+    CircuitSelection, DwellBand, FourBar, JointId, Linkage, LinkageBuilder, MotionOptions, OutputLink, PlacedFourBar,
+    Side,
 };
 use coupler_curves::measure::{self, TracedCurve, Value, output_limit_poses};
 use coupler_curves::motion::{Motion, Sampler, Sampling};
@@ -126,14 +127,26 @@ fn a_scotch_yoke_is_harmonic() {
     assert_eq!((value("toggles"), value("mu_worst_deg")), (2.0, 90.0));
     // Within 0.01 of the stroke of a dead centre: 1 - cos of half the dwell is 0.02.
     near(value("output_dwell_deg"), 2.0 * acos_deg(0.98), 1e-9);
+    // A third of the stroke, and a length that is greater than the stroke.
+    for (dwell, expected) in [
+        (DwellBand::Share(1.0 / 3.0), 2.0 * acos_deg(1.0 / 3.0)),
+        (DwellBand::Length(0.5), 2.0 * acos_deg(0.5)),
+        (DwellBand::Length(2.5), 360.0),
+    ] {
+        let value = measures(&Linkage { dwell, ..linkage.clone() }, 0, 12);
+        near(value("output_dwell_deg"), expected, 1e-9);
+    }
 }
 
 /// The second crank turns once, evenly, in two turns of the first: of dwells that are all as long, that at the start counts.
 #[test]
 fn an_output_that_turns_evenly_dwells_for_a_hundredth_of_its_turn_from_the_start() {
-    let value = measures(&default_linkage("geared-five-bar"), 0, 12);
+    let linkage = default_linkage("geared-five-bar");
+    let value = measures(&linkage, 0, 12);
     near(value("output_dwell_deg"), 7.2, 2e-10);
     assert_eq!(value("output_dwell_start_deg"), 0.0);
+    let value = measures(&Linkage { dwell: DwellBand::Angle(5.0), ..linkage }, 0, 12);
+    near(value("output_dwell_deg"), 10.0, 2e-10);
 }
 
 /// The crank-shaper: the slotted link rocks by twice the angle whose sine is crank to frame (Norton, §3.7).

@@ -6,6 +6,7 @@ use crate::design::{
     Design, DrivenLinkage, Driver, LinkageKind, ProportionOrigin, RejectedLinkage, Relaxation, Requirement,
 };
 
+use super::super::super::aligned_table::AlignedTable;
 use super::super::super::format::format_significant;
 use super::format::{format_ratio, proportions};
 use super::report::{Report, option_name};
@@ -13,25 +14,24 @@ use super::trade_offs::trade_offs;
 
 /// A table of the designs, each row followed by its proportions and trade-offs, then the rejected linkages.
 pub(super) fn text(report: &Report) -> String {
-    const HEAD: [&str; 10] =
-        ["linkage", "straight", "deviation", "input", "mu min", "size", "out:back", "speed", "class", "driven by"];
+    const HEAD: [(&str, bool); 10] = [
+        ("linkage", true),
+        ("straight", false),
+        ("deviation", false),
+        ("input", false),
+        ("mu min", false),
+        ("size", false),
+        ("out:back", false),
+        ("speed", false),
+        ("class", true),
+        ("driven by", true),
+    ];
     let designs = &report.results.designs;
     let rows: Vec<[String; 10]> = designs.iter().map(row).collect();
-    let widths: Vec<usize> = (0..HEAD.len())
-        .map(|k| rows.iter().map(|row| row[k].chars().count()).chain([HEAD[k].len()]).max().unwrap_or(0))
-        .collect();
-    let line = |number: &str, cells: &[&str]| {
-        let mut line = format!("{number:>2}");
-        for (k, (cell, width)) in cells.iter().zip(&widths).enumerate() {
-            // Words are aligned left, numbers right.
-            let pad = " ".repeat(width - cell.chars().count());
-            line += &if matches!(k, 0 | 8 | 9) { format!("  {cell}{pad}") } else { format!("  {pad}{cell}") };
-        }
-        format!("{}\n", line.trim_end())
-    };
-    let mut out = line("", &HEAD);
+    let table = AlignedTable::new(2, &HEAD, rows.iter().map(|row| &row[..]));
+    let mut out = table.line("", HEAD.map(|(name, _)| name));
     for (k, (design, row)) in designs.iter().zip(&rows).enumerate() {
-        out += &line(&(k + 1).to_string(), &row.each_ref().map(String::as_str));
+        out += &table.line(&(k + 1).to_string(), row);
         // Writing to a string cannot fail.
         let _ = writeln!(out, "    {} ({})", proportions(design), origin(design));
         let _ = writeln!(out, "    {}", trade_offs(designs, k));

@@ -7,12 +7,10 @@ const FIRST_WORDS = ["class", "symmetric", "is_full_turn"];
 const OF_STRAIGHT_PORTION = ["straight_length", "straight_tolerance", "straight_share"];
 const FIRST_COLUMNS = ["mu_worst_deg", ...FIRST_WORDS, ...OF_STRAIGHT_PORTION, "length", "time_ratio"];
 const WORD_COLUMNS = [...FIRST_WORDS, "type", "shortest", "symmetry"];
-// The measures of which more is better: transmission angles and forces, and how far an output, a straight portion or a dwell goes.
-const MORE_IS_BETTER =
-  /^(mu_(min|worst)|output_(swing|dwell)|dwell_input|straight\w*_input)_deg$|^straight\w*_(length|share)$|^mechanical|_stroke$/;
 
-/** Whether rows sorted by a column begin with the greatest value, which is the best; otherwise with the least. */
-export const beginsWithGreatest = (/** @type {string} */ name) => MORE_IS_BETTER.test(name);
+/** Whether rows sorted by a column begin with the greatest value, which is the best. @param {Measure[]} measures @param {string} name */
+export const beginsWithGreatest = (measures, name) =>
+  measures.some((measure) => measure.name === name && measure.is_more_better);
 
 /**
  * The columns of a table with at least two different values. Columns in `kept` (their names) are always included.

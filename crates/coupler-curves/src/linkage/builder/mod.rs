@@ -8,8 +8,8 @@ use sliding_body::SlidingBody;
 
 use super::planar_linkage::gcd;
 use super::{
-    AssemblyMode, DyadId, Error, Group, Joint, JointId, JointKind, Link, LinkId, Linkage, MAX_DYADS, MotionOptions,
-    OutputLink, Side,
+    AssemblyMode, DwellBand, DyadId, Error, Group, Joint, JointId, JointKind, Link, LinkId, Linkage, MAX_DYADS,
+    MotionOptions, OutputLink, Side,
 };
 use crate::geometry::{Orientation, Point, Vector, left_normal};
 
@@ -248,6 +248,7 @@ impl LinkageBuilder {
             output_link,
             load: None,
             tolerance: None,
+            dwell: DwellBand::default(),
             chains: Vec::new(),
             placement,
             motion_options,

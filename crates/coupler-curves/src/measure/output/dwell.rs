@@ -1,28 +1,28 @@
 //! The longest dwell of the output.
 //!
-//! A dwell is a stretch of a circuit on which the output stays within a band of [`TOLERANCE`] of its travel. For each
+//! A dwell is a stretch of a circuit on which the output stays within a band, see [`DwellBand`]. For each
 //! start the longest one ends where the output first leaves the band that its values span. The start of the longest of
 //! all is searched for among samples of the circuit and where a band touches an extreme of the output, and is then
 //! refined between samples.
 
 use super::motion::{OutputMotion, Stretch};
 use super::output_value;
+use crate::geometry::trig;
+use crate::linkage::DwellBand;
 use crate::measure::budget::{MAX_DWELL_STEPS, Steps};
 use crate::measure::circuit_function::{MonotonicPart, Place};
 use crate::measure::{Measure, Subject, start_input};
 use crate::numerical::Bracket;
-
-/// The width of the band of a dwell, relative to the swing or the stroke of the output, or to a full turn.
-pub(in crate::measure) const TOLERANCE: f64 = 0.01;
 
 /// The measure `output_dwell_deg`.
 pub const DWELL: Measure = Measure::number(
     "output_dwell_deg",
     "input span of the output's dwell",
     "deg",
-    "greatest input span over which the output stays within a band of 0.01 of its swing or stroke, or of a turn",
+    "greatest input span over which the output stays within a band of 0.01 of its swing or stroke, or of a turn, or as set by the family's `dwell`",
     |curve| output_value(curve, |output| Some(output.dwell()?.input_span)),
 )
+.more_is_better()
 .of(Subject::WithOutput)
 .or_length("output_dwell_length");
 
@@ -43,12 +43,21 @@ impl OutputMotion {
         *self.dwell.get_or_init(|| self.find_dwell())
     }
 
+    /// The width of the band, in radians or in the manifest's unit.
+    fn dwell_width(&self) -> f64 {
+        match self.dwell_band {
+            DwellBand::Share(share) => share * self.travel(),
+            DwellBand::Angle(degrees) => trig::radians(degrees),
+            DwellBand::Length(length) => length,
+        }
+    }
+
     fn find_dwell(&self) -> Option<Stretch> {
         let coordinate = &self.coordinate;
         let search = DwellSearch {
             output: self,
             parts: coordinate.monotonic_parts(),
-            width: TOLERANCE * self.travel(),
+            width: self.dwell_width(),
             steps: Steps::new(MAX_DWELL_STEPS),
         };
         let begin = search.place(0.0);

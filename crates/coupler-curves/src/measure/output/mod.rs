@@ -28,8 +28,9 @@ impl OutputMotion {
         let turns_fully =
             coordinate.is_closed() && coordinate.change().abs() > 1.0 && !coordinate.quantity().is_slider();
         let extremes = coordinate.extremes();
+        let dwell_band = curve.linkage.dwell;
         let (dwell, velocity_ratios, toggle_count) = (OnceCell::new(), OnceCell::new(), OnceCell::new());
-        Some(OutputMotion { coordinate, turns_fully, extremes, dwell, velocity_ratios, toggle_count })
+        Some(OutputMotion { coordinate, turns_fully, extremes, dwell_band, dwell, velocity_ratios, toggle_count })
     }
 
     /// Its swing in radians, 2 pi if it turns fully, or its stroke.

@@ -3,6 +3,7 @@
 use std::cell::OnceCell;
 
 use super::coordinate::OutputCoordinate;
+use crate::linkage::DwellBand;
 use crate::measure::circuit_function::{CircuitFunction, Extreme};
 
 /// The coordinate of the output link along a circuit, in radians or in the manifest's unit. What is computed from it is
@@ -13,6 +14,7 @@ pub(in crate::measure) struct OutputMotion {
     /// Whether it turns fully: round a closed circuit it makes whole turns.
     pub(super) turns_fully: bool,
     pub(super) extremes: [Extreme; 2],
+    pub(super) dwell_band: DwellBand,
     pub(super) dwell: OnceCell<Option<Stretch>>,
     pub(super) velocity_ratios: OnceCell<VelocityRatios>,
     pub(super) toggle_count: OnceCell<usize>,

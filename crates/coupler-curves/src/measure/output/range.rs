@@ -33,6 +33,7 @@ pub const SWING: Measure = Measure::number(
     "angle that the output link swings through over the circuit; 360 if it turns fully; empty for a slider",
     |curve| output_value(curve, |output| (!output.coordinate.quantity().is_slider()).then(|| swing(output))),
 )
+.more_is_better()
 .of(Subject::WithTurningOutput);
 
 /// The measure `output_stroke`.
@@ -43,6 +44,7 @@ pub const STROKE: Measure = Measure::number(
     "stroke of the output slider over the circuit, in the manifest's unit; empty for a link that turns",
     |curve| output_value(curve, |output| output.coordinate.quantity().is_slider().then(|| output.travel())),
 )
+.more_is_better()
 .of(Subject::WithSlidingOutput);
 
 /// The positions of all joints at the limits of the output on the circuit of a curve: first where its angle or its

@@ -31,7 +31,8 @@ pub const MECHANICAL_ADVANTAGE_MIN: Measure = Measure::number(
     "",
     "least mechanical advantage without friction: output torque or force divided by that of the input, 1 / |velocity ratio|; 0 at a limit of the input",
     |curve| output_value(curve, |output| Some(output.velocity_ratios().magnitudes[1].recip())),
-).of(Subject::WithOutput);
+)
+.more_is_better().of(Subject::WithOutput);
 
 /// The measure `mechanical_advantage_max`.
 pub const MECHANICAL_ADVANTAGE_MAX: Measure = Measure::number(
@@ -41,6 +42,7 @@ pub const MECHANICAL_ADVANTAGE_MAX: Measure = Measure::number(
     "greatest mechanical advantage; inf at a toggle position",
     |curve| output_value(curve, |output| Some(output.velocity_ratios().magnitudes[0].recip())),
 )
+.more_is_better()
 .of(Subject::WithOutput);
 
 impl OutputMotion {

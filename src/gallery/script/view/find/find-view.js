@@ -52,7 +52,7 @@ export class FindView {
     const sortBy = (name, down) => this.store.change({ sort: { name, down } });
     this.list = new ResultRows(app, (name) => {
       const { sort } = this.query;
-      sortBy(name, sort.name === name ? !sort.down : beginsWithGreatest(name));
+      sortBy(name, sort.name === name ? !sort.down : beginsWithGreatest(app.atlas.measures, name));
     });
     this.countLabel = h("p.counted", "Loading");
     this.loadAll = loadAllLine(() => {
@@ -65,7 +65,7 @@ export class FindView {
     this.results = h("div.found", { tabindex: "-1" });
     this.sorter = h("select", {
       id: "find-sort",
-      onchange: (event) => sortBy(event.target.value, beginsWithGreatest(event.target.value)),
+      onchange: ({ target: { value } }) => sortBy(value, beginsWithGreatest(app.atlas.measures, value)),
     });
     this.direction = buttonOf("", () => sortBy(this.query.sort.name, !this.query.sort.down));
     this.families = h("div.family-choice");
