@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
+use std::sync::LazyLock;
 
 use super::reader::{Contents, Pdf, PolylineMm};
 use crate::support::folder::Atlas;
@@ -67,18 +68,21 @@ fn texts_in(pdf: &Pdf, page: usize, [left, bottom, right, top]: [f64; 4]) -> Vec
     pdf.contents(page).texts.into_iter().filter(|(_, at, _)| inside(at)).map(|(text, ..)| text).collect()
 }
 
-/// The book of the manifest, and its index of parts: titles with the indices of their pages.
-fn book(arguments: &[&str]) -> (Atlas, Pdf, BTreeMap<String, usize>) {
-    let atlas = Atlas::rendered(MANIFEST, arguments);
-    let pdf = Pdf::read(&fs::read(atlas.out().join("atlas.pdf")).unwrap());
-    let parts = pdf.outline().into_iter().filter(|entry| entry.0 == 0).map(|(_, title, page)| (title, page)).collect();
-    (atlas, pdf, parts)
+/// The book of the manifest, made once for all tests.
+struct Book {
+    pdf: Pdf,
+    /// Its index of parts: titles with the indices of their pages.
+    parts: BTreeMap<String, usize>,
+    /// The rows of `cells.csv`.
+    rows: Vec<Row>,
 }
 
-/// The rows of `cells.csv`.
-fn rows(atlas: &Atlas) -> Vec<Row> {
-    table::rows(&atlas.read("grid/cells.csv"))
-}
+static BOOK: LazyLock<Book> = LazyLock::new(|| {
+    let atlas = Atlas::rendered(MANIFEST, &[]);
+    let pdf = Pdf::read(&fs::read(atlas.out().join("atlas.pdf")).unwrap());
+    let parts = pdf.outline().into_iter().filter(|entry| entry.0 == 0).map(|(_, title, page)| (title, page)).collect();
+    Book { pdf, parts, rows: table::rows(&atlas.read("grid/cells.csv")) }
+});
 
 fn number(row: &Row, name: &str) -> f64 {
     row[name].parse().unwrap_or(f64::NAN)
@@ -87,9 +91,9 @@ fn number(row: &Row, name: &str) -> f64 {
 #[test]
 #[ignore = "thorough"]
 fn lists_have_the_best_curves_of_the_tables() {
-    let (atlas, pdf, parts) = book(&[]);
+    let Book { pdf, parts, rows } = &*BOOK;
     assert!(!parts.contains_key("None at all"), "a list without entries has no pages");
-    let mut rows = rows(&atlas);
+    let mut rows = rows.clone();
     rows.retain(|row| number(row, "mu_worst_deg") >= 20.0 && number(row, "straight_length") > 0.0);
     rows.sort_by(|a, b| number(b, "straight_length").total_cmp(&number(a, "straight_length")));
     let mut taken: BTreeMap<String, usize> = BTreeMap::new();
@@ -130,8 +134,8 @@ fn lists_have_the_best_curves_of_the_tables() {
 #[test]
 #[ignore = "thorough"]
 fn tables_have_their_values_in_order_and_the_contents_their_ranges() {
-    let (atlas, pdf, parts) = book(&[]);
-    let mut rows = rows(&atlas);
+    let Book { pdf, parts, rows } = &*BOOK;
+    let mut rows = rows.clone();
     let length = |row: &Row| number(row, "straight_10_length");
     rows.retain(|row| number(row, "mu_worst_deg") >= 20.0 && length(row) > 0.0);
     rows.sort_by(|a, b| length(b).total_cmp(&length(a)));
@@ -158,7 +162,7 @@ fn number_of(row: &BTreeMap<String, String>, name: &str) -> f64 {
 #[test]
 #[ignore = "thorough"]
 fn every_geometry_is_on_a_finding_chart_with_its_pages() {
-    let (atlas, pdf, parts) = book(&[]);
+    let Book { pdf, parts, rows } = &*BOOK;
     let charts: Vec<(String, usize)> = pdf
         .outline()
         .into_iter()
@@ -167,7 +171,7 @@ fn every_geometry_is_on_a_finding_chart_with_its_pages() {
         .collect();
     assert_eq!(charts.iter().map(|(title, _)| title.as_str()).collect::<Vec<_>>(), ["C = 2", "C = 2.5", "C = 3"]);
     assert_eq!(parts["Finding charts"], charts[0].1);
-    let cells: BTreeSet<String> = rows(&atlas).iter().map(|row| row["cell"].clone()).collect();
+    let cells: BTreeSet<String> = rows.iter().map(|row| row["cell"].clone()).collect();
     let mut linked = BTreeSet::new();
     for (title, page) in &charts {
         for (corners, to) in pdf.links(*page) {
@@ -193,7 +197,7 @@ fn words(contents: &Contents) -> Vec<&str> {
 #[test]
 #[ignore = "thorough"]
 fn charts_have_all_curves_with_their_points_and_scales_and_captions_of_cases() {
-    let (atlas, pdf, parts) = book(&[]);
+    let Book { pdf, parts, rows } = &*BOOK;
     let charts: Vec<usize> =
         pdf.outline().into_iter().filter(|entry| entry.0 == 1 && entry.1.starts_with("C = ")).map(|e| e.2).collect();
     assert_eq!(parts["Finding charts"], charts[0]);
@@ -216,7 +220,6 @@ fn charts_have_all_curves_with_their_points_and_scales_and_captions_of_cases() {
             drawn.extend(lines.iter().any(|line| line.len() > 8).then(|| extent(lines) / crank));
         }
     }
-    let rows = rows(&atlas);
     let cells: BTreeSet<&String> = rows.iter().map(|row| &row["cell"]).collect();
     assert_eq!(cranks, cells.len());
     let side =
@@ -254,7 +257,7 @@ fn charts_have_all_curves_with_their_points_and_scales_and_captions_of_cases() {
 #[test]
 #[ignore = "thorough"]
 fn every_page_has_one_number_at_its_outer_corner_and_marks_of_the_thumb_index() {
-    let (_, pdf, parts) = book(&[]);
+    let Book { pdf, parts, .. } = &*BOOK;
     let labels = pdf.labels();
     let front = labels.iter().position(|label| label.contains("/S/D")).unwrap();
     assert!(front % 2 == 0, "the first plate is a right-hand page");
@@ -278,7 +281,7 @@ fn every_page_has_one_number_at_its_outer_corner_and_marks_of_the_thumb_index() 
 #[test]
 #[ignore = "thorough"]
 fn what_is_said_of_plates_is_right_for_the_atlas() {
-    let (_, pdf, parts) = book(&[]);
+    let Book { pdf, parts, .. } = &*BOOK;
     let said = |pdf: &Pdf, page: usize| -> String {
         pdf.contents(page).texts.into_iter().map(|(text, ..)| text + " ").collect()
     };
@@ -301,7 +304,7 @@ fn what_is_said_of_plates_is_right_for_the_atlas() {
 #[test]
 #[ignore = "thorough"]
 fn a_book_is_the_same_whether_its_cells_are_measured_with_the_tables_or_for_it() {
-    let (atlas, ..) = book(&["--jobs", "1"]);
+    let atlas = Atlas::rendered(MANIFEST, &["--jobs", "1"]);
     let whole = fs::read(atlas.out().join("atlas.pdf")).unwrap();
     // The tables are up to date, so that only the book is made.
     fs::remove_file(atlas.out().join("atlas.pdf")).unwrap();
