@@ -110,7 +110,7 @@ fn lists_have_the_best_curves_of_the_tables() {
     for page in pages {
         // Links of the thumb index lead out of the page, too; those of entries are in order.
         for (corners, to) in pdf.links(page) {
-            let texts = texts_in(&pdf, page, corners);
+            let texts = texts_in(pdf, page, corners);
             let Some(said) = texts.iter().find(|text| text.starts_with("over ")) else { continue };
             let row = &rows[found.len()];
             let number = texts.iter().find_map(|text| text.strip_prefix("page ")).unwrap();
@@ -175,7 +175,7 @@ fn every_geometry_is_on_a_finding_chart_with_its_pages() {
     let mut linked = BTreeSet::new();
     for (title, page) in &charts {
         for (corners, to) in pdf.links(*page) {
-            let texts = texts_in(&pdf, *page, corners);
+            let texts = texts_in(pdf, *page, corners);
             // The marks of the thumb index have no number, and that of a page is after those of its points.
             let Some(number) = texts.iter().rev().find_map(|text| text.parse::<usize>().ok()) else { continue };
             assert_eq!(pdf.labels()[to], format!("<</Type/PageLabel/S/D/St{number}>>"));
@@ -287,7 +287,7 @@ fn what_is_said_of_plates_is_right_for_the_atlas() {
     };
     let first = parts["How to read this book"];
     assert_eq!(first % 2, 1, "the two pages face each other");
-    let text = said(&pdf, first + 1);
+    let text = said(pdf, first + 1);
     assert!(text.contains("The table") && text.contains("5° of input") && text.contains("grid:"), "{text}");
     assert!(text.contains("Straightest, page"), "{text}");
     let panels = Atlas::new(

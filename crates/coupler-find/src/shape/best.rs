@@ -8,6 +8,8 @@ use std::collections::BinaryHeap;
 #[derive(Clone, Debug)]
 pub(crate) struct Best {
     most: usize,
+    /// The value of the worst, once all places are taken.
+    floor: f32,
     /// The worst on top.
     kept: BinaryHeap<Reverse<Ranked>>,
 }
@@ -39,29 +41,34 @@ impl Eq for Ranked {}
 impl Best {
     /// None yet, and at most so many.
     pub fn new(most: usize) -> Best {
-        Best { most, kept: BinaryHeap::new() }
+        Best { most, floor: f32::NEG_INFINITY, kept: BinaryHeap::new() }
     }
 
     /// What is less than this is not kept.
+    #[inline]
     pub fn floor(&self) -> f32 {
-        match self.kept.peek() {
-            Some(Reverse(Ranked(least, _))) if self.kept.len() == self.most => *least,
-            _ => f32::NEG_INFINITY,
-        }
+        self.floor
     }
 
     /// Adds one; a value that is NaN is none.
+    #[inline]
     pub fn add(&mut self, value: f32, number: usize) {
-        let ranked = Ranked(value, number);
-        if value.is_nan() || self.most == 0 {
-            return;
+        // Most are not among the best.
+        if value >= self.floor {
+            self.keep(Ranked(value, number));
         }
+    }
+
+    fn keep(&mut self, ranked: Ranked) {
         if self.kept.len() < self.most {
             self.kept.push(Reverse(ranked));
         } else if let Some(mut worst) = self.kept.peek_mut()
             && worst.0 < ranked
         {
             *worst = Reverse(ranked);
+        }
+        if self.kept.len() == self.most {
+            self.floor = self.kept.peek().map_or(f32::INFINITY, |Reverse(Ranked(worst, _))| *worst);
         }
     }
 
@@ -93,10 +100,8 @@ mod tests {
                 let mut best = Best::new(most);
                 (first..values.len()).chain(0..first).for_each(|number| best.add(values[number], number));
                 assert_eq!(best.sorted(), sorted);
-                assert_eq!(
-                    best.floor(),
-                    if sorted.len() == most && most > 0 { sorted[most - 1].0 } else { f32::NEG_INFINITY }
-                );
+                let floor = sorted.last().map_or(f32::INFINITY, |(worst, _)| *worst);
+                assert_eq!(best.floor(), if sorted.len() == most { floor } else { f32::NEG_INFINITY });
             }
         }
     }
