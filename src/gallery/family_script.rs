@@ -57,7 +57,7 @@ impl<'a> FamilyScript<'a> {
             &json!({
                 "id": family.id,
                 "title": family.title,
-                "source": self.planned.source,
+                "source": family.source_without_legend(&self.planned.source),
                 "legend": family.legend(),
                 "linkage": family.template.id,
                 "layout": layout,

@@ -13,8 +13,10 @@ use super::assets::{compact, join_modules, scripts, styles};
 use super::kernel_script::{KERNEL_FILE, kernel_digest};
 use super::piece::PieceSeries;
 use super::pieces::{is_data_file_name, parse_piece_file_name};
+use crate::manifest::PlannedFamily;
 use crate::record::{FamilyRecord, RunRecord};
 use coupler_curves::measure;
+use coupler_drawing::page::Paper;
 
 /// A family in the gallery.
 #[derive(Clone, Copy, Debug)]
@@ -23,6 +25,8 @@ pub struct GalleryFamily<'a> {
     pub record: &'a FamilyRecord,
     /// The sizes of its data.
     pub bytes: DataBytes,
+    /// What it is in the plan of the run; `None` if it is not in it.
+    pub planned: Option<&'a PlannedFamily>,
 }
 
 /// The sizes of a family's data, in bytes.
@@ -57,19 +61,19 @@ const PAGE_TEMPLATE: &str = include_str!("index.html");
 /// The script that unpacks the page's style sheet, and unpacks and runs its script.
 const LOADER: &str = include_str!("loader.js");
 
-/// The text of `index.html`, for the families of a run.
+/// The text of `index.html`, for the families of a run with pages on a paper.
 ///
 /// # Panics
 ///
 /// Never: its style sheet and its script are compressed in memory.
-pub fn index_html(run: &RunRecord, families: &[GalleryFamily]) -> String {
+pub fn index_html(run: &RunRecord, paper: Paper, families: &[GalleryFamily]) -> String {
     // Without indentation and empty lines.
     let lines = styles().iter().flat_map(|part| part.text.lines()).map(str::trim_start).filter(|line| !line.is_empty());
     let style: String = lines.flat_map(|line| [line, "\n"]).collect();
     let script = join_modules(scripts());
     let loader = compact(LOADER.lines());
     // Escaped, so that the data cannot end its script element.
-    let data = atlas_json(run, families).to_string().replace('<', "\\u003c");
+    let data = atlas_json(run, paper, families).to_string().replace('<', "\\u003c");
     let packed = |text: &str| BASE64_STANDARD.encode(gzip(text.as_bytes()).expect("memory takes all bytes"));
     let parts = [
         ("title", escape_html(&run.title)),
@@ -110,7 +114,7 @@ fn gzip(bytes: &[u8]) -> io::Result<Vec<u8>> {
     encoder.finish()
 }
 
-fn atlas_json(run: &RunRecord, families: &[GalleryFamily]) -> Value {
+fn atlas_json(run: &RunRecord, paper: Paper, families: &[GalleryFamily]) -> Value {
     let measure = |m: &measure::Measure| {
         let is_input = m.length_name.is_some();
         json!({
@@ -121,6 +125,7 @@ fn atlas_json(run: &RunRecord, families: &[GalleryFamily]) -> Value {
     json!({
         "format": 3,
         "title": run.title,
+        "paper": { "width": paper.width, "height": paper.height },
         "program": format!("{} {}", run.program, run.version),
         "measures": measure::ALL.iter().map(measure).collect::<Vec<_>>(),
         "kernel": { "script": KERNEL_FILE, "sha256": kernel_digest().to_string() },
@@ -137,6 +142,7 @@ fn family_json(family: &GalleryFamily) -> Value {
         "id": record.id,
         "title": record.title,
         "linkage": record.linkage,
+        "source": family.planned.map(|planned| planned.family.source_without_legend(&planned.source)),
         "cells": record.cells,
         "kept": record.kept,
         "curves": record.curves,

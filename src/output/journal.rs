@@ -12,7 +12,7 @@ use super::files::{self, AtomicFile, write};
 use super::previous_run::PreviousRun;
 use super::{Error, Event, Options};
 use crate::gallery::{self, DataBytes, GalleryFamily};
-use crate::manifest::{MAX_PAGE_FILES, Plan};
+use crate::manifest::{MAX_PAGE_FILES, Plan, PlannedFamily};
 use crate::record::{
     BookRecord, FamilyProgress, FamilyRecord, FileRecord, FolderRecord, IMAGES_FILE_NAME, JOURNAL_FILE_NAME,
     JournalEntry, RUN_FILE_NAME, RunRecord, images_of_run, path_in_atlas, read_regular_file,
@@ -302,12 +302,14 @@ impl<'a> Journal<'a> {
     /// A file cannot be written.
     pub fn write_gallery(&mut self) -> Result<(), Error> {
         let run = self.to_run();
+        let planned: HashMap<&str, &PlannedFamily> =
+            self.plan.families.iter().map(|planned| (planned.family.id.as_str(), planned)).collect();
         let show = |record| {
             let bytes = DataBytes::new(record, |name| files::size(&self.output.join(&record.id).join(name)))?;
-            Ok(GalleryFamily { record, bytes })
+            Ok(GalleryFamily { record, bytes, planned: planned.get(record.id.as_str()).copied() })
         };
         let shown: Vec<GalleryFamily> = run.families.iter().map(show).collect::<Result<_, Error>>()?;
-        let page = gallery::index_html(&run, &shown);
+        let page = gallery::index_html(&run, self.plan.page.paper, &shown);
         // The kernel first, so that a page always finds one.
         self.kernel = Some(self.write_text(gallery::KERNEL_FILE, &gallery::kernel_script(), run.kernel.as_ref())?);
         self.gallery = Some(self.write_text(gallery::PAGE_FILE, &page, run.gallery.as_ref())?);

@@ -300,3 +300,38 @@ addTest(
     }
   },
 );
+
+addTest(
+  "1.14b",
+  "a press on a picture that is replaced before its release is a click",
+  startAt(atlas, "/"),
+  async (g, page) => {
+    const link = page.locator('.families a[href="#/evans"]');
+    await link.locator("svg").waitFor();
+    const { x, y } = await link.boundingBox();
+    await page.mouse.move(x + 40, y + 40);
+    await page.mouse.down();
+    await link.locator("svg").evaluate((picture) => picture.replaceWith(picture.cloneNode(true)));
+    await page.mouse.up();
+    await page.waitForSelector(".family-view");
+  },
+);
+
+addTest("1.14c", "no tile moves when the families are loaded", startAt(atlas, "/"), async (g, page) => {
+  const tiles = page.locator(".families > li");
+  for (const tile of await tiles.all()) {
+    await tile.scrollIntoViewIfNeeded();
+    await tile.locator(".tile-picture > *").first().waitFor();
+  }
+  const shifts = await page.evaluate(
+    () =>
+      new Promise((done) => {
+        new PerformanceObserver((list) => done(list.getEntries().map(({ value }) => value))).observe({
+          type: "layout-shift",
+          buffered: true,
+        });
+        setTimeout(() => done([]), 300);
+      }),
+  );
+  assert.deepEqual(shifts, []);
+});

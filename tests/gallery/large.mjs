@@ -37,7 +37,7 @@ const tests = [
     "the overview loads no pieces",
     async ({ browser, atlas }) => {
       const gallery = await openGallery(browser, atlas.folder, "/");
-      await gallery.page.waitForSelector(".families .source:not(:empty)");
+      await gallery.page.waitForSelector(".families .tile-picture > *");
       await gallery.settled();
       assert.deepEqual(piecesOf(gallery), []);
       await gallery.close();

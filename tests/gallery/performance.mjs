@@ -40,7 +40,7 @@ addTest(
       const end = document.documentElement.scrollHeight;
       const times = [];
       let last = performance.now();
-      for (let y = 0; y < end; y += 400) {
+      for (let y = 0; y < end; y += 900) {
         window.scrollTo(0, y);
         await new Promise((done) => {
           requestAnimationFrame(done);

@@ -17,7 +17,7 @@ fn manifest(title: &str, families: &[&str]) -> String {
     let families: String = families.iter().map(family).collect();
     format!(
         "[atlas]\ntitle = \"{title}\"\nformats = [\"svg\", \"png\", \"pdf\"]\n[page]\n\
-         paper = {{ width = \"90 mm\", height = \"80 mm\" }}\ndpi = 20\n{families}"
+         paper = {{ width = \"100 mm\", height = \"100 mm\" }}\ndpi = 20\n{families}"
     )
 }
 
@@ -201,7 +201,7 @@ fn many_pages_are_in_subfolders() {
     let pages = |count: usize| {
         format!(
             "[atlas]\ntitle = \"T\"\noutput = \"out\"\nformats = [\"svg\"]\n[page]\n\
-             paper = {{ width = \"80 mm\", height = \"70 mm\" }}\n[[family]]\nid = \"evans\"\nlinkage = \"evans\"\n\
+             paper = {{ width = \"100 mm\", height = \"100 mm\" }}\n[[family]]\nid = \"evans\"\nlinkage = \"evans\"\n\
              panels = [1, 1]\nmeasures = []\nsampling = {{ samples = 6 }}\n\
              grid = {{ k = {{ from = 1, to = 2, count = {count} }} }}\nlet = {{ p = 2, a = \"2.6\" }}\n"
         )

@@ -9,7 +9,7 @@ title = "T"
 output = "out"
 formats = ["svg", "png", "pdf"]
 [page]
-paper = { width = "100 mm", height = "80 mm" }
+paper = { width = "100 mm", height = "100 mm" }
 dpi = 25
 [[family]]
 id = "evans"

@@ -12,7 +12,7 @@ title = "T"
 output = "out"
 formats = ["svg", "png"]
 [page]
-paper = { width = "120 mm", height = "90 mm" }
+paper = { width = "120 mm", height = "100 mm" }
 dpi = 40
 [[family]]
 id = "evans"

@@ -15,7 +15,7 @@ use crate::support::folder::tree;
 fn plan(pages: usize, is_sorted: bool, formats: &str) -> Plan {
     let sort = if is_sorted { "sort = \"-length\"\n" } else { "" };
     let text = format!(
-        "[atlas]\ntitle = \"T\"\nformats = [{formats}]\n[page]\npaper = {{ width = \"80 mm\", height = \"70 mm\" }}\n\
+        "[atlas]\ntitle = \"T\"\nformats = [{formats}]\n[page]\npaper = {{ width = \"100 mm\", height = \"100 mm\" }}\n\
          dpi = 20\n[[family]]\nid = \"evans\"\nlinkage = \"evans\"\npanels = [1, 1]\nmeasures = [\"length\"]\n{sort}\
          sampling = {{ samples = 12 }}\ngrid = {{ k = {{ from = 1, to = 9, count = {pages} }} }}\n\
          let = {{ p = 2, a = 2.6 }}\n"

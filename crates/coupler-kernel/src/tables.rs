@@ -67,7 +67,7 @@ fn statements_json(family: &Family, source: &str, solved: &SolvedCell, numbers: 
     });
     let head = json!({
         "title": family.title,
-        "source": source,
+        "source": family.source_without_legend(source),
         "legend": family.legend(),
         "linkage": family.template.id,
         "layout": "panels",

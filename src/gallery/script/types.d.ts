@@ -108,8 +108,8 @@ type Measure = Record<"name" | "title" | "unit" | "definition", string> & Record
 /** A family as the summary of the atlas lists it; without a script it has no data. */
 type ListedFamily = Record<"id" | "title" | "linkage", string> &
   Record<"cells" | "kept" | "not_assembled" | "curves" | "pages" | "bytes" | "table_bytes", number> &
-  Record<"page_format" | "script", string | null>;
-type AtlasSummary = { title: string; program: string; book: string[] } & Listed & {
+  Record<"page_format" | "script" | "source", string | null>;
+type AtlasSummary = { title: string; program: string; book: string[]; paper: Size } & Listed & {
     kernel: { script: string; sha256: string; module?: string };
     plate?: PlateOfFile;
   };

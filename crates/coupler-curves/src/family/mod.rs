@@ -139,6 +139,11 @@ impl Family {
         legend.into_iter().chain(unit).collect::<Vec<_>>().join(" · ")
     }
 
+    /// The line under the title of its pages without the legend, if it ends with that.
+    pub fn source_without_legend<'l>(&self, line: &'l str) -> &'l str {
+        line.strip_suffix(&self.legend()).and_then(|rest| rest.strip_suffix(" · ")).unwrap_or(line)
+    }
+
     /// The number of cells.
     pub fn cell_count(&self) -> usize {
         self.space.count()

@@ -6,6 +6,7 @@ use std::sync::LazyLock;
 use super::{Cell, Family, dimensions};
 use crate::expression::{Caption, CompiledExpression, Expression, Kind, Scope};
 use crate::measure::{self, BOOLEANS, Boolean, Measure, MeasureSet, Value};
+use crate::text::format_fixed;
 
 /// What a name of [`Family::scope`] stands for.
 #[derive(Clone, Copy, Debug)]
@@ -161,6 +162,12 @@ impl Family {
         let own_slot = |name: &str| own_names.index_of(name);
         // Values of measures are known to be rounded.
         let number = |expression: &Expression, decimals: Option<usize>, value: f64| {
+            if let Some(ScopeName::Measure(k)) = expression.as_name().and_then(find)
+                && let (true, "deg", Some(decimals)) =
+                    (measure::ALL[k].is_input_position, measure::ALL[k].unit, decimals)
+            {
+                return Some((false, input_position(value, decimals)));
+            }
             let is_of_dimensions = expression.names().iter().all(|name| own_slot(name).is_some());
             is_of_dimensions.then(|| match expression.as_name().and_then(own_slot) {
                 Some(slot) if self.is_given(slot) => dimensions::given_number(value, decimals),
@@ -171,5 +178,36 @@ impl Family {
             })
         };
         caption.format_with(load, word, number)
+    }
+}
+
+/// A position of the input in degrees with a number of decimals. One that would be rounded up to a full turn has up to two decimals more, and is 0 if
+/// these round it, too: a crank that begins at 359.6° has not turned.
+fn input_position(value: f64, decimals: usize) -> String {
+    const TURN: f64 = 360.0;
+    let rounded = |decimals| format_fixed(value, decimals);
+    let is_turn = |text: &String| value < TURN && text.parse() == Ok(TURN);
+    (decimals..=decimals + 2).map(rounded).find(|text| !is_turn(text)).unwrap_or_else(|| format_fixed(0.0, decimals))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::input_position;
+
+    #[test]
+    fn no_position_of_an_input_is_rounded_to_a_turn() {
+        let positions = [
+            (359.4, "359"),
+            (359.6, "359.6"),
+            (359.96, "359.96"),
+            (359.996, "0"),
+            (0.2, "0"),
+            (360.2, "360"),
+            (-0.2, "0"),
+        ];
+        for (value, text) in positions {
+            assert_eq!(input_position(value, 0), text);
+        }
+        assert_eq!(input_position(359.96, 1), "359.96");
     }
 }

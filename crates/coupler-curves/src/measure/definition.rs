@@ -32,6 +32,8 @@ pub struct Measure {
     pub is_word: bool,
     /// Whether more of it is better, as of a transmission angle, and not less; false also where neither is.
     pub is_more_better: bool,
+    /// Whether it is a position of the input: of a crank that turns fully, an angle of at least 0 and less than its period.
+    pub is_input_position: bool,
     /// The linkages that have it.
     pub subject: Subject,
     /// Its definition, as printed by `list measures`.
@@ -105,6 +107,7 @@ impl Measure {
             unit,
             is_word: false,
             is_more_better: false,
+            is_input_position: false,
             subject: Subject::Any,
             definition,
             compute,
@@ -134,6 +137,11 @@ impl Measure {
     /// The same measure, which is an input, with its name where the input is a length.
     pub(super) const fn or_length(self, length_name: &'static str) -> Measure {
         Measure { length_name: Some(length_name), ..self }
+    }
+
+    /// The same measure, which is a position of the input.
+    pub(super) const fn at_input(self) -> Measure {
+        Measure { is_input_position: true, ..self }
     }
 
     /// Its names for all linkages: that of a length follows that of an angle.

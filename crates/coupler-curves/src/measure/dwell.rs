@@ -45,6 +45,7 @@ pub const MEASURES: [Measure; 6] = [
         "input at which the circular portion begins",
         |curve| curve.dwell().map_or(Value::Missing, |dwell| Value::Number(start_input(curve, dwell.start_input))),
     )
+    .at_input()
     .or_length("dwell_start_length"),
     Measure::number("dwell_x", "x of the circular portion's centre", "", "x of the circle's centre", |curve| {
         dwell_value(curve, |dwell| dwell.centre.x)

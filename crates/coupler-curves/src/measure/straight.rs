@@ -49,6 +49,7 @@ pub const MEASURES: [Measure; 6] = [
         "input at which the straightest portion begins",
         |curve| start_value(curve, curve.straight()),
     )
+    .at_input()
     .or_length("straight_start_length"),
     Measure::number(
         "straight_input_deg",
@@ -65,6 +66,7 @@ pub const MEASURES: [Measure; 6] = [
         "input at which a second portion begins that is equally long, as on a symmetrical curve",
         |curve| start_value(curve, curve.straight_portions().get(1)),
     )
+    .at_input()
     .or_length("straight_twin_length"),
 ];
 
@@ -114,6 +116,7 @@ macro_rules! wider {
                 "input at which it begins",
                 |curve| start_value(curve, curve.wider_straight($index)),
             )
+            .at_input()
             .or_length(concat!($prefix, "_start_length")),
             Measure::number(
                 concat!($prefix, "_input_deg"),
@@ -145,7 +148,7 @@ pub const HALF_TURN: [Measure; 3] = [
     }).of(Subject::DrivenByAngle),
     Measure::number("straight_half_turn_start_deg", "input at the start of the straightest portion in half a turn", "deg", "input at which it begins", |curve| {
         start_value(curve, curve.straight_half_turn())
-    }).of(Subject::DrivenByAngle),
+    }).at_input().of(Subject::DrivenByAngle),
 ];
 
 fn portion_number(portion: Option<&StraightPortion>, value: impl Fn(&StraightPortion) -> f64) -> Value {

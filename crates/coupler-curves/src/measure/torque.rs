@@ -30,6 +30,7 @@ pub const TORQUE_PEAK_INPUT: Measure = Measure::number(
     "input at which the input torque is greatest; of several the first on the circuit",
     |curve| torque_value(curve, |torque| start_input(curve, torque.peak_input)),
 )
+.at_input()
 .or_length("torque_peak_length")
 .of(Subject::WithLoad);
 

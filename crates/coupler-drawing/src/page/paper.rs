@@ -28,6 +28,7 @@ impl Paper {
         if is_portrait { Paper { width: short, height: long } } else { Paper { width: long, height: short } }
     }
 
-    /// The least and the greatest side of a page, in millimetres.
-    pub const SIDE_RANGE: [f64; 2] = [50.0, 2000.0];
+    /// The least and the greatest side of a page, in millimetres: on a smaller one, text of [`MIN_TEXT_SIZE`](crate::scene::MIN_TEXT_SIZE)
+    /// leaves too little to figures.
+    pub const SIDE_RANGE: [f64; 2] = [100.0, 2000.0];
 }

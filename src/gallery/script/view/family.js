@@ -5,7 +5,7 @@ import { listedFamily } from "../data/atlas.js";
 import { curveCaption, curveKey } from "../data/family.js";
 import { isFullyLoaded, isScattered, needCurveWithKey, needCurves, needPage } from "../data/needs.js";
 import { elementIn, fill, h } from "./dom.js";
-import { familyCounts, familySource } from "./overview.js";
+import { familyCounts } from "./overview.js";
 import { formatCaption, formatBytes } from "./labels.js";
 import { notAssembledSummary } from "./not-assembled.js";
 import { TileWindow } from "./tile-window.js";
@@ -57,7 +57,7 @@ function familyHeader(/** @type {Family} */ family, /** @type {ListedFamily} */ 
   ];
   const parts = [
     h("h1", family.title),
-    h("p.lede", familySource(family)),
+    h("p.lede", family.source),
     family.legend ? h("p.lede", family.legend) : null,
     h("p.note", facts.join(" · ")),
     notAssembledSummary(family, listed),

@@ -19,9 +19,9 @@ export const overviewRoute = {
   href: () => address([]),
   matches: ({ path }) => path.length === 0,
   open: (app, { query }) => {
-    const { families, title } = app.atlas;
+    const { families, title, paper } = app.atlas;
     /** @type {Map<HTMLElement, ListedFamily>} */
-    const tiles = new Map(families.map((family) => [familyTile(family), family]));
+    const tiles = new Map(families.map((family) => [familyTile(family, paper), family]));
     // Each is drawn when it comes within half a window height of the window.
     const seen = (/** @type {IntersectionObserverEntry[]} */ entries) => {
       for (const { target } of entries.filter(({ isIntersecting }) => isIntersecting)) {
@@ -53,11 +53,15 @@ function atlasSummary(/** @type {ListedFamily[]} */ families) {
   return `${formatCount(curves, "curve")} of ${formatCount(kept, "linkage")} on ${formatCount(pages, "page")}`;
 }
 
-function familyTile(/** @type {ListedFamily} */ family) {
+/** @param {ListedFamily} family @param {Size} _ */
+function familyTile(family, { width, height }) {
+  // All that has a size is there at once: a press is no click if what is under it moves.
+  const picture = h("span.tile-picture");
+  picture.style.aspectRatio = `${width} / ${height}`;
   return h(
     "li.tile",
-    h("a", { href: address([family.id]) }, h("span.tile-picture"), h("span.name", family.title)),
-    h("p.source.note"),
+    h("a", { href: address([family.id]) }, picture, h("span.name", family.title)),
+    h("p.source.note", family.source),
     h("p.note", familyCounts(family)),
     family.not_assembled ? h("p.note", notAssembledNote(family)) : null,
   );
@@ -70,20 +74,12 @@ export function familyCounts(/** @type {ListedFamily} */ family) {
   return counts.join(" · ");
 }
 
-/** The source of a family, without the legend that its pages append to it. @param {Family} _ */
-export function familySource({ source, legend }) {
-  const ending = ` · ${legend}`;
-  return legend && source?.endsWith(ending) ? source.slice(0, -ending.length) : (source ?? "");
-}
-
 /** @param {App} app @param {HTMLElement} tile @param {string} id */
 async function showFirstPage(app, tile, id) {
   const picture = elementIn(tile, ".tile-picture");
   try {
     const family = await app.atlas.family(id);
-    picture.style.aspectRatio = `${family.paper.width} / ${family.paper.height}`;
     fill(picture, pageThumbnail(app.atlas, family, 1) ?? "");
-    fill(elementIn(tile, ".source"), familySource(family));
   } catch (error) {
     fill(elementIn(tile, ".source"), h("span.error", error.message));
   }

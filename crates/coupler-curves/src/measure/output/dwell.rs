@@ -35,6 +35,7 @@ pub const DWELL_START: Measure = Measure::number(
     |curve| output_value(curve, |output| Some(start_input(curve, output.dwell()?.start_input))),
 )
 .of(Subject::WithOutput)
+.at_input()
 .or_length("output_dwell_start_length");
 
 impl OutputMotion {

@@ -88,13 +88,11 @@ impl Default for Theme {
 
 impl Theme {
     /// The theme scaled from tabloid to another paper, by 0.3 to 2; weights change by the square root, so that lines do
-    /// not become too fine to print, and no text is smaller than [`MIN_TEXT_SIZE`], but on paper
-    /// whose shorter side is less than 148 mm, on which such text would have no space, a seventieth of that side.
+    /// not become too fine to print, and no text is smaller than [`MIN_TEXT_SIZE`].
     pub fn for_paper(&self, paper: Paper) -> Theme {
         let scale = (paper.width / 431.8).min(paper.height / 279.4).clamp(0.3, 2.0);
         let weight = scale.sqrt();
-        let least = MIN_TEXT_SIZE.min(paper.width.min(paper.height) / 70.0);
-        let text = |size: f64| (size * scale).max(least);
+        let text = |size: f64| (size * scale).max(MIN_TEXT_SIZE);
         Theme {
             border: self.border * scale,
             margin: self.margin * scale,

@@ -4,7 +4,6 @@ import { address, newLinkage } from "../../data/address.js";
 import { cellText, curveKey, measureValue, pageOfCurve } from "../../data/family.js";
 import { pageFile } from "../../data/atlas.js";
 import { figures, fill, h, termList } from "../dom.js";
-import { familySource } from "../overview.js";
 import { formatDecimals, formatLength } from "../labels.js";
 
 /** The list of a curve's origin. @param {App} app @param {Family} family */
@@ -21,7 +20,7 @@ export function curveOrigin(app, family, /** @type {number} */ curve) {
     ["Status", family.cells.status[cell] === 1 ? `partial: ${cellText(family, cell, "reason")}` : ""],
     ["Page", page > 0 ? h("a", { href: address([family.id, page], { curve: key }) }, `page ${page}`) : ""],
     ["File", page > 0 ? pageFile(app.atlas, family.id, page) : ""],
-    ["Source", familySource(family)],
+    ["Source", family.source],
   ];
   const known = rows.filter(([, value]) => value);
   return termList("dl.facts.origin", known);
