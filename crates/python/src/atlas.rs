@@ -8,14 +8,15 @@ use coupler_atlas::manifest::{self, PlannedFamily};
 use coupler_curves::problem::suggestion;
 use pyo3::exceptions::{PyIndexError, PyKeyError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyIterator, PyTuple};
+use pyo3::types::{PyDict, PyIterator};
 
 use crate::argument::{Index, position, toml_text};
 use crate::error::Error;
 use crate::file::read_text;
 use crate::html;
 use crate::linkage::into_object;
-use crate::manifest::{Manifest, PickledTables, Source};
+use crate::manifest::{Manifest, PickledSource, Source};
+use crate::reduce::{Reduced, Remake, reduced};
 use crate::task;
 
 /// A manifest as an argument: its path, or an atlas that has been read.
@@ -150,10 +151,8 @@ impl Atlas {
         self.manifest.hash()
     }
 
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let source = self.manifest.source();
-        let arguments = (&source.path, &*source.text, source.pickled_tables()).into_pyobject(py)?;
-        Ok((py.import("coupler_atlas._core")?.getattr("_atlas")?, arguments))
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        reduced::<Atlas>(py, self.manifest.source().pickled())
     }
 
     /// A table of its families.
@@ -273,9 +272,8 @@ impl Family {
         self.manifest.hash() ^ self.index as u64
     }
 
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let atlas = Bound::new(py, Atlas { manifest: self.manifest.clone() })?;
-        Ok((py.import("operator")?.getattr("getitem")?, (atlas, self.id()).into_pyobject(py)?))
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        reduced::<Family>(py, (Atlas { manifest: self.manifest.clone() }, self.index))
     }
 
     /// The plates of its first linkages that can be assembled, small.
@@ -324,6 +322,11 @@ impl Cells {
         }
         let index = if self.is_reversed { self.count - 1 - next } else { next };
         self.family.get().linkage_of(py, index).map(Some)
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let next = self.next.load(Ordering::Relaxed);
+        reduced::<Cells>(py, (&self.family, self.count, next, self.is_reversed))
     }
 }
 
@@ -405,9 +408,27 @@ fn read_source(py: Python, source: Source) -> PyResult<Atlas> {
     Ok(Atlas { manifest: Manifest::for_tables(py, source, |family| 0..family.cell_count())? })
 }
 
-/// Reads an atlas again that was pickled.
-#[pyfunction]
-#[pyo3(name = "_atlas")]
-pub fn read_again(py: Python, path: PathBuf, text: String, tables: PickledTables) -> PyResult<Atlas> {
-    Ok(Atlas { manifest: Manifest::for_tables(py, Source::from_pickle(path, text, tables), |_| 0..0)? })
+impl Remake for Atlas {
+    type State = PickledSource;
+
+    fn remake(py: Python, source: PickledSource) -> PyResult<Py<PyAny>> {
+        let manifest = Manifest::for_tables(py, Source::from_pickle(source), |_| 0..0)?;
+        Ok(Py::new(py, Atlas { manifest })?.into_any())
+    }
+}
+
+impl Remake for Family {
+    type State = (Py<Atlas>, usize);
+
+    fn remake(py: Python, (atlas, index): (Py<Atlas>, usize)) -> PyResult<Py<PyAny>> {
+        Ok(Py::new(py, atlas.get().family(index))?.into_any())
+    }
+}
+
+impl Remake for Cells {
+    type State = (Py<Family>, usize, usize, bool);
+
+    fn remake(py: Python, (family, count, next, is_reversed): Self::State) -> PyResult<Py<PyAny>> {
+        Ok(Py::new(py, Cells { family, count, next: AtomicUsize::new(next), is_reversed })?.into_any())
+    }
 }

@@ -19,8 +19,8 @@ pub use circuit::Circuit;
 pub use curve::Curve;
 pub use four_bar::{FourBar, into_object};
 pub use named::NamedLinkage;
-pub use numeric_linkage::{DEFAULT_SAMPLES, Linkage};
-pub use recipe::Recipe;
+pub use numeric_linkage::Linkage;
+pub use recipe::{MotionChoice, PickledRecipe, Recipe};
 pub use sextic::Sextic;
 pub use solution::{into_text, known_measure};
 pub use templates::{named_template, template_of_text};
@@ -28,7 +28,7 @@ pub use templates::{named_template, template_of_text};
 use std::path::PathBuf;
 
 use coupler_curves::family::Sampling;
-use coupler_curves::linkage::{self, Cognates};
+use coupler_curves::linkage::Cognates;
 use coupler_curves::motion::{self};
 use coupler_curves::solve::SolvedCell;
 use coupler_drawing::page::PoseChoice;
@@ -43,8 +43,9 @@ use crate::argument::natural;
 use crate::arrays;
 use crate::error::LinkageError;
 use crate::file::save_svg;
+use crate::reduce::{Reduced, reduced};
 use catalogue::given_values;
-use numeric_linkage::checked_samples;
+use recipe::checked_samples;
 use solution::{Solution, limits_of, measures_of, sampler};
 
 #[pymethods]
@@ -212,12 +213,10 @@ impl Linkage {
     #[pyo3(signature = (*, trace=1))]
     fn sextic(&self, trace: i64) -> PyResult<Sextic> {
         let placed = self.solution.placed(trace)?;
-        let found = linkage::Sextic::from_four_bar(placed.lengths, placed.coupler_point);
-        let inner = found.ok_or_else(|| {
+        Sextic::new(placed.lengths, placed.coupler_point).ok_or_else(|| {
             let message = "the traced joint is a pin, which moves on a circle, and so has no sextic";
             LinkageError::new_err(format!("{}: {message}", self.solution.family.id))
-        })?;
-        Ok(Sextic { inner })
+        })
     }
 
     /// A plate of the linkage and its curves, as SVG.
@@ -265,8 +264,7 @@ impl Linkage {
         self.solution.hash()
     }
 
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let make = py.import("coupler_atlas._core")?.getattr("_linkage")?;
-        Ok((make, curve::pickle_arguments(py, &self.solution)?.into_pyobject(py)?))
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        reduced::<Linkage>(py, self.solution.recipe.pickled())
     }
 }
