@@ -16,8 +16,11 @@
 #[cfg(feature = "pdf")]
 const PROGRAM: &str = concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION"));
 
+mod format;
 mod notation;
 mod threads;
+
+pub mod inspect;
 
 pub mod sweep;
 

@@ -25,6 +25,7 @@ mod check;
 mod design;
 mod find;
 mod function;
+mod inspection;
 mod parameter_sets;
 mod pickle;
 mod poses;
@@ -84,6 +85,7 @@ classes!(
     design::Design,
     render::Rendering,
     check::Report,
+    inspection::Inspection,
 );
 
 /// The compiled part of the package.
@@ -106,6 +108,7 @@ fn _core(module: &Bound<PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(design::design_linkage, module)?)?;
     module.add_function(wrap_pyfunction!(render::render, module)?)?;
     module.add_function(wrap_pyfunction!(check::check_atlas, module)?)?;
+    module.add_function(wrap_pyfunction!(inspection::inspect_linkage, module)?)?;
     // What pickles call.
     module.add_function(wrap_pyfunction!(make_again, module)?)?;
     module.add_function(wrap_pyfunction!(run_command, module)?)

@@ -28,6 +28,7 @@ from ._core import (
     FoundPoses,
     FourBar,
     FunctionAnswer,
+    Inspection,
     Linkage,
     LinkageError,
     ManifestError,
@@ -45,6 +46,7 @@ from ._core import (
     find,
     find_function,
     find_poses,
+    inspect,
     linkage,
     linkages,
     parse,
@@ -69,6 +71,7 @@ __all__ = [
     "FoundPoses",
     "FourBar",
     "FunctionAnswer",
+    "Inspection",
     "Linkage",
     "LinkageError",
     "ManifestError",
@@ -86,6 +89,7 @@ __all__ = [
     "find",
     "find_function",
     "find_poses",
+    "inspect",
     "linkage",
     "linkages",
     "parse",
@@ -95,5 +99,6 @@ __all__ = [
 ]
 
 _Mapping.register(Atlas)
+_Mapping.register(Inspection)
 _Sequence.register(Family)
 _Sequence.register(Results)

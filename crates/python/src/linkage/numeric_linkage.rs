@@ -64,6 +64,11 @@ impl Linkage {
         Linkage::of_template(template, manifest, values, motion)
     }
 
+    /// Its family, of this linkage only.
+    pub fn family(&self) -> &Family {
+        &self.solution.family
+    }
+
     /// The linkage at any input, if it was made over a range of it.
     pub fn at_any_input(&self) -> PyResult<coupler_curves::linkage::Linkage> {
         let Solution { family, recipe, .. } = &*self.solution;
