@@ -70,6 +70,7 @@ classes!(
     linkage::Circuit,
     linkage::Sextic,
     linkage::Animation,
+    linkage::Explorer,
     atlas::Atlas,
     atlas::Family,
     atlas::Cells,

@@ -85,6 +85,7 @@ def examples(tmp_path_factory: pytest.TempPathFactory) -> dict[str, list[Any]]:
         "Circuit": [bar().circuits[-1], own[2].circuits[0]],
         "Sextic": [bar().sextic()],
         "Animation": [bar().animate()],
+        "Explorer": [bar().explore(circuit=2)],
         "Inspection": [ca.inspect(bar(), at=30), ca.inspect(bar(), cognates=True)],
         "Atlas": [atlas],
         "Family": [atlas["sliders"]],

@@ -249,7 +249,7 @@ impl Curve {
     }
 
     /// The manifest of a family with this linkage, as TOML.
-    fn toml(&self, py: Python) -> PyResult<String> {
+    pub(super) fn toml(&self, py: Python) -> PyResult<String> {
         self.text(py, CurveFormat::Toml)
     }
 

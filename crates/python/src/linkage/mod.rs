@@ -4,6 +4,7 @@ mod animation;
 mod catalogue;
 mod circuit;
 mod curve;
+mod explorer;
 mod four_bar;
 mod named;
 mod numeric_linkage;
@@ -17,6 +18,7 @@ pub use animation::Animation;
 pub use catalogue::{linkages, make_linkage};
 pub use circuit::Circuit;
 pub use curve::Curve;
+pub use explorer::Explorer;
 pub use four_bar::{FourBar, into_object};
 pub use named::NamedLinkage;
 pub use numeric_linkage::Linkage;
@@ -27,6 +29,8 @@ pub use templates::{named_template, template_of_text};
 
 use std::path::PathBuf;
 
+use coupler_atlas::gallery;
+use coupler_atlas::manifest::{self, PlannedFamily};
 use coupler_curves::family::Sampling;
 use coupler_curves::linkage::Cognates;
 use coupler_curves::motion::{self};
@@ -41,7 +45,7 @@ use pyo3::types::{PyDict, PyTuple};
 
 use crate::argument::natural;
 use crate::arrays;
-use crate::error::LinkageError;
+use crate::error::{Error, LinkageError};
 use crate::file::save_svg;
 use crate::reduce::{Reduced, reduced};
 use catalogue::given_values;
@@ -245,6 +249,21 @@ impl Linkage {
         Ok(Animation { svg: self.solution.svg(pose, py)? })
     }
 
+    /// The plate of a curve as the gallery shows it, for a notebook or a file: the linkage in motion, with sliders for its parameters and handles on
+    /// its joints. It needs no network.
+    ///
+    /// Parameters
+    /// ----------
+    /// trace, circuit : int
+    ///     The numbers of the traced joint and of the circuit, from 1.
+    #[pyo3(signature = (*, trace=1, circuit=1))]
+    fn explore(&self, py: Python, trace: i64, circuit: i64) -> PyResult<Explorer> {
+        let index = self.solution.curve_index(trace, circuit)?;
+        let curve = Curve::new(self.solution.clone(), index);
+        let planned = planned_family(&self.solution, &curve.toml(py)?)?;
+        Ok(Explorer { html: gallery::plate_html(&planned, 1, curve.numbers()?) })
+    }
+
     /// The plate that a notebook shows; nothing if the linkage cannot be assembled.
     fn _repr_svg_(&self, py: Python) -> PyResult<Option<String>> {
         if self.solution.moved()?.motion.is_assembled() { self.svg(py).map(Some) } else { Ok(None) }
@@ -267,4 +286,22 @@ impl Linkage {
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
         reduced::<Linkage>(py, self.solution.recipe.pickled())
     }
+}
+
+/// The family of a linkage in a manifest, from its fragment for one.
+fn planned_family(solution: &Solution, fragment: &str) -> PyResult<PlannedFamily> {
+    let (Recipe::Linkage { manifest: Some(text), .. } | Recipe::Cell { text, .. }) = &solution.recipe else {
+        return family_in(&format!("[atlas]\ntitle = \"linkage\"\n\n{fragment}"));
+    };
+    let own = manifest::linkage_text(text, &solution.family.template.id).unwrap_or_default();
+    family_in(&format!("[atlas]\ntitle = \"linkage\"\n\n{own}\n{fragment}"))
+}
+
+fn family_in(text: &str) -> PyResult<PlannedFamily> {
+    let outcome = manifest::parse(text);
+    let families = outcome.plan.map(|plan| plan.families).unwrap_or_default();
+    families.into_iter().next().ok_or_else(|| {
+        let problems: Vec<String> = outcome.problems.iter().map(|problem| problem.message.clone()).collect();
+        Error::new_err(problems.join("; "))
+    })
 }
