@@ -155,15 +155,24 @@ impl Atlas {
         reduced::<Atlas>(py, self.manifest.source().pickled())
     }
 
-    /// A table of its families.
-    fn _repr_html_(&self) -> String {
-        let row = |planned: &PlannedFamily| {
+    /// A table of its families, with the plate of the first linkage of each that can be assembled.
+    fn _repr_html_(&self, py: Python) -> PyResult<String> {
+        /// The most pictures, how many linkages are tried for each, and the most bytes of all.
+        const SHOWN: [usize; 3] = [12, 4, 1_500_000];
+        let (mut rows, mut bytes) = (String::new(), 0);
+        for (index, planned) in self.manifest.plan.families.iter().enumerate() {
             let PlannedFamily { family, .. } = planned;
-            html::row("td", &[&family.id, &family.title, &family.template.id, &family.cell_count().to_string()])
-        };
-        let rows: String = self.manifest.plan.families.iter().map(row).collect();
-        let head = html::row("th", &["family", "title", "linkage", "cells"]);
-        format!("<table><caption>{}</caption>{head}{rows}</table>", html::escaped(&self.manifest.plan.title))
+            let mut plate = String::new();
+            if index < SHOWN[0] && bytes < SHOWN[2] {
+                plate = self.family(index).pictures(py, [1, SHOWN[1]], 120)?;
+                bytes += plate.len();
+            }
+            let count = family.cell_count().to_string();
+            rows += &html::row("td", &[&family.id, &family.title, &family.template.id, &count])
+                .replace("</tr>", &format!("<td>{plate}</td></tr>"));
+        }
+        let head = html::row("th", &["family", "title", "linkage", "cells", ""]);
+        Ok(format!("<table><caption>{}</caption>{head}{rows}</table>", html::escaped(&self.manifest.plan.title)))
     }
 
     fn __repr__(&self) -> String {
@@ -187,6 +196,23 @@ pub struct Family {
 impl Family {
     fn planned(&self) -> &PlannedFamily {
         &self.manifest.plan.families[self.index]
+    }
+
+    /// The plates of its first linkages that can be assembled: so many at most, of so many that are tried, so many pixels wide.
+    fn pictures(&self, py: Python, [most, tried]: [usize; 2], width: usize) -> PyResult<String> {
+        let (mut pictures, mut count) = (String::new(), 0);
+        for index in 0..self.__len__().min(tried) {
+            if count == most {
+                break;
+            }
+            let linkage = self.linkage_of(py, index)?;
+            let svg = linkage.bind(py).call_method0("_repr_svg_")?.extract::<Option<String>>()?;
+            if let Some(svg) = svg {
+                count += 1;
+                pictures += &html::picture(&svg, &linkage.bind(py).repr()?.to_string(), width);
+            }
+        }
+        Ok(pictures)
     }
 
     fn linkage_of(&self, py: Python, index: usize) -> PyResult<Py<PyAny>> {
@@ -278,21 +304,7 @@ impl Family {
 
     /// The plates of its first linkages that can be assembled, small.
     fn _repr_html_(&self, py: Python) -> PyResult<String> {
-        /// How many are shown, and how many are tried.
-        const SHOWN: [usize; 2] = [6, 24];
-        let (mut pictures, mut count) = (String::new(), 0);
-        for index in 0..self.__len__().min(SHOWN[1]) {
-            if count == SHOWN[0] {
-                break;
-            }
-            let linkage = self.linkage_of(py, index)?;
-            let svg = linkage.bind(py).call_method0("_repr_svg_")?.extract::<Option<String>>()?;
-            if let Some(svg) = svg {
-                count += 1;
-                pictures += &html::picture(&svg, &linkage.bind(py).repr()?.to_string(), 200);
-            }
-        }
-        Ok(format!("<p>{}</p>{pictures}", html::escaped(&self.__repr__())))
+        Ok(format!("<p>{}</p>{}", html::escaped(&self.__repr__()), self.pictures(py, [6, 24], 200)?))
     }
 
     fn __repr__(&self) -> String {
