@@ -13,11 +13,13 @@
 //! [`output::write_atlas`], [`check::check_atlas`].
 
 /// The name and the version of the program, as files say by what they were written.
-#[cfg(feature = "pdf")]
 const PROGRAM: &str = concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION"));
 
+mod format;
 mod notation;
 mod threads;
+
+pub mod inspect;
 
 pub mod sweep;
 

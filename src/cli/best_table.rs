@@ -4,7 +4,7 @@ use coupler_curves::expression::Expression;
 use coupler_curves::family::MEASURES;
 
 use super::aligned_table::AlignedTable;
-use super::format::format_significant;
+use crate::format::format_significant;
 use crate::shard::Gathered;
 
 /// The significant digits of numbers.

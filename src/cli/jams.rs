@@ -1,7 +1,7 @@
 //! The note on a linkage that jams.
 
-use super::format::angle;
 use super::printable;
+use crate::format::angle;
 
 /// The worst transmission angle below which a linkage is said to jam, in degrees.
 const JAMS_BELOW_DEG: f64 = 10.0;

@@ -5,7 +5,6 @@ use std::sync::Arc;
 
 use crate::manifest;
 use coupler_curves::catalogue;
-use coupler_curves::expression::{Dimension, Error, Expression, Quantity, Scope};
 use coupler_curves::family::{CellError, ParameterError, ParameterErrors};
 use coupler_curves::problem::suggestion;
 use coupler_curves::template::{Parameter, Template};
@@ -63,21 +62,4 @@ pub(super) fn parameter_errors(template: &Template, errors: &ParameterErrors) ->
         error => format!("{}: {error}", template.id),
     };
     errors.iter().map(message).collect()
-}
-
-/// Reads an input: a number or an expression without names, and for an angle a unit, degrees if there is none. `example`
-/// is shown in the error.
-pub(super) fn parse_input(text: &str, is_length: bool, example: &str) -> Result<f64, Failure> {
-    let error = |error: Error| Failure::input(format!("`{text}`: {error}; write it like {example}"));
-    match Quantity::parse(text, Dimension::Angle) {
-        Ok(_) if is_length => {
-            Err(Failure::input(format!("`{text}` is an angle, and the input is a length: write it like {example}")))
-        }
-        Ok(quantity) => {
-            quantity.expression.check(&Scope::default()).map_err(error)?;
-            Ok(quantity.evaluate(|_| f64::NAN))
-        }
-        // Without a unit.
-        Err(_) => Expression::evaluate_constant(text).map_err(error),
-    }
 }

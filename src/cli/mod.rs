@@ -12,7 +12,6 @@ mod export;
 mod failure;
 mod files;
 mod find;
-mod format;
 mod gather;
 mod hints;
 mod import;

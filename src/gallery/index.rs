@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
 use super::assets::{compact, join_modules, scripts, styles};
-use super::kernel_script::{KERNEL_FILE, kernel_digest};
+use super::kernel_script::{KERNEL_FILE, kernel_digest, kernel_file};
 use super::piece::PieceSeries;
 use super::pieces::{is_data_file_name, parse_piece_file_name};
 use crate::manifest::PlannedFamily;
@@ -62,22 +62,56 @@ const PAGE_TEMPLATE: &str = include_str!("index.html");
 const LOADER: &str = include_str!("loader.js");
 
 /// The text of `index.html`, for the families of a run with pages on a paper.
+pub fn index_html(run: &RunRecord, paper: Paper, families: &[GalleryFamily]) -> String {
+    page_html(&run.title, &atlas_json(run, paper, families), "'self' ")
+}
+
+/// The text of a page with one plate, that of a curve by the number of its cell in a family, its trace and its circuit, all from 1, and with all that
+/// it needs in it: it opens anywhere. The page itself saves the same of a plate.
+///
+/// The cell must be one of the family, and have this curve.
+pub fn plate_html(planned: &PlannedFamily, cell: usize, [trace, circuit]: [usize; 2]) -> String {
+    let family = &planned.family;
+    let values = family.cell(cell - 1).values;
+    let assigned = family.space.slots_of(cell - 1).map(|slot| (&family.names[slot], values[slot]));
+    let key = format!("{cell}.{trace}.{circuit}");
+    let plate = json!({
+        "address": format!("#/{}/curve/{key}", family.id),
+        "key": key,
+        "id": family.id,
+        "title": family.title,
+        "manifest": planned.excerpt(),
+        "ranges": values.iter().map(|value| [value, value]).collect::<Vec<_>>(),
+        "free": family.space.assigned_slots(),
+        "request": {
+            "cell": cell,
+            "curve": [trace, circuit],
+            "values": assigned.collect::<Vec<_>>(),
+            "changes": Vec::<(String, f64)>::new(),
+        },
+    });
+    let mut summary = summary(&family.title, crate::PROGRAM, kernel_file());
+    summary["plate"] = plate;
+    page_html(&format!("{}, {key}", family.title), &summary, "")
+}
+
+/// The page with a summary of an atlas. Its policy allows scripts and pictures from `sources` in addition to those in the page.
 ///
 /// # Panics
 ///
 /// Never: its style sheet and its script are compressed in memory.
-pub fn index_html(run: &RunRecord, paper: Paper, families: &[GalleryFamily]) -> String {
+fn page_html(title: &str, summary: &Value, sources: &str) -> String {
     // Without indentation and empty lines.
     let lines = styles().iter().flat_map(|part| part.text.lines()).map(str::trim_start).filter(|line| !line.is_empty());
     let style: String = lines.flat_map(|line| [line, "\n"]).collect();
     let script = join_modules(scripts());
     let loader = compact(LOADER.lines());
     // Escaped, so that the data cannot end its script element.
-    let data = atlas_json(run, paper, families).to_string().replace('<', "\\u003c");
+    let data = summary.to_string().replace('<', "\\u003c");
     let packed = |text: &str| BASE64_STANDARD.encode(gzip(text.as_bytes()).expect("memory takes all bytes"));
     let parts = [
-        ("title", escape_html(&run.title)),
-        ("policy", content_security_policy(&style, [&loader, &script])),
+        ("title", escape_html(title)),
+        ("policy", content_security_policy(&style, [&loader, &script], sources)),
         ("atlas", data),
         ("packed_style", packed(&style)),
         ("packed_script", packed(&script)),
@@ -97,10 +131,10 @@ pub fn index_html(run: &RunRecord, paper: Paper, families: &[GalleryFamily]) -> 
 
 /// The policy by which the page may only run its own script, the scripts in its folder and modules for WebAssembly, make
 /// workers of its own, and show images.
-fn content_security_policy(style: &str, scripts: [&str; 2]) -> String {
+fn content_security_policy(style: &str, scripts: [&str; 2], sources: &str) -> String {
     let digest = |text: &str| format!("'sha256-{}'", BASE64_STANDARD.encode(Sha256::digest(text.as_bytes())));
     format!(
-        "default-src 'none'; script-src 'self' 'wasm-unsafe-eval' {}; style-src {}; img-src 'self' data: blob:; \
+        "default-src 'none'; script-src {sources}'wasm-unsafe-eval' {}; style-src {}; img-src {sources}data: blob:; \
          worker-src blob:; base-uri 'none'; form-action 'none'",
         scripts.map(digest).join(" "),
         digest(style)
@@ -115,6 +149,16 @@ fn gzip(bytes: &[u8]) -> io::Result<Vec<u8>> {
 }
 
 fn atlas_json(run: &RunRecord, paper: Paper, families: &[GalleryFamily]) -> Value {
+    let kernel = json!({ "script": KERNEL_FILE, "sha256": kernel_digest().to_string() });
+    let mut summary = summary(&run.title, &format!("{} {}", run.program, run.version), kernel);
+    summary["paper"] = json!({ "width": paper.width, "height": paper.height });
+    summary["families"] = families.iter().map(family_json).collect();
+    summary["book"] = run.book.iter().flat_map(|book| &book.files).map(|file| file.name.as_str()).collect();
+    summary
+}
+
+/// The summary of an atlas without families and books.
+fn summary(title: &str, program: &str, kernel: Value) -> Value {
     let measure = |m: &measure::Measure| {
         let is_input = m.length_name.is_some();
         json!({
@@ -124,13 +168,12 @@ fn atlas_json(run: &RunRecord, paper: Paper, families: &[GalleryFamily]) -> Valu
     };
     json!({
         "format": 3,
-        "title": run.title,
-        "paper": { "width": paper.width, "height": paper.height },
-        "program": format!("{} {}", run.program, run.version),
+        "title": title,
+        "program": program,
         "measures": measure::ALL.iter().map(measure).collect::<Vec<_>>(),
-        "kernel": { "script": KERNEL_FILE, "sha256": kernel_digest().to_string() },
-        "families": families.iter().map(family_json).collect::<Vec<_>>(),
-        "book": run.book.iter().flat_map(|book| &book.files).map(|file| file.name.as_str()).collect::<Vec<_>>(),
+        "kernel": kernel,
+        "families": [],
+        "book": [],
     })
 }
 

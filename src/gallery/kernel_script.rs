@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::family_script::statement;
 use crate::record::Digest;
@@ -21,7 +21,12 @@ pub(super) fn kernel_digest() -> Digest {
     *DIGEST
 }
 
+/// What the script says: the kernel, and its digest.
+pub(super) fn kernel_file() -> Value {
+    json!({ "sha256": kernel_digest().to_string(), "module": BASE64_STANDARD.encode(KERNEL) })
+}
+
 /// The text of `kernel.js`.
 pub fn kernel_script() -> String {
-    statement("kernel", &json!({ "sha256": kernel_digest().to_string(), "module": BASE64_STANDARD.encode(KERNEL) }))
+    statement("kernel", &kernel_file())
 }

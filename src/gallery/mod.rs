@@ -16,7 +16,7 @@ mod typed_array;
 
 pub use assets::{Asset, join_modules, scripts, styles};
 pub use family_script::{FamilyScript, SCRIPT_FILE};
-pub use index::{DataBytes, GalleryFamily, PAGE_FILE, index_html};
+pub use index::{DataBytes, GalleryFamily, PAGE_FILE, index_html, plate_html};
 pub use kernel_script::{KERNEL, KERNEL_FILE, kernel_script};
 pub use piece::{CellData, PieceContent, PieceIndex, PieceSeries};
 pub use pieces::{

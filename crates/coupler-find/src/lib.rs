@@ -105,13 +105,14 @@ pub use distinct::distinct;
 pub use four_bar::{Index, IndexPart, Mechanism, placed_parameters};
 pub use function::{
     Defect, FunctionAnswer, FunctionFindings, FunctionMethod, FunctionOptions, FunctionTarget, FunctionTargetError,
-    GeneratorKind, Law, LawError, LeftOut, StructuralError, generate_function,
+    GeneratorKind, Law, LawError, LeftOut, OutputFunction, StructuralError, generate_function,
 };
 pub use hindrance::Hindrance;
 pub use linkage::{
-    JAM_DEG, LinkageAnswer, LinkageFunctionAnswer, LinkageFunctionError, LinkageFunctionOptions, LinkageIndex,
-    LinkageIndexPart, LinkageSampler, LinkageSearch, LinkageSpace, LinkageSpaceError, PlacedCurve, Searched,
-    generate_function_by, is_scalable, most_precision_points, ranked, scaled_values, simpler_spaces, six_bar_spaces,
+    FollowedOutput, JAM_DEG, LinkageAnswer, LinkageFunctionAnswer, LinkageFunctionError, LinkageFunctionOptions,
+    LinkageIndex, LinkageIndexPart, LinkageSampler, LinkageSearch, LinkageSpace, LinkageSpaceError, PlacedCurve,
+    Searched, generate_function_by, is_scalable, most_precision_points, ranked, scaled_values, simpler_spaces,
+    six_bar_spaces,
 };
 pub use options::{Effort, Options};
 pub use poses::{

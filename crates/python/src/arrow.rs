@@ -9,12 +9,14 @@ use arrow_array::{Array, ArrayRef, PrimitiveArray, RecordBatch, StringArray, Str
 use arrow_buffer::{BooleanBuffer, NullBuffer, ScalarBuffer};
 use arrow_schema::{ArrowError, DataType, Field, Schema, SchemaRef};
 use coupler_atlas::shard::{ColumnKind, ColumnRows, Rows, TableColumn, Values};
+use numpy::PyReadonlyArray1;
 use pyo3::exceptions::{PyKeyError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyDict, PyTuple};
 
 use crate::arrays;
 use crate::error::Error;
+use crate::reduce::{Reduced, Remake, reduced};
 
 /// The exception for an error of Arrow.
 pub fn arrow_error(error: ArrowError) -> PyErr {
@@ -180,5 +182,78 @@ impl Batch {
         let data = StructArray::from(self.inner.clone()).into_data();
         let array = PyCapsule::new_with_value(py, FFI_ArrowArray::new(&data), c"arrow_array")?;
         (schema_capsule(py, &self.inner.schema())?, array).into_pyobject(py)
+    }
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let columns = self.inner.schema();
+        let columns = columns.fields().iter().zip(self.inner.columns());
+        let pickled =
+            columns.map(|(field, column)| PickledColumn::new(py, field, column)).collect::<PyResult<Vec<_>>>();
+        reduced::<Batch>(py, pickled?)
+    }
+}
+
+/// A column of a batch in a pickle.
+#[derive(FromPyObject, IntoPyObject)]
+#[pyo3(from_item_all)]
+pub struct PickledColumn {
+    name: String,
+    unit: Option<String>,
+    is_optional: bool,
+    /// An array, with any value where one is missing, or a list of words.
+    values: Py<PyAny>,
+    /// For each row of an array 1, or 0 where its value is missing; none if none is.
+    present: Option<Vec<u8>>,
+}
+
+impl PickledColumn {
+    fn new(py: Python, field: &Field, column: &ArrayRef) -> PyResult<PickledColumn> {
+        let any = column.as_any();
+        let values = if let Some(column) = any.downcast_ref::<PrimitiveArray<Float64Type>>() {
+            arrays::column(py, column.values().to_vec()).into_any()
+        } else if let Some(column) = any.downcast_ref::<PrimitiveArray<Int64Type>>() {
+            arrays::column(py, column.values().to_vec()).into_any()
+        } else if let Some(column) = any.downcast_ref::<PrimitiveArray<Int32Type>>() {
+            arrays::column(py, column.values().to_vec()).into_any()
+        } else if let Some(column) = any.downcast_ref::<StringArray>() {
+            column.iter().collect::<Vec<_>>().into_pyobject(py)?.into_any()
+        } else {
+            return Err(PyTypeError::new_err(format!("the column `{}` has a type without an array", field.name())));
+        };
+        Ok(PickledColumn {
+            name: field.name().clone(),
+            unit: field.metadata().get("unit").cloned(),
+            is_optional: field.is_nullable(),
+            values: values.unbind(),
+            present: column.nulls().map(|nulls| nulls.iter().map(u8::from).collect()),
+        })
+    }
+
+    fn column(self, py: Python) -> PyResult<(Field, ArrayRef)> {
+        let values = self.values.bind(py);
+        let nulls = self.present.map(|present| NullBuffer::new(present.iter().map(|one| *one != 0).collect()));
+        let column: ArrayRef = if let Ok(numbers) = values.extract::<PyReadonlyArray1<f64>>() {
+            Arc::new(PrimitiveArray::<Float64Type>::new(ScalarBuffer::from(numbers.as_slice()?.to_vec()), nulls))
+        } else if let Ok(numbers) = values.extract::<PyReadonlyArray1<i64>>() {
+            Arc::new(PrimitiveArray::<Int64Type>::new(ScalarBuffer::from(numbers.as_slice()?.to_vec()), nulls))
+        } else if let Ok(numbers) = values.extract::<PyReadonlyArray1<i32>>() {
+            Arc::new(PrimitiveArray::<Int32Type>::new(ScalarBuffer::from(numbers.as_slice()?.to_vec()), nulls))
+        } else {
+            Arc::new(StringArray::from(values.extract::<Vec<Option<String>>>()?))
+        };
+        let unit = self.unit.map(|unit| ("unit".to_owned(), unit));
+        let field = Field::new(self.name, column.data_type().clone(), self.is_optional);
+        Ok((field.with_metadata(HashMap::from_iter(unit)), column))
+    }
+}
+
+impl Remake for Batch {
+    type State = Vec<PickledColumn>;
+
+    fn remake(py: Python, columns: Vec<PickledColumn>) -> PyResult<Py<PyAny>> {
+        let columns: Vec<(Field, ArrayRef)> =
+            columns.into_iter().map(|column| column.column(py)).collect::<PyResult<_>>()?;
+        let (fields, columns): (Vec<Field>, Vec<ArrayRef>) = columns.into_iter().unzip();
+        let inner = RecordBatch::try_new(Arc::new(Schema::new(fields)), columns).map_err(arrow_error)?;
+        Ok(Py::new(py, Batch { inner })?.into_any())
     }
 }

@@ -8,14 +8,15 @@ use coupler_atlas::manifest::{self, PlannedFamily};
 use coupler_curves::problem::suggestion;
 use pyo3::exceptions::{PyIndexError, PyKeyError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyIterator, PyTuple};
+use pyo3::types::{PyDict, PyIterator};
 
 use crate::argument::{Index, position, toml_text};
 use crate::error::Error;
 use crate::file::read_text;
 use crate::html;
 use crate::linkage::into_object;
-use crate::manifest::{Manifest, PickledTables, Source};
+use crate::manifest::{Manifest, PickledSource, Source};
+use crate::reduce::{Reduced, Remake, reduced};
 use crate::task;
 
 /// A manifest as an argument: its path, or an atlas that has been read.
@@ -150,21 +151,28 @@ impl Atlas {
         self.manifest.hash()
     }
 
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let source = self.manifest.source();
-        let arguments = (&source.path, &*source.text, source.pickled_tables()).into_pyobject(py)?;
-        Ok((py.import("coupler_atlas._core")?.getattr("_atlas")?, arguments))
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        reduced::<Atlas>(py, self.manifest.source().pickled())
     }
 
-    /// A table of its families.
-    fn _repr_html_(&self) -> String {
-        let row = |planned: &PlannedFamily| {
+    /// A table of its families, with the plate of the first linkage of each that can be assembled.
+    fn _repr_html_(&self, py: Python) -> PyResult<String> {
+        /// The most pictures, how many linkages are tried for each, and the most bytes of all.
+        const SHOWN: [usize; 3] = [12, 4, 1_500_000];
+        let (mut rows, mut bytes) = (String::new(), 0);
+        for (index, planned) in self.manifest.plan.families.iter().enumerate() {
             let PlannedFamily { family, .. } = planned;
-            html::row("td", &[&family.id, &family.title, &family.template.id, &family.cell_count().to_string()])
-        };
-        let rows: String = self.manifest.plan.families.iter().map(row).collect();
-        let head = html::row("th", &["family", "title", "linkage", "cells"]);
-        format!("<table><caption>{}</caption>{head}{rows}</table>", html::escaped(&self.manifest.plan.title))
+            let mut plate = String::new();
+            if index < SHOWN[0] && bytes < SHOWN[2] {
+                plate = self.family(index).pictures(py, [1, SHOWN[1]], 120)?;
+                bytes += plate.len();
+            }
+            let count = family.cell_count().to_string();
+            rows += &html::row("td", &[&family.id, &family.title, &family.template.id, &count])
+                .replace("</tr>", &format!("<td>{plate}</td></tr>"));
+        }
+        let head = html::row("th", &["family", "title", "linkage", "cells", ""]);
+        Ok(format!("<table><caption>{}</caption>{head}{rows}</table>", html::escaped(&self.manifest.plan.title)))
     }
 
     fn __repr__(&self) -> String {
@@ -188,6 +196,23 @@ pub struct Family {
 impl Family {
     fn planned(&self) -> &PlannedFamily {
         &self.manifest.plan.families[self.index]
+    }
+
+    /// The plates of its first linkages that can be assembled: so many at most, of so many that are tried, so many pixels wide.
+    fn pictures(&self, py: Python, [most, tried]: [usize; 2], width: usize) -> PyResult<String> {
+        let (mut pictures, mut count) = (String::new(), 0);
+        for index in 0..self.__len__().min(tried) {
+            if count == most {
+                break;
+            }
+            let linkage = self.linkage_of(py, index)?;
+            let svg = linkage.bind(py).call_method0("_repr_svg_")?.extract::<Option<String>>()?;
+            if let Some(svg) = svg {
+                count += 1;
+                pictures += &html::picture(&svg, &linkage.bind(py).repr()?.to_string(), width);
+            }
+        }
+        Ok(pictures)
     }
 
     fn linkage_of(&self, py: Python, index: usize) -> PyResult<Py<PyAny>> {
@@ -273,28 +298,13 @@ impl Family {
         self.manifest.hash() ^ self.index as u64
     }
 
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let atlas = Bound::new(py, Atlas { manifest: self.manifest.clone() })?;
-        Ok((py.import("operator")?.getattr("getitem")?, (atlas, self.id()).into_pyobject(py)?))
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        reduced::<Family>(py, (Atlas { manifest: self.manifest.clone() }, self.index))
     }
 
     /// The plates of its first linkages that can be assembled, small.
     fn _repr_html_(&self, py: Python) -> PyResult<String> {
-        /// How many are shown, and how many are tried.
-        const SHOWN: [usize; 2] = [6, 24];
-        let (mut pictures, mut count) = (String::new(), 0);
-        for index in 0..self.__len__().min(SHOWN[1]) {
-            if count == SHOWN[0] {
-                break;
-            }
-            let linkage = self.linkage_of(py, index)?;
-            let svg = linkage.bind(py).call_method0("_repr_svg_")?.extract::<Option<String>>()?;
-            if let Some(svg) = svg {
-                count += 1;
-                pictures += &html::picture(&svg, &linkage.bind(py).repr()?.to_string(), 200);
-            }
-        }
-        Ok(format!("<p>{}</p>{pictures}", html::escaped(&self.__repr__())))
+        Ok(format!("<p>{}</p>{}", html::escaped(&self.__repr__()), self.pictures(py, [6, 24], 200)?))
     }
 
     fn __repr__(&self) -> String {
@@ -324,6 +334,11 @@ impl Cells {
         }
         let index = if self.is_reversed { self.count - 1 - next } else { next };
         self.family.get().linkage_of(py, index).map(Some)
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let next = self.next.load(Ordering::Relaxed);
+        reduced::<Cells>(py, (&self.family, self.count, next, self.is_reversed))
     }
 }
 
@@ -405,9 +420,27 @@ fn read_source(py: Python, source: Source) -> PyResult<Atlas> {
     Ok(Atlas { manifest: Manifest::for_tables(py, source, |family| 0..family.cell_count())? })
 }
 
-/// Reads an atlas again that was pickled.
-#[pyfunction]
-#[pyo3(name = "_atlas")]
-pub fn read_again(py: Python, path: PathBuf, text: String, tables: PickledTables) -> PyResult<Atlas> {
-    Ok(Atlas { manifest: Manifest::for_tables(py, Source::from_pickle(path, text, tables), |_| 0..0)? })
+impl Remake for Atlas {
+    type State = PickledSource;
+
+    fn remake(py: Python, source: PickledSource) -> PyResult<Py<PyAny>> {
+        let manifest = Manifest::for_tables(py, Source::from_pickle(source), |_| 0..0)?;
+        Ok(Py::new(py, Atlas { manifest })?.into_any())
+    }
+}
+
+impl Remake for Family {
+    type State = (Py<Atlas>, usize);
+
+    fn remake(py: Python, (atlas, index): (Py<Atlas>, usize)) -> PyResult<Py<PyAny>> {
+        Ok(Py::new(py, atlas.get().family(index))?.into_any())
+    }
+}
+
+impl Remake for Cells {
+    type State = (Py<Family>, usize, usize, bool);
+
+    fn remake(py: Python, (family, count, next, is_reversed): Self::State) -> PyResult<Py<PyAny>> {
+        Ok(Py::new(py, Cells { family, count, next: AtomicUsize::new(next), is_reversed })?.into_any())
+    }
 }

@@ -14,12 +14,55 @@ use crate::argument;
 use crate::atlas::ManifestArgument;
 use crate::error::{Error, OutputError};
 use crate::manifest::Manifest;
+use crate::reduce::{Reduced, Remake, reduced};
+use crate::results::from_json;
 use crate::task::{self, Task};
 
 /// The result of a check. It is true if nothing differs; as text it is the report of the program.
 #[pyclass(frozen, module = "coupler_atlas")]
-pub struct Report {
-    report: check::Report,
+pub struct Report(ReportRecord);
+
+/// What is recorded of a check.
+#[derive(FromPyObject, IntoPyObjectRef)]
+#[pyo3(from_item_all)]
+pub struct ReportRecord {
+    has_differences: bool,
+    families: usize,
+    curves: usize,
+    pages: usize,
+    left_out: BTreeMap<String, usize>,
+    counts: BTreeMap<String, usize>,
+    /// The JSON of the findings, and how many there are.
+    findings: String,
+    finding_count: usize,
+    /// The report of the program.
+    text: String,
+}
+
+impl ReportRecord {
+    fn new(report: &check::Report) -> serde_json::Result<ReportRecord> {
+        let check::LeftOut { images, volumes, gallery_files } = report.left_out;
+        let left_out = [("images", images), ("volumes", volumes), ("gallery_files", gallery_files)];
+        Ok(ReportRecord {
+            has_differences: report.has_differences(),
+            families: report.families,
+            curves: report.curves,
+            pages: report.pages,
+            left_out: left_out.into_iter().map(|(name, count)| (name.to_owned(), count)).collect(),
+            counts: report.counts.iter().map(|(kind, count)| ((*kind).to_owned(), *count)).collect(),
+            findings: serde_json::to_string(&report.findings)?,
+            finding_count: report.findings.len(),
+            text: cli::check_report(report),
+        })
+    }
+}
+
+impl Remake for Report {
+    type State = ReportRecord;
+
+    fn remake(py: Python, record: ReportRecord) -> PyResult<Py<PyAny>> {
+        Ok(Py::new(py, Report(record))?.into_any())
+    }
 }
 
 #[pymethods]
@@ -27,63 +70,65 @@ impl Report {
     /// Whether anything differs from the record.
     #[getter]
     fn has_differences(&self) -> bool {
-        self.report.has_differences()
+        self.0.has_differences
     }
 
     /// The number of families that were compared.
     #[getter]
     fn families(&self) -> usize {
-        self.report.families
+        self.0.families
     }
 
     /// The number of curves that were compared.
     #[getter]
     fn curves(&self) -> usize {
-        self.report.curves
+        self.0.curves
     }
 
     /// The number of pages that were compared.
     #[getter]
     fn pages(&self) -> usize {
-        self.report.pages
+        self.0.pages
     }
 
     /// The numbers of images, volumes of the book and files of the gallery that were not compared, because the folder has none of them.
     #[getter]
-    fn left_out(&self) -> std::collections::BTreeMap<&'static str, usize> {
-        let check::LeftOut { images, volumes, gallery_files } = self.report.left_out;
-        [("images", images), ("volumes", volumes), ("gallery_files", gallery_files)].into()
+    fn left_out(&self) -> BTreeMap<String, usize> {
+        self.0.left_out.clone()
     }
 
     /// The number of findings of each kind.
     #[getter]
-    fn counts(&self) -> std::collections::BTreeMap<&'static str, usize> {
-        self.report.counts.clone()
+    fn counts(&self) -> BTreeMap<String, usize> {
+        self.0.counts.clone()
     }
 
     /// The findings, the worst first, each a dictionary: which curve, where, and by how much it has changed. docs/check.md describes the keys.
     #[getter]
     fn findings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let text = serde_json::to_string(&self.report.findings).map_err(|error| Error::new_err(error.to_string()))?;
-        py.import("json")?.call_method1("loads", (text,))
+        from_json(py, &self.0.findings)
     }
 
     fn __bool__(&self) -> bool {
-        !self.report.has_differences()
+        !self.0.has_differences
     }
 
     fn __len__(&self) -> usize {
-        self.report.findings.len()
+        self.0.finding_count
     }
 
-    fn __str__(&self) -> String {
-        cli::check_report(&self.report)
+    fn __str__(&self) -> &str {
+        &self.0.text
     }
 
     fn __repr__(&self) -> String {
-        let check::Report { families, curves, pages, .. } = self.report;
-        let found = self.report.total();
+        let ReportRecord { families, curves, pages, counts, .. } = &self.0;
+        let found: usize = counts.values().sum();
         format!("<coupler_atlas.Report: families: {families}, curves: {curves}, pages: {pages}, findings: {found}>")
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        reduced::<Report>(py, &self.0)
     }
 }
 
@@ -158,5 +203,6 @@ pub fn check_atlas(
             check::Event::End => {}
         })
     })?;
-    Ok(Report { report: result.map_err(|error| OutputError::new_err(error.to_string()))? })
+    let report = result.map_err(|error| OutputError::new_err(error.to_string()))?;
+    ReportRecord::new(&report).map(Report).map_err(|error| Error::new_err(error.to_string()))
 }

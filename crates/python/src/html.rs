@@ -11,14 +11,19 @@ pub fn row(cell: &str, texts: &[&str]) -> String {
     format!("<tr>{cells}</tr>")
 }
 
+/// A text as an address that has it in it.
+pub fn address(kind: &str, text: &str) -> String {
+    text.bytes().fold(format!("data:{kind},"), |mut address, byte| {
+        match byte {
+            b'%' | b'"' | b'#' | b'&' | b'<' | b'>' | b'\'' | 0..=31 | 127.. => address += &format!("%{byte:02X}"),
+            _ => address.push(char::from(byte)),
+        }
+        address
+    })
+}
+
 /// A drawing so many pixels wide, apart from all others: ids in SVG hold for a whole notebook.
 pub fn picture(svg: &str, title: &str, width: usize) -> String {
-    let address: String = svg.bytes().fold(String::new(), |mut text, byte| {
-        match byte {
-            b'%' | b'"' | b'#' | b'&' | b'<' | b'>' | b'\'' | 0..=31 | 127.. => text += &format!("%{byte:02X}"),
-            _ => text.push(char::from(byte)),
-        }
-        text
-    });
-    format!("<img src=\"data:image/svg+xml,{address}\" width=\"{width}\" alt=\"{0}\" title=\"{0}\">", escaped(title))
+    let address = address("image/svg+xml", svg);
+    format!("<img src=\"{address}\" width=\"{width}\" alt=\"{0}\" title=\"{0}\">", escaped(title))
 }

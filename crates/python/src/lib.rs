@@ -10,6 +10,7 @@ mod html;
 mod keywords;
 
 mod arrays;
+mod reduce;
 mod task;
 
 mod linkage;
@@ -24,6 +25,7 @@ mod check;
 mod design;
 mod find;
 mod function;
+mod inspection;
 mod parameter_sets;
 mod pickle;
 mod poses;
@@ -32,6 +34,8 @@ mod sweep;
 
 use std::ffi::OsString;
 
+use pyo3::PyClass;
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
 /// Runs the program `coupler-atlas` with the arguments of a command line, the first of which is its name, and returns the exit code.
@@ -40,33 +44,60 @@ fn run_command(py: Python, arguments: Vec<OsString>) -> u8 {
     py.detach(|| coupler_atlas::cli::run(&arguments))
 }
 
+/// Adds the classes to the module, all of which can be made again from their pickles, and defines the function that pickles call.
+macro_rules! classes {
+    ($($class:ty),* $(,)?) => {
+        fn add_classes(module: &Bound<PyModule>) -> PyResult<()> {
+            $(module.add_class::<$class>()?;)*
+            Ok(())
+        }
+
+        /// Makes an object again that was pickled or copied.
+        #[pyfunction]
+        #[pyo3(name = "_remake")]
+        fn make_again(class: &str, state: &Bound<PyAny>) -> PyResult<Py<PyAny>> {
+            match class {
+                $(<$class as PyClass>::NAME => reduce::remade::<$class>(state),)*
+                _ => Err(PyTypeError::new_err(format!("there is no class {class}: the pickle is of another version"))),
+            }
+        }
+    };
+}
+
+classes!(
+    linkage::Linkage,
+    linkage::Curve,
+    linkage::Circuit,
+    linkage::Sextic,
+    linkage::Animation,
+    linkage::Explorer,
+    atlas::Atlas,
+    atlas::Family,
+    atlas::Cells,
+    sweep::Sweep,
+    arrow::Batch,
+    find::Found,
+    find::Answer,
+    poses::FoundPoses,
+    poses::PoseAnswer,
+    function::FoundFunction,
+    function::FunctionAnswer,
+    design::Designs,
+    design::Design,
+    render::Rendering,
+    check::Report,
+    inspection::Inspection,
+);
+
 /// The compiled part of the package.
 #[pymodule]
 fn _core(module: &Bound<PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     error::add_to(module)?;
-    module.add_class::<linkage::Linkage>()?;
+    add_classes(module)?;
+    // Pickled as what they are kinds of, or are.
     module.add_class::<linkage::FourBar>()?;
-    module.add_class::<linkage::Curve>()?;
-    module.add_class::<linkage::Circuit>()?;
-    module.add_class::<linkage::Sextic>()?;
-    module.add_class::<linkage::Animation>()?;
-    module.add_class::<atlas::Atlas>()?;
-    module.add_class::<atlas::Family>()?;
-    module.add_class::<atlas::Cells>()?;
-    module.add_class::<sweep::Sweep>()?;
-    module.add_class::<arrow::Batch>()?;
     module.add_class::<results::Results>()?;
-    module.add_class::<find::Found>()?;
-    module.add_class::<find::Answer>()?;
-    module.add_class::<poses::FoundPoses>()?;
-    module.add_class::<poses::PoseAnswer>()?;
-    module.add_class::<function::FoundFunction>()?;
-    module.add_class::<function::FunctionAnswer>()?;
-    module.add_class::<design::Designs>()?;
-    module.add_class::<design::Design>()?;
-    module.add_class::<render::Rendering>()?;
-    module.add_class::<check::Report>()?;
     module.add_function(wrap_pyfunction!(linkage::make_linkage, module)?)?;
     module.add_function(wrap_pyfunction!(linkage::linkages, module)?)?;
     module.add_function(wrap_pyfunction!(atlas::read, module)?)?;
@@ -78,11 +109,8 @@ fn _core(module: &Bound<PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(design::design_linkage, module)?)?;
     module.add_function(wrap_pyfunction!(render::render, module)?)?;
     module.add_function(wrap_pyfunction!(check::check_atlas, module)?)?;
+    module.add_function(wrap_pyfunction!(inspection::inspect_linkage, module)?)?;
     // What pickles call.
-    module.add_function(wrap_pyfunction!(pickle::make_linkage_again, module)?)?;
-    module.add_function(wrap_pyfunction!(pickle::make_curve_again, module)?)?;
-    module.add_function(wrap_pyfunction!(pickle::make_circuit_again, module)?)?;
-    module.add_function(wrap_pyfunction!(atlas::read_again, module)?)?;
-    module.add_function(wrap_pyfunction!(sweep::sweep_again, module)?)?;
+    module.add_function(wrap_pyfunction!(make_again, module)?)?;
     module.add_function(wrap_pyfunction!(run_command, module)?)
 }

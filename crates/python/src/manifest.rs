@@ -32,8 +32,8 @@ pub struct Source {
     pub tables: Vec<KnownTable>,
 }
 
-/// The tables of a [`Source`] in a pickle: the path of each, the names of its columns, and the bytes of its values.
-pub type PickledTables = Vec<(String, Vec<String>, Vec<u8>)>;
+/// A [`Source`] in a pickle: its path and text, and of each table the path, the names of its columns, and the bytes of its values.
+pub type PickledSource = (PathBuf, String, Vec<(String, Vec<String>, Vec<u8>)>);
 
 impl Source {
     /// One whose tables are to be read.
@@ -42,7 +42,7 @@ impl Source {
     }
 
     /// That of a pickle.
-    pub fn from_pickle(path: PathBuf, text: String, tables: PickledTables) -> Source {
+    pub fn from_pickle((path, text, tables): PickledSource) -> Source {
         let value = |bytes: &[u8]| bytes.try_into().map_or(f64::NAN, f64::from_le_bytes);
         let table = |(path, names, bytes): (String, Vec<String>, Vec<u8>)| {
             let values = Arc::new(bytes.chunks_exact(size_of::<f64>()).map(value).collect());
@@ -51,10 +51,11 @@ impl Source {
         Source { path, text: text.into(), tables: tables.into_iter().map(table).collect() }
     }
 
-    /// Its tables for a pickle.
-    pub fn pickled_tables(&self) -> PickledTables {
+    /// It in a pickle.
+    pub fn pickled(&self) -> PickledSource {
         let bytes = |table: &KnownTable| table.values.iter().flat_map(|value| value.to_le_bytes()).collect();
-        self.tables.iter().map(|table| (table.path.clone(), table.names.clone(), bytes(table))).collect()
+        let tables = self.tables.iter().map(|table| (table.path.clone(), table.names.clone(), bytes(table)));
+        (self.path.clone(), self.text.to_string(), tables.collect())
     }
 
     /// What reads the files that the manifest names.

@@ -81,10 +81,12 @@ fn named_linkage(
 ) -> PyResult<(String, Option<String>, Settings)> {
     let (id, text, values) = match linkage.cast::<Linkage>() {
         Ok(linkage) => match linkage.get().recipe() {
-            Recipe::Linkage { name, manifest, values, .. } => (name.clone(), manifest.clone(), values.clone()),
+            Recipe::Linkage { name, manifest, motion, values } if motion.range_deg.is_none() => {
+                (name.clone(), manifest.clone(), values.clone())
+            }
             _ => {
-                let message = "linkage: give the id of a linkage, or one that was made by it: the parameters of a cell, and of one that was found, \
-                               are columns like others";
+                let message = "linkage: give the id of a linkage, or one that was made by it: the parameters of a cell, and of one over a range \
+                               of its input, are columns like others";
                 return Err(PyValueError::new_err(message));
             }
         },

@@ -11,8 +11,9 @@ use pyo3::types::{PyDict, PyList};
 
 use crate::argument;
 use crate::atlas::ManifestArgument;
-use crate::error::{self, OutputError};
+use crate::error::{self, Error, OutputError};
 use crate::manifest::Manifest;
+use crate::reduce::{Reduced, Remake, reduced};
 use crate::task::{self, Task};
 
 /// An atlas that has been rendered.
@@ -77,6 +78,20 @@ impl Rendering {
             self.folder.display(),
             self.drawn
         )
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let run = serde_json::to_string(&self.run).map_err(|error| Error::new_err(error.to_string()))?;
+        reduced::<Rendering>(py, (&self.folder, run, self.drawn))
+    }
+}
+
+impl Remake for Rendering {
+    type State = (PathBuf, String, usize);
+
+    fn remake(py: Python, (folder, run, drawn): Self::State) -> PyResult<Py<PyAny>> {
+        let run = serde_json::from_str(&run).map_err(|error| Error::new_err(error.to_string()))?;
+        Ok(Py::new(py, Rendering { folder, run, drawn })?.into_any())
     }
 }
 

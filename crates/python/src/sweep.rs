@@ -1,6 +1,5 @@
 //! Sweeps: the cells of a family as a stream of batches that are solved as they are asked for.
 
-use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
@@ -11,15 +10,16 @@ use coupler_atlas::shard::{Division, MAX_SHARDS, Rows, TableColumn, TableKind, T
 use coupler_atlas::sweep::cells_of_division;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyCapsule, PyTuple};
+use pyo3::types::PyCapsule;
 
 use crate::arrow::{self, Batch, arrow_error};
 use crate::atlas::ManifestArgument;
 use crate::error::OutputError;
 use crate::html;
 use crate::linkage::known_measure;
-use crate::manifest::{Manifest, PickledTables, Source};
+use crate::manifest::{Manifest, PickledSource, Source};
 use crate::parameter_sets::{ParameterSets, without_places};
+use crate::reduce::{Reduced, Remake, reduced};
 use crate::task;
 
 /// The cells of a family, or a part of them, as a table that is solved as it is read.
@@ -37,7 +37,7 @@ pub struct Sweep {
     recipe: Recipe,
 }
 
-/// The arguments of `sweep` from which it can be made again, after the path, the text and the tables of the manifest; without `progress`.
+/// The arguments of `sweep` from which it can be made again, after its manifest; without `progress`.
 type Arguments = (String, Option<[i64; 2]>, Option<[i64; 2]>, bool, Option<Vec<String>>);
 
 /// What a sweep was made from.
@@ -182,10 +182,9 @@ impl Sweep {
         Ok(SweepIterator(Mutex::new(self.batches(py)?)))
     }
 
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
         let Recipe { source, arguments } = &self.recipe;
-        let make = py.import("coupler_atlas._core")?.getattr("_sweep")?;
-        Ok((make, (&source.path, &*source.text, source.pickled_tables(), arguments.clone()).into_pyobject(py)?))
+        reduced::<Sweep>(py, (source.pickled(), arguments.clone()))
     }
 
     /// The columns, with their types and units.
@@ -319,18 +318,14 @@ pub fn sweep<'py>(
     Ok(Sweep { progress, ..sweep })
 }
 
-/// Makes a sweep again that was pickled.
-#[pyfunction]
-#[pyo3(name = "_sweep")]
-pub fn sweep_again(
-    py: Python,
-    path: PathBuf,
-    text: String,
-    tables: PickledTables,
-    arguments: Arguments,
-) -> PyResult<Sweep> {
-    let (family, shard, cells, points, measures) = arguments;
-    make_sweep(py, Source::from_pickle(path, text, tables), Some(family), (shard, cells), points, measures)
+impl Remake for Sweep {
+    type State = (PickledSource, Arguments);
+
+    fn remake(py: Python, (source, arguments): Self::State) -> PyResult<Py<PyAny>> {
+        let (family, shard, cells, points, measures) = arguments;
+        let source = Source::from_pickle(source);
+        Ok(Py::new(py, make_sweep(py, source, Some(family), (shard, cells), points, measures)?)?.into_any())
+    }
 }
 
 fn make_sweep(

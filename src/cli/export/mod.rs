@@ -122,8 +122,7 @@ fn parse_chord(text: &str) -> Result<f64, String> {
 }
 
 fn parse_step(text: &str, template: &Template) -> Result<f64, String> {
-    let step =
-        linkage::parse_input(text, template.is_driven_by_length(), "--step 2").map_err(|error| error.to_string())?;
+    let step = crate::inspect::parse_input(text, template.is_driven_by_length(), "--step 2")?;
     let is_valid = step.is_finite() && step >= MIN_STEP;
     is_valid.then_some(step).ok_or_else(|| format!("`{text}`: give a number of at least {MIN_STEP}, as in --step 2"))
 }

@@ -7,8 +7,8 @@ use coupler_find::{Answer, Constraint, Mechanism, Target, format_length as numbe
 use crate::find::description::dimensions;
 
 use super::super::aligned_table::AlignedTable;
-use super::super::format::angle;
 use super::Report;
+use crate::format::angle;
 use coupler_curves::text::pluralize;
 
 /// A table of the answers, each row followed by its dimensions and its cognates.

@@ -27,7 +27,7 @@ pub use self::{
     order::{DependencyCycle, dependency_order},
 };
 
-use crate::expression::{Caption, CompiledExpression, displayed_name};
+use crate::expression::{Caption, CompiledExpression, Unit, displayed_name};
 use crate::linkage::{self, BranchArc, DwellBand, JointId, LinkageBuilder, Load, MotionOptions};
 
 pub use crate::linkage::{CircuitSelection, CoincidentDyads, Continuation, Linkage, Orientation, Side};
@@ -139,6 +139,18 @@ pub enum Error {
 }
 
 impl Template {
+    /// The same over a range of its input only, in degrees and in either order: on all its circuits, wherever its own start is.
+    pub fn over(&self, [from, to]: [f64; 2]) -> Template {
+        let at = |value: f64| InputValue { value: CompiledExpression::constant(value), unit: Some(Unit::Deg) };
+        let [least, greatest] = [from.min(to), from.max(to)].map(at);
+        Template {
+            input: Some([least.clone(), greatest]),
+            start: Some(least),
+            circuits: CircuitSelection::All,
+            ..self.clone()
+        }
+    }
+
     /// Its source and its legend in one line, as printed under the title of a page.
     pub fn source_line(&self) -> String {
         let parts = [&self.source, &self.legend].map(String::as_str);

@@ -39,11 +39,42 @@ pub struct FunctionAnswer {
     pub is_full_turn: bool,
     /// Its class; of a slider-crank `crank` where the crank turns fully, and otherwise `rocker`.
     pub class: &'static str,
+    /// What it generates.
+    pub output_function: OutputFunction,
+}
+
+/// The output of a four-bar or a slider-crank at any input, in closed form.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OutputFunction {
     pub(super) generator: Generator,
     /// The unit of the lengths and of an output that is a length.
-    pub(super) unit: f64,
+    unit: f64,
     /// The point at which the output is nearest to the wanted one of all that differ by whole turns.
-    pub(super) near: [f64; 2],
+    near: [f64; 2],
+}
+
+impl OutputFunction {
+    /// The numbers that define it, from which [`OutputFunction::from_numbers`] makes it again.
+    pub fn to_numbers(&self) -> [f64; 9] {
+        let Generator { lengths: [a, b, third], starts: [input, output], side, .. } = self.generator;
+        [a, b, third, input, output, side, self.unit, self.near[0], self.near[1]]
+    }
+
+    /// That of a kind of linkage with numbers from [`OutputFunction::to_numbers`].
+    pub fn from_numbers(kind: GeneratorKind, numbers: [f64; 9]) -> OutputFunction {
+        let [a, b, third, input, output, side, unit, x, y] = numbers;
+        let generator = Generator { kind, lengths: [a, b, third], starts: [input, output], side };
+        OutputFunction { generator, unit, near: [x, y] }
+    }
+
+    /// The output at a travel of the input from the start, in degrees, less the output that is wanted at the start; not a number where the
+    /// linkage cannot be assembled.
+    pub fn at(&self, travel_deg: f64) -> f64 {
+        let Generator { kind, starts: [input, output], .. } = self.generator;
+        let Some(turns) = self.generator.turns_at(self.near) else { return f64::NAN };
+        let there = self.generator.output(input + trig::radians(travel_deg));
+        there.map_or(f64::NAN, |there| output_unit(kind, self.unit) * (there + turns - output))
+    }
 }
 
 /// The factor from the output of a linkage of unit size, in radians, to that of its user.
@@ -95,19 +126,13 @@ impl FunctionAnswer {
             ratio: generator.ratio(),
             is_full_turn: generator.is_full_turn(),
             class,
-            generator,
-            unit,
-            near,
+            output_function: OutputFunction { generator, unit, near },
         })
     }
 
-    /// The output at a travel of the input from the start, in degrees, less the output that is wanted at the start; not a number where it
-    /// cannot be assembled.
+    /// The output at a travel of the input from the start, see [`OutputFunction::at`].
     pub fn generated(&self, travel_deg: f64) -> f64 {
-        let [input, output] = self.generator.starts;
-        let Some(turns) = self.generator.turns_at(self.near) else { return f64::NAN };
-        let there = self.generator.output(input + trig::radians(travel_deg));
-        there.map_or(f64::NAN, |there| output_unit(self.kind, self.unit) * (there + turns - output))
+        self.output_function.at(travel_deg)
     }
 
     /// The linkage as the `[[linkage]]` of a manifest.

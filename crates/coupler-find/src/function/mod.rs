@@ -32,7 +32,7 @@ mod by_points;
 mod answer;
 mod search;
 
-pub use answer::FunctionAnswer;
+pub use answer::{FunctionAnswer, OutputFunction};
 pub use defect::Defect;
 pub use generator::GeneratorKind;
 pub use law::{Law, LawError};

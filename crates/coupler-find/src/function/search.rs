@@ -60,7 +60,7 @@ pub fn generate_function(
         if answers.len() == options.most || solved == MAX_SOLVED {
             break;
         }
-        if answers.iter().any(|other| other.generator.distance_to(&linkage) < distance) {
+        if answers.iter().any(|other| other.output_function.generator.distance_to(&linkage) < distance) {
             continue;
         }
         let Some(answer) = FunctionAnswer::new(linkage, &scaled, unit, near) else { continue };

@@ -31,7 +31,8 @@ mod timed;
 
 pub use answer::LinkageAnswer;
 pub use function::{
-    LinkageFunctionAnswer, LinkageFunctionError, LinkageFunctionOptions, generate_function_by, most_precision_points,
+    FollowedOutput, LinkageFunctionAnswer, LinkageFunctionError, LinkageFunctionOptions, generate_function_by,
+    most_precision_points,
 };
 pub use index::{LinkageIndex, LinkageIndexPart, LinkageSampler};
 pub use placed_curve::PlacedCurve;

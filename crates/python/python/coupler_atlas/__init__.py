@@ -22,12 +22,14 @@ from ._core import (
     Design,
     Designs,
     Error,
+    Explorer,
     Family,
     Found,
     FoundFunction,
     FoundPoses,
     FourBar,
     FunctionAnswer,
+    Inspection,
     Linkage,
     LinkageError,
     ManifestError,
@@ -45,6 +47,7 @@ from ._core import (
     find,
     find_function,
     find_poses,
+    inspect,
     linkage,
     linkages,
     parse,
@@ -63,12 +66,14 @@ __all__ = [
     "Design",
     "Designs",
     "Error",
+    "Explorer",
     "Family",
     "Found",
     "FoundFunction",
     "FoundPoses",
     "FourBar",
     "FunctionAnswer",
+    "Inspection",
     "Linkage",
     "LinkageError",
     "ManifestError",
@@ -86,6 +91,7 @@ __all__ = [
     "find",
     "find_function",
     "find_poses",
+    "inspect",
     "linkage",
     "linkages",
     "parse",
@@ -95,5 +101,6 @@ __all__ = [
 ]
 
 _Mapping.register(Atlas)
+_Mapping.register(Inspection)
 _Sequence.register(Family)
 _Sequence.register(Results)

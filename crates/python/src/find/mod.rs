@@ -21,7 +21,7 @@ use crate::error::{LinkageError, OutputError};
 use crate::manifest::Manifest;
 use crate::results::Shown;
 use crate::task::{self, Task};
-use found::{Entry, Sought};
+use found::Sought;
 use keywords::Keywords;
 use path::Path;
 
@@ -179,8 +179,9 @@ fn search_four_bars(
         manifest: answers_manifest(&sought.name, sought.target.size(), &answers),
         drawing: Some(draw_four_bars(&sought.name, &sought.target, &answers)),
     };
-    let answers = answers.into_iter().map(Entry::of_four_bar);
-    let nearest_miss = nearest_miss.map(|(constraints, answer)| (constraints, Entry::of_four_bar(answer)));
+    let entry = |answer: coupler_find::Answer| Answer::of_four_bar(py, &answer);
+    let answers = answers.into_iter().map(entry);
+    let nearest_miss = nearest_miss.map(|(constraints, answer)| (constraints, entry(answer)));
     Found::make(py, sought, answers, nearest_miss, shown)
 }
 
@@ -191,7 +192,8 @@ fn search_atlas(
     (options, condition, is_fixed): (Options, Option<&str>, bool),
     progress: Option<&Bound<PyAny>>,
 ) -> PyResult<Py<Found>> {
-    let Manifest { plan, .. } = read_atlas(py, atlas)?;
+    let manifest = read_atlas(py, atlas)?;
+    let plan = manifest.plan.clone();
     let condition = condition.map(str::to_owned);
     let (target, own_plan) = (sought.target.clone(), plan.clone());
     let findings = task::run(py, progress, move |task: &Task| {
@@ -208,9 +210,9 @@ fn search_atlas(
         manifest: findings.manifest(name, target, &plan),
         drawing: Some(findings.drawing(name, target, &plan)),
     };
-    let entry = |answer| Entry::of_atlas(&plan, answer);
-    let answers = findings.answers.into_iter().filter_map(entry);
-    let nearest_miss = findings.nearest_miss.and_then(|(constraints, answer)| Some((constraints, entry(answer)?)));
+    let entry = |answer| Answer::of_atlas(py, &manifest, answer);
+    let answers = findings.answers.into_iter().map(entry);
+    let nearest_miss = findings.nearest_miss.map(|(constraints, answer)| (constraints, entry(answer)));
     Found::make(py, sought, answers, nearest_miss, shown)
 }
 
@@ -255,7 +257,8 @@ fn search_linkage(
         manifest: findings.manifest(name, target, own_text.as_deref()),
         drawing: Some(findings.drawing(name, target, &linkage)),
     };
-    let answers = findings.answers.into_iter().map(Entry::of_linkage);
-    let nearest_miss = findings.nearest_miss.map(|(constraints, answer)| (constraints, Entry::of_linkage(answer)));
+    let entry = |answer| Answer::of_linkage(py, answer, own_text.as_deref());
+    let answers = findings.answers.into_iter().map(entry);
+    let nearest_miss = findings.nearest_miss.map(|(constraints, answer)| (constraints, entry(answer)));
     Found::make(py, sought, answers, nearest_miss, shown)
 }

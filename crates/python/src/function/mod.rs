@@ -26,7 +26,7 @@ use crate::keywords::Unread;
 use crate::linkage::NamedLinkage;
 use crate::results::Shown;
 use crate::task::{self, Task};
-use found::{Entry, Method};
+use found::Method;
 use wanted::Wanted;
 
 /// Find the linkages whose output is a function of their input: four-bars, slider-cranks, or any linkage with an output.
@@ -172,7 +172,9 @@ fn search_closed(
         manifest: function_manifest(&wanted.name, &answers),
         drawing: Some(draw_function(&wanted.name, &details, &wanted.target, &answers)),
     };
-    FoundFunction::make(py, wanted, method, answers.into_iter().map(|answer| Entry::Closed(Box::new(answer))), shown)
+    let is_length = wanted.target.is_length();
+    let answers = answers.into_iter().map(|answer| FunctionAnswer::closed(py, answer, is_length));
+    FoundFunction::make(py, wanted, method, answers, shown)
 }
 
 fn search_any(
@@ -203,5 +205,8 @@ fn search_any(
         manifest: linkage_function_manifest(name, target.is_length(), &template.id, &answers, own_text.as_deref()),
         drawing: Some(draw_linkage_function(name, &linkage_details_in_words(&space), target, &answers)),
     };
-    FoundFunction::make(py, wanted, method, answers.into_iter().map(|answer| Entry::Any(Box::new(answer))), shown)
+    let (is_length, own) = (target.is_length(), (template, own_text.as_deref()));
+    let answers: Vec<_> =
+        answers.into_iter().map(|answer| FunctionAnswer::followed(py, answer, own, is_length)).collect();
+    FoundFunction::make(py, wanted, method, answers.into_iter(), shown)
 }

@@ -6,6 +6,7 @@ use coupler_drawing::plate::PAPER;
 use pyo3::prelude::*;
 
 use crate::file::save_svg;
+use crate::reduce::{Reduced, Remake, reduced};
 
 /// A linkage in motion. A notebook shows it; ``save`` writes it as SVG, which browsers play.
 #[pyclass(frozen, module = "coupler_atlas")]
@@ -38,5 +39,16 @@ impl Animation {
 
     fn __repr__(&self) -> String {
         format!("<coupler_atlas.Animation, {} bytes of SVG>", self.svg.len())
+    }
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        reduced::<Animation>(py, &self.svg)
+    }
+}
+
+impl Remake for Animation {
+    type State = String;
+
+    fn remake(py: Python, svg: String) -> PyResult<Py<PyAny>> {
+        Ok(Py::new(py, Animation { svg })?.into_any())
     }
 }

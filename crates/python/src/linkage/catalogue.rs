@@ -11,6 +11,7 @@ use pyo3::types::PyDict;
 
 use super::four_bar::into_object;
 use super::numeric_linkage::Linkage;
+use super::recipe::MotionChoice;
 use super::templates::{named_template, template_in_text};
 use crate::argument::{natural, toml_text};
 use crate::error::LinkageError;
@@ -51,7 +52,7 @@ pub fn make_linkage(
     manifest: Option<PathBuf>,
     text: Option<Bound<PyAny>>,
     samples: i64,
-    circuits: Option<&str>,
+    circuits: Option<String>,
     parameters: Option<Bound<PyDict>>,
 ) -> PyResult<Py<PyAny>> {
     let (template, text) = match (manifest, text) {
@@ -60,7 +61,8 @@ pub fn make_linkage(
         (manifest, None) => named_template(py, name, manifest.as_deref())?,
     };
     let values = given_values(&template, parameters)?;
-    into_object(py, Linkage::of_template(template, text, values, (natural("samples", samples)?, circuits))?)
+    let motion = MotionChoice { circuits, ..MotionChoice::samples(natural("samples", samples)?) };
+    into_object(py, Linkage::of_template(template, text, values, motion)?)
 }
 
 /// The values that keyword arguments give parameters of a linkage.

@@ -12,13 +12,14 @@ use numpy::{AllowTypeChange, PyArray1, PyArray2, PyArrayLike1};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
-use pyo3::types::{PyDict, PyTuple};
+use pyo3::types::PyDict;
 
-use super::curve::{branches_of, linkage_of_joint, pickle_arguments, rates_of};
+use super::curve::{branches_of, linkage_of_joint, rates_of};
 use super::sensitivity::{neighbours, position_rates};
 use super::solution::{Solution, limits_of};
 use crate::argument::is_number;
 use crate::arrays;
+use crate::reduce::{Reduced, reduced};
 
 /// A circuit: a motion of the whole linkage without disassembly.
 #[pyclass(frozen, module = "coupler_atlas")]
@@ -248,9 +249,8 @@ impl Circuit {
         Ok(arrays::column(py, (0..circuit.len()).map(angle).collect()))
     }
 
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let make = py.import("coupler_atlas._core")?.getattr("_circuit")?;
-        Ok((make, (pickle_arguments(py, &self.solution)?, self.index).into_pyobject(py)?))
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        reduced::<Circuit>(py, (self.solution.recipe.pickled(), self.index))
     }
 
     /// The number of samples.

@@ -4,8 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use coupler_atlas::export::{self, DEFAULT_DPI, Format};
-use coupler_curves::catalogue;
-use coupler_curves::exchange::{SelectedCurve, family_id};
+use coupler_curves::exchange::SelectedCurve;
 use coupler_curves::geometry::Vector;
 use coupler_curves::linkage::{DyadId, JointId, Linkage};
 use coupler_curves::measure::input_torque;
@@ -16,17 +15,17 @@ use coupler_drawing::page::Options;
 use coupler_drawing::plate::PAPER;
 use coupler_drawing::render::TextMode;
 use numpy::{PyArray1, PyArray2};
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
-use pyo3::types::{PyDict, PyTuple};
+use pyo3::types::PyDict;
 
-use super::recipe::Arguments;
 use super::sensitivity;
 use super::solution::{Solution, into_text, limits_of, measures_of};
 use crate::arrays;
 use crate::error::Error;
 use crate::file::save;
+use crate::reduce::{Reduced, reduced};
 
 /// The curve of a traced joint on a circuit.
 #[pyclass(frozen, module = "coupler_atlas")]
@@ -60,6 +59,12 @@ impl Curve {
         Ok((solved, curve, solved.circuit(curve)))
     }
 
+    /// The numbers of its trace and its circuit, from 1.
+    pub fn numbers(&self) -> PyResult<[usize; 2]> {
+        let (_, curve, _) = self.parts()?;
+        Ok([curve.trace, curve.circuit])
+    }
+
     /// Its points and inputs, and whether it is closed.
     pub fn path(&self) -> PyResult<(Vec<coupler_curves::geometry::Point>, Vec<f64>, bool)> {
         let (_, curve, circuit) = self.parts()?;
@@ -84,26 +89,6 @@ impl Curve {
     fn text(&self, py: Python, format: CurveFormat) -> PyResult<String> {
         self.file(py, Format::Text(format)).map(into_text)
     }
-}
-
-/// The arguments from which `make_linkage_again` makes a linkage: where it was found, those of a cell of the manifest with its numbers in full.
-///
-/// # Errors
-/// It was found, and is of no linkage of the catalogue, or cannot be assembled.
-pub(super) fn pickle_arguments(py: Python, solution: &Arc<Solution>) -> PyResult<Arguments> {
-    if let Some(arguments) = solution.recipe.arguments() {
-        return Ok(arguments);
-    }
-    let id = &solution.family.template.id;
-    if catalogue::find(id).is_none() {
-        let why =
-            "a linkage of a manifest that a search has found cannot be pickled: keep the manifest that toml() writes";
-        return Err(PyTypeError::new_err(format!("{id}: {why}")));
-    }
-    let family = Curve::new(Arc::clone(solution), 0).text(py, CurveFormat::Toml)?;
-    // The family is to be put into a manifest.
-    let text = format!("[atlas]\ntitle = \"found\"\n\n{family}");
-    Ok((Some(PathBuf::from("found.toml")), Some(text), family_id(id, 1), 1, None, None))
 }
 
 #[pymethods]
@@ -264,7 +249,7 @@ impl Curve {
     }
 
     /// The manifest of a family with this linkage, as TOML.
-    fn toml(&self, py: Python) -> PyResult<String> {
+    pub(super) fn toml(&self, py: Python) -> PyResult<String> {
         self.text(py, CurveFormat::Toml)
     }
 
@@ -317,9 +302,8 @@ impl Curve {
         self.solution.hash() ^ self.index as u64
     }
 
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let make = py.import("coupler_atlas._core")?.getattr("_curve")?;
-        Ok((make, (pickle_arguments(py, &self.solution)?, self.index).into_pyobject(py)?))
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        reduced::<Curve>(py, (self.solution.recipe.pickled(), self.index))
     }
 
     fn __repr__(&self) -> PyResult<String> {

@@ -7,7 +7,8 @@ use coupler_find::{Mechanism, placed_parameters};
 use numpy::PyArray2;
 use pyo3::prelude::*;
 
-use super::numeric_linkage::{DEFAULT_SAMPLES, Linkage};
+use super::numeric_linkage::Linkage;
+use super::recipe::MotionChoice;
 use super::templates::template;
 use crate::argument::natural;
 use crate::arrays;
@@ -33,7 +34,7 @@ impl FourBar {
     /// A four-bar at its position in the plane.
     pub fn placed(py: Python, four_bar: &PlacedFourBar) -> PyResult<Py<FourBar>> {
         let values = placed_parameters(four_bar).map(|(name, value)| (name.to_owned(), value)).to_vec();
-        let linkage = Linkage::of_template(Mechanism::template(), None, values, (DEFAULT_SAMPLES, None))?;
+        let linkage = Linkage::of_template(Mechanism::template(), None, values, MotionChoice::DEFAULT)?;
         Py::new(py, PyClassInitializer::from(linkage).add_subclass(FourBar))
     }
 }
@@ -88,7 +89,8 @@ impl FourBar {
             }
         };
         let values: Vec<(String, f64)> = values.into_iter().map(|(name, value)| (name.to_owned(), value)).collect();
-        let linkage = Linkage::of_template(template, None, values, (natural("samples", samples)?, None))?;
+        let linkage =
+            Linkage::of_template(template, None, values, MotionChoice::samples(natural("samples", samples)?))?;
         Ok(PyClassInitializer::from(linkage).add_subclass(FourBar))
     }
 

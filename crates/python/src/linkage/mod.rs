@@ -4,6 +4,7 @@ mod animation;
 mod catalogue;
 mod circuit;
 mod curve;
+mod explorer;
 mod four_bar;
 mod named;
 mod numeric_linkage;
@@ -17,18 +18,21 @@ pub use animation::Animation;
 pub use catalogue::{linkages, make_linkage};
 pub use circuit::Circuit;
 pub use curve::Curve;
+pub use explorer::Explorer;
 pub use four_bar::{FourBar, into_object};
 pub use named::NamedLinkage;
-pub use numeric_linkage::{DEFAULT_SAMPLES, Linkage};
-pub use recipe::Recipe;
+pub use numeric_linkage::Linkage;
+pub use recipe::{MotionChoice, PickledRecipe, Recipe};
 pub use sextic::Sextic;
 pub use solution::{into_text, known_measure};
 pub use templates::{named_template, template_of_text};
 
 use std::path::PathBuf;
 
+use coupler_atlas::gallery;
+use coupler_atlas::manifest::{self, PlannedFamily};
 use coupler_curves::family::Sampling;
-use coupler_curves::linkage::{self, Cognates};
+use coupler_curves::linkage::Cognates;
 use coupler_curves::motion::{self};
 use coupler_curves::solve::SolvedCell;
 use coupler_drawing::page::PoseChoice;
@@ -41,10 +45,11 @@ use pyo3::types::{PyDict, PyTuple};
 
 use crate::argument::natural;
 use crate::arrays;
-use crate::error::LinkageError;
+use crate::error::{Error, LinkageError};
 use crate::file::save_svg;
+use crate::reduce::{Reduced, reduced};
 use catalogue::given_values;
-use numeric_linkage::checked_samples;
+use recipe::checked_samples;
 use solution::{Solution, limits_of, measures_of, sampler};
 
 #[pymethods]
@@ -212,12 +217,10 @@ impl Linkage {
     #[pyo3(signature = (*, trace=1))]
     fn sextic(&self, trace: i64) -> PyResult<Sextic> {
         let placed = self.solution.placed(trace)?;
-        let found = linkage::Sextic::from_four_bar(placed.lengths, placed.coupler_point);
-        let inner = found.ok_or_else(|| {
+        Sextic::new(placed.lengths, placed.coupler_point).ok_or_else(|| {
             let message = "the traced joint is a pin, which moves on a circle, and so has no sextic";
             LinkageError::new_err(format!("{}: {message}", self.solution.family.id))
-        })?;
-        Ok(Sextic { inner })
+        })
     }
 
     /// A plate of the linkage and its curves, as SVG.
@@ -246,6 +249,21 @@ impl Linkage {
         Ok(Animation { svg: self.solution.svg(pose, py)? })
     }
 
+    /// The plate of a curve as the gallery shows it, for a notebook or a file: the linkage in motion, with sliders for its parameters and handles on
+    /// its joints. It needs no network.
+    ///
+    /// Parameters
+    /// ----------
+    /// trace, circuit : int
+    ///     The numbers of the traced joint and of the circuit, from 1.
+    #[pyo3(signature = (*, trace=1, circuit=1))]
+    fn explore(&self, py: Python, trace: i64, circuit: i64) -> PyResult<Explorer> {
+        let index = self.solution.curve_index(trace, circuit)?;
+        let curve = Curve::new(self.solution.clone(), index);
+        let planned = planned_family(&self.solution, &curve.toml(py)?)?;
+        Ok(Explorer { html: gallery::plate_html(&planned, 1, curve.numbers()?) })
+    }
+
     /// The plate that a notebook shows; nothing if the linkage cannot be assembled.
     fn _repr_svg_(&self, py: Python) -> PyResult<Option<String>> {
         if self.solution.moved()?.motion.is_assembled() { self.svg(py).map(Some) } else { Ok(None) }
@@ -265,8 +283,25 @@ impl Linkage {
         self.solution.hash()
     }
 
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let make = py.import("coupler_atlas._core")?.getattr("_linkage")?;
-        Ok((make, curve::pickle_arguments(py, &self.solution)?.into_pyobject(py)?))
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        reduced::<Linkage>(py, self.solution.recipe.pickled())
     }
+}
+
+/// The family of a linkage in a manifest, from its fragment for one.
+fn planned_family(solution: &Solution, fragment: &str) -> PyResult<PlannedFamily> {
+    let (Recipe::Linkage { manifest: Some(text), .. } | Recipe::Cell { text, .. }) = &solution.recipe else {
+        return family_in(&format!("[atlas]\ntitle = \"linkage\"\n\n{fragment}"));
+    };
+    let own = manifest::linkage_text(text, &solution.family.template.id).unwrap_or_default();
+    family_in(&format!("[atlas]\ntitle = \"linkage\"\n\n{own}\n{fragment}"))
+}
+
+fn family_in(text: &str) -> PyResult<PlannedFamily> {
+    let outcome = manifest::parse(text);
+    let families = outcome.plan.map(|plan| plan.families).unwrap_or_default();
+    families.into_iter().next().ok_or_else(|| {
+        let problems: Vec<String> = outcome.problems.iter().map(|problem| problem.message.clone()).collect();
+        Error::new_err(problems.join("; "))
+    })
 }

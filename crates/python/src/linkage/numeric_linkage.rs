@@ -2,23 +2,18 @@
 
 use std::sync::Arc;
 
-use coupler_curves::family::{Family, Sampling};
-use coupler_curves::motion::MAX_SAMPLES;
+use coupler_curves::family::Family;
 use coupler_curves::problem::suggestion;
-use coupler_curves::template::{CircuitSelection, Template};
+use coupler_curves::template::Template;
 use coupler_find::Mechanism;
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyTuple;
 
-use super::recipe::Recipe;
+use super::recipe::{MotionChoice, Recipe};
 use super::solution::Solution;
 use super::templates::template_of_text;
 use crate::error::LinkageError;
-
-/// The number of samples of a circuit where none is given, as in `inspect`.
-pub const DEFAULT_SAMPLES: usize = 360;
 
 /// A linkage with numeric dimensions.
 ///
@@ -41,29 +36,49 @@ impl Linkage {
 
     /// A linkage by its parameters; `manifest` is the text of the manifest that has it, if it is none of the catalogue.
     pub fn of_template(
-        mut template: Arc<Template>,
+        template: Arc<Template>,
         manifest: Option<Arc<str>>,
         values: Vec<(String, f64)>,
-        (samples, circuits): (usize, Option<&str>),
+        motion: MotionChoice,
     ) -> PyResult<Linkage> {
-        let samples = checked_samples(samples)?;
         // A zero without a sign, so that what is equal has the same hash.
         let values: Vec<(String, f64)> = values.into_iter().map(|(name, value)| (name, value + 0.0)).collect();
-        match circuits {
-            None => {}
-            Some("start") => Arc::make_mut(&mut template).circuits = CircuitSelection::Start,
-            Some("all") => Arc::make_mut(&mut template).circuits = CircuitSelection::All,
-            Some(other) => {
-                return Err(PyValueError::new_err(format!("circuits={other:?}: give \"start\" or \"all\"")));
-            }
-        }
+        let template = motion.apply(template)?;
         let (source, name) = (template.source_line(), template.id.clone());
         // What messages call a four-bar at its place, which is none of the catalogue.
         let id = if name == Mechanism::template().id { "four-bar" } else { &name };
-        let family = Family::single_cell(template, &values, Sampling::Samples(samples))
+        let family = Family::single_cell(template, &values, motion.sampling)
             .map_err(|errors| LinkageError::new_err(format!("{id}: {}", errors.to_string().replace('\n', "; "))))?;
-        let recipe = Recipe::Linkage { name, manifest, samples, circuits: circuits.map(str::to_owned), values };
-        Ok(Linkage::new(family, source, recipe))
+        Ok(Linkage::new(family, source, Recipe::Linkage { name, manifest, motion, values }))
+    }
+
+    /// The same by the values of all its parameters, in their order.
+    pub fn by_values(
+        template: Arc<Template>,
+        manifest: Option<Arc<str>>,
+        values: &[f64],
+        motion: MotionChoice,
+    ) -> PyResult<Linkage> {
+        let names = template.parameters.iter().map(|parameter| parameter.name.clone());
+        let values = names.zip(values.iter().copied()).collect();
+        Linkage::of_template(template, manifest, values, motion)
+    }
+
+    /// Its family, of this linkage only.
+    pub fn family(&self) -> &Family {
+        &self.solution.family
+    }
+
+    /// The linkage at any input, if it was made over a range of it.
+    pub fn at_any_input(&self) -> PyResult<coupler_curves::linkage::Linkage> {
+        let Solution { family, recipe, .. } = &*self.solution;
+        let template = match recipe {
+            Recipe::Linkage { name, manifest, .. } => template_of_text(name, manifest.as_deref())?,
+            Recipe::Cell { .. } => family.template.clone(),
+        };
+        template
+            .linkage(family.parameter_values(&family.cell(0)))
+            .map_err(|error| LinkageError::new_err(error.to_string()))
     }
 
     /// What it was made from.
@@ -85,10 +100,13 @@ impl Linkage {
             }
             values
         };
-        if let Recipe::Linkage { name, manifest, samples, circuits, values } = recipe {
-            let template = template_of_text(name, manifest.as_deref())?;
-            return Linkage::of_template(template, manifest.clone(), replaced(values), (*samples, circuits.as_deref()));
-        }
+        let (path, text, own_family) = match recipe {
+            Recipe::Linkage { name, manifest, motion, values } => {
+                let template = template_of_text(name, manifest.as_deref())?;
+                return Linkage::of_template(template, manifest.clone(), replaced(values), motion.clone());
+            }
+            Recipe::Cell { path, text, family, .. } => (path.clone(), text.clone(), family.clone()),
+        };
         let id = &family.id;
         let slot = |name: &str| {
             let known: Vec<&str> = family.names.iter().map(String::as_str).collect();
@@ -104,12 +122,7 @@ impl Linkage {
         if let Some(error) = changed.cell_errors(&changed.cell(0)).first() {
             return Err(LinkageError::new_err(format!("{id}: {error}")));
         }
-        let recipe = match recipe.clone() {
-            Recipe::Cell { path, text, family, .. } => {
-                Recipe::Cell { path, text, family, number: 0, values: Some(values) }
-            }
-            other => other,
-        };
+        let recipe = Recipe::Cell { path, text, family: own_family, number: 0, values: Some(values) };
         Ok(Linkage::new(changed, source.clone(), recipe))
     }
 
@@ -127,12 +140,5 @@ impl Linkage {
         let family = &self.solution.family;
         let slot = family.names.iter().position(|known| known == name)?;
         family.cell(0).values.get(slot).copied()
-    }
-}
-
-pub(super) fn checked_samples(samples: usize) -> PyResult<usize> {
-    match samples {
-        2..=MAX_SAMPLES => Ok(samples),
-        _ => Err(PyValueError::new_err(format!("samples={samples}: a circuit has from 2 to {MAX_SAMPLES} samples"))),
     }
 }

@@ -1,15 +1,27 @@
 //! Equations of coupler curves.
 
-use coupler_curves::linkage;
+use coupler_curves::geometry::Vector;
+use coupler_curves::linkage::{self, FourBar};
 use numpy::PyArray2;
 use pyo3::prelude::*;
 
 use crate::arrays;
+use crate::error::LinkageError;
+use crate::reduce::{Reduced, Remake, reduced};
 
 /// The equation of a coupler curve, a polynomial of degree 6 in x and y, with the crank's pivot at the origin and the x-axis towards the rocker's.
 #[pyclass(frozen, module = "coupler_atlas")]
 pub struct Sextic {
-    pub(super) inner: linkage::Sextic,
+    inner: linkage::Sextic,
+    lengths: FourBar,
+    coupler_point: Vector,
+}
+
+impl Sextic {
+    /// That of a four-bar with a coupler point, along the coupler and to the left of it; `None` if the point is a pin.
+    pub(super) fn new(lengths: FourBar, coupler_point: Vector) -> Option<Sextic> {
+        Some(Sextic { inner: linkage::Sextic::from_four_bar(lengths, coupler_point)?, lengths, coupler_point })
+    }
 }
 
 #[pymethods]
@@ -44,5 +56,20 @@ impl Sextic {
 
     fn __repr__(&self) -> String {
         format!("<coupler_atlas.Sextic, real double points: {}>", self.inner.double_points().len())
+    }
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let FourBar { frame, crank, coupler, rocker } = self.lengths;
+        reduced::<Sextic>(py, [frame, crank, coupler, rocker, self.coupler_point.x, self.coupler_point.y])
+    }
+}
+
+impl Remake for Sextic {
+    type State = [f64; 6];
+
+    fn remake(py: Python, [frame, crank, coupler, rocker, along, across]: [f64; 6]) -> PyResult<Py<PyAny>> {
+        let lengths = FourBar { frame, crank, coupler, rocker };
+        let sextic = Sextic::new(lengths, Vector::new(along, across));
+        let sextic = sextic.ok_or_else(|| LinkageError::new_err("the traced joint is a pin, and so has no sextic"))?;
+        Ok(Py::new(py, sextic)?.into_any())
     }
 }

@@ -56,8 +56,7 @@ impl Solution {
 
     /// Whether two are the same linkage.
     pub(super) fn are_same(one: &Arc<Solution>, other: &Arc<Solution>) -> bool {
-        let is_comparable = one.recipe != Recipe::Found;
-        Arc::ptr_eq(one, other) || is_comparable && one.recipe == other.recipe
+        Arc::ptr_eq(one, other) || one.recipe == other.recipe
     }
 
     /// The same of two that are the same.

@@ -2,7 +2,7 @@
 
 use crate::design::Design;
 
-use super::super::super::format::format_significant;
+use crate::format::format_significant;
 
 /// A ratio with two decimals, or ∞.
 pub(super) fn format_ratio(value: f64) -> String {

@@ -14,7 +14,6 @@ use crate::design::{self, Driver, LinkageKind, Requirement, Requirements};
 use clap::{Args, ValueEnum, ValueHint};
 use coupler_curves::expression::Expression;
 
-use super::super::linkage::parse_input;
 use super::super::{Failure, Outcome, choice, files, print, print_bytes};
 use report::{Report, option_name};
 
@@ -248,7 +247,7 @@ fn parse_number(text: &str, example: &str) -> Result<f64, String> {
 
 /// Reads an angle in degrees, or in the unit that it states.
 fn parse_angle(text: &str, example: &str) -> Result<f64, String> {
-    let value = parse_input(text, false, example).map_err(|error| error.to_string())?;
+    let value = crate::inspect::parse_input(text, false, example)?;
     if value.is_finite() {
         Ok(value)
     } else {

@@ -3,9 +3,9 @@
 use crate::design::{Design, ShownDesign, designs_plate};
 use coupler_drawing::page::PoseChoice;
 
-use super::super::super::format::format_significant;
 use super::format::proportions;
 use super::report::Report;
+use crate::format::format_significant;
 
 /// An SVG with one panel for each design, in order of rank.
 pub(super) fn plate(report: &Report) -> Vec<u8> {

@@ -7,10 +7,10 @@ use crate::design::{
 };
 
 use super::super::super::aligned_table::AlignedTable;
-use super::super::super::format::format_significant;
 use super::format::{format_ratio, proportions};
 use super::report::{Report, option_name};
 use super::trade_offs::trade_offs;
+use crate::format::format_significant;
 
 /// A table of the designs, each row followed by its proportions and trade-offs, then the rejected linkages.
 pub(super) fn text(report: &Report) -> String {

@@ -2,8 +2,8 @@
 
 use crate::design::Design;
 
-use super::super::super::format::format_significant;
 use super::format::format_ratio;
+use crate::format::format_significant;
 
 /// A property by which designs are compared.
 struct Quality {

@@ -6,9 +6,9 @@ use crate::design::{Designs, UNBOUNDED_SIZE, describe, parameters};
 use coupler_curves::text::pluralize;
 use coupler_find::{DesignAnswer, Wishes};
 
-use super::super::super::format::format_significant;
 use super::super::super::jams::jams;
 use super::arguments::WishArguments;
+use crate::format::format_significant;
 
 /// The designs, each with what is wished, its dimensions, and what else a designer asks first.
 pub(super) fn text(linkage: &str, designs: &Designs) -> String {

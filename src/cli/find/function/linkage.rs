@@ -12,12 +12,12 @@ use crate::find::function::{
 use coupler_find::{FunctionTarget, LinkageFunctionAnswer, LinkageFunctionOptions, LinkageSpace};
 use serde::Serialize;
 
-use super::super::super::format::angle;
 use super::super::super::jams::jams;
 use super::super::super::progress_bar;
 use super::super::super::report as reports;
 use super::super::json::FORMAT;
 use super::super::{Arguments, Failure, Outcome, Shown, show, title_of};
+use crate::format::angle;
 
 /// A function, and the dimensions of a linkage that have been found for it.
 struct LinkageFunctionReport {

@@ -10,8 +10,8 @@ use crate::find::function::words::{
 use coupler_curves::geometry::trig;
 use coupler_find::{FunctionAnswer, FunctionMethod, GeneratorKind, format_length};
 
-use super::super::super::format::angle;
 use super::report::FunctionReport;
+use crate::format::angle;
 
 /// A table of the answers, each row followed by the dimensions and the places of the linkage; and what is left out.
 pub(super) fn text(report: &FunctionReport) -> String {

@@ -6,9 +6,9 @@ use crate::find::description::{branch, deviation, parameters, placement};
 use crate::find::{Findings, simplest};
 use coupler_find::{LinkageAnswer, format_length as number, format_relative as relative};
 
-use super::super::super::format::angle;
 use super::super::text::{describe_target, relaxed};
 use super::LinkageReport;
+use crate::format::angle;
 use coupler_curves::text::pluralize;
 
 /// The answers, each with its dimensions and its place.

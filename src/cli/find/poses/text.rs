@@ -9,9 +9,9 @@ use coupler_find::{
     format_relative as relative,
 };
 
-use super::super::super::format::angle;
 use super::report::{PoseReport, options_of};
 use crate::find::Relaxed;
+use crate::format::angle;
 
 /// The answers, each with its dimensions and its place; then what was left out.
 pub(super) fn text(report: &PoseReport) -> String {

@@ -3,15 +3,15 @@
 use std::sync::Arc;
 
 use super::fitting::LinkageFit;
+use super::followed::FollowedOutput;
 use super::track::Track;
 use crate::condition::Condition;
 use crate::function::{FunctionTarget, StructuralError};
-use coupler_curves::expression::{CompiledExpression, Unit};
 use coupler_curves::family::{Family, Sampling};
 use coupler_curves::geometry::trig;
 use coupler_curves::measure::{Measure, MeasureSet};
 use coupler_curves::solve::{MeasuredCurve, Solver};
-use coupler_curves::template::{CircuitSelection, InputValue, Template};
+use coupler_curves::template::Template;
 
 /// Dimensions of a linkage whose output is near a wanted function of its input.
 #[derive(Clone, Debug)]
@@ -28,8 +28,9 @@ pub struct LinkageFunctionAnswer {
     pub mu_worst_deg: f64,
     /// A family of this linkage over the range of its input.
     pub family: Family,
+    /// What it generates.
+    pub output_function: FollowedOutput,
     pub(super) fit: LinkageFit,
-    is_length: bool,
 }
 
 /// The steps over the range at which the error of a law is measured.
@@ -83,28 +84,20 @@ impl LinkageFunctionAnswer {
             error,
             mu_worst_deg,
             family,
-            is_length: target.is_length(),
+            output_function: FollowedOutput::of_fit(&fit, &travels, &outputs, target.is_length())?,
             fit,
         })
     }
 
-    /// The outputs at travels of the input from the start, in degrees and in their order, less the output that is wanted at the start; `None` where it cannot be assembled.
+    /// The outputs at travels of the input from the start, see [`FollowedOutput::at`].
     pub fn generated(&self, travels_deg: &[f64]) -> Option<Vec<f64>> {
-        let unit = if self.is_length { 1.0 } else { trig::degrees(1.0) };
-        let outputs = Track::new(travels_deg).outputs(&self.fit.traced, self.fit.pass, self.fit.starts[0])?;
-        Some(outputs.into_iter().map(|output| unit * (output - self.fit.starts[1])).collect())
+        self.output_function.at(travels_deg)
     }
 }
 
 /// The family of a linkage over a range of its input only.
-fn ranged_family(values: &[f64], template: &Arc<Template>, [from, to]: [f64; 2]) -> Option<Family> {
-    let mut ranged = (**template).clone();
-    let at = |value: f64| InputValue { value: CompiledExpression::constant(value), unit: Some(Unit::Deg) };
-    ranged.input = Some([at(from.min(to)), at(from.max(to))]);
-    // Whatever branch it is on, and wherever its own start is.
-    ranged.start = Some(at(from.min(to)));
-    ranged.circuits = CircuitSelection::All;
+fn ranged_family(values: &[f64], template: &Arc<Template>, range_deg: [f64; 2]) -> Option<Family> {
     let names = template.parameters.iter().map(|parameter| parameter.name.clone());
     let given: Vec<(String, f64)> = names.zip(values.iter().copied()).collect();
-    Family::single_cell(Arc::new(ranged), &given, Sampling::Samples(180)).ok()
+    Family::single_cell(Arc::new(template.over(range_deg)), &given, Sampling::Samples(180)).ok()
 }

@@ -1,4 +1,4 @@
-//! The report as text.
+//! An inspection as text.
 
 use std::fmt::Write;
 
@@ -6,20 +6,20 @@ use coupler_curves::linkage::{DyadId, FourBar};
 use coupler_curves::motion::LinkRotation;
 use coupler_curves::solve::SolvedCell;
 
-use super::super::format::format_significant;
 use super::format::{describe_circuit, describe_load, describe_output, drive_word, format_point, input_unit};
+use super::inspection::Inspection;
 use super::pose::{Pose, instant_geometries};
 use super::ranges::Ranges;
-use super::{Report, cognates, equation, summary};
+use super::{cognates, equation, summary};
+use crate::format::format_significant;
 
 /// The greatest width of the column of joint names, in characters; longer names exceed it.
 const MAX_NAME_WIDTH: usize = 40;
 
-/// The report as text: class, limits, transmission angle and straight portion; then the details, a table for each pose
+/// The inspection as text: class, limits, transmission angle and straight portion; then the details, a table for each pose
 /// and the cognates.
-pub(super) fn text(report: &Report) -> String {
-    let Report { family, solved, input, poses, equations: (equations, with_coefficients), cognates, tolerance } =
-        report;
+pub(super) fn text(inspection: &Inspection) -> String {
+    let Inspection { family, solved, input, poses, equations, has_coefficients, cognates, tolerance } = inspection;
     let mut out = String::new();
     let values = family
         .names
@@ -50,7 +50,7 @@ pub(super) fn text(report: &Report) -> String {
     for (number, circuit) in (1..).zip(&solved.motion.circuits) {
         let _ = writeln!(out, "circuit {number}: {}", describe_circuit(&solved.linkage, circuit));
     }
-    equation::append_text(equations, *with_coefficients, &mut out);
+    equation::append_text(equations, *has_coefficients, &mut out);
     if let (Some(input), true) = (input, poses.is_empty()) {
         let (input, unit) = (format_significant(*input, 10), input_unit(&solved.linkage));
         let _ = writeln!(out, "at {input}{unit}: no circuit reaches this input");

@@ -6,8 +6,8 @@ use coupler_curves::linkage::{DoublePointKind, PlacedFourBar, Sextic, Symmetrica
 use coupler_curves::solve::SolvedCell;
 use serde::Serialize;
 
-use super::super::format::format_significant;
 use super::format::format_point;
+use crate::format::format_significant;
 
 /// The equation of one coupler curve.
 pub(super) struct Equation {

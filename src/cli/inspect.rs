@@ -1,31 +1,15 @@
 //! `inspect`: describes one linkage, as text, as JSON or as a drawing.
 
-mod cognate_set;
-mod cognates;
-mod equation;
-mod format;
-mod json;
-mod plate;
-mod pose;
-mod ranges;
-mod report;
-mod summary;
-mod text;
-mod tolerance;
-
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::{Args, ValueHint};
 use coupler_curves::family::{Family, ParameterText, Sampling};
-use coupler_curves::linkage::CircuitSelection;
-use coupler_curves::solve::Solver;
 
 use super::linkage::{self, DEFAULT_SAMPLES};
 use super::{Failure, Outcome, files, print, print_bytes};
-use pose::Pose;
-use report::Report;
-use tolerance::Tolerance;
+use crate::inspect::{Inspection, Options, parse_input};
+use crate::notation::Notation;
 
 /// Describe one linkage: its class, limits, transmission angle and straight portion; then its circuits, and the
 /// positions and velocities of its joints.
@@ -87,55 +71,39 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let printed = [("--json", arguments.json), ("--toml", arguments.toml), ("--sextic", arguments.sextic)];
     let is_drawing_printed = files::is_drawing_printed(arguments.svg.as_deref(), &printed)?;
     let mut template = linkage::find_template(&arguments.linkage, arguments.manifest.as_deref())?;
-    if let Some(text) = &arguments.load {
-        let load = template.parse_load(text);
-        let load = load.map_err(|error| Failure::input(format!("--load: {}: {error}", template.id)))?;
-        Arc::make_mut(&mut template).load = Some(load);
-    }
-    if let Some(tolerance) = arguments.tolerance {
-        tolerance::check(&template, tolerance)?;
-        Arc::make_mut(&mut template).tolerance = Some(tolerance);
-    }
+    let mut options = Options {
+        branch: arguments.branch.as_ref().map(|text| if text == "1" { 1 } else { -1 }),
+        load: arguments.load.clone(),
+        tolerance: arguments.tolerance,
+        sextic: arguments.sextic,
+        cognates: arguments.cognates.then_some(arguments.trace),
+        ..Options::new(Notation::CommandLine)
+    };
+    options.apply(&mut template).map_err(Failure::input)?;
     let given = |text: &String| {
         let parameter = ParameterText::parse(text).map_err(Failure::input)?;
         parameter.resolve(&template).map_err(|error| Failure::input(format!("{}: {error}", arguments.linkage)))
     };
     let given = arguments.parameters.iter().map(given).collect::<Result<Vec<_>, _>>()?;
     let is_length = template.is_driven_by_length();
-    let at = arguments.at.as_deref().map(|text| linkage::parse_input(text, is_length, "--at 30")).transpose()?;
-    if let (Some(at), Some(text)) = (at.filter(|at| !at.is_finite()), &arguments.at) {
+    let at = arguments.at.as_deref().map(|text| parse_input(text, is_length, "--at 30"));
+    options.at = at.transpose().map_err(Failure::input)?;
+    if let (Some(at), Some(text)) = (options.at.filter(|at| !at.is_finite()), &arguments.at) {
         return Err(Failure::input(format!("`{text}` is {at}: give a finite number, as in --at 30")));
-    }
-    let branch = arguments.branch.as_ref().map(|text| if text == "1" { 1 } else { -1 });
-    if branch.is_some() {
-        // The other branch may be on another circuit than that of the start.
-        Arc::make_mut(&mut template).circuits = CircuitSelection::All;
     }
     let family = Family::single_cell(Arc::clone(&template), &given, Sampling::Samples(DEFAULT_SAMPLES as usize))
         .map_err(|errors| Failure::inputs(&linkage::parameter_errors(&template, &errors)))?;
-    let Some(solved) = Solver::new(&family).solve(0) else {
-        return Err(Failure::input(format!("{}: there is no linkage with these parameters", arguments.linkage)));
-    };
-    let poses: Vec<Pose> = at.map(|at| pose::poses(&solved, at, branch)).unwrap_or_default();
-    let cognates =
-        arguments.cognates.then(|| cognates::find_cognates(&family.id, &solved, arguments.trace)).transpose()?;
-    let equations = (equation::coupler_equations(&solved), arguments.sextic);
-    if arguments.sextic && equations.0.is_empty() {
-        let message = format!("{} has no coupler curve of a four-bar, and so no sextic: leave --sextic out", family.id);
-        return Err(Failure::input(message));
-    }
-    let tolerance = solved.linkage.tolerance.and_then(|error| Tolerance::new(&family, &solved, error));
-    let report = Report { family: &family, solved: &solved, input: at, poses, equations, cognates, tolerance };
+    let inspection = Inspection::new(family, &options).map_err(Failure::input)?;
     if let Some(path) = &arguments.svg {
-        files::write(path, &plate::plate(&report, arguments.animate))?;
+        files::write(path, &inspection.svg(arguments.animate))?;
         if is_drawing_printed {
             return Ok(Outcome::Done);
         }
     }
-    match &report.cognates {
-        Some(cognate_set) if arguments.toml => print_bytes(cognates::manifest(&report, cognate_set).as_bytes())?,
-        _ if arguments.json => print_bytes(json::json(&report)?.as_bytes())?,
-        _ => print(&text::text(&report))?,
+    match inspection.cognates_manifest() {
+        Some(manifest) if arguments.toml => print_bytes(manifest.as_bytes())?,
+        _ if arguments.json => print_bytes(inspection.json()?.as_bytes())?,
+        _ => print(&inspection.text())?,
     }
     Ok(Outcome::Done)
 }

@@ -2,46 +2,52 @@
 
 use std::fmt::Write;
 
+use coupler_curves::family::Family;
 use coupler_curves::geometry::Point;
 use coupler_curves::linkage::{
     CircuitSelection, Cognate, CognateError, Cognates, DyadId, FourBar, JointId, Linkage, MotionOptions, PlacedFourBar,
 };
-use coupler_curves::motion::{Motion, Sampler, Sampling};
+use coupler_curves::motion::{Motion, Sampler};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 use coupler_drawing::page::{self, Panel};
 
-use super::super::Failure;
-use super::super::format::format_significant;
-use super::super::linkage::DEFAULT_SAMPLES;
 use super::cognate_set::{CognateMember, CognateSet};
 use super::format::{describe_circuit, format_point};
-use super::report::Report;
+use super::inspection::Inspection;
+use crate::format::format_significant;
+use crate::notation::Notation;
 
 /// Finds the cognates of a solved linkage; its coupler point is the `trace`-th traced joint, counted from 1.
 ///
 /// # Errors
 /// There is no such joint, the linkage is not a four-bar with a coupler point there, or a cognate cannot be assembled.
-pub(super) fn find_cognates(id: &str, solved: &SolvedCell, trace: usize) -> Result<CognateSet, Failure> {
+pub(super) fn find_cognates(
+    Family { id, sampling, .. }: &Family,
+    solved: &SolvedCell,
+    (notation, trace): (Notation, usize),
+) -> Result<CognateSet, String> {
+    let sampler = Sampler::new(*sampling);
     let traced = &solved.linkage.traced;
     let Some(&joint) = trace.checked_sub(1).and_then(|k| traced.get(k)) else {
-        return Err(Failure::input(format!("{id} traces {} joints: give --trace 1 to {0}", traced.len())));
+        let numbers = notation.with_value("trace", format!("1 to {}", traced.len()));
+        return Err(format!("{id} traces {} joints: give {numbers}", traced.len()));
     };
-    let input_error = |error: CognateError| Failure::input(format!("{id}: {error}; {}", error.help()));
+    let input_error = |error: CognateError| format!("{id}: {error}; {}", error.help());
     let placed = PlacedFourBar::from_linkage(&solved.linkage, joint).map_err(input_error)?;
     let cognates = Cognates::from_four_bar(placed).map_err(input_error)?;
     let assembled = Cognates::assemble(&solved.linkage, joint).map_err(input_error)?;
     let poses = four_bar_poses(solved);
     let motion_options = &solved.linkage.motion_options;
-    let member = |(name, cognate): (&'static str, Cognate)| -> Result<CognateMember, Failure> {
+    let member = |(name, cognate): (&'static str, Cognate)| -> Result<CognateMember, String> {
         let linkage = cognate
             .to_linkage(poses.iter().copied(), motion_options)
-            .map_err(|error| Failure::input(format!("{id}, {name}: {error}; {}", error.help())))?;
-        let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(DEFAULT_SAMPLES as usize)));
+            .map_err(|error| format!("{id}, {name}: {error}; {}", error.help()))?;
+        let motion = Motion::solve(&linkage, &sampler);
         Ok(CognateMember { name, cognate, class: cognate.four_bar.lengths.class(), linkage, motion })
     };
     let [original, first, second] = cognates.all();
     let linkages = [member(("original", original))?, member(("cognate 1", first))?, member(("cognate 2", second))?];
-    Ok(CognateSet { trace, cognates, linkages, assembled: with_motion(solved, assembled, joint) })
+    Ok(CognateSet { trace, cognates, linkages, assembled: with_motion(solved, assembled, joint, &sampler) })
 }
 
 /// The crank pivot, crank pin, rocker pin and rocker pivot at each sample of the first circuit.
@@ -53,27 +59,28 @@ fn four_bar_poses(solved: &SolvedCell) -> Vec<[Point; 4]> {
 }
 
 /// Solves the linkage assembled with its cognates; only the curve of `joint` is kept.
-fn with_motion(solved: &SolvedCell, assembled: Linkage, joint: JointId) -> SolvedCell {
+fn with_motion(solved: &SolvedCell, assembled: Linkage, joint: JointId, sampler: &Sampler) -> SolvedCell {
     let linkage = Linkage { traced: vec![joint], ..assembled };
-    let motion = Motion::solve(&linkage, &Sampler::new(Sampling::Samples(DEFAULT_SAMPLES as usize)));
+    let motion = Motion::solve(&linkage, sampler);
     let curves = solved.curves.iter().filter(|curve| curve.joint == joint).cloned();
     let curves = curves.map(|curve| MeasuredCurve { trace: 1, ..curve }).collect();
     SolvedCell { linkage, motion, curves, ..solved.clone() }
 }
 
 /// A panel that shows the three four-bars.
-pub(super) fn panel<'a>(report: &'a Report, cognate_set: &'a CognateSet) -> Panel<'a> {
+pub(super) fn panel<'a>(inspection: &'a Inspection, cognate_set: &'a CognateSet) -> Panel<'a> {
     let [_, first_cognate, second_cognate] = &cognate_set.linkages;
     let note = [(first_cognate, "green"), (second_cognate, "purple")].map(|(member, ink)| {
         let [frame, crank, coupler, rocker] =
             lengths(member.cognate.four_bar.lengths).map(|length| format_significant(length, 4));
         format!("{ink}, {}: frame {frame}, crank {crank}, coupler {coupler}, rocker {rocker}", member.class.name())
     });
-    let [caption, _] = report.family.format_captions(&report.solved.cell, report.solved.first_curve_values());
+    let [caption, _] =
+        inspection.family.format_captions(&inspection.solved.cell, inspection.solved.first_curve_values());
     Panel::new(&cognate_set.assembled)
         .with_caption(caption)
         .with_note(note.join(" · "))
-        .with_facts(page::cell_facts(report.family, report.solved))
+        .with_facts(page::cell_facts(&inspection.family, &inspection.solved))
 }
 
 fn lengths(FourBar { frame, crank, coupler, rocker }: FourBar) -> [f64; 4] {
@@ -106,9 +113,9 @@ pub(super) fn append_text(cognate_set: &CognateSet, out: &mut String) {
 }
 
 /// A manifest with a linkage and a family for each of the three four-bars.
-pub(super) fn manifest(report: &Report, cognate_set: &CognateSet) -> String {
-    let id = &report.family.id;
-    let values = report.family.names.iter().zip(&report.solved.cell.values);
+pub(super) fn manifest(inspection: &Inspection, cognate_set: &CognateSet) -> String {
+    let id = &inspection.family.id;
+    let values = inspection.family.names.iter().zip(&inspection.solved.cell.values);
     let values: Vec<String> = values.map(|(name, value)| format!("{name} = {value}")).collect();
     let mut out = format!(
         "# {id}, {}, and its cognates: three four-bars that trace the same curve.\n\n\

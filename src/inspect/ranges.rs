@@ -7,7 +7,7 @@ use coupler_curves::geometry::trig;
 use coupler_curves::linkage::{BranchArc, FourBar, InvertedSliderCrank, KinematicChain, Linkage, SixBar};
 use serde::Serialize;
 
-use super::super::format::format_significant;
+use crate::format::format_significant;
 
 /// The ranges of a linkage, in degrees and lengths.
 pub(super) struct Ranges {

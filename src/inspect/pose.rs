@@ -6,24 +6,24 @@ use coupler_curves::motion::{InstantaneousMotion, JointDerivatives, Pass};
 use coupler_curves::solve::SolvedCell;
 
 /// The linkage at one input, on one pass.
-pub(super) struct Pose<'a> {
+pub(super) struct Pose {
     /// The number of the circuit, from 1.
     pub circuit: usize,
-    pub pass: &'a Pass,
+    pub pass: Pass,
     /// The input, in the turn in which the pass has it.
     pub input: f64,
     pub jets: JointDerivatives,
 }
 
-impl Pose<'_> {
+impl Pose {
     /// The input torque against the load of its linkage, if it has one.
     pub fn torque(&self, solved: &SolvedCell) -> Option<f64> {
-        input_torque(&solved.linkage, self.pass, &self.jets)
+        input_torque(&solved.linkage, &self.pass, &self.jets)
     }
 }
 
 /// Every pose at an input, circuit by circuit; with `branch`, only those whose first dyad is on that side.
-pub(super) fn poses(solved: &SolvedCell, at: f64, branch: Option<i8>) -> Vec<Pose<'_>> {
+pub(super) fn poses(solved: &SolvedCell, at: f64, branch: Option<i8>) -> Vec<Pose> {
     let input = solved.linkage.input();
     let mut poses = Vec::new();
     for (number, circuit) in (1..).zip(&solved.motion.circuits) {
@@ -37,7 +37,7 @@ pub(super) fn poses(solved: &SolvedCell, at: f64, branch: Option<i8>) -> Vec<Pos
             let is_seam = circuit.is_closed && circuit.passes.len() == 1 && low + offset == high;
             if low + offset <= high && is_branch && !is_seam {
                 let jets = JointDerivatives::on_pass(&solved.linkage, pass, low + offset);
-                poses.push(Pose { circuit: number, pass, input: low + offset, jets });
+                poses.push(Pose { circuit: number, pass: pass.clone(), input: low + offset, jets });
             }
         }
     }

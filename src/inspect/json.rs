@@ -9,12 +9,11 @@ use coupler_curves::solve::MeasuredCurve;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::super::Failure;
 use super::cognate_set::{CognateMember, CognateSet};
 use super::equation::{self, EquationJson};
+use super::inspection::Inspection;
 use super::pose::{Pose, instant_geometries};
 use super::ranges::{ArcJson, Ranges, RockerLimitsJson, SliderJson};
-use super::report::Report;
 use super::tolerance::{Tolerance, ToleranceJson};
 
 /// The version of the format; docs/inspect.md describes it.
@@ -127,12 +126,12 @@ struct CognateJson<'a> {
     circuits: Vec<CircuitJson<'a>>,
 }
 
-/// The report as indented JSON.
+/// The inspection as indented JSON.
 ///
 /// # Errors
 /// None that can occur: the keys are strings.
-pub(super) fn json(report: &Report) -> Result<String, Failure> {
-    let Report { family, solved, .. } = report;
+pub(super) fn json(inspection: &Inspection) -> serde_json::Result<String> {
+    let Inspection { family, solved, .. } = inspection;
     let linkage = &solved.linkage;
     let ranges = Ranges::new(linkage);
     let document = Document {
@@ -155,10 +154,10 @@ pub(super) fn json(report: &Report) -> Result<String, Failure> {
         reason: solved.motion.assembly_error.as_ref().map(ToString::to_string),
         circuits: solved.motion.circuits.iter().map(|circuit| CircuitJson::new(linkage, circuit)).collect(),
         curves: solved.curves.iter().map(|curve| CurveJson::new(&solved.linkage, curve)).collect(),
-        poses: report.poses.iter().map(|pose| PoseJson::new(report, pose)).collect(),
-        equations: equation::json(&report.equations.0),
-        tolerance: report.tolerance.as_ref().map(Tolerance::json),
-        cognates: report.cognates.as_ref().map(CognatesJson::new),
+        poses: inspection.poses.iter().map(|pose| PoseJson::new(inspection, pose)).collect(),
+        equations: equation::json(&inspection.equations),
+        tolerance: inspection.tolerance.as_ref().map(Tolerance::json),
+        cognates: inspection.cognates.as_ref().map(CognatesJson::new),
     };
     Ok(serde_json::to_string_pretty(&document)? + "\n")
 }
@@ -205,8 +204,8 @@ impl CurveJson {
 }
 
 impl<'a> PoseJson<'a> {
-    fn new(report: &Report<'a>, pose: &'a Pose) -> PoseJson<'a> {
-        let (solved, jets) = (report.solved, &pose.jets);
+    fn new(inspection: &'a Inspection, pose: &'a Pose) -> PoseJson<'a> {
+        let (solved, jets) = (&inspection.solved, &pose.jets);
         let name = |joint: JointId| solved.linkage.joints[joint].name.as_str();
         let joint = |joint: JointId| JointJson {
             name: name(joint),

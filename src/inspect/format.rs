@@ -4,7 +4,7 @@ use coupler_curves::geometry::Point;
 use coupler_curves::linkage::{DyadId, Input, JointId, Linkage, OutputLink};
 use coupler_curves::motion::{Circuit, Pass};
 
-use super::super::format::format_significant;
+use crate::format::format_significant;
 
 /// "(1.5, -2)".
 pub(super) fn format_point(p: Point) -> String {

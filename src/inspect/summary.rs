@@ -6,8 +6,8 @@ use coupler_curves::measure::Measure;
 use coupler_curves::motion::Circuit;
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 
-use super::super::format::format_significant;
 use super::format::{drive_word, input_unit};
+use crate::format::format_significant;
 
 /// The number of circuits that are described one by one.
 const MAX_CIRCUITS: usize = 4;

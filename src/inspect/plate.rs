@@ -6,22 +6,23 @@ use coupler_drawing::page::{Options, PoseChoice};
 use coupler_drawing::plate::{self, PAPER, moving_view};
 use coupler_drawing::render::{self, TextMode};
 
-use super::{Report, cognates};
+use super::cognates;
+use super::inspection::Inspection;
 
 /// An SVG of the linkage: animated, in its pose at the requested input, or in the clearest pose.
-pub(super) fn plate(report: &Report, animate: bool) -> Vec<u8> {
-    let Report { family, poses, cognates, .. } = report;
-    let solved = cognates.as_ref().map_or(report.solved, |cognate_set| &cognate_set.assembled);
+pub(super) fn plate(inspection: &Inspection, animate: bool) -> Vec<u8> {
+    let Inspection { family, poses, cognates, .. } = inspection;
+    let solved = cognates.as_ref().map_or(&inspection.solved, |cognate_set| &cognate_set.assembled);
     let pose = match poses.first() {
         _ if animate => animated_pose(solved),
-        Some(pose) => PoseChoice::Fixed(motion::pose(&solved.linkage, pose.pass, pose.input)),
+        Some(pose) => PoseChoice::Fixed(motion::pose(&solved.linkage, &pose.pass, pose.input)),
         None => PoseChoice::Clearest,
     };
     let options = Options::for_paper(PAPER);
     let scene = match cognates {
         Some(cognate_set) => {
             let title = format!("{} and its cognates", family.title);
-            plate::compose_panel(family, &title, cognates::panel(report, cognate_set).with_pose(pose), &options)
+            plate::compose_panel(family, &title, cognates::panel(inspection, cognate_set).with_pose(pose), &options)
         }
         None => plate::compose_cell(family, solved, pose, &options),
     };

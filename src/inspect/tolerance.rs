@@ -7,8 +7,8 @@ use coupler_curves::solve::{CurveTolerance, SolvedCell, curve_tolerances};
 use coupler_curves::template::Template;
 use serde::Serialize;
 
-use super::super::Failure;
-use super::super::format::format_significant;
+use crate::format::format_significant;
+use crate::notation::Notation;
 
 /// The tolerances of all curves for an error of each length.
 pub(super) struct Tolerance {
@@ -53,13 +53,14 @@ struct LengthJson<'a> {
 ///
 /// # Errors
 /// It is not positive; the linkage is one whose lengths cannot be off by themselves.
-pub(super) fn check(template: &Template, error: f64) -> Result<(), Failure> {
+pub(super) fn check(template: &Template, error: f64, notation: Notation) -> Result<(), String> {
     if !(error > 0.0 && error.is_finite()) {
-        return Err(Failure::input(format!("--tolerance {error}: give a positive length, as in --tolerance 0.1")));
+        let [given, example] = [error, 0.1].map(|length| notation.with_value("tolerance", length));
+        return Err(format!("{given}: give a positive length, as in {example}"));
     }
     if template.lengths().is_none() {
         let what = "its joints are placed together, or on a grid, so that no length is off by itself";
-        return Err(Failure::input(format!("--tolerance: {}: {what}", template.id)));
+        return Err(format!("{}: {}: {what}", notation.name("tolerance"), template.id));
     }
     Ok(())
 }
