@@ -10,7 +10,7 @@ use coupler_drawing::scene::{Anchor, Item, Path, Polyline, Scene, Shape, Text, T
 use super::document;
 use crate::recorded::assert_recorded;
 
-const PAPER: Paper = Paper { width: 144.0, height: 94.0 };
+const PAPER: Paper = Paper { width: 144.0, height: 100.0 };
 const INPUT_DEG: f64 = 60.0;
 const ALONG: f64 = 1.2;
 const ACROSS: f64 = 1.8;
