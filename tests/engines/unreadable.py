@@ -27,7 +27,7 @@ title = "T"
 output = "out"
 formats = ["svg", "png", "pdf"]
 [page]
-paper = { width = "110 mm", height = "90 mm" }
+paper = { width = "110 mm", height = "100 mm" }
 dpi = 30
 theme = { fallback_face = "face.ttf" }
 [[linkage]]
