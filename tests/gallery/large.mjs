@@ -37,7 +37,8 @@ const tests = [
     "the overview loads no pieces",
     async ({ browser, atlas }) => {
       const gallery = await openGallery(browser, atlas.folder, "/");
-      await gallery.page.waitForSelector(".families .tile-picture > *");
+      const hasHead = () => gallery.requests.some((file) => file.endsWith("/gallery.js"));
+      await eventually(hasHead, "the family is loaded");
       await gallery.settled();
       assert.deepEqual(piecesOf(gallery), []);
       await gallery.close();
