@@ -52,15 +52,14 @@ struct LengthJson<'a> {
 /// Checks that the lengths of a linkage can be off by a length.
 ///
 /// # Errors
-/// It is not positive; the linkage is one whose lengths cannot be off by themselves.
+/// It is not positive; the linkage has a grid of points.
 pub(super) fn check(template: &Template, error: f64, notation: Notation) -> Result<(), String> {
     if !(error > 0.0 && error.is_finite()) {
         let [given, example] = [error, 0.1].map(|length| notation.with_value("tolerance", length));
         return Err(format!("{given}: give a positive length, as in {example}"));
     }
     if template.lengths().is_none() {
-        let what = "its joints are placed together, or on a grid, so that no length is off by itself";
-        return Err(format!("{}: {}: {what}", notation.name("tolerance"), template.id));
+        return Err(format!("{}: {}: {}", notation.name("tolerance"), template.id, Template::NO_LENGTHS));
     }
     Ok(())
 }

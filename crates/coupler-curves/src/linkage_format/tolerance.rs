@@ -22,8 +22,8 @@ pub fn parse_tolerance<'t>(value: &TomlValue<'t>, template: &Template, parser: &
         return None;
     }
     if template.lengths().is_none() {
-        let message = format!("`{}` has no lengths that are off by themselves", template.id);
-        let help = "its joints are placed together, or on a grid of points: leave `tolerance` out";
+        let message = format!("`{}`: {}", template.id, Template::NO_LENGTHS);
+        let help = "leave `tolerance` out, or trace one point of the grid";
         parser.report(Problem::error(value.span(), message).with_help(help));
         return None;
     }

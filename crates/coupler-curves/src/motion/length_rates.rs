@@ -1,6 +1,6 @@
 //! How a pose changes where lengths of its linkage are off.
 //!
-//! Each joint satisfies two equations with the joints before it and the input. Differentiated by a length, they are one fewer than the unknowns, the
+//! Each joint satisfies two equations with the joints before it and the input, those of a group as many together. Differentiated by a length, they are one fewer than the unknowns, the
 //! changes of all positions and of the input: these are known up to a part of the motion of the linkage. The least solution is taken, which is defined at
 //! limits of the input, too, where the linkage that is off has no pose at the same input.
 
@@ -13,7 +13,7 @@ use super::joint_series::{SeriesInput, place_joint_as_series};
 use super::pass::InputPosition;
 use super::series::{Series, VectorSeries};
 use crate::geometry::{Point, Vector, cross};
-use crate::linkage::{AssemblyMode, DyadId, Input, JointId, JointKind, LineDirection, Linkage};
+use crate::linkage::{AssemblyMode, Closure, DyadId, Input, JointId, JointKind, LineDirection, Linkage};
 
 /// Linkages that differ from one in a single length each.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,7 +53,7 @@ struct PoseRate {
 }
 
 impl LengthRates {
-    /// The derivatives in a pose, which is given by the positions of all joints, its input and its assembly mode; `None` of a linkage with a group, and at
+    /// The derivatives in a pose, which is given by the positions of all joints, its input and its assembly mode; `None` at
     /// a change point, where they are not defined.
     pub fn new(
         linkage: &Linkage,
@@ -75,11 +75,10 @@ impl LengthRates {
         };
         let count = 2 * at.len();
         let mut rates: Vec<Rate> = at.iter().map(|place| Rate::constant(place.coords)).collect();
-        let of_input: Vec<[Series<f64, 2>; 2]> =
-            (0..at.len()).map(|joint| pose.value(linkage, joint, rates[joint], &rates)).collect::<Option<_>>()?;
+        let of_input = pose.values(linkage, 0, &rates, &rates);
         // The transpose of the equations' derivatives, and a column of zeros.
         let mut transpose = DMatrix::zeros(count + 1, count + 1);
-        for (row, value) in of_input.iter().flatten().enumerate() {
+        for (row, value) in of_input.iter().enumerate() {
             transpose[(count, row)] = value.0[1] / arc;
         }
         for unknown in 0..count {
@@ -89,11 +88,9 @@ impl LengthRates {
                 (if unknown % 2 == 0 { &mut place.x } else { &mut place.y }).0[1] = rate;
             };
             seed(&mut rates, 1.0);
-            for later in joint..at.len() {
-                let value = pose.value(linkage, later, rates[later], &rates)?;
-                for k in 0..2 {
-                    transpose[(unknown, 2 * later + k)] = value[k].0[1] - of_input[later][k].0[1];
-                }
+            let values = pose.values(linkage, joint, &rates, &rates);
+            for (row, value) in (count - values.len()..).zip(&values) {
+                transpose[(unknown, row)] = value.0[1] - of_input[row].0[1];
             }
             seed(&mut rates, 0.0);
         }
@@ -101,10 +98,9 @@ impl LengthRates {
         for (k, [low, high]) in neighbours.pairs.iter().enumerate() {
             let off = |neighbour: &Linkage| {
                 let (own, at) = pose.of_neighbour(linkage, neighbour, &rates);
-                (0..at.len()).map(|joint| pose.value(neighbour, joint, own[joint], &at)).collect::<Option<Vec<_>>>()
+                pose.values(neighbour, 0, &own, &at)
             };
-            let (low, high) = (off(low)?, off(high)?);
-            for (row, (low, high)) in low.iter().flatten().zip(high.iter().flatten()).enumerate() {
+            for (row, (low, high)) in off(low).iter().zip(off(high)).enumerate() {
                 errors[(row, k)] = (low.0[0] - high.0[0]) / (2.0 * neighbours.step);
             }
         }
@@ -214,9 +210,37 @@ impl Constraints {
         place_joint_as_series(kind, before, input, |dyad: DyadId| f64::from(self.mode.sign(dyad)))
     }
 
-    /// The values of a joint's equations, which are zero in the pose, and their derivatives by the input together with the rates of the positions. Where a root would place the joint, they are those that it solves; where no root
-    /// vanishes, the difference from the place itself. `None` for a joint of a group.
-    fn value(&self, linkage: &Linkage, joint: usize, own: Rate, at: &[Rate]) -> Option<[Series<f64, 2>; 2]> {
+    /// The values of equations, which are zero in the pose, and their derivatives by the input together with the rates of the positions: of the last of all
+    /// equations, without those of the joints before `first`, which do not depend on it. Those of the group are behind those of the joints.
+    fn values(&self, linkage: &Linkage, first: usize, own: &[Rate], at: &[Rate]) -> Vec<Series<f64, 2>> {
+        let of_joints = (first..at.len()).filter_map(|joint| self.of_joint(linkage, joint, own[joint], at)).flatten();
+        let closures = linkage.group.iter().flat_map(|group| &group.closures);
+        of_joints.chain(closures.flat_map(|closure| self.of_closure(closure, at))).collect()
+    }
+
+    /// The equations of what closes a loop of the group.
+    fn of_closure(&self, closure: &Closure, at: &[Rate]) -> Vec<Series<f64, 2>> {
+        let place = |joint: JointId| at[joint.index()];
+        let squared = |[a, b]: [JointId; 2]| place(b).minus(place(a)).norm_squared();
+        let constant = |value: f64| Series::constant(value);
+        match *closure {
+            Closure::Distance { joints, length } => vec![squared(joints) - constant(length * length)],
+            Closure::Driven { joints } => vec![squared(joints) - Series::variable(self.input.value).square()],
+            Closure::OnLink { joint, base: [p, q], along, across } => {
+                let link = place(q).minus(place(p));
+                let miss = place(joint).minus(place(p).moved(link, constant(along), constant(across)));
+                vec![miss.x, miss.y]
+            }
+            Closure::OnLine { joint, line: [p, q], length, offset } => {
+                let line = place(q).minus(place(p));
+                vec![line.cross(place(joint).minus(place(p))) - constant(offset * length)]
+            }
+        }
+    }
+
+    /// The equations of a joint. Where a root would place it, they are those that it solves; where no root vanishes, the difference from the place itself.
+    /// `None` of a joint of the group.
+    fn of_joint(&self, linkage: &Linkage, joint: usize, own: Rate, at: &[Rate]) -> Option<[Series<f64, 2>; 2]> {
         let distance =
             |from: JointId, length: Series<f64, 2>| own.minus(at[from.index()]).norm_squared() - length.square();
         let constant = |value: f64| Series::constant(value);

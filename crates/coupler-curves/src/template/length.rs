@@ -1,6 +1,6 @@
 //! The lengths that a linkage is built from: each is cut or bored once, and can be off by itself.
 
-use super::{Coordinate, Error, JointKindTemplate, Template};
+use super::{ClosureTemplate, Coordinate, Error, JointKindTemplate, Template};
 use crate::expression::{CompiledExpression, displayed_name, join_names};
 use crate::linkage::Linkage;
 use crate::motion::NeighbourLinkages;
@@ -21,17 +21,19 @@ enum LengthKind {
     From(usize),
     /// A coordinate, or an offset.
     Of(&'static str),
+    /// A coordinate along, or across, the line of two joints of a link that the joint closes.
+    On([usize; 2], &'static str),
 }
 
 impl Template {
-    /// The lengths of its links, and the coordinates of its fixed pivots from the first one. `None` of a linkage whose joints are placed together, or
-    /// that has a grid of points.
+    /// Why a linkage has no [`Template::lengths`].
+    pub const NO_LENGTHS: &'static str = "its points are on a grid, so that no length is off by itself";
+
+    /// The lengths of its links, and the coordinates of its fixed pivots from the first one. `None` of a linkage that
+    /// has a grid of points.
     pub fn lengths(&self) -> Option<Vec<LinkLength<'_>>> {
         let structure = self.structure().ok()?;
         let is_helper = |name: &str| structure.find_joint(name).is_some_and(|joint| structure.is_helper(joint));
-        if !self.closures.is_empty() {
-            return None;
-        }
         let mut lengths = Vec::new();
         let mut pivots = 0;
         for (joint, placed) in self.joints.iter().enumerate() {
@@ -74,23 +76,42 @@ impl Template {
                     add(of("along"), along);
                     add(of("across"), across);
                 }
-                JointKindTemplate::Fixed(_) | JointKindTemplate::Parallelogram { .. } => {}
-                JointKindTemplate::Grouped { .. } => return None,
+                // A joint of a group is at its place at the start; its lengths are those of the closures.
+                JointKindTemplate::Fixed(_)
+                | JointKindTemplate::Parallelogram { .. }
+                | JointKindTemplate::Grouped { .. } => {}
+            }
+        }
+        for closure in &self.closures {
+            let mut add =
+                |joint: &usize, kind, expression| lengths.push(LinkLength { joint: *joint, kind, expression });
+            match closure {
+                ClosureTemplate::Bar { joints: [from, joint], length } => add(joint, LengthKind::From(*from), length),
+                ClosureTemplate::Hold { joint, base, place: [along, across] } => {
+                    add(joint, LengthKind::On(*base, "along"), along);
+                    add(joint, LengthKind::On(*base, "across"), across);
+                }
+                ClosureTemplate::Guide { joint, offset, .. } => add(joint, LengthKind::Of("offset"), offset),
+                ClosureTemplate::Drive { .. } | ClosureTemplate::Start { .. } => {}
             }
         }
         Some(lengths)
     }
 
-    /// The name of one of its lengths: "AB", "M along".
+    /// The name of one of its lengths: "AB", "M along", "D across AB" of a joint that links hold.
     pub fn length_name(&self, length: &LinkLength) -> String {
         let name = self.joints[length.joint].name.as_str();
         match length.kind {
             LengthKind::From(other) => join_names(&[&self.joints[other].name, name]),
             LengthKind::Of(what) => format!("{} {what}", displayed_name(name)),
+            LengthKind::On(base, what) => {
+                let [from, to] = base.map(|joint| self.joints[joint].name.as_str());
+                format!("{} {what} {}", displayed_name(name), join_names(&[from, to]))
+            }
         }
     }
 
-    /// The linkages of a parameter set with an error in one length each: a part of the greatest length, as [`NeighbourLinkages::STEP`]. `None` where no length is off by itself, as of
+    /// The linkages of a parameter set with an error in one length each: a part of the greatest length, as [`NeighbourLinkages::STEP`]. `None` as
     /// [`Template::lengths`], and if one of them cannot be built.
     pub fn neighbours(&self, values: &[f64], part: f64) -> Option<NeighbourLinkages> {
         let lengths = self.lengths()?;

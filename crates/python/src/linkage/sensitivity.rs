@@ -3,6 +3,7 @@
 use coupler_curves::linkage::JointId;
 use coupler_curves::motion::{self, InputPosition, LengthRates, NeighbourLinkages, Pass};
 use coupler_curves::solve::{SolvedCell, curve_tolerances};
+use coupler_curves::template::Template;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -20,8 +21,7 @@ pub(super) fn neighbours(solution: &Solution, solved: &SolvedCell) -> PyResult<N
 }
 
 fn no_lengths(solution: &Solution) -> PyErr {
-    let why = "its joints are placed together, or on a grid, so that no length is off by itself";
-    LinkageError::new_err(format!("{}: {why}", solution.family.id))
+    LinkageError::new_err(format!("{}: {}", solution.family.id, Template::NO_LENGTHS))
 }
 
 /// The derivatives of the position of a joint at an input of a pass, by each length: x and y, NaN at a change point.

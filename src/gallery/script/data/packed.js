@@ -49,14 +49,19 @@ let unpackedPoints = new Uint16Array();
 export function unpackPoints(bytes, at, count) {
   if (unpackedPoints.length < 2 * count) unpackedPoints = new Uint16Array(4 * count);
   const points = unpackedPoints;
-  for (const axis of [0, 1]) {
-    let [a, b, c] = [0, 0, 0];
+  // Without destructuring: it would make hundreds of megabytes of arrays before the browser compiles this for many curves.
+  for (let axis = 0; axis < 2; axis += 1) {
+    let a = 0;
+    let b = 0;
+    let c = 0;
     for (let k = 0; k < count; k += 1) {
-      let [code, shift] = [bytes[at] & 127, 7];
-      for (; bytes[at++] > 127; shift += 7) code |= (bytes[at] & 127) << shift;
+      let code = bytes[at] & 127;
+      for (let shift = 7; bytes[at++] > 127; shift += 7) code |= (bytes[at] & 127) << shift;
       const value = 3 * (a - b) + c + ((code >> 1) ^ -(code & 1));
       points[2 * k + axis] = value;
-      [c, b, a] = k ? [b, a, value] : [value, value, value];
+      c = k ? b : value;
+      b = k ? a : value;
+      a = value;
     }
   }
   return points;
