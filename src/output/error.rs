@@ -108,6 +108,16 @@ pub enum Error {
     /// Linkages do not fit their pages at the scale that the manifest gives.
     #[error("{}", .0.iter().map(|problem| format!("{}: {}", problem.message, problem.help)).collect::<Vec<_>>().join("\n"))]
     Misfits(Vec<Problem>),
+    /// A family has no page with a number.
+    #[error("`{family}` has no page {number}: {}", pages_that_there_are(*count))]
+    NoSuchPage {
+        /// The family's id.
+        family: String,
+        /// The number, counted from 1.
+        number: usize,
+        /// The number of its pages.
+        count: usize,
+    },
     /// Another run is in progress.
     #[error("another run is writing to {}: wait until it ends, or name another folder with -o", folder.display())]
     Busy {
@@ -129,6 +139,7 @@ impl Error {
             | Error::OtherManifest { .. }
             | Error::ForeignFile { .. }
             | Error::Misfits(_)
+            | Error::NoSuchPage { .. }
             | Error::TooManyFiles { .. } => true,
             _ => false,
         }
@@ -143,6 +154,15 @@ pub fn is_wrong_input(error: &io::Error) -> bool {
         matches!(kind, NotFound | NotADirectory | IsADirectory | InvalidFilename)
     };
     error.raw_os_error().is_none() || is_name(error.kind())
+}
+
+/// The numbers of the pages of a family that has so many.
+fn pages_that_there_are(count: usize) -> String {
+    match count {
+        0 => "it has none, since `where` keeps no cell".to_owned(),
+        1 => "its only page is 1".to_owned(),
+        count => format!("its pages are numbered from 1 to {count}"),
+    }
 }
 
 /// What to do about a record that cannot be read, and of which a part is needed.

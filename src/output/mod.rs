@@ -2,6 +2,7 @@
 
 #[cfg(feature = "pdf")]
 mod book;
+mod composed_page;
 mod error;
 mod family;
 mod family_writer;
@@ -21,6 +22,7 @@ mod survey;
 mod table_file;
 mod temporary;
 
+pub use composed_page::ComposedPage;
 pub use error::{Error, is_wrong_input};
 pub(crate) use files::{AtomicFile, open_regular};
 pub use files::{create_folder, read_bytes, read_text, write as write_file, write_new};
@@ -29,6 +31,8 @@ pub use options::{Event, Options};
 pub use page_shard::{DrawnPages, PageShard, PageShardSource, has_atlas_of, page_shards, write_page_shard};
 pub(crate) use temporary::remove as remove_temporary;
 pub use temporary::take_leftovers;
+
+pub use crate::pipeline::{cells_solved_for_page, known_page_count};
 
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};

@@ -6,11 +6,13 @@ use super::registry::FileRegistry;
 use super::survey::{CellSurvey, Surveyor};
 use super::{Error, check_interrupt};
 use crate::gallery::{CellData, FamilyScript};
+use crate::manifest::Plan;
 use crate::pipeline::{Composer, PageJob, Sink, page_file_name};
 use crate::record::{CellTable, FileRecord};
 use coupler_curves::exchange::PointTable;
 use coupler_curves::solve::{SolvedCell, Status};
 use coupler_drawing::render::{self, PageFormat};
+use coupler_drawing::scene::Scene;
 
 /// The files of a page, one for each format.
 pub(super) struct PageFiles {
@@ -96,10 +98,7 @@ impl Sink for OutputSink<'_> {
             return Ok(PageFiles { files: Vec::new(), is_drawn: false, gallery_data: String::new() });
         }
         let page = job.number;
-        let scene = job.compose();
-        if scene.reduced_scale.is_some() {
-            return Err(Error::Misfits(Vec::new()));
-        }
+        let scene = composed(job)?;
         let gallery_data = self.script.page(page, &scene);
         if unchanged.iter().all(Option::is_some) {
             return Ok(PageFiles { files: unchanged.into_iter().flatten().collect(), is_drawn: false, gallery_data });
@@ -113,7 +112,7 @@ impl Sink for OutputSink<'_> {
             }
             (None, PageFormat::Png) => {
                 let drawn_from = FileRecord::drawing_digest(&svg, plan.dpi);
-                let png = render::png(&scene, plan.dpi).map_err(|error| Error::Image { name: name.clone(), error })?;
+                let png = draw_png(&scene, plan, &name)?;
                 self.registry.write_file(FileRecord::from_image(name, drawn_from, &png).with_inputs(inputs), &png)
             }
         };
@@ -127,4 +126,24 @@ impl Sink for OutputSink<'_> {
         let pixels = plan.page.paper.width * plan.page.paper.height * (plan.dpi / 25.4) * (plan.dpi / 25.4);
         if self.formats.contains(&PageFormat::Png) { 4 * pixels as usize } else { 0 }
     }
+}
+
+/// Composes a page.
+///
+/// # Errors
+/// Its linkages do not fit it at the scale that the manifest gives; [`super::scale::explain`] says what to do.
+pub(super) fn composed(job: PageJob) -> Result<Scene, Error> {
+    let scene = job.compose();
+    match scene.reduced_scale {
+        Some(_) => Err(Error::Misfits(Vec::new())),
+        None => Ok(scene),
+    }
+}
+
+/// A page as an image; `name` is that of its file.
+///
+/// # Errors
+/// It cannot be drawn, as where it has too many pixels.
+pub(super) fn draw_png(scene: &Scene, plan: &Plan, name: &str) -> Result<Vec<u8>, Error> {
+    render::png(scene, plan.dpi).map_err(|error| Error::Image { name: name.to_owned(), error })
 }

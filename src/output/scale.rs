@@ -173,4 +173,4 @@ impl Sink for FittingScale<'_> {
 }
 
 /// A page before it is rendered, with its paths.
-const BYTES_PER_SCENE: usize = 4_000_000;
+pub(super) const BYTES_PER_SCENE: usize = 4_000_000;

@@ -15,7 +15,7 @@ pub use composer::Composer;
 #[cfg(feature = "pdf")]
 pub use composer::curves_by_page;
 pub use inputs::Inputs;
-pub use pagination::{Pagination, measures_used_on_pages};
+pub use pagination::{Pagination, cells_solved_for_page, known_page_count, measures_used_on_pages};
 
 use std::ops::Range;
 use std::sync::atomic::AtomicBool;
@@ -177,8 +177,7 @@ type GroupOutput<S> = (Option<<S as Sink>::CellsOutput>, Vec<<S as Sink>::PageOu
 impl<'a> FamilyPipeline<'a> {
     /// Prepares the pipeline of a family; `None` if `stop` becomes true while its cells are selected.
     pub fn new(plan: &'a Plan, planned: &'a PlannedFamily, stop: &AtomicBool) -> Option<FamilyPipeline<'a>> {
-        let counts_points = planned.layout == Layout::CouplerGrid;
-        let arrangement = sweep::select_cells(&planned.family, counts_points, stop)?;
+        let arrangement = sweep::select_cells(&planned.family, pagination::counts_points(planned), stop)?;
         let pagination = Pagination::new(planned, &arrangement);
         let composer = Composer::new(plan, planned, pagination.page_count);
         Some(FamilyPipeline { composer, arrangement, pagination })

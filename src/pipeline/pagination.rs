@@ -1,7 +1,7 @@
 //! Distributes the cells of a family over pages.
 
 use crate::manifest::PlannedFamily;
-use crate::sweep::CellSelection;
+use crate::sweep::{self, CellIndices, CellSelection};
 use coupler_curves::measure::MeasureSet;
 use coupler_drawing::page::Layout;
 
@@ -9,6 +9,26 @@ use coupler_drawing::page::Layout;
 pub fn measures_used_on_pages(planned: &PlannedFamily) -> MeasureSet {
     let family = &planned.family;
     (planned.layout.measures() | family.selection_measures() | family.caption_measures()) & family.measures
+}
+
+/// Whether a cell may have several pages, so that its traced points are counted.
+pub(super) fn counts_points(planned: &PlannedFamily) -> bool {
+    planned.layout == Layout::CouplerGrid
+}
+
+/// The number of cells of a family that are solved for a single page: those on the page, or all where `where`, `sort` or a coupler grid select cells
+/// by their curves, or charts show them, which solve further ones between them.
+pub fn cells_solved_for_page(planned: &PlannedFamily) -> usize {
+    let all = planned.family.cell_count();
+    let has_all = planned.chart.is_some() || sweep::selects_by_solving(&planned.family, counts_points(planned));
+    if has_all { all } else { all.min(planned.layout.cells_per_page()) }
+}
+
+/// The number of pages of a family if no cell has to be solved to know it.
+pub fn known_page_count(planned: &PlannedFamily) -> Option<usize> {
+    let is_known = !sweep::selects_by_solving(&planned.family, counts_points(planned));
+    let kept = CellIndices::Range(0..planned.family.cell_count());
+    is_known.then(|| Pagination::new(planned, &CellSelection { kept, ..CellSelection::default() }).page_count)
 }
 
 /// How the cells of a family are distributed over pages.

@@ -5,6 +5,7 @@ use coupler_curves::family::Family;
 use coupler_curves::measure::{self, Measure, MeasureSet};
 
 use super::Error;
+use super::direction::has_worst_first;
 use crate::manifest::{Plan, PlannedFamily};
 
 /// By what the curves of a family are the best.
@@ -84,21 +85,24 @@ pub(super) fn compile(planned: &PlannedFamily, text: &str) -> Result<CompiledExp
     }
 }
 
-/// Checks that an expression is not the bare name of a measure of which more is better: it would have the worst first, where
+/// Checks that an expression that grows with a measure of which more is better begins with a sign: it would have the worst first, where
 /// earlier versions had the best.
 ///
 /// # Errors
-/// It is.
+/// It does not.
 pub(super) fn check_direction(by: &str) -> Result<(), Error> {
-    match Measure::find(by) {
-        Some(measure) if measure.is_more_better => Err(Error::by(
-            by,
-            format!(
-                "it runs as `sort` now, the least value first: write `--by -{by}` for the greatest, or `--by +{by}` for the least"
-            ),
-        )),
-        _ => Ok(()),
+    if !has_worst_first(by) {
+        return Ok(());
     }
+    let with_sign = |sign: char| match Measure::find(by) {
+        Some(_) => format!("--by {sign}{by}"),
+        None => format!("--by \"{sign}({by})\""),
+    };
+    let [minus, plus] = ['-', '+'].map(with_sign);
+    let message = format!(
+        "it runs as `sort` now, the least value first: write `{minus}` for the greatest, or `{plus}` for the least"
+    );
+    Err(Error::by(by, message))
 }
 
 /// Whether an expression has one value for all joints that are traced on a circuit.

@@ -7,6 +7,7 @@
 mod best;
 mod best_manifest;
 mod columns;
+mod direction;
 mod error;
 mod expression;
 mod folder;

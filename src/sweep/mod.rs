@@ -60,6 +60,11 @@ impl CellSelection {
 /// The number of cells that are ranked before their ranks are stored, to bound the memory of a selection.
 const CELLS_PER_BLOCK: usize = 1 << 14;
 
+/// Whether [`select_cells`] has to solve cells.
+pub fn selects_by_solving(family: &Family, counts_points: bool) -> bool {
+    family.filter.is_some() || family.sort.is_some() || counts_points
+}
+
 /// Selects the cells that are shown; `None` if `stop` becomes true. The cells are solved only if `where`, `sort` or
 /// `counts_points` require it.
 ///
@@ -67,7 +72,7 @@ const CELLS_PER_BLOCK: usize = 1 << 14;
 /// each that is sorted.
 pub fn select_cells(family: &Family, counts_points: bool, stop: &AtomicBool) -> Option<CellSelection> {
     let count = family.cell_count();
-    if family.filter.is_none() && family.sort.is_none() && !counts_points {
+    if !selects_by_solving(family, counts_points) {
         return Some(CellSelection { kept: CellIndices::Range(0..count), ..CellSelection::default() });
     }
     struct RankedCell {

@@ -13,6 +13,7 @@ mod check;
 mod command_line;
 mod complete_manifests;
 mod completions;
+mod composed_pages;
 mod conditions;
 mod corpus;
 mod coupler_grid;

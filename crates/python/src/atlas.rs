@@ -4,20 +4,21 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use coupler_atlas::import;
-use coupler_atlas::manifest::{self, PlannedFamily};
+use coupler_atlas::manifest::PlannedFamily;
 use coupler_curves::problem::suggestion;
 use pyo3::exceptions::{PyIndexError, PyKeyError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyIterator};
 
-use crate::argument::{Index, position, toml_text};
+use crate::argument::{Index, natural, position, toml_text};
 use crate::error::Error;
 use crate::file::read_text;
 use crate::html;
 use crate::linkage::into_object;
 use crate::manifest::{Manifest, PickledSource, Source};
+use crate::overview;
+use crate::page::Page;
 use crate::reduce::{Reduced, Remake, reduced};
-use crate::task;
 
 /// A manifest as an argument: its path, or an atlas that has been read.
 pub enum ManifestArgument<'py> {
@@ -51,11 +52,7 @@ impl ManifestArgument<'_> {
 
     /// The manifest, for pages of all its cells.
     pub fn read(&self, py: Python) -> PyResult<Manifest> {
-        let source = self.source(py)?;
-        let Source { path, text, .. } = source.clone();
-        let outcome =
-            task::run_with(py, None, move |_| manifest::parse_with_files(&source.text, Some(&source.files())))?;
-        Manifest::from_outcome(py, path, text, outcome)
+        Manifest::for_pages(py, self.source(py)?)?.warned(py)
     }
 
     /// The manifest, for tables of all its cells.
@@ -155,24 +152,11 @@ impl Atlas {
         reduced::<Atlas>(py, self.manifest.source().pickled())
     }
 
-    /// A table of its families, with the plate of the first linkage of each that can be assembled.
+    /// A table of its families, with the first page of each, see [`overview`].
     fn _repr_html_(&self, py: Python) -> PyResult<String> {
-        /// The most pictures, how many linkages are tried for each, and the most bytes of all.
-        const SHOWN: [usize; 3] = [12, 4, 1_500_000];
-        let (mut rows, mut bytes) = (String::new(), 0);
-        for (index, planned) in self.manifest.plan.families.iter().enumerate() {
-            let PlannedFamily { family, .. } = planned;
-            let mut plate = String::new();
-            if index < SHOWN[0] && bytes < SHOWN[2] {
-                plate = self.family(index).pictures(py, [1, SHOWN[1]], 120)?;
-                bytes += plate.len();
-            }
-            let count = family.cell_count().to_string();
-            rows += &html::row("td", &[&family.id, &family.title, &family.template.id, &count])
-                .replace("</tr>", &format!("<td>{plate}</td></tr>"));
-        }
-        let head = html::row("th", &["family", "title", "linkage", "cells", ""]);
-        Ok(format!("<table><caption>{}</caption>{head}{rows}</table>", html::escaped(&self.manifest.plan.title)))
+        /// The linkages that are tried for a plate of a family, and the pixels across it.
+        const PLATE: [usize; 2] = [4, 120];
+        overview::html(py, &self.manifest, |index| self.family(index).pictures(py, [1, PLATE[0]], PLATE[1]))
     }
 
     fn __repr__(&self) -> String {
@@ -267,6 +251,13 @@ impl Family {
                 self.id()
             ))),
         }
+    }
+
+    /// One of its pages by its number, which is counted from 1, as in file names: the bytes that ``render`` writes. Of a family with ``where``,
+    /// ``sort``, a coupler grid or charts all cells are solved for it.
+    fn page(&self, py: Python, number: i64) -> PyResult<Page> {
+        let number = natural("number", number)?;
+        Page::new(py, Manifest::for_pages(py, self.manifest.source())?.manifest, self.index, number)
     }
 
     /// The number of cells, those that `where` leaves out included.

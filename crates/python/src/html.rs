@@ -5,9 +5,14 @@ pub fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// A row of a table, of cells `td` or `th`.
+/// A row of a table, of cells `td` or `th` with these texts.
 pub fn row(cell: &str, texts: &[&str]) -> String {
-    let cells: String = texts.iter().map(|text| format!("<{cell}>{}</{cell}>", escaped(text))).collect();
+    row_of(cell, texts.iter().map(|text| escaped(text)))
+}
+
+/// The same with what is HTML already.
+pub fn row_of(cell: &str, contents: impl Iterator<Item = String>) -> String {
+    let cells: String = contents.map(|content| format!("<{cell}>{content}</{cell}>")).collect();
     format!("<tr>{cells}</tr>")
 }
 

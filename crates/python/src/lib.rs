@@ -18,6 +18,10 @@ mod linkage;
 mod manifest;
 mod results;
 
+mod page;
+
+mod overview;
+
 mod atlas;
 
 mod arrow;
@@ -74,6 +78,7 @@ classes!(
     atlas::Atlas,
     atlas::Family,
     atlas::Cells,
+    page::Page,
     sweep::Sweep,
     arrow::Batch,
     find::Found,

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use coupler_atlas::manifest::{self, ParseOutcome, Plan, PlannedFamily};
 use coupler_atlas::manifest_files::{KnownTable, ManifestFiles};
 use coupler_curves::family::Family;
-use coupler_curves::problem::suggestion;
+use coupler_curves::problem::{Problem, suggestion};
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 
@@ -64,6 +64,21 @@ impl Source {
     }
 }
 
+/// A manifest that can be used, and what is to be warned of.
+pub struct ReadManifest {
+    pub manifest: Manifest,
+    pub problems: Vec<Problem>,
+}
+
+impl ReadManifest {
+    /// The manifest, after its warnings.
+    pub fn warned(self, py: Python) -> PyResult<Manifest> {
+        let ReadManifest { manifest, problems } = self;
+        error::warn(py, &manifest.path, &manifest.text, &problems)?;
+        Ok(manifest)
+    }
+}
+
 impl Manifest {
     /// A manifest for tables of some cells, see [`manifest::parse_for_tables`].
     pub fn for_tables(
@@ -74,16 +89,22 @@ impl Manifest {
         let Source { path, text, .. } = source.clone();
         let outcome =
             task::run_with(py, None, move |_| manifest::parse_for_tables(&source.text, Some(&source.files()), &cells))?;
+        Manifest::from_outcome(py, path, text, outcome)?.warned(py)
+    }
+
+    /// A manifest for pages of all its cells.
+    pub fn for_pages(py: Python, source: Source) -> PyResult<ReadManifest> {
+        let Source { path, text, .. } = source.clone();
+        let outcome =
+            task::run_with(py, None, move |_| manifest::parse_with_files(&source.text, Some(&source.files())))?;
         Manifest::from_outcome(py, path, text, outcome)
     }
 
-    pub fn from_outcome(py: Python, path: PathBuf, text: Arc<str>, outcome: ParseOutcome) -> PyResult<Manifest> {
-        match outcome.plan {
-            Some(plan) => {
-                error::warn(py, &path, &text, &outcome.problems)?;
-                Ok(Manifest { path, text, plan: Arc::new(plan) })
-            }
-            None => Err(error::manifest_error(py, &path, &text, &outcome.problems)),
+    fn from_outcome(py: Python, path: PathBuf, text: Arc<str>, outcome: ParseOutcome) -> PyResult<ReadManifest> {
+        let ParseOutcome { plan, problems } = outcome;
+        match plan {
+            Some(plan) => Ok(ReadManifest { manifest: Manifest { path, text, plan: Arc::new(plan) }, problems }),
+            None => Err(error::manifest_error(py, &path, &text, &problems)),
         }
     }
 

@@ -21,7 +21,7 @@ sampling = { samples = 36 }
 where = "is_crank_rocker"
 columns = ["psi_deg", "speed"]
 let = { crank = 1 }
-grid = { frame = { from = 2, to = 5, count = 8 }, coupler = { from = 2, to = 5, count = 5 }, rocker = { from = 2, to = 5, count = 5 }, along = [0, 1], across = [0, 1] }
+grid = { frame = { from = 2, to = 5, count = 4 }, coupler = { from = 2, to = 5, count = 5 }, rocker = { from = 2, to = 5, count = 5 }, along = [0, 1], across = [0, 1] }
 [[family]]
 id = "watt"
 linkage = "watt"

@@ -11,6 +11,7 @@ import pytest
 
 import coupler_atlas as ca
 
+from conftest import SMALL
 from test_sweep import MANY, command
 
 
@@ -106,7 +107,7 @@ def test_cases_in_a_file_are_read_beside_the_manifest_and_pickled(manifest) -> N
 def test_a_manifest_too_large_to_draw_can_be_read_and_swept(manifest) -> None:
     path = manifest(MANY)
     atlas = ca.read(path)
-    assert len(atlas["many"]) == 8_000_000 and atlas["many"].cell(7_999_999).curve().shape == (360, 2)
+    assert len(atlas["many"]) == 1_120_000 and atlas["many"].cell(1_119_999).curve().shape == (360, 2)
     with pytest.raises(ca.ManifestError, match="files of pages"):
         ca.render(atlas, path.parent / "pages")
 
@@ -136,7 +137,8 @@ def test_warnings_are_warnings(manifest) -> None:
 
 
 def test_an_atlas_is_rendered_checked_and_found_changed(manifest, tmp_path) -> None:
-    path = manifest()
+    # Some pages are enough.
+    path = manifest(SMALL.replace("count = 4", "count = 2").replace("count = 5", "count = 3"))
     calls = []
     rendering = ca.render(path, tmp_path / "here", progress=lambda *call: calls.append(call))
     command("render", path, "-o", tmp_path / "there", "--quiet")

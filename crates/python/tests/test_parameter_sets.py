@@ -113,7 +113,7 @@ def test_a_manifest_is_parsed_in_memory(root) -> None:
     assert parsed == ca.read(root / "atlas.toml") and parsed.keys() == of_dict.keys()
     assert np.array_equal(of_dict["evans"][0].curve(), parsed["evans"][0].curve())
     small = ca.parse({"atlas": {"title": 'A "T"'}, "family": [{"id": "e", "linkage": "evans", "grid": {"p": np.array([2, 3]), "a": [2, 2.6]}}]})
-    assert len(small["e"]) == 4 and small.title == 'A "T"' and "<td>evans</td><td>4</td><td><img " in small._repr_html_()
+    assert len(small["e"]) == 4 and small.title == 'A "T"' and "<td>evans</td><td>4</td><td>1</td><td><img " in small._repr_html_()
     assert small["e"]._repr_html_().count("<img ") == 4
     with pytest.raises(ca.ManifestError, match="manifest.toml:5:13"):
         ca.parse({"atlas": {"title": "T"}, "family": [{"id": "e", "linkage": "evnas", "grid": {"p": [2]}}]})

@@ -89,6 +89,7 @@ def examples(tmp_path_factory: pytest.TempPathFactory) -> dict[str, list[Any]]:
         "Inspection": [ca.inspect(bar(), at=30), ca.inspect(bar(), cognates=True)],
         "Atlas": [atlas],
         "Family": [atlas["sliders"]],
+        "Page": [atlas["sliders"].page(1)],
         "Cells": [cells, reversed(atlas["sliders"])],
         "Sweep": [sweep, ca.sweep(atlas, points=True, cells=(2, 3))],
         "Batch": [*sweep.batches(), *ca.sweep(atlas, measures=["class", "length", "mu_worst_deg"]).batches()],

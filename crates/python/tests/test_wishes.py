@@ -68,15 +68,15 @@ def test_designs_are_those_of_the_command() -> None:
 def test_designs_are_an_atlas_and_a_table(tmp_path) -> None:
     goals = ["mu_worst_deg", "time_ratio"]
     swing = "is_crank_rocker and output_swing_deg == 60 +- 2"
-    ranges = {"crank": (10, 40), "coupler": "60..160 by 5", "rocker": (50, 150, 5)}
+    ranges = {"crank": (10, 40), "coupler": "80..120 by 20", "rocker": (60, 100, 20)}
     designs = ca.design("four-bar", where=swing, maximize=goals, fix={"frame": 100}, ranges=ranges, effort="quick", best=3)
-    texts = ["--range", "crank = 10..40", "--range", "coupler = 60..160 by 5", "--range", "rocker = 50..150 by 5", "--fix", "frame = 100"]
+    texts = ["--range", "crank = 10..40", "--range", "coupler = 80..120 by 20", "--range", "rocker = 60..100 by 20", "--fix", "frame = 100"]
     both = [part for goal in goals for part in ("--maximize", goal)]
     printed = command("design", "four-bar", "--where", swing, *both, *texts, "--effort", "quick", "--best", "3")
     assert complete(designs.records()) == complete(printed["designs"]) and len(designs) > 1
     for design in designs:
         own = design.parameters
-        assert own["frame"] == 100 and 10 <= own["crank"] <= 40 and own["coupler"] % 5 == 0 and own["rocker"] % 5 == 0
+        assert own["frame"] == 100 and 10 <= own["crank"] <= 40 and own["coupler"] % 20 == 0 and own["rocker"] % 20 == 0
         assert design.wishes == pytest.approx({"is_crank_rocker": True, "output_swing_deg": 60}, abs=2)
     first, second = (design.goals for design in designs[:2])
     assert (first["mu_worst_deg"] - second["mu_worst_deg"]) * (first["time_ratio"] - second["time_ratio"]) < 0
@@ -91,10 +91,15 @@ def test_designs_are_an_atlas_and_a_table(tmp_path) -> None:
 
 def test_what_cannot_be_met_says_what_it_comes_to() -> None:
     none = ca.design("four-bar", where=SWING, effort="quick")
-    printed = command("design", "four-bar", "--where", SWING, "--effort", "quick", code=2)
-    assert len(none) == 0 and none.records() == [] and list(none.misses) == [miss["wish"] for miss in printed["misses"]]
+    assert len(none) == 0 and none.records() == [] and list(none.misses) == ["output_swing_deg = 110", "mu_worst_deg ≥ 50"]
+    # The command says the same, of a slider-crank, whose search is short.
+    stroke = "output_stroke == 100 and mu_worst_deg >= 89"
+    sliders = ca.design("slider-crank", where=stroke, fix={"offset": 0, "along": 0, "across": 0}, ranges={"coupler": (100, 300)}, effort="quick")
+    fixed = [part for name in ("offset", "along", "across") for part in ("--fix", f"{name} = 0")]
+    printed = command("design", "slider-crank", "--where", stroke, *fixed, "--range", "coupler = 100..300", "--effort", "quick", code=2)
+    assert len(printed["misses"]) > 0 and list(sliders.misses) == [miss["wish"] for miss in printed["misses"]]
     for miss in printed["misses"]:
-        assert none.misses[miss["wish"]].parameters == miss["design"]["parameters"]
+        assert sliders.misses[miss["wish"]].parameters == miss["design"]["parameters"]
     nearest = none.misses["mu_worst_deg ≥ 50"]
     assert nearest.wishes["output_swing_deg"] == pytest.approx(110, rel=1e-4) and 30 < nearest.wishes["mu_worst_deg"] < 36
     assert "nearest without" in repr(none) and none._repr_svg_() is None and "No linkage" in none.toml()

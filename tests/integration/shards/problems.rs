@@ -123,6 +123,10 @@ fn wrong_options_are_explained() {
             "--by: `straight_length`: it runs as `sort` now, the least value first: write `--by -straight_length` for the greatest, or `--by \
              +straight_length` for the least",
         ),
+        (
+            &["--top", "3", "--by", " straight_length / 2 + mu_min_deg"],
+            "write `--by \"-(straight_length / 2 + mu_min_deg)\"` for the greatest, or `--by \"+(straight_length / 2 + mu_min_deg)\"` for the least",
+        ),
         (&["--top", "0", "--by", "length"], "0 is not in 1..=1000000"),
         (&["--top", "3", "--by", "lenght"], "--by: `lenght`: unknown name `lenght`; did you mean `length`?"),
         (&["--top", "3", "--by", "class"], "`class` is a word, and what is least must be a number"),
@@ -148,6 +152,7 @@ fn wrong_options_are_explained() {
         (&["out", "--top", "3"], "the shards have only the best 2, not 3"),
         (&["all", "--top", "3"], "`evans`: it has no `sort`: say with --by"),
         (&["all", "--top", "3", "--by", "mu_min_deg"], "write `--by -mu_min_deg` for the greatest"),
+        (&["all", "--top", "3", "--by", "mu_min_deg * 2"], "write `--by \"-(mu_min_deg * 2)\"` for the greatest"),
         (&["all", "--by", "length"], "how many are the best?"),
         (&["all", "--toml", "best.toml"], "--toml is for the best curves"),
         (&["all", "--top", "1", "--by", "lenght"], "did you mean `length`?"),
