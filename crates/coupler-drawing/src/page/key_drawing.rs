@@ -299,11 +299,16 @@ fn helpers(mechanism: &PosedMechanism) -> Vec<JointId> {
 }
 
 /// The joints that are drawn, those that are traced and the helpers, each name once: a grid of points has one name for all of them. Joints
-/// that are in one place all the time are together.
+/// that are in one place all the time are together, also those that are not drawn where others are.
 fn pins(mechanism: &PosedMechanism, circuit: &Circuit) -> Vec<Vec<JointId>> {
     let linkage = mechanism.linkage;
     let name = |joint: JointId| linkage.joints[joint].name.as_str();
-    let all = mechanism.drawn_joints().into_iter().chain(linkage.traced.iter().copied()).chain(helpers(mechanism));
+    let drawn: Vec<JointId> = mechanism.drawn_joints().into_iter().chain(linkage.traced.iter().copied()).collect();
+    let is_hidden = |joint: &JointId| {
+        !linkage.is_helper(*joint) && drawn.iter().any(|other| other != joint && circuit.coincide(*other, *joint))
+    };
+    let hidden: Vec<JointId> = linkage.joint_ids().filter(is_hidden).collect();
+    let all = drawn.into_iter().chain(hidden).chain(helpers(mechanism));
     let mut pins: Vec<Vec<JointId>> = Vec::new();
     for joint in all {
         if pins.iter().flatten().any(|known| name(*known) == name(joint)) {
