@@ -24,7 +24,7 @@ enum Change {
 /// least values, which come first, are those of the worst. What is no expression is not, nor what increases with some of them and decreases
 /// with others.
 pub(super) fn has_worst_first(text: &str) -> bool {
-    if text.starts_with(['+', '-']) {
+    if text.trim_start().starts_with(['+', '-']) {
         return false;
     }
     let Ok(expression) = Expression::parse(text) else { return false };
@@ -182,6 +182,7 @@ mod tests {
             "2 ^ frame",
             "straight_length > 2",
             "straight_length *",
+            " +straight_length",
             "",
         ] {
             assert!(!has_worst_first(text), "{text}");
