@@ -112,7 +112,9 @@ fn larger_papers(paper: Paper) -> Vec<(String, Paper)> {
     named.sort_by(|(_, a), (_, b)| (a.width * a.height).total_cmp(&(b.width * b.height)));
     for (name, named) in named {
         papers.extend([false, true].map(|is_portrait| {
-            let orientation = if is_portrait { format!(", {}", key(true)) } else { String::new() };
+            // What is portrait now says so, and the other has to be said in its place.
+            let is_said = is_portrait || paper.height > paper.width;
+            let orientation = if is_said { format!(", {}", key(is_portrait)) } else { String::new() };
             (format!("paper = \"{name}\"{orientation}"), named.turned(is_portrait))
         }));
     }

@@ -1,14 +1,17 @@
 //! The outlines of links for drawing, bars and plates, and the pivots on the ground.
 
-use super::{JointId, JointKind, Link, LinkId, Linkage};
+use super::{Joint, JointId, JointKind, Link, LinkId, Linkage};
 use crate::geometry::{Bounds, Point, Vector, cross, trig};
 
 impl Linkage {
-    /// The joints that the ground shares with moving links, in the order of the ground's joints.
+    /// The joints that the ground shares with moving links, or on which a block is through which one slides, in the order of the ground's joints.
     pub fn pivots(&self) -> Vec<JointId> {
         let ground = self.ground();
         let is_pivot = |joint: JointId| {
+            let slides_through =
+                |other: &Joint| matches!(other.kind, JointKind::Slot { base: [_, through], .. } if through == joint);
             self.links.iter().any(|link| !std::ptr::eq(link, ground) && link.position(joint).is_some())
+                || self.joints.iter().any(slides_through)
         };
         ground.joints.iter().map(|(joint, _)| *joint).filter(|&joint| is_pivot(joint)).collect()
     }

@@ -15,7 +15,7 @@ impl Template {
         match &placed.drawn {
             Some(position) if !matches!(placed.kind, JointKindTemplate::Fixed(_)) => {
                 let [x, y] = self.position_as_drawn(position);
-                construction.with_words("; drawn at (").with(x).with_words(", ").with(y).with_words(")")
+                construction.with_words("; laid out at (").with(x).with_words(", ").with(y).with_words(")")
             }
             _ => construction,
         }
@@ -64,7 +64,7 @@ impl Template {
             JointKindTemplate::Fixed(position) => {
                 let [x, y] = self.position_as_drawn(placed.drawn.as_ref().unwrap_or(position));
                 let what = match (self.seen_from, self.is_pivot(joint)) {
-                    (Some(_), _) if placed.drawn.is_some() => format!("on link {}, drawn at (", self.defined_link()),
+                    (Some(_), _) if placed.drawn.is_some() => format!("on link {}, laid out at (", self.defined_link()),
                     (Some(_), _) => format!("on link {}, at (", self.defined_link()),
                     (None, true) => "fixed pivot at (".to_owned(),
                     (None, false) => "fixed point at (".to_owned(),
@@ -113,7 +113,15 @@ impl Template {
                 let rack = with_unless_zero(rack, &to_left, offset, "");
                 let rack =
                     rack.with_words(format!(", by a pinion on the crank of {}, its pitch radius = ", name(*crank)));
-                with_unless_zero(rack.with(radius.to_math_text()), ", at input 0 at ", start, "")
+                let rack = rack.with(radius.to_math_text());
+                let first = name(along[0]);
+                match is_zero(start) {
+                    true => rack.with_words(format!(", at input 0 beside {first}")),
+                    false => {
+                        let at = rack.with_words(", at input 0 at ").with(start.to_math_text());
+                        at.with_words(format!(" from {first} along the line"))
+                    }
+                }
             }
             JointKindTemplate::Dyad { base: [a, b], lengths: [first, second], side } => {
                 length(*a, first).with_words(", ").with(length(*b, second)).with_words(on_side(side, [*a, *b]))
@@ -188,7 +196,8 @@ impl Template {
     }
 
     /// The direction in which points are measured whose base is a pivot and a joint that slides at an offset from it along the pivot's link, or the
-    /// two in the other order, for the block in which it slides: the line through both turns on the link.
+    /// two in the other order, for the block in which it slides: the line through both turns on the link. So does that of a slider and a point of its
+    /// guide, which the slider may pass.
     fn sliding_direction(&self, base: [usize; 2]) -> Option<String> {
         let is_base = |a: usize, b: usize| base == [a, b] || base == [b, a];
         let name = |k: usize| displayed_name(&self.joints[k].name);
@@ -196,6 +205,15 @@ impl Template {
             JointKindTemplate::Slot { base: [pivot, through], offset, .. } if is_base(*pivot, *through) => {
                 let line = if base[0] == *pivot { [own, *through] } else { [*through, own] };
                 (!is_zero(offset)).then(|| join_names(&line.map(|k| self.joints[k].name.as_str())))
+            }
+            JointKindTemplate::Slide { line: [p, q], .. }
+            | JointKindTemplate::Yoke { line: [p, q], .. }
+            | JointKindTemplate::Rack { line: [p, q], .. }
+            | JointKindTemplate::DrivenSlider { line: [p, q], .. }
+                if base[0] == own && (base[1] == *p || base[1] == *q) =>
+            {
+                let line = if base[1] == *q { [*p, *q] } else { [*q, *p] };
+                Some(join_names(&line.map(|k| self.joints[k].name.as_str())))
             }
             JointKindTemplate::Piston { base: [from, _], offset, .. } if is_base(*from, own) => {
                 (!is_zero(offset)).then(|| format!("the actuator towards {}", name(base[1])))
@@ -215,8 +233,9 @@ impl Template {
     fn is_pivot(&self, joint: usize) -> bool {
         self.joints.iter().any(|other| match &other.kind {
             JointKindTemplate::Crank { pivot, .. } | JointKindTemplate::Gear { pivot, .. } => *pivot == joint,
-            JointKindTemplate::Piston { base, .. } | JointKindTemplate::Dyad { base, .. } => base.contains(&joint),
-            JointKindTemplate::Slot { base: [pivot, _], .. } => *pivot == joint,
+            JointKindTemplate::Piston { base, .. }
+            | JointKindTemplate::Dyad { base, .. }
+            | JointKindTemplate::Slot { base, .. } => base.contains(&joint),
             JointKindTemplate::Parallelogram { corners } => corners.contains(&joint),
             JointKindTemplate::Slide { .. }
             | JointKindTemplate::Yoke { .. }
@@ -344,6 +363,13 @@ mod tests {
                 "scotch-yoke",
                 "Y",
                 "yoke on a guide along OX, to its left: offset; A moves in its slot, its angle to the guide, to its left: angle",
+            ),
+            ("scotch-yoke", "M", "parallel to OX from Y: along, to its left: across"),
+            ("rack-steering", "N", "parallel to OX from R: −w"),
+            (
+                "rack-steering",
+                "R",
+                "rack on a line along OX, to its left: −r, by a pinion on the crank of A, its pitch radius = r, at input 0 beside O",
             ),
             ("roberts", "M", "AM = b, BM = b, right of AB"),
         ] {

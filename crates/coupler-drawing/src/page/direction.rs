@@ -111,7 +111,7 @@ fn slider_arrows(mechanism: &PosedMechanism, joint: JointId, least_radius: f64) 
     Some([1.0, -1.0].map(|side| ENDS.map(|end| centre + along * (side * end)).to_vec()).to_vec())
 }
 
-/// Two arcs from an output link to its sides, about its pivot; if it turns fully, one in the direction in which it begins to.
+/// Two arcs from an output link to its sides, about its pivot; if it turns fully, and the input never reverses, one in the direction in which it does.
 fn output_arcs(
     mechanism: &PosedMechanism,
     circuit: &Circuit,
@@ -128,7 +128,7 @@ fn output_arcs(
     let arm = |k: usize| circuit.positions.point(end, k) - circuit.positions.point(pivot, k);
     let turned: f64 = (1..circuit.len()).map(|k| angle_between(arm(k - 1), arm(k))).sum();
     let sides: &[i32] = match turned {
-        turned if !circuit.is_closed || turned.abs() <= 180.0 => &[1, -1],
+        turned if !circuit.is_full_turn() || turned.abs() <= 180.0 => &[1, -1],
         turned if turned > 0.0 => &[2],
         _ => &[-2],
     };

@@ -20,7 +20,7 @@ use crate::scene::{Anchor, Animation, Circle, Color, Curve, Item};
 use coupler_curves::geometry::{Bounds, Point, Similarity, Vector};
 use coupler_curves::linkage::{Input, JointId, Linkage};
 use coupler_curves::measure::{self, TracedCurve};
-use coupler_curves::motion::{self, Circuit};
+use coupler_curves::motion::{self, Circuit, Pass};
 use coupler_curves::path::{self, DashPattern, JointPath};
 use coupler_curves::solve::{MeasuredCurve, SolvedCell};
 
@@ -90,7 +90,7 @@ fn circuit_groups(solved: &SolvedCell) -> Vec<(Vec<usize>, Bounds)> {
     const MAX_GROUPS: usize = 4;
     let mut groups: Vec<(Vec<usize>, Bounds)> = Vec::new();
     for curve in &solved.curves {
-        let bounds = Bounds::from_points(solved.circuit(curve).points(curve.joint));
+        let bounds = curve_bounds(solved, curve);
         let bounds = bounds.union(tolerance_band::bounds(solved, curve));
         match groups.iter_mut().find(|(circuits, _)| circuits.contains(&curve.circuit)) {
             Some((_, whole)) => *whole = whole.union(bounds),
@@ -102,6 +102,25 @@ fn circuit_groups(solved: &SolvedCell) -> Vec<(Vec<usize>, Bounds)> {
         return vec![(groups.into_iter().flat_map(|(circuits, _)| circuits).collect(), whole)];
     }
     groups
+}
+
+/// The bounds of a curve. Those of its samples are a part of a thousand less at most, unless there are few: then it has more poses.
+fn curve_bounds(solved: &SolvedCell, curve: &MeasuredCurve) -> Bounds {
+    /// The samples that are enough, as of a curve with turns of 10 degrees between them; and the poses of a pass of which there are fewer.
+    const ENOUGH: usize = 180;
+    const POSES: u32 = 90;
+    let circuit = solved.circuit(curve);
+    let sampled = Bounds::from_points(circuit.points(curve.joint));
+    if circuit.len() >= ENOUGH {
+        return sampled;
+    }
+    let of_pass = |pass: &Pass| {
+        let inputs: Vec<f64> =
+            (0..=POSES).map(|k| motion::eased_input(pass, f64::from(k) / f64::from(POSES))).collect();
+        let positions = motion::poses(&solved.linkage, pass, &inputs);
+        Bounds::from_points((0..inputs.len()).map(|k| positions.point(curve.joint, k)))
+    };
+    circuit.passes.iter().fold(sampled, |bounds, pass| bounds.union(of_pass(pass)))
 }
 
 /// The number of a cell at the upper left of its panel.
@@ -473,10 +492,11 @@ impl<'a> Figure<'a> {
         let mut symbols = symbols::of_cell(solved, ink, period);
         symbols.extend(symbols::of_chains(&solved.linkage, theme));
         let mut add = |mark: Mark, meaning: &str| symbols.push(Symbol { mark, meaning: meaning.to_owned() });
-        for (style, ordinal) in (1..).zip(["second", "third", "fourth", "fifth"]) {
+        for (style, ordinal) in (0..).zip(["first", "second", "third", "fourth", "fifth"]) {
             let Some(curve) = solved.curves.iter().find(|curve| self.style_index(curve) == style) else { break };
             let what = match marks::path_name(solved, curve) {
                 Some(name) => name,
+                None if style == 0 => continue,
                 None if solved.linkage.traced.len() > 1 => format!("{ordinal} traced point"),
                 None => format!("{ordinal} circuit"),
             };

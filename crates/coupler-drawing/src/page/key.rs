@@ -130,5 +130,8 @@ fn remarks(template: &Template, structure: Option<&Linkage>) -> Vec<String> {
         0.0 => None,
         deg => Some(format!("drawn turned by {}°: coordinates are those before", format_exactly(deg))),
     };
-    [driven_by].into_iter().chain(output).chain(frame).chain(rotation).collect()
+    let laid_out = template.joints.iter().any(|joint| joint.drawn.is_some());
+    let laid_out =
+        laid_out.then(|| "lengths and sides that are not stated are those of the places laid out".to_owned());
+    [driven_by].into_iter().chain(output).chain(frame).chain(rotation).chain(laid_out).collect()
 }

@@ -105,7 +105,7 @@ pub(super) fn draw(area: &impl Area, rect: Rect, key: &Key, figures: &[&Figure],
     };
     if figures.iter().any(changes_sides) {
         key.remarks
-            .push("sides are those at the start; a joint changes its side where it passes a dead point".to_owned());
+            .push("sides are those shown here; a joint changes its side where it passes a dead point".to_owned());
     }
     let text = Rect { corner: text_corner, size: rect.corner + rect.size - text_corner };
     draw_lines(area, text, &[], &key, theme);

@@ -55,7 +55,11 @@ pub fn cell_facts(family: &Family, solved: &SolvedCell) -> [String; 2] {
         let circuit = (curve.circuit > 1).then(|| format!("circuit {}", curve.circuit));
         let which: Vec<String> = path.into_iter().chain(circuit).collect();
         let which = if which.is_empty() { String::new() } else { format!(" ({})", which.join(", ")) };
-        format!("{exactly}straight {times}{length}{deviation} over {:.1}{unit}{which}", portion.input_span)
+        let span = match solved.linkage.input() {
+            Input::Length => format_with_digits(portion.input_span, 4),
+            Input::Angle { .. } => format!("{:.1}{unit}", portion.input_span),
+        };
+        format!("{exactly}straight {times}{length}{deviation} over {span}{which}")
     });
     [parts.join(" · "), straight]
 }
@@ -206,7 +210,7 @@ pub(super) fn has_symmetry_axis(solved: &SolvedCell) -> bool {
     !marked_axes(solved, &solved.curves.iter().collect::<Vec<_>>()).is_empty()
 }
 
-/// The axes of symmetry of the curves as dash-dotted lines, a little longer than the curves.
+/// The axes of symmetry of the curves as dash-dotted lines, a little longer than the curves that have them.
 pub(super) fn symmetry_axis_items(
     solved: &SolvedCell,
     curves: &[&MeasuredCurve],
@@ -222,15 +226,15 @@ fn marked_axes(solved: &SolvedCell, curves: &[&MeasuredCurve]) -> Vec<SymmetryAx
     let mut drawn: Vec<SymmetryAxis> = Vec::new();
     for curve in curves {
         let axis = curve.symmetry.as_ref().and_then(Symmetry::axis_if_symmetric);
-        let is_like = |other: &SymmetryAxis, axis: &SymmetryAxis| {
-            (other.direction_deg() - axis.direction_deg()).abs() < 1e-6
-                && (other.mirror(axis.point) - axis.point).norm() < 1e-6
-        };
         // A straight line is symmetrical about itself, but drawing that axis would hide it.
-        let new = axis.filter(|axis| drawn.iter().all(|other| !is_like(other, axis)));
+        let new = axis.filter(|axis| drawn.iter().all(|other| !is_same_axis(other, axis)));
         drawn.extend(new.filter(|axis| crosses_axis(solved, curve, axis) && !is_arc(solved, curve)));
     }
     drawn
+}
+
+fn is_same_axis(one: &SymmetryAxis, other: &SymmetryAxis) -> bool {
+    (one.direction_deg() - other.direction_deg()).abs() < 1e-6 && (one.mirror(other.point) - other.point).norm() < 1e-6
 }
 
 /// Whether a curve is on a circle about a fixed pivot.
@@ -268,7 +272,11 @@ fn symmetry_axis_item(
     plot: &Plot,
     theme: &Theme,
 ) -> Option<Item> {
-    let points = curves.iter().flat_map(|curve| solved.circuit(curve).points(curve.joint));
+    let has_axis = |curve: &&&MeasuredCurve| {
+        let own = curve.symmetry.as_ref().and_then(Symmetry::axis_if_symmetric);
+        own.is_some_and(|own| is_same_axis(&own, axis))
+    };
+    let points = curves.iter().filter(has_axis).flat_map(|curve| solved.circuit(curve).points(curve.joint));
     let positions = points.map(|p| axis.direction.dot(&(p - axis.point)));
     let [low, high] = positions.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], s| [low.min(s), high.max(s)]);
     let beyond = 1.6 * theme.joint_radius / plot.page_from_plane.scale();

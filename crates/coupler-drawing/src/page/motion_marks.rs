@@ -134,7 +134,10 @@ impl TickPoses {
             let at = |k: usize| plot.page_from_plane.apply(positions.point(joint, k));
             let station = |(k, input): (usize, &f64)| {
                 let [before, here, after] = [3 * k, 3 * k + 1, 3 * k + 2].map(at);
-                Station { input: *input, at: here, direction: after - before }
+                // Where the point turns back, what it does before says nothing.
+                let (chord, ahead) = (after - before, after - here);
+                let direction = if 2.0 * chord.norm() < ahead.norm() { ahead } else { chord };
+                Station { input: *input, at: here, direction }
             };
             inputs.iter().enumerate().map(station).collect::<Vec<_>>()
         };

@@ -10,7 +10,7 @@ use coupler_curves::motion::Circuit;
 /// A pose is clear if no two joints, and no joint and link, are close to each other, and if no two links that meet are
 /// nearly collinear: its clarity is the least of those distances times the least sine of the angles between links that
 /// meet. Poses within one percent of the greatest clarity count as equal; the result is the first of them. If the source
-/// of the linkage shows an arc, the pose is on it.
+/// of the linkage shows an arc, the pose is on it; otherwise its joints are on the sides that the key states, where a circuit has such poses.
 pub(super) fn clearest_pose(linkage: &Linkage, circuit: &Circuit) -> Vec<Point> {
     /// More candidates than this make no visible difference.
     const CANDIDATES: usize = 360;
@@ -37,7 +37,7 @@ pub(super) fn clearest_pose(linkage: &Linkage, circuit: &Circuit) -> Vec<Point> 
         if clarity.is_finite() { clarity } else { 0.0 }
     };
     let arc_samples = samples_on_arc(linkage, circuit);
-    let samples = if arc_samples.is_empty() { (0..circuit.len()).collect() } else { arc_samples };
+    let samples = if arc_samples.is_empty() { samples_on_stated_sides(linkage, circuit) } else { arc_samples };
     let stride = samples.len().div_ceil(CANDIDATES).max(1);
     let all: Vec<(usize, f64)> =
         samples.into_iter().step_by(stride).map(|sample| (sample, clarity(&pose(sample)))).collect();
@@ -56,6 +56,14 @@ fn samples_on_arc(linkage: &Linkage, circuit: &Circuit) -> Vec<usize> {
         past <= to - from && circuit.mode_at(*sample).sign(DyadId::FIRST) == branch
     };
     (0..circuit.len()).filter(is_on_arc).collect()
+}
+
+/// The samples with the sides of the linkage's definition; all if there are none, and of a group, in which no sides are stated.
+fn samples_on_stated_sides(linkage: &Linkage, circuit: &Circuit) -> Vec<usize> {
+    let stated = linkage.motion_options.mode;
+    let is_stated = |sample: &usize| linkage.group.is_none() && circuit.mode_at(*sample) == stated;
+    let samples: Vec<usize> = (0..circuit.len()).filter(is_stated).collect();
+    if samples.is_empty() { (0..circuit.len()).collect() } else { samples }
 }
 
 /// Replaces joints that coincide over the whole circuit by the first of them: their distance is zero in every pose.

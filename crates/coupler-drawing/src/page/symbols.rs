@@ -164,8 +164,8 @@ pub(super) fn lines(symbols: &[Symbol], width: f64, theme: &Theme) -> Vec<Vec<Sy
     lines.into_iter().map(|(_, line)| line).collect()
 }
 
-/// The lines of symbols at the foot of a page, left of its folio, with their positions; and the greatest y of the contents above
-/// them and the folio.
+/// The lines of symbols at the foot of a page, left of its folio, or above it where one is too wide for that, with their positions; and the
+/// greatest y of the contents above them and the folio.
 pub(super) fn at_foot(
     page: Vector,
     heading: &Heading,
@@ -175,11 +175,16 @@ pub(super) fn at_foot(
     const LEADING: f64 = 1.45;
     let [_, bottom, _] = margins(theme);
     let [left, right] = [theme.border + theme.margin, page.x - theme.border - theme.margin];
-    let folio = heading.folio_width(page, theme);
-    let lines = lines(symbols, right - left - folio - 2.0 * theme.note_size, theme);
+    let folio_height = heading.folio_height(page, theme);
+    let beside = right - left - heading.folio_width(page, theme) - 2.0 * theme.note_size;
     let step = LEADING * theme.note_size;
-    let height = step * lines.len().saturating_sub(1) as f64;
-    let above = page.y - bottom - height.max(heading.folio_height(page, theme));
+    let (width, foot) = match symbols.iter().all(|symbol| symbol.width(theme) <= beside) {
+        true => (beside, 0.0),
+        false => (right - left, folio_height + step),
+    };
+    let lines = lines(symbols, width, theme);
+    let height = foot + step * lines.len().saturating_sub(1) as f64;
+    let above = page.y - bottom - height.max(folio_height);
     let first = foot_baseline(page, theme) - height;
     let placed = lines.into_iter().enumerate().map(|(k, line)| (Point::new(left, first + step * k as f64), line));
     (placed.collect(), above)

@@ -28,6 +28,7 @@ pub(in crate::page) fn compose(root: &impl Area, page: &PanelPage, options: &Opt
     let top = page.heading.draw(root, theme);
     let top = top + 0.5 * theme.margin;
     let [_, bottom, _] = margins(theme);
+    let bottom = bottom + page.heading.folio_height(root.size(), theme);
     let side = theme.border + theme.margin;
     let size = Vector::new(root.size().x - 2.0 * side, root.size().y - bottom - top);
     let contents = Rect { corner: Point::new(side, top), size };
