@@ -7,6 +7,7 @@ use coupler_curves::exchange::{PartFormat, SelectedCurve};
 use coupler_curves::family::{Family, Sampling};
 use coupler_curves::geometry::{Point, distance_to_segment};
 use coupler_curves::linkage::JointId;
+use coupler_curves::linkage_format::parse_templates;
 use coupler_curves::parts::{GivenSizes, Outline, Part, Parts, PartsError, Sizes, Slot};
 use coupler_curves::solve::{SolvedCell, Solver};
 
@@ -74,6 +75,22 @@ fn linkages_have_the_parts_that_they_are_built_from() {
         let names: Vec<&str> = parts.parts.iter().map(|part| part.name.as_str()).collect();
         assert!(expected.is_empty() || names == expected, "{id}: {names:?}");
     }
+}
+
+/// A bar that slides through a fixed pivot: the pin of its slot is on the frame.
+#[test]
+fn the_pivot_of_a_slot_is_a_hole_of_the_frame() {
+    let text = "[[linkage]]\nid = \"bar\"\ntrace = [\"M\"]\n[linkage.joints]\nO = { fixed = [0, 0] }\nC = { fixed = [-30, 0] }\n\
+                A = { crank = \"O\", length = 20 }\nB = { slot = [\"A\", \"C\"] }\nM = { point = [\"A\", \"C\"], along = -25 }\n";
+    let template = parse_templates(text).unwrap().remove(0);
+    let pivot = template.joints.iter().position(|joint| joint.name == "C").unwrap();
+    assert_eq!(template.construction(pivot).to_string(), "fixed pivot at (−30, 0)");
+    let family = Family::single_cell(template.into(), &[], Sampling::Samples(90)).unwrap();
+    let solved = Solver::new(&family).solve(0).unwrap();
+    let parts = SelectedCurve::all_from_cell(&family, "", &[], &solved)[0].parts(GivenSizes::default()).unwrap();
+    let holes = |part: &Part| part.holes.iter().map(|hole| hole.name.clone()).collect::<Vec<_>>();
+    let named: Vec<(&str, Vec<String>)> = parts.parts.iter().map(|part| (part.name.as_str(), holes(part))).collect();
+    assert_eq!(named[0], ("frame", vec!["O".to_owned(), "C".to_owned()]), "{named:?}");
 }
 
 #[test]

@@ -122,3 +122,33 @@ fn min_link_angle_sine(links: &[Vec<JointId>], at: &[Point]) -> f64 {
     }
     least
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coupler_curves::catalogue;
+    use coupler_curves::family::{Family, Sampling};
+    use coupler_curves::solve::Solver;
+
+    /// Linkages whose joints change their sides are shown on those that their keys state.
+    #[test]
+    fn joints_are_on_the_sides_that_are_stated() {
+        for (id, [from, to, joint], is_left) in [
+            ("linear-actuator", ["C", "O", "A"], false),
+            ("watt", ["A", "C", "B"], true),
+            ("evans", ["A", "C", "B"], true),
+            ("rack-steering", ["N", "K", "B"], true),
+            ("rack-steering", ["P", "L", "D"], false),
+        ] {
+            let template = catalogue::find(id).unwrap();
+            let missing = template.parameters.iter().filter(|parameter| parameter.default_text.is_empty());
+            let given: Vec<(String, f64)> = missing.map(|own| (own.name.clone(), own.starting_value())).collect();
+            let family = Family::single_cell(template, &given, Sampling::Samples(180)).unwrap();
+            let solved = Solver::new(&family).solve(0).unwrap();
+            let pose = clearest_pose(&solved.linkage, &solved.motion.circuits[0]);
+            let [from, to, joint] =
+                [from, to, joint].map(|name| pose[solved.linkage.find_joint(name).unwrap().index()]);
+            assert_eq!(cross(to - from, joint - from) > 0.0, is_left, "{id}");
+        }
+    }
+}

@@ -304,3 +304,34 @@ impl Mark {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::page::Paper;
+
+    /// The lines of symbols are beside the folio where they have room there, and above its lines otherwise.
+    #[test]
+    fn symbols_and_folio_do_not_overlap() {
+        let paper = Paper { width: 105.0, height: 148.0 };
+        let theme = Theme::default().for_paper(paper);
+        let page = Vector::new(paper.width, paper.height);
+        let title = "An atlas with a title that takes several lines at the foot of its pages";
+        let heading = Heading::new("Family").with_atlas_title(title);
+        assert!(heading.folio_height(page, &theme) > 0.0);
+        let symbol = |meaning: &str| Symbol { mark: Mark::Pivot, meaning: meaning.to_owned() };
+        let folio_left = page.x - theme.border - theme.margin - heading.folio_width(page, &theme);
+        let first_folio_line = foot_baseline(page, &theme) - heading.folio_height(page, &theme);
+        for meaning in ["pivot", "longest straight portion, within ± 0.0005 of its length"] {
+            let (lines, above) = at_foot(page, &heading, &[symbol("pivot"), symbol(meaning)], &theme);
+            let is_wide = meaning.len() > 10;
+            for (at, line) in &lines {
+                let right = at.x + line.iter().map(|symbol| symbol.width(&theme) + gap(&theme)).sum::<f64>();
+                assert!(right <= page.x, "{meaning}");
+                assert!(above < at.y - theme.note_size, "{meaning}");
+                assert_eq!(at.y < first_folio_line - theme.note_size, is_wide, "{meaning}");
+                assert!(is_wide || right <= folio_left, "{meaning}");
+            }
+        }
+    }
+}

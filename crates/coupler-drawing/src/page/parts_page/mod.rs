@@ -137,12 +137,16 @@ mod tests {
     use coupler_curves::geometry::Point;
     use coupler_curves::solve::Solver;
 
+    /// A title that takes three lines at the foot of a page.
+    const TITLE: &str = "Drawings of linkages for the workshop, with a title that is so long that it does not go on one line, nor on \
+                         two, at the foot of a page, where the title block is";
+
     /// The page of a linkage of the catalogue with its default dimensions.
     fn page(id: &str, paper: Paper, scale: PanelScale) -> Scene {
         let family = Family::single_cell(catalogue::find(id).unwrap(), &[], Sampling::Samples(90)).unwrap();
         let solved = Solver::new(&family).solve(0).unwrap();
         let key = Key::new(&family);
-        let heading = Heading::new(&family.title).with_family_id(&family.id).with_atlas_title("Drawings");
+        let heading = Heading::new(&family.title).with_family_id(&family.id).with_atlas_title(TITLE);
         let panels = vec![Panel::new(&solved)];
         let page = PanelPage { heading, layout: Layout::Drawing, panels, scale, key: Some(&key) };
         page::compose_panels(&page, &Options::for_paper(paper))
