@@ -306,7 +306,7 @@ def test_tolerances_are_those_of_inspect() -> None:
     with pytest.raises(ValueError, match="positive length"):
         curve.tolerance(-1)
     with pytest.raises(ca.LinkageError, match="no length is off by itself"):
-        ca.linkage("hrones-nelson", coupler=2, rocker=2, frame=2.5).curves[0].tolerance()
+        ca.linkage("hrones-nelson", A=2, B=2, C=2.5).curves[0].tolerance()
     # Joints that are placed together have tolerances, too.
     group = ca.linkage("stephenson-ii-six-bar").curves[0].tolerance(0.01)
     assert group is not None and abs(group["worst_case"] - 0.06887) < 1e-5 and "FC" in group["sensitivities"]
