@@ -45,7 +45,10 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     let text = source::read_text(path)?;
     let loaded = source::parse(path, &text)?;
     let mut problems = loaded.problems;
-    problems.extend(loaded.plan.iter().flat_map(|plan| output::empty_family_warnings(plan, None)));
+    let plan = loaded.plan.as_ref();
+    problems.extend(plan.into_iter().flat_map(|plan| output::empty_family_warnings(plan, None)));
+    problems.extend(plan.into_iter().flat_map(output::scale_problems));
+    let plan = plan.filter(|_| !problems.iter().any(Problem::is_error));
     let is_printed = |format| arguments.report.iter().any(|given| given.format == format && given.file.is_none());
     if is_printed(ReportFormat::Text) || !is_printed(ReportFormat::Json) {
         source::report_problems(path, &text, &problems);
@@ -53,7 +56,7 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
     for ReportRequest { format, file } in &arguments.report {
         let report = match format {
             ReportFormat::Text => problem::report(&problems, &files::input_name(path), &text, false),
-            ReportFormat::Json => json(path, &text, &problems, loaded.plan.as_ref())?,
+            ReportFormat::Json => json(path, &text, &problems, plan)?,
         };
         match (file, format) {
             (Some(file), _) => files::write(file, report.as_bytes())?,
@@ -61,13 +64,13 @@ pub fn run(arguments: &Arguments) -> Result<Outcome, Failure> {
             (None, ReportFormat::Text) => {}
         }
     }
-    let Some(plan) = loaded.plan else {
+    let Some(plan) = plan else {
         let errors = problems.iter().filter(|problem| problem.is_error()).count();
         return Err(source::problems_error(path, errors));
     };
     if !is_printed(ReportFormat::Json) {
         let [families, cells] =
-            [(plan.families.len(), "family"), (cell_count(&plan), "cell")].map(|(count, noun)| pluralize(count, noun));
+            [(plan.families.len(), "family"), (cell_count(plan), "cell")].map(|(count, noun)| pluralize(count, noun));
         print(&format!("{}: {families}, {cells}\n", files::input_name(path)))?;
     }
     Ok(Outcome::Done)

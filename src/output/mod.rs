@@ -36,6 +36,7 @@ pub use crate::pipeline::{cells_solved_for_page, known_page_count};
 
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
 
 use crate::manifest::{Plan, PlannedFamily};
 use crate::record::RunRecord;
@@ -162,6 +163,14 @@ fn write_families(
         files::remove_temporary_files(output, &|_| false);
     }
     journal.close()
+}
+
+/// The problems of families whose linkages do not fit their pages at the scale that the manifest gives, each with what to do about it.
+pub fn scale_problems(plan: &Plan) -> Vec<Problem> {
+    let never = AtomicBool::new(false);
+    let has_pages = |planned: &&PlannedFamily| planned.formats.iter().any(|format| format.page_format().is_some());
+    let problem = |planned| scale::scale_problem(plan, planned, Division::WHOLE, &never).ok().flatten();
+    plan.families.iter().filter(has_pages).filter_map(problem).collect()
 }
 
 /// Warns of each family of which no curve is shown, because `where` keeps no cell or none can be assembled: from the

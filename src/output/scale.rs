@@ -37,7 +37,7 @@ pub(super) fn explain<'p>(
 ///
 /// # Errors
 /// The run is interrupted.
-fn scale_problem(
+pub(super) fn scale_problem(
     plan: &Plan,
     planned: &PlannedFamily,
     part: Division,

@@ -17,8 +17,8 @@ pub struct MathText {
 pub struct MathPiece {
     /// The text.
     pub text: String,
-    /// Whether it is a symbol, which is set in italics: a parameter of a single letter, also with an index. Longer names are read
-    /// as words.
+    /// Whether it is a symbol, which is set in italics: a parameter of a single letter, also with an index or after an underscore. Longer
+    /// names are read as words.
     pub is_symbol: bool,
     /// Whether it is an exponent, which is raised.
     pub is_raised: bool,
@@ -33,7 +33,8 @@ impl MathText {
     /// The name of a parameter, as of [`displayed_name`]; a letter, also with an index, is a symbol.
     pub fn from_name(name: &str) -> MathText {
         let mut text = MathText::default();
-        text.push(&displayed_name(name), is_single_letter(name) || indexed_letter(name).is_some(), false);
+        let is_symbol = is_single_letter(name) || is_letter_with_word(name);
+        text.push(&displayed_name(name), is_symbol, false);
         text
     }
 
@@ -176,7 +177,12 @@ fn indexed_letter(name: &str) -> Option<(&str, &str)> {
     (is_indexed && !letter.is_empty()).then_some((letter, index))
 }
 
-/// The name of a parameter as it is printed: `k_1` as k₁, and otherwise with spaces in place of underscores.
+/// Whether a name is a letter with a word as its index, as `a_x` and `r_crank`: with a space it would be read as a product.
+fn is_letter_with_word(name: &str) -> bool {
+    name.split_once('_').is_some_and(|(letter, _)| is_single_letter(letter) && letter.chars().all(char::is_alphabetic))
+}
+
+/// The name of a parameter as it is printed: `k_1` as k₁, `a_x` as it is, and others with spaces in place of underscores.
 pub fn displayed_name(name: &str) -> String {
     const INDICES: [char; 10] = ['₀', '₁', '₂', '₃', '₄', '₅', '₆', '₇', '₈', '₉'];
     match indexed_letter(name) {
@@ -184,6 +190,7 @@ pub fn displayed_name(name: &str) -> String {
             let digits = index.chars().filter_map(|c| INDICES.get(c.to_digit(10)? as usize));
             letter.chars().chain(digits.copied()).collect()
         }
+        None if is_letter_with_word(name) => name.to_owned(),
         None => name.replace('_', " "),
     }
 }
@@ -364,6 +371,7 @@ mod tests {
             ("a - -b", "a − (−b)"),
             ("p * (a / 2)", "p a / 2"),
             ("foot_along^2", "(foot along)^2"),
+            ("2 * a_x - r_crank * b", "2 a_x − r_crank b"),
             ("hypot(0.268, 0.176)", "√(0.268^2 + 0.176^2)"),
             ("2 * hypot(a - 1, -k_1)", "2 √((a − 1)^2 + (−k₁)^2)"),
             ("a >= 2 and not b < 3", "a ≥ 2 and not b < 3"),

@@ -7,6 +7,7 @@ use super::entries::{entry_around, unclosed_bracket};
 use super::schema::{TableSchema, ValueSchema};
 use super::syntax_errors::syntax_problem;
 use crate::expression::{self, Caption, CompiledExpression, Expression, Kind, Scope};
+use crate::measure::Measure;
 use crate::problem::{Problem, Span};
 
 /// A TOML value and its span in the text.
@@ -264,7 +265,11 @@ impl<'t> TomlParser<'t> {
             if self.problem_count >= MAX_PROBLEMS {
                 break;
             }
-            if let (Err(error), false) = (expression.compile(scope, Kind::Number), is_word) {
+            if let (Err(mut error), false) = (expression.compile(scope, Kind::Number), is_word) {
+                let is_measure = |name: &String| scope.index_of(name).is_none() && Measure::find(name).is_some();
+                if let Some(name) = expression.names().iter().find(|name| is_measure(name)) {
+                    error.help = format!("`{name}` is a measure: write it in the caption of a [[family]]");
+                }
                 let span = start + error.span.start..start + error.span.end;
                 self.ok_or_report::<()>(value, Err(unfold(expression::Error { span, ..error })));
             }

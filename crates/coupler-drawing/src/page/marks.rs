@@ -44,7 +44,8 @@ pub fn cell_facts(family: &Family, solved: &SolvedCell) -> [String; 2] {
     let longest = portions.max_by(|(_, a), (_, b)| a.length.total_cmp(&b.length));
     let straight = longest.map_or(String::new(), |(curve, portion)| {
         let unit = solved.linkage.input().unit_sign();
-        let times = if mirrored_portion(solved, curve, portion).is_some() { "twice " } else { "" };
+        // The input may pass the mirror image in another range.
+        let image = mirrored_portion(solved, curve, portion).map_or("", |_| ", and its mirror image");
         let length = format_with_digits(portion.length, 4);
         let [exactly, deviation] = deviation_texts(family.straight, portion);
         let path = match path_name(solved, curve) {
@@ -59,7 +60,7 @@ pub fn cell_facts(family: &Family, solved: &SolvedCell) -> [String; 2] {
             Input::Length => format_with_digits(portion.input_span, 4),
             Input::Angle { .. } => format!("{:.1}{unit}", portion.input_span),
         };
-        format!("{exactly}straight {times}{length}{deviation} over {span}{which}")
+        format!("{exactly}straight {length}{deviation} over {span}{image}{which}")
     });
     [parts.join(" · "), straight]
 }
@@ -78,14 +79,18 @@ pub(super) fn driver(linkage: &Linkage) -> &'static str {
     if linkage.is_driven_by_slider() { "slider" } else { "actuator" }
 }
 
-/// The range of the input on the circuit of a curve, unless it turns fully.
+/// The range of the input on the circuit of a curve; of one that turns fully, the turns after which its poses repeat if these are several.
 fn input_range(solved: &SolvedCell, curve: &MeasuredCurve) -> Option<String> {
     let circuit = solved.circuit(curve);
-    let passes = circuit.passes.iter().filter(|_| !circuit.is_full_turn());
-    let [least, most] = passes.map(|pass| pass.input_range()).reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])?;
+    let ranges = circuit.passes.iter().map(|pass| pass.input_range());
+    let [least, most] = ranges.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])?;
+    if circuit.is_full_turn() {
+        let turns = ((most - least) / 360.0).round();
+        return (turns > 1.0).then(|| format!("repeats after {turns} turns"));
+    }
     // A dash would look like the sign of a negative number.
     let to = if least < 0.0 { " to " } else { "–" };
-    let [least, most] = [least, most].map(|input| format_input(&solved.linkage, input));
+    let [least, most] = [(least, 1.0), (most, -1.0)].map(|(end, inward)| format_limit(&solved.linkage, end, inward));
     let what = if solved.linkage.input() == Input::Length { driver(&solved.linkage) } else { "input" };
     Some(format!("{what} {least}{to}{most}"))
 }
@@ -96,6 +101,22 @@ pub(super) fn format_input(linkage: &Linkage, input: f64) -> String {
         Input::Length => format_with_digits(input, 4),
         Input::Angle { .. } => format!("{}°", format_exactly((input * 100.0).round() / 100.0)),
     }
+}
+
+/// The same of a limit of the input, rounded inward, by the sign of `inward`, so that the linkage reaches what is printed.
+fn format_limit(linkage: &Linkage, limit: f64, inward: f64) -> String {
+    /// Limits are known to about this part of the last place that is printed, and one that is round is printed as it is.
+    const ACCURACY: f64 = 1e-6;
+    let text = format_input(linkage, limit);
+    let Ok(printed) = text.trim_end_matches('°').parse::<f64>() else { return text };
+    let place = match linkage.input() {
+        Input::Length => {
+            text.split_once('.').map_or(1.0, |(_, decimals)| 1.0 / decimals.bytes().fold(1.0, |power, _| power * 10.0))
+        }
+        Input::Angle { .. } => 0.01,
+    };
+    let is_outside = (limit - printed) * inward > ACCURACY * place;
+    if is_outside { format_input(linkage, printed + inward * place) } else { text }
 }
 
 /// The path of a curve by the name of its joint, where several joints are traced and their names differ.

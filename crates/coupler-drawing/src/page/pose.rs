@@ -33,8 +33,12 @@ pub(super) fn clearest_pose(linkage: &Linkage, circuit: &Circuit) -> Vec<Point> 
         linkage.joint_ids().map(|joint| circuit.positions.point(joint, sample)).collect()
     };
     let clarity = |at: &[Point]| {
-        let clarity = clearance(&links, at) * min_link_angle_sine(&links, at);
-        if clarity.is_finite() { clarity } else { 0.0 }
+        let clearance = clearance(&links, at);
+        // Sliders alone are never near another joint: those poses are clear in which links are not across their lines.
+        if !clearance.is_finite() {
+            return min_slider_cosine(linkage, &links, at);
+        }
+        clearance * min_link_angle_sine(&links, at)
     };
     let arc_samples = samples_on_arc(linkage, circuit);
     let samples = if arc_samples.is_empty() { samples_on_stated_sides(linkage, circuit) } else { arc_samples };
@@ -117,6 +121,22 @@ fn min_link_angle_sine(links: &[Vec<JointId>], at: &[Point]) -> f64 {
                         }
                     }
                 }
+            }
+        }
+    }
+    least
+}
+
+/// The least cosine of the angles between links and the lines on which their joints slide, 0 at a dead point.
+fn min_slider_cosine(linkage: &Linkage, links: &[Vec<JointId>], at: &[Point]) -> f64 {
+    let mut least: f64 = 1.0;
+    for (slider, [from, to]) in linkage.joint_ids().filter_map(|joint| Some((joint, linkage.slider_line(joint)?))) {
+        let line = at[to] - at[from];
+        for other in links.iter().filter(|link| link.contains(&slider)).flatten().filter(|other| **other != slider) {
+            let arm = at[*other] - at[slider];
+            let lengths = arm.norm() * line.norm();
+            if lengths > 0.0 {
+                least = least.min(arm.dot(&line).abs() / lengths);
             }
         }
     }

@@ -16,6 +16,11 @@ export function freeArray(/** @type {TypedArray} */ { buffer }) {
   if (buffer instanceof ArrayBuffer) buffer.transfer?.(0);
 }
 
+/** Has the browser collect its garbage soon: it does when so much has been allocated for arrays, and would otherwise keep what several searches left. */
+export function requestCollection() {
+  new ArrayBuffer(64 << 20).transfer?.(0);
+}
+
 /**
  * Decodes a column of `count` numbers into a new array of a kind.
  * @template {TypedArray} T @param {{ new (of: number | ArrayBuffer): T }} kind @param {number} count @param {PackedColumn} column

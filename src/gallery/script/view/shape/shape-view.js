@@ -1,5 +1,6 @@
 // The view that finds curves by shape.
 
+import { requestCollection } from "../../data/packed.js";
 import { encodeShape, lengthsAlong } from "../../shape/outline.js";
 import { fill, h } from "../dom.js";
 import { MAX_AUTOLOAD_BYTES, requestedFamilies, loadAllLine, familyChooser } from "../find/loading.js";
@@ -217,6 +218,7 @@ export class ShapeView {
       this.showNone(sentence);
       const items = merged.map((one) => matchItem(this.app, one, shape, state));
       fill(this.results, items);
+      requestCollection();
       const isAll = this.loaded.curves >= this.loaded.total;
       this.app.announce(isAll ? sentence : `${sentence}; ${this.loadAll.text(this.loaded)}`);
     } catch (error) {
