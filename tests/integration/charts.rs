@@ -345,6 +345,8 @@ fn an_empty_chart_says_so() {
     assert!(page(&rendered(&low), 1).contains("no positive value for a logarithmic axis"));
     let some = GOOD.replace("\"mu_min_deg\"]", "\"p - 3\"], log = [\"p - 3\"]");
     assert!(page(&rendered(&some), 1).contains(">2 values of 0 or less are left out</text>"));
+    let beyond = GOOD.replace("\"mu_min_deg\"]", "\"mu_min_deg\"], range = { length = [1e6, 2e6] }");
+    assert!(page(&rendered(&beyond), 1).contains(">no value is in the range of the axes</text>"));
     // No cell can be assembled, or none is kept.
     let far = GOOD.replace("let = { a = \"(1 + p)^1.5 / 2\" }", "let = { a = 0.1 }");
     assert!(page(&rendered(&far), 1).contains("no finite value"));

@@ -24,6 +24,7 @@ mod drawn;
 mod examples;
 mod export;
 mod export_parts;
+mod facts;
 mod family_designs;
 mod family_measures;
 mod faults;

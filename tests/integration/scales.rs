@@ -77,6 +77,7 @@ fn what_does_not_fit_is_an_error_whose_remedies_fit() {
             let folder = folder_with(&text);
             let (code, _, error) = run(folder.path(), &["render", "-q", "--format", "svg", "-o", "out"]);
             assert_eq!(code, 2, "{error}");
+            assert_eq!(run(folder.path(), &["validate", "atlas.toml"]).2, error);
             assert!(error.contains("the linkages of `f` do not fit") && error.contains("atlas.toml"), "{error}");
             // `help: write A, B in [page], or C`
             let help = error.lines().find_map(|line| line.split_once("help: write ")).unwrap().1;
@@ -119,6 +120,7 @@ fn a_ratio_needs_a_unit_and_two_numbers() {
 fn papers_are_named_in_any_case_and_turned() {
     for (page, [width, height]) in [
         ("paper = \"A4\"", ["297", "210"]),
+        ("paper = \"A6\"", ["148", "105"]),
         ("paper = \"A4\"\norientation = \"portrait\"", ["210", "297"]),
         ("paper = \"Letter\"\norientation = \"landscape\"", ["279.4", "215.9"]),
         ("paper = { width = \"100 mm\", height = \"200 mm\" }\norientation = \"landscape\"", ["200", "100"]),

@@ -492,15 +492,26 @@ impl<'a> Figure<'a> {
         let mut symbols = symbols::of_cell(solved, ink, period);
         symbols.extend(symbols::of_chains(&solved.linkage, theme));
         let mut add = |mark: Mark, meaning: &str| symbols.push(Symbol { mark, meaning: meaning.to_owned() });
-        for (style, ordinal) in (0..).zip(["first", "second", "third", "fourth", "fifth"]) {
-            let Some(curve) = solved.curves.iter().find(|curve| self.style_index(curve) == style) else { break };
-            let what = match marks::path_name(solved, curve) {
-                Some(name) => name,
-                None if style == 0 => continue,
-                None if solved.linkage.traced.len() > 1 => format!("{ordinal} traced point"),
-                None => format!("{ordinal} circuit"),
+        let inks = theme.curve_inks.len();
+        for (style, ordinal) in (0..inks).zip(["first", "second", "third", "fourth", "fifth"]) {
+            // Of more curves than inks, several have one.
+            let curves = solved.curves.iter().filter(|curve| self.style_index(curve) % inks == style);
+            let curves: Vec<&MeasuredCurve> = curves.collect();
+            let Some(first) = curves.first() else { break };
+            let mut names: Vec<String> = curves.iter().filter_map(|curve| marks::path_name(solved, curve)).collect();
+            names.sort();
+            names.dedup();
+            let mut numbers: Vec<String> =
+                curves.iter().map(|curve| (self.style_index(curve) + 1).to_string()).collect();
+            numbers.dedup();
+            let noun = if solved.linkage.traced.len() > 1 { "traced point" } else { "circuit" };
+            let what = match numbers.len() {
+                _ if !names.is_empty() => names.join(", "),
+                1 if style == 0 => continue,
+                1 => format!("{ordinal} {noun}"),
+                _ => format!("{noun}s {}", numbers.join(", ")),
             };
-            add(Mark::Dashes(self.curve_ink(curve, theme)), &what);
+            add(Mark::Dashes(self.curve_ink(first, theme)), &what);
         }
         if solved.motion.circuits.iter().any(|circuit| !circuit.is_full_turn()) {
             add(Mark::Limit(ink), "limit of the input");

@@ -108,11 +108,12 @@ fn format_limit(linkage: &Linkage, limit: f64, inward: f64) -> String {
     /// Limits are known to about this part of the last place that is printed, and one that is round is printed as it is.
     const ACCURACY: f64 = 1e-6;
     let text = format_input(linkage, limit);
-    let Ok(printed) = text.trim_end_matches('°').parse::<f64>() else { return text };
+    let digits = text.trim_end_matches('°').replace('−', "-");
+    let Ok(printed) = digits.parse::<f64>() else { return text };
     let place = match linkage.input() {
-        Input::Length => {
-            text.split_once('.').map_or(1.0, |(_, decimals)| 1.0 / decimals.bytes().fold(1.0, |power, _| power * 10.0))
-        }
+        Input::Length => digits
+            .split_once('.')
+            .map_or(1.0, |(_, decimals)| 1.0 / decimals.bytes().fold(1.0, |power, _| power * 10.0)),
         Input::Angle { .. } => 0.01,
     };
     let is_outside = (limit - printed) * inward > ACCURACY * place;

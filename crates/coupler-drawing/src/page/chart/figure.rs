@@ -173,18 +173,19 @@ impl<'a> ChartFigure<'a> {
                 1 => "1 value of 0 or less is left out".to_owned(),
                 n => format!("{n} values of 0 or less are left out"),
             };
-            let note = theme.text_line(&note, Point::new(left + inner.x, y), Anchor::End, theme.note_size, theme.grey);
-            area.record(note.fit_width(note_width));
+            let corner = Point::new(left + inner.x, y);
+            let note = theme.text_line(&note, corner, Anchor::End, theme.note_size, theme.grey);
+            // Beside the title, or under it where it is longer than what that leaves.
+            let is_beside = note.text.width() <= note_width;
+            let under = corner + Vector::new(0.0, 1.4 * theme.note_size);
+            area.record(if is_beside { note } else { note.moved_to(under).fit_width(left + inner.x) });
         }
     }
 
     /// Draws the reason why there is nothing to draw.
     fn draw_empty_message(&self, area: &PlottersArea, theme: &Theme) {
         let is_log = self.quantity().is_log || self.page.chart.x.is_log;
-        let text = if is_log { "no positive value for a logarithmic axis" } else { "no finite value" };
-        let at = Point::from(area.size() / 2.0);
-        let line = theme.text_line(text, at, Anchor::Middle, theme.caption_size, theme.grey).fit_width(area.size().x);
-        area.record(Drawing { class: "nothing", title: String::new(), items: vec![Item::Text(line.text)] });
+        draw_message(area, if is_log { "no positive value for a logarithmic axis" } else { "no finite value" }, theme);
     }
 
     /// The lines of the chart, and their points, which may be fewer than those of the lines.
@@ -202,6 +203,11 @@ impl<'a> ChartFigure<'a> {
     fn draw_lines(&self, frame: &PlottersArea, theme: &Theme) -> LineFeatures {
         let lines = self.clipped_lines(frame);
         let span = frame_size(frame);
+        let is_empty =
+            |line: &ClippedLine| line.runs.is_empty() && line.points.is_empty() && line.isolated_points.is_empty();
+        if lines.iter().flatten().all(is_empty) {
+            draw_message(frame, "no value is in the range of the axes", theme);
+        }
         // Points are marked if they are far enough apart on all charts of the page.
         let most = self.page.series.iter().map(|series| series.x.len()).max().unwrap_or(0);
         let with_marks =
@@ -258,6 +264,13 @@ impl<'a> ChartFigure<'a> {
             ..Group::default()
         }
     }
+}
+
+/// Draws a reason why there is nothing to see in the middle of an area.
+fn draw_message(area: &PlottersArea, text: &str, theme: &Theme) {
+    let at = Point::from(area.size() / 2.0);
+    let line = theme.text_line(text, at, Anchor::Middle, theme.caption_size, theme.grey).fit_width(area.size().x);
+    area.record(Drawing { class: "nothing", title: String::new(), items: vec![Item::Text(line.text)] });
 }
 
 /// The length of a tick, in millimetres.

@@ -1,0 +1,87 @@
+//! What pages state of motions is true of them.
+
+use std::fs;
+
+use crate::support::command::{folder_with, printed, run};
+use crate::support::table::{numbers, rows};
+
+/// The page of a family as SVG, and its table of cells.
+fn rendered(family: &str) -> [String; 2] {
+    let folder = folder_with(&format!("[atlas]\ntitle = \"T\"\n{family}"));
+    printed(folder.path(), &["render", "-q", "--format", "svg", "-o", "out"]);
+    ["f-001.svg", "cells.csv"].map(|file| fs::read_to_string(folder.path().join("out/f").join(file)).unwrap())
+}
+
+/// The page of one linkage of the catalogue as SVG, and its table of cells.
+fn of_catalogue(linkage: &str) -> [String; 2] {
+    rendered(&format!("[[family]]\nid = \"f\"\nlinkage = \"{linkage}\"\ncases = [{{}}]\n"))
+}
+
+/// A linkage is not asked for more than it reaches: printed limits are within the true ones, and next to them.
+#[test]
+fn printed_limits_of_the_input_are_reached() {
+    for (linkage, word) in [("hart-inversor", "input"), ("peaucellier-lipkin", "input"), ("elliptic-trammel", "slider")]
+    {
+        let [svg, cells] = of_catalogue(linkage);
+        let names =
+            if word == "input" { ["input_min_deg", "input_max_deg"] } else { ["input_min_length", "input_max_length"] };
+        let limits = numbers(&rows(&cells)[0], names);
+        let stated = svg.split(&format!("{word} ")).find_map(|rest| {
+            let ends: Vec<f64> = rest
+                .split(['<', '·'])
+                .next()?
+                .replace(['°', ' '], "")
+                .replace('−', "-")
+                .split("to")
+                .map(|end| end.parse().ok())
+                .collect::<Option<_>>()?;
+            <[f64; 2]>::try_from(ends).ok()
+        });
+        let [least, most] = stated.unwrap_or_else(|| panic!("{linkage}"));
+        assert!(
+            (0.0..0.0101).contains(&(least - limits[0])) && (0.0..0.0101).contains(&(limits[1] - most)),
+            "{linkage}: {least} {most}, {limits:?}"
+        );
+    }
+}
+
+#[test]
+fn linkages_that_repeat_after_several_turns_say_so() {
+    assert!(of_catalogue("geared-five-bar")[0].contains("repeats after 2 turns"));
+    assert!(!of_catalogue("hoeken")[0].contains("repeats"));
+}
+
+#[test]
+fn sliders_are_not_shown_at_a_dead_point() {
+    let [svg, cells] = of_catalogue("elliptic-trammel");
+    let shown = svg.split("shown here at ").nth(1).and_then(|rest| rest.split(" of input").next()).unwrap();
+    let shown: f64 = shown.replace('−', "-").parse().unwrap();
+    let [least] = numbers(&rows(&cells)[0], ["input_min_length"]);
+    assert!((0.5..0.9).contains(&(shown / least)), "{shown} of {least}");
+}
+
+/// Six paths have five inks: the first of them is that of two.
+#[test]
+fn every_path_is_in_the_legend() {
+    let points: String =
+        (1..7).map(|k| format!("M{k} = {{ point = [\"A\", \"B\"], along = {k}, across = 1 }}\n")).collect();
+    let [svg, _] = rendered(&format!(
+        "[[linkage]]\nid = \"l\"\ntrace = [\"M1\", \"M2\", \"M3\", \"M4\", \"M5\", \"M6\"]\n[linkage.joints]\n\
+         O = {{ fixed = [0, 0] }}\nC = {{ fixed = [4, 0] }}\nA = {{ crank = \"O\", length = 1 }}\n\
+         B = {{ dyad = [\"A\", \"C\"], lengths = [3, 4], side = \"left\" }}\n{points}\
+         [[family]]\nid = \"f\"\nlinkage = \"l\"\ncases = [{{}}]\n"
+    ));
+    for text in ["path of M1, path of M6", "path of M2", "path of M5"] {
+        assert!(svg.contains(&format!(">{text}</text>")), "{text}");
+    }
+}
+
+#[test]
+fn a_measure_in_the_caption_of_a_linkage_belongs_to_its_family() {
+    let folder = folder_with(
+        "[atlas]\ntitle = \"T\"\n[[linkage]]\nid = \"l\"\ncaption = \"{straight_length}\"\ntrace = [\"A\"]\n[linkage.joints]\n\
+         O = { fixed = [0, 0] }\nA = { crank = \"O\", length = 1 }\n",
+    );
+    let (_, _, error) = run(folder.path(), &["validate", "atlas.toml"]);
+    assert!(error.contains("help: `straight_length` is a measure: write it in the caption of a [[family]]"), "{error}");
+}
