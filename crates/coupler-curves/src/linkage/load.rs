@@ -32,13 +32,14 @@ impl<J> Load<J> {
     ///
     /// `velocity` is that of the joint per radian, or unit of length, of the input, and `input_direction` 1 where the linkage moves with a
     /// rising input, -1 where with a falling one: only a load that opposes the motion depends on it. Infinite where the joint moves while the
-    /// input reverses.
-    pub fn torque(&self, velocity: Vector, placement: Orientation, input_direction: f64) -> f64 {
+    /// input reverses. `rounding` is that of the velocity: a force across the motion does no work.
+    pub fn torque(&self, velocity: Vector, rounding: f64, placement: Orientation, input_direction: f64) -> f64 {
         let torque = match self.vector(placement) {
-            // A force across the motion does no work, however fast this is.
+            // However fast the motion is.
             Some(force) => {
                 let power = |force: f64, velocity: f64| if force == 0.0 { 0.0 } else { force * velocity };
-                0.0 - (power(force.x, velocity.x) + power(force.y, velocity.y))
+                let power = power(force.x, velocity.x) + power(force.y, velocity.y);
+                if power.abs() <= rounding * self.force { 0.0 } else { -power }
             }
             None => self.force * velocity.norm() * input_direction,
         };

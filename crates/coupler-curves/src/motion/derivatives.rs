@@ -63,6 +63,12 @@ impl JointDerivatives {
         self.rate(joint, 1)
     }
 
+    /// The greatest finite speed of all joints, to which rounding is relative.
+    pub fn greatest_speed(&self) -> f64 {
+        let speeds = self.0.iter().map(|joint| Vector::new(joint.x.0[1], joint.y.0[1]).norm());
+        speeds.filter(|speed| speed.is_finite()).fold(0.0, f64::max)
+    }
+
     /// A joint's acceleration: the second derivative of its position with respect to the input.
     pub fn acceleration(&self, joint: JointId) -> Vector {
         self.rate(joint, 2) * 2.0

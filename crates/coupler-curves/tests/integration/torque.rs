@@ -273,3 +273,35 @@ fn without_a_load_there_is_no_torque() {
     assert!(compute_columns(&[column], &linkage, &motion.circuits[0], linkage.traced[0], 3)[0].is_nan());
     assert_eq!(linkage.motion_options.circuits, CircuitSelection::Start);
 }
+
+/// Q of an inversor moves along a straight line: a force across it needs no torque, at samples next to limits and in between.
+#[test]
+fn a_force_across_a_straight_line_needs_no_torque() {
+    for (id, direction) in [("peaucellier-lipkin", 0.0), ("peaucellier-lipkin", 180.0), ("hart-inversor", 0.0)] {
+        let linkage = loaded(default_linkage(id), "Q", 1000.0, Some(direction));
+        let motion = Motion::solve(&linkage, &Sampler::new(Sampling::DenseAtLimits(1440)));
+        let column = find_column("torque").unwrap();
+        for (k, circuit) in motion.circuits.iter().enumerate() {
+            let all =
+                (0..circuit.len()).map(|k| compute_columns(&[column], &linkage, circuit, linkage.traced[0], k)[0]);
+            // At a limit itself, the joint passes it along the line.
+            let most = all.filter(|torque| torque.is_finite()).fold(0.0f64, |most, torque| most.max(torque.abs()));
+            assert_eq!(most, 0.0, "{id}");
+            let [peak, _, least, greatest] = torques(&linkage, &motion, k);
+            assert_eq!([peak, least, greatest], [0.0; 3], "{id}");
+        }
+    }
+}
+
+/// The pin P of the inversor's crank, of length r, reaches the angle t from the line of both pivots where OP = 2 r cos(t / 2) is arm - side.
+#[test]
+fn the_torque_at_a_limit_is_as_exact_as_elsewhere() {
+    let linkage = loaded(default_linkage("peaucellier-lipkin"), "P", 1000.0, Some(0.0));
+    let motion = solve(&linkage);
+    // r = 5, arm = 15 and side = 6: the cosine of half the angle is 0.9.
+    let expected = 1000.0 * 5.0 * 2.0 * 0.9 * (1.0f64 - 0.81).sqrt();
+    let [peak, _, least, greatest] = torques(&linkage, &motion, 0);
+    near(peak, expected, 1e-12);
+    near(least, -expected, 1e-12);
+    near(greatest, expected, 1e-12);
+}
